@@ -1,0 +1,76 @@
+// The intersection body: a convex polytope in fixed storage, cut by planes, with faces and adjacency.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+
+#include "gnomon/bounds.hpp"
+#include "gnomon/camera.hpp"
+
+namespace gnomon {
+
+/// A frustum slice has 6 faces and a box 6; their intersection has at most 12. The volume of a swept body is
+/// cut from a box by its silhouette planes and back faces, at most as many as a 12-faced body has edges and
+/// faces together.
+inline constexpr int kMaxFaces = 48;
+/// A simple polytope with F faces has 2F - 4 vertices (Euler's formula with three faces at each vertex).
+inline constexpr int kMaxVertices = 2 * kMaxFaces - 4;
+/// Back faces and silhouette planes of a 12-faced body: at most 12 faces plus a silhouette of at most 20
+/// edges.
+inline constexpr int kMaxCullPlanes = 32;
+
+/// dot(normal, p) + offset >= 0 inside; unit normal pointing inward.
+struct Plane {
+  glm::dvec3 normal;
+  double offset;
+};
+
+/// A bounded convex polytope in which every vertex belongs to exactly three faces ("simple"). Degenerate
+/// bodies (flat, a line, a point) are kept as simple polytopes with coinciding vertices, so nothing
+/// special-cases them.
+struct Polytope {
+  struct Vertex {
+    glm::dvec3 position;
+    /// neighbour[k] is joined by the edge that lies on the two faces other than face[k].
+    std::array<std::uint8_t, 3> neighbour, face;
+  };
+  std::array<Vertex, kMaxVertices> vertex;
+  std::array<Plane, kMaxFaces> plane;  ///< of face f; a face may have lost all its vertices
+  int vertex_count = 0;
+  int face_count = 0;
+
+  [[nodiscard]] bool empty() const noexcept { return vertex_count == 0; }
+  [[nodiscard]] std::span<const Vertex> vertices() const noexcept {
+    return {vertex.data(), static_cast<std::size_t>(vertex_count)};
+  }
+};
+
+/// The box as a polytope; needs a box that is not empty.
+[[nodiscard]] Polytope box_polytope(const Box& box) noexcept;
+
+/// The part of the camera's frustum between the view depths `begin` and `end` (begin <= end, inside the
+/// camera's range or not), relative to the camera position. Corners come from depth and image edges, never
+/// from intersecting planes, so that a far plane of 1e9 loses nothing.
+[[nodiscard]] Polytope frustum_slice(const Camera& camera, const CameraAxes& axes, double begin,
+                                     double end) noexcept;
+
+/// Keeps the part of `body` inside `plane`. Vertices within a tolerance relative to the body's size count as
+/// inside. Leaves `body` as it is (a superset, never less) where rounding gives no consistent cut or its
+/// storage is full.
+void clip(Polytope& body, const Plane& plane) noexcept;
+/// Clips by the six planes of `box` (same space as the body); an empty box empties the body.
+void clip(Polytope& body, const Box& box) noexcept;
+
+/// Planes of `body` swept without end along `direction`: those of its faces that do not face that way, and a
+/// plane through each edge of its silhouette. `direction` needs no unit length. Returns how many were
+/// written.
+int swept_planes(const Polytope& body, const glm::dvec3& direction,
+                 std::span<Plane, kMaxCullPlanes> out) noexcept;
+
+/// The smallest box round the body; empty for an empty body.
+[[nodiscard]] Box bounds_of(const Polytope& body) noexcept;
+
+}  // namespace gnomon

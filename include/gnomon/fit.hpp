@@ -1,0 +1,32 @@
+// How the rectangle of a map is laid round what it must show.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace gnomon {
+
+enum class Fit : std::uint8_t {
+  tight,   ///< the smallest rectangle round the slice's receivers: best texels, a grid that moves with the
+           ///< camera
+  stable,  ///< a square whose size depends on the slice alone, snapped to whole texels: a grid that stands
+           ///< still
+};
+[[nodiscard]] std::string_view to_string(Fit fit) noexcept;
+
+/// The longest distance between two corners of the frustum slice [begin, end] of a camera with these image
+/// edges, from view space, so that it is the same bits every frame. Image edges as in Camera. This is the
+/// side of a square that holds the slice from every direction; never above the diameter of the smallest
+/// enclosing sphere.
+[[nodiscard]] double longest_chord(double left, double right, double bottom, double top, bool orthographic,
+                                   double begin, double end) noexcept;
+
+/// The smallest sphere round the slice [begin, end] of a symmetric perspective frustum: depth of its centre
+/// on the view axis, and its radius. `tan_x`, `tan_y`: half image edges at unit depth. (equation: zc = min(b,
+/// (a+b)(1+K^2)/2))
+struct BoundingSphere {
+  double centre_depth, radius;
+};
+[[nodiscard]] BoundingSphere slice_sphere(double begin, double end, double tan_x, double tan_y) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,15 @@
+// The core of gnomon in one include.
+#pragma once
+
+#include "gnomon/bias.hpp"
+#include "gnomon/body.hpp"
+#include "gnomon/bounds.hpp"
+#include "gnomon/camera.hpp"
+#include "gnomon/clip_space.hpp"
+#include "gnomon/fit.hpp"
+#include "gnomon/light.hpp"
+#include "gnomon/metric.hpp"
+#include "gnomon/plan.hpp"
+#include "gnomon/snap.hpp"
+#include "gnomon/split.hpp"
+#include "gnomon/warp.hpp"

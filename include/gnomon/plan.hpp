@@ -1,0 +1,153 @@
+// The answer: which shadow maps are worth drawing for this camera, light and scene. Plain data, one record
+// per map.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <string_view>
+
+#include "gnomon/bias.hpp"
+#include "gnomon/body.hpp"
+#include "gnomon/bounds.hpp"
+#include "gnomon/camera.hpp"
+#include "gnomon/clip_space.hpp"
+#include "gnomon/fit.hpp"
+#include "gnomon/light.hpp"
+#include "gnomon/snap.hpp"
+#include "gnomon/split.hpp"
+#include "gnomon/warp.hpp"
+
+namespace gnomon {
+
+inline constexpr int kMaxMaps = 16;  ///< cascades of one plan; beyond 8 no published figure gains anything
+inline constexpr int kMaxOmissions =
+    32;  ///< entries of ShadowPlan::omitted; later ones are counted, not listed
+
+/// What the caller may choose. Every default is right for most scenes.
+struct PlanOptions {
+  /// Texels along each side of each map, 4..16384. Doubling it halves the error and costs four times the
+  /// memory.
+  int map_size = 1024;
+  /// Maps along the view, 1..kMaxMaps. More maps lower the error far away and cost one pass each.
+  int cascades = 4;
+  /// How the view depth is divided among them.
+  SplitScheme split = SplitScheme::practical;
+  /// Blend of uniform (0) and logarithmic (1) splits for SplitScheme::practical.
+  double lambda = 0.9;
+  /// First split of SplitScheme::pseudo_near, and the depth from which error counts for the warps, in world
+  /// units. 0: the near plane itself. Larger values stop a very near plane from taking all the texels.
+  double near_hint = 0.0;
+  /// Which depths are divided: those that hold receivers, or the camera's whole range. `automatic` takes the
+  /// receivers' for Fit::tight and the camera's for Fit::stable, whose grid must not depend on what is in
+  /// view.
+  SplitRange split_range = SplitRange::automatic;
+  /// How a map's rectangle is laid round its slice.
+  Fit fit = Fit::tight;
+  /// The perspective warp; nullptr lets the plan choose by measured gain. Fit::stable takes no warp.
+  const Warp* warp = nullptr;
+  /// What a warp must lower to be used.
+  Objective objective = Objective::storage;
+  /// Reach of the widest filter kernel in texels, 0..map_size/4: so much of the map's rim stays free of
+  /// receivers, and casters that only a kernel reaches are drawn.
+  double filter_radius_texels = 1.0;
+  /// How far depths are moved off the surface, in texels (bias.hpp).
+  BiasOptions bias;
+  /// Clip space of the matrices given out.
+  ClipSpace clip_space;
+};
+
+enum class PlanStatus : std::uint8_t {
+  ok,               ///< there are maps to draw
+  nothing_visible,  ///< no receiver in view: no map, everything in view is lit
+  no_caster,        ///< receivers in view, but nothing can shadow them: no map, everything is lit
+  invalid_input,    ///< a broken contract, see ShadowPlan::invalid_field; no map
+};
+[[nodiscard]] std::string_view to_string(PlanStatus status) noexcept;
+
+/// Something that this scene did not need.
+enum class OmissionKind : std::uint8_t {
+  cascade_without_receiver,   ///< a: depth_begin, b: depth_end
+  cascade_without_caster,     ///< a: depth_begin, b: depth_end
+  depth_without_receiver,     ///< the camera's range was cut to the receivers': a: depth_begin, b: depth_end
+  warp_without_gain,          ///< a: objective with the warp over the objective without
+  warp_in_stable_fit,         ///< a warp was asked for, and Fit::stable takes none
+  casters_beyond_light_near,  ///< the light's depth range begins a world units nearer to the receivers than
+                              ///< the casters do
+};
+struct Omission {
+  OmissionKind kind{};
+  int map = -1;  ///< the cascade it is about, counted as asked for; -1: the whole plan
+  double a = 0.0, b = 0.0;
+  std::int64_t saves_texels = 0;
+};
+/// Writes "what" and "why" as two lines of English, each cut to `size - 1` characters; no heap.
+struct OmissionText {
+  std::array<char, 48> what;
+  std::array<char, 144> why;
+};
+[[nodiscard]] OmissionText describe(const Omission& omission) noexcept;
+
+/// One shadow map: everything that drawing it, reading it, culling for it and judging it needs.
+struct ShadowMap {
+  /// Clip space of the map from world space, in double, and from points relative to the camera position, in
+  /// float. Shaders take the second: it keeps its precision a thousand kilometres from the origin.
+  glm::dmat4 clip_from_world{1.0};
+  glm::mat4 clip_from_camera_relative{1.0f};
+  double depth_begin = 0.0, depth_end = 0.0;  ///< view depths served, world units
+  int cascade = 0;                            ///< which of the cascades asked for this is
+  int width = 0, height = 0;                  ///< texels
+  const Warp* warp = nullptr;                 ///< never nullptr in a plan's maps; the one that was used
+  double kappa = 0.0;                         ///< strength of the warp, 1 / world units; 0: none
+  glm::dvec2 texel_world{0.0};      ///< extent of a texel across the light at the body's centre, world units
+  glm::dvec2 texel_world_max{0.0};  ///< the same where it is largest on the body
+  double depth_range_world = 0.0;   ///< distance along the light from the map's near to its far plane
+  int filter_margin_texels = 0;     ///< texels along each side that no receiver falls into
+  BiasWorld bias_world;
+  /// Planes round everything that can shadow a receiver of this map: a caster is needed only if it reaches
+  /// the side where dot(xyz, p_world) + w >= 0 of all of them. World space, unit normals.
+  std::array<glm::dvec4, kMaxCullPlanes> cull_planes{};
+  int cull_plane_count = 0;
+  SnapKey snap_key;  ///< of Fit::stable: equal keys mean an identical grid
+  double m_s_max = 0.0,
+         m_t_max = 0.0;  ///< bounds of the perspective error over the body (simplified weights, A.4)
+  double storage = 0.0;  ///< texels per screen pixel for m <= 1 everywhere in this slice (vertex objective)
+};
+
+struct ShadowPlan {
+  PlanStatus status = PlanStatus::invalid_input;
+  std::string_view invalid_field;  ///< for invalid_input: which, e.g. "camera.far_depth"
+  glm::dvec3 origin_world{0.0};    ///< what clip_from_camera_relative is relative to: the camera position
+  glm::dvec3 light_direction{0.0, -1.0, 0.0};  ///< unit, the way the light travels
+  ClipSpace clip_space;
+  std::array<ShadowMap, kMaxMaps> map{};
+  int map_count = 0;
+  std::array<Omission, kMaxOmissions> omission{};
+  int omission_count = 0;  ///< may exceed kMaxOmissions
+
+  [[nodiscard]] std::span<const ShadowMap> maps() const noexcept {
+    return {map.data(), static_cast<std::size_t>(map_count)};
+  }
+  [[nodiscard]] std::span<const Omission> omitted() const noexcept {
+    return {omission.data(),
+            static_cast<std::size_t>(omission_count < kMaxOmissions ? omission_count : kMaxOmissions)};
+  }
+};
+
+/// Chooses the shadow maps. Pure: the same input gives the same bits. Allocates nothing, never throws; broken
+/// input comes back as PlanStatus::invalid_input.
+[[nodiscard]] ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                                   const PlanOptions& options = {}) noexcept;
+
+/// Writes the indices of the casters that `map` needs to `out` and returns how many there are (all of them
+/// are counted; those beyond out.size() are not written). Conservative: a caster that can shadow a receiver
+/// of the map is always among them.
+std::size_t cull_casters(const ShadowMap& map, std::span<const Box> casters,
+                         std::span<std::uint32_t> out) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,39 @@
+// A camera flight: keys in time, a smooth curve between them.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "gnomon/camera.hpp"
+#include "gnomon/scene/scene.hpp"
+
+namespace gnomon {
+
+struct CameraKey {
+  glm::dvec3 position{0.0};
+  glm::dvec3 target{0.0, 0.0, -1.0};  ///< the point looked at, not equal to position
+};
+
+/// Catmull-Rom through `keys` (centripetal, so no loops or cusps between them), in the unit interval of time.
+/// One key is a still camera. `closed` joins the last key to the first.
+struct CameraPath {
+  std::vector<CameraKey> keys;
+  bool closed = false;
+  double fov_y_radians = 1.0471975511965976;  ///< 60 degrees
+  double near_depth = 0.1;
+  double far_depth = 100.0;
+  /// The camera at time `t` in [0,1] (clamped), for an image of this size. World up is +Y.
+  [[nodiscard]] Camera at(double t, int width, int height) const noexcept;
+};
+
+/// Reads {"keys":[{"position":[x,y,z],"target":[x,y,z]},...],"closed":false,"fov_y_deg":60,"near":0.1,"far":100}.
+/// Unknown keys are an error. Throws SceneError with file and key.
+[[nodiscard]] CameraPath load_camera_path(const std::filesystem::path& file);
+/// Writes the same format.
+void save_camera_path(const CameraPath& path, const std::filesystem::path& file);
+
+/// The default flight of a builtin scene, by its name; for any other scene an orbit around its bounds.
+[[nodiscard]] CameraPath default_path(const Scene& scene);
+
+}  // namespace gnomon

@@ -1,0 +1,30 @@
+// Pictures to and from files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gnomon/scene/scene.hpp"
+
+namespace gnomon {
+
+/// Decodes PNG or JPEG bytes, told by their first bytes and not by a name. Throws SceneError with `name` in it where
+/// the bytes are neither, damaged, or larger than `max_pixels` (checked before decoding).
+[[nodiscard]] Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
+
+/// Writes an 8-bit RGB PNG (alpha dropped), beside the target first and then renamed, so that no half file is left.
+/// Throws SceneError.
+void write_png(const Image& image, const std::filesystem::path& file);
+
+/// A float picture, `channels` interleaved, rows top to bottom; written as 32-bit float EXR. Throws SceneError.
+struct FloatImage {
+  int width = 0, height = 0, channels = 1;
+  std::vector<float> values;
+  std::vector<std::string> channel_names;  ///< one per channel
+};
+void write_exr(const FloatImage& image, const std::filesystem::path& file);
+
+}  // namespace gnomon

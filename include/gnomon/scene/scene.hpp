@@ -1,0 +1,78 @@
+// A scene as the renderer and the tracer read it: triangles, instances, materials, images. Plain data.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+#include <vector>
+
+#include "gnomon/bounds.hpp"
+
+namespace gnomon {
+
+/// A decoded picture: rows top to bottom, four 8-bit channels (red, green, blue, alpha), colour in sRGB.
+struct Image {
+  std::string name;
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+/// How a texture coordinate outside [0,1] is read.
+enum class TextureWrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
+
+/// What alpha means. `blend` surfaces are drawn and cast shadows like opaque ones with a cutoff of 0.5.
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+struct Material {
+  std::string name;
+  glm::vec4 base_color{1.0f};  ///< linear, multiplied with the image
+  int base_color_image = -1;   ///< index into Scene::images, -1: none
+  TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha_cutoff = 0.5f;  ///< a fragment below it is not there (mask and blend)
+  bool double_sided = false;
+};
+
+/// A run of triangles with one material. `first_index` and `index_count` count entries of Scene::indices; the indices
+/// are absolute into the vertex arrays and always in range. `bounds` is in object space and holds every vertex used.
+struct Primitive {
+  std::uint32_t first_index = 0, index_count = 0;
+  int material = 0;
+  Box bounds;
+};
+
+/// One primitive placed in the world: the unit of drawing and of culling.
+struct Instance {
+  glm::dmat4 world_from_object{1.0};
+  std::uint32_t primitive = 0;
+  bool mirrored = false;  ///< the transform turns the winding round (negative determinant)
+  Box bounds_world;       ///< of the transformed vertices, not of the transformed box
+};
+
+/// Triangles in object space, placed by instances. Vertex arrays have equal length; `normals` are unit length,
+/// `texcoords` are (0,0) where a mesh has none.
+struct Scene {
+  std::string name;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;
+  std::vector<glm::vec2> texcoords;
+  std::vector<std::uint32_t> indices;
+  std::vector<Primitive> primitives;
+  std::vector<Instance> instances;
+  std::vector<Material> materials;  ///< never empty: index 0 is the default material where a file names none
+  std::vector<Image> images;
+  std::vector<std::string> warnings;  ///< what was repaired or left out on loading, a line each
+  Box bounds_world;                   ///< of all instances; empty for an empty scene
+
+  /// Triangles drawn in one pass over all instances.
+  [[nodiscard]] std::uint64_t triangle_count() const noexcept {
+    std::uint64_t n = 0;
+    for (const Instance& i : instances) n += primitives[i.primitive].index_count / 3;
+    return n;
+  }
+};
+
+}  // namespace gnomon

@@ -1,0 +1,21 @@
+// Holding the texel grid still: centres in whole texels.
+#pragma once
+
+#include <cstdint>
+
+namespace gnomon {
+
+/// Whole-texel coordinates of a stable map's centre in light space, and its depth range in whole depth steps.
+/// Two maps of the same light, slice and size with equal keys have identical matrices.
+struct SnapKey {
+  std::int64_t x = 0, y = 0;
+  std::int64_t depth_near = 0, depth_far = 0;
+  bool valid = false;  ///< false for Fit::tight
+  bool operator==(const SnapKey&) const = default;
+};
+
+/// The nearest whole number of `step`s to `value`. Needs step > 0; |value / step| beyond 2^53 is returned
+/// clamped there, where double no longer tells whole numbers apart.
+[[nodiscard]] std::int64_t snap_index(double value, double step) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,78 @@
+// The warp: where in the map the texels go. A warp looks at the body in the light's plane and answers with a
+// map of that plane; the plan measures it and falls back to none where it gains nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string_view>
+
+#include "gnomon/body.hpp"
+
+namespace gnomon {
+
+/// What a parametrization is judged by. All are to be made small.
+enum class Objective : std::uint8_t {
+  storage,  ///< max m_s times max m_t: texels needed per pixel for m <= 1 along both axes everywhere
+  max,      ///< the larger of max m_s and max m_t: the worst texel
+};
+[[nodiscard]] std::string_view to_string(Objective objective) noexcept;
+[[nodiscard]] bool objective_from_name(std::string_view name, Objective& objective) noexcept;
+
+/// The body as a warp sees it. Light frame: x, y span the plane across the light, y along the view
+/// direction's projection (away from the viewer), z towards the light; the origin is the camera position.
+struct WarpInput {
+  struct Point {
+    double x, y, z;  ///< light frame, world units
+    double depth;    ///< view depth, world units; 1 for an orthographic camera
+  };
+  std::span<const Point> body;  ///< vertices of the visible receivers' body, at least one
+  double y_min, y_max;          ///< of the body, along the warp axis
+  double sin_gamma, cos_gamma;  ///< angle between view and light direction, from their cross and dot product
+  double depth_begin, depth_end;  ///< view depths of the slice, after near_hint
+  double tan_half_fov;            ///< effective half opening in the plane of view and light
+  bool orthographic;              ///< then there is no perspective to undo
+  Objective objective;
+};
+
+/// The answer: w = 1 + kappa * (y - y_min), then a rectangle round what that gives. kappa is in 1 / world
+/// units, >= 0; 0 is the orthographic map itself.
+struct WarpChoice {
+  double kappa = 0.0;
+};
+
+/// One entry of the registry warps.def.
+struct Warp {
+  std::string_view name;
+  std::string_view summary;
+  WarpChoice (*choose)(const WarpInput& input) noexcept;
+  /// True where the plan may drop the warp because it does not lower the objective. False only for warps kept
+  /// to reproduce a paper as it stands.
+  bool drop_without_gain;
+};
+
+/// All warps, in the order of warps.def.
+[[nodiscard]] std::span<const Warp* const> all_warps() noexcept;
+/// nullptr where there is none of that name.
+[[nodiscard]] const Warp* find_warp(std::string_view name) noexcept;
+
+namespace warps {
+#define GNOMON_WARP(name) extern const Warp name;
+#include "gnomon/warps.def"
+#undef GNOMON_WARP
+}  // namespace warps
+
+/// Bounds of the perspective error over a body under w = 1 + kappa (y - y_min): exact at vertices, because
+/// each weight is linear-fractional or convex there (Lloyd's m with the simplified weights, Scherzer et al.
+/// 2011, section 3).
+struct WarpError {
+  double m_s, m_t;  ///< relative: multiply by pixels per unit slope over texels for the error itself
+  [[nodiscard]] double value(Objective objective) const noexcept {
+    return objective == Objective::storage ? m_s * m_t : (m_s > m_t ? m_s : m_t);
+  }
+};
+[[nodiscard]] WarpError warp_error(const WarpInput& input, double kappa) noexcept;
+
+}  // namespace gnomon
