@@ -100,10 +100,13 @@ struct ShadowMap {
   glm::dmat4 clip_from_world{1.0};
   glm::mat4 clip_from_camera_relative{1.0f};
   double depth_begin = 0.0, depth_end = 0.0;  ///< view depths served, world units
-  int cascade = 0;                            ///< which of the cascades asked for this is
-  int width = 0, height = 0;                  ///< texels
-  const Warp* warp = nullptr;                 ///< never nullptr in a plan's maps; the one that was used
-  double kappa = 0.0;                         ///< strength of the warp, 1 / world units; 0: none
+  /// The light in homogeneous world coordinates: its position with w = 1, or the unit direction towards it
+  /// with w = 0.
+  glm::dvec4 light_world{0.0, 1.0, 0.0, 0.0};
+  int cascade = 0;                  ///< which of the cascades asked for this is
+  int width = 0, height = 0;        ///< texels
+  const Warp* warp = nullptr;       ///< never nullptr in a plan's maps; the one that was used
+  double kappa = 0.0;               ///< strength of the warp, 1 / world units; 0: none
   glm::dvec2 texel_world{0.0};      ///< extent of a texel across the light at the body's centre, world units
   glm::dvec2 texel_world_max{0.0};  ///< the same where it is largest on the body
   double depth_range_world = 0.0;   ///< distance along the light from the map's near to its far plane

@@ -19,6 +19,9 @@ namespace gnomon {
 /// Throws SceneError.
 void write_png(const Image& image, const std::filesystem::path& file);
 
+/// The bytes of an 8-bit RGBA PNG. Throws SceneError.
+[[nodiscard]] std::vector<std::uint8_t> encode_png(const Image& image);
+
 /// A float picture, `channels` interleaved, rows top to bottom; written as 32-bit float EXR. Throws SceneError.
 struct FloatImage {
   int width = 0, height = 0, channels = 1;

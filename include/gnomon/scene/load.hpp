@@ -21,6 +21,7 @@ class SceneError : public std::runtime_error {
 /// Caps that keep a hostile or mistaken file from taking the machine. Exceeding one throws SceneError.
 struct LoadLimits {
   std::uint64_t file_bytes = 1ull << 30;        ///< one file, 1 GiB
+  std::uint64_t total_bytes = 2ull << 30;       ///< all files a scene refers to, 2 GiB
   std::uint64_t triangles = 20'000'000;         ///< over all instances
   std::uint64_t vertices = 40'000'000;          ///< stored
   std::uint64_t pixels = 1ull << 28;            ///< over all images

@@ -1,0 +1,90 @@
+// The arithmetic of the aliasing error, shared by the single-point functions and the sampled ones.
+#pragma once
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <limits>
+
+#include "gnomon/camera.hpp"
+#include "jacobian.hpp"
+#include "vector.hpp"
+
+namespace gnomon {
+
+/// A point as the camera sees it: unit ray from the eye, and d(world)/d(pixel) across and down.
+struct ViewPoint {
+  glm::dvec3 ray, pixel_x, pixel_y;
+};
+
+[[nodiscard]] inline ViewPoint view_point(const Camera& camera, const CameraAxes& axes,
+                                          const glm::dvec3& point) noexcept {
+  const double px = (camera.right - camera.left) / camera.width;
+  const double py = (camera.top - camera.bottom) / camera.height;
+  if (camera.orthographic) return {axes.forward, axes.right * px, axes.up * py};
+  const glm::dvec3 offset = point - camera.position;
+  const double depth = glm::dot(offset, axes.forward);
+  return {safe_normalize(offset, axes.forward), axes.right * (px * depth), axes.up * (py * depth)};
+}
+
+/// Unit direction in which light travels through `point`.
+[[nodiscard]] inline glm::dvec3 light_ray(const glm::dvec4& light_world, const glm::dvec3& point) noexcept {
+  if (light_world.w == 0.0) return -glm::dvec3(light_world);
+  return safe_normalize(point * light_world.w - glm::dvec3(light_world), {0.0, -1.0, 0.0});
+}
+
+/// A 2x2 matrix d(texel)/d(pixel), row by row.
+struct Jacobian2 {
+  double xx, xy, yx, yy;
+};
+
+/// On a plane with `normal`: pixels slide along the eye ray onto the plane.
+[[nodiscard]] inline Jacobian2 surface_jacobian(const TexelJacobian& b, const ViewPoint& view,
+                                                const glm::dvec3& normal) noexcept {
+  const double facing = 1.0 / glm::dot(view.ray, normal);
+  const glm::dvec3 px = view.pixel_x - view.ray * (glm::dot(normal, view.pixel_x) * facing);
+  const glm::dvec3 py = view.pixel_y - view.ray * (glm::dot(normal, view.pixel_y) * facing);
+  return {glm::dot(b.x, px), glm::dot(b.x, py), glm::dot(b.y, px), glm::dot(b.y, py)};
+}
+
+/// On the surface that faces the half vector: the pixel's extent across the eye ray, mirrored into the plane
+/// across the light ray. The mirror stays defined where both rays oppose each other; there any axis across
+/// them serves.
+[[nodiscard]] inline Jacobian2 perspective_jacobian(const TexelJacobian& b, const ViewPoint& view,
+                                                    const glm::dvec3& light) noexcept {
+  const glm::dvec3 sum = view.ray + light;
+  const double sum2 = glm::dot(sum, sum);
+  constexpr double kOpposed = 1e-24;
+  const glm::dvec3 mirror =
+      sum2 > kOpposed ? sum
+                      : safe_normalize(glm::cross(view.ray, least_aligned_axis(view.ray)), {1.0, 0.0, 0.0});
+  const double twice = 2.0 / (sum2 > kOpposed ? sum2 : 1.0);
+  const auto turned = [&](const glm::dvec3& pixel) {
+    const glm::dvec3 across = pixel - view.ray * glm::dot(view.ray, pixel);
+    return across - mirror * (twice * glm::dot(mirror, across));
+  };
+  const glm::dvec3 px = turned(view.pixel_x), py = turned(view.pixel_y);
+  return {glm::dot(b.x, px), glm::dot(b.x, py), glm::dot(b.y, px), glm::dot(b.y, py)};
+}
+
+/// Extents of a texel in pixels: columns and singular values of the inverse of d(texel)/d(pixel).
+struct Extents {
+  double longest, shortest, s, t;
+};
+
+[[nodiscard]] inline Extents extents(const Jacobian2& j) noexcept {
+  const double determinant = std::abs(j.xx * j.yy - j.xy * j.yx);
+  const double half = 0.5 * (j.xx * j.xx + j.xy * j.xy + j.yx * j.yx + j.yy * j.yy);
+  const double spread = (half - determinant) * (half + determinant);
+  const double largest = std::sqrt(half + std::sqrt(spread > 0.0 ? spread : 0.0));
+  if (!(determinant > 0.0)) {
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    return {kInfinite, largest > 0.0 ? 1.0 / largest : kInfinite, kInfinite, kInfinite};
+  }
+  const double inverse = 1.0 / determinant;
+  return {largest * inverse, 1.0 / largest, std::sqrt(j.yy * j.yy + j.yx * j.yx) * inverse,
+          std::sqrt(j.xx * j.xx + j.xy * j.xy) * inverse};
+}
+
+}  // namespace gnomon

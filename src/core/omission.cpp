@@ -1,0 +1,59 @@
+// What was left out, in words.
+#include <cstdio>
+
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+
+std::string_view to_string(PlanStatus status) noexcept {
+  switch (status) {
+    case PlanStatus::ok:
+      return "ok";
+    case PlanStatus::nothing_visible:
+      return "nothing_visible";
+    case PlanStatus::no_caster:
+      return "no_caster";
+    case PlanStatus::invalid_input:
+      break;
+  }
+  return "invalid_input";
+}
+
+OmissionText describe(const Omission& o) noexcept {
+  OmissionText text{};
+  const auto what = [&](const char* format, auto... values) {
+    std::snprintf(text.what.data(), text.what.size(), format, values...);
+  };
+  const auto why = [&](const char* format, auto... values) {
+    std::snprintf(text.why.data(), text.why.size(), format, values...);
+  };
+  switch (o.kind) {
+    case OmissionKind::cascade_without_receiver:
+      what("cascade %d", o.map);
+      why("no receiver between depths %g and %g", o.a, o.b);
+      break;
+    case OmissionKind::cascade_without_caster:
+      what("cascade %d", o.map);
+      why("no caster can reach the receivers between depths %g and %g", o.a, o.b);
+      break;
+    case OmissionKind::depth_without_receiver:
+      what("depths %g to %g", o.a, o.b);
+      why("no receiver in view there, so no cascade covers them");
+      break;
+    case OmissionKind::warp_without_gain:
+      what("warp of cascade %d", o.map);
+      why("the objective with it is %.4g of the objective without", o.a);
+      break;
+    case OmissionKind::warp_in_stable_fit:
+      what("warp");
+      why("a stable fit keeps its texel grid still, which a warp that follows the view cannot");
+      break;
+    case OmissionKind::casters_beyond_light_near:
+      what("light depth of cascade %d", o.map);
+      why("no caster reaches beyond %g of the %g world units the casters' bounds would ask for", o.a, o.b);
+      break;
+  }
+  return text;
+}
+
+}  // namespace gnomon

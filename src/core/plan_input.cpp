@@ -1,0 +1,98 @@
+// What make_plan refuses: the contract at the API's edge.
+#include "plan_input.hpp"
+
+#include <cmath>
+
+#include "vector.hpp"
+
+namespace gnomon {
+namespace {
+
+// Largest magnitude accepted anywhere: its square, and a product of three such, stay far inside double's
+// range.
+constexpr double kLargest = 1e30;
+// Smallest near plane relative to the far plane: beyond it 1 / depth weights lose all meaning.
+constexpr double kNearestRatio = 1e-12;
+
+bool usable(double v) noexcept {
+  return std::abs(v) <= kLargest;
+}  // false for NaN
+bool usable(const glm::dvec3& v) noexcept {
+  return usable(v.x) && usable(v.y) && usable(v.z);
+}
+bool is_direction(const glm::dvec3& v) noexcept {
+  return usable(v) && largest_component(v) > 0.0;
+}
+
+bool any_unusable(std::span<const Box> boxes) noexcept {
+  for (const Box& box : boxes) {
+    // An empty box may hold infinities: that is how one is made.
+    if (std::isnan(box.min.x + box.min.y + box.min.z) || std::isnan(box.max.x + box.max.y + box.max.z))
+      return true;
+    if (!box.empty() && (!usable(box.min) || !usable(box.max))) return true;
+  }
+  return false;
+}
+
+std::string_view invalid_camera(const Camera& c) noexcept {
+  if (!usable(c.position)) return "camera.position";
+  if (!is_direction(c.forward)) return "camera.forward";
+  if (!usable(c.up)) return "camera.up";
+  if (!usable(c.left) || !usable(c.right) || !(c.left < c.right)) return "camera.left, camera.right";
+  if (!usable(c.bottom) || !usable(c.top) || !(c.bottom < c.top)) return "camera.bottom, camera.top";
+  if (!usable(c.near_depth)) return "camera.near_depth";
+  if (!usable(c.far_depth) || !(c.near_depth < c.far_depth)) return "camera.far_depth";
+  if (!c.orthographic && !(c.near_depth >= kNearestRatio * c.far_depth)) return "camera.near_depth";
+  if (c.width < 1 || c.height < 1 || c.width > 1 << 20 || c.height > 1 << 20)
+    return "camera.width, camera.height";
+  return {};
+}
+
+struct InvalidLight {
+  std::string_view operator()(const DirectionalLight& l) const noexcept {
+    return is_direction(l.direction) ? std::string_view{} : "light.direction";
+  }
+  std::string_view operator()(const SpotLight& l) const noexcept {
+    if (!usable(l.position)) return "light.position";
+    if (!is_direction(l.direction)) return "light.direction";
+    if (!(l.outer_radians > 0.0 && l.outer_radians < 3.141592653589793)) return "light.outer_radians";
+    return usable(l.range) && l.range > 0.0 ? std::string_view{} : "light.range";
+  }
+  std::string_view operator()(const PointLight& l) const noexcept {
+    if (!usable(l.position)) return "light.position";
+    return usable(l.range) && l.range > 0.0 ? std::string_view{} : "light.range";
+  }
+};
+
+std::string_view invalid_options(const PlanOptions& o) noexcept {
+  if (o.map_size < 4 || o.map_size > 16384) return "options.map_size";
+  if (o.cascades < 1 || o.cascades > kMaxMaps) return "options.cascades";
+  if (!(o.lambda >= 0.0 && o.lambda <= 1.0)) return "options.lambda";
+  if (!(o.near_hint >= 0.0 && o.near_hint <= kLargest)) return "options.near_hint";
+  if (!(o.filter_radius_texels >= 0.0 && o.filter_radius_texels <= 0.25 * o.map_size)) {
+    return "options.filter_radius_texels";
+  }
+  const BiasOptions& b = o.bias;
+  for (const double v : {b.constant_texels, b.slope_texels, b.normal_offset_texels, b.max_slope}) {
+    if (!(v >= 0.0 && v <= kLargest)) return "options.bias";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string_view first_invalid_field(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                                     const PlanOptions& options) noexcept {
+  if (const auto field = invalid_camera(camera); !field.empty()) return field;
+  if (light.valueless_by_exception()) return "light";
+  const auto light_field =
+      std::holds_alternative<DirectionalLight>(light) ? InvalidLight{}(*std::get_if<DirectionalLight>(&light))
+      : std::holds_alternative<SpotLight>(light)      ? InvalidLight{}(*std::get_if<SpotLight>(&light))
+                                                      : InvalidLight{}(*std::get_if<PointLight>(&light));
+  if (!light_field.empty()) return light_field;
+  if (any_unusable(bounds.casters)) return "bounds.casters";
+  if (any_unusable(bounds.receivers)) return "bounds.receivers";
+  return invalid_options(options);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,44 @@
+// Small vector helpers that no input breaks: lengths without overflow, a spare axis.
+#pragma once
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace gnomon {
+
+[[nodiscard]] inline bool is_finite(const glm::dvec3& v) noexcept {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+[[nodiscard]] inline double largest_component(const glm::dvec3& v) noexcept {
+  const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
+  return x > y ? (x > z ? x : z) : (y > z ? y : z);
+}
+
+/// Unit vector along `v`, also where its square would overflow or vanish; `fallback` for the zero vector.
+[[nodiscard]] inline glm::dvec3 safe_normalize(const glm::dvec3& v, const glm::dvec3& fallback) noexcept {
+  const double scale = largest_component(v);
+  if (!(scale > 0.0)) return fallback;
+  const glm::dvec3 scaled = v / scale;
+  return scaled / std::sqrt(glm::dot(scaled, scaled));
+}
+
+/// The world axis that makes the largest angle with `v`.
+[[nodiscard]] inline glm::dvec3 least_aligned_axis(const glm::dvec3& v) noexcept {
+  const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
+  if (x <= y && x <= z) return {1.0, 0.0, 0.0};
+  return y <= z ? glm::dvec3{0.0, 1.0, 0.0} : glm::dvec3{0.0, 0.0, 1.0};
+}
+
+[[nodiscard]] inline double min_of(double a, double b) noexcept {
+  return a < b ? a : b;
+}
+[[nodiscard]] inline double max_of(double a, double b) noexcept {
+  return a > b ? a : b;
+}
+[[nodiscard]] inline double clamp_to(double v, double lo, double hi) noexcept {
+  return v < lo ? lo : (v > hi ? hi : v);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,57 @@
+// The registry of warps, and the error of a warp over a body.
+#include "gnomon/warp.hpp"
+
+#include <array>
+
+#include "vector.hpp"
+
+namespace gnomon {
+namespace {
+
+constexpr std::array kWarps = {
+#define GNOMON_WARP(name) &warps::name,
+#include "gnomon/warps.def"
+#undef GNOMON_WARP
+};
+
+}  // namespace
+
+std::span<const Warp* const> all_warps() noexcept {
+  return kWarps;
+}
+
+const Warp* find_warp(std::string_view name) noexcept {
+  for (const Warp* warp : kWarps) {
+    if (warp->name == name) return warp;
+  }
+  return nullptr;
+}
+
+std::string_view to_string(Objective objective) noexcept {
+  return objective == Objective::max ? "max" : "storage";
+}
+
+bool objective_from_name(std::string_view name, Objective& objective) noexcept {
+  if (name != "storage" && name != "max") return false;
+  objective = name == "max" ? Objective::max : Objective::storage;
+  return true;
+}
+
+WarpError warp_error(const WarpInput& input, double kappa) noexcept {
+  double left = 0.0, right = 0.0, w_over_z = 0.0, w2_over_z = 0.0;
+  bool first = true;
+  for (const WarpInput::Point& p : input.body) {
+    const double w = 1.0 + kappa * (p.y - input.y_min);
+    const double x = p.x / w;
+    const double r = w / p.depth;
+    left = first ? x : min_of(left, x);
+    right = first ? x : max_of(right, x);
+    first = false;
+    w_over_z = max_of(w_over_z, r);
+    w2_over_z = max_of(w2_over_z, w * r);
+  }
+  const double length = input.y_max - input.y_min;
+  return {(right - left) * w_over_z, length / (1.0 + kappa * length) * w2_over_z};
+}
+
+}  // namespace gnomon

@@ -1,0 +1,9 @@
+// No warp: the orthographic map, kappa = 0.
+#include "gnomon/warp.hpp"
+
+namespace gnomon::warps {
+
+const Warp none{"none", "orthographic map, evenly spaced texels",
+                [](const WarpInput&) noexcept { return WarpChoice{}; }, true};
+
+}  // namespace gnomon::warps
