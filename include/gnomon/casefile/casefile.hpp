@@ -1,0 +1,60 @@
+// A case: one camera, one light, boxes and options, read from JSON. The program, tests and benchmarks share
+// it.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gnomon/bounds.hpp"
+#include "gnomon/camera.hpp"
+#include "gnomon/light.hpp"
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+
+/// Everything make_plan() takes. What the file leaves out of "options" has the default of PlanOptions.
+struct Case {
+  Camera camera;
+  Light light;
+  std::vector<Box> receivers, casters;
+  PlanOptions options;
+
+  /// Views into this case: valid while it lives and its lists are not resized.
+  [[nodiscard]] SceneBounds bounds() const noexcept { return {casters, receivers}; }
+};
+
+/// What is wrong with a case, on one line: the key's path first where it is about a key
+/// ("options.lamda: unknown key ..."), and the file's name before that where it came from a file.
+class CaseError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file, or a line of standard input, larger than this is refused before it is parsed.
+inline constexpr std::size_t kMaxCaseBytes = std::size_t{16} << 20;
+/// Brackets nested deeper than this are refused before parsing; a case itself needs 4.
+inline constexpr int kMaxCaseNesting = 32;
+
+/// Reads one case from JSON text. Throws CaseError for what is no JSON, a key that is unknown, twice or
+/// missing, a value of the wrong type, and an angle or length that makes no camera. Contracts of make_plan()
+/// itself (near below far, say) are left to make_plan().
+[[nodiscard]] Case read_case(std::string_view json_text);
+
+/// The same from a file; messages begin with its name.
+[[nodiscard]] Case load_case(const std::filesystem::path& file);
+
+/// What ShadowPlan::invalid_field means for the one who wrote the case: its key and what it must be
+/// ("camera.far: must lie above near"). A field that has no text of its own comes back as "FIELD: not
+/// usable".
+[[nodiscard]] std::string invalid_input_text(std::string_view invalid_field);
+
+/// `text` from a file, fit for one line of a message: bytes outside printable ASCII become '?', and what is
+/// longer than `max_length` is cut.
+[[nodiscard]] std::string one_line(std::string_view text, std::size_t max_length = 160);
+/// The name of a file for a message: as it is, control characters aside.
+[[nodiscard]] std::string shown_name(const std::filesystem::path& file);
+
+}  // namespace gnomon

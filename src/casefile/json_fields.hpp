@@ -1,0 +1,52 @@
+// Typed reading of a JSON object's keys. Every complaint carries the key's path.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gnomon/bounds.hpp"
+
+namespace gnomon {
+
+/// One object of the case and where it stands in it. All readers throw CaseError.
+class Fields {
+ public:
+  /// Throws where `value` is no object or has a key outside `known`.
+  Fields(const nlohmann::json& value, std::string path, std::initializer_list<std::string_view> known);
+
+  [[nodiscard]] bool has(std::string_view key) const { return value_.contains(key); }
+  [[nodiscard]] const nlohmann::json& at(std::string_view key) const;
+  [[nodiscard]] std::string path_of(std::string_view key) const;
+
+  [[nodiscard]] double number(std::string_view key) const;
+  [[nodiscard]] double positive(std::string_view key) const;
+  [[nodiscard]] int integer(std::string_view key) const;
+  [[nodiscard]] bool boolean(std::string_view key) const;
+  [[nodiscard]] std::string text(std::string_view key) const;
+  [[nodiscard]] glm::dvec3 vector(std::string_view key) const;
+  /// One box or a list of boxes.
+  [[nodiscard]] std::vector<Box> boxes(std::string_view key) const;
+
+  // These leave `out` as it is where the key is absent.
+  void read(std::string_view key, double& out) const {
+    if (has(key)) out = number(key);
+  }
+  void read(std::string_view key, int& out) const {
+    if (has(key)) out = integer(key);
+  }
+  void read(std::string_view key, bool& out) const {
+    if (has(key)) out = boolean(key);
+  }
+
+  [[noreturn]] void refuse(std::string_view key, const std::string& why) const;
+
+ private:
+  const nlohmann::json& value_;
+  std::string path_;
+};
+
+}  // namespace gnomon

@@ -1,0 +1,21 @@
+// A shadow plan as JSON: the output format of `gnomon plan`.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "gnomon/casefile/casefile.hpp"
+
+namespace gnomon::tool {
+
+/// Keeps the keys in the order they are written.
+using Json = nlohmann::ordered_json;
+
+/// Numbers read back exactly. What is infinite (the error where no map holds a visible point) is null; throws
+/// std::logic_error for NaN, which no plan may hold.
+[[nodiscard]] Json plan_json(const ShadowPlan& plan, const Case& input);
+
+/// On several lines, indented; lists of numbers stay on one line, so that a matrix looks like one.
+[[nodiscard]] std::string pretty_text(const Json& value);
+
+}  // namespace gnomon::tool

@@ -1,0 +1,32 @@
+// A progress bar for people: drawn on standard error if that is a terminal, and only once work takes over a
+// second.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace gnomon::tool {
+
+class Progress {
+ public:
+  /// `total`: steps in all; 0 where nobody knows, then only the count is shown.
+  Progress(std::string label, long long total);
+  ~Progress() { clear(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Sets the steps done so far; draws at most ten times a second.
+  void set(long long done);
+  /// Takes the bar off the terminal, before other output is written there.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string label_;
+  long long total_;
+  Clock::time_point next_draw_;
+  bool on_terminal_;
+  bool drawn_ = false;
+};
+
+}  // namespace gnomon::tool
