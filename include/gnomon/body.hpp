@@ -12,10 +12,9 @@
 
 namespace gnomon {
 
-/// A frustum slice has 6 faces and a box 6; their intersection has at most 12. The volume of a swept body is
-/// cut from a box by its silhouette planes and back faces, at most as many as a 12-faced body has edges and
-/// faces together.
-inline constexpr int kMaxFaces = 48;
+/// A frustum slice has 6 faces and a box 6; a depth range adds 2. The rest is room for a caller's own planes, up to the
+/// 60 vertices that still fit one machine word of flags.
+inline constexpr int kMaxFaces = 32;
 /// A simple polytope with F faces has 2F - 4 vertices (Euler's formula with three faces at each vertex).
 inline constexpr int kMaxVertices = 2 * kMaxFaces - 4;
 /// Back faces and silhouette planes of a 12-faced body: at most 12 faces plus a silhouette of at most 20

@@ -25,7 +25,7 @@
 
 namespace gnomon {
 
-inline constexpr int kMaxMaps = 16;  ///< cascades of one plan; beyond 8 no published figure gains anything
+inline constexpr int kMaxMaps = 8;  ///< cascades of one plan; beyond 8 no published figure gains anything
 inline constexpr int kMaxOmissions =
     32;  ///< entries of ShadowPlan::omitted; later ones are counted, not listed
 
@@ -114,7 +114,7 @@ struct ShadowMap {
   BiasWorld bias_world;
   /// Planes round everything that can shadow a receiver of this map: a caster is needed only if it reaches
   /// the side where dot(xyz, p_world) + w >= 0 of all of them. World space, unit normals.
-  std::array<glm::dvec4, kMaxCullPlanes> cull_planes{};
+  std::array<glm::dvec4, kMaxCullPlanes> cull_planes;
   int cull_plane_count = 0;
   SnapKey snap_key;  ///< of Fit::stable: equal keys mean an identical grid
   double m_s_max = 0.0,
@@ -130,7 +130,7 @@ struct ShadowPlan {
   ClipSpace clip_space;
   std::array<ShadowMap, kMaxMaps> map{};
   int map_count = 0;
-  std::array<Omission, kMaxOmissions> omission{};
+  std::array<Omission, kMaxOmissions> omission;
   int omission_count = 0;  ///< may exceed kMaxOmissions
 
   [[nodiscard]] std::span<const ShadowMap> maps() const noexcept {

@@ -1,8 +1,8 @@
 // The intersection body: a convex polytope in fixed storage, cut by planes, with faces and adjacency.
 #include "gnomon/body.hpp"
 
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
 
 #include "vector.hpp"
@@ -32,11 +32,68 @@ void set_cuboid(Polytope& body, const glm::dvec3 (&corner)[8]) noexcept {
   body.face_count = 6;
 }
 
+using VertexSet = std::uint64_t;  // bit i: vertex i
+static_assert(kMaxVertices <= 64);
+
 /// New vertices on one face while a plane cuts it: a convex face is crossed twice or not at all.
 struct FaceCuts {
   std::uint8_t vertex[2];
   std::uint8_t count;
 };
+
+/// An edge from a kept vertex to its neighbour `slot`, which is cut off.
+struct CrossingEdge {
+  std::uint8_t vertex, slot;
+};
+
+/// Puts a vertex on every crossing edge, joins them along the faces they lie on into a new face, and closes the gaps
+/// that the lost vertices leave.
+void cut(Polytope& body, const Plane& plane, const double* distance, VertexSet kept,
+         std::span<const CrossingEdge> crossing, FaceCuts* cuts) noexcept {
+  const auto cap = static_cast<std::uint8_t>(body.face_count);
+  body.plane[cap] = plane;
+  Polytope::Vertex made[kMaxVertices];
+  // Kept vertices move down to the first places; new ones follow.
+  std::uint8_t renamed[64];
+  std::uint8_t next = 0;
+  for (VertexSet left = kept; left != 0; left &= left - 1) renamed[std::countr_zero(left)] = next++;
+  const std::uint8_t first_new = next;
+  for (std::size_t e = 0; e < crossing.size(); ++e) {
+    const Polytope::Vertex& v = body.vertex[crossing[e].vertex];
+    const std::size_t slot = crossing[e].slot;
+    const Polytope::Vertex& lost = body.vertex[v.neighbour[slot]];
+    const double from = max_of(distance[crossing[e].vertex], 0.0);
+    const double t = from / (from - distance[v.neighbour[slot]]);
+    Polytope::Vertex& m = made[e];
+    m.position = v.position + (lost.position - v.position) * t;
+    m.face = {cap, v.face[(slot + 1) % 3], v.face[(slot + 2) % 3]};
+    m.neighbour[0] = renamed[crossing[e].vertex];
+    for (std::size_t side = 1; side < 3; ++side) {
+      FaceCuts& on_face = cuts[m.face[side]];
+      if (on_face.count++ == 0) {
+        on_face.vertex[0] = static_cast<std::uint8_t>(e);
+        continue;
+      }
+      // The other new vertex of this face: both are joined by the face's edge with the cap.
+      Polytope::Vertex& other = made[on_face.vertex[0]];
+      m.neighbour[3 - side] = static_cast<std::uint8_t>(first_new + on_face.vertex[0]);
+      other.neighbour[other.face[1] == m.face[side] ? 2 : 1] = static_cast<std::uint8_t>(first_new + e);
+    }
+  }
+  std::size_t e = 0;
+  for (VertexSet left = kept; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    Polytope::Vertex v = body.vertex[static_cast<std::size_t>(i)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool crosses = e < crossing.size() && crossing[e].vertex == i && crossing[e].slot == k;
+      v.neighbour[k] = crosses ? static_cast<std::uint8_t>(first_new + e++) : renamed[v.neighbour[k]];
+    }
+    body.vertex[renamed[i]] = v;
+  }
+  for (std::size_t i = 0; i < crossing.size(); ++i) body.vertex[first_new + i] = made[i];
+  body.vertex_count = static_cast<int>(first_new + crossing.size());
+  ++body.face_count;
+}
 
 }  // namespace
 
@@ -97,76 +154,36 @@ void clip(Polytope& body, const Plane& plane) noexcept {
   }
   const double limit = -kClipTolerance * largest;
   if (lowest >= limit) return;
-
-  // First only count, so that an inconsistent cut leaves the body as it was.
-  FaceCuts cuts[kMaxFaces];
-  std::memset(cuts, 0, sizeof(FaceCuts) * static_cast<std::size_t>(body.face_count));
-  int kept = 0, cut_edges = 0;
-  for (int i = 0; i < count; ++i) {
-    if (distance[i] < limit) continue;
-    ++kept;
-    const Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(i)];
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (distance[v.neighbour[k]] >= limit) continue;
-      ++cut_edges;
-      ++cuts[v.face[(k + 1) % 3]].count;
-      ++cuts[v.face[(k + 2) % 3]].count;
-    }
-  }
+  VertexSet cut_off = 0;
+  for (int i = 0; i < count; ++i) cut_off |= VertexSet{distance[i] < limit} << i;
+  const VertexSet kept = ~cut_off & (~VertexSet{0} >> (64 - count));
   if (kept == 0) {
     body.vertex_count = 0;
     return;
   }
-  if (body.face_count >= kMaxFaces || count + cut_edges > kMaxVertices) return;
+
+  // The edges that cross the plane, found first so that an inconsistent cut leaves the body as it was.
+  CrossingEdge crossing[kMaxVertices];
+  int crossings = 0;
+  FaceCuts cuts[kMaxFaces] = {};
+  for (VertexSet left = kept; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    const Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(i)];
+    for (std::uint8_t k = 0; k < 3; ++k) {
+      if (((cut_off >> v.neighbour[k]) & 1) == 0) continue;
+      if (crossings == kMaxVertices) return;
+      crossing[crossings++] = {static_cast<std::uint8_t>(i), k};
+      ++cuts[v.face[(k + 1u) % 3]].count;
+      ++cuts[v.face[(k + 2u) % 3]].count;
+    }
+  }
+  const int kept_count = std::popcount(kept);
+  if (body.face_count >= kMaxFaces || kept_count + crossings > kMaxVertices) return;
   for (int f = 0; f < body.face_count; ++f) {
     if (cuts[f].count != 0 && cuts[f].count != 2) return;
     cuts[f].count = 0;
   }
-
-  const auto cap = static_cast<std::uint8_t>(body.face_count);
-  body.plane[cap] = plane;
-  int next = count;
-  for (int i = 0; i < count; ++i) {
-    if (distance[i] < limit) continue;
-    Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(i)];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint8_t other = v.neighbour[k];
-      if (other >= count || distance[other] >= limit) continue;
-      const double from = max_of(distance[i], 0.0);
-      const double t = from / (from - distance[other]);
-      Polytope::Vertex& made = body.vertex[static_cast<std::size_t>(next)];
-      made.position = v.position + (body.vertex[other].position - v.position) * t;
-      made.face = {cap, v.face[(k + 1) % 3], v.face[(k + 2) % 3]};
-      made.neighbour[0] = static_cast<std::uint8_t>(i);
-      for (std::size_t side = 1; side < 3; ++side) {
-        FaceCuts& cut = cuts[made.face[side]];
-        cut.vertex[cut.count++] = static_cast<std::uint8_t>(next);
-      }
-      v.neighbour[k] = static_cast<std::uint8_t>(next++);
-    }
-  }
-  // The two new vertices of a face are joined by the face's edge with the cap.
-  for (int f = 0; f < body.face_count; ++f) {
-    if (cuts[f].count == 0) continue;
-    for (int end = 0; end < 2; ++end) {
-      Polytope::Vertex& v = body.vertex[cuts[f].vertex[end]];
-      v.neighbour[v.face[1] == f ? 2 : 1] = cuts[f].vertex[1 - end];
-    }
-  }
-  ++body.face_count;
-
-  std::uint8_t renamed[kMaxVertices];
-  int out = 0;
-  for (int i = 0; i < next; ++i) {
-    if (i < count && distance[i] < limit) continue;
-    renamed[i] = static_cast<std::uint8_t>(out);
-    if (out != i) body.vertex[static_cast<std::size_t>(out)] = body.vertex[static_cast<std::size_t>(i)];
-    ++out;
-  }
-  for (int i = 0; i < out; ++i) {
-    for (std::uint8_t& n : body.vertex[static_cast<std::size_t>(i)].neighbour) n = renamed[n];
-  }
-  body.vertex_count = out;
+  cut(body, plane, distance, kept, {crossing, static_cast<std::size_t>(crossings)}, cuts);
 }
 
 void clip(Polytope& body, const Box& box) noexcept {

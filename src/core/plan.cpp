@@ -2,11 +2,11 @@
 #include "gnomon/plan.hpp"
 
 #include <cmath>
+#include <limits>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "gnomon/metric.hpp"
 #include "light_map.hpp"
 #include "plan_input.hpp"
 #include "vector.hpp"
@@ -20,6 +20,8 @@ namespace {
 constexpr double kDepthPadding = 1.0 / 1024.0;
 // Least depth range of a map, relative to its extents across: a flat scene still needs one.
 constexpr double kFlattestDepth = 1e-3;
+// Faces of a box steeper than this to the light bound nothing: their height changes by more than the scene's size.
+constexpr double kSteepestFace = 1e-6;
 // Rounding of positions, relative to their distance from the origin of the world.
 constexpr double kPositionRounding = 1e-14;
 
@@ -46,17 +48,14 @@ std::int64_t texels_of(const PlanOptions& options) noexcept {
   return std::int64_t{options.map_size} * options.map_size;
 }
 
-/// Depth range that is divided among the cascades; false where nothing is in view.
-bool depths_to_cover(const Context& c, double& begin, double& end) noexcept {
+/// Depth range that is divided among the cascades, from the body of everything in view.
+void depths_to_cover(const Context& c, const Polytope& body, double& begin, double& end) noexcept {
   const double n = c.camera.near_depth, f = c.camera.far_depth;
-  Polytope body = frustum_slice(c.camera, c.axes, n, f);
-  clip(body, visible_bounds(body, c.bounds.receivers, c.camera.position));
-  if (body.empty()) return false;
   begin = n;
   end = f;
   const bool whole = c.options.split_range == SplitRange::camera ||
                      (c.options.split_range == SplitRange::automatic && c.stable);
-  if (whole) return true;
+  if (whole) return;
   double low = f, high = n;
   for (const Polytope::Vertex& v : body.vertices()) {
     const double depth = glm::dot(c.axes.forward, v.position);
@@ -67,10 +66,8 @@ bool depths_to_cover(const Context& c, double& begin, double& end) noexcept {
   end = clamp_to(high, begin, f);
   // Saving less than this share of the depths is not worth a line.
   constexpr double kWorthTelling = 0.01;
-  if (begin > n * (1.0 + kWorthTelling))
-    omit(c.plan, {OmissionKind::depth_without_receiver, -1, n, begin, 0});
+  if (begin > n * (1.0 + kWorthTelling)) omit(c.plan, {OmissionKind::depth_without_receiver, -1, n, begin, 0});
   if (end < f * (1.0 - kWorthTelling)) omit(c.plan, {OmissionKind::depth_without_receiver, -1, end, f, 0});
-  return true;
 }
 
 /// The body's vertices in the light frame, with their view depths.
@@ -133,31 +130,41 @@ double chosen_kappa(const Context& c, const WarpInput& in, int cascade, const Wa
   return 0.0;
 }
 
-/// Largest (z - bottom) / w over what casters reach the body; `planes` bound the swept body.
-double caster_height(const Context& c, const CasterReach& reach, std::span<const Plane> planes,
-                     const LightFrame& frame, const LightBody& body, const LightRectangle& rectangle,
-                     double kappa, double bottom, double rim_y) noexcept {
-  double height = 0.0;
-  for (const WarpInput::Point& p : body.points()) {
-    height = max_of(height, (p.z - bottom) / (1.0 + kappa * (p.y - rectangle.y_min)));
+/// Upper bound of (z - bottom) / w over every caster point above the body: along the light, the casters' box ends at the
+/// lowest of its faces towards the light, and a face's height over the body is largest at one of the body's vertices,
+/// w being positive there. `rim` is the map's margin as a share of its side, `w_far` the largest w.
+double caster_height(const CasterReach& reach, const LightFrame& frame, const LightBody& body,
+                     const LightRectangle& rectangle, double kappa, double bottom, double rim) noexcept {
+  const double length = rectangle.y_max - rectangle.y_min, width = rectangle.right - rectangle.left;
+  const double w_far = 1.0 + kappa * length;
+  const glm::dvec3 up = frame.z;
+  const glm::dvec3 corner{up.x > 0.0 ? reach.bounds.max.x : reach.bounds.min.x,
+                          up.y > 0.0 ? reach.bounds.max.y : reach.bounds.min.y,
+                          up.z > 0.0 ? reach.bounds.max.z : reach.bounds.min.z};
+  double lowest_face = std::numeric_limits<double>::infinity(), body_height = 0.0;
+  // Face 3 stands for the plane across the light through the highest caster.
+  for (int face = 0; face < 4; ++face) {
+    // z of the face at (x, y) across the light: at + slope_x x + slope_y y.
+    double at = reach.top, slope_x = 0.0, slope_y = 0.0;
+    if (face < 3) {
+      if (!(std::abs(up[face]) > kSteepestFace)) continue;
+      at = corner[face] / up[face];
+      slope_x = -frame.x[face] / up[face];
+      slope_y = -frame.y[face] / up[face];
+    }
+    double highest = 0.0;
+    for (const WarpInput::Point& p : body.points()) {
+      const double w = 1.0 + kappa * (p.y - rectangle.y_min);
+      const double margin_x = rim * width * w, margin_y = rim * length * w * w / w_far;
+      const double z = at + slope_x * p.x + slope_y * p.y + std::abs(slope_x) * margin_x + std::abs(slope_y) * margin_y;
+      // The margin reaches towards smaller w, too; it never halves it for a margin a filter can ask for.
+      const double least_w = max_of(w - kappa * margin_y, 0.5 * w);
+      highest = max_of(highest, (z - bottom) / least_w);
+      body_height = max_of(body_height, (p.z - bottom) / w);
+    }
+    lowest_face = min_of(lowest_face, highest);
   }
-  if (c.bounds.casters.empty() || reach.count == 0) return height;
-  Polytope volume = box_polytope(reach.bounds);
-  for (const Plane& plane : planes) clip(volume, plane);
-  if (kappa > 0.0) {
-    // Nothing in front of the map's own edge is drawn, and w is positive up to there.
-    const double length = rectangle.y_max - rectangle.y_min;
-    const double edge =
-        1.0 + 2.0 * rim_y / (1.0 - 2.0 * rim_y);  // map edge in units where the body ends at 1
-    const double u = (1.0 - edge) / (2.0 / length + kappa + kappa * edge);
-    clip(volume, Plane{frame.y, -(rectangle.y_min + u)});
-  }
-  for (const Polytope::Vertex& v : volume.vertices()) {
-    const double w = 1.0 + kappa * (glm::dot(frame.y, v.position) - rectangle.y_min);
-    const double z = min_of(glm::dot(frame.z, v.position), reach.top);
-    if (w > 0.0) height = max_of(height, (z - bottom) / w);
-  }
-  return height;
+  return max_of(lowest_face, body_height);
 }
 
 double lowest(const LightBody& body) noexcept {
@@ -180,14 +187,19 @@ void finish(const Context& c, const LightBody& body, const LightFrame& frame,
   map.clip_from_world[3] = from_relative * glm::dvec4(-c.camera.position, 1.0);
   map.light_world = glm::dvec4(-c.light_direction, 0.0);
   glm::dvec3 centre(0.0);
+  double y_far = body.point[0].y;
   for (const WarpInput::Point& p : body.points()) {
-    const glm::dvec3 at = frame.x * p.x + frame.y * p.y + frame.z * p.z;
-    centre += at / static_cast<double>(body.count);
-    const glm::dvec2 texel =
-        texel_extent_world(gl_from_relative, map.width, map.height, c.light_direction, at);
-    map.texel_world_max = {max_of(map.texel_world_max.x, texel.x), max_of(map.texel_world_max.y, texel.y)};
+    centre += glm::dvec3{p.x, p.y, p.z};
+    y_far = max_of(y_far, p.y);
   }
-  map.texel_world = texel_extent_world(gl_from_relative, map.width, map.height, c.light_direction, centre);
+  centre /= static_cast<double>(body.count);
+  const auto texel_at = [&](const glm::dvec3& p) {
+    return texel_extent_world(gl_from_relative, map.width, map.height, c.light_direction,
+                              frame.x * p.x + frame.y * p.y + frame.z * p.z);
+  };
+  // w, and with it both extents, is largest at the far end.
+  map.texel_world_max = texel_at({centre.x, y_far, centre.z});
+  map.texel_world = texel_at(centre);
   const double texel = max_of(map.texel_world.x, map.texel_world.y);
   map.bias_world = {c.options.bias.constant_texels * texel, c.options.bias.slope_texels * texel,
                     c.options.bias.normal_offset_texels * texel};
@@ -247,7 +259,7 @@ bool tight_map(const Context& c, const Polytope& body, double begin, double end,
   const CasterReach reach = casters_inside(swept, c.bounds.casters, c.camera.position, c.frame.z);
   if (reach.count == 0) return false;
   const double bottom = lowest(points);
-  const double height = caster_height(c, reach, swept, c.frame, points, rectangle, map.kappa, bottom, rim);
+  const double height = caster_height(reach, c.frame, points, rectangle, map.kappa, bottom, rim / (1.0 - 2.0 * rim));
   const double extent = max_of(rectangle.right - rectangle.left, length);
   const LightDepths depths = padded(bottom, height, extent);
   map.depth_range_world = depths.height;
@@ -259,8 +271,7 @@ bool tight_map(const Context& c, const Polytope& body, double begin, double end,
   return true;
 }
 
-bool stable_map(const Context& c, const Polytope& body, const Polytope& slice, double begin, double end,
-                ShadowMap& map) noexcept {
+bool stable_map(const Context& c, const Polytope& body, double begin, double end, ShadowMap& map) noexcept {
   const LightFrame& frame = c.frame;
   map.warp = &warps::none;
   map.filter_margin_texels = margin_texels(c.options);
@@ -274,13 +285,11 @@ bool stable_map(const Context& c, const Polytope& body, const Polytope& slice, d
   const double texel = side / (map.width - 1 - 2 * map.filter_margin_texels);
   const double half = 0.5 * texel * map.width;
   // Centre of the whole slice, in absolute light coordinates, to the nearest texel.
-  const Box box = [&] {
-    Box b;
-    for (const Polytope::Vertex& v : slice.vertices()) {
-      b.extend({glm::dot(frame.x, v.position), glm::dot(frame.y, v.position), glm::dot(frame.z, v.position)});
-    }
-    return b;
-  }();
+  const Polytope slice = frustum_slice(c.camera, c.axes, begin, end);
+  Box box;
+  for (const Polytope::Vertex& v : slice.vertices()) {
+    box.extend({glm::dot(frame.x, v.position), glm::dot(frame.y, v.position), glm::dot(frame.z, v.position)});
+  }
   const glm::dvec3 eye{glm::dot(frame.x, c.camera.position), glm::dot(frame.y, c.camera.position),
                        glm::dot(frame.z, c.camera.position)};
   map.snap_key.x = snap_index(eye.x + 0.5 * (box.min.x + box.max.x), texel);
@@ -294,8 +303,9 @@ bool stable_map(const Context& c, const Polytope& body, const Polytope& slice, d
   if (reach.count == 0) return false;
   const LightBody points = in_light_frame(c, frame, body);
   const double bottom = lowest(points);
-  const LightRectangle none{0.0, 0.0, 0.0, 0.0};
-  const double height = caster_height(c, reach, swept, frame, points, none, 0.0, bottom, 0.0);
+  const LightRectangle square{0.0, side, 0.0, side};
+  const double height =
+      caster_height(reach, frame, points, square, 0.0, bottom, static_cast<double>(map.filter_margin_texels) / map.width);
   // Depths in whole steps of a sixteenth of the side: the stored depths hold still, too.
   const double step = side / 16.0;
   const LightDepths wanted = padded(bottom, height, side);
@@ -321,10 +331,14 @@ bool stable_map(const Context& c, const Polytope& body, const Polytope& slice, d
   return true;
 }
 
-void plan_cascade(const Context& c, int cascade, double begin, double end) noexcept {
-  const Polytope slice = frustum_slice(c.camera, c.axes, begin, end);
-  Polytope body = slice;
-  clip(body, visible_bounds(slice, c.bounds.receivers, c.camera.position));
+/// `all` is the body of everything in view.
+void plan_cascade(const Context& c, const Polytope& all, int cascade, double begin, double end) noexcept {
+  Polytope body = all;
+  clip(body, Plane{c.axes.forward, -begin});
+  clip(body, Plane{-c.axes.forward, end});
+  if (c.bounds.receivers.size() > 1 && !body.empty()) {
+    clip(body, visible_bounds(body, c.bounds.receivers, c.camera.position));
+  }
   if (body.empty()) {
     omit(c.plan, {OmissionKind::cascade_without_receiver, cascade, begin, end, texels_of(c.options)});
     return;
@@ -337,7 +351,7 @@ void plan_cascade(const Context& c, int cascade, double begin, double end) noexc
   map.width = map.height = c.options.map_size;
   map.warp = c.options.warp != nullptr ? c.options.warp : &warps::lispsm;
   const bool drawn =
-      c.stable ? stable_map(c, body, slice, begin, end, map) : tight_map(c, body, begin, end, map);
+      c.stable ? stable_map(c, body, begin, end, map) : tight_map(c, body, begin, end, map);
   if (drawn) {
     ++c.plan.map_count;
   } else {
@@ -375,11 +389,14 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
       std::sqrt(glm::dot(across, across)),
       glm::dot(axes.forward, plan.light_direction),
       plan};
-  double begin = 0.0, end = 0.0;
-  if (!depths_to_cover(context, begin, end)) {
+  Polytope body = frustum_slice(camera, axes, camera.near_depth, camera.far_depth);
+  clip(body, visible_bounds(body, bounds.receivers, camera.position));
+  if (body.empty()) {
     plan.status = PlanStatus::nothing_visible;
     return plan;
   }
+  double begin = 0.0, end = 0.0;
+  depths_to_cover(context, body, begin, end);
   if (stable && options.warp != nullptr && options.warp != &warps::none) {
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
   }
@@ -387,7 +404,7 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
   split_depths(begin, end, {options.split, options.lambda, options.near_hint},
                {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
   for (int i = 0; i < options.cascades; ++i) {
-    plan_cascade(context, i, edges[static_cast<std::size_t>(i)], edges[static_cast<std::size_t>(i) + 1]);
+    plan_cascade(context, body, i, edges[static_cast<std::size_t>(i)], edges[static_cast<std::size_t>(i) + 1]);
   }
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
   return plan;
