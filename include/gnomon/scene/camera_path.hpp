@@ -27,7 +27,8 @@ struct CameraPath {
   [[nodiscard]] Camera at(double t, int width, int height) const noexcept;
 };
 
-/// Reads {"keys":[{"position":[x,y,z],"target":[x,y,z]},...],"closed":false,"fov_y_deg":60,"near":0.1,"far":100}.
+/// Reads
+/// {"keys":[{"position":[x,y,z],"target":[x,y,z]},...],"closed":false,"fov_y_deg":60,"near":0.1,"far":100}.
 /// Unknown keys are an error. Throws SceneError with file and key.
 [[nodiscard]] CameraPath load_camera_path(const std::filesystem::path& file);
 /// Writes the same format.

@@ -11,18 +11,20 @@
 
 namespace gnomon {
 
-/// Decodes PNG or JPEG bytes, told by their first bytes and not by a name. Throws SceneError with `name` in it where
-/// the bytes are neither, damaged, or larger than `max_pixels` (checked before decoding).
-[[nodiscard]] Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
+/// Decodes PNG or JPEG bytes, told by their first bytes and not by a name. Throws SceneError with `name` in
+/// it where the bytes are neither, damaged, or larger than `max_pixels` (checked before decoding).
+[[nodiscard]] Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name,
+                                 std::uint64_t max_pixels);
 
-/// Writes an 8-bit RGB PNG (alpha dropped), beside the target first and then renamed, so that no half file is left.
-/// Throws SceneError.
+/// Writes an 8-bit RGB PNG (alpha dropped), beside the target first and then renamed, so that no half file is
+/// left. Throws SceneError.
 void write_png(const Image& image, const std::filesystem::path& file);
 
 /// The bytes of an 8-bit RGBA PNG. Throws SceneError.
 [[nodiscard]] std::vector<std::uint8_t> encode_png(const Image& image);
 
-/// A float picture, `channels` interleaved, rows top to bottom; written as 32-bit float EXR. Throws SceneError.
+/// A float picture, `channels` interleaved, rows top to bottom; written as 32-bit float EXR. Throws
+/// SceneError.
 struct FloatImage {
   int width = 0, height = 0, channels = 1;
   std::vector<float> values;

@@ -20,20 +20,20 @@ class SceneError : public std::runtime_error {
 
 /// Caps that keep a hostile or mistaken file from taking the machine. Exceeding one throws SceneError.
 struct LoadLimits {
-  std::uint64_t file_bytes = 1ull << 30;        ///< one file, 1 GiB
-  std::uint64_t total_bytes = 2ull << 30;       ///< all files a scene refers to, 2 GiB
-  std::uint64_t triangles = 20'000'000;         ///< over all instances
-  std::uint64_t vertices = 40'000'000;          ///< stored
-  std::uint64_t pixels = 1ull << 28;            ///< over all images
-  std::uint32_t nodes = 1'000'000;              ///< visited, instances included
-  std::uint32_t node_depth = 256;               ///< parents above a node
+  std::uint64_t file_bytes = 1ull << 30;   ///< one file, 1 GiB
+  std::uint64_t total_bytes = 2ull << 30;  ///< all files a scene refers to, 2 GiB
+  std::uint64_t triangles = 20'000'000;    ///< over all instances
+  std::uint64_t vertices = 40'000'000;     ///< stored
+  std::uint64_t pixels = 1ull << 28;       ///< over all images
+  std::uint32_t nodes = 1'000'000;         ///< visited, instances included
+  std::uint32_t node_depth = 256;          ///< parents above a node
 };
 
 /// Loads a .gltf or .glb file. Reads no file outside the scene's own folder. Throws SceneError.
 [[nodiscard]] Scene load_gltf(const std::filesystem::path& path, const LoadLimits& limits = {});
 
-/// A scene built in code. `build_glb` gives it as a binary glTF file; `load_builtin` reads that through load_gltf's
-/// own path, so that a builtin scene is a glTF scene.
+/// A scene built in code. `build_glb` gives it as a binary glTF file; `load_builtin` reads that through
+/// load_gltf's own path, so that a builtin scene is a glTF scene.
 struct BuiltinScene {
   std::string_view name;
   std::string_view summary;

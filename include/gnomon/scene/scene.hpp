@@ -36,8 +36,9 @@ struct Material {
   bool double_sided = false;
 };
 
-/// A run of triangles with one material. `first_index` and `index_count` count entries of Scene::indices; the indices
-/// are absolute into the vertex arrays and always in range. `bounds` is in object space and holds every vertex used.
+/// A run of triangles with one material. `first_index` and `index_count` count entries of Scene::indices; the
+/// indices are absolute into the vertex arrays and always in range. `bounds` is in object space and holds
+/// every vertex used.
 struct Primitive {
   std::uint32_t first_index = 0, index_count = 0;
   int material = 0;
@@ -52,8 +53,8 @@ struct Instance {
   Box bounds_world;       ///< of the transformed vertices, not of the transformed box
 };
 
-/// Triangles in object space, placed by instances. Vertex arrays have equal length; `normals` are unit length,
-/// `texcoords` are (0,0) where a mesh has none.
+/// Triangles in object space, placed by instances. Vertex arrays have equal length; `normals` are unit
+/// length, `texcoords` are (0,0) where a mesh has none.
 struct Scene {
   std::string name;
   std::vector<glm::vec3> positions;

@@ -1,0 +1,23 @@
+// Is a glTF document's JSON well formed? Every field this library reads is checked for type and range before
+// tinygltf sees it, and every other field is dropped.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace gnomon::detail {
+
+/// The document with only the fields that are read, each of the right type, indices in range, numbers finite
+/// and lists of the right length. `images`, `buffers` and extensions are not in it. Throws Refusal.
+[[nodiscard]] nlohmann::json checked_document(const nlohmann::json& source);
+
+/// The same for one array of `source`, such as "buffers" or "images".
+[[nodiscard]] nlohmann::json checked_array(const nlohmann::json& source, const char* name);
+
+/// Stops with the name of the first extension in extensionsRequired that is not supported.
+void check_extensions(const nlohmann::json& source);
+
+/// source[key] where that is an object, else nothing.
+[[nodiscard]] const nlohmann::json* find_object(const nlohmann::json& source, const char* key);
+
+}  // namespace gnomon::detail

@@ -1,0 +1,248 @@
+// A glTF file opened and checked, before any triangle is made of it: structure, bytes of its buffers, its
+// pictures. tinygltf 2.7 is given neither files nor buffers nor images: it dereferences unchecked offsets
+// into them and follows any path. It gets a document that holds only checked fields, and its file access is
+// closed.
+#include "gltf_document.hpp"
+
+#include <limits>
+
+#include "glb.hpp"
+#include "gltf_check.hpp"
+#include "refusal.hpp"
+
+namespace gnomon::detail {
+
+using nlohmann::json;
+
+namespace {
+
+json parse_json(std::string_view text) {
+  check_json_size(text);
+  try {
+    return json::parse(text);
+  } catch (const json::exception& e) {
+    throw Refusal("JSON", one_line(e.what()));
+  }
+}
+
+// Extensions that change what is seen, and that a file may use without requiring.
+void warn_of_extensions(const json& source, std::vector<std::string>& warnings) {
+  const auto used = source.find("extensionsUsed");
+  if (used == source.end() || !used->is_array()) return;
+  for (const char* name : {"EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                           "EXT_texture_webp", "KHR_texture_basisu"}) {
+    for (const json& entry : *used) {
+      if (entry == name)
+        warn(warnings, "extensionsUsed", std::string(name) + " is not supported, fallbacks are used");
+    }
+  }
+}
+
+std::vector<Bytes> load_buffers(const json& buffers, const Container& container, SceneFolder& folder,
+                                std::vector<std::string>& warnings) {
+  std::vector<Bytes> out;
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const json& buffer = buffers[i];
+    const auto length = buffer["byteLength"].get<std::uint64_t>();
+    Bytes bytes;
+    if (buffer.contains("uri")) {
+      try {
+        bytes = folder.read(buffer["uri"].get_ref<const std::string&>());
+      } catch (const std::runtime_error& e) {
+        throw Refusal(element("buffers", i), e.what());
+      }
+    } else if (i == 0 && container.has_bin) {
+      bytes.assign(container.bin.begin(), container.bin.end());
+    } else {
+      warn(warnings, element("buffers", i), "has no data");
+      out.emplace_back();
+      continue;
+    }
+    if (bytes.size() < length) {
+      throw Refusal(element("buffers", i), "has " + std::to_string(bytes.size()) +
+                                               " bytes, byteLength says " + std::to_string(length));
+    }
+    bytes.resize(static_cast<std::size_t>(length));
+    out.push_back(std::move(bytes));
+  }
+  return out;
+}
+
+void check_views(const json& document, const json& buffers) {
+  const auto views = document.find("bufferViews");
+  if (views == document.end()) return;
+  for (std::size_t i = 0; i < views->size(); ++i) {
+    const json& view = (*views)[i];
+    const auto total = buffers[view["buffer"].get<std::size_t>()]["byteLength"].get<std::uint64_t>();
+    const auto offset = view.value("byteOffset", std::uint64_t{0});
+    const auto length = view["byteLength"].get<std::uint64_t>();
+    if (offset > total || length > total - offset) {
+      throw Refusal(element("bufferViews", i), "bytes " + std::to_string(offset) + " + " +
+                                                   std::to_string(length) + " lie beyond the buffer's " +
+                                                   std::to_string(total));
+    }
+  }
+}
+
+std::vector<ImageSource> list_images(const json& source) {
+  const json images = checked_array(source, "images");
+  std::vector<ImageSource> out;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const json& image = images[i];
+    out.push_back({image.value("name", std::string()), image.value("uri", std::string()),
+                   image.value("bufferView", -1)});
+    if (out.back().name.empty()) out.back().name = element("images", i);
+  }
+  return out;
+}
+
+double number_or(const json& list, std::size_t i, double otherwise) {
+  return list.is_array() && i < list.size() && list[i].is_number() ? list[i].get<double>() : otherwise;
+}
+
+std::optional<TextureTransform> texture_transform(const json& texture_info) {
+  const json* extensions = find_object(texture_info, "extensions");
+  const json* found = extensions == nullptr ? nullptr : find_object(*extensions, "KHR_texture_transform");
+  if (found == nullptr) return std::nullopt;
+  TextureTransform out;
+  for (std::size_t i = 0; i < 2; ++i) {
+    out.offset[i] = number_or(found->value("offset", json()), i, 0.0);
+    out.scale[i] = number_or(found->value("scale", json()), i, 1.0);
+  }
+  const auto rotation = found->find("rotation");
+  if (rotation != found->end() && rotation->is_number()) out.rotation = rotation->get<double>();
+  const auto set = found->find("texCoord");
+  if (set != found->end() && set->is_number_unsigned())
+    out.texcoord = static_cast<int>(set->get<std::uint16_t>());
+  return out;
+}
+
+// A specular-glossiness material says its colour in an extension only; it is told as the usual kind.
+void adopt_specular_glossiness(json& source) {
+  const auto materials = source.find("materials");
+  if (materials == source.end() || !materials->is_array()) return;
+  for (json& material : *materials) {
+    const json* extensions = find_object(material, "extensions");
+    const json* found =
+        extensions == nullptr ? nullptr : find_object(*extensions, "KHR_materials_pbrSpecularGlossiness");
+    if (found == nullptr || material.contains("pbrMetallicRoughness")) continue;
+    json told = json::object();
+    if (found->contains("diffuseFactor")) told["baseColorFactor"] = found->at("diffuseFactor");
+    if (found->contains("diffuseTexture")) told["baseColorTexture"] = found->at("diffuseTexture");
+    material["pbrMetallicRoughness"] = std::move(told);
+  }
+}
+
+std::vector<std::optional<TextureTransform>> list_transforms(const json& source) {
+  std::vector<std::optional<TextureTransform>> out;
+  const auto materials = source.find("materials");
+  if (materials == source.end()) return out;
+  for (const json& material : *materials) {
+    const json* base = find_object(material, "pbrMetallicRoughness");
+    const json* texture = base == nullptr ? nullptr : find_object(*base, "baseColorTexture");
+    out.push_back(texture == nullptr ? std::nullopt : texture_transform(*texture));
+  }
+  return out;
+}
+
+bool has_data(const json& accessor) {
+  return accessor.contains("bufferView") || accessor.contains("sparse");
+}
+
+// tinygltf refuses index accessors without a buffer view, which are legal when sparse: they are kept beside
+// it.
+void take_indices(json& document, const json& source, Document& out) {
+  const auto meshes = document.find("meshes");
+  if (meshes == document.end()) return;
+  for (std::size_t m = 0; m < meshes->size(); ++m) {
+    out.indices.emplace_back();
+    out.compressed.emplace_back();
+    json& primitives = (*meshes)[m]["primitives"];
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      json& primitive = primitives[p];
+      out.indices.back().push_back(primitive.value("indices", -1));
+      primitive.erase("indices");
+      const json* extensions = find_object(source["meshes"][m]["primitives"][p], "extensions");
+      const bool draco = extensions != nullptr && extensions->contains("KHR_draco_mesh_compression");
+      const auto position = primitive["attributes"].find("POSITION");
+      out.compressed.back().push_back(draco && position != primitive["attributes"].end() &&
+                                      !has_data(document["accessors"][position->get<std::size_t>()]));
+    }
+  }
+}
+
+// The callbacks of a tinygltf that may touch nothing.
+bool no_file_exists(const std::string&, void*) {
+  return false;
+}
+std::string no_expansion(const std::string& path, void*) {
+  return path;
+}
+bool no_reading(std::vector<unsigned char>*, std::string*, const std::string&, void*) {
+  return false;
+}
+bool no_writing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+  return false;
+}
+bool no_decoding(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
+                 void*) {
+  return false;
+}
+
+void build_model(const json& document, tinygltf::Model& model) {
+  const std::string text = document.dump();
+  if (text.size() > std::numeric_limits<unsigned int>::max()) throw Refusal("JSON", "is larger than 4 GiB");
+  tinygltf::TinyGLTF loader;
+  loader.SetFsCallbacks({no_file_exists, no_expansion, no_reading, no_writing, nullptr});
+  loader.SetImageLoader(no_decoding, nullptr);
+  std::string error, warning;
+  if (!loader.LoadASCIIFromString(&model, &error, &warning, text.data(),
+                                  static_cast<unsigned int>(text.size()), "")) {
+    throw Refusal("glTF", one_line(error.empty() ? "is not valid" : error));
+  }
+}
+
+}  // namespace
+
+Document open_document(std::span<const std::uint8_t> bytes, SceneFolder& folder, const LoadLimits& limits,
+                       std::vector<std::string>& warnings) {
+  const Container container = open_container(bytes);
+  json source = parse_json(container.json);
+  check_extensions(source);
+  if (source.is_object()) adopt_specular_glossiness(source);
+  json document = checked_document(source);
+  if (document.contains("nodes") && document["nodes"].size() > limits.nodes) {
+    throw Refusal("nodes", "there are more than " + std::to_string(limits.nodes));
+  }
+  warn_of_extensions(source, warnings);
+
+  Document out;
+  const json buffers = checked_array(source, "buffers");
+  check_views(document, buffers);
+  std::vector<Bytes> data = load_buffers(buffers, container, folder, warnings);
+  out.images = list_images(source);
+  out.transforms = list_transforms(source);
+  take_indices(document, source, out);
+  build_model(document, out.model);
+  for (Bytes& bytes_of_buffer : data) {
+    out.model.buffers.emplace_back();
+    out.model.buffers.back().data = std::move(bytes_of_buffer);
+  }
+  // tinygltf drops what it cannot parse without a word; the tables beside the model count on nothing being
+  // dropped.
+  bool whole = out.model.meshes.size() == out.indices.size();
+  for (std::size_t m = 0; whole && m < out.indices.size(); ++m) {
+    whole = out.model.meshes[m].primitives.size() == out.indices[m].size();
+  }
+  if (!whole) throw Refusal("meshes", "could not be read");
+  return out;
+}
+
+std::span<const std::uint8_t> view_bytes(const tinygltf::Model& model, int buffer_view) {
+  const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(buffer_view)];
+  const auto& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+  if (data.empty()) throw LeftOut(element("buffers", static_cast<std::size_t>(view.buffer)) + " has no data");
+  return std::span<const std::uint8_t>(data).subspan(view.byteOffset, view.byteLength);
+}
+
+}  // namespace gnomon::detail

@@ -1,0 +1,99 @@
+// What do a glTF document's surfaces look like, as far as light and shadow need it: base colour and alpha.
+// Based on: Khronos Group, glTF 2.0 Specification (2021), sections 3.8 "Texture data" and 3.9 "Materials".
+#include "gltf_material.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "gnomon/scene/image.hpp"
+#include "refusal.hpp"
+
+namespace gnomon::detail {
+
+namespace {
+
+class ImageReader {
+ public:
+  ImageReader(const Document& document, SceneFolder& folder, std::uint64_t pixels, Scene& scene)
+      : document_(document), folder_(folder), pixels_left_(pixels), scene_(scene) {}
+
+  /// Index into scene.images, -1 where the picture cannot be had.
+  int image(int source) {
+    const auto [it, is_new] = loaded_.try_emplace(source, -1);
+    if (!is_new) return it->second;
+    const ImageSource& from = document_.images[static_cast<std::size_t>(source)];
+    try {
+      Image decoded = decode(from);
+      pixels_left_ -= static_cast<std::uint64_t>(decoded.width) * static_cast<std::uint64_t>(decoded.height);
+      scene_.images.push_back(std::move(decoded));
+      it->second = static_cast<int>(scene_.images.size() - 1);
+    } catch (const std::runtime_error& e) {
+      warn(scene_.warnings, element("images", static_cast<std::size_t>(source)),
+           std::string(e.what()) + "; shown white");
+    }
+    return it->second;
+  }
+
+ private:
+  Image decode(const ImageSource& from) {
+    if (!from.uri.empty()) return decode_image(folder_.read(from.uri), from.name, pixels_left_);
+    if (from.buffer_view >= 0) {
+      return decode_image(view_bytes(document_.model, from.buffer_view), from.name, pixels_left_);
+    }
+    throw LeftOut("has neither a URI nor a buffer view");
+  }
+
+  const Document& document_;
+  SceneFolder& folder_;
+  std::uint64_t pixels_left_;
+  Scene& scene_;
+  std::map<int, int> loaded_;
+};
+
+TextureWrap to_wrap(int mode) {
+  if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return TextureWrap::clamp_to_edge;
+  if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return TextureWrap::mirrored_repeat;
+  return TextureWrap::repeat;
+}
+
+Material to_material(const Document& document, std::size_t index, ImageReader& images, Scene& scene) {
+  const tinygltf::Material& source = document.model.materials[index];
+  const tinygltf::PbrMetallicRoughness& base = source.pbrMetallicRoughness;
+  Material out;
+  out.name = source.name;
+  for (std::size_t c = 0; c < 4 && c < base.baseColorFactor.size(); ++c) {
+    out.base_color[static_cast<int>(c)] = static_cast<float>(std::clamp(base.baseColorFactor[c], 0.0, 1.0));
+  }
+  if (source.alphaMode == "MASK") out.alpha_mode = AlphaMode::mask;
+  if (source.alphaMode == "BLEND") out.alpha_mode = AlphaMode::blend;
+  if (out.alpha_mode == AlphaMode::mask)
+    out.alpha_cutoff = static_cast<float>(std::max(source.alphaCutoff, 0.0));
+  out.double_sided = source.doubleSided;
+  if (base.baseColorTexture.index < 0) return out;
+  const auto t = static_cast<std::size_t>(base.baseColorTexture.index);
+  const tinygltf::Texture& texture = document.model.textures[t];
+  if (texture.source < 0) {
+    warn(scene.warnings, element("textures", t), "has no picture in PNG or JPEG; shown white");
+    return out;
+  }
+  out.base_color_image = images.image(texture.source);
+  if (texture.sampler >= 0) {
+    const tinygltf::Sampler& sampler = document.model.samplers[static_cast<std::size_t>(texture.sampler)];
+    out.wrap_u = to_wrap(sampler.wrapS);
+    out.wrap_v = to_wrap(sampler.wrapT);
+  }
+  return out;
+}
+
+}  // namespace
+
+void read_materials(const Document& document, SceneFolder& folder, const LoadLimits& limits, Scene& scene) {
+  ImageReader images(document, folder, limits.pixels, scene);
+  for (std::size_t m = 0; m < document.model.materials.size(); ++m) {
+    scene.materials.push_back(to_material(document, m, images, scene));
+  }
+  scene.materials.emplace_back();
+  scene.materials.back().name = "default";
+}
+
+}  // namespace gnomon::detail

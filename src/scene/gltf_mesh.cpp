@@ -1,0 +1,283 @@
+// Which triangles does a glTF primitive stand for? Read once into the scene and shared by all its instances.
+// Based on: Khronos Group, glTF 2.0 Specification (2021), section 3.7 "Geometry".
+#include "gltf_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "gltf_accessor.hpp"
+#include "gltf_skin.hpp"
+#include "refusal.hpp"
+#include "triangles.hpp"
+
+namespace gnomon::detail {
+
+namespace {
+
+constexpr int kFirstTriangleMode = TINYGLTF_MODE_TRIANGLES;
+constexpr std::uint64_t kMaxIndex = std::numeric_limits<std::uint32_t>::max();
+
+int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
+  const auto it = primitive.attributes.find(name);
+  return it == primitive.attributes.end() ? -1 : it->second;
+}
+
+template <class Vec>
+std::vector<Vec> to_vectors(const std::vector<float>& values) {
+  constexpr auto kSize = static_cast<std::size_t>(Vec::length());
+  std::vector<Vec> out(values.size() / kSize);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    for (int c = 0; c < Vec::length(); ++c) out[i][c] = values[i * kSize + static_cast<std::size_t>(c)];
+  }
+  return out;
+}
+
+bool is_finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void transform_texcoords(const TextureTransform& t, std::vector<glm::vec2>& texcoords) {
+  const double c = std::cos(t.rotation), s = std::sin(t.rotation);
+  for (glm::vec2& uv : texcoords) {
+    const double u = static_cast<double>(uv.x) * t.scale[0], v = static_cast<double>(uv.y) * t.scale[1];
+    uv = {static_cast<float>(c * u + s * v + t.offset[0]), static_cast<float>(c * v - s * u + t.offset[1])};
+  }
+}
+
+// Every triangle gets corners of its own, with its plane's normal: what glTF says a mesh without normals
+// looks like.
+void make_flat(Vertices& vertices, std::vector<std::uint32_t>& triangles) {
+  Vertices flat;
+  for (std::size_t i = 0; i < triangles.size(); i += 3) {
+    const auto& p = vertices.positions;
+    const glm::vec3 normal = face_normal(p[triangles[i]], p[triangles[i + 1]], p[triangles[i + 2]]);
+    for (std::size_t k = i; k < i + 3; ++k) {
+      flat.positions.push_back(p[triangles[k]]);
+      flat.normals.push_back(normal);
+      flat.texcoords.push_back(vertices.texcoords[triangles[k]]);
+    }
+  }
+  std::iota(triangles.begin(), triangles.end(), 0u);
+  vertices = std::move(flat);
+}
+
+}  // namespace
+
+MeshReader::MeshReader(const Document& document, const NodeTree& tree, const LoadLimits& limits, Scene& scene)
+    : document_(document),
+      tree_(tree),
+      limits_(limits),
+      scene_(scene),
+      vertices_left_(std::min(limits.vertices, kMaxIndex)),
+      corners_left_(std::min(limits.triangles, kMaxIndex / 3) * 3),
+      built_(document.model.meshes.size()) {}
+
+const std::vector<std::uint32_t>& MeshReader::primitives_of(int mesh) {
+  auto& slot = built_[static_cast<std::size_t>(mesh)];
+  if (!slot) {
+    slot.emplace();
+    const std::size_t count = document_.model.meshes[static_cast<std::size_t>(mesh)].primitives.size();
+    for (std::size_t p = 0; p < count; ++p) {
+      if (const auto built = build(mesh, p, nullptr)) slot->push_back(*built);
+    }
+  }
+  return *slot;
+}
+
+std::optional<std::vector<std::uint32_t>> MeshReader::skinned_primitives_of(int node) {
+  const tinygltf::Node& shown = document_.model.nodes[static_cast<std::size_t>(node)];
+  const auto skin = static_cast<std::size_t>(shown.skin), mesh = static_cast<std::size_t>(shown.mesh);
+  const std::size_t vertices = scene_.positions.size(), indices = scene_.indices.size();
+  const std::size_t primitives = scene_.primitives.size();
+  try {
+    const auto joints = joint_matrices(document_.model, document_.model.skins[skin], tree_);
+    std::vector<std::uint32_t> out;
+    for (std::size_t p = 0; p < document_.model.meshes[mesh].primitives.size(); ++p) {
+      if (const auto built = build(shown.mesh, p, &joints)) out.push_back(*built);
+    }
+    return out;
+  } catch (const LeftOut& e) {
+    warn(scene_.warnings, element("skins", skin),
+         std::string(e.what()) + "; its node's own transform is used");
+    scene_.positions.resize(vertices);
+    scene_.normals.resize(vertices);
+    scene_.texcoords.resize(vertices);
+    scene_.indices.resize(indices);
+    scene_.primitives.resize(primitives);
+    return std::nullopt;
+  }
+}
+
+std::optional<std::uint32_t> MeshReader::build(int mesh, std::size_t primitive,
+                                               const std::vector<glm::dmat4>* joints) {
+  const auto m = static_cast<std::size_t>(mesh);
+  const std::string where = element("meshes", m) + "." + element("primitives", primitive);
+  const tinygltf::Primitive& source = document_.model.meshes[m].primitives[primitive];
+  const char* why = nullptr;
+  if (source.mode < kFirstTriangleMode) why = "points and lines cast no shadow, left out";
+  if (attribute(source, "POSITION") < 0) why = "has no POSITION, left out";
+  if (document_.compressed[m][primitive]) why = "is compressed with Draco, left out";
+  if (why != nullptr) {
+    warn(scene_.warnings, where, why);
+    return std::nullopt;
+  }
+  if (joints != nullptr) return build_triangles(mesh, primitive, where, joints);
+  try {
+    return build_triangles(mesh, primitive, where, nullptr);
+  } catch (const LeftOut& e) {
+    warn(scene_.warnings, where, std::string(e.what()) + ", left out");
+    return std::nullopt;
+  }
+}
+
+std::uint32_t MeshReader::build_triangles(int mesh, std::size_t primitive, const std::string& where,
+                                          const std::vector<glm::dmat4>* joints) {
+  const tinygltf::Primitive& source =
+      document_.model.meshes[static_cast<std::size_t>(mesh)].primitives[primitive];
+  const Attributes attributes = attributes_of(source);
+  const auto known = joints == nullptr ? shared_.find(attributes) : shared_.end();
+  if (known != shared_.end()) {
+    return store(known->second, read_triangles(mesh, primitive, known->second.count, where), source.material);
+  }
+  Vertices vertices = read_vertices(attributes, where);
+  std::vector<std::uint32_t> triangles = read_triangles(mesh, primitive, vertices.positions.size(), where);
+  if (joints != nullptr) bend(document_.model, source, *joints, vertices, triangles);
+  bool shareable = joints == nullptr && !vertices.normals.empty();
+  if (vertices.normals.empty()) {
+    spend_vertices(triangles.size(), where);
+    make_flat(vertices, triangles);
+  } else if (const std::size_t repaired = repair_normals(vertices.positions, triangles, vertices.normals)) {
+    warn(scene_.warnings, where,
+         std::to_string(repaired) + " normals were zero or not finite, made from triangles");
+    shareable = false;
+  }
+  const Range range = append(vertices);
+  if (shareable) shared_[attributes] = range;
+  return store(range, triangles, source.material);
+}
+
+MeshReader::Attributes MeshReader::attributes_of(const tinygltf::Primitive& primitive) const {
+  int set = 0, transformer = -1;
+  if (primitive.material >= 0) {
+    const auto m = static_cast<std::size_t>(primitive.material);
+    set = document_.model.materials[m].pbrMetallicRoughness.baseColorTexture.texCoord;
+    if (const auto& transform = document_.transforms[m]) {
+      transformer = primitive.material;
+      if (transform->texcoord >= 0) set = transform->texcoord;
+    }
+  }
+  return {attribute(primitive, "POSITION"), attribute(primitive, "NORMAL"),
+          attribute(primitive, "TEXCOORD_" + std::to_string(set)), transformer};
+}
+
+Vertices MeshReader::read_vertices(const Attributes& attributes, const std::string& where) {
+  Vertices out;
+  out.positions = to_vectors<glm::vec3>(read_floats(document_.model, attributes[0], 3, vertices_left_));
+  spend_vertices(out.positions.size(), where);
+  for (std::size_t v = 0; v < out.positions.size(); ++v) {
+    if (!is_finite(out.positions[v]))
+      throw Refusal(where, "position " + std::to_string(v) + " is not finite");
+  }
+  const std::size_t count = out.positions.size();
+  out.normals = read_optional<glm::vec3>(attributes[1], count, "NORMAL", where);
+  out.texcoords = read_optional<glm::vec2>(attributes[2], count, "TEXCOORD", where);
+  out.texcoords.resize(count, glm::vec2(0.0f));
+  if (attributes[3] >= 0) {
+    transform_texcoords(*document_.transforms[static_cast<std::size_t>(attributes[3])], out.texcoords);
+  }
+  std::size_t broken = 0;
+  for (glm::vec2& uv : out.texcoords) {
+    if (std::isfinite(uv.x) && std::isfinite(uv.y)) continue;
+    uv = glm::vec2(0.0f);
+    ++broken;
+  }
+  if (broken > 0)
+    warn(scene_.warnings, where, std::to_string(broken) + " texture coordinates were not finite");
+  return out;
+}
+
+// What a picture can do without is dropped with a warning; only positions and indices can refuse a file by
+// content.
+template <class Vec>
+std::vector<Vec> MeshReader::read_optional(int accessor, std::size_t count, const char* name,
+                                           const std::string& where) {
+  if (accessor < 0) return {};
+  const std::size_t given = document_.model.accessors[static_cast<std::size_t>(accessor)].count;
+  if (given != count) {
+    warn(scene_.warnings, where,
+         std::string(name) + " has " + std::to_string(given) + " entries for " + std::to_string(count) +
+             " vertices, ignored");
+    return {};
+  }
+  try {
+    return to_vectors<Vec>(read_floats(document_.model, accessor, Vec::length(), count));
+  } catch (const LeftOut& e) {
+    warn(scene_.warnings, where, std::string(name) + " ignored: " + e.what());
+    return {};
+  }
+}
+
+std::vector<std::uint32_t> MeshReader::read_triangles(int mesh, std::size_t primitive,
+                                                      std::size_t vertex_count, const std::string& where) {
+  const auto m = static_cast<std::size_t>(mesh);
+  const tinygltf::Primitive& source = document_.model.meshes[m].primitives[primitive];
+  std::vector<std::uint32_t> corners;
+  if (const int indices = document_.indices[m][primitive]; indices >= 0) {
+    corners = read_integers(document_.model, indices, 1, corners_left_);
+  } else {
+    corners.resize(vertex_count);
+    std::iota(corners.begin(), corners.end(), 0u);
+  }
+  for (const std::uint32_t corner : corners) {
+    if (corner >= vertex_count) {
+      throw Refusal(where, "index " + std::to_string(corner) + " is out of range, there are " +
+                               std::to_string(vertex_count) + " vertices");
+    }
+  }
+  const std::size_t given = corners.size();
+  std::vector<std::uint32_t> triangles = triangle_list(source.mode, std::move(corners));
+  const std::uint64_t spent = std::max(given, triangles.size());
+  if (spent > corners_left_) {
+    throw Refusal(where, "takes the scene above " + std::to_string(limits_.triangles) + " triangles");
+  }
+  corners_left_ -= spent;
+  if (triangles.empty()) throw LeftOut("has no triangle");
+  if (source.mode == kFirstTriangleMode && given % 3 != 0) {
+    warn(scene_.warnings, where, "its last triangle is not whole, left out");
+  }
+  return triangles;
+}
+
+MeshReader::Range MeshReader::append(const Vertices& vertices) {
+  const Range range{static_cast<std::uint32_t>(scene_.positions.size()),
+                    static_cast<std::uint32_t>(vertices.positions.size())};
+  scene_.positions.insert(scene_.positions.end(), vertices.positions.begin(), vertices.positions.end());
+  scene_.normals.insert(scene_.normals.end(), vertices.normals.begin(), vertices.normals.end());
+  scene_.texcoords.insert(scene_.texcoords.end(), vertices.texcoords.begin(), vertices.texcoords.end());
+  return range;
+}
+
+std::uint32_t MeshReader::store(Range range, const std::vector<std::uint32_t>& triangles, int material) {
+  Primitive out;
+  out.first_index = static_cast<std::uint32_t>(scene_.indices.size());
+  out.index_count = static_cast<std::uint32_t>(triangles.size());
+  // The default material stands behind the file's own.
+  out.material = material >= 0 ? material : static_cast<int>(document_.model.materials.size());
+  for (const std::uint32_t corner : triangles) {
+    scene_.indices.push_back(range.first + corner);
+    out.bounds.extend(glm::dvec3(scene_.positions[range.first + corner]));
+  }
+  scene_.primitives.push_back(out);
+  return static_cast<std::uint32_t>(scene_.primitives.size() - 1);
+}
+
+void MeshReader::spend_vertices(std::uint64_t count, const std::string& where) {
+  if (count > vertices_left_) {
+    throw Refusal(where, "takes the scene above " + std::to_string(limits_.vertices) + " vertices");
+  }
+  vertices_left_ -= count;
+}
+
+}  // namespace gnomon::detail

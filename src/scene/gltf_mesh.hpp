@@ -1,0 +1,61 @@
+// Which triangles does a glTF primitive stand for? Read once into the scene and shared by all its instances.
+#pragma once
+
+#include <array>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gltf_document.hpp"
+#include "gltf_nodes.hpp"
+
+namespace gnomon::detail {
+
+/// Vertices of one primitive while it is read. Empty `normals`: the file has none.
+struct Vertices {
+  std::vector<glm::vec3> positions, normals;
+  std::vector<glm::vec2> texcoords;
+};
+
+class MeshReader {
+ public:
+  MeshReader(const Document& document, const NodeTree& tree, const LoadLimits& limits, Scene& scene);
+  /// The scene's primitives for this mesh; those left out are missing from it. Throws Refusal.
+  [[nodiscard]] const std::vector<std::uint32_t>& primitives_of(int mesh);
+  /// A node's mesh bent by its skin, in world space. Nothing where the skin is broken, which is warned of.
+  [[nodiscard]] std::optional<std::vector<std::uint32_t>> skinned_primitives_of(int node);
+
+ private:
+  using Attributes =
+      std::array<int, 4>;  // accessors of position, normal, texcoord; material that transforms them
+  struct Range {
+    std::uint32_t first, count;
+  };
+
+  std::optional<std::uint32_t> build(int mesh, std::size_t primitive, const std::vector<glm::dmat4>* joints);
+  std::uint32_t build_triangles(int mesh, std::size_t primitive, const std::string& where,
+                                const std::vector<glm::dmat4>* joints);
+  Attributes attributes_of(const tinygltf::Primitive& primitive) const;
+  Vertices read_vertices(const Attributes& attributes, const std::string& where);
+  template <class Vec>
+  std::vector<Vec> read_optional(int accessor, std::size_t count, const char* name, const std::string& where);
+  std::vector<std::uint32_t> read_triangles(int mesh, std::size_t primitive, std::size_t vertex_count,
+                                            const std::string& where);
+  Range append(const Vertices& vertices);
+  std::uint32_t store(Range range, const std::vector<std::uint32_t>& triangles, int material);
+  void spend_vertices(std::uint64_t count, const std::string& where);
+
+  const Document& document_;
+  const NodeTree& tree_;
+  const LoadLimits& limits_;
+  Scene& scene_;
+  std::uint64_t vertices_left_, corners_left_;
+  std::vector<std::optional<std::vector<std::uint32_t>>> built_;  // per mesh
+  std::map<Attributes, Range> shared_;                            // vertex data that several primitives use
+};
+
+}  // namespace gnomon::detail

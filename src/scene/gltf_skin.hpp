@@ -1,0 +1,20 @@
+// Where are a skinned mesh's vertices in its bind pose?
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <vector>
+
+#include "gltf_mesh.hpp"
+
+namespace gnomon::detail {
+
+/// World from mesh for each joint of a skin. Throws LeftOut where the skin is broken.
+[[nodiscard]] std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const tinygltf::Skin& skin,
+                                                     const NodeTree& tree);
+
+/// Moves `vertices` to where the joints carry them, and turns `triangles` round where that mirrors them.
+/// Throws LeftOut where weights or joints are broken.
+void bend(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+          const std::vector<glm::dmat4>& joints, Vertices& vertices, std::vector<std::uint32_t>& triangles);
+
+}  // namespace gnomon::detail

@@ -1,0 +1,188 @@
+// Pictures to and from files, through OpenImageIO; no other file includes it.
+#include "gnomon/scene/image.hpp"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <optional>
+
+#include "gnomon/scene/load.hpp"
+#include "refusal.hpp"
+
+namespace gnomon {
+
+namespace {
+
+constexpr std::uint64_t kMaxSide = 1u << 16;  // pixels; wider is no texture and overflows readers' row sizes
+
+struct Header {
+  const char* format;
+  std::uint64_t width, height;
+};
+
+using Span = std::span<const std::uint8_t>;
+
+std::uint64_t big_endian(Span bytes, std::size_t at, std::size_t size) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < size; ++i) value = value << 8 | bytes[at + i];
+  return value;
+}
+
+std::optional<Header> png_header(Span bytes) {
+  constexpr std::uint8_t kMagic[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  constexpr std::size_t kWidthAt = 16, kHeightAt = 20, kEnd = 24;
+  if (bytes.size() < kEnd || !std::equal(std::begin(kMagic), std::end(kMagic), bytes.begin()))
+    return std::nullopt;
+  return Header{"png", big_endian(bytes, kWidthAt, 4), big_endian(bytes, kHeightAt, 4)};
+}
+
+// Walks the segments up to the frame header (SOF), which says the size. ITU-T T.81 (1992), annex B.
+std::optional<Header> jpeg_header(Span bytes) {
+  if (bytes.size() < 4 || bytes[0] != 0xff || bytes[1] != 0xd8) return std::nullopt;
+  std::size_t at = 2;
+  while (at + 9 <= bytes.size()) {
+    if (bytes[at] != 0xff) return std::nullopt;
+    const std::uint8_t marker = bytes[at + 1];
+    if (marker == 0xff) {  // fill byte
+      ++at;
+      continue;
+    }
+    const bool is_frame =
+        marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    if (is_frame) return Header{"jpeg", big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
+    at += 2 + static_cast<std::size_t>(big_endian(bytes, at + 2, 2));
+  }
+  return std::nullopt;
+}
+
+Header checked_header(Span bytes, const std::string& name, std::uint64_t max_pixels) {
+  auto header = png_header(bytes);
+  if (!header) header = jpeg_header(bytes);
+  if (!header) throw SceneError(detail::one_line(name + ": picture: is neither PNG nor JPEG"));
+  const bool sane =
+      header->width > 0 && header->height > 0 && header->width <= kMaxSide && header->height <= kMaxSide;
+  if (!sane || header->width * header->height > max_pixels) {
+    throw SceneError(detail::one_line(name + ": picture: " + std::to_string(header->width) + " x " +
+                                      std::to_string(header->height) +
+                                      " pixels are not within the limit of " + std::to_string(max_pixels)));
+  }
+  return *header;
+}
+
+// Gray, gray with alpha, colour, colour with alpha: four channels of each.
+void expand(const std::vector<std::uint8_t>& raw, std::size_t channels, std::vector<std::uint8_t>& rgba) {
+  for (std::size_t i = 0; i < rgba.size() / 4; ++i) {
+    const std::uint8_t* from = &raw[i * channels];
+    std::uint8_t* to = &rgba[i * 4];
+    const bool gray = channels < 3;
+    to[0] = from[0];
+    to[1] = gray ? from[0] : from[1];
+    to[2] = gray ? from[0] : from[2];
+    to[3] = channels % 2 == 0 ? from[channels - 1] : std::uint8_t{255};
+  }
+}
+
+void remove_quietly(const std::filesystem::path& file) {
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+}
+
+// Writes beside the target and renames, so that a reader never sees half a file.
+void write_file(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels,
+                const std::filesystem::path& file) {
+  std::filesystem::path temporary = file;
+  temporary += ".";
+  temporary += std::to_string(::getpid());
+  auto out = OIIO::ImageOutput::create(format);
+  const bool opened = out && out->open(temporary.string(), spec);
+  const bool written = opened && out->write_image(type, pixels) && out->close();
+  std::error_code error;
+  if (written) std::filesystem::rename(temporary, file, error);
+  if (!written || error) {
+    const std::string why = error ? error.message() : out ? out->geterror() : OIIO::geterror();
+    remove_quietly(temporary);
+    throw SceneError(detail::one_line(file.string() + ": picture: cannot be written: " + why));
+  }
+}
+
+OIIO::ImageSpec rgb_spec(const Image& image, int channels, const std::string& where) {
+  const auto pixels = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  if (image.width <= 0 || image.height <= 0 || image.rgba.size() != pixels * 4) {
+    throw SceneError(detail::one_line(where + ": picture: has no pixels, or not as many as its size says"));
+  }
+  OIIO::ImageSpec spec(image.width, image.height, channels, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  return spec;
+}
+
+}  // namespace
+
+Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  const Header header = checked_header(bytes, name, max_pixels);
+  const auto fail = [&](const std::string& why) {
+    throw SceneError(detail::one_line(name + ": picture: damaged " + header.format + ": " + why));
+  };
+  // The reader is asked for by name: OpenImageIO would otherwise try every format it knows on bytes it does
+  // not.
+  auto in = OIIO::ImageInput::create(header.format);
+  if (!in) fail(OIIO::geterror());
+  OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
+  OIIO::ImageSpec config, spec;
+  config.attribute("oiio:UnassociatedAlpha",
+                   1);  // alpha is coverage here; colour must not be multiplied by it
+  if (!in->set_ioproxy(&memory) || !in->open(name, spec, config)) fail(in->geterror());
+  const bool as_promised = spec.width == static_cast<int>(header.width) &&
+                           spec.height == static_cast<int>(header.height) && spec.nchannels >= 1 &&
+                           spec.nchannels <= 4;
+  if (!as_promised) fail("its size is not what its header says");
+  Image out;
+  out.name = name;
+  out.width = spec.width;
+  out.height = spec.height;
+  const std::size_t pixels = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height);
+  std::vector<std::uint8_t> raw(pixels * static_cast<std::size_t>(spec.nchannels));
+  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, raw.data())) fail(in->geterror());
+  in->close();
+  out.rgba.resize(pixels * 4);
+  expand(raw, static_cast<std::size_t>(spec.nchannels), out.rgba);
+  return out;
+}
+
+std::vector<std::uint8_t> encode_png(const Image& image) {
+  const OIIO::ImageSpec spec = rgb_spec(image, 4, image.name);
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  auto out = OIIO::ImageOutput::create("png");
+  const bool done = out && out->set_ioproxy(&memory) && out->open("memory.png", spec) &&
+                    out->write_image(OIIO::TypeDesc::UINT8, image.rgba.data()) && out->close();
+  if (!done) throw SceneError(detail::one_line(image.name + ": picture: cannot be encoded"));
+  return bytes;
+}
+
+void write_png(const Image& image, const std::filesystem::path& file) {
+  const OIIO::ImageSpec spec = rgb_spec(image, 3, file.string());
+  std::vector<std::uint8_t> rgb(image.rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) rgb[i * 3 + c] = image.rgba[i * 4 + c];
+  }
+  write_file("png", spec, OIIO::TypeDesc::UINT8, rgb.data(), file);
+}
+
+void write_exr(const FloatImage& image, const std::filesystem::path& file) {
+  const auto values = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height) *
+                      static_cast<std::uint64_t>(image.channels);
+  const bool whole = image.width > 0 && image.height > 0 && image.channels > 0 &&
+                     image.values.size() == values &&
+                     image.channel_names.size() == static_cast<std::size_t>(image.channels);
+  if (!whole) {
+    throw SceneError(
+        detail::one_line(file.string() + ": picture: values or channel names do not match its size"));
+  }
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = image.channel_names;
+  write_file("openexr", spec, OIIO::TypeDesc::FLOAT, image.values.data(), file);
+}
+
+}  // namespace gnomon

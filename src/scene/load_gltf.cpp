@@ -1,0 +1,133 @@
+// From a glTF file to a scene: which instances are drawn, and where they stand.
+#include <cmath>
+#include <exception>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
+#include "gltf_document.hpp"
+#include "gltf_material.hpp"
+#include "gltf_mesh.hpp"
+#include "gltf_nodes.hpp"
+#include "gnomon/scene/load.hpp"
+#include "load_memory.hpp"
+#include "refusal.hpp"
+
+namespace gnomon {
+
+namespace {
+
+using detail::element;
+using detail::Refusal;
+
+Box transformed_bounds(const Scene& scene, const Primitive& primitive, const glm::dmat4& world_from_object) {
+  Box box;
+  const std::size_t end = static_cast<std::size_t>(primitive.first_index) + primitive.index_count;
+  for (std::size_t i = primitive.first_index; i < end; ++i) {
+    box.extend(
+        glm::dvec3(world_from_object * glm::dvec4(glm::dvec3(scene.positions[scene.indices[i]]), 1.0)));
+  }
+  return box;
+}
+
+bool is_finite(const Box& box) {
+  bool finite = true;
+  for (int c = 0; c < 3; ++c) finite = finite && std::isfinite(box.min[c]) && std::isfinite(box.max[c]);
+  return finite;
+}
+
+class Placer {
+ public:
+  Placer(const LoadLimits& limits, Scene& scene) : limits_(limits), scene_(scene) {}
+
+  void place(std::uint32_t primitive, const glm::dmat4& world_from_object, std::size_t node) {
+    triangles_ += scene_.primitives[primitive].index_count / 3;
+    if (triangles_ > limits_.triangles) {
+      throw Refusal(element("nodes", node),
+                    "takes the scene above " + std::to_string(limits_.triangles) + " triangles");
+    }
+    if (scene_.instances.size() >= limits_.nodes) {
+      throw Refusal(element("nodes", node),
+                    "takes the scene above " + std::to_string(limits_.nodes) + " instances");
+    }
+    Instance instance;
+    instance.world_from_object = world_from_object;
+    instance.primitive = primitive;
+    instance.mirrored = glm::determinant(glm::dmat3(world_from_object)) < 0.0;
+    instance.bounds_world = transformed_bounds(scene_, scene_.primitives[primitive], world_from_object);
+    if (!is_finite(instance.bounds_world))
+      throw Refusal(element("nodes", node), "its vertices are not finite");
+    scene_.bounds_world.extend(instance.bounds_world);
+    scene_.instances.push_back(instance);
+  }
+
+ private:
+  const LoadLimits& limits_;
+  Scene& scene_;
+  std::uint64_t triangles_ = 0;
+};
+
+void place_nodes(const detail::Document& document, const detail::NodeTree& tree, const LoadLimits& limits,
+                 Scene& scene) {
+  detail::MeshReader meshes(document, tree, limits, scene);
+  Placer placer(limits, scene);
+  for (const int n : tree.shown) {
+    const auto index = static_cast<std::size_t>(n);
+    const tinygltf::Node& node = document.model.nodes[index];
+    if (node.mesh < 0) continue;
+    if (node.skin >= 0) {
+      if (const auto bent = meshes.skinned_primitives_of(n)) {
+        for (const std::uint32_t primitive : *bent) placer.place(primitive, glm::dmat4(1.0), index);
+        continue;
+      }
+    }
+    for (const std::uint32_t primitive : meshes.primitives_of(node.mesh)) {
+      placer.place(primitive, tree.world_from_node[index], index);
+    }
+  }
+}
+
+}  // namespace
+
+namespace detail {
+
+Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& scene_name,
+                      const std::string& path_in_errors, const std::filesystem::path& folder,
+                      const LoadLimits& limits) {
+  try {
+    Scene scene;
+    scene.name = scene_name;
+    SceneFolder files(folder, limits.file_bytes, limits.total_bytes);
+    const Document document = open_document(bytes, files, limits, scene.warnings);
+    const NodeTree tree = build_node_tree(document.model, limits, scene.warnings);
+    place_nodes(document, tree, limits, scene);
+    read_materials(document, files, limits, scene);
+    return scene;
+  } catch (const std::bad_alloc&) {
+    throw SceneError(one_line(path_in_errors + ": file: needs more memory than there is"));
+  } catch (const std::exception& e) {
+    throw SceneError(one_line(path_in_errors + ": " + e.what()));
+  }
+}
+
+}  // namespace detail
+
+Scene load_gltf(const std::filesystem::path& path, const LoadLimits& limits) {
+  detail::Bytes bytes;
+  try {
+    bytes = detail::read_regular_file(path, limits.file_bytes);
+  } catch (const std::exception& e) {
+    throw SceneError(detail::one_line(path.string() + ": file: " + e.what()));
+  }
+  const std::filesystem::path parent = path.parent_path();
+  return detail::load_gltf_bytes(bytes, path.stem().string(), path.string(), parent.empty() ? "." : parent,
+                                 limits);
+}
+
+Scene load_scene(const std::string& spec, const LoadLimits& limits) {
+  constexpr std::string_view kBuiltin = "builtin:";
+  if (spec.starts_with(kBuiltin)) return load_builtin(std::string_view(spec).substr(kBuiltin.size()));
+  return load_gltf(spec, limits);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,35 @@
+// How is a bad file named? One line: which element, and what is wrong with it.
+#include "refusal.hpp"
+
+#include <algorithm>
+
+namespace gnomon::detail {
+
+namespace {
+constexpr std::size_t kLineLength = 400;    // characters; long enough for a path and a sentence
+constexpr std::size_t kWarningCount = 200;  // more are not read by anyone
+}  // namespace
+
+std::string one_line(std::string_view text) {
+  std::string line(text.substr(0, kLineLength));
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  const auto last = line.find_last_not_of(' ');
+  line.resize(last == std::string::npos ? 0 : last + 1);
+  if (text.size() > kLineLength) line += "...";
+  return line;
+}
+
+std::string element(std::string_view kind, std::size_t index) {
+  return std::string(kind) + "[" + std::to_string(index) + "]";
+}
+
+void warn(std::vector<std::string>& warnings, const std::string& element, const std::string& what) {
+  if (warnings.size() < kWarningCount) {
+    warnings.push_back(one_line(element + ": " + what));
+  } else if (warnings.size() == kWarningCount) {
+    warnings.push_back("more warnings were left out");
+  }
+}
+
+}  // namespace gnomon::detail
