@@ -1,0 +1,119 @@
+// A camera flight as a JSON file: written and read back to the same numbers.
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "files.hpp"
+#include "glb.hpp"
+#include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/load.hpp"
+#include "refusal.hpp"
+
+namespace gnomon {
+
+namespace {
+
+using detail::element;
+using detail::Refusal;
+using nlohmann::json;
+
+constexpr std::uint64_t kFileBytes = 16u << 20;  // a key takes about 100 bytes; no flight has 100 thousand
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+void refuse_unknown(const json& object, const std::string& where, std::initializer_list<const char*> known) {
+  if (!object.is_object()) throw Refusal(where, "must be an object");
+  for (const auto& [key, value] : object.items()) {
+    bool found = false;
+    for (const char* name : known) found = found || key == name;
+    if (!found) throw Refusal(where, "unknown key '" + detail::one_line(key) + "'");
+  }
+}
+
+double number(const json& object, const char* key, double otherwise) {
+  const auto it = object.find(key);
+  if (it == object.end()) return otherwise;
+  if (!it->is_number() || !std::isfinite(it->get<double>())) throw Refusal(key, "must be a finite number");
+  return it->get<double>();
+}
+
+glm::dvec3 point(const json& object, const char* key, const std::string& where) {
+  const auto it = object.find(key);
+  if (it == object.end()) throw Refusal(where, std::string("has no ") + key);
+  if (!it->is_array() || it->size() != 3) throw Refusal(where + "." + key, "must be three numbers");
+  glm::dvec3 out(0.0);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const json& value = (*it)[c];
+    if (!value.is_number() || !std::isfinite(value.get<double>())) {
+      throw Refusal(where + "." + key, "must be three finite numbers");
+    }
+    out[static_cast<int>(c)] = value.get<double>();
+  }
+  return out;
+}
+
+CameraPath parse(const json& source) {
+  refuse_unknown(source, "path", {"keys", "closed", "fov_y_deg", "near", "far"});
+  CameraPath path;
+  const auto keys = source.find("keys");
+  if (keys == source.end() || !keys->is_array() || keys->empty())
+    throw Refusal("keys", "must be a list of keys");
+  for (std::size_t i = 0; i < keys->size(); ++i) {
+    const std::string where = element("keys", i);
+    refuse_unknown((*keys)[i], where, {"position", "target"});
+    const CameraKey key{point((*keys)[i], "position", where), point((*keys)[i], "target", where)};
+    if (key.position == key.target) throw Refusal(where, "target is the position");
+    path.keys.push_back(key);
+  }
+  if (const auto closed = source.find("closed"); closed != source.end()) {
+    if (!closed->is_boolean()) throw Refusal("closed", "must be true or false");
+    path.closed = closed->get<bool>();
+  }
+  const double fov_deg = number(source, "fov_y_deg", path.fov_y_radians / kDegree);
+  if (!(fov_deg > 0.0 && fov_deg < 180.0)) throw Refusal("fov_y_deg", "must lie between 0 and 180");
+  path.fov_y_radians = fov_deg * kDegree;
+  path.near_depth = number(source, "near", path.near_depth);
+  path.far_depth = number(source, "far", path.far_depth);
+  if (!(path.near_depth > 0.0)) throw Refusal("near", "must be above 0");
+  if (!(path.far_depth > path.near_depth)) throw Refusal("far", "must be above near");
+  return path;
+}
+
+json to_json(const glm::dvec3& v) {
+  return json::array({v.x, v.y, v.z});
+}
+
+}  // namespace
+
+CameraPath load_camera_path(const std::filesystem::path& file) {
+  try {
+    const detail::Bytes bytes = detail::read_regular_file(file, kFileBytes);
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    detail::check_json_size(text);
+    return parse(json::parse(text));
+  } catch (const Refusal& e) {
+    throw SceneError(detail::one_line(file.string() + ": " + e.what()));
+  } catch (const std::exception& e) {
+    throw SceneError(detail::one_line(file.string() + ": file: " + e.what()));
+  }
+}
+
+void save_camera_path(const CameraPath& path, const std::filesystem::path& file) {
+  json keys = json::array();
+  for (const CameraKey& key : path.keys) {
+    keys.push_back({{"position", to_json(key.position)}, {"target", to_json(key.target)}});
+  }
+  const json out = {{"keys", keys},
+                    {"closed", path.closed},
+                    {"fov_y_deg", path.fov_y_radians / kDegree},
+                    {"near", path.near_depth},
+                    {"far", path.far_depth}};
+  std::ofstream stream(file, std::ios::binary);
+  stream << out.dump(1) << '\n';
+  stream.close();
+  if (!stream) throw SceneError(detail::one_line(file.string() + ": file: cannot be written"));
+}
+
+}  // namespace gnomon
