@@ -1,0 +1,72 @@
+// `gnomon scenes`: which scenes come with the program, and how to get one as a file.
+#include "scenes.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
+
+#include "gnomon/scene/load.hpp"
+#include "output.hpp"
+
+namespace gnomon::tool {
+
+namespace {
+
+std::string table_row(const BuiltinScene& entry, const Scene& scene) {
+  const glm::dvec3 size = scene.bounds_world.max - scene.bounds_world.min;
+  char numbers[160];
+  std::snprintf(numbers, sizeof numbers, "%-8.*s %9llu triangles %6zu instances %7.1f x %6.1f x %7.1f  ",
+                static_cast<int>(entry.name.size()), entry.name.data(),
+                static_cast<unsigned long long>(scene.triangle_count()), scene.instances.size(), size.x,
+                size.y, size.z);
+  return numbers + std::string(entry.summary);
+}
+
+nlohmann::json to_json(const BuiltinScene& entry, const Scene& scene) {
+  const Box& box = scene.bounds_world;
+  return {{"name", std::string(entry.name)},          {"summary", std::string(entry.summary)},
+          {"triangles", scene.triangle_count()},      {"instances", scene.instances.size()},
+          {"materials", scene.materials.size()},      {"images", scene.images.size()},
+          {"min", {box.min.x, box.min.y, box.min.z}}, {"max", {box.max.x, box.max.y, box.max.z}}};
+}
+
+}  // namespace
+
+int list_scenes(bool json) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const BuiltinScene& entry : builtin_scenes()) {
+    const Scene scene = load_builtin(entry.name);
+    if (json) {
+      list.push_back(to_json(entry, scene));
+    } else {
+      print_line(table_row(entry, scene));
+    }
+  }
+  if (json) print_line(nlohmann::json{{"scenes", list}}.dump());
+  return 0;
+}
+
+int write_scene(const std::string& name, const std::filesystem::path& out) {
+  const std::string glb = build_glb(name);
+  std::filesystem::path temporary = out;
+  temporary += ".";
+  temporary += std::to_string(::getpid());
+  std::ofstream stream(temporary, std::ios::binary);
+  stream.write(glb.data(), static_cast<std::streamsize>(glb.size()));
+  stream.close();
+  std::error_code error;
+  if (stream) std::filesystem::rename(temporary, out, error);
+  if (!stream || error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw std::runtime_error(out.string() + ": cannot be written" +
+                             (error ? ": " + error.message() : std::string()));
+  }
+  return 0;
+}
+
+}  // namespace gnomon::tool
