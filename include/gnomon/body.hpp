@@ -12,8 +12,8 @@
 
 namespace gnomon {
 
-/// A frustum slice has 6 faces and a box 6; a depth range adds 2. The rest is room for a caller's own planes, up to the
-/// 60 vertices that still fit one machine word of flags.
+/// A frustum slice has 6 faces and a box 6; a depth range adds 2. The rest is room for a caller's own planes,
+/// up to the 60 vertices that still fit one machine word of flags.
 inline constexpr int kMaxFaces = 32;
 /// A simple polytope with F faces has 2F - 4 vertices (Euler's formula with three faces at each vertex).
 inline constexpr int kMaxVertices = 2 * kMaxFaces - 4;

@@ -16,10 +16,18 @@ namespace gnomon {
 /// What a parametrization is judged by. All are to be made small.
 enum class Objective : std::uint8_t {
   storage,  ///< max m_s times max m_t: texels needed per pixel for m <= 1 along both axes everywhere
-  max,      ///< the larger of max m_s and max m_t: the worst texel
+  max,      ///< the worst texel
+  p95,      ///< the error that 95 % of what is seen stay below: pixels evenly, depths by their logarithm
 };
 [[nodiscard]] std::string_view to_string(Objective objective) noexcept;
 [[nodiscard]] bool objective_from_name(std::string_view name, Objective& objective) noexcept;
+
+/// A perspective camera in the light frame: axes, edges of the image and size of a pixel per unit of depth.
+struct ViewInLight {
+  glm::dvec3 right, up, forward;
+  double image_left, image_right, image_bottom, image_top;
+  double pixel_x, pixel_y;
+};
 
 /// The body as a warp sees it. Light frame: x, y span the plane across the light, y along the view
 /// direction's projection (away from the viewer), z towards the light; the origin is the camera position.
@@ -29,18 +37,26 @@ struct WarpInput {
     double depth;    ///< view depth, world units; 1 for an orthographic camera
   };
   std::span<const Point> body;  ///< vertices of the visible receivers' body, at least one
-  double y_min, y_max;          ///< of the body, along the warp axis
-  double sin_gamma, cos_gamma;  ///< angle between view and light direction, from their cross and dot product
+  double y_min, y_max;          ///< of the body, along the view direction's projection
+  double sin_gamma,
+      cos_gamma;  ///< of the angle between view and light direction, from their cross and dot product
   double depth_begin, depth_end;  ///< view depths of the slice, after near_hint
   double tan_half_fov;            ///< effective half opening in the plane of view and light
   bool orthographic;              ///< then there is no perspective to undo
   Objective objective;
+  const Polytope* polytope;  ///< the same body with its faces and edges, in the light frame
+  ViewInLight view;
 };
 
-/// The answer: w = 1 + kappa * (y - y_min), then a rectangle round what that gives. kappa is in 1 / world
-/// units, >= 0; 0 is the orthographic map itself.
+/// The answer: a projective map of the light plane. With u the distance along `axis` from the body's near end
+/// and s the coordinate across it, w = 1 + kappa u, and the point lands at ((s - centre) / w, u (1 + kappa
+/// length) / w), turned by `turn`; a rectangle round the body's image becomes the map. Every perspective of
+/// parallel light rays is of this form.
 struct WarpChoice {
-  double kappa = 0.0;
+  double kappa = 0.0;         ///< 1 / world units, >= 0; 0 is the orthographic map itself
+  glm::dvec2 axis{0.0, 1.0};  ///< unit, where texels grow to, in the light frame's x and y
+  double centre = 0.0;        ///< of the projection, across the axis, world units
+  glm::dvec2 turn{1.0, 0.0};  ///< cosine and sine of the map's rotation after the projection
 };
 
 /// One entry of the registry warps.def.
@@ -66,7 +82,7 @@ namespace warps {
 
 /// Bounds of the perspective error over a body under w = 1 + kappa (y - y_min): exact at vertices, because
 /// each weight is linear-fractional or convex there (Lloyd's m with the simplified weights, Scherzer et al.
-/// 2011, section 3).
+/// 2011, section 3). For warps along y only; fast.
 struct WarpError {
   double m_s, m_t;  ///< relative: multiply by pixels per unit slope over texels for the error itself
   [[nodiscard]] double value(Objective objective) const noexcept {

@@ -46,8 +46,8 @@ struct CrossingEdge {
   std::uint8_t vertex, slot;
 };
 
-/// Puts a vertex on every crossing edge, joins them along the faces they lie on into a new face, and closes the gaps
-/// that the lost vertices leave.
+/// Puts a vertex on every crossing edge, joins them along the faces they lie on into a new face, and closes
+/// the gaps that the lost vertices leave.
 void cut(Polytope& body, const Plane& plane, const double* distance, VertexSet kept,
          std::span<const CrossingEdge> crossing, FaceCuts* cuts) noexcept {
   const auto cap = static_cast<std::uint8_t>(body.face_count);

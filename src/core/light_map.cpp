@@ -22,46 +22,63 @@ void widen(double& low, double& high, double least) noexcept {
 
 }  // namespace
 
-LightRectangle rectangle_round(std::span<const WarpInput::Point> body, double kappa) noexcept {
-  LightRectangle r{0.0, 0.0, body.front().y, body.front().y};
+PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& choice) noexcept {
+  PlaneMap map{};
+  map.choice = choice;
+  const glm::dvec2 axis = choice.axis;
+  const auto along = [&](const WarpInput::Point& p) { return p.x * axis.x + p.y * axis.y; };
+  double u_max = along(body.front());
+  map.u_min = u_max;
+  for (const WarpInput::Point& p : body) {
+    map.u_min = min_of(map.u_min, along(p));
+    u_max = max_of(u_max, along(p));
+  }
+  map.length = u_max - map.u_min;
+  map.stretch = 1.0 + choice.kappa * map.length;
+  bool first = true;
+  for (const WarpInput::Point& p : body) {
+    const double u = along(p) - map.u_min, s = p.x * axis.y - p.y * axis.x - choice.centre;
+    const double inverse = 1.0 / (1.0 + choice.kappa * u);
+    const double x = s * inverse, y = u * map.stretch * inverse;
+    const double a = choice.turn.x * x + choice.turn.y * y, b = choice.turn.x * y - choice.turn.y * x;
+    map.a_min = first ? a : min_of(map.a_min, a);
+    map.a_max = first ? a : max_of(map.a_max, a);
+    map.b_min = first ? b : min_of(map.b_min, b);
+    map.b_max = first ? b : max_of(map.b_max, b);
+    first = false;
+  }
   double z_low = body.front().z, z_high = z_low, farthest = 0.0;
   for (const WarpInput::Point& p : body) {
-    r.y_min = min_of(r.y_min, p.y);
-    r.y_max = max_of(r.y_max, p.y);
     z_low = min_of(z_low, p.z);
     z_high = max_of(z_high, p.z);
     farthest = max_of(farthest, p.depth);
   }
-  bool first = true;
-  for (const WarpInput::Point& p : body) {
-    const double x = p.x / (1.0 + kappa * (p.y - r.y_min));
-    r.left = first ? x : min_of(r.left, x);
-    r.right = first ? x : max_of(r.right, x);
-    first = false;
-  }
-  const double extent = max_of(max_of(r.right - r.left, r.y_max - r.y_min), z_high - z_low);
+  const double extent = max_of(max_of(map.a_max - map.a_min, map.b_max - map.b_min), z_high - z_low);
   const double least = extent > 0.0 ? kFlattest * extent : kPointSize * farthest;
-  widen(r.left, r.right, least);
-  widen(r.y_min, r.y_max, least);
-  return r;
+  widen(map.a_min, map.a_max, least);
+  widen(map.b_min, map.b_max, least);
+  return map;
 }
 
-glm::dmat4 clip_from_light(const LightRectangle& r, double kappa, const LightDepths& depths, double rim_x,
-                           double rim_y) noexcept {
-  const double length = r.y_max - r.y_min;
-  const double fill_x = 1.0 - 2.0 * rim_x, fill_y = 1.0 - 2.0 * rim_y;
-  const double scale_x = 2.0 * fill_x / (r.right - r.left);
-  const double middle_x = 0.5 * (r.left + r.right);
-  const double scale_y = 2.0 / length + kappa;
-  const double w0 = 1.0 - kappa * r.y_min;
+glm::dmat4 clip_from_light(const PlaneMap& map, const LightDepths& depths, double rim) noexcept {
+  // Rows over (x, y, z, 1) of the light frame. Before the division by w: the image's x is s - centre, its y u
+  // * stretch.
+  const glm::dvec2 axis = map.choice.axis, turn = map.choice.turn;
+  const double kappa = map.choice.kappa;
+  const glm::dvec3 across{axis.y, -axis.x, -map.choice.centre};  // over (x, y, 1)
+  const glm::dvec3 along{axis.x * map.stretch, axis.y * map.stretch, -map.u_min * map.stretch};
+  const glm::dvec3 w{kappa * axis.x, kappa * axis.y, 1.0 - kappa * map.u_min};
+  const double fill = 1.0 - 2.0 * rim;
+  const auto edge_to_edge = [&](const glm::dvec3& row, double low, double high) {
+    return (row - w * (0.5 * (low + high))) * (2.0 * fill / (high - low));
+  };
+  const glm::dvec3 row_x = edge_to_edge(across * turn.x + along * turn.y, map.a_min, map.a_max);
+  const glm::dvec3 row_y = edge_to_edge(along * turn.x - across * turn.y, map.b_min, map.b_max);
   const double scale_z = 2.0 / depths.height;
-  // Row by row: x = scale_x (x - middle w), y = fill_y (scale_y (y - y_min) - 1), z = w - scale_z (z -
-  // bottom), w.
-  glm::dmat4 m(0.0);
-  m[0][0] = scale_x;
-  m[1] = {-scale_x * middle_x * kappa, fill_y * scale_y, kappa, kappa};
-  m[2][2] = -scale_z;
-  m[3] = {-scale_x * middle_x * w0, -fill_y * (scale_y * r.y_min + 1.0), w0 + scale_z * depths.bottom, w0};
+  glm::dmat4 m;
+  for (int column = 0; column < 2; ++column) m[column] = {row_x[column], row_y[column], w[column], w[column]};
+  m[2] = {0.0, 0.0, -scale_z, 0.0};
+  m[3] = {row_x.z, row_y.z, w.z + scale_z * depths.bottom, w.z};
   return m;
 }
 

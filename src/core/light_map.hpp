@@ -9,15 +9,22 @@
 
 namespace gnomon {
 
-/// Edges of the map in the light frame, before the rim that filters need.
-struct LightRectangle {
-  double left, right;   ///< of x / w
-  double y_min, y_max;  ///< of y
+/// A warp's map of the light plane with the rectangle round the body's image, before the rim that filters
+/// need.
+struct PlaneMap {
+  WarpChoice choice;
+  double u_min, length;               ///< of the body along the axis
+  double stretch;                     ///< 1 + kappa length: the image is as long as the body
+  double a_min, a_max, b_min, b_max;  ///< rectangle in the turned image
+  /// Of a point of the light plane.
+  [[nodiscard]] double w(double x, double y) const noexcept {
+    return 1.0 + choice.kappa * (x * choice.axis.x + y * choice.axis.y - u_min);
+  }
 };
 
-/// The smallest rectangle that holds the body under w = 1 + kappa (y - y_min). Flat and single-point bodies
-/// get an extent of 1e-6 of the largest one.
-[[nodiscard]] LightRectangle rectangle_round(std::span<const WarpInput::Point> body, double kappa) noexcept;
+/// The smallest rectangle that holds the body's image. Flat and single-point bodies get an extent of 1e-6 of
+/// the largest one.
+[[nodiscard]] PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& choice) noexcept;
 
 /// Depths along the light in the light frame: from `bottom` upwards, with (z - bottom) / w between 0 and
 /// `height`.
@@ -27,8 +34,7 @@ struct LightDepths {
 
 /// OpenGL clip space from the light frame. The rectangle fills the map but for `rim` of it on each side (0 <=
 /// rim < 0.5); depth grows away from the light.
-[[nodiscard]] glm::dmat4 clip_from_light(const LightRectangle& rectangle, double kappa,
-                                         const LightDepths& depths, double rim_x, double rim_y) noexcept;
+[[nodiscard]] glm::dmat4 clip_from_light(const PlaneMap& map, const LightDepths& depths, double rim) noexcept;
 
 /// Light frame from points relative to the camera.
 [[nodiscard]] glm::dmat4 light_from_relative(const LightFrame& frame) noexcept;

@@ -14,6 +14,8 @@ constexpr std::array kWarps = {
 #undef GNOMON_WARP
 };
 
+constexpr std::array<std::string_view, 3> kObjectiveNames = {"storage", "max", "p95"};
+
 }  // namespace
 
 std::span<const Warp* const> all_warps() noexcept {
@@ -28,13 +30,16 @@ const Warp* find_warp(std::string_view name) noexcept {
 }
 
 std::string_view to_string(Objective objective) noexcept {
-  return objective == Objective::max ? "max" : "storage";
+  return kObjectiveNames[static_cast<std::size_t>(objective)];
 }
 
 bool objective_from_name(std::string_view name, Objective& objective) noexcept {
-  if (name != "storage" && name != "max") return false;
-  objective = name == "max" ? Objective::max : Objective::storage;
-  return true;
+  for (std::size_t i = 0; i < kObjectiveNames.size(); ++i) {
+    if (kObjectiveNames[i] != name) continue;
+    objective = static_cast<Objective>(i);
+    return true;
+  }
+  return false;
 }
 
 WarpError warp_error(const WarpInput& input, double kappa) noexcept {

@@ -1,0 +1,37 @@
+// The error of a projective map of the light plane, at points of the body: what searches over warps minimise.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "gnomon/warp.hpp"
+
+namespace gnomon {
+
+/// Points of a body in the light plane with d(light plane)/d(pixel) on a surface that faces the half vector,
+/// so that the perspective error of any map of the plane is a product of two 2x2 matrices away.
+class LightPlaneError {
+ public:
+  static constexpr int kMaxSamples = 160;
+
+  /// Samples the body for `input.objective`: vertices and middles of edges, where the largest errors are, or
+  /// points spread evenly over the pixels and the logarithm of depth.
+  explicit LightPlaneError(const WarpInput& input) noexcept;
+
+  /// The objective under `choice`, up to a factor that is the same for every choice; infinite for an unusable
+  /// one.
+  [[nodiscard]] double value(const WarpChoice& choice) noexcept;
+
+ private:
+  void add(const glm::dvec3& point_light) noexcept;
+  void add_vertices_and_edges() noexcept;
+  void add_visible_points() noexcept;
+
+  const WarpInput& input_;
+  int count_ = 0;
+  double share_ = 1.0;  // of the samples that may exceed the value asked for: 0.05 for p95
+  alignas(32) std::array<double, kMaxSamples> x_, y_, xx_, xy_, yx_, yy_;
+  alignas(32) std::array<double, kMaxSamples> longest_, across_s_, across_t_;
+};
+
+}  // namespace gnomon

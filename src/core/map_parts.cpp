@@ -1,0 +1,163 @@
+// The pieces that tight and stable maps are laid with.
+#include "map_parts.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "vector.hpp"
+
+namespace gnomon {
+namespace {
+
+// Room beyond the nearest and farthest depth, relative to the range: float rounding in the shader must not
+// push a surface out of the map.
+constexpr double kDepthPadding = 1.0 / 1024.0;
+// Least depth range of a map, relative to its extents across: a flat scene still needs one.
+constexpr double kFlattestDepth = 1e-3;
+// Faces of a box steeper than this to the light bound nothing: their height changes by more than the scene's
+// size.
+constexpr double kSteepestFace = 1e-6;
+// Rounding of positions, relative to their distance from the origin of the world.
+constexpr double kPositionRounding = 1e-14;
+
+/// Bounds of the error in pixels per texel over the body, from a texel's extents across the light at each
+/// vertex.
+void judge(const PlanContext& c, const LightBody& body, const PlaneMap& plane, ShadowMap& map) noexcept {
+  const double kappa = plane.choice.kappa;
+  const glm::dvec2 axis = plane.choice.axis, turn = plane.choice.turn;
+  double a_max = 0.0, b_max = 0.0;
+  for (const WarpInput::Point& p : body.points()) {
+    const double w = plane.w(p.x, p.y);
+    const double lean = kappa * (p.x * axis.y - p.y * axis.x - plane.choice.centre) / w;
+    const double along = w * w / plane.stretch;  // of one unit of the image's y
+    const auto extent = [&](double image_x, double image_y) {
+      const double u = along * image_y, s = w * image_x + lean * u;
+      return std::sqrt(u * u + s * s) / p.depth;
+    };
+    a_max = max_of(a_max, extent(turn.x, turn.y));
+    b_max = max_of(b_max, extent(-turn.y, turn.x));
+  }
+  const double pixels_per_unit = max_of(c.camera.width / (c.camera.right - c.camera.left),
+                                        c.camera.height / (c.camera.top - c.camera.bottom));
+  const double usable = map.width - 2.0 * map.filter_margin_texels;
+  map.m_s_max = a_max * (plane.a_max - plane.a_min) * pixels_per_unit / usable;
+  map.m_t_max = b_max * (plane.b_max - plane.b_min) * pixels_per_unit / usable;
+  map.storage = map.m_s_max * map.m_t_max * static_cast<double>(map.width) * map.height /
+                (static_cast<double>(c.camera.width) * c.camera.height);
+}
+
+}  // namespace
+
+LightBody in_light_frame(const PlanContext& c, const LightFrame& frame, const Polytope& body) noexcept {
+  LightBody result;
+  const double least = max_of(c.camera.near_depth, c.options.near_hint);
+  for (const Polytope::Vertex& v : body.vertices()) {
+    const double depth = c.camera.orthographic ? 1.0 : max_of(least, glm::dot(c.axes.forward, v.position));
+    result.point[static_cast<std::size_t>(result.count++)] = {
+        glm::dot(frame.x, v.position), glm::dot(frame.y, v.position), glm::dot(frame.z, v.position), depth};
+  }
+  return result;
+}
+
+double lowest(const LightBody& body) noexcept {
+  double z = body.point[0].z;
+  for (const WarpInput::Point& p : body.points()) z = min_of(z, p.z);
+  return z;
+}
+
+int margin_texels(const PlanOptions& options) noexcept {
+  return static_cast<int>(std::ceil(options.filter_radius_texels));
+}
+
+SweptBody sweep(const PlanContext& c, const Polytope& body, double margin_world) noexcept {
+  SweptBody swept;
+  swept.plane_count = swept_planes(body, -c.light_direction, swept.plane);
+  const double slack = margin_world + kPositionRounding * largest_component(c.camera.position);
+  for (int i = 0; i < swept.plane_count; ++i) swept.plane[static_cast<std::size_t>(i)].offset += slack;
+  swept.reach = casters_inside({swept.plane.data(), static_cast<std::size_t>(swept.plane_count)},
+                               c.bounds.casters, c.camera.position, c.frame.z);
+  return swept;
+}
+
+double caster_height(const CasterReach& reach, const LightFrame& frame, const LightBody& body,
+                     const PlaneMap& map, double bottom, double rim) noexcept {
+  const double extent_a = map.a_max - map.a_min, extent_b = map.b_max - map.b_min;
+  const glm::dvec3 up = frame.z;
+  const glm::dvec3 corner{up.x > 0.0 ? reach.bounds.max.x : reach.bounds.min.x,
+                          up.y > 0.0 ? reach.bounds.max.y : reach.bounds.min.y,
+                          up.z > 0.0 ? reach.bounds.max.z : reach.bounds.min.z};
+  double lowest_face = std::numeric_limits<double>::infinity(), body_height = 0.0;
+  // Face 3 stands for the plane across the light through the highest caster.
+  for (int face = 0; face < 4; ++face) {
+    // z of the face at (x, y) across the light: at + slope_x x + slope_y y.
+    double at = reach.top, slope_x = 0.0, slope_y = 0.0;
+    if (face < 3) {
+      if (!(std::abs(up[face]) > kSteepestFace)) continue;
+      at = corner[face] / up[face];
+      slope_x = -frame.x[face] / up[face];
+      slope_y = -frame.y[face] / up[face];
+    }
+    const double steepest = std::sqrt(slope_x * slope_x + slope_y * slope_y);
+    double highest = 0.0;
+    for (const WarpInput::Point& p : body.points()) {
+      const double w = map.w(p.x, p.y);
+      // A move by the margin in the image is at most this one in the light plane: across, texels grow with w
+      // and lean with the distance from the centre; along, with its square.
+      const double across = std::abs(p.x * map.choice.axis.y - p.y * map.choice.axis.x - map.choice.centre);
+      const double margin_image = rim * (extent_a + extent_b);
+      const double margin_along = margin_image * w * w / map.stretch;
+      const double margin = margin_image * w + margin_along * (1.0 + map.choice.kappa * across / w);
+      const double z = at + slope_x * p.x + slope_y * p.y + steepest * margin;
+      // The margin reaches towards smaller w, too; it never halves it for a margin a filter can ask for.
+      const double least_w = max_of(w - map.choice.kappa * margin_along, 0.5 * w);
+      highest = max_of(highest, (z - bottom) / least_w);
+      body_height = max_of(body_height, (p.z - bottom) / w);
+    }
+    lowest_face = min_of(lowest_face, highest);
+  }
+  return max_of(lowest_face, body_height);
+}
+
+LightDepths padded(double bottom, double height, double extent) noexcept {
+  const double range = max_of(height, kFlattestDepth * extent);
+  return {bottom - kDepthPadding * range, range * (1.0 + 2.0 * kDepthPadding)};
+}
+
+void finish_map(const PlanContext& c, const LightBody& body, const PlaneMap& plane, const SweptBody& swept,
+                const glm::dmat4& gl_from_relative, ShadowMap& map) noexcept {
+  for (int i = 0; i < swept.plane_count; ++i) {
+    const Plane& p = swept.plane[static_cast<std::size_t>(i)];
+    map.cull_planes[static_cast<std::size_t>(i)] =
+        glm::dvec4(p.normal, p.offset - glm::dot(p.normal, c.camera.position));
+  }
+  map.cull_plane_count = swept.plane_count;
+  map.kappa = plane.choice.kappa;
+  const LightFrame& frame = c.frame;
+  const glm::dmat4 from_gl = clip_from_gl_clip(c.options.clip_space);
+  const glm::dmat4 from_relative = from_gl * gl_from_relative;
+  map.clip_from_camera_relative = glm::mat4(from_relative);
+  map.clip_from_world = from_relative;
+  map.clip_from_world[3] = from_relative * glm::dvec4(-c.camera.position, 1.0);
+  map.light_world = glm::dvec4(-c.light_direction, 0.0);
+  glm::dvec3 centre(0.0);
+  const glm::dvec2 axis = plane.choice.axis;
+  for (const WarpInput::Point& p : body.points()) {
+    centre += glm::dvec3{p.x, p.y, p.z};
+  }
+  centre /= static_cast<double>(body.count);
+  const auto texel_at = [&](const glm::dvec3& p) {
+    return texel_extent_world(gl_from_relative, map.width, map.height, c.light_direction,
+                              frame.x * p.x + frame.y * p.y + frame.z * p.z);
+  };
+  // w, and with it both extents, is largest at the far end.
+  const double to_far = plane.u_min + plane.length - (centre.x * axis.x + centre.y * axis.y);
+  map.texel_world_max = texel_at({centre.x + axis.x * to_far, centre.y + axis.y * to_far, centre.z});
+  map.texel_world = texel_at(centre);
+  const double texel = max_of(map.texel_world.x, map.texel_world.y);
+  map.bias_world = {c.options.bias.constant_texels * texel, c.options.bias.slope_texels * texel,
+                    c.options.bias.normal_offset_texels * texel};
+  judge(c, body, plane, map);
+}
+
+}  // namespace gnomon

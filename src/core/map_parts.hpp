@@ -1,0 +1,53 @@
+// The pieces that tight and stable maps are laid with.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "light_map.hpp"
+#include "plan_context.hpp"
+#include "visible.hpp"
+
+namespace gnomon {
+
+/// The body's vertices in the light frame, with their view depths.
+struct LightBody {
+  std::array<WarpInput::Point, kMaxVertices> point;
+  int count = 0;
+  [[nodiscard]] std::span<const WarpInput::Point> points() const noexcept {
+    return {point.data(), static_cast<std::size_t>(count)};
+  }
+};
+
+[[nodiscard]] LightBody in_light_frame(const PlanContext& c, const LightFrame& frame,
+                                       const Polytope& body) noexcept;
+/// Lowest z of the body.
+[[nodiscard]] double lowest(const LightBody& body) noexcept;
+
+/// Texels along each side that no receiver may fall into.
+[[nodiscard]] int margin_texels(const PlanOptions& options) noexcept;
+
+/// What casters reach the body: planes of its sweep towards the light, moved out by `margin_world` so that
+/// casters which only a filter's kernel reaches are kept, and the casters inside them.
+struct SweptBody {
+  std::array<Plane, kMaxCullPlanes> plane;
+  int plane_count;
+  CasterReach reach;
+};
+[[nodiscard]] SweptBody sweep(const PlanContext& c, const Polytope& body, double margin_world) noexcept;
+
+/// Upper bound of (z - bottom) / w over every caster point above the body: along the light, the casters' box
+/// ends at the lowest of its faces towards the light, and a face's height over the body is largest at one of
+/// the body's vertices, w being positive there. `rim` is the map's margin as a share of its side, `w_far` the
+/// largest w.
+[[nodiscard]] double caster_height(const CasterReach& reach, const LightFrame& frame, const LightBody& body,
+                                   const PlaneMap& map, double bottom, double rim) noexcept;
+
+/// Depth range [bottom, bottom + height) with room to spare.
+[[nodiscard]] LightDepths padded(double bottom, double height, double extent) noexcept;
+
+/// Fills in everything of a map that follows from its plane map, its matrix and its swept body.
+void finish_map(const PlanContext& c, const LightBody& body, const PlaneMap& plane, const SweptBody& swept,
+                const glm::dmat4& gl_from_relative, ShadowMap& map) noexcept;
+
+}  // namespace gnomon

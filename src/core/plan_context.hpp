@@ -1,0 +1,34 @@
+// What the stages of a plan share.
+#pragma once
+
+#include <cstdint>
+
+#include "gnomon/plan.hpp"
+#include "light_frame.hpp"
+
+namespace gnomon {
+
+/// The input of make_plan with what all cascades derive from it, and the plan being written.
+struct PlanContext {
+  const Camera& camera;
+  const SceneBounds& bounds;
+  const PlanOptions& options;
+  CameraAxes axes;
+  glm::dvec3 light_direction;  // unit
+  LightFrame frame;
+  bool stable;
+  double sin_gamma, cos_gamma;
+  ShadowPlan& plan;
+};
+
+void omit(ShadowPlan& plan, const Omission& omission) noexcept;
+
+/// Lays one map round `body`, the receivers in view of one slice (relative to the camera, not empty), and
+/// fills in the record; false where no caster can reach the body. `begin` and `end` are the slice's view
+/// depths.
+[[nodiscard]] bool lay_tight_map(const PlanContext& c, const Polytope& body, double begin, double end,
+                                 ShadowMap& map) noexcept;
+[[nodiscard]] bool lay_stable_map(const PlanContext& c, const Polytope& body, double begin, double end,
+                                  ShadowMap& map) noexcept;
+
+}  // namespace gnomon
