@@ -1,0 +1,110 @@
+// Draws a scene with the shadow maps of a plan, and measures them pixel by pixel.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "gnomon/bias.hpp"
+#include "gnomon/camera.hpp"
+#include "gnomon/plan.hpp"
+#include "gnomon/render/error.hpp"
+#include "gnomon/render/filter.hpp"
+#include "gnomon/scene/image.hpp"
+#include "gnomon/scene/scene.hpp"
+
+namespace gnomon::render {
+
+/// The passes of a frame, in the order they run.
+enum class Pass : std::uint8_t { shadow_maps, surfaces, mask, shade, aliasing, heat_map, cascade_tint };
+inline constexpr std::size_t kPassCount = 7;
+[[nodiscard]] std::string_view to_string(Pass pass) noexcept;
+
+/// A filter whose program is compiled; only Renderer::prepare makes one.
+struct PreparedFilter {
+  const Filter* filter = nullptr;
+  std::size_t program = 0;
+};
+
+/// What to draw besides the lit picture.
+struct FrameOptions {
+  FilterParameters filter_parameters;
+  /// The bias of the plan's options; in texels of the map at each point.
+  BiasOptions bias;
+  bool aliasing = true;      ///< the error per pixel
+  bool heat_map = true;      ///< the same as colours; needs `aliasing`
+  bool cascade_tint = true;  ///< the picture tinted by map
+  /// Waits for each pass to end and takes its wall-clock time. Costs the overlap of passes.
+  bool time_passes = true;
+};
+
+struct MapStats {
+  std::uint32_t instances = 0;  ///< drawn into this map, after culling
+  std::uint32_t draws = 0;      ///< draw commands: runs of instances of one primitive
+  std::uint64_t triangles = 0;
+  std::uint64_t texels = 0;  ///< rasterized into: width times height
+};
+
+struct FrameStats {
+  std::array<double, kPassCount> milliseconds{};  ///< by Pass; 0 where not drawn or not timed
+  std::array<MapStats, kMaxMaps> map{};
+  int map_count = 0;
+  MapStats camera;           ///< the surfaces pass; its texels are pixels
+  std::uint64_t texels = 0;  ///< over all maps
+};
+
+/// Holds a scene on the GPU and the images of the last frame drawn. The context it was made in must be
+/// current in every call and at destruction.
+class Renderer {
+ public:
+  /// Uploads the scene and compiles the programs. Throws RenderError.
+  explicit Renderer(const Scene& scene);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Compiles the filter's program, once. Throws RenderError with shader file and line.
+  [[nodiscard]] PreparedFilter prepare(const Filter& filter);
+
+  /// Draws one frame at camera.width x camera.height. The plan must be one of this camera and of this scene's
+  /// boxes (Scene::instances' bounds_world as casters). A plan without maps leaves everything lit. Images are
+  /// made anew where the frame's or the maps' size grows.
+  FrameStats draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
+                  const FrameOptions& options = {}) noexcept;
+
+  /// The last frame's pictures, rows top to bottom.
+  [[nodiscard]] Image image() const;
+  [[nodiscard]] Image heat_map() const;
+  [[nodiscard]] Image cascade_tint() const;
+  /// Channels "visibility" (1 lit .. 0 in shadow) and "map" (-1: none).
+  [[nodiscard]] FloatImage mask() const;
+  /// Channels "m_max", "m_s", "m_t", "map". Map -1: sky, or no map serves the point. All m 0: turned from the
+  /// light.
+  [[nodiscard]] FloatImage aliasing() const;
+  /// Channels "x", "y", "z" relative to the camera, "depth" along the view.
+  [[nodiscard]] FloatImage positions() const;
+  /// Channels "x", "y", "z" of the triangles' normals, turned to the viewer, and "surface": 1, or 0 for sky.
+  [[nodiscard]] FloatImage normals() const;
+  /// Channel "depth" of one map of the last frame: 0 near the light .. 1; row 0 is texel row 0 of the map
+  /// (ndc y = -1).
+  [[nodiscard]] FloatImage depth_map(int map) const;
+
+  /// Which of the last frame's pictures to show in a window.
+  enum class Picture : std::uint8_t { lit, heat_map, cascade_tint };
+  /// Copies a picture to the default framebuffer of this size.
+  void show(Picture picture, int width, int height) const noexcept;
+  /// Copies an image to the lower left corner of the default framebuffer.
+  void show_overlay(const Image& image) const;
+  /// What the default framebuffer holds where show() last drew: the whole picture as on screen.
+  [[nodiscard]] Image screen() const;
+
+  /// Texture names (OpenGL) of the last frame's depth array, for passes of one's own and for tests.
+  [[nodiscard]] std::uint32_t depth_array() const noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gnomon::render

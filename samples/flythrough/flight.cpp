@@ -1,0 +1,177 @@
+// The headless flight: plan, draw, measure, write.
+#include "flight.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <system_error>
+
+#include "gnomon/render/picture.hpp"
+#include "gnomon/scene/image.hpp"
+#include "gnomon/scene/load.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+
+namespace flythrough {
+namespace {
+
+using gnomon::Image;
+
+constexpr int kPlanRepeats = 5;  ///< the time of a plan is the median over these
+
+struct TimedPlan {
+  gnomon::ShadowPlan plan;
+  std::int64_t nanoseconds = 0;
+};
+
+TimedPlan timed_plan(const gnomon::Camera& camera, const Options& options, const Flight& flight) {
+  TimedPlan result;
+  std::array<std::int64_t, kPlanRepeats> taken{};
+  for (std::int64_t& ns : taken) {
+    const auto begin = std::chrono::steady_clock::now();
+    result.plan = gnomon::make_plan(camera, sun(options), flight.bounds(), options.plan);
+    ns = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin)
+             .count();
+  }
+  std::nth_element(taken.begin(), taken.begin() + kPlanRepeats / 2, taken.end());
+  result.nanoseconds = taken[kPlanRepeats / 2];
+  return result;
+}
+
+void label_cascades(Image& image, const gnomon::ShadowPlan& plan) {
+  std::array<std::string, gnomon::kMaxMaps> text;
+  std::array<gnomon::render::LegendEntry, gnomon::kMaxMaps> entries{};
+  for (std::size_t i = 0; i < plan.maps().size(); ++i) {
+    const gnomon::ShadowMap& map = plan.map[i];
+    text[i] = fmt::format("map {}: depth {:.4g} to {:.4g}, {}x{}, {}", i, map.depth_begin, map.depth_end,
+                          map.width, map.height, map.warp->name);
+    entries[i] = {gnomon::render::cascade_color(static_cast<int>(i)), text[i]};
+  }
+  const std::string title =
+      plan.map_count > 0 ? "shadow maps" : fmt::format("no map: {}", to_string(plan.status));
+  gnomon::render::draw_legend(image, title, {entries.data(), plan.maps().size()});
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) {
+    throw UsageError(fmt::format("--out {}: cannot be made a folder ({})", folder.string(), error.message()));
+  }
+}
+
+/// Everything a frame needs over the whole flight.
+struct Studio {
+  const Options& options;
+  const Flight& flight;
+  gnomon::render::Renderer renderer;
+  gnomon::render::PreparedFilter filter;
+  ContactSheet sheet;
+};
+
+FrameRow draw_frame(Studio& studio, int frame) {
+  const Options& options = studio.options;
+  const double t = options.frames == 1 ? 0.5 : 1.0 * frame / (options.frames - 1);
+  const gnomon::Camera camera = studio.flight.path.at(t, options.width, options.height);
+  const TimedPlan timed = timed_plan(camera, options, studio.flight);
+  if (timed.plan.status == gnomon::PlanStatus::invalid_input) {
+    throw UsageError(fmt::format("frame {}: the plan refuses {}", frame, timed.plan.invalid_field));
+  }
+  FrameRow row;
+  row.frame = frame;
+  row.status = timed.plan.status;
+  row.plan_ns = timed.nanoseconds;
+  gnomon::render::FrameOptions drawn;
+  drawn.bias = options.plan.bias;
+  row.stats = studio.renderer.draw(timed.plan, camera, studio.filter, drawn);
+  row.aliasing = pixel_aliasing(studio.renderer.aliasing());
+  row.warps = warps_text(timed.plan);
+  row.omitted = omitted_text(timed.plan);
+
+  const Image lit = studio.renderer.image();
+  Image heat = studio.renderer.heat_map(), tint = studio.renderer.cascade_tint();
+  if (studio.sheet.wants(frame)) studio.sheet.add(frame, lit, heat, tint);
+  gnomon::render::draw_heat_legend(heat);
+  label_cascades(tint, timed.plan);
+  const auto file = [&](const char* kind) {
+    return options.out / fmt::format("frame_{:04}_{}.png", frame, kind);
+  };
+  gnomon::write_png(lit, file("image"));
+  gnomon::write_png(heat, file("heat"));
+  gnomon::write_png(tint, file("cascades"));
+  return row;
+}
+
+void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
+  double worst_p95 = 0.0, undersampled = 0.0, milliseconds = 0.0;
+  std::int64_t slowest_plan = 0;
+  for (const FrameRow& row : rows) {
+    worst_p95 = std::max(worst_p95, row.aliasing.p95);
+    undersampled += row.aliasing.share_undersampled / static_cast<double>(rows.size());
+    slowest_plan = std::max(slowest_plan, row.plan_ns);
+    for (const double ms : row.stats.milliseconds) milliseconds += ms / static_cast<double>(rows.size());
+  }
+  fmt::print(
+      "{} frames: {:.1f} ms a frame, slowest plan {:.1f} us, worst m p95 {:.3g}, {:.1f} % of pixels "
+      "undersampled\n",
+      rows.size(), milliseconds, static_cast<double>(slowest_plan) * 1e-3, worst_p95, undersampled * 100.0);
+  fmt::print("pictures: {}\nsheet:    {}\nnumbers:  {}\n", (options.out / "frame_0000_image.png").string(),
+             (options.out / "contact_sheet.png").string(), (options.out / "frames.csv").string());
+}
+
+}  // namespace
+
+Flight load_flight(const Options& options) {
+  try {
+    Flight flight;
+    flight.scene = gnomon::load_scene(options.scene);
+    for (const std::string& warning : flight.scene.warnings)
+      fmt::print(stderr, "flythrough: warning: {}\n", warning);
+    flight.path = options.path ? gnomon::load_camera_path(*options.path) : gnomon::default_path(flight.scene);
+    flight.boxes.reserve(flight.scene.instances.size());
+    for (const gnomon::Instance& instance : flight.scene.instances)
+      flight.boxes.push_back(instance.bounds_world);
+    return flight;
+  } catch (const gnomon::SceneError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+int fly_to_files(const Options& options, const Flight& flight) {
+  const auto context = [&options] {
+    try {
+      return gnomon::render::create_context(options.context);
+    } catch (const gnomon::render::RenderError& error) {
+      throw UsageError(fmt::format("--context {}: {}", to_string(options.context), error.what()));
+    }
+  }();
+  fmt::print("context:  {}\n", context->info().description());
+  fmt::print("scene:    {}, {} instances, {} triangles\n", flight.scene.name, flight.scene.instances.size(),
+             flight.scene.triangle_count());
+  make_folder(options.out);
+  Studio studio{options,
+                flight,
+                gnomon::render::Renderer(flight.scene),
+                {},
+                ContactSheet(options.frames, options.width, options.height)};
+  studio.filter = studio.renderer.prepare(*options.filter);
+  std::vector<FrameRow> rows;
+  {
+    Progress progress(options.frames);
+    for (int frame = 0; frame < options.frames; ++frame) {
+      progress.show(frame, "frames");
+      rows.push_back(draw_frame(studio, frame));
+    }
+  }
+  const std::string title =
+      fmt::format("{}: {} maps of {}, {}{}", options.scene, options.plan.cascades, options.plan.map_size,
+                  options.filter->name, options.plan.fit == gnomon::Fit::stable ? ", stable" : "");
+  gnomon::write_png(studio.sheet.sheet(title), options.out / "contact_sheet.png");
+  write_csv(rows, options.plan.cascades, context->info().software, options.out / "frames.csv");
+  print_summary(options, rows);
+  return 0;
+}
+
+}  // namespace flythrough

@@ -1,0 +1,31 @@
+// The flight itself: scene, camera path and maps for each frame, drawn to files or to a window.
+#pragma once
+
+#include <vector>
+
+#include "gnomon/bounds.hpp"
+#include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/scene.hpp"
+#include "options.hpp"
+
+namespace flythrough {
+
+/// What flies where.
+struct Flight {
+  gnomon::Scene scene;
+  gnomon::CameraPath path;
+  std::vector<gnomon::Box> boxes;  ///< of the instances: they cast and receive
+  [[nodiscard]] gnomon::SceneBounds bounds() const noexcept { return {boxes, boxes}; }
+};
+
+/// Loads scene and path. Throws UsageError with what is wrong and where.
+[[nodiscard]] Flight load_flight(const Options& options);
+
+/// Draws the frames off-screen and writes them. Returns the exit code.
+int fly_to_files(const Options& options, const Flight& flight);
+
+/// Opens a window. With --frames, flies the path once, writes what the window showed last and closes; else
+/// the user flies. Returns the exit code.
+int fly_in_window(const Options& options, const Flight& flight);
+
+}  // namespace flythrough

@@ -1,0 +1,23 @@
+// Flies through a scene with planned shadow maps, and shows how good they are. See README.md.
+#include <fmt/core.h>
+
+#include <exception>
+
+#include "flight.hpp"
+#include "options.hpp"
+
+int main(int argc, char** argv) {
+  try {
+    const std::optional<flythrough::Options> options = flythrough::parse_options(argc, argv);
+    if (!options) return 0;
+    const flythrough::Flight flight = flythrough::load_flight(*options);
+    return options->context == gnomon::render::ContextKind::glfw ? flythrough::fly_in_window(*options, flight)
+                                                                 : flythrough::fly_to_files(*options, flight);
+  } catch (const flythrough::UsageError& error) {
+    fmt::print(stderr, "flythrough: {}\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "flythrough: {}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,142 @@
+// Reads and checks the command line.
+#include "options.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "gnomon/scene/load.hpp"
+#include "gnomon/split.hpp"
+
+namespace flythrough {
+namespace {
+
+constexpr int kMaxFrames = 100'000, kMaxSide = 16'384;
+
+/// The names of a registry, for messages and help: "a, b or c".
+template <class Entries>
+std::string names_of(const Entries& entries) {
+  std::string all;
+  std::size_t n = 0;
+  for (const auto& entry : entries) {
+    if (n > 0) all += n + 1 == entries.size() ? " or " : ", ";
+    all += entry->name;
+    ++n;
+  }
+  return all;
+}
+
+/// What the command line says, before it is understood.
+struct Raw {
+  std::string size = "960x540", context = "auto", split, warp = "auto", filter = "pcf", path;
+  bool stable = false;
+};
+
+void parse_size(const std::string& text, Options& options) {
+  const std::size_t x = text.find('x');
+  const auto number = [&text](std::size_t begin, std::size_t end, int& value) {
+    const auto [last, error] = std::from_chars(text.data() + begin, text.data() + end, value);
+    return error == std::errc{} && last == text.data() + end && value >= 16 && value <= kMaxSide;
+  };
+  if (x == std::string::npos || !number(0, x, options.width) || !number(x + 1, text.size(), options.height)) {
+    throw UsageError(
+        fmt::format("--size {}: wants WIDTHxHEIGHT, each 16 to {}, as in 960x540", text, kMaxSide));
+  }
+}
+
+void resolve(const Raw& raw, Options& options) {
+  parse_size(raw.size, options);
+  if (!gnomon::render::context_kind_from_name(raw.context, options.context)) {
+    throw UsageError(fmt::format("--context {}: wants auto, osmesa, egl or glfw", raw.context));
+  }
+  if (!raw.split.empty() && !gnomon::split_scheme_from_name(raw.split, options.plan.split)) {
+    throw UsageError(
+        fmt::format("--split {}: wants uniform, logarithmic, practical or pseudo_near", raw.split));
+  }
+  options.plan.warp = gnomon::find_warp(raw.warp);
+  if (options.plan.warp == nullptr && raw.warp != "auto") {
+    throw UsageError(fmt::format("--warp {}: wants auto, {}", raw.warp, names_of(gnomon::all_warps())));
+  }
+  options.filter = gnomon::render::find_filter(raw.filter);
+  if (options.filter == nullptr) {
+    throw UsageError(
+        fmt::format("--filter {}: wants {}", raw.filter, names_of(gnomon::render::all_filters())));
+  }
+  options.plan.fit = raw.stable ? gnomon::Fit::stable : gnomon::Fit::tight;
+  options.plan.filter_radius_texels = options.filter->reach_texels({});
+  if (!raw.path.empty()) options.path = raw.path;
+}
+
+std::string scene_help() {
+  std::string text = "glTF file (.gltf, .glb) or one of";
+  for (const gnomon::BuiltinScene& scene : gnomon::builtin_scenes())
+    text += fmt::format(" builtin:{}", scene.name);
+  return text;
+}
+
+std::string first_line(std::string text) {
+  return text.substr(0, text.find('\n'));
+}
+
+void declare(CLI::App& app, Raw& raw, Options& options) {
+  app.set_version_flag("--version", "flythrough " GNOMON_VERSION);
+  app.option_defaults()->always_capture_default();
+  app.add_option("scene", options.scene, scene_help());
+  app.add_option("--frames", options.frames, "pictures along the flight")->check(CLI::Range(1, kMaxFrames));
+  app.add_option("--size", raw.size, "of a picture, WIDTHxHEIGHT");
+  app.add_option("--out", options.out, "folder that the files go to");
+  app.add_option("--context", raw.context, "auto, osmesa, egl, or glfw for a window");
+  app.add_option("--cascades", options.plan.cascades, "shadow maps along the view")
+      ->check(CLI::Range(1, gnomon::kMaxMaps));
+  app.add_option("--split", raw.split, "uniform, logarithmic, practical (default) or pseudo_near")
+      ->capture_default_str();
+  app.add_option("--lambda", options.plan.lambda, "practical split: 0 uniform .. 1 logarithmic")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--warp", raw.warp, "auto, " + names_of(gnomon::all_warps()));
+  app.add_option("--filter", raw.filter, names_of(gnomon::render::all_filters()));
+  app.add_option("--map-size", options.plan.map_size, "texels along each side of a map")
+      ->check(CLI::Range(4, kMaxSide));
+  app.add_flag("--stable", raw.stable, "texel grids that stand still while the camera moves");
+  app.add_option("--light-elevation-deg", options.light_elevation_deg, "of the sun above the horizon")
+      ->check(CLI::Range(0.1, 90.0));
+  app.add_option("--light-azimuth-deg", options.light_azimuth_deg,
+                 "where the sun stands: 0 over -Z, 90 over +X")
+      ->check(CLI::Range(-360.0, 360.0));
+  app.add_option("--path", raw.path, "camera flight, a JSON file; else the scene's own");
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(int argc, char** argv) {
+  CLI::App app{
+      "Flies through a scene and draws it with the shadow maps that gnomon plans for each frame: the "
+      "picture, "
+      "the aliasing error per pixel, and which map serves what."};
+  app.name("flythrough");
+  Options options;
+  Raw raw;
+  declare(app, raw, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) throw UsageError(first_line(error.what()));
+    app.exit(error);
+    return std::nullopt;
+  }
+  options.frames_given = app.count("--frames") > 0;
+  resolve(raw, options);
+  return options;
+}
+
+gnomon::DirectionalLight sun(const Options& options) noexcept {
+  const double elevation = options.light_elevation_deg * std::numbers::pi / 180.0;
+  const double azimuth = options.light_azimuth_deg * std::numbers::pi / 180.0;
+  const glm::dvec3 to_sun{std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                          -std::cos(elevation) * std::cos(azimuth)};
+  return {-to_sun};
+}
+
+}  // namespace flythrough

@@ -1,0 +1,155 @@
+// Tables and contact sheets.
+#include "report.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+#include "gnomon/render/picture.hpp"
+
+namespace flythrough {
+namespace {
+
+using gnomon::Image;
+using gnomon::render::Color;
+using gnomon::render::Pass;
+
+/// A CSV field in quotes, RFC 4180.
+std::string csv_field(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string header(int cascades, bool software) {
+  std::string line = "frame,plan_status,plan_ns,";
+  for (std::size_t p = 0; p < gnomon::render::kPassCount; ++p) {
+    line += fmt::format("{}_{}ms,", to_string(static_cast<Pass>(p)), software ? "software_wall_clock_" : "");
+  }
+  line += "maps,texels,m_p50,m_p95,m_max,share_undersampled,pixels_measured,camera_triangles,camera_draws,";
+  for (int i = 0; i < cascades; ++i)
+    line += fmt::format("map{0}_triangles,map{0}_draws,map{0}_instances,", i);
+  return line + "warps,omitted\n";
+}
+
+std::string line_of(const FrameRow& row, int cascades) {
+  std::string line = fmt::format("{},{},{},", row.frame, to_string(row.status), row.plan_ns);
+  for (const double ms : row.stats.milliseconds) line += fmt::format("{:.3f},", ms);
+  line += fmt::format("{},{},{:.5g},{:.5g},{:.5g},{:.5f},{},", row.stats.map_count, row.stats.texels,
+                      row.aliasing.p50, row.aliasing.p95, row.aliasing.max, row.aliasing.share_undersampled,
+                      row.aliasing.pixels);
+  line += fmt::format("{},{},", row.stats.camera.triangles, row.stats.camera.draws);
+  for (int i = 0; i < cascades; ++i) {
+    const gnomon::render::MapStats& map = row.stats.map[static_cast<std::size_t>(i)];
+    line +=
+        i < row.stats.map_count ? fmt::format("{},{},{},", map.triangles, map.draws, map.instances) : ",,,";
+  }
+  return line + csv_field(row.warps) + "," + csv_field(row.omitted) + "\n";
+}
+
+}  // namespace
+
+PixelAliasing pixel_aliasing(const gnomon::FloatImage& aliasing) {
+  std::vector<float> m;
+  m.reserve(aliasing.values.size() / 4);
+  std::size_t undersampled = 0;
+  for (std::size_t i = 0; i < aliasing.values.size(); i += 4) {
+    if (aliasing.values[i + 3] < 0.0f || !(aliasing.values[i] > 0.0f)) continue;
+    m.push_back(aliasing.values[i]);
+    if (aliasing.values[i] > 1.0f) ++undersampled;
+  }
+  PixelAliasing result;
+  result.pixels = m.size();
+  if (m.empty()) return result;
+  const auto quantile = [&m](double q) {
+    const auto at = m.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(m.size() - 1));
+    std::nth_element(m.begin(), at, m.end());
+    return static_cast<double>(*at);
+  };
+  result.p50 = quantile(0.50);
+  result.p95 = quantile(0.95);
+  result.max = quantile(1.0);
+  result.share_undersampled = static_cast<double>(undersampled) / static_cast<double>(m.size());
+  return result;
+}
+
+std::string warps_text(const gnomon::ShadowPlan& plan) {
+  std::string text;
+  for (const gnomon::ShadowMap& map : plan.maps()) {
+    text += fmt::format("{}{} {:.4g}", text.empty() ? "" : "; ", map.warp->name, map.kappa);
+  }
+  return text;
+}
+
+std::string omitted_text(const gnomon::ShadowPlan& plan) {
+  std::string text;
+  for (const gnomon::Omission& omission : plan.omitted()) {
+    const gnomon::OmissionText words = describe(omission);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", words.what.data(), words.why.data());
+  }
+  return text;
+}
+
+void write_csv(const std::vector<FrameRow>& rows, int cascades, bool software,
+               const std::filesystem::path& file) {
+  std::filesystem::path aside = file;
+  aside += ".part";
+  {
+    std::ofstream out(aside, std::ios::binary);
+    out << header(cascades, software);
+    for (const FrameRow& row : rows) out << line_of(row, cascades);
+    out.flush();
+    if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", aside.string()));
+  }
+  std::filesystem::rename(aside, file);
+}
+
+ContactSheet::ContactSheet(int frames, int width, int height)
+    : frames_(frames),
+      thumb_width_(std::min(width, kColumnWidth)),
+      thumb_height_(std::max(1, static_cast<int>(std::lround(1.0 * thumb_width_ * height / width)))) {}
+
+bool ContactSheet::wants(int frame) const {
+  const int columns = std::min(frames_, kMaxColumns);
+  if (columns == 1) return frame == 0;
+  for (int c = 0; c < columns; ++c) {
+    if (frame == static_cast<int>(std::lround(1.0 * c * (frames_ - 1) / (columns - 1)))) return true;
+  }
+  return false;
+}
+
+void ContactSheet::add(int frame, const Image& lit, const Image& heat, const Image& tint) {
+  const auto thumb = [this](const Image& image) {
+    return gnomon::render::shrunk(image, thumb_width_, thumb_height_);
+  };
+  columns_.push_back({frame, {thumb(lit), thumb(heat), thumb(tint)}});
+}
+
+Image ContactSheet::sheet(const std::string& title) const {
+  constexpr Color kPaper{24, 24, 28}, kInk{240, 240, 236};
+  constexpr int kGap = 4, kLabel = 16;
+  constexpr const char* kRows[3] = {"image", "m", "maps"};
+  const int count = static_cast<int>(columns_.size());
+  const int heading = 2 * kLabel;
+  Image sheet = gnomon::render::blank_image(kGap + count * (thumb_width_ + kGap),
+                                            heading + 3 * (thumb_height_ + kGap + kLabel) + kGap, kPaper);
+  gnomon::render::draw_text(sheet, 2 * kGap, 2 * kGap, title, kInk, 2);
+  for (int c = 0; c < count; ++c) {
+    const Column& column = columns_[static_cast<std::size_t>(c)];
+    for (int r = 0; r < 3; ++r) {
+      const int x = kGap + c * (thumb_width_ + kGap), y = heading + r * (thumb_height_ + kGap + kLabel);
+      gnomon::render::draw_text(sheet, x + kGap, y + kGap, fmt::format("frame {} {}", column.frame, kRows[r]),
+                                kInk);
+      gnomon::render::paste(sheet, column.picture[r], x, y + kLabel);
+    }
+  }
+  return sheet;
+}
+
+}  // namespace flythrough

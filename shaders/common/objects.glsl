@@ -1,0 +1,19 @@
+// Where the objects stand: affine matrices in rows, relative to the camera position.
+struct Object {
+  vec4 row[3];
+};
+layout(std430, binding = 0) readonly buffer Objects { Object objects[]; };
+
+vec3 camera_relative_from_object(uint index, vec3 position) {
+  vec4 p = vec4(position, 1.0);
+  return vec3(dot(objects[index].row[0], p), dot(objects[index].row[1], p), dot(objects[index].row[2], p));
+}
+
+// By the cofactor matrix: right for every affine transform, also where it has no inverse. The sign of the determinant
+// turns mirrored normals the right way.
+vec3 world_normal_from_object(uint index, vec3 normal) {
+  vec3 a = objects[index].row[0].xyz, b = objects[index].row[1].xyz, c = objects[index].row[2].xyz;
+  vec3 bc = cross(b, c);
+  vec3 n = vec3(dot(bc, normal), dot(cross(c, a), normal), dot(cross(a, b), normal));
+  return dot(a, bc) < 0.0 ? -n : n;
+}

@@ -1,0 +1,3 @@
+#version 450 core
+// Opaque casters: the depth alone.
+void main() {}

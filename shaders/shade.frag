@@ -1,0 +1,31 @@
+#version 450 core
+// The picture: sun where the mask lets it through, sky everywhere, a little air in the distance.
+#include "common/frame.glsl"
+#include "common/surface.glsl"
+#include "common/sky.glsl"
+
+layout(binding = 6) uniform sampler2D mask_image;
+layout(location = 0) out vec4 color_out;  // written through sRGB encoding
+
+vec3 view_ray(vec2 pixel) {
+  vec2 at = vec2(pixel.x * frame.right.w + frame.image_edges.x, pixel.y * frame.up.w + frame.image_edges.z);
+  if (frame.forward.w > 0.5) return frame.forward.xyz;
+  return normalize(frame.forward.xyz + at.x * frame.right.xyz + at.y * frame.up.xyz);
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  Surface s = surface_at(pixel);
+  vec3 ray = view_ray(gl_FragCoord.xy);
+  vec3 light = frame.light.xyz;
+  if (s.sky) {
+    color_out = vec4(display_from_scene(sky_color(ray, light)), 1.0);
+    return;
+  }
+  float sun = max(-dot(s.shading_normal, light), 0.0) * texelFetch(mask_image, pixel, 0).r;
+  vec3 color = s.albedo * (kSunColor * sun + sky_ambient(s.shading_normal));
+  const float kHazeAtFar = 0.35;  // share of the horizon's colour at the camera's far plane
+  float haze = kHazeAtFar * smoothstep(0.0, 1.0, s.depth / frame.layer.w);
+  vec3 horizon = sky_color(normalize(vec3(ray.x, 0.02, ray.z)), light);
+  color_out = vec4(display_from_scene(mix(color, horizon, haze)), 1.0);
+}

@@ -1,0 +1,23 @@
+// What the back ends of create_context share.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gnomon/render/context.hpp"
+
+namespace gnomon::render {
+
+/// Points the process-wide table of OpenGL functions at the context that is current, and fills in renderer,
+/// version and whether it is software. Throws RenderError below OpenGL 4.5.
+void load_gl(void* (*get_proc_address)(const char*), ContextInfo* info);
+
+/// `refused` is kept in the context's info.
+[[nodiscard]] std::unique_ptr<Context> create_osmesa_context(const std::vector<std::string>& refused = {});
+/// Tries surfaceless, then every device. Takes the first GPU, or the first of all where `software_too`. Why
+/// others were passed over is appended to `refused`. nullptr where none is left.
+[[nodiscard]] std::unique_ptr<Context> create_egl_context(bool software_too,
+                                                          std::vector<std::string>& refused);
+
+}  // namespace gnomon::render

@@ -1,0 +1,124 @@
+// Culls, then turns runs of instances of one primitive into one draw command each.
+#include "draw_list.hpp"
+
+#include <algorithm>
+
+namespace gnomon::render {
+namespace {
+
+/// Sends `values`, growing the buffer by halves so that a flight soon stops allocating.
+template <class T>
+void send(Buffer& buffer, std::size_t& capacity, const std::vector<T>& values) {
+  if (values.size() > capacity || !buffer) {
+    capacity = std::max<std::size_t>(values.size() + values.size() / 2, 64);
+    buffer = make_buffer();
+    glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(capacity * sizeof(T)), nullptr,
+                         GL_DYNAMIC_STORAGE_BIT);
+  }
+  glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data());
+}
+
+struct ViewPlane {
+  glm::dvec3 normal;
+  double offset;
+};
+
+/// The camera's side planes and its near and far plane, relative to its position, pointing inward.
+std::array<ViewPlane, 6> view_planes(const Camera& camera, const CameraAxes& axes) {
+  const auto side = [&](const glm::dvec3& axis, double edge, double sign) {
+    return camera.orthographic ? ViewPlane{sign * axis, -sign * edge}
+                               : ViewPlane{sign * (axis - edge * axes.forward), 0.0};
+  };
+  return {side(axes.right, camera.left, 1.0),          side(axes.right, camera.right, -1.0),
+          side(axes.up, camera.bottom, 1.0),           side(axes.up, camera.top, -1.0),
+          ViewPlane{axes.forward, -camera.near_depth}, ViewPlane{-axes.forward, camera.far_depth}};
+}
+
+bool wholly_outside(const Box& box, const glm::dvec3& origin, const ViewPlane& plane) {
+  double reach = plane.offset;
+  for (int c = 0; c < 3; ++c) {
+    const double low = box.min[c] - origin[c], high = box.max[c] - origin[c];
+    reach += std::max(plane.normal[c] * low, plane.normal[c] * high);
+  }
+  return reach < 0.0;
+}
+
+}  // namespace
+
+DrawLists::DrawLists(const SceneBuffers& scene)
+    : scene_(scene), culled_(scene.order().size()), visible_(scene.order().size()) {
+  commands_.reserve(scene.order().size());
+  objects_.reserve(scene.order().size() * 2);
+}
+
+void DrawLists::build(const ShadowPlan& plan, const Camera& camera) {
+  objects_.clear();
+  commands_.clear();
+  ranges_.clear();
+  for (std::size_t v = 0; v < kMaxMaps; ++v) {
+    stats_[v] = {};
+    first_range_[v] = ranges_.size();
+    if (v >= plan.maps().size()) continue;
+    const std::size_t count = cull_casters(plan.map[v], scene_.boxes(), culled_);
+    std::fill(visible_.begin(), visible_.end(), std::uint8_t{0});
+    for (std::size_t i = 0; i < std::min(count, culled_.size()); ++i) visible_[culled_[i]] = 1;
+    add_view(v);
+    stats_[v].texels =
+        static_cast<std::uint64_t>(plan.map[v].width) * static_cast<std::uint64_t>(plan.map[v].height);
+  }
+  first_range_[kCameraView] = ranges_.size();
+  stats_[kCameraView] = {};
+  mark_visible(camera);
+  add_view(kCameraView);
+  stats_[kCameraView].texels =
+      static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
+  first_range_[kCameraView + 1] = ranges_.size();
+  send(object_buffer_, object_capacity_, objects_);
+  send(command_buffer_, command_capacity_, commands_);
+  scene_.set_object_index_buffer(object_buffer_.name());
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_.name());
+}
+
+void DrawLists::mark_visible(const Camera& camera) {
+  const std::array<ViewPlane, 6> planes = view_planes(camera, camera_axes(camera));
+  for (std::size_t i = 0; i < visible_.size(); ++i) {
+    const Box& box = scene_.boxes()[i];
+    visible_[i] = std::none_of(planes.begin(), planes.end(), [&](const ViewPlane& plane) {
+      return wholly_outside(box, camera.position, plane);
+    });
+  }
+}
+
+void DrawLists::add_view(std::size_t v) {
+  MapStats& stats = stats_[v];
+  const std::span<const Batch> batches = scene_.batches();
+  for (std::uint32_t b = 0; b < batches.size(); ++b) {
+    BatchRange range{b, static_cast<std::uint32_t>(commands_.size()), 0};
+    std::uint32_t previous = ~0u;
+    for (std::uint32_t n = batches[b].begin; n < batches[b].end; ++n) {
+      const std::uint32_t instance = scene_.order()[n];
+      if (visible_[instance] == 0) continue;
+      const Primitive& primitive = scene_.primitive_of(instance);
+      if (scene_.primitive_index(instance) != previous) {
+        previous = scene_.primitive_index(instance);
+        commands_.push_back({primitive.index_count, 0, primitive.first_index, 0,
+                             static_cast<std::uint32_t>(objects_.size())});
+        ++stats.draws;
+      }
+      objects_.push_back(instance);
+      ++commands_.back().instance_count;
+      ++stats.instances;
+      stats.triangles += primitive.index_count / 3;
+    }
+    range.end = static_cast<std::uint32_t>(commands_.size());
+    if (range.end > range.begin) ranges_.push_back(range);
+  }
+}
+
+void DrawLists::draw(std::uint32_t begin, std::uint32_t end) const noexcept {
+  const auto offset = static_cast<std::uintptr_t>(begin) * sizeof(DrawCommand);
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),
+                              static_cast<GLsizei>(end - begin), 0);
+}
+
+}  // namespace gnomon::render

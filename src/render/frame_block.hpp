@@ -1,0 +1,31 @@
+// The uniform block that every pass of a frame reads; shaders/common/frame.glsl mirrors it.
+#pragma once
+
+#include <array>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include "gnomon/camera.hpp"
+#include "gnomon/plan.hpp"
+#include "gnomon/render/renderer.hpp"
+
+namespace gnomon::render {
+
+struct MapBlock {
+  glm::mat4 clip_from_camera_relative;
+  glm::vec4 interval_size;
+};
+
+struct FrameBlock {
+  glm::mat4 clip_from_camera_relative;
+  glm::vec4 right, up, forward, image_edges, light, bias, layer;
+  std::array<MapBlock, kMaxMaps> maps;
+};
+static_assert(sizeof(FrameBlock) == 64 + 7 * 16 + kMaxMaps * 80, "std140 has no padding here");
+
+/// Everything brought to OpenGL clip space with depth 0..1, whatever the plan was made for. `layer_width` and
+/// `layer_height`: texels of the map array's layers.
+[[nodiscard]] FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera,
+                                     const FrameOptions& options, int layer_width, int layer_height) noexcept;
+
+}  // namespace gnomon::render

@@ -1,0 +1,141 @@
+// What each pass of a frame binds and draws.
+#include <array>
+
+#include "program.hpp"
+#include "renderer_impl.hpp"
+
+namespace gnomon::render {
+namespace {
+
+// Bindings and locations as the shaders state them.
+constexpr GLint kMapLocation = 0, kBaseColorLocation = 1, kAlphaCutoffLocation = 2;
+constexpr GLuint kPositionUnit = 0, kNormalUnit = 1, kAlbedoUnit = 2, kColorImageUnit = 3, kCompareUnit = 4,
+                 kMapUnit = 5, kMaskUnit = 6, kExtraUnit = 7;
+
+void bind_material(const Batch& batch) noexcept {
+  glBindTextureUnit(kColorImageUnit, batch.texture);
+  glBindSampler(kColorImageUnit, batch.sampler);
+  glUniform4fv(kBaseColorLocation, 1, &batch.base_color.x);
+  glUniform1f(kAlphaCutoffLocation, batch.alpha_cutoff);
+}
+
+}  // namespace
+
+CommonPrograms::CommonPrograms()
+    : depth(make_program("depth.vert", "depth.frag")),
+      depth_masked(make_program("depth.vert", "depth_masked.frag")),
+      surfaces(make_program("gbuffer.vert", "gbuffer.frag")),
+      shade(make_program("fullscreen.vert", "shade.frag")),
+      aliasing(make_program("fullscreen.vert", "aliasing.frag")),
+      heat(make_program("fullscreen.vert", "heat.frag")),
+      tint(make_program("fullscreen.vert", "tint.frag")) {}
+
+void Renderer::Impl::draw_shadow_maps(const ShadowPlan& plan) noexcept {
+  const std::span<const Batch> batches = scene.batches();
+  glBindVertexArray(scene.vertex_array());
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  // Both sides cast: open and thin things have one side only, and the truth knows no sides.
+  glDisable(GL_CULL_FACE);
+  for (int i = 0; i < plan.map_count; ++i) {
+    const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
+    glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0, i);
+    glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
+    glViewport(0, 0, map.width, map.height);
+    constexpr float kFarthest = 1.0f;
+    glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest);
+    // Opaque batches come first in the order of batches, and their commands follow each other: one call draws
+    // them.
+    const std::span<const BatchRange> ranges = lists.map(i);
+    std::size_t opaque = 0;
+    while (opaque < ranges.size() && !batches[ranges[opaque].batch].masked) ++opaque;
+    if (opaque > 0) {
+      glUseProgram(programs.depth.name());
+      glUniform1i(kMapLocation, i);
+      lists.draw(ranges.front().begin, ranges[opaque - 1].end);
+    }
+    if (opaque == ranges.size()) continue;
+    glUseProgram(programs.depth_masked.name());
+    glUniform1i(kMapLocation, i);
+    for (const BatchRange& range : ranges.subspan(opaque)) {
+      bind_material(batches[range.batch]);
+      lists.draw(range.begin, range.end);
+    }
+  }
+}
+
+void Renderer::Impl::draw_surfaces() noexcept {
+  const GLuint fbo = targets.surfaces_fbo.name();
+  glBindFramebuffer(GL_FRAMEBUFFER, fbo);
+  glViewport(0, 0, targets.width, targets.height);
+  constexpr std::array<float, 4> kNothing{};
+  for (GLint i = 0; i < 3; ++i) glClearNamedFramebufferfv(fbo, GL_COLOR, i, kNothing.data());
+  constexpr float kFarthestReversed = 0.0f;
+  glClearNamedFramebufferfv(fbo, GL_DEPTH, 0, &kFarthestReversed);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  glBindVertexArray(scene.vertex_array());
+  glUseProgram(programs.surfaces.name());
+  const std::span<const Batch> batches = scene.batches();
+  for (const BatchRange& range : lists.camera()) {
+    const Batch& batch = batches[range.batch];
+    batch.double_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
+    glFrontFace(batch.mirrored ? GL_CW : GL_CCW);
+    bind_material(batch);
+    lists.draw(range.begin, range.end);
+  }
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+}
+
+void Renderer::Impl::fullscreen(const Framebuffer& fbo, const Program& program) const noexcept {
+  glBindFramebuffer(GL_FRAMEBUFFER, fbo.name());
+  glViewport(0, 0, targets.width, targets.height);
+  glDisable(GL_DEPTH_TEST);
+  glBindVertexArray(no_vertices.name());
+  glBindTextureUnit(kPositionUnit, targets.position.name());
+  glBindTextureUnit(kNormalUnit, targets.normal.name());
+  glBindTextureUnit(kAlbedoUnit, targets.albedo.name());
+  glUseProgram(program.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::Impl::draw_mask(const PreparedFilter& filter) noexcept {
+  glBindTextureUnit(kCompareUnit, maps.depth.name());
+  glBindSampler(kCompareUnit, maps.compare_sampler.name());
+  glBindTextureUnit(kMapUnit, maps.depth.name());
+  glBindSampler(kMapUnit, maps.plain_sampler.name());
+  fullscreen(targets.mask_fbo, filter_programs[filter.program].mask);
+}
+
+void Renderer::Impl::draw_shade() noexcept {
+  glBindTextureUnit(kMaskUnit, targets.mask.name());
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  fullscreen(targets.color_fbo, programs.shade);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+}
+
+void Renderer::Impl::draw_aliasing() noexcept {
+  glBindTextureUnit(kMaskUnit, targets.mask.name());
+  fullscreen(targets.aliasing_fbo, programs.aliasing);
+}
+
+void Renderer::Impl::draw_heat_map() noexcept {
+  glBindTextureUnit(kMaskUnit, targets.mask.name());
+  glBindTextureUnit(kExtraUnit, targets.aliasing.name());
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  fullscreen(targets.heat_fbo, programs.heat);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+}
+
+void Renderer::Impl::draw_cascade_tint() noexcept {
+  glBindTextureUnit(kMaskUnit, targets.mask.name());
+  glBindTextureUnit(kExtraUnit, targets.color.name());
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  fullscreen(targets.tint_fbo, programs.tint);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+}
+
+}  // namespace gnomon::render

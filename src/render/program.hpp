@@ -1,0 +1,16 @@
+// From shader files to a program that can be drawn with.
+#pragma once
+
+#include <string_view>
+
+#include "gl_object.hpp"
+#include "shader_text.hpp"
+
+namespace gnomon::render {
+
+/// Compiles and links. Throws RenderError with shader file, line and the driver's words.
+[[nodiscard]] Program make_program(const ComposedShader& vertex, const ComposedShader& fragment);
+[[nodiscard]] Program make_program(std::string_view vertex_path, std::string_view fragment_path,
+                                   std::string_view filter_path = {});
+
+}  // namespace gnomon::render

@@ -1,0 +1,114 @@
+// The last frame's images, from the GPU to plain memory. OpenGL's rows run bottom to top, pictures' top to
+// bottom.
+#include <algorithm>
+#include <cmath>
+
+#include "renderer_impl.hpp"
+
+namespace gnomon::render {
+namespace {
+
+template <class T>
+void flip_rows(std::vector<T>& values, std::size_t row, int height) {
+  for (int y = 0; y < height / 2; ++y) {
+    const auto top = values.begin() + static_cast<std::ptrdiff_t>(row * static_cast<std::size_t>(y));
+    const auto bottom =
+        values.begin() + static_cast<std::ptrdiff_t>(row * static_cast<std::size_t>(height - 1 - y));
+    std::swap_ranges(top, top + static_cast<std::ptrdiff_t>(row), bottom);
+  }
+}
+
+Image read_color(const Texture& texture, int width, int height, const char* name) {
+  Image image{name, width, height, {}};
+  const auto row = static_cast<std::size_t>(width) * 4;
+  image.rgba.resize(row * static_cast<std::size_t>(height));
+  glGetTextureImage(texture.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(image.rgba.size()),
+                    image.rgba.data());
+  flip_rows(image.rgba, row, height);
+  return image;
+}
+
+FloatImage read_floats(const Texture& texture, int width, int height, GLenum format,
+                       std::vector<std::string> channel_names) {
+  FloatImage image{width, height, static_cast<int>(channel_names.size()), {}, std::move(channel_names)};
+  const auto row = static_cast<std::size_t>(width) * image.channel_names.size();
+  image.values.resize(row * static_cast<std::size_t>(height));
+  glGetTextureImage(texture.name(), 0, format, GL_FLOAT,
+                    static_cast<GLsizei>(image.values.size() * sizeof(float)), image.values.data());
+  flip_rows(image.values, row, height);
+  return image;
+}
+
+/// As in shaders/common/octahedral.glsl.
+glm::vec3 unit_from_octahedral(float x, float y) {
+  glm::vec3 n{x, y, 1.0f - std::abs(x) - std::abs(y)};
+  if (n.z < 0.0f) {
+    n.x = (1.0f - std::abs(y)) * (x >= 0.0f ? 1.0f : -1.0f);
+    n.y = (1.0f - std::abs(x)) * (y >= 0.0f ? 1.0f : -1.0f);
+  }
+  return n / std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+}
+
+}  // namespace
+
+Image Renderer::image() const {
+  const FrameTargets& t = impl_->targets;
+  return read_color(t.color, t.width, t.height, "image");
+}
+Image Renderer::heat_map() const {
+  const FrameTargets& t = impl_->targets;
+  return read_color(t.heat, t.width, t.height, "heat_map");
+}
+Image Renderer::cascade_tint() const {
+  const FrameTargets& t = impl_->targets;
+  return read_color(t.tint, t.width, t.height, "cascade_tint");
+}
+FloatImage Renderer::mask() const {
+  const FrameTargets& t = impl_->targets;
+  return read_floats(t.mask, t.width, t.height, GL_RG, {"visibility", "map"});
+}
+FloatImage Renderer::aliasing() const {
+  const FrameTargets& t = impl_->targets;
+  return read_floats(t.aliasing, t.width, t.height, GL_RGBA, {"m_max", "m_s", "m_t", "map"});
+}
+FloatImage Renderer::positions() const {
+  const FrameTargets& t = impl_->targets;
+  return read_floats(t.position, t.width, t.height, GL_RGBA, {"x", "y", "z", "depth"});
+}
+
+FloatImage Renderer::normals() const {
+  const FrameTargets& t = impl_->targets;
+  FloatImage image = read_floats(t.normal, t.width, t.height, GL_RGBA, {"x", "y", "z", "surface"});
+  const Image albedo = read_color(t.albedo, t.width, t.height, "albedo");
+  for (std::size_t i = 0; i < image.values.size(); i += 4) {
+    const glm::vec3 n = unit_from_octahedral(image.values[i], image.values[i + 1]);
+    image.values[i] = n.x;
+    image.values[i + 1] = n.y;
+    image.values[i + 2] = n.z;
+    image.values[i + 3] = albedo.rgba[i + 3] > 0 ? 1.0f : 0.0f;
+  }
+  return image;
+}
+
+Image Renderer::screen() const {
+  const auto [width, height] = impl_->screen_size;
+  Image image{"screen", width, height, {}};
+  image.rgba.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  flip_rows(image.rgba, static_cast<std::size_t>(width) * 4, height);
+  return image;
+}
+
+FloatImage Renderer::depth_map(int map) const {
+  if (map < 0 || map >= impl_->map_count)
+    throw RenderError("no map " + std::to_string(map) + " in the last frame");
+  const auto [width, height] = impl_->map_size[static_cast<std::size_t>(map)];
+  FloatImage image{width, height, 1, {}, {"depth"}};
+  image.values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  glGetTextureSubImage(impl_->maps.depth.name(), 0, 0, 0, map, width, height, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                       static_cast<GLsizei>(image.values.size() * sizeof(float)), image.values.data());
+  return image;
+}
+
+}  // namespace gnomon::render

@@ -1,0 +1,145 @@
+// One frame: culling, shadow maps, surfaces, mask, picture, and the error per pixel.
+#include "gnomon/render/renderer.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "program.hpp"
+#include "renderer_impl.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr GLuint kFrameBinding = 0;
+
+using Clock = std::chrono::steady_clock;
+
+void GLAD_API_PTR report_gl_error(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
+                                  const void*) {
+  if (type == GL_DEBUG_TYPE_ERROR) std::fprintf(stderr, "OpenGL: %s\n", message);
+}
+
+std::string filter_shader_path(const Filter& filter) {
+  return "filter/" + std::string(filter.name) + ".glsl";
+}
+
+}  // namespace
+
+std::string_view to_string(Pass pass) noexcept {
+  switch (pass) {
+    case Pass::shadow_maps:
+      return "shadow_maps";
+    case Pass::surfaces:
+      return "surfaces";
+    case Pass::mask:
+      return "mask";
+    case Pass::shade:
+      return "shade";
+    case Pass::aliasing:
+      return "aliasing";
+    case Pass::heat_map:
+      return "heat_map";
+    case Pass::cascade_tint:
+      return "cascade_tint";
+  }
+  return "";
+}
+
+Renderer::Impl::Impl(const Scene& from_scene)
+    : scene(from_scene), lists(scene), frame_buffer(make_buffer()), no_vertices(make_vertex_array()) {
+  glNamedBufferStorage(frame_buffer.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  targets.resize(1, 1);
+}
+
+Renderer::Renderer(const Scene& scene) {
+  glDebugMessageCallback(report_gl_error, nullptr);
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  impl_ = std::make_unique<Impl>(scene);
+}
+
+Renderer::~Renderer() = default;
+
+PreparedFilter Renderer::prepare(const Filter& filter) {
+  auto& known = impl_->filter_programs;
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const auto& p) { return p.filter == &filter; });
+  if (found != known.end()) return {&filter, static_cast<std::size_t>(found - known.begin())};
+  known.push_back({&filter, make_program("fullscreen.vert", "mask.frag", filter_shader_path(filter))});
+  return {&filter, known.size() - 1};
+}
+
+FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
+                          const FrameOptions& options) noexcept {
+  Impl& impl = *impl_;
+  FrameStats stats;
+  const auto timed = [&](Pass pass, auto&& work) {
+    const Clock::time_point begin = Clock::now();
+    work();
+    if (!options.time_passes) return;
+    glFinish();
+    stats.milliseconds[static_cast<std::size_t>(pass)] =
+        std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  };
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  impl.targets.resize(camera.width, camera.height);
+  int width = 1, height = 1;
+  impl.map_count = plan.map_count;
+  for (std::size_t i = 0; i < plan.maps().size(); ++i) {
+    impl.map_size[i] = {plan.map[i].width, plan.map[i].height};
+    width = std::max(width, plan.map[i].width);
+    height = std::max(height, plan.map[i].height);
+  }
+  impl.maps.fit(width, height, std::max(plan.map_count, 1));
+
+  timed(Pass::shadow_maps, [&] {
+    const FrameBlock block = frame_block(plan, camera, options, impl.maps.width, impl.maps.height);
+    glNamedBufferSubData(impl.frame_buffer.name(), 0, sizeof block, &block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, impl.frame_buffer.name());
+    impl.scene.place(camera.position);
+    impl.lists.build(plan, camera);
+    impl.draw_shadow_maps(plan);
+  });
+  timed(Pass::surfaces, [&] { impl.draw_surfaces(); });
+  timed(Pass::mask, [&] { impl.draw_mask(filter); });
+  timed(Pass::shade, [&] { impl.draw_shade(); });
+  if (options.aliasing) timed(Pass::aliasing, [&] { impl.draw_aliasing(); });
+  if (options.aliasing && options.heat_map) timed(Pass::heat_map, [&] { impl.draw_heat_map(); });
+  if (options.cascade_tint) timed(Pass::cascade_tint, [&] { impl.draw_cascade_tint(); });
+
+  stats.map_count = plan.map_count;
+  for (int i = 0; i < plan.map_count; ++i) {
+    stats.map[static_cast<std::size_t>(i)] = impl.lists.map_stats(i);
+    stats.texels += impl.lists.map_stats(i).texels;
+  }
+  stats.camera = impl.lists.camera_stats();
+  return stats;
+}
+
+std::uint32_t Renderer::depth_array() const noexcept {
+  return impl_->maps.depth.name();
+}
+
+void Renderer::show(Picture picture, int width, int height) const noexcept {
+  const FrameTargets& t = impl_->targets;
+  const Framebuffer& from = picture == Picture::heat_map       ? t.heat_fbo
+                            : picture == Picture::cascade_tint ? t.tint_fbo
+                                                               : t.color_fbo;
+  glBlitNamedFramebuffer(from.name(), 0, 0, 0, t.width, t.height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                         t.width == width && t.height == height ? GL_NEAREST : GL_LINEAR);
+  impl_->screen_size = {width, height};
+}
+
+void Renderer::show_overlay(const Image& image) const {
+  const Texture texture = make_texture(GL_TEXTURE_2D);
+  glTextureStorage2D(texture.name(), 1, GL_RGBA8, image.width, image.height);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                      image.rgba.data());
+  const Framebuffer fbo = make_framebuffer();
+  glNamedFramebufferTexture(fbo.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+  // Upside down: the picture's first row is its top.
+  glBlitNamedFramebuffer(fbo.name(), 0, 0, 0, image.width, image.height, 0, image.height, image.width, 0,
+                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+}  // namespace gnomon::render

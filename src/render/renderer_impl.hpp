@@ -1,0 +1,52 @@
+// The parts a Renderer is made of.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "draw_list.hpp"
+#include "frame_block.hpp"
+#include "gl_object.hpp"
+#include "gnomon/render/renderer.hpp"
+#include "scene_buffers.hpp"
+#include "target.hpp"
+
+namespace gnomon::render {
+
+/// Programs that no filter takes part in.
+struct CommonPrograms {
+  Program depth, depth_masked, surfaces, shade, aliasing, heat, tint;
+  CommonPrograms();
+};
+
+struct Renderer::Impl {
+  explicit Impl(const Scene& scene);
+
+  void draw_shadow_maps(const ShadowPlan& plan) noexcept;
+  void draw_surfaces() noexcept;
+  void draw_mask(const PreparedFilter& filter) noexcept;
+  void draw_shade() noexcept;
+  void draw_aliasing() noexcept;
+  void draw_heat_map() noexcept;
+  void draw_cascade_tint() noexcept;
+  /// Draws over all of `fbo` with `program`; the images of the surfaces pass are bound.
+  void fullscreen(const Framebuffer& fbo, const Program& program) const noexcept;
+
+  SceneBuffers scene;
+  DrawLists lists;
+  CommonPrograms programs;
+  struct FilterProgram {
+    const Filter* filter;
+    Program mask;
+  };
+  std::vector<FilterProgram> filter_programs;
+  FrameTargets targets;
+  MapTargets maps;
+  Buffer frame_buffer;
+  VertexArray no_vertices;
+  std::array<std::array<int, 2>, kMaxMaps> map_size{};  ///< of the last frame
+  int map_count = 0;
+  std::array<int, 2> screen_size{};  ///< of the default framebuffer, as last shown
+};
+
+}  // namespace gnomon::render

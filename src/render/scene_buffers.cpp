@@ -1,0 +1,178 @@
+// Uploads a scene: vertices, images, and instances sorted so that few changes of state draw them all.
+#include "scene_buffers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <tuple>
+
+#include "gnomon/render/error.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr GLuint kPosition = 0, kNormal = 1, kTexcoord = 2, kObjectIndex = 3;  // as in the vertex shaders
+constexpr GLuint kObjectsBinding = 0;
+
+template <class T>
+Buffer filled_buffer(const std::vector<T>& values) {
+  Buffer buffer = make_buffer();
+  // A buffer of no bytes is an error; an empty scene still has its buffers.
+  const std::size_t bytes = std::max<std::size_t>(values.size() * sizeof(T), 16);
+  glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data());
+  return buffer;
+}
+
+GLint gl_wrap(TextureWrap wrap) {
+  switch (wrap) {
+    case TextureWrap::mirrored_repeat:
+      return GL_MIRRORED_REPEAT;
+    case TextureWrap::clamp_to_edge:
+      return GL_CLAMP_TO_EDGE;
+    case TextureWrap::repeat:
+      break;
+  }
+  return GL_REPEAT;
+}
+
+Texture upload(const Image& image) {
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+  if (image.width > limit || image.height > limit) {
+    throw RenderError("image '" + image.name + "' is " + std::to_string(image.width) + "x" +
+                      std::to_string(image.height) + ", the driver takes " + std::to_string(limit));
+  }
+  Texture texture = make_texture(GL_TEXTURE_2D);
+  const auto largest = static_cast<unsigned>(std::max(image.width, image.height));
+  glTextureStorage2D(texture.name(), std::bit_width(largest), GL_SRGB8_ALPHA8, image.width, image.height);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                      image.rgba.data());
+  glGenerateTextureMipmap(texture.name());
+  return texture;
+}
+
+}  // namespace
+
+SceneBuffers::SceneBuffers(const Scene& scene)
+    : primitives_(scene.primitives),
+      translation_(scene.instances.size()),
+      objects_(scene.instances.size()),
+      order_(scene.instances.size()) {
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    primitive_of_.push_back(instance.primitive);
+    boxes_.push_back(instance.bounds_world);
+    const glm::dmat4& m = instance.world_from_object;
+    translation_[i] = glm::dvec3(m[3]);
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) objects_[i].row[r].value[c] = static_cast<float>(m[c][r]);
+    }
+  }
+  upload_vertices(scene);
+  upload_images(scene);
+  make_batches(scene);
+  object_buffer_ = filled_buffer(objects_);
+}
+
+void SceneBuffers::upload_vertices(const Scene& scene) {
+  positions_ = filled_buffer(scene.positions);
+  normals_ = filled_buffer(scene.normals);
+  texcoords_ = filled_buffer(scene.texcoords);
+  indices_ = filled_buffer(scene.indices);
+  vertex_array_ = make_vertex_array();
+  const GLuint vao = vertex_array_.name();
+  glVertexArrayElementBuffer(vao, indices_.name());
+  const std::array<std::tuple<GLuint, GLuint, int>, 3> attributes{
+      {{kPosition, positions_.name(), 3}, {kNormal, normals_.name(), 3}, {kTexcoord, texcoords_.name(), 2}}};
+  for (const auto& [location, buffer, size] : attributes) {
+    glVertexArrayVertexBuffer(vao, location, buffer, 0, size * static_cast<GLsizei>(sizeof(float)));
+    glVertexArrayAttribFormat(vao, location, size, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(vao, location, location);
+    glEnableVertexArrayAttrib(vao, location);
+  }
+  glVertexArrayAttribIFormat(vao, kObjectIndex, 1, GL_UNSIGNED_INT, 0);
+  glVertexArrayAttribBinding(vao, kObjectIndex, kObjectIndex);
+  glVertexArrayBindingDivisor(vao, kObjectIndex, 1);
+  glEnableVertexArrayAttrib(vao, kObjectIndex);
+}
+
+void SceneBuffers::set_object_index_buffer(GLuint buffer) const noexcept {
+  glVertexArrayVertexBuffer(vertex_array_.name(), kObjectIndex, buffer, 0, sizeof(std::uint32_t));
+}
+
+void SceneBuffers::upload_images(const Scene& scene) {
+  textures_.reserve(scene.images.size());
+  for (const Image& image : scene.images) {
+    textures_.push_back(image.width > 0 && image.height > 0 ? upload(image) : Texture{});
+  }
+  white_ = upload(Image{"white", 1, 1, {255, 255, 255, 255}});
+  samplers_.resize(9);
+}
+
+GLuint SceneBuffers::sampler_for(const Material& material) {
+  Sampler& sampler =
+      samplers_[static_cast<std::size_t>(material.wrap_u) * 3 + static_cast<std::size_t>(material.wrap_v)];
+  if (!sampler) {
+    sampler = make_sampler();
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_S, gl_wrap(material.wrap_u));
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_T, gl_wrap(material.wrap_v));
+  }
+  return sampler.name();
+}
+
+void SceneBuffers::make_batches(const Scene& scene) {
+  const auto key = [&scene](std::uint32_t i) {
+    const Instance& instance = scene.instances[i];
+    const Primitive& primitive = scene.primitives[instance.primitive];
+    const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+    return std::tuple(material.alpha_mode != AlphaMode::opaque, primitive.material, instance.mirrored,
+                      instance.primitive, i);
+  };
+  std::iota(order_.begin(), order_.end(), 0u);
+  std::sort(order_.begin(), order_.end(),
+            [&key](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+
+  for (std::uint32_t n = 0; n < order_.size(); ++n) {
+    const Instance& instance = scene.instances[order_[n]];
+    const int index = scene.primitives[instance.primitive].material;
+    const auto same_state = [&](std::uint32_t other) {
+      const Instance& o = scene.instances[order_[other]];
+      return scene.primitives[o.primitive].material == index && o.mirrored == instance.mirrored;
+    };
+    if (n > 0 && same_state(n - 1)) {
+      batches_.back().end = n + 1;
+      continue;
+    }
+    const Material& material = scene.materials[static_cast<std::size_t>(index)];
+    Batch batch{.begin = n,
+                .end = n + 1,
+                .double_sided = material.double_sided,
+                .mirrored = instance.mirrored,
+                .base_color = material.base_color,
+                .texture = white_.name(),
+                .sampler = sampler_for(material)};
+    batch.masked = material.alpha_mode != AlphaMode::opaque;
+    if (batch.masked) batch.alpha_cutoff = material.alpha_cutoff;
+    if (material.base_color_image >= 0) {
+      const Texture& texture = textures_[static_cast<std::size_t>(material.base_color_image)];
+      if (texture) batch.texture = texture.name();
+    }
+    batches_.push_back(batch);
+  }
+}
+
+void SceneBuffers::place(const glm::dvec3& origin_world) {
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    const glm::dvec3 relative = translation_[i] - origin_world;
+    for (int r = 0; r < 3; ++r) objects_[i].row[r].value[3] = static_cast<float>(relative[r]);
+  }
+  glNamedBufferSubData(object_buffer_.name(), 0, static_cast<GLsizeiptr>(objects_.size() * sizeof(Object)),
+                       objects_.data());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kObjectsBinding, object_buffer_.name());
+}
+
+}  // namespace gnomon::render

@@ -1,0 +1,78 @@
+// A scene on the GPU, and the order in which its instances are drawn.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "gl_object.hpp"
+#include "gnomon/scene/scene.hpp"
+
+namespace gnomon::render {
+
+/// Instances that one state of the pipeline draws: entries [begin, end) of SceneBuffers::order.
+struct Batch {
+  std::uint32_t begin = 0, end = 0;
+  bool masked = false, double_sided = false, mirrored = false;
+  glm::vec4 base_color{1.0f};
+  float alpha_cutoff = -1.0f;  ///< nothing is below it
+  GLuint texture = 0, sampler = 0;
+};
+
+/// glMultiDrawElementsIndirect's own layout.
+struct DrawCommand {
+  std::uint32_t index_count, instance_count, first_index;
+  std::int32_t base_vertex;
+  std::uint32_t base_instance;
+};
+
+class SceneBuffers {
+ public:
+  /// Uploads everything that does not change. Throws RenderError where an image exceeds the driver's limit.
+  explicit SceneBuffers(const Scene& scene);
+
+  /// Sends the instances' matrices relative to `origin_world`.
+  void place(const glm::dvec3& origin_world);
+
+  [[nodiscard]] std::span<const std::uint32_t> order() const noexcept { return order_; }
+  [[nodiscard]] std::span<const Batch> batches() const noexcept { return batches_; }
+  [[nodiscard]] std::span<const Box> boxes() const noexcept { return boxes_; }
+  [[nodiscard]] const Primitive& primitive_of(std::uint32_t instance) const noexcept {
+    return primitives_[primitive_of_[instance]];
+  }
+  [[nodiscard]] std::uint32_t primitive_index(std::uint32_t instance) const noexcept {
+    return primitive_of_[instance];
+  }
+  [[nodiscard]] GLuint vertex_array() const noexcept { return vertex_array_.name(); }
+  /// The vertex attribute that says which object a vertex belongs to comes from this buffer.
+  void set_object_index_buffer(GLuint buffer) const noexcept;
+
+ private:
+  struct Row4 {
+    float value[4];
+  };
+  struct Object {
+    Row4 row[3];
+  };
+  void upload_vertices(const Scene& scene);
+  void upload_images(const Scene& scene);
+  void make_batches(const Scene& scene);
+  [[nodiscard]] GLuint sampler_for(const Material& material);
+
+  std::vector<Primitive> primitives_;
+  std::vector<std::uint32_t> primitive_of_;
+  std::vector<glm::dvec3> translation_;
+  std::vector<Box> boxes_;
+  std::vector<Object> objects_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Batch> batches_;
+  VertexArray vertex_array_;
+  Buffer positions_, normals_, texcoords_, indices_, object_buffer_;
+  std::vector<Texture> textures_;
+  std::vector<Sampler> samplers_;  ///< by wrap_u * 3 + wrap_v
+  Texture white_;
+};
+
+}  // namespace gnomon::render

@@ -1,0 +1,82 @@
+// Makes the images of a frame.
+#include "target.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace gnomon::render {
+namespace {
+
+Texture image(GLenum format, int width, int height) {
+  Texture texture = make_texture(GL_TEXTURE_2D);
+  glTextureStorage2D(texture.name(), 1, format, width, height);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return texture;
+}
+
+Framebuffer framebuffer_of(const Texture& color) {
+  Framebuffer fbo = make_framebuffer();
+  glNamedFramebufferTexture(fbo.name(), GL_COLOR_ATTACHMENT0, color.name(), 0);
+  return fbo;
+}
+
+Sampler depth_sampler(GLint filter) {
+  Sampler sampler = make_sampler();
+  glSamplerParameteri(sampler.name(), GL_TEXTURE_MIN_FILTER, filter);
+  glSamplerParameteri(sampler.name(), GL_TEXTURE_MAG_FILTER, filter);
+  glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  constexpr std::array<float, 4> kFarthest{1.0f, 1.0f, 1.0f, 1.0f};  // outside the map everything is lit
+  glSamplerParameterfv(sampler.name(), GL_TEXTURE_BORDER_COLOR, kFarthest.data());
+  return sampler;
+}
+
+}  // namespace
+
+void FrameTargets::resize(int new_width, int new_height) {
+  if (width == new_width && height == new_height) return;
+  width = new_width;
+  height = new_height;
+  position = image(GL_RGBA32F, width, height);
+  normal = image(GL_RGBA32F, width, height);
+  albedo = image(GL_SRGB8_ALPHA8, width, height);
+  depth = image(GL_DEPTH_COMPONENT32F, width, height);
+  mask = image(GL_RG32F, width, height);
+  color = image(GL_SRGB8_ALPHA8, width, height);
+  aliasing = image(GL_RGBA32F, width, height);
+  heat = image(GL_SRGB8_ALPHA8, width, height);
+  tint = image(GL_SRGB8_ALPHA8, width, height);
+  surfaces_fbo = framebuffer_of(position);
+  glNamedFramebufferTexture(surfaces_fbo.name(), GL_COLOR_ATTACHMENT1, normal.name(), 0);
+  glNamedFramebufferTexture(surfaces_fbo.name(), GL_COLOR_ATTACHMENT2, albedo.name(), 0);
+  glNamedFramebufferTexture(surfaces_fbo.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
+  constexpr std::array<GLenum, 3> kAll{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+  glNamedFramebufferDrawBuffers(surfaces_fbo.name(), static_cast<GLsizei>(kAll.size()), kAll.data());
+  mask_fbo = framebuffer_of(mask);
+  color_fbo = framebuffer_of(color);
+  aliasing_fbo = framebuffer_of(aliasing);
+  heat_fbo = framebuffer_of(heat);
+  tint_fbo = framebuffer_of(tint);
+}
+
+MapTargets::MapTargets()
+    : compare_sampler(depth_sampler(GL_LINEAR)), plain_sampler(depth_sampler(GL_NEAREST)) {
+  glSamplerParameteri(compare_sampler.name(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glSamplerParameteri(compare_sampler.name(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  fit(1, 1, 1);  // a plan without maps binds it all the same
+}
+
+void MapTargets::fit(int new_width, int new_height, int new_layers) {
+  if (width == new_width && height == new_height && layers >= new_layers) return;
+  width = new_width;
+  height = new_height;
+  layers = std::max(layers, new_layers);
+  depth = make_texture(GL_TEXTURE_2D_ARRAY);
+  glTextureStorage3D(depth.name(), 1, GL_DEPTH_COMPONENT32F, width, height, layers);
+  fbo = make_framebuffer();
+  glNamedFramebufferDrawBuffer(fbo.name(), GL_NONE);
+  glNamedFramebufferReadBuffer(fbo.name(), GL_NONE);
+}
+
+}  // namespace gnomon::render

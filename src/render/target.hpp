@@ -1,0 +1,31 @@
+// The images a frame is drawn into.
+#pragma once
+
+#include "gl_object.hpp"
+
+namespace gnomon::render {
+
+/// Everything at the size of the picture.
+struct FrameTargets {
+  int width = 0, height = 0;
+  Texture position, normal, albedo, depth, mask, color, aliasing, heat, tint;
+  Framebuffer surfaces_fbo, mask_fbo, color_fbo, aliasing_fbo, heat_fbo, tint_fbo;
+
+  /// Makes all images anew where the size differs.
+  void resize(int new_width, int new_height);
+};
+
+/// One layer per shadow map; a map smaller than the layers uses their lower left corner.
+struct MapTargets {
+  int width = 0, height = 0, layers = 0;
+  Texture depth;
+  Framebuffer fbo;
+  Sampler compare_sampler;  ///< compares, bilinear
+  Sampler plain_sampler;    ///< reads depths, nearest
+
+  MapTargets();
+  /// Grows to hold maps of this size; never shrinks the number of layers.
+  void fit(int new_width, int new_height, int new_layers);
+};
+
+}  // namespace gnomon::render
