@@ -211,12 +211,13 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"bounds.casters", "casters: a corner is beyond 1e30"},
       {"bounds.receivers", "receivers: a corner is beyond 1e30"},
       {"options.map_size", "options.map_size: must lie in 4..16384"},
-      {"options.cascades", "options.cascades: must lie in 1..16"},
       {"options.lambda", "options.lambda: must lie in 0..1"},
       {"options.near_hint", "options.near_hint: must not be below 0"},
       {"options.filter_radius_texels", "options.filter_radius_texels: must lie in 0..map_size/4"},
       {"options.bias", "options.bias: every value must be 0 or above"},
   });
+  if (invalid_field == "options.cascades")
+    return "options.cascades: must lie in 1.." + std::to_string(kMaxMaps);
   for (const Entry& entry : kTexts)
     if (entry.field == invalid_field) return std::string(entry.text);
   return std::string(invalid_field) + ": not usable";

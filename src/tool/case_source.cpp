@@ -31,8 +31,9 @@ void for_each_case(const std::string& name, const CaseHandler& handle) {
   }
   std::string line;
   for (long long number = 1; read_line(stdin, line); ++number) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::string place = "-:" + std::to_string(number);
+    if (line.size() > kMaxCaseBytes) throw CaseError(place + ": larger than 16 MiB");
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     Case input;
     try {
       input = read_case(line);
