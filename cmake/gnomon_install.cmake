@@ -2,52 +2,45 @@
 # so that an engine can install and find the core alone (`--component core`, find_package(gnomon COMPONENTS core)).
 include(CMakePackageConfigHelpers)
 set(gnomon_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
+get_property(gnomon_libraries GLOBAL PROPERTY GNOMON_LIBRARIES)
+list(REMOVE_DUPLICATES gnomon_libraries)
 
-# gnomon_installed_helpers(OUT TARGET): libraries of this build that TARGET links and that no gnomon_library made
-# (a generated GL loader, say): a static library is useless without them.
-function(gnomon_installed_helpers out target)
-  get_property(registered GLOBAL PROPERTY GNOMON_LIBRARIES)
-  get_target_property(linked ${target} LINK_LIBRARIES)
-  set(helpers)
+# gnomon_needed_components(OUT LIBRARY): the components of this package that LIBRARY links.
+function(gnomon_needed_components out library)
+  get_target_property(linked ${library} LINK_LIBRARIES)
+  set(components)
   foreach(item ${linked})
-    if(TARGET ${item})
-      get_target_property(aliased ${item} ALIASED_TARGET)
-      if(aliased)
-        set(item ${aliased})
-      endif()
-      get_target_property(imported ${item} IMPORTED)
-      if(NOT imported AND NOT item IN_LIST registered)
-        list(APPEND helpers ${item})
-      endif()
+    string(REGEX REPLACE "^gnomon(::|_)" "" component "${item}")
+    if("gnomon_${component}" IN_LIST gnomon_libraries)
+      list(APPEND components ${component})
     endif()
   endforeach()
-  set(${out} ${helpers} PARENT_SCOPE)
+  set(${out} ${components} PARENT_SCOPE)
 endfunction()
 
-get_property(gnomon_libraries GLOBAL PROPERTY GNOMON_LIBRARIES)
+# Filled into gnomonConfig.cmake: the components, each after those it needs (targets link only what stands before).
 set(gnomon_components)
-set(gnomon_helpers_done)
+set(gnomon_needs)
 foreach(library ${gnomon_libraries})
   string(REGEX REPLACE "^gnomon_" "" component ${library})
   list(APPEND gnomon_components ${component})
-  gnomon_installed_helpers(helpers ${library})
-  list(REMOVE_ITEM helpers ${gnomon_helpers_done})
-  list(APPEND gnomon_helpers_done ${helpers})
-  install(TARGETS ${library} ${helpers} EXPORT gnomon_${component} COMPONENT ${component}
+  gnomon_needed_components(needed ${library})
+  string(APPEND gnomon_needs "set(gnomon_${component}_needs ${needed})\n")
+  install(TARGETS ${library} EXPORT gnomon_${component} COMPONENT ${component}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT gnomon_${component} FILE gnomon_${component}.cmake NAMESPACE gnomon::
     DESTINATION ${gnomon_package_dir} COMPONENT ${component})
-  if(component STREQUAL "core")
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/gnomon DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-      COMPONENT core FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def"
-      PATTERN "casefile" EXCLUDE PATTERN "scene" EXCLUDE PATTERN "render" EXCLUDE PATTERN "trace" EXCLUDE
-      PATTERN "report" EXCLUDE)
-  elseif(EXISTS ${PROJECT_SOURCE_DIR}/include/gnomon/${component})
+  if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/include/gnomon/${component})
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/gnomon/${component}
       DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon COMPONENT ${component}
       FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def")
   endif()
 endforeach()
+
+# The core's headers are those that lie in no folder of another library.
+file(GLOB gnomon_core_headers CONFIGURE_DEPENDS
+  ${PROJECT_SOURCE_DIR}/include/gnomon/*.hpp ${PROJECT_SOURCE_DIR}/include/gnomon/*.def)
+install(FILES ${gnomon_core_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon COMPONENT core)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/gnomonConfig.cmake.in ${PROJECT_BINARY_DIR}/gnomonConfig.cmake
   INSTALL_DESTINATION ${gnomon_package_dir})

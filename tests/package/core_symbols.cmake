@@ -1,0 +1,13 @@
+# Does the core link with nothing but the C++ standard library behind it? All of its objects go into one shared
+# library that must leave nothing undefined.
+file(MAKE_DIRECTORY ${WORK_DIR})
+set(flags -shared -Wl,--no-undefined)
+if(SANITIZE)
+  # A sanitizer's own symbols stay open in a shared library; the address sanitizer's runtime must come along.
+  list(APPEND flags -fsanitize=${SANITIZE} -shared-libasan)
+endif()
+execute_process(COMMAND ${CXX} ${flags} -o ${WORK_DIR}/libcore_alone.so -Wl,--whole-archive ${ARCHIVE}
+  -Wl,--no-whole-archive RESULT_VARIABLE code ERROR_VARIABLE error)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "the core needs more than the standard library:\n${error}")
+endif()

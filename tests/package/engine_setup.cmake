@@ -1,0 +1,31 @@
+# Does an engine that knows only the installed core configure, build and run? Every step in a fresh folder.
+file(REMOVE_RECURSE ${WORK_DIR})
+set(prefix ${WORK_DIR}/prefix)
+
+function(step what)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${what} failed (${code}):\n${out}")
+  endif()
+  set(step_output "${out}" PARENT_SCOPE)
+endfunction()
+
+step("installing the core" ${CMAKE_COMMAND} --install ${BUILD_DIR} --component core --prefix ${prefix} --config ${CONFIG})
+set(flags "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror")
+if(SANITIZE)
+  string(APPEND flags " -fsanitize=${SANITIZE}")
+endif()
+# No package but GLM and gnomon may be looked for: the others are switched off by name.
+set(banned TinyGLTF OpenImageIO glfw3 OpenGL embree nlohmann_json fmt PkgConfig)
+list(TRANSFORM banned REPLACE "(.+)" "-DCMAKE_DISABLE_FIND_PACKAGE_\\1=ON" OUTPUT_VARIABLE disabled)
+step("configuring engine_setup" ${CMAKE_COMMAND} -S ${SAMPLE_DIR} -B ${WORK_DIR}/build -G Ninja
+  -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${flags} ${disabled})
+step("building engine_setup" ${CMAKE_COMMAND} --build ${WORK_DIR}/build)
+step("running engine_setup" ${WORK_DIR}/build/engine_setup)
+foreach(part "map 0" "draw: house" "draw: tree behind the viewer" "left out:" "pixels per texel")
+  string(FIND "${step_output}" "${part}" found)
+  if(found EQUAL -1)
+    message(FATAL_ERROR "engine_setup did not print '${part}':\n${step_output}")
+  endif()
+endforeach()
+message(STATUS "${step_output}")
