@@ -1,0 +1,135 @@
+// Reading cases: what the keys become, and that no text from outside does harm.
+#include "gnomon/casefile/casefile.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+namespace gnomon {
+namespace {
+
+constexpr const char* kCameraAndBoxes =
+    R"("camera": {"position": [1, 2, 3], "forward": [0, 0, -2], "up": [0, 1, 0],
+  "fov_y_deg": 90, "aspect": 2, "near": 0.5, "far": 50, "width": 640, "height": 320},
+  "receivers": {"min": [0, 0, 0], "max": [1, 1, 1]},
+  "casters": [{"min": [0, 0, 0], "max": [1, 1, 1]}, {"min": [2, 2, 2], "max": [3, 3, 3]}])";
+
+std::string text_with(const std::string& light, const std::string& options = "") {
+  return std::string("{") + kCameraAndBoxes + R"(, "light": )" + light +
+         (options.empty() ? "" : R"(, "options": )" + options) + "}";
+}
+
+const std::string kSun = R"({"type": "directional", "direction": [0, -1, 0]})";
+
+/// True where `text` is a case, false where it is refused; anything else thrown fails the test.
+bool reads(std::string_view text) {
+  try {
+    (void)read_case(text);
+    return true;
+  } catch (const CaseError& error) {
+    const std::string_view what = error.what();
+    EXPECT_FALSE(what.empty());
+    for (const char c : what) EXPECT_TRUE(c >= ' ' && c <= '~') << what;
+    return false;
+  }
+}
+
+TEST(CaseFile, reads_camera_and_boxes) {
+  const Case input = read_case(text_with(kSun));
+  EXPECT_EQ(input.camera.position, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(input.camera.forward, glm::dvec3(0, 0, -2));
+  EXPECT_NEAR(input.camera.top, 1.0, 1e-15);  // tan(45 degrees), one rounding of pi away
+  EXPECT_NEAR(input.camera.right, 2.0, 1e-15);
+  EXPECT_EQ(input.camera.near_depth, 0.5);
+  EXPECT_EQ(input.camera.far_depth, 50.0);
+  EXPECT_EQ(input.camera.width, 640);
+  EXPECT_EQ(input.receivers.size(), 1u);
+  ASSERT_EQ(input.casters.size(), 2u);
+  EXPECT_EQ(input.casters[1].max, glm::dvec3(3, 3, 3));
+  EXPECT_EQ(input.bounds().casters.data(), input.casters.data());
+}
+
+TEST(CaseFile, reads_all_three_kinds_of_light) {
+  const Case sun = read_case(text_with(kSun));
+  EXPECT_EQ(std::get<DirectionalLight>(sun.light).direction, glm::dvec3(0, -1, 0));
+  const Case spot = read_case(text_with(
+      R"({"type": "spot", "position": [1, 2, 3], "direction": [0, -1, 0], "outer_deg": 45, "range": 9})"));
+  EXPECT_DOUBLE_EQ(std::get<SpotLight>(spot.light).outer_radians, std::numbers::pi / 4);
+  EXPECT_EQ(std::get<SpotLight>(spot.light).range, 9.0);
+  const Case point = read_case(text_with(R"({"type": "point", "position": [1, 2, 3], "range": 9})"));
+  EXPECT_EQ(std::get<PointLight>(point.light).position, glm::dvec3(1, 2, 3));
+}
+
+TEST(CaseFile, leaves_what_is_absent_at_its_default) {
+  const PlanOptions defaults;
+  const PlanOptions options = read_case(text_with(kSun, R"({"map_size": 512})")).options;
+  EXPECT_EQ(options.map_size, 512);
+  EXPECT_EQ(options.cascades, defaults.cascades);
+  EXPECT_EQ(options.split, defaults.split);
+  EXPECT_EQ(options.lambda, defaults.lambda);
+  EXPECT_EQ(options.warp, defaults.warp);
+  EXPECT_EQ(options.fit, defaults.fit);
+  EXPECT_EQ(options.clip_space, defaults.clip_space);
+}
+
+TEST(CaseFile, finds_every_registered_warp_by_name) {
+  for (const Warp* warp : all_warps()) {
+    const std::string options = R"({"warp": ")" + std::string(warp->name) + R"("})";
+    EXPECT_EQ(read_case(text_with(kSun, options)).options.warp, warp);
+  }
+}
+
+TEST(CaseFile, keeps_numbers_to_the_last_bit) {
+  const Case input =
+      read_case(text_with(R"({"type": "directional", "direction": [0.1, 5e-324, 1.7976931348623157e308]})"));
+  const glm::dvec3 direction = std::get<DirectionalLight>(input.light).direction;
+  EXPECT_EQ(direction.x, 0.1);
+  EXPECT_EQ(direction.y, 5e-324);
+  EXPECT_EQ(direction.z, 1.7976931348623157e308);
+}
+
+TEST(CaseFile, names_the_file_in_front_of_the_complaint) {
+  try {
+    (void)load_case("/nowhere/a.json");
+    FAIL();
+  } catch (const CaseError& error) {
+    EXPECT_STREQ(error.what(), "/nowhere/a.json: No such file or directory");
+  }
+}
+
+TEST(CaseFile, brackets_inside_strings_are_not_nesting) {
+  const std::string brackets(100, '[');
+  try {
+    (void)read_case("{\"" + brackets + "\\\"" + brackets + "\": 1}");
+    FAIL();
+  } catch (const CaseError& error) {
+    EXPECT_NE(std::string_view(error.what()).find("unknown key"), std::string_view::npos) << error.what();
+  }
+}
+
+TEST(CaseFile, every_beginning_of_a_case_is_refused) {
+  const std::string text = text_with(kSun, R"({"map_size": 512})");
+  ASSERT_TRUE(reads(text));
+  for (std::size_t length = 0; length < text.size(); ++length)
+    EXPECT_FALSE(reads(text.substr(0, length))) << length;
+}
+
+RC_GTEST_PROP(CaseFile, any_bytes_are_read_or_refused, (const std::string& bytes)) {
+  (void)reads(bytes);
+}
+
+RC_GTEST_PROP(CaseFile, any_change_of_a_case_is_read_or_refused, ()) {
+  std::string text = text_with(kSun, R"({"map_size": 512, "warp": "auto", "stable": true})");
+  const int changes = *rc::gen::inRange(1, 6);
+  for (int i = 0; i < changes; ++i)
+    text[*rc::gen::inRange<std::size_t>(0, text.size())] =
+        *rc::gen::oneOf(rc::gen::arbitrary<char>(),
+                        rc::gen::element('{', '}', '[', ']', '"', ',', ':', '-', '.', 'e', '9', '\0'));
+  (void)reads(text);
+}
+
+}  // namespace
+}  // namespace gnomon

@@ -1,0 +1,180 @@
+// `gnomon plan`: what it prints for good cases.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "cases.hpp"
+#include "gnomon/casefile/casefile.hpp"
+#include "gnomon/gnomon.hpp"
+#include "process.hpp"
+
+namespace gnomon::test {
+namespace {
+
+std::vector<std::string> plan_arguments_for_all_cases() {
+  std::vector<std::string> arguments{"plan"};
+  for (const auto& file : case_files()) arguments.push_back(file.string());
+  return arguments;
+}
+
+// Parsed from the program's text, against the doubles of the library itself: equal to the last bit.
+void expect_same_matrix(const json& rows, const glm::dmat4& matrix) {
+  ASSERT_EQ(rows.size(), 4u);
+  for (int row = 0; row < 4; ++row) {
+    ASSERT_EQ(rows[static_cast<std::size_t>(row)].size(), 4u);
+    for (int column = 0; column < 4; ++column) {
+      const json& value = rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+      ASSERT_TRUE(value.is_number());
+      EXPECT_TRUE(std::isfinite(value.get<double>()));
+      EXPECT_EQ(value.get<double>(), matrix[column][row]) << "row " << row << ", column " << column;
+    }
+  }
+}
+
+TEST(Plan, every_case_is_answered_in_order_with_matrices_that_read_back_exactly) {
+  const auto files = case_files();
+  ASSERT_GE(files.size(), 9u);
+  const Finished finished = run_gnomon(plan_arguments_for_all_cases());
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(finished.err, "");
+  const auto lines = finished.lines();
+  ASSERT_EQ(lines.size(), files.size());
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    SCOPED_TRACE(files[i]);
+    const json printed = json::parse(lines[i]);
+    const Case input = load_case(files[i]);
+    const ShadowPlan plan = make_plan(input.camera, input.light, input.bounds(), input.options);
+    EXPECT_EQ(printed["status"], "ok");
+    ASSERT_GT(plan.map_count, 0);
+    ASSERT_EQ(printed["maps"].size(), plan.maps().size());
+    for (std::size_t k = 0; k < plan.maps().size(); ++k) {
+      const json& map = printed["maps"][k];
+      const ShadowMap& expected = plan.maps()[k];
+      expect_same_matrix(map["clip_from_world"], expected.clip_from_world);
+      EXPECT_EQ(map["depth_begin"].get<double>(), expected.depth_begin);
+      EXPECT_EQ(map["depth_end"].get<double>(), expected.depth_end);
+      EXPECT_EQ(map["size"], json({expected.width, expected.height}));
+      EXPECT_EQ(map["warp"], expected.warp->name);
+      EXPECT_EQ(map["kappa"].get<double>(), expected.kappa);
+      EXPECT_EQ(map["cull_planes"].size(), static_cast<std::size_t>(expected.cull_plane_count));
+      EXPECT_EQ(map["casters"], json::array({0}));
+      for (const char* key : {"p50", "p95", "max"}) EXPECT_GT(map["m"][key].get<double>(), 0.0) << key;
+    }
+  }
+}
+
+TEST(Plan, has_the_keys_of_the_format_and_no_others) {
+  const auto keys_of = [](const json& object) {
+    std::vector<std::string> keys;
+    for (const auto& [key, unused] : object.items()) keys.push_back(key);
+    return keys;  // sorted: nlohmann::json keeps its keys so
+  };
+  const Finished finished = run_gnomon({"plan", case_files().front().string(), "--repeat", "3"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const json plan = json::parse(finished.out);
+  EXPECT_EQ(keys_of(plan), (std::vector<std::string>{"m", "maps", "omitted", "plan_ns", "status"}));
+  EXPECT_EQ(keys_of(plan["m"]), (std::vector<std::string>{"max", "p50", "p95", "storage"}));
+  EXPECT_EQ(keys_of(plan["maps"][0]),
+            (std::vector<std::string>{"bias_world", "cascade", "casters", "clip_from_world", "cull_planes",
+                                      "depth_begin", "depth_end", "filter_margin_texels", "kappa", "m",
+                                      "size", "snap_key", "texel_world", "warp"}));
+  ASSERT_FALSE(plan["omitted"].empty());
+  EXPECT_EQ(keys_of(plan["omitted"][0]), (std::vector<std::string>{"saves_texels", "what", "why"}));
+}
+
+TEST(Plan, reads_one_case_per_line_of_standard_input) {
+  const std::string small = base_case_with("/options", {{"map_size", 64}, {"cascades", 1}}).dump();
+  const std::string large = base_case_with("/options", {{"map_size", 128}, {"cascades", 1}}).dump();
+  // Blank lines between, a carriage return, and no newline at the end.
+  const Finished finished = run_gnomon({"plan", "-"}, small + "\n\n  \n" + large + "\r\n" + small);
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  std::vector<int> sizes;
+  for (const std::string& line : finished.lines()) sizes.push_back(json::parse(line)["maps"][0]["size"][0]);
+  EXPECT_EQ(sizes, (std::vector<int>{64, 128, 64}));
+}
+
+TEST(Plan, takes_files_and_standard_input_together_in_the_order_given) {
+  const TemporaryFolder folder;
+  const auto sized = [](int size) {
+    return base_case_with("/options", {{"map_size", size}, {"cascades", 1}}).dump();
+  };
+  const Finished finished =
+      run_gnomon({"plan", folder.write("a.json", sized(32)), "-", folder.write("b.json", sized(16)), "-"},
+                 sized(8) + "\n" + sized(4));
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  std::vector<int> sizes;
+  for (const std::string& line : finished.lines()) sizes.push_back(json::parse(line)["maps"][0]["size"][0]);
+  EXPECT_EQ(sizes, (std::vector<int>{32, 8, 4, 16}));
+}
+
+TEST(Plan, of_no_input_at_all_is_no_plan) {
+  const Finished finished = run_gnomon({"plan", "-"}, "");
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_EQ(finished.out, "");
+}
+
+TEST(Plan, pretty_holds_the_same_values) {
+  const std::string file = case_files().front().string();
+  const Finished plain = run_gnomon({"plan", file});
+  const Finished pretty = run_gnomon({"plan", "--pretty", file});
+  ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  ASSERT_EQ(pretty.exit_code, 0) << pretty.err;
+  EXPECT_EQ(plain.lines().size(), 1u);
+  EXPECT_GT(pretty.lines().size(), 10u);
+  EXPECT_EQ(json::parse(plain.out), json::parse(pretty.out));
+}
+
+TEST(Plan, is_the_same_text_every_time) {
+  const auto arguments = plan_arguments_for_all_cases();
+  EXPECT_EQ(run_gnomon(arguments).out, run_gnomon(arguments).out);
+}
+
+TEST(Plan, repeat_tells_time_and_that_no_plan_asked_for_memory) {
+  auto arguments = plan_arguments_for_all_cases();
+  arguments.insert(arguments.end(), {"--repeat", "50"});
+  const Finished finished = run_gnomon(arguments);
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  ASSERT_FALSE(finished.lines().empty());
+  for (const std::string& line : finished.lines()) {
+    const json time = json::parse(line)["plan_ns"];
+    EXPECT_GT(time["min"].get<double>(), 0.0);
+    EXPECT_LE(time["min"].get<double>(), time["median"].get<double>());
+    EXPECT_LE(time["median"].get<double>(), time["p99"].get<double>());
+    EXPECT_EQ(time["allocations"].get<int>(), 0);
+  }
+}
+
+TEST(Plan, of_a_scene_out_of_view_says_so_and_is_no_error) {
+  const json elsewhere{{"min", {-10, 0, 500}}, {"max", {10, 1, 600}}};
+  const Finished finished = run_gnomon({"plan", "-"}, base_case_with("/receivers", elsewhere).dump());
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const json plan = json::parse(finished.out);
+  EXPECT_EQ(plan["status"], "nothing_visible");
+  EXPECT_FALSE(plan["reason"].get<std::string>().empty());
+  EXPECT_TRUE(plan["maps"].empty());
+  EXPECT_EQ(plan["m"]["max"].get<double>(), 0.0);
+}
+
+TEST(Plan, of_no_boxes_at_all_is_no_error) {
+  for (const char* list : {"/receivers", "/casters"}) {
+    const Finished finished = run_gnomon({"plan", "-"}, base_case_with(list, json::array()).dump());
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_NE(json::parse(finished.out)["status"], "ok") << list;
+  }
+}
+
+TEST(Plan, lists_the_casters_a_map_needs_by_index) {
+  // The second box stands behind the floor as the light sees it: it can shadow nothing in view.
+  const json boxes = json::parse(R"([{"min": [-1, 0, -1], "max": [1, 3, 1]},
+                                     {"min": [-1, -9, -1], "max": [1, -5, 1]},
+                                     {"min": [3, 0, -1], "max": [4, 2, 1]}])");
+  json input = base_case_with("/casters", boxes);
+  input["options"] = {{"cascades", 1}};
+  const Finished finished = run_gnomon({"plan", "-"}, input.dump());
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(json::parse(finished.out)["maps"][0]["casters"], json::array({0, 2}));
+}
+
+}  // namespace
+}  // namespace gnomon::test
