@@ -25,7 +25,7 @@ void main() {
   float sun = max(-dot(s.shading_normal, light), 0.0) * texelFetch(mask_image, pixel, 0).r;
   vec3 color = s.albedo * (kSunColor * sun + sky_ambient(s.shading_normal));
   const float kHazeAtFar = 0.35;  // share of the horizon's colour at the camera's far plane
-  float haze = kHazeAtFar * smoothstep(0.0, 1.0, s.depth / frame.layer.w);
+  float haze = kHazeAtFar * smoothstep(0.2, 1.0, s.depth / frame.layer.w);
   vec3 horizon = sky_color(normalize(vec3(ray.x, 0.02, ray.z)), light);
   color_out = vec4(display_from_scene(mix(color, horizon, haze)), 1.0);
 }
