@@ -16,6 +16,8 @@ using nlohmann::json;
 
 namespace {
 
+constexpr std::uint64_t kStrideUnit = 4, kMaxStride = 252;  // bytes; glTF 2.0, section 5.11.4
+
 json parse_json(std::string_view text) {
   check_json_size(text);
   try {
@@ -80,6 +82,11 @@ void check_views(const json& document, const json& buffers) {
       throw Refusal(element("bufferViews", i), "bytes " + std::to_string(offset) + " + " +
                                                    std::to_string(length) + " lie beyond the buffer's " +
                                                    std::to_string(total));
+    }
+    const auto stride = view.value("byteStride", std::uint64_t{0});  // 0, as some write it, means none
+    if (stride > kMaxStride || stride % kStrideUnit != 0) {
+      throw Refusal(element("bufferViews", i),
+                    "byteStride " + std::to_string(stride) + " is not one of 4, 8 ... 252");
     }
   }
 }

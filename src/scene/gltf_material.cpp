@@ -12,6 +12,9 @@ namespace gnomon::detail {
 
 namespace {
 
+// A picture that fails late costs as much time as one that decodes, and no pixels of the budget.
+constexpr int kFailures = 64;
+
 class ImageReader {
  public:
   ImageReader(const Document& document, SceneFolder& folder, std::uint64_t pixels, Scene& scene)
@@ -28,6 +31,7 @@ class ImageReader {
       scene_.images.push_back(std::move(decoded));
       it->second = static_cast<int>(scene_.images.size() - 1);
     } catch (const std::runtime_error& e) {
+      ++failures_;
       warn(scene_.warnings, element("images", static_cast<std::size_t>(source)),
            std::string(e.what()) + "; shown white");
     }
@@ -36,6 +40,8 @@ class ImageReader {
 
  private:
   Image decode(const ImageSource& from) {
+    if (failures_ >= kFailures)
+      throw LeftOut("is not tried after " + std::to_string(kFailures) + " that failed");
     if (!from.uri.empty()) return decode_image(folder_.read(from.uri), from.name, pixels_left_);
     if (from.buffer_view >= 0) {
       return decode_image(view_bytes(document_.model, from.buffer_view), from.name, pixels_left_);
@@ -46,6 +52,7 @@ class ImageReader {
   const Document& document_;
   SceneFolder& folder_;
   std::uint64_t pixels_left_;
+  int failures_ = 0;
   Scene& scene_;
   std::map<int, int> loaded_;
 };

@@ -92,9 +92,14 @@ std::optional<std::vector<std::uint32_t>> MeshReader::skinned_primitives_of(int 
   const std::size_t vertices = scene_.positions.size(), indices = scene_.indices.size();
   const std::size_t primitives = scene_.primitives.size();
   try {
-    const auto joints = joint_matrices(document_.model, document_.model.skins[skin], tree_);
+    const std::vector<glm::dmat4>& joints = joints_of(shown.skin);
     std::vector<std::uint32_t> out;
     for (std::size_t p = 0; p < document_.model.meshes[mesh].primitives.size(); ++p) {
+      // Unlike a plain mesh this is work for each node, so it is held to the same limit.
+      if (++bent_ > limits_.nodes) {
+        throw Refusal(element("nodes", static_cast<std::size_t>(node)),
+                      "takes the scene above " + std::to_string(limits_.nodes) + " skinned primitives");
+      }
       if (const auto built = build(shown.mesh, p, &joints)) out.push_back(*built);
     }
     return out;
@@ -108,6 +113,16 @@ std::optional<std::vector<std::uint32_t>> MeshReader::skinned_primitives_of(int 
     scene_.primitives.resize(primitives);
     return std::nullopt;
   }
+}
+
+// Computed once per skin, also where that fails: many nodes may name one skin.
+const std::vector<glm::dmat4>& MeshReader::joints_of(int skin) {
+  const auto [it, is_new] = joints_.try_emplace(skin);
+  if (is_new)
+    it->second =
+        joint_matrices(document_.model, document_.model.skins[static_cast<std::size_t>(skin)], tree_);
+  if (it->second.empty()) throw LeftOut("is broken");
+  return it->second;
 }
 
 std::optional<std::uint32_t> MeshReader::build(int mesh, std::size_t primitive,

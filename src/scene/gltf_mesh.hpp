@@ -39,6 +39,7 @@ class MeshReader {
   std::optional<std::uint32_t> build(int mesh, std::size_t primitive, const std::vector<glm::dmat4>* joints);
   std::uint32_t build_triangles(int mesh, std::size_t primitive, const std::string& where,
                                 const std::vector<glm::dmat4>* joints);
+  const std::vector<glm::dmat4>& joints_of(int skin);
   Attributes attributes_of(const tinygltf::Primitive& primitive) const;
   Vertices read_vertices(const Attributes& attributes, const std::string& where);
   template <class Vec>
@@ -55,6 +56,8 @@ class MeshReader {
   Scene& scene_;
   std::uint64_t vertices_left_, corners_left_;
   std::vector<std::optional<std::vector<std::uint32_t>>> built_;  // per mesh
+  std::map<int, std::vector<glm::dmat4>> joints_;                 // per skin
+  std::uint64_t bent_ = 0;                                        // primitives tried under a skin
   std::map<Attributes, Range> shared_;                            // vertex data that several primitives use
 };
 

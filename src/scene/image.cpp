@@ -5,8 +5,10 @@
 #include <OpenImageIO/imageio.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <algorithm>
+#include <iterator>
 #include <optional>
+#include <string_view>
 
 #include "gnomon/scene/load.hpp"
 #include "refusal.hpp"
@@ -36,6 +38,19 @@ std::optional<Header> png_header(Span bytes) {
   if (bytes.size() < kEnd || !std::equal(std::begin(kMagic), std::end(kMagic), bytes.begin()))
     return std::nullopt;
   return Header{"png", big_endian(bytes, kWidthAt, 4), big_endian(bytes, kHeightAt, 4)};
+}
+
+// Whether the chunks run whole up to the last, IEND. libpng says so as well, but on standard error.
+bool png_is_whole(Span bytes) {
+  constexpr std::size_t kFirstChunk = 8, kAroundData = 12;  // length, type and checksum
+  std::size_t at = kFirstChunk;
+  while (bytes.size() - at >= kAroundData) {
+    const std::uint64_t length = big_endian(bytes, at, 4);
+    if (length > bytes.size() - at - kAroundData) return false;
+    if (big_endian(bytes, at + 4, 4) == 0x49454e44) return true;  // "IEND"
+    at += kAroundData + static_cast<std::size_t>(length);
+  }
+  return false;
 }
 
 // Walks the segments up to the frame header (SOF), which says the size. ITU-T T.81 (1992), annex B.
@@ -124,6 +139,7 @@ Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name,
   const auto fail = [&](const std::string& why) {
     throw SceneError(detail::one_line(name + ": picture: damaged " + header.format + ": " + why));
   };
+  if (header.format == std::string_view("png") && !png_is_whole(bytes)) fail("it is cut off");
   // The reader is asked for by name: OpenImageIO would otherwise try every format it knows on bytes it does
   // not.
   auto in = OIIO::ImageInput::create(header.format);

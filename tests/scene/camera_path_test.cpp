@@ -1,0 +1,219 @@
+// Camera flights: through their keys, without jumps, to files and back.
+#include "gnomon/scene/camera_path.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "gltf_text.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr double kRounding = 1e-12;  // of numbers of size 10 through three levels of interpolation
+
+CameraPath path_of(std::vector<CameraKey> keys, bool closed = false) {
+  CameraPath path;
+  path.keys = std::move(keys);
+  path.closed = closed;
+  return path;
+}
+
+double distance(const glm::dvec3& a, const glm::dvec3& b) {
+  return glm::length(a - b);
+}
+
+TEST(CameraPath, without_keys_there_is_still_a_camera) {
+  const Camera camera = CameraPath().at(0.5, 640, 480);
+  EXPECT_GT(glm::length(camera.forward), 0.0);
+  EXPECT_EQ(camera.width, 640);
+}
+
+TEST(CameraPath, one_key_is_a_still_camera) {
+  const CameraPath path = path_of({{{1, 2, 3}, {1, 2, 0}}});
+  for (const double t : {-1.0, 0.0, 0.3, 1.0, 7.0}) {
+    EXPECT_EQ(path.at(t, 4, 4).position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(glm::normalize(path.at(t, 4, 4).forward), glm::dvec3(0, 0, -1));
+  }
+}
+
+TEST(CameraPath, keys_that_repeat_do_not_divide_by_nothing) {
+  const CameraKey key{{1, 2, 3}, {0, 0, 0}};
+  for (const bool closed : {false, true}) {
+    for (int i = 0; i <= 20; ++i) {
+      const Camera same = path_of({key, key, key}, closed).at(i / 20.0, 4, 4);
+      EXPECT_LT(distance(same.position, key.position), kRounding);
+      const Camera moved = path_of({key, key, {{5, 2, 3}, {0, 0, 0}}, key}, closed).at(i / 20.0, 4, 4);
+      EXPECT_TRUE(std::isfinite(glm::length(moved.position)));
+      EXPECT_LT(distance(moved.position, {3, 2, 3}), 5.0) << "stays near its keys";
+    }
+  }
+}
+
+TEST(CameraPath, a_time_outside_the_flight_or_not_a_number_is_its_nearer_end) {
+  const CameraPath path = path_of({{{0, 0, 0}, {0, 0, -1}}, {{8, 0, 0}, {8, 0, -1}}});
+  EXPECT_LT(distance(path.at(-3.0, 4, 4).position, {0, 0, 0}), kRounding);
+  EXPECT_LT(distance(path.at(3.0, 4, 4).position, {8, 0, 0}), kRounding);
+  EXPECT_LT(distance(path.at(std::nan(""), 4, 4).position, {0, 0, 0}), kRounding);
+}
+
+TEST(CameraPath, between_two_keys_it_goes_straight_and_evenly) {
+  const CameraPath path = path_of({{{0, 0, 0}, {0, 0, -1}}, {{8, 4, 0}, {8, 4, -1}}});
+  EXPECT_LT(distance(path.at(0.25, 4, 4).position, {2, 1, 0}), kRounding);
+  EXPECT_LT(distance(path.at(0.5, 4, 4).forward, {0, 0, -1}), kRounding);
+}
+
+TEST(CameraPath, a_target_that_meets_the_position_between_keys_still_gives_a_direction) {
+  const CameraPath path = path_of({{{0, 0, 0}, {2, 0, 0}}, {{2, 0, 0}, {0, 0, 0}}});
+  EXPECT_GT(glm::length(path.at(0.5, 4, 4).forward), 0.0);
+}
+
+TEST(CameraPath, passes_through_every_key_in_order) {
+  const std::vector<CameraKey> keys{{{0, 0, 0}, {0, 0, -9}},
+                                    {{1, 5, 0}, {4, 0, 0}},
+                                    {{9, 5, 2}, {0, 3, 0}},
+                                    {{9, 6, 2}, {1, 1, 1}},
+                                    {{-4, 0, 7}, {0, 1, 0}}};
+  for (const bool closed : {false, true}) {
+    const CameraPath path = path_of(keys, closed);
+    std::size_t next = 0;
+    constexpr int kSteps = 200'000;
+    for (int i = 0; i <= kSteps && next < keys.size(); ++i) {
+      const Camera camera = path.at(static_cast<double>(i) / kSteps, 4, 4);
+      const bool here = distance(camera.position, keys[next].position) < 1e-3 &&
+                        distance(camera.position + camera.forward, keys[next].target) < 1e-2;
+      next += here ? 1u : 0u;
+    }
+    EXPECT_EQ(next, keys.size()) << (closed ? "closed" : "open");
+    const glm::dvec3 last = closed ? keys.front().position : keys.back().position;
+    EXPECT_LT(distance(path.at(1.0, 4, 4).position, last), kRounding * 10);
+  }
+}
+
+TEST(CameraPath, has_no_jump_in_place_or_speed) {
+  const CameraPath path = path_of(
+      {{{0, 0, 0}, {0, 0, -9}}, {{1, 5, 0}, {4, 0, 0}}, {{9, 5, 2}, {0, 3, 0}}, {{-4, 0, 7}, {0, 1, 0}}},
+      true);
+  constexpr int kSteps = 4000;
+  glm::dvec3 before = path.at(0.0, 4, 4).position, step_before(0.0);
+  double fastest = 0.0, sharpest = 0.0;
+  for (int i = 1; i <= kSteps; ++i) {
+    const glm::dvec3 now = path.at(static_cast<double>(i) / kSteps, 4, 4).position, step = now - before;
+    fastest = std::max(fastest, glm::length(step));
+    if (i > 1) sharpest = std::max(sharpest, glm::length(step - step_before));
+    before = now;
+    step_before = step;
+  }
+  EXPECT_LT(fastest, 0.05);  // the loop is about 40 long
+  EXPECT_LT(sharpest,
+            fastest / 20);  // speed changes by little from step to step; a kink would change it by as much
+}
+
+TEST(CameraPath, makes_a_perspective_camera_of_the_image_asked_for) {
+  CameraPath path = path_of({{{0, 0, 0}, {0, 0, -5}}});
+  path.fov_y_radians = std::numbers::pi / 2.0;
+  path.near_depth = 0.5;
+  path.far_depth = 50.0;
+  const Camera camera = path.at(0.0, 200, 100);
+  EXPECT_NEAR(camera.top, 1.0, kRounding);
+  EXPECT_NEAR(camera.right, 2.0, kRounding);
+  EXPECT_EQ(camera.near_depth, 0.5);
+  EXPECT_EQ(camera.far_depth, 50.0);
+  EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
+}
+
+TEST(CameraPathFile, saved_and_loaded_again_is_the_same_flight) {
+  CameraPath path = path_of({{{0.1, 1e-9, 3e7}, {1.0 / 3.0, 0, 0}}, {{4, 5, 6}, {7, 8, 9}}}, true);
+  path.near_depth = 0.123;
+  path.far_depth = 4567.8;
+  const TemporaryFolder folder;
+  save_camera_path(path, folder.path() / "flight.json");
+  const CameraPath back = load_camera_path(folder.path() / "flight.json");
+  ASSERT_EQ(back.keys.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(back.keys[i].position, path.keys[i].position);
+    EXPECT_EQ(back.keys[i].target, path.keys[i].target);
+  }
+  EXPECT_TRUE(back.closed);
+  EXPECT_EQ(back.near_depth, path.near_depth);
+  EXPECT_EQ(back.far_depth, path.far_depth);
+  EXPECT_NEAR(back.fov_y_radians, path.fov_y_radians, kRounding);
+}
+
+TEST(CameraPathFile, what_is_wrong_is_named_with_its_file_and_key) {
+  const TemporaryFolder folder;
+  const std::string key = R"({"position":[0,0,0],"target":[0,0,1]})";
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"", "JSON"},
+      {"{", "file"},
+      {"[]", "path"},
+      {"{}", "keys"},
+      {R"({"keys":[]})", "keys"},
+      {R"({"keys":[{"position":[0,0,0]}]})", "keys[0]: has no target"},
+      {R"({"keys":[{"position":[0,0],"target":[0,0,1]}]})", "keys[0].position"},
+      {R"({"keys":[{"position":[0,0,"1"],"target":[0,0,1]}]})", "keys[0].position"},
+      {R"({"keys":[{"position":[0,0,1],"target":[0,0,1]}]})", "keys[0]: target is the position"},
+      {R"({"keys":[{"position":[0,0,1],"target":[0,0,2],"roll":1}]})", "unknown key 'roll'"},
+      {R"({"keys":[)" + key + R"(],"fov":60})", "unknown key 'fov'"},
+      {R"({"keys":[)" + key + R"(],"fov_y_deg":180})", "fov_y_deg"},
+      {R"({"keys":[)" + key + R"(],"near":0})", "near"},
+      {R"({"keys":[)" + key + R"(],"near":5,"far":5})", "far"},
+      {R"({"keys":[)" + key + R"(],"closed":1})", "closed"},
+      {R"({"keys":[)" + key + R"(],"far":1e999})", "file"},
+      {std::string(1000, '['), "nested"}};
+  for (const auto& [text, wanted] : cases) {
+    const auto file = folder.write("flight.json", text);
+    try {
+      (void)load_camera_path(file);
+      ADD_FAILURE() << text << " was loaded";
+    } catch (const SceneError& e) {
+      const std::string message = e.what();
+      EXPECT_TRUE(message.starts_with(file.string() + ": ")) << message;
+      EXPECT_NE(message.find(wanted), std::string::npos) << message << " for " << text;
+    }
+  }
+  EXPECT_THROW((void)load_camera_path(folder.path() / "none.json"), SceneError);
+  EXPECT_THROW(save_camera_path(path_of({}), folder.path() / "none/flight.json"), SceneError);
+}
+
+void expect_orbit_holds(const Box& bounds) {
+  Scene scene;
+  scene.bounds_world = bounds;
+  const CameraPath path = default_path(scene);
+  EXPECT_TRUE(path.closed);
+  EXPECT_GT(path.near_depth, 0.0);
+  EXPECT_GT(path.far_depth, path.near_depth);
+  const Box seen = bounds.empty() ? Box{glm::dvec3(0.0), glm::dvec3(0.0)} : bounds;
+  for (int i = 0; i <= 64; ++i) {
+    const Camera camera = path.at(i / 64.0, 100, 100);
+    const CameraAxes axes = camera_axes(camera);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 p((corner & 1) != 0 ? seen.max.x : seen.min.x,
+                         (corner & 2) != 0 ? seen.max.y : seen.min.y,
+                         (corner & 4) != 0 ? seen.max.z : seen.min.z);
+      const glm::dvec3 to = p - camera.position;
+      const double depth = glm::dot(to, axes.forward);
+      ASSERT_GT(depth, camera.near_depth);
+      ASSERT_LT(depth, camera.far_depth);
+      ASSERT_LT(std::abs(glm::dot(to, axes.right)), camera.right * depth);
+      ASSERT_LT(std::abs(glm::dot(to, axes.up)), camera.top * depth);
+    }
+  }
+}
+
+TEST(DefaultPath, an_orbit_shows_all_of_any_bounds) {
+  expect_orbit_holds({{-1, 0, -3}, {4, 2, 5}});
+  expect_orbit_holds({{-1e-6, 0, -1e-6}, {1e-6, 1e-6, 1e-6}});
+  expect_orbit_holds({{1e7, 0, 0}, {1e7 + 2000, 300, 2000}});
+  expect_orbit_holds({{-5, 0, -5}, {5, 0, 5}});
+}
+
+TEST(DefaultPath, an_orbit_about_a_point_or_nothing_is_still_a_flight) {
+  expect_orbit_holds({});
+  expect_orbit_holds({{0, 0, 0}, {0, 0, 0}});
+  expect_orbit_holds({{3, 4, 5}, {3, 4, 5}});
+  expect_orbit_holds({{1e9, 1e9, 1e9}, {1e9, 1e9, 1e9}});
+}
+
+}  // namespace
+}  // namespace gnomon::test

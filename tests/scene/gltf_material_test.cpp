@@ -1,0 +1,124 @@
+// Base colour, alpha and pictures of glTF materials.
+#include "gltf_text.hpp"
+#include "gnomon/scene/image.hpp"
+
+namespace gnomon::test {
+namespace {
+
+std::vector<std::uint8_t> small_png() {
+  Image image;
+  image.name = "small";
+  image.width = 2;
+  image.height = 1;
+  image.rgba = {255, 0, 0, 255, 10, 20, 30, 0};
+  return encode_png(image);
+}
+
+TestGltf with_material(const json& material) {
+  TestGltf gltf;
+  const int position = gltf.positions(kTriangle);
+  const int texcoord = gltf.accessor(gltf.view(std::vector<float>{0, 0, 1, 0, 0, 1}), kFloat, "VEC2", 3);
+  gltf.add("materials", material);
+  gltf.show({{"attributes", {{"POSITION", position}, {"TEXCOORD_0", texcoord}}}, {"material", 0}});
+  return gltf;
+}
+
+TestGltf with_picture(const std::vector<std::uint8_t>& bytes, json texture_info = {{"index", 0}}) {
+  TestGltf gltf = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", texture_info}}}});
+  gltf.add("images", {{"bufferView", gltf.view(bytes)}, {"mimeType", "image/png"}, {"name", "small"}});
+  gltf.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}});
+  gltf.add("textures", {{"source", 0}, {"sampler", 0}});
+  return gltf;
+}
+
+TEST(GltfMaterial, a_primitive_without_one_gets_the_default_behind_the_files_own) {
+  TestGltf gltf = with_material({{"name", "own"}});
+  gltf.show({{"attributes", {{"POSITION", 0}}}});
+  const Scene scene = gltf.load();
+  ASSERT_EQ(scene.materials.size(), 2u);
+  EXPECT_EQ(scene.primitives[0].material, 0);
+  EXPECT_EQ(scene.primitives[1].material, 1);
+  EXPECT_EQ(scene.materials[1].base_color, glm::vec4(1.0f));
+}
+
+TEST(GltfMaterial, colour_alpha_and_sides_are_read) {
+  const Scene scene = with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {0.25, 0.5, 0.75, 0.5}}}},
+                                     {"alphaMode", "MASK"},
+                                     {"alphaCutoff", 0.3},
+                                     {"doubleSided", true}})
+                          .load();
+  const Material& material = scene.materials[0];
+  EXPECT_EQ(material.base_color, glm::vec4(0.25f, 0.5f, 0.75f, 0.5f));
+  EXPECT_EQ(material.alpha_mode, AlphaMode::mask);
+  EXPECT_FLOAT_EQ(material.alpha_cutoff, 0.3f);
+  EXPECT_TRUE(material.double_sided);
+}
+
+TEST(GltfMaterial, an_embedded_picture_arrives_with_its_wrapping_and_unmultiplied_colour) {
+  const Scene scene = with_picture(small_png()).load();
+  ASSERT_EQ(scene.images.size(), 1u);
+  EXPECT_EQ(scene.images[0].rgba, (std::vector<std::uint8_t>{255, 0, 0, 255, 10, 20, 30, 0}));
+  EXPECT_EQ(scene.materials[0].base_color_image, 0);
+  EXPECT_EQ(scene.materials[0].wrap_u, TextureWrap::clamp_to_edge);
+  EXPECT_EQ(scene.materials[0].wrap_v, TextureWrap::mirrored_repeat);
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfMaterial, a_picture_that_does_not_decode_is_a_warning_and_white) {
+  std::vector<std::uint8_t> cut = small_png();
+  cut.resize(cut.size() / 2);
+  for (const auto& bytes : {cut, std::vector<std::uint8_t>{'n', 'o', 'n', 'e'}}) {
+    const Scene scene = with_picture(bytes).load();
+    EXPECT_EQ(scene.materials[0].base_color_image, -1);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("images[0]"), std::string::npos);
+  }
+}
+
+TEST(GltfMaterial, a_picture_above_the_budget_is_a_warning_and_white) {
+  LoadLimits limits;
+  limits.pixels = 1;
+  const Scene scene = with_picture(small_png()).load(limits);
+  EXPECT_TRUE(scene.images.empty());
+  EXPECT_EQ(scene.warnings.size(), 1u);
+}
+
+TEST(GltfMaterial, a_texture_transform_moves_the_texture_coordinates) {
+  const json transform = {{"offset", {0.5, 0.25}}, {"scale", {2, 4}}};
+  const Scene scene =
+      with_picture(small_png(), {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}})
+          .load();
+  EXPECT_EQ(scene.texcoords[scene.indices[0]], glm::vec2(0.5f, 0.25f));
+  EXPECT_EQ(scene.texcoords[scene.indices[1]], glm::vec2(2.5f, 0.25f));
+  EXPECT_EQ(scene.texcoords[scene.indices[2]], glm::vec2(0.5f, 4.25f));
+}
+
+TEST(GltfMaterial, a_quarter_turn_of_a_texture_turns_as_the_specification_says) {
+  // KHR_texture_transform: u' = cos u + sin v, v' = -sin u + cos v for rotation r.
+  const json transform = {{"rotation", 1.5707963267948966}};
+  const Scene scene =
+      with_picture(small_png(), {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}})
+          .load();
+  EXPECT_NEAR(scene.texcoords[scene.indices[1]].y, -1.0f, 1e-6f);
+  EXPECT_NEAR(scene.texcoords[scene.indices[2]].x, 1.0f, 1e-6f);
+}
+
+TEST(GltfMaterial, specular_glossiness_is_told_as_base_colour) {
+  const Scene scene =
+      with_material(
+          {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseFactor", {1, 0, 0, 1}}}}}}})
+          .load();
+  EXPECT_EQ(scene.materials[0].base_color, glm::vec4(1, 0, 0, 1));
+}
+
+TEST(GltfMaterial, a_texture_without_a_png_or_jpeg_source_is_a_warning_and_white) {
+  TestGltf gltf = with_picture(small_png());
+  gltf.document["textures"][0] = {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}};
+  gltf.document["extensionsUsed"] = {"EXT_texture_webp"};
+  const Scene scene = gltf.load();
+  EXPECT_EQ(scene.materials[0].base_color_image, -1);
+  EXPECT_EQ(scene.warnings.size(), 2u);
+}
+
+}  // namespace
+}  // namespace gnomon::test
