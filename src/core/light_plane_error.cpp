@@ -2,7 +2,6 @@
 // Based on: Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006, as a Jacobian.
 #include "light_plane_error.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -14,8 +13,8 @@ namespace gnomon {
 namespace {
 
 // Rays through the image for the even sampling, and points along all of them together.
-constexpr int kColumns = 6, kRows = 6;
-constexpr int kVisiblePoints = 96;
+constexpr int kRays = 100;
+constexpr int kVisiblePoints = 160;
 constexpr double kShareAbove95 = 0.05;
 
 /// A face of the body as a bound on 1 / depth along the ray (x, y, 1) of the image: linear in x and y, so
@@ -84,6 +83,7 @@ void LightPlaneError::add(const glm::dvec3& p) noexcept {
   };
   turned(view.right * (view.pixel_x * scale), xx_[index], yx_[index]);
   turned(view.up * (view.pixel_y * scale), xy_[index], yy_[index]);
+  inverse_determinant_[index] = 1.0 / (xx_[index] * yy_[index] - xy_[index] * yx_[index]);
   x_[index] = p.x;
   y_[index] = p.y;
 }
@@ -106,21 +106,22 @@ void LightPlaneError::add_visible_points() noexcept {
     glm::dvec3 step;
     double begin, length;  // depth where it enters the body; logarithm of the ratio to where it leaves
   };
-  std::array<Ray, kColumns * kRows> rays;
+  std::array<Ray, kRays> rays;
   std::size_t ray_count = 0;
   double total = 0.0;
-  for (int row = 0; row < kRows; ++row) {
-    for (int column = 0; column < kColumns; ++column) {
-      const double x = view.image_left + (view.image_right - view.image_left) * (column + 0.5) / kColumns;
-      const double y = view.image_bottom + (view.image_top - view.image_bottom) * (row + 0.5) / kRows;
-      double least = 0.0, most = 1.0 / input_.depth_begin;
-      for (std::size_t i = 0; i < bounds.least_count; ++i) least = max_of(least, bounds.least[i].on(x, y));
-      for (std::size_t i = 0; i < bounds.most_count; ++i) most = min_of(most, bounds.most[i].on(x, y));
-      if (!(least > 0.0 && least < most)) continue;
-      const Ray ray{view.forward + view.right * x + view.up * y, 1.0 / most, std::log(most / least)};
-      total += ray.length;
-      rays[ray_count++] = ray;
-    }
+  for (int i = 0; i < kRays; ++i) {
+    // Roberts' R2 sequence: even over the image without the aliasing of a grid against the body's edges.
+    const double along_x = 0.5 + 0.7548776662466927 * i, along_y = 0.5 + 0.5698402909980532 * i;
+    const double x = view.image_left + (view.image_right - view.image_left) * (along_x - std::floor(along_x));
+    const double y =
+        view.image_bottom + (view.image_top - view.image_bottom) * (along_y - std::floor(along_y));
+    double least = 0.0, most = 1.0 / input_.depth_begin;
+    for (std::size_t k = 0; k < bounds.least_count; ++k) least = max_of(least, bounds.least[k].on(x, y));
+    for (std::size_t k = 0; k < bounds.most_count; ++k) most = min_of(most, bounds.most[k].on(x, y));
+    if (!(least > 0.0 && least < most)) continue;
+    const Ray ray{view.forward + view.right * x + view.up * y, 1.0 / most, std::log(most / least)};
+    total += ray.length;
+    rays[ray_count++] = ray;
   }
   if (!(total > 0.0)) return;
   // Evenly spaced in the total length of all rays: each point stands for an equal share of what is seen.
@@ -137,52 +138,61 @@ void LightPlaneError::add_visible_points() noexcept {
 double LightPlaneError::value(const WarpChoice& choice) noexcept {
   const PlaneMap map = plane_map(input_.body, choice);
   const auto n = static_cast<std::size_t>(count_);
+  const double axis_x = choice.axis.x, axis_y = choice.axis.y, cosine = choice.turn.x, sine = choice.turn.y;
+  const double kappa = choice.kappa, centre = choice.centre, u_min = map.u_min, map_stretch = map.stretch;
   const double scale_a = 1.0 / (map.a_max - map.a_min), scale_b = 1.0 / (map.b_max - map.b_min);
+  // The determinant of the map's Jacobian is scale_a scale_b stretch / w^3; the samples' own are known.
+  const double inverse_area = 1.0 / (scale_a * scale_b * map_stretch);
   for (std::size_t i = 0; i < n; ++i) {
-    const double s = x_[i] * choice.axis.y - y_[i] * choice.axis.x - choice.centre;
-    const double u = x_[i] * choice.axis.x + y_[i] * choice.axis.y - map.u_min;
-    const double inverse = 1.0 / (1.0 + choice.kappa * u);
-    const double shear = s * choice.kappa * inverse, stretch = map.stretch * inverse;
-    // Gradients over the light plane of the projected coordinates, then turned and scaled to the map.
-    const double gx_x = (choice.axis.y - shear * choice.axis.x) * inverse;
-    const double gx_y = (-choice.axis.x - shear * choice.axis.y) * inverse;
-    const double gy_x = stretch * choice.axis.x * inverse, gy_y = stretch * choice.axis.y * inverse;
-    const double ax = (choice.turn.x * gx_x + choice.turn.y * gy_x) * scale_a;
-    const double ay = (choice.turn.x * gx_y + choice.turn.y * gy_y) * scale_a;
-    const double bx = (choice.turn.x * gy_x - choice.turn.y * gx_x) * scale_b;
-    const double by = (choice.turn.x * gy_y - choice.turn.y * gx_y) * scale_b;
+    const double s = x_[i] * axis_y - y_[i] * axis_x - centre;
+    const double u = x_[i] * axis_x + y_[i] * axis_y - u_min;
+    const double w = 1.0 + kappa * u, inverse = 1.0 / w;
+    const double shear = s * kappa * inverse, stretch = map_stretch * inverse;
+    // Gradients over the light plane of the projected coordinates, turned to the map's axes, along s and u.
+    const double a_s = cosine * inverse, a_u = (sine * stretch - cosine * shear) * inverse;
+    const double b_s = -sine * inverse, b_u = (cosine * stretch + sine * shear) * inverse;
+    const double ax = (a_s * axis_y + a_u * axis_x) * scale_a, ay = (a_u * axis_y - a_s * axis_x) * scale_a;
+    const double bx = (b_s * axis_y + b_u * axis_x) * scale_b, by = (b_u * axis_y - b_s * axis_x) * scale_b;
     const double jxx = ax * xx_[i] + ay * yx_[i], jxy = ax * xy_[i] + ay * yy_[i];
     const double jyx = bx * xx_[i] + by * yx_[i], jyy = bx * xy_[i] + by * yy_[i];
-    const double row_x = jxx * jxx + jxy * jxy, row_y = jyx * jyx + jyy * jyy;
-    const double determinant = jxx * jyy - jxy * jyx;
-    const double half = 0.5 * (row_x + row_y), square = determinant * determinant;
-    const double area = std::abs(determinant);
-    const double spread = (half - area) * (half + area);
-    const double inverse_square = 1.0 / square;
-    longest_[i] = (half + std::sqrt(spread > 0.0 ? spread : 0.0)) * inverse_square;
-    across_s_[i] = (jyy * jyy + jyx * jyx) * inverse_square;
-    across_t_[i] = (jxx * jxx + jxy * jxy) * inverse_square;
+    row_x_[i] = jxx * jxx + jxy * jxy;
+    row_y_[i] = jyx * jyx + jyy * jyy;
+    inverse_[i] = w * w * w * inverse_area * inverse_determinant_[i];
   }
-  const auto largest = [n](const std::array<double, kMaxSamples>& values) {
-    double m = 0.0;
-    for (std::size_t i = 0; i < n; ++i) m = max_of(m, values[i]);
-    return m;
-  };
-  double squared = 0.0;
-  if (input_.objective == Objective::storage) {
-    squared = largest(across_s_) * largest(across_t_);
-  } else {
-    const auto above = static_cast<std::size_t>(share_ * static_cast<double>(n));
-    if (above == 0) {
-      squared = largest(longest_);
-    } else {
-      const auto kth = longest_.begin() + static_cast<std::ptrdiff_t>(n - 1 - above);
-      std::nth_element(longest_.begin(), kth, longest_.begin() + static_cast<std::ptrdiff_t>(n));
-      squared = *kth;
-    }
-  }
+  const double squared = input_.objective == Objective::storage ? storage_squared() : worst_squared();
   return squared < std::numeric_limits<double>::infinity() ? std::sqrt(squared)
                                                            : std::numeric_limits<double>::infinity();
+}
+
+double LightPlaneError::storage_squared() const noexcept {
+  double s = 0.0, t = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
+    const double inverse_square = inverse_[i] * inverse_[i];
+    s = max_of(s, row_y_[i] * inverse_square);
+    t = max_of(t, row_x_[i] * inverse_square);
+  }
+  return s * t;
+}
+
+double LightPlaneError::worst_squared() noexcept {
+  const auto n = static_cast<std::size_t>(count_);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double half = 0.5 * (row_x_[i] + row_y_[i]), determinant = 1.0 / std::abs(inverse_[i]);
+    const double spread = (half - determinant) * (half + determinant);
+    row_x_[i] = (half + std::sqrt(spread > 0.0 ? spread : 0.0)) * inverse_[i] * inverse_[i];
+  }
+  // The largest few, smallest of them first: as many as may exceed the value, and the value itself.
+  constexpr std::size_t kMost = kMaxSamples / 16;
+  const auto wanted = static_cast<std::size_t>(share_ * static_cast<double>(n)) + 1;
+  std::array<double, kMost + 1> top{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double value = row_x_[i];
+    if (!(value > top[0])) continue;
+    std::size_t k = 0;
+    for (; k + 1 < wanted && top[k + 1] < value; ++k) top[k] = top[k + 1];
+    top[k] = value;
+  }
+  return top[0];
 }
 
 }  // namespace gnomon

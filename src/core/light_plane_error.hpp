@@ -26,12 +26,17 @@ class LightPlaneError {
   void add(const glm::dvec3& point_light) noexcept;
   void add_vertices_and_edges() noexcept;
   void add_visible_points() noexcept;
+  [[nodiscard]] double storage_squared() const noexcept;
+  [[nodiscard]] double worst_squared() noexcept;
 
   const WarpInput& input_;
   int count_ = 0;
   double share_ = 1.0;  // of the samples that may exceed the value asked for: 0.05 for p95
-  alignas(32) std::array<double, kMaxSamples> x_, y_, xx_, xy_, yx_, yy_;
-  alignas(32) std::array<double, kMaxSamples> longest_, across_s_, across_t_;
+  // Where, and d(light plane)/d(pixel).
+  alignas(32) std::array<double, kMaxSamples> x_, y_, xx_, xy_, yx_, yy_, inverse_determinant_;
+  // Of d(texel)/d(pixel) under the choice last asked for: squared lengths of its rows, inverse of its
+  // determinant.
+  alignas(32) std::array<double, kMaxSamples> row_x_, row_y_, inverse_;
 };
 
 }  // namespace gnomon

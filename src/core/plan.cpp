@@ -64,7 +64,7 @@ void plan_cascade(const PlanContext& c, const Polytope& all, int cascade, double
   map.depth_begin = begin;
   map.depth_end = end;
   map.width = map.height = c.options.map_size;
-  map.warp = c.options.warp != nullptr ? c.options.warp : &warps::lispsm;
+  map.warp = c.options.warp != nullptr ? c.options.warp : &warps::optimal;
   const bool drawn =
       c.stable ? lay_stable_map(c, body, begin, end, map) : lay_tight_map(c, body, begin, end, map);
   if (drawn) {
