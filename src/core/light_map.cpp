@@ -40,7 +40,7 @@ PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& cho
     const double u = along(p) - map.u_min, s = p.x * axis.y - p.y * axis.x - choice.centre;
     const double inverse = 1.0 / (1.0 + choice.kappa * u);
     const double x = s * inverse, y = u * map.stretch * inverse;
-    const double a = choice.turn.x * x + choice.turn.y * y, b = choice.turn.x * y - choice.turn.y * x;
+    const double a = choice.row_a.x * x + choice.row_a.y * y, b = choice.row_b.x * x + choice.row_b.y * y;
     map.a_min = first ? a : min_of(map.a_min, a);
     map.a_max = first ? a : max_of(map.a_max, a);
     map.b_min = first ? b : min_of(map.b_min, b);
@@ -63,7 +63,7 @@ PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& cho
 glm::dmat4 clip_from_light(const PlaneMap& map, const LightDepths& depths, double rim) noexcept {
   // Rows over (x, y, z, 1) of the light frame. Before the division by w: the image's x is s - centre, its y u
   // * stretch.
-  const glm::dvec2 axis = map.choice.axis, turn = map.choice.turn;
+  const glm::dvec2 axis = map.choice.axis, row_a = map.choice.row_a, row_b = map.choice.row_b;
   const double kappa = map.choice.kappa;
   const glm::dvec3 across{axis.y, -axis.x, -map.choice.centre};  // over (x, y, 1)
   const glm::dvec3 along{axis.x * map.stretch, axis.y * map.stretch, -map.u_min * map.stretch};
@@ -72,8 +72,8 @@ glm::dmat4 clip_from_light(const PlaneMap& map, const LightDepths& depths, doubl
   const auto edge_to_edge = [&](const glm::dvec3& row, double low, double high) {
     return (row - w * (0.5 * (low + high))) * (2.0 * fill / (high - low));
   };
-  const glm::dvec3 row_x = edge_to_edge(across * turn.x + along * turn.y, map.a_min, map.a_max);
-  const glm::dvec3 row_y = edge_to_edge(along * turn.x - across * turn.y, map.b_min, map.b_max);
+  const glm::dvec3 row_x = edge_to_edge(across * row_a.x + along * row_a.y, map.a_min, map.a_max);
+  const glm::dvec3 row_y = edge_to_edge(across * row_b.x + along * row_b.y, map.b_min, map.b_max);
   const double scale_z = 2.0 / depths.height;
   glm::dmat4 m;
   for (int column = 0; column < 2; ++column) m[column] = {row_x[column], row_y[column], w[column], w[column]};

@@ -138,19 +138,21 @@ void LightPlaneError::add_visible_points() noexcept {
 double LightPlaneError::value(const WarpChoice& choice) noexcept {
   const PlaneMap map = plane_map(input_.body, choice);
   const auto n = static_cast<std::size_t>(count_);
-  const double axis_x = choice.axis.x, axis_y = choice.axis.y, cosine = choice.turn.x, sine = choice.turn.y;
+  const double axis_x = choice.axis.x, axis_y = choice.axis.y;
+  const double a_x = choice.row_a.x, a_y = choice.row_a.y, b_x = choice.row_b.x, b_y = choice.row_b.y;
   const double kappa = choice.kappa, centre = choice.centre, u_min = map.u_min, map_stretch = map.stretch;
   const double scale_a = 1.0 / (map.a_max - map.a_min), scale_b = 1.0 / (map.b_max - map.b_min);
-  // The determinant of the map's Jacobian is scale_a scale_b stretch / w^3; the samples' own are known.
-  const double inverse_area = 1.0 / (scale_a * scale_b * map_stretch);
+  // The determinant of the map's Jacobian is scale_a scale_b stretch / w^3 times that of its rows; the
+  // samples' own are known.
+  const double inverse_area = 1.0 / (scale_a * scale_b * map_stretch * (a_x * b_y - a_y * b_x));
   for (std::size_t i = 0; i < n; ++i) {
     const double s = x_[i] * axis_y - y_[i] * axis_x - centre;
     const double u = x_[i] * axis_x + y_[i] * axis_y - u_min;
     const double w = 1.0 + kappa * u, inverse = 1.0 / w;
     const double shear = s * kappa * inverse, stretch = map_stretch * inverse;
     // Gradients over the light plane of the projected coordinates, turned to the map's axes, along s and u.
-    const double a_s = cosine * inverse, a_u = (sine * stretch - cosine * shear) * inverse;
-    const double b_s = -sine * inverse, b_u = (cosine * stretch + sine * shear) * inverse;
+    const double a_s = a_x * inverse, a_u = (a_y * stretch - a_x * shear) * inverse;
+    const double b_s = b_x * inverse, b_u = (b_y * stretch - b_x * shear) * inverse;
     const double ax = (a_s * axis_y + a_u * axis_x) * scale_a, ay = (a_u * axis_y - a_s * axis_x) * scale_a;
     const double bx = (b_s * axis_y + b_u * axis_x) * scale_b, by = (b_u * axis_y - b_s * axis_x) * scale_b;
     const double jxx = ax * xx_[i] + ay * yx_[i], jxy = ax * xy_[i] + ay * yy_[i];

@@ -24,19 +24,23 @@ constexpr double kPositionRounding = 1e-14;
 /// Bounds of the error in pixels per texel over the body, from a texel's extents across the light at each
 /// vertex.
 void judge(const PlanContext& c, const LightBody& body, const PlaneMap& plane, ShadowMap& map) noexcept {
-  const double kappa = plane.choice.kappa;
-  const glm::dvec2 axis = plane.choice.axis, turn = plane.choice.turn;
+  const WarpChoice& choice = plane.choice;
+  const glm::dvec2 axis = choice.axis;
+  // The image's X and Y per unit of A and B.
+  const double area = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
+  const glm::dvec2 per_a = glm::dvec2(choice.row_b.y, -choice.row_b.x) / area;
+  const glm::dvec2 per_b = glm::dvec2(-choice.row_a.y, choice.row_a.x) / area;
   double a_max = 0.0, b_max = 0.0;
   for (const WarpInput::Point& p : body.points()) {
     const double w = plane.w(p.x, p.y);
-    const double lean = kappa * (p.x * axis.y - p.y * axis.x - plane.choice.centre) / w;
-    const double along = w * w / plane.stretch;  // of one unit of the image's y
-    const auto extent = [&](double image_x, double image_y) {
-      const double u = along * image_y, s = w * image_x + lean * u;
+    const double lean = choice.kappa * (p.x * axis.y - p.y * axis.x - choice.centre) / w;
+    const double along = w * w / plane.stretch;  // of one unit of the image's Y
+    const auto extent = [&](const glm::dvec2& image) {
+      const double u = along * image.y, s = w * image.x + lean * u;
       return std::sqrt(u * u + s * s) / p.depth;
     };
-    a_max = max_of(a_max, extent(turn.x, turn.y));
-    b_max = max_of(b_max, extent(-turn.y, turn.x));
+    a_max = max_of(a_max, extent(per_a));
+    b_max = max_of(b_max, extent(per_b));
   }
   const double pixels_per_unit = max_of(c.camera.width / (c.camera.right - c.camera.left),
                                         c.camera.height / (c.camera.top - c.camera.bottom));

@@ -60,7 +60,8 @@ WarpInput warp_input(const PlanContext& c, const LightBody& points, const Polyto
 WarpChoice chosen_warp(const PlanContext& c, const WarpInput& in, int cascade, const Warp*& warp) noexcept {
   if (warp == &warps::none) return {};
   const WarpChoice choice = warp->choose(in);
-  const bool along_y = choice.axis.x == 0.0 && choice.centre == 0.0 && choice.turn.y == 0.0;
+  const bool along_y =
+      choice.axis.x == 0.0 && choice.centre == 0.0 && choice.row_a.y == 0.0 && choice.row_b.x == 0.0;
   double ratio = 1.0;
   if (along_y) {
     if (choice.kappa > 0.0) {
