@@ -26,6 +26,7 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray map, Sh
       // textureGather's order: (left, top), (right, top), (right, bottom), (left, bottom); top is the higher row.
       vec4 depth = middle + vec4(-half_step.x + half_step.y, half_step.x + half_step.y, half_step.x - half_step.y,
                                  -half_step.x - half_step.y);
+      depth = min(depth, 1.0);  // the plane may go on behind the map's far plane, where nothing is drawn: lit
       vec4 weight = vec4(weight_x.xyyx * weight_y.yyxx);
       sum += dot(weight, vec4(lessThanEqual(depth, stored)));
     }

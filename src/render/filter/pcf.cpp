@@ -46,7 +46,8 @@ double visibility(const FilterLookup& lookup, const FilterParameters& parameters
       // The bilinear 2 x 2 of the hardware knows one depth only.
       const glm::dvec2 offset =
           radius == 0 ? glm::dvec2(0.0) : glm::dvec2(x + 0.5, y + 0.5) - lookup.position;
-      const double depth = lookup.depth + glm::dot(lookup.depth_gradient, offset);
+      // The plane may go on behind the map's far plane, where nothing is drawn: lit.
+      const double depth = std::min(lookup.depth + glm::dot(lookup.depth_gradient, offset), 1.0);
       if (depth <= lookup.texel(x, y)[0]) {
         sum += box_weight(i, width, fraction.x) * box_weight(j, width, fraction.y);
       }

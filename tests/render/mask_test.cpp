@@ -1,0 +1,293 @@
+// Is a pixel lit where it should be? The drawn mask against shadows that are known exactly.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "gnomon/render/renderer.hpp"
+#include "test_scene.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr int kSize = 160;
+/// The weights of up to 100 texels, added in float, make up 1 to this.
+constexpr float kWeightRounding = 100.0f * 6e-8f;
+const glm::dvec3 kSlant = glm::normalize(glm::dvec3(0.5, -1.0, -0.3));
+
+struct Frame {
+  Camera camera;
+  ShadowPlan plan;
+  FloatImage mask, positions, normals;
+  [[nodiscard]] std::size_t pixels() const { return mask.values.size() / 2; }
+  [[nodiscard]] float lit(std::size_t i) const { return mask.values[2 * i]; }
+  [[nodiscard]] int map(std::size_t i) const { return static_cast<int>(mask.values[2 * i + 1]); }
+  [[nodiscard]] bool surface(std::size_t i) const { return normals.values[4 * i + 3] > 0.0f; }
+  [[nodiscard]] glm::dvec3 point(std::size_t i) const {
+    return camera.position +
+           glm::dvec3(positions.values[4 * i], positions.values[4 * i + 1], positions.values[4 * i + 2]);
+  }
+  [[nodiscard]] glm::dvec3 normal(std::size_t i) const {
+    return {normals.values[4 * i], normals.values[4 * i + 1], normals.values[4 * i + 2]};
+  }
+};
+
+Frame draw(Renderer& renderer, const Camera& camera, const ShadowPlan& plan, const Filter& filter) {
+  FrameOptions options;
+  options.aliasing = options.cascade_tint = options.time_passes = false;
+  renderer.draw(plan, camera, renderer.prepare(filter), options);
+  return {camera, plan, renderer.mask(), renderer.positions(), renderer.normals()};
+}
+
+Frame draw_scene(const Scene& scene, const Camera& camera, const glm::dvec3& light,
+                 const Filter& filter = filters::hard, PlanOptions options = {}) {
+  options.map_size = 512;
+  options.filter_radius_texels = filter.reach_texels({});
+  Renderer renderer(scene);
+  return draw(renderer, camera, plan_for(scene, camera, light, options), filter);
+}
+
+/// Does the ray from `point` towards the light meet the box?
+bool hits_box(const glm::dvec3& point, const glm::dvec3& to_light, const glm::dvec3& min,
+              const glm::dvec3& max) {
+  if (min.x > max.x || min.y > max.y || min.z > max.z) return false;  // shrunk to nothing
+  double begin = 0.0, end = 1e9;
+  for (int c = 0; c < 3; ++c) {
+    if (to_light[c] == 0.0) {
+      if (point[c] < min[c] || point[c] > max[c]) return false;
+      continue;
+    }
+    const double a = (min[c] - point[c]) / to_light[c], b = (max[c] - point[c]) / to_light[c];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  return begin <= end;
+}
+
+// Degenerate.
+
+TEST(Mask, is_lit_everywhere_for_a_plan_without_maps) {
+  const Scene scene = box_on_ground();
+  Renderer renderer(scene);
+  const Frame frame = draw(renderer, camera_on_box(kSize, kSize), ShadowPlan{}, filters::pcf);
+  std::size_t surfaces = 0;
+  for (std::size_t i = 0; i < frame.pixels(); ++i) {
+    ASSERT_EQ(frame.lit(i), 1.0f);
+    ASSERT_EQ(frame.map(i), -1);
+    surfaces += frame.surface(i) ? 1 : 0;
+  }
+  EXPECT_GT(surfaces, frame.pixels() / 2);
+}
+
+TEST(Mask, is_lit_and_without_map_in_an_empty_scene) {
+  const Scene scene = empty_scene();
+  Renderer renderer(scene);
+  const Camera camera = camera_on_box(kSize, kSize);
+  const Frame frame = draw(renderer, camera, plan_for(scene, camera, kSlant, {}), filters::hard);
+  for (std::size_t i = 0; i < frame.pixels(); ++i) {
+    ASSERT_EQ(frame.lit(i), 1.0f);
+    ASSERT_FALSE(frame.surface(i));
+  }
+}
+
+// By hand.
+
+TEST(Mask, is_dark_on_faces_turned_from_the_light) {
+  const Frame frame = draw_scene(box_on_ground(), camera_on_box(kSize, kSize), glm::dvec3(-0.2, -1.0, -1.0));
+  std::size_t away = 0;
+  const glm::dvec3 light = frame.plan.light_direction;
+  for (std::size_t i = 0; i < frame.pixels(); ++i) {
+    if (!frame.surface(i) || glm::dot(frame.normal(i), light) < 1e-3) continue;
+    ASSERT_EQ(frame.lit(i), 0.0f);
+    ++away;
+  }
+  EXPECT_EQ(away, 0u) << "the light comes from behind the camera: nothing in view is turned from it";
+  const Frame back = draw_scene(box_on_ground(), camera_on_box(kSize, kSize), glm::dvec3(0.2, -1.0, 1.0));
+  for (std::size_t i = 0; i < back.pixels(); ++i) {
+    if (!back.surface(i) || glm::dot(back.normal(i), back.plan.light_direction) < 1e-3) continue;
+    ASSERT_EQ(back.lit(i), 0.0f);
+    ++away;
+  }
+  EXPECT_GT(away, 500u);
+}
+
+TEST(Mask, lets_light_through_what_the_alpha_mask_cuts_out) {
+  Scene scene = box_on_ground();
+  Image leaf{"leaf", 2, 2, std::vector<std::uint8_t>(16, 255)};
+  leaf.rgba[3] = leaf.rgba[11] = 0;  // the left column is not there
+  scene.images.push_back(leaf);
+  Material material;
+  material.alpha_mode = AlphaMode::mask;
+  material.base_color_image = 0;
+  material.double_sided = true;
+  material.wrap_u = material.wrap_v = TextureWrap::clamp_to_edge;
+  // A leaf 2 x 2 over the ground beside the box, under a sun overhead.
+  add_quad(scene, {3.0f, 1.0f, 3.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f}, add_material(scene, material));
+  Camera camera = camera_on_box(kSize, kSize);
+  camera.position = {4.0, 0.8, 6.0};
+  camera.forward = {0.0, -0.25, -1.0};
+  const Frame frame = draw_scene(scene, camera, {0.0, -1.0, 0.0});
+  std::size_t through = 0, blocked = 0;
+  for (std::size_t i = 0; i < frame.pixels(); ++i) {
+    const glm::dvec3 p = frame.point(i);
+    if (!frame.surface(i) || p.y > 0.01 || p.z < 1.2 || p.z > 2.8) continue;
+    if (p.x > 3.1 && p.x < 3.8) {
+      ASSERT_EQ(frame.lit(i), 1.0f) << p.x << " " << p.z;
+      ++through;
+    }
+    if (p.x > 4.2 && p.x < 4.9) {
+      ASSERT_EQ(frame.lit(i), 0.0f) << p.x << " " << p.z;
+      ++blocked;
+    }
+  }
+  EXPECT_GT(through, 50u);
+  EXPECT_GT(blocked, 50u);
+}
+
+TEST(Mask, of_a_mirrored_instance_is_that_of_mirrored_vertices) {
+  // A wedge, so that left and right differ.
+  std::vector<glm::vec3> wedge = box_triangles({-1, 0, -1}, {1, 2, 1});
+  for (glm::vec3& p : wedge) {
+    if (p.x > 0.0f) p.y *= 0.25f;
+  }
+  std::vector<glm::vec3> other = wedge;
+  for (glm::vec3& p : other) p.x = -p.x;
+  for (std::size_t t = 0; t < other.size(); t += 3) std::swap(other[t + 1], other[t + 2]);
+
+  Material one_sided;
+  Scene mirrored = empty_scene(), rebuilt = empty_scene(), plain = empty_scene();
+  for (Scene* scene : {&mirrored, &rebuilt, &plain}) {
+    add_quad(*scene, {-20, 0, 20}, {40, 0, 0}, {0, 0, -40});
+    add_material(*scene, one_sided);
+  }
+  glm::dmat4 flip(1.0);
+  flip[0][0] = -1.0;
+  add_mesh(mirrored, wedge, flip, 1, true);
+  add_mesh(rebuilt, other, glm::dmat4(1.0), 1);
+  add_mesh(plain, wedge, glm::dmat4(1.0), 1);
+  const Camera camera = camera_on_box(kSize, kSize);
+  const Frame a = draw_scene(mirrored, camera, kSlant), b = draw_scene(rebuilt, camera, kSlant),
+              c = draw_scene(plain, camera, kSlant);
+  EXPECT_EQ(a.mask.values, b.mask.values);
+  EXPECT_NE(a.mask.values, c.mask.values);
+}
+
+// Over many lights and every warp.
+
+struct Verdict {
+  std::size_t lit = 0, dark = 0;  ///< pixels that were judged
+  std::size_t acne = 0, gap = 0;  ///< of those, wrong ones
+  glm::dvec3 first_wrong{0.0};
+};
+
+/// Near an edge of the box whose wall lies along the light: such a wall is a sliver in the map, thinner than
+/// what vertices are rounded to, and its depth there may be off by a texel's worth of its slope.
+bool near_sliver(const glm::dvec3& p, const glm::dvec3& light, double margin) {
+  constexpr double kAlongTheLight = 0.01;
+  for (int c = 0; c < 3; ++c) {
+    const bool at_wall = p[c] - kBoxMin[c] < margin || kBoxMax[c] - p[c] < margin;
+    if (at_wall && std::abs(light[c]) < kAlongTheLight) return true;
+  }
+  return false;
+}
+
+/// Judges every pixel that is further from a shadow's edge than the filter can reach.
+Verdict judge(const Frame& frame, double reach_texels) {
+  Verdict verdict;
+  const glm::dvec3 light = frame.plan.light_direction;
+  for (std::size_t i = 0; i < frame.pixels(); ++i) {
+    if (!frame.surface(i) || frame.map(i) < 0) continue;
+    const glm::dvec3 p = frame.point(i), n = frame.normal(i);
+    const double cosine = -glm::dot(n, light);
+    // Beyond BiasOptions::max_slope the bias is capped, and acne is the lesser evil.
+    if (cosine < 1.0 / std::sqrt(1.0 + 8.0 * 8.0)) continue;
+    const ShadowMap& map = frame.plan.map[static_cast<std::size_t>(frame.map(i))];
+    const glm::dvec2 texel = texel_extent_world(map.clip_from_world, map.width, map.height, light, p);
+    // The kernel, half a texel of sampling and the normal offset, all stretched along the surface.
+    const double margin = std::max(texel.x, texel.y) * (reach_texels + 1.5) / cosine;
+    const bool on_ground = n.y > 0.99 && p.y < 0.01;
+    if (!on_ground && p.y < margin) continue;  // the corner between wall and ground
+    if (!on_ground && near_sliver(p, light, margin)) continue;
+    const glm::dvec3 grow(margin, margin, margin), thin(margin, 0.0, margin);
+    const bool near_box =
+        on_ground && hits_box(p, -light, glm::dvec3(kBoxMin) - grow, glm::dvec3(kBoxMax) + grow);
+    const bool in_box_shadow =
+        on_ground && hits_box(p, -light, glm::dvec3(kBoxMin) + thin,
+                              glm::dvec3(kBoxMax) - thin - glm::dvec3(0.0, margin, 0.0));
+    const float expected = in_box_shadow ? 0.0f : 1.0f;
+    if (near_box && !in_box_shadow) continue;
+    ++(in_box_shadow ? verdict.dark : verdict.lit);
+    if (std::abs(frame.lit(i) - expected) <= kWeightRounding) continue;
+    if (verdict.acne + verdict.gap == 0) verdict.first_wrong = p;
+    ++(in_box_shadow ? verdict.gap : verdict.acne);
+  }
+  return verdict;
+}
+
+void expect_clean(const Filter& filter, Fit fit) {
+  Renderer renderer(box_on_ground());
+  const Scene scene = box_on_ground();
+  const Camera camera = camera_on_box(kSize, kSize);
+  Verdict sum;
+  for (const Warp* warp : all_warps()) {
+    if (fit == Fit::stable && warp != &warps::none) continue;
+    for (const double elevation : {0.25, 0.5, 0.9, 1.3, 1.57}) {
+      for (const double azimuth : {0.1, 1.3, 2.6, 3.7, 5.2}) {
+        const glm::dvec3 light{std::cos(elevation) * std::cos(azimuth), -std::sin(elevation),
+                               std::cos(elevation) * std::sin(azimuth)};
+        PlanOptions options;
+        options.map_size = fit == Fit::stable ? 1024 : 256;  // a stable map is wider than its slice
+        options.cascades = 2;
+        options.warp = warp;
+        options.fit = fit;
+        options.filter_radius_texels = filter.reach_texels({});
+        const ShadowPlan plan = plan_for(scene, camera, light, options);
+        ASSERT_GT(plan.map_count, 0) << elevation << " " << azimuth;
+        const Verdict v = judge(draw(renderer, camera, plan, filter), filter.reach_texels({}));
+        EXPECT_EQ(v.acne, 0u) << warp->name << " elevation " << elevation << " azimuth " << azimuth << " at "
+                              << v.first_wrong.x << " " << v.first_wrong.y << " " << v.first_wrong.z;
+        EXPECT_EQ(v.gap, 0u) << warp->name << " elevation " << elevation << " azimuth " << azimuth << " at "
+                             << v.first_wrong.x << " " << v.first_wrong.y << " " << v.first_wrong.z;
+        sum.lit += v.lit;
+        sum.dark += v.dark;
+      }
+    }
+  }
+  EXPECT_GT(sum.lit, 100'000u);
+  EXPECT_GT(sum.dark, 1'000u);
+}
+
+TEST(Mask, has_neither_acne_nor_gap_for_any_filter_under_any_warp_in_tight_fit) {
+  for (const Filter* filter : all_filters()) {
+    SCOPED_TRACE(filter->name);
+    expect_clean(*filter, Fit::tight);
+  }
+}
+
+TEST(Mask, has_neither_acne_nor_gap_for_any_filter_in_stable_fit) {
+  for (const Filter* filter : all_filters()) {
+    SCOPED_TRACE(filter->name);
+    expect_clean(*filter, Fit::stable);
+  }
+}
+
+TEST(Mask, does_not_change_a_thousand_kilometres_from_the_origin) {
+  const glm::dvec3 far_away{1'048'576.0, 0.0, -1'048'576.0};  // powers of two: the moved scene rounds nothing
+  Scene near_scene = box_on_ground(), far_scene = box_on_ground();
+  for (Instance& instance : far_scene.instances) {
+    instance.world_from_object[3] += glm::dvec4(far_away, 0.0);
+    instance.bounds_world.min += far_away;
+    instance.bounds_world.max += far_away;
+  }
+  Camera near_camera = camera_on_box(kSize, kSize), far_camera = near_camera;
+  far_camera.position += far_away;
+  const Frame a = draw_scene(near_scene, near_camera, kSlant), b = draw_scene(far_scene, far_camera, kSlant);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.pixels(); ++i) different += a.lit(i) != b.lit(i) ? 1 : 0;
+  // Matrices differ in their last float bits; only pixels on a texel's border may change sides.
+  EXPECT_LE(different, a.pixels() / 500);
+}
+
+}  // namespace
+}  // namespace gnomon::render

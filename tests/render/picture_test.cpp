@@ -1,0 +1,95 @@
+// Pictures that explain themselves: are their colours and their edges right?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gnomon/render/picture.hpp"
+
+namespace gnomon::render {
+namespace {
+
+int warmth(Color c) {
+  return int{c.x} - int{c.z};
+}
+
+Color pixel(const Image& image, int x, int y) {
+  const auto i = static_cast<std::size_t>(y * image.width + x) * 4;
+  return {image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]};
+}
+
+TEST(HeatColor, is_defined_for_every_number) {
+  EXPECT_EQ(heat_color(0.0), heat_color(1.0 / 16.0));
+  EXPECT_EQ(heat_color(-1.0), heat_color(1.0 / 16.0));
+  EXPECT_EQ(heat_color(std::numeric_limits<double>::quiet_NaN()), heat_color(1.0 / 16.0));
+  EXPECT_EQ(heat_color(std::numeric_limits<double>::infinity()), heat_color(16.0));
+}
+
+TEST(HeatColor, is_neutral_at_one_warm_above_and_cold_below) {
+  EXPECT_LT(std::abs(warmth(heat_color(1.0))), 8);
+  for (double m = 1.2; m <= 16.0; m *= 1.3) EXPECT_GT(warmth(heat_color(m)), 15) << m;
+  for (double m = 0.8; m >= 1.0 / 16.0; m /= 1.3) EXPECT_LT(warmth(heat_color(m)), -15) << m;
+}
+
+TEST(Pictures, leave_out_what_lies_beyond_their_edges) {
+  Image image = blank_image(4, 3, {10, 20, 30});
+  fill_rectangle(image, -5, -5, 6, 6, {1, 2, 3});
+  EXPECT_EQ(pixel(image, 0, 0), Color(1, 2, 3));
+  EXPECT_EQ(pixel(image, 1, 0), Color(10, 20, 30));
+  paste(image, blank_image(3, 3, {7, 7, 7}), 3, 2);
+  EXPECT_EQ(pixel(image, 3, 2), Color(7, 7, 7));
+  EXPECT_EQ(pixel(image, 2, 2), Color(10, 20, 30));
+  paste(image, blank_image(2, 2, {9, 9, 9}), 100, 100);
+  draw_text(image, -3, -3, "\x01 text far too long", {255, 255, 255});
+  EXPECT_EQ(image.rgba.size(), 4u * 3u * 4u);
+}
+
+TEST(Pictures, shrink_to_the_mean_of_what_each_pixel_covers) {
+  Image image = blank_image(4, 2, {0, 0, 0});
+  fill_rectangle(image, 0, 0, 1, 2, {200, 100, 40});
+  const Image small = shrunk(image, 2, 1);
+  EXPECT_EQ(pixel(small, 0, 0), Color(100, 50, 20));
+  EXPECT_EQ(pixel(small, 1, 0), Color(0, 0, 0));
+}
+
+TEST(Text, is_as_wide_and_high_as_it_says) {
+  Image image = blank_image(64, 16, {0, 0, 0});
+  draw_text(image, 2, 3, "HI", {255, 255, 255});
+  int right = 0, bottom = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (pixel(image, x, y).x == 0) continue;
+      right = std::max(right, x);
+      bottom = std::max(bottom, y);
+    }
+  }
+  // The I leaves a dot free on its right.
+  EXPECT_EQ(right, 2 + text_width("HI") - 1 - 1);
+  EXPECT_EQ(bottom, 3 + text_height() - 1);
+  EXPECT_EQ(text_width(""), 0);
+}
+
+TEST(HeatLegend, shows_the_colours_of_the_scale_in_order) {
+  Image image = blank_image(640, 360, {0, 0, 0});
+  draw_heat_legend(image);
+  // Along some row of the legend lie all colours from the cold end to the warm one.
+  bool found = false;
+  for (int y = 0; y < image.height && !found; ++y) {
+    int cold = -1, neutral = -1, warm = -1;
+    for (int x = 0; x < image.width; ++x) {
+      if (pixel(image, x, y) == heat_color(std::exp2(-3.5 + 0.5 / 30))) cold = x;
+      if (pixel(image, x, y) == heat_color(std::exp2(0.5 / 30))) neutral = x;
+      if (pixel(image, x, y) == heat_color(std::exp2(3.5 + 0.5 / 30))) warm = x;
+    }
+    found = cold >= 0 && cold < neutral && neutral < warm;
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST(CascadeColors, differ_between_neighbouring_maps) {
+  for (int map = 0; map < 15; ++map) EXPECT_NE(cascade_color(map), cascade_color(map + 1));
+}
+
+}  // namespace
+}  // namespace gnomon::render
