@@ -26,6 +26,11 @@ struct TimedPlan {
   std::int64_t nanoseconds = 0;
 };
 
+gnomon::Camera camera_of(const Options& options, const Flight& flight, int frame) {
+  const double t = options.frames == 1 ? 0.5 : 1.0 * frame / (options.frames - 1);
+  return flight.path.at(t, options.width, options.height);
+}
+
 TimedPlan timed_plan(const gnomon::Camera& camera, const Options& options, const Flight& flight) {
   TimedPlan result;
   std::array<std::int64_t, kPlanRepeats> taken{};
@@ -73,12 +78,8 @@ struct Studio {
 
 FrameRow draw_frame(Studio& studio, int frame) {
   const Options& options = studio.options;
-  const double t = options.frames == 1 ? 0.5 : 1.0 * frame / (options.frames - 1);
-  const gnomon::Camera camera = studio.flight.path.at(t, options.width, options.height);
+  const gnomon::Camera camera = camera_of(options, studio.flight, frame);
   const TimedPlan timed = timed_plan(camera, options, studio.flight);
-  if (timed.plan.status == gnomon::PlanStatus::invalid_input) {
-    throw UsageError(fmt::format("frame {}: the plan refuses {}", frame, timed.plan.invalid_field));
-  }
   FrameRow row;
   row.frame = frame;
   row.status = timed.plan.status;
@@ -102,6 +103,17 @@ FrameRow draw_frame(Studio& studio, int frame) {
   gnomon::write_png(heat, file("heat"));
   gnomon::write_png(tint, file("cascades"));
   return row;
+}
+
+/// Every frame's plan once, before anything is written: a flight is refused as a whole.
+void check_plans(const Options& options, const Flight& flight) {
+  for (int frame = 0; frame < options.frames; ++frame) {
+    const gnomon::Camera camera = camera_of(options, flight, frame);
+    const gnomon::ShadowPlan plan = gnomon::make_plan(camera, sun(options), flight.bounds(), options.plan);
+    if (plan.status == gnomon::PlanStatus::invalid_input) {
+      throw UsageError(fmt::format("{}: frame {}: the plan refuses {}", options.scene, frame, plan.invalid_field));
+    }
+  }
 }
 
 void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
@@ -150,6 +162,7 @@ int fly_to_files(const Options& options, const Flight& flight) {
   fmt::print("context:  {}\n", context->info().description());
   fmt::print("scene:    {}, {} instances, {} triangles\n", flight.scene.name, flight.scene.instances.size(),
              flight.scene.triangle_count());
+  check_plans(options, flight);
   make_folder(options.out);
   Studio studio{options,
                 flight,

@@ -47,8 +47,16 @@ void parse_size(const std::string& text, Options& options) {
   }
 }
 
+/// CLI::Range lets not-a-number through.
+void need_number(const char* name, double value) {
+  if (std::isnan(value)) throw UsageError(fmt::format("{} nan: wants a number", name));
+}
+
 void resolve(const Raw& raw, Options& options) {
   parse_size(raw.size, options);
+  need_number("--lambda", options.plan.lambda);
+  need_number("--light-elevation-deg", options.light_elevation_deg);
+  need_number("--light-azimuth-deg", options.light_azimuth_deg);
   if (!gnomon::render::context_kind_from_name(raw.context, options.context)) {
     throw UsageError(fmt::format("--context {}: wants auto, osmesa, egl or glfw", raw.context));
   }

@@ -1,5 +1,5 @@
 // What every pass of a frame knows. All positions are relative to the camera position.
-const int kMaxMaps = 16;
+const int kMaxMaps = GNOMON_MAX_MAPS;  // gnomon::kMaxMaps
 
 struct ShadowMap {
   mat4 clip_from_camera_relative;  // z 0 near the light .. w

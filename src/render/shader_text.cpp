@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "gnomon/plan.hpp"
 #include "gnomon/render/error.hpp"
 
 namespace gnomon::render {
@@ -31,9 +32,13 @@ class Composer {
 
  private:
   void add_line(std::string_view name, std::string_view text, std::size_t line, std::size_t number) {
-    constexpr std::string_view kInclude = "#include ";
+    constexpr std::string_view kInclude = "#include ", kVersion = "#version ";
     if (text.substr(0, kInclude.size()) != kInclude) {
       out_.text.append(text).push_back('\n');
+      if (text.substr(0, kVersion.size()) == kVersion) {
+        out_.text += "#define GNOMON_MAX_MAPS " + std::to_string(kMaxMaps) + "\n";
+        mark_line(line + 1, number);
+      }
       return;
     }
     const std::string path = included_path(text.substr(kInclude.size()));
