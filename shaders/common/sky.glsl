@@ -17,7 +17,7 @@ vec3 sky_color(vec3 direction, vec3 light) {
 // Irradiance over pi on a surface that faces `normal`.
 vec3 sky_ambient(vec3 normal) {
   float up = normal.y * 0.5 + 0.5;
-  return 0.62 * mix(kGround * 1.3, mix(kHorizon, kZenith, 0.55), up * up * (3.0 - 2.0 * up));
+  return 0.85 * mix(kGround * 1.3, mix(kHorizon, kZenith, 0.55), up * up * (3.0 - 2.0 * up));
 }
 
 // Filmic curve (Narkowicz 2015, ACES fit).

@@ -33,8 +33,8 @@ struct Frame {
   }
 };
 
-Frame draw(Renderer& renderer, const Camera& camera, const ShadowPlan& plan, const Filter& filter) {
-  FrameOptions options;
+Frame draw(Renderer& renderer, const Camera& camera, const ShadowPlan& plan, const Filter& filter,
+           FrameOptions options = {}) {
   options.aliasing = options.cascade_tint = options.time_passes = false;
   renderer.draw(plan, camera, renderer.prepare(filter), options);
   return {camera, plan, renderer.mask(), renderer.positions(), renderer.normals()};
@@ -270,6 +270,53 @@ TEST(Mask, has_neither_acne_nor_gap_for_any_filter_in_stable_fit) {
     SCOPED_TRACE(filter->name);
     expect_clean(*filter, Fit::stable);
   }
+}
+
+TEST(Mask, shows_acne_without_bias_and_gaps_with_far_too_much) {
+  const Scene scene = box_on_ground();
+  Renderer renderer(scene);
+  const Camera camera = camera_on_box(kSize, kSize);
+  PlanOptions options;
+  options.map_size = 256;
+  options.cascades = 2;
+  const ShadowPlan plan = plan_for(scene, camera, kSlant, options);
+  FrameOptions none, much;
+  none.bias = {-0.05, 0.0, 0.0, 0.0};
+  much.bias = {100.0, 0.0, 0.0, 8.0};
+  EXPECT_GT(judge(draw(renderer, camera, plan, filters::hard, none), 0.5).acne, 100u);
+  EXPECT_GT(judge(draw(renderer, camera, plan, filters::hard, much), 0.5).gap, 100u);
+}
+
+TEST(Mask, stands_still_in_stable_fit_while_the_camera_moves) {
+  const Scene scene = box_on_ground();
+  Renderer renderer(scene);
+  PlanOptions options;
+  options.map_size = 512;
+  options.cascades = 1;
+  const auto edges_in = [&](Fit fit, double step) {
+    options.fit = fit;
+    options.warp = &warps::none;
+    Camera camera = camera_on_box(kSize, kSize);
+    // A parallel camera that moves along its own view sees the same picture: only the grid could move.
+    camera =
+        orthographic_camera(camera.position, camera.forward, camera.up, 8.0, 1.0, 0.5, 60.0, kSize, kSize);
+    camera.position += glm::normalize(camera.forward) * step;
+    return draw(renderer, camera, plan_for(scene, camera, kSlant, options), filters::hard).mask.values;
+  };
+  const auto different = [](const std::vector<float>& a, const std::vector<float>& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); i += 2) count += a[i] != b[i] ? 1 : 0;
+    return count;
+  };
+  const std::vector<float> still = edges_in(Fit::stable, 0.0);
+  std::size_t moved = 0, moved_tight = 0;
+  for (const double step : {0.011, 0.37, 0.9}) {
+    moved += different(still, edges_in(Fit::stable, step));
+    moved_tight += different(edges_in(Fit::tight, 0.0), edges_in(Fit::tight, step));
+  }
+  // Pixels whose position is rounded to the other side of a texel's border.
+  EXPECT_LE(moved, 3u * kSize * kSize / 1000);
+  EXPECT_GT(moved_tight, 3 * moved);
 }
 
 TEST(Mask, does_not_change_a_thousand_kilometres_from_the_origin) {
