@@ -6,6 +6,7 @@
 
 #include "plan_context.hpp"
 #include "plan_input.hpp"
+#include "split_optimal.hpp"
 #include "vector.hpp"
 #include "visible.hpp"
 
@@ -118,6 +119,9 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
   std::array<double, kMaxMaps + 1> edges{};
   split_depths(begin, end, {options.split, options.lambda, options.near_hint},
                {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
+  if (options.split == SplitScheme::optimal) {
+    optimise_splits(context, body, {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
+  }
   for (int i = 0; i < options.cascades; ++i) {
     plan_cascade(context, body, i, edges[static_cast<std::size_t>(i)],
                  edges[static_cast<std::size_t>(i) + 1]);

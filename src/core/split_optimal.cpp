@@ -1,0 +1,109 @@
+// Splits for the receivers that are really there: least objective by dynamic programming over depth, then
+// refined. Based on: the observation of Lloyd et al. 2006 that equal errors are best; logarithmic splits give
+// them only where the body is the whole frustum.
+#include "split_optimal.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "map_parts.hpp"
+#include "vector.hpp"
+
+namespace gnomon {
+namespace {
+
+// Depths between which the first choice is made, evenly spaced in their logarithm.
+constexpr int kSteps = 16;
+// Rounds and trials of moving one edge between its neighbours.
+constexpr int kRounds = 2;
+constexpr int kTrials = 5;
+
+/// Error of one map over the part of the body between two depths, with LiSPSM at its best strength as the
+/// measure: every warp of this toolkit comes near it or betters it by about the same factor everywhere.
+double error_between(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
+  Polytope part = body;
+  clip(part, Plane{c.axes.forward, -begin});
+  clip(part, Plane{-c.axes.forward, end});
+  if (part.empty()) return 0.0;
+  const LightBody points = in_light_frame(c, c.frame, part);
+  WarpInput in{};
+  in.body = points.points();
+  in.y_min = in.y_max = points.point[0].y;
+  for (const WarpInput::Point& p : in.body) {
+    in.y_min = min_of(in.y_min, p.y);
+    in.y_max = max_of(in.y_max, p.y);
+  }
+  in.orthographic = c.camera.orthographic;
+  in.objective = c.options.objective;
+  const bool warped = !c.stable && c.options.warp != &warps::none;
+  return warp_error(in, warped ? warps::lispsm.choose(in).kappa : 0.0).value(in.objective);
+}
+
+double joined(Objective objective, double a, double b) noexcept {
+  return objective == Objective::storage ? a + b : max_of(a, b);
+}
+
+}  // namespace
+
+void optimise_splits(const PlanContext& c, const Polytope& body, std::span<double> edges) noexcept {
+  const int maps = static_cast<int>(edges.size()) - 1;
+  const double n = edges.front(), f = edges.back();
+  if (maps < 2 || !(n > 0.0 && f > n)) return;
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  std::array<double, kSteps + 1> depth;
+  for (int i = 0; i <= kSteps; ++i) {
+    depth[static_cast<std::size_t>(i)] =
+        i == kSteps ? f : n * std::pow(f / n, static_cast<double>(i) / kSteps);
+  }
+  // best[m][j]: least objective of m + 1 maps over the depths up to j; from[m][j]: where the last of them
+  // begins.
+  std::array<std::array<double, kSteps + 1>, kMaxMaps> best;
+  std::array<std::array<int, kSteps + 1>, kMaxMaps> from{};
+  for (auto& row : best) row.fill(kInfinite);
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = i + 1; j <= kSteps; ++j) {
+      const auto to = static_cast<std::size_t>(j);
+      const double error = error_between(c, body, depth[static_cast<std::size_t>(i)], depth[to]);
+      if (i == 0) best[0][to] = error;
+      for (std::size_t m = 1; m < static_cast<std::size_t>(maps); ++m) {
+        const double total = joined(c.options.objective, best[m - 1][static_cast<std::size_t>(i)], error);
+        if (i == 0 || !(total < best[m][to])) continue;
+        best[m][to] = total;
+        from[m][to] = i;
+      }
+    }
+  }
+  int at = kSteps;
+  for (int m = maps - 1; m > 0; --m) {
+    at = from[static_cast<std::size_t>(m)][static_cast<std::size_t>(at)];
+    edges[static_cast<std::size_t>(m)] = depth[static_cast<std::size_t>(at)];
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t m = 1; m < static_cast<std::size_t>(maps); ++m) {
+      const double below = edges[m - 1], above = edges[m + 1];
+      const auto cost = [&](double edge) {
+        return joined(c.options.objective, error_between(c, body, below, edge),
+                      error_between(c, body, edge, above));
+      };
+      double least = cost(edges[m]);
+      // The objective of two neighbours has one valley: close in on it from both sides in the logarithm of
+      // depth.
+      double reach = std::pow(f / n, 0.5 / kSteps);
+      for (int trial = 0; trial < kTrials; ++trial) {
+        const double candidates[2] = {edges[m] * reach, edges[m] / reach};
+        for (const double candidate : candidates) {
+          if (!(candidate > below && candidate < above)) continue;
+          const double value = cost(candidate);
+          if (!(value < least)) continue;
+          least = value;
+          edges[m] = candidate;
+          break;
+        }
+        reach = std::sqrt(reach);
+      }
+    }
+  }
+}
+
+}  // namespace gnomon
