@@ -1,0 +1,72 @@
+// Does planning and measuring work without the heap?
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "support/property.hpp"
+#include "support/random_case.hpp"
+
+namespace {
+std::atomic<std::uint64_t> g_allocations{0};
+void* counted(std::size_t size) {
+  ++g_allocations;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return counted(size);
+}
+void* operator new[](std::size_t size) {
+  return counted(size);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace gnomon::test {
+namespace {
+
+template <typename T>
+const T& any() noexcept;
+static_assert(noexcept(make_plan(any<Camera>(), any<Light>(), any<SceneBounds>(), any<PlanOptions>())));
+static_assert(noexcept(measure(any<ShadowPlan>(), any<Camera>(), any<SceneBounds>(), any<MeasureGrid>())));
+static_assert(noexcept(measure_point(any<ShadowMap>(), any<Camera>(), any<glm::dvec3>(), any<glm::dvec3>())));
+static_assert(noexcept(describe(any<Omission>())));
+
+TEST(Allocation, the_counter_counts) {
+  const std::uint64_t before = g_allocations;
+  auto* number = new std::vector<int>(5);
+  EXPECT_EQ(g_allocations - before, 2u);
+  delete number;
+}
+
+TEST(Allocation, planning_culling_measuring_and_describing_allocate_nothing) {
+  for_all(1000, [&] {
+    const Case c = draw_case();
+    std::vector<std::uint32_t> list(c.casters.size());
+    const std::uint64_t before = g_allocations;
+    const ShadowPlan plan = make_plan(c.camera, DirectionalLight{c.light}, c.bounds(), c.options);
+    for (const ShadowMap& map : plan.maps()) (void)cull_casters(map, c.casters, list);
+    const AliasingStats stats = measure(plan, c.camera, c.bounds(), {4, 4, 8});
+    for (const Omission& omission : plan.omitted()) (void)describe(omission);
+    const std::uint64_t allocated = g_allocations - before;
+    require(allocated == 0, "allocations", allocated, "samples", stats.samples);
+  });
+}
+
+}  // namespace
+}  // namespace gnomon::test

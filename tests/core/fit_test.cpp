@@ -1,0 +1,76 @@
+// Is the stable map's square large enough for its slice from every side, and no larger than it must be?
+#include "gnomon/fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "support/near.hpp"
+#include "support/property.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr double kRounding = 1e-12;
+
+glm::dvec3 corner(const double (&edges)[4], bool orthographic, double depth, int i) {
+  const double scale = orthographic ? 1.0 : depth;
+  return {edges[i & 1] * scale, edges[2 + (i >> 1 & 1)] * scale, depth};
+}
+
+TEST(Fit, a_slice_of_no_depth_is_as_long_as_its_diagonal) {
+  EXPECT_CLOSE(longest_chord(-3, 3, -4, 4, true, 5, 5), 10.0, kRounding);
+  EXPECT_CLOSE(longest_chord(-0.3, 0.3, -0.4, 0.4, false, 10, 10), 10.0, kRounding);
+}
+
+TEST(Fit, a_long_narrow_slice_is_as_long_as_its_space_diagonal) {
+  EXPECT_CLOSE(longest_chord(-0.5, 0.5, -0.5, 0.5, true, 0, 10), std::sqrt(102.0), kRounding);
+}
+
+TEST(Fit, names_are_told) {
+  EXPECT_EQ(to_string(Fit::tight), "tight");
+  EXPECT_EQ(to_string(Fit::stable), "stable");
+}
+
+TEST(FitProperty, the_longest_chord_is_that_of_all_pairs_of_corners) {
+  for_all(1000, [&] {
+    const double left = between(-2, 1), bottom = between(-2, 1);
+    const double edges[4] = {left, left + between(0.01, 3), bottom, bottom + between(0.01, 3)};
+    const bool orthographic = chance(0.3);
+    const double begin = between(0.0, 10.0), end = begin + between(0.0, 20.0);
+    double longest = 0.0;
+    for (int i = 0; i < 8; ++i) {
+      for (int k = 0; k < 8; ++k) {
+        longest = std::max(longest, glm::distance(corner(edges, orthographic, i < 4 ? begin : end, i),
+                                                  corner(edges, orthographic, k < 4 ? begin : end, k)));
+      }
+    }
+    const double chord = longest_chord(edges[0], edges[1], edges[2], edges[3], orthographic, begin, end);
+    require(deviation(chord, longest) <= kRounding, "chord", chord, "all pairs", longest);
+  });
+}
+
+TEST(FitProperty, the_sphere_holds_the_slice_touches_its_far_corners_and_is_never_shorter_than_the_chord) {
+  for_all(1000, [&] {
+    const double x = between(0.01, 3), y = between(0.01, 3), begin = between(0.0, 10.0),
+                 end = begin + between(0.0, 50.0);
+    const BoundingSphere sphere = slice_sphere(begin, end, x, y);
+    const double edges[4] = {-x, x, -y, y};
+    for (int i = 0; i < 8; ++i) {
+      const double far =
+          glm::distance(corner(edges, false, i < 4 ? begin : end, i), {0, 0, sphere.centre_depth});
+      require(far <= sphere.radius * (1.0 + kRounding), "corner", i, "at", far, "radius", sphere.radius);
+      require(i < 4 || deviation(far, sphere.radius) <= kRounding, "far corner at", far, "radius",
+              sphere.radius);
+    }
+    const double chord = longest_chord(-x, x, -y, y, false, begin, end);
+    require(chord <= 2.0 * sphere.radius * (1.0 + kRounding), "chord", chord, "diameter",
+            2.0 * sphere.radius);
+  });
+}
+
+}  // namespace
+}  // namespace gnomon::test

@@ -1,0 +1,152 @@
+// Does the metric give the numbers one can work out by hand, and the right word where there is none?
+#include "gnomon/metric.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "support/near.hpp"
+
+namespace gnomon::test {
+namespace {
+
+using Status = PointAliasing::Status;
+constexpr double kRounding = 1e-12;
+
+/// An orthographic map straight down onto [-1, 1]^2 of the xz plane, `size` texels a side.
+ShadowMap map_from_above(int size) {
+  ShadowMap map;
+  map.width = map.height = size;
+  map.clip_from_world = glm::dmat4(1, 0, 0, 0, 0, 0, -0.1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
+  map.light_world = {0, 1, 0, 0};
+  return map;
+}
+
+/// A camera straight down from `height`, 100 pixels over two units at the ground.
+Camera camera_from_above(double height) {
+  Camera camera;
+  camera.position = {0, height, 0};
+  camera.forward = {0, -1, 0};
+  camera.up = {0, 0, -1};
+  camera.left = camera.bottom = -1.0 / height;
+  camera.right = camera.top = 1.0 / height;
+  camera.width = camera.height = 100;
+  return camera;
+}
+
+TEST(Metric, a_map_with_half_the_pixels_has_texels_of_two_pixels) {
+  const PointAliasing m = measure_point(map_from_above(50), camera_from_above(4.0), {0, 0, 0}, {0, 1, 0});
+  ASSERT_EQ(m.status, Status::ok);
+  for (const double extent : {m.m_max, m.m_min, m.m_s, m.m_t, m.m_area, m.perspective_max}) {
+    EXPECT_CLOSE(extent, 2.0, kRounding);
+  }
+  EXPECT_CLOSE(m.anisotropy, 1.0, kRounding);
+  EXPECT_CLOSE(m.projection, 1.0, kRounding);
+}
+
+TEST(Metric, twice_as_far_the_texels_are_half_as_large_on_screen) {
+  const ShadowMap map = map_from_above(50);
+  Camera camera = camera_from_above(4.0);
+  camera.position.y = 8.0;
+  EXPECT_CLOSE(measure_perspective(map, camera, {0, 0, 0}).m_max, 1.0, kRounding);
+}
+
+TEST(Metric, light_straight_into_the_eye_gives_finite_numbers) {
+  // e = -l: the rotation from eye ray to light ray is not unique, any serves.
+  Camera camera = camera_from_above(4.0);
+  camera.position = {0, -4, 0};
+  camera.forward = {0, 1, 0};
+  for (const double off : {0.0, 1e-14, 1e-9, 1e-5}) {
+    const PointAliasing m = measure_perspective(map_from_above(50), camera, {off, 0, off});
+    ASSERT_EQ(m.status, Status::ok);
+    EXPECT_CLOSE(m.m_max, 2.0, 1e-4);
+    EXPECT_CLOSE(m.m_area, 2.0, 1e-4);
+  }
+}
+
+TEST(Metric, light_across_the_eye_ray_projects_by_the_ratio_of_cosines) {
+  // A plane tilted by 60 degrees to the light: texels are twice as long on it.
+  const glm::dvec3 normal{std::sin(1.0471975511965976), std::cos(1.0471975511965976), 0};
+  Camera camera = camera_from_above(4.0);
+  camera.position = normal * 4.0;
+  camera.forward = -normal;
+  const PointAliasing m = measure_point(map_from_above(50), camera, {0, 0, 0}, normal);
+  EXPECT_CLOSE(m.projection, 2.0, kRounding);
+  EXPECT_CLOSE(m.m_max, 4.0, kRounding);
+  EXPECT_CLOSE(m.m_min, 2.0, kRounding);
+  EXPECT_CLOSE(m.m_area * m.m_area, 8.0, kRounding);
+}
+
+TEST(Metric, outside_the_map_or_behind_it_the_error_is_infinite) {
+  const Camera camera = camera_from_above(4.0);
+  for (const glm::dvec3& p : {glm::dvec3(1.1, 0, 0), glm::dvec3(0, 0, -1.1)}) {
+    const PointAliasing m = measure_point(map_from_above(50), camera, p, {0, 1, 0});
+    EXPECT_EQ(m.status, Status::outside);
+    EXPECT_TRUE(std::isinf(m.m_max) && std::isinf(m.perspective_max));
+  }
+  ShadowMap behind = map_from_above(50);
+  behind.clip_from_world = behind.clip_from_world * -1.0;
+  EXPECT_EQ(measure_perspective(behind, camera, {0, 0, 0}).status, Status::outside);
+  EXPECT_EQ(measure_perspective(map_from_above(50), camera, {1.0, 0, 1.0}).status,
+            Status::ok);  // the rim itself
+}
+
+TEST(Metric, edge_on_to_the_light_is_infinite_edge_on_to_both_is_undetermined) {
+  Camera camera = camera_from_above(4.0);
+  const PointAliasing both = measure_point(map_from_above(50), camera, {0, 0, 0}, {1, 0, 0});
+  EXPECT_EQ(both.status, Status::undetermined);
+  camera.position = {4, 4, 0};
+  camera.forward = {-1, -1, 0};
+  const PointAliasing light = measure_point(map_from_above(50), camera, {0, 0, 0}, {1, 0, 0});
+  EXPECT_FALSE(std::isnan(light.m_max));
+  EXPECT_GT(light.m_max, 1e9);
+  EXPECT_EQ(measure_point(map_from_above(50), camera, {0, 0, 0}, {-1, 0.1, 0}).status, Status::faces_away);
+}
+
+TEST(Metric, edge_on_to_the_eye_the_texel_shrinks_and_its_silhouette_stays_finite) {
+  Camera camera = camera_from_above(4.0);
+  camera.position = {4, 0, 0};
+  camera.forward = {-1, 0, 0};
+  camera.up = {0, 1, 0};
+  const PointAliasing m =
+      measure_point(map_from_above(50), camera, {0, 0, 0}, glm::normalize(glm::dvec3(1e-7, 1, 0)));
+  ASSERT_EQ(m.status, Status::ok);
+  EXPECT_LT(m.m_min, 1e-5);
+  EXPECT_CLOSE(m.m_max, 2.0, 1e-5);
+}
+
+TEST(Measure, a_plan_without_maps_measures_as_nothing) {
+  const AliasingStats stats = measure(ShadowPlan{}, Camera{}, {});
+  EXPECT_EQ(stats.samples, 0u);
+  EXPECT_EQ(stats.outside, 0u);
+  EXPECT_EQ(stats.max, 0.0);
+  EXPECT_EQ(stats.storage, 0.0);
+}
+
+TEST(Measure, the_maps_of_a_plan_add_up_to_the_whole) {
+  const Camera camera = perspective_camera({0, 5, 0}, {0, -0.2, -1}, {0, 1, 0}, 1.0, 1.5, 0.5, 200, 640, 480);
+  const Box ground{{-100, -1, -200}, {100, 0, 0}};
+  const SceneBounds bounds{{&ground, 1}, {&ground, 1}};
+  const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, bounds);
+  ASSERT_EQ(plan.map_count, 4);
+  const MeasureGrid grid{16, 16, 32};
+  const AliasingStats all = measure(plan, camera, bounds, grid);
+  std::uint64_t samples = 0;
+  double largest = 0.0, storage = 0.0;
+  for (int i = 0; i < plan.map_count; ++i) {
+    const AliasingStats one = measure_map(plan, i, camera, bounds, grid);
+    samples += one.samples;
+    largest = std::max(largest, one.max);
+    storage += one.storage;
+  }
+  EXPECT_GT(samples, 100u);
+  EXPECT_EQ(all.samples, samples);
+  EXPECT_EQ(all.max, largest);
+  EXPECT_CLOSE(all.storage, storage, kRounding);
+  EXPECT_LE(all.p50, all.p95);
+  EXPECT_LE(all.p95, all.max);
+}
+
+}  // namespace
+}  // namespace gnomon::test

@@ -1,0 +1,57 @@
+// Does every omission say in words what was left out and why?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "gnomon/plan.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr OmissionKind kKinds[] = {
+    OmissionKind::cascade_without_receiver, OmissionKind::cascade_without_caster,
+    OmissionKind::depth_without_receiver,   OmissionKind::warp_without_gain,
+    OmissionKind::warp_in_stable_fit,       OmissionKind::casters_beyond_light_near};
+
+TEST(Omission, every_kind_has_words_that_end_within_their_arrays) {
+  for (const OmissionKind kind : kKinds) {
+    // The longest numbers there are.
+    const OmissionText text = describe({kind, 2147483647, -1.2345678e-300, 1.2345678e300, 0});
+    for (const auto& [begin, size] :
+         {std::pair{text.what.data(), text.what.size()}, std::pair{text.why.data(), text.why.size()}}) {
+      const std::size_t length = strnlen(begin, size);
+      EXPECT_GT(length, 3u) << static_cast<int>(kind);
+      EXPECT_LT(length, size) << static_cast<int>(kind);
+    }
+  }
+}
+
+TEST(Omission, a_cascade_is_named_by_its_number_and_depths) {
+  const OmissionText text = describe({OmissionKind::cascade_without_receiver, 3, 120.0, 500.0, 1048576});
+  EXPECT_STREQ(text.what.data(), "cascade 3");
+  const std::string why = text.why.data();
+  EXPECT_NE(why.find("120"), std::string::npos) << why;
+  EXPECT_NE(why.find("500"), std::string::npos) << why;
+  EXPECT_NE(why.find("receiver"), std::string::npos) << why;
+}
+
+TEST(Omission, no_two_kinds_read_the_same) {
+  for (const OmissionKind a : kKinds) {
+    for (const OmissionKind b : kKinds) {
+      if (a == b) continue;
+      EXPECT_STRNE(describe({a, 1, 2.0, 3.0, 0}).why.data(), describe({b, 1, 2.0, 3.0, 0}).why.data());
+    }
+  }
+}
+
+TEST(Omission, statuses_have_names_of_their_own) {
+  EXPECT_EQ(to_string(PlanStatus::ok), "ok");
+  EXPECT_EQ(to_string(PlanStatus::nothing_visible), "nothing_visible");
+  EXPECT_EQ(to_string(PlanStatus::no_caster), "no_caster");
+  EXPECT_EQ(to_string(PlanStatus::invalid_input), "invalid_input");
+}
+
+}  // namespace
+}  // namespace gnomon::test

@@ -1,0 +1,150 @@
+// Is every broken contract refused by name, and every legal extreme accepted?
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "gnomon/gnomon.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Input {
+  Camera camera = perspective_camera({0, 5, 0}, {0, -0.2, -1}, {0, 1, 0}, 1.0, 1.5, 0.5, 200, 640, 480);
+  Light light = DirectionalLight{{0.2, -1, 0.1}};
+  std::vector<Box> casters = {{{-30, 0, -30}, {30, 5, -1}}}, receivers = {{{-30, -1, -30}, {30, 0, -1}}};
+  PlanOptions options;
+  [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, light, {casters, receivers}, options); }
+};
+
+using Break = std::function<void(Input&)>;
+
+TEST(PlanInput, sound_input_is_accepted) {
+  const ShadowPlan plan = Input{}.plan();
+  EXPECT_EQ(plan.status, PlanStatus::ok);
+  EXPECT_TRUE(plan.invalid_field.empty());
+}
+
+TEST(PlanInput, every_broken_field_is_named) {
+  const std::vector<std::pair<std::string, Break>> breaks = {
+      {"camera.position", [](Input& i) { i.camera.position.x = kNan; }},
+      {"camera.position", [](Input& i) { i.camera.position.z = -kInfinity; }},
+      {"camera.forward", [](Input& i) { i.camera.forward = glm::dvec3(0.0); }},
+      {"camera.forward", [](Input& i) { i.camera.forward.y = kNan; }},
+      {"camera.up", [](Input& i) { i.camera.up.y = kInfinity; }},
+      {"camera.left", [](Input& i) { i.camera.left = i.camera.right; }},
+      {"camera.right", [](Input& i) { i.camera.right = kNan; }},
+      {"camera.bottom", [](Input& i) { i.camera.bottom = 2.0; }},
+      {"camera.top", [](Input& i) { i.camera.top = kInfinity; }},
+      {"camera.near_depth", [](Input& i) { i.camera.near_depth = 0.0; }},
+      {"camera.near_depth", [](Input& i) { i.camera.near_depth = -1.0; }},
+      {"camera.near_depth", [](Input& i) { i.camera.near_depth = kNan; }},
+      {"camera.far_depth", [](Input& i) { i.camera.far_depth = i.camera.near_depth; }},
+      {"camera.far_depth", [](Input& i) { i.camera.far_depth = kInfinity; }},
+      {"camera.width", [](Input& i) { i.camera.width = 0; }},
+      {"camera.height", [](Input& i) { i.camera.height = -5; }},
+      {"light.direction", [](Input& i) { i.light = DirectionalLight{glm::dvec3(0.0)}; }},
+      {"light.direction",
+       [](Input& i) {
+         i.light = DirectionalLight{{0, kNan, 0}};
+       }},
+      {"light.position",
+       [](Input& i) {
+         i.light = SpotLight{{kNan, 0, 0}, {0, -1, 0}, 0.5, 10};
+       }},
+      {"light.direction",
+       [](Input& i) {
+         i.light = SpotLight{{0, 0, 0}, {0, 0, 0}, 0.5, 10};
+       }},
+      {"light.outer_radians",
+       [](Input& i) {
+         i.light = SpotLight{{0, 0, 0}, {0, -1, 0}, 3.2, 10};
+       }},
+      {"light.outer_radians",
+       [](Input& i) {
+         i.light = SpotLight{{0, 0, 0}, {0, -1, 0}, 0.0, 10};
+       }},
+      {"light.range",
+       [](Input& i) {
+         i.light = SpotLight{{0, 0, 0}, {0, -1, 0}, 0.5, 0.0};
+       }},
+      {"light.position",
+       [](Input& i) {
+         i.light = PointLight{{0, kInfinity, 0}, 10};
+       }},
+      {"light.range",
+       [](Input& i) {
+         i.light = PointLight{{0, 0, 0}, kNan};
+       }},
+      {"bounds.casters", [](Input& i) { i.casters[0].min.x = kNan; }},
+      {"bounds.casters", [](Input& i) { i.casters[0].max.y = kInfinity; }},
+      {"bounds.receivers", [](Input& i) { i.receivers[0].max.z = kNan; }},
+      {"options.map_size", [](Input& i) { i.options.map_size = 3; }},
+      {"options.map_size", [](Input& i) { i.options.map_size = 16385; }},
+      {"options.cascades", [](Input& i) { i.options.cascades = 0; }},
+      {"options.cascades", [](Input& i) { i.options.cascades = kMaxMaps + 1; }},
+      {"options.lambda", [](Input& i) { i.options.lambda = 1.5; }},
+      {"options.lambda", [](Input& i) { i.options.lambda = kNan; }},
+      {"options.near_hint", [](Input& i) { i.options.near_hint = -1.0; }},
+      {"options.filter_radius_texels", [](Input& i) { i.options.filter_radius_texels = -0.5; }},
+      {"options.filter_radius_texels", [](Input& i) { i.options.filter_radius_texels = 257.0; }},
+      {"options.bias", [](Input& i) { i.options.bias.slope_texels = kNan; }},
+      {"options.bias", [](Input& i) { i.options.bias.constant_texels = -1.0; }},
+  };
+  for (const auto& [field, spoil] : breaks) {
+    Input input;
+    spoil(input);
+    const ShadowPlan plan = input.plan();
+    EXPECT_EQ(plan.status, PlanStatus::invalid_input) << field;
+    EXPECT_NE(plan.invalid_field.find(field), std::string_view::npos)
+        << field << " came back as " << plan.invalid_field;
+    EXPECT_EQ(plan.map_count, 0) << field;
+  }
+}
+
+TEST(PlanInput, legal_extremes_are_planned) {
+  const std::vector<std::pair<std::string, Break>> extremes = {
+      {"a far plane ten million near planes away", [](Input& i) { i.camera.near_depth = 2e-5; }},
+      {"hardly any depth", [](Input& i) { i.camera.near_depth = 10, i.camera.far_depth = 10 * (1 + 1e-9); }},
+      {"a field of view near 180 degrees",
+       [](Input& i) { i.camera.left = i.camera.bottom = -60, i.camera.right = i.camera.top = 60; }},
+      {"no up", [](Input& i) { i.camera.up = glm::dvec3(0.0); }},
+      {"up along the view", [](Input& i) { i.camera.up = i.camera.forward; }},
+      {"one pixel", [](Input& i) { i.camera.width = i.camera.height = 1; }},
+      {"the smallest map", [](Input& i) { i.options.map_size = 4, i.options.filter_radius_texels = 1; }},
+      {"the largest map", [](Input& i) { i.options.map_size = 16384; }},
+      {"the widest filter", [](Input& i) { i.options.filter_radius_texels = 256; }},
+      {"a hint beyond the far plane", [](Input& i) { i.options.near_hint = 1e6; }},
+      {"a tiny light direction",
+       [](Input& i) {
+         i.light = DirectionalLight{{1e-200, -1e-200, 0}};
+       }},
+      {"empty boxes among the others", [](Input& i) { i.casters.push_back({}), i.receivers.push_back({}); }},
+      {"the most cascades", [](Input& i) { i.options.cascades = kMaxMaps; }},
+  };
+  for (const auto& [name, change] : extremes) {
+    for (const Fit fit : {Fit::tight, Fit::stable}) {
+      Input input;
+      input.options.fit = fit;
+      change(input);
+      const ShadowPlan plan = input.plan();
+      EXPECT_EQ(plan.status, PlanStatus::ok) << name << ": " << plan.invalid_field;
+      for (const ShadowMap& map : plan.maps()) {
+        EXPECT_TRUE(std::isfinite(map.storage) && std::isfinite(map.texel_world.x) && map.texel_world.x > 0.0)
+            << name;
+        for (int column = 0; column < 4; ++column) {
+          for (int row = 0; row < 4; ++row)
+            EXPECT_TRUE(std::isfinite(map.clip_from_world[column][row])) << name;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::test

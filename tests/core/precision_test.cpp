@@ -1,0 +1,77 @@
+// Does the camera-relative float matrix keep its texels a thousand kilometres from the origin?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec4.hpp>
+
+#include "gnomon/gnomon.hpp"
+#include "support/random_case.hpp"
+
+namespace gnomon::test {
+namespace {
+
+// The promise of architecture section 3.
+constexpr double kTexel = 0.0005;
+
+Case scene_at(const glm::dvec3& origin) {
+  Case c;
+  c.camera = perspective_camera(origin + glm::dvec3(0, 2, 0), {0.3, -0.1, -1}, {0, 1, 0}, 1.0472, 1.7778, 0.1,
+                                200, 1920, 1080);
+  c.light = {0.4, -1, 0.3};
+  c.receivers = {{origin + glm::dvec3(-200, -1, -250), origin + glm::dvec3(200, 4, 50)}};
+  c.casters = {{origin + glm::dvec3(-200, -1, -250), origin + glm::dvec3(200, 30, 50)}};
+  return c;
+}
+
+/// Largest difference in texels between shading in float relative to the camera and double in the world.
+double worst_texel(const Case& c, const ShadowPlan& plan) {
+  double worst = 0.0;
+  Random random(1);
+  for (int i = 0; i < 5000; ++i) {
+    const double depth =
+        c.camera.near_depth * std::pow(c.camera.far_depth / c.camera.near_depth, random.unit());
+    // What a shader gets: the offset from the eye, already in float.
+    const glm::vec3 offset(point_at(c.camera, random.between(-1, 1), random.between(-1, 1), depth) -
+                           c.camera.position);
+    const ShadowMap* map = map_for(plan, depth);
+    if (map == nullptr) continue;
+    const glm::vec4 shaded = map->clip_from_camera_relative * glm::vec4(offset, 1.0f);
+    const glm::dvec4 exact = map->clip_from_world * glm::dvec4(glm::dvec3(offset) + c.camera.position, 1.0);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double difference = static_cast<double>(shaded[axis] / shaded.w) - exact[axis] / exact.w;
+      worst = std::max(worst, std::abs(difference) * 0.5 * map->width);
+    }
+  }
+  return worst;
+}
+
+TEST(Precision, camera_relative_floats_hold_their_texel_from_the_origin_to_ten_thousand_kilometres) {
+  for (const double distance : {0.0, 1e6, 1e7}) {
+    for (const Fit fit : {Fit::tight, Fit::stable}) {
+      Case c = scene_at(glm::dvec3(distance, 0.3 * distance, -0.7 * distance));
+      c.options.fit = fit;
+      c.options.warp = &warps::none;
+      const ShadowPlan plan = c.plan();
+      ASSERT_EQ(plan.status, PlanStatus::ok);
+      const double worst = worst_texel(c, plan);
+      EXPECT_GT(worst, 0.0);
+      EXPECT_LT(worst, kTexel) << distance << ' ' << to_string(fit);
+    }
+  }
+}
+
+TEST(Precision, an_absolute_float_matrix_would_not_do) {
+  // The reason for the second matrix: if this held, it could go.
+  const Case c = scene_at({1e6, 3e5, -7e5});
+  const ShadowPlan plan = c.plan();
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  const ShadowMap& map = plan.map[0];
+  const glm::dvec3 p = point_at(c.camera, 0.1, -0.3, 0.5 * (map.depth_begin + map.depth_end));
+  const glm::vec4 shaded = glm::mat4(map.clip_from_world) * glm::vec4(glm::vec3(p), 1.0f);
+  const glm::dvec4 exact = map.clip_from_world * glm::dvec4(p, 1.0);
+  EXPECT_GT(std::abs(static_cast<double>(shaded.x / shaded.w) - exact.x / exact.w) * 0.5 * map.width, 1.0);
+}
+
+}  // namespace
+}  // namespace gnomon::test

@@ -1,0 +1,89 @@
+// Are the borders of the cascades where the scheme says, whatever it is given?
+#include "gnomon/split.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "support/near.hpp"
+#include "support/property.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr double kRounding = 1e-13;
+
+std::vector<double> edges_of(double n, double f, const SplitOptions& options, std::size_t maps) {
+  std::vector<double> edges(maps + 1, -1.0);
+  split_depths(n, f, options, edges);
+  return edges;
+}
+
+TEST(Split, equal_depths_give_equal_edges) {
+  for (const SplitScheme scheme :
+       {SplitScheme::uniform, SplitScheme::logarithmic, SplitScheme::practical, SplitScheme::pseudo_near}) {
+    for (const double edge : edges_of(3.0, 3.0, {scheme, 0.5, 3.0}, 4)) EXPECT_EQ(edge, 3.0);
+  }
+}
+
+TEST(Split, a_near_depth_of_zero_or_less_falls_back_to_even_shares) {
+  for (const double n : {0.0, -4.0}) {
+    const auto edges = edges_of(n, n + 8.0, {SplitScheme::logarithmic, 1.0, 0.0}, 4);
+    for (std::size_t i = 0; i < edges.size(); ++i) EXPECT_EQ(edges[i], n + 2.0 * static_cast<double>(i));
+  }
+}
+
+TEST(Split, no_edges_are_no_work) {
+  split_depths(1.0, 2.0, {}, {});
+  const auto one = edges_of(1.0, 2.0, {}, 1);
+  EXPECT_EQ(one, (std::vector<double>{1.0, 2.0}));
+}
+
+TEST(Split, logarithmic_borders_have_equal_ratios_and_uniform_ones_equal_steps) {
+  const auto log = edges_of(1.0, 1000.0, {SplitScheme::logarithmic, 0.0, 0.0}, 3);
+  EXPECT_CLOSE(log[1], 10.0, kRounding);
+  EXPECT_CLOSE(log[2], 100.0, kRounding);
+  const auto even = edges_of(1.0, 4.0, {SplitScheme::uniform, 1.0, 0.0}, 3);
+  EXPECT_CLOSE(even[1], 2.0, kRounding);
+  EXPECT_CLOSE(even[2], 3.0, kRounding);
+}
+
+TEST(Split, a_blend_that_is_no_number_counts_as_a_half_and_others_are_clamped) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(edges_of(1, 100, {SplitScheme::practical, nan, 0}, 4),
+            edges_of(1, 100, {SplitScheme::practical, 0.5, 0}, 4));
+  EXPECT_EQ(edges_of(1, 100, {SplitScheme::practical, 7.0, 0}, 4),
+            edges_of(1, 100, {SplitScheme::logarithmic, 0, 0}, 4));
+  EXPECT_EQ(edges_of(1, 100, {SplitScheme::practical, -1.0, 0}, 4),
+            edges_of(1, 100, {SplitScheme::uniform, 0, 0}, 4));
+}
+
+TEST(Split, names_lead_back_to_their_schemes) {
+  for (const SplitScheme scheme :
+       {SplitScheme::uniform, SplitScheme::logarithmic, SplitScheme::practical, SplitScheme::pseudo_near}) {
+    SplitScheme found{};
+    EXPECT_TRUE(split_scheme_from_name(to_string(scheme), found));
+    EXPECT_EQ(found, scheme);
+  }
+  SplitScheme untouched = SplitScheme::uniform;
+  EXPECT_FALSE(split_scheme_from_name("evenly", untouched));
+  EXPECT_EQ(untouched, SplitScheme::uniform);
+}
+
+TEST(SplitProperty, borders_ascend_from_exactly_near_to_exactly_far) {
+  for_all(2000, [&] {
+    const double n = std::exp2(between(-60.0, 60.0)), f = n * (1.0 + std::exp2(between(-50.0, 30.0)));
+    const SplitOptions options{static_cast<SplitScheme>(pick(4)), between(-0.5, 1.5),
+                               n * std::exp2(between(-5.0, 35.0))};
+    const auto edges = edges_of(n, f, options, static_cast<std::size_t>(1 + pick(16)));
+    require(edges.front() == n && edges.back() == f, "ends", edges.front(), edges.back());
+    require(std::is_sorted(edges.begin(), edges.end()), "not ascending");
+  });
+}
+
+}  // namespace
+}  // namespace gnomon::test

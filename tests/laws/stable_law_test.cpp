@@ -1,0 +1,138 @@
+// Does the texel grid of a stable map stand still while the camera moves and turns?
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "support/property.hpp"
+#include "support/random_case.hpp"
+
+namespace gnomon::test {
+namespace {
+
+// A whole texel to this: the invariant that keeps edges from crawling.
+constexpr double kTexel = 1e-6;
+
+glm::dvec2 texel_of(const ShadowMap& map, const glm::dvec3& p) {
+  const glm::dvec4 clip = map.clip_from_world * glm::dvec4(p, 1.0);
+  return {0.5 * map.width * clip.x / clip.w, 0.5 * map.height * clip.y / clip.w};
+}
+double from_whole(double v) {
+  return std::abs(v - std::round(v));
+}
+
+/// A camera among boxes, with everything in reach, so that each cascade has receivers and casters.
+Case draw_stable_case() {
+  Case c = draw_case({.max_depth_ratio = 1e4, .max_boxes = 8});
+  c.options.fit = Fit::stable;
+  c.options.split_range = SplitRange::automatic;
+  c.options.near_hint = 0.0;
+  const double f = 4.0 * c.camera.far_depth;
+  c.receivers = {{c.camera.position - glm::dvec3(f), c.camera.position + glm::dvec3(f)}};
+  c.casters = c.receivers;
+  return c;
+}
+
+/// Every map of `b` has the grid of the same cascade of `a`.
+std::uint64_t require_same_grid(const Case& c, const ShadowPlan& a, const ShadowPlan& b) {
+  std::uint64_t compared = 0;
+  Random random(5);
+  for (const ShadowMap& m : a.maps()) {
+    for (const ShadowMap& n : b.maps()) {
+      if (n.cascade != m.cascade) continue;
+      for (int i = 0; i < 4; ++i) {
+        const glm::dvec3 p = point_at(c.camera, random.between(-1, 1), random.between(-1, 1),
+                                      random.between(m.depth_begin, m.depth_end));
+        const glm::dvec2 moved = texel_of(n, p) - texel_of(m, p);
+        require(from_whole(moved.x) <= kTexel && from_whole(moved.y) <= kTexel, "texels", moved.x, moved.y,
+                "cascade", m.cascade);
+        ++compared;
+      }
+    }
+  }
+  return compared;
+}
+
+TEST(StableLaw, snap_keeps_the_texel_grid_under_sub_texel_motion) {
+  std::uint64_t compared = 0;
+  for_all(500, [&] {
+    Case c = draw_stable_case();
+    const ShadowPlan before = c.plan();
+    if (before.map_count == 0) return;
+    const double texel = before.map[0].texel_world.x;
+    RC_LOG() << c << "texel " << texel;
+    Case moved = c;
+    moved.camera.position += glm::dvec3(between(-1, 1), between(-1, 1), between(-1, 1)) * texel;
+    compared += require_same_grid(c, before, moved.plan());
+  });
+  EXPECT_GT(compared, 2000u);
+}
+
+TEST(StableLaw, the_grid_stands_still_under_any_motion_and_turn_of_the_camera) {
+  std::uint64_t compared = 0;
+  for_all(1000, [&] {
+    Case c = draw_stable_case();
+    RC_LOG() << c;
+    const ShadowPlan before = c.plan();
+    Case moved = c;
+    moved.camera.position +=
+        glm::dvec3(between(-1, 1), between(-1, 1), between(-1, 1)) * (0.5 * c.camera.far_depth);
+    if (chance(0.7)) moved.camera.forward = {between(-1, 1), between(-1, 1), between(0.1, 1)};
+    if (chance(0.3)) moved.camera.up = {between(-1, 1), between(0.1, 1), between(-1, 1)};
+    compared += require_same_grid(c, before, moved.plan());
+  });
+  EXPECT_GT(compared, 4000u);
+}
+
+TEST(StableLaw, equal_snap_keys_mean_the_same_matrix) {
+  std::uint64_t equal = 0;
+  for_all(1000, [&] {
+    Case c = draw_stable_case();
+    const ShadowPlan before = c.plan();
+    if (before.map_count == 0) return;
+    RC_LOG() << c;
+    Case moved = c;
+    moved.camera.position += glm::dvec3(unit(), unit(), unit()) * (0.3 * before.map[0].texel_world.x);
+    const ShadowPlan after = moved.plan();
+    for (const ShadowMap& m : before.maps()) {
+      for (const ShadowMap& n : after.maps()) {
+        if (n.cascade != m.cascade || !(n.snap_key == m.snap_key)) continue;
+        ++equal;
+        Random random(5);
+        for (int i = 0; i < 4; ++i) {
+          const glm::dvec3 p = point_at(c.camera, random.between(-1, 1), random.between(-1, 1),
+                                        random.between(m.depth_begin, m.depth_end));
+          const glm::dvec4 a = m.clip_from_world * glm::dvec4(p, 1.0),
+                           b = n.clip_from_world * glm::dvec4(p, 1.0);
+          const double half = 0.5 * m.width;
+          require(std::abs(a.x - b.x) * half <= kTexel && std::abs(a.y - b.y) * half <= kTexel, "grid moved",
+                  (a.x - b.x) * half, (a.y - b.y) * half);
+          // Depth in the map's own units, far below what 24 bits of depth can tell.
+          require(std::abs(a.z - b.z) <= 1e-9, "depth moved", a.z - b.z);
+        }
+      }
+    }
+  });
+  EXPECT_GT(equal, 300u);
+}
+
+TEST(StableLaw, a_stable_map_is_never_warped_and_says_so_when_one_was_asked_for) {
+  for_all(200, [&] {
+    Case c = draw_stable_case();
+    const ShadowPlan plan = c.plan();
+    for (const ShadowMap& map : plan.maps()) {
+      require(map.warp == &warps::none && map.kappa == 0.0, map.warp->name, map.kappa);
+      // Square texels of one size over the whole map.
+      require(std::abs(map.texel_world.x - map.texel_world.y) <= 1e-9 * map.texel_world.x, "texels",
+              map.texel_world.x, map.texel_world.y);
+    }
+    if (plan.status != PlanStatus::ok || c.options.warp == nullptr || c.options.warp == &warps::none) return;
+    bool told = false;
+    for (const Omission& o : plan.omitted()) told = told || o.kind == OmissionKind::warp_in_stable_fit;
+    require(told, "warp left out without a word");
+  });
+}
+
+}  // namespace
+}  // namespace gnomon::test

@@ -1,0 +1,228 @@
+// What every warp in the registry must do: answer with a usable strength and never make its objective worse.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "support/near.hpp"
+#include "support/property.hpp"
+#include "support/random_case.hpp"
+
+namespace gnomon::test {
+namespace {
+
+// Rounding of a product of maxima.
+constexpr double kRounding = 1e-9;
+
+/// The objective as the plan itself bounds it; nothing for p95, which no bound at the vertices gives.
+double bound_of(const Case& c, const ShadowMap& map) {
+  return c.options.objective == Objective::storage ? map.storage : std::max(map.m_s_max, map.m_t_max);
+}
+
+TEST(WarpLaw, the_registry_has_none_first_and_finds_every_entry_by_its_name) {
+  ASSERT_FALSE(all_warps().empty());
+  EXPECT_EQ(all_warps()[0], &warps::none);
+  std::set<std::string_view> names;
+  for (const Warp* warp : all_warps()) {
+    EXPECT_TRUE(names.insert(warp->name).second) << warp->name;
+    EXPECT_EQ(find_warp(warp->name), warp);
+    EXPECT_FALSE(warp->summary.empty()) << warp->name;
+    EXPECT_NE(warp->choose, nullptr) << warp->name;
+  }
+  EXPECT_EQ(find_warp("no_such_warp"), nullptr);
+  EXPECT_EQ(find_warp(""), nullptr);
+}
+
+/// Plans each random case without a warp and with every warp that may be dropped, and hands over the maps of
+/// the same cascade. Returns how many were warped.
+template <typename Compare>
+std::uint64_t against_no_warp(int cases, const std::vector<Objective>& objectives, Compare&& compare) {
+  std::uint64_t warped = 0;
+  for_all(cases, [&] {
+    Case c = draw_case({.max_depth_ratio = 1e4});
+    c.options.fit = Fit::tight;
+    c.options.objective = objectives[static_cast<std::size_t>(pick(static_cast<int>(objectives.size())))];
+    c.options.warp = &warps::none;
+    RC_LOG() << c;
+    const ShadowPlan uniform = c.plan();
+    for (const Warp* warp : all_warps()) {
+      if (!warp->drop_without_gain || warp == &warps::none) continue;
+      c.options.warp = warp;
+      const ShadowPlan plan = c.plan();
+      for (int i = 0; i < plan.map_count; ++i) {
+        for (int k = 0; k < uniform.map_count; ++k) {
+          const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
+          if (uniform.map[static_cast<std::size_t>(k)].cascade != map.cascade || map.kappa == 0.0) continue;
+          ++warped;
+          compare(c, *warp, plan, i, uniform, k);
+        }
+      }
+    }
+  });
+  return warped;
+}
+
+TEST(WarpLaw, a_warp_that_may_be_dropped_never_raises_its_objective_above_that_of_no_warp) {
+  const std::uint64_t warped = against_no_warp(
+      1000, {Objective::storage, Objective::max},
+      [](const Case& c, const Warp& warp, const ShadowPlan& plan, int map, const ShadowPlan& uniform,
+         int before) {
+        const ShadowMap& with = plan.map[static_cast<std::size_t>(map)];
+        const double value = bound_of(c, with);
+        const double without = bound_of(c, uniform.map[static_cast<std::size_t>(before)]);
+        require(value <= without * (1.0 + kRounding), warp.name, to_string(c.options.objective), "cascade",
+                with.cascade, "kappa", with.kappa, "bound", value, "without", without);
+      });
+  EXPECT_GT(warped, 300u);
+}
+
+// A search looks at no more than a few hundred points of the body, the grid at others: how far the two may
+// differ about what was gained.
+constexpr double kSampling = 1.15;
+
+TEST(WarpLaw, the_measured_percentile_is_no_worse_than_without_a_warp_where_it_is_the_objective) {
+  constexpr MeasureGrid kGrid{20, 20, 20};
+  const std::uint64_t warped = against_no_warp(
+      500, {Objective::p95},
+      [&](const Case& c, const Warp& warp, const ShadowPlan& plan, int map, const ShadowPlan& uniform,
+          int before) {
+        const AliasingStats with = measure_map(plan, map, c.camera, c.bounds(), kGrid);
+        const AliasingStats without = measure_map(uniform, before, c.camera, c.bounds(), kGrid);
+        if (without.samples < 200) return;
+        require(with.p95 <= without.p95 * kSampling, warp.name, "cascade",
+                plan.map[static_cast<std::size_t>(map)].cascade, "p95", with.p95, "without", without.p95);
+      });
+  EXPECT_GT(warped, 100u);
+}
+
+TEST(WarpLaw, a_map_names_the_warp_that_was_used_and_what_was_dropped_is_told) {
+  for_all(600, [&] {
+    Case c = draw_case();
+    c.options.fit = Fit::tight;
+    RC_LOG() << c;
+    const ShadowPlan plan = c.plan();
+    for (const ShadowMap& map : plan.maps()) {
+      require(map.warp == &warps::none || map.kappa > 0.0, map.warp->name, "used with kappa", map.kappa);
+      require(map.warp != &warps::none || map.kappa == 0.0, "none with kappa", map.kappa);
+      if (map.warp != &warps::none || c.options.warp == &warps::none) continue;
+      bool told = plan.omission_count > kMaxOmissions;
+      for (const Omission& o : plan.omitted()) {
+        told = told || (o.kind == OmissionKind::warp_without_gain && (o.map == map.cascade || o.map == -1));
+      }
+      require(told, "warp dropped from cascade", map.cascade, "without a word");
+    }
+  });
+}
+
+/// A frustum's profile in the light frame: four corners of the slice [n, f] in the plane of view and light,
+/// each with its left and right edge.
+std::vector<WarpInput::Point> profile(double n, double f, double tan_half, double gamma) {
+  std::vector<WarpInput::Point> points;
+  for (const double z : {n, f}) {
+    for (const double side : {-1.0, 1.0}) {
+      const double y = z * (std::sin(gamma) + side * tan_half * std::cos(gamma));
+      const double height = z * (-std::cos(gamma) + side * tan_half * std::sin(gamma));
+      points.push_back({-0.5 * z, y, height, z});
+      points.push_back({0.5 * z, y, height, z});
+    }
+  }
+  return points;
+}
+
+TEST(WarpLaw, every_warp_answers_any_body_with_a_finite_strength_that_is_not_negative) {
+  for_all(3000, [&] {
+    std::vector<WarpInput::Point> body;
+    const double scale = std::exp2(between(-60.0, 60.0));
+    const int count = 1 + pick(20);
+    for (int i = 0; i < count; ++i) {
+      const double depth = std::exp2(between(-20.0, 20.0));
+      body.push_back({between(-1, 1) * scale * depth, chance(0.2) ? 0.0 : between(-1, 1) * scale * depth,
+                      between(-1, 1) * scale * depth, scale * depth});
+    }
+    WarpInput in{};
+    in.body = body;
+    in.y_min = in.y_max = body[0].y;
+    in.depth_begin = in.depth_end = body[0].depth;
+    for (const WarpInput::Point& p : body) {
+      in.y_min = std::min(in.y_min, p.y);
+      in.y_max = std::max(in.y_max, p.y);
+      in.depth_begin = std::min(in.depth_begin, p.depth);
+      in.depth_end = std::max(in.depth_end, p.depth);
+    }
+    const double gamma = chance(0.2) ? 0.0 : between(0.0, 3.141592653589793);
+    in.sin_gamma = std::abs(std::sin(gamma));
+    in.cos_gamma = std::cos(gamma);
+    in.tan_half_fov = between(1e-3, 10.0);
+    in.orthographic = chance(0.1);
+    in.objective = static_cast<Objective>(pick(3));
+    // A body that is its own bounding box: what a search over faces and edges walks on.
+    Box box;
+    for (const WarpInput::Point& p : body) box.extend({p.x, p.y, p.z});
+    const Polytope polytope = box_polytope(box);
+    in.polytope = &polytope;
+    in.view = {{1, 0, 0},
+               {0, std::abs(in.cos_gamma), in.sin_gamma},
+               {0, in.sin_gamma, -in.cos_gamma},
+               -1.0,
+               1.0,
+               -1.0,
+               1.0,
+               2.0 / 640,
+               2.0 / 480};
+    for (const Warp* warp : all_warps()) {
+      const double kappa = warp->choose(in).kappa;
+      require(kappa >= 0.0 && std::isfinite(kappa), warp->name, "kappa", kappa);
+      require(!in.orthographic || kappa == 0.0, warp->name, "warps an orthographic camera");
+      if (kappa == 0.0) continue;
+      const WarpError error = warp_error(in, kappa);
+      require(std::isfinite(error.m_s) && std::isfinite(error.m_t), warp->name, "error", error.m_s,
+              error.m_t);
+    }
+  });
+}
+
+TEST(WarpLaw, the_vertex_bound_is_reached_by_no_inner_point_of_the_body) {
+  for_all(500, [&] {
+    const double n = std::exp2(between(-3.0, 3.0)), f = n * (1.0 + std::exp2(between(-3.0, 12.0)));
+    const auto corners = profile(n, f, between(0.05, 2.0), between(0.01, 3.13));
+    WarpInput in{};
+    in.body = corners;
+    in.y_min = in.y_max = corners[0].y;
+    for (const WarpInput::Point& p : corners) {
+      in.y_min = std::min(in.y_min, p.y);
+      in.y_max = std::max(in.y_max, p.y);
+    }
+    const double length = in.y_max - in.y_min;
+    const double kappa = std::exp2(between(-10.0, 10.0)) / length;
+    const WarpError bound = warp_error(in, kappa);
+    double left = 1e300, right = -1e300, across = 0.0, along = 0.0;
+    for (int i = 0; i < 100; ++i) {
+      double x = 0.0, y = 0.0, z = 0.0, total = 0.0;
+      for (const WarpInput::Point& p : corners) {
+        const double weight = unit();
+        x += weight * p.x;
+        y += weight * p.y;
+        z += weight * p.depth;
+        total += weight;
+      }
+      if (!(total > 0.0)) continue;
+      x /= total, y /= total, z /= total;
+      const double w = 1.0 + kappa * (y - in.y_min);
+      left = std::min(left, x / w);
+      right = std::max(right, x / w);
+      across = std::max(across, w / z);
+      along = std::max(along, w * w / z);
+    }
+    require((right - left) * across <= bound.m_s * (1.0 + kRounding), "m_s inside", (right - left) * across,
+            "bound", bound.m_s);
+    require(along * length / (1.0 + kappa * length) <= bound.m_t * (1.0 + kRounding), "m_t inside",
+            along * length / (1.0 + kappa * length), "bound", bound.m_t);
+  });
+}
+
+}  // namespace
+}  // namespace gnomon::test
