@@ -1,0 +1,137 @@
+// The flythrough program from outside: what it writes, and how it refuses.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code = -1;
+  std::string out, error;
+};
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class Flythrough : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              ("flythrough_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] fs::path out() const { return folder_ / "pictures"; }
+  [[nodiscard]] Outcome run(const std::string& arguments) const {
+    const std::string command = "env -u DISPLAY -u WAYLAND_DISPLAY " FLYTHROUGH " --out " + out().string() +
+                                " " + arguments + " > " + (folder_ / "out").string() + " 2> " +
+                                (folder_ / "error").string();
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "out"),
+            text_of(folder_ / "error")};
+  }
+
+  fs::path folder_;
+};
+
+/// Fields of a line of CSV, quotes taken off.
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      fields.emplace_back();
+    } else {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
+TEST_F(Flythrough, refuses_bad_input_with_one_line_and_writes_nothing) {
+  const struct {
+    const char* arguments;
+    const char* named;
+  } kCases[] = {{"no_such_file.glb", "no_such_file.glb"},
+                {"builtin:nowhere", "nowhere"},
+                {"--warp bent", "bent"},
+                {"--filter soap", "soap"},
+                {"--split even", "even"},
+                {"--size 640", "640"},
+                {"--size 640x", "640x"},
+                {"--frames 0", "--frames"},
+                {"--cascades 99", "--cascades"},
+                {"--lambda nan", "--lambda"},
+                {"--context vulkan", "vulkan"},
+                {"--path no_such_path.json", "no_such_path.json"},
+                {"--context glfw builtin:fence", "--context glfw"},
+                {"--no-such-option", "--no-such-option"}};
+  for (const auto& c : kCases) {
+    const Outcome outcome = run(c.arguments);
+    EXPECT_EQ(outcome.code, 2) << c.arguments;
+    EXPECT_NE(outcome.error.find(c.named), std::string::npos) << c.arguments << ": " << outcome.error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    EXPECT_FALSE(fs::exists(out())) << c.arguments;
+  }
+}
+
+TEST_F(Flythrough, tells_its_version_and_its_options) {
+  const Outcome version = run("--version");
+  EXPECT_EQ(version.code, 0);
+  EXPECT_NE(version.out.find("flythrough"), std::string::npos);
+  const Outcome help = run("--help");
+  EXPECT_EQ(help.code, 0);
+  for (const char* option :
+       {"--frames", "--size", "--out", "--context", "--cascades", "--split", "--lambda", "--warp", "--filter",
+        "--map-size", "--stable", "--light-elevation-deg", "--light-azimuth-deg", "--path"}) {
+    EXPECT_NE(help.out.find(option), std::string::npos) << option;
+  }
+}
+
+TEST_F(Flythrough, writes_three_pictures_and_a_row_per_frame_and_a_sheet) {
+  const Outcome outcome = run("builtin:fence --frames 2 --size 96x64 --map-size 128 --cascades 2");
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  for (const char* file :
+       {"frame_0000_image.png", "frame_0000_heat.png", "frame_0000_cascades.png", "frame_0001_image.png",
+        "frame_0001_heat.png", "frame_0001_cascades.png", "contact_sheet.png"}) {
+    EXPECT_GT(fs::exists(out() / file) ? fs::file_size(out() / file) : 0, 100u) << file;
+  }
+  std::ifstream csv(out() / "frames.csv");
+  std::string line;
+  ASSERT_TRUE(std::getline(csv, line));
+  const std::vector<std::string> header = fields_of(line);
+  const auto column = [&header](const std::string& name) {
+    return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+  };
+  int rows = 0;
+  while (std::getline(csv, line)) {
+    const std::vector<std::string> row = fields_of(line);
+    ASSERT_EQ(row.size(), header.size()) << line;
+    EXPECT_EQ(row[column("frame")], std::to_string(rows));
+    EXPECT_GT(std::stod(row[column("plan_ns")]), 0.0);
+    EXPECT_GT(std::stod(row[column("m_p50")]), 0.0);
+    EXPECT_LE(std::stod(row[column("m_p50")]), std::stod(row[column("m_p95")]));
+    EXPECT_LE(std::stod(row[column("m_p95")]), std::stod(row[column("m_max")]));
+    EXPECT_EQ(std::stod(row[column("texels")]), std::stod(row[column("maps")]) * 128 * 128);
+    ++rows;
+  }
+  EXPECT_EQ(rows, 2);
+  // Nothing is left of the files that were written aside.
+  for (const auto& entry : fs::directory_iterator(out())) EXPECT_NE(entry.path().extension(), ".part");
+}
+
+}  // namespace
