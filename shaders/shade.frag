@@ -22,7 +22,10 @@ void main() {
     color_out = vec4(display_from_scene(sky_color(ray, light)), 1.0);
     return;
   }
-  float sun = max(-dot(s.shading_normal, light), 0.0) * texelFetch(mask_image, pixel, 0).r;
+  float cosine = max(-dot(s.shading_normal, light), 0.0);
+  // Faded where smooth normals still see the sun and their flat triangles no longer do: else triangles show.
+  const float kTerminator = 0.2;
+  float sun = cosine * smoothstep(0.0, kTerminator, cosine) * texelFetch(mask_image, pixel, 0).r;
   vec3 color = s.albedo * (kSunColor * sun + sky_ambient(s.shading_normal));
   const float kHazeAtFar = 0.35;  // share of the horizon's colour at the camera's far plane
   float haze = kHazeAtFar * smoothstep(0.2, 1.0, s.depth / frame.layer.w);

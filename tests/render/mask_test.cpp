@@ -48,23 +48,6 @@ Frame draw_scene(const Scene& scene, const Camera& camera, const glm::dvec3& lig
   return draw(renderer, camera, plan_for(scene, camera, light, options), filter);
 }
 
-/// Does the ray from `point` towards the light meet the box?
-bool hits_box(const glm::dvec3& point, const glm::dvec3& to_light, const glm::dvec3& min,
-              const glm::dvec3& max) {
-  if (min.x > max.x || min.y > max.y || min.z > max.z) return false;  // shrunk to nothing
-  double begin = 0.0, end = 1e9;
-  for (int c = 0; c < 3; ++c) {
-    if (to_light[c] == 0.0) {
-      if (point[c] < min[c] || point[c] > max[c]) return false;
-      continue;
-    }
-    const double a = (min[c] - point[c]) / to_light[c], b = (max[c] - point[c]) / to_light[c];
-    begin = std::max(begin, std::min(a, b));
-    end = std::min(end, std::max(a, b));
-  }
-  return begin <= end;
-}
-
 // Degenerate.
 
 TEST(Mask, is_lit_everywhere_for_a_plan_without_maps) {

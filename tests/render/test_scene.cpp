@@ -1,6 +1,7 @@
 // Builds the scenes.
 #include "test_scene.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 namespace gnomon::render {
@@ -73,6 +74,22 @@ Scene box_on_ground() {
   add_quad(scene, {-20, 0, 20}, {40, 0, 0}, {0, 0, -40});
   add_box(scene, kBoxMin, kBoxMax);
   return scene;
+}
+
+bool hits_box(const glm::dvec3& point, const glm::dvec3& to_light, const glm::dvec3& min,
+              const glm::dvec3& max) {
+  if (min.x > max.x || min.y > max.y || min.z > max.z) return false;  // shrunk to nothing
+  double begin = 0.0, end = 1e9;
+  for (int c = 0; c < 3; ++c) {
+    if (to_light[c] == 0.0) {
+      if (point[c] < min[c] || point[c] > max[c]) return false;
+      continue;
+    }
+    const double a = (min[c] - point[c]) / to_light[c], b = (max[c] - point[c]) / to_light[c];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  return begin <= end;
 }
 
 std::vector<Box> boxes_of(const Scene& scene) {

@@ -27,6 +27,10 @@ void add_box(Scene& scene, const glm::vec3& min, const glm::vec3& max);
 inline constexpr glm::vec3 kBoxMin{-1.5f, 0.0f, -1.0f}, kBoxMax{1.0f, 2.5f, 1.5f};
 [[nodiscard]] Scene box_on_ground();
 
+/// Does the ray from `point` towards the light meet the box? Never one that was shrunk to nothing.
+[[nodiscard]] bool hits_box(const glm::dvec3& point, const glm::dvec3& to_light, const glm::dvec3& min,
+                            const glm::dvec3& max);
+
 [[nodiscard]] std::vector<Box> boxes_of(const Scene& scene);
 /// Looks at the box of box_on_ground from some way off.
 [[nodiscard]] Camera camera_on_box(int width, int height);
