@@ -111,7 +111,8 @@ void check_plans(const Options& options, const Flight& flight) {
     const gnomon::Camera camera = camera_of(options, flight, frame);
     const gnomon::ShadowPlan plan = gnomon::make_plan(camera, sun(options), flight.bounds(), options.plan);
     if (plan.status == gnomon::PlanStatus::invalid_input) {
-      throw UsageError(fmt::format("{}: frame {}: the plan refuses {}", options.scene, frame, plan.invalid_field));
+      throw UsageError(
+          fmt::format("{}: frame {}: the plan refuses {}", options.scene, frame, plan.invalid_field));
     }
   }
 }
