@@ -5,6 +5,7 @@
 #include "gnomon/body.hpp"
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
+#include "gnomon/caster_set.hpp"
 #include "gnomon/clip_space.hpp"
 #include "gnomon/fit.hpp"
 #include "gnomon/light.hpp"

@@ -1,0 +1,82 @@
+// Which of very many casters does a map need? A tree of boxes that answers for all of them at once.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <span>
+
+#include "gnomon/body.hpp"
+#include "gnomon/bounds.hpp"
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+
+/// Eight boxes side by side, so that one plane is tested against all of them in a few instructions: the unit
+/// of a CasterSet's memory. Plain data without a meaning of its own.
+struct CasterBlock {
+  static constexpr std::size_t kLanes = 8;
+  using Lanes = std::array<double, kLanes>;
+  std::array<Lanes, 3> min{}, max{};  ///< per axis
+  std::uint8_t occupied = 0;          ///< lanes that hold anything
+  std::uint8_t full = 0;  ///< lanes below which no place is empty: all of them can be listed as they lie
+};
+
+/// Boxes sorted once into a flat tree, eight children to a node and no pointer, for culling many casters for
+/// many maps. Gives the same casters as cull_casters, bit for bit: bounds only grow towards the root and
+/// rounding is monotone, so that a node outside of a plane, or inside, tells the same of every box below it.
+///
+/// The memory is the caller's and must outlive the set; the boxes are copied into it. Building takes O(n log
+/// n), culling time grows with what lies across the planes, not with what lies inside or outside of them.
+///
+///     std::vector<gnomon::CasterBlock> blocks(gnomon::CasterSet::block_count(boxes.size()));
+///     std::vector<std::uint32_t> indices(gnomon::CasterSet::index_count(boxes.size()));
+///     gnomon::CasterSet set(boxes, blocks, indices);
+class CasterSet {
+ public:
+  /// How much memory a set of `boxes` boxes needs: about 64 bytes a box. At most 2^32 - 1 boxes.
+  [[nodiscard]] static std::size_t block_count(std::size_t boxes) noexcept;
+  [[nodiscard]] static std::size_t index_count(std::size_t boxes) noexcept { return 2 * boxes; }
+
+  /// A set of nothing.
+  CasterSet() = default;
+  /// Sorts `boxes`; empty ones are kept a place but never listed. Where the memory given is too small the set
+  /// stays without boxes, see size().
+  CasterSet(std::span<const Box> boxes, std::span<CasterBlock> blocks,
+            std::span<std::uint32_t> indices) noexcept;
+
+  /// Boxes in the set, empty ones included.
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+  /// Takes new bounds for all boxes, in their first order, and leaves the sorting as it is: right for any
+  /// motion, fast while boxes that were near each other stay so. Needs as many boxes as the set has; else
+  /// does nothing.
+  void refit(std::span<const Box> boxes) noexcept;
+  /// The same for one box, empty or not, before or after; `index` beyond the set does nothing. O(log n).
+  void update(std::uint32_t index, const Box& box) noexcept;
+
+  /// Writes the indices of the casters that `map` needs to `out`, in no particular order, and returns how
+  /// many there are (those beyond out.size() are counted, not written). No heap.
+  std::size_t cull(const ShadowMap& map, std::span<std::uint32_t> out) const noexcept;
+  /// The same for planes of one's own, at most kMaxCullPlanes (later ones are not looked at): casters that
+  /// reach the side where dot(xyz, p_world) + w >= 0 of all of them.
+  std::size_t cull(std::span<const glm::dvec4> planes, std::span<std::uint32_t> out) const noexcept;
+
+ private:
+  // 2^32 boxes in groups of 8: 11 levels.
+  static constexpr std::size_t kMaxLevels = 11;
+
+  void join(std::size_t level, std::size_t child) noexcept;
+  [[nodiscard]] std::size_t blocks_at(std::size_t level) const noexcept {
+    return first_[level + 1] - first_[level];
+  }
+
+  std::span<CasterBlock> blocks_;      // level 0, the boxes, first; the root last
+  std::span<std::uint32_t> order_;     // place in the tree -> box
+  std::span<std::uint32_t> place_of_;  // box -> place in the tree
+  std::array<std::size_t, kMaxLevels + 1> first_{};
+  std::size_t levels_ = 0, size_ = 0;
+};
+
+}  // namespace gnomon
