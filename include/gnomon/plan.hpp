@@ -79,10 +79,12 @@ enum class OmissionKind : std::uint8_t {
   warp_in_stable_fit,         ///< a warp was asked for, and Fit::stable takes none
   casters_beyond_light_near,  ///< the light's depth range begins a world units nearer to the receivers than
                               ///< the casters do
+  face_without_receiver,      ///< of a cube round the light: no visible receiver in it within range and cone
+  face_without_caster,        ///< of a cube round the light: no caster between it and its receivers
 };
 struct Omission {
   OmissionKind kind{};
-  int map = -1;  ///< the cascade it is about, counted as asked for; -1: the whole plan
+  int map = -1;  ///< the cascade or face it is about, as ShadowMap::cascade; -1: the whole plan
   double a = 0.0, b = 0.0;
   std::int64_t saves_texels = 0;
 };
@@ -103,10 +105,15 @@ struct ShadowMap {
   /// The light in homogeneous world coordinates: its position with w = 1, or the unit direction towards it
   /// with w = 0.
   glm::dvec4 light_world{0.0, 1.0, 0.0, 0.0};
-  int cascade = 0;                  ///< which of the cascades asked for this is
+  /// Which of the cascades asked for this is. A light with a position has none: 0 for a spot's single map, and
+  /// for the faces of a cube 0 to 5 in the order +x -x +y -y +z -z (of the world for a point light; a wide
+  /// spot's face 5 looks along it).
+  int cascade = 0;
   int width = 0, height = 0;        ///< texels
   const Warp* warp = nullptr;       ///< never nullptr in a plan's maps; the one that was used
-  double kappa = 0.0;               ///< strength of the warp, 1 / world units; 0: none
+  /// Strength of the warp, 1 / world units; 0: none. Of a light with a position: 1 / slope, as the warp works
+  /// on offsets across the light per unit of distance along it.
+  double kappa = 0.0;
   glm::dvec2 texel_world{0.0};      ///< extent of a texel across the light at the body's centre, world units
   glm::dvec2 texel_world_max{0.0};  ///< the same where it is largest on the body
   double depth_range_world = 0.0;   ///< distance along the light from the map's near to its far plane
@@ -126,8 +133,12 @@ struct ShadowPlan {
   PlanStatus status = PlanStatus::invalid_input;
   std::string_view invalid_field;  ///< for invalid_input: which, e.g. "camera.far_depth"
   glm::dvec3 origin_world{0.0};    ///< what clip_from_camera_relative is relative to: the camera position
-  glm::dvec3 light_direction{0.0, -1.0, 0.0};  ///< unit, the way the light travels
+  /// Unit, the way the light travels; of a spot along its axis, of a point light towards the camera.
+  glm::dvec3 light_direction{0.0, -1.0, 0.0};
   ClipSpace clip_space;
+  /// How a point finds its map: false, by its view depth (maps do not overlap in depth); true, for lights with
+  /// a position: the first map that holds it (map_holds), at any depth. A point that no map holds is lit.
+  bool select_by_map = false;
   std::array<ShadowMap, kMaxMaps> map{};
   int map_count = 0;
   std::array<Omission, kMaxOmissions> omission;
@@ -146,6 +157,14 @@ struct ShadowPlan {
 /// input comes back as PlanStatus::invalid_input.
 [[nodiscard]] ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
                                    const PlanOptions& options = {}) noexcept;
+
+/// True where the map shows the point off its filter margin and within its depths: its clip coordinates have
+/// w > 0, |x| and |y| <= (1 - 2 filter_margin_texels / size) w and z in the range of the clip space.
+[[nodiscard]] bool map_holds(const ShadowPlan& plan, const ShadowMap& map,
+                             const glm::dvec3& point_world) noexcept;
+/// Index of the map that serves a point at this view depth, or -1; see ShadowPlan::select_by_map.
+[[nodiscard]] int map_serving(const ShadowPlan& plan, const glm::dvec3& point_world,
+                              double view_depth) noexcept;
 
 /// Writes the indices of the casters that `map` needs to `out` and returns how many there are (all of them
 /// are counted; those beyond out.size() are not written). Conservative: a caster that can shadow a receiver

@@ -74,14 +74,6 @@ Interval depths_in_box(const Box& box, const glm::dvec3& start, const glm::dvec3
   return range;
 }
 
-int map_at_depth(const ShadowPlan& plan, double depth) noexcept {
-  for (int i = 0; i < plan.map_count; ++i) {
-    const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
-    if (depth <= map.depth_end) return depth >= map.depth_begin ? i : -1;
-  }
-  return -1;
-}
-
 AliasingStats measure_maps(const ShadowPlan& plan, int only, const Camera& camera, const SceneBounds& bounds,
                            const MeasureGrid& grid) noexcept {
   AliasingStats stats;
@@ -97,7 +89,7 @@ AliasingStats measure_maps(const ShadowPlan& plan, int only, const Camera& camer
     return by_ratio ? n * std::pow(f / n, t) : n + (f - n) * t;
   };
   const auto sample = [&](const glm::dvec3& point, double depth) {
-    const int index = map_at_depth(plan, depth);
+    const int index = map_serving(plan, point, depth);
     if (index < 0 || (only >= 0 && index != only)) {
       if (index < 0) ++stats.outside;
       return;

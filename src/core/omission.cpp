@@ -52,6 +52,14 @@ OmissionText describe(const Omission& o) noexcept {
       what("light depth of cascade %d", o.map);
       why("no caster reaches beyond %g of the %g world units the casters' bounds would ask for", o.a, o.b);
       break;
+    case OmissionKind::face_without_receiver:
+      what("face %d", o.map);
+      why("no visible receiver lies in it within the light's range and cone");
+      break;
+    case OmissionKind::face_without_caster:
+      what("face %d", o.map);
+      why("no caster lies between the light and the receivers in it");
+      break;
   }
   return text;
 }

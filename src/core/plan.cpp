@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "light_positional.hpp"
 #include "plan_context.hpp"
 #include "plan_input.hpp"
 #include "split_optimal.hpp"
@@ -82,14 +83,14 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
   ShadowPlan plan;
   plan.invalid_field = first_invalid_field(camera, light, bounds, options);
   if (!plan.invalid_field.empty()) return plan;
+  plan.origin_world = camera.position;
+  plan.clip_space = options.clip_space;
   const auto* directional = std::get_if<DirectionalLight>(&light);
   if (directional == nullptr) {
-    plan.invalid_field = "light (only directional lights are planned so far)";
+    plan_positional(camera, light, bounds, options, plan);
     return plan;
   }
-  plan.origin_world = camera.position;
   plan.light_direction = safe_normalize(directional->direction, {0.0, -1.0, 0.0});
-  plan.clip_space = options.clip_space;
 
   const CameraAxes axes = camera_axes(camera);
   const bool stable = options.fit == Fit::stable;
