@@ -11,6 +11,7 @@
 #include "gnomon/light.hpp"
 #include "gnomon/metric.hpp"
 #include "gnomon/plan.hpp"
+#include "gnomon/reuse.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/split.hpp"
 #include "gnomon/warp.hpp"

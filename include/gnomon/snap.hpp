@@ -10,6 +10,7 @@ namespace gnomon {
 struct SnapKey {
   std::int64_t x = 0, y = 0;
   std::int64_t depth_near = 0, depth_far = 0;
+  double texel = 0.0;  ///< side of the grid's squares, world units
   bool valid = false;  ///< false for Fit::tight
   bool operator==(const SnapKey&) const = default;
 };

@@ -32,6 +32,7 @@ bool lay_stable_map(const PlanContext& c, const Polytope& body, double begin, do
   }
   const glm::dvec3 eye{glm::dot(frame.x, c.camera.position), glm::dot(frame.y, c.camera.position),
                        glm::dot(frame.z, c.camera.position)};
+  map.snap_key.texel = texel;
   map.snap_key.x = snap_index(eye.x + 0.5 * (box.min.x + box.max.x), texel);
   map.snap_key.y = snap_index(eye.y + 0.5 * (box.min.y + box.max.y), texel);
 

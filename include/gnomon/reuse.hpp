@@ -1,0 +1,56 @@
+// What of the last frame's stable map still holds, and what little is left to draw.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec4.hpp>
+
+#include "gnomon/clip_space.hpp"
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+
+/// Texels [x, x + width) times [y, y + height) of a map, counted as its memory is: columns from ndc x = -1,
+/// rows from ClipSpace::first_row. The rectangle for glScissor, vkCmdSetScissor, RSSetScissorRects or
+/// setScissorRect.
+struct TexelRect {
+  int x = 0, y = 0, width = 0, height = 0;
+  [[nodiscard]] bool empty() const noexcept { return width <= 0 || height <= 0; }
+  bool operator==(const TexelRect&) const = default;
+};
+
+enum class ReuseKind : std::uint8_t {
+  none,  ///< another grid, depth range, light or size, or nothing of the old map is in the new one: draw it
+         ///< whole
+  identical,  ///< every texel holds
+  scrolled,   ///< `kept` holds once moved; `strip` is new
+};
+
+/// How to make the current map from the previous one: copy texel (x, y) of the old map to (x + shift_x, y +
+/// shift_y) of the new one wherever that lies in `kept` (or address the texture modulo its size and copy
+/// nothing), then draw the strips. `kept` and the strips cover the map without overlap, whatever the kind.
+struct MapReuse {
+  ReuseKind kind = ReuseKind::none;
+  int shift_x = 0, shift_y = 0;  ///< texels
+  TexelRect kept;                ///< in the current map; empty for none
+  std::array<TexelRect, 2> strip;
+  int strip_count = 0;  ///< none: 1, the whole map; identical: 0; scrolled: 1 or 2
+};
+
+/// Compares two maps of Fit::stable, planned with the same clip space, `clip_space`. Maps of Fit::tight and
+/// of lights with a position are never reused.
+///
+/// Says that the texels are the same places, at the same depths. Whether they hold the same casters is the
+/// caller's to know: casters must not have moved, and both frames must have drawn all casters over the map's
+/// rectangle (rectangle_planes) with depth clamp. cull_planes leaves out what the old frame's view did not
+/// need, and the new one may.
+[[nodiscard]] MapReuse reuse(const ShadowMap& previous, const ShadowMap& current,
+                             const ClipSpace& clip_space = {}) noexcept;
+
+/// Planes round everything that can throw a shadow into a rectangle of the map: its four sides and the map's
+/// far plane, open towards the light (draw with depth clamp). To be given to CasterSet::cull. As
+/// ShadowMap::cull_planes: dot(xyz, p_world) + w >= 0 inside, unit normals. `clip_space` is the plan's.
+[[nodiscard]] std::array<glm::dvec4, 5> rectangle_planes(const ShadowMap& map, const TexelRect& rectangle,
+                                                         const ClipSpace& clip_space = {}) noexcept;
+
+}  // namespace gnomon
