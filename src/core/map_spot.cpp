@@ -245,6 +245,10 @@ Reach reach_of(const Draft& d, const glm::dmat4& m, double slack) noexcept {
   return reach;
 }
 
+Plane near_plane(const LightFrustum& frustum, double distance) noexcept {
+  return {-frustum.frame.z, glm::dot(frustum.frame.z, frustum.apex) - distance};
+}
+
 /// Number of casters inside, and the nearest distance from the light that any of them has there.
 struct CastersSeen {
   int count = 0;
@@ -263,18 +267,22 @@ CastersSeen casters_seen(const Draft& d, const Reach& reach) noexcept {
     for (int i = 0; i < reach.count && reaches; ++i)
       reaches = side_of(reach.plane[static_cast<std::size_t>(i)], box) != Side::outside;
     if (!reaches) continue;
-    ++seen.count;
     const glm::dvec3 corner{z.x > 0.0 ? box.max.x : box.min.x, z.y > 0.0 ? box.max.y : box.min.y,
                             z.z > 0.0 ? box.max.z : box.min.z};
     double nearest = apex_z - glm::dot(z, corner);
-    if (!(nearest < seen.nearest)) continue;
+    if (!(nearest < seen.nearest)) {
+      ++seen.count;
+      continue;
+    }
     if (exact++ < kExactCasters) {
       Polytope part = box_polytope(box);
       for (int i = 0; i < reach.count; ++i) clip(part, reach.plane[static_cast<std::size_t>(i)]);
+      if (part.empty()) continue;
       double cut = std::numeric_limits<double>::infinity();
       for (const Polytope::Vertex& v : part.vertices()) cut = min_of(cut, d.frustum.distance(v.position));
       nearest = max_of(nearest, cut);
     }
+    ++seen.count;
     seen.nearest = min_of(seen.nearest, nearest);
   }
   return seen;
@@ -285,7 +293,10 @@ void snap_depths(Draft& d, ShadowMap& map) noexcept {
   const int exponent = std::ilogb(d.near_distance);
   d.near_distance = std::ldexp(1.0, exponent);
   d.far_distance = max_of(d.far_distance, d.light.range * (1.0 + kDistancePadding));
-  map.snap_key = {0, 0, exponent, 0, true};
+  map.snap_key.depth_near = exponent;
+  // A texel one world unit from the light.
+  map.snap_key.texel = (d.plane.a_max - d.plane.a_min) / (map.width - 2 * map.filter_margin_texels);
+  map.snap_key.valid = true;
 }
 
 /// Everything that follows from the matrix.
@@ -348,17 +359,20 @@ bool lay_positional_map(const PositionalLight& light, const LightFrustum& frustu
   choose_rectangle(d, along_view, plan, map);
   const double slack =
       kPositionRounding * max_of(largest_component(light.eye_world), largest_component(frustum.apex));
+  const double least_distance = kNearestShare * d.slopes.farthest * (1.0 - kDistancePadding);
   Reach reach = reach_of(d, matrix_of(d), slack);
+  // Replaced below, once the nearest caster is known.
+  reach.add(near_plane(frustum, least_distance - slack));
   const CastersSeen seen = casters_seen(d, reach);
   if (seen.count == 0) {
     plan.omission_count = omitted;
     return false;
   }
-  const double nearest = max_of(seen.nearest, kNearestShare * d.slopes.farthest);
-  d.near_distance = min_of(d.near_distance, nearest * (1.0 - kDistancePadding));
+  const double nearest = max_of(seen.nearest * (1.0 - kDistancePadding), least_distance);
+  d.near_distance = min_of(d.near_distance, nearest);
   if (stable) snap_depths(d, map);
-  const glm::dvec3 axis = -frustum.frame.z;
-  reach.add({axis, slack - glm::dot(axis, frustum.apex) - d.near_distance});
+  --reach.count;
+  reach.add(near_plane(frustum, d.near_distance - slack));
   finish(d, reach, matrix_of(d), map);
   return true;
 }

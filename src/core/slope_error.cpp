@@ -75,12 +75,21 @@ void SlopeError::add(const glm::dvec3& point) noexcept {
 }
 
 void SlopeError::add_vertices_and_edges(const Polytope& body) noexcept {
+  std::array<glm::dvec3, kMaxFaces> sum{};
+  std::array<int, kMaxFaces> corners{};
   for (int i = 0; i < body.vertex_count; ++i) {
     const Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(i)];
     add(v.position);
+    for (const std::uint8_t f : v.face) {
+      sum[f] += v.position;
+      ++corners[f];
+    }
     for (const std::uint8_t other : v.neighbour) {
       if (other > i) add((v.position + body.vertex[other].position) * 0.5);
     }
+  }
+  for (std::size_t f = 0; f < sum.size(); ++f) {
+    if (corners[f] > 0) add(sum[f] / static_cast<double>(corners[f]));
   }
 }
 

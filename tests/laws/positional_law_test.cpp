@@ -1,0 +1,313 @@
+// Does a spot or point light's plan show every receiver it lights, and every caster before it, wherever the
+// light stands?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+#include <numbers>
+#include <vector>
+
+#include "support/property.hpp"
+#include "support/random_case.hpp"
+
+namespace gnomon::test {
+namespace {
+
+// Rounding of positions through two matrices, relative to the map's half width.
+constexpr double kRim = 1e-6;
+// Share of the range round the light in which nothing need be shown: the nearest distance of a map is 1e-4 of
+// the farthest one, along the axis of a face.
+constexpr double kTooNear = 2e-4;
+// A ray that only grazes a box, a cone or a range by this share may count either way.
+constexpr double kGraze = 1e-9;
+
+struct LightCase {
+  Case scene;
+  Light light;
+  glm::dvec3 position, direction;
+  double range = 1.0, outer = std::numbers::pi;
+  bool spot = false;
+  [[nodiscard]] ShadowPlan plan() const {
+    return make_plan(scene.camera, light, scene.bounds(), scene.options);
+  }
+};
+
+std::ostream& operator<<(std::ostream& out, const LightCase& c) {
+  return out << c.scene << (c.spot ? "spot " : "point ") << "at (" << c.position.x << ", " << c.position.y
+             << ", " << c.position.z << ") along (" << c.direction.x << ", " << c.direction.y << ", "
+             << c.direction.z << ") half angle " << c.outer << " range " << c.range << '\n';
+}
+
+glm::dvec3 draw_position(const Case& c, Random& random) {
+  const glm::dvec3 forward = camera_axes(c.camera).forward;
+  const double f = c.camera.far_depth;
+  switch (pick(6)) {
+    case 0:  // on the eye
+      return c.camera.position;
+    case 1:  // behind it
+      return c.camera.position - forward * (f * random.between(0.0, 1.0));
+    case 2:  // inside a caster
+      return 0.5 * (c.casters.front().min + c.casters.front().max);
+    case 3:  // in view
+      return point_at(c.camera, random.between(-1, 1), random.between(-1, 1),
+                      c.camera.near_depth + (f - c.camera.near_depth) * std::pow(random.unit(), 3.0));
+    case 4:  // over a receiver
+      return 0.5 * (c.receivers.front().min + c.receivers.front().max) + random.direction() * (f * 0.1);
+    default:
+      return c.camera.position + random.direction() * (f * random.between(0.0, 3.0));
+  }
+}
+
+LightCase draw_light_case() {
+  LightCase c;
+  CaseLimits limits;
+  limits.max_boxes = 12;
+  c.scene = draw_case(limits);
+  c.scene.options.map_size = std::max(c.scene.options.map_size, 128);
+  Random random(static_cast<std::uint64_t>(pick(1 << 30)));
+  c.position = draw_position(c.scene, random);
+  const Box& target =
+      c.scene.receivers[static_cast<std::size_t>(pick(static_cast<int>(c.scene.receivers.size())))];
+  const glm::dvec3 to_target = 0.5 * (target.min + target.max) - c.position;
+  c.range = chance(0.7) ? glm::length(to_target) * random.between(0.8, 4.0) + 0.01 * c.scene.camera.far_depth
+                        : c.scene.camera.far_depth * random.between(0.01, 4.0);
+  c.direction = random.unit() < 0.3 || glm::length(to_target) == 0.0 ? random.direction() : to_target;
+  if (random.unit() < 0.1 && c.position != c.scene.camera.position)
+    c.direction = c.scene.camera.position - c.position;  // straight at the eye
+  for (int i = 0; i < 4; ++i) {                          // something before a receiver
+    const Box& r =
+        c.scene.receivers[static_cast<std::size_t>(random.pick(static_cast<int>(c.scene.receivers.size())))];
+    const glm::dvec3 to = 0.5 * (r.min + r.max) - c.position;
+    const glm::dvec3 at = c.position + to * random.between(0.2, 0.95);
+    const glm::dvec3 half(glm::length(to) * random.between(0.001, 0.1));
+    c.scene.casters.push_back({at - half, at + half});
+  }
+  c.spot = chance(0.6);
+  if (c.spot) {
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    c.outer = (chance(0.7) ? between(0.5, 84.9) : between(85.0, 179.9)) * kDegree;
+    c.light = SpotLight{c.position, c.direction, c.outer, c.range};
+  } else {
+    c.light = PointLight{c.position, c.range};
+  }
+  return c;
+}
+
+/// Whether the light reaches the point, clear of every border.
+bool lit(const LightCase& c, const glm::dvec3& p) {
+  const glm::dvec3 q = p - c.position;
+  const double r = glm::length(q);
+  if (!(r < c.range * (1.0 - kGraze))) return false;
+  const double cosine = c.spot ? glm::dot(q, c.direction) / (r * glm::length(c.direction)) : 1.0;
+  if (c.spot && !(std::acos(std::clamp(cosine, -1.0, 1.0)) < c.outer * (1.0 - 1e-7))) return false;
+  const bool single = c.spot && c.outer < 85.0 * std::numbers::pi / 180.0;
+  return r * (single ? cosine : std::sqrt(1.0 / 3.0)) > kTooNear * c.range;
+}
+
+/// Smallest distance along the axis of any map at which casters must be shown, as a share of the way.
+double shown_from(const LightCase& c, double length) {
+  const double cosine = c.spot && c.outer < 85.0 * std::numbers::pi / 180.0 ? std::cos(c.outer) : 0.5;
+  return kTooNear * c.range / (cosine * length);
+}
+
+struct Blocker {
+  std::uint32_t index;
+  double enter, leave;  // from the light (0) to the point (1), within what must be shown
+};
+std::vector<Blocker> blockers(const LightCase& c, const glm::dvec3& p) {
+  std::vector<Blocker> found;
+  const glm::dvec3 way = p - c.position;
+  const double from = shown_from(c, glm::length(way));
+  for (std::size_t i = 0; i < c.scene.casters.size(); ++i) {
+    const Box& box = c.scene.casters[i];
+    const double scale = glm::length(box.min - c.position) +
+                         glm::length(c.position - c.scene.camera.position) + c.scene.camera.far_depth;
+    const glm::dvec3 inset = glm::min(glm::dvec3(kGraze * scale), 0.5 * (box.max - box.min));
+    const Crossing x = cross({box.min + inset, box.max - inset}, c.position, way);
+    const double enter = std::max(x.enter, from), leave = std::min(x.leave, 1.0 - 1e-6);
+    if (x.hits && enter < leave) found.push_back({static_cast<std::uint32_t>(i), enter, leave});
+  }
+  return found;
+}
+
+TEST(PositionalLaw, a_lit_receiver_in_view_is_held_by_a_map_or_nothing_stands_before_it) {
+  std::uint64_t held = 0, unmapped = 0, planned = 0;
+  for_all(2500, [&] {
+    const LightCase c = draw_light_case();
+    RC_LOG() << c;
+    const ShadowPlan plan = c.plan();
+    require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
+    if (plan.status == PlanStatus::ok) ++planned;
+    Random random(7);
+    for (const glm::dvec3& p : visible_points(c.scene, random, 6, 8)) {
+      if (!lit(c, p)) continue;
+      const int index = map_serving(plan, p, depth_of(c.scene.camera, p));
+      if (index < 0) {
+        ++unmapped;
+        const auto before = blockers(c, p);
+        require(before.empty(), "no map at (", p.x, p.y, p.z, ") but caster",
+                before.empty() ? 0u : before.front().index, "status", to_string(plan.status));
+        continue;
+      }
+      ++held;
+      const ShadowMap& map = plan.map[static_cast<std::size_t>(index)];
+      const glm::dvec4 clip = map.clip_from_world * glm::dvec4(p, 1.0);
+      const double inner = 1.0 - 2.0 * c.scene.options.filter_radius_texels / map.width;
+      require(clip.w > 0.0 && std::abs(clip.x) <= (inner + 0.5 / map.width + kRim) * clip.w &&
+                  std::abs(clip.y) <= (inner + 0.5 / map.width + kRim) * clip.w && std::abs(clip.z) <= clip.w,
+              "outside its map");
+    }
+  });
+  EXPECT_GT(held, 10000u);
+  EXPECT_GT(unmapped, 100u);
+  EXPECT_GT(planned, 800u);
+}
+
+TEST(PositionalLaw, a_lit_receiver_in_view_is_held_by_the_single_map_of_its_spot) {
+  std::uint64_t held = 0;
+  for_all(1500, [&] {
+    LightCase c = draw_light_case();
+    if (!c.spot || c.outer > 1.48) return;
+    RC_LOG() << c;
+    const ShadowPlan plan = c.plan();
+    if (plan.status == PlanStatus::no_caster) return;
+    Random random(5);
+    for (const glm::dvec3& p : visible_points(c.scene, random, 6, 8)) {
+      if (!lit(c, p)) continue;
+      require(map_serving(plan, p, 0.0) == 0, "not held: (", p.x, p.y, p.z, ")");
+      ++held;
+    }
+  });
+  EXPECT_GT(held, 3000u);
+}
+
+TEST(PositionalLaw, every_caster_before_a_lit_receiver_is_drawn_within_the_depths_of_its_map) {
+  std::uint64_t shadows = 0;
+  for_all(2500, [&] {
+    const LightCase c = draw_light_case();
+    RC_LOG() << c;
+    const ShadowPlan plan = c.plan();
+    std::vector<std::vector<std::uint32_t>> lists;
+    for (const ShadowMap& map : plan.maps()) {
+      std::vector<std::uint32_t> list(c.scene.casters.size());
+      list.resize(cull_casters(map, c.scene.casters, list));
+      require(!list.empty(), "a map without casters: face", map.cascade);
+      lists.push_back(list);
+    }
+    Random random(11);
+    for (const glm::dvec3& p : visible_points(c.scene, random, 6, 6)) {
+      if (!lit(c, p)) continue;
+      const int index = map_serving(plan, p, 0.0);
+      if (index < 0) continue;
+      const ShadowMap& map = plan.map[static_cast<std::size_t>(index)];
+      const auto& list = lists[static_cast<std::size_t>(index)];
+      for (const Blocker& blocker : blockers(c, p)) {
+        ++shadows;
+        require(std::binary_search(list.begin(), list.end(), blocker.index), "caster", blocker.index,
+                "culled from face", map.cascade, map.warp->name);
+        for (const double t : {blocker.enter, blocker.leave}) {
+          const glm::dvec4 clip = map.clip_from_world * glm::dvec4(c.position + (p - c.position) * t, 1.0);
+          require(clip.w > 0.0, "caster", blocker.index, "behind the map: w", clip.w);
+          require(std::abs(clip.z) <= clip.w * (1.0 + 1e-9), "caster", blocker.index, "at depth",
+                  clip.z / clip.w, "face", map.cascade, map.warp->name, "share of the way", t);
+        }
+      }
+    }
+  });
+  EXPECT_GT(shadows, 3000u);
+}
+
+TEST(PositionalLaw, every_number_of_a_map_is_finite_and_of_its_sign) {
+  for_all(2500, [&] {
+    const LightCase c = draw_light_case();
+    RC_LOG() << c;
+    const ShadowPlan plan = c.plan();
+    require(plan.select_by_map, "selection");
+    require(std::abs(glm::length(plan.light_direction) - 1.0) < 1e-9, "direction");
+    for (const ShadowMap& map : plan.maps()) {
+      for (int i = 0; i < 4; ++i) {
+        for (int k = 0; k < 4; ++k) {
+          require(std::isfinite(map.clip_from_world[i][k]), "clip_from_world", i, k);
+          require(std::isfinite(map.clip_from_camera_relative[i][k]), "clip_from_camera_relative", i, k);
+        }
+      }
+      require(glm::dvec3(map.light_world) == c.position ||
+                  glm::length(glm::dvec3(map.light_world) - c.position) <=
+                      1e-12 * glm::length(c.position) + 1e-12 * c.scene.camera.far_depth,
+              "light");
+      require(map.light_world.w == 1.0 && map.warp != nullptr, "light or warp");
+      require(map.kappa >= 0.0 && std::isfinite(map.kappa), "kappa", map.kappa);
+      require(map.depth_begin <= map.depth_end, "depths");
+      require(map.depth_range_world > 0.0 && std::isfinite(map.depth_range_world), "depth range");
+      require(map.texel_world.x > 0.0 && map.texel_world.y > 0.0 &&
+                  map.texel_world_max.x >= map.texel_world.x && map.texel_world_max.y >= map.texel_world.y &&
+                  std::isfinite(map.texel_world_max.x + map.texel_world_max.y),
+              "texel", map.texel_world.x, map.texel_world.y, map.texel_world_max.x, map.texel_world_max.y);
+      require(map.m_s_max > 0.0 && map.m_t_max > 0.0 && std::isfinite(map.storage), "storage", map.storage);
+      require(map.cull_plane_count >= 6 && map.cull_plane_count <= kMaxCullPlanes, "planes");
+      for (int i = 0; i < map.cull_plane_count; ++i) {
+        const glm::dvec4& plane = map.cull_planes[static_cast<std::size_t>(i)];
+        require(std::abs(glm::length(glm::dvec3(plane)) - 1.0) < 1e-9 && std::isfinite(plane.w), "plane", i);
+      }
+      require(map.snap_key.valid == (c.scene.options.fit == Fit::stable), "snap key");
+    }
+  });
+}
+
+TEST(PositionalLaw, a_warp_never_makes_its_map_need_more_storage) {
+  std::uint64_t warped = 0;
+  for_all(1500, [&] {
+    LightCase c = draw_light_case();
+    c.scene.options.fit = Fit::tight;
+    c.scene.options.objective = Objective::storage;
+    c.scene.options.warp = chance(0.5) ? nullptr : &warps::lispsm;
+    RC_LOG() << c;
+    const ShadowPlan with = c.plan();
+    c.scene.options.warp = &warps::none;
+    const ShadowPlan without = c.plan();
+    for (const ShadowMap& a : with.maps()) {
+      if (a.kappa > 0.0) ++warped;
+      for (const ShadowMap& b : without.maps()) {
+        if (a.cascade != b.cascade) continue;
+        require(a.storage <= b.storage * (1.0 + 1e-9), "face", a.cascade, "storage", a.storage, "above",
+                b.storage);
+      }
+    }
+  });
+  EXPECT_GT(warped, 500u);
+}
+
+TEST(PositionalLaw, a_measured_warp_is_not_above_the_unwarped_map_by_more_than_sampling) {
+  // The search sees the body's vertices and edges, the measure a grid of pixels inside.
+  constexpr double kSampling = 1.1;
+  std::uint64_t compared = 0;
+  for_all(1000, [&] {
+    LightCase c = draw_light_case();
+    if (c.scene.camera.orthographic) return;
+    // Of several receivers the body is their common box, and the measure sees only part of that.
+    c.scene.receivers = {c.scene.receivers.back()};
+    c.scene.options.fit = Fit::tight;
+    c.scene.options.objective = Objective::max;
+    c.scene.options.near_hint = 0.0;
+    c.scene.options.warp = nullptr;
+    RC_LOG() << c;
+    const ShadowPlan with = c.plan();
+    c.scene.options.warp = &warps::none;
+    const ShadowPlan without = c.plan();
+    for (int i = 0; i < with.map_count; ++i) {
+      const MeasureGrid grid{16, 16, 32};
+      const AliasingStats a = measure_map(with, i, c.scene.camera, c.scene.bounds(), grid);
+      const AliasingStats b = measure_map(without, i, c.scene.camera, c.scene.bounds(), grid);
+      if (a.samples < 50 || b.samples < 50 || with.map_count > 1) continue;
+      ++compared;
+      require(a.max <= b.max * kSampling, "max", a.max, "above", b.max, "samples", a.samples);
+    }
+  });
+  EXPECT_GT(compared, 20u);
+}
+
+}  // namespace
+}  // namespace gnomon::test
