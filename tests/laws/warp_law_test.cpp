@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "support/near.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -17,11 +16,6 @@ namespace {
 
 // Rounding of a product of maxima.
 constexpr double kRounding = 1e-9;
-
-/// The objective as the plan itself bounds it; nothing for p95, which no bound at the vertices gives.
-double bound_of(const Case& c, const ShadowMap& map) {
-  return c.options.objective == Objective::storage ? map.storage : std::max(map.m_s_max, map.m_t_max);
-}
 
 TEST(WarpLaw, the_registry_has_none_first_and_finds_every_entry_by_its_name) {
   ASSERT_FALSE(all_warps().empty());
@@ -37,66 +31,54 @@ TEST(WarpLaw, the_registry_has_none_first_and_finds_every_entry_by_its_name) {
   EXPECT_EQ(find_warp(""), nullptr);
 }
 
-/// Plans each random case without a warp and with every warp that may be dropped, and hands over the maps of
-/// the same cascade. Returns how many were warped.
-template <typename Compare>
-std::uint64_t against_no_warp(int cases, const std::vector<Objective>& objectives, Compare&& compare) {
+/// One large receiver that casts its own shadow: the body is what is measured, with no empty space in it.
+Case draw_single_receiver() {
+  Case c = draw_case({.max_depth_ratio = 1e3, .max_boxes = 1});
+  const double f = c.camera.far_depth;
+  const glm::dvec3 at = point_at(c.camera, between(-1, 1), between(-1, 1), f * unit());
+  const glm::dvec3 half =
+      f * glm::dvec3(std::exp2(between(-4, 2)), std::exp2(between(-6, 2)), std::exp2(between(-4, 2)));
+  c.receivers = c.casters = {{at - half, at + half}};
+  c.options.fit = Fit::tight;
+  c.options.cascades = 1;
+  c.options.near_hint = 0.0;
+  return c;
+}
+
+double measured(const AliasingStats& stats, Objective objective) {
+  if (objective == Objective::storage) return stats.storage;
+  return objective == Objective::max ? stats.max : stats.p95;
+}
+
+// A warp is judged at a few hundred points of the body, and LiSPSM's by weights that leave out the angle to
+// the image's axis; the grid measures all of it at other points.
+constexpr double kJudged = 1.15;
+
+TEST(WarpLaw, no_warp_that_may_be_dropped_makes_its_objective_worse_than_no_warp_when_measured) {
+  constexpr MeasureGrid kGrid{20, 20, 32};
+  constexpr std::uint64_t kEnough = 400;
   std::uint64_t warped = 0;
-  for_all(cases, [&] {
-    Case c = draw_case({.max_depth_ratio = 1e4});
-    c.options.fit = Fit::tight;
-    c.options.objective = objectives[static_cast<std::size_t>(pick(static_cast<int>(objectives.size())))];
-    c.options.warp = &warps::none;
+  for_all(700, [&] {
+    Case c = draw_single_receiver();
     RC_LOG() << c;
+    c.options.warp = &warps::none;
     const ShadowPlan uniform = c.plan();
+    const AliasingStats without = measure(uniform, c.camera, c.bounds(), kGrid);
+    if (without.samples < kEnough) return;
     for (const Warp* warp : all_warps()) {
-      if (!warp->drop_without_gain || warp == &warps::none) continue;
+      if (!warp->drop_without_gain) continue;
       c.options.warp = warp;
       const ShadowPlan plan = c.plan();
-      for (int i = 0; i < plan.map_count; ++i) {
-        for (int k = 0; k < uniform.map_count; ++k) {
-          const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
-          if (uniform.map[static_cast<std::size_t>(k)].cascade != map.cascade || map.kappa == 0.0) continue;
-          ++warped;
-          compare(c, *warp, plan, i, uniform, k);
-        }
-      }
+      if (plan.map_count == 0 || plan.map[0].kappa == 0.0) continue;
+      ++warped;
+      const AliasingStats with = measure(plan, c.camera, c.bounds(), kGrid);
+      const double after = measured(with, c.options.objective),
+                   before = measured(without, c.options.objective);
+      require(after <= before * kJudged, warp->name, to_string(c.options.objective), after, "without", before,
+              "kappa", plan.map[0].kappa);
     }
   });
-  return warped;
-}
-
-TEST(WarpLaw, a_warp_that_may_be_dropped_never_raises_its_objective_above_that_of_no_warp) {
-  const std::uint64_t warped = against_no_warp(
-      1000, {Objective::storage, Objective::max},
-      [](const Case& c, const Warp& warp, const ShadowPlan& plan, int map, const ShadowPlan& uniform,
-         int before) {
-        const ShadowMap& with = plan.map[static_cast<std::size_t>(map)];
-        const double value = bound_of(c, with);
-        const double without = bound_of(c, uniform.map[static_cast<std::size_t>(before)]);
-        require(value <= without * (1.0 + kRounding), warp.name, to_string(c.options.objective), "cascade",
-                with.cascade, "kappa", with.kappa, "bound", value, "without", without);
-      });
-  EXPECT_GT(warped, 300u);
-}
-
-// A search looks at no more than a few hundred points of the body, the grid at others: how far the two may
-// differ about what was gained.
-constexpr double kSampling = 1.15;
-
-TEST(WarpLaw, the_measured_percentile_is_no_worse_than_without_a_warp_where_it_is_the_objective) {
-  constexpr MeasureGrid kGrid{20, 20, 20};
-  const std::uint64_t warped = against_no_warp(
-      500, {Objective::p95},
-      [&](const Case& c, const Warp& warp, const ShadowPlan& plan, int map, const ShadowPlan& uniform,
-          int before) {
-        const AliasingStats with = measure_map(plan, map, c.camera, c.bounds(), kGrid);
-        const AliasingStats without = measure_map(uniform, before, c.camera, c.bounds(), kGrid);
-        if (without.samples < 200) return;
-        require(with.p95 <= without.p95 * kSampling, warp.name, "cascade",
-                plan.map[static_cast<std::size_t>(map)].cascade, "p95", with.p95, "without", without.p95);
-      });
-  EXPECT_GT(warped, 100u);
+  EXPECT_GT(warped, 500u);
 }
 
 TEST(WarpLaw, a_map_names_the_warp_that_was_used_and_what_was_dropped_is_told) {

@@ -118,7 +118,7 @@ Case draw_case(const CaseLimits& limits) {
   c.light = draw_light(c.camera, limits);
   c.options.cascades = 1 + pick(8);
   c.options.map_size = 64 << pick(6);
-  c.options.split = static_cast<SplitScheme>(pick(4));
+  c.options.split = static_cast<SplitScheme>(pick(5));
   c.options.lambda = unit();
   if (chance(0.3))
     c.options.near_hint = c.camera.near_depth * std::pow(c.camera.far_depth / c.camera.near_depth, unit());
