@@ -4,6 +4,9 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <span>
+
+#include "gnomon/bounds.hpp"
 
 namespace gnomon {
 
@@ -16,8 +19,10 @@ struct Camera {
   /// Edges of the image: slopes (offset per unit of depth) for a perspective camera, world units for an
   /// orthographic one. An off-axis camera is one whose left != -right or bottom != -top.
   double left = -1.0, right = 1.0, bottom = -1.0, top = 1.0;
-  double near_depth = 0.1;          ///< view depth where the frustum begins, > 0 for perspective
-  double far_depth = 100.0;         ///< view depth where it ends, > near_depth and finite
+  double near_depth = 0.1;  ///< view depth where the frustum begins, > 0 for perspective
+  /// View depth where it ends, > near_depth. Infinity sees without end: plans and measurements then take
+  /// with_finite_far of the receivers.
+  double far_depth = 100.0;
   int width = 1920, height = 1080;  ///< image size, pixels
 };
 
@@ -39,7 +44,16 @@ struct CameraAxes {
 };
 [[nodiscard]] CameraAxes camera_axes(const Camera& camera) noexcept;
 
-/// OpenGL clip space (z in -1..1) from view space (x right, y up, z backward), and view from world.
+/// The camera itself where its far plane is finite. Else one that sees as much of `boxes`: its far plane lies
+/// at the depth of their farthest corner, rounded up to the next quarter octave of the near plane's depth
+/// (orthographic: of the image's height, counted from the near plane). Between such steps it stands still
+/// under a moving camera, and with it the grid of Fit::stable; a far plane of one's own never moves it. At
+/// least one step, where no box reaches beyond the near plane.
+[[nodiscard]] Camera with_finite_far(const Camera& camera, std::span<const Box> boxes) noexcept;
+
+/// OpenGL clip space (z in -1..1) from view space (x right, y up, z backward), and view from world. With an
+/// infinite far plane depth tends to 1 for a perspective camera (Upchurch, Desbrun 2012: no loss of
+/// precision) and is -1 everywhere for an orthographic one, which cannot tell infinite depths apart.
 [[nodiscard]] glm::dmat4 clip_from_view(const Camera& camera) noexcept;
 [[nodiscard]] glm::dmat4 view_from_world(const Camera& camera) noexcept;
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "vector.hpp"
 
@@ -36,6 +37,32 @@ CameraAxes camera_axes(const Camera& camera) noexcept {
   return {right, glm::cross(right, forward), forward};
 }
 
+Camera with_finite_far(const Camera& camera, std::span<const Box> boxes) noexcept {
+  Camera finite = camera;
+  if (!(camera.far_depth > std::numeric_limits<double>::max())) return finite;
+  const glm::dvec3 forward = camera_axes(camera).forward;
+  double farthest = camera.near_depth;
+  for (const Box& box : boxes) {
+    if (box.empty()) continue;
+    const glm::dvec3 corner{forward.x > 0.0 ? box.max.x : box.min.x, forward.y > 0.0 ? box.max.y : box.min.y,
+                            forward.z > 0.0 ? box.max.z : box.min.z};
+    farthest = max_of(farthest, glm::dot(forward, corner - camera.position));
+  }
+  constexpr double kStepsPerOctave = 4.0;
+  const auto next_step = [](double ratio) {
+    return std::exp2(std::ceil(std::log2(ratio) * kStepsPerOctave) / kStepsPerOctave);
+  };
+  // Of the near plane's depth, of the image's height: a slice thinner than this is of no use to anyone.
+  constexpr double kThinnest = 1.0 / 1024.0;
+  const double n = camera.near_depth, height = camera.top - camera.bottom;
+  const double reach = camera.orthographic
+                           ? n + height * next_step(max_of((farthest - n) / height, kThinnest))
+                           : n * next_step(max_of(farthest / n, 1.0 + kThinnest));
+  // The logarithm's rounding must cut nothing off.
+  finite.far_depth = max_of(reach, farthest);
+  return finite;
+}
+
 glm::dmat4 view_from_world(const Camera& camera) noexcept {
   const CameraAxes axes = camera_axes(camera);
   glm::dmat4 m(1.0);
@@ -50,17 +77,17 @@ glm::dmat4 view_from_world(const Camera& camera) noexcept {
 glm::dmat4 clip_from_view(const Camera& camera) noexcept {
   const double n = camera.near_depth, f = camera.far_depth;
   const double width = camera.right - camera.left, height = camera.top - camera.bottom;
+  const bool endless = std::isinf(f);
+  const double sum_ratio = endless ? 1.0 : (f + n) / (f - n);
   glm::dmat4 m(0.0);
   m[0][0] = 2.0 / width;
   m[1][1] = 2.0 / height;
   if (camera.orthographic) {
     m[2][2] = -2.0 / (f - n);
-    m[3] = {-(camera.right + camera.left) / width, -(camera.top + camera.bottom) / height, -(f + n) / (f - n),
-            1.0};
+    m[3] = {-(camera.right + camera.left) / width, -(camera.top + camera.bottom) / height, -sum_ratio, 1.0};
   } else {
-    m[2] = {(camera.right + camera.left) / width, (camera.top + camera.bottom) / height, -(f + n) / (f - n),
-            -1.0};
-    m[3][2] = -2.0 * (f / (f - n)) * n;
+    m[2] = {(camera.right + camera.left) / width, (camera.top + camera.bottom) / height, -sum_ratio, -1.0};
+    m[3][2] = -2.0 * (endless ? 1.0 : f / (f - n)) * n;
   }
   return m;
 }

@@ -78,6 +78,9 @@ AliasingStats measure_maps(const ShadowPlan& plan, int only, const Camera& camer
                            const MeasureGrid& grid) noexcept {
   AliasingStats stats;
   if (plan.map_count == 0) return stats;
+  if (std::isinf(camera.far_depth)) {
+    return measure_maps(plan, only, with_finite_far(camera, bounds.receivers), bounds, grid);
+  }
   const CameraAxes axes = camera_axes(camera);
   LogHistogram histogram;
   std::array<double, kMaxMaps> s_max{}, t_max{};

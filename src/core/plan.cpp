@@ -83,6 +83,9 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
   ShadowPlan plan;
   plan.invalid_field = first_invalid_field(camera, light, bounds, options);
   if (!plan.invalid_field.empty()) return plan;
+  if (std::isinf(camera.far_depth)) {
+    return make_plan(with_finite_far(camera, bounds.receivers), light, bounds, options);
+  }
   plan.origin_world = camera.position;
   plan.clip_space = options.clip_space;
   const auto* directional = std::get_if<DirectionalLight>(&light);

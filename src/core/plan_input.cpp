@@ -2,6 +2,7 @@
 #include "plan_input.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "vector.hpp"
 
@@ -41,8 +42,10 @@ std::string_view invalid_camera(const Camera& c) noexcept {
   if (!usable(c.left) || !usable(c.right) || !(c.left < c.right)) return "camera.left, camera.right";
   if (!usable(c.bottom) || !usable(c.top) || !(c.bottom < c.top)) return "camera.bottom, camera.top";
   if (!usable(c.near_depth)) return "camera.near_depth";
-  if (!usable(c.far_depth) || !(c.near_depth < c.far_depth)) return "camera.far_depth";
-  if (!c.orthographic && !(c.near_depth >= kNearestRatio * c.far_depth)) return "camera.near_depth";
+  const bool endless = c.far_depth == std::numeric_limits<double>::infinity();
+  if (!endless && (!usable(c.far_depth) || !(c.near_depth < c.far_depth))) return "camera.far_depth";
+  const double nearest = endless ? 0.0 : kNearestRatio * c.far_depth;
+  if (!c.orthographic && !(c.near_depth > 0.0 && c.near_depth >= nearest)) return "camera.near_depth";
   if (c.width < 1 || c.height < 1 || c.width > 1 << 20 || c.height > 1 << 20)
     return "camera.width, camera.height";
   return {};

@@ -45,7 +45,7 @@ TEST(PlanInput, every_broken_field_is_named) {
       {"camera.near_depth", [](Input& i) { i.camera.near_depth = -1.0; }},
       {"camera.near_depth", [](Input& i) { i.camera.near_depth = kNan; }},
       {"camera.far_depth", [](Input& i) { i.camera.far_depth = i.camera.near_depth; }},
-      {"camera.far_depth", [](Input& i) { i.camera.far_depth = kInfinity; }},
+      {"camera.far_depth", [](Input& i) { i.camera.far_depth = -kInfinity; }},
       {"camera.width", [](Input& i) { i.camera.width = 0; }},
       {"camera.height", [](Input& i) { i.camera.height = -5; }},
       {"light.direction", [](Input& i) { i.light = DirectionalLight{glm::dvec3(0.0)}; }},
