@@ -10,6 +10,7 @@
 #include "gnomon/fit.hpp"
 #include "gnomon/light.hpp"
 #include "gnomon/metric.hpp"
+#include "gnomon/omni.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/reuse.hpp"
 #include "gnomon/snap.hpp"

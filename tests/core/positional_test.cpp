@@ -1,0 +1,262 @@
+// Which plan does a spot or point light get in scenes that one can see through?
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <numbers>
+#include <vector>
+
+#include "gnomon/gnomon.hpp"
+#include "support/near.hpp"
+#include "support/random_case.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+struct Room {
+  Camera camera =
+      perspective_camera({0, 2, 9}, {0, -0.1, -1}, {0, 1, 0}, 60 * kDegree, 1.5, 0.2, 60, 960, 640);
+  std::vector<Box> receivers = {{{-10, 0, -10}, {10, 5, 10}}};
+  std::vector<Box> casters = {{{-1, 0, -1}, {1, 2, 1}}, {{3, 0, -6}, {4, 3, -5}}};
+  SpotLight spot{{2, 8, 1}, {-0.2, -1, -0.2}, 40 * kDegree, 30.0};
+  PointLight point{{0, 4, -2}, 30.0};
+  PlanOptions options;
+  [[nodiscard]] SceneBounds bounds() const { return {casters, receivers}; }
+  [[nodiscard]] ShadowPlan plan(const Light& light) const {
+    return make_plan(camera, light, bounds(), options);
+  }
+};
+
+int told(const ShadowPlan& plan, OmissionKind kind) {
+  int count = 0;
+  for (const Omission& omission : plan.omitted()) count += omission.kind == kind ? 1 : 0;
+  return count;
+}
+
+bool finite(const ShadowPlan& plan) {
+  for (const ShadowMap& map : plan.maps()) {
+    for (int i = 0; i < 4; ++i) {
+      for (int k = 0; k < 4; ++k) {
+        if (!std::isfinite(map.clip_from_world[i][k])) return false;
+      }
+    }
+    if (!std::isfinite(map.storage + map.kappa + map.texel_world_max.x + map.bias_world.slope)) return false;
+  }
+  return true;
+}
+
+TEST(Positional, a_spot_that_looks_away_from_the_view_or_ends_before_it_shows_nothing) {
+  Room room;
+  room.spot.direction = {0, 1, 0};
+  EXPECT_EQ(room.plan(room.spot).status, PlanStatus::nothing_visible);
+  room.spot.direction = {0, -1, 0};
+  room.spot.range = 1.0;
+  EXPECT_EQ(room.plan(room.spot).status, PlanStatus::nothing_visible);
+  room.point = {{100, 4, -2}, 5.0};
+  EXPECT_EQ(room.plan(room.point).status, PlanStatus::nothing_visible);
+  room.receivers.clear();
+  room.point = {{0, 4, -2}, 30.0};
+  EXPECT_EQ(room.plan(room.point).status, PlanStatus::nothing_visible);
+}
+
+TEST(Positional, receivers_that_nothing_can_shadow_need_no_map) {
+  Room room;
+  room.casters = {{{-1, 9, -1}, {1, 10, 1}}, Box{}};  // above the spot
+  const ShadowPlan plan = room.plan(room.spot);
+  EXPECT_EQ(plan.status, PlanStatus::no_caster);
+  EXPECT_EQ(plan.map_count, 0);
+  room.casters.clear();
+  const ShadowPlan cube = room.plan(room.point);
+  EXPECT_EQ(cube.status, PlanStatus::no_caster);
+  EXPECT_GT(told(cube, OmissionKind::face_without_caster), 3);
+}
+
+TEST(Positional, a_broken_light_is_refused_and_named) {
+  Room room;
+  room.spot.range = 0.0;
+  EXPECT_EQ(room.plan(room.spot).invalid_field, "light.range");
+  room.spot = SpotLight{{0, 1, 0}, {0, 0, 0}, 0.5, 10.0};
+  EXPECT_EQ(room.plan(room.spot).invalid_field, "light.direction");
+  room.point.position.x = std::nan("");
+  EXPECT_EQ(room.plan(room.point).invalid_field, "light.position");
+}
+
+TEST(Positional, every_cone_from_a_needle_to_the_whole_sphere_gets_a_finite_plan_that_holds_its_axis) {
+  Room room;
+  const glm::dvec3 target{0, 1, 0};
+  room.spot.direction = target - room.spot.position;
+  for (double degrees = 0.001; degrees < 180.0; degrees *= 1.08) {
+    room.spot.outer_radians = degrees * kDegree;
+    const ShadowPlan plan = room.plan(room.spot);
+    ASSERT_EQ(plan.status, PlanStatus::ok) << degrees;
+    EXPECT_TRUE(finite(plan)) << degrees;
+    EXPECT_GE(map_serving(plan, target, 9.0), 0) << degrees;
+    if (degrees < 85.0) {
+      EXPECT_EQ(plan.map_count, 1) << degrees;
+    } else {
+      EXPECT_GT(plan.map_count, 1) << degrees;
+    }
+  }
+}
+
+TEST(Positional, a_light_anywhere_about_the_eye_is_finite) {
+  Room room;
+  const glm::dvec3 eye = room.camera.position, forward = glm::normalize(room.camera.forward);
+  for (const glm::dvec3& at : {eye, eye - forward * 3.0, eye + forward * 0.2, eye + forward * 4.0,
+                               glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 0)}) {
+    for (const glm::dvec3& towards : {forward, -forward, glm::dvec3(0, -1, 0), glm::dvec3(1, 0, 0)}) {
+      const ShadowPlan spot = room.plan(SpotLight{at, towards, 0.7, 40.0});
+      EXPECT_NE(spot.status, PlanStatus::invalid_input);
+      EXPECT_TRUE(finite(spot));
+    }
+    const ShadowPlan point = room.plan(PointLight{at, 40.0});
+    EXPECT_EQ(point.status, PlanStatus::ok);
+    EXPECT_TRUE(finite(point));
+  }
+}
+
+TEST(Positional, a_caster_round_the_light_pulls_the_near_plane_to_its_floor) {
+  Room room;
+  room.casters = {{{1.9, 7.9, 0.9}, {2.1, 8.1, 1.1}}};
+  const ShadowPlan plan = room.plan(room.spot);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  EXPECT_TRUE(finite(plan));
+  // The farthest receiver is about ten units away, the floor 1e-4 of that.
+  const glm::dvec3 near_light = room.spot.position + glm::normalize(room.spot.direction) * 0.01;
+  const glm::dvec4 clip = plan.map[0].clip_from_world * glm::dvec4(near_light, 1.0);
+  EXPECT_GT(clip.w, 0.0);
+  EXPECT_LE(std::abs(clip.z), clip.w);
+}
+
+TEST(Positional, the_map_of_a_small_receiver_is_focused_on_it_and_its_depth_on_the_casters) {
+  Room room;
+  room.options.warp = &warps::none;
+  room.options.filter_radius_texels = 0.0;
+  room.camera.forward = {0, 0, -1};  // the map's axis is the view's as the light sees it
+  room.receivers = {{{-0.5, 0, -0.5}, {0.5, 0, 0.5}}};
+  room.casters = {{{-0.1, 2, -0.1}, {0.1, 3, 0.1}}};
+  room.spot = {{0, 8, 0}, {0, -1, 0}, 60 * kDegree, 100.0};
+  const ShadowPlan plan = room.plan(room.spot);
+  ASSERT_EQ(plan.map_count, 1);
+  const ShadowMap& map = plan.map[0];
+  // Eight units away, 1024 texels over one unit.
+  EXPECT_CLOSE(map.texel_world.x, 1.0 / 1024, 1e-6);
+  EXPECT_CLOSE(map.texel_world.y, 1.0 / 1024, 1e-6);
+  // From the casters' top, five away, to the receiver, with a thousandth of padding.
+  EXPECT_CLOSE(map.depth_range_world, 3.0, 0.01);
+  EXPECT_EQ(map.light_world, glm::dvec4(0, 8, 0, 1));
+  EXPECT_EQ(map.kappa, 0.0);
+}
+
+TEST(Positional, a_room_seen_whole_gets_six_faces_that_cover_every_direction) {
+  Room room;
+  room.camera = orthographic_camera({0, 2.5, 40}, {0, 0, -1}, {0, 1, 0}, 30.0, 1.5, 1.0, 80.0, 960, 640);
+  room.casters = {{{-9, 0, -9}, {9, 5, 9}}};
+  room.point = {{0.3, 2.2, -0.1}, 40.0};
+  const ShadowPlan plan = room.plan(room.point);
+  ASSERT_EQ(plan.map_count, 6);
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    EXPECT_GE(map_serving(plan, room.point.position + random.direction() * 1.5, 0.0), 0);
+  }
+}
+
+TEST(Positional, faces_without_receivers_are_left_out_and_say_what_they_save) {
+  Room room;
+  room.receivers = {{{-10, -0.1, -10}, {10, 0, 10}}};
+  room.point.position = {0, 4, 0};
+  const ShadowPlan plan = room.plan(room.point);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  EXPECT_GE(told(plan, OmissionKind::face_without_receiver), 1);  // the ceiling's at least
+  for (const ShadowMap& map : plan.maps()) EXPECT_NE(map.cascade, 2);
+  for (const Omission& o : plan.omitted()) {
+    if (o.kind != OmissionKind::face_without_receiver) continue;
+    EXPECT_EQ(o.saves_texels, 1024 * 1024);
+    EXPECT_NE(std::string_view(describe(o).what.data()).find("face"), std::string_view::npos);
+  }
+}
+
+TEST(Positional, a_warp_lowers_the_error_of_a_spot_over_a_wide_floor) {
+  Room room;
+  room.options.objective = Objective::p95;
+  room.options.warp = &warps::none;
+  const ShadowPlan plain = room.plan(room.spot);
+  room.options.warp = nullptr;
+  const ShadowPlan warped = room.plan(room.spot);
+  const double before = measure(plain, room.camera, room.bounds()).p95;
+  const double after = measure(warped, room.camera, room.bounds()).p95;
+  EXPECT_GT(warped.map[0].kappa, 0.0);
+  EXPECT_LT(after, 0.9 * before);
+  room.options.warp = &warps::lispsm04;
+  EXPECT_EQ(room.plan(room.spot).map[0].warp, &warps::lispsm04);
+}
+
+TEST(Positional, moving_and_scaling_the_world_changes_only_units) {
+  const auto numbers = [](double scale, const glm::dvec3& move) {
+    Room room;
+    room.camera.position = room.camera.position * scale + move;
+    room.camera.near_depth *= scale;
+    room.camera.far_depth *= scale;
+    for (auto* boxes : {&room.receivers, &room.casters}) {
+      for (Box& box : *boxes) box = {box.min * scale + move, box.max * scale + move};
+    }
+    room.spot.position = room.spot.position * scale + move;
+    room.spot.range *= scale;
+    const ShadowPlan plan = room.plan(room.spot);
+    EXPECT_EQ(plan.map_count, 1);
+    const ShadowMap& map = plan.map[0];
+    return std::vector<double>{map.storage, map.kappa, map.texel_world.x / scale,
+                               map.depth_range_world / scale};
+  };
+  // Positions are rounded to 1e-9 at ten million; the search may then stop a step of its last round apart.
+  constexpr double kMoved = 1e-3;
+  const auto here = numbers(1.0, glm::dvec3(0.0));
+  for (const auto& there :
+       {numbers(1e-6, glm::dvec3(0.0)), numbers(1e6, glm::dvec3(0.0)), numbers(1.0, {1e7, -1e7, 1e7})}) {
+    for (std::size_t i = 0; i < here.size(); ++i) EXPECT_CLOSE(there[i], here[i], kMoved) << i;
+  }
+}
+
+TEST(Positional, a_stable_spot_keeps_its_matrix_while_the_camera_moves_and_turns) {
+  Room room;
+  room.options.fit = Fit::stable;
+  const ShadowPlan first = room.plan(room.spot);
+  ASSERT_EQ(first.map_count, 1);
+  int equal = 0;
+  for (int i = 1; i <= 20; ++i) {
+    room.camera.position.x = 0.05 * i;
+    room.camera.forward = {0.01 * i, -0.1, -1};
+    const ShadowPlan plan = room.plan(room.spot);
+    ASSERT_EQ(plan.map_count, 1);
+    if (!(plan.map[0].snap_key == first.map[0].snap_key)) continue;
+    ++equal;
+    for (int c = 0; c < 4; ++c) {
+      for (int r = 0; r < 4; ++r)
+        EXPECT_NEAR(plan.map[0].clip_from_world[c][r], first.map[0].clip_from_world[c][r], 1e-12);
+    }
+  }
+  EXPECT_GT(equal, 10);
+}
+
+TEST(Positional, every_clip_space_holds_the_same_points) {
+  Room room;
+  Random random(9);
+  for (const ClipSpace& space :
+       {kOpenGl, kOpenGlZeroToOne, kVulkan, ClipSpace{NdcDepth::zero_to_one, true, true},
+        ClipSpace{NdcDepth::minus_one_to_one, true, false}}) {
+    const ShadowPlan reference = room.plan(room.point);
+    room.options.clip_space = space;
+    const ShadowPlan plan = room.plan(room.point);
+    for (int i = 0; i < 500; ++i) {
+      const glm::dvec3 p{random.between(-10, 10), random.between(0, 5), random.between(-10, 10)};
+      EXPECT_EQ(map_serving(plan, p, 0.0), map_serving(reference, p, 0.0));
+    }
+    room.options.clip_space = kOpenGl;
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::test
