@@ -15,6 +15,13 @@ namespace gnomon::test {
 namespace {
 
 constexpr double kRounding = 1e-12;
+// A map round a single point has texels near the rounding of that point's position: nothing to difference
+// there.
+constexpr double kFinestTexel = 1e-9;
+
+bool too_fine(const ShadowMap& map, const glm::dvec3& p) {
+  return !(std::min(map.texel_world.x, map.texel_world.y) > kFinestTexel * glm::length(p));
+}
 
 TEST(Bias, a_map_of_two_units_over_two_texels_has_texels_of_one_unit) {
   const glm::dvec2 texel = texel_extent_world(glm::dmat4(1.0), 2, 4, {0, 0, -1}, {0, 0, 0});
@@ -70,7 +77,7 @@ TEST(BiasProperty, a_move_along_the_light_changes_depth_as_told_and_nothing_acro
     Random random(5);
     for (const glm::dvec3& p : visible_points(c, random, 2, 3)) {
       const ShadowMap* map = map_for(plan, depth_of(c.camera, p));
-      if (map == nullptr) continue;
+      if (map == nullptr || too_fine(*map, p)) continue;
       ++moves;
       const double step = 0.01 * map->depth_range_world;
       const glm::dvec4 a = map->clip_from_world * glm::dvec4(p, 1.0);
@@ -95,7 +102,7 @@ TEST(BiasProperty, a_step_of_one_texel_in_the_map_is_as_long_as_the_extent_says)
     Random random(5);
     for (const glm::dvec3& p : visible_points(c, random, 2, 3)) {
       const ShadowMap* map = map_for(plan, depth_of(c.camera, p));
-      if (map == nullptr) continue;
+      if (map == nullptr || too_fine(*map, p)) continue;
       ++steps;
       const glm::dvec2 extent =
           texel_extent_world(map->clip_from_world, map->width, map->height, plan.light_direction, p);

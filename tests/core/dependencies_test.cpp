@@ -30,7 +30,8 @@ TEST(Dependencies, the_core_includes_glm_itself_and_the_standard_library_alone) 
   const std::regex allowed(
       "<glm/[a-z0-9_/]+\\.hpp>|\"(gnomon/)?[a-z0-9_]+\\.(hpp|def)\"|\"\\.\\./[a-z0-9_]+\\.hpp\"|\"gnomon/"
       "warps\\.def\"|"
-      "<(algorithm|array|bit|cfloat|cmath|cstddef|cstdint|cstdio|cstring|limits|numbers|span|string_view|"
+      "<(algorithm|array|bit|cfloat|cmath|cstddef|cstdint|cstdio|cstdlib|cstring|limits|numbers|span|string_"
+      "view|"
       "type_traits|"
       "utility|variant|immintrin\\.h)>");
   const std::regex include("^\\s*#\\s*include\\s*([<\"][^>\"]+[>\"])");
