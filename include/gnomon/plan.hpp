@@ -34,7 +34,9 @@ struct PlanOptions {
   /// Texels along each side of each map, 4..16384. Doubling it halves the error and costs four times the
   /// memory.
   int map_size = 1024;
-  /// Maps along the view, 1..kMaxMaps. More maps lower the error far away and cost one pass each.
+  /// Maps along the view, 1..kMaxMaps. More maps lower the error far away and cost one pass each. For
+  /// directional lights only: a spot gets one map, a point light or a spot of 85 degrees and more half angle
+  /// up to six, the faces of a cube.
   int cascades = 4;
   /// How the view depth is divided among them.
   SplitScheme split = SplitScheme::practical;
@@ -49,7 +51,8 @@ struct PlanOptions {
   SplitRange split_range = SplitRange::automatic;
   /// How a map's rectangle is laid round its slice.
   Fit fit = Fit::tight;
-  /// The perspective warp; nullptr lets the plan choose by measured gain. Fit::stable takes no warp.
+  /// The perspective warp; nullptr lets the plan choose by measured gain. Fit::stable takes no warp. Of lights
+  /// with a position only none, lispsm, lispsm04 and optimal; lispsm stands in for all others.
   const Warp* warp = nullptr;
   /// What a warp must lower to be used.
   Objective objective = Objective::storage;

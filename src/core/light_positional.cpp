@@ -62,7 +62,10 @@ ShadowMap& next_map(const PositionalLight& light, int face, ShadowPlan& plan) no
   map = ShadowMap{};
   map.cascade = face;
   map.width = map.height = light.options.map_size;
-  map.warp = light.options.warp != nullptr ? light.options.warp : &warps::optimal;
+  const Warp* asked = light.options.warp != nullptr ? light.options.warp : &warps::optimal;
+  // The others' formulas are about parallel light; LiSPSM's axis with the strength searched stands for them.
+  const bool known = asked == &warps::none || asked == &warps::lispsm04 || asked == &warps::optimal;
+  map.warp = known ? asked : &warps::lispsm;
   return map;
 }
 
@@ -156,6 +159,9 @@ void plan_positional(const Camera& camera, const Light& light, const SceneBounds
                     bounds,
                     options};
   plan.select_by_map = true;
+  // A light whose whole range is rounding of its position reaches no pixel.
+  constexpr double kLeastRange = 1e-12;
+  if (p.range <= kLeastRange * largest_component(p.apex)) p.lit.vertex_count = 0;
   clip(p.lit, Box{p.apex - glm::dvec3(p.range), p.apex + glm::dvec3(p.range)});
   if (!p.lit.empty()) clip(p.lit, visible_bounds(p.lit, bounds.receivers, camera.position));
   plan.light_direction = spot != nullptr ? safe_normalize(spot->direction, {0.0, -1.0, 0.0})
@@ -164,6 +170,8 @@ void plan_positional(const Camera& camera, const Light& light, const SceneBounds
     plan.status = PlanStatus::nothing_visible;
     return;
   }
+  if (options.fit == Fit::stable && options.warp != nullptr && options.warp != &warps::none)
+    omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
   if (spot == nullptr) {
     plan_cube(p, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, nullptr, plan);
   } else if (spot->outer_radians < kWidestSingle) {

@@ -160,10 +160,12 @@ void choose_rectangle(Draft& d, bool along_view, ShadowPlan& plan, ShadowMap& ma
   const double least = kLeastSlope / d.plane.stretch;
   widen(d.plane.a_min, d.plane.a_max, least);
   widen(d.plane.b_min, d.plane.b_max, least);
-  (void)error.value(choice, d.slopes.points());
+  // At vertices and edges, whatever the warp was judged by.
+  SlopeError extremes(d.light.camera, d.light.axes, d.frustum, d.body, Objective::storage, least_depth);
+  (void)extremes.value(choice, d.slopes.points());
   const double usable = map.width - 2.0 * map.filter_margin_texels;
-  map.m_s_max = error.m_s() / usable;
-  map.m_t_max = error.m_t() / usable;
+  map.m_s_max = extremes.m_s() / usable;
+  map.m_t_max = extremes.m_t() / usable;
   map.storage = map.m_s_max * map.m_t_max * static_cast<double>(map.width) * map.height /
                 (static_cast<double>(d.light.camera.width) * d.light.camera.height);
 }
@@ -326,6 +328,8 @@ void finish(const Draft& d, const Reach& reach, const glm::dmat4& gl_from_relati
     const double depth = glm::dot(light.axes.forward, v.position);
     begin = min_of(begin, depth);
     end = max_of(end, depth);
+    // Nearer than the near plane is only rounding.
+    if (!(d.frustum.distance(v.position) >= d.near_distance)) continue;
     const glm::dvec2 texel = texel_at(v.position);
     map.texel_world_max = {max_of(map.texel_world_max.x, texel.x), max_of(map.texel_world_max.y, texel.y)};
   }

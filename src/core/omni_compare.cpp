@@ -65,11 +65,12 @@ bool in_any(std::span<const Box> boxes, const glm::dvec3& p) noexcept {
 
 }  // namespace
 
-OmniComparison compare_omni(const PointLight& light, const Camera& camera, const SceneBounds& bounds,
+OmniComparison compare_omni(const PointLight& light, const Camera& any_camera, const SceneBounds& bounds,
                             double texels, const MeasureGrid& grid) noexcept {
   constexpr std::array kMappings = {OmniMapping::cube, OmniMapping::dual_paraboloid,
                                     OmniMapping::tetrahedron};
   std::array<Tally, 3> tally;
+  const Camera camera = with_finite_far(any_camera, bounds.receivers);
   const CameraAxes axes = camera_axes(camera);
   const double n = camera.near_depth, f = camera.far_depth;
   const int rays = grid.columns * grid.rows;

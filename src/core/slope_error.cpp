@@ -71,7 +71,16 @@ void SlopeError::add(const glm::dvec3& point) noexcept {
                              (light_.frame.y + light_.frame.z * at.y) / distance, at.x, at.y, 1.0};
   const Jacobian2 j =
       perspective_jacobian(slopes, view, safe_normalize(point - light_.apex, -light_.frame.z));
-  sample_[static_cast<std::size_t>(count_++)] = {at.x, at.y, j.xx, j.xy, j.yx, j.yy};
+  const double determinant = j.xx * j.yy - j.xy * j.yx;
+  if (determinant == 0.0) return;
+  const auto i = static_cast<std::size_t>(count_++);
+  x_[i] = at.x;
+  y_[i] = at.y;
+  xx_[i] = j.xx;
+  xy_[i] = j.xy;
+  yx_[i] = j.yx;
+  yy_[i] = j.yy;
+  inverse_determinant_[i] = 1.0 / determinant;
 }
 
 void SlopeError::add_vertices_and_edges(const Polytope& body) noexcept {
@@ -141,30 +150,53 @@ void SlopeError::add_visible_points(const Polytope& body) noexcept {
 double SlopeError::value(const WarpChoice& choice, std::span<const WarpInput::Point> body) noexcept {
   const PlaneMap plane = plane_map(body, choice);
   const glm::dmat4 m = clip_from_light(plane, {0.0, 1.0}, 0.0);
-  s_ = t_ = 0.0;
-  double worst = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
-    const Sample& p = sample_[i];
-    const double inverse = 1.0 / (m[0][3] * p.x + m[1][3] * p.y + m[3][3]);
-    if (!(inverse > 0.0)) return kInfinite;
-    const double x = (m[0][0] * p.x + m[1][0] * p.y + m[3][0]) * inverse;
-    const double y = (m[0][1] * p.x + m[1][1] * p.y + m[3][1]) * inverse;
-    // Half of the clip space's width is one texel here.
-    const double half = 0.5 * inverse;
-    const double xx = (m[0][0] - x * m[0][3]) * half, xy = (m[1][0] - x * m[1][3]) * half;
-    const double yx = (m[0][1] - y * m[0][3]) * half, yy = (m[1][1] - y * m[1][3]) * half;
-    const Extents e =
-        extents({xx * p.xx + xy * p.yx, xx * p.xy + xy * p.yy, yx * p.xx + yy * p.yx, yx * p.xy + yy * p.yy});
-    s_ = max_of(s_, e.s);
-    t_ = max_of(t_, e.t);
-    worst = max_of(worst, e.longest);
-    longest_[i] = e.longest;
+  const double m00 = m[0][0], m01 = m[1][0], m02 = m[3][0], m10 = m[0][1], m11 = m[1][1], m12 = m[3][1];
+  const double w0 = m[0][3], w1 = m[1][3], w2 = m[3][3];
+  // A projective map's Jacobian has the determinant of its matrix over w^3. Half of clip space is half a
+  // texel.
+  const double determinant =
+      m00 * (m11 * w2 - m12 * w1) - m01 * (m10 * w2 - m12 * w0) + m02 * (m10 * w1 - m11 * w0);
+  const double inverse_area = 4.0 / determinant;
+  const auto n = static_cast<std::size_t>(count_);
+  double least_w = kInfinite, s_squared = 0.0, t_squared = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double w = w0 * x_[i] + w1 * y_[i] + w2, inverse = 1.0 / w, half = 0.5 * inverse;
+    const double x = (m00 * x_[i] + m01 * y_[i] + m02) * inverse;
+    const double y = (m10 * x_[i] + m11 * y_[i] + m12) * inverse;
+    const double ax = (m00 - x * w0) * half, ay = (m01 - x * w1) * half;
+    const double bx = (m10 - y * w0) * half, by = (m11 - y * w1) * half;
+    const double jxx = ax * xx_[i] + ay * yx_[i], jxy = ax * xy_[i] + ay * yy_[i];
+    const double jyx = bx * xx_[i] + by * yx_[i], jyy = bx * xy_[i] + by * yy_[i];
+    const double inverse_det = w * w * w * inverse_area * inverse_determinant_[i];
+    const double square = inverse_det * inverse_det;
+    s_squared_[i] = (jyx * jyx + jyy * jyy) * square;
+    t_squared_[i] = (jxx * jxx + jxy * jxy) * square;
+    // The product of both singular values of the inverse.
+    longest_squared_[i] = std::abs(inverse_det);
+    least_w = min_of(least_w, w);
+    s_squared = max_of(s_squared, s_squared_[i]);
+    t_squared = max_of(t_squared, t_squared_[i]);
   }
-  if (objective_ == Objective::storage) return s_ * t_;
-  if (objective_ == Objective::max) return worst;
+  if (!(least_w > 0.0)) return kInfinite;
+  s_ = std::sqrt(s_squared);
+  t_ = std::sqrt(t_squared);
+  return objective_ == Objective::storage ? s_ * t_ : longest_of_samples();
+}
+
+double SlopeError::longest_of_samples() noexcept {
+  const auto n = static_cast<std::size_t>(count_);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double half = 0.5 * (s_squared_[i] + t_squared_[i]), product = longest_squared_[i];
+    const double spread = (half - product) * (half + product);
+    longest_squared_[i] = half + std::sqrt(spread > 0.0 ? spread : 0.0);
+    worst = max_of(worst, longest_squared_[i]);
+  }
+  if (objective_ == Objective::max) return std::sqrt(worst);
   const auto middle = static_cast<std::ptrdiff_t>(kShareBelow * count_);
-  std::nth_element(longest_.begin(), longest_.begin() + middle, longest_.begin() + count_);
-  return longest_[static_cast<std::size_t>(middle)];
+  std::nth_element(longest_squared_.begin(), longest_squared_.begin() + middle,
+                   longest_squared_.begin() + count_);
+  return std::sqrt(longest_squared_[static_cast<std::size_t>(middle)]);
 }
 
 }  // namespace gnomon

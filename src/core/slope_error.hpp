@@ -57,6 +57,7 @@ class SlopeError {
   void add(const glm::dvec3& point) noexcept;
   void add_vertices_and_edges(const Polytope& body) noexcept;
   void add_visible_points(const Polytope& body) noexcept;
+  [[nodiscard]] double longest_of_samples() noexcept;
 
   const Camera& camera_;
   const CameraAxes& axes_;
@@ -65,11 +66,10 @@ class SlopeError {
   double least_depth_;
   int count_ = 0;
   double s_ = 0.0, t_ = 0.0;
-  struct Sample {
-    double x, y, xx, xy, yx, yy;
-  };
-  std::array<Sample, kMaxSamples> sample_;
-  std::array<double, kMaxSamples> longest_;
+  // Slopes, d(slopes)/d(pixel) and the inverse of its determinant.
+  alignas(32) std::array<double, kMaxSamples> x_, y_, xx_, xy_, yx_, yy_, inverse_determinant_;
+  // Squared extents under the choice last asked for.
+  alignas(32) std::array<double, kMaxSamples> s_squared_, t_squared_, longest_squared_;
 };
 
 /// What a search over warps starts from.
