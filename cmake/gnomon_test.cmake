@@ -1,7 +1,7 @@
 # How a test program is built and run: one ctest entry per program (a process per case would pay for start-up).
 #
 # gnomon_test(NAME SOURCES file... [LIBS target...] [TIMEOUT seconds] [LABELS label...])
-#   LIBS come on top of GoogleTest with its main, RapidCheck and its GoogleTest bridge. TIMEOUT is 120 s unless
+#   LIBS come on top of GoogleTest with its main, RapidCheck and its GoogleTest bridge. TIMEOUT is 300 s unless
 #   said otherwise. The program sees GNOMON_SOURCE_DIR and GNOMON_TEST_DATA as string literals.
 #
 # GNOMON_TEST_ENVIRONMENT: what every test runs under; for tests that are added by plain add_test as well.
@@ -15,7 +15,7 @@ set(GNOMON_TEST_ENVIRONMENT
 function(gnomon_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LIBS;LABELS")
   if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 120)
+    set(arg_TIMEOUT 300)
   endif()
   add_executable(${name} ${arg_SOURCES} ${arg_UNPARSED_ARGUMENTS})
   gnomon_target(${name})

@@ -108,12 +108,12 @@ struct ShadowMap {
   /// The light in homogeneous world coordinates: its position with w = 1, or the unit direction towards it
   /// with w = 0.
   glm::dvec4 light_world{0.0, 1.0, 0.0, 0.0};
-  /// Which of the cascades asked for this is. A light with a position has none: 0 for a spot's single map, and
-  /// for the faces of a cube 0 to 5 in the order +x -x +y -y +z -z (of the world for a point light; a wide
-  /// spot's face 5 looks along it).
+  /// Which of the cascades asked for this is. A light with a position has none: 0 for a spot's single map,
+  /// and for the faces of a cube 0 to 5 in the order +x -x +y -y +z -z (of the world for a point light; a
+  /// wide spot's face 5 looks along it).
   int cascade = 0;
-  int width = 0, height = 0;        ///< texels
-  const Warp* warp = nullptr;       ///< never nullptr in a plan's maps; the one that was used
+  int width = 0, height = 0;   ///< texels
+  const Warp* warp = nullptr;  ///< never nullptr in a plan's maps; the one that was used
   /// Strength of the warp, 1 / world units; 0: none. Of a light with a position: 1 / slope, as the warp works
   /// on offsets across the light per unit of distance along it.
   double kappa = 0.0;
@@ -139,10 +139,11 @@ struct ShadowPlan {
   /// Unit, the way the light travels; of a spot along its axis, of a point light towards the camera.
   glm::dvec3 light_direction{0.0, -1.0, 0.0};
   ClipSpace clip_space;
-  /// How a point finds its map: false, by its view depth (maps do not overlap in depth); true, for lights with
-  /// a position: the first map that holds it (map_holds), at any depth. A point that no map holds is lit.
+  /// How a point finds its map: false, by its view depth (maps do not overlap in depth); true, for lights
+  /// with a position: the first map that holds it (map_holds), at any depth. A point that no map holds is
+  /// lit.
   bool select_by_map = false;
-  std::array<ShadowMap, kMaxMaps> map{};
+  std::array<ShadowMap, kMaxMaps> map;
   int map_count = 0;
   std::array<Omission, kMaxOmissions> omission;
   int omission_count = 0;  ///< may exceed kMaxOmissions

@@ -7,8 +7,9 @@
 
 namespace gnomon {
 
-/// `optimal` needs the receivers and is made by the plan: it minimises the plan's objective over the actual body, and
-/// costs some tens of microseconds. split_depths() treats it as logarithmic, its starting point.
+/// `optimal` needs the receivers and is made by the plan: it minimises the plan's objective over the actual
+/// body, and costs some hundred microseconds. split_depths() treats it as logarithmic, its starting point,
+/// and so does a plan with Fit::stable, whose edges must not follow what is in view.
 enum class SplitScheme : std::uint8_t { uniform, logarithmic, practical, pseudo_near, optimal };
 enum class SplitRange : std::uint8_t { automatic, receivers, camera };
 

@@ -164,10 +164,11 @@ void clip(Polytope& body, const Plane& plane) noexcept {
 
   // The edges that cross the plane, found first so that an inconsistent cut leaves the body as it was.
   CrossingEdge crossing[kMaxVertices];
-  int crossings = 0;
+  int crossings = 0, kept_count = 0;
   FaceCuts cuts[kMaxFaces] = {};
   for (VertexSet left = kept; left != 0; left &= left - 1) {
     const int i = std::countr_zero(left);
+    ++kept_count;
     const Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(i)];
     for (std::uint8_t k = 0; k < 3; ++k) {
       if (((cut_off >> v.neighbour[k]) & 1) == 0) continue;
@@ -177,7 +178,6 @@ void clip(Polytope& body, const Plane& plane) noexcept {
       ++cuts[v.face[(k + 2u) % 3]].count;
     }
   }
-  const int kept_count = std::popcount(kept);
   if (body.face_count >= kMaxFaces || kept_count + crossings > kMaxVertices) return;
   for (int f = 0; f < body.face_count; ++f) {
     if (cuts[f].count != 0 && cuts[f].count != 2) return;
@@ -191,12 +191,14 @@ void clip(Polytope& body, const Box& box) noexcept {
     body.vertex_count = 0;
     return;
   }
-  clip(body, Plane{{1, 0, 0}, -box.min.x});
-  clip(body, Plane{{-1, 0, 0}, box.max.x});
-  clip(body, Plane{{0, 1, 0}, -box.min.y});
-  clip(body, Plane{{0, -1, 0}, box.max.y});
-  clip(body, Plane{{0, 0, 1}, -box.min.z});
-  clip(body, Plane{{0, 0, -1}, box.max.z});
+  // Planes that miss the body are told from its own box, six comparisons in place of six rounds of distances.
+  const Box own = bounds_of(body);
+  if (own.min.x < box.min.x) clip(body, Plane{{1, 0, 0}, -box.min.x});
+  if (own.max.x > box.max.x) clip(body, Plane{{-1, 0, 0}, box.max.x});
+  if (own.min.y < box.min.y) clip(body, Plane{{0, 1, 0}, -box.min.y});
+  if (own.max.y > box.max.y) clip(body, Plane{{0, -1, 0}, box.max.y});
+  if (own.min.z < box.min.z) clip(body, Plane{{0, 0, 1}, -box.min.z});
+  if (own.max.z > box.max.z) clip(body, Plane{{0, 0, -1}, box.max.z});
 }
 
 int swept_planes(const Polytope& body, const glm::dvec3& direction,

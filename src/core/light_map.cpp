@@ -10,8 +10,8 @@ namespace {
 
 // An extent of nothing would divide by zero; this much of the largest extent is far below a texel.
 constexpr double kFlattest = 1e-6;
-// For a body that is a single point: any size serves, this one keeps the matrix well scaled.
-constexpr double kPointSize = 1e-3;
+// An extent that is smaller than this much of the body's distance is its rounding: the body is a point.
+constexpr double kPointSize = 1e-9;
 
 void widen(double& low, double& high, double least) noexcept {
   if (high - low >= least) return;
@@ -47,14 +47,14 @@ PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& cho
     map.b_max = first ? b : max_of(map.b_max, b);
     first = false;
   }
-  double z_low = body.front().z, z_high = z_low, farthest = 0.0;
+  double z_low = body.front().z, z_high = z_low, distance = 0.0;
   for (const WarpInput::Point& p : body) {
     z_low = min_of(z_low, p.z);
     z_high = max_of(z_high, p.z);
-    farthest = max_of(farthest, p.depth);
+    distance = max_of(distance, largest_component({p.x, p.y, p.z}));
   }
   const double extent = max_of(max_of(map.a_max - map.a_min, map.b_max - map.b_min), z_high - z_low);
-  const double least = extent > 0.0 ? kFlattest * extent : kPointSize * farthest;
+  const double least = max_of(kFlattest * extent, distance > 0.0 ? kPointSize * distance : kPointSize);
   widen(map.a_min, map.a_max, least);
   widen(map.b_min, map.b_max, least);
   return map;

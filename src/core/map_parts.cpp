@@ -91,32 +91,42 @@ double caster_height(const CasterReach& reach, const LightFrame& frame, const Li
   const glm::dvec3 corner{up.x > 0.0 ? reach.bounds.max.x : reach.bounds.min.x,
                           up.y > 0.0 ? reach.bounds.max.y : reach.bounds.min.y,
                           up.z > 0.0 ? reach.bounds.max.z : reach.bounds.min.z};
-  double lowest_face = std::numeric_limits<double>::infinity(), body_height = 0.0;
+  // Of every vertex: 1 / w at the near side of its margin, how far the margin reaches in the light plane, and
+  // its own height.
+  std::array<double, kMaxVertices> inverse_w, margin;
+  double body_height = 0.0;
+  const auto count = static_cast<std::size_t>(body.count);
+  const double margin_image = rim * (extent_a + extent_b), kappa = map.choice.kappa;
+  for (std::size_t i = 0; i < count; ++i) {
+    const WarpInput::Point& p = body.point[i];
+    const double w = map.w(p.x, p.y);
+    // A move by the margin in the image is at most this one in the light plane: across, texels grow with w
+    // and lean with the distance from the centre; along, with its square.
+    const double across = std::abs(p.x * map.choice.axis.y - p.y * map.choice.axis.x - map.choice.centre);
+    const double margin_along = margin_image * w * w / map.stretch;
+    margin[i] = margin_image * w + margin_along * (1.0 + kappa * across / w);
+    // The margin reaches towards smaller w, too; it never halves it for a margin a filter can ask for.
+    inverse_w[i] = 1.0 / max_of(w - kappa * margin_along, 0.5 * w);
+    body_height = max_of(body_height, (p.z - bottom) * inverse_w[i]);
+  }
+  double lowest_face = std::numeric_limits<double>::infinity();
   // Face 3 stands for the plane across the light through the highest caster.
   for (int face = 0; face < 4; ++face) {
     // z of the face at (x, y) across the light: at + slope_x x + slope_y y.
     double at = reach.top, slope_x = 0.0, slope_y = 0.0;
     if (face < 3) {
       if (!(std::abs(up[face]) > kSteepestFace)) continue;
-      at = corner[face] / up[face];
-      slope_x = -frame.x[face] / up[face];
-      slope_y = -frame.y[face] / up[face];
+      const double inverse = 1.0 / up[face];
+      at = corner[face] * inverse;
+      slope_x = -frame.x[face] * inverse;
+      slope_y = -frame.y[face] * inverse;
     }
     const double steepest = std::sqrt(slope_x * slope_x + slope_y * slope_y);
     double highest = 0.0;
-    for (const WarpInput::Point& p : body.points()) {
-      const double w = map.w(p.x, p.y);
-      // A move by the margin in the image is at most this one in the light plane: across, texels grow with w
-      // and lean with the distance from the centre; along, with its square.
-      const double across = std::abs(p.x * map.choice.axis.y - p.y * map.choice.axis.x - map.choice.centre);
-      const double margin_image = rim * (extent_a + extent_b);
-      const double margin_along = margin_image * w * w / map.stretch;
-      const double margin = margin_image * w + margin_along * (1.0 + map.choice.kappa * across / w);
-      const double z = at + slope_x * p.x + slope_y * p.y + steepest * margin;
-      // The margin reaches towards smaller w, too; it never halves it for a margin a filter can ask for.
-      const double least_w = max_of(w - map.choice.kappa * margin_along, 0.5 * w);
-      highest = max_of(highest, (z - bottom) / least_w);
-      body_height = max_of(body_height, (p.z - bottom) / w);
+    for (std::size_t i = 0; i < count; ++i) {
+      const WarpInput::Point& p = body.point[i];
+      const double z = at + slope_x * p.x + slope_y * p.y + steepest * margin[i];
+      highest = max_of(highest, (z - bottom) * inverse_w[i]);
     }
     lowest_face = min_of(lowest_face, highest);
   }

@@ -1,6 +1,7 @@
 // The smallest map round a slice's receivers, warped where that gains.
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "light_plane_error.hpp"
 #include "map_parts.hpp"
@@ -56,22 +57,49 @@ WarpInput warp_input(const PlanContext& c, const LightBody& points, const Polyto
   return in;
 }
 
+// A body shorter along the axis than this much of its other extents, or of its distance, has its length from
+// rounding, and a warp's strength from it would be noise.
+constexpr double kShortest = 1e-6, kShortestOfDistance = 1e-9;
+// Ratio of the far to the near end's texels beyond which float matrices no longer hold the map together.
+constexpr double kStrongest = 1e9;
+// A gain by the simplified weights above this factor is one by the exact error, too: they differ by the
+// obliquity of the view rays alone.
+constexpr double kCertainRatio = 0.25;
+
+// A warp that gains less than this is left out: it would come and go with the last bits of the input.
+constexpr double kLeastGain = 1e-3;
+
+bool usable(const WarpInput& in, const WarpChoice& choice) noexcept {
+  const PlaneMap map = plane_map(in.body, choice);
+  double farthest = 0.0;
+  for (const WarpInput::Point& p : in.body) farthest = max_of(farthest, p.depth);
+  const double extent = max_of(map.a_max - map.a_min, map.b_max - map.b_min);
+  return map.length > kShortest * extent && map.length > kShortestOfDistance * farthest &&
+         map.stretch <= kStrongest;
+}
+
+/// The objective with the choice over the objective without; infinite for a choice that no map can be laid
+/// with.
+double gain_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
+  if (!usable(in, choice)) return std::numeric_limits<double>::infinity();
+  const bool along_y =
+      choice.axis.x == 0.0 && choice.centre == 0.0 && choice.row_a.y == 0.0 && choice.row_b.x == 0.0;
+  if (along_y && choice.kappa == 0.0) return 1.0;
+  if (along_y && in.objective != Objective::p95) {
+    const double ratio =
+        warp_error(in, choice.kappa).value(in.objective) / warp_error(in, 0.0).value(in.objective);
+    if (ratio < kCertainRatio) return ratio;
+  }
+  LightPlaneError error(in);
+  return error.value(choice) / error.value({});
+}
+
 /// Asks the warp, measures its answer, and takes it only where it lowers the objective.
 WarpChoice chosen_warp(const PlanContext& c, const WarpInput& in, int cascade, const Warp*& warp) noexcept {
   if (warp == &warps::none) return {};
   const WarpChoice choice = warp->choose(in);
-  const bool along_y =
-      choice.axis.x == 0.0 && choice.centre == 0.0 && choice.row_a.y == 0.0 && choice.row_b.x == 0.0;
-  double ratio = 1.0;
-  if (along_y) {
-    if (choice.kappa > 0.0) {
-      ratio = warp_error(in, choice.kappa).value(in.objective) / warp_error(in, 0.0).value(in.objective);
-    }
-  } else {
-    LightPlaneError error(in);
-    ratio = error.value(choice) / error.value({});
-  }
-  if (std::isfinite(ratio) && (ratio < 1.0 || (!warp->drop_without_gain && choice.kappa > 0.0)))
+  const double ratio = gain_ratio(in, choice);
+  if (std::isfinite(ratio) && (ratio < 1.0 - kLeastGain || (!warp->drop_without_gain && choice.kappa > 0.0)))
     return choice;
   omit(c.plan, {OmissionKind::warp_without_gain, cascade, ratio, 0.0, 0});
   warp = &warps::none;
@@ -95,6 +123,16 @@ Polytope turned(const Polytope& body, const LightFrame& frame) noexcept {
 }
 
 }  // namespace
+
+double tight_objective(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
+  const LightBody points = in_light_frame(c, c.frame, body);
+  const Polytope body_light = turned(body, c.frame);
+  const WarpInput in = warp_input(c, points, body_light, begin, end);
+  const WarpChoice choice = c.warp.choose(in);
+  LightPlaneError error(in);
+  const double without = error.value({}), with = usable(in, choice) ? error.value(choice) : without;
+  return with < without || !c.warp.drop_without_gain ? with : without;
+}
 
 bool lay_tight_map(const PlanContext& c, const Polytope& body, double begin, double end,
                    ShadowMap& map) noexcept {

@@ -66,7 +66,7 @@ void plan_cascade(const PlanContext& c, const Polytope& all, int cascade, double
   map.depth_begin = begin;
   map.depth_end = end;
   map.width = map.height = c.options.map_size;
-  map.warp = c.options.warp != nullptr ? c.options.warp : &warps::optimal;
+  map.warp = &c.warp;
   const bool drawn =
       c.stable ? lay_stable_map(c, body, begin, end, map) : lay_tight_map(c, body, begin, end, map);
   if (drawn) {
@@ -106,6 +106,7 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
       plan.light_direction,
       stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, axes),
       stable,
+      options.warp != nullptr ? *options.warp : warps::optimal,
       std::sqrt(glm::dot(across, across)),
       glm::dot(axes.forward, plan.light_direction),
       plan};
@@ -123,7 +124,8 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
   std::array<double, kMaxMaps + 1> edges{};
   split_depths(begin, end, {options.split, options.lambda, options.near_hint},
                {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
-  if (options.split == SplitScheme::optimal) {
+  // What is in view would move the edges of a stable plan, and with them its grids.
+  if (options.split == SplitScheme::optimal && !stable) {
     optimise_splits(context, body, {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
   }
   for (int i = 0; i < options.cascades; ++i) {

@@ -17,6 +17,7 @@ struct PlanContext {
   glm::dvec3 light_direction;  // unit
   LightFrame frame;
   bool stable;
+  const Warp& warp;  // the one asked for, or the default
   double sin_gamma, cos_gamma;
   ShadowPlan& plan;
 };
@@ -30,5 +31,10 @@ void omit(ShadowPlan& plan, const Omission& omission) noexcept;
                                  ShadowMap& map) noexcept;
 [[nodiscard]] bool lay_stable_map(const PlanContext& c, const Polytope& body, double begin, double end,
                                   ShadowMap& map) noexcept;
+
+/// The plan's objective over that body under the warp that lay_tight_map would take, up to a factor that is
+/// the same for all bodies.
+[[nodiscard]] double tight_objective(const PlanContext& c, const Polytope& body, double begin,
+                                     double end) noexcept;
 
 }  // namespace gnomon

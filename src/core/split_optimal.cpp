@@ -3,6 +3,7 @@
 // them only where the body is the whole frustum.
 #include "split_optimal.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -19,12 +20,17 @@ constexpr int kSteps = 16;
 constexpr int kRounds = 2;
 constexpr int kTrials = 5;
 
-/// Error of one map over the part of the body between two depths, with LiSPSM at its best strength as the
-/// measure: every warp of this toolkit comes near it or betters it by about the same factor everywhere.
-double error_between(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
+Polytope between(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
   Polytope part = body;
   clip(part, Plane{c.axes.forward, -begin});
   clip(part, Plane{-c.axes.forward, end});
+  return part;
+}
+
+/// Error of one map over the part of the body between two depths, with LiSPSM at its best strength as the
+/// measure: every warp of this toolkit comes near it or betters it by about the same factor everywhere.
+double error_between(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
+  const Polytope part = between(c, body, begin, end);
   if (part.empty()) return 0.0;
   const LightBody points = in_light_frame(c, c.frame, part);
   WarpInput in{};
@@ -36,12 +42,24 @@ double error_between(const PlanContext& c, const Polytope& body, double begin, d
   }
   in.orthographic = c.camera.orthographic;
   in.objective = c.options.objective;
-  const bool warped = !c.stable && c.options.warp != &warps::none;
+  const bool warped = &c.warp != &warps::none;
   return warp_error(in, warped ? warps::lispsm.choose(in).kappa : 0.0).value(in.objective);
 }
 
+/// Of two maps side by side.
 double joined(Objective objective, double a, double b) noexcept {
   return objective == Objective::storage ? a + b : max_of(a, b);
+}
+
+/// The objective of all maps together, exactly as the plan will lay them.
+double exact_objective(const PlanContext& c, const Polytope& body, std::span<const double> edges) noexcept {
+  double total = 0.0;
+  for (std::size_t m = 0; m + 1 < edges.size(); ++m) {
+    const Polytope part = between(c, body, edges[m], edges[m + 1]);
+    if (part.empty()) continue;
+    total = joined(c.options.objective, total, tight_objective(c, part, edges[m], edges[m + 1]));
+  }
+  return total;
 }
 
 }  // namespace
@@ -49,6 +67,8 @@ double joined(Objective objective, double a, double b) noexcept {
 void optimise_splits(const PlanContext& c, const Polytope& body, std::span<double> edges) noexcept {
   const int maps = static_cast<int>(edges.size()) - 1;
   const double n = edges.front(), f = edges.back();
+  std::array<double, kMaxMaps + 1> logarithmic;
+  std::copy(edges.begin(), edges.end(), logarithmic.begin());
   if (maps < 2 || !(n > 0.0 && f > n)) return;
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   std::array<double, kSteps + 1> depth;
@@ -103,6 +123,11 @@ void optimise_splits(const PlanContext& c, const Polytope& body, std::span<doubl
         reach = std::sqrt(reach);
       }
     }
+  }
+  // The search goes by a simplified error; what counts is the exact one.
+  const std::span<const double> before{logarithmic.data(), edges.size()};
+  if (!(exact_objective(c, body, edges) < exact_objective(c, body, before))) {
+    std::copy(before.begin(), before.end(), edges.begin());
   }
 }
 

@@ -85,30 +85,61 @@ CameraPath terrain_flight() {
   return path;
 }
 
-// Round about what can be seen, from a height that shows the tops of things.
+constexpr double kRise = 0.42;  // of the orbit's distance: 25 degrees up
+
+// From the centre to an eye on the orbit, unit length.
+glm::dvec3 towards_eye(double angle) {
+  const double out = std::sqrt(1.0 - kRise * kRise);
+  return {out * std::sin(angle), kRise, out * std::cos(angle)};
+}
+
+// How near an eye in this direction may come to the centre so that a square view of half angle atan(`slope`)
+// still holds a box of these half extents, and how much nearer than the centre its nearest corner is.
+struct Standing {
+  double distance, nearest;
+};
+Standing standing(const glm::dvec3& half, const glm::dvec3& to_eye, double slope) {
+  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), to_eye));
+  const glm::dvec3 up = glm::cross(to_eye, right);
+  Standing result{0.0, 0.0};
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 at((corner & 1) != 0 ? half.x : -half.x, (corner & 2) != 0 ? half.y : -half.y,
+                        (corner & 4) != 0 ? half.z : -half.z);
+    const double aside = std::max(std::abs(glm::dot(right, at)), std::abs(glm::dot(up, at)));
+    const double nearer = glm::dot(to_eye, at);
+    result.distance = std::max(result.distance, aside / slope + nearer);
+    result.nearest = std::max(result.nearest, nearer);
+  }
+  return result;
+}
+
+// Round about what can be seen, from a height that shows the tops of things and as near as holds all of it.
 CameraPath orbit(const Box& bounds) {
   constexpr int kKeys = 8;
-  constexpr double kRise = 0.42;       // of the distance: 25 degrees up
-  constexpr double kRoom = 1.15;       // the scene's sphere over what the view would just hold
+  constexpr int kAngles = 64;     // looked at for the distance; the curve's own cut corners are within kRoom
+  constexpr double kRoom = 1.06;  // over what the view would just hold
   constexpr double kLeastPart = 1e-4;  // of the coordinates: nearer is lost in their rounding
+  constexpr double kNearest = 1e-3;    // near plane, of the distance: a corner may come that close
   CameraPath path;
   path.closed = true;
   const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : (bounds.min + bounds.max) * 0.5;
-  double radius = bounds.empty() ? 0.0 : glm::length(bounds.max - bounds.min) * 0.5;
+  glm::dvec3 half = bounds.empty() ? glm::dvec3(0.0) : (bounds.max - bounds.min) * 0.5;
   const double farthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
-  if (!(radius > farthest * kLeastPart))
-    radius = farthest > 0.0 ? std::max(farthest * kLeastPart, radius) : 1.0;
-  const double distance = kRoom * radius / std::sin(path.fov_y_radians / 2.0);
-  for (int i = 0; i < kKeys; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kKeys;
-    const double out = distance * std::sqrt(1.0 - kRise * kRise);
-    path.keys.push_back(
-        {center + glm::dvec3(out * std::sin(angle), distance * kRise, out * std::cos(angle)), center});
+  if (!(glm::length(half) > farthest * kLeastPart))
+    half = glm::dvec3(farthest > 0.0 ? farthest * kLeastPart : 1.0);
+  double distance = 0.0, nearest = 0.0;
+  for (int i = 0; i < kAngles; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kAngles;
+    const Standing s = standing(half, towards_eye(angle), std::tan(path.fov_y_radians / 2.0));
+    distance = std::max(distance, s.distance);
+    nearest = std::max(nearest, s.nearest);
   }
-  // The sphere lies between distance - radius and distance + radius; between keys the curve cuts its corners
-  // a little.
-  path.near_depth = (distance - radius) * 0.5;
-  path.far_depth = (distance + radius) * 1.1;
+  distance *= kRoom;
+  for (int i = 0; i < kKeys; ++i) {
+    path.keys.push_back({center + towards_eye(2.0 * std::numbers::pi * i / kKeys) * distance, center});
+  }
+  path.near_depth = std::max((distance - nearest) * 0.5, distance * kNearest);
+  path.far_depth = (distance + nearest) * 1.1;
   return path;
 }
 

@@ -46,6 +46,24 @@ Best refine(const WarpInput& input, double low, double high, Best best) noexcept
   return value < best.value * (1.0 - kTie) ? Best{std::exp(at_left <= at_right ? left : right), value} : best;
 }
 
+/// The weakest warp that is as good as `best`: under an overhead light the storage is the same for a whole
+/// range of strengths, and the weaker end has the smaller worst texel.
+double weakest_as_good(const WarpInput& input, const Best& best) noexcept {
+  constexpr int kHalvings = 30;
+  constexpr double kLess = 1.0 - 1e-3;
+  const double enough = best.value * (1.0 + kTie);
+  const auto as_good = [&](double kappa) {
+    return warp_error(input, kappa).value(input.objective) <= enough;
+  };
+  if (!(best.kappa > 0.0) || !as_good(best.kappa * kLess)) return best.kappa;
+  double worse = 0.0, good = best.kappa;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (worse + good);
+    (as_good(middle) ? good : worse) = middle;
+  }
+  return good;
+}
+
 WarpChoice choose(const WarpInput& input) noexcept {
   const double length = input.y_max - input.y_min;
   if (input.orthographic || !(length > 0.0)) return {};
@@ -60,9 +78,8 @@ WarpChoice choose(const WarpInput& input) noexcept {
       best_grid = kappa;
     }
   }
-  if (!(best_grid > 0.0))
-    return {refine(input, kWeakest / (4.0 * length), kWeakest * step / length, best).kappa};
-  return {refine(input, best_grid / step, best_grid * step, grid).kappa};
+  const double around = best_grid > 0.0 ? best_grid : 0.5 * kWeakest / length;
+  return {weakest_as_good(input, refine(input, around / step, around * step, best_grid > 0.0 ? grid : best))};
 }
 
 }  // namespace

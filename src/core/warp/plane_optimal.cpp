@@ -40,18 +40,28 @@ WarpChoice choose(const WarpInput& input) noexcept {
   };
   const Linear2 depth = on_plane(input.view.forward);
   const double steepness = glm::length(depth.slope);
-  if (!(steepness > 0.0)) return {};
   WarpChoice choice;
-  choice.axis = depth.slope / steepness;
-  double u_min = glm::dot(choice.axis, {input.body.front().x, input.body.front().y}), u_max = u_min;
-  for (const WarpInput::Point& p : input.body) {
-    const double u = glm::dot(choice.axis, {p.x, p.y});
-    u_min = min_of(u_min, u);
-    u_max = max_of(u_max, u);
-  }
+  const auto along = [&choice](const WarpInput::Point& p) { return glm::dot(choice.axis, {p.x, p.y}); };
+  double u_min = 0.0, u_max = 0.0;
+  const auto measure_along = [&] {
+    u_min = u_max = along(input.body.front());
+    for (const WarpInput::Point& p : input.body) {
+      u_min = min_of(u_min, along(p));
+      u_max = max_of(u_max, along(p));
+    }
+  };
+  if (steepness > 0.0) choice.axis = depth.slope / steepness;
+  measure_along();
   const double w_near = depth.at_origin + steepness * u_min;
   if (!(w_near > 0.0)) return {};
-  choice.kappa = steepness / w_near;
+  // Where depth does not change over the plane, rounding would decide the axis: there is nothing to warp.
+  constexpr double kLeastChange = 1e-6;
+  if (steepness * (u_max - u_min) > kLeastChange * w_near) {
+    choice.kappa = steepness / w_near;
+  } else {
+    choice.axis = WarpChoice{}.axis;
+    measure_along();
+  }
   const double stretch = 1.0 + choice.kappa * (u_max - u_min);
   // The screen's axes over (s, u): a row's part along u that w does not carry off, as a multiple of Y = u
   // stretch / w.

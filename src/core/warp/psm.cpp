@@ -43,10 +43,18 @@ WarpChoice choose(const WarpInput& input) noexcept {
   // Behind the viewer the light becomes a sink and w changes its sign as a whole.
   for (const double sign : {1.0, -1.0}) {
     const glm::dvec2 axis{sign * w.slope.x / steepness, sign * w.slope.y / steepness};
-    double u_min = input.body.front().x * axis.x + input.body.front().y * axis.y;
-    for (const WarpInput::Point& p : input.body) u_min = min_of(u_min, p.x * axis.x + p.y * axis.y);
+    double u_min = input.body.front().x * axis.x + input.body.front().y * axis.y, u_max = u_min;
+    for (const WarpInput::Point& p : input.body) {
+      const double u = p.x * axis.x + p.y * axis.y;
+      u_min = min_of(u_min, u);
+      u_max = max_of(u_max, u);
+    }
     const double w_near = sign * w.at_eye + steepness * u_min;
-    if (w_near > 0.0) return {steepness / w_near, axis};
+    if (!(w_near > 0.0)) continue;
+    // Where w does not change over the body, rounding decides the axis.
+    constexpr double kLeastChange = 1e-6;
+    return steepness * (u_max - u_min) > kLeastChange * w_near ? WarpChoice{steepness / w_near, axis}
+                                                               : WarpChoice{};
   }
   return {};
 }
