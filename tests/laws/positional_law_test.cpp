@@ -220,6 +220,38 @@ TEST(PositionalLaw, every_caster_before_a_lit_receiver_is_drawn_within_the_depth
   EXPECT_GT(shadows, 3000u);
 }
 
+TEST(PositionalLaw, a_caster_that_only_the_filter_kernel_reaches_is_drawn_too) {
+  std::uint64_t shadows = 0;
+  for_all(1500, [&] {
+    LightCase c = draw_light_case();
+    if (c.scene.options.filter_radius_texels < 1.0) c.scene.options.filter_radius_texels = 1.0 + pick(4);
+    RC_LOG() << c;
+    const ShadowPlan plan = c.plan();
+    Random random(17);
+    for (const glm::dvec3& p : visible_points(c.scene, random, 4, 4)) {
+      const int index = lit(c, p) ? map_serving(plan, p, 0.0) : -1;
+      if (index < 0) continue;
+      const ShadowMap& map = plan.map[static_cast<std::size_t>(index)];
+      const glm::dvec4 clip = map.clip_from_world * glm::dvec4(p, 1.0);
+      const double reach = 2.0 * (c.scene.options.filter_radius_texels - 0.25) / map.width;
+      const glm::dvec2 tap{clip.x / clip.w + random.between(-reach, reach),
+                           clip.y / clip.w + random.between(-reach, reach)};
+      // The ray through the tap, as far from the light as the receiver.
+      const glm::dvec4 at = glm::inverse(map.clip_from_world) * glm::dvec4(tap, clip.z / clip.w, 1.0);
+      const glm::dvec3 way = glm::dvec3(at) / at.w - c.position;
+      const double length = glm::length(p - c.position) * (1.0 - 1e-6);
+      std::vector<std::uint32_t> list(c.scene.casters.size());
+      list.resize(cull_casters(map, c.scene.casters, list));
+      for (const Blocker& blocker : blockers(c, c.position + way * (length / glm::length(way)))) {
+        ++shadows;
+        require(std::binary_search(list.begin(), list.end(), blocker.index), "caster", blocker.index,
+                "culled from face", map.cascade, map.warp->name, "kappa", map.kappa);
+      }
+    }
+  });
+  EXPECT_GT(shadows, 1000u);
+}
+
 TEST(PositionalLaw, every_number_of_a_map_is_finite_and_of_its_sign) {
   for_all(2500, [&] {
     const LightCase c = draw_light_case();
