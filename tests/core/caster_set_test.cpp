@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "support/property.hpp"
@@ -89,6 +90,9 @@ Box random_caster(Random& random) {
   if (kind == 5) return {{3, 3, 3}, {4, 4, 4}};  // many of the same
   return {centre - half, centre + half};
 }
+
+static_assert(noexcept(std::declval<const CasterSet&>().cull(std::declval<const ShadowMap&>(), {})));
+static_assert(noexcept(std::declval<CasterSet&>().update(0, std::declval<const Box&>())));
 
 TEST(CasterSet, a_set_of_nothing_lists_nothing) {
   const CasterSet none;

@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <vector>
 
 #include "support/near.hpp"
@@ -14,7 +12,6 @@
 namespace gnomon::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A few roundings of coordinates of order one.
 constexpr double kRounding = 1e-12;
 // A texel's place in maps of up to 2048 texels, with clip coordinates good to 1e-9 (a long frustum's own
@@ -298,121 +295,6 @@ TEST(Conventions, a_tile_of_a_picture_never_needs_more_texels_than_the_whole) {
     part.camera.width /= 2;
     EXPECT_LE(part.plan().map[0].storage * part.camera.width * part.camera.height, whole * (1.0 + kRounding));
   }
-}
-
-TEST(InfiniteFar, the_matrix_tends_to_that_of_ever_farther_planes) {
-  Camera camera = scene().camera;
-  camera.far_depth = kInfinity;
-  Camera distant = camera;
-  distant.far_depth = 1e12;
-  const glm::dmat4 endless = clip_from_view(camera), far = clip_from_view(distant);
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) EXPECT_NEAR(endless[column][row], far[column][row], 1e-11);
-  }
-  EXPECT_EQ(ndc(endless, {0, 0, -camera.near_depth}).z, -1.0);
-  const glm::dvec4 horizon = endless * glm::dvec4(0, 0, -1, 0);
-  EXPECT_EQ(horizon.z, horizon.w);
-}
-
-TEST(InfiniteFar, an_orthographic_matrix_is_finite_and_flat) {
-  Camera camera = orthographic_camera({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 10.0, 1.0, 1.0, kInfinity, 100, 100);
-  EXPECT_EQ(ndc(clip_from_view(camera), {5, 5, -7}), glm::dvec3(1, 1, -1));
-}
-
-TEST(InfiniteFar, the_far_plane_stands_behind_the_farthest_corner_by_less_than_a_step) {
-  for_all(500, [&] {
-    Case c = draw_case({.max_boxes = 6});
-    const Camera finite = with_finite_far(c.camera, c.receivers);
-    require(finite.far_depth == c.camera.far_depth, "a finite plane moved");
-    c.camera.far_depth = kInfinity;
-    c.receivers.push_back(Box{});
-    const Camera cut = with_finite_far(c.camera, c.receivers);
-    double farthest = -kInfinity;
-    for (const Box& box : c.receivers) {
-      for (int corner = 0; corner < 8 && !box.empty(); ++corner) {
-        farthest = std::max(farthest, depth_of(c.camera, {corner & 1 ? box.min.x : box.max.x,
-                                                          corner & 2 ? box.min.y : box.max.y,
-                                                          corner & 4 ? box.min.z : box.max.z}));
-      }
-    }
-    const double n = c.camera.near_depth;
-    const double slack = 1e-9 * std::abs(farthest);
-    require(cut.far_depth > n && cut.far_depth >= farthest - slack, "far", cut.far_depth, "of", farthest);
-    // 2^(1/4) = 1.19, or the one step that is always there.
-    const double reach = c.camera.orthographic
-                             ? n + 1.2 * std::max(farthest - n, 0.001 * (c.camera.top - c.camera.bottom))
-                             : 1.2 * std::max(farthest, n);
-    require(cut.far_depth <= reach + slack, "far", cut.far_depth, "beyond", reach);
-  });
-}
-
-TEST(InfiniteFar, a_plan_is_the_one_of_the_finite_camera_and_serves_all_receivers) {
-  int planned = 0;
-  for_all(400, [&] {
-    Case c = draw_case({.max_depth_ratio = 1e4, .max_boxes = 6});
-    c.camera.far_depth = kInfinity;
-    c.options.near_hint = 0.0;
-    RC_LOG() << c;
-    const ShadowPlan plan = c.plan();
-    require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
-    Case finite = c;
-    finite.camera = with_finite_far(c.camera, c.receivers);
-    const ShadowPlan same = finite.plan();
-    require(plan.status == same.status && plan.map_count == same.map_count, "status");
-    for (int i = 0; i < plan.map_count; ++i) {
-      const ShadowMap &m = plan.map[static_cast<std::size_t>(i)], &n = same.map[static_cast<std::size_t>(i)];
-      require(m.clip_from_world == n.clip_from_world, "map", i);
-    }
-    if (plan.map_count == 0) return;
-    ++planned;
-    const AliasingStats stats = measure(plan, c.camera, c.bounds(), {4, 4, 8});
-    require(!std::isnan(stats.max) && stats.max == measure(plan, finite.camera, c.bounds(), {4, 4, 8}).max,
-            "measure", stats.max);
-  });
-  EXPECT_GT(planned, 100);
-}
-
-TEST(InfiniteFar, a_tight_plan_does_not_tell_the_endless_camera_from_one_that_sees_as_far) {
-  Case c = scene();
-  c.options.cascades = 4;
-  const ShadowPlan before = c.plan();
-  c.camera.far_depth = kInfinity;
-  const ShadowPlan after = c.plan();
-  ASSERT_EQ(before.map_count, after.map_count);
-  for (int i = 0; i < before.map_count; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    EXPECT_CLOSE(before.map[index].depth_end, after.map[index].depth_end, 1e-9);
-    EXPECT_CLOSE(before.map[index].texel_world.x, after.map[index].texel_world.x, 1e-6);
-  }
-}
-
-TEST(InfiniteFar, nothing_ahead_is_nothing_visible_and_a_near_plane_of_zero_is_refused) {
-  Case c = scene();
-  c.camera.far_depth = kInfinity;
-  c.camera.forward = {0, 0, 1};
-  c.camera.position = {0, 5, 1000};
-  const ShadowPlan plan = c.plan();
-  EXPECT_EQ(plan.status, PlanStatus::nothing_visible);
-  EXPECT_EQ(plan.origin_world, c.camera.position);
-  c.camera.near_depth = 0.0;
-  EXPECT_EQ(c.plan().invalid_field, "camera.near_depth");
-}
-
-TEST(InfiniteFar, a_stable_grid_holds_still_while_the_camera_walks) {
-  Case c = scene();
-  c.camera.far_depth = kInfinity;
-  c.options.fit = Fit::stable;
-  c.options.warp = nullptr;
-  int changes = 0;
-  double texel = 0.0;
-  for (int frame = 0; frame < 100; ++frame) {
-    c.camera.position.z -= 0.05;  // 5 units of 140 in all
-    const ShadowPlan plan = c.plan();
-    ASSERT_EQ(plan.map_count, 1);
-    changes += plan.map[0].snap_key.texel != texel;
-    texel = plan.map[0].snap_key.texel;
-  }
-  EXPECT_LE(changes, 2);  // the first frame's, and one step
 }
 
 }  // namespace
