@@ -139,6 +139,7 @@ struct ShadowPlan {
   /// Unit, the way the light travels; of a spot along its axis, of a point light towards the camera.
   glm::dvec3 light_direction{0.0, -1.0, 0.0};
   ClipSpace clip_space;
+  BiasOptions bias;  ///< of the options: in texels of the map at each point, for those who compute it per point
   /// How a point finds its map: false, by its view depth (maps do not overlap in depth); true, for lights
   /// with a position: the first map that holds it (map_holds), at any depth. A point that no map holds is
   /// lit.

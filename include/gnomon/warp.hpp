@@ -48,10 +48,10 @@ struct WarpInput {
   ViewInLight view;
 };
 
-/// The answer: a projective map of the light plane. With u the distance along `axis` from the body's near end and s the
-/// coordinate across it, w = 1 + kappa u, and the point lands at X = (s - centre) / w, Y = u (1 + kappa length) / w. The
-/// map's axes are A = dot(row_a, (X, Y)) and B = dot(row_b, (X, Y)); a rectangle in them round the body's image becomes
-/// the map. Every perspective of parallel light rays is of this form.
+/// The answer: a projective map of the light plane. With u the distance along `axis` from the body's near end
+/// and s the coordinate across it, w = 1 + kappa u, and the point lands at X = (s - centre) / w, Y = u (1 +
+/// kappa length) / w. The map's axes are A = dot(row_a, (X, Y)) and B = dot(row_b, (X, Y)); a rectangle in
+/// them round the body's image becomes the map. Every perspective of parallel light rays is of this form.
 struct WarpChoice {
   double kappa = 0.0;          ///< 1 / world units, >= 0; 0 is the orthographic map itself
   glm::dvec2 axis{0.0, 1.0};   ///< unit, where texels grow to, in the light frame's x and y

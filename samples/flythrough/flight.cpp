@@ -85,7 +85,6 @@ FrameRow draw_frame(Studio& studio, int frame) {
   row.status = timed.plan.status;
   row.plan_ns = timed.nanoseconds;
   gnomon::render::FrameOptions drawn;
-  drawn.bias = options.plan.bias;
   row.stats = studio.renderer.draw(timed.plan, camera, studio.filter, drawn);
   row.aliasing = pixel_aliasing(studio.renderer.aliasing());
   row.warps = warps_text(timed.plan);

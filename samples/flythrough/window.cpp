@@ -173,7 +173,6 @@ void draw(Viewer& viewer, double seconds) {
   const gnomon::ShadowPlan plan =
       gnomon::make_plan(camera, sun(viewer.options), viewer.flight.bounds(), viewer.options.plan);
   gnomon::render::FrameOptions frame;
-  frame.bias = viewer.options.plan.bias;
   frame.time_passes = false;
   frame.aliasing = frame.heat_map = viewer.picture == Renderer::Picture::heat_map;
   frame.cascade_tint = viewer.picture == Renderer::Picture::cascade_tint;

@@ -88,6 +88,7 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
   }
   plan.origin_world = camera.position;
   plan.clip_space = options.clip_space;
+  plan.bias = options.bias;
   const auto* directional = std::get_if<DirectionalLight>(&light);
   if (directional == nullptr) {
     plan_positional(camera, light, bounds, options, plan);

@@ -39,8 +39,8 @@ FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const Frame
   block.forward = glm::vec4(glm::vec3(axes.forward), camera.orthographic ? 1.0f : 0.0f);
   block.image_edges = glm::vec4(glm::dvec4(camera.left, camera.right, camera.bottom, camera.top));
   block.light = glm::vec4(glm::vec3(plan.light_direction), static_cast<float>(plan.map_count));
-  block.bias = glm::vec4(glm::dvec4(options.bias.constant_texels, options.bias.slope_texels,
-                                    options.bias.normal_offset_texels, options.bias.max_slope));
+  block.bias = glm::vec4(glm::dvec4(plan.bias.constant_texels, plan.bias.slope_texels,
+                                    plan.bias.normal_offset_texels, plan.bias.max_slope));
   block.layer = glm::vec4(
       glm::dvec4(layer_width, layer_height, options.filter_parameters.radius_texels, camera.far_depth));
   const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);

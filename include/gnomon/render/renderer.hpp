@@ -30,8 +30,6 @@ struct PreparedFilter {
 /// What to draw besides the lit picture.
 struct FrameOptions {
   FilterParameters filter_parameters;
-  /// The bias of the plan's options; in texels of the map at each point.
-  BiasOptions bias;
   bool aliasing = true;      ///< the error per pixel
   bool heat_map = true;      ///< the same as colours; needs `aliasing`
   bool cascade_tint = true;  ///< the picture tinted by map
