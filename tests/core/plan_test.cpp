@@ -185,7 +185,8 @@ TEST(Plan, the_filter_margin_is_whole_texels_that_hold_the_kernel) {
   Case c = ground_case();
   for (const auto& [radius, margin] : {std::pair{0.0, 0}, {0.5, 1}, {1.0, 1}, {3.2, 4}}) {
     c.options.filter_radius_texels = radius;
-    for (const ShadowMap& map : c.plan().maps()) EXPECT_EQ(map.filter_margin_texels, margin);
+    const ShadowPlan plan = c.plan();
+    for (const ShadowMap& map : plan.maps()) EXPECT_EQ(map.filter_margin_texels, margin);
   }
 }
 
