@@ -51,8 +51,8 @@ struct PlanOptions {
   SplitRange split_range = SplitRange::automatic;
   /// How a map's rectangle is laid round its slice.
   Fit fit = Fit::tight;
-  /// The perspective warp; nullptr lets the plan choose by measured gain. Fit::stable takes no warp. Of lights
-  /// with a position only none, lispsm, lispsm04 and optimal; lispsm stands in for all others.
+  /// The perspective warp; nullptr lets the plan choose by measured gain. Fit::stable takes no warp. Of
+  /// lights with a position only none, lispsm, lispsm04 and optimal; lispsm stands in for all others.
   const Warp* warp = nullptr;
   /// What a warp must lower to be used.
   Objective objective = Objective::storage;
@@ -139,7 +139,8 @@ struct ShadowPlan {
   /// Unit, the way the light travels; of a spot along its axis, of a point light towards the camera.
   glm::dvec3 light_direction{0.0, -1.0, 0.0};
   ClipSpace clip_space;
-  BiasOptions bias;  ///< of the options: in texels of the map at each point, for those who compute it per point
+  /// Of the options: in texels of the map at each point, for those who compute it per point.
+  BiasOptions bias;
   /// How a point finds its map: false, by its view depth (maps do not overlap in depth); true, for lights
   /// with a position: the first map that holds it (map_holds), at any depth. A point that no map holds is
   /// lit.
