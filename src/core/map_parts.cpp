@@ -19,7 +19,7 @@ constexpr double kFlattestDepth = 1e-3;
 // size.
 constexpr double kSteepestFace = 1e-6;
 // Rounding of positions, relative to their distance from the origin of the world.
-constexpr double kPositionRounding = 1e-14;
+constexpr double kPositionRounding = 1e-13;
 
 /// Bounds of the error in pixels per texel over the body, from a texel's extents across the light at each
 /// vertex.
@@ -77,7 +77,11 @@ int margin_texels(const PlanOptions& options) noexcept {
 SweptBody sweep(const PlanContext& c, const Polytope& body, double margin_world) noexcept {
   SweptBody swept;
   swept.plane_count = swept_planes(body, -c.light_direction, swept.plane);
-  const double slack = margin_world + kPositionRounding * largest_component(c.camera.position);
+  double farthest = largest_component(c.camera.position);
+  for (const Polytope::Vertex& v : body.vertices())
+    farthest = max_of(farthest, largest_component(v.position));
+  // A caster that touches the body counts, whatever rounding makes of the touch.
+  const double slack = margin_world + kPositionRounding * farthest;
   for (int i = 0; i < swept.plane_count; ++i) swept.plane[static_cast<std::size_t>(i)].offset += slack;
   swept.reach = casters_inside({swept.plane.data(), static_cast<std::size_t>(swept.plane_count)},
                                c.bounds.casters, c.camera.position, c.frame.z);

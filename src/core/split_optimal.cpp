@@ -10,6 +10,7 @@
 
 #include "map_parts.hpp"
 #include "vector.hpp"
+#include "visible.hpp"
 
 namespace gnomon {
 namespace {
@@ -55,7 +56,10 @@ double joined(Objective objective, double a, double b) noexcept {
 double exact_objective(const PlanContext& c, const Polytope& body, std::span<const double> edges) noexcept {
   double total = 0.0;
   for (std::size_t m = 0; m + 1 < edges.size(); ++m) {
-    const Polytope part = between(c, body, edges[m], edges[m + 1]);
+    Polytope part = between(c, body, edges[m], edges[m + 1]);
+    if (c.bounds.receivers.size() > 1 && !part.empty()) {
+      clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
+    }
     if (part.empty()) continue;
     total = joined(c.options.objective, total, tight_objective(c, part, edges[m], edges[m + 1]));
   }

@@ -25,8 +25,11 @@ double reach(const Box& box, const glm::dvec3& direction) noexcept {
 }  // namespace
 
 Side side_of(const Plane& plane, const Box& box) noexcept {
-  if (reach(box, plane.normal) + plane.offset < 0.0) return Side::outside;
-  return plane.offset - reach(box, -plane.normal) >= 0.0 ? Side::inside : Side::across;
+  // A box that touches is across: rounding must not lose a flat receiver that lies in the plane.
+  constexpr double kTouching = 1e-12;
+  const double inward = reach(box, plane.normal), outward = reach(box, -plane.normal);
+  if (inward + plane.offset < -kTouching * (std::abs(inward) + std::abs(plane.offset))) return Side::outside;
+  return plane.offset - outward >= 0.0 ? Side::inside : Side::across;
 }
 
 Box visible_bounds(const Polytope& region, std::span<const Box> boxes, const glm::dvec3& origin) noexcept {

@@ -215,5 +215,28 @@ TEST(Plan, the_light_is_told_as_a_direction_and_the_origin_is_the_camera) {
   }
 }
 
+// A wall without thickness lies exactly in the cuts that bound what is seen of it: rounding once lost it
+// there.
+TEST(Plan, a_receiver_without_thickness_among_others_keeps_its_map) {
+  Camera camera;
+  camera.position = glm::dvec3(-1.9726781845092773);
+  camera.forward = {0.3134553434462729, 0.90818828161374809, -0.27738023145935692};
+  camera.left = -1.2959283761841913;
+  camera.right = 1.2959283761841913;
+  camera.bottom = -0.52078491231718449;
+  camera.top = 0.52078491231718449;
+  camera.near_depth = 0.059525978371499116;
+  camera.far_depth = 0.98633896080696948;
+  const Box receivers[] = {
+      {{-1.3278427124023438, -1.4924297332763672, -2.4231958389282227},
+       {-1.3278427124023438, -1.3511800765991211, -0.43183422088623047}},
+      {{-3.9453554153442383, -2.1699457168579102, -3.9453554153442383}, {0, -2.0713119506835938, 0}}};
+  const Box casters[] = {{glm::dvec3(-10.0), glm::dvec3(10.0)}};
+  PlanOptions options;
+  options.cascades = 1;
+  EXPECT_EQ(make_plan(camera, DirectionalLight{{0, -1, 0}}, {casters, receivers}, options).status,
+            PlanStatus::ok);
+}
+
 }  // namespace
 }  // namespace gnomon::test

@@ -1,7 +1,6 @@
 // Do splits that are searched for the receivers at hand need no more texels than the formulas' splits?
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "support/property.hpp"
@@ -10,21 +9,23 @@
 namespace gnomon::test {
 namespace {
 
-/// What the plan's bounds say for the objective: texels add up over the maps, the worst texel is the worst
-/// map's.
-double bound(const ShadowPlan& plan, Objective objective) {
-  double total = 0.0;
-  for (const ShadowMap& map : plan.maps()) {
-    total =
-        objective == Objective::storage ? total + map.storage : std::max({total, map.m_s_max, map.m_t_max});
-  }
-  return total;
+// Depths so close that a slice's nearest sample is within 4 % of where it begins, at the largest depth ratio
+// drawn.
+constexpr MeasureGrid kGrid{12, 12, 256};
+
+/// The objective as it is measured: texels add up over the maps, the worst texel is the worst map's. 0 where
+/// what is in view is too small for the samples to tell.
+double measured(const Case& c, Objective objective) {
+  constexpr std::uint64_t kEnough = 1000;
+  const AliasingStats stats = measure(c.plan(), c.camera, c.bounds(), kGrid);
+  if (stats.samples < kEnough) return 0.0;
+  return objective == Objective::storage ? stats.storage : stats.max;
 }
 
 /// Compares the searched borders with logarithmic ones; `boxes` receivers at most.
 void compare_with_logarithmic(int boxes, double allowed) {
   std::uint64_t compared = 0, better = 0;
-  for_all(1000, [&] {
+  for_all(2000, [&] {
     Case c = draw_case({.max_depth_ratio = 1e4, .max_boxes = boxes});
     if (boxes == 1) c.receivers.resize(1);
     c.options.fit = Fit::tight;
@@ -41,29 +42,27 @@ void compare_with_logarithmic(int boxes, double allowed) {
     c.casters = {{c.camera.position - glm::dvec3(f), c.camera.position + glm::dvec3(f)}};
     RC_LOG() << c;
     c.options.split = SplitScheme::logarithmic;
-    const ShadowPlan formula = c.plan();
+    const double before = measured(c, c.options.objective);
     c.options.split = SplitScheme::optimal;
-    const ShadowPlan searched = c.plan();
-    if (formula.map_count == 0) return;
+    const double after = measured(c, c.options.objective);
+    if (!(before > 0.0)) return;
     ++compared;
-    const double before = bound(formula, c.options.objective), after = bound(searched, c.options.objective);
     require(after <= before * allowed, to_string(c.options.objective), "searched", after, "logarithmic",
             before);
     if (after < 0.9 * before) ++better;
   });
-  EXPECT_GT(compared, 200u);
-  EXPECT_GT(better, 50u);
+  EXPECT_GT(compared, 100u);
+  EXPECT_GT(better, 10u);
 }
 
 TEST(SplitLaw, searched_splits_are_no_worse_than_logarithmic_ones_on_one_receiver) {
-  // The search looks at 16 depths and then closes in: how far it may end from a formula that happens to be
-  // best.
-  constexpr double kSearched = 1.05;
+  // The search judges by the body's corners; the measure sees points a little inside them.
+  constexpr double kSearched = 1.08;
   compare_with_logarithmic(1, kSearched);
 }
 
 TEST(SplitLaw, searched_splits_are_no_worse_than_logarithmic_ones_on_receivers_with_gaps_between_them) {
-  constexpr double kSearched = 1.15;  // as above, and hulls of what is in each slice
+  constexpr double kSearched = 1.3;  // as above, and corners of the common box may hold no receiver
   compare_with_logarithmic(4, kSearched);
 }
 

@@ -1,6 +1,8 @@
 // Plane-optimal: on one receiver plane, every texel is exactly one pixel's image.
-// Based on: Chong and Gortler, "A Lixel for Every Pixel", 2004. The plane is the body's face that the light
-// falls on most directly among those that the viewer sees from inside: the ground, for most scenes.
+// Based on: Chong and Gortler, "A Lixel for Every Pixel", 2004. The plane is the body's face
+// that lies largest under the light among those that the viewer sees from inside: the ground, for most
+// scenes.
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -16,15 +18,49 @@ struct Linear2 {
   double at_origin;
 };
 
-const Plane* receiver_plane(const Polytope& body) noexcept {
-  const Plane* best = nullptr;
-  for (int i = 0; i < body.vertex_count; ++i) {
-    for (const std::uint8_t f : body.vertex[static_cast<std::size_t>(i)].face) {
-      const Plane& plane = body.plane[f];
-      // Light comes from +z; the eye is the origin.
-      if (!(plane.normal.z > 0.0 && plane.offset > 0.0)) continue;
-      if (best == nullptr || plane.normal.z > best->normal.z) best = &plane;
+/// Area of each face as the light sees it, from the edges of its polygon (twice, and signed by the winding).
+std::array<double, kMaxFaces> areas_across_light(const Polytope& body) noexcept {
+  std::array<double, kMaxFaces> area{};
+  for (int f = 0; f < body.face_count; ++f) {
+    int start = -1;
+    for (int i = 0; i < body.vertex_count && start < 0; ++i) {
+      const Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(i)];
+      if (v.face[0] == f || v.face[1] == f || v.face[2] == f) start = i;
     }
+    if (start < 0) continue;
+    // Round the polygon: at each vertex, on along the edge of this face that does not lead back.
+    int from = -1, at = start;
+    for (int step = 0; step < body.vertex_count; ++step) {
+      const Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(at)];
+      int next = -1;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (v.face[k] != f && v.neighbour[k] != from) next = v.neighbour[k];
+      }
+      if (next < 0) break;
+      const glm::dvec3& p = v.position;
+      const glm::dvec3& q = body.vertex[static_cast<std::size_t>(next)].position;
+      area[static_cast<std::size_t>(f)] += p.x * q.y - p.y * q.x;
+      from = at;
+      at = next;
+      if (at == start) break;
+    }
+  }
+  return area;
+}
+
+/// The face that lies largest under the light, of those that the viewer sees from inside; nullptr where there
+/// is none.
+const Plane* receiver_plane(const Polytope& body) noexcept {
+  const std::array<double, kMaxFaces> area = areas_across_light(body);
+  const Plane* best = nullptr;
+  double largest = 0.0;
+  for (int f = 0; f < body.face_count; ++f) {
+    const auto index = static_cast<std::size_t>(f);
+    const Plane& plane = body.plane[index];
+    // Light comes from +z; the eye is the origin.
+    if (!(plane.normal.z > 0.0 && plane.offset > 0.0) || !(std::abs(area[index]) > largest)) continue;
+    largest = std::abs(area[index]);
+    best = &plane;
   }
   return best;
 }
@@ -40,28 +76,21 @@ WarpChoice choose(const WarpInput& input) noexcept {
   };
   const Linear2 depth = on_plane(input.view.forward);
   const double steepness = glm::length(depth.slope);
+  if (!(steepness > 0.0)) return {};
   WarpChoice choice;
+  choice.axis = depth.slope / steepness;
   const auto along = [&choice](const WarpInput::Point& p) { return glm::dot(choice.axis, {p.x, p.y}); };
-  double u_min = 0.0, u_max = 0.0;
-  const auto measure_along = [&] {
-    u_min = u_max = along(input.body.front());
-    for (const WarpInput::Point& p : input.body) {
-      u_min = min_of(u_min, along(p));
-      u_max = max_of(u_max, along(p));
-    }
-  };
-  if (steepness > 0.0) choice.axis = depth.slope / steepness;
-  measure_along();
+  double u_min = along(input.body.front()), u_max = u_min;
+  for (const WarpInput::Point& p : input.body) {
+    u_min = min_of(u_min, along(p));
+    u_max = max_of(u_max, along(p));
+  }
   const double w_near = depth.at_origin + steepness * u_min;
   if (!(w_near > 0.0)) return {};
   // Where depth does not change over the plane, rounding would decide the axis: there is nothing to warp.
   constexpr double kLeastChange = 1e-6;
-  if (steepness * (u_max - u_min) > kLeastChange * w_near) {
-    choice.kappa = steepness / w_near;
-  } else {
-    choice.axis = WarpChoice{}.axis;
-    measure_along();
-  }
+  if (!(steepness * (u_max - u_min) > kLeastChange * w_near)) return {};
+  choice.kappa = steepness / w_near;
   const double stretch = 1.0 + choice.kappa * (u_max - u_min);
   // The screen's axes over (s, u): a row's part along u that w does not carry off, as a multiple of Y = u
   // stretch / w.
