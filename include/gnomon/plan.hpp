@@ -39,7 +39,7 @@ struct PlanOptions {
   /// up to six, the faces of a cube.
   int cascades = 4;
   /// How the view depth is divided among them.
-  SplitScheme split = SplitScheme::practical;
+  SplitScheme split = SplitScheme::automatic;
   /// Blend of uniform (0) and logarithmic (1) splits for SplitScheme::practical.
   double lambda = 0.9;
   /// First split of SplitScheme::pseudo_near, and the depth from which error counts for the warps, in world

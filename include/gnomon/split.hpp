@@ -8,13 +8,15 @@
 namespace gnomon {
 
 /// `optimal` needs the receivers and is made by the plan: it minimises the plan's objective over the actual
-/// body, and costs some hundred microseconds. split_depths() treats it as logarithmic, its starting point,
-/// and so does a plan with Fit::stable, whose edges must not follow what is in view.
-enum class SplitScheme : std::uint8_t { uniform, logarithmic, practical, pseudo_near, optimal };
+/// body, and costs some hundred microseconds; with Fit::stable, whose edges must not follow what is in view,
+/// it is logarithmic. `automatic` is logarithmic over the receivers' depths, where that is close to the best,
+/// and practical with Fit::stable, whose range begins at the near plane. split_depths() treats both as
+/// logarithmic.
+enum class SplitScheme : std::uint8_t { uniform, logarithmic, practical, pseudo_near, optimal, automatic };
 enum class SplitRange : std::uint8_t { automatic, receivers, camera };
 
 [[nodiscard]] std::string_view to_string(SplitScheme scheme) noexcept;
-/// True and `scheme` set where `name` is one of uniform, logarithmic, practical, pseudo_near, optimal.
+/// True and `scheme` set where `name` is one of uniform, logarithmic, practical, pseudo_near, optimal, auto.
 [[nodiscard]] bool split_scheme_from_name(std::string_view name, SplitScheme& scheme) noexcept;
 
 struct SplitOptions {

@@ -31,8 +31,9 @@ std::string names_of(const Entries& entries) {
 
 /// What the command line says, before it is understood.
 struct Raw {
-  std::string size = "960x540", context = "auto", split, warp = "auto", filter = "pcf", path;
-  bool stable = false;
+  std::string size = "960x540", context = "auto", split, warp = "auto", objective = "storage", filter = "pcf",
+              path;
+  bool stable = false, lambda_given = false;
 };
 
 void parse_size(const std::string& text, Options& options) {
@@ -61,12 +62,16 @@ void resolve(const Raw& raw, Options& options) {
     throw UsageError(fmt::format("--context {}: wants auto, osmesa, egl or glfw", raw.context));
   }
   if (!raw.split.empty() && !gnomon::split_scheme_from_name(raw.split, options.plan.split)) {
-    throw UsageError(
-        fmt::format("--split {}: wants uniform, logarithmic, practical or pseudo_near", raw.split));
+    throw UsageError(fmt::format(
+        "--split {}: wants auto, uniform, logarithmic, practical, pseudo_near or optimal", raw.split));
   }
+  if (raw.split.empty() && raw.lambda_given) options.plan.split = gnomon::SplitScheme::practical;
   options.plan.warp = gnomon::find_warp(raw.warp);
   if (options.plan.warp == nullptr && raw.warp != "auto") {
     throw UsageError(fmt::format("--warp {}: wants auto, {}", raw.warp, names_of(gnomon::all_warps())));
+  }
+  if (!gnomon::objective_from_name(raw.objective, options.plan.objective)) {
+    throw UsageError(fmt::format("--objective {}: wants storage, max or p95", raw.objective));
   }
   options.filter = gnomon::render::find_filter(raw.filter);
   if (options.filter == nullptr) {
@@ -99,11 +104,12 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
   app.add_option("--context", raw.context, "auto, osmesa, egl, or glfw for a window");
   app.add_option("--cascades", options.plan.cascades, "shadow maps along the view")
       ->check(CLI::Range(1, gnomon::kMaxMaps));
-  app.add_option("--split", raw.split, "uniform, logarithmic, practical (default) or pseudo_near")
-      ->capture_default_str();
-  app.add_option("--lambda", options.plan.lambda, "practical split: 0 uniform .. 1 logarithmic")
+  app.add_option("--split", raw.split, "auto, uniform, logarithmic, practical, pseudo_near or optimal");
+  app.add_option("--lambda", options.plan.lambda,
+                 "practical split (taken for it): 0 uniform .. 1 logarithmic")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--warp", raw.warp, "auto, " + names_of(gnomon::all_warps()));
+  app.add_option("--objective", raw.objective, "what the warp lowers: storage, max or p95");
   app.add_option("--filter", raw.filter, names_of(gnomon::render::all_filters()));
   app.add_option("--map-size", options.plan.map_size, "texels along each side of a map")
       ->check(CLI::Range(4, kMaxSide));
@@ -135,6 +141,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
     return std::nullopt;
   }
   options.frames_given = app.count("--frames") > 0;
+  raw.lambda_given = app.count("--lambda") > 0;
   resolve(raw, options);
   return options;
 }

@@ -140,16 +140,18 @@ PlanOptions options_from(const json& value) {
   PlanOptions options;
   fields.read("map_size", options.map_size);
   fields.read("cascades", options.cascades);
-  read_name(fields, "split", options.split, "uniform, logarithmic, practical, pseudo_near",
+  read_name(fields, "split", options.split, "auto, uniform, logarithmic, practical, pseudo_near, optimal",
             split_scheme_from_name);
   fields.read("lambda", options.lambda);
+  // Who gives a blend means the scheme that blends.
+  if (fields.has("lambda") && !fields.has("split")) options.split = SplitScheme::practical;
   if (fields.has("pseudo_near") && fields.has("near_hint"))
     fields.refuse("pseudo_near", "is another name of near_hint: give one of them");
   fields.read("pseudo_near", options.near_hint);
   fields.read("near_hint", options.near_hint);
   read_name(fields, "split_range", options.split_range, "auto, receivers, camera", split_range_from_name);
   read_name(fields, "warp", options.warp, warp_names().c_str(), warp_from_name);
-  read_name(fields, "objective", options.objective, "storage, max", objective_from_name);
+  read_name(fields, "objective", options.objective, "storage, max, p95", objective_from_name);
   if (fields.has("stable")) options.fit = fields.boolean("stable") ? Fit::stable : Fit::tight;
   fields.read("filter_radius_texels", options.filter_radius_texels);
   if (fields.has("bias")) options.bias = bias_from(fields.at("bias"));

@@ -123,7 +123,9 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
   }
   std::array<double, kMaxMaps + 1> edges{};
-  split_depths(begin, end, {options.split, options.lambda, options.near_hint},
+  const SplitScheme scheme =
+      options.split == SplitScheme::automatic && stable ? SplitScheme::practical : options.split;
+  split_depths(begin, end, {scheme, options.lambda, options.near_hint},
                {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
   // What is in view would move the edges of a stable plan, and with them its grids.
   if (options.split == SplitScheme::optimal && !stable) {

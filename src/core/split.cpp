@@ -11,8 +11,8 @@
 namespace gnomon {
 namespace {
 
-constexpr std::array<std::string_view, 5> kSchemeNames = {"uniform", "logarithmic", "practical",
-                                                          "pseudo_near", "optimal"};
+constexpr std::array<std::string_view, 6> kSchemeNames = {"uniform",     "logarithmic", "practical",
+                                                          "pseudo_near", "optimal",     "auto"};
 
 double logarithmic_edge(double n, double f, double t) noexcept {
   return n * std::pow(f / n, t);
@@ -50,6 +50,7 @@ void split_depths(double n, double f, const SplitOptions& options, std::span<dou
         case SplitScheme::uniform:
           break;
         case SplitScheme::optimal:
+        case SplitScheme::automatic:
         case SplitScheme::logarithmic:
           edge = logarithmic_edge(n, f, t);
           break;

@@ -42,9 +42,15 @@ TEST(PlanOptions, absent_options_are_the_defaults) {
   json empty = base_case();
   empty["options"] = json::object();
   EXPECT_EQ(plan_of(base_case()), plan_of(empty));
-  EXPECT_EQ(plan_with_options(json::object()),
-            plan_with_options(
-                {{"warp", "auto"}, {"split", "practical"}, {"split_range", "auto"}, {"stable", false}}));
+  EXPECT_EQ(
+      plan_with_options(json::object()),
+      plan_with_options({{"warp", "auto"}, {"split", "auto"}, {"split_range", "auto"}, {"stable", false}}));
+}
+
+TEST(PlanOptions, a_blend_alone_means_the_split_that_blends) {
+  EXPECT_EQ(plan_with_options({{"lambda", 0.3}}),
+            plan_with_options({{"split", "practical"}, {"lambda", 0.3}}));
+  EXPECT_NE(plan_with_options({{"lambda", 0.3}}), plan_with_options(json::object()));
 }
 
 TEST(PlanOptions, map_size_and_cascades) {
