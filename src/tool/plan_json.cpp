@@ -44,11 +44,14 @@ Json casters_of(const ShadowMap& map, const Case& input) {
   return indices;
 }
 
-// All four numbers, because only together do equal keys mean an identical grid; null where no grid is held
-// still.
+// Null where no grid is held still. An identical map takes equal depths, too: stored depths count from them.
 Json snap_key_of(const SnapKey& key) {
   if (!key.valid) return nullptr;
-  return {key.x, key.y, key.depth_near, key.depth_far};
+  return {key.x, key.y};
+}
+Json snap_depth_of(const SnapKey& key) {
+  if (!key.valid) return nullptr;
+  return {key.depth_near, key.depth_far};
 }
 
 Json stats_of(const AliasingStats& stats) {
@@ -74,6 +77,7 @@ Json map_json(const ShadowPlan& plan, int index, const Case& input) {
       {"cull_planes", cull_planes_of(map)},
       {"casters", casters_of(map, input)},
       {"snap_key", snap_key_of(map.snap_key)},
+      {"snap_depth", snap_depth_of(map.snap_key)},
       {"m", stats_of(measure_map(plan, index, input.camera, input.bounds()))},
   };
 }

@@ -78,7 +78,7 @@ TEST(Plan, has_the_keys_of_the_format_and_no_others) {
   EXPECT_EQ(keys_of(plan["maps"][0]),
             (std::vector<std::string>{"bias_world", "cascade", "casters", "clip_from_world", "cull_planes",
                                       "depth_begin", "depth_end", "filter_margin_texels", "kappa", "m",
-                                      "size", "snap_key", "texel_world", "warp"}));
+                                      "size", "snap_depth", "snap_key", "texel_world", "warp"}));
   ASSERT_FALSE(plan["omitted"].empty());
   EXPECT_EQ(keys_of(plan["omitted"][0]), (std::vector<std::string>{"saves_texels", "what", "why"}));
 }
