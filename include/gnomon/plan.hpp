@@ -75,15 +75,14 @@ enum class PlanStatus : std::uint8_t {
 
 /// Something that this scene did not need.
 enum class OmissionKind : std::uint8_t {
-  cascade_without_receiver,   ///< a: depth_begin, b: depth_end
-  cascade_without_caster,     ///< a: depth_begin, b: depth_end
-  depth_without_receiver,     ///< the camera's range was cut to the receivers': a: depth_begin, b: depth_end
-  warp_without_gain,          ///< a: objective with the warp over the objective without
-  warp_in_stable_fit,         ///< a warp was asked for, and Fit::stable takes none
-  casters_beyond_light_near,  ///< the light's depth range begins a world units nearer to the receivers than
-                              ///< the casters do
-  face_without_receiver,      ///< of a cube round the light: no visible receiver in it within range and cone
-  face_without_caster,        ///< of a cube round the light: no caster between it and its receivers
+  cascade_without_receiver,  ///< a: depth_begin, b: depth_end
+  cascade_without_caster,    ///< a: depth_begin, b: depth_end
+  depth_without_receiver,    ///< the camera's range was cut to the receivers': a: depth_begin, b: depth_end
+  warp_without_gain,         ///< a: objective with the warp over the objective without
+  warp_in_stable_fit,        ///< a warp was asked for, and Fit::stable takes none
+                             ///< the casters do
+  face_without_receiver,     ///< of a cube round the light: no visible receiver in it within range and cone
+  face_without_caster,       ///< of a cube round the light: no caster between it and its receivers
 };
 struct Omission {
   OmissionKind kind{};

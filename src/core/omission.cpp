@@ -48,10 +48,6 @@ OmissionText describe(const Omission& o) noexcept {
       what("warp");
       why("a stable fit keeps its texel grid still, which a warp that follows the view cannot");
       break;
-    case OmissionKind::casters_beyond_light_near:
-      what("light depth of cascade %d", o.map);
-      why("no caster reaches beyond %g of the %g world units the casters' bounds would ask for", o.a, o.b);
-      break;
     case OmissionKind::face_without_receiver:
       what("face %d", o.map);
       why("no visible receiver lies in it within the light's range and cone");
