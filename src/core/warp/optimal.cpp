@@ -28,10 +28,12 @@ class Search {
 
   [[nodiscard]] WarpChoice choice(const Position& p) const noexcept {
     const double strength = std::exp(clamp_to(p[1], kWeakest, kStrongest));
+    const double cosine = std::cos(p[3]), sine = std::sin(p[3]);
     return {strength / length_,
             {std::sin(p[0]), std::cos(p[0])},
             p[2] * length_,
-            {std::cos(p[3]), std::sin(p[3])}};
+            {cosine, sine},
+            {-sine, cosine}};
   }
   [[nodiscard]] double value(const Position& p) noexcept { return error_.value(choice(p)); }
   [[nodiscard]] double without() noexcept { return error_.value({}); }
