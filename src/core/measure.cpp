@@ -1,58 +1,15 @@
 // The error over everything the camera sees: percentiles, share of undersampled points, storage.
 #include <array>
-#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "gnomon/metric.hpp"
+#include "log_histogram.hpp"
 #include "metric_kernel.hpp"
 #include "vector.hpp"
 
 namespace gnomon {
 namespace {
-
-/// Counts positive numbers by exponent and the first ten bits of their mantissa: bins 0.1 % wide, no
-/// logarithm.
-class LogHistogram {
- public:
-  void add(double value) noexcept {
-    ++count_;
-    if (value > largest_) largest_ = value;
-    ++bins_[bin_of(value)];
-  }
-  [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
-  [[nodiscard]] double largest() const noexcept { return largest_; }
-  /// Middle of the bin that holds the value below which `share` of the values lie.
-  [[nodiscard]] double percentile(double share) const noexcept {
-    const double wanted = share * static_cast<double>(count_);
-    double seen = 0.0;
-    for (std::size_t i = 0; i < bins_.size(); ++i) {
-      seen += static_cast<double>(bins_[i]);
-      if (seen >= wanted && seen > 0.0) return min_of(middle_of(i), largest_);
-    }
-    return largest_;
-  }
-
- private:
-  static constexpr int kShift = 52 - 10;
-  static constexpr int kLowestExponent = -40, kHighestExponent = 40;
-  static constexpr std::uint64_t kFirst = static_cast<std::uint64_t>(1023 + kLowestExponent) << 10;
-  static constexpr std::size_t kBins = static_cast<std::size_t>(kHighestExponent - kLowestExponent) << 10;
-
-  static std::size_t bin_of(double value) noexcept {
-    const std::uint64_t top = std::bit_cast<std::uint64_t>(value) >> kShift;
-    if (!(value > 0.0) || top < kFirst) return 0;
-    return top - kFirst < kBins ? static_cast<std::size_t>(top - kFirst) : kBins - 1;
-  }
-  static double middle_of(std::size_t bin) noexcept {
-    const std::uint64_t half = std::uint64_t{1} << (kShift - 1);
-    return std::bit_cast<double>(((static_cast<std::uint64_t>(bin) + kFirst) << kShift) | half);
-  }
-
-  std::array<std::uint32_t, kBins> bins_{};
-  std::uint64_t count_ = 0;
-  double largest_ = 0.0;
-};
 
 /// Where a ray from the eye is inside a box, as view depths; empty where begin > end.
 struct Interval {
@@ -82,7 +39,7 @@ AliasingStats measure_maps(const ShadowPlan& plan, int only, const Camera& camer
     return measure_maps(plan, only, with_finite_far(camera, bounds.receivers), bounds, grid);
   }
   const CameraAxes axes = camera_axes(camera);
-  LogHistogram histogram;
+  LogHistogram<10> histogram;
   std::array<double, kMaxMaps> s_max{}, t_max{};
   std::uint64_t undersampled = 0;
   const double n = camera.near_depth, f = camera.far_depth;

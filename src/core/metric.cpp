@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "jacobian.hpp"
 #include "metric_kernel.hpp"
@@ -14,17 +13,8 @@
 namespace gnomon {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // Cosines below this are edge-on: the ratios of the limits no longer mean anything in double.
 constexpr double kEdgeOn = 1e-12;
-
-PointAliasing outside_map() noexcept {
-  PointAliasing result;
-  result.status = PointAliasing::Status::outside;
-  result.m_max = result.m_min = result.m_s = result.m_t = result.m_area = kInfinite;
-  result.perspective_max = result.perspective_s = result.perspective_t = kInfinite;
-  return result;
-}
 
 }  // namespace
 
@@ -35,16 +25,7 @@ PointAliasing measure_perspective(const ShadowMap& map, const Camera& camera,
   constexpr double kRim = 1.0 + 1e-9;
   if (!(b.w > 0.0) || !(std::abs(b.ndc_x) <= kRim) || !(std::abs(b.ndc_y) <= kRim)) return outside_map();
   const ViewPoint view = view_point(camera, camera_axes(camera), point);
-  const Extents e = extents(perspective_jacobian(b, view, light_ray(map.light_world, point)));
-  PointAliasing result;
-  result.status = PointAliasing::Status::ok;
-  result.m_max = result.perspective_max = e.longest;
-  result.m_s = result.perspective_s = e.s;
-  result.m_t = result.perspective_t = e.t;
-  result.m_min = e.shortest;
-  result.m_area = std::sqrt(e.longest * e.shortest);
-  result.anisotropy = e.longest / e.shortest;
-  return result;
+  return perspective_aliasing(b, view, light_ray(map.light_world, point));
 }
 
 PointAliasing measure_point(const ShadowMap& map, const Camera& camera, const glm::dvec3& point,

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "gnomon/camera.hpp"
+#include "gnomon/metric.hpp"
 #include "jacobian.hpp"
 #include "vector.hpp"
 
@@ -85,6 +86,31 @@ struct Extents {
   const double inverse = 1.0 / determinant;
   return {largest * inverse, 1.0 / largest, std::sqrt(j.yy * j.yy + j.yx * j.yx) * inverse,
           std::sqrt(j.xx * j.xx + j.xy * j.xy) * inverse};
+}
+
+/// The perspective part of the error, from the map's derivatives at the point.
+[[nodiscard]] inline PointAliasing perspective_aliasing(const TexelJacobian& b, const ViewPoint& view,
+                                                        const glm::dvec3& light) noexcept {
+  const Extents e = extents(perspective_jacobian(b, view, light));
+  PointAliasing result;
+  result.status = PointAliasing::Status::ok;
+  result.m_max = result.perspective_max = e.longest;
+  result.m_s = result.perspective_s = e.s;
+  result.m_t = result.perspective_t = e.t;
+  result.m_min = e.shortest;
+  result.m_area = std::sqrt(e.longest * e.shortest);
+  result.anisotropy = e.longest / e.shortest;
+  return result;
+}
+
+/// Of a point that no map holds: infinite.
+[[nodiscard]] inline PointAliasing outside_map() noexcept {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  PointAliasing result;
+  result.status = PointAliasing::Status::outside;
+  result.m_max = result.m_min = result.m_s = result.m_t = result.m_area = kInfinite;
+  result.perspective_max = result.perspective_s = result.perspective_t = kInfinite;
+  return result;
 }
 
 }  // namespace gnomon

@@ -164,28 +164,13 @@ glm::dmat4 tetrahedron_clip_from_light(int face_index, double n, double f) noexc
 
 PointAliasing omni_aliasing(OmniMapping mapping, double texels, const glm::dvec3& light_position,
                             const Camera& camera, const glm::dvec3& point) noexcept {
-  PointAliasing result;
   const glm::dvec3 offset = point - light_position;
-  if (!(largest_component(offset) > 0.0)) {
-    result.status = PointAliasing::Status::outside;
-    const double infinite = std::numeric_limits<double>::infinity();
-    result.m_max = result.m_min = result.m_s = result.m_t = result.m_area = infinite;
-    result.perspective_max = result.perspective_s = result.perspective_t = infinite;
-    return result;
-  }
+  if (!(largest_component(offset) > 0.0)) return outside_map();
   const glm::dvec2 half = omni_size(mapping, texels) * 0.5;
   const OmniJacobian gradient = omni_jacobian(mapping, map_of(mapping, offset), offset);
   const TexelJacobian texel{gradient.u * half.x, gradient.v * half.y, 0.0, 0.0, 1.0};
   const ViewPoint view = view_point(camera, camera_axes(camera), point);
-  const Extents e = extents(perspective_jacobian(texel, view, safe_normalize(offset, {0.0, -1.0, 0.0})));
-  result.status = PointAliasing::Status::ok;
-  result.m_max = result.perspective_max = e.longest;
-  result.m_s = result.perspective_s = e.s;
-  result.m_t = result.perspective_t = e.t;
-  result.m_min = e.shortest;
-  result.m_area = std::sqrt(e.longest * e.shortest);
-  result.anisotropy = e.longest / e.shortest;
-  return result;
+  return perspective_aliasing(texel, view, safe_normalize(offset, {0.0, -1.0, 0.0}));
 }
 
 }  // namespace gnomon

@@ -1,57 +1,39 @@
 // Which way of mapping all directions is best for what a camera sees?
 #include <array>
-#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "gnomon/omni.hpp"
+#include "log_histogram.hpp"
 #include "vector.hpp"
 
 namespace gnomon {
 namespace {
 
-/// Statistics of one mapping in the making; counts by exponent and the first six bits of the mantissa, bins
-/// 1.6 % wide.
+/// Statistics of one mapping in the making.
 struct Tally {
-  static constexpr int kShift = 52 - 6;
-  static constexpr std::size_t kFirst = std::size_t{1023 - 40} << 6, kBins = std::size_t{80} << 6;
-  std::array<std::uint32_t, kBins> bin{};
+  LogHistogram<6> histogram;  // three of them stand on the stack
   std::array<double, 6> s{}, t{};
-  AliasingStats stats;
   std::uint64_t undersampled = 0;
 
   void add(int map, const PointAliasing& a) noexcept {
-    const std::size_t top = std::bit_cast<std::uint64_t>(a.m_max) >> kShift;
-    ++bin[top < kFirst ? 0 : min_index(top - kFirst)];
-    ++stats.samples;
+    histogram.add(a.m_max);
     if (a.m_max > 1.0) ++undersampled;
-    stats.max = max_of(stats.max, a.m_max);
     const auto k = static_cast<std::size_t>(map);
     s[k] = max_of(s[k], a.m_s);
     t[k] = max_of(t[k], a.m_t);
   }
-  [[nodiscard]] double percentile(double share) const noexcept {
-    const double wanted = share * static_cast<double>(stats.samples);
-    double seen = 0.0;
-    for (std::size_t i = 0; i < kBins; ++i) {
-      seen += static_cast<double>(bin[i]);
-      if (seen < wanted || seen == 0.0) continue;
-      const std::uint64_t middle = std::uint64_t{1} << (kShift - 1);
-      return min_of(std::bit_cast<double>(((std::uint64_t{i} + kFirst) << kShift) | middle), stats.max);
-    }
-    return stats.max;
-  }
-  [[nodiscard]] AliasingStats finished(double texels_per_map, double pixels) noexcept {
+  [[nodiscard]] AliasingStats finished(double texels_per_map, double pixels) const noexcept {
+    AliasingStats stats;
+    stats.samples = histogram.count();
     if (stats.samples == 0) return stats;
-    stats.p50 = percentile(0.50);
-    stats.p95 = percentile(0.95);
+    stats.p50 = histogram.percentile(0.50);
+    stats.p95 = histogram.percentile(0.95);
+    stats.max = histogram.largest();
     stats.share_undersampled = static_cast<double>(undersampled) / static_cast<double>(stats.samples);
     for (std::size_t k = 0; k < s.size(); ++k) stats.storage += s[k] * t[k] * texels_per_map / pixels;
     return stats;
   }
-
- private:
-  static std::size_t min_index(std::size_t i) noexcept { return i < kBins ? i : kBins - 1; }
 };
 
 bool in_any(std::span<const Box> boxes, const glm::dvec3& p) noexcept {
