@@ -7,12 +7,17 @@
 namespace gnomon {
 
 enum class Fit : std::uint8_t {
-  tight,   ///< the smallest rectangle round the slice's receivers: best texels, a grid that moves with the
-           ///< camera
-  stable,  ///< a square whose size depends on the slice alone, snapped to whole texels: a grid that stands
-           ///< still
+  tight,          ///< the smallest rectangle round the slice's receivers: best texels, a grid that moves with
+                  ///< the camera
+  rotated,        ///< as tight, and the rectangle may turn: the least area where that lowers the objective
+  stable,         ///< a square whose size depends on the slice alone, snapped to whole texels: a grid that
+                  ///< stands still
+  warped_stable,  ///< as tight with room to spare, and kept as it is while the view stays inside: with a
+                  ///< PlanHistory (history.hpp) a warped grid that stands still most of the time
 };
 [[nodiscard]] std::string_view to_string(Fit fit) noexcept;
+/// True and `fit` set where `name` is one of tight, rotated, stable, warped_stable.
+[[nodiscard]] bool fit_from_name(std::string_view name, Fit& fit) noexcept;
 
 /// The longest distance between two corners of the frustum slice [begin, end] of a camera with these image
 /// edges, from view space, so that it is the same bits every frame. Image edges as in Camera. This is the

@@ -51,6 +51,9 @@ struct PlanOptions {
   SplitRange split_range = SplitRange::automatic;
   /// How a map's rectangle is laid round its slice.
   Fit fit = Fit::tight;
+  /// Sizes that a map of Fit::stable may have per octave, 1..1024. Fewer keep the grid through a zoom or a
+  /// change of the splits, and cost up to 1 / steps of the texels' size.
+  int stable_size_steps = 1024;
   /// The perspective warp; nullptr lets the plan choose by measured gain. Fit::stable takes no warp. Of
   /// lights with a position only none, lispsm, lispsm04 and optimal; lispsm stands in for all others.
   const Warp* warp = nullptr;
@@ -59,6 +62,9 @@ struct PlanOptions {
   /// Reach of the widest filter kernel in texels, 0..map_size/4: so much of the map's rim stays free of
   /// receivers, and casters that only a kernel reaches are drawn.
   double filter_radius_texels = 1.0;
+  /// The same for kernels given across the light in world units, >= 0: the rim is as wide as the kernel gets
+  /// where the map's texels are smallest. The wider of the two counts; at most a quarter of the map.
+  double filter_radius_world = 0.0;
   /// How far depths are moved off the surface, in texels (bias.hpp).
   BiasOptions bias;
   /// Clip space of the matrices given out.

@@ -136,7 +136,8 @@ BiasOptions bias_from(const json& value) {
 PlanOptions options_from(const json& value) {
   const Fields fields(value, "options",
                       {"map_size", "cascades", "split", "lambda", "pseudo_near", "near_hint", "split_range",
-                       "warp", "objective", "stable", "filter_radius_texels", "bias", "clip_space"});
+                       "warp", "objective", "stable", "fit", "stable_size_steps", "filter_radius_texels",
+                       "filter_radius_world", "bias", "clip_space"});
   PlanOptions options;
   fields.read("map_size", options.map_size);
   fields.read("cascades", options.cascades);
@@ -152,8 +153,13 @@ PlanOptions options_from(const json& value) {
   read_name(fields, "split_range", options.split_range, "auto, receivers, camera", split_range_from_name);
   read_name(fields, "warp", options.warp, warp_names().c_str(), warp_from_name);
   read_name(fields, "objective", options.objective, "storage, max, p95", objective_from_name);
+  if (fields.has("stable") && fields.has("fit"))
+    fields.refuse("stable", "is another name of fit: give one of them");
   if (fields.has("stable")) options.fit = fields.boolean("stable") ? Fit::stable : Fit::tight;
+  read_name(fields, "fit", options.fit, "tight, rotated, stable, warped_stable", fit_from_name);
+  fields.read("stable_size_steps", options.stable_size_steps);
   fields.read("filter_radius_texels", options.filter_radius_texels);
+  fields.read("filter_radius_world", options.filter_radius_world);
   if (fields.has("bias")) options.bias = bias_from(fields.at("bias"));
   if (fields.has("clip_space")) options.clip_space = clip_space_from(fields.at("clip_space"));
   return options;
@@ -215,6 +221,8 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"options.map_size", "options.map_size: must lie in 4..16384"},
       {"options.lambda", "options.lambda: must lie in 0..1"},
       {"options.near_hint", "options.near_hint: must not be below 0"},
+      {"options.filter_radius_world", "options.filter_radius_world: must be 0 or more"},
+      {"options.stable_size_steps", "options.stable_size_steps: must lie in 1..1024"},
       {"options.filter_radius_texels", "options.filter_radius_texels: must lie in 0..map_size/4"},
       {"options.bias", "options.bias: every value must be 0 or above"},
   });

@@ -1,6 +1,7 @@
 // How large a map's square must be so that its slice fits from every direction.
 #include "gnomon/fit.hpp"
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -9,8 +10,23 @@
 
 namespace gnomon {
 
+namespace {
+
+constexpr std::array<std::string_view, 4> kFitNames = {"tight", "rotated", "stable", "warped_stable"};
+
+}  // namespace
+
 std::string_view to_string(Fit fit) noexcept {
-  return fit == Fit::stable ? "stable" : "tight";
+  return kFitNames[static_cast<std::size_t>(fit)];
+}
+
+bool fit_from_name(std::string_view name, Fit& fit) noexcept {
+  for (std::size_t i = 0; i < kFitNames.size(); ++i) {
+    if (kFitNames[i] != name) continue;
+    fit = static_cast<Fit>(i);
+    return true;
+  }
+  return false;
 }
 
 double longest_chord(double left, double right, double bottom, double top, bool orthographic, double begin,

@@ -20,6 +20,12 @@ struct PlaneMap {
   [[nodiscard]] double w(double x, double y) const noexcept {
     return 1.0 + choice.kappa * (x * choice.axis.x + y * choice.axis.y - u_min);
   }
+  /// The image (X, Y) of a point of the light plane, before it is turned.
+  [[nodiscard]] glm::dvec2 image(double x, double y) const noexcept {
+    const double inverse = 1.0 / w(x, y);
+    return {(x * choice.axis.y - y * choice.axis.x - choice.centre) * inverse,
+            (x * choice.axis.x + y * choice.axis.y - u_min) * stretch * inverse};
+  }
 };
 
 /// The smallest rectangle that holds the body's image. Flat and single-point bodies get an extent of 1e-6 of

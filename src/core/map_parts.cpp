@@ -70,8 +70,30 @@ double lowest(const LightBody& body) noexcept {
   return z;
 }
 
-int margin_texels(const PlanOptions& options) noexcept {
-  return static_cast<int>(std::ceil(options.filter_radius_texels));
+double share_per_unit(const PlaneMap& map, std::span<const WarpInput::Point> body) noexcept {
+  const WarpChoice& c = map.choice;
+  double a = 0.0, b = 0.0;
+  for (const WarpInput::Point& p : body) {
+    const double inverse = 1.0 / map.w(p.x, p.y);
+    const double lean = c.kappa * (p.x * c.axis.y - p.y * c.axis.x - c.centre) * inverse;
+    const auto steepness = [&](const glm::dvec2& row) {
+      const double along = (row.y * map.stretch * inverse - row.x * lean) * inverse;
+      return std::sqrt(row.x * row.x * inverse * inverse + along * along);
+    };
+    a = max_of(a, steepness(c.row_a));
+    b = max_of(b, steepness(c.row_b));
+  }
+  return max_of(a / (map.a_max - map.a_min), b / (map.b_max - map.b_min));
+}
+
+int margin_texels(const PlanOptions& options, int size, double share) noexcept {
+  double wanted = options.filter_radius_texels;
+  if (options.filter_radius_world > 0.0) {
+    // Kernels wider than the side end up with the most there is; the rim makes the side itself smaller.
+    const double reach = options.filter_radius_world * min_of(share, 1.0 / options.filter_radius_world);
+    wanted = max_of(wanted, reach * size / (1.0 + 2.0 * reach));
+  }
+  return static_cast<int>(std::ceil(min_of(wanted, 0.25 * size)));
 }
 
 SweptBody sweep(const PlanContext& c, const Polytope& body, double margin_world) noexcept {

@@ -24,8 +24,13 @@ struct LightBody {
 /// Lowest z of the body.
 [[nodiscard]] double lowest(const LightBody& body) noexcept;
 
-/// Texels along each side that no receiver may fall into.
-[[nodiscard]] int margin_texels(const PlanOptions& options) noexcept;
+/// How far a step of one unit across the light moves a point in the map, at most over the body, as a share of
+/// the rectangle's side.
+[[nodiscard]] double share_per_unit(const PlaneMap& map, std::span<const WarpInput::Point> body) noexcept;
+
+/// Texels along each side of a map of `size` that no receiver may fall into, with `share` of the map's side
+/// without them to a world unit.
+[[nodiscard]] int margin_texels(const PlanOptions& options, int size, double share) noexcept;
 
 /// What casters reach the body: planes of its sweep towards the light, moved out by `margin_world` so that
 /// casters which only a filter's kernel reaches are kept, and the casters inside them.

@@ -8,6 +8,7 @@
 
 #include "light_map.hpp"
 #include "light_positional.hpp"
+#include "map_parts.hpp"
 #include "plan_context.hpp"
 #include "vector.hpp"
 #include "visible.hpp"
@@ -127,13 +128,35 @@ void widen(double& low, double& high, double least) noexcept {
   high = middle + 0.5 * least;
 }
 
+/// The rim that kernels need round the rectangle as it is now. A step across the ray at a distance is, as a
+/// slope, at most this step over the distance over the cosine to the light's axis.
+void lay_rim(Draft& d, ShadowMap& map) noexcept {
+  double steepest = 0.0;
+  for (const WarpInput::Point& p : d.slopes.points()) steepest = max_of(steepest, p.x * p.x + p.y * p.y);
+  const double slope_per_unit = std::sqrt(1.0 + steepest) / max_of(d.slopes.nearest, d.near_distance);
+  map.filter_margin_texels =
+      margin_texels(d.light.options, map.width, share_per_unit(d.plane, d.slopes.points()) * slope_per_unit);
+  d.rim = static_cast<double>(map.filter_margin_texels) / map.width;
+}
+
+/// The rectangle round the body's image, as wide as rounding needs it.
+PlaneMap rectangle(const Draft& d, const WarpChoice& choice) noexcept {
+  PlaneMap plane = plane_map(d.slopes.points(), choice);
+  const double least = kLeastSlope / plane.stretch;
+  widen(plane.a_min, plane.a_max, least);
+  widen(plane.b_min, plane.b_max, least);
+  return plane;
+}
+
 /// The rectangle and its warp; fills in the map's bounds of the error.
 void choose_rectangle(Draft& d, bool along_view, ShadowPlan& plan, ShadowMap& map) noexcept {
   const PlanOptions& options = d.light.options;
   const ViewInSlopes view = view_in_slopes(d);
   WarpChoice unwarped;
-  if (along_view && options.fit == Fit::tight) unwarped.axis = view.axis;
+  if (along_view && options.fit != Fit::stable) unwarped.axis = view.axis;
   WarpChoice choice = unwarped;
+  d.plane = rectangle(d, unwarped);
+  lay_rim(d, map);
   const double least_depth = max_of(d.light.camera.near_depth, options.near_hint);
   SlopeError error(d.light.camera, d.light.axes, d.frustum, d.body, options.objective, least_depth);
   if (options.fit == Fit::stable) {
@@ -156,10 +179,8 @@ void choose_rectangle(Draft& d, bool along_view, ShadowPlan& plan, ShadowMap& ma
       map.warp = &warps::none;
     }
   }
-  d.plane = plane_map(d.slopes.points(), choice);
-  const double least = kLeastSlope / d.plane.stretch;
-  widen(d.plane.a_min, d.plane.a_max, least);
-  widen(d.plane.b_min, d.plane.b_max, least);
+  d.plane = rectangle(d, choice);
+  lay_rim(d, map);
   // At vertices and edges, whatever the warp was judged by.
   SlopeError extremes(d.light.camera, d.light.axes, d.frustum, d.body, Objective::storage, least_depth);
   (void)extremes.value(choice, d.slopes.points());
@@ -349,10 +370,8 @@ void finish(const Draft& d, const Reach& reach, const glm::dmat4& gl_from_relati
 
 bool lay_positional_map(const PositionalLight& light, const LightFrustum& frustum, const Polytope& body,
                         bool along_view, ShadowPlan& plan, ShadowMap& map) noexcept {
-  map.filter_margin_texels = static_cast<int>(std::ceil(light.options.filter_radius_texels));
-  const double rim = static_cast<double>(map.filter_margin_texels) / map.width;
   const bool stable = light.options.fit == Fit::stable;
-  Draft d{light, frustum, body, in_slopes(frustum, body), {}, rim, 0.0, 0.0};
+  Draft d{light, frustum, body, in_slopes(frustum, body), {}, 0.0, 0.0, 0.0};
   if (stable) whole_frustum(frustum, d.slopes);
   d.far_distance = d.slopes.farthest * (1.0 + kDistancePadding);
   d.near_distance = d.slopes.nearest * (1.0 - kDistancePadding);

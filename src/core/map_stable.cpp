@@ -14,14 +14,13 @@ bool lay_stable_map(const PlanContext& c, const Polytope& body, double begin, do
                     ShadowMap& map) noexcept {
   const LightFrame& frame = c.frame;
   map.warp = &warps::none;
-  map.filter_margin_texels = margin_texels(c.options);
   // Rounded up so that its own rounding can never change the grid; one texel is the room that snapping moves
   // within.
-  constexpr double kSizeSteps = 1024.0;
   const double chord = longest_chord(c.camera.left, c.camera.right, c.camera.bottom, c.camera.top,
                                      c.camera.orthographic, begin, end);
-  const double unit = std::exp2(std::floor(std::log2(chord))) / kSizeSteps;
+  const double unit = std::exp2(std::floor(std::log2(chord))) / c.options.stable_size_steps;
   const double side = std::ceil(chord / unit) * unit;
+  map.filter_margin_texels = margin_texels(c.options, map.width - 1, 1.0 / side);
   const double texel = side / (map.width - 1 - 2 * map.filter_margin_texels);
   const double half = 0.5 * texel * map.width;
   // Centre of the whole slice, in absolute light coordinates, to the nearest texel.

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "least_rectangle.hpp"
 #include "light_plane_error.hpp"
 #include "map_parts.hpp"
 #include "vector.hpp"
@@ -106,6 +107,22 @@ WarpChoice chosen_warp(const PlanContext& c, const WarpInput& in, int cascade, c
   return {};
 }
 
+/// The choice with its rectangle turned to the least area, where that lowers the objective.
+WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) noexcept {
+  const PlaneMap map = plane_map(in.body, choice);
+  std::array<glm::dvec2, kMaxVertices> image;
+  std::size_t count = 0;
+  for (const WarpInput::Point& p : in.body) image[count++] = map.image(p.x, p.y);
+  const glm::dvec2 side = least_rectangle_side({image.data(), count});
+  WarpChoice turned = choice;
+  turned.row_a = side;
+  turned.row_b = {-side.y, side.x};
+  // Without perspective the area is the objective.
+  if (in.orthographic) return turned;
+  LightPlaneError error(in);
+  return error.value(turned) < error.value(choice) * (1.0 - kLeastGain) ? turned : choice;
+}
+
 /// The body with vertices and faces in the light frame.
 Polytope turned(const Polytope& body, const LightFrame& frame) noexcept {
   Polytope out = body;
@@ -139,8 +156,10 @@ bool lay_tight_map(const PlanContext& c, const Polytope& body, double begin, dou
   const LightBody points = in_light_frame(c, c.frame, body);
   const Polytope body_light = turned(body, c.frame);
   const WarpInput in = warp_input(c, points, body_light, begin, end);
-  const PlaneMap plane = plane_map(points.points(), chosen_warp(c, in, map.cascade, map.warp));
-  map.filter_margin_texels = margin_texels(c.options);
+  WarpChoice choice = chosen_warp(c, in, map.cascade, map.warp);
+  if (c.options.fit == Fit::rotated) choice = turned_to_least_area(in, choice);
+  const PlaneMap plane = plane_map(points.points(), choice);
+  map.filter_margin_texels = margin_texels(c.options, map.width, share_per_unit(plane, points.points()));
   const double rim = static_cast<double>(map.filter_margin_texels) / map.width;
   const double rim_of_body = rim / (1.0 - 2.0 * rim);
   // A margin at the far end, where texels are largest: across they grow with w, along with w^2 / stretch = w

@@ -39,8 +39,10 @@ void depths_to_cover(const PlanContext& c, const Polytope& body, double& begin, 
     low = min_of(low, depth);
     high = max_of(high, depth);
   }
-  begin = clamp_to(low, n, f);
-  end = clamp_to(high, begin, f);
+  // A flat scene's depth must not fall outside its own range by rounding.
+  constexpr double kRounding = 1e-12;
+  begin = clamp_to(low * (1.0 - kRounding), n, f);
+  end = clamp_to(high * (1.0 + kRounding), begin, f);
   // Saving less than this share of the depths is not worth a line.
   constexpr double kWorthTelling = 0.01;
   if (begin > n * (1.0 + kWorthTelling))

@@ -75,6 +75,9 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
   if (!(o.filter_radius_texels >= 0.0 && o.filter_radius_texels <= 0.25 * o.map_size)) {
     return "options.filter_radius_texels";
   }
+  if (!(o.filter_radius_world >= 0.0 && o.filter_radius_world <= kLargest))
+    return "options.filter_radius_world";
+  if (o.stable_size_steps < 1 || o.stable_size_steps > 1024) return "options.stable_size_steps";
   const BiasOptions& b = o.bias;
   for (const double v : {b.constant_texels, b.slope_texels, b.normal_offset_texels, b.max_slope}) {
     if (!(v >= 0.0 && v <= kLargest)) return "options.bias";

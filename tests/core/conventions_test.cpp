@@ -191,6 +191,8 @@ TEST(Conventions, a_left_handed_world_gets_the_same_texels) {
     const Warp* const warps_by_formula[] = {&warps::none, &warps::lispsm_closed, &warps::lispsm_lloyd};
     c.options.warp = warps_by_formula[pick(3)];
     c.options.split = SplitScheme::practical;
+    // Of two rectangles of the same least area, the mirror image may get the other one.
+    if (c.options.fit == Fit::rotated) c.options.fit = Fit::tight;
     RC_LOG() << c;
     const Case mirrored = in_left_handed_world(c);
     const ShadowPlan a = c.plan(), b = mirrored.plan();

@@ -96,6 +96,8 @@ Case draw() {
   Case c = draw_case({.max_depth_ratio = 1e4, .max_boxes = 8});
   c.options.clip_space = {static_cast<NdcDepth>(pick(2)), chance(0.5), chance(0.5),
                           static_cast<Handedness>(pick(2))};
+  // The widest kernel asked about reads 5 texels away: it must find the map there.
+  c.options.filter_radius_texels = 6.0;
   return c;
 }
 

@@ -122,7 +122,11 @@ Case draw_case(const CaseLimits& limits) {
   c.options.lambda = unit();
   if (chance(0.3))
     c.options.near_hint = c.camera.near_depth * std::pow(c.camera.far_depth / c.camera.near_depth, unit());
-  c.options.fit = chance(0.4) ? Fit::stable : Fit::tight;
+  const double fit = unit();
+  c.options.fit = fit > 0.6   ? Fit::stable
+                  : fit < 0.1 ? Fit::rotated
+                  : fit < 0.2 ? Fit::warped_stable
+                              : Fit::tight;
   c.options.split_range = static_cast<SplitRange>(pick(3));
   c.options.objective = static_cast<Objective>(pick(3));
   const int warp = pick(static_cast<int>(all_warps().size()) + 1);
