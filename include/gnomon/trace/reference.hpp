@@ -1,0 +1,99 @@
+// The true shadow at every pixel of a frame: hard, through an ideal filter, and of a light with an extent.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "gnomon/camera.hpp"
+#include "gnomon/light.hpp"
+#include "gnomon/plan.hpp"
+#include "gnomon/scene/image.hpp"
+#include "gnomon/trace/tracer.hpp"
+
+namespace gnomon::trace {
+
+/// What is known about a pixel before any ray goes to the light.
+enum class PixelState : std::uint8_t {
+  sky,          ///< no surface
+  turned_away,  ///< the side that is seen faces away from the light: dark without any map
+  unlit,        ///< beyond the range or outside of the cone of the light
+  undecided,    ///< no certain answer: no triangle where the picture has one, or light that only grazes it
+  facing,       ///< a ray decides
+};
+
+/// What a pixel shows: the world point that the technique was asked about, and the triangle it lies on.
+struct SurfacePoint {
+  PixelState state = PixelState::sky;
+  std::uint32_t triangle = kNoTriangle;
+  glm::dvec3 position{0.0};  ///< world
+  glm::dvec3 normal{0.0};    ///< of the triangle, unit, turned to the viewer
+  double above = 0.0;        ///< height of `position` over the triangle's plane along `normal`: rounding
+};
+
+/// Rows top to bottom, as in FloatImage.
+struct SurfacePoints {
+  int width = 0, height = 0;
+  std::vector<SurfacePoint> pixels;
+};
+
+/// Finds the triangle behind each pixel by a ray from the eye. `positions` and `normals` are those of
+/// render::Renderer of the same names: relative to camera.position, and "surface" in the fourth channel.
+[[nodiscard]] SurfacePoints surface_points(const Tracer& tracer, const Camera& camera, const Light& light,
+                                           const FloatImage& positions, const FloatImage& normals);
+
+/// The answer of one ray to the light's centre.
+enum class Verdict : std::uint8_t {
+  none,       ///< nothing to judge: sky, turned away, unlit
+  undecided,  ///< the point is undecided, or the answer changes within Tracer::error_world across the ray:
+              ///< an edge passes too close to tell
+  shadow,
+  lit,
+};
+struct HardReference {
+  int width = 0, height = 0;
+  std::vector<Verdict> pixels;
+};
+/// One ray per pixel decides, four more round it at the engine's error say whether the answer is certain.
+[[nodiscard]] HardReference hard_reference(const Tracer& tracer, const SurfacePoints& points,
+                                           const Light& light);
+
+/// Visibility 1 lit .. 0 in shadow; -1 where there is nothing to judge or the point is undecided.
+struct SoftReference {
+  int width = 0, height = 0;
+  std::vector<float> pixels;
+};
+
+/// How a filter's kernel weighs the plane across the light, in the unit of its axes.
+enum class KernelShape : std::uint8_t {
+  box,    ///< evenly over [-1,1] x [-1,1]
+  disc,   ///< evenly over the unit disc
+  gauss,  ///< standard deviation 1, cut at 3
+};
+/// Where a kernel lies at a point: world vectors across the light. Both zero: a single point.
+struct KernelAxes {
+  glm::dvec3 x{0.0}, y{0.0};
+};
+/// The texel's sides across the light at a point, in world units, times `radius_texels`: the axes of a kernel
+/// of that radius in the map. Zero where the map is singular.
+[[nodiscard]] KernelAxes texel_axes(const ShadowMap& map, const glm::dvec3& point,
+                                    double radius_texels) noexcept;
+
+/// Samples per pixel of the soft references: stratified, jittered by a hash of pixel and sample, the same in
+/// every run. 16 are good to about 0.03 at the middle of a straight edge's penumbra.
+inline constexpr int kSoftSamples = 16;
+
+/// What an ideal filter of that kernel gives: the part of the kernel's weight, laid along the receiver's
+/// plane, from which the light's centre is visible. `axes` is called from several threads.
+[[nodiscard]] SoftReference filtered_reference(const Tracer& tracer, const SurfacePoints& points,
+                                               const Light& light, KernelShape shape,
+                                               const std::function<KernelAxes(const SurfacePoint&)>& axes,
+                                               int samples = kSoftSamples);
+
+/// The visible part of a light with an extent: a disc that faces the point. `radius` is world units for a
+/// light with a position, the tangent of the angular radius for a directional one (the sun's is 0.00465).
+[[nodiscard]] SoftReference area_reference(const Tracer& tracer, const SurfacePoints& points,
+                                           const Light& light, double radius, int samples = kSoftSamples);
+
+}  // namespace gnomon::trace

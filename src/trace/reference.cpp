@@ -1,0 +1,157 @@
+// The true shadow at every pixel: which rays are asked, and what is made of their answers.
+#include "gnomon/trace/reference.hpp"
+
+#include <array>
+#include <glm/geometric.hpp>
+
+#include "light_ray.hpp"
+#include "sampling.hpp"
+
+namespace gnomon::trace {
+namespace {
+
+/// The ray from the receiver's plane to the light, along the line through `from`. It starts where that line
+/// leaves the plane, so that the rounding of the picture's position does not matter, and beyond what
+/// the engine may see too early of triangles in the same plane.
+Ray ray_off_plane(const SurfacePoint& point, const glm::dvec3& from, const glm::dvec3& direction,
+                  double distance, double error) noexcept {
+  Ray ray;
+  const double cosine = std::max(glm::dot(point.normal, direction), kGrazingCosine);
+  const double height = point.above + glm::dot(point.normal, from - point.position);
+  const double begin = (error - height) / cosine;
+  ray.origin = from + begin * direction;
+  ray.direction = direction;
+  ray.end = distance - begin;
+  ray.except = point.triangle;
+  return ray;
+}
+
+struct Frame {
+  glm::dvec3 x, y;
+};
+Frame frame_across(const glm::dvec3& direction) noexcept {
+  const glm::dvec3 a = glm::abs(direction);
+  const glm::dvec3 other = a.x <= a.y && a.x <= a.z
+                               ? glm::dvec3(1, 0, 0)
+                               : (a.y <= a.z ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1));
+  const glm::dvec3 x = glm::normalize(glm::cross(other, direction));
+  return {x, glm::cross(direction, x)};
+}
+
+/// Distance that rays may go before they leave everything: what the engine's error is stated for.
+double error_of(const Tracer& tracer, const Light& light, const SurfacePoint& point) noexcept {
+  if (std::holds_alternative<DirectionalLight>(light)) return tracer.error_world();
+  return tracer.error_world(light_ray(light, point.position).distance);
+}
+
+/// Mean answer of `samples` rays per pixel; `make` gives ray `sample` of a point.
+template <class Make>
+SoftReference mean_of_rays(const Tracer& tracer, const SurfacePoints& points, int samples, Make&& make) {
+  SoftReference result{points.width, points.height, {}};
+  const auto width = static_cast<std::size_t>(points.width), per_pixel = static_cast<std::size_t>(samples);
+  result.pixels.assign(points.pixels.size(), -1.0f);
+  for_each_row(points.height, [&](int row) {
+    std::vector<Ray> rays;
+    std::vector<std::size_t> pixels;
+    const std::size_t begin = static_cast<std::size_t>(row) * width;
+    for (std::size_t i = begin; i < begin + width; ++i) {
+      if (points.pixels[i].state != PixelState::facing) continue;
+      pixels.push_back(i);
+      for (int s = 0; s < samples; ++s)
+        rays.push_back(make(points.pixels[i], static_cast<std::uint32_t>(i), s));
+    }
+    std::vector<std::uint8_t> stopped(rays.size());
+    tracer.occluded(rays, stopped);
+    for (std::size_t n = 0; n < pixels.size(); ++n) {
+      int lit = 0;
+      for (std::size_t s = 0; s < per_pixel; ++s) lit += stopped[n * per_pixel + s] == 0 ? 1 : 0;
+      result.pixels[pixels[n]] = static_cast<float>(lit) / static_cast<float>(samples);
+    }
+  });
+  return result;
+}
+
+}  // namespace
+
+HardReference hard_reference(const Tracer& tracer, const SurfacePoints& points, const Light& light) {
+  constexpr std::size_t kRays = 5;
+  HardReference result{points.width, points.height, {}};
+  const auto width = static_cast<std::size_t>(points.width);
+  result.pixels.assign(points.pixels.size(), Verdict::none);
+  for_each_row(points.height, [&](int row) {
+    std::vector<Ray> rays;
+    std::vector<std::size_t> pixels;
+    const std::size_t begin = static_cast<std::size_t>(row) * width;
+    for (std::size_t i = begin; i < begin + width; ++i) {
+      const SurfacePoint& point = points.pixels[i];
+      if (point.state == PixelState::undecided) result.pixels[i] = Verdict::undecided;
+      if (point.state != PixelState::facing) continue;
+      pixels.push_back(i);
+      const LightRay to_light = light_ray(light, point.position);
+      const double error = error_of(tracer, light, point);
+      const Frame across = frame_across(to_light.direction);
+      for (const glm::dvec3& offset : {glm::dvec3(0.0), across.x, -across.x, across.y, -across.y})
+        rays.push_back(ray_off_plane(point, point.position + error * offset, to_light.direction,
+                                     to_light.distance, error));
+    }
+    std::vector<std::uint8_t> stopped(rays.size());
+    tracer.occluded(rays, stopped);
+    for (std::size_t n = 0; n < pixels.size(); ++n) {
+      int count = 0;
+      for (std::size_t s = 0; s < kRays; ++s) count += stopped[n * kRays + s];
+      result.pixels[pixels[n]] = count == 0       ? Verdict::lit
+                                 : count == kRays ? Verdict::shadow
+                                                  : Verdict::undecided;
+    }
+  });
+  return result;
+}
+
+KernelAxes texel_axes(const ShadowMap& map, const glm::dvec3& point, double radius_texels) noexcept {
+  const glm::dmat4& m = map.clip_from_world;
+  const glm::dvec4 clip = m * glm::dvec4(point, 1.0);
+  const auto row = [&m](int i) { return glm::dvec3(m[0][i], m[1][i], m[2][i]); };
+  const glm::dvec3 texel_x = (row(0) - clip.x / clip.w * row(3)) * (0.5 * map.width / clip.w);
+  const glm::dvec3 texel_y = (row(1) - clip.y / clip.w * row(3)) * (0.5 * map.height / clip.w);
+  const glm::dvec3 light = glm::normalize(glm::dvec3(map.light_world) - map.light_world.w * point);
+  // Vectors across the light whose change of one texel coordinate is 1 and of the other 0.
+  const glm::dvec3 x = glm::cross(texel_y, light), y = glm::cross(light, texel_x);
+  const double determinant = glm::dot(texel_x, x);
+  if (!(std::abs(determinant) > 0.0) || !std::isfinite(determinant)) return {};
+  return {x * (radius_texels / determinant), y * (radius_texels / determinant)};
+}
+
+SoftReference filtered_reference(const Tracer& tracer, const SurfacePoints& points, const Light& light,
+                                 KernelShape shape,
+                                 const std::function<KernelAxes(const SurfacePoint&)>& axes, int samples) {
+  return mean_of_rays(tracer, points, samples,
+                      [&](const SurfacePoint& point, std::uint32_t pixel, int sample) {
+                        const KernelAxes kernel = axes(point);
+                        const glm::dvec2 at = to_kernel(shape, stratified(pixel, sample, samples));
+                        const LightRay centre = light_ray(light, point.position);
+                        const double error = error_of(tracer, light, point);
+                        const glm::dvec3 from = point.position + at.x * kernel.x + at.y * kernel.y;
+                        if (std::holds_alternative<DirectionalLight>(light))
+                          return ray_off_plane(point, from, centre.direction, centre.distance, error);
+                        const LightRay shifted = light_ray(light, from);
+                        return ray_off_plane(point, from, shifted.direction, shifted.distance, error);
+                      });
+}
+
+SoftReference area_reference(const Tracer& tracer, const SurfacePoints& points, const Light& light,
+                             double radius, int samples) {
+  return mean_of_rays(
+      tracer, points, samples, [&](const SurfacePoint& point, std::uint32_t pixel, int sample) {
+        const LightRay centre = light_ray(light, point.position);
+        const Frame across = frame_across(centre.direction);
+        const glm::dvec2 at = radius * to_kernel(KernelShape::disc, stratified(pixel, sample, samples));
+        const bool parallel = std::holds_alternative<DirectionalLight>(light);
+        const glm::dvec3 to_sample =
+            centre.direction * (parallel ? 1.0 : centre.distance) + at.x * across.x + at.y * across.y;
+        const double length = glm::length(to_sample);
+        return ray_off_plane(point, point.position, to_sample / length, parallel ? centre.distance : length,
+                             error_of(tracer, light, point));
+      });
+}
+
+}  // namespace gnomon::trace
