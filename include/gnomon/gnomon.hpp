@@ -8,6 +8,7 @@
 #include "gnomon/caster_set.hpp"
 #include "gnomon/clip_space.hpp"
 #include "gnomon/fit.hpp"
+#include "gnomon/history.hpp"
 #include "gnomon/light.hpp"
 #include "gnomon/metric.hpp"
 #include "gnomon/omni.hpp"

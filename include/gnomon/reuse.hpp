@@ -37,8 +37,9 @@ struct MapReuse {
   int strip_count = 0;  ///< none: 1, the whole map; identical: 0; scrolled: 1 or 2
 };
 
-/// Compares two maps of Fit::stable, planned with the same clip space, `clip_space`. Maps of Fit::tight and
-/// of lights with a position are never reused.
+/// Compares two maps planned with the same clip space, `clip_space`. Maps of Fit::stable scroll; any others,
+/// those of lights with a position among them, hold only while their matrix is the same to the last bit:
+/// while nothing moves, or Fit::warped_stable holds them.
 ///
 /// Says that the texels are the same places, at the same depths. Whether they hold the same casters is the
 /// caller's to know: casters must not have moved, and both frames must have drawn all casters over the map's

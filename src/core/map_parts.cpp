@@ -20,6 +20,11 @@ constexpr double kFlattestDepth = 1e-3;
 constexpr double kSteepestFace = 1e-6;
 // Rounding of positions, relative to their distance from the origin of the world.
 constexpr double kPositionRounding = 1e-13;
+// A body shorter along the axis than this much of its other extents, or of its distance, has its length from
+// rounding, and a warp's strength from it would be noise.
+constexpr double kShortest = 1e-6, kShortestOfDistance = 1e-9;
+// Ratio of the far to the near end's texels beyond which float matrices no longer hold the map together.
+constexpr double kStrongest = 1e9;
 
 /// Bounds of the error in pixels per texel over the body, from a texel's extents across the light at each
 /// vertex.
@@ -68,6 +73,15 @@ double lowest(const LightBody& body) noexcept {
   double z = body.point[0].z;
   for (const WarpInput::Point& p : body.points()) z = min_of(z, p.z);
   return z;
+}
+
+bool usable(const WarpInput& in, const WarpChoice& choice) noexcept {
+  const PlaneMap map = plane_map(in.body, choice);
+  double farthest = 0.0;
+  for (const WarpInput::Point& p : in.body) farthest = max_of(farthest, p.depth);
+  const double extent = max_of(map.a_max - map.a_min, map.b_max - map.b_min);
+  return map.length > kShortest * extent && map.length > kShortestOfDistance * farthest &&
+         map.stretch <= kStrongest;
 }
 
 double share_per_unit(const PlaneMap& map, std::span<const WarpInput::Point> body) noexcept {

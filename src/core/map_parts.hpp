@@ -24,6 +24,10 @@ struct LightBody {
 /// Lowest z of the body.
 [[nodiscard]] double lowest(const LightBody& body) noexcept;
 
+/// False for a choice that no map can be laid with: too strong for float matrices, or its axis is along a
+/// body whose length that way is rounding.
+[[nodiscard]] bool usable(const WarpInput& in, const WarpChoice& choice) noexcept;
+
 /// How far a step of one unit across the light moves a point in the map, at most over the body, as a share of
 /// the rectangle's side.
 [[nodiscard]] double share_per_unit(const PlaneMap& map, std::span<const WarpInput::Point> body) noexcept;

@@ -6,6 +6,7 @@
 #include "least_rectangle.hpp"
 #include "light_plane_error.hpp"
 #include "map_parts.hpp"
+#include "steady.hpp"
 #include "vector.hpp"
 
 namespace gnomon {
@@ -58,26 +59,12 @@ WarpInput warp_input(const PlanContext& c, const LightBody& points, const Polyto
   return in;
 }
 
-// A body shorter along the axis than this much of its other extents, or of its distance, has its length from
-// rounding, and a warp's strength from it would be noise.
-constexpr double kShortest = 1e-6, kShortestOfDistance = 1e-9;
-// Ratio of the far to the near end's texels beyond which float matrices no longer hold the map together.
-constexpr double kStrongest = 1e9;
 // A gain by the simplified weights above this factor is one by the exact error, too: they differ by the
 // obliquity of the view rays alone.
 constexpr double kCertainRatio = 0.25;
 
 // A warp that gains less than this is left out: it would come and go with the last bits of the input.
 constexpr double kLeastGain = 1e-3;
-
-bool usable(const WarpInput& in, const WarpChoice& choice) noexcept {
-  const PlaneMap map = plane_map(in.body, choice);
-  double farthest = 0.0;
-  for (const WarpInput::Point& p : in.body) farthest = max_of(farthest, p.depth);
-  const double extent = max_of(map.a_max - map.a_min, map.b_max - map.b_min);
-  return map.length > kShortest * extent && map.length > kShortestOfDistance * farthest &&
-         map.stretch <= kStrongest;
-}
 
 /// The objective with the choice over the objective without; infinite for a choice that no map can be laid
 /// with.
@@ -151,30 +138,108 @@ double tight_objective(const PlanContext& c, const Polytope& body, double begin,
   return with < without || !c.warp.drop_without_gain ? with : without;
 }
 
-bool lay_tight_map(const PlanContext& c, const Polytope& body, double begin, double end,
+namespace {
+
+/// A plane map with its depths, and the casters it needs.
+struct Laid {
+  PlaneMap plane;
+  LightDepths depths;
+  SweptBody swept;
+};
+
+/// The rim of a map round its rectangle, as a share of the rectangle's side.
+double rim_of_body(const ShadowMap& map) noexcept {
+  const double rim = static_cast<double>(map.filter_margin_texels) / map.width;
+  return rim / (1.0 - 2.0 * rim);
+}
+
+/// The casters that reach the body or its kernels. A margin at the far end, where texels are largest: across
+/// they grow with w, along with w^2 / stretch = w there.
+SweptBody swept_for(const PlanContext& c, const Polytope& body, const PlaneMap& plane,
+                    const ShadowMap& map) noexcept {
+  return sweep(
+      c, body,
+      rim_of_body(map) * plane.stretch * ((plane.a_max - plane.a_min) + (plane.b_max - plane.b_min)));
+}
+
+/// The last frame's map where it still serves: view inside, casters inside.
+bool lay_as_before(const PlanContext& c, const Polytope& body, const LightBody& points, Laid& laid,
                    ShadowMap& map) noexcept {
-  const LightBody points = in_light_frame(c, c.frame, body);
+  const PlanHistory::Map* last = remembered(c, map);
+  if (last == nullptr) return false;
+  map.filter_margin_texels = last->filter_margin_texels;
+  const HeldMap held = held_map(c, *last, points, static_cast<double>(map.filter_margin_texels) / map.width);
+  if (!held.holds || margin_texels(c.options, map.width, share_per_unit(held.plane, points.points())) >
+                         map.filter_margin_texels)
+    return false;
+  laid = {held.plane, held.depths, swept_for(c, body, held.plane, map)};
+  const double height =
+      caster_height(laid.swept.reach, c.frame, points, held.plane, held.depths.bottom, rim_of_body(map));
+  return lowest(points) >= held.depths.bottom && height <= held.depths.height;
+}
+
+/// Room for the view to move in before a map that stands still must be laid anew.
+void add_room(PlaneMap& plane) noexcept {
+  constexpr double kRoom = 0.1;  // of an extent, on each side
+  const double a = kRoom * (plane.a_max - plane.a_min), b = kRoom * (plane.b_max - plane.b_min);
+  plane.a_min -= a;
+  plane.a_max += a;
+  plane.b_min -= b;
+  plane.b_max += b;
+}
+
+void lay_anew(const PlanContext& c, const Polytope& body, const LightBody& points, double begin, double end,
+              Laid& laid, ShadowMap& map) noexcept {
   const Polytope body_light = turned(body, c.frame);
   const WarpInput in = warp_input(c, points, body_light, begin, end);
   WarpChoice choice = chosen_warp(c, in, map.cascade, map.warp);
   if (c.options.fit == Fit::rotated) choice = turned_to_least_area(in, choice);
-  const PlaneMap plane = plane_map(points.points(), choice);
-  map.filter_margin_texels = margin_texels(c.options, map.width, share_per_unit(plane, points.points()));
-  const double rim = static_cast<double>(map.filter_margin_texels) / map.width;
-  const double rim_of_body = rim / (1.0 - 2.0 * rim);
-  // A margin at the far end, where texels are largest: across they grow with w, along with w^2 / stretch = w
-  // there.
-  const double margin_world =
-      rim_of_body * plane.stretch * ((plane.a_max - plane.a_min) + (plane.b_max - plane.b_min));
-  const SweptBody swept = sweep(c, body, margin_world);
-  if (swept.reach.count == 0) return false;
+  const bool still = c.options.fit == Fit::warped_stable;
+  laid.plane = still ? plane_map(in.body, choice) : steady_plane(c, in, choice, map);
+  if (still) add_room(laid.plane);
+  if (c.history != nullptr) {
+    map.warp = laid.plane.choice.kappa > 0.0 ? &c.warp : &warps::none;
+    if (still)
+      add_event(*c.history, remembered(c, map) ? PlanEventKind::map_relaid : PlanEventKind::map_appeared,
+                map.cascade, 1.0);
+  }
+  map.filter_margin_texels = margin_texels(c.options, map.width, share_per_unit(laid.plane, points.points()));
+  laid.swept = swept_for(c, body, laid.plane, map);
   const double bottom = lowest(points);
-  const double height = caster_height(swept.reach, c.frame, points, plane, bottom, rim_of_body);
-  const LightDepths depths =
-      padded(bottom, height, max_of(plane.a_max - plane.a_min, plane.b_max - plane.b_min));
-  map.depth_range_world = depths.height;
-  const glm::dmat4 gl_from_relative = clip_from_light(plane, depths, rim) * light_from_relative(c.frame);
-  finish_map(c, points, plane, swept, gl_from_relative, map);
+  const double height =
+      caster_height(laid.swept.reach, c.frame, points, laid.plane, bottom, rim_of_body(map));
+  laid.depths = padded(bottom, height,
+                       max_of(laid.plane.a_max - laid.plane.a_min, laid.plane.b_max - laid.plane.b_min));
+  if (!still) return;
+  constexpr double kRoom = 0.1;  // of the depths, on each side
+  laid.depths.bottom -= kRoom * laid.depths.height;
+  laid.depths.height *= 1.0 + 2.0 * kRoom;
+}
+
+}  // namespace
+
+bool lay_tight_map(const PlanContext& c, const Polytope& body, double begin, double end,
+                   ShadowMap& map) noexcept {
+  const LightBody points = in_light_frame(c, c.frame, body);
+  Laid laid;
+  const bool held = c.options.fit == Fit::warped_stable && lay_as_before(c, body, points, laid, map);
+  if (!held) lay_anew(c, body, points, begin, end, laid, map);
+  if (laid.swept.reach.count == 0) return false;
+  map.depth_range_world = laid.depths.height;
+  const double rim = static_cast<double>(map.filter_margin_texels) / map.width;
+  const glm::dmat4 gl_from_relative =
+      clip_from_light(laid.plane, laid.depths, rim) * light_from_relative(c.frame);
+  finish_map(c, points, laid.plane, laid.swept, gl_from_relative, map);
+  if (c.history == nullptr) return true;
+  glm::dmat4 gl_from_world = gl_from_relative;
+  gl_from_world[3] = gl_from_relative * glm::dvec4(-c.camera.position, 1.0);
+  if (held) {
+    map.warp = map.kappa > 0.0 ? &c.warp : &warps::none;
+    // The very bits of the last frame: what is drawn stays as it is.
+    gl_from_world = c.history->map[static_cast<std::size_t>(map.cascade)].gl_from_world;
+    map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * gl_from_world;
+  }
+  remember(*c.history, map.cascade, map, gl_from_world);
   return true;
 }
 

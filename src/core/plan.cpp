@@ -8,6 +8,7 @@
 #include "plan_context.hpp"
 #include "plan_input.hpp"
 #include "split_optimal.hpp"
+#include "steady.hpp"
 #include "vector.hpp"
 #include "visible.hpp"
 
@@ -80,13 +81,16 @@ void plan_cascade(const PlanContext& c, const Polytope& all, int cascade, double
 
 }  // namespace
 
-ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                     const PlanOptions& options) noexcept {
+namespace {
+
+/// A plan of one frame; `history` may be nullptr.
+ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                      const PlanOptions& options, PlanHistory* history) noexcept {
   ShadowPlan plan;
   plan.invalid_field = first_invalid_field(camera, light, bounds, options);
   if (!plan.invalid_field.empty()) return plan;
   if (std::isinf(camera.far_depth)) {
-    return make_plan(with_finite_far(camera, bounds.receivers), light, bounds, options);
+    return plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history);
   }
   plan.origin_world = camera.position;
   plan.clip_space = options.clip_space;
@@ -112,7 +116,8 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
       options.warp != nullptr ? *options.warp : warps::optimal,
       std::sqrt(glm::dot(across, across)),
       glm::dot(axes.forward, plan.light_direction),
-      plan};
+      plan,
+      history};
   Polytope body = frustum_slice(camera, axes, camera.near_depth, camera.far_depth);
   clip(body, visible_bounds(body, bounds.receivers, camera.position));
   if (body.empty()) {
@@ -133,11 +138,32 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
   if (options.split == SplitScheme::optimal && !stable) {
     optimise_splits(context, body, {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
   }
+  if (history != nullptr && !stable)
+    steady_edges(*history, {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
   for (int i = 0; i < options.cascades; ++i) {
     plan_cascade(context, body, i, edges[static_cast<std::size_t>(i)],
                  edges[static_cast<std::size_t>(i) + 1]);
   }
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
+  return plan;
+}
+
+}  // namespace
+
+ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                     const PlanOptions& options) noexcept {
+  return plan_frame(camera, light, bounds, options, nullptr);
+}
+
+ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                     const PlanOptions& options, PlanHistory& history) noexcept {
+  history.event_count = 0;
+  ShadowPlan plan = plan_frame(camera, light, bounds, options, &history);
+  if (plan.status == PlanStatus::invalid_input) return plan;
+  history.eye_world = camera.position;
+  history.forward = camera_axes(camera).forward;
+  history.light_direction = plan.light_direction;
+  ++history.frame;
   return plan;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "gnomon/history.hpp"
 #include "gnomon/plan.hpp"
 #include "light_frame.hpp"
 
@@ -20,6 +21,7 @@ struct PlanContext {
   const Warp& warp;  // the one asked for, or the default
   double sin_gamma, cos_gamma;
   ShadowPlan& plan;
+  PlanHistory* history;  // nullptr: every frame stands for itself
 };
 
 void omit(ShadowPlan& plan, const Omission& omission) noexcept;

@@ -53,6 +53,12 @@ Span new_span(int shift, int size) noexcept {
   return {shift > 0 ? 0 : size - std::abs(shift), std::abs(shift)};
 }
 
+/// To the last bit: what was drawn is what would be drawn.
+bool same_map(const ShadowMap& a, const ShadowMap& b) noexcept {
+  return a.clip_from_world == b.clip_from_world && a.width == b.width && a.height == b.height &&
+         a.light_world == b.light_world && a.snap_key == b.snap_key;
+}
+
 MapReuse whole(const ShadowMap& map) noexcept {
   MapReuse result;
   result.strip[0] = {0, 0, map.width, map.height};
@@ -63,6 +69,12 @@ MapReuse whole(const ShadowMap& map) noexcept {
 }  // namespace
 
 MapReuse reuse(const ShadowMap& previous, const ShadowMap& current, const ClipSpace& clip_space) noexcept {
+  if (same_map(previous, current)) {
+    MapReuse result;
+    result.kind = ReuseKind::identical;
+    result.kept = {0, 0, current.width, current.height};
+    return result;
+  }
   if (!same_grid(previous, current)) return whole(current);
   // Keys count along the light's own axes; the map's may point against them.
   const LightFrame frame = fixed_frame(-glm::dvec3(current.light_world));

@@ -114,15 +114,19 @@ TEST(Reuse, another_light_size_grid_depth_or_fit_is_drawn_whole) {
   ShadowMap deeper = map;
   ++deeper.snap_key.depth_near;
   refused(deeper, "depth");
-  ShadowMap positional = map;
-  positional.light_world.w = 1.0;
-  EXPECT_EQ(reuse(positional, positional).kind, ReuseKind::none);
+  ShadowMap positional = map, moved = map;
+  positional.light_world.w = moved.light_world.w = 1.0;
+  moved.clip_from_world[3].x += 1e-3;
+  EXPECT_EQ(reuse(positional, moved).kind, ReuseKind::none);
   const ShadowMap tight = [&] {
     Case t = c;
     t.options.fit = Fit::tight;
     return t.plan().map[0];
   }();
-  EXPECT_EQ(reuse(tight, tight).kind, ReuseKind::none);
+  ShadowMap next = tight;
+  next.clip_from_world[3].x += 1e-12;
+  EXPECT_EQ(reuse(tight, next).kind, ReuseKind::none);
+  EXPECT_EQ(reuse(tight, tight).kind, ReuseKind::identical);  // nothing moved
 }
 
 TEST(Reuse, a_step_over_the_whole_map_or_beyond_what_keys_can_count_leaves_nothing) {
@@ -139,7 +143,9 @@ TEST(Reuse, a_step_over_the_whole_map_or_beyond_what_keys_can_count_leaves_nothi
   }
   ShadowMap lost = map;
   lost.snap_key.x = std::int64_t{1} << 53;
-  EXPECT_EQ(reuse(lost, lost).kind, ReuseKind::none);
+  ShadowMap beside = lost;
+  beside.clip_from_world[3].x += 1e-12;
+  EXPECT_EQ(reuse(lost, beside).kind, ReuseKind::none);
 }
 
 TEST(Reuse, a_world_points_old_texel_plus_the_shift_is_its_new_texel_in_every_clip_space) {

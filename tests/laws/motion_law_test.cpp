@@ -1,0 +1,227 @@
+// Along a flight: do texels change smoothly, does everything in view keep its map, does a held map hold
+// still?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "support/property.hpp"
+#include "support/random_case.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr double kTexel = 1e-4;     // rounding of a position in a map, texels
+constexpr double kRounding = 1e-6;  // of a ratio of densities
+
+glm::dvec4 clip_of(const ShadowMap& map, const glm::dvec3& p) {
+  return map.clip_from_world * glm::dvec4(p, 1.0);
+}
+
+/// Texels per world area across the light.
+double density(const ShadowMap& map, const glm::dvec3& light_direction, const glm::dvec3& p) {
+  const glm::dvec4 clip = clip_of(map, p);
+  std::array<glm::dvec3, 2> gradient;
+  for (int axis = 0; axis < 2; ++axis) {
+    for (int column = 0; column < 3; ++column)
+      gradient[static_cast<std::size_t>(axis)][column] =
+          (map.clip_from_world[column][axis] - clip[axis] / clip.w * map.clip_from_world[column].w) / clip.w;
+  }
+  return std::abs(glm::dot(glm::cross(gradient[0], gradient[1]), light_direction)) * map.width * map.height;
+}
+
+/// A walk over a wide floor with blocks on it: every frame has casters and receivers.
+struct Walk {
+  std::vector<Box> boxes;
+  PlanOptions options;
+  glm::dvec3 light, start, velocity;
+  double turn, pitch;  // radians per frame, radians
+  [[nodiscard]] SceneBounds bounds() const { return {boxes, boxes}; }
+  [[nodiscard]] Camera camera(int frame) const {
+    const double heading = turn * frame;
+    const glm::dvec3 forward{std::sin(heading) * std::cos(pitch), std::sin(pitch),
+                             -std::cos(heading) * std::cos(pitch)};
+    const glm::dvec3 sideways{std::cos(heading), 0.0, std::sin(heading)};
+    const glm::dvec3 ahead{std::sin(heading), 0.0, -std::cos(heading)};
+    const double t = frame;
+    return perspective_camera(
+        start + ahead * (velocity.z * t) + sideways * (velocity.x * t) + glm::dvec3(0.0, velocity.y * t, 0.0),
+        forward, {0.0, 1.0, 0.0}, 1.0, 1.6, 0.5, 200.0, 640, 400);
+  }
+};
+
+Walk draw_walk() {
+  Walk w;
+  w.boxes.push_back({{-600.0, -1.0, -600.0}, {600.0, 0.0, 600.0}});
+  Random random(static_cast<std::uint64_t>(1 + pick(1000)));
+  for (int i = 0; i < 40; ++i) {
+    const glm::dvec3 at{random.between(-80.0, 80.0), 0.0, random.between(-80.0, 80.0)};
+    w.boxes.push_back({at, at + glm::dvec3(random.between(0.5, 6.0), random.between(0.5, 15.0), 3.0)});
+  }
+  w.light = {between(-1.0, 1.0), -between(0.2, 1.0), between(-1.0, 1.0)};
+  w.start = {between(-20.0, 20.0), between(1.5, 6.0), between(-20.0, 20.0)};
+  const double speed = 0.08;  // 5 m/s at 60 frames a second
+  w.velocity = {between(-speed, speed), between(-0.2, 0.2) * speed, between(-speed, speed)};
+  w.turn = between(-0.01, 0.01);  // up to 34 degrees a second
+  w.pitch = between(-0.4, 0.1);
+  w.options.cascades = 1 + pick(4);
+  w.options.objective = static_cast<Objective>(pick(3));
+  const Warp* const warps[] = {nullptr, &warps::lispsm, &warps::lispsm_closed, &warps::none};
+  w.options.warp = warps[pick(4)];
+  return w;
+}
+
+std::vector<glm::dvec3> points_of(const Walk& w, const Camera& camera, Random& random) {
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 240; ++i) {
+    const glm::dvec3 p =
+        point_at(camera, random.between(-1.0, 1.0), random.between(-1.0, 1.0),
+                 camera.near_depth * std::pow(camera.far_depth / camera.near_depth, random.unit()));
+    const auto holds = [&](const Box& b) {
+      return p.x >= b.min.x && p.y >= b.min.y && p.z >= b.min.z && p.x <= b.max.x && p.y <= b.max.y &&
+             p.z <= b.max.z;
+    };
+    if (std::any_of(w.boxes.begin(), w.boxes.end(), holds)) points.push_back(p);
+  }
+  return points;
+}
+
+/// The map that serves a point in view; nullptr outside the view.
+const ShadowMap* serving(const ShadowPlan& plan, const Camera& camera, const glm::dvec3& p) {
+  const int map = map_serving(plan, p, depth_of(camera, p));
+  return map >= 0 ? &plan.map[static_cast<std::size_t>(map)] : nullptr;
+}
+
+/// Flies and calls `use(plan before, plan now, camera before, camera now, history)` for each pair of frames.
+template <typename Use>
+void fly(const Walk& w, int frames, Use&& use) {
+  PlanHistory history;
+  ShadowPlan before;
+  for (int frame = 0; frame < frames; ++frame) {
+    const ShadowPlan now =
+        make_plan(w.camera(frame), DirectionalLight{w.light}, w.bounds(), w.options, history);
+    require(now.status == PlanStatus::ok, "status", to_string(now.status), "frame", frame);
+    if (frame > 0) use(before, now, w.camera(frame - 1), w.camera(frame), history);
+    before = now;
+  }
+}
+
+bool listed(const PlanHistory& history, int cascade) {
+  const auto events = history.events();
+  return std::any_of(events.begin(), events.end(), [&](const PlanEvent& e) { return e.map == cascade; });
+}
+
+TEST(MotionLaw, texels_per_area_jump_only_where_an_event_says_so) {
+  std::int64_t pairs = 0, maps = 0, events = 0;
+  for_all(12, [&] {
+    Walk w = draw_walk();
+    w.options.fit = chance(0.3) ? Fit::rotated : Fit::tight;
+    Random random(5);
+    fly(w, 120,
+        [&](const ShadowPlan& a, const ShadowPlan& b, const Camera& from, const Camera& to,
+            const PlanHistory& history) {
+          maps += b.map_count;
+          events += history.event_count;
+          for (const glm::dvec3& p : points_of(w, to, random)) {
+            const ShadowMap *m = serving(a, from, p), *n = serving(b, to, p);
+            if (m == nullptr || n == nullptr || m->cascade != n->cascade || !map_holds(a, *m, p)) continue;
+            ++pairs;
+            if (listed(history, n->cascade)) continue;
+            const double ratio = density(*n, w.light, p) / density(*m, w.light, p);
+            require(std::max(ratio, 1.0 / ratio) <= 1.0 + kDensityStep + kRounding, "ratio", ratio, "cascade",
+                    n->cascade, n->warp->name, "of", to_string(w.options.objective));
+          }
+        });
+  });
+  EXPECT_GT(pairs, 10000);
+  EXPECT_LT(events * 10, maps);  // listed jumps are the exception
+}
+
+TEST(MotionLaw, everything_in_view_is_inside_its_map_in_every_frame) {
+  std::int64_t points = 0;
+  for_all(12, [&] {
+    Walk w = draw_walk();
+    const Fit fits[] = {Fit::tight, Fit::rotated, Fit::warped_stable};
+    w.options.fit = fits[pick(3)];
+    w.velocity *= 1.0 + 9.0 * unit();  // a car's speed, too
+    Random random(6);
+    fly(w, 60,
+        [&](const ShadowPlan&, const ShadowPlan& b, const Camera&, const Camera& to, const PlanHistory&) {
+          for (const glm::dvec3& p : points_of(w, to, random)) {
+            const ShadowMap* map = serving(b, to, p);
+            require(map != nullptr, "no map at depth", depth_of(to, p));
+            require(map_holds(b, *map, p), "outside its map at depth", depth_of(to, p),
+                    to_string(w.options.fit));
+            ++points;
+          }
+        });
+  });
+  EXPECT_GT(points, 5000);
+}
+
+TEST(MotionLaw, a_warped_stable_map_keeps_its_very_matrix_until_an_event) {
+  std::int64_t held = 0, maps = 0;
+  for_all(12, [&] {
+    Walk w = draw_walk();
+    w.options.fit = Fit::warped_stable;
+    fly(w, 120,
+        [&](const ShadowPlan& a, const ShadowPlan& b, const Camera&, const Camera&,
+            const PlanHistory& history) {
+          for (const ShadowMap& n : b.maps()) {
+            ++maps;
+            if (listed(history, n.cascade)) continue;
+            const auto m = std::find_if(a.maps().begin(), a.maps().end(),
+                                        [&](const ShadowMap& other) { return other.cascade == n.cascade; });
+            require(m != a.maps().end(), "a map without an event that was not there before");
+            require(m->clip_from_world == n.clip_from_world, "another matrix, cascade", n.cascade);
+            require(reuse(*m, n).kind == ReuseKind::identical, "not reusable");
+            ++held;
+          }
+        });
+  });
+  EXPECT_GT(held * 2, maps);  // most of the time
+}
+
+TEST(MotionLaw, a_still_camera_gets_the_same_bits_again) {
+  for_all(20, [&] {
+    Walk w = draw_walk();
+    w.velocity = {0.0, 0.0, 0.0};
+    w.turn = 0.0;
+    const Fit fits[] = {Fit::tight, Fit::warped_stable};
+    w.options.fit = fits[pick(2)];
+    fly(w, 8,
+        [&](const ShadowPlan& a, const ShadowPlan& b, const Camera&, const Camera&,
+            const PlanHistory& history) {
+          require(history.event_count == 0, "events", history.event_count);
+          for (int i = 0; i < b.map_count; ++i) {
+            const ShadowMap &m = a.map[static_cast<std::size_t>(i)], &n = b.map[static_cast<std::size_t>(i)];
+            const glm::dvec3 p = point_at(w.camera(0), 0.3, -0.7, 0.5 * (n.depth_begin + n.depth_end));
+            const glm::dvec4 x = clip_of(m, p), y = clip_of(n, p);
+            const double step = 0.5 * n.width * glm::length(glm::dvec2(x) / x.w - glm::dvec2(y) / y.w);
+            require(step <= kTexel * 100.0, "texels moved", step);
+          }
+        });
+  });
+}
+
+TEST(MotionLaw, a_broken_input_leaves_the_history_as_it_was) {
+  Camera camera = perspective_camera({0, 5, 0}, {0, -0.3, -1}, {0, 1, 0}, 1.0, 1.6, 0.5, 200.0, 640, 400);
+  const Box floor{{-100, -1, -100}, {100, 0, 100}};
+  const std::vector<Box> boxes{floor};
+  PlanHistory history;
+  ASSERT_EQ(make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {boxes, boxes}, {}, history).status,
+            PlanStatus::ok);
+  EXPECT_EQ(history.frame, 1);
+  camera.near_depth = -1.0;
+  EXPECT_EQ(make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {boxes, boxes}, {}, history).status,
+            PlanStatus::invalid_input);
+  EXPECT_EQ(history.frame, 1);
+  EXPECT_EQ(history.event_count, 0);
+}
+
+}  // namespace
+}  // namespace gnomon::test
