@@ -151,7 +151,7 @@ enum class FilterClass : std::uint8_t {
 struct BiasAdvice {
   BiasKind bias;
   FilterClass filter;
-  bool safe;
+  bool safe;  ///< normal_offset: where texels differ little over the kernel; the strongest warps need another
   std::string_view reason;
 };
 /// All pairs, by bias, then filter.

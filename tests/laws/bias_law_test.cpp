@@ -92,6 +92,22 @@ double shadowing_with(BiasKind kind, const Scene& s, int radius) {
   return shadowing(s, r.point, radius, [&](const glm::dvec2&) { return bias; });
 }
 
+/// True where texels are about as large over the whole kernel as in its middle.
+bool evenly_spaced(const Scene& s, int radius) {
+  constexpr double kAbout = 1.2;
+  const Receiver& r = s.receiver;
+  const glm::dvec3 a = any_across(r.light_direction), b = glm::cross(a, r.light_direction);
+  for (int i = 0; i < 8; ++i) {
+    const double turn = 0.7853981633974483 * i;
+    const glm::dvec3 p =
+        r.point + (a * std::cos(turn) + b * std::sin(turn)) * (s.texel * (radius + 1) * (1.0 + s.tangent));
+    const glm::dvec2 texel = texel_extent_world(r.clip_from_world, r.width, r.height, r.light_direction, p);
+    const double there = std::max(texel.x, texel.y);
+    if (!(there <= s.texel * kAbout && there * kAbout >= s.texel)) return false;
+  }
+  return true;
+}
+
 Case draw() {
   Case c = draw_case({.max_depth_ratio = 1e4, .max_boxes = 8});
   c.options.clip_space = {static_cast<NdcDepth>(pick(2)), chance(0.5), chance(0.5),
@@ -145,6 +161,8 @@ TEST(BiasLaw, advice_holds_for_every_bias_that_filters_compare_with) {
     for_all(250, [&] {
       for_planes([&](const Scene& s, const ShadowMap&) {
         const int radius = advice.filter == FilterClass::single_compare ? 0 : 1 + pick(4);
+        // An offset along the normal is measured in the texels of one place.
+        if (advice.bias == BiasKind::normal_offset && !evenly_spaced(s, radius)) return;
         const double scale = std::abs(plane_bias_ndc(kLeast, s.receiver, radius));
         const double worst = shadowing_with(advice.bias, s, radius);
         ++planes;
