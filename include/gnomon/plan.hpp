@@ -29,6 +29,10 @@ inline constexpr int kMaxMaps = 8;  ///< cascades of one plan; beyond 8 no publi
 inline constexpr int kMaxOmissions =
     32;  ///< entries of ShadowPlan::omitted; later ones are counted, not listed
 
+/// Planes round a map's share of the receivers where not depth divides them: a face of the camera's frustum
+/// has four edges.
+inline constexpr int kMaxSelectPlanes = 4;
+
 /// What the caller may choose. Every default is right for most scenes.
 struct PlanOptions {
   /// Texels along each side of each map, 4..16384. Doubling it halves the error and costs four times the
@@ -131,6 +135,11 @@ struct ShadowMap {
   /// the side where dot(xyz, p_world) + w >= 0 of all of them. World space, unit normals.
   std::array<glm::dvec4, kMaxCullPlanes> cull_planes;
   int cull_plane_count = 0;
+  /// Planes parallel to the light that part this map's receivers from the other maps': the map serves a point
+  /// only where dot(xyz, p_world) + w >= 0 for all of them. World space, unit normals; none where maps are
+  /// told apart by depth or by their own extent.
+  std::array<glm::dvec4, kMaxSelectPlanes> select_planes{};
+  int select_plane_count = 0;
   SnapKey snap_key;  ///< of Fit::stable: equal keys mean an identical grid
   double m_s_max = 0.0,
          m_t_max = 0.0;  ///< bounds of the perspective error over the body (simplified weights, A.4)
@@ -147,8 +156,8 @@ struct ShadowPlan {
   /// Of the options: in texels of the map at each point, for those who compute it per point.
   BiasOptions bias;
   /// How a point finds its map: false, by its view depth (maps do not overlap in depth); true, for lights
-  /// with a position: the first map that holds it (map_holds), at any depth. A point that no map holds is
-  /// lit.
+  /// with a position and for receivers parted by planes: the first map that holds it (map_holds), at any
+  /// depth. A point that no map holds is lit.
   bool select_by_map = false;
   std::array<ShadowMap, kMaxMaps> map;
   int map_count = 0;
@@ -170,7 +179,8 @@ struct ShadowPlan {
                                    const PlanOptions& options = {}) noexcept;
 
 /// True where the map shows the point off its filter margin and within its depths: its clip coordinates have
-/// w > 0, |x| and |y| <= (1 - 2 filter_margin_texels / size) w and z in the range of the clip space.
+/// w > 0, |x| and |y| <= (1 - 2 filter_margin_texels / size) w and z in the range of the clip space, and the
+/// point is inside all select_planes.
 [[nodiscard]] bool map_holds(const ShadowPlan& plan, const ShadowMap& map,
                              const glm::dvec3& point_world) noexcept;
 /// Index of the map that serves a point at this view depth, or -1; see ShadowPlan::select_by_map.

@@ -183,6 +183,10 @@ void plan_positional(const Camera& camera, const Light& light, const SceneBounds
 }
 
 bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& point) noexcept {
+  for (int i = 0; i < map.select_plane_count; ++i) {
+    const glm::dvec4& plane = map.select_planes[static_cast<std::size_t>(i)];
+    if (!(glm::dot(glm::dvec3(plane), point) + plane.w >= 0.0)) return false;
+  }
   const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
   // A quarter texel of the rim is left to rounding; no kernel tells it apart.
   const double rounding = 0.5 / map.width;
