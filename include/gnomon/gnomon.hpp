@@ -16,4 +16,5 @@
 #include "gnomon/reuse.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/split.hpp"
+#include "gnomon/visible_depths.hpp"
 #include "gnomon/warp.hpp"

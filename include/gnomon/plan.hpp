@@ -21,6 +21,7 @@
 #include "gnomon/light.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/split.hpp"
+#include "gnomon/visible_depths.hpp"
 #include "gnomon/warp.hpp"
 
 namespace gnomon {
@@ -53,6 +54,15 @@ struct PlanOptions {
   /// receivers' for Fit::tight and the camera's for Fit::stable, whose grid must not depend on what is in
   /// view.
   SplitRange split_range = SplitRange::automatic;
+  /// For SplitScheme::given: the cascades - 1 view depths between neighbouring cascades, ascending, world
+  /// units. They are clamped to the depths that are divided; a cascade that this leaves nothing is left out.
+  std::span<const double> given_splits;
+  /// View depths at which the camera sees a surface (visible_depths.hpp), from this frame or tracked over the
+  /// last ones; nullptr: unknown. Cascades then cover only the range between the nearest and the farthest of
+  /// them, with kDepthSafety on either side, and step over depths between that show nothing. What lies
+  /// elsewhere gets no shadow. Nothing visible counts as unknown. Directional lights and perspective cameras
+  /// only; not with SplitRange::camera.
+  const VisibleDepths* visible_depths = nullptr;
   /// How a map's rectangle is laid round its slice.
   Fit fit = Fit::tight;
   /// Sizes that a map of Fit::stable may have per octave, 1..1024. Fewer keep the grid through a zoom or a
@@ -88,11 +98,12 @@ enum class OmissionKind : std::uint8_t {
   cascade_without_receiver,  ///< a: depth_begin, b: depth_end
   cascade_without_caster,    ///< a: depth_begin, b: depth_end
   depth_without_receiver,    ///< the camera's range was cut to the receivers': a: depth_begin, b: depth_end
-  warp_without_gain,         ///< a: objective with the warp over the objective without
-  warp_in_stable_fit,        ///< a warp was asked for, and Fit::stable takes none
-                             ///< the casters do
-  face_without_receiver,     ///< of a cube round the light: no visible receiver in it within range and cone
-  face_without_caster,       ///< of a cube round the light: no caster between it and its receivers
+  depth_not_visible,      ///< PlanOptions::visible_depths shows nothing there: a: depth_begin, b: depth_end
+  warp_without_gain,      ///< a: objective with the warp over the objective without
+  warp_in_stable_fit,     ///< a warp was asked for, and Fit::stable takes none
+                          ///< the casters do
+  face_without_receiver,  ///< of a cube round the light: no visible receiver in it within range and cone
+  face_without_caster,    ///< of a cube round the light: no caster between it and its receivers
 };
 struct Omission {
   OmissionKind kind{};

@@ -40,6 +40,10 @@ OmissionText describe(const Omission& o) noexcept {
       what("depths %g to %g", o.a, o.b);
       why("no receiver in view there, so no cascade covers them");
       break;
+    case OmissionKind::depth_not_visible:
+      what("depths %g to %g", o.a, o.b);
+      why("the visible depths given show no surface there, so no cascade covers them");
+      break;
     case OmissionKind::warp_without_gain:
       what("warp of cascade %d", o.map);
       why("the objective with it is %.4g of the objective without", o.a);

@@ -7,8 +7,7 @@
 #include "light_positional.hpp"
 #include "plan_context.hpp"
 #include "plan_input.hpp"
-#include "split_optimal.hpp"
-#include "steady.hpp"
+#include "plan_splits.hpp"
 #include "vector.hpp"
 #include "visible.hpp"
 
@@ -26,41 +25,20 @@ std::int64_t texels_of(const PlanOptions& options) noexcept {
   return std::int64_t{options.map_size} * options.map_size;
 }
 
-/// Depth range that is divided among the cascades, from the body of everything in view.
-void depths_to_cover(const PlanContext& c, const Polytope& body, double& begin, double& end) noexcept {
-  const double n = c.camera.near_depth, f = c.camera.far_depth;
-  begin = n;
-  end = f;
-  const bool whole = c.options.split_range == SplitRange::camera ||
-                     (c.options.split_range == SplitRange::automatic && c.stable);
-  if (whole) return;
-  double low = f, high = n;
-  for (const Polytope::Vertex& v : body.vertices()) {
-    const double depth = glm::dot(c.axes.forward, v.position);
-    low = min_of(low, depth);
-    high = max_of(high, depth);
-  }
-  // A flat scene's depth must not fall outside its own range by rounding.
-  constexpr double kRounding = 1e-12;
-  begin = clamp_to(low * (1.0 - kRounding), n, f);
-  end = clamp_to(high * (1.0 + kRounding), begin, f);
-  // Saving less than this share of the depths is not worth a line.
-  constexpr double kWorthTelling = 0.01;
-  if (begin > n * (1.0 + kWorthTelling))
-    omit(c.plan, {OmissionKind::depth_without_receiver, -1, n, begin, 0});
-  if (end < f * (1.0 - kWorthTelling)) omit(c.plan, {OmissionKind::depth_without_receiver, -1, end, f, 0});
-}
-
-/// `all` is the body of everything in view.
-void plan_cascade(const PlanContext& c, const Polytope& all, int cascade, double begin, double end) noexcept {
+/// `all` is the body of everything in view, [from, to] the depths between the neighbouring cascades.
+void plan_cascade(const PlanContext& c, const Polytope& all, int cascade, double from, double to) noexcept {
+  const auto [begin, end] = seen_between(c, from, to);
   Polytope body = all;
+  // A single depth is a slice only where it is all there is.
+  const bool covered = from == to && c.plan.map_count > 0;
+  if (!(begin <= end) || covered) body.vertex_count = 0;
   clip(body, Plane{c.axes.forward, -begin});
   clip(body, Plane{-c.axes.forward, end});
   if (c.bounds.receivers.size() > 1 && !body.empty()) {
     clip(body, visible_bounds(body, c.bounds.receivers, c.camera.position));
   }
   if (body.empty()) {
-    omit(c.plan, {OmissionKind::cascade_without_receiver, cascade, begin, end, texels_of(c.options)});
+    omit(c.plan, {OmissionKind::cascade_without_receiver, cascade, from, to, texels_of(c.options)});
     return;
   }
   ShadowMap& map = c.plan.map[static_cast<std::size_t>(c.plan.map_count)];
@@ -105,7 +83,7 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
   const CameraAxes axes = camera_axes(camera);
   const bool stable = options.fit == Fit::stable;
   const glm::dvec3 across = glm::cross(axes.forward, plan.light_direction);
-  const PlanContext context{
+  PlanContext context{
       camera,
       bounds,
       options,
@@ -124,25 +102,14 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
     plan.status = PlanStatus::nothing_visible;
     return plan;
   }
-  double begin = 0.0, end = 0.0;
-  depths_to_cover(context, body, begin, end);
   if (stable && options.warp != nullptr && options.warp != &warps::none) {
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
   }
   std::array<double, kMaxMaps + 1> edges{};
-  const SplitScheme scheme =
-      options.split == SplitScheme::automatic && stable ? SplitScheme::practical : options.split;
-  split_depths(begin, end, {scheme, options.lambda, options.near_hint},
-               {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
-  // What is in view would move the edges of a stable plan, and with them its grids.
-  if (options.split == SplitScheme::optimal && !stable) {
-    optimise_splits(context, body, {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
-  }
-  if (history != nullptr && !stable)
-    steady_edges(*history, {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
+  choose_edges(context, body, {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
   for (int i = 0; i < options.cascades; ++i) {
-    plan_cascade(context, body, i, edges[static_cast<std::size_t>(i)],
-                 edges[static_cast<std::size_t>(i) + 1]);
+    const double from = edges[static_cast<std::size_t>(i)], to = edges[static_cast<std::size_t>(i) + 1];
+    plan_cascade(context, body, i, from, to);
   }
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
   return plan;

@@ -21,7 +21,8 @@ struct PlanContext {
   const Warp& warp;  // the one asked for, or the default
   double sin_gamma, cos_gamma;
   ShadowPlan& plan;
-  PlanHistory* history;  // nullptr: every frame stands for itself
+  PlanHistory* history;                 // nullptr: every frame stands for itself
+  const VisibleDepths* seen = nullptr;  // of the options, where they say something; nullptr: unknown
 };
 
 void omit(ShadowPlan& plan, const Omission& omission) noexcept;

@@ -67,10 +67,25 @@ struct InvalidLight {
   }
 };
 
+bool usable_splits(const PlanOptions& o) noexcept {
+  if (o.split != SplitScheme::given) return true;
+  if (o.given_splits.size() + 1 != static_cast<std::size_t>(o.cascades)) return false;
+  for (std::size_t i = 0; i < o.given_splits.size(); ++i) {
+    if (!usable(o.given_splits[i]) || (i > 0 && !(o.given_splits[i] >= o.given_splits[i - 1]))) return false;
+  }
+  return true;
+}
+
+bool usable(const VisibleDepths& depths) noexcept {
+  return depths.empty() ? !std::isnan(depths.min + depths.max) : depths.min > 0.0 && depths.max <= kLargest;
+}
+
 std::string_view invalid_options(const PlanOptions& o) noexcept {
   if (o.map_size < 4 || o.map_size > 16384) return "options.map_size";
   if (o.cascades < 1 || o.cascades > kMaxMaps) return "options.cascades";
   if (!(o.lambda >= 0.0 && o.lambda <= 1.0)) return "options.lambda";
+  if (!usable_splits(o)) return "options.given_splits";
+  if (o.visible_depths != nullptr && !usable(*o.visible_depths)) return "options.visible_depths";
   if (!(o.near_hint >= 0.0 && o.near_hint <= kLargest)) return "options.near_hint";
   if (!(o.filter_radius_texels >= 0.0 && o.filter_radius_texels <= 0.25 * o.map_size)) {
     return "options.filter_radius_texels";

@@ -11,8 +11,8 @@
 namespace gnomon {
 namespace {
 
-constexpr std::array<std::string_view, 6> kSchemeNames = {"uniform",     "logarithmic", "practical",
-                                                          "pseudo_near", "optimal",     "auto"};
+constexpr std::array<std::string_view, 7> kSchemeNames = {
+    "uniform", "logarithmic", "practical", "pseudo_near", "optimal", "auto", "given"};
 
 double logarithmic_edge(double n, double f, double t) noexcept {
   return n * std::pow(f / n, t);
@@ -45,9 +45,12 @@ void split_depths(double n, double f, const SplitOptions& options, std::span<dou
     const double t = static_cast<double>(i) / static_cast<double>(last);
     const double even = n + (f - n) * t;
     double edge = even;
-    if (n > 0.0 && f > n) {
+    if (options.scheme == SplitScheme::given) {
+      edge = i <= options.given.size() ? options.given[i - 1] : f;
+    } else if (n > 0.0 && f > n) {
       switch (options.scheme) {
         case SplitScheme::uniform:
+        case SplitScheme::given:
           break;
         case SplitScheme::optimal:
         case SplitScheme::automatic:

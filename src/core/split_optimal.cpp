@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "map_parts.hpp"
+#include "plan_splits.hpp"
 #include "vector.hpp"
 #include "visible.hpp"
 
@@ -21,8 +22,14 @@ constexpr int kSteps = 16;
 constexpr int kRounds = 2;
 constexpr int kTrials = 5;
 
-Polytope between(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
+/// The body between two depths, less what is not seen at the ends.
+Polytope between(const PlanContext& c, const Polytope& body, double from, double to) noexcept {
+  const auto [begin, end] = seen_between(c, from, to);
   Polytope part = body;
+  if (!(begin <= end)) {
+    part.vertex_count = 0;
+    return part;
+  }
   clip(part, Plane{c.axes.forward, -begin});
   clip(part, Plane{-c.axes.forward, end});
   return part;

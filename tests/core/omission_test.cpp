@@ -10,9 +10,10 @@
 namespace gnomon::test {
 namespace {
 
-constexpr OmissionKind kKinds[] = {OmissionKind::cascade_without_receiver,
-                                   OmissionKind::cascade_without_caster, OmissionKind::depth_without_receiver,
-                                   OmissionKind::warp_without_gain, OmissionKind::warp_in_stable_fit};
+constexpr OmissionKind kKinds[] = {
+    OmissionKind::cascade_without_receiver, OmissionKind::cascade_without_caster,
+    OmissionKind::depth_without_receiver,   OmissionKind::depth_not_visible,
+    OmissionKind::warp_without_gain,        OmissionKind::warp_in_stable_fit};
 
 TEST(Omission, every_kind_has_words_that_end_within_their_arrays) {
   for (const OmissionKind kind : kKinds) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
@@ -19,6 +20,18 @@ struct Input {
   Light light = DirectionalLight{{0.2, -1, 0.1}};
   std::vector<Box> casters = {{{-30, 0, -30}, {30, 5, -1}}}, receivers = {{{-30, -1, -30}, {30, 0, -1}}};
   PlanOptions options;
+  std::vector<double> splits;
+  VisibleDepths depths;
+  void give_splits(std::vector<double> inner) {
+    splits = std::move(inner);
+    options.split = SplitScheme::given;
+    options.given_splits = splits;
+  }
+  void see(double min, double max) {
+    depths.min = min;
+    depths.max = max;
+    options.visible_depths = &depths;
+  }
   [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, light, {casters, receivers}, options); }
 };
 
@@ -91,6 +104,22 @@ TEST(PlanInput, every_broken_field_is_named) {
       {"options.lambda", [](Input& i) { i.options.lambda = 1.5; }},
       {"options.lambda", [](Input& i) { i.options.lambda = kNan; }},
       {"options.near_hint", [](Input& i) { i.options.near_hint = -1.0; }},
+      {"options.given_splits", [](Input& i) { i.give_splits({}); }},
+      {"options.given_splits",
+       [](Input& i) {
+         i.give_splits({1, 2, 3, 4});
+       }},
+      {"options.given_splits",
+       [](Input& i) {
+         i.give_splits({1, kNan, 3});
+       }},
+      {"options.given_splits",
+       [](Input& i) {
+         i.give_splits({1, 3, 2});
+       }},
+      {"options.visible_depths", [](Input& i) { i.see(-1.0, 5.0); }},
+      {"options.visible_depths", [](Input& i) { i.see(kNan, 5.0); }},
+      {"options.visible_depths", [](Input& i) { i.see(1.0, kInfinity); }},
       {"options.filter_radius_texels", [](Input& i) { i.options.filter_radius_texels = -0.5; }},
       {"options.filter_radius_texels", [](Input& i) { i.options.filter_radius_texels = 257.0; }},
       {"options.bias", [](Input& i) { i.options.bias.slope_texels = kNan; }},
@@ -125,6 +154,17 @@ TEST(PlanInput, legal_extremes_are_planned) {
          i.light = DirectionalLight{{1e-200, -1e-200, 0}};
        }},
       {"empty boxes among the others", [](Input& i) { i.casters.push_back({}), i.receivers.push_back({}); }},
+      {"the same split thrice",
+       [](Input& i) {
+         i.give_splits({7, 7, 7});
+       }},
+      {"splits beyond the camera's range",
+       [](Input& i) {
+         i.give_splits({-1e20, 1e20, 1e21});
+       }},
+      {"one visible depth", [](Input& i) { i.depths = visible_between(20, 20), i.see(20, 20); }},
+      {"visible depths where no receiver is",
+       [](Input& i) { i.depths = visible_between(1e7, 1e9), i.see(1e7, 1e9); }},
       {"the most cascades", [](Input& i) { i.options.cascades = kMaxMaps; }},
   };
   for (const auto& [name, change] : extremes) {

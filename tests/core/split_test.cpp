@@ -16,8 +16,9 @@ namespace gnomon::test {
 namespace {
 
 constexpr double kRounding = 1e-13;
-constexpr SplitScheme kSchemes[] = {SplitScheme::uniform, SplitScheme::logarithmic, SplitScheme::practical,
-                                    SplitScheme::pseudo_near, SplitScheme::optimal};
+constexpr SplitScheme kSchemes[] = {SplitScheme::uniform,   SplitScheme::logarithmic,
+                                    SplitScheme::practical, SplitScheme::pseudo_near,
+                                    SplitScheme::optimal,   SplitScheme::given};
 
 std::vector<double> edges_of(double n, double f, const SplitOptions& options, std::size_t maps) {
   std::vector<double> edges(maps + 1, -1.0);
@@ -36,6 +37,15 @@ TEST(Split, a_near_depth_of_zero_or_less_falls_back_to_even_shares) {
     const auto edges = edges_of(n, n + 8.0, {SplitScheme::logarithmic, 1.0, 0.0}, 4);
     for (std::size_t i = 0; i < edges.size(); ++i) EXPECT_EQ(edges[i], n + 2.0 * static_cast<double>(i));
   }
+}
+
+TEST(Split, given_borders_are_kept_inside_the_range) {
+  const std::array<double, 3> inner = {0.5, 20.0, 2000.0};
+  const auto edges = edges_of(1.0, 100.0, {SplitScheme::given, 0.0, 0.0, inner}, 4);
+  EXPECT_EQ(edges, (std::vector<double>{1.0, 1.0, 20.0, 100.0, 100.0}));
+  // Missing ones leave the last maps nothing.
+  const auto few = edges_of(-2.0, 100.0, {SplitScheme::given, 0.0, 0.0, std::span(inner).first(1)}, 3);
+  EXPECT_EQ(few, (std::vector<double>{-2.0, 0.5, 100.0, 100.0}));
 }
 
 TEST(Split, no_edges_are_no_work) {
