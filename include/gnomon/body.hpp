@@ -41,6 +41,11 @@ struct Polytope {
   int vertex_count = 0;
   int face_count = 0;
 
+  Polytope() noexcept = default;
+  // Copies what is used: a tenth of the storage, for most bodies.
+  Polytope(const Polytope& other) noexcept { *this = other; }
+  Polytope& operator=(const Polytope& other) noexcept;
+
   [[nodiscard]] bool empty() const noexcept { return vertex_count == 0; }
   [[nodiscard]] std::span<const Vertex> vertices() const noexcept {
     return {vertex.data(), static_cast<std::size_t>(vertex_count)};

@@ -1,9 +1,11 @@
 // The intersection body: a convex polytope in fixed storage, cut by planes, with faces and adjacency.
 #include "gnomon/body.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "vector.hpp"
 
@@ -96,6 +98,15 @@ void cut(Polytope& body, const Plane& plane, const double* distance, VertexSet k
 }
 
 }  // namespace
+
+Polytope& Polytope::operator=(const Polytope& other) noexcept {
+  if (this == &other) return *this;
+  vertex_count = other.vertex_count;
+  face_count = other.face_count;
+  std::copy_n(other.vertex.begin(), vertex_count, vertex.begin());
+  std::copy_n(other.plane.begin(), face_count, plane.begin());
+  return *this;
+}
 
 Polytope box_polytope(const Box& box) noexcept {
   Polytope body;
@@ -204,22 +215,24 @@ void clip(Polytope& body, const Box& box) noexcept {
 int swept_planes(const Polytope& body, const glm::dvec3& direction,
                  std::span<Plane, kMaxCullPlanes> out) noexcept {
   int written = 0;
-  // Moved out to touch the body exactly, so that no rounding of a normal cuts into it.
-  const auto add = [&](const glm::dvec3& normal) {
-    double lowest = glm::dot(normal, body.vertex[0].position);
-    for (const Polytope::Vertex& v : body.vertices()) lowest = min_of(lowest, glm::dot(normal, v.position));
+  // Moved out to touch its own vertices: a normal's rounding must not cut into them.
+  const auto add = [&](const glm::dvec3& normal, double lowest) {
     if (written < kMaxCullPlanes) out[static_cast<std::size_t>(written++)] = {normal, -lowest};
   };
   if (body.empty()) return 0;
-  bool used[kMaxFaces] = {};
-  for (const Polytope::Vertex& v : body.vertices()) {
-    for (const std::uint8_t f : v.face) used[f] = true;
-  }
-  double along[kMaxFaces];
+  double along[kMaxFaces], lowest[kMaxFaces];
   for (int f = 0; f < body.face_count; ++f) {
-    const auto index = static_cast<std::size_t>(f);
-    along[f] = glm::dot(body.plane[index].normal, direction);
-    if (used[f] && along[f] >= 0.0) add(body.plane[index].normal);
+    along[f] = glm::dot(body.plane[static_cast<std::size_t>(f)].normal, direction);
+    lowest[f] = std::numeric_limits<double>::infinity();  // a face without vertices is none
+  }
+  for (const Polytope::Vertex& v : body.vertices()) {
+    for (const std::uint8_t f : v.face) {
+      if (along[f] >= 0.0) lowest[f] = min_of(lowest[f], glm::dot(body.plane[f].normal, v.position));
+    }
+  }
+  for (int f = 0; f < body.face_count; ++f) {
+    if (lowest[f] < std::numeric_limits<double>::infinity())
+      add(body.plane[static_cast<std::size_t>(f)].normal, lowest[f]);
   }
   for (int i = 0; i < body.vertex_count; ++i) {
     const Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(i)];
@@ -229,10 +242,12 @@ int swept_planes(const Polytope& body, const glm::dvec3& direction,
       if ((along[a] >= 0.0) == (along[b] >= 0.0)) continue;
       // The positive combination of both inward normals that is across the direction: it holds the edge,
       // points inward, and needs no length of the edge.
-      const glm::dvec3 normal =
+      const glm::dvec3 both =
           body.plane[a].normal * std::abs(along[b]) + body.plane[b].normal * std::abs(along[a]);
-      if (!(largest_component(normal) > 0.0)) continue;
-      add(safe_normalize(normal, normal));
+      if (!(largest_component(both) > 0.0)) continue;
+      const glm::dvec3 normal = safe_normalize(both, both);
+      add(normal,
+          min_of(glm::dot(normal, v.position), glm::dot(normal, body.vertex[v.neighbour[k]].position)));
     }
   }
   return written;

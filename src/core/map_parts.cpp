@@ -18,8 +18,8 @@ constexpr double kFlattestDepth = 1e-3;
 // Faces of a box steeper than this to the light bound nothing: their height changes by more than the scene's
 // size.
 constexpr double kSteepestFace = 1e-6;
-// Rounding of positions, relative to their distance from the origin of the world.
-constexpr double kPositionRounding = 1e-13;
+// Rounding of positions, relative to their distance from the origin of the world, and of the body's faces.
+constexpr double kPositionRounding = 4e-13;
 // A body shorter along the axis than this much of its other extents, or of its distance, has its length from
 // rounding, and a warp's strength from it would be noise.
 constexpr double kShortest = 1e-6, kShortestOfDistance = 1e-9;

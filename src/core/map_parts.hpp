@@ -35,6 +35,12 @@ struct LightBody {
 /// Texels along each side of a map of `size` that no receiver may fall into, with `share` of the map's side
 /// without them to a world unit.
 [[nodiscard]] int margin_texels(const PlanOptions& options, int size, double share) noexcept;
+/// The same for this map of the body, where a world unit is `units` of the plane's.
+[[nodiscard]] inline int margin_texels(const PlanOptions& options, int size, const PlaneMap& map,
+                                       std::span<const WarpInput::Point> body, double units = 1.0) noexcept {
+  const bool world = options.filter_radius_world > 0.0;
+  return margin_texels(options, size, world ? share_per_unit(map, body) * units : 0.0);
+}
 
 /// What casters reach the body: planes of its sweep towards the light, moved out by `margin_world` so that
 /// casters which only a filter's kernel reaches are kept, and the casters inside them.

@@ -135,7 +135,7 @@ void lay_rim(Draft& d, ShadowMap& map) noexcept {
   for (const WarpInput::Point& p : d.slopes.points()) steepest = max_of(steepest, p.x * p.x + p.y * p.y);
   const double slope_per_unit = std::sqrt(1.0 + steepest) / max_of(d.slopes.nearest, d.near_distance);
   map.filter_margin_texels =
-      margin_texels(d.light.options, map.width, share_per_unit(d.plane, d.slopes.points()) * slope_per_unit);
+      margin_texels(d.light.options, map.width, d.plane, d.slopes.points(), slope_per_unit);
   d.rim = static_cast<double>(map.filter_margin_texels) / map.width;
 }
 

@@ -169,8 +169,8 @@ bool lay_as_before(const PlanContext& c, const Polytope& body, const LightBody& 
   if (last == nullptr) return false;
   map.filter_margin_texels = last->filter_margin_texels;
   const HeldMap held = held_map(c, *last, points, static_cast<double>(map.filter_margin_texels) / map.width);
-  if (!held.holds || margin_texels(c.options, map.width, share_per_unit(held.plane, points.points())) >
-                         map.filter_margin_texels)
+  if (!held.holds ||
+      margin_texels(c.options, map.width, held.plane, points.points()) > map.filter_margin_texels)
     return false;
   laid = {held.plane, held.depths, swept_for(c, body, held.plane, map)};
   const double height =
@@ -188,14 +188,23 @@ void add_room(PlaneMap& plane) noexcept {
   plane.b_max += b;
 }
 
-void lay_anew(const PlanContext& c, const Polytope& body, const LightBody& points, double begin, double end,
-              Laid& laid, ShadowMap& map) noexcept {
+/// The best map of the plane, or the steady way there.
+PlaneMap chosen_plane(const PlanContext& c, const Polytope& body, const LightBody& points, double begin,
+                      double end, ShadowMap& map) noexcept {
+  const bool steady = c.history != nullptr && c.options.fit != Fit::warped_stable;
+  if (&c.warp == &warps::none && c.options.fit != Fit::rotated && !steady)
+    return plane_map(points.points(), {});
   const Polytope body_light = turned(body, c.frame);
   const WarpInput in = warp_input(c, points, body_light, begin, end);
   WarpChoice choice = chosen_warp(c, in, map.cascade, map.warp);
   if (c.options.fit == Fit::rotated) choice = turned_to_least_area(in, choice);
+  return steady ? steady_plane(c, in, choice, map) : plane_map(in.body, choice);
+}
+
+void lay_anew(const PlanContext& c, const Polytope& body, const LightBody& points, double begin, double end,
+              Laid& laid, ShadowMap& map) noexcept {
   const bool still = c.options.fit == Fit::warped_stable;
-  laid.plane = still ? plane_map(in.body, choice) : steady_plane(c, in, choice, map);
+  laid.plane = chosen_plane(c, body, points, begin, end, map);
   if (still) add_room(laid.plane);
   if (c.history != nullptr) {
     map.warp = laid.plane.choice.kappa > 0.0 ? &c.warp : &warps::none;
@@ -203,7 +212,7 @@ void lay_anew(const PlanContext& c, const Polytope& body, const LightBody& point
       add_event(*c.history, remembered(c, map) ? PlanEventKind::map_relaid : PlanEventKind::map_appeared,
                 map.cascade, 1.0);
   }
-  map.filter_margin_texels = margin_texels(c.options, map.width, share_per_unit(laid.plane, points.points()));
+  map.filter_margin_texels = margin_texels(c.options, map.width, laid.plane, points.points());
   laid.swept = swept_for(c, body, laid.plane, map);
   const double bottom = lowest(points);
   const double height =

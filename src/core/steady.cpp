@@ -230,7 +230,7 @@ PlaneMap steady_plane(const PlanContext& c, const WarpInput& in, const WarpChoic
   const Homography before = of_map(c, last->gl_from_world);
   const Decomposed from = decompose(before, in.body, best.axis);
   const auto changed = [&](const PlaneMap& plane) {
-    const int margin = margin_texels(c.options, map.width, share_per_unit(plane, in.body));
+    const int margin = margin_texels(c.options, map.width, plane, in.body);
     const double rims = 2.0 * std::log(1.0 - 2.0 * margin / map.width);
     Change change = change_between(before, of_plane(plane), in.body);
     change.low += rims;

@@ -4,6 +4,7 @@
 // vertices is this project's.
 #include <cmath>
 
+#include "../vector.hpp"
 #include "gnomon/warp.hpp"
 
 namespace gnomon::warps {
@@ -14,6 +15,7 @@ namespace {
 constexpr double kCoarseFactor = 2.0;
 constexpr double kWeakest = 1.0 / 16.0;  // weaker warps change texel sizes by under 6 %
 constexpr int kCoarseSteps = 34;         // up to 2^30 / 16: beyond the ratio far / near of any usable camera
+constexpr double kMost = 4.0;            // of the body's own ratio of depths: w need not fall off faster
 constexpr int kRefineSteps = 16;         // golden section: 0.618^16 of a factor 4, 0.06 %
 constexpr double kTie = 1e-9;            // gains below this are rounding: the weaker warp wins
 
@@ -69,9 +71,15 @@ WarpChoice choose(const WarpInput& input) noexcept {
   if (input.orthographic || !(length > 0.0)) return {};
   Best best{0.0, warp_error(input, 0.0).value(input.objective)};
   const double step = kCoarseFactor;
+  double nearest = input.body.front().depth, farthest = nearest;
+  for (const WarpInput::Point& p : input.body) {
+    nearest = min_of(nearest, p.depth);
+    farthest = max_of(farthest, p.depth);
+  }
+  const double strongest = kMost * farthest / (nearest * length);
   double best_grid = 0.0, kappa = kWeakest / length;
   Best grid{0.0, best.value};
-  for (int i = 0; i < kCoarseSteps; ++i, kappa *= step) {
+  for (int i = 0; i < kCoarseSteps && kappa <= strongest; ++i, kappa *= step) {
     const double value = warp_error(input, kappa).value(input.objective);
     if (value < grid.value * (1.0 - kTie)) {
       grid = {kappa, value};
