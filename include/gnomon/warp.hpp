@@ -58,6 +58,8 @@ struct WarpChoice {
   double centre = 0.0;         ///< of the projection, across the axis, world units
   glm::dvec2 row_a{1.0, 0.0};  ///< with row_b: turns or slants the map; any two independent vectors
   glm::dvec2 row_b{0.0, 1.0};
+  /// The objective over that of no warp, where the warp has measured it by itself; 0: the plan measures it.
+  double gain_ratio = 0.0;
 };
 
 /// One entry of the registry warps.def.

@@ -8,6 +8,7 @@
 
 #include "light_map.hpp"
 #include "vector.hpp"
+#include "wide.hpp"
 
 namespace gnomon {
 namespace {
@@ -135,7 +136,7 @@ void LightPlaneError::add_visible_points() noexcept {
   }
 }
 
-double LightPlaneError::value(const WarpChoice& choice) noexcept {
+GNOMON_WIDE double LightPlaneError::value(const WarpChoice& choice) noexcept {
   const PlaneMap map = plane_map(input_.body, choice);
   const auto n = static_cast<std::size_t>(count_);
   const double axis_x = choice.axis.x, axis_y = choice.axis.y;
@@ -176,7 +177,7 @@ double LightPlaneError::storage_squared() const noexcept {
   return s * t;
 }
 
-double LightPlaneError::worst_squared() noexcept {
+GNOMON_WIDE double LightPlaneError::worst_squared() noexcept {
   const auto n = static_cast<std::size_t>(count_);
   for (std::size_t i = 0; i < n; ++i) {
     const double half = 0.5 * (row_x_[i] + row_y_[i]), determinant = 1.0 / std::abs(inverse_[i]);

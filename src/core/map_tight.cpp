@@ -70,6 +70,7 @@ constexpr double kLeastGain = 1e-3;
 /// with.
 double gain_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
   if (!usable(in, choice)) return std::numeric_limits<double>::infinity();
+  if (choice.gain_ratio > 0.0) return choice.gain_ratio;
   const bool along_y =
       choice.axis.x == 0.0 && choice.centre == 0.0 && choice.row_a.y == 0.0 && choice.row_b.x == 0.0;
   if (along_y && choice.kappa == 0.0) return 1.0;

@@ -125,7 +125,10 @@ WarpChoice choose(const WarpInput& input) noexcept {
   // A percentile forgives the few worst points and so takes stronger warps than the maxima LiSPSM goes by.
   if (input.objective == Objective::p95) start = stronger(search, start);
   const Corner best = walk(search, start, kSimplexSteps);
-  return best.value < without * (1.0 - kLeastGain) ? search.choice(best.at) : WarpChoice{};
+  const bool gains = best.value < without * (1.0 - kLeastGain);
+  WarpChoice choice = gains ? search.choice(best.at) : WarpChoice{};
+  choice.gain_ratio = gains ? best.value / without : 1.0;
+  return choice;
 }
 
 }  // namespace
