@@ -12,6 +12,7 @@
 #include "gnomon/light.hpp"
 #include "gnomon/metric.hpp"
 #include "gnomon/omni.hpp"
+#include "gnomon/partition.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/reuse.hpp"
 #include "gnomon/snap.hpp"

@@ -19,6 +19,7 @@
 #include "gnomon/clip_space.hpp"
 #include "gnomon/fit.hpp"
 #include "gnomon/light.hpp"
+#include "gnomon/partition.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/split.hpp"
 #include "gnomon/visible_depths.hpp"
@@ -43,6 +44,8 @@ struct PlanOptions {
   /// directional lights only: a spot gets one map, a point light or a spot of 85 degrees and more half angle
   /// up to six, the faces of a cube.
   int cascades = 4;
+  /// What divides the receivers among the maps. Others than view_depth take neither cascades nor splits.
+  Partition partition = Partition::view_depth;
   /// How the view depth is divided among them.
   SplitScheme split = SplitScheme::automatic;
   /// Blend of uniform (0) and logarithmic (1) splits for SplitScheme::practical.
@@ -98,12 +101,15 @@ enum class OmissionKind : std::uint8_t {
   cascade_without_receiver,  ///< a: depth_begin, b: depth_end
   cascade_without_caster,    ///< a: depth_begin, b: depth_end
   depth_without_receiver,    ///< the camera's range was cut to the receivers': a: depth_begin, b: depth_end
-  depth_not_visible,      ///< PlanOptions::visible_depths shows nothing there: a: depth_begin, b: depth_end
-  warp_without_gain,      ///< a: objective with the warp over the objective without
-  warp_in_stable_fit,     ///< a warp was asked for, and Fit::stable takes none
-                          ///< the casters do
-  face_without_receiver,  ///< of a cube round the light: no visible receiver in it within range and cone
-  face_without_caster,    ///< of a cube round the light: no caster between it and its receivers
+  depth_not_visible,        ///< PlanOptions::visible_depths shows nothing there: a: depth_begin, b: depth_end
+  warp_without_gain,        ///< a: objective with the warp over the objective without
+  warp_in_stable_fit,       ///< a warp was asked for, and Fit::stable takes none
+                            ///< the casters do
+  part_without_caster,      ///< of a partition other than by depth; a: depth_begin, b: depth_end
+  partition_without_gain,   ///< one map takes all; a: objective of the parts over that of one map
+  partition_in_stable_fit,  ///< another partition than view_depth was asked for, and Fit::stable takes none
+  face_without_receiver,    ///< of a cube round the light: no visible receiver in it within range and cone
+  face_without_caster,      ///< of a cube round the light: no caster between it and its receivers
 };
 struct Omission {
   OmissionKind kind{};
@@ -130,7 +136,8 @@ struct ShadowMap {
   glm::dvec4 light_world{0.0, 1.0, 0.0, 0.0};
   /// Which of the cascades asked for this is. A light with a position has none: 0 for a spot's single map,
   /// and for the faces of a cube 0 to 5 in the order +x -x +y -y +z -z (of the world for a point light; a
-  /// wide spot's face 5 looks along it).
+  /// wide spot's face 5 looks along it). Of Partition::frustum_faces the face: left, right, bottom, top,
+  /// near, far; of separating_plane 0 before the plane, 1 behind.
   int cascade = 0;
   int width = 0, height = 0;   ///< texels
   const Warp* warp = nullptr;  ///< never nullptr in a plan's maps; the one that was used

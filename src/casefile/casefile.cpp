@@ -133,11 +133,22 @@ BiasOptions bias_from(const json& value) {
   return bias;
 }
 
+/// The separating plane is counted among the warps, too: two maps, the first of them warped as the plan
+/// chooses.
+void read_warp(const Fields& fields, PlanOptions& options) {
+  if (!fields.has("warp") || fields.text("warp") != to_string(Partition::separating_plane)) {
+    read_name(fields, "warp", options.warp, warp_names().c_str(), warp_from_name);
+    return;
+  }
+  if (fields.has("partition")) fields.refuse("warp", "is a partition: give it as partition alone");
+  options.partition = Partition::separating_plane;
+}
+
 PlanOptions options_from(const json& value) {
   const Fields fields(value, "options",
                       {"map_size", "cascades", "split", "lambda", "pseudo_near", "near_hint", "split_range",
-                       "warp", "objective", "stable", "fit", "stable_size_steps", "filter_radius_texels",
-                       "filter_radius_world", "bias", "clip_space"});
+                       "partition", "warp", "objective", "stable", "fit", "stable_size_steps",
+                       "filter_radius_texels", "filter_radius_world", "bias", "clip_space"});
   PlanOptions options;
   fields.read("map_size", options.map_size);
   fields.read("cascades", options.cascades);
@@ -151,7 +162,9 @@ PlanOptions options_from(const json& value) {
   fields.read("pseudo_near", options.near_hint);
   fields.read("near_hint", options.near_hint);
   read_name(fields, "split_range", options.split_range, "auto, receivers, camera", split_range_from_name);
-  read_name(fields, "warp", options.warp, warp_names().c_str(), warp_from_name);
+  read_name(fields, "partition", options.partition, "view_depth, frustum_faces, separating_plane",
+            partition_from_name);
+  read_warp(fields, options);
   read_name(fields, "objective", options.objective, "storage, max, p95", objective_from_name);
   if (fields.has("stable") && fields.has("fit"))
     fields.refuse("stable", "is another name of fit: give one of them");

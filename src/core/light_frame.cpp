@@ -22,6 +22,10 @@ LightFrame frame_from(const glm::dvec3& light_direction, const glm::dvec3& along
 
 }  // namespace
 
+LightFrame frame_along(const glm::dvec3& light_direction, const glm::dvec3& along) noexcept {
+  return frame_from(light_direction, along);
+}
+
 LightFrame view_aligned_frame(const glm::dvec3& light_direction, const CameraAxes& axes) noexcept {
   const glm::dvec3 across = glm::cross(axes.forward, light_direction);
   const bool parallel = glm::dot(across, across) < kParallelSine * kParallelSine;

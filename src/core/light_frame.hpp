@@ -12,6 +12,9 @@ struct LightFrame {
   glm::dvec3 x, y, z;
 };
 
+/// y along the projection of `along` across the light; any axis where they are parallel.
+[[nodiscard]] LightFrame frame_along(const glm::dvec3& light_direction, const glm::dvec3& along) noexcept;
+
 /// y along the view direction's projection across the light, away from the viewer. Where view and light are
 /// parallel (sine below 1e-3, where rounding and mouse noise would spin the axis) y is the camera's up axis
 /// instead.

@@ -139,6 +139,16 @@ double tight_objective(const PlanContext& c, const Polytope& body, double begin,
   return with < without || !c.warp.drop_without_gain ? with : without;
 }
 
+PlaneMap tight_plane(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
+  const LightBody points = in_light_frame(c, c.frame, body);
+  const Polytope body_light = turned(body, c.frame);
+  const WarpInput in = warp_input(c, points, body_light, begin, end);
+  const WarpChoice choice = c.warp.choose(in);
+  const double ratio = gain_ratio(in, choice);
+  const bool taken = std::isfinite(ratio) && (ratio < 1.0 - kLeastGain || !c.warp.drop_without_gain);
+  return plane_map(points.points(), taken ? choice : WarpChoice{});
+}
+
 namespace {
 
 /// A plane map with its depths, and the casters it needs.

@@ -52,6 +52,18 @@ OmissionText describe(const Omission& o) noexcept {
       what("warp");
       why("a stable fit keeps its texel grid still, which a warp that follows the view cannot");
       break;
+    case OmissionKind::part_without_caster:
+      what("part %d", o.map);
+      why("no caster can reach its receivers, at depths from %g to %g", o.a, o.b);
+      break;
+    case OmissionKind::partition_without_gain:
+      what("partition");
+      why("the objective of its parts is %.4g of the objective of one map", o.a);
+      break;
+    case OmissionKind::partition_in_stable_fit:
+      what("partition");
+      why("a stable fit keeps its texel grid still, which parts that follow the view cannot");
+      break;
     case OmissionKind::face_without_receiver:
       what("face %d", o.map);
       why("no visible receiver lies in it within the light's range and cone");

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "light_positional.hpp"
+#include "partition.hpp"
 #include "plan_context.hpp"
 #include "plan_input.hpp"
 #include "plan_splits.hpp"
@@ -102,10 +103,18 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
     plan.status = PlanStatus::nothing_visible;
     return plan;
   }
+  if (stable && options.partition != Partition::view_depth)
+    omit(plan, {OmissionKind::partition_in_stable_fit, -1, 0.0, 0.0, 0});
   if (stable && options.warp != nullptr && options.warp != &warps::none) {
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
   }
   std::array<double, kMaxMaps + 1> edges{};
+  if (options.partition != Partition::view_depth && !stable) {
+    choose_edges(context, body, {edges.data(), 2});
+    plan_parts(context, body, edges[0], edges[1]);
+    plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
+    return plan;
+  }
   choose_edges(context, body, {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
   for (int i = 0; i < options.cascades; ++i) {
     const double from = edges[static_cast<std::size_t>(i)], to = edges[static_cast<std::size_t>(i) + 1];

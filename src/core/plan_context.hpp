@@ -6,6 +6,7 @@
 #include "gnomon/history.hpp"
 #include "gnomon/plan.hpp"
 #include "light_frame.hpp"
+#include "light_map.hpp"
 
 namespace gnomon {
 
@@ -39,5 +40,8 @@ void omit(ShadowPlan& plan, const Omission& omission) noexcept;
 /// the same for all bodies.
 [[nodiscard]] double tight_objective(const PlanContext& c, const Polytope& body, double begin,
                                      double end) noexcept;
+/// The light plane under that warp.
+[[nodiscard]] PlaneMap tight_plane(const PlanContext& c, const Polytope& body, double begin,
+                                   double end) noexcept;
 
 }  // namespace gnomon

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,10 +30,9 @@ Json rows_of(const glm::dmat4& matrix) {
   return rows;
 }
 
-Json cull_planes_of(const ShadowMap& map) {
+Json planes_of(std::span<const glm::dvec4> list, int count) {
   Json planes = Json::array();
-  for (int i = 0; i < map.cull_plane_count; ++i) {
-    const glm::dvec4& plane = map.cull_planes[static_cast<std::size_t>(i)];
+  for (const glm::dvec4& plane : list.first(static_cast<std::size_t>(count))) {
     planes.push_back({number(plane.x), number(plane.y), number(plane.z), number(plane.w)});
   }
   return planes;
@@ -74,7 +74,8 @@ Json map_json(const ShadowPlan& plan, int index, const Case& input) {
        {{"constant", number(map.bias_world.constant)},
         {"slope", number(map.bias_world.slope)},
         {"normal_offset", number(map.bias_world.normal_offset)}}},
-      {"cull_planes", cull_planes_of(map)},
+      {"cull_planes", planes_of(map.cull_planes, map.cull_plane_count)},
+      {"select_planes", planes_of(map.select_planes, map.select_plane_count)},
       {"casters", casters_of(map, input)},
       {"snap_key", snap_key_of(map.snap_key)},
       {"snap_depth", snap_depth_of(map.snap_key)},

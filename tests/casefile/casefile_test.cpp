@@ -82,6 +82,21 @@ TEST(CaseFile, finds_every_registered_warp_by_name) {
   }
 }
 
+TEST(CaseFile, reads_partitions_and_takes_the_separating_plane_as_a_warp_too) {
+  for (const Partition partition :
+       {Partition::view_depth, Partition::frustum_faces, Partition::separating_plane}) {
+    const std::string options = R"({"partition": ")" + std::string(to_string(partition)) + R"("})";
+    EXPECT_EQ(read_case(text_with(kSun, options)).options.partition, partition);
+  }
+  const PlanOptions as_warp = read_case(text_with(kSun, R"({"warp": "separating_plane"})")).options;
+  EXPECT_EQ(as_warp.partition, Partition::separating_plane);
+  EXPECT_EQ(as_warp.warp, nullptr);
+  EXPECT_THROW(
+      (void)read_case(text_with(kSun, R"({"warp": "separating_plane", "partition": "frustum_faces"})")),
+      CaseError);
+  EXPECT_THROW((void)read_case(text_with(kSun, R"({"partition": "faces"})")), CaseError);
+}
+
 TEST(CaseFile, keeps_numbers_to_the_last_bit) {
   const Case input =
       read_case(text_with(R"({"type": "directional", "direction": [0.1, 5e-324, 1.7976931348623157e308]})"));

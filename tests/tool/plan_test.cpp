@@ -75,10 +75,11 @@ TEST(Plan, has_the_keys_of_the_format_and_no_others) {
   const json plan = json::parse(finished.out);
   EXPECT_EQ(keys_of(plan), (std::vector<std::string>{"m", "maps", "omitted", "plan_ns", "status"}));
   EXPECT_EQ(keys_of(plan["m"]), (std::vector<std::string>{"max", "p50", "p95", "storage"}));
-  EXPECT_EQ(keys_of(plan["maps"][0]),
-            (std::vector<std::string>{"bias_world", "cascade", "casters", "clip_from_world", "cull_planes",
-                                      "depth_begin", "depth_end", "filter_margin_texels", "kappa", "m",
-                                      "size", "snap_depth", "snap_key", "texel_world", "warp"}));
+  EXPECT_EQ(
+      keys_of(plan["maps"][0]),
+      (std::vector<std::string>{"bias_world", "cascade", "casters", "clip_from_world", "cull_planes",
+                                "depth_begin", "depth_end", "filter_margin_texels", "kappa", "m",
+                                "select_planes", "size", "snap_depth", "snap_key", "texel_world", "warp"}));
   ASSERT_FALSE(plan["omitted"].empty());
   EXPECT_EQ(keys_of(plan["omitted"][0]), (std::vector<std::string>{"saves_texels", "what", "why"}));
 }

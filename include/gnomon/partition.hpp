@@ -1,0 +1,30 @@
+// What divides the receivers in view among the maps of a directional light.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace gnomon {
+
+enum class Partition : std::uint8_t {
+  view_depth,        ///< cascades along the view (split.hpp)
+  frustum_faces,     ///< a map for each face of the camera's frustum that the light enters by, or leaves by:
+                     ///< whichever set lowers the objective; up to 5, whatever the number of cascades
+  separating_plane,  ///< two maps, parted by a plane parallel to the light where the warped map's texels grow
+                     ///< beyond those of a uniform one: warped before it, uniform behind
+};
+// frustum_faces and separating_plane divide only where that lowers the objective, else one map takes all, and
+// the plan tells. Fit::stable, whose grid must not follow the view, keeps view_depth, and a PlanHistory does
+// not steady the parts. Lights with a position have a partition of their own.
+
+[[nodiscard]] std::string_view to_string(Partition partition) noexcept;
+/// True and `partition` set where `name` is one of view_depth, frustum_faces, separating_plane.
+[[nodiscard]] bool partition_from_name(std::string_view name, Partition& partition) noexcept;
+
+/// Share of a warped map's length, from its near end, up to which its texels are smaller than those of a
+/// uniform map over the same body with equal widths at the far end: w = 1 + kappa u* = (1 + kappa
+/// length)^(2/3) (texel areas grow with w^3). Needs kappa >= 0 and length >= 0; 2/3 where nothing is warped.
+/// Based on: Mikkelsen, "Separating-plane perspective shadow mapping", 2007.
+[[nodiscard]] double separating_share(double kappa, double length) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,157 @@
+// Do the parts of a partition cover every visible receiver, keep its casters, and never cost more than one
+// map?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "support/property.hpp"
+#include "support/random_case.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr std::array kDivided = {Partition::frustum_faces, Partition::separating_plane};
+
+Case draw_divided() {
+  Case c = draw_case();
+  c.options.fit = chance(0.3) ? Fit::rotated : Fit::tight;
+  c.options.partition = kDivided[static_cast<std::size_t>(pick(2))];
+  return c;
+}
+
+/// The part whose planes the point is inside, whatever its map holds.
+bool inside_planes(const ShadowMap& map, const glm::dvec3& point) {
+  for (int i = 0; i < map.select_plane_count; ++i) {
+    const glm::dvec4& plane = map.select_planes[static_cast<std::size_t>(i)];
+    if (glm::dot(glm::dvec3(plane), point) + plane.w < 0.0) return false;
+  }
+  return true;
+}
+
+bool told(const ShadowPlan& plan, OmissionKind kind) {
+  const auto list = plan.omitted();
+  return std::any_of(list.begin(), list.end(), [&](const Omission& o) { return o.kind == kind; });
+}
+
+TEST(PartitionLaw, the_first_map_whose_planes_hold_a_visible_receiver_point_shows_it) {
+  int divided = 0;
+  for_all(600, [&] {
+    const Case c = draw_divided();
+    RC_LOG() << c << to_string(c.options.partition);
+    const ShadowPlan plan = c.plan();
+    if (plan.status != PlanStatus::ok || !plan.select_by_map) return;
+    ++divided;
+    Random random(7);
+    for (const glm::dvec3& point : visible_points(c, random, 6, 12)) {
+      const auto maps = plan.maps();
+      const auto first = std::find_if(maps.begin(), maps.end(),
+                                      [&](const ShadowMap& map) { return inside_planes(map, point); });
+      if (first == maps.end()) {
+        require(told(plan, OmissionKind::part_without_caster), "held by no part", point.x, point.y, point.z);
+        continue;
+      }
+      require(map_serving(plan, point, depth_of(c.camera, point)) == first - maps.begin(), "not shown by map",
+              first - maps.begin(), "of", maps.size(), "at", point.x, point.y, point.z);
+    }
+  });
+  EXPECT_GT(divided, 100);
+}
+
+TEST(PartitionLaw, a_caster_between_a_receiver_and_the_light_is_in_the_list_of_the_map_that_serves_it) {
+  int shadowed = 0;
+  for_all(400, [&] {
+    const Case c = draw_divided();
+    RC_LOG() << c << to_string(c.options.partition);
+    const ShadowPlan plan = c.plan();
+    // What is not divided is held by the laws of cascades.
+    if (!plan.select_by_map) return;
+    Random random(11);
+    std::vector<std::uint32_t> list(c.casters.size());
+    for (const glm::dvec3& point : visible_points(c, random, 4, 6)) {
+      const int index = map_serving(plan, point, depth_of(c.camera, point));
+      std::size_t count = 0;
+      if (index >= 0) count = cull_casters(plan.map[static_cast<std::size_t>(index)], c.casters, list);
+      for (std::size_t k = 0; k < c.casters.size(); ++k) {
+        const Crossing crossing = cross(c.casters[k], point, -plan.light_direction);
+        // A caster that is only touched may be lost to rounding.
+        if (!crossing.hits || !(crossing.leave > 1e-6 * c.camera.far_depth)) continue;
+        if (!(crossing.leave - std::max(crossing.enter, 0.0) > 1e-6 * c.camera.far_depth)) continue;
+        ++shadowed;
+        const auto end = list.begin() + static_cast<std::ptrdiff_t>(count);
+        require(std::find(list.begin(), end, static_cast<std::uint32_t>(k)) != end, "caster", k,
+                "lost by map", index, "for", point.x, point.y, point.z);
+      }
+    }
+  });
+  EXPECT_GT(shadowed, 1000);
+}
+
+TEST(PartitionLaw, what_is_not_divided_is_told_and_a_stable_fit_keeps_its_cascades) {
+  for_all(300, [&] {
+    Case c = draw_divided();
+    RC_LOG() << c << to_string(c.options.partition);
+    const ShadowPlan plan = c.plan();
+    if (plan.status == PlanStatus::nothing_visible) return;
+    require(plan.select_by_map != told(plan, OmissionKind::partition_without_gain), "divided without a word");
+    c.options.fit = Fit::stable;
+    const ShadowPlan stable = c.plan();
+    require(!stable.select_by_map && told(stable, OmissionKind::partition_in_stable_fit),
+            "stable but divided");
+    c.options.partition = Partition::view_depth;
+    const ShadowPlan cascades = c.plan();
+    require(cascades.map_count == stable.map_count, "maps", cascades.map_count, stable.map_count);
+    for (int i = 0; i < cascades.map_count; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      require(cascades.map[index].clip_from_world == stable.map[index].clip_from_world, "another map", i);
+    }
+  });
+}
+
+double measured(const AliasingStats& stats, Objective objective) {
+  if (objective == Objective::storage) return stats.storage;
+  return objective == Objective::max ? stats.max : stats.p95;
+}
+
+// Parts are judged at a few hundred points, and measured at others.
+constexpr double kJudged = 1.15;
+
+TEST(PartitionLaw, no_partition_makes_its_objective_worse_than_one_uniform_map_when_measured) {
+  constexpr MeasureGrid kGrid{20, 20, 32};
+  constexpr std::uint64_t kEnough = 400;
+  int divided = 0;
+  for_all(600, [&] {
+    Case c = draw_case({.max_depth_ratio = 1e3, .max_boxes = 1});
+    const double f = c.camera.far_depth;
+    const glm::dvec3 at = point_at(c.camera, between(-1, 1), between(-1, 1), f * unit());
+    const glm::dvec3 half =
+        f * glm::dvec3(std::exp2(between(-4, 2)), std::exp2(between(-6, 2)), std::exp2(between(-4, 2)));
+    c.receivers = c.casters = {{at - half, at + half}};
+    c.options.fit = Fit::tight;
+    c.options.cascades = 1;
+    c.options.near_hint = c.options.filter_radius_world = 0.0;
+    if (c.options.warp != nullptr && !c.options.warp->drop_without_gain) c.options.warp = nullptr;
+    Case single = c;
+    single.options.warp = &warps::none;
+    const AliasingStats without = measure(single.plan(), c.camera, c.bounds(), kGrid);
+    if (without.samples < kEnough) return;
+    for (const Partition partition : kDivided) {
+      c.options.partition = partition;
+      RC_LOG() << c << to_string(partition);
+      const ShadowPlan plan = c.plan();
+      if (!plan.select_by_map) continue;
+      ++divided;
+      const AliasingStats with = measure(plan, c.camera, c.bounds(), kGrid);
+      require(measured(with, c.options.objective) <= measured(without, c.options.objective) * kJudged,
+              to_string(partition), to_string(c.options.objective), measured(with, c.options.objective),
+              "with one map", measured(without, c.options.objective));
+    }
+  });
+  EXPECT_GT(divided, 200);
+}
+
+}  // namespace
+}  // namespace gnomon::test
