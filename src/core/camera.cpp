@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "elementary.hpp"
 #include "vector.hpp"
 
 namespace gnomon {
@@ -12,7 +13,7 @@ namespace gnomon {
 Camera perspective_camera(const glm::dvec3& position, const glm::dvec3& forward, const glm::dvec3& up,
                           double fov_y_radians, double aspect, double near_depth, double far_depth, int width,
                           int height) noexcept {
-  const double tan_y = std::tan(0.5 * fov_y_radians);
+  const double tan_y = elementary::tan(0.5 * fov_y_radians);
   const double tan_x = tan_y * aspect;
   return {position, forward, up, false, -tan_x, tan_x, -tan_y, tan_y, near_depth, far_depth, width, height};
 }
@@ -50,7 +51,7 @@ Camera with_finite_far(const Camera& camera, std::span<const Box> boxes) noexcep
   }
   constexpr double kStepsPerOctave = 4.0;
   const auto next_step = [](double ratio) {
-    return std::exp2(std::ceil(std::log2(ratio) * kStepsPerOctave) / kStepsPerOctave);
+    return elementary::exp2(std::ceil(elementary::log2(ratio) * kStepsPerOctave) / kStepsPerOctave);
   };
   // Of the near plane's depth, of the image's height: a slice thinner than this is of no use to anyone.
   constexpr double kThinnest = 1.0 / 1024.0;

@@ -5,6 +5,8 @@
 
 #include "gnomon/metric.hpp"
 
+#include "elementary.hpp"
+
 namespace gnomon::dpds {
 
 double uniform(double z, double n, double f) noexcept {
@@ -25,7 +27,7 @@ double lispsm(double z, double n, double f) noexcept {
 }
 
 double logarithmic(double, double n, double f) noexcept {
-  return std::log1p((f - n) / n);
+  return elementary::log1p((f - n) / n);
 }
 
 }  // namespace gnomon::dpds

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "elementary.hpp"
 #include "light_map.hpp"
 #include "vector.hpp"
 #include "wide.hpp"
@@ -120,17 +121,17 @@ void LightPlaneError::add_visible_points() noexcept {
     for (std::size_t k = 0; k < bounds.least_count; ++k) least = max_of(least, bounds.least[k].on(x, y));
     for (std::size_t k = 0; k < bounds.most_count; ++k) most = min_of(most, bounds.most[k].on(x, y));
     if (!(least > 0.0 && least < most)) continue;
-    const Ray ray{view.forward + view.right * x + view.up * y, 1.0 / most, std::log(most / least)};
+    const Ray ray{view.forward + view.right * x + view.up * y, 1.0 / most, elementary::log(most / least)};
     total += ray.length;
     rays[ray_count++] = ray;
   }
   if (!(total > 0.0)) return;
   // Evenly spaced in the total length of all rays: each point stands for an equal share of what is seen.
-  const double spacing = total / kVisiblePoints, ratio = std::exp(spacing);
+  const double spacing = total / kVisiblePoints, ratio = elementary::exp(spacing);
   double next = 0.5 * spacing;
   for (std::size_t i = 0; i < ray_count; ++i) {
     const Ray& ray = rays[i];
-    double depth = next < ray.length ? ray.begin * std::exp(next) : 0.0;
+    double depth = next < ray.length ? ray.begin * elementary::exp(next) : 0.0;
     for (; next < ray.length; next += spacing, depth *= ratio) add(ray.step * depth);
     next -= ray.length;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "elementary.hpp"
 #include "plan_context.hpp"
 #include "vector.hpp"
 #include "visible.hpp"
@@ -71,7 +72,7 @@ ShadowMap& next_map(const PositionalLight& light, int face, ShadowPlan& plan) no
 
 void plan_cone(const PositionalLight& light, const glm::dvec3& direction, double outer,
                ShadowPlan& plan) noexcept {
-  const LightFrustum frustum{light.apex, fixed_frame(direction), max_of(std::tan(outer), kNarrowest)};
+  const LightFrustum frustum{light.apex, fixed_frame(direction), max_of(elementary::tan(outer), kNarrowest)};
   Polytope body = light.lit;
   clip_to_sides(body, frustum);
   // Four more planes round the cone cut the square's corners off.
@@ -98,7 +99,7 @@ struct Cone {
 /// Clips a face that looks sideways from the cone's direction: along it, the cone's rim is at a slope of
 /// cot(outer) where it is nearest to the direction (up to 90 degrees) or farthest from it (beyond).
 void clip_to_cone(Polytope& body, const LightFrustum& face, const Cone& cone) noexcept {
-  const double cotangent = std::cos(cone.outer) / std::sin(cone.outer);
+  const double cotangent = elementary::cos(cone.outer) / elementary::sin(cone.outer);
   const double slope = cotangent > 0.0 ? cotangent : cotangent * (std::sqrt(2.0) + kFaceOverlap);
   if (slope <= -face.slope) return;
   clip(body, slope_plane(face, -cone.direction, -slope));

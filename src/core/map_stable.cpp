@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "elementary.hpp"
 #include "map_parts.hpp"
 #include "vector.hpp"
 
@@ -18,7 +19,7 @@ bool lay_stable_map(const PlanContext& c, const Polytope& body, double begin, do
   // within.
   const double chord = longest_chord(c.camera.left, c.camera.right, c.camera.bottom, c.camera.top,
                                      c.camera.orthographic, begin, end);
-  const double unit = std::exp2(std::floor(std::log2(chord))) / c.options.stable_size_steps;
+  const double unit = elementary::power_of_two_below(chord) / c.options.stable_size_steps;
   const double side = std::ceil(chord / unit) * unit;
   map.filter_margin_texels = margin_texels(c.options, map.width - 1, 1.0 / side);
   const double texel = side / (map.width - 1 - 2 * map.filter_margin_texels);

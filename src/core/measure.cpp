@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "elementary.hpp"
 #include "gnomon/metric.hpp"
 #include "log_histogram.hpp"
 #include "metric_kernel.hpp"
@@ -46,7 +47,7 @@ AliasingStats measure_maps(const ShadowPlan& plan, int only, const Camera& camer
   const bool by_ratio = n > 0.0;
   const auto depth_of = [&](int k) {
     const double t = (k + 0.5) / grid.depths;
-    return by_ratio ? n * std::pow(f / n, t) : n + (f - n) * t;
+    return by_ratio ? n * elementary::pow(f / n, t) : n + (f - n) * t;
   };
   const auto sample = [&](const glm::dvec3& point, double depth) {
     const int index = map_serving(plan, point, depth);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "elementary.hpp"
 #include "gnomon/omni.hpp"
 #include "log_histogram.hpp"
 #include "vector.hpp"
@@ -58,7 +59,7 @@ OmniComparison compare_omni(const PointLight& light, const Camera& any_camera, c
   const int rays = grid.columns * grid.rows;
   for (int k = 0; k < grid.depths; ++k) {
     const double along = (k + 0.5) / grid.depths;
-    const double depth = n > 0.0 ? n * std::pow(f / n, along) : n + (f - n) * along;
+    const double depth = n > 0.0 ? n * elementary::pow(f / n, along) : n + (f - n) * along;
     const double scale = camera.orthographic ? 1.0 : depth;
     for (int i = 0; i < rays; ++i) {
       const double x = camera.left + (camera.right - camera.left) * (i % grid.columns + 0.5) / grid.columns;

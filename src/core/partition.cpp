@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "elementary.hpp"
 #include "light_map.hpp"
 #include "vector.hpp"
 #include "visible.hpp"
@@ -197,7 +198,7 @@ bool partition_from_name(std::string_view name, Partition& partition) noexcept {
 double separating_share(double kappa, double length) noexcept {
   const double reach = kappa * length;
   // ((1 + reach)^(2/3) - 1) / reach, exact where the reach is small.
-  return reach > 0.0 ? std::expm1(2.0 / 3.0 * std::log1p(reach)) / reach : 2.0 / 3.0;
+  return reach > 0.0 ? elementary::expm1(2.0 / 3.0 * elementary::log1p(reach)) / reach : 2.0 / 3.0;
 }
 
 void plan_parts(const PlanContext& c, const Polytope& in_view, double begin, double end) noexcept {

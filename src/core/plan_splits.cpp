@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "elementary.hpp"
 #include "split_optimal.hpp"
 #include "steady.hpp"
 #include "vector.hpp"
@@ -95,7 +96,7 @@ std::size_t lay_slices(const VisibleDepths& depths, DepthRange cover, double rat
 void split_seen(const VisibleDepths& depths, DepthRange cover, std::span<double> edges) noexcept {
   const std::span<double> ends = edges.subspan(1);
   // As many slices of this one always do; of the other, none.
-  double enough = std::log(cover.end / cover.begin) / static_cast<double>(ends.size()) * (1.0 + 1e-12);
+  double enough = elementary::log(cover.end / cover.begin) / static_cast<double>(ends.size()) * (1.0 + 1e-12);
   double too_little = 0.0;
   // Halvings down to a ten-millionth: far below what a bin resolves.
   constexpr int kHalvings = 24;
@@ -103,9 +104,10 @@ void split_seen(const VisibleDepths& depths, DepthRange cover, std::span<double>
   const std::span<double> trial_ends{trial.data(), ends.size()};
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (enough + too_little);
-    (lay_slices(depths, cover, std::exp(middle), trial_ends) <= ends.size() ? enough : too_little) = middle;
+    (lay_slices(depths, cover, elementary::exp(middle), trial_ends) <= ends.size() ? enough : too_little) =
+        middle;
   }
-  const std::size_t count = lay_slices(depths, cover, std::exp(enough), ends);
+  const std::size_t count = lay_slices(depths, cover, elementary::exp(enough), ends);
   edges[0] = cover.begin;
   for (std::size_t i = count; i < ends.size(); ++i) ends[i] = cover.end;
   ends[ends.size() - 1] = cover.end;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "elementary.hpp"
 #include "light_map.hpp"
 #include "metric_kernel.hpp"
 #include "vector.hpp"
@@ -48,6 +49,8 @@ SlopeError::SlopeError(const Camera& camera, const CameraAxes& axes, const Light
     count_ = 0;
     if (objective_ == Objective::p95) objective_ = Objective::max;
     add_vertices_and_edges(body);
+    // The worst texel may lie inside a face or the body: the light's rays fan out, and with them the warp.
+    if (objective_ == Objective::max && !camera.orthographic) add_visible_points(body);
   }
 }
 
@@ -132,16 +135,16 @@ void SlopeError::add_visible_points(const Polytope& body) noexcept {
       if (along < 0.0) end = min_of(end, -plane.offset / along);
     }
     if (!(begin < end)) continue;
-    const double length = std::log(end / begin);
+    const double length = elementary::log(end / begin);
     rays[count++] = {step, begin, length};
     total += length;
   }
   const double spacing = total / kVisiblePoints;
   if (!(spacing > 0.0)) return;
-  const double ratio = std::exp(spacing);
+  const double ratio = elementary::exp(spacing);
   double next = 0.5 * spacing;
   for (std::size_t i = 0; i < count; ++i) {
-    double depth = next < rays[i].length ? rays[i].begin * std::exp(next) : 0.0;
+    double depth = next < rays[i].length ? rays[i].begin * elementary::exp(next) : 0.0;
     for (; next < rays[i].length; next += spacing, depth *= ratio) add(rays[i].step * depth);
     next -= rays[i].length;
   }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "elementary.hpp"
 #include "vector.hpp"
 
 namespace gnomon {
@@ -15,7 +16,7 @@ constexpr std::array<std::string_view, 7> kSchemeNames = {
     "uniform", "logarithmic", "practical", "pseudo_near", "optimal", "auto", "given"};
 
 double logarithmic_edge(double n, double f, double t) noexcept {
-  return n * std::pow(f / n, t);
+  return n * elementary::pow(f / n, t);
 }
 
 }  // namespace

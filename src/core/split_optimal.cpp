@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "elementary.hpp"
 #include "map_parts.hpp"
 #include "plan_splits.hpp"
 #include "vector.hpp"
@@ -85,7 +86,7 @@ void optimise_splits(const PlanContext& c, const Polytope& body, std::span<doubl
   std::array<double, kSteps + 1> depth;
   for (int i = 0; i <= kSteps; ++i) {
     depth[static_cast<std::size_t>(i)] =
-        i == kSteps ? f : n * std::pow(f / n, static_cast<double>(i) / kSteps);
+        i == kSteps ? f : n * elementary::pow(f / n, static_cast<double>(i) / kSteps);
   }
   // best[m][j]: least objective of m + 1 maps over the depths up to j; from[m][j]: where the last of them
   // begins.
@@ -120,7 +121,7 @@ void optimise_splits(const PlanContext& c, const Polytope& body, std::span<doubl
       double least = cost(edges[m]);
       // The objective of two neighbours has one valley: close in on it from both sides in the logarithm of
       // depth.
-      double reach = std::pow(f / n, 0.5 / kSteps);
+      double reach = elementary::pow(f / n, 0.5 / kSteps);
       for (int trial = 0; trial < kTrials; ++trial) {
         const double candidates[2] = {edges[m] * reach, edges[m] / reach};
         for (const double candidate : candidates) {

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "elementary.hpp"
 #include "light_plane_error.hpp"
 #include "vector.hpp"
 
@@ -17,13 +18,13 @@ namespace gnomon {
 namespace {
 
 // Of the logarithm of the density: what is aimed at stays a tenth below what is promised.
-const double kLimit = 0.9 * std::log1p(kDensityStep);
+constexpr double kLimit = 0.9 * 0.04879016416943205;  // ln(1 + kDensityStep)
 // A warp that changes texels by less than this over the whole body has no direction worth keeping.
 constexpr double kFlat = 1e-3;
 // Best warps that are better by less than this are not followed.
 constexpr double kWorthFollowing = 0.02;
 // A change beyond this factor is a cut: nothing is gained by going slowly.
-const double kCut = std::log(1.5);
+constexpr double kCut = 0.4054651081081644;  // ln 1.5
 constexpr double kPi = 3.141592653589793;
 // Steps of the search for the farthest way that is still smooth.
 constexpr int kBisections = 6;
@@ -121,8 +122,8 @@ struct Shape {
 };
 
 Shape shape_of(const Decomposed& d) noexcept {
-  const auto angle = [](const glm::dvec2& v) { return std::atan2(v.y, v.x); };
-  return {angle(d.choice.axis), std::log1p(d.choice.kappa * d.length), angle(d.choice.row_a),
+  const auto angle = [](const glm::dvec2& v) { return elementary::atan2(v.y, v.x); };
+  return {angle(d.choice.axis), elementary::log1p(d.choice.kappa * d.length), angle(d.choice.row_a),
           angle(d.choice.row_b)};
 }
 
@@ -138,12 +139,12 @@ struct Way {
     const auto mix = [&](double a, double b) { return a + (b - a) * t; };
     const double axis = mix(from.axis, to.axis), a = mix(from.row_a, to.row_a), b = mix(from.row_b, to.row_b);
     WarpChoice choice;
-    choice.axis = {std::cos(axis), std::sin(axis)};
+    choice.axis = {elementary::cos(axis), elementary::sin(axis)};
     const Span u = along(body, choice.axis);
     const double length = u.high - u.low;
-    choice.kappa = length > 0.0 ? std::expm1(mix(from.stretch, to.stretch)) / length : 0.0;
-    choice.row_a = {std::cos(a), std::sin(a)};
-    choice.row_b = {std::cos(b), std::sin(b)};
+    choice.kappa = length > 0.0 ? elementary::expm1(mix(from.stretch, to.stretch)) / length : 0.0;
+    choice.row_a = {elementary::cos(a), elementary::sin(a)};
+    choice.row_b = {elementary::cos(b), elementary::sin(b)};
     return choice;
   }
 };
@@ -169,12 +170,12 @@ struct Change {
 Change change_between(const Homography& before, const Homography& now,
                       std::span<const WarpInput::Point> body) noexcept {
   Change change{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  const double area = std::log(std::abs(now.determinant() / before.determinant()));
+  const double area = elementary::log(std::abs(now.determinant() / before.determinant()));
   for (const WarpInput::Point& p : body) {
     const double w = before.weight(p);
     // Where the last frame had nothing, nothing changes.
     if (!(w > 0.0)) continue;
-    const double value = area + 3.0 * std::log(w / now.weight(p));
+    const double value = area + 3.0 * elementary::log(w / now.weight(p));
     change.low = min_of(change.low, value);
     change.high = max_of(change.high, value);
   }
@@ -183,7 +184,7 @@ Change change_between(const Homography& before, const Homography& now,
 
 /// Gives the rectangle more room: fewer texels per area, everywhere by the same factor.
 void widen_area(PlaneMap& plane, double log_factor) noexcept {
-  const double grow = 0.5 * (std::exp(0.5 * log_factor) - 1.0);
+  const double grow = 0.5 * (elementary::exp(0.5 * log_factor) - 1.0);
   const double a = (plane.a_max - plane.a_min) * grow, b = (plane.b_max - plane.b_min) * grow;
   plane.a_min -= a;
   plane.a_max += a;
@@ -231,7 +232,7 @@ PlaneMap steady_plane(const PlanContext& c, const WarpInput& in, const WarpChoic
   const Decomposed from = decompose(before, in.body, best.axis);
   const auto changed = [&](const PlaneMap& plane) {
     const int margin = margin_texels(c.options, map.width, plane, in.body);
-    const double rims = 2.0 * std::log(1.0 - 2.0 * margin / map.width);
+    const double rims = 2.0 * elementary::log(1.0 - 2.0 * margin / map.width);
     Change change = change_between(before, of_plane(plane), in.body);
     change.low += rims;
     change.high += rims;
@@ -239,8 +240,8 @@ PlaneMap steady_plane(const PlanContext& c, const WarpInput& in, const WarpChoic
   };
   const auto jump = [&](const PlaneMap& plane, const Change& change) {
     const double ratio = -change.low > change.high ? change.low : change.high;
-    if (change.largest() > std::log1p(kDensityStep))
-      add_event(*c.history, PlanEventKind::density_jump, map.cascade, std::exp(ratio));
+    if (change.largest() > elementary::log1p(kDensityStep))
+      add_event(*c.history, PlanEventKind::density_jump, map.cascade, elementary::exp(ratio));
     return plane;
   };
   if (!from.valid || !usable(in, from.choice)) return jump(target, changed(target));
@@ -318,7 +319,7 @@ HeldMap held_map(const PlanContext& c, const PlanHistory::Map& last, const Light
 void steady_edges(PlanHistory& history, std::span<double> edges) noexcept {
   const auto count = edges.size();
   if (history.frame > 0 && history.edge_count == static_cast<int>(count)) {
-    const double slower = std::exp(-kEdgeStep), faster = std::exp(kEdgeStep);
+    const double slower = elementary::exp(-kEdgeStep), faster = elementary::exp(kEdgeStep);
     const auto near = [&](double to, double from) { return clamp_to(to, from * slower, from * faster); };
     // What comes into view is covered at once.
     edges[0] = min_of(edges[0], near(edges[0], history.edge[0]));

@@ -4,17 +4,18 @@
 
 #include <cmath>
 
+#include "elementary.hpp"
 #include "vector.hpp"
 
 namespace gnomon {
 
 int depth_bin(double depth) noexcept {
-  const double bin = std::floor((std::log2(depth) - kLowestDepthExponent) * kDepthBinsPerDoubling);
+  const double bin = std::floor((elementary::log2(depth) - kLowestDepthExponent) * kDepthBinsPerDoubling);
   return static_cast<int>(clamp_to(bin, 0.0, kDepthBins - 1.0));
 }
 
 double depth_bin_begin(int bin) noexcept {
-  return std::exp2(kLowestDepthExponent + static_cast<double>(bin) / kDepthBinsPerDoubling);
+  return elementary::exp2(kLowestDepthExponent + static_cast<double>(bin) / kDepthBinsPerDoubling);
 }
 
 void VisibleDepths::add(double depth) noexcept {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "elementary.hpp"
 #include "vector.hpp"
 
 namespace gnomon {
@@ -36,7 +37,8 @@ double lloyd_eta(double gamma, double theta) noexcept {
   const double off = theta / 3.0, full = theta + 0.3 * (kRightAngle - theta);
   if (gamma < off) return -1.0;
   if (gamma < theta) return -1.0 + (kAtTheta + 1.0) * (gamma - off) / (theta - off);
-  if (gamma < full) return kAtTheta - kAtTheta * std::sin(kRightAngle * (gamma - theta) / (full - theta));
+  if (gamma < full)
+    return kAtTheta - kAtTheta * elementary::sin(kRightAngle * (gamma - theta) / (full - theta));
   return 0.0;
 }
 

@@ -4,6 +4,7 @@
 // vertices is this project's.
 #include <cmath>
 
+#include "../elementary.hpp"
 #include "../vector.hpp"
 #include "gnomon/warp.hpp"
 
@@ -25,8 +26,8 @@ struct Best {
 
 Best refine(const WarpInput& input, double low, double high, Best best) noexcept {
   constexpr double kGolden = 0.6180339887498949;
-  double a = std::log(low), b = std::log(high);
-  const auto at = [&](double t) { return warp_error(input, std::exp(t)).value(input.objective); };
+  double a = elementary::log(low), b = elementary::log(high);
+  const auto at = [&](double t) { return warp_error(input, elementary::exp(t)).value(input.objective); };
   double left = b - kGolden * (b - a), right = a + kGolden * (b - a);
   double at_left = at(left), at_right = at(right);
   for (int i = 0; i < kRefineSteps; ++i) {
@@ -45,7 +46,8 @@ Best refine(const WarpInput& input, double low, double high, Best best) noexcept
     }
   }
   const double value = at_left < at_right ? at_left : at_right;
-  return value < best.value * (1.0 - kTie) ? Best{std::exp(at_left <= at_right ? left : right), value} : best;
+  return value < best.value * (1.0 - kTie) ? Best{elementary::exp(at_left <= at_right ? left : right), value}
+                                           : best;
 }
 
 /// The weakest warp that is as good as `best`: under an overhead light the storage is the same for a whole

@@ -3,6 +3,7 @@
 // 2007, section 5.2. Kept as published.
 #include <cmath>
 
+#include "../elementary.hpp"
 #include "../warp_formulas.hpp"
 #include "gnomon/warp.hpp"
 
@@ -12,8 +13,8 @@ namespace {
 WarpChoice choose(const WarpInput& input) noexcept {
   const double length = input.y_max - input.y_min;
   if (input.orthographic || !(length > 0.0) || !(input.depth_end > input.depth_begin)) return {};
-  const double gamma = std::atan2(input.sin_gamma, std::abs(input.cos_gamma));
-  const double eta = lloyd_eta(gamma, std::atan(input.tan_half_fov));
+  const double gamma = elementary::atan2(input.sin_gamma, std::abs(input.cos_gamma));
+  const double eta = lloyd_eta(gamma, elementary::atan(input.tan_half_fov));
   return {kappa_length_from_eta(eta, input.depth_end / input.depth_begin) / length};
 }
 

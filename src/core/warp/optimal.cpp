@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../elementary.hpp"
 #include "../light_plane_error.hpp"
 #include "../vector.hpp"
 
@@ -27,10 +28,10 @@ class Search {
   explicit Search(const WarpInput& input) noexcept : error_(input), length_(input.y_max - input.y_min) {}
 
   [[nodiscard]] WarpChoice choice(const Position& p) const noexcept {
-    const double strength = std::exp(clamp_to(p[1], kWeakest, kStrongest));
-    const double cosine = std::cos(p[3]), sine = std::sin(p[3]);
+    const double strength = elementary::exp(clamp_to(p[1], kWeakest, kStrongest));
+    const double cosine = elementary::cos(p[3]), sine = elementary::sin(p[3]);
     return {strength / length_,
-            {std::sin(p[0]), std::cos(p[0])},
+            {elementary::sin(p[0]), elementary::cos(p[0])},
             p[2] * length_,
             {cosine, sine},
             {-sine, cosine}};
@@ -120,7 +121,7 @@ WarpChoice choose(const WarpInput& input) noexcept {
   const double without = search.without();
   // Where LiSPSM's own search finds nothing, a warp as strong as the body is deep is a fair start.
   const double kappa = lispsm.choose(input).kappa;
-  Corner start{{0.0, std::log(kappa > 0.0 ? kappa * length : 1.0), 0.0, 0.0}, 0.0};
+  Corner start{{0.0, elementary::log(kappa > 0.0 ? kappa * length : 1.0), 0.0, 0.0}, 0.0};
   start.value = search.value(start.at);
   // A percentile forgives the few worst points and so takes stronger warps than the maxima LiSPSM goes by.
   if (input.objective == Objective::p95) start = stronger(search, start);
