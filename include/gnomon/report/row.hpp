@@ -1,0 +1,95 @@
+// One result: what one technique did on one frame of one scene, and where and how that was measured. A row
+// explains itself; a file of rows is JSON lines.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "gnomon/report/errors.hpp"
+#include "gnomon/report/statistics.hpp"
+
+namespace gnomon::report {
+
+/// A file that is not what it should be. what() is one line: path, line, what is wrong.
+class ReportError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// How the shadow was made.
+struct Technique {
+  std::string warp, split, fit, filter;  ///< names as on the command line
+  int cascades = 1;                      ///< asked for
+  int map_size = 1024;                   ///< texels along each side
+  /// "none / auto / 4 x 1024 / pcf": unique within a sweep, for people.
+  [[nodiscard]] std::string name() const;
+  bool operator==(const Technique&) const = default;
+};
+
+/// Where it was measured.
+struct Machine {
+  std::string renderer, context, cpu, version, rays;
+  bool software = true;  ///< drawn by the CPU
+  int cores = 0;
+  double load = 0.0;  ///< average over the last minute, when the row was measured
+};
+
+/// Milliseconds of the wall clock after the driver has finished, but plan_ns.
+struct Times {
+  Estimate plan_ns, depth_ms, prefilter_ms, shade_ms;
+  Estimate total_ms;         ///< of the four
+  double baseline_ms = 0.0;  ///< median total of hard x no warp x one map in the same rounds
+  int rounds = 0;            ///< measured, warm-up not counted
+  /// total over baseline; 0 where there is none.
+  [[nodiscard]] double ratio() const noexcept {
+    return baseline_ms > 0.0 ? total_ms.median / baseline_ms : 0.0;
+  }
+};
+
+struct Costs {
+  int maps = 0;  ///< drawn
+  std::uint64_t draws = 0, triangles = 0, texels = 0, map_bytes = 0;
+};
+
+struct LeftOut {
+  std::string what, why;
+  std::int64_t saves_texels = 0;
+};
+
+/// Files beside the rows, relative to their folder; empty: none was written for this frame.
+struct Pictures {
+  std::string image, truth, mask, difference, heat;
+};
+
+struct Row {
+  std::uint64_t index = 0;  ///< place in the whole sweep, the same in every shard
+  std::string scene;
+  int frame = 0, frames = 1, width = 0, height = 0;
+  double light_elevation_deg = 0.0, light_azimuth_deg = 0.0;
+  Technique technique;
+  std::string plan_status;
+  std::string truth;  ///< what mean_error is against: "filtered" or "area"
+  MaskErrors errors;
+  std::uint64_t undecided_pixels = 0;  ///< that the geometry leaves open, not judged
+  double flips = 0.0;                  ///< excess flips per pixel over one step of a 60 Hz viewer
+  PixelAliasing aliasing;
+  Costs costs;
+  Times times;
+  std::vector<LeftOut> left_out;
+  Pictures pictures;
+  Machine machine;
+
+  /// All that decides what a row says, apart from the machine: equal keys mean the same measurement.
+  [[nodiscard]] std::string key() const;
+};
+
+/// One line of JSON without its end. Infinite values are written as null.
+[[nodiscard]] std::string to_json_line(const Row& row);
+/// Throws ReportError with `where` in front.
+[[nodiscard]] Row row_from_json(const std::string& line, const std::string& where);
+/// The row without what differs between two runs of the same sweep: times, load and machine.
+[[nodiscard]] std::string without_times(const Row& row);
+
+}  // namespace gnomon::report

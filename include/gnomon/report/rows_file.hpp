@@ -1,0 +1,41 @@
+// Files of rows that a killed run leaves whole, and many of them made one.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gnomon/report/row.hpp"
+
+namespace gnomon::report {
+
+/// Name of the file of rows in a folder of results.
+inline constexpr const char* kRowsFile = "results.jsonl";
+
+/// Appends rows; each is on the disk when append() returns.
+class RowsFile {
+ public:
+  /// Opens the file or makes it. What a killed run left of a last, unfinished line is cut off. Throws
+  /// ReportError.
+  explicit RowsFile(const std::filesystem::path& file);
+  ~RowsFile();
+  RowsFile(const RowsFile&) = delete;
+  RowsFile& operator=(const RowsFile&) = delete;
+  /// Throws ReportError where the disk does not take it.
+  void append(const Row& row);
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+};
+
+/// All rows of a file, or of `kRowsFile` in a folder. A last line without its end is left out. Throws
+/// ReportError with file and line.
+[[nodiscard]] std::vector<Row> read_rows(const std::filesystem::path& path);
+
+/// Writes the rows of `folders` to `out`, ordered by their place in the sweep; of rows with the same key the
+/// first stands. Their pictures are copied along. Returns how many there are. Throws ReportError.
+std::size_t merge_rows(std::span<const std::filesystem::path> folders, const std::filesystem::path& out);
+
+}  // namespace gnomon::report

@@ -1,0 +1,35 @@
+// Medians with their confidence, and which of many choices nothing else beats.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::report {
+
+/// The middle value; the mean of the two middle ones for an even count; 0 for none.
+[[nodiscard]] double median(std::span<const double> values);
+
+/// A median and the interval that holds the true one with 95 % confidence.
+struct Estimate {
+  double median = 0.0, low = 0.0, high = 0.0;
+  bool operator==(const Estimate&) const = default;
+};
+/// By the percentile bootstrap (Efron 1979) over 1000 resamples drawn with a fixed seed. One value is its own
+/// interval.
+[[nodiscard]] Estimate estimate(std::span<const double> values);
+
+/// The geometric mean; values at or below zero count as `floor`, which is above zero. 0 for none.
+[[nodiscard]] double geometric_mean(std::span<const double> values, double floor);
+
+/// A choice: both are to be made small.
+struct Choice {
+  double cost = 0.0, error = 0.0;
+};
+/// Indices of the choices that no other beats, by rising cost: none costs no more and errs no more while
+/// being better in one of them. Of equals the first stands. Choices with a value that is not finite take no
+/// part.
+[[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const Choice> choices);
+
+}  // namespace gnomon::report

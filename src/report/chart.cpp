@@ -1,0 +1,206 @@
+// Charts in SVG: axes, lines, marks and a legend, for a page with its own colours and for files of their own.
+#include "chart.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "text.hpp"
+
+namespace gnomon::report {
+namespace {
+
+// Pixels of the drawing's own coordinates. Mirrored in page/script.js, which redraws the first chart.
+constexpr double kWidth = 940, kHeight = 460, kLeft = 74, kRight = 660, kTop = 34, kBottom = 400;
+constexpr double kLegendLeft = 684, kLegendLine = 19;
+
+std::string coordinate(double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.1f", value);
+  return text.data();
+}
+
+std::string element_end(const std::string& tip, const char* name) {
+  return "><title>" + escaped(tip) + "</title></" + name + ">\n";
+}
+
+// Colours that differ in brightness as well as hue (after Okabe and Ito 2008, and four more), for files.
+constexpr const char* kStyle =
+    "<style>svg{background:#fff;font-family:system-ui,sans-serif;font-size:12px;fill:#222}"
+    ".grid{stroke:#ddd}.frame{stroke:#777;fill:none}.title{font-weight:600;font-size:14px}"
+    ".line{fill:none;stroke-width:1.6}.front{fill:none;stroke:#111;stroke-width:1.4;stroke-dasharray:5 3}"
+    ".mark{stroke:#fff;stroke-width:.8}"
+    ".c0{fill:#0072b2}.c1{fill:#d55e00}.c2{fill:#009e73}.c3{fill:#cc79a7}.c4{fill:#e69f00}.c5{fill:#56b4e9}"
+    ".c6{fill:#8c6d1f}.c7{fill:#7a4fbf}.c8{fill:#c23b4b}.c9{fill:#4d7f17}.c10{fill:#777}.c11{fill:#23297a}"
+    ".s0{stroke:#0072b2}.s1{stroke:#d55e00}.s2{stroke:#009e73}.s3{stroke:#cc79a7}.s4{stroke:#e69f00}"
+    ".s5{stroke:#56b4e9}.s6{stroke:#8c6d1f}.s7{stroke:#7a4fbf}.s8{stroke:#c23b4b}.s9{stroke:#4d7f17}"
+    ".s10{stroke:#777}.s11{stroke:#23297a}.plain{fill:#777}</style>\n";
+
+}  // namespace
+
+std::string_view mark_path(std::size_t kind) noexcept {
+  constexpr std::array<std::string_view, kMarks> kPaths{"M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z",
+                                                        "M-4.6,-4.6h9.2v9.2h-9.2z",
+                                                        "M0,-6L5.6,4.4H-5.6z",
+                                                        "M0,-6.4L6.4,0L0,6.4L-6.4,0z",
+                                                        "M0,6L5.6,-4.4H-5.6z",
+                                                        "M-2,-6h4v4h4v4h-4v4h-4v-4h-4v-4h4z"};
+  return kPaths[kind % kMarks];
+}
+
+void Axis::fit(const std::vector<double>& values) {
+  bool any = false;
+  for (const double value : values) {
+    if (!std::isfinite(value) || (logarithmic && value <= 0.0)) continue;
+    low = any ? std::min(low, value) : value;
+    high = any ? std::max(high, value) : value;
+    any = true;
+  }
+  if (!any) {
+    low = logarithmic ? 0.1 : 0.0;
+    high = 1.0;
+  }
+  if (logarithmic) {
+    constexpr double kRoom = 1.25;
+    low /= kRoom;
+    high *= kRoom;
+  } else {
+    low = std::min(low, 0.0);
+    if (high <= low) high = low + 1.0;
+    constexpr double kRoom = 0.06;
+    if (!whole) high += kRoom * (high - low);
+  }
+}
+
+double Axis::place(double value) const noexcept {
+  double at = 0.0;
+  if (logarithmic) {
+    at = value > 0.0 ? std::log(value / low) / std::log(high / low) : 0.0;
+  } else {
+    at = (value - low) / (high - low);
+  }
+  return std::clamp(std::isnan(at) ? 0.0 : at, 0.0, 1.0);
+}
+
+std::vector<double> Axis::ticks() const {
+  std::vector<double> all;
+  if (!logarithmic) {
+    const double rough = (high - low) / 5.0, unit = std::pow(10.0, std::floor(std::log10(rough)));
+    const double even = unit * (rough / unit < 2.0 ? 2.0 : rough / unit < 5.0 ? 5.0 : 10.0);
+    const double step = whole ? std::max(1.0, even) : even;
+    for (int i = 0; low + i * step <= high * (1.0 + 1e-9); ++i) all.push_back(low + i * step);
+    return all;
+  }
+  // The wider the range, the fewer within a decade.
+  const double decades = std::log10(high / low);
+  const std::vector<double> within =
+      decades > 4.0   ? std::vector<double>{1.0}
+      : decades > 1.5 ? std::vector<double>{1.0, 3.0}
+      : decades > 0.8
+          ? std::vector<double>{1.0, 1.5, 2.0, 3.0, 5.0, 7.0}
+          : std::vector<double>{1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
+  for (int e = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, e) <= high; ++e) {
+    for (const double digit : within) {
+      const double value = digit * std::pow(10.0, e);
+      if (value >= low && value <= high) all.push_back(value);
+    }
+  }
+  return all;
+}
+
+Chart::Chart(std::string title, Axis x, Axis y)
+    : title_(std::move(title)), x_(std::move(x)), y_(std::move(y)) {}
+
+double Chart::x_of(double value) const noexcept {
+  return kLeft + (kRight - kLeft) * x_.place(value);
+}
+
+double Chart::y_of(double value) const noexcept {
+  return kBottom - (kBottom - kTop) * y_.place(value);
+}
+
+void Chart::mark(const Point& at, std::size_t color, std::size_t mark, const std::string& tip,
+                 std::size_t id) {
+  plot_ += "<path class=\"mark c" + std::to_string(color % kColors) + "\" data-id=\"" + std::to_string(id) +
+           "\" transform=\"translate(" + coordinate(x_of(at.x)) + "," + coordinate(y_of(at.y)) + ")\" d=\"" +
+           std::string(mark_path(mark)) + "\"" + element_end(tip, "path");
+}
+
+void Chart::line(const std::vector<Point>& points, std::size_t color, std::string_view classes,
+                 const std::string& tip) {
+  if (points.empty()) return;
+  plot_ += "<path class=\"" + std::string(classes) + " s" + std::to_string(color % kColors) + "\" d=\"";
+  for (std::size_t i = 0; i < points.size(); ++i)
+    plot_ += (i == 0 ? "M" : "L") + coordinate(x_of(points[i].x)) + "," + coordinate(y_of(points[i].y));
+  plot_ += "\"" + element_end(tip, "path");
+}
+
+void Chart::steps(const std::vector<Point>& points, std::size_t color, std::string_view classes,
+                  const std::string& tip) {
+  std::vector<Point> corners;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i > 0) corners.push_back({points[i].x, points[i - 1].y});
+    corners.push_back(points[i]);
+  }
+  line(corners, color, classes, tip);
+}
+
+void Chart::legend_color(const std::string& name, std::size_t color) {
+  const double y = kTop + 6 + kLegendLine * legend_lines_++;
+  legend_ += "<rect class=\"c" + std::to_string(color % kColors) + "\" x=\"" + coordinate(kLegendLeft) +
+             "\" y=\"" + coordinate(y - 6) + "\" width=\"12\" height=\"12\"/><text x=\"" +
+             coordinate(kLegendLeft + 20) + "\" y=\"" + coordinate(y + 4) + "\">" + escaped(name) +
+             "</text>\n";
+}
+
+void Chart::legend_mark(const std::string& name, std::size_t mark) {
+  const double y = kTop + 6 + kLegendLine * legend_lines_++;
+  legend_ += "<path class=\"plain\" transform=\"translate(" + coordinate(kLegendLeft + 6) + "," +
+             coordinate(y) + ")\" d=\"" + std::string(mark_path(mark)) + "\"/><text x=\"" +
+             coordinate(kLegendLeft + 20) + "\" y=\"" + coordinate(y + 4) + "\">" + escaped(name) +
+             "</text>\n";
+}
+
+std::string Chart::axes() const {
+  std::string out =
+      "<text class=\"title\" x=\"" + coordinate(kLeft) + "\" y=\"20\">" + escaped(title_) + "</text>\n";
+  for (const double tick : x_.ticks()) {
+    const std::string x = coordinate(x_of(tick));
+    out += "<path class=\"grid\" d=\"M" + x + "," + coordinate(kTop) + "V" + coordinate(kBottom) +
+           "\"/><text text-anchor=\"middle\" x=\"" + x + "\" y=\"" + coordinate(kBottom + 18) + "\">" +
+           short_number(tick) + "</text>\n";
+  }
+  for (const double tick : y_.ticks()) {
+    const std::string y = coordinate(y_of(tick));
+    out += "<path class=\"grid\" d=\"M" + coordinate(kLeft) + "," + y + "H" + coordinate(kRight) +
+           "\"/><text text-anchor=\"end\" x=\"" + coordinate(kLeft - 8) + "\" y=\"" +
+           coordinate(y_of(tick) + 4) + "\">" + short_number(tick) + "</text>\n";
+  }
+  out += "<rect class=\"frame\" x=\"" + coordinate(kLeft) + "\" y=\"" + coordinate(kTop) + "\" width=\"" +
+         coordinate(kRight - kLeft) + "\" height=\"" + coordinate(kBottom - kTop) + "\"/>\n";
+  out += "<text text-anchor=\"middle\" x=\"" + coordinate(0.5 * (kLeft + kRight)) + "\" y=\"" +
+         coordinate(kBottom + 42) + "\">" + escaped(x_.label) + "</text>\n";
+  const std::string middle = coordinate(0.5 * (kTop + kBottom));
+  out += "<text text-anchor=\"middle\" transform=\"translate(16," + middle + ")rotate(-90)\">" +
+         escaped(y_.label) + "</text>\n";
+  return out;
+}
+
+std::string Chart::body() const {
+  return "<g class=\"axes\">\n" + axes() + "</g>\n<g class=\"plot\">\n" + plot_ +
+         "</g>\n<g class=\"legend\">\n" + legend_ + "</g>\n";
+}
+
+std::string Chart::embedded(std::string_view id) const {
+  return "<svg id=\"" + escaped(id) + "\" class=\"chart\" role=\"img\" aria-label=\"" + escaped(title_) +
+         "\" viewBox=\"0 0 " + coordinate(kWidth) + " " + coordinate(kHeight) + "\">\n" + body() + "</svg>\n";
+}
+
+std::string Chart::standalone() const {
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + coordinate(kWidth) + "\" height=\"" +
+         coordinate(kHeight) + "\" viewBox=\"0 0 " + coordinate(kWidth) + " " + coordinate(kHeight) +
+         "\">\n" + kStyle + body() + "</svg>\n";
+}
+
+}  // namespace gnomon::report

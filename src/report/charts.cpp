@@ -1,0 +1,131 @@
+// The report's charts: which numbers they show.
+#include "charts.hpp"
+
+#include <algorithm>
+
+#include "text.hpp"
+
+namespace gnomon::report {
+namespace {
+
+std::size_t place_in(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+std::vector<double> values_of(const Summary& summary, std::size_t scene, std::size_t measure) {
+  std::vector<double> values;
+  for (const Cell& cell : summary.cells[scene]) {
+    if (cell.measured) values.push_back(cell.values[measure]);
+  }
+  return values;
+}
+
+Axis axis_of(const Summary& summary, std::size_t scene, std::size_t measure) {
+  Axis axis{label_of(measures()[measure])};
+  axis.fit(values_of(summary, scene, measure));
+  return axis;
+}
+
+}  // namespace
+
+std::string label_of(const Measure& measure) {
+  return std::string(measure.name) + (measure.unit.empty() ? "" : ", " + std::string(measure.unit));
+}
+
+std::string tip_of(const Summary& summary, std::size_t scene, std::size_t technique) {
+  const Cell& cell = summary.cells[scene][technique];
+  std::string tip = summary.techniques[technique].name();
+  for (const std::string_view key : {kDefaultError, std::string_view("mean_error"), kDefaultCost}) {
+    const std::size_t m = measure_index(key);
+    tip += "; " + std::string(measures()[m].column) + " " + short_number(cell.values[m]);
+  }
+  return tip;
+}
+
+std::vector<std::size_t> notable(const Summary& summary, std::size_t scene, std::size_t limit) {
+  std::vector<std::size_t> front =
+      summary.front(scene, measure_index(kDefaultError), measure_index(kDefaultCost));
+  // From the most exact on: the cheap end is where errors are large.
+  std::reverse(front.begin(), front.end());
+  if (front.size() > limit) front.resize(limit);
+  return front;
+}
+
+Chart error_time_chart(const Summary& summary, std::size_t scene) {
+  const std::size_t error = measure_index(kDefaultError), cost = measure_index(kDefaultCost);
+  Chart chart("Error against run time: " + summary.scenes[scene], axis_of(summary, scene, cost),
+              axis_of(summary, scene, error));
+  std::vector<Point> front;
+  for (const std::size_t t : summary.front(scene, error, cost)) {
+    const std::vector<double>& values = summary.cells[scene][t].values;
+    front.push_back({values[cost], values[error]});
+  }
+  chart.steps(front, 0, "front", "what no other technique beats in both");
+  for (std::size_t t = 0; t < summary.techniques.size(); ++t) {
+    const Cell& cell = summary.cells[scene][t];
+    if (!cell.measured) continue;
+    chart.mark({cell.values[cost], cell.values[error]},
+               place_in(summary.filters, summary.techniques[t].filter),
+               place_in(summary.warps, summary.techniques[t].warp), tip_of(summary, scene, t), t);
+  }
+  for (std::size_t f = 0; f < summary.filters.size(); ++f) chart.legend_color(summary.filters[f], f);
+  for (std::size_t w = 0; w < summary.warps.size(); ++w) chart.legend_mark("warp " + summary.warps[w], w);
+  return chart;
+}
+
+Chart time_to_error_chart(const Summary& summary, std::size_t scene) {
+  const std::size_t error = measure_index(kDefaultError), cost = measure_index(kDefaultCost);
+  Chart chart("Time to reach an error: " + summary.scenes[scene], axis_of(summary, scene, error),
+              axis_of(summary, scene, cost));
+  for (std::size_t f = 0; f < summary.filters.size(); ++f) {
+    std::vector<Choice> choices;
+    for (std::size_t t = 0; t < summary.techniques.size(); ++t) {
+      const Cell& cell = summary.cells[scene][t];
+      if (cell.measured && summary.techniques[t].filter == summary.filters[f])
+        choices.push_back({cell.values[cost], cell.values[error]});
+    }
+    double largest = 0.0;
+    for (const Choice& choice : choices) largest = std::max(largest, choice.error);
+    // The cheapest serves every error above its own; below it the next is needed.
+    std::vector<Point> points;
+    for (const std::size_t i : pareto_front(choices)) {
+      points.push_back({points.empty() ? largest : points.back().x, choices[i].cost});
+      points.push_back({choices[i].error, choices[i].cost});
+    }
+    chart.line(points, f, "line", summary.filters[f]);
+    chart.legend_color(summary.filters[f], f);
+  }
+  return chart;
+}
+
+Chart flight_chart(const Summary& summary, const std::vector<Row>& rows, std::size_t scene,
+                   std::size_t measure, const std::vector<std::size_t>& techniques) {
+  Axis frames{"frame", false}, values{label_of(measures()[measure]), false};
+  frames.whole = true;
+  std::vector<double> frame_numbers, all_values;
+  std::vector<std::vector<Point>> lines(techniques.size());
+  for (const std::size_t i : summary.rows_of[scene]) {
+    const Row& row = rows[i];
+    for (std::size_t k = 0; k < techniques.size(); ++k) {
+      if (!(row.technique == summary.techniques[techniques[k]])) continue;
+      const double value = measures()[measure].of(row);
+      lines[k].push_back({static_cast<double>(row.frame), value});
+      frame_numbers.push_back(row.frame);
+      all_values.push_back(value);
+    }
+  }
+  frames.fit(frame_numbers);
+  values.fit(all_values);
+  Chart chart(std::string(measures()[measure].name) + " along the flight: " + summary.scenes[scene], frames,
+              values);
+  for (std::size_t k = 0; k < techniques.size(); ++k) {
+    const std::string name = summary.techniques[techniques[k]].name();
+    chart.line(lines[k], k, "line", name);
+    for (const Point& point : lines[k])
+      chart.mark(point, k, 0, name + ": " + short_number(point.y), techniques[k]);
+    chart.legend_color(name, k);
+  }
+  return chart;
+}
+
+}  // namespace gnomon::report

@@ -1,0 +1,81 @@
+// How wrong a shadow mask is, and in which way.
+#include "gnomon/report/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace gnomon::report {
+namespace {
+
+constexpr float kHalf = 0.5f;
+
+double share(double part, std::uint64_t whole) noexcept {
+  return whole > 0 ? part / static_cast<double>(whole) : 0.0;
+}
+
+}  // namespace
+
+MaskErrors mask_errors(std::span<const float> mask, std::span<const float> hard,
+                       std::span<const float> soft) noexcept {
+  MaskErrors errors;
+  std::uint64_t false_lit = 0, false_shadow = 0, soft_pixels = 0;
+  double error = 0.0, leaking = 0.0, darkening = 0.0;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (hard[i] >= 0.0f) {
+      ++errors.pixels;
+      false_lit += hard[i] < kHalf && mask[i] > kHalf ? 1 : 0;
+      false_shadow += hard[i] > kHalf && mask[i] <= kHalf ? 1 : 0;
+    }
+    if (soft[i] < 0.0f) continue;
+    ++soft_pixels;
+    error += std::abs(static_cast<double>(mask[i]) - static_cast<double>(soft[i]));
+    if (soft[i] == 0.0f) {
+      ++errors.deep_pixels;
+      leaking += static_cast<double>(mask[i]);
+    } else if (soft[i] == 1.0f) {
+      ++errors.open_pixels;
+      darkening += 1.0 - static_cast<double>(mask[i]);
+    }
+  }
+  errors.false_lit = share(static_cast<double>(false_lit), errors.pixels);
+  errors.false_shadow = share(static_cast<double>(false_shadow), errors.pixels);
+  errors.mean_error = share(error, soft_pixels);
+  errors.leaking = share(leaking, errors.deep_pixels);
+  errors.darkening = share(darkening, errors.open_pixels);
+  return errors;
+}
+
+double excess_flips(std::span<const float> before, std::span<const float> after,
+                    std::span<const float> truth_before, std::span<const float> truth_after) noexcept {
+  std::uint64_t judged = 0, flips = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (truth_before[i] < 0.0f || truth_after[i] < 0.0f) continue;
+    ++judged;
+    const bool truth_flips = std::abs(truth_after[i] - truth_before[i]) > kHalf;
+    flips += std::abs(after[i] - before[i]) > kHalf && !truth_flips ? 1 : 0;
+  }
+  return share(static_cast<double>(flips), judged);
+}
+
+PixelAliasing pixel_aliasing(std::span<const float> m) {
+  std::vector<float> values;
+  values.reserve(m.size());
+  std::copy_if(m.begin(), m.end(), std::back_inserter(values), [](float value) { return value > 0.0f; });
+  PixelAliasing result;
+  result.pixels = values.size();
+  if (values.empty()) return result;
+  const auto quantile = [&values](double q) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return static_cast<double>(*at);
+  };
+  result.p50 = quantile(0.50);
+  result.p95 = quantile(0.95);
+  result.max = quantile(1.0);
+  const auto above = std::count_if(values.begin(), values.end(), [](float value) { return value > 1.0f; });
+  result.share_undersampled = share(static_cast<double>(above), result.pixels);
+  return result;
+}
+
+}  // namespace gnomon::report

@@ -1,0 +1,129 @@
+// The report: one file of HTML that needs nothing else, and its charts and tables as files of their own.
+#include "gnomon/report/page.hpp"
+
+#include "charts.hpp"
+#include "file.hpp"
+#include "gnomon/report/rows_file.hpp"
+#include "page_files.hpp"
+#include "sections.hpp"
+#include "text.hpp"
+
+namespace gnomon::report {
+namespace {
+
+constexpr std::size_t kFlightLines = 8;
+
+/// Nothing is loaded, nothing runs but the one script and style that stand in the page.
+std::string policy() {
+  return "default-src 'none'; img-src data:; style-src '" + policy_hash(page_style()) + "'; script-src '" +
+         policy_hash(page_script()) + "'; base-uri 'none'; form-action 'none'";
+}
+
+std::string head() {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
+         policy() +
+         "\">\n<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>gnomon: "
+         "shadow "
+         "error against run time</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>" +
+         std::string(page_style()) + "</style>\n</head>\n<body>\n";
+}
+
+std::string opening(const PageInput& input) {
+  std::string out = "<header>\n<h1>Shadow error against run time</h1>\n<p class=\"sub\">";
+  out += std::to_string(input.summary.techniques.size()) + " techniques on " +
+         std::to_string(input.summary.scenes.size() - 1) + " scenes, " + std::to_string(input.rows.size()) +
+         " measurements";
+  if (!input.rows.empty()) {
+    const Machine& m = input.rows.front().machine;
+    out += "; " + escaped(m.renderer) + " on " + escaped(m.cpu) + "; gnomon " + escaped(m.version);
+  }
+  out +=
+      "</p>\n<nav><a href=\"#s1\">Error and time</a><a href=\"#s2\">Table</a><a href=\"#s3\">Pictures</a>"
+      "<a href=\"#s4\">Along the flight</a><a href=\"#s5\">Stability</a><a href=\"#s6\">Left out</a>"
+      "<a href=\"#s7\">Method</a></nav>\n</header>\n";
+  return out;
+}
+
+std::string page(const PageInput& input) {
+  const PagePictures pictures = page_pictures(input);
+  std::string out = head() + opening(input) + "<main>\n";
+  out += section_error_time(input) + section_summary(input) + section_viewers(input, pictures) +
+         section_flight(input) + section_stability(input) + section_left_out(input) + section_method(input);
+  out += "</main>\n<script type=\"application/json\" id=\"data\">" + for_script(page_data(input, pictures)) +
+         "</script>\n<script>" + std::string(page_script()) + "</script>\n</body>\n</html>\n";
+  return out;
+}
+
+void write_charts(const PageInput& input) {
+  const std::filesystem::path folder = input.folder / "charts";
+  make_folder(folder);
+  for (std::size_t scene = 0; scene < input.summary.scenes.size(); ++scene) {
+    const std::string name = scene == 0 ? "all" : "scene" + std::to_string(scene - 1);
+    write_text(folder / ("error_time_" + name + ".svg"), error_time_chart(input.summary, scene).standalone());
+    write_text(folder / ("time_to_error_" + name + ".svg"),
+               time_to_error_chart(input.summary, scene).standalone());
+    if (scene == 0) continue;
+    const std::vector<std::size_t> shown = notable(input.summary, scene, kFlightLines);
+    for (const std::string_view key : {kDefaultError, std::string_view("flips")}) {
+      write_text(folder / (std::string(key) + "_" + name + ".svg"),
+                 flight_chart(input.summary, input.rows, scene, measure_index(key), shown).standalone());
+    }
+  }
+}
+
+std::string technique_columns(const Technique& t) {
+  return csv_field(t.warp) + "," + csv_field(t.split) + "," + csv_field(t.fit) + "," +
+         std::to_string(t.cascades) + "," + std::to_string(t.map_size) + "," + csv_field(t.filter);
+}
+
+constexpr const char* kTechniqueHead = "warp,split,fit,cascades,map_size,filter";
+
+std::string measure_head() {
+  std::string line;
+  for (const Measure& measure : measures()) line += "," + std::string(measure.key);
+  return line + "\n";
+}
+
+std::string summary_csv(const Summary& summary) {
+  std::string out = std::string("scene,") + kTechniqueHead + measure_head();
+  for (std::size_t scene = 0; scene < summary.scenes.size(); ++scene) {
+    for (std::size_t t = 0; t < summary.techniques.size(); ++t) {
+      const Cell& cell = summary.cells[scene][t];
+      if (!cell.measured) continue;
+      out += csv_field(summary.scenes[scene]) + "," + technique_columns(summary.techniques[t]);
+      for (const double value : cell.values) out += "," + exact_number(value);
+      out += "\n";
+    }
+  }
+  return out;
+}
+
+std::string frames_csv(const std::vector<Row>& rows) {
+  std::string out = std::string("scene,frame,") + kTechniqueHead + measure_head();
+  for (const Row& row : rows) {
+    out += csv_field(row.scene) + "," + std::to_string(row.frame) + "," + technique_columns(row.technique);
+    for (const Measure& measure : measures()) out += "," + exact_number(measure.of(row));
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::filesystem::path write_report(const std::filesystem::path& folder) {
+  PageInput input;
+  input.folder = folder;
+  input.rows = read_rows(folder);
+  input.summary = summarize(input.rows);
+  // All scenes together say something only where there are several, and a technique that was on all of them.
+  const bool together = input.summary.scenes.size() > 2 && !notable(input.summary, 0, 1).empty();
+  input.start_scene = together || input.summary.scenes.size() < 2 ? 0 : 1;
+  write_charts(input);
+  write_text(folder / "summary.csv", summary_csv(input.summary));
+  write_text(folder / "frames.csv", frames_csv(input.rows));
+  write_text(folder / "report.html", page(input));
+  return folder / "report.html";
+}
+
+}  // namespace gnomon::report

@@ -1,0 +1,102 @@
+// Files of rows that a killed run leaves whole, and many of them made one.
+#include "gnomon/report/rows_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <set>
+#include <system_error>
+
+#include "file.hpp"
+
+namespace gnomon::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& file) {
+  throw ReportError(file.string() + ": " + std::strerror(errno));
+}
+
+fs::path rows_path(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored) ? path / kRowsFile : path;
+}
+
+void copy_picture(const std::string& name, const fs::path& from, const fs::path& to) {
+  if (name.empty()) return;
+  const fs::path source = inside(from, name), target = inside(to, name);
+  std::error_code error;
+  if (!fs::exists(source, error) || fs::equivalent(source, target, error)) return;
+  fs::create_directories(target.parent_path(), error);
+  fs::copy_file(source, target, fs::copy_options::overwrite_existing, error);
+  if (error) throw ReportError(target.string() + ": " + error.message());
+}
+
+void copy_pictures(const Row& row, const fs::path& from, const fs::path& to) {
+  const Pictures& p = row.pictures;
+  for (const std::string* name : {&p.image, &p.truth, &p.mask, &p.difference, &p.heat})
+    copy_picture(*name, from, to);
+}
+
+}  // namespace
+
+RowsFile::RowsFile(const fs::path& file) : file_(file) {
+  descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail(file_);
+  const std::string text = read_text(file);
+  const std::size_t last_end = text.rfind('\n');
+  const std::size_t whole = last_end == std::string::npos ? 0 : last_end + 1;
+  if (::ftruncate(descriptor_, static_cast<off_t>(whole)) != 0 || ::lseek(descriptor_, 0, SEEK_END) < 0)
+    fail(file_);
+}
+
+RowsFile::~RowsFile() {
+  ::close(descriptor_);
+}
+
+void RowsFile::append(const Row& row) {
+  const std::string line = to_json_line(row) + "\n";
+  for (std::size_t done = 0; done < line.size();) {
+    const ssize_t written = ::write(descriptor_, line.data() + done, line.size() - done);
+    if (written < 0 && errno != EINTR) fail(file_);
+    if (written > 0) done += static_cast<std::size_t>(written);
+  }
+  if (::fsync(descriptor_) != 0) fail(file_);
+}
+
+std::vector<Row> read_rows(const fs::path& path) {
+  const fs::path file = rows_path(path);
+  const std::string text = read_text(file);
+  std::vector<Row> rows;
+  std::size_t number = 0;
+  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    ++number;
+    const std::string line = text.substr(begin, end - begin);
+    if (!line.empty()) rows.push_back(row_from_json(line, file.string() + ":" + std::to_string(number)));
+  }
+  return rows;
+}
+
+std::size_t merge_rows(std::span<const fs::path> folders, const fs::path& out) {
+  std::vector<Row> rows;
+  std::set<std::string> keys;
+  for (const fs::path& folder : folders) {
+    for (Row& row : read_rows(folder)) {
+      if (!keys.insert(row.key()).second) continue;
+      copy_pictures(row, rows_path(folder).parent_path(), out);
+      rows.push_back(std::move(row));
+    }
+  }
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.index < b.index; });
+  std::string text;
+  for (const Row& row : rows) text += to_json_line(row) + "\n";
+  make_folder(out);
+  write_text(out / kRowsFile, text);
+  return rows.size();
+}
+
+}  // namespace gnomon::report

@@ -1,0 +1,285 @@
+// The parts of the page that are charts, tables and words.
+#include "sections.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+
+#include "charts.hpp"
+#include "file.hpp"
+#include "text.hpp"
+
+namespace gnomon::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kFlightLines = 8;
+
+std::string cell(const std::string& text, const std::string& sort_value) {
+  return "<td data-v=\"" + sort_value + "\">" + escaped(text) + "</td>";
+}
+
+std::string summary_row(const Summary& summary, std::size_t scene, std::size_t technique, bool best) {
+  const std::string id = std::to_string(technique);
+  std::string out = "<tr class=\"row" + std::string(best ? "" : " dominated") + "\" data-id=\"" + id +
+                    "\"><td>" + escaped(summary.techniques[technique].name()) + "</td><td class=\"best\">" +
+                    (best ? "front" : "") + "</td>";
+  const Cell& values = summary.cells[scene][technique];
+  for (const double value : values.values) out += cell(short_number(value), exact_number(value));
+  return out + "</tr>\n";
+}
+
+/// Techniques of a scene by rising error.
+std::vector<std::size_t> by_error(const Summary& summary, std::size_t scene) {
+  const std::size_t error = measure_index(kDefaultError);
+  std::vector<std::size_t> order;
+  for (std::size_t t = 0; t < summary.techniques.size(); ++t) {
+    if (summary.cells[scene][t].measured) order.push_back(t);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return summary.cells[scene][a].values[error] < summary.cells[scene][b].values[error];
+  });
+  return order;
+}
+
+/// The cheapest technique that comes below a given error, for a few errors between the best and the worst.
+std::string matched_error_table(const Summary& summary, std::size_t scene) {
+  const std::size_t error = measure_index(kDefaultError), cost = measure_index(kDefaultCost);
+  const std::vector<std::size_t> front = summary.front(scene, error, cost);
+  std::string out =
+      "<div class=\"wide\"><table><thead><tr><th>to reach wrong pixels below</th><th>takes, ms</th>"
+      "<th>with</th></tr></thead><tbody>\n";
+  for (const std::size_t t : front) {
+    const std::vector<double>& values = summary.cells[scene][t].values;
+    out += "<tr><td>" + short_number(100.0 * values[error]) + " %</td><td>" + short_number(values[cost]) +
+           "</td><td>" + escaped(summary.techniques[t].name()) + "</td></tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+std::string optional_text(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored) ? read_text(file) : std::string();
+}
+
+std::string words_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number()) return short_number(value.get<double>());
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// A table of JSON lines whose columns are the keys of the first.
+std::string table_of_lines(const std::string& text, const std::string& where) {
+  std::string out;
+  std::vector<std::string> columns;
+  std::size_t number = 0;
+  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    ++number;
+    if (end == begin) continue;
+    const Json json = Json::parse(text.substr(begin, end - begin), nullptr, false);
+    if (!json.is_object()) throw ReportError(where + ":" + std::to_string(number) + ": not a JSON object");
+    if (columns.empty()) {
+      out += "<div class=\"wide tall\"><table class=\"words\"><thead><tr>";
+      for (const auto& [key, value] : json.items()) {
+        columns.push_back(key);
+        out += "<th>" + escaped(key) + "</th>";
+      }
+      out += "</tr></thead><tbody>\n";
+    }
+    out += "<tr>";
+    for (const std::string& key : columns)
+      out += "<td>" + escaped(json.contains(key) ? words_of(json[key]) : std::string()) + "</td>";
+    out += "</tr>\n";
+  }
+  return columns.empty() ? std::string() : out + "</tbody></table></div>\n";
+}
+
+constexpr double kMebi = 1 << 20;
+
+/// One kind of thing that plans left out, over the frames of a scene.
+struct LeftOutKind {
+  std::string scene, parametrization, kind, what, why;
+  int times = 0;
+  double saves_texels = 0.0;
+};
+
+/// The text without its numbers: "depths 0.1 to 0.3" and "depths 0.1 to 0.4" are the same kind of thing.
+std::string without_numbers(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (std::string_view("0123456789.+").find(c) == std::string_view::npos) out += c;
+  }
+  return out;
+}
+
+std::string parametrization_of(Technique technique) {
+  technique.filter.clear();
+  const std::string name = technique.name();
+  return name.substr(0, name.rfind(" / "));
+}
+
+/// What saves most comes first.
+std::vector<LeftOutKind> left_out_kinds(const std::vector<Row>& rows) {
+  std::vector<LeftOutKind> kinds;
+  std::set<std::string> counted;
+  for (const Row& row : rows) {
+    const std::string name = parametrization_of(row.technique);
+    // Filters share plans: each is counted with the first of them.
+    if (!counted.insert(row.scene + "\n" + name + "\n" + std::to_string(row.frame)).second) continue;
+    for (const LeftOut& l : row.left_out) {
+      const std::string kind = without_numbers(l.what);
+      auto at = std::find_if(kinds.begin(), kinds.end(), [&](const LeftOutKind& k) {
+        return k.scene == row.scene && k.parametrization == name && k.kind == kind;
+      });
+      if (at == kinds.end()) at = kinds.insert(kinds.end(), {row.scene, name, kind, l.what, l.why});
+      ++at->times;
+      at->saves_texels += static_cast<double>(l.saves_texels);
+    }
+  }
+  std::stable_sort(kinds.begin(), kinds.end(), [](const LeftOutKind& a, const LeftOutKind& b) {
+    return a.saves_texels * b.times > b.saves_texels * a.times;
+  });
+  return kinds;
+}
+
+}  // namespace
+
+std::string section_error_time(const PageInput& input) {
+  const Summary& summary = input.summary;
+  std::string out =
+      "<section id=\"s1\">\n<h2>1. Error against run time</h2>\n<p>Each mark is a technique: colour by "
+      "filter, shape by "
+      "warp. Down and to the left is better; the dashed line joins those that nothing beats in both. Of all "
+      "scenes "
+      "together, errors are means and times geometric means.</p>\n<div class=\"bar script\"><label>scene "
+      "<select "
+      "id=\"scene\"></select></label><label>error <select id=\"error\"></select></label><label>cost <select "
+      "id=\"cost\"></select></label></div>\n";
+  out += error_time_chart(summary, input.start_scene).embedded("error-time");
+  out +=
+      "<div id=\"details\" class=\"script note\" aria-live=\"polite\"></div>\n<h3>At matched error: time to "
+      "reach "
+      "it</h3>\n<p class=\"note\">For each filter, with the best warp, split and size that was tried: the "
+      "time per "
+      "frame that an error costs.</p>\n";
+  for (std::size_t scene = input.start_scene; scene < summary.scenes.size(); ++scene) {
+    const std::string number = std::to_string(scene);
+    out += "<div class=\"by-scene\" data-scene=\"" + number + "\">\n" +
+           time_to_error_chart(summary, scene).embedded("time-to-error-" + number) +
+           matched_error_table(summary, scene) + "</div>\n";
+  }
+  return out + "</section>\n";
+}
+
+std::string section_summary(const PageInput& input) {
+  const Summary& summary = input.summary;
+  std::string out =
+      "<section id=\"s2\">\n<h2>2. Summary</h2>\n<p>Errors are shares of the judged pixels. <b>front</b>: no "
+      "other "
+      "technique is at once cheaper and more exact; the others are dominated and pale.</p>\n<div "
+      "class=\"wide "
+      "tall\"><table id=\"summary\"><thead><tr><th>warp / split / maps / filter</th><th>Pareto</th>";
+  for (const Measure& measure : measures()) out += "<th>" + escaped(measure.column) + "</th>";
+  out += "</tr></thead>\n";
+  const std::size_t error = measure_index(kDefaultError), cost = measure_index(kDefaultCost);
+  for (std::size_t scene = 0; scene < summary.scenes.size(); ++scene) {
+    if (scene == 0 && input.start_scene != 0) continue;
+    const std::vector<std::size_t> front = summary.front(scene, error, cost);
+    out += "<tbody data-scene=\"" + std::to_string(scene) + "\">\n<tr class=\"scene\"><td colspan=\"" +
+           std::to_string(measures().size() + 2) + "\">" + escaped(summary.scenes[scene]) + "</td></tr>\n";
+    for (const std::size_t t : by_error(summary, scene))
+      out += summary_row(summary, scene, t, std::find(front.begin(), front.end(), t) != front.end());
+    out += "</tbody>\n";
+  }
+  return out + "</table></div>\n</section>\n";
+}
+
+std::string section_flight(const PageInput& input) {
+  std::string out =
+      "<section id=\"s4\">\n<h2>4. Along the flight</h2>\n<p>Wrong pixels frame by frame, and flicker: "
+      "pixels whose "
+      "answer changes from one frame of a 60 Hz viewer to the next although the shadow at that place does "
+      "not. "
+      "Shown are the techniques of each scene's front.</p>\n";
+  for (std::size_t scene = 1; scene < input.summary.scenes.size(); ++scene) {
+    const std::vector<std::size_t> shown = notable(input.summary, scene, kFlightLines);
+    out += "<h3>" + escaped(input.summary.scenes[scene]) + "</h3>\n";
+    for (const std::string_view key : {kDefaultError, std::string_view("flips")}) {
+      const std::string id = std::string(key) + "-" + std::to_string(scene);
+      out += flight_chart(input.summary, input.rows, scene, measure_index(key), shown).embedded(id);
+    }
+  }
+  return out + "</section>\n";
+}
+
+std::string section_stability(const PageInput& input) {
+  const std::filesystem::path file = input.folder / "stability.jsonl";
+  const std::string table = table_of_lines(optional_text(file), file.string());
+  return "<section id=\"s5\">\n<h2>5. Numerical stability</h2>\n" +
+         (table.empty() ? "<p class=\"note\">Not measured here: this folder holds no stability.jsonl.</p>\n"
+                        : table) +
+         "</section>\n";
+}
+
+std::string section_left_out(const PageInput& input) {
+  std::string out =
+      "<section id=\"s6\">\n<h2>6. What was left out</h2>\n<p>What the plans found that a scene did not "
+      "need, and the "
+      "texels that this saved.</p>\n<div class=\"wide tall\"><table "
+      "class=\"words\"><thead><tr><th>scene</th><th>parametrization</th><th>what (for "
+      "example)</th><th>why</th>"
+      "<th>times</th><th>saves Mi texels a time</th></tr></thead><tbody>\n";
+  const std::vector<LeftOutKind> kinds = left_out_kinds(input.rows);
+  for (const LeftOutKind& k : kinds) {
+    out += "<tr><td>" + escaped(k.scene) + "</td><td>" + escaped(k.parametrization) + "</td><td>" +
+           escaped(k.what) + "</td><td>" + escaped(k.why) + "</td><td>" + std::to_string(k.times) +
+           "</td><td>" + short_number(k.saves_texels / k.times / kMebi) + "</td></tr>\n";
+  }
+  if (kinds.empty()) out += "<tr><td colspan=\"6\">nothing</td></tr>\n";
+  return out + "</tbody></table></div>\n</section>\n";
+}
+
+std::string section_method(const PageInput& input) {
+  std::set<std::string> machines, settings;
+  double low = input.rows.empty() ? 0.0 : input.rows.front().machine.load, high = low;
+  for (const Row& row : input.rows) {
+    const Machine& m = row.machine;
+    machines.insert(m.renderer + " through " + m.context + (m.software ? ", drawn by the CPU" : "") + "; " +
+                    m.cpu + ", " + std::to_string(m.cores) + " cores; gnomon " + m.version +
+                    "; rays: " + m.rays);
+    settings.insert(std::to_string(row.width) + "x" + std::to_string(row.height) + " pixels, " +
+                    std::to_string(row.frames) + " frames, sun at " + short_number(row.light_elevation_deg) +
+                    " degrees elevation and " + short_number(row.light_azimuth_deg) + " azimuth, " +
+                    std::to_string(row.times.rounds) + " rounds");
+    low = std::min(low, m.load);
+    high = std::max(high, m.load);
+  }
+  std::string out = "<section id=\"s7\">\n<h2>7. How it was measured</h2>\n<ul>\n";
+  for (const std::string& m : machines) out += "<li>" + escaped(m) + "</li>\n";
+  for (const std::string& s : settings) out += "<li>" + escaped(s) + "</li>\n";
+  out += "<li>load of the machine while measuring: " + short_number(low) + " to " + short_number(high) +
+         "</li>\n</ul>\n";
+  out +=
+      "<p><b>Truth.</b> Rays from the world point of every pixel to the light, past its own triangle. Pixels "
+      "where an "
+      "edge passes closer than the rays' certified error are not judged. <b>False light</b> and <b>false "
+      "shadow</b> "
+      "are shares of the judged pixels on the wrong side of one half. <b>Mean error</b> is against the exact "
+      "shadow "
+      "averaged over the filter's own kernel (for filters of lights with an extent: against the true "
+      "penumbra). "
+      "<b>Leaking</b> is the mean light where no part of the kernel is lit, <b>darkening</b> the mean shadow "
+      "where all "
+      "of it is. <b>m</b> is pixels per shadow map texel, above 1 undersampled.</p>\n<p><b>Time.</b> Wall "
+      "clock after "
+      "the driver has finished, of planning, drawing depths, prefilter and look-up; the picture itself is "
+      "not in it. "
+      "Techniques run one after the other in a new random order each round, after a round that is dropped; "
+      "medians "
+      "with 95 % bootstrap intervals stand in results.jsonl.</p>\n";
+  return out + "</section>\n";
+}
+
+}  // namespace gnomon::report

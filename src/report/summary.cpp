@@ -1,0 +1,155 @@
+// Rows gathered per scene and technique: what the charts and tables show.
+#include "summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::report {
+namespace {
+
+constexpr double kMicrosecondsPerNanosecond = 1e-3, kMebibytesPerByte = 1.0 / (1 << 20);
+
+template <class Values, class Value>
+std::size_t place_of(Values& known, const Value& value) {
+  const auto at = std::find(known.begin(), known.end(), value);
+  if (at != known.end()) return static_cast<std::size_t>(at - known.begin());
+  known.push_back(value);
+  return known.size() - 1;
+}
+
+double gathered(const Measure& measure, const std::vector<const Row*>& rows) {
+  double sum = 0.0, largest = 0.0;
+  for (const Row* row : rows) {
+    const double value = measure.of(*row);
+    sum += value;
+    largest = std::max(largest, value);
+  }
+  return measure.frames == Measure::Gather::largest ? largest : sum / static_cast<double>(rows.size());
+}
+
+Cell cell_of(const std::vector<const Row*>& rows) {
+  Cell cell;
+  if (rows.empty()) return cell;
+  cell.measured = true;
+  for (const Measure& measure : measures()) cell.values.push_back(gathered(measure, rows));
+  return cell;
+}
+
+/// The same technique over all scenes.
+Cell all_scenes(const std::vector<std::vector<Cell>>& cells, std::size_t technique) {
+  Cell all;
+  for (std::size_t scene = 1; scene < cells.size(); ++scene) {
+    if (!cells[scene][technique].measured) return all;
+  }
+  all.measured = true;
+  for (std::size_t m = 0; m < measures().size(); ++m) {
+    std::vector<double> values;
+    for (std::size_t scene = 1; scene < cells.size(); ++scene)
+      values.push_back(cells[scene][technique].values[m]);
+    constexpr double kLeastCost = 1e-6;  // of a pass that did not run
+    double sum = 0.0;
+    for (const double value : values) sum += value / static_cast<double>(values.size());
+    all.values.push_back(measures()[m].is_cost ? geometric_mean(values, kLeastCost) : sum);
+  }
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Measure>& measures() {
+  using Gather = Measure::Gather;
+  static const std::vector<Measure> all{
+      {"wrong", "wrong pixels (false light + false shadow)", "", "wrong", false,
+       [](const Row& r) { return r.errors.false_lit + r.errors.false_shadow; }},
+      {"false_lit", "false light", "", "false light", false, [](const Row& r) { return r.errors.false_lit; }},
+      {"false_shadow", "false shadow", "", "false shadow", false,
+       [](const Row& r) { return r.errors.false_shadow; }},
+      {"mean_error", "mean error against the ideal filter", "", "mean error", false,
+       [](const Row& r) { return r.errors.mean_error; }},
+      {"leaking", "light leaking deep in shadow", "", "leaking", false,
+       [](const Row& r) { return r.errors.leaking; }},
+      {"darkening", "darkening of lit surfaces", "", "darkening", false,
+       [](const Row& r) { return r.errors.darkening; }},
+      {"flips", "flicker (excess flips per pixel and frame)", "", "flicker", false,
+       [](const Row& r) { return r.flips; }},
+      {"m_p95", "aliasing error m, 95th percentile", "pixels per texel", "m p95", false,
+       [](const Row& r) { return r.aliasing.p95; }, Gather::largest},
+      {"share_undersampled", "share of pixels with m > 1", "", "m > 1", false,
+       [](const Row& r) { return r.aliasing.share_undersampled; }},
+      {"total_ms", "shadow time per frame", "ms", "time, ms", true,
+       [](const Row& r) { return r.times.total_ms.median; }},
+      {"ratio", "time over hard x no warp x one map", "", "x base", true,
+       [](const Row& r) { return r.times.ratio(); }},
+      {"plan_us", "planning", "\xC2\xB5s", "plan, \xC2\xB5s", true,
+       [](const Row& r) { return r.times.plan_ns.median * kMicrosecondsPerNanosecond; }},
+      {"depth_ms", "drawing depths", "ms", "depth, ms", true,
+       [](const Row& r) { return r.times.depth_ms.median; }},
+      {"prefilter_ms", "prefilter", "ms", "prefilter, ms", true,
+       [](const Row& r) { return r.times.prefilter_ms.median; }},
+      {"shade_ms", "looking up", "ms", "look-up, ms", true,
+       [](const Row& r) { return r.times.shade_ms.median; }},
+      {"draws", "draw calls", "", "draws", true,
+       [](const Row& r) { return static_cast<double>(r.costs.draws); }},
+      {"triangles", "triangles drawn", "", "triangles", true,
+       [](const Row& r) { return static_cast<double>(r.costs.triangles); }},
+      {"map_mib", "memory of the maps", "MiB", "maps, MiB", true,
+       [](const Row& r) { return static_cast<double>(r.costs.map_bytes) * kMebibytesPerByte; },
+       Gather::largest}};
+  return all;
+}
+
+std::size_t measure_index(std::string_view key) {
+  const std::vector<Measure>& all = measures();
+  const auto at = std::find_if(all.begin(), all.end(), [&](const Measure& m) { return m.key == key; });
+  return static_cast<std::size_t>(at - all.begin());
+}
+
+std::vector<std::size_t> Summary::front(std::size_t scene, std::size_t error, std::size_t cost) const {
+  std::vector<Choice> choices;
+  std::vector<std::size_t> of;
+  for (std::size_t t = 0; t < techniques.size(); ++t) {
+    const Cell& cell = cells[scene][t];
+    if (!cell.measured) continue;
+    choices.push_back({cell.values[cost], cell.values[error]});
+    of.push_back(t);
+  }
+  std::vector<std::size_t> best = pareto_front(choices);
+  for (std::size_t& i : best) i = of[i];
+  return best;
+}
+
+Summary summarize(const std::vector<Row>& rows) {
+  Summary s;
+  s.scenes.emplace_back("all scenes");
+  std::vector<std::vector<std::vector<const Row*>>> gathered_rows;  // [scene - 1][technique]
+  for (const Row& row : rows) {
+    (void)place_of(s.techniques, row.technique);
+    (void)place_of(s.filters, row.technique.filter);
+    (void)place_of(s.warps, row.technique.warp);
+  }
+  s.rows_of.emplace_back();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    // The first entry is all of them together, whatever a scene may be called.
+    const auto known = std::find(s.scenes.begin() + 1, s.scenes.end(), rows[i].scene);
+    const auto scene = static_cast<std::size_t>(known - s.scenes.begin());
+    if (known == s.scenes.end()) {
+      s.scenes.push_back(rows[i].scene);
+      s.rows_of.emplace_back();
+      gathered_rows.emplace_back(s.techniques.size());
+    }
+    gathered_rows[scene - 1][place_of(s.techniques, rows[i].technique)].push_back(&rows[i]);
+    s.rows_of[scene].push_back(i);
+  }
+  s.cells.emplace_back();
+  for (const auto& by_technique : gathered_rows) {
+    s.cells.emplace_back();
+    for (const auto& of_technique : by_technique) s.cells.back().push_back(cell_of(of_technique));
+  }
+  for (std::size_t t = 0; t < s.techniques.size(); ++t) s.cells.front().push_back(all_scenes(s.cells, t));
+  for (std::vector<std::size_t>& numbers : s.rows_of)
+    std::stable_sort(numbers.begin(), numbers.end(),
+                     [&](std::size_t a, std::size_t b) { return rows[a].frame < rows[b].frame; });
+  return s;
+}
+
+}  // namespace gnomon::report

@@ -1,0 +1,52 @@
+// Rows gathered per scene and technique: what the charts and tables show.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gnomon/report/row.hpp"
+
+namespace gnomon::report {
+
+/// A number that the report can show of a technique. All are to be made small.
+struct Measure {
+  std::string_view key;     ///< in CSV and in the page's data
+  std::string_view name;    ///< for people
+  std::string_view unit;    ///< "" for shares and ratios
+  std::string_view column;  ///< short, for the table's head
+  bool is_cost = false;     ///< else it is an error
+  double (*of)(const Row& row) = nullptr;
+  /// How frames are gathered, and then scenes.
+  enum class Gather : std::uint8_t { mean, largest } frames = Gather::mean;
+};
+[[nodiscard]] const std::vector<Measure>& measures();
+/// Index into measures(). The key must be one of them.
+[[nodiscard]] std::size_t measure_index(std::string_view key);
+
+/// One technique on one scene.
+struct Cell {
+  bool measured = false;
+  std::vector<double> values;  ///< by measure
+};
+
+struct Summary {
+  std::vector<std::string> scenes;  ///< the first stands for all of them together
+  std::vector<Technique> techniques;
+  std::vector<std::vector<Cell>> cells;           ///< [scene][technique]
+  std::vector<std::vector<std::size_t>> rows_of;  ///< [scene][row numbers], by frame; none for the first
+  std::vector<std::string> filters, warps;        ///< in the order they appear
+
+  /// Techniques of a scene that no other beats in this error and cost, by rising cost.
+  [[nodiscard]] std::vector<std::size_t> front(std::size_t scene, std::size_t error, std::size_t cost) const;
+};
+
+/// Of all scenes together, errors are their mean and costs their geometric mean, over techniques that were
+/// measured on all of them.
+[[nodiscard]] Summary summarize(const std::vector<Row>& rows);
+
+inline constexpr std::string_view kDefaultError = "wrong", kDefaultCost = "total_ms";
+
+}  // namespace gnomon::report

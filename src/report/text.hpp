@@ -1,0 +1,23 @@
+// Text made safe for where it goes, and numbers made short.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace gnomon::report {
+
+/// For HTML and SVG, as content and within double quotes.
+[[nodiscard]] std::string escaped(std::string_view text);
+/// A CSV field in quotes, RFC 4180.
+[[nodiscard]] std::string csv_field(std::string_view text);
+/// JSON that may stand in a script element: no character of it can end the element.
+[[nodiscard]] std::string for_script(std::string json);
+/// Three significant digits, without an exponent between 1e-4 and 1e6.
+[[nodiscard]] std::string short_number(double value);
+/// All digits that it takes to read the value back; empty where it is not finite.
+[[nodiscard]] std::string exact_number(double value);
+[[nodiscard]] std::string base64(std::string_view bytes);
+/// The hash of a content security policy: "sha256-" and its base64. Based on: NIST, FIPS 180-4, 2015.
+[[nodiscard]] std::string policy_hash(std::string_view text);
+
+}  // namespace gnomon::report

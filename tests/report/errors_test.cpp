@@ -1,0 +1,73 @@
+// Errors of masks that can be counted by hand.
+#include "gnomon/report/errors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+namespace gnomon::report {
+namespace {
+
+using Mask = std::vector<float>;
+
+TEST(Errors, of_nothing_are_zero) {
+  const MaskErrors errors = mask_errors({}, {}, {});
+  EXPECT_EQ(errors.pixels, 0u);
+  EXPECT_EQ(errors.false_lit + errors.false_shadow + errors.mean_error + errors.leaking + errors.darkening,
+            0.0);
+  EXPECT_EQ(excess_flips({}, {}, {}, {}), 0.0);
+  EXPECT_EQ(pixel_aliasing({}).pixels, 0u);
+}
+
+TEST(Errors, pixels_that_are_not_judged_do_not_count) {
+  const Mask mask{1, 0, 1}, none{-1, -1, -1};
+  EXPECT_EQ(mask_errors(mask, none, none).pixels, 0u);
+  EXPECT_EQ(mask_errors(mask, none, none).mean_error, 0.0);
+}
+
+TEST(Errors, false_light_and_false_shadow_are_told_apart) {
+  const Mask hard{0, 0, 0, 0, 1, 1, 1, -1}, mask{0, 0.5f, 0.75f, 1, 1, 0.5f, 0, 1};
+  const MaskErrors errors = mask_errors(mask, hard, Mask(8, -1.0f));
+  EXPECT_EQ(errors.pixels, 7u);
+  EXPECT_DOUBLE_EQ(errors.false_lit, 2.0 / 7.0);     // 0.75 and 1 in shadow; exactly half counts as shadow
+  EXPECT_DOUBLE_EQ(errors.false_shadow, 2.0 / 7.0);  // 0.5 and 0 in light
+}
+
+TEST(Errors, leaking_and_darkening_look_at_the_deep_pixels_only) {
+  const Mask soft{0, 0, 0.5f, 1, 1, 1, 1, -1}, mask{0.25f, 0, 0.75f, 1, 1, 0.5f, 1, 0};
+  const MaskErrors errors = mask_errors(mask, soft, soft);
+  EXPECT_EQ(errors.deep_pixels, 2u);
+  EXPECT_DOUBLE_EQ(errors.leaking, 0.125);
+  EXPECT_EQ(errors.open_pixels, 4u);
+  EXPECT_DOUBLE_EQ(errors.darkening, 0.125);
+  EXPECT_DOUBLE_EQ(errors.mean_error, (0.25 + 0.25 + 0.5) / 7.0);
+}
+
+TEST(Errors, a_perfect_mask_has_none) {
+  const Mask truth{0, 1, 0.25f, 1, 0};
+  const MaskErrors errors = mask_errors(truth, truth, truth);
+  EXPECT_EQ(errors.false_lit + errors.false_shadow + errors.mean_error + errors.leaking + errors.darkening,
+            0.0);
+}
+
+TEST(Errors, flips_beyond_those_of_the_truth_count) {
+  const Mask before{0, 1, 0, 1, 0, 1}, after{0, 0, 1, 0, 0.5f, 0};
+  const Mask truth_before{0, 1, 0, 1, 0, -1}, truth_after{0, 1, 1, 1, 0, 1};
+  // The third follows the truth, the fifth changes by no more than half, the last is not judged.
+  EXPECT_DOUBLE_EQ(excess_flips(before, after, truth_before, truth_after), 2.0 / 5.0);
+  EXPECT_EQ(excess_flips(before, before, truth_before, truth_after), 0.0);
+}
+
+TEST(Errors, aliasing_counts_what_is_above_zero_infinities_included) {
+  const float infinite = std::numeric_limits<float>::infinity();
+  const Mask m{0, -1, 0.5f, 2, 4, infinite, std::numeric_limits<float>::quiet_NaN()};
+  const PixelAliasing aliasing = pixel_aliasing(m);
+  EXPECT_EQ(aliasing.pixels, 4u);
+  EXPECT_EQ(aliasing.p50, 2.0);
+  EXPECT_EQ(aliasing.max, static_cast<double>(infinite));
+  EXPECT_DOUBLE_EQ(aliasing.share_undersampled, 0.75);
+}
+
+}  // namespace
+}  // namespace gnomon::report

@@ -1,0 +1,170 @@
+// The page and its files, as text: hashes, escapes, charts.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "chart.hpp"
+#include "gnomon/report/page.hpp"
+#include "gnomon/report/rows_file.hpp"
+#include "sample_rows.hpp"
+#include "summary.hpp"
+#include "text.hpp"
+
+namespace gnomon::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+/// The report of these rows, in a folder of its own.
+class Reported {
+ public:
+  explicit Reported(const std::vector<Row>& rows) {
+    RowsFile file(folder.path() / kRowsFile);
+    for (const Row& row : rows) file.append(row);
+    page = text_of(write_report(folder.path()));
+  }
+  TemporaryFolder folder;
+  std::string page;
+};
+
+TEST(Text, base64_and_hashes_are_those_of_the_standards) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  // FIPS 180-4's examples: the empty text, "abc", and one of two blocks.
+  EXPECT_EQ(policy_hash(""), "sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU=");
+  EXPECT_EQ(policy_hash("abc"), "sha256-ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0=");
+  EXPECT_EQ(policy_hash("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "sha256-JI1qYdIGOLjlwCaTDD5gOaM85Flk/yFn9uzt1BnbBsE=");
+}
+
+TEST(Text, what_could_end_an_element_cannot) {
+  EXPECT_EQ(escaped("<a b=\"c\">&'"), "&lt;a b=&quot;c&quot;&gt;&amp;&#39;");
+  EXPECT_EQ(escaped(std::string("a\0b\x1b", 4)), "a b ");
+  EXPECT_EQ(for_script("\"</script><!--\""), "\"\\u003c/script>\\u003c!--\"");
+  EXPECT_EQ(csv_field("a,\"b\"\n"), "\"a,\"\"b\"\"\n\"");
+}
+
+TEST(Text, short_numbers_stay_short) {
+  EXPECT_EQ(short_number(0.0), "0");
+  EXPECT_EQ(short_number(0.012345), "0.0123");
+  EXPECT_EQ(short_number(12345.6), "12346");
+  EXPECT_EQ(short_number(1.0 / 0.0), "\xE2\x88\x9E");
+  EXPECT_EQ(exact_number(0.1), "0.1");
+  EXPECT_EQ(exact_number(1.0 / 0.0), "");
+}
+
+TEST(Axis, of_nothing_zeros_and_one_value) {
+  Axis axis;
+  axis.fit({});
+  EXPECT_LT(axis.low, axis.high);
+  axis.fit({0.0, -1.0, 2.0, 1.0 / 0.0});
+  EXPECT_LT(axis.low, 2.0);
+  EXPECT_GT(axis.high, 2.0);
+  EXPECT_NEAR(axis.place(2.0), 0.5, 1e-12);
+  EXPECT_EQ(axis.place(0.0), 0.0);
+  EXPECT_EQ(axis.place(1.0 / 0.0), 1.0);
+  EXPECT_FALSE(axis.ticks().empty());
+}
+
+TEST(Axis, ticks_lie_within_and_are_neither_few_nor_many) {
+  for (const bool logarithmic : {false, true}) {
+    for (double high = 0.02; high < 1e6; high *= 1.7) {
+      Axis axis{"", logarithmic};
+      axis.fit({0.01, high});
+      const std::vector<double> ticks = axis.ticks();
+      EXPECT_GE(ticks.size(), 2u) << high;
+      EXPECT_LE(ticks.size(), 14u) << high;
+      for (const double tick : ticks) {
+        EXPECT_GE(tick, axis.low * (1 - 1e-9));
+        EXPECT_LE(tick, axis.high * (1 + 1e-9));
+      }
+    }
+  }
+}
+
+TEST(Summary, gathers_frames_and_scenes) {
+  std::vector<Row> rows(4, sample_row());
+  rows[0].scene = rows[1].scene = "a";
+  rows[2].scene = rows[3].scene = "b";
+  const double times[] = {1, 3, 8, 8}, errors[] = {0.1, 0.3, 0.4, 0.4};
+  for (std::size_t i = 0; i < 4; ++i) {
+    rows[i].frame = static_cast<int>(i % 2);
+    rows[i].times.total_ms.median = times[i];
+    rows[i].errors.false_lit = errors[i];
+    rows[i].errors.false_shadow = 0.0;
+  }
+  const Summary summary = summarize(rows);
+  ASSERT_EQ(summary.scenes, (std::vector<std::string>{"all scenes", "a", "b"}));
+  const std::size_t wrong = measure_index("wrong"), total = measure_index("total_ms");
+  EXPECT_DOUBLE_EQ(summary.cells[1][0].values[wrong], 0.2);
+  EXPECT_DOUBLE_EQ(summary.cells[1][0].values[total], 2.0);
+  EXPECT_DOUBLE_EQ(summary.cells[0][0].values[wrong], 0.3);
+  EXPECT_DOUBLE_EQ(summary.cells[0][0].values[total], 4.0);
+}
+
+TEST(Summary, a_technique_that_misses_a_scene_is_not_among_all_scenes) {
+  std::vector<Row> rows = sample_rows(2, 3);
+  rows.erase(rows.begin());
+  rows.erase(rows.begin() + 2);  // both frames of the first technique on the first scene
+  const Summary summary = summarize(rows);
+  EXPECT_EQ(std::count_if(summary.cells[0].begin(), summary.cells[0].end(),
+                          [](const Cell& c) { return c.measured; }),
+            2);
+}
+
+TEST(Page, of_no_rows_says_so_and_stands) {
+  const Reported reported({});
+  EXPECT_NE(reported.page.find("0 techniques on 0 scenes"), std::string::npos);
+  EXPECT_EQ(count(reported.page, "<section"), 7u);
+}
+
+TEST(Page, holds_every_technique_of_every_scene_and_of_all_together) {
+  const Reported reported(sample_rows(2, 5));
+  EXPECT_EQ(count(reported.page, "<tr class=\"row"), 15u);
+  EXPECT_EQ(count(reported.page, "<section"), count(reported.page, "</section>"));
+  EXPECT_NE(text_of(reported.folder.path() / "charts/error_time_all.svg").find("<svg"), std::string::npos);
+  // A head and a line per scene, all together included, and technique.
+  EXPECT_EQ(count(text_of(reported.folder.path() / "summary.csv"), "\n"), 16u);
+  EXPECT_EQ(count(text_of(reported.folder.path() / "frames.csv"), "\n"), 21u);
+}
+
+TEST(Page, loads_nothing_and_lets_only_its_own_script_run) {
+  const std::string page = Reported(sample_rows(1, 3)).page;
+  EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+  EXPECT_EQ(page.find("unsafe"), std::string::npos);
+  for (const char* way_out : {"http://", "https://", "src=\"/", "@import", "url("}) {
+    // The namespace of SVG is a name, and nobody goes there.
+    EXPECT_EQ(count(page, way_out), std::string(way_out) == "http://" ? 1u : 0u) << way_out;
+  }
+  const std::size_t begin = page.rfind("<script>") + 8, end = page.rfind("</script>");
+  EXPECT_NE(page.find(policy_hash(page.substr(begin, end - begin))), std::string::npos);
+  EXPECT_EQ(count(page, " style=\""), 0u);
+}
+
+TEST(Page, a_stability_file_that_is_no_json_is_refused_by_name) {
+  const TemporaryFolder folder;
+  RowsFile(folder.path() / kRowsFile).append(sample_row());
+  std::ofstream(folder.path() / "stability.jsonl") << "{\"a\":1}\nnonsense\n";
+  try {
+    (void)write_report(folder.path());
+    FAIL();
+  } catch (const ReportError& error) {
+    EXPECT_NE(std::string(error.what()).find("stability.jsonl:2: "), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::report

@@ -1,0 +1,135 @@
+// Rows survive JSON, kills and shards.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+
+#include "gnomon/report/rows_file.hpp"
+#include "sample_rows.hpp"
+
+namespace gnomon::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> lines_of(const std::vector<Row>& rows) {
+  std::vector<std::string> lines;
+  for (const Row& row : rows) lines.push_back(to_json_line(row));
+  return lines;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Rows, come_back_from_json_as_they_were) {
+  const Row row = sample_row(7);
+  const std::string line = to_json_line(row);
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  EXPECT_EQ(to_json_line(row_from_json(line, "here")), line);
+  EXPECT_EQ(row_from_json(line, "here").technique, row.technique);
+}
+
+TEST(Rows, infinite_aliasing_and_strange_names_survive) {
+  Row row = sample_row();
+  row.aliasing.max = std::numeric_limits<double>::infinity();
+  row.scene = "a \"b\"\n\t</script> \xff";
+  const Row back = row_from_json(to_json_line(row), "here");
+  EXPECT_EQ(back.aliasing.max, row.aliasing.max);
+  EXPECT_EQ(back.scene,
+            "a \"b\"\n\t</script> \xEF\xBF\xBD");  // what is no UTF-8 becomes the replacement character
+}
+
+TEST(Rows, a_bad_line_is_refused_with_its_place) {
+  const auto message = [](const std::string& line) {
+    try {
+      (void)row_from_json(line, "file:3");
+    } catch (const ReportError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(message("{").rfind("file:3: ", 0), 0u);
+  EXPECT_EQ(message("{\"schema\":\"other\"}"), "file:3: schema 'other', wanted 'gnomon.compare.1'");
+  EXPECT_NE(message("{\"schema\":\"gnomon.compare.1\"}").find("index"), std::string::npos);
+}
+
+TEST(Rows, keys_tell_measurements_apart_and_times_do_not_matter) {
+  Row a = sample_row(), b = sample_row();
+  b.times.total_ms.median = 99.0;
+  b.machine.load = 7.0;
+  EXPECT_EQ(a.key(), b.key());
+  EXPECT_EQ(without_times(a), without_times(b));
+  b.technique.filter = "pcf";
+  EXPECT_NE(a.key(), b.key());
+  EXPECT_NE(without_times(a), without_times(b));
+}
+
+TEST(RowsFile, a_line_cut_short_by_a_kill_is_dropped_and_written_anew) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / kRowsFile;
+  {
+    RowsFile out(file);
+    out.append(sample_row(0));
+    out.append(sample_row(1));
+  }
+  const std::string whole = text_of(file);
+  for (const std::size_t cut : {whole.size() - 1, whole.size() - 10, whole.size() / 2 + 1}) {
+    std::ofstream(file, std::ios::binary) << whole.substr(0, cut);
+    EXPECT_EQ(read_rows(file).size(), 1u) << cut;
+    RowsFile(file).append(sample_row(1));
+    EXPECT_EQ(text_of(file), whole) << cut;
+  }
+}
+
+TEST(RowsFile, a_file_that_cannot_be_opened_is_named) {
+  EXPECT_THROW(RowsFile("/nowhere/at/all.jsonl"), ReportError);
+  EXPECT_THROW((void)read_rows("/nowhere/at/all.jsonl"), ReportError);
+}
+
+TEST(Merge, shards_are_the_whole_row_for_row) {
+  const TemporaryFolder folder;
+  const std::vector<Row> rows = sample_rows(2, 5);
+  std::vector<fs::path> shards;
+  for (std::size_t shard = 0; shard < 3; ++shard) {
+    shards.push_back(folder.path() / std::to_string(shard));
+    fs::create_directories(shards.back());
+    RowsFile out(shards.back() / kRowsFile);
+    for (const Row& row : rows) {
+      if (row.index % 3 == shard) out.append(row);
+    }
+  }
+  shards.push_back(shards[1]);  // once more: a row counts once
+  const fs::path out = folder.path() / "whole";
+  EXPECT_EQ(merge_rows(shards, out), rows.size());
+  EXPECT_EQ(lines_of(read_rows(out)), lines_of(rows));
+}
+
+TEST(Merge, pictures_come_along) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "a/pictures");
+  std::ofstream(folder.path() / "a/pictures/x.png") << "picture";
+  Row row = sample_row();
+  row.pictures.mask = "pictures/x.png";
+  RowsFile(folder.path() / "a" / kRowsFile).append(row);
+  const std::vector<fs::path> shards{folder.path() / "a"};
+  merge_rows(shards, folder.path() / "out");
+  EXPECT_EQ(text_of(folder.path() / "out/pictures/x.png"), "picture");
+}
+
+TEST(Merge, a_picture_outside_of_its_folder_is_refused) {
+  const TemporaryFolder folder;
+  for (const char* name : {"../x.png", "/etc/passwd", "a/../../x.png"}) {
+    fs::create_directories(folder.path() / "a");
+    fs::remove(folder.path() / "a" / kRowsFile);
+    Row row = sample_row();
+    row.pictures.mask = name;
+    RowsFile(folder.path() / "a" / kRowsFile).append(row);
+    const std::vector<fs::path> shards{folder.path() / "a"};
+    EXPECT_THROW(merge_rows(shards, folder.path() / "out"), ReportError) << name;
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::report
