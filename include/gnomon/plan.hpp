@@ -46,6 +46,19 @@ struct PlanOptions {
   int cascades = 4;
   /// What divides the receivers among the maps. Others than view_depth take neither cascades nor splits.
   Partition partition = Partition::view_depth;
+  /// 0: as many maps as `cascades` says. Above: the fewest, up to `cascades`, whose m_s_max and m_t_max
+  /// (screen pixels per texel, bounds over everything in view) stay at or below it; where none do, those with
+  /// the least. Directional lights and Partition::view_depth only. Plans up to `cascades` times, and so
+  /// costs as much.
+  double target_m = 0.0;
+  /// 0: every map is map_size x map_size. Above: the most texels that all maps together may have; each gets
+  /// as many as make the largest m_s_max and m_t_max of all maps equal, in steps of kBudgetStep, up to 16384
+  /// along a side. With Fit::tight and Fit::rotated the sides may differ; Fit::stable, Fit::warped_stable,
+  /// lights with a position and plans with a history keep them equal. Directional lights get the number of
+  /// maps, up to `cascades`, that brings m lowest. At least least_budget_side() squared for each of
+  /// `cascades` maps (of a cube: six). Plans as often as target_m does, and once more. Of the partitions,
+  /// view_depth only.
+  std::int64_t texel_budget = 0;
   /// How the view depth is divided among them.
   SplitScheme split = SplitScheme::automatic;
   /// Blend of uniform (0) and logarithmic (1) splits for SplitScheme::practical.
@@ -87,6 +100,11 @@ struct PlanOptions {
   /// Clip space of the matrices given out.
   ClipSpace clip_space;
 };
+
+/// Sides of maps under PlanOptions::texel_budget are multiples of this: a tile that rasterizers like.
+inline constexpr int kBudgetStep = 16;
+/// The shortest side that a texel budget gives: kBudgetStep, or what four filter radii take.
+[[nodiscard]] int least_budget_side(const PlanOptions& options) noexcept;
 
 enum class PlanStatus : std::uint8_t {
   ok,               ///< there are maps to draw

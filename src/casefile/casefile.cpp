@@ -113,12 +113,25 @@ bool ndc_depth_from_name(std::string_view name, NdcDepth& depth) {
   return name == "minus_one_to_one" || name == "zero_to_one";
 }
 
+bool handedness_from_name(std::string_view name, Handedness& handedness) {
+  handedness = name == "left" ? Handedness::left : Handedness::right;
+  return name == "left" || name == "right";
+}
+
+bool first_row_from_name(std::string_view name, FirstRow& row) {
+  row = name == "y_plus_one" ? FirstRow::y_plus_one : FirstRow::y_minus_one;
+  return name == "y_plus_one" || name == "y_minus_one";
+}
+
 ClipSpace clip_space_from(const json& value) {
-  const Fields fields(value, "options.clip_space", {"ndc_depth", "reversed_z", "y_down"});
+  const Fields fields(value, "options.clip_space",
+                      {"ndc_depth", "reversed_z", "y_down", "handedness", "first_row"});
   ClipSpace clip_space;
   read_name(fields, "ndc_depth", clip_space.ndc_depth, "minus_one_to_one, zero_to_one", ndc_depth_from_name);
   fields.read("reversed_z", clip_space.reversed_z);
   fields.read("y_down", clip_space.y_down);
+  read_name(fields, "handedness", clip_space.handedness, "right, left", handedness_from_name);
+  read_name(fields, "first_row", clip_space.first_row, "y_minus_one, y_plus_one", first_row_from_name);
   return clip_space;
 }
 
@@ -144,19 +157,46 @@ void read_warp(const Fields& fields, PlanOptions& options) {
   options.partition = Partition::separating_plane;
 }
 
-PlanOptions options_from(const json& value) {
+PlanOptions options_from(const json& value, std::vector<double>& given_splits) {
   const Fields fields(value, "options",
-                      {"map_size", "cascades", "split", "lambda", "pseudo_near", "near_hint", "split_range",
-                       "partition", "warp", "objective", "stable", "fit", "stable_size_steps",
-                       "filter_radius_texels", "filter_radius_world", "bias", "clip_space"});
+                      {"map_size",
+                       "cascades",
+                       "split",
+                       "given_splits",
+                       "lambda",
+                       "pseudo_near",
+                       "near_hint",
+                       "split_range",
+                       "target_m",
+                       "texel_budget",
+                       "partition",
+                       "warp",
+                       "objective",
+                       "stable",
+                       "fit",
+                       "stable_size_steps",
+                       "filter_radius_texels",
+                       "filter_radius_world",
+                       "bias",
+                       "clip_space"});
   PlanOptions options;
   fields.read("map_size", options.map_size);
   fields.read("cascades", options.cascades);
-  read_name(fields, "split", options.split, "auto, uniform, logarithmic, practical, pseudo_near, optimal",
-            split_scheme_from_name);
+  read_name(fields, "split", options.split,
+            "auto, uniform, logarithmic, practical, pseudo_near, optimal, given", split_scheme_from_name);
+  if (fields.has("given_splits")) {
+    if (fields.has("split") && options.split != SplitScheme::given)
+      fields.refuse("given_splits", "needs split to be given");
+    given_splits = fields.numbers("given_splits");
+    options.split = SplitScheme::given;
+    options.given_splits = given_splits;
+  }
+  fields.read("target_m", options.target_m);
+  fields.read("texel_budget", options.texel_budget);
   fields.read("lambda", options.lambda);
   // Who gives a blend means the scheme that blends.
-  if (fields.has("lambda") && !fields.has("split")) options.split = SplitScheme::practical;
+  if (fields.has("lambda") && !fields.has("split") && !fields.has("given_splits"))
+    options.split = SplitScheme::practical;
   if (fields.has("pseudo_near") && fields.has("near_hint"))
     fields.refuse("pseudo_near", "is another name of near_hint: give one of them");
   fields.read("pseudo_near", options.near_hint);
@@ -194,6 +234,18 @@ std::string read_text(const std::filesystem::path& file) {
 
 }  // namespace
 
+Case& Case::operator=(const Case& other) {
+  camera = other.camera;
+  light = other.light;
+  receivers = other.receivers;
+  casters = other.casters;
+  given_splits = other.given_splits;
+  options = other.options;
+  // The copy's own list, where it was the case's.
+  if (options.given_splits.data() == other.given_splits.data()) options.given_splits = given_splits;
+  return *this;
+}
+
 Case read_case(std::string_view json_text) {
   const json value = parse_json(json_text);
   const Fields fields(value, "", {"camera", "light", "receivers", "casters", "options"});
@@ -202,7 +254,7 @@ Case read_case(std::string_view json_text) {
   result.light = light_from(fields.at("light"));
   result.receivers = fields.boxes("receivers");
   result.casters = fields.boxes("casters");
-  if (fields.has("options")) result.options = options_from(fields.at("options"));
+  if (fields.has("options")) result.options = options_from(fields.at("options"), result.given_splits);
   return result;
 }
 
@@ -236,6 +288,10 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"options.near_hint", "options.near_hint: must not be below 0"},
       {"options.filter_radius_world", "options.filter_radius_world: must be 0 or more"},
       {"options.stable_size_steps", "options.stable_size_steps: must lie in 1..1024"},
+      {"options.given_splits", "options.given_splits: needs cascades - 1 depths, ascending"},
+      {"options.target_m", "options.target_m: must not be below 0"},
+      {"options.texel_budget",
+       "options.texel_budget: must be 0, or hold the least maps: 16 x 16, or four filter radii"},
       {"options.filter_radius_texels", "options.filter_radius_texels: must lie in 0..map_size/4"},
       {"options.bias", "options.bias: every value must be 0 or above"},
   });

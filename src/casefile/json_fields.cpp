@@ -84,6 +84,24 @@ int Fields::integer(std::string_view key) const {
   return static_cast<int>(value);
 }
 
+std::int64_t Fields::long_integer(std::string_view key) const {
+  const double value = number(key);
+  if (value != std::floor(value)) refuse(key, "needs a whole number");
+  // Whole numbers beyond this are not exact in JSON.
+  if (std::abs(value) > 9007199254740992.0) refuse(key, "is out of range");
+  return static_cast<std::int64_t>(value);
+}
+
+std::vector<double> Fields::numbers(std::string_view key) const {
+  const json& value = at(key);
+  if (!value.is_array()) wrong_type(path_of(key), "a list of numbers", value);
+  std::vector<double> numbers;
+  numbers.reserve(value.size());
+  for (std::size_t i = 0; i < value.size(); ++i)
+    numbers.push_back(finite_number(value[i], path_of(key) + "[" + std::to_string(i) + "]"));
+  return numbers;
+}
+
 bool Fields::boolean(std::string_view key) const {
   const json& value = at(key);
   if (!value.is_boolean()) wrong_type(path_of(key), "true or false", value);

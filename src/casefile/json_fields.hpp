@@ -1,6 +1,7 @@
 // Typed reading of a JSON object's keys. Every complaint carries the key's path.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -25,8 +26,10 @@ class Fields {
   [[nodiscard]] double number(std::string_view key) const;
   [[nodiscard]] double positive(std::string_view key) const;
   [[nodiscard]] int integer(std::string_view key) const;
+  [[nodiscard]] std::int64_t long_integer(std::string_view key) const;
   [[nodiscard]] bool boolean(std::string_view key) const;
   [[nodiscard]] std::string text(std::string_view key) const;
+  [[nodiscard]] std::vector<double> numbers(std::string_view key) const;
   [[nodiscard]] glm::dvec3 vector(std::string_view key) const;
   /// One box or a list of boxes.
   [[nodiscard]] std::vector<Box> boxes(std::string_view key) const;
@@ -37,6 +40,9 @@ class Fields {
   }
   void read(std::string_view key, int& out) const {
     if (has(key)) out = integer(key);
+  }
+  void read(std::string_view key, std::int64_t& out) const {
+    if (has(key)) out = long_integer(key);
   }
   void read(std::string_view key, bool& out) const {
     if (has(key)) out = boolean(key);

@@ -60,7 +60,7 @@ PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& cho
   return map;
 }
 
-glm::dmat4 clip_from_light(const PlaneMap& map, const LightDepths& depths, double rim) noexcept {
+glm::dmat4 clip_from_light(const PlaneMap& map, const LightDepths& depths, const glm::dvec2& rim) noexcept {
   // Rows over (x, y, z, 1) of the light frame. Before the division by w: the image's x is s - centre, its y u
   // * stretch.
   const glm::dvec2 axis = map.choice.axis, row_a = map.choice.row_a, row_b = map.choice.row_b;
@@ -68,12 +68,11 @@ glm::dmat4 clip_from_light(const PlaneMap& map, const LightDepths& depths, doubl
   const glm::dvec3 across{axis.y, -axis.x, -map.choice.centre};  // over (x, y, 1)
   const glm::dvec3 along{axis.x * map.stretch, axis.y * map.stretch, -map.u_min * map.stretch};
   const glm::dvec3 w{kappa * axis.x, kappa * axis.y, 1.0 - kappa * map.u_min};
-  const double fill = 1.0 - 2.0 * rim;
-  const auto edge_to_edge = [&](const glm::dvec3& row, double low, double high) {
-    return (row - w * (0.5 * (low + high))) * (2.0 * fill / (high - low));
+  const auto edge_to_edge = [&](const glm::dvec3& row, double low, double high, double part) {
+    return (row - w * (0.5 * (low + high))) * (2.0 * (1.0 - 2.0 * part) / (high - low));
   };
-  const glm::dvec3 row_x = edge_to_edge(across * row_a.x + along * row_a.y, map.a_min, map.a_max);
-  const glm::dvec3 row_y = edge_to_edge(across * row_b.x + along * row_b.y, map.b_min, map.b_max);
+  const glm::dvec3 row_x = edge_to_edge(across * row_a.x + along * row_a.y, map.a_min, map.a_max, rim.x);
+  const glm::dvec3 row_y = edge_to_edge(across * row_b.x + along * row_b.y, map.b_min, map.b_max, rim.y);
   const double scale_z = 2.0 / depths.height;
   glm::dmat4 m;
   for (int column = 0; column < 2; ++column) m[column] = {row_x[column], row_y[column], w[column], w[column]};

@@ -38,9 +38,14 @@ struct LightDepths {
   double bottom, height;
 };
 
-/// OpenGL clip space from the light frame. The rectangle fills the map but for `rim` of it on each side (0 <=
-/// rim < 0.5); depth grows away from the light.
-[[nodiscard]] glm::dmat4 clip_from_light(const PlaneMap& map, const LightDepths& depths, double rim) noexcept;
+/// OpenGL clip space from the light frame. The rectangle fills the map but for `rim` of it on each side,
+/// along the map's x and y (0 <= rim < 0.5); depth grows away from the light.
+[[nodiscard]] glm::dmat4 clip_from_light(const PlaneMap& map, const LightDepths& depths,
+                                         const glm::dvec2& rim) noexcept;
+[[nodiscard]] inline glm::dmat4 clip_from_light(const PlaneMap& map, const LightDepths& depths,
+                                                double rim) noexcept {
+  return clip_from_light(map, depths, glm::dvec2(rim));
+}
 
 /// Light frame from points relative to the camera.
 [[nodiscard]] glm::dmat4 light_from_relative(const LightFrame& frame) noexcept;

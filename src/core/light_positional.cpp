@@ -62,7 +62,8 @@ ShadowMap& next_map(const PositionalLight& light, int face, ShadowPlan& plan) no
   ShadowMap& map = plan.map[static_cast<std::size_t>(plan.map_count)];
   map = ShadowMap{};
   map.cascade = face;
-  map.width = map.height = light.options.map_size;
+  map.width = light.sizes.of[static_cast<std::size_t>(face)].width;
+  map.height = light.sizes.of[static_cast<std::size_t>(face)].height;
   const Warp* asked = light.options.warp != nullptr ? light.options.warp : &warps::optimal;
   // The others' formulas are about parallel light; LiSPSM's axis with the strength searched stands for them.
   const bool known = asked == &warps::none || asked == &warps::lispsm04 || asked == &warps::optimal;
@@ -141,6 +142,23 @@ void plan_cube(const PositionalLight& light, const LightFrame& base, const Cone*
                                    : PlanStatus::nothing_visible;
 }
 
+/// Replaces the plan's maps.
+void plan_frusta(const PositionalLight& p, const Light& light, ShadowPlan& plan) noexcept {
+  plan.map_count = plan.omission_count = 0;
+  const PlanOptions& options = p.options;
+  if (options.fit == Fit::stable && options.warp != nullptr && options.warp != &warps::none)
+    omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
+  const auto* spot = std::get_if<SpotLight>(&light);
+  if (spot == nullptr) {
+    plan_cube(p, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, nullptr, plan);
+  } else if (spot->outer_radians < kWidestSingle) {
+    plan_cone(p, plan.light_direction, spot->outer_radians, plan);
+  } else {
+    const Cone cone{plan.light_direction, spot->outer_radians};
+    plan_cube(p, fixed_frame(plan.light_direction), &cone, plan);
+  }
+}
+
 }  // namespace
 
 void plan_positional(const Camera& camera, const Light& light, const SceneBounds& bounds,
@@ -158,7 +176,8 @@ void plan_positional(const Camera& camera, const Light& light, const SceneBounds
                     axes,
                     camera.position,
                     bounds,
-                    options};
+                    options,
+                    equal_sizes(options.map_size)};
   plan.select_by_map = true;
   // A light whose whole range is rounding of its position reaches no pixel.
   constexpr double kLeastRange = 1e-12;
@@ -171,16 +190,10 @@ void plan_positional(const Camera& camera, const Light& light, const SceneBounds
     plan.status = PlanStatus::nothing_visible;
     return;
   }
-  if (options.fit == Fit::stable && options.warp != nullptr && options.warp != &warps::none)
-    omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
-  if (spot == nullptr) {
-    plan_cube(p, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, nullptr, plan);
-  } else if (spot->outer_radians < kWidestSingle) {
-    plan_cone(p, plan.light_direction, spot->outer_radians, plan);
-  } else {
-    const Cone cone{plan.light_direction, spot->outer_radians};
-    plan_cube(p, fixed_frame(plan.light_direction), &cone, plan);
-  }
+  plan_frusta(p, light, plan);
+  if (options.texel_budget == 0) return;
+  p.sizes = budgeted_sizes(plan, options, 6, true);
+  plan_frusta(p, light, plan);
 }
 
 bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& point) noexcept {
@@ -190,10 +203,11 @@ bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& p
   }
   const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
   // A quarter texel of the rim is left to rounding; no kernel tells it apart.
-  const double rounding = 0.5 / map.width;
-  const double inner = 1.0 - 2.0 * map.filter_margin_texels / map.width + rounding;
+  constexpr double kRounding = 0.5;
+  const double inner_x = 1.0 - (2.0 * map.filter_margin_texels - kRounding) / map.width;
+  const double inner_y = 1.0 - (2.0 * map.filter_margin_texels - kRounding) / map.height;
   const double lowest = plan.clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0 : -1.0;
-  return clip.w > 0.0 && std::abs(clip.x) <= inner * clip.w && std::abs(clip.y) <= inner * clip.w &&
+  return clip.w > 0.0 && std::abs(clip.x) <= inner_x * clip.w && std::abs(clip.y) <= inner_y * clip.w &&
          clip.z >= lowest * clip.w && clip.z <= clip.w;
 }
 

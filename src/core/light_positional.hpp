@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gnomon/plan.hpp"
+#include "plan_budget.hpp"
 #include "slope_error.hpp"
 
 namespace gnomon {
@@ -16,6 +17,7 @@ struct PositionalLight {
   glm::dvec3 eye_world;  // what all positions are relative to
   const SceneBounds& bounds;
   const PlanOptions& options;
+  MapSizes sizes;
 };
 
 /// Lays one map round `body`, the part of light.lit inside `frustum` (not empty, in front of the light), and

@@ -49,9 +49,9 @@ void judge(const PlanContext& c, const LightBody& body, const PlaneMap& plane, S
   }
   const double pixels_per_unit = max_of(c.camera.width / (c.camera.right - c.camera.left),
                                         c.camera.height / (c.camera.top - c.camera.bottom));
-  const double usable = map.width - 2.0 * map.filter_margin_texels;
-  map.m_s_max = a_max * (plane.a_max - plane.a_min) * pixels_per_unit / usable;
-  map.m_t_max = b_max * (plane.b_max - plane.b_min) * pixels_per_unit / usable;
+  const double rim = 2.0 * map.filter_margin_texels;
+  map.m_s_max = a_max * (plane.a_max - plane.a_min) * pixels_per_unit / (map.width - rim);
+  map.m_t_max = b_max * (plane.b_max - plane.b_min) * pixels_per_unit / (map.height - rim);
   map.storage = map.m_s_max * map.m_t_max * static_cast<double>(map.width) * map.height /
                 (static_cast<double>(c.camera.width) * c.camera.height);
 }

@@ -158,9 +158,9 @@ struct Laid {
   SweptBody swept;
 };
 
-/// The rim of a map round its rectangle, as a share of the rectangle's side.
+/// The rim of a map round its rectangle, as a share of the rectangle's side; the wider of both.
 double rim_of_body(const ShadowMap& map) noexcept {
-  const double rim = static_cast<double>(map.filter_margin_texels) / map.width;
+  const double rim = static_cast<double>(map.filter_margin_texels) / min_of(map.width, map.height);
   return rim / (1.0 - 2.0 * rim);
 }
 
@@ -223,7 +223,13 @@ void lay_anew(const PlanContext& c, const Polytope& body, const LightBody& point
       add_event(*c.history, remembered(c, map) ? PlanEventKind::map_relaid : PlanEventKind::map_appeared,
                 map.cascade, 1.0);
   }
-  map.filter_margin_texels = margin_texels(c.options, map.width, laid.plane, points.points());
+  // Of a kernel in world units the longer side has more texels; the shorter side has room for no more than a
+  // quarter of its own.
+  const int longer = map.width > map.height ? map.width : map.height,
+            shorter = map.width + map.height - longer;
+  const int margin = margin_texels(c.options, longer, laid.plane, points.points());
+  map.filter_margin_texels =
+      margin < shorter / 4 ? margin : margin_texels(c.options, shorter, laid.plane, points.points());
   laid.swept = swept_for(c, body, laid.plane, map);
   const double bottom = lowest(points);
   const double height =
@@ -246,7 +252,7 @@ bool lay_tight_map(const PlanContext& c, const Polytope& body, double begin, dou
   if (!held) lay_anew(c, body, points, begin, end, laid, map);
   if (laid.swept.reach.count == 0) return false;
   map.depth_range_world = laid.depths.height;
-  const double rim = static_cast<double>(map.filter_margin_texels) / map.width;
+  const glm::dvec2 rim = static_cast<double>(map.filter_margin_texels) / glm::dvec2(map.width, map.height);
   const glm::dmat4 gl_from_relative =
       clip_from_light(laid.plane, laid.depths, rim) * light_from_relative(c.frame);
   finish_map(c, points, laid.plane, laid.swept, gl_from_relative, map);

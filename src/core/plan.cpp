@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "light_positional.hpp"
 #include "partition.hpp"
+#include "plan_budget.hpp"
 #include "plan_context.hpp"
 #include "plan_input.hpp"
 #include "plan_splits.hpp"
@@ -27,7 +29,8 @@ std::int64_t texels_of(const PlanOptions& options) noexcept {
 }
 
 /// `all` is the body of everything in view, [from, to] the depths between the neighbouring cascades.
-void plan_cascade(const PlanContext& c, const Polytope& all, int cascade, double from, double to) noexcept {
+void plan_cascade(const PlanContext& c, const Polytope& all, int cascade, double from, double to,
+                  MapSizes::Size size) noexcept {
   const auto [begin, end] = seen_between(c, from, to);
   Polytope body = all;
   // A single depth is a slice only where it is all there is.
@@ -47,7 +50,8 @@ void plan_cascade(const PlanContext& c, const Polytope& all, int cascade, double
   map.cascade = cascade;
   map.depth_begin = begin;
   map.depth_end = end;
-  map.width = map.height = c.options.map_size;
+  map.width = size.width;
+  map.height = size.height;
   map.warp = &c.warp;
   const bool drawn =
       c.stable ? lay_stable_map(c, body, begin, end, map) : lay_tight_map(c, body, begin, end, map);
@@ -58,9 +62,78 @@ void plan_cascade(const PlanContext& c, const Polytope& all, int cascade, double
   }
 }
 
-}  // namespace
+/// Replaces the plan's maps by so many cascades.
+void plan_cascades(PlanContext& c, const Polytope& body, int cascades, const MapSizes& sizes) noexcept {
+  c.plan.map_count = c.plan.omission_count = 0;
+  if (c.stable && c.options.partition != Partition::view_depth)
+    omit(c.plan, {OmissionKind::partition_in_stable_fit, -1, 0.0, 0.0, 0});
+  if (c.stable && c.options.warp != nullptr && c.options.warp != &warps::none) {
+    omit(c.plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
+  }
+  std::array<double, kMaxMaps + 1> edges{};
+  choose_edges(c, body, {edges.data(), static_cast<std::size_t>(cascades + 1)});
+  for (int i = 0; i < cascades; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    plan_cascade(c, body, i, edges[at], edges[at + 1], sizes.of[at]);
+  }
+}
 
-namespace {
+/// The sizes of the last frame's maps, and how many there were.
+MapSizes last_sizes(const PlanHistory& history) noexcept {
+  MapSizes sizes;
+  for (std::size_t i = 0; i < history.map.size(); ++i)
+    sizes.of[i] = {history.map[i].width, history.map[i].height};
+  return sizes;
+}
+bool last_sizes_serve(const PlanHistory& history, const ShadowPlan& laid,
+                      const PlanOptions& options) noexcept {
+  std::int64_t texels = 0;
+  for (const ShadowMap& map : laid.maps()) {
+    const PlanHistory::Map& last = history.map[static_cast<std::size_t>(map.cascade)];
+    if (last.frame + 1 != history.frame || last.width < least_budget_side(options)) return false;
+    texels += std::int64_t{last.width} * last.height;
+  }
+  return options.texel_budget == 0 || texels <= options.texel_budget;
+}
+
+/// As many cascades, as large, as the target or the budget asks for. Errors go by 1 / size, so that maps of
+/// any other size tell: one trial for each number of cascades, and the plan itself.
+void plan_within(PlanContext& c, const Polytope& body) noexcept {
+  const PlanOptions& options = c.options;
+  PlanHistory* const history = c.history;
+  // Trials leave nothing to remember.
+  c.history = nullptr;
+  const bool square = c.stable || options.fit == Fit::warped_stable || history != nullptr;
+  // Errors closer than this are the same: the map more gains nothing.
+  constexpr double kWorthAMap = 0.99;
+  int best = options.cascades;
+  double least = std::numeric_limits<double>::infinity();
+  MapSizes sizes = equal_sizes(options.map_size);
+  double before = std::numeric_limits<double>::infinity();
+  // Given splits are of one number of cascades.
+  for (int n = options.split == SplitScheme::given ? options.cascades : 1; n <= options.cascades; ++n) {
+    const MapSizes equal = equal_sizes(options.map_size);
+    plan_cascades(c, body, n, equal);
+    const MapSizes trial = options.texel_budget > 0 ? budgeted_sizes(c.plan, options, n, square) : equal;
+    const double m = largest_error(c.plan, options, trial);
+    if (m < least * kWorthAMap) {
+      best = n;
+      least = m;
+      sizes = trial;
+    }
+    if (history != nullptr && n == history->edge_count - 1 && last_sizes_serve(*history, c.plan, options))
+      before = largest_error(c.plan, options, last_sizes(*history));
+    if (m <= options.target_m) break;
+  }
+  c.history = history;
+  // Another size moves every texel: worth it only for errors this much smaller.
+  constexpr double kWorthResizing = 0.8;
+  if (history != nullptr && least >= before * kWorthResizing) {
+    best = history->edge_count - 1;
+    sizes = last_sizes(*history);
+  }
+  plan_cascades(c, body, best, sizes);
+}
 
 /// A plan of one frame; `history` may be nullptr.
 ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
@@ -103,22 +176,14 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
     plan.status = PlanStatus::nothing_visible;
     return plan;
   }
-  if (stable && options.partition != Partition::view_depth)
-    omit(plan, {OmissionKind::partition_in_stable_fit, -1, 0.0, 0.0, 0});
-  if (stable && options.warp != nullptr && options.warp != &warps::none) {
-    omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
-  }
-  std::array<double, kMaxMaps + 1> edges{};
   if (options.partition != Partition::view_depth && !stable) {
-    choose_edges(context, body, {edges.data(), 2});
+    std::array<double, 2> edges{};
+    choose_edges(context, body, edges);
     plan_parts(context, body, edges[0], edges[1]);
-    plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
-    return plan;
-  }
-  choose_edges(context, body, {edges.data(), static_cast<std::size_t>(options.cascades + 1)});
-  for (int i = 0; i < options.cascades; ++i) {
-    const double from = edges[static_cast<std::size_t>(i)], to = edges[static_cast<std::size_t>(i) + 1];
-    plan_cascade(context, body, i, from, to);
+  } else if (options.target_m > 0.0 || options.texel_budget > 0) {
+    plan_within(context, body);
+  } else {
+    plan_cascades(context, body, options.cascades, equal_sizes(options.map_size));
   }
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
   return plan;

@@ -15,6 +15,8 @@ constexpr double kLargest = 1e30;
 // Smallest near plane relative to the far plane: beyond it 1 / depth weights lose all meaning.
 constexpr double kNearestRatio = 1e-12;
 
+constexpr int kCubeFaces = 6;
+
 bool usable(double v) noexcept {
   return std::abs(v) <= kLargest;
 }  // false for NaN
@@ -76,6 +78,13 @@ bool usable_splits(const PlanOptions& o) noexcept {
   return true;
 }
 
+bool usable_budget(const PlanOptions& o, const Light& light) noexcept {
+  if (o.texel_budget == 0) return true;
+  const std::int64_t least = std::int64_t{least_budget_side(o)} * least_budget_side(o);
+  const int maps = std::holds_alternative<DirectionalLight>(light) ? o.cascades : kCubeFaces;
+  return o.texel_budget >= least * maps;
+}
+
 bool usable(const VisibleDepths& depths) noexcept {
   return depths.empty() ? !std::isnan(depths.min + depths.max) : depths.min > 0.0 && depths.max <= kLargest;
 }
@@ -84,6 +93,7 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
   if (o.map_size < 4 || o.map_size > 16384) return "options.map_size";
   if (o.cascades < 1 || o.cascades > kMaxMaps) return "options.cascades";
   if (!(o.lambda >= 0.0 && o.lambda <= 1.0)) return "options.lambda";
+  if (!(o.target_m >= 0.0 && o.target_m <= kLargest)) return "options.target_m";
   if (!usable_splits(o)) return "options.given_splits";
   if (o.visible_depths != nullptr && !usable(*o.visible_depths)) return "options.visible_depths";
   if (!(o.near_hint >= 0.0 && o.near_hint <= kLargest)) return "options.near_hint";
@@ -113,7 +123,8 @@ std::string_view first_invalid_field(const Camera& camera, const Light& light, c
   if (!light_field.empty()) return light_field;
   if (any_unusable(bounds.casters)) return "bounds.casters";
   if (any_unusable(bounds.receivers)) return "bounds.receivers";
-  return invalid_options(options);
+  if (const auto field = invalid_options(options); !field.empty()) return field;
+  return usable_budget(options, light) ? std::string_view{} : "options.texel_budget";
 }
 
 }  // namespace gnomon

@@ -97,6 +97,38 @@ TEST(CaseFile, reads_partitions_and_takes_the_separating_plane_as_a_warp_too) {
   EXPECT_THROW((void)read_case(text_with(kSun, R"({"partition": "faces"})")), CaseError);
 }
 
+TEST(CaseFile, given_splits_go_with_every_copy) {
+  const std::string options = R"({"cascades": 3, "given_splits": [4, 9.5]})";
+  Case copy;
+  {
+    const Case input = read_case(text_with(kSun, options));
+    EXPECT_EQ(input.options.split, SplitScheme::given);
+    copy = input;
+    EXPECT_NE(copy.options.given_splits.data(), input.options.given_splits.data());
+  }
+  Case moved = std::move(copy);
+  ASSERT_EQ(moved.options.given_splits.size(), 2u);
+  EXPECT_EQ(moved.options.given_splits[0], 4.0);
+  EXPECT_EQ(moved.options.given_splits[1], 9.5);
+  EXPECT_THROW((void)read_case(text_with(kSun, R"({"split": "uniform", "given_splits": [4]})")), CaseError);
+  EXPECT_THROW((void)read_case(text_with(kSun, R"({"given_splits": 4})")), CaseError);
+  EXPECT_THROW((void)read_case(text_with(kSun, R"({"given_splits": ["4"]})")), CaseError);
+}
+
+TEST(CaseFile, reads_a_target_a_budget_and_the_whole_clip_space) {
+  const PlanOptions options = read_case(text_with(kSun, R"({"target_m": 1.5, "texel_budget": 4294967296,
+      "clip_space": {"handedness": "left", "first_row": "y_plus_one"}})"))
+                                  .options;
+  EXPECT_EQ(options.target_m, 1.5);
+  EXPECT_EQ(options.texel_budget, std::int64_t{1} << 32);
+  EXPECT_EQ(options.clip_space.handedness, Handedness::left);
+  EXPECT_EQ(options.clip_space.first_row, FirstRow::y_plus_one);
+  EXPECT_THROW((void)read_case(text_with(kSun, R"({"texel_budget": 0.5})")), CaseError);
+  EXPECT_THROW((void)read_case(text_with(kSun, R"({"texel_budget": 1e300})")), CaseError);
+  EXPECT_THROW((void)read_case(text_with(kSun, R"({"clip_space": {"handedness": "up"}})")), CaseError);
+  EXPECT_THROW((void)read_case(text_with(kSun, R"({"clip_space": {"first_row": "top"}})")), CaseError);
+}
+
 TEST(CaseFile, keeps_numbers_to_the_last_bit) {
   const Case input =
       read_case(text_with(R"({"type": "directional", "direction": [0.1, 5e-324, 1.7976931348623157e308]})"));

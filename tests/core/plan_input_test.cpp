@@ -104,6 +104,10 @@ TEST(PlanInput, every_broken_field_is_named) {
       {"options.lambda", [](Input& i) { i.options.lambda = 1.5; }},
       {"options.lambda", [](Input& i) { i.options.lambda = kNan; }},
       {"options.near_hint", [](Input& i) { i.options.near_hint = -1.0; }},
+      {"options.target_m", [](Input& i) { i.options.target_m = -1.0; }},
+      {"options.target_m", [](Input& i) { i.options.target_m = kNan; }},
+      {"options.texel_budget", [](Input& i) { i.options.texel_budget = -1; }},
+      {"options.texel_budget", [](Input& i) { i.options.texel_budget = 4 * 16 * 16 - 1; }},
       {"options.given_splits", [](Input& i) { i.give_splits({}); }},
       {"options.given_splits",
        [](Input& i) {
@@ -154,6 +158,9 @@ TEST(PlanInput, legal_extremes_are_planned) {
          i.light = DirectionalLight{{1e-200, -1e-200, 0}};
        }},
       {"empty boxes among the others", [](Input& i) { i.casters.push_back({}), i.receivers.push_back({}); }},
+      {"the least budget", [](Input& i) { i.options.texel_budget = 4 * 16 * 16; }},
+      {"a budget beyond the largest maps", [](Input& i) { i.options.texel_budget = std::int64_t{1} << 62; }},
+      {"a target out of reach", [](Input& i) { i.options.target_m = 1e-300; }},
       {"the same split thrice",
        [](Input& i) {
          i.give_splits({7, 7, 7});

@@ -1,0 +1,148 @@
+// Do a texel budget and a target error give the maps that they promise?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "gnomon/gnomon.hpp"
+#include "support/near.hpp"
+#include "support/property.hpp"
+#include "support/random_case.hpp"
+
+namespace gnomon::test {
+namespace {
+
+/// A plain seen from above its near end.
+struct Plain {
+  Camera camera = perspective_camera({0, 5, 0}, {0, -0.2, -1}, {0, 1, 0}, 1.0, 1.5, 0.5, 200, 960, 640);
+  std::vector<Box> casters = {{{-90, 0, -200}, {90, 5, -1}}}, receivers = {{{-90, -1, -200}, {90, 0, -1}}};
+  Light light = DirectionalLight{{0.2, -1, 0.1}};
+  PlanOptions options;
+  [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, light, {casters, receivers}, options); }
+};
+
+std::int64_t texels(const ShadowPlan& plan) {
+  return std::accumulate(
+      plan.maps().begin(), plan.maps().end(), std::int64_t{0},
+      [](std::int64_t sum, const ShadowMap& map) { return sum + std::int64_t{map.width} * map.height; });
+}
+double worst(const ShadowPlan& plan) {
+  double m = 0.0;
+  for (const ShadowMap& map : plan.maps()) m = std::max({m, map.m_s_max, map.m_t_max});
+  return m;
+}
+
+TEST(Budget, equal_maps_of_the_same_texels_have_a_worse_worst_map) {
+  for (const Warp* warp : {&warps::none, &warps::optimal}) {
+    Plain plain;
+    plain.options.warp = warp;
+    plain.options.split = SplitScheme::uniform;
+    const ShadowPlan equal = plain.plan();
+    plain.options.texel_budget = texels(equal);
+    const ShadowPlan budgeted = plain.plan();
+    EXPECT_LE(texels(budgeted), plain.options.texel_budget);
+    EXPECT_LT(worst(budgeted), 0.8 * worst(equal)) << warp->name;
+  }
+}
+
+TEST(Budget, errors_are_equal_within_a_step_of_the_sides) {
+  Plain plain;
+  plain.options.texel_budget = 4 << 20;
+  const ShadowPlan plan = plain.plan();
+  ASSERT_GT(plan.map_count, 1);
+  int shortest = plan.map[0].width;
+  for (const ShadowMap& map : plan.maps()) shortest = std::min({shortest, map.width, map.height});
+  // Sides are rounded down by less than a step, of which the shortest has the least.
+  const double rounded = shortest - 2.0 * plan.map[0].filter_margin_texels;
+  const double least = worst(plan) / (1.0 + kBudgetStep / rounded);
+  for (const ShadowMap& map : plan.maps()) {
+    EXPECT_EQ(map.width % kBudgetStep, 0);
+    EXPECT_EQ(map.height % kBudgetStep, 0);
+    EXPECT_GT(map.m_s_max, least) << map.cascade;
+    EXPECT_GT(map.m_t_max, least) << map.cascade;
+  }
+}
+
+TEST(Budget, a_stable_map_stays_square) {
+  Plain plain;
+  plain.options.texel_budget = 1 << 20;
+  plain.options.fit = Fit::stable;
+  for (const ShadowMap& map : plain.plan().maps()) EXPECT_EQ(map.width, map.height);
+}
+
+TEST(Budget, faces_of_a_point_light_share_it_too) {
+  Plain plain;
+  plain.light = PointLight{{10, 8, -12}, 60};
+  plain.options.warp = &warps::none;
+  const ShadowPlan equal = plain.plan();
+  ASSERT_GT(equal.map_count, 1);
+  plain.options.texel_budget = texels(equal);
+  const ShadowPlan budgeted = plain.plan();
+  EXPECT_LE(texels(budgeted), plain.options.texel_budget);
+  EXPECT_LT(worst(budgeted), worst(equal));
+}
+
+TEST(Budget, any_budget_is_kept_and_spent) {
+  for_all(200, [] {
+    Case c = draw_case();
+    const int least = least_budget_side(c.options);
+    const std::int64_t smallest = std::int64_t{least} * least * c.options.cascades;
+    c.options.texel_budget =
+        static_cast<std::int64_t>(static_cast<double>(smallest) * std::exp(6.0 * unit()));
+    const ShadowPlan plan = c.plan();
+    require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
+    require(texels(plan) <= c.options.texel_budget, texels(plan), "of", c.options.texel_budget);
+  });
+}
+
+TEST(Target, the_fewest_maps_that_meet_it_are_taken) {
+  Plain plain;
+  plain.options.cascades = kMaxMaps;
+  for (int maps = 1; maps <= 5; ++maps) {
+    Plain fixed;
+    fixed.options.cascades = maps;
+    const double m = worst(fixed.plan());
+    plain.options.target_m = m * 1.001;
+    const ShadowPlan plan = plain.plan();
+    EXPECT_EQ(plan.map_count, maps);
+    EXPECT_LE(worst(plan), plain.options.target_m);
+  }
+}
+
+TEST(Target, one_out_of_reach_gives_the_best_there_is) {
+  Plain plain;
+  plain.options.target_m = 1e-9;
+  EXPECT_LE(worst(plain.plan()), worst(Plain{}.plan()) * 1.01);
+}
+
+TEST(Target, with_a_budget_it_is_met_by_fewer_maps_of_more_texels) {
+  Plain plain;
+  plain.options.cascades = kMaxMaps;
+  plain.options.texel_budget = 8 << 20;
+  const ShadowPlan best = plain.plan();
+  plain.options.target_m = 2.0 * worst(best);
+  const ShadowPlan enough = plain.plan();
+  EXPECT_LT(enough.map_count, best.map_count);
+  // The rim's share changes with the size.
+  EXPECT_LE(worst(enough), plain.options.target_m * 1.01);
+}
+
+TEST(Budget, sizes_stand_still_under_a_slow_camera) {
+  Plain plain;
+  plain.options.texel_budget = 1 << 20;
+  PlanHistory history;
+  const SceneBounds bounds{plain.casters, plain.receivers};
+  ShadowPlan last = make_plan(plain.camera, plain.light, bounds, plain.options, history);
+  for (int frame = 0; frame < 20; ++frame) {
+    plain.camera.position.z -= 0.02;
+    const ShadowPlan plan = make_plan(plain.camera, plain.light, bounds, plain.options, history);
+    ASSERT_EQ(plan.map_count, last.map_count);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(plan.map_count); ++i)
+      EXPECT_EQ(plan.map[i].width, last.map[i].width) << frame;
+    last = plan;
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::test
