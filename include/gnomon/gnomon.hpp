@@ -1,6 +1,7 @@
 // The core of gnomon in one include.
 #pragma once
 
+#include "gnomon/atlas.hpp"
 #include "gnomon/bias.hpp"
 #include "gnomon/body.hpp"
 #include "gnomon/bounds.hpp"
