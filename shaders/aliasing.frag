@@ -1,7 +1,7 @@
 #version 450 core
 // Screen pixels per shadow-map texel at every pixel's surface. Mirrors gnomon::measure_point: J = B T E, texels per
 // pixel, by way of a plane of constant depth (E), slid along the eye's ray onto the surface (T), into the map (B).
-#include "common/map_geometry.glsl"
+#include "common/frame.glsl"
 #include "common/surface.glsl"
 
 layout(binding = 6) uniform sampler2D mask_image;
@@ -17,14 +17,14 @@ void main() {
   Surface s = surface_at(pixel);
   int map = int(texelFetch(mask_image, pixel, 0).g);
   aliasing = vec4(0.0, 0.0, 0.0, float(map));
-  if (s.sky || map < 0 || dot(s.normal, frame.light.xyz) >= 0.0) return;
+  if (s.sky || map < 0 || dot(s.normal, light_at(frame.light_place, s.position)) >= 0.0) return;
 
   bool orthographic = frame.forward.w > 0.5;
   vec3 ray = orthographic ? frame.forward.xyz : s.position;
   float scale = orthographic ? 1.0 : s.depth;
   vec3 step_x = on_surface(frame.right.xyz * (frame.right.w * scale), ray, s.normal);
   vec3 step_y = on_surface(frame.up.xyz * (frame.up.w * scale), ray, s.normal);
-  MapPoint p = map_point(map, s.position);
+  MapPoint p = map_point(shadow_map(map), s.position);
   vec2 column_x = vec2(dot(p.d_texel_x, step_x), dot(p.d_texel_y, step_x));
   vec2 column_y = vec2(dot(p.d_texel_x, step_y), dot(p.d_texel_y, step_y));
 

@@ -11,6 +11,6 @@ layout(location = 0) out vec2 texcoord_out;
 
 void main() {
   vec3 position = camera_relative_from_object(object_index, position_object);
-  gl_Position = frame.maps[map].clip_from_camera_relative * vec4(position, 1.0);
+  gl_Position = frame.maps[map].clip_from_point * vec4(position, 1.0);
   texcoord_out = texcoord;
 }

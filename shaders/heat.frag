@@ -29,7 +29,8 @@ void main() {
   if (!s.sky) {
     bool judged = aliasing.w >= 0.0 && aliasing.x > 0.0;
     // A little light and shadow, so that one sees what is where.
-    float shape = 0.90 + 0.10 * texelFetch(mask_image, pixel, 0).r * max(-dot(s.shading_normal, frame.light.xyz), 0.0);
+    float cosine = max(-dot(s.shading_normal, light_at(frame.light_place, s.position)), 0.0);
+    float shape = 0.90 + 0.10 * texelFetch(mask_image, pixel, 0).r * cosine;
     float facing = abs(dot(s.shading_normal, normalize(s.position)));
     color = judged ? heat_color(aliasing.x) * shape : vec3(0.36 + 0.10 * facing);
   }

@@ -169,7 +169,7 @@ int fly_to_files(const Options& options, const Flight& flight) {
                 gnomon::render::Renderer(flight.scene),
                 {},
                 ContactSheet(options.frames, options.width, options.height)};
-  studio.filter = studio.renderer.prepare(*options.filter);
+  studio.filter = studio.renderer.prepare(options.filter);
   std::vector<FrameRow> rows;
   {
     Progress progress(options.frames);
@@ -178,9 +178,9 @@ int fly_to_files(const Options& options, const Flight& flight) {
       rows.push_back(draw_frame(studio, frame));
     }
   }
-  const std::string title =
-      fmt::format("{}: {} maps of {}, {}{}", options.scene, options.plan.cascades, options.plan.map_size,
-                  options.filter->name, options.plan.fit == gnomon::Fit::stable ? ", stable" : "");
+  const std::string title = fmt::format("{}: {} maps of {}, {}{}", options.scene, options.plan.cascades,
+                                        options.plan.map_size, gnomon::render::to_string(options.filter),
+                                        options.plan.fit == gnomon::Fit::stable ? ", stable" : "");
   gnomon::write_png(studio.sheet.sheet(title), options.out / "contact_sheet.png");
   write_csv(rows, options.plan.cascades, context->info().software, options.out / "frames.csv");
   print_summary(options, rows);

@@ -73,13 +73,11 @@ void resolve(const Raw& raw, Options& options) {
   if (!gnomon::objective_from_name(raw.objective, options.plan.objective)) {
     throw UsageError(fmt::format("--objective {}: wants storage, max or p95", raw.objective));
   }
-  options.filter = gnomon::render::find_filter(raw.filter);
-  if (options.filter == nullptr) {
-    throw UsageError(
-        fmt::format("--filter {}: wants {}", raw.filter, names_of(gnomon::render::all_filters())));
-  }
+  const gnomon::render::ParsedFilter filter = gnomon::render::parse_filter(raw.filter);
+  if (!filter.error.empty()) throw UsageError(fmt::format("--filter {}", filter.error));
+  options.filter = filter.settings;
   options.plan.fit = raw.stable ? gnomon::Fit::stable : gnomon::Fit::tight;
-  options.plan.filter_radius_texels = options.filter->reach_texels({});
+  gnomon::render::set_margin(options.filter, options.plan);
   if (!raw.path.empty()) options.path = raw.path;
 }
 
@@ -110,7 +108,7 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--warp", raw.warp, "auto, " + names_of(gnomon::all_warps()));
   app.add_option("--objective", raw.objective, "what the warp lowers: storage, max or p95");
-  app.add_option("--filter", raw.filter, names_of(gnomon::render::all_filters()));
+  app.add_option("--filter", raw.filter, "as in pcf:radius=2,unit=texels. " + gnomon::render::filter_help());
   app.add_option("--map-size", options.plan.map_size, "texels along each side of a map")
       ->check(CLI::Range(4, kMaxSide));
   app.add_flag("--stable", raw.stable, "texel grids that stand still while the camera moves");

@@ -26,7 +26,7 @@ struct Options {
   std::filesystem::path out = "out/flythrough";
   gnomon::render::ContextKind context = gnomon::render::ContextKind::automatic;
   gnomon::PlanOptions plan;
-  const gnomon::render::Filter* filter = &gnomon::render::filters::pcf;
+  gnomon::render::FilterSettings filter = gnomon::render::default_settings(gnomon::render::filters::pcf);
   double light_elevation_deg = 38.0;
   double light_azimuth_deg = 140.0;
   std::optional<std::filesystem::path> path;

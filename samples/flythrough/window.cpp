@@ -57,8 +57,11 @@ void show_title(const Viewer& viewer, double frame_ms) {
 
 void apply(Viewer& viewer) {
   viewer.options.plan.warp = viewer.warp == 0 ? nullptr : gnomon::all_warps()[viewer.warp - 1];
-  viewer.options.filter = gnomon::render::all_filters()[viewer.filter];
-  viewer.options.plan.filter_radius_texels = viewer.options.filter->reach_texels({});
+  // Other than the command line's filter, each as it is by default.
+  const gnomon::render::Filter* filter = gnomon::render::all_filters()[viewer.filter];
+  if (viewer.options.filter.filter != filter)
+    viewer.options.filter = gnomon::render::default_settings(*filter);
+  gnomon::render::set_margin(viewer.options.filter, viewer.options.plan);
 }
 
 void on_key(GLFWwindow* window, int key, int, int action, int) {
@@ -176,7 +179,7 @@ void draw(Viewer& viewer, double seconds) {
   frame.time_passes = false;
   frame.aliasing = frame.heat_map = viewer.picture == Renderer::Picture::heat_map;
   frame.cascade_tint = viewer.picture == Renderer::Picture::cascade_tint;
-  viewer.renderer.draw(plan, camera, viewer.renderer.prepare(*viewer.options.filter), frame);
+  viewer.renderer.draw(plan, camera, viewer.renderer.prepare(viewer.options.filter), frame);
   viewer.renderer.show(viewer.picture, width, height);
   if (viewer.picture == Renderer::Picture::heat_map) {
     if (viewer.legend.width == 0) viewer.legend = heat_legend(width);
@@ -231,7 +234,7 @@ int fly_in_window(const Options& options, const Flight& flight) {
     if (gnomon::all_warps()[i] == options.plan.warp) viewer.warp = i + 1;
   }
   for (std::size_t i = 0; i < gnomon::render::all_filters().size(); ++i) {
-    if (gnomon::render::all_filters()[i] == options.filter) viewer.filter = i;
+    if (gnomon::render::all_filters()[i] == options.filter.filter) viewer.filter = i;
   }
   glfwSetWindowUserPointer(window->handle(), &viewer);
   glfwSetKeyCallback(window->handle(), on_key);

@@ -1,10 +1,7 @@
 // What every pass of a frame knows. All positions are relative to the camera position.
-const int kMaxMaps = GNOMON_MAX_MAPS;  // gnomon::kMaxMaps
+#include "library/shadow_map.glsl"
 
-struct ShadowMap {
-  mat4 clip_from_camera_relative;  // z 0 near the light .. w
-  vec4 interval_size;              // depth_begin, depth_end, width, height
-};
+const int kMaxMaps = GNOMON_MAX_MAPS;  // gnomon::kMaxMaps
 
 layout(std140, binding = 0) uniform Frame {
   mat4 clip_from_camera_relative;  // of the camera, z reversed: w near .. 0 far
@@ -12,8 +9,13 @@ layout(std140, binding = 0) uniform Frame {
   vec4 up;                         // the same
   vec4 forward;                    // xyz, and 1 for an orthographic camera
   vec4 image_edges;                // left, right, bottom, top
-  vec4 light;                      // xyz: the way it travels, unit; number of maps
+  vec4 light;                      // xyz: the way it travels, of a light with a position along its axis; number of maps
+  vec4 light_place;                // as light_at takes it
+  vec4 light_cone;                 // way of its axis; cosine of its half angle, -1: none
   vec4 bias;                       // BiasOptions: constant, slope, normal offset, largest slope
-  vec4 layer;                      // texels of a layer along x and y; kernel radius in texels; far depth of the camera
+  vec4 layer;                      // texels of a layer along x and y; range of the light, 0: none; far depth of the camera
+  vec4 selection;                  // 1: maps by what they hold; SplitTransition; its share of an interval; 0
   ShadowMap maps[kMaxMaps];
 } frame;
+
+ShadowMap shadow_map(int index) { return frame.maps[index]; }

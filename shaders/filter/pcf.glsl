@@ -1,35 +1,48 @@
-// The average of comparisons over a box of k x k texels, k odd (Reeves, Salesin, Cook 1987). k = 1 is the hardware's
-// bilinear 2 x 2; wider kernels gather four depths at a time and compare each with the receiver's plane at its texel.
-#include "common/shadow_lookup.glsl"
+// The average of comparisons over a kernel (Reeves, Salesin, Cook 1987): the hardware's bilinear 2 x 2, a box of any
+// sides, or a disc of samples turned from pixel to pixel. Each depth is compared with the receiver's plane at its texel,
+// so that the kernel's width needs no bias (Isidoro 2006).
+#include "library/compare.glsl"
+#include "library/disc.glsl"
 
-vec4 shadow_store(float depth) { return vec4(depth, 0.0, 0.0, 0.0); }
-
-float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray map, ShadowLookup at,
-                        ShadowParameters parameters) {
-  int radius = int(clamp(floor(parameters.radius_texels + 0.5), 0.0, 4.0));
-  if (radius == 0) return texture(compare_map, vec4(at.texel / at.layer_size, at.layer, at.depth));
-  int width = 2 * radius + 1;
-  vec2 base = floor(at.texel - 0.5);
-  vec2 fraction = at.texel - 0.5 - base;
-  vec2 first = base - float(radius);
+// Box of texels, four depths at a time, those at its rim by the share that is inside.
+float compare_box(sampler2DArray depth_map, ShadowLookup at) {
+  // Counted from the point's own texel: small numbers, so that the weights add up to 1.
+  vec2 own = floor(at.texel), part = at.texel - own;
+  vec2 low = part - at.box, high = part + at.box;
+  ivec2 first = ivec2(floor(low)), last = ivec2(ceil(high)) - 1;
   float sum = 0.0;
-  for (int j = 0; j <= width; j += 2) {
-    // Weights along y of rows j and j + 1: the box starts `fraction` into the first row and ends in the last.
-    vec2 weight_y = vec2(j == 0 ? 1.0 - fraction.y : 1.0, j + 1 == width ? fraction.y : 1.0);
-    for (int i = 0; i <= width; i += 2) {
-      vec2 weight_x = vec2(i == 0 ? 1.0 - fraction.x : 1.0, i + 1 == width ? fraction.x : 1.0);
-      vec2 corner = first + vec2(i, j) + 1.0;  // shared by the four texels
-      vec4 stored = textureGather(map, vec3(corner / at.layer_size, at.layer));
-      vec2 to_corner = corner - at.texel;
-      float middle = at.depth + dot(at.depth_gradient, to_corner);
+  for (int y = first.y; y <= last.y; y += 2) {
+    vec2 weight_y = clamp(min(vec2(high.y), vec2(y + 1, y + 2)) - max(vec2(low.y), vec2(y, y + 1)), 0.0, 1.0);
+    for (int x = first.x; x <= last.x; x += 2) {
+      vec2 weight_x = clamp(min(vec2(high.x), vec2(x + 1, x + 2)) - max(vec2(low.x), vec2(x, x + 1)), 0.0, 1.0);
+      vec2 corner = vec2(x + 1, y + 1);  // shared by the four texels
+      vec4 stored = textureGather(depth_map, vec3((own + corner) / at.layer_size, at.layer));
+      float middle = at.depth + dot(at.depth_gradient, corner - part);
       vec2 half_step = 0.5 * at.depth_gradient;
       // textureGather's order: (left, top), (right, top), (right, bottom), (left, bottom); top is the higher row.
       vec4 depth = middle + vec4(-half_step.x + half_step.y, half_step.x + half_step.y, half_step.x - half_step.y,
                                  -half_step.x - half_step.y);
       depth = min(depth, 1.0);  // the plane may go on behind the map's far plane, where nothing is drawn: lit
-      vec4 weight = vec4(weight_x.xyyx * weight_y.yyxx);
-      sum += dot(weight, vec4(lessThanEqual(depth, stored)));
+      sum += dot(weight_x.xyyx * weight_y.yyxx, vec4(lessThanEqual(depth, stored)));
     }
   }
-  return sum / float(width * width);
+  return sum / (4.0 * at.box.x * at.box.y);
+}
+
+float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_map, ShadowLookup at,
+                        ShadowOptions options) {
+  const float kBox = 0.0, kVogel = 1.0, kPoisson = 2.0;
+  float pattern = options.value[0];
+  int samples = int(options.value[1]);
+  if (pattern == kBox) {
+    if (max(at.box.x, at.box.y) > 0.5) return compare_box(depth_map, at);
+    return texture(compare_map, vec4(at.texel / at.layer_size, at.layer, min(at.depth, 1.0)));
+  }
+  float angle = options.value[2] > 0.5 ? at.rotation : 0.0;
+  float sum = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    vec2 point = pattern == kPoisson ? poisson_point(i, samples, angle) : vogel_point(i, samples, angle);
+    sum += compare_2x2(depth_map, at, at.texel + at.disc * point);
+  }
+  return sum / float(samples);
 }

@@ -1,7 +1,10 @@
-// The registry of filters.
+// The registry of filters, their formats, and what kernels ask of a plan.
 #include "gnomon/render/filter.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace gnomon::render {
 namespace {
@@ -11,6 +14,29 @@ constexpr std::array kFilters{
 #include "gnomon/render/filters.def"
 #undef GNOMON_FILTER
 };
+
+struct FormatData {
+  TexelFormat format;
+  std::string_view name;
+  int bytes;
+  double rounding;
+};
+constexpr FormatData kFormats[] = {
+    {TexelFormat::fp32, "fp32", 4, 0x1p-24},           {TexelFormat::fp16, "fp16", 2, 0x1p-11},
+    {TexelFormat::unorm16, "unorm16", 2, 0.5 / 65535}, {TexelFormat::unorm8, "unorm8", 1, 0.5 / 255},
+    {TexelFormat::uint32, "uint32", 4, 0x1p-24},
+};
+const FormatData& data_of(TexelFormat format) noexcept {
+  return kFormats[static_cast<std::size_t>(format)];
+}
+
+/// Rounds to a binary float of `bits` significant bits whose largest is `max` and smallest step is `least`.
+double rounded_to_float(double value, int bits, double max, double least) noexcept {
+  if (!(std::abs(value) > 0.0) || !std::isfinite(value)) return value;
+  const double step = std::max(std::ldexp(1.0, std::ilogb(value) + 1 - bits), least);
+  const double rounded = std::nearbyint(value / step) * step;
+  return std::abs(rounded) > max ? std::copysign(std::numeric_limits<double>::infinity(), value) : rounded;
+}
 
 }  // namespace
 
@@ -23,6 +49,79 @@ const Filter* find_filter(std::string_view name) noexcept {
     if (filter->name == name) return filter;
   }
   return nullptr;
+}
+
+std::string_view to_string(TexelFormat format) noexcept {
+  return data_of(format).name;
+}
+int bytes_per_channel(TexelFormat format) noexcept {
+  return data_of(format).bytes;
+}
+double rounding_of(TexelFormat format) noexcept {
+  return data_of(format).rounding;
+}
+
+bool is_unsigned_unit(TexelFormat format) noexcept {
+  return format == TexelFormat::unorm16 || format == TexelFormat::unorm8 || format == TexelFormat::uint32;
+}
+
+double rounded_to(TexelFormat format, double value) noexcept {
+  const auto steps = [value](double count) {
+    return std::nearbyint(std::clamp(value, 0.0, 1.0) * count) / count;
+  };
+  switch (format) {
+    case TexelFormat::fp32:
+    case TexelFormat::uint32:
+      return static_cast<double>(static_cast<float>(value));
+    case TexelFormat::fp16:
+      return rounded_to_float(value, 11, 65504.0, 0x1p-24);
+    case TexelFormat::unorm16:
+      return steps(65535.0);
+    case TexelFormat::unorm8:
+      return steps(255.0);
+  }
+  return value;
+}
+
+double FilterSettings::value(std::string_view name) const noexcept {
+  for (std::size_t i = 0; filter != nullptr && i < filter->options.size(); ++i) {
+    if (filter->options[i].name == name) return option[i];
+  }
+  return 0.0;
+}
+
+FilterSettings default_settings(const Filter& filter) noexcept {
+  FilterSettings settings;
+  settings.filter = &filter;
+  settings.radius = filter.default_radius;
+  if (!filter.formats.empty()) settings.format = filter.formats[0];
+  for (std::size_t i = 0; i < filter.options.size(); ++i) settings.option[i] = filter.options[i].fallback;
+  if (filter.settle != nullptr) filter.settle(settings);
+  return settings;
+}
+
+double bytes_per_texel(const FilterSettings& settings) noexcept {
+  const Filter& filter = *settings.filter;
+  constexpr double kDepthBytes = 4.0, kMipChain = 4.0 / 3.0, kMaxPyramid = 4.0 / 3.0;
+  double bytes = kDepthBytes;
+  if (filter.channels != nullptr) {
+    // Textures of three channels cannot be drawn into: they take four.
+    const int channels = filter.channels(settings), stored = channels > 2 ? (channels + 3) / 4 * 4 : channels;
+    bytes += stored * bytes_per_channel(settings.format) * (settings.mipmap ? kMipChain : 1.0);
+  }
+  return bytes + (filter.needs_depth_max ? kMaxPyramid : 0.0);
+}
+
+void set_margin(const FilterSettings& settings, PlanOptions& options) noexcept {
+  const Filter& filter = *settings.filter;
+  constexpr double kBilinear = 1.0;
+  // A trilinear read over a footprint of r texels takes levels whose texels are up to 2 r wide, one and a
+  // half of them to each side at most.
+  const double widest = filter.may_mipmap ? 3.0 : 1.0;
+  const bool in_world = settings.unit == KernelUnit::world;
+  options.filter_radius_texels =
+      filter.lookup_reach_texels + (in_world ? 0.0 : settings.radius) + (filter.channels ? kBilinear : 0.0);
+  options.filter_radius_world = in_world ? settings.radius * widest : 0.0;
 }
 
 }  // namespace gnomon::render

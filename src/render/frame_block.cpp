@@ -1,7 +1,10 @@
 // Plan and camera as the shaders want them: float, relative to the camera, computed in double.
 #include "frame_block.hpp"
 
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <variant>
 
 namespace gnomon::render {
 namespace {
@@ -26,10 +29,44 @@ glm::dmat4 drawn_from_plan_clip(const ClipSpace& plan_space) noexcept {
   return clip_from_gl_clip(kOpenGlZeroToOne) * glm::inverse(clip_from_gl_clip(plan_space));
 }
 
+/// Direction, or position relative to the camera, as light_at of shaders/library/shadow_map.glsl takes it.
+glm::vec4 light_place(const ShadowPlan& plan, const Camera& camera) noexcept {
+  if (plan.map_count == 0 || plan.map[0].light_world.w == 0.0) return {glm::vec3(plan.light_direction), 0.0f};
+  return {glm::vec3(glm::dvec3(plan.map[0].light_world) - camera.position), 1.0f};
+}
+
+void set_lamp(const Light* light, FrameBlock& block) noexcept {
+  constexpr float kNoCone = -1.0f;
+  block.light_cone = {0.0f, -1.0f, 0.0f, kNoCone};
+  if (light == nullptr) return;
+  if (const auto* spot = std::get_if<SpotLight>(light)) {
+    block.light_cone = glm::vec4(glm::vec3(glm::normalize(spot->direction)),
+                                 static_cast<float>(std::cos(spot->outer_radians)));
+    block.layer.z = static_cast<float>(spot->range);
+  }
+  if (const auto* point = std::get_if<PointLight>(light)) block.layer.z = static_cast<float>(point->range);
+}
+
+MapBlock map_block(const ShadowMap& map, const glm::dmat4& drawn_from_plan, const glm::dvec3& eye,
+                   double blur) noexcept {
+  MapBlock block{};
+  block.clip_from_camera_relative = glm::mat4(drawn_from_plan * glm::dmat4(map.clip_from_camera_relative));
+  block.interval_size = glm::vec4(glm::dvec4(map.depth_begin, map.depth_end, map.width, map.height));
+  for (int i = 0; i < kMaxSelectPlanes; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const glm::dvec4 plane =
+        i < map.select_plane_count ? map.select_planes[at] : glm::dvec4(0.0, 0.0, 0.0, 1.0);
+    block.select_planes[at] =
+        glm::vec4(glm::vec3(plane), static_cast<float>(plane.w + glm::dot(glm::dvec3(plane), eye)));
+  }
+  block.kernel = glm::vec4(glm::dvec4(map.filter_margin_texels, blur, 0.0, 0.0));
+  return block;
+}
+
 }  // namespace
 
 FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const FrameOptions& options,
-                       int layer_width, int layer_height) noexcept {
+                       int layer_width, int layer_height, const BlurSides& blur) noexcept {
   const CameraAxes axes = camera_axes(camera);
   FrameBlock block{};
   block.clip_from_camera_relative = glm::mat4(camera_clip_from_relative(camera, axes));
@@ -41,15 +78,15 @@ FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const Frame
   block.light = glm::vec4(glm::vec3(plan.light_direction), static_cast<float>(plan.map_count));
   block.bias = glm::vec4(glm::dvec4(plan.bias.constant_texels, plan.bias.slope_texels,
                                     plan.bias.normal_offset_texels, plan.bias.max_slope));
-  block.layer = glm::vec4(
-      glm::dvec4(layer_width, layer_height, options.filter_parameters.radius_texels, camera.far_depth));
+  block.light_place = light_place(plan, camera);
+  block.layer = glm::vec4(glm::dvec4(layer_width, layer_height, 0.0, camera.far_depth));
+  set_lamp(options.light, block);
+  block.selection =
+      glm::vec4(glm::dvec4(plan.select_by_map ? 1.0 : 0.0, static_cast<double>(options.transition),
+                           options.transition_share, 0.0));
   const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
-    const ShadowMap& map = plan.map[i];
-    block.maps[i].clip_from_camera_relative =
-        glm::mat4(drawn_from_plan * glm::dmat4(map.clip_from_camera_relative));
-    block.maps[i].interval_size =
-        glm::vec4(glm::dvec4(map.depth_begin, map.depth_end, map.width, map.height));
+    block.maps[i] = map_block(plan.map[i], drawn_from_plan, camera.position, blur[i]);
   }
   return block;
 }

@@ -5,6 +5,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
+#include "filter_block.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/renderer.hpp"
@@ -14,18 +15,22 @@ namespace gnomon::render {
 struct MapBlock {
   glm::mat4 clip_from_camera_relative;
   glm::vec4 interval_size;
+  std::array<glm::vec4, kMaxSelectPlanes> select_planes;
+  glm::vec4 kernel;
 };
 
 struct FrameBlock {
   glm::mat4 clip_from_camera_relative;
-  glm::vec4 right, up, forward, image_edges, light, bias, layer;
+  glm::vec4 right, up, forward, image_edges, light, light_place, light_cone, bias, layer, selection;
   std::array<MapBlock, kMaxMaps> maps;
 };
-static_assert(sizeof(FrameBlock) == 64 + 7 * 16 + kMaxMaps * 80, "std140 has no padding here");
+static_assert(sizeof(FrameBlock) == 64 + 10 * 16 + kMaxMaps * (96 + 16 * kMaxSelectPlanes),
+              "std140 has no padding here");
 
 /// Everything brought to OpenGL clip space with depth 0..1, whatever the plan was made for. `layer_width` and
-/// `layer_height`: texels of the map array's layers.
+/// `layer_height`: texels of the map array's layers. `blur`: of the stored texels.
 [[nodiscard]] FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera,
-                                     const FrameOptions& options, int layer_width, int layer_height) noexcept;
+                                     const FrameOptions& options, int layer_width, int layer_height,
+                                     const BlurSides& blur) noexcept;
 
 }  // namespace gnomon::render

@@ -9,8 +9,8 @@ namespace {
 
 // Bindings and locations as the shaders state them.
 constexpr GLint kMapLocation = 0, kBaseColorLocation = 1, kAlphaCutoffLocation = 2;
-constexpr GLuint kPositionUnit = 0, kNormalUnit = 1, kAlbedoUnit = 2, kColorImageUnit = 3, kCompareUnit = 4,
-                 kMapUnit = 5, kMaskUnit = 6, kExtraUnit = 7;
+constexpr GLuint kPositionUnit = 0, kNormalUnit = 1, kAlbedoUnit = 2, kColorImageUnit = 3, kMaskUnit = 6,
+                 kExtraUnit = 7;
 
 void bind_material(const Batch& batch) noexcept {
   glBindTextureUnit(kColorImageUnit, batch.texture);
@@ -64,6 +64,17 @@ void Renderer::Impl::draw_shadow_maps(const ShadowPlan& plan) noexcept {
   }
 }
 
+void Renderer::Impl::prefilter(const ShadowPlan& plan, const PreparedFilter& filter,
+                               const FilterBlock& block) noexcept {
+  StoreJob job;
+  job.depth = maps.depth.name();
+  job.layer_width = maps.width;
+  job.layer_height = maps.height;
+  job.map_size = {map_size.data(), static_cast<std::size_t>(plan.map_count)};
+  job.mipmaps = wants_mipmaps(filter.settings, plan);
+  stored.build(filter_programs[filter.program], filter.settings, block, job);
+}
+
 void Renderer::Impl::draw_surfaces() noexcept {
   const GLuint fbo = targets.surfaces_fbo.name();
   glBindFramebuffer(GL_FRAMEBUFFER, fbo);
@@ -105,9 +116,11 @@ void Renderer::Impl::fullscreen(const Framebuffer& fbo, const Program& program) 
 void Renderer::Impl::draw_mask(const PreparedFilter& filter) noexcept {
   glBindTextureUnit(kCompareUnit, maps.depth.name());
   glBindSampler(kCompareUnit, maps.compare_sampler.name());
-  glBindTextureUnit(kMapUnit, maps.depth.name());
-  glBindSampler(kMapUnit, maps.plain_sampler.name());
+  glBindTextureUnit(kDepthUnit, maps.depth.name());
+  glBindSampler(kDepthUnit, maps.plain_sampler.name());
+  stored.bind();
   fullscreen(targets.mask_fbo, filter_programs[filter.program].mask);
+  glBindSampler(kExtraUnit, 0);  // shared with the depth pyramid
 }
 
 void Renderer::Impl::draw_shade() noexcept {

@@ -1,6 +1,8 @@
 // Compiles shaders; a mistake in one is reported by file and line.
 #include "program.hpp"
 
+#include <array>
+#include <span>
 #include <string>
 
 #include "gnomon/render/error.hpp"
@@ -24,30 +26,39 @@ Shader compile(GLenum stage, const ComposedShader& source) {
                     name_files_in_log(log, source.files));
 }
 
+Program link(std::span<const Shader* const> shaders, const std::string& names) {
+  Program program(glCreateProgram());
+  for (const Shader* shader : shaders) glAttachShader(program.name(), shader->name());
+  glLinkProgram(program.name());
+  for (const Shader* shader : shaders) glDetachShader(program.name(), shader->name());
+  GLint ok = GL_FALSE, length = 0;
+  glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
+  if (ok == GL_TRUE) return program;
+  glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
+  glGetProgramInfoLog(program.name(), length, nullptr, log.data());
+  throw RenderError("shaders " + names + " do not link:\n" + log.c_str());
+}
+
 }  // namespace
 
 Program make_program(const ComposedShader& vertex, const ComposedShader& fragment) {
   const Shader vertex_shader = compile(GL_VERTEX_SHADER, vertex);
   const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment);
-  Program program(glCreateProgram());
-  glAttachShader(program.name(), vertex_shader.name());
-  glAttachShader(program.name(), fragment_shader.name());
-  glLinkProgram(program.name());
-  GLint ok = GL_FALSE, length = 0;
-  glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
-  glDetachShader(program.name(), vertex_shader.name());
-  glDetachShader(program.name(), fragment_shader.name());
-  if (ok == GL_TRUE) return program;
-  glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &length);
-  std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
-  glGetProgramInfoLog(program.name(), length, nullptr, log.data());
-  throw RenderError("shaders " + vertex.files.front() + " and " + fragment.files.front() + " do not link:\n" +
-                    log.c_str());
+  const std::array<const Shader*, 2> both{&vertex_shader, &fragment_shader};
+  return link(both, vertex.files.front() + " and " + fragment.files.front());
 }
 
 Program make_program(std::string_view vertex_path, std::string_view fragment_path,
-                     std::string_view filter_path) {
-  return make_program(compose_shader(vertex_path), compose_shader(fragment_path, filter_path));
+                     const ShaderChoice& choice) {
+  return make_program(compose_shader(vertex_path), compose_shader(fragment_path, choice));
+}
+
+Program make_compute_program(std::string_view path, const ShaderChoice& choice) {
+  const ComposedShader source = compose_shader(path, choice);
+  const Shader shader = compile(GL_COMPUTE_SHADER, source);
+  const std::array<const Shader*, 1> one{&shader};
+  return link(one, source.files.front());
 }
 
 }  // namespace gnomon::render

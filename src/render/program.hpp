@@ -11,6 +11,7 @@ namespace gnomon::render {
 /// Compiles and links. Throws RenderError with shader file, line and the driver's words.
 [[nodiscard]] Program make_program(const ComposedShader& vertex, const ComposedShader& fragment);
 [[nodiscard]] Program make_program(std::string_view vertex_path, std::string_view fragment_path,
-                                   std::string_view filter_path = {});
+                                   const ShaderChoice& choice = {});
+[[nodiscard]] Program make_compute_program(std::string_view path, const ShaderChoice& choice = {});
 
 }  // namespace gnomon::render

@@ -103,7 +103,8 @@ Image Renderer::screen() const {
 FloatImage Renderer::depth_map(int map) const {
   if (map < 0 || map >= impl_->map_count)
     throw RenderError("no map " + std::to_string(map) + " in the last frame");
-  const auto [width, height] = impl_->map_size[static_cast<std::size_t>(map)];
+  const int width = impl_->map_size[static_cast<std::size_t>(map)].x;
+  const int height = impl_->map_size[static_cast<std::size_t>(map)].y;
   FloatImage image{width, height, 1, {}, {"depth"}};
   image.values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   glGetTextureSubImage(impl_->maps.depth.name(), 0, 0, 0, map, width, height, 1, GL_DEPTH_COMPONENT, GL_FLOAT,

@@ -20,16 +20,14 @@ void GLAD_API_PTR report_gl_error(GLenum, GLenum type, GLuint, GLenum, GLsizei, 
   if (type == GL_DEBUG_TYPE_ERROR) std::fprintf(stderr, "OpenGL: %s\n", message);
 }
 
-std::string filter_shader_path(const Filter& filter) {
-  return "filter/" + std::string(filter.name) + ".glsl";
-}
-
 }  // namespace
 
 std::string_view to_string(Pass pass) noexcept {
   switch (pass) {
     case Pass::shadow_maps:
       return "shadow_maps";
+    case Pass::prefilter:
+      return "prefilter";
     case Pass::surfaces:
       return "surfaces";
     case Pass::mask:
@@ -47,8 +45,13 @@ std::string_view to_string(Pass pass) noexcept {
 }
 
 Renderer::Impl::Impl(const Scene& from_scene)
-    : scene(from_scene), lists(scene), frame_buffer(make_buffer()), no_vertices(make_vertex_array()) {
+    : scene(from_scene),
+      lists(scene),
+      frame_buffer(make_buffer()),
+      filter_buffer(make_buffer()),
+      no_vertices(make_vertex_array()) {
   glNamedBufferStorage(frame_buffer.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(filter_buffer.name(), sizeof(FilterBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
   targets.resize(1, 1);
 }
 
@@ -60,13 +63,14 @@ Renderer::Renderer(const Scene& scene) {
 
 Renderer::~Renderer() = default;
 
-PreparedFilter Renderer::prepare(const Filter& filter) {
+PreparedFilter Renderer::prepare(const FilterSettings& settings) {
   auto& known = impl_->filter_programs;
-  const auto found =
-      std::find_if(known.begin(), known.end(), [&](const auto& p) { return p.filter == &filter; });
-  if (found != known.end()) return {&filter, static_cast<std::size_t>(found - known.begin())};
-  known.push_back({&filter, make_program("fullscreen.vert", "mask.frag", filter_shader_path(filter))});
-  return {&filter, known.size() - 1};
+  const auto found = std::find_if(known.begin(), known.end(), [&](const FilterPrograms& p) {
+    return p.filter == settings.filter && p.vectors == shadow_vectors(settings);
+  });
+  if (found != known.end()) return {settings, static_cast<std::size_t>(found - known.begin())};
+  known.push_back(make_filter_programs(settings));
+  return {settings, known.size() - 1};
 }
 
 FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
@@ -86,20 +90,25 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   int width = 1, height = 1;
   impl.map_count = plan.map_count;
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
-    impl.map_size[i] = {plan.map[i].width, plan.map[i].height};
+    impl.map_size[i] = glm::ivec2(plan.map[i].width, plan.map[i].height);
     width = std::max(width, plan.map[i].width);
     height = std::max(height, plan.map[i].height);
   }
   impl.maps.fit(width, height, std::max(plan.map_count, 1));
 
+  const BlurSides blur = blur_sides(filter.settings, plan);
+  const FilterBlock filtering = filter_block(filter.settings, blur);
   timed(Pass::shadow_maps, [&] {
-    const FrameBlock block = frame_block(plan, camera, options, impl.maps.width, impl.maps.height);
+    const FrameBlock block = frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur);
     glNamedBufferSubData(impl.frame_buffer.name(), 0, sizeof block, &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, impl.frame_buffer.name());
+    glNamedBufferSubData(impl.filter_buffer.name(), 0, sizeof filtering, &filtering);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kFilterBinding, impl.filter_buffer.name());
     impl.scene.place(camera.position);
     impl.lists.build(plan, camera);
     impl.draw_shadow_maps(plan);
   });
+  timed(Pass::prefilter, [&] { impl.prefilter(plan, filter, filtering); });
   timed(Pass::surfaces, [&] { impl.draw_surfaces(); });
   timed(Pass::mask, [&] { impl.draw_mask(filter); });
   timed(Pass::shade, [&] { impl.draw_shade(); });
@@ -113,6 +122,8 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     stats.texels += impl.lists.map_stats(i).texels;
   }
   stats.camera = impl.lists.camera_stats();
+  stats.prefilter_passes = impl.stored.passes();
+  stats.map_bytes = impl.maps.bytes() + impl.stored.bytes();
   return stats;
 }
 

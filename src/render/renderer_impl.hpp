@@ -9,6 +9,7 @@
 #include "gl_object.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "scene_buffers.hpp"
+#include "stored_maps.hpp"
 #include "target.hpp"
 
 namespace gnomon::render {
@@ -23,6 +24,7 @@ struct Renderer::Impl {
   explicit Impl(const Scene& scene);
 
   void draw_shadow_maps(const ShadowPlan& plan) noexcept;
+  void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, const FilterBlock& block) noexcept;
   void draw_surfaces() noexcept;
   void draw_mask(const PreparedFilter& filter) noexcept;
   void draw_shade() noexcept;
@@ -35,16 +37,13 @@ struct Renderer::Impl {
   SceneBuffers scene;
   DrawLists lists;
   CommonPrograms programs;
-  struct FilterProgram {
-    const Filter* filter;
-    Program mask;
-  };
-  std::vector<FilterProgram> filter_programs;
+  std::vector<FilterPrograms> filter_programs;
+  StoredMaps stored;
   FrameTargets targets;
   MapTargets maps;
-  Buffer frame_buffer;
+  Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;
-  std::array<std::array<int, 2>, kMaxMaps> map_size{};  ///< of the last frame
+  std::array<glm::ivec2, kMaxMaps> map_size{};  ///< of the last frame
   int map_count = 0;
   std::array<int, 2> screen_size{};  ///< of the default framebuffer, as last shown
 };

@@ -12,7 +12,7 @@ namespace {
 
 class Composer {
  public:
-  explicit Composer(std::string_view filter_path) : filter_path_(filter_path) {}
+  explicit Composer(const ShaderChoice& choice) : choice_(choice) {}
 
   void add(std::string_view name, std::string_view text) {
     const std::size_t number = out_.files.size();
@@ -37,6 +37,7 @@ class Composer {
       out_.text.append(text).push_back('\n');
       if (text.substr(0, kVersion.size()) == kVersion) {
         out_.text += "#define GNOMON_MAX_MAPS " + std::to_string(kMaxMaps) + "\n";
+        out_.text += "#define GNOMON_SHADOW_VECTORS " + std::to_string(choice_.vectors) + "\n";
         mark_line(line + 1, number);
       }
       return;
@@ -52,7 +53,7 @@ class Composer {
     mark_line(line + 1, number);
   }
   [[nodiscard]] std::string included_path(std::string_view quoted) const {
-    if (quoted.substr(0, 8) == "<filter>") return std::string(filter_path_);
+    if (quoted.substr(0, 8) == "<filter>") return choice_.filter_path;
     const std::size_t end = quoted.find('"', 1);
     return end == std::string_view::npos ? std::string(quoted) : std::string(quoted.substr(1, end - 1));
   }
@@ -60,7 +61,7 @@ class Composer {
     out_.text += "#line " + std::to_string(line) + " " + std::to_string(number) + "\n";
   }
 
-  std::string_view filter_path_;
+  const ShaderChoice& choice_;
   ComposedShader out_;
 };
 
@@ -79,13 +80,12 @@ std::string_view shader_file(std::string_view path) {
   throw RenderError("no shader file '" + std::string(path) + "'");
 }
 
-ComposedShader compose_shader(std::string_view path, std::string_view filter_path) {
-  return compose_shader_text(path, shader_file(path), filter_path);
+ComposedShader compose_shader(std::string_view path, const ShaderChoice& choice) {
+  return compose_shader_text(path, shader_file(path), choice);
 }
 
-ComposedShader compose_shader_text(std::string_view name, std::string_view text,
-                                   std::string_view filter_path) {
-  Composer composer(filter_path);
+ComposedShader compose_shader_text(std::string_view name, std::string_view text, const ShaderChoice& choice) {
+  Composer composer(choice);
   composer.add(name, text);
   return composer.take();
 }

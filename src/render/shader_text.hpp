@@ -23,12 +23,19 @@ struct ComposedShader {
   std::vector<std::string> files;
 };
 
-/// Replaces `#include "path"` by that file (each once) and `#include <filter>` by the file `filter_path`.
-/// Throws RenderError with file and line for a file that does not exist.
-[[nodiscard]] ComposedShader compose_shader(std::string_view path, std::string_view filter_path = {});
+/// Which filter's file a shader includes, and how many vectors its stored texels take.
+struct ShaderChoice {
+  std::string filter_path = {};
+  int vectors = 1;
+};
+
+/// Replaces `#include "path"` by that file (each once) and `#include <filter>` by the choice's, and defines
+/// GNOMON_MAX_MAPS and GNOMON_SHADOW_VECTORS after `#version`. Throws RenderError with file and line for a
+/// file that does not exist.
+[[nodiscard]] ComposedShader compose_shader(std::string_view path, const ShaderChoice& choice = {});
 /// The same for text that stands in no file; `name` is used in messages.
 [[nodiscard]] ComposedShader compose_shader_text(std::string_view name, std::string_view text,
-                                                 std::string_view filter_path = {});
+                                                 const ShaderChoice& choice = {});
 
 /// Puts file names in the place of source-string numbers in a compiler's log ("2:14(7): ...", "2(14) : ...",
 /// "ERROR: 2:14: ...").

@@ -67,6 +67,12 @@ MapTargets::MapTargets()
   fit(1, 1, 1);  // a plan without maps binds it all the same
 }
 
+std::uint64_t MapTargets::bytes() const noexcept {
+  constexpr std::uint64_t kDepthBytes = 4;
+  return kDepthBytes * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) *
+         static_cast<std::uint64_t>(layers);
+}
+
 void MapTargets::fit(int new_width, int new_height, int new_layers) {
   if (width == new_width && height == new_height && layers >= new_layers) return;
   width = new_width;

@@ -1,6 +1,8 @@
 // The images a frame is drawn into.
 #pragma once
 
+#include <cstdint>
+
 #include "gl_object.hpp"
 
 namespace gnomon::render {
@@ -26,6 +28,7 @@ struct MapTargets {
   MapTargets();
   /// Grows to hold maps of this size; never shrinks the number of layers.
   void fit(int new_width, int new_height, int new_layers);
+  [[nodiscard]] std::uint64_t bytes() const noexcept;
 };
 
 }  // namespace gnomon::render

@@ -1,13 +1,16 @@
 // Are shaders put together rightly, and are mistakes in them found where they are?
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "filter_block.hpp"
 #include "gnomon/render/error.hpp"
 #include "gnomon/render/filter.hpp"
 #include "program.hpp"
+#include "stored_maps.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -32,7 +35,8 @@ TEST(ShaderText, names_file_and_line_of_an_include_that_is_missing) {
 TEST(ShaderText, includes_a_file_once) {
   const ComposedShader shader = compose_shader_text(
       "twice.frag", "#version 450 core\n#include \"common/frame.glsl\"\n#include \"common/frame.glsl\"\n");
-  EXPECT_EQ(shader.files.size(), 2u);
+  EXPECT_EQ(shader.files.size(), 3u);  // frame.glsl includes another
+
   EXPECT_EQ(shader.text.find("uniform Frame"), shader.text.rfind("uniform Frame"));
 }
 
@@ -66,18 +70,20 @@ TEST(Program, says_which_shaders_do_not_link) {
   EXPECT_NE(message.find("lonely.frag"), std::string::npos) << message;
 }
 
-/// The validator's words, empty where it is content.
-std::string validated(const std::string& name, const ComposedShader& shader, const std::string& stage) {
-  const auto file = std::filesystem::path(testing::TempDir()) / ("gnomon_" + name + "." + stage);
-  const auto log = std::filesystem::path(testing::TempDir()) / ("gnomon_" + name + ".log");
+/// The validator's words, empty where it is content. `target`: what for, as the validator takes it.
+std::string validated(const ComposedShader& shader, const std::string& stage,
+                      const std::string& target = "") {
+  const auto file = std::filesystem::path(testing::TempDir()) / ("gnomon_shader." + stage);
+  const auto log = std::filesystem::path(testing::TempDir()) / "gnomon_shader.log";
+  const auto binary = std::filesystem::path(testing::TempDir()) / "gnomon_shader.spv";
   std::ofstream(file) << shader.text;
-  const std::string command =
-      std::string(GLSLANG_VALIDATOR) + " -S " + stage + " " + file.string() + " > " + log.string() + " 2>&1";
+  const std::string command = std::string(GLSLANG_VALIDATOR) + " " + target + " -S " + stage +
+                              (target.empty() ? "" : " -o " + binary.string()) + " " + file.string() + " > " +
+                              log.string() + " 2>&1";
   const int status = std::system(command.c_str());
   std::ifstream in(log);
   std::string words{std::istreambuf_iterator<char>(in), {}};
-  std::filesystem::remove(file);
-  std::filesystem::remove(log);
+  for (const auto& each : {file, log, binary}) std::filesystem::remove(each);
   return status == 0 ? "" : name_files_in_log(words, shader.files);
 }
 
@@ -88,15 +94,94 @@ TEST(Shaders, pass_the_reference_validator_with_every_filter) {
     const std::string path(file.path);
     const std::string extension = std::filesystem::path(path).extension();
     if (extension == ".glsl") continue;
-    const bool filtered = file.text.find("#include <filter>") != std::string_view::npos;
-    for (const Filter* filter : all_filters()) {
-      const std::string filter_path = "filter/" + std::string(filter->name) + ".glsl";
-      EXPECT_EQ(validated(std::to_string(checked), compose_shader(path, filter_path), extension.substr(1)),
-                "")
-          << path;
+    const ComposedShader plain = compose_shader(path, {"filter/hard.glsl", 1});
+    if (std::find(plain.files.begin(), plain.files.end(), "filter/hard.glsl") != plain.files.end()) continue;
+    EXPECT_EQ(validated(plain, extension.substr(1)), "") << path;
+    ++checked;
+  }
+  for (const Filter* filter : all_filters()) {
+    for (const std::string_view path : filter_shaders(*filter)) {
+      const std::string extension = std::filesystem::path(path).extension();
+      const ShaderChoice choice{"filter/" + std::string(filter->name) + ".glsl",
+                                shadow_vectors(default_settings(*filter))};
+      EXPECT_EQ(validated(compose_shader(path, choice), extension.substr(1)), "")
+          << filter->name << " " << path;
       ++checked;
-      if (!filtered) break;
     }
+  }
+  EXPECT_GT(checked, 10u);
+}
+
+/// An engine's shader: its own names and bindings, ours only as functions and types.
+std::string engine_shader(const Filter& filter) {
+  std::string text = R"(#version 450
+#include <filter>
+#include "library/receiver.glsl"
+#include "library/select_map.glsl"
+layout(std140, binding = 20) uniform Engine {
+  ShadowMap engine_maps[4];
+  vec4 sun, tuning, settings[2];
+} engine;
+layout(binding = 21) uniform sampler2DArray engine_depth;
+layout(binding = 22) uniform sampler2DArrayShadow engine_compare;
+layout(binding = 23) uniform sampler2DArray engine_depth_max;
+layout(location = 0) in vec3 engine_point;
+layout(location = 1) in vec3 engine_normal;
+layout(location = 0) out vec4 color;
+ShadowMap shadow_map(int index) { return engine.engine_maps[index]; }
+)";
+  const std::string_view reads = filter.reads == MapRead::filtered ? "filtered"
+                                 : filter.reads == MapRead::joined ? "joined"
+                                                                   : "summed";
+  std::string visible = "shadow_visibility(engine_compare, engine_depth, at, options)";
+  if (filter.reads != MapRead::depth) {
+    text += "#include \"library/fetch_" + std::string(reads) + ".glsl\"\n";
+    text += filter.reads == MapRead::summed
+                ? "layout(binding = 24) uniform usampler2DArray engine_stored;\n"
+                : "layout(binding = 24) uniform sampler2DArray engine_stored[GNOMON_SHADOW_VECTORS];\n";
+    const std::string more = filter.reads == MapRead::joined   ? ", options"
+                             : filter.reads == MapRead::summed ? ", 1048576.0"
+                                                               : "";
+    visible = "shadow_visibility(fetch_" + std::string(reads) + "(engine_stored, at" + more +
+              "), engine_depth, engine_depth_max, at, options)";
+  }
+  return text + R"(
+void main() {
+  ShadowOptions options = ShadowOptions(float[8](engine.settings[0].x, 0, 0, 0, 0, 0, 0, 0), 6e-8, false);
+  vec3 ray = light_at(engine.sun, engine_point);
+  int map = map_of_finest_texel(engine_point, 0.1, ray, 4);
+  if (map < 0) map = map_by_depth(engine_point, engine_point.z, 4);
+  if (map < 0) map = map_by_hold(engine_point, 4);
+  ShadowLookup at = shadow_lookup(shadow_map(map), float(map), vec2(1024.0), ShadowSurface(engine_point, engine_normal, engine.sun),
+                                  engine.tuning);
+  set_kernel(at, shadow_map(map), ShadowKernel(1.0, true, true), mat2(1.0));
+  float lit = )" +
+         visible + R"(;
+  float next = share_of_next_map(shadow_map(map), engine_point.z, 0.1);
+  color = vec4(lit, next, pixel_noise(gl_FragCoord.xy), 1.0);
+}
+)";
+}
+
+TEST(ShaderLibrary, compiles_in_an_engines_shader_for_opengl_and_for_vulkan) {
+  if (std::string_view(GLSLANG_VALIDATOR).empty()) GTEST_SKIP() << "glslangValidator is not installed";
+  for (const Filter* filter : all_filters()) {
+    const ShaderChoice choice{"filter/" + std::string(filter->name) + ".glsl",
+                              shadow_vectors(default_settings(*filter))};
+    const ComposedShader shader = compose_shader_text("engine.frag", engine_shader(*filter), choice);
+    EXPECT_EQ(validated(shader, "frag", "--target-env opengl -G"), "") << filter->name;
+    EXPECT_EQ(validated(shader, "frag", "-V"), "") << filter->name;
+  }
+}
+
+TEST(ShaderLibrary, names_no_binding_and_no_uniform_of_ours) {
+  std::size_t checked = 0;
+  for (const ShaderFile& file : shader_files()) {
+    if (file.path.substr(0, 8) != "library/" && file.path.substr(0, 7) != "filter/") continue;
+    for (const char* word : {"uniform", "binding", "common/", "frame.", "filtering.", "gl_"}) {
+      EXPECT_EQ(file.text.find(word), std::string_view::npos) << file.path << " names " << word;
+    }
+    ++checked;
   }
   EXPECT_GT(checked, 10u);
 }

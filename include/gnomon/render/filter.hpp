@@ -3,62 +3,169 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <span>
+#include <string>
 #include <string_view>
+
+#include "gnomon/bias.hpp"
+#include "gnomon/plan.hpp"
 
 namespace gnomon::render {
 
-/// What a filter may be told. One struct for all: a filter reads what concerns it.
-struct FilterParameters {
-  /// Half width of the kernel in texels, 0..4: the kernel is 2 * round(radius) + 1 texels wide. Wider is
-  /// softer, hides more of the texels, and costs more reads.
-  double radius_texels = 1.0;
+struct Filter;
+
+inline constexpr std::size_t kMaxFilterOptions = 8;
+inline constexpr std::size_t kMaxChannels = 32;   ///< 8 images of 4, what every driver can draw into at once
+inline constexpr double kMaxRadiusTexels = 32.0;  ///< of a kernel
+inline constexpr double kMaxRadiusWorld = 1.0e6;
+inline constexpr int kMaxAnisotropy = 16;
+
+/// A number that one filter alone understands. An integer or a switch is a number, too.
+struct FilterOption {
+  std::string_view name;
+  double fallback = 0.0;  ///< where nothing is said
+  double min = 0.0, max = 1.0;
+  std::string_view summary;  ///< one line, with the unit
 };
 
-/// What a texel of the map a filter reads is made of.
-enum class TexelFormat : std::uint8_t {
-  depth32f,  ///< the depth map itself, as it was rasterized: nothing is stored besides
+/// What a channel of a stored texel is made of.
+enum class TexelFormat : std::uint8_t { fp32, fp16, unorm16, unorm8, uint32 };
+[[nodiscard]] std::string_view to_string(TexelFormat format) noexcept;
+[[nodiscard]] int bytes_per_channel(TexelFormat format) noexcept;
+/// True where only numbers in [0, 1] can be stored.
+[[nodiscard]] bool is_unsigned_unit(TexelFormat format) noexcept;
+/// Largest error of storing a number in [-1, 1] (unorm: [0, 1]): half a step at 1. Of uint32: as fp32, which
+/// the sums are turned into.
+[[nodiscard]] double rounding_of(TexelFormat format) noexcept;
+/// The number as it comes back out of a texel. Floats overflow to infinity, unorm is clamped to [0, 1].
+[[nodiscard]] double rounded_to(TexelFormat format, double value) noexcept;
+
+enum class KernelUnit : std::uint8_t {
+  texels,  ///< of the map that serves the point: narrow close to the camera, wide far from it
+  world,   ///< across the light, world units: the same blur on the ground in every cascade and under every
+           ///< warp
+};
+enum class BlurShape : std::uint8_t { box, gauss };
+
+/// A filter and everything it is told. Made by default_settings or parse_filter.
+struct FilterSettings {
+  const Filter* filter = nullptr;
+  /// Half width of the kernel. In texels, the kernel is a box of 2 radius + 1 texels (0: the single texel, or
+  /// the hardware's 2 x 2); in world units, it has the variance of a disc of this radius.
+  double radius = 1.0;
+  KernelUnit unit = KernelUnit::texels;
+  BlurShape blur = BlurShape::box;  ///< of stored texels; filters that read the depth map have their own
+  TexelFormat format = TexelFormat::fp32;
+  bool mipmap = false;  ///< averages over the pixel's footprint where texels are smaller than pixels
+  int anisotropy = 1;   ///< 1..16 probes along a long footprint; needs `mipmap`
+  std::array<double, kMaxFilterOptions> option{};  ///< in the order of Filter::options
+
+  /// The option of this name; 0 where the filter has none of that name.
+  [[nodiscard]] double value(std::string_view name) const noexcept;
 };
 
-/// Depths and values of one texel; channels beyond Filter::channels are unused.
-using StoredTexel = std::array<double, 4>;
+/// Channels of one texel; those beyond the filter's are 0.
+using StoredTexel = std::array<double, kMaxChannels>;
 
-/// A point to be looked up, in the map's own units.
+/// A point to be looked up, in the map's own units. Mirrors ShadowLookup of shaders/library/lookup.glsl.
 struct FilterLookup {
-  /// The stored texel at column x, row y; both may lie outside the map, where everything is lit.
-  std::function<StoredTexel(int x, int y)> texel;
-  glm::dvec2 position{0.0};        ///< in texels: the centre of texel i is at i + 0.5
-  double depth = 0.0;              ///< of the receiver, 0 near the light .. 1, bias already taken off
-  glm::dvec2 depth_gradient{0.0};  ///< change of the receiver plane's depth per texel along x and y
+  /// Depth of the texel at column x, row y; 1 outside of the map, where everything is lit.
+  std::function<double(int x, int y)> map_depth;
+  /// Largest depth within the kernel of the stored texels, for filters that ask for it.
+  double depth_max = 1.0;
+  glm::dvec2 position{0.0};          ///< in texels: the centre of texel i is at i + 0.5
+  double depth = 0.0;                ///< of the receiver, 0 near the light .. 1, bias already taken off
+  glm::dvec2 depth_gradient{0.0};    ///< change of the receiver plane's depth per texel along x and y
+  glm::dvec2 box{0.5};               ///< half sides of the kernel as a box, texels
+  glm::dmat2 disc{1.0};              ///< the kernel as an ellipse: texels from the unit disc
+  glm::dmat2 texels_per_world{1.0};  ///< texels per world unit across the light, along two axes of a basis
+  /// From the receiver towards the light to where the map's depth is d: (x - d y) / (z - d w) world units,
+  /// with this vector's x, y, z, w; exact along the receiver's own ray.
+  glm::dvec4 ray{0.0, 1.0, 1.0, 0.0};
+  double light_distance = 0.0;  ///< to the light, world units; 0: parallel light
+  double rotation = 0.0;        ///< radians: turns sample patterns, random from pixel to pixel
 };
 
-/// A filter is data and functions; the shader file of the same name holds the same two formulas, and a test
-/// compares them.
+/// What a filter reads.
+enum class MapRead : std::uint8_t {
+  depth,     ///< the depth map as it was rasterized; nothing is stored besides
+  filtered,  ///< stored texels, blurred, whose weighted means the hardware takes (bilinear, mip-maps)
+  joined,    ///< stored texels, blurred, that only `join` may put together (minima, logarithms of sums)
+  summed,    ///< the summed-area table of stored texels, in integers: any box at a constant price
+};
+
+/// A filter is data and functions; the shader file of the same name holds the same formulas, and laws over
+/// the registry compare them (tests/render/filter_laws_test.cpp). See shaders/README.md for the shader's
+/// side.
 struct Filter {
   std::string_view name;
   std::string_view summary;  ///< one line
   std::string_view source;   ///< paper or book
-  TexelFormat format = TexelFormat::depth32f;
-  int channels = 1;         ///< of a stored texel
-  int bytes_per_texel = 4;  ///< of everything that is stored, the depth map included
-  bool may_blur = false;    ///< blurring the stored texels blurs the shadow
-  bool may_mipmap = false;
-  bool may_anisotropic = false;
-  /// How far from the point the lookup reads, in texels: what PlanOptions::filter_radius_texels must be.
-  double (*reach_texels)(const FilterParameters& parameters) noexcept = nullptr;
-  /// Reference of the shader's shadow_store.
-  StoredTexel (*store)(double depth, const FilterParameters& parameters) noexcept = nullptr;
-  /// Reference of the shader's shadow_visibility: 1 lit .. 0 in shadow.
-  double (*visibility)(const FilterLookup& lookup, const FilterParameters& parameters) = nullptr;
+  MapRead reads = MapRead::depth;
+  FilterClass bias_class = FilterClass::single_compare;
+  std::span<const FilterOption> options = {};
+  std::span<const TexelFormat> formats = {};  ///< the first is the default; none for MapRead::depth
+  bool may_mipmap = false;       ///< mip-maps and anisotropic reads, for MapRead::filtered and joined
+  bool needs_depth_max = false;  ///< reads the largest depth under the kernel
+  double default_radius = 1.0;   ///< texels
+  /// Within this of the right answer where all texels of the kernel agree, for a receiver at least `contact`
+  /// (of the map's depth range) in front of or behind them: what filter_laws asks for.
+  double tolerance = 1e-6, contact = 0.0;
+
+  /// Brings options into what the format can hold. nullptr: nothing to do.
+  void (*settle)(FilterSettings& settings) noexcept = nullptr;
+  /// Channels of a stored texel, 1..kMaxChannels. nullptr for MapRead::depth.
+  int (*channels)(const FilterSettings& settings) noexcept = nullptr;
+  /// How far from the point the lookup itself reads the depth map, in texels, beyond the kernel's box.
+  double lookup_reach_texels = 1.0;
+  /// Reference of shadow_store: the texel of a depth whose surface changes by `slope` per texel (at most half
+  /// of which is within the texel).
+  StoredTexel (*store)(double depth, const glm::dvec2& slope,
+                       const FilterSettings& settings) noexcept = nullptr;
+  /// Reference of shadow_join and shadow_nothing: adds a texel of weight > 0; weights sum up to 1. nullptr:
+  /// the weighted sum.
+  void (*join)(StoredTexel& sum, const StoredTexel& texel, double weight,
+               const FilterSettings& settings) noexcept = nullptr;
+  StoredTexel (*nothing)(const FilterSettings& settings) noexcept = nullptr;
+  /// Reference of shadow_visibility: 1 lit .. 0 in shadow. `texel`: what was stored, over the kernel; unused
+  /// by MapRead::depth.
+  double (*visibility)(const StoredTexel& texel, const FilterLookup& lookup,
+                       const FilterSettings& settings) = nullptr;
 };
 
 /// All filters, in the order of filters.def.
 [[nodiscard]] std::span<const Filter* const> all_filters() noexcept;
 /// nullptr where there is none of that name.
 [[nodiscard]] const Filter* find_filter(std::string_view name) noexcept;
+
+[[nodiscard]] FilterSettings default_settings(const Filter& filter) noexcept;
+
+/// Settings, or one line that says what is wrong with the text.
+struct ParsedFilter {
+  FilterSettings settings;
+  std::string error;  ///< empty where the text was understood
+};
+/// Reads "NAME" or "NAME:KEY=VALUE,KEY=VALUE": keys are radius, unit (texels, world), blur (box, gauss),
+/// format (fp32, fp16, unorm16, unorm8, uint32), mipmap (0, 1), anisotropy, and the filter's own options.
+/// Example: "esm:c=40,radius=3,format=fp32".
+[[nodiscard]] ParsedFilter parse_filter(std::string_view text);
+/// The text that parse_filter reads back to the same settings; what is as by default is left out.
+[[nodiscard]] std::string to_string(const FilterSettings& settings);
+/// Every filter with its keys, one line each: for help texts.
+[[nodiscard]] std::string filter_help();
+
+/// Bytes of one texel of everything that is kept: the depth map, stored channels with mip-maps, depth
+/// pyramid.
+[[nodiscard]] double bytes_per_texel(const FilterSettings& settings) noexcept;
+
+/// Sets PlanOptions::filter_radius_texels and filter_radius_world, so that no kernel reads outside of its
+/// map.
+void set_margin(const FilterSettings& settings, PlanOptions& options) noexcept;
 
 namespace filters {
 #define GNOMON_FILTER(name) extern const Filter name;

@@ -8,6 +8,7 @@
 
 #include "gnomon/bias.hpp"
 #include "gnomon/camera.hpp"
+#include "gnomon/light.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/error.hpp"
 #include "gnomon/render/filter.hpp"
@@ -17,19 +18,39 @@
 namespace gnomon::render {
 
 /// The passes of a frame, in the order they run.
-enum class Pass : std::uint8_t { shadow_maps, surfaces, mask, shade, aliasing, heat_map, cascade_tint };
-inline constexpr std::size_t kPassCount = 7;
+enum class Pass : std::uint8_t {
+  shadow_maps,
+  prefilter,
+  surfaces,
+  mask,
+  shade,
+  aliasing,
+  heat_map,
+  cascade_tint
+};
+inline constexpr std::size_t kPassCount = 8;
 [[nodiscard]] std::string_view to_string(Pass pass) noexcept;
 
 /// A filter whose program is compiled; only Renderer::prepare makes one.
 struct PreparedFilter {
-  const Filter* filter = nullptr;
+  FilterSettings settings;
   std::size_t program = 0;
+};
+
+/// How one map passes into the next where maps follow each other in view depth.
+enum class SplitTransition : std::uint8_t {
+  cut,     ///< at the split
+  blend,   ///< both maps are read and mixed: twice the reads over the transition
+  dither,  ///< either map, by a noise from pixel to pixel
 };
 
 /// What to draw besides the lit picture.
 struct FrameOptions {
-  FilterParameters filter_parameters;
+  /// Only where the next map shows the point, too.
+  SplitTransition transition = SplitTransition::cut;
+  double transition_share = 0.1;  ///< of each map's depth interval, at its end
+  /// Of a spot or point light: fades the picture out at its cone and range. The mask is the plan's alone.
+  const Light* light = nullptr;
   bool aliasing = true;      ///< the error per pixel
   bool heat_map = true;      ///< the same as colours; needs `aliasing`
   bool cascade_tint = true;  ///< the picture tinted by map
@@ -50,6 +71,9 @@ struct FrameStats {
   int map_count = 0;
   MapStats camera;           ///< the surfaces pass; its texels are pixels
   std::uint64_t texels = 0;  ///< over all maps
+  int prefilter_passes = 0;  ///< over all maps: what the filter stores, blurs, sums and shrinks
+  /// Depth maps and everything that the filter keeps besides, scratch images included.
+  std::uint64_t map_bytes = 0;
 };
 
 /// Holds a scene on the GPU and the images of the last frame drawn. The context it was made in must be
@@ -62,8 +86,9 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Compiles the filter's program, once. Throws RenderError with shader file and line.
-  [[nodiscard]] PreparedFilter prepare(const Filter& filter);
+  /// Compiles the filter's programs, once. Throws RenderError with shader file and line.
+  [[nodiscard]] PreparedFilter prepare(const FilterSettings& settings);
+  [[nodiscard]] PreparedFilter prepare(const Filter& filter) { return prepare(default_settings(filter)); }
 
   /// Draws one frame at camera.width x camera.height. The plan must be one of this camera and of this scene's
   /// boxes (Scene::instances' bounds_world as casters). A plan without maps leaves everything lit. Images are

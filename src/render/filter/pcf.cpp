@@ -2,68 +2,73 @@
 // Based on: Reeves, Salesin, Cook, "Rendering Antialiased Shadows with Depth Maps", 1987. Each texel is
 // compared with the receiver's plane at that texel, so that the kernel's width needs no bias (Isidoro,
 // "Shadow Mapping: GPU-based Tips and Techniques", 2006).
-#include <algorithm>
-#include <cmath>
-
-#include <glm/geometric.hpp>
-
-#include "gnomon/render/filter.hpp"
+#include "filter_parts.hpp"
 
 namespace gnomon::render {
 namespace {
 
-constexpr int kMaxRadius = 4;  ///< a 9 x 9 kernel
+constexpr FilterOption kOptions[] = {
+    {"pattern", 0, 0, 2, "0 box of texels, 1 Vogel disc, 2 Poisson disc"},
+    {"samples", 16, 1, 64, "of a disc, four comparisons each"},
+    {"rotate", 1, 0, 1, "1 turns the disc from pixel to pixel: noise in the place of bands"},
+};
 
-/// Whole texels to each side of the middle one.
-int whole_radius(const FilterParameters& parameters) noexcept {
-  return static_cast<int>(std::clamp(std::floor(parameters.radius_texels + 0.5), 0.0, double{kMaxRadius}));
+/// Share of texel i that lies in [low, high].
+double overlap(int i, double low, double high) noexcept {
+  return std::clamp(std::min(high, i + 1.0) - std::max(low, 1.0 * i), 0.0, 1.0);
 }
 
-/// Radius, and one more for the bilinear weights at the rim.
-double reach_texels(const FilterParameters& parameters) noexcept {
-  return whole_radius(parameters) + 1.0;
-}
-
-StoredTexel store(double depth, const FilterParameters&) noexcept {
-  return {depth, 0.0, 0.0, 0.0};
-}
-
-/// Weight of texel i of width + 1 texels under a box of `width` texels that starts `fraction` into the first.
-double box_weight(int i, int width, double fraction) noexcept {
-  if (i == 0) return 1.0 - fraction;
-  return i == width ? fraction : 1.0;
-}
-
-double visibility(const FilterLookup& lookup, const FilterParameters& parameters) {
-  const int radius = whole_radius(parameters);
-  const int width = 2 * radius + 1;
-  const glm::dvec2 base{std::floor(lookup.position.x - 0.5), std::floor(lookup.position.y - 0.5)};
-  const glm::dvec2 fraction = lookup.position - 0.5 - base;
+double compare_box(const FilterLookup& lookup) {
+  const glm::dvec2 low = lookup.position - lookup.box, high = lookup.position + lookup.box;
   double sum = 0.0;
-  for (int j = 0; j <= width; ++j) {
-    for (int i = 0; i <= width; ++i) {
-      const int x = static_cast<int>(base.x) - radius + i, y = static_cast<int>(base.y) - radius + j;
-      // The bilinear 2 x 2 of the hardware knows one depth only.
-      const glm::dvec2 offset =
-          radius == 0 ? glm::dvec2(0.0) : glm::dvec2(x + 0.5, y + 0.5) - lookup.position;
-      // The plane may go on behind the map's far plane, where nothing is drawn: lit.
-      const double depth = std::min(lookup.depth + glm::dot(lookup.depth_gradient, offset), 1.0);
-      if (depth <= lookup.texel(x, y)[0]) {
-        sum += box_weight(i, width, fraction.x) * box_weight(j, width, fraction.y);
-      }
+  for (int y = static_cast<int>(std::floor(low.y)); y < static_cast<int>(std::ceil(high.y)); ++y) {
+    for (int x = static_cast<int>(std::floor(low.x)); x < static_cast<int>(std::ceil(high.x)); ++x) {
+      const glm::dvec2 offset = glm::dvec2(x + 0.5, y + 0.5) - lookup.position;
+      if (plane_depth(lookup, offset) > lookup.map_depth(x, y)) continue;
+      sum += overlap(x, low.x, high.x) * overlap(y, low.y, high.y);
     }
   }
-  return sum / (width * width);
+  return sum / (4.0 * lookup.box.x * lookup.box.y);
+}
+
+/// The hardware's: bilinear 2 x 2 with one depth.
+double compare_hardware(FilterLookup lookup) {
+  lookup.depth_gradient = glm::dvec2(0.0);
+  return compare_2x2(lookup, lookup.position);
+}
+
+double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSettings& settings) {
+  constexpr double kBox = 0.0, kPoisson = 2.0;
+  const double pattern = settings.option[0];
+  const int samples = static_cast<int>(settings.option[1]);
+  if (pattern == kBox) {
+    return std::max(lookup.box.x, lookup.box.y) > 0.5 ? compare_box(lookup) : compare_hardware(lookup);
+  }
+  const double angle = settings.option[2] > 0.5 ? lookup.rotation : 0.0;
+  double sum = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const glm::dvec2 point = pattern == kPoisson ? poisson_point(i, angle) : vogel_point(i, samples, angle);
+    sum += compare_2x2(lookup, lookup.position + lookup.disc * point);
+  }
+  return sum / samples;
+}
+
+/// Whole patterns and samples.
+void settle(FilterSettings& settings) noexcept {
+  for (double& option : settings.option) option = std::round(option);
 }
 
 }  // namespace
 
 const Filter filters::pcf{
     .name = "pcf",
-    .summary = "average of comparisons over 2x2 to 9x9 texels",
+    .summary = "average of comparisons over a box or a disc of texels",
     .source = "Reeves, Salesin, Cook 1987, Rendering antialiased shadows with depth maps",
-    .reach_texels = reach_texels,
-    .store = store,
+    .reads = MapRead::depth,
+    .bias_class = FilterClass::wide_kernel,
+    .options = kOptions,
+    .settle = settle,
+    .lookup_reach_texels = 1.5,
     .visibility = visibility,
 };
 

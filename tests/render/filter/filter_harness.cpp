@@ -1,76 +1,194 @@
 // A shader that reads questions from an image and writes answers to another.
 #include "filter_harness.hpp"
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <random>
 #include <string>
 
 #include "program.hpp"
+#include "stored_maps.hpp"
 #include "target.hpp"
 
 namespace gnomon::render {
 namespace {
 
 constexpr const char* kHead = R"(#version 450 core
+#include "common/filter.glsl"
 #include <filter>
 layout(binding = 0) uniform sampler2D questions;
 layout(binding = 1) uniform sampler2D gradients;
+layout(binding = 2) uniform sampler2D texels;
 layout(binding = 4) uniform sampler2DArrayShadow compare_map;
-layout(binding = 5) uniform sampler2DArray map;
-layout(location = 0) uniform float radius_texels;
+layout(binding = 5) uniform sampler2DArray depth_map;
+layout(binding = 7) uniform sampler2DArray depth_max;
+layout(location = 0) uniform vec2 box;
 layout(location = 0) out vec4 answer;
-)";
-constexpr const char* kAsk = R"(
-void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
+
+ShadowLookup question() {
+  ivec2 pixel = ivec2(gl_FragCoord.x, 0);
   vec4 q = texelFetch(questions, pixel, 0);
-  vec2 size = vec2(textureSize(map, 0).xy);
-  ShadowLookup at = ShadowLookup(q.xy, 1.0, q.z, texelFetch(gradients, pixel, 0).xy, size);
-  answer = vec4(shadow_visibility(compare_map, map, at, ShadowParameters(radius_texels)));
+  ShadowLookup at;
+  at.texel = q.xy;
+  at.layer = 1.0;
+  at.depth = q.z;
+  at.rotation = q.w;
+  at.depth_gradient = texelFetch(gradients, pixel, 0).xy;
+  at.layer_size = vec2(textureSize(depth_map, 0).xy);
+  at.box = box;
+  at.disc = mat2(box.x);
+  at.footprint = mat2(0.0);
+  at.texels_per_world = mat2(8.0);
+  at.ray = vec4(q.z, 1.0, 0.1, 0.0);
+  at.light_distance = 0.0;
+  return at;
+}
+)";
+constexpr const char* kAskDepth = R"(
+void main() { answer = vec4(shadow_visibility(compare_map, depth_map, question(), shadow_options())); }
+)";
+constexpr const char* kAskFiltered = R"(
+#include "library/fetch_filtered.glsl"
+layout(binding = 8) uniform sampler2DArray stored[GNOMON_SHADOW_VECTORS];
+void main() {
+  ShadowLookup at = question();
+  answer = vec4(shadow_visibility(fetch_filtered(stored, at), depth_map, depth_max, at, shadow_options()));
+}
+)";
+constexpr const char* kAskJoined = R"(
+#include "library/fetch_joined.glsl"
+layout(binding = 8) uniform sampler2DArray stored[GNOMON_SHADOW_VECTORS];
+void main() {
+  ShadowLookup at = question();
+  ShadowOptions options = shadow_options();
+  answer = vec4(shadow_visibility(fetch_joined(stored, at, options), depth_map, depth_max, at, options));
+}
+)";
+constexpr const char* kAskSummed = R"(
+#include "library/fetch_summed.glsl"
+layout(binding = 8) uniform usampler2DArray sums;
+void main() {
+  ShadowLookup at = question();
+  answer = vec4(shadow_visibility(fetch_summed(sums, at, filtering.sums.x), depth_map, depth_max, at,
+                                  shadow_options()));
+}
+)";
+constexpr const char* kAskTexels = R"(
+void main() {
+  ShadowTexel texel;
+  for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) texel.v[i] = texelFetch(texels, ivec2(gl_FragCoord.x, i), 0);
+  answer = vec4(shadow_visibility(texel, depth_map, depth_max, question(), shadow_options()));
 }
 )";
 constexpr const char* kStore = R"(
-void main() { answer = shadow_store(texelFetch(questions, ivec2(gl_FragCoord.xy), 0).z); }
+layout(location = 1) uniform int vector;
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  answer = shadow_store(texelFetch(questions, pixel, 0).z, texelFetch(gradients, pixel, 0).xy, shadow_options()).v[vector];
+}
 )";
 
-Texture row_of(const std::vector<std::array<float, 4>>& values) {
+const char* text_for(MapRead reads) {
+  switch (reads) {
+    case MapRead::depth:
+      return kAskDepth;
+    case MapRead::filtered:
+      return kAskFiltered;
+    case MapRead::joined:
+      return kAskJoined;
+    case MapRead::summed:
+      return kAskSummed;
+  }
+  return "";
+}
+
+using Row = std::vector<std::array<float, 4>>;
+
+Texture image_of(const Row& values, int height = 1) {
   Texture texture = make_texture(GL_TEXTURE_2D);
-  glTextureStorage2D(texture.name(), 1, GL_RGBA32F, static_cast<GLsizei>(values.size()), 1);
-  glTextureSubImage2D(texture.name(), 0, 0, 0, static_cast<GLsizei>(values.size()), 1, GL_RGBA, GL_FLOAT,
-                      values.data());
+  const auto width = static_cast<GLsizei>(values.size() / static_cast<std::size_t>(height));
+  glTextureStorage2D(texture.name(), 1, GL_RGBA32F, width, height);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, values.data());
   return texture;
 }
 
-std::vector<float> run(const Filter& filter, const char* main_text, float radius,
-                       const std::vector<Question>& questions) {
-  const Program program = make_program(compose_shader("fullscreen.vert"),
-                                       compose_shader_text("filter_test.frag", std::string(kHead) + main_text,
-                                                           "filter/" + std::string(filter.name) + ".glsl"));
-  std::vector<std::array<float, 4>> points, gradients;
-  for (const Question& q : questions) {
-    points.push_back({q.position.x, q.position.y, q.depth, 0.0f});
-    gradients.push_back({q.depth_gradient.x, q.depth_gradient.y, 0.0f, 0.0f});
+/// Everything that the question shader reads but the maps.
+class Asker {
+ public:
+  Asker(const FilterSettings& settings, const char* text, const std::vector<Question>& questions)
+      : program_(make_program(compose_shader("fullscreen.vert"),
+                              compose_shader_text("filter_test.frag", std::string(kHead) + text,
+                                                  {"filter/" + std::string(settings.filter->name) + ".glsl",
+                                                   shadow_vectors(settings)}))),
+        half_side_(static_cast<float>(settings.radius + 0.5)),
+        width_(static_cast<GLsizei>(questions.size())) {
+    Row points, gradients;
+    for (const Question& q : questions) {
+      points.push_back({q.position.x, q.position.y, q.depth, q.rotation});
+      gradients.push_back({q.depth_gradient.x, q.depth_gradient.y, 0.0f, 0.0f});
+    }
+    questions_ = image_of(points);
+    gradients_ = image_of(gradients);
+    answers_ = image_of(points);
   }
-  const Texture question_image = row_of(points), gradient_image = row_of(gradients), answers = row_of(points);
-  const Framebuffer fbo = make_framebuffer();
-  const VertexArray none = make_vertex_array();
-  glNamedFramebufferTexture(fbo.name(), GL_COLOR_ATTACHMENT0, answers.name(), 0);
-  glBindFramebuffer(GL_FRAMEBUFFER, fbo.name());
-  glViewport(0, 0, static_cast<GLsizei>(questions.size()), 1);
-  glDisable(GL_DEPTH_TEST);
-  glBindTextureUnit(0, question_image.name());
-  glBindTextureUnit(1, gradient_image.name());
-  glBindVertexArray(none.name());
-  glUseProgram(program.name());
-  glUniform1f(0, radius);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  std::vector<float> out(questions.size());
-  glGetTextureImage(answers.name(), 0, GL_RED, GL_FLOAT, static_cast<GLsizei>(out.size() * sizeof(float)),
-                    out.data());
+  Row ask(int vector = 0) {
+    glNamedFramebufferTexture(fbo_.name(), GL_COLOR_ATTACHMENT0, answers_.name(), 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, fbo_.name());
+    glViewport(0, 0, width_, 1);
+    glDisable(GL_DEPTH_TEST);
+    glBindTextureUnit(0, questions_.name());
+    glBindTextureUnit(1, gradients_.name());
+    glBindVertexArray(none_.name());
+    glUseProgram(program_.name());
+    glUniform2f(0, half_side_, half_side_);
+    if (vector > 0) glUniform1i(1, vector);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    Row out(static_cast<std::size_t>(width_));
+    glGetTextureImage(answers_.name(), 0, GL_RGBA, GL_FLOAT,
+                      static_cast<GLsizei>(out.size() * sizeof(out[0])), out.data());
+    return out;
+  }
+
+ private:
+  Program program_;
+  Framebuffer fbo_ = make_framebuffer();
+  VertexArray none_ = make_vertex_array();
+  Texture questions_, gradients_, answers_;
+  float half_side_;
+  GLsizei width_;
+};
+
+BlurSides sides_of(const FilterSettings& settings) {
+  BlurSides sides{};
+  const bool blurred =
+      settings.filter->reads == MapRead::filtered || settings.filter->reads == MapRead::joined;
+  for (double& side : sides) side = blurred ? settings.radius + 0.5 : 0.0;
+  return sides;
+}
+
+/// The filter's block, bound for as long as this lives.
+struct BoundBlock {
+  FilterBlock block;
+  Buffer buffer = make_buffer();
+  explicit BoundBlock(const FilterSettings& settings) : block(filter_block(settings, sides_of(settings))) {
+    glNamedBufferStorage(buffer.name(), sizeof block, &block, 0);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kFilterBinding, buffer.name());
+  }
+};
+
+std::vector<float> first_of(const Row& row) {
+  std::vector<float> out;
+  for (const auto& v : row) out.push_back(v[0]);
   return out;
 }
 
 }  // namespace
+
+double TestMap::at(int x, int y) const noexcept {
+  const bool inside = x >= 0 && y >= 0 && x < width && y < height;
+  return inside ? depth[static_cast<std::size_t>(y * width + x)] : 1.0;
+}
 
 TestMap random_map(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
@@ -79,55 +197,86 @@ TestMap random_map(int width, int height, unsigned seed) {
   return map;
 }
 
-std::vector<Question> random_questions(const TestMap& map, int count, unsigned seed) {
+std::vector<Question> random_questions(const TestMap& map, int count, unsigned seed, int rim) {
   std::mt19937 random(seed);
   const auto below = [&random](int n) { return static_cast<float>(random() % static_cast<unsigned>(n)); };
   std::vector<Question> questions;
   for (int i = 0; i < count; ++i) {
     Question q;
-    // Some way outside of the map too: there everything is lit.
-    q.position = {below((map.width + 8) * 16) / 16.0f - 4.0f, below((map.height + 8) * 16) / 16.0f - 4.0f};
+    q.position = {below((map.width - 2 * rim) * 16) / 16.0f + static_cast<float>(rim),
+                  below((map.height - 2 * rim) * 16) / 16.0f + static_cast<float>(rim)};
     q.depth = below(257) / 256.0f;
     q.depth_gradient = {(below(65) - 32.0f) / 1024.0f, (below(65) - 32.0f) / 1024.0f};
+    q.rotation = below(64) / 10.0f;
     questions.push_back(q);
   }
   return questions;
 }
 
-std::vector<float> ask_shader(const Filter& filter, const FilterParameters& parameters, const TestMap& map,
+std::vector<float> ask_shader(const FilterSettings& settings, const TestMap& map,
                               const std::vector<Question>& questions) {
   MapTargets targets;
   targets.fit(map.width, map.height, 2);
   glTextureSubImage3D(targets.depth.name(), 0, 0, 0, 1, map.width, map.height, 1, GL_DEPTH_COMPONENT,
                       GL_FLOAT, map.depth.data());
-  for (const GLuint unit : {4u, 5u}) glBindTextureUnit(unit, targets.depth.name());
-  glBindSampler(4, targets.compare_sampler.name());
-  glBindSampler(5, targets.plain_sampler.name());
-  return run(filter, kAsk, static_cast<float>(parameters.radius_texels), questions);
+  const BoundBlock block(settings);
+  const FilterPrograms programs = make_filter_programs(settings);
+  const std::array<glm::ivec2, 2> sizes{glm::ivec2(map.width, map.height), glm::ivec2(map.width, map.height)};
+  StoredMaps stored;
+  stored.build(programs, settings, block.block,
+               {targets.depth.name(), map.width, map.height, sizes, settings.mipmap});
+  Asker asker(settings, text_for(settings.filter->reads), questions);
+  for (const GLuint unit : {kCompareUnit, kDepthUnit}) glBindTextureUnit(unit, targets.depth.name());
+  glBindSampler(kCompareUnit, targets.compare_sampler.name());
+  glBindSampler(kDepthUnit, targets.plain_sampler.name());
+  stored.bind();
+  return first_of(asker.ask());
 }
 
-std::vector<double> ask_reference(const Filter& filter, const FilterParameters& parameters,
-                                  const TestMap& map, const std::vector<Question>& questions) {
-  std::vector<double> answers;
-  for (const Question& q : questions) {
-    FilterLookup lookup;
-    lookup.texel = [&](int x, int y) {
-      const bool inside = x >= 0 && y >= 0 && x < map.width && y < map.height;
-      const double depth = inside ? map.depth[static_cast<std::size_t>(y * map.width + x)] : 1.0;
-      return filter.store(depth, parameters);
-    };
-    lookup.position = q.position;
-    lookup.depth = q.depth;
-    lookup.depth_gradient = q.depth_gradient;
-    answers.push_back(filter.visibility(lookup, parameters));
+std::vector<float> ask_shader(const FilterSettings& settings, const std::vector<StoredTexel>& texels,
+                              const std::vector<Question>& questions) {
+  const BoundBlock block(settings);
+  Asker asker(settings, kAskTexels, questions);
+  const auto vectors = static_cast<std::size_t>(shadow_vectors(settings));
+  Row values;
+  for (std::size_t v = 0; v < vectors; ++v) {
+    for (const StoredTexel& texel : texels) {
+      values.push_back({static_cast<float>(texel[4 * v]), static_cast<float>(texel[4 * v + 1]),
+                        static_cast<float>(texel[4 * v + 2]), static_cast<float>(texel[4 * v + 3])});
+    }
   }
-  return answers;
+  const Texture image = image_of(values, static_cast<int>(vectors));
+  glBindTextureUnit(2, image.name());
+  MapTargets nothing_casts;
+  constexpr float kFarthest = 1.0f;
+  glClearTexImage(nothing_casts.depth.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &kFarthest);
+  for (const GLuint unit : {kCompareUnit, kDepthUnit, kDepthMaxUnit}) {
+    glBindTextureUnit(unit, nothing_casts.depth.name());
+    glBindSampler(unit, nothing_casts.plain_sampler.name());
+  }
+  return first_of(asker.ask());
 }
 
-std::vector<float> stored_by_shader(const Filter& filter, const std::vector<float>& depths) {
+std::vector<StoredTexel> stored_by_shader(const FilterSettings& settings, const std::vector<float>& depths,
+                                          const std::vector<glm::vec2>& slopes) {
   std::vector<Question> questions;
-  for (const float depth : depths) questions.push_back({{}, depth, {}});
-  return run(filter, kStore, 0.0f, questions);
+  for (std::size_t i = 0; i < depths.size(); ++i) questions.push_back({{}, depths[i], slopes[i], 0.0f});
+  const BoundBlock block(settings);
+  Asker asker(settings, kStore, questions);
+  std::vector<StoredTexel> texels(depths.size());
+  for (int v = 0; v < shadow_vectors(settings); ++v) {
+    const Row row = asker.ask(v);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      for (std::size_t c = 0; c < 4; ++c) texels[i][4 * static_cast<std::size_t>(v) + c] = row[i][c];
+    }
+  }
+  return texels;
+}
+
+FilterSettings settings_from(std::string_view text) {
+  const ParsedFilter parsed = parse_filter(text);
+  EXPECT_EQ(parsed.error, "") << text;
+  return parsed.settings;
 }
 
 }  // namespace gnomon::render

@@ -1,4 +1,4 @@
-// Asks a filter's shader and its CPU reference the same questions.
+// Asks a filter's shader and its CPU reference the same questions, through the passes that the renderer runs.
 #pragma once
 
 #include <vector>
@@ -11,24 +11,67 @@ namespace gnomon::render {
 struct TestMap {
   int width = 0, height = 0;
   std::vector<float> depth;
+  [[nodiscard]] double at(int x, int y) const noexcept;  ///< 1 outside
 };
 struct Question {
   glm::vec2 position{0.0f};
   float depth = 0.0f;
   glm::vec2 depth_gradient{0.0f};
+  float rotation = 0.0f;
 };
+
+/// Every question stands in a parallel light, 10 world units of depth over the map's range, 8 texels to a
+/// unit.
+inline constexpr double kTestDepthRange = 10.0, kTestTexelsPerWorld = 8.0;
+[[nodiscard]] FilterLookup lookup_of(const FilterSettings& settings, const TestMap& map,
+                                     const Question& question);
 
 /// Random depths and questions whose numbers are short binary fractions: float and double then compute the
 /// same, and every comparison must turn out the same, ties too.
 [[nodiscard]] TestMap random_map(int width, int height, unsigned seed);
-[[nodiscard]] std::vector<Question> random_questions(const TestMap& map, int count, unsigned seed);
+/// At least `rim` texels inside of the map; negative: some outside, where everything is lit.
+[[nodiscard]] std::vector<Question> random_questions(const TestMap& map, int count, unsigned seed,
+                                                     int rim = -4);
 
-[[nodiscard]] std::vector<float> ask_shader(const Filter& filter, const FilterParameters& parameters,
-                                            const TestMap& map, const std::vector<Question>& questions);
-[[nodiscard]] std::vector<double> ask_reference(const Filter& filter, const FilterParameters& parameters,
-                                                const TestMap& map, const std::vector<Question>& questions);
+/// The shader's answers: the map goes through everything that the filter stores and blurs.
+[[nodiscard]] std::vector<float> ask_shader(const FilterSettings& settings, const TestMap& map,
+                                            const std::vector<Question>& questions);
+/// The shader's answers when the lookup finds these texels, one per question.
+[[nodiscard]] std::vector<float> ask_shader(const FilterSettings& settings,
+                                            const std::vector<StoredTexel>& texels,
+                                            const std::vector<Question>& questions);
+/// The shader's shadow_store of these depths and slopes.
+[[nodiscard]] std::vector<StoredTexel> stored_by_shader(const FilterSettings& settings,
+                                                        const std::vector<float>& depths,
+                                                        const std::vector<glm::vec2>& slopes);
 
-/// The shader's shadow_store for these depths, first channel.
-[[nodiscard]] std::vector<float> stored_by_shader(const Filter& filter, const std::vector<float>& depths);
+/// The same by the CPU reference, in double, rounded to the stored format where the passes round. Without
+/// mip-maps.
+class Reference {
+ public:
+  Reference(const FilterSettings& settings, const TestMap& map);
+  [[nodiscard]] StoredTexel texel(const glm::dvec2& position) const;  ///< as a lookup there finds it
+  [[nodiscard]] double answer(const Question& question) const;
+  /// How far the shader may be off: what the answer changes by when each channel and the receiver's depth do
+  /// by what storing, adding up and the hardware's weights round.
+  [[nodiscard]] double bound(const Question& question) const;
+
+ private:
+  [[nodiscard]] StoredTexel stored(int x, int y) const;
+  [[nodiscard]] StoredTexel rounded(StoredTexel texel) const noexcept;
+  void join(StoredTexel& sum, const StoredTexel& texel, double weight) const;
+  [[nodiscard]] StoredTexel nothing() const;
+  [[nodiscard]] StoredTexel mean_of_box(const glm::dvec2& position) const;
+  [[nodiscard]] double value(const StoredTexel& texel, const Question& question) const;
+
+  FilterSettings settings_;
+  const TestMap& map_;
+  std::vector<StoredTexel> blurred_;
+};
+[[nodiscard]] std::vector<double> ask_reference(const FilterSettings& settings, const TestMap& map,
+                                                const std::vector<Question>& questions);
+
+/// "NAME:KEY=VALUE,..", which must be understood.
+[[nodiscard]] FilterSettings settings_from(std::string_view text);
 
 }  // namespace gnomon::render

@@ -8,7 +8,7 @@ namespace {
 
 FilterLookup lookup_in(float depth_of_map, glm::dvec2 position, double depth, glm::dvec2 gradient) {
   FilterLookup lookup;
-  lookup.texel = [depth_of_map](int, int) { return StoredTexel{depth_of_map, 0, 0, 0}; };
+  lookup.map_depth = [depth_of_map](int, int) { return double{depth_of_map}; };
   lookup.position = position;
   lookup.depth = depth;
   lookup.depth_gradient = gradient;
@@ -17,7 +17,7 @@ FilterLookup lookup_in(float depth_of_map, glm::dvec2 position, double depth, gl
 
 TEST(HardFilter, is_lit_at_the_stored_depth_and_dark_behind_it) {
   const auto see = [](double depth) {
-    return filters::hard.visibility(lookup_in(0.5f, {3.5, 3.5}, depth, {}), {});
+    return filters::hard.visibility({}, lookup_in(0.5f, {3.5, 3.5}, depth, {}), {});
   };
   EXPECT_EQ(see(0.25), 1.0);
   EXPECT_EQ(see(0.5), 1.0);
@@ -26,8 +26,8 @@ TEST(HardFilter, is_lit_at_the_stored_depth_and_dark_behind_it) {
 
 TEST(HardFilter, compares_the_receivers_plane_at_the_texels_centre) {
   // A quarter texel left of the centre, the plane rising by 0.4 a texel: 0.1 deeper at the centre.
-  EXPECT_EQ(filters::hard.visibility(lookup_in(0.59f, {3.25, 3.5}, 0.5, {0.4, 0.0}), {}), 0.0);
-  EXPECT_EQ(filters::hard.visibility(lookup_in(0.61f, {3.25, 3.5}, 0.5, {0.4, 0.0}), {}), 1.0);
+  EXPECT_EQ(filters::hard.visibility({}, lookup_in(0.59f, {3.25, 3.5}, 0.5, {0.4, 0.0}), {}), 0.0);
+  EXPECT_EQ(filters::hard.visibility({}, lookup_in(0.61f, {3.25, 3.5}, 0.5, {0.4, 0.0}), {}), 1.0);
 }
 
 TEST(HardFilter, answers_the_same_on_gpu_and_cpu) {
@@ -35,8 +35,8 @@ TEST(HardFilter, answers_the_same_on_gpu_and_cpu) {
   for (const auto& [width, height] : {std::pair{64, 64}, std::pair{48, 83}}) {
     const TestMap map = random_map(width, height, 1);
     const std::vector<Question> questions = random_questions(map, 4096, 2);
-    const std::vector<float> gpu = ask_shader(filters::hard, {}, map, questions);
-    const std::vector<double> cpu = ask_reference(filters::hard, {}, map, questions);
+    const std::vector<float> gpu = ask_shader(settings_from("hard"), map, questions);
+    const std::vector<double> cpu = ask_reference(settings_from("hard"), map, questions);
     double lit = 0.0;
     for (std::size_t i = 0; i < gpu.size(); ++i) {
       ASSERT_EQ(gpu[i], cpu[i]) << i << ": " << questions[i].position.x << " " << questions[i].position.y;
@@ -45,12 +45,6 @@ TEST(HardFilter, answers_the_same_on_gpu_and_cpu) {
     EXPECT_GT(lit, 1000.0);
     EXPECT_LT(lit, 3500.0);
   }
-}
-
-TEST(HardFilter, stores_the_depth_itself) {
-  const std::vector<float> depths{0.0f, 0.125f, 0.7f, 1.0f};
-  EXPECT_EQ(stored_by_shader(filters::hard, depths), depths);
-  for (const float depth : depths) EXPECT_EQ(filters::hard.store(depth, {})[0], depth);
 }
 
 }  // namespace

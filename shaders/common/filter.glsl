@@ -1,0 +1,22 @@
+// The filter's settings, and the blur that stored texels go through.
+#include "library/lookup.glsl"
+
+const int kTapVectors = 9;  // weights of the taps 0..35 to either side
+
+layout(std140, binding = 1) uniform Filter {
+  vec4 options[2];  // FilterSettings::option
+  vec4 kernel;      // radius; 1: in world units; 1: averages over the pixel; rounding of the format
+  vec4 sums;        // steps of a summed-area table per 1; 1: the format stores only 0..1; 0; 0
+  ivec4 reach[GNOMON_MAX_MAPS];                // per map: taps to either side of the middle one
+  vec4 weights[GNOMON_MAX_MAPS * kTapVectors];  // per map: of the taps, from the middle on
+} filtering;
+
+ShadowOptions shadow_options() {
+  vec4 a = filtering.options[0], b = filtering.options[1];
+  return ShadowOptions(float[8](a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w), filtering.kernel.w,
+                       filtering.sums.y > 0.5);
+}
+
+float tap_weight(int map, int distance_to_middle) {
+  return filtering.weights[map * kTapVectors + distance_to_middle / 4][distance_to_middle & 3];
+}

@@ -1,0 +1,61 @@
+// How much of the light reaches each pixel's surface, and through which map that was found out. The includer supplies
+// visibility(): the filter's answer.
+#include "common/frame.glsl"
+#include "common/filter.glsl"
+#include "common/surface.glsl"
+#include "library/receiver.glsl"
+#include "library/select_map.glsl"
+#include <filter>
+
+layout(binding = 4) uniform sampler2DArrayShadow shadow_compare;
+layout(binding = 5) uniform sampler2DArray shadow_depth;
+layout(binding = 7) uniform sampler2DArray shadow_depth_max;
+layout(location = 0) out vec2 mask;  // 1 lit .. 0 in shadow; map or -1
+
+float visibility(ShadowLookup at, ShadowOptions options);
+
+// Texels per pixel: the pixel's sides on the surface, in the map.
+mat2 texels_per_pixel(ShadowMap map, Surface s) {
+  bool orthographic = frame.forward.w > 0.5;
+  vec3 ray = orthographic ? frame.forward.xyz : s.position;
+  float scale = orthographic ? 1.0 : s.depth;
+  vec3 x = frame.right.xyz * (frame.right.w * scale), y = frame.up.xyz * (frame.up.w * scale);
+  float facing = dot(s.normal, ray);
+  if (facing == 0.0) return mat2(0.0);
+  x -= ray * (dot(s.normal, x) / facing);
+  y -= ray * (dot(s.normal, y) / facing);
+  MapPoint p = map_point(map, s.position);
+  return mat2(dot(p.d_texel_x, x), dot(p.d_texel_y, x), dot(p.d_texel_x, y), dot(p.d_texel_y, y));
+}
+
+float visibility_through(int index, Surface s, float noise) {
+  ShadowMap map = shadow_map(index);
+  ShadowLookup at = shadow_lookup(map, float(index), frame.layer.xy, ShadowSurface(s.position, s.normal, frame.light_place),
+                                  frame.bias);
+  ShadowKernel kernel = ShadowKernel(filtering.kernel.x, filtering.kernel.y > 0.5, filtering.kernel.z > 0.5);
+  set_kernel(at, map, kernel, kernel.minify ? texels_per_pixel(map, s) : mat2(0.0));
+  at.rotation = 6.2831853 * noise;
+  return visibility(at, shadow_options());
+}
+
+void main() {
+  const float kBlend = 1.0, kDither = 2.0;  // SplitTransition
+  Surface s = surface_at(ivec2(gl_FragCoord.xy));
+  mask = vec2(1.0, -1.0);
+  if (s.sky) return;
+  int count = int(frame.light.w);
+  bool by_hold = frame.selection.x > 0.5;
+  int map = by_hold ? map_by_hold(s.position, count) : map_by_depth(s.position, s.depth, count);
+  bool faces_light = dot(s.normal, light_at(frame.light_place, s.position)) < 0.0;
+  mask = vec2(faces_light || count == 0 ? 1.0 : 0.0, float(map));
+  if (map < 0 || !faces_light) return;
+  float noise = pixel_noise(gl_FragCoord.xy);
+  float next_share = 0.0;
+  if (frame.selection.y > 0.5 && !by_hold && map + 1 < count && map_spans(shadow_map(map + 1), s.position, 0.0)) {
+    next_share = share_of_next_map(shadow_map(map), s.depth, frame.selection.z);
+  }
+  if (frame.selection.y == kDither) next_share = next_share > noise ? 1.0 : 0.0;
+  if (next_share < 1.0) mask.x = visibility_through(map, s, noise);
+  if (next_share > 0.0) mask.x = mix(mask.x, visibility_through(map + 1, s, noise), next_share);
+  if (next_share == 1.0) mask.y = float(map + 1);
+}

@@ -1,0 +1,28 @@
+// What a filter stores of the depth map, before any blur.
+#include "common/filter.glsl"
+#include <filter>
+
+layout(binding = 5) uniform sampler2DArray depth_map;
+layout(location = 0) uniform int map;
+
+// Outside of the layer nothing casts.
+float depth_at(ivec2 texel) {
+  ivec2 size = textureSize(depth_map, 0).xy;
+  bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
+  return inside ? texelFetch(depth_map, ivec3(texel, map), 0).r : 1.0;
+}
+
+float smaller_step(float before, float here, float after) {
+  return abs(here - before) < abs(after - here) ? here - before : after - here;
+}
+
+// Change of depth per texel along x and y: of either side the one that changes less, so that no edge counts.
+vec2 slope_at(ivec2 texel) {
+  float here = depth_at(texel);
+  return vec2(smaller_step(depth_at(texel - ivec2(1, 0)), here, depth_at(texel + ivec2(1, 0))),
+              smaller_step(depth_at(texel - ivec2(0, 1)), here, depth_at(texel + ivec2(0, 1))));
+}
+
+ShadowTexel stored_at(ivec2 texel, ShadowOptions options) {
+  return shadow_store(depth_at(texel), slope_at(texel), options);
+}

@@ -1,0 +1,34 @@
+// What a filter is asked, what it is told and what it stores. The includer defines GNOMON_SHADOW_VECTORS, the number of
+// vec4 that a stored texel takes (1 for filters that store nothing).
+struct ShadowTexel {
+  vec4 v[GNOMON_SHADOW_VECTORS];
+};
+
+// A point in one layer of the map array, in texels.
+struct ShadowLookup {
+  vec2 texel;             // position; the centre of texel i is at i + 0.5
+  float layer;
+  float depth;            // of the receiver, 0 near the light .. 1, bias taken off
+  vec2 depth_gradient;    // change of the receiver plane's depth per texel
+  vec2 layer_size;        // texels of a layer along x and y
+  vec2 box;               // half sides of the kernel as a box, texels
+  mat2 disc;              // the kernel as an ellipse: texels from the unit disc
+  mat2 footprint;         // axes of what is left to average after the stored texels' own blur, texels
+  mat2 texels_per_world;  // texels per world unit along two axes across the light
+  vec4 ray;               // see distance_to_depth
+  float light_distance;   // world units; 0: parallel light
+  float rotation;         // radians, random from pixel to pixel
+};
+
+// The filter's options in the order in which its .cpp lists them, and what the stored format does to numbers.
+struct ShadowOptions {
+  float value[8];
+  float rounding;  // of a number near 1
+  bool unsigned_unit;  // only 0..1 can be stored
+};
+
+// From the receiver towards the light to where the map's depth is z, world units; negative behind the receiver.
+float distance_to_depth(ShadowLookup at, float z) {
+  float slope = at.ray.z - z * at.ray.w;
+  return slope == 0.0 ? 0.0 : (at.ray.x - z * at.ray.y) / slope;
+}

@@ -1,0 +1,107 @@
+// From a surface point to the question that a filter is asked: the place in the map, the depth with the plan's bias taken
+// off, the plane that the surface makes in the map, and the kernel in texels.
+#include "library/shadow_map.glsl"
+#include "library/lookup.glsl"
+
+// What the surface is and how it is lit.
+struct ShadowSurface {
+  vec3 position;
+  vec3 normal;  // unit, of the triangle, towards the viewer
+  vec4 light;   // as light_at takes it
+};
+
+// The kernel as it was asked for.
+struct ShadowKernel {
+  float radius;    // half width, see gnomon::render::FilterSettings::radius
+  bool in_world;   // radius in world units across the light, else in texels
+  bool minify;     // take the pixel's own footprint in, too
+};
+
+// Two axes across `direction`, without a jump but at (0, 0, -1) (Duff et al. 2017, "Building an Orthonormal Basis,
+// Revisited").
+void axes_across(vec3 direction, out vec3 a, out vec3 b) {
+  float s = direction.z >= 0.0 ? 1.0 : -1.0;
+  float p = -1.0 / (s + direction.z);
+  float q = direction.x * direction.y * p;
+  a = vec3(1.0 + s * direction.x * direction.x * p, s * q, -s * direction.x);
+  b = vec3(q, s + direction.y * direction.y * p, -direction.y);
+}
+
+// Axes of the ellipse whose covariance is a aT + b bT - less, none shorter than zero.
+mat2 ellipse_of_sum(mat2 a, mat2 b, float less) {
+  float xx = dot(vec2(a[0].x, a[1].x), vec2(a[0].x, a[1].x)) + dot(vec2(b[0].x, b[1].x), vec2(b[0].x, b[1].x));
+  float yy = dot(vec2(a[0].y, a[1].y), vec2(a[0].y, a[1].y)) + dot(vec2(b[0].y, b[1].y), vec2(b[0].y, b[1].y));
+  float xy = dot(vec2(a[0].x, a[1].x), vec2(a[0].y, a[1].y)) + dot(vec2(b[0].x, b[1].x), vec2(b[0].y, b[1].y));
+  float middle = 0.5 * (xx + yy);
+  float apart = sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
+  vec2 axis = abs(xy) > 1e-6 * middle ? normalize(vec2(xy, middle + apart - xx))
+                                      : (xx >= yy ? vec2(1.0, 0.0) : vec2(0.0, 1.0));
+  return mat2(axis * sqrt(max(middle + apart - less, 0.0)),
+              vec2(-axis.y, axis.x) * sqrt(max(middle - apart - less, 0.0)));
+}
+
+// Kernel of the question. A disc of radius r and a box of half side r sqrt(3) / 2 have the same variance, and so has a
+// trilinear read over a footprint of r texels; what the stored texels' own blur did of it is taken off.
+void set_kernel(inout ShadowLookup at, ShadowMap map, ShadowKernel kernel, mat2 texels_per_pixel) {
+  const float kBoxOfDisc = 0.8660254;
+  const float kWidest = 32.0;  // texels: nothing costs without end, gnomon::render::kMaxRadiusTexels
+  mat2 none = mat2(0.0);
+  if (kernel.in_world) {
+    at.disc = kernel.radius * at.texels_per_world;
+    float widest = max(length(vec2(at.disc[0].x, at.disc[1].x)), length(vec2(at.disc[0].y, at.disc[1].y)));
+    at.disc *= min(1.0, kWidest / max(widest, 1e-20));
+    at.box = max(kBoxOfDisc * vec2(length(vec2(at.disc[0].x, at.disc[1].x)), length(vec2(at.disc[0].y, at.disc[1].y))),
+                 0.5);
+  } else {
+    float half_side = min(kernel.radius, kWidest) + 0.5;
+    at.disc = mat2(half_side);
+    at.box = vec2(half_side);
+  }
+  float stored = 2.0 * map.kernel.y;  // the box that was blurred with: its variance is that of a disc of side^2 / 3
+  at.footprint = ellipse_of_sum(kernel.in_world ? at.disc : none, kernel.minify ? texels_per_pixel : none,
+                                kernel.in_world ? stored * stored / 3.0 : 0.0);
+}
+
+// `bias`: gnomon::BiasOptions, constant, slope, normal offset in texels of this map at this point, largest slope. The
+// kernel's reach needs none: filters follow the receiver's plane by its gradient. The plane's slope is capped, so that a
+// surface nearly along the light does not lose its shadows.
+ShadowLookup shadow_lookup(ShadowMap map, float layer, vec2 layer_size, ShadowSurface s, vec4 bias) {
+  const float kDepthRounding = 4.0 / 16777216.0;  // the rasterizer's depth is good to a few units of 2^-24
+  vec3 light = light_at(s.light, s.position);
+  float cosine = max(-dot(s.normal, light), 0.0);
+  vec3 across = s.normal + cosine * light;
+  float sine = length(across);
+  float tangent = min(sine / max(cosine, 1e-6), bias.w);
+  vec3 slope = across * (sine > 0.0 ? tangent / sine : 0.0);
+
+  vec3 side_x, side_y;
+  texel_sides(map_point(map, s.position), light, side_x, side_y);
+  float texel_world = max(length(side_x), length(side_y));
+  vec3 position = s.position + s.normal * (bias.z * texel_world * sine);
+  MapPoint p = map_point(map, position);
+  texel_sides(p, light, side_x, side_y);
+
+  // Distance along the light, towards it, by which the plane rises per texel; a plane that faces the light has none.
+  vec2 rise = vec2(dot(slope, side_x), dot(slope, side_y));
+  float along_light = dot(p.d_depth, light);  // depth per world unit along the light, exact: its rays are the map's
+  float bias_world = bias.x * texel_world + bias.y * (abs(rise.x) + abs(rise.y));
+
+  ShadowLookup at;
+  at.texel = (p.ndc.xy * 0.5 + 0.5) * map.interval_size.zw;
+  at.layer = layer;
+  at.layer_size = layer_size;
+  at.depth = p.ndc.z - along_light * bias_world - kDepthRounding;
+  at.depth_gradient = vec2(dot(p.d_depth, side_x), dot(p.d_depth, side_y)) + along_light * rise;
+  vec3 a, b;
+  axes_across(light, a, b);
+  at.texels_per_world =
+      mat2(dot(p.d_texel_x, a), dot(p.d_texel_y, a), dot(p.d_texel_x, b), dot(p.d_texel_y, b));
+  mat4 m = map.clip_from_point;
+  at.ray = vec4(p.ndc.z * p.w, p.w, dot(matrix_row(m, 2), light), dot(matrix_row(m, 3), light));
+  at.light_distance = s.light.w == 0.0 ? 0.0 : length(position - s.light.xyz);
+  at.box = vec2(0.5);
+  at.disc = mat2(0.5);
+  at.footprint = mat2(0.0);
+  at.rotation = 0.0;
+  return at;
+}

@@ -1,0 +1,77 @@
+// Which shadow map serves a point: by its view depth, by what the maps hold, or the finest one; and how one map passes
+// into the next. -1: none does, and nothing can shadow the point.
+#include "library/shadow_map.glsl"
+
+// The planes that part the maps, and the map's rectangle less `rim_texels` along each side. Of z nothing is asked.
+bool map_spans(ShadowMap map, vec3 position, float rim_texels) {
+  vec4 h = map.clip_from_point * vec4(position, 1.0);
+  vec2 free = 1.0 - 2.0 * rim_texels / map.interval_size.zw;
+  bool held = h.w > 0.0 && abs(h.x) <= free.x * h.w && abs(h.y) <= free.y * h.w;
+  for (int i = 0; i < 4; ++i) held = held && dot(map.select_planes[i].xyz, position) + map.select_planes[i].w >= 0.0;
+  return held;
+}
+
+// With the rim that the plan kept free for filters, and between the map's near and far plane: what gnomon::map_holds
+// asks for, a quarter texel of the rim left to rounding.
+bool map_holds(ShadowMap map, vec3 position) {
+  const float kRim = 0.25, kSlack = 1e-5;
+  float z = dot(matrix_row(map.clip_from_point, 2), position) + map.clip_from_point[3][2];
+  float w = dot(matrix_row(map.clip_from_point, 3), position) + map.clip_from_point[3][3];
+  return map_spans(map, position, map.kernel.x - kRim) && z >= -kSlack * w && z <= (1.0 + kSlack) * w;
+}
+
+// Maps that follow each other in view depth. A gap between the depths of two maps is one that the plan left out because
+// no caster reaches it. A point that its own map does not hold goes to the next.
+int map_by_depth(vec3 position, float view_depth, int count) {
+  const float kSlack = 1e-5;  // of the interval: view depths are rounded to float on their way here
+  bool own = true;
+  for (int i = 0; i < count; ++i) {
+    ShadowMap map = shadow_map(i);
+    vec2 interval = map.interval_size.xy;
+    float slack = kSlack * max(abs(interval.x), abs(interval.y));
+    if (view_depth > interval.y + slack) continue;
+    if (own && view_depth < interval.x - slack) return -1;
+    own = false;
+    if (map_spans(map, position, 0.0)) return i;
+  }
+  return -1;
+}
+
+// The first map that holds the point: the faces of a cube round the light, receivers parted by planes, and cascades
+// whose maps were drawn with all casters.
+int map_by_hold(vec3 position, int count) {
+  for (int i = 0; i < count; ++i) {
+    if (map_holds(shadow_map(i), position)) return i;
+  }
+  return -1;
+}
+
+// Among the maps that hold the point with a kernel of `radius_world` round it, the one with the smallest texels there.
+// `light`: the way it travels at the point.
+int map_of_finest_texel(vec3 position, float radius_world, vec3 light, int count) {
+  int best = -1;
+  float best_area = 0.0;
+  for (int i = 0; i < count; ++i) {
+    ShadowMap map = shadow_map(i);
+    if (!map_holds(map, position)) continue;
+    MapPoint p = map_point(map, position);
+    float reach = radius_world * sqrt(max(dot(p.d_texel_x, p.d_texel_x), dot(p.d_texel_y, p.d_texel_y)));
+    if (!map_spans(map, position, reach)) continue;
+    float density = abs(dot(cross(p.d_texel_x, p.d_texel_y), light));  // texels per area across the light
+    if (density > best_area) {
+      best = i;
+      best_area = density;
+    }
+  }
+  return best;
+}
+
+// Share of the next map in the answer, over the last `share` of the interval of `map`: 0 before, 1 at its end.
+float share_of_next_map(ShadowMap map, float view_depth, float share) {
+  float begin = mix(map.interval_size.y, map.interval_size.x, share);
+  return clamp((view_depth - begin) / max(map.interval_size.y - begin, 1e-30), 0.0, 1.0);
+}
+
+// Even noise in 0..1 from pixel to pixel, whose neighbourhoods of 3 x 3 hold all values (Jimenez, "Next Generation Post
+// Processing in Call of Duty: Advanced Warfare", 2014). Dithers between maps, turns sample patterns.
+float pixel_noise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }

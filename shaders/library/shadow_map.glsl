@@ -1,0 +1,51 @@
+// What a shader must know of a shadow map, and how the map lies on the world at a point. Points are in any frame that the
+// matrices are made for: relative to the camera where precision matters. The includer supplies shadow_map().
+struct ShadowMap {
+  mat4 clip_from_point;   // z 0 near the light .. w
+  vec4 interval_size;     // depth_begin, depth_end: view depths served; width, height: texels
+  vec4 select_planes[4];  // serves points with dot(xyz, point) + w >= 0 for all; (0, 0, 0, 1) where unused
+  vec4 kernel;            // filter margin in texels; blur that the stored texels went through, as half a box, texels; 0; 0
+};
+
+ShadowMap shadow_map(int index);
+
+struct MapPoint {
+  vec3 ndc;        // x, y in -1..1, z in 0..1
+  float w;
+  vec3 d_texel_x;  // gradients over the position: of the texel coordinates ...
+  vec3 d_texel_y;
+  vec3 d_depth;    // ... and of the depth
+};
+
+vec3 matrix_row(mat4 m, int i) { return vec3(m[0][i], m[1][i], m[2][i]); }
+
+MapPoint map_point(ShadowMap map, vec3 position) {
+  mat4 m = map.clip_from_point;
+  vec4 h = m * vec4(position, 1.0);
+  MapPoint p;
+  p.w = h.w;
+  p.ndc = h.xyz / h.w;
+  vec2 half_size = 0.5 * map.interval_size.zw;
+  vec3 w_row = matrix_row(m, 3);
+  p.d_texel_x = (matrix_row(m, 0) - p.ndc.x * w_row) * (half_size.x / h.w);
+  p.d_texel_y = (matrix_row(m, 1) - p.ndc.y * w_row) * (half_size.y / h.w);
+  p.d_depth = (matrix_row(m, 2) - p.ndc.z * w_row) / h.w;
+  return p;
+}
+
+// One texel's sides across the light, in world units. Zero where the map is singular. `light`: the way it travels at the
+// point.
+void texel_sides(MapPoint p, vec3 light, out vec3 side_x, out vec3 side_y) {
+  vec3 x = cross(p.d_texel_y, light), y = cross(light, p.d_texel_x);
+  float det = dot(p.d_texel_x, x);
+  side_x = det == 0.0 ? vec3(0.0) : x / det;
+  side_y = det == 0.0 ? vec3(0.0) : y / det;
+}
+
+// The way the light travels at a point. `light.w` 0: parallel light along xyz; 1: xyz is where the light is, and a point
+// there gets any direction.
+vec3 light_at(vec4 light, vec3 position) {
+  vec3 away = position - light.xyz;
+  float distance_to = length(away);
+  return light.w == 0.0 ? light.xyz : distance_to > 0.0 ? away / distance_to : vec3(0.0, -1.0, 0.0);
+}

@@ -1,0 +1,31 @@
+// Two moments of depths and the bound that they give: shared by the filters that store them. Moments are of
+// u = 2 depth - 1, whose numbers are the smallest for what they tell.
+#include "library/lookup.glsl"
+
+// Options: bleed, floor, slope.
+ShadowTexel store_moments(float depth, vec2 slope, ShadowOptions options) {
+  const float kSteepest = 0.1;  // at an edge the difference of depths tells nothing of a surface
+  float u = 2.0 * depth - 1.0;
+  float within = options.value[2] * min(dot(slope, slope), kSteepest * kSteepest);
+  ShadowTexel texel;
+  texel.v[0] = vec4(options.unsigned_unit ? depth : u, min(u * u + within, 1.0), 0.0, 0.0);
+  return texel;
+}
+
+// Chebyshev's one-sided bound. A variance that is not a number counts as lit.
+float chebyshev(float mean, float variance, float u) {
+  if (!(u > mean)) return 1.0;
+  float away = u - mean;
+  float lit = variance / (variance + away * away);
+  return lit < 1.0 ? max(lit, 0.0) : 1.0;
+}
+
+float without_bleeding(float lit, float bleed) { return clamp((lit - bleed) / (1.0 - bleed), 0.0, 1.0); }
+
+float variance_visibility(ShadowTexel texel, ShadowLookup at, ShadowOptions options) {
+  const float kRoundings = 6.0;  // twice that of the second moment and four times that of the first
+  float mean = options.unsigned_unit ? 2.0 * texel.v[0].x - 1.0 : texel.v[0].x;
+  float least = max(4.0 * options.value[1], kRoundings * options.rounding);
+  float variance = max(texel.v[0].y - mean * mean, least);
+  return without_bleeding(chebyshev(mean, variance, 2.0 * min(at.depth, 1.0) - 1.0), options.value[0]);
+}

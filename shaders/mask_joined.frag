@@ -1,0 +1,10 @@
+#version 450 core
+// The shadow mask by a filter that reads stored texels that only the filter itself may put together.
+#include "common/mask.glsl"
+#include "library/fetch_joined.glsl"
+
+layout(binding = 8) uniform sampler2DArray shadow_stored[GNOMON_SHADOW_VECTORS];
+
+float visibility(ShadowLookup at, ShadowOptions options) {
+  return shadow_visibility(fetch_joined(shadow_stored, at, options), shadow_depth, shadow_depth_max, at, options);
+}

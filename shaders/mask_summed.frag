@@ -1,0 +1,10 @@
+#version 450 core
+// The shadow mask by a filter that reads a summed-area table.
+#include "common/mask.glsl"
+#include "library/fetch_summed.glsl"
+
+layout(binding = 8) uniform usampler2DArray shadow_sums;
+
+float visibility(ShadowLookup at, ShadowOptions options) {
+  return shadow_visibility(fetch_summed(shadow_sums, at, filtering.sums.x), shadow_depth, shadow_depth_max, at, options);
+}

@@ -1,0 +1,29 @@
+// Sample patterns.
+#include "filter_parts.hpp"
+
+#include <array>
+
+namespace gnomon::render {
+namespace {
+
+using vec2 = glm::dvec2;
+// The shader's own points.
+constexpr std::array<vec2, 64> kPoissonPoints{
+#include "../../../shaders/library/poisson_64.glsl"
+};
+
+}  // namespace
+
+glm::dvec2 vogel_point(int i, int count, double angle) noexcept {
+  constexpr double kGoldenAngle = 2.3999632;
+  const double a = i * kGoldenAngle + angle;
+  return std::sqrt((i + 0.5) / count) * glm::dvec2(std::cos(a), std::sin(a));
+}
+
+glm::dvec2 poisson_point(int i, double angle) noexcept {
+  const glm::dvec2 p = kPoissonPoints[static_cast<std::size_t>(i) % kPoissonPoints.size()];
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * p.x - s * p.y, s * p.x + c * p.y};
+}
+
+}  // namespace gnomon::render

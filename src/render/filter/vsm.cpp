@@ -1,0 +1,40 @@
+// Variance shadow maps: mean and variance of the kernel's depths bound the share that is lit (Chebyshev).
+// Based on: Donnelly, Lauritzen, "Variance Shadow Maps", 2006. Bleeding reduction and the slope's share of
+// the second moment: Lauritzen, "Summed-Area Variance Shadow Maps", GPU Gems 3, 2007.
+#include "variance.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr FilterOption kOptions[] = {
+    {"bleed", 0.15, 0.0, 0.95,
+     "answers below it count as dark, the rest is stretched: less light through, harder"},
+    {"floor", 1e-6, 0.0, 0.1,
+     "least variance, of the depth range squared; never below the format's rounding"},
+    {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment takes in"},
+};
+constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
+
+int channels(const FilterSettings&) noexcept {
+  return 2;
+}
+
+}  // namespace
+
+const Filter filters::vsm{
+    .name = "vsm",
+    .summary = "bound from mean and variance; blurs, shrinks and stretches in hardware, bleeds light",
+    .source = "Donnelly, Lauritzen 2006, Variance shadow maps",
+    .reads = MapRead::filtered,
+    .bias_class = FilterClass::prefiltered,
+    .options = kOptions,
+    .formats = kFormats,
+    .may_mipmap = true,
+    .tolerance = 0.01,  // the variance's floor under a contact of a tenth of the depth range, in half floats
+    .contact = 0.1,
+    .channels = channels,
+    .store = store_moments,
+    .visibility = variance_visibility,
+};
+
+}  // namespace gnomon::render

@@ -1,0 +1,92 @@
+// Settings as the shaders want them, and the weights of blurs.
+#include "filter_block.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::render {
+namespace {
+
+constexpr double kBoxOfDisc = 0.86602540378443865;  ///< half side of the box with the variance of a unit disc
+
+bool is_blurred(const FilterSettings& settings) noexcept {
+  return settings.filter->reads == MapRead::filtered || settings.filter->reads == MapRead::joined;
+}
+
+/// Steps of an integer per 1 such that no box of this half side overflows 32 bits, and floats hold every
+/// step.
+double sum_steps(const FilterSettings& settings) noexcept {
+  const double radius = settings.unit == KernelUnit::world ? kMaxRadiusTexels : settings.radius;
+  const double side = 2.0 * std::ceil(radius + 0.5) + 2.0;
+  return std::min(std::floor(4294967295.0 / (side * side)), 0x1p24);
+}
+
+}  // namespace
+
+BlurSides blur_sides(const FilterSettings& settings, const ShadowPlan& plan) noexcept {
+  BlurSides sides{};
+  if (!is_blurred(settings)) return sides;
+  for (std::size_t i = 0; i < plan.maps().size(); ++i) {
+    double side = settings.radius + 0.5;
+    if (settings.unit == KernelUnit::world) {
+      const ShadowMap& map = plan.map[i];
+      side = kBoxOfDisc * settings.radius / std::max(map.texel_world_max.x, map.texel_world_max.y);
+    }
+    sides[i] = side > 0.5 ? std::min(side, kMaxRadiusTexels + 0.5) : 0.0;
+  }
+  return sides;
+}
+
+bool wants_mipmaps(const FilterSettings& settings, const ShadowPlan& plan) noexcept {
+  if (!settings.filter->may_mipmap) return false;
+  if (settings.mipmap || settings.unit == KernelUnit::texels) return settings.mipmap;
+  constexpr double kAlike = 1.01;  // texels that differ less make no difference that can be seen
+  return std::any_of(plan.maps().begin(), plan.maps().end(), [](const ShadowMap& map) {
+    const double widest = std::max(map.texel_world_max.x, map.texel_world_max.y);
+    return widest > kAlike * std::min(map.texel_world.x, map.texel_world.y) || map.light_world.w != 0.0;
+  });
+}
+
+int tap_weights(BlurShape shape, double half_side, std::array<double, 4 * kTapVectors>& weights) noexcept {
+  weights = {};
+  weights[0] = 1.0;
+  const double side = std::clamp(half_side, 0.5, kMaxRadiusTexels + 0.5);
+  // The last texel counts by its share that is inside of the kernel; less than a thousandth is rounding.
+  const int reach = static_cast<int>(std::ceil(side - 0.5 - 1e-3));
+  const double deviation = side / 2.0;  // the Gauss is cut where it has fallen to 14 %
+  double sum = 0.0;
+  for (int i = 0; i <= reach; ++i) {
+    const double inside = std::clamp(side + 0.5 - i, 0.0, 1.0);
+    const double height =
+        shape == BlurShape::gauss ? std::exp(-0.5 * (i / deviation) * (i / deviation)) : 1.0;
+    weights[static_cast<std::size_t>(i)] = inside * height;
+    sum += (i == 0 ? 1.0 : 2.0) * inside * height;
+  }
+  for (double& weight : weights) weight /= sum;
+  return reach;
+}
+
+FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides) noexcept {
+  FilterBlock block{};
+  for (std::size_t i = 0; i < kMaxFilterOptions; ++i) {
+    block.options[i / 4][static_cast<int>(i % 4)] = static_cast<float>(settings.option[i]);
+  }
+  block.kernel = glm::vec4(glm::dvec4(settings.radius, settings.unit == KernelUnit::world ? 1.0 : 0.0,
+                                      settings.mipmap ? 1.0 : 0.0, rounding_of(settings.format)));
+  block.sums.y = is_unsigned_unit(settings.format) ? 1.0f : 0.0f;
+  block.sums.x = static_cast<float>(sum_steps(settings));
+  for (std::size_t map = 0; map < kMaxMaps; ++map) {
+    std::array<double, 4 * kTapVectors> weights{};
+    block.reach[map].x = tap_weights(settings.blur, sides[map], weights);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      block.weights[map * kTapVectors + i / 4][static_cast<int>(i % 4)] = static_cast<float>(weights[i]);
+    }
+  }
+  return block;
+}
+
+int shadow_vectors(const FilterSettings& settings) noexcept {
+  return settings.filter->channels == nullptr ? 1 : (settings.filter->channels(settings) + 3) / 4;
+}
+
+}  // namespace gnomon::render

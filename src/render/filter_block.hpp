@@ -1,0 +1,40 @@
+// The uniform block of a filter's settings; shaders/common/filter.glsl mirrors it.
+#pragma once
+
+#include <array>
+#include <glm/vec4.hpp>
+
+#include "gnomon/plan.hpp"
+#include "gnomon/render/filter.hpp"
+
+namespace gnomon::render {
+
+inline constexpr std::size_t kTapVectors = 9;  ///< 36 taps: the widest kernel reaches 32 texels
+
+struct FilterBlock {
+  std::array<glm::vec4, 2> options;
+  glm::vec4 kernel, sums;
+  std::array<glm::ivec4, kMaxMaps> reach;
+  std::array<glm::vec4, kMaxMaps * kTapVectors> weights;
+};
+static_assert(sizeof(FilterBlock) == 16 * (4 + kMaxMaps + kMaxMaps * kTapVectors),
+              "std140 has no padding here");
+
+/// Half the side of the box that each map's stored texels are blurred with, texels; 0: not blurred.
+using BlurSides = std::array<double, kMaxMaps>;
+/// In world units, the widest blur that is nowhere on the map wider than asked for: lookups add the rest.
+[[nodiscard]] BlurSides blur_sides(const FilterSettings& settings, const ShadowPlan& plan) noexcept;
+
+/// True where a lookup may have to average more than the stored texels' own blur did.
+[[nodiscard]] bool wants_mipmaps(const FilterSettings& settings, const ShadowPlan& plan) noexcept;
+
+/// Weights of the taps 0, 1, .. from the middle of a blur, which sum up to 1 over both sides. Answers how
+/// many there are beyond the middle one.
+int tap_weights(BlurShape shape, double half_side, std::array<double, 4 * kTapVectors>& weights) noexcept;
+
+[[nodiscard]] FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides) noexcept;
+
+/// Vectors of four channels that a stored texel of these settings takes, 1 where nothing is stored.
+[[nodiscard]] int shadow_vectors(const FilterSettings& settings) noexcept;
+
+}  // namespace gnomon::render

@@ -1,0 +1,303 @@
+// Store and blur in two passes at most, mip-maps and sums only where the filter reads them.
+#include "stored_maps.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+#include <string_view>
+
+#include "program.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr GLint kMapLocation = 0;
+constexpr GLuint kSumsImage = 0;
+constexpr GLuint kRowsPerGroup = 32;  ///< local_size_x of sum_rows.comp and sum_columns.comp
+
+std::string filter_path(const Filter& filter) {
+  return "filter/" + std::string(filter.name) + ".glsl";
+}
+
+std::string_view mask_path(MapRead reads) noexcept {
+  switch (reads) {
+    case MapRead::depth:
+      return "mask_depth.frag";
+    case MapRead::filtered:
+      return "mask_filtered.frag";
+    case MapRead::joined:
+      return "mask_joined.frag";
+    case MapRead::summed:
+      return "mask_summed.frag";
+  }
+  return "";
+}
+
+GLenum internal_format(TexelFormat format, int channels) noexcept {
+  // By format, then 1, 2 or 4 channels: textures of three cannot be drawn into.
+  constexpr GLenum kFormats[5][3] = {{GL_R32F, GL_RG32F, GL_RGBA32F},
+                                     {GL_R16F, GL_RG16F, GL_RGBA16F},
+                                     {GL_R16, GL_RG16, GL_RGBA16},
+                                     {GL_R8, GL_RG8, GL_RGBA8},
+                                     {GL_RG32UI, GL_RG32UI, GL_RG32UI}};
+  return kFormats[static_cast<std::size_t>(format)][channels <= 2 ? channels - 1 : 2];
+}
+
+int bytes_of(GLenum format) noexcept {
+  switch (format) {
+    case GL_R8:
+      return 1;
+    case GL_R16F:
+    case GL_R16:
+    case GL_RG8:
+      return 2;
+    case GL_RG32F:
+    case GL_RGBA16F:
+    case GL_RGBA16:
+    case GL_RG32UI:
+      return 8;
+    case GL_RGBA32F:
+      return 16;
+    default:
+      return 4;
+  }
+}
+
+Texture array_image(GLenum format, int levels, int width, int height, int layers, std::uint64_t& bytes) {
+  Texture texture = make_texture(GL_TEXTURE_2D_ARRAY);
+  glTextureStorage3D(texture.name(), levels, format, width, height, layers);
+  for (int level = 0; level < levels; ++level) {
+    bytes += static_cast<std::uint64_t>(std::max(width >> level, 1)) *
+             static_cast<std::uint64_t>(std::max(height >> level, 1)) * static_cast<std::uint64_t>(layers) *
+             static_cast<std::uint64_t>(bytes_of(format));
+  }
+  return texture;
+}
+
+int full_chain(int width, int height) noexcept {
+  return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(width, height))));
+}
+
+void attach(const Framebuffer& fbo, const std::vector<Texture>& images, GLint level, GLint layer) {
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    glNamedFramebufferTextureLayer(fbo.name(), static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i),
+                                   images[i].name(), level, layer);
+  }
+}
+
+void draw_into_all(const Framebuffer& fbo, std::size_t images) {
+  std::array<GLenum, kMaxChannels / 4> buffers{};
+  for (std::size_t i = 0; i < images; ++i) buffers[i] = static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i);
+  glNamedFramebufferDrawBuffers(fbo.name(), static_cast<GLsizei>(images), buffers.data());
+}
+
+void bind_images(const std::vector<Texture>& images, const Sampler& sampler) {
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    glBindTextureUnit(static_cast<GLuint>(kStoredUnit + i), images[i].name());
+    glBindSampler(static_cast<GLuint>(kStoredUnit + i), sampler.name());
+  }
+}
+
+}  // namespace
+
+std::vector<std::string_view> filter_shaders(const Filter& filter) {
+  std::vector<std::string_view> paths{mask_path(filter.reads)};
+  if (filter.reads == MapRead::filtered || filter.reads == MapRead::joined) {
+    paths.insert(paths.end(), {"store.frag", "blur.frag"});
+  }
+  if (filter.reads == MapRead::joined && filter.may_mipmap) paths.emplace_back("join_mip.frag");
+  if (filter.reads == MapRead::summed) paths.insert(paths.end(), {"sum_rows.comp", "sum_columns.comp"});
+  if (filter.needs_depth_max) paths.emplace_back("depth_max.frag");
+  return paths;
+}
+
+FilterPrograms make_filter_programs(const FilterSettings& settings) {
+  FilterPrograms programs;
+  programs.filter = settings.filter;
+  programs.vectors = shadow_vectors(settings);
+  const ShaderChoice choice{filter_path(*settings.filter), programs.vectors};
+  const std::vector<std::string_view> paths = filter_shaders(*settings.filter);
+  programs.mask = make_program("fullscreen.vert", paths.front(), choice);
+  const auto make = [&](Program& program, std::string_view path) {
+    if (std::find(paths.begin(), paths.end(), path) == paths.end()) return;
+    const bool compute = path.substr(path.size() - 5) == ".comp";
+    program = compute ? make_compute_program(path, choice) : make_program("fullscreen.vert", path, choice);
+  };
+  make(programs.store, "store.frag");
+  make(programs.blur, "blur.frag");
+  make(programs.join_mip, "join_mip.frag");
+  make(programs.sum_rows, "sum_rows.comp");
+  make(programs.sum_columns, "sum_columns.comp");
+  make(programs.depth_max, "depth_max.frag");
+  return programs;
+}
+
+StoredMaps::StoredMaps() {
+  // Integers cannot be read through linear samplers, also where only single texels are fetched.
+  glSamplerParameteri(nearest_sampler_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+  glSamplerParameteri(nearest_sampler_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+void StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& settings, const StoreJob& job,
+                     bool blurred) {
+  const Filter& filter = *settings.filter;
+  const bool stores = filter.reads != MapRead::depth;
+  Shape wanted;
+  wanted.width = job.layer_width;
+  wanted.height = job.layer_height;
+  wanted.layers = std::max(static_cast<int>(job.map_size.size()), 1);
+  wanted.levels = job.mipmaps ? full_chain(job.layer_width, job.layer_height) : 1;
+  wanted.vectors = stores ? programs.vectors : 0;
+  wanted.format = stores ? internal_format(settings.format, filter.channels(settings)) : 0;
+  wanted.scratch = blurred;
+  wanted.depth_max = filter.needs_depth_max;
+  Shape same_but_fewer = shape_;
+  if (wanted.layers < shape_.layers) same_but_fewer.layers = wanted.layers;
+  if (wanted == same_but_fewer) return;
+  shape_ = wanted;
+  bytes_ = 0;
+  stored_.clear();
+  scratch_.clear();
+  depth_max_ = {};
+  for (int i = 0; i < wanted.vectors; ++i) {
+    stored_.push_back(
+        array_image(wanted.format, wanted.levels, wanted.width, wanted.height, wanted.layers, bytes_));
+    if (wanted.scratch)
+      scratch_.push_back(array_image(wanted.format, 1, wanted.width, wanted.height, 1, bytes_));
+  }
+  if (wanted.depth_max) {
+    const int width = std::max(wanted.width / 2, 1), height = std::max(wanted.height / 2, 1);
+    depth_max_ = array_image(GL_R32F, full_chain(width, height), width, height, wanted.layers, bytes_);
+  }
+  stored_fbo_ = make_framebuffer();
+  scratch_fbo_ = make_framebuffer();
+  draw_into_all(stored_fbo_, std::max<std::size_t>(stored_.size(), 1));
+  draw_into_all(scratch_fbo_, std::max<std::size_t>(scratch_.size(), 1));
+  attach(scratch_fbo_, scratch_, 0, 0);
+}
+
+void StoredMaps::draw(GLuint fbo, glm::ivec2 size) {
+  glBindFramebuffer(GL_FRAMEBUFFER, fbo);
+  glViewport(0, 0, size.x, size.y);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  ++passes_;
+}
+
+void StoredMaps::blur_map(const FilterPrograms& programs, GLint map, bool blurred) {
+  attach(stored_fbo_, stored_, 0, map);
+  glUseProgram(programs.store.name());
+  glUniform1i(kMapLocation, map);
+  draw(blurred ? scratch_fbo_.name() : stored_fbo_.name(), viewport_);
+  if (!blurred) return;
+  glUseProgram(programs.blur.name());
+  glUniform1i(kMapLocation, map);
+  bind_images(scratch_, nearest_sampler_);
+  draw(stored_fbo_.name(), viewport_);
+}
+
+void StoredMaps::join_mips(const FilterPrograms& programs, const StoreJob& job) {
+  glUseProgram(programs.join_mip.name());
+  bind_images(stored_, nearest_sampler_);
+  for (GLint map = 0; map < static_cast<GLint>(job.map_size.size()); ++map) {
+    glUniform1i(kMapLocation, map);
+    for (GLint level = 1; level < shape_.levels; ++level) {
+      // Reading and drawing different levels of one image is defined only where the levels read are the only
+      // ones in reach.
+      for (const Texture& image : stored_) {
+        glTextureParameteri(image.name(), GL_TEXTURE_BASE_LEVEL, level - 1);
+        glTextureParameteri(image.name(), GL_TEXTURE_MAX_LEVEL, level - 1);
+      }
+      attach(stored_fbo_, stored_, level, map);
+      draw(stored_fbo_.name(), {std::max(shape_.width >> level, 1), std::max(shape_.height >> level, 1)});
+    }
+  }
+  for (const Texture& image : stored_) {
+    glTextureParameteri(image.name(), GL_TEXTURE_BASE_LEVEL, 0);
+    glTextureParameteri(image.name(), GL_TEXTURE_MAX_LEVEL, shape_.levels - 1);
+  }
+}
+
+void StoredMaps::sum_map(const FilterPrograms& programs, GLint map, const StoreJob& job) {
+  const auto groups = [](int rows) {
+    return (static_cast<GLuint>(rows) + kRowsPerGroup - 1) / kRowsPerGroup;
+  };
+  glBindImageTexture(kSumsImage, stored_[0].name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_RG32UI);
+  glUseProgram(programs.sum_rows.name());
+  glUniform1i(kMapLocation, map);
+  glDispatchCompute(groups(job.layer_height), 1, 1);
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  glUseProgram(programs.sum_columns.name());
+  glUniform1i(kMapLocation, map);
+  glDispatchCompute(groups(job.layer_width), 1, 1);
+  passes_ += 2;
+}
+
+void StoredMaps::build_depth_max(const FilterPrograms& programs, const StoreJob& job) {
+  const int width = std::max(shape_.width / 2, 1), height = std::max(shape_.height / 2, 1);
+  const int levels = full_chain(width, height);
+  const Framebuffer fbo = make_framebuffer();
+  glUseProgram(programs.depth_max.name());
+  for (GLint map = 0; map < static_cast<GLint>(job.map_size.size()); ++map) {
+    glUniform1i(kMapLocation, map);
+    for (GLint level = 0; level < levels; ++level) {
+      if (level > 0) {
+        glTextureParameteri(depth_max_.name(), GL_TEXTURE_BASE_LEVEL, level - 1);
+        glTextureParameteri(depth_max_.name(), GL_TEXTURE_MAX_LEVEL, level - 1);
+      }
+      glBindTextureUnit(kDepthUnit, level == 0 ? job.depth : depth_max_.name());
+      glNamedFramebufferTextureLayer(fbo.name(), GL_COLOR_ATTACHMENT0, depth_max_.name(), level, map);
+      draw(fbo.name(), {std::max(width >> level, 1), std::max(height >> level, 1)});
+    }
+  }
+  glTextureParameteri(depth_max_.name(), GL_TEXTURE_BASE_LEVEL, 0);
+  glTextureParameteri(depth_max_.name(), GL_TEXTURE_MAX_LEVEL, levels - 1);
+  glBindTextureUnit(kDepthUnit, job.depth);
+}
+
+void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& settings,
+                       const FilterBlock& block, const StoreJob& job) {
+  passes_ = 0;
+  const std::size_t maps = job.map_size.size();
+  const bool any_blur =
+      std::any_of(block.reach.begin(), block.reach.begin() + static_cast<std::ptrdiff_t>(maps),
+                  [](const glm::ivec4& reach) { return reach.x > 0; });
+  fit(programs, settings, job, any_blur && programs.blur);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  glBindVertexArray(no_vertices_.name());
+  glBindTextureUnit(kDepthUnit, job.depth);
+  glBindSampler(kDepthUnit, nearest_sampler_.name());
+  for (std::size_t i = 0; i < maps; ++i) {
+    const auto map = static_cast<GLint>(i);
+    // Beyond the map nothing is read but by mip-maps.
+    viewport_ = job.mipmaps ? glm::ivec2(job.layer_width, job.layer_height) : job.map_size[i];
+    if (programs.store) blur_map(programs, map, block.reach[i].x > 0);
+    if (programs.sum_rows) sum_map(programs, map, job);
+  }
+  if (programs.sum_rows) glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  if (programs.depth_max) build_depth_max(programs, job);
+  const bool mipmaps = job.mipmaps && shape_.levels > 1 && maps > 0;
+  if (mipmaps && programs.join_mip) {
+    join_mips(programs, job);
+  } else if (mipmaps) {
+    for (const Texture& image : stored_) glGenerateTextureMipmap(image.name());
+    ++passes_;
+  }
+  const bool smooth = settings.filter->reads == MapRead::filtered;
+  const GLint shrinking = !smooth ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR;
+  glSamplerParameteri(stored_sampler_.name(), GL_TEXTURE_MIN_FILTER,
+                      mipmaps ? shrinking : (smooth ? GL_LINEAR : GL_NEAREST));
+  glSamplerParameteri(stored_sampler_.name(), GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
+  glSamplerParameteri(stored_sampler_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glSamplerParameteri(stored_sampler_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glSamplerParameterf(stored_sampler_.name(), GL_TEXTURE_MAX_ANISOTROPY_EXT,
+                      mipmaps && smooth ? static_cast<float>(settings.anisotropy) : 1.0f);
+}
+
+void StoredMaps::bind() const noexcept {
+  bind_images(stored_, stored_sampler_);
+  glBindTextureUnit(kDepthMaxUnit, depth_max_.name());
+  glBindSampler(kDepthMaxUnit, nearest_sampler_.name());
+}
+
+}  // namespace gnomon::render

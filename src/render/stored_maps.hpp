@@ -1,0 +1,84 @@
+// What filters store besides the depth maps: the images, and the passes that fill them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "filter_block.hpp"
+#include "gl_object.hpp"
+#include "gnomon/render/filter.hpp"
+
+namespace gnomon::render {
+
+/// The programs of one filter with one number of stored vectors; those that it has no use for are empty.
+struct FilterPrograms {
+  const Filter* filter = nullptr;
+  int vectors = 1;
+  Program mask, store, blur, join_mip, depth_max, sum_rows, sum_columns;
+};
+/// Paths of the shaders that the filter takes part in, that of the mask first.
+[[nodiscard]] std::vector<std::string_view> filter_shaders(const Filter& filter);
+/// Throws RenderError with shader file and line.
+[[nodiscard]] FilterPrograms make_filter_programs(const FilterSettings& settings);
+
+/// Texture units of the filters, as the shaders state them.
+inline constexpr GLuint kCompareUnit = 4, kDepthUnit = 5, kDepthMaxUnit = 7, kStoredUnit = 8;
+/// Binding of the block of filter_block.hpp.
+inline constexpr GLuint kFilterBinding = 1;
+
+/// The maps to be stored: layers 0, 1, .. of `depth`, each in the lower left corner of its layer.
+struct StoreJob {
+  GLuint depth = 0;
+  int layer_width = 0, layer_height = 0;
+  std::span<const glm::ivec2> map_size;
+  bool mipmaps = false;
+};
+
+class StoredMaps {
+ public:
+  StoredMaps();
+  /// Fills everything that `settings` reads; images are made anew where size or format changes, and given up
+  /// where the filter has no use for them. The block must be bound at kFilterBinding and be the one of
+  /// `reach`.
+  void build(const FilterPrograms& programs, const FilterSettings& settings, const FilterBlock& block,
+             const StoreJob& job);
+  /// Binds what build() filled to the filters' texture units.
+  void bind() const noexcept;
+
+  [[nodiscard]] int passes() const noexcept { return passes_; }          ///< of the last build()
+  [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }  ///< kept, scratch images included
+  /// OpenGL name of the image of channels 4 i .. 4 i + 3, 0 where there is none.
+  [[nodiscard]] GLuint image(std::size_t i) const noexcept {
+    return i < stored_.size() ? stored_[i].name() : 0;
+  }
+
+ private:
+  void fit(const FilterPrograms& programs, const FilterSettings& settings, const StoreJob& job, bool blurred);
+  void blur_map(const FilterPrograms& programs, GLint map, bool blurred);
+  void join_mips(const FilterPrograms& programs, const StoreJob& job);
+  void sum_map(const FilterPrograms& programs, GLint map, const StoreJob& job);
+  void build_depth_max(const FilterPrograms& programs, const StoreJob& job);
+  void draw(GLuint fbo, glm::ivec2 size);
+
+  struct Shape {
+    int width = 0, height = 0, layers = 0, levels = 0, vectors = 0;
+    GLenum format = 0;
+    bool scratch = false, depth_max = false;
+    bool operator==(const Shape&) const = default;
+  };
+  Shape shape_;
+  std::vector<Texture> stored_, scratch_;
+  Texture depth_max_;
+  Framebuffer stored_fbo_ = make_framebuffer(), scratch_fbo_ = make_framebuffer();
+  VertexArray no_vertices_ = make_vertex_array();
+  Sampler stored_sampler_ = make_sampler(), nearest_sampler_ = make_sampler();
+  glm::ivec2 viewport_{0};
+  int passes_ = 0;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace gnomon::render

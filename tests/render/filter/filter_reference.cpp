@@ -1,0 +1,191 @@
+// The passes of the renderer on the CPU, in double, for any filter of the registry.
+#include <algorithm>
+#include <cmath>
+
+#include "filter_block.hpp"
+#include "filter_harness.hpp"
+#include "shared_context.hpp"
+
+namespace gnomon::render {
+namespace {
+
+double smaller_step(double before, double here, double after) {
+  return std::abs(here - before) < std::abs(after - here) ? here - before : after - here;
+}
+
+}  // namespace
+
+FilterLookup lookup_of(const FilterSettings& settings, const TestMap& map, const Question& q) {
+  FilterLookup lookup;
+  lookup.map_depth = [&map](int x, int y) { return map.at(x, y); };
+  lookup.position = q.position;
+  lookup.depth = q.depth;
+  lookup.depth_gradient = q.depth_gradient;
+  lookup.box = glm::dvec2(settings.radius + 0.5);
+  lookup.disc = glm::dmat2(settings.radius + 0.5);
+  lookup.texels_per_world = glm::dmat2(kTestTexelsPerWorld);
+  lookup.ray = {q.depth, 1.0, 1.0 / kTestDepthRange, 0.0};
+  lookup.rotation = q.rotation;
+  if (settings.filter->needs_depth_max) {
+    // The pyramid's texels, as depth_max_in takes them.
+    const double side = 2.0 * lookup.box.x;
+    const int span = 1 << static_cast<int>(std::ceil(std::log2(std::max(side, 2.0))));
+    const auto cell = [span](double at) { return static_cast<int>(std::floor(at / span)) * span; };
+    double largest = 0.0;
+    const glm::dvec2 low = lookup.position - lookup.box, high = lookup.position + lookup.box;
+    for (int y = cell(low.y); y < cell(high.y) + span; ++y) {
+      for (int x = cell(low.x); x < cell(high.x) + span; ++x) {
+        if (x >= 0 && y >= 0 && x < map.width && y < map.height) largest = std::max(largest, map.at(x, y));
+      }
+    }
+    lookup.depth_max = largest;
+  }
+  return lookup;
+}
+
+Reference::Reference(const FilterSettings& settings, const TestMap& map) : settings_(settings), map_(map) {
+  const MapRead reads = settings.filter->reads;
+  if (reads != MapRead::filtered && reads != MapRead::joined) return;
+  std::array<double, 4 * kTapVectors> weights{};
+  const int reach = tap_weights(settings.blur, settings.radius + 0.5, weights);
+  const auto weight = [&weights](int tap) { return weights[static_cast<std::size_t>(std::abs(tap))]; };
+  const auto index = [&map](int x, int y) { return static_cast<std::size_t>(y * map.width + x); };
+  std::vector<StoredTexel> rows(map.depth.size());
+  const StoredTexel outside = settings.filter->store(1.0, glm::dvec2(0.0), settings);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      StoredTexel sum = nothing();
+      for (int tap = -reach; tap <= reach; ++tap) join(sum, stored(x + tap, y), weight(tap));
+      rows[index(x, y)] = rounded(sum);
+    }
+  }
+  if (reach == 0) {
+    blurred_ = rows;
+    return;
+  }
+  blurred_.resize(rows.size());
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      StoredTexel sum = nothing();
+      for (int tap = -reach; tap <= reach; ++tap) {
+        const bool inside = y + tap >= 0 && y + tap < map.height;
+        join(sum, inside ? rows[index(x, y + tap)] : outside, weight(tap));
+      }
+      blurred_[index(x, y)] = rounded(sum);
+    }
+  }
+}
+
+StoredTexel Reference::stored(int x, int y) const {
+  const double here = map_.at(x, y);
+  const glm::dvec2 slope{smaller_step(map_.at(x - 1, y), here, map_.at(x + 1, y)),
+                         smaller_step(map_.at(x, y - 1), here, map_.at(x, y + 1))};
+  return settings_.filter->store(here, slope, settings_);
+}
+
+StoredTexel Reference::rounded(StoredTexel texel) const noexcept {
+  for (double& channel : texel) channel = rounded_to(settings_.format, channel);
+  return texel;
+}
+
+void Reference::join(StoredTexel& sum, const StoredTexel& texel, double weight) const {
+  if (settings_.filter->join != nullptr) return settings_.filter->join(sum, texel, weight, settings_);
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * texel[i];
+}
+
+StoredTexel Reference::nothing() const {
+  return settings_.filter->nothing != nullptr ? settings_.filter->nothing(settings_) : StoredTexel{};
+}
+
+StoredTexel Reference::mean_of_box(const glm::dvec2& position) const {
+  const double steps = filter_block(settings_, {}).sums.x, half = settings_.radius + 0.5;
+  const glm::dvec2 low = position - half, high = position + half;
+  const auto overlap = [](int i, double a, double b) {
+    return std::clamp(std::min(b, i + 1.0) - std::max(a, 1.0 * i), 0.0, 1.0);
+  };
+  StoredTexel sum{};
+  double area = 0.0;
+  for (int y = static_cast<int>(std::floor(low.y)); y < static_cast<int>(std::ceil(high.y)); ++y) {
+    for (int x = static_cast<int>(std::floor(low.x)); x < static_cast<int>(std::ceil(high.x)); ++x) {
+      if (x < 0 || y < 0 || x >= map_.width || y >= map_.height) continue;
+      const double share = overlap(x, low.x, high.x) * overlap(y, low.y, high.y);
+      const StoredTexel texel = stored(x, y);
+      for (std::size_t i = 0; i < 2; ++i) {
+        sum[i] += share * std::floor(std::clamp(texel[i], 0.0, 1.0) * steps + 0.5) / steps;
+      }
+      area += share;
+    }
+  }
+  for (double& channel : sum) channel /= std::max(area, 1e-6);
+  return sum;
+}
+
+StoredTexel Reference::texel(const glm::dvec2& position) const {
+  if (settings_.filter->reads == MapRead::depth) return {};
+  if (settings_.filter->reads == MapRead::summed) return mean_of_box(position);
+  const glm::dvec2 first{std::floor(position.x - 0.5), std::floor(position.y - 0.5)};
+  const glm::dvec2 part = position - 0.5 - first;
+  StoredTexel sum = nothing();
+  for (int corner = 0; corner < 4; ++corner) {
+    const int dx = corner & 1, dy = corner >> 1;
+    const double weight = (dx == 0 ? 1.0 - part.x : part.x) * (dy == 0 ? 1.0 - part.y : part.y);
+    if (weight <= 0.0) continue;
+    const int x = std::clamp(static_cast<int>(first.x) + dx, 0, map_.width - 1);
+    const int y = std::clamp(static_cast<int>(first.y) + dy, 0, map_.height - 1);
+    join(sum, blurred_[static_cast<std::size_t>(y * map_.width + x)], weight);
+  }
+  return sum;
+}
+
+double Reference::value(const StoredTexel& texel, const Question& question) const {
+  return settings_.filter->visibility(texel, lookup_of(settings_, map_, question), settings_);
+}
+
+double Reference::answer(const Question& question) const {
+  return value(texel(question.position), question);
+}
+
+double Reference::bound(const Question& question) const {
+  // Up to 65 products are added per pass, in float, twice; then four by the hardware.
+  constexpr double kSumRounding = 2.0 * 65.0 * 0x1p-24, kDepthRounding = 4.0 * 0x1p-24,
+                   kResultRounding = 1e-5;
+  const StoredTexel here = texel(question.position);
+  const double known = value(here, question);
+  double sum = kResultRounding;
+  const auto add = [&](const StoredTexel& changed, const Question& asked) {
+    sum += std::abs(value(changed, asked) - known);
+  };
+  const int channels = settings_.filter->channels == nullptr ? 0 : settings_.filter->channels(settings_);
+  // A graphics card's bilinear weights have 8 bits.
+  const double weights = shared_context().info().software ? 0.0 : 1.0 / 512.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(channels); ++i) {
+    double spread = 0.0;
+    for (const glm::dvec2 step : {glm::dvec2(-1, 0), glm::dvec2(1, 0), glm::dvec2(0, -1), glm::dvec2(0, 1)}) {
+      if (weights > 0.0)
+        spread = std::max(spread, std::abs(texel(glm::dvec2(question.position) + step)[i] - here[i]));
+    }
+    const double size = is_unsigned_unit(settings_.format) ? 1.0 : std::max(std::abs(here[i]), 0x1p-14);
+    const double change = size * (2.0 * rounding_of(settings_.format) + kSumRounding) + spread * weights;
+    for (const double sign : {-1.0, 1.0}) {
+      StoredTexel changed = here;
+      changed[i] += sign * change;
+      add(changed, question);
+    }
+  }
+  for (const double sign : {-1.0, 1.0}) {
+    Question moved = question;
+    moved.depth += static_cast<float>(sign * kDepthRounding);
+    add(here, moved);
+  }
+  return sum;
+}
+
+std::vector<double> ask_reference(const FilterSettings& settings, const TestMap& map,
+                                  const std::vector<Question>& questions) {
+  const Reference reference(settings, map);
+  std::vector<double> answers;
+  for (const Question& q : questions) answers.push_back(reference.answer(q));
+  return answers;
+}
+
+}  // namespace gnomon::render
