@@ -3,12 +3,11 @@
 // Wimmer, Purgathofer, survey 2011, equations 1 and 2.
 #include "gnomon/metric.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
-#include "jacobian.hpp"
 #include "metric_kernel.hpp"
-#include "vector.hpp"
+#include "metric_lanes.hpp"
 
 namespace gnomon {
 namespace {
@@ -16,25 +15,24 @@ namespace {
 // Cosines below this are edge-on: the ratios of the limits no longer mean anything in double.
 constexpr double kEdgeOn = 1e-12;
 
-}  // namespace
-
-PointAliasing measure_perspective(const ShadowMap& map, const Camera& camera,
-                                  const glm::dvec3& point) noexcept {
-  const TexelJacobian b = texel_jacobian(map.clip_from_world, map.width, map.height, point);
-  // A few units in the last place beyond the rim is rounding, not outside.
-  constexpr double kRim = 1.0 + 1e-9;
-  if (!(b.w > 0.0) || !(std::abs(b.ndc_x) <= kRim) || !(std::abs(b.ndc_y) <= kRim)) return outside_map();
-  const ViewPoint view = view_point(camera, camera_axes(camera), point);
-  return perspective_aliasing(b, view, light_ray(map.light_world, point));
+PointAliasing perspective_result(const MetricBlock& block, std::size_t i) noexcept {
+  if (!(block.inside[i] > 0.0)) return outside_map();
+  const ExtentLanes& e = block.perspective;
+  PointAliasing result;
+  result.status = PointAliasing::Status::ok;
+  result.m_max = result.perspective_max = e.longest[i];
+  result.m_s = result.perspective_s = e.s[i];
+  result.m_t = result.perspective_t = e.t[i];
+  result.m_min = e.shortest[i];
+  result.m_area = e.area[i];
+  result.anisotropy = e.anisotropy[i];
+  return result;
 }
 
-PointAliasing measure_point(const ShadowMap& map, const Camera& camera, const glm::dvec3& point,
-                            const glm::dvec3& normal) noexcept {
-  PointAliasing result = measure_perspective(map, camera, point);
+PointAliasing surface_result(const MetricBlock& block, std::size_t i) noexcept {
+  PointAliasing result = perspective_result(block, i);
   if (result.status != PointAliasing::Status::ok) return result;
-  const ViewPoint view = view_point(camera, camera_axes(camera), point);
-  const glm::dvec3 light = light_ray(map.light_world, point);
-  const double cos_eye = -glm::dot(normal, view.ray), cos_light = -glm::dot(normal, light);
+  const double cos_eye = block.cos_eye[i], cos_light = block.cos_light[i];
   if (!(std::abs(cos_eye) > kEdgeOn) && !(std::abs(cos_light) > kEdgeOn)) {
     result.status = PointAliasing::Status::undetermined;
     return result;
@@ -43,15 +41,60 @@ PointAliasing measure_point(const ShadowMap& map, const Camera& camera, const gl
     result.status = PointAliasing::Status::faces_away;
     return result;
   }
+  const ExtentLanes& e = block.surface;
   result.projection = cos_eye / cos_light;
-  const TexelJacobian b = texel_jacobian(map.clip_from_world, map.width, map.height, point);
-  const Extents e = extents(surface_jacobian(b, view, normal));
-  result.m_max = e.longest;
-  result.m_min = e.shortest;
-  result.m_s = e.s;
-  result.m_t = e.t;
-  result.m_area = std::sqrt(e.longest * e.shortest);
-  result.anisotropy = e.longest / e.shortest;
+  result.m_max = e.longest[i];
+  result.m_min = e.shortest[i];
+  result.m_s = e.s[i];
+  result.m_t = e.t[i];
+  result.m_area = e.area[i];
+  result.anisotropy = e.anisotropy[i];
+  return result;
+}
+
+}  // namespace
+
+void measure_perspectives(const ShadowMap& map, const Camera& camera, std::span<const glm::dvec3> points,
+                          std::span<PointAliasing> out) noexcept {
+  const MetricFrame frame(map, camera, camera_axes(camera));
+  const std::size_t all = std::min(points.size(), out.size());
+  MetricBlock block;
+  for (std::size_t begin = 0; begin < all; begin += kMetricLanes) {
+    const std::size_t count = std::min(kMetricLanes, all - begin);
+    for (std::size_t i = 0; i < count; ++i) block.point.set(i, points[begin + i]);
+    judge_perspective(frame, block, count);
+    for (std::size_t i = 0; i < count; ++i) out[begin + i] = perspective_result(block, i);
+  }
+}
+
+void measure_points(const ShadowMap& map, const Camera& camera, std::span<const glm::dvec3> points,
+                    std::span<const glm::dvec3> normals, std::span<PointAliasing> out) noexcept {
+  const MetricFrame frame(map, camera, camera_axes(camera));
+  const std::size_t all = std::min({points.size(), normals.size(), out.size()});
+  MetricBlock block;
+  for (std::size_t begin = 0; begin < all; begin += kMetricLanes) {
+    const std::size_t count = std::min(kMetricLanes, all - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      block.point.set(i, points[begin + i]);
+      block.normal.set(i, normals[begin + i]);
+    }
+    judge_perspective(frame, block, count);
+    judge_surface(frame, block, count);
+    for (std::size_t i = 0; i < count; ++i) out[begin + i] = surface_result(block, i);
+  }
+}
+
+PointAliasing measure_perspective(const ShadowMap& map, const Camera& camera,
+                                  const glm::dvec3& point) noexcept {
+  PointAliasing result;
+  measure_perspectives(map, camera, {&point, 1}, {&result, 1});
+  return result;
+}
+
+PointAliasing measure_point(const ShadowMap& map, const Camera& camera, const glm::dvec3& point,
+                            const glm::dvec3& normal) noexcept {
+  PointAliasing result;
+  measure_points(map, camera, {&point, 1}, {&normal, 1}, {&result, 1});
   return result;
 }
 

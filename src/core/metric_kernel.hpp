@@ -29,25 +29,13 @@ struct ViewPoint {
   return {safe_normalize(offset, axes.forward), axes.right * (px * depth), axes.up * (py * depth)};
 }
 
-/// Unit direction in which light travels through `point`.
-[[nodiscard]] inline glm::dvec3 light_ray(const glm::dvec4& light_world, const glm::dvec3& point) noexcept {
-  if (light_world.w == 0.0) return -glm::dvec3(light_world);
-  return safe_normalize(point * light_world.w - glm::dvec3(light_world), {0.0, -1.0, 0.0});
-}
-
 /// A 2x2 matrix d(texel)/d(pixel), row by row.
 struct Jacobian2 {
   double xx, xy, yx, yy;
 };
 
-/// On a plane with `normal`: pixels slide along the eye ray onto the plane.
-[[nodiscard]] inline Jacobian2 surface_jacobian(const TexelJacobian& b, const ViewPoint& view,
-                                                const glm::dvec3& normal) noexcept {
-  const double facing = 1.0 / glm::dot(view.ray, normal);
-  const glm::dvec3 px = view.pixel_x - view.ray * (glm::dot(normal, view.pixel_x) * facing);
-  const glm::dvec3 py = view.pixel_y - view.ray * (glm::dot(normal, view.pixel_y) * facing);
-  return {glm::dot(b.x, px), glm::dot(b.x, py), glm::dot(b.y, px), glm::dot(b.y, py)};
-}
+/// Squared length of the sum of two unit rays below which they oppose each other: rounding decides the rest.
+inline constexpr double kOpposedRays = 1e-24;
 
 /// On the surface that faces the half vector: the pixel's extent across the eye ray, mirrored into the plane
 /// across the light ray. The mirror stays defined where both rays oppose each other; there any axis across
@@ -56,11 +44,11 @@ struct Jacobian2 {
                                                     const glm::dvec3& light) noexcept {
   const glm::dvec3 sum = view.ray + light;
   const double sum2 = glm::dot(sum, sum);
-  constexpr double kOpposed = 1e-24;
   const glm::dvec3 mirror =
-      sum2 > kOpposed ? sum
-                      : safe_normalize(glm::cross(view.ray, least_aligned_axis(view.ray)), {1.0, 0.0, 0.0});
-  const double twice = 2.0 / (sum2 > kOpposed ? sum2 : 1.0);
+      sum2 > kOpposedRays
+          ? sum
+          : safe_normalize(glm::cross(view.ray, least_aligned_axis(view.ray)), {1.0, 0.0, 0.0});
+  const double twice = 2.0 / (sum2 > kOpposedRays ? sum2 : 1.0);
   const auto turned = [&](const glm::dvec3& pixel) {
     const glm::dvec3 across = pixel - view.ray * glm::dot(view.ray, pixel);
     return across - mirror * (twice * glm::dot(mirror, across));
@@ -75,17 +63,17 @@ struct Extents {
 };
 
 [[nodiscard]] inline Extents extents(const Jacobian2& j) noexcept {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const double determinant = std::abs(j.xx * j.yy - j.xy * j.yx);
   const double half = 0.5 * (j.xx * j.xx + j.xy * j.xy + j.yx * j.yx + j.yy * j.yy);
   const double spread = (half - determinant) * (half + determinant);
   const double largest = std::sqrt(half + std::sqrt(spread > 0.0 ? spread : 0.0));
-  if (!(determinant > 0.0)) {
-    constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    return {kInfinite, largest > 0.0 ? 1.0 / largest : kInfinite, kInfinite, kInfinite};
-  }
-  const double inverse = 1.0 / determinant;
-  return {largest * inverse, 1.0 / largest, std::sqrt(j.yy * j.yy + j.yx * j.yx) * inverse,
-          std::sqrt(j.xx * j.xx + j.xy * j.xy) * inverse};
+  const double inverse = determinant > 0.0 ? 1.0 / determinant : kInfinite;
+  // Vector units take no branches, and infinity times zero is not a number.
+  const auto over_determinant = [&](double v) { return determinant > 0.0 ? v * inverse : kInfinite; };
+  return {over_determinant(largest), largest > 0.0 ? 1.0 / largest : kInfinite,
+          over_determinant(std::sqrt(j.yy * j.yy + j.yx * j.yx)),
+          over_determinant(std::sqrt(j.xx * j.xx + j.xy * j.xy))};
 }
 
 /// The perspective part of the error, from the map's derivatives at the point.

@@ -45,6 +45,8 @@ const T& any() noexcept;
 static_assert(noexcept(make_plan(any<Camera>(), any<Light>(), any<SceneBounds>(), any<PlanOptions>())));
 static_assert(noexcept(measure(any<ShadowPlan>(), any<Camera>(), any<SceneBounds>(), any<MeasureGrid>())));
 static_assert(noexcept(measure_point(any<ShadowMap>(), any<Camera>(), any<glm::dvec3>(), any<glm::dvec3>())));
+static_assert(noexcept(measure_points(any<ShadowMap>(), any<Camera>(), {}, {}, {})));
+static_assert(noexcept(measure_perspectives(any<ShadowMap>(), any<Camera>(), {}, {})));
 static_assert(noexcept(describe(any<Omission>())));
 
 TEST(Allocation, the_counter_counts) {

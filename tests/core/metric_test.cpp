@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "support/near.hpp"
 
@@ -114,6 +117,64 @@ TEST(Metric, edge_on_to_the_eye_the_texel_shrinks_and_its_silhouette_stays_finit
   ASSERT_EQ(m.status, Status::ok);
   EXPECT_LT(m.m_min, 1e-5);
   EXPECT_CLOSE(m.m_max, 2.0, 1e-5);
+}
+
+bool same_bits(const PointAliasing& a, const PointAliasing& b) {
+  const auto numbers = [](const PointAliasing& m) {
+    return std::array{m.m_max,      m.m_min,           m.m_s,           m.m_t,           m.m_area,
+                      m.anisotropy, m.perspective_max, m.perspective_s, m.perspective_t, m.projection};
+  };
+  return a.status == b.status && std::bit_cast<std::array<std::uint64_t, 10>>(numbers(a)) ==
+                                     std::bit_cast<std::array<std::uint64_t, 10>>(numbers(b));
+}
+
+TEST(Metric, no_points_are_measured_as_none_and_of_unequal_lists_the_shortest_counts) {
+  const ShadowMap map = map_from_above(50);
+  const Camera camera = camera_from_above(4.0);
+  measure_points(map, camera, {}, {}, {});
+  const std::array<glm::dvec3, 3> points{};
+  const std::array<glm::dvec3, 2> normals{glm::dvec3(0, 1, 0), glm::dvec3(0, 1, 0)};
+  std::array<PointAliasing, 4> out;
+  measure_points(map, camera, points, normals, out);
+  EXPECT_EQ(out[1].status, Status::ok);
+  EXPECT_EQ(out[2].status, Status::undetermined);  // as it was made
+  measure_perspectives(map, camera, points, out);
+  EXPECT_EQ(out[2].status, Status::ok);
+  EXPECT_EQ(out[3].status, Status::undetermined);
+}
+
+TEST(Metric, many_points_at_once_are_to_the_bit_what_each_is_alone) {
+  constexpr std::size_t kPoints = 203;  // some blocks and a rest, of no multiple of any vector
+  const Camera perspective = camera_from_above(4.0);
+  const Camera parallel =
+      orthographic_camera({0, 4, 0}, {0.2, -1, 0}, {0, 0, -1}, 2.0, 1.0, 0.1, 10, 100, 100);
+  ShadowMap sun = map_from_above(50), lamp = map_from_above(50);
+  sun.light_world = {0.6, 0.8, 0, 0};
+  lamp.light_world = {0.5, 3, 0, 1};
+  std::vector<glm::dvec3> points, normals;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const double t = static_cast<double>(i);
+    points.emplace_back(1.2 * std::sin(t), std::cos(3 * t), 1.2 * std::sin(1.7 * t));  // some outside
+    normals.push_back(glm::normalize(glm::dvec3(std::sin(2.3 * t), 0.4 + std::cos(t), std::sin(t * t))));
+  }
+  points[7] = perspective.position;  // no direction to it
+  points[8] = {0, 0, 0};             // lit along the view
+  normals[9] = {1, 0, 0};
+  for (const Camera& camera : {perspective, parallel}) {
+    for (const ShadowMap& map : {sun, lamp, map_from_above(50)}) {
+      std::vector<PointAliasing> surface(kPoints), plain(kPoints);
+      measure_points(map, camera, points, normals, surface);
+      measure_perspectives(map, camera, points, plain);
+      std::size_t ok = 0;
+      for (std::size_t i = 0; i < kPoints; ++i) {
+        ok += surface[i].status == Status::ok;
+        EXPECT_TRUE(same_bits(surface[i], measure_point(map, camera, points[i], normals[i]))) << i;
+        EXPECT_TRUE(same_bits(plain[i], measure_perspective(map, camera, points[i]))) << i;
+      }
+      EXPECT_GT(ok, 20u);
+      EXPECT_LT(ok, kPoints);
+    }
+  }
 }
 
 TEST(Measure, a_plan_without_maps_measures_as_nothing) {
