@@ -24,7 +24,7 @@ struct Row {
   std::optional<OgreSetup> ogre;
   PlanOptions options;  // without ogre
   std::vector<double> ratio_p95, ratio_max, storage, outside_share;
-  std::vector<double> nanoseconds;  // one per round, per set-up
+  std::vector<std::vector<double>> nanoseconds;  // of one set-up: by case, then by round
 };
 
 Row ogre_row(const char* name, OgreSetup setup) {
@@ -109,29 +109,44 @@ std::uint64_t bits_of(float value) {
 
 std::uint64_t time_rows(std::vector<Row>& table, const std::vector<NamedCase>& cases,
                         std::deque<OgreScene>& scenes, int rounds) {
-  constexpr int kRepeats = 10;  // per case and round: a batch well above the clock's resolution
+  // Well above the clock's resolution, and short enough for most batches to meet no other program.
+  constexpr int kRepeats = 10;
   std::uint64_t checksum = 0;
+  for (Row& row : table) row.nanoseconds.resize(cases.size());
   for (int round = 0; round < rounds; ++round) {
     for (Row& row : table) {
-      const auto begin = std::chrono::steady_clock::now();
       for (std::size_t i = 0; i < cases.size(); ++i) {
+        const NamedCase& c = cases[i];
+        const auto begin = std::chrono::steady_clock::now();
         for (int repeat = 0; repeat < kRepeats; ++repeat) {
           if (row.ogre) {
             scenes[i].set_up(*row.ogre);
-          } else {
-            const ShadowPlan plan =
-                make_plan(cases[i].camera, cases[i].light, cases[i].bounds(), row.options);
-            checksum += bits_of(plan.map[0].clip_from_camera_relative[0][0]);
+            continue;
           }
+          const ShadowPlan plan = make_plan(c.camera, c.light, c.bounds(), row.options);
+          checksum += bits_of(plan.map[0].clip_from_camera_relative[0][0]);
         }
+        const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - begin;
+        row.nanoseconds[i].push_back(spent.count() / kRepeats);
         if (row.ogre)
           checksum += bits_of(static_cast<float>(scenes[i].maps(*row.ogre).clip_from_world[0][0][0]));
       }
-      const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - begin;
-      row.nanoseconds.push_back(spent.count() / (kRepeats * static_cast<double>(cases.size())));
     }
   }
   return checksum;
+}
+
+/// Of one set-up, the mean over the cases of what each took: at the median of the rounds, or at the fastest.
+double median_ns(const Row& row) {
+  double sum = 0.0;
+  for (const std::vector<double>& rounds : row.nanoseconds) sum += median(rounds);
+  return sum / static_cast<double>(row.nanoseconds.size());
+}
+double least_ns(const Row& row) {
+  double sum = 0.0;
+  for (const std::vector<double>& rounds : row.nanoseconds)
+    sum += *std::min_element(rounds.begin(), rounds.end());
+  return sum / static_cast<double>(row.nanoseconds.size());
 }
 
 void print_table(const std::vector<Row>& table, int cascades, const Row& peer, int rounds) {
@@ -142,11 +157,11 @@ void print_table(const std::vector<Row>& table, int cascades, const Row& peer, i
   for (const Row& row : table) {
     if (row.cascades != cascades) continue;
     const double outside = *std::max_element(row.outside_share.begin(), row.outside_share.end());
-    const double ns = median(row.nanoseconds);
-    const double least = *std::min_element(row.nanoseconds.begin(), row.nanoseconds.end());
+    const double ns = median_ns(row);
+    const double least = least_ns(row);
     std::printf("%-34s %9.4f %9.4f %10.1f %7.2f%% %9.0f %9.0f %7.1f x\n", row.name.c_str(),
                 geometric_mean(row.ratio_p95), geometric_mean(row.ratio_max), geometric_mean(row.storage),
-                100.0 * outside, ns, least, median(peer.nanoseconds) / ns);
+                100.0 * outside, ns, least, median_ns(peer) / ns);
   }
 }
 
