@@ -14,6 +14,11 @@
 #ifdef GNOMON_HAS_SCENE
 #include "scenes.hpp"
 #endif
+#ifdef GNOMON_HAS_COMPARE
+#include "compare.hpp"
+#include "doctor.hpp"
+#include "merge.hpp"
+#endif
 
 namespace gnomon::tool {
 namespace {
@@ -37,6 +42,76 @@ int run_scenes(const ScenesRequest&) {
 #endif
 
 const std::string kVersion = std::string("gnomon ") + GNOMON_VERSION;
+
+#ifdef GNOMON_HAS_COMPARE
+/// What the commands about measuring were told.
+struct MeasureRequests {
+  CompareRequest compare;
+  std::vector<std::string> merge_folders, report_folders;
+  std::string merge_out = "out/merged";
+  bool json = false;
+};
+
+void add_compare(CLI::App& app, CompareRequest& request) {
+  CLI::App* compare = app.add_subcommand("compare", "error against run time of a sweep over techniques");
+  compare->set_version_flag("--version", kVersion);
+  compare->option_defaults()->always_capture_default();
+  compare->add_option("SCENE", request.scenes, "builtin:NAME or glTF files")->required();
+  compare->add_option("--warps", request.warps, "names, or all; auto lets the plan choose");
+  compare->add_option("--splits", request.splits, "how the view depth is divided");
+  compare->add_option("--fits", request.fits, "tight, stable");
+  compare->add_option("--cascades", request.cascades, "maps along the view");
+  compare->add_option("--filters", request.filters, "names, with their options where they have any, or all");
+  compare->add_option("--map-sizes", request.map_sizes, "texels along each side of a map");
+  compare->add_option("--frames", request.frames, "along the scene's flight")->check(CLI::Range(1, 100'000));
+  compare->add_option("--rounds", request.rounds, "timings of each technique and frame")
+      ->check(CLI::Range(1, 10'000));
+  compare->add_option("--size", request.size, "of a frame, WIDTHxHEIGHT");
+  compare->add_option("--out", request.out, "folder that results and report go to");
+  compare->add_option("--shard", request.shard,
+                      "I/N: only every N-th row from the I-th on; join with gnomon merge");
+  compare->add_option("--context", request.context, "auto, osmesa or egl");
+  compare->add_option("--light-elevation-deg", request.light_elevation_deg, "of the sun above the horizon")
+      ->check(CLI::Range(0.1, 90.0));
+  compare
+      ->add_option("--light-azimuth-deg", request.light_azimuth_deg,
+                   "where the sun stands: 0 over -Z, 90 over +X")
+      ->check(CLI::Range(-360.0, 360.0));
+  compare->add_flag("--resume", request.resume, "go on with the results in --out");
+  compare->footer(
+      "Lists take commas or spaces. The sweep is the product of all lists, combinations that are the same\n"
+      "technique taken once. Each row is on the disk before the next frame begins: a run that was killed "
+      "goes\n"
+      "on with --resume. Errors are those of the shadow mask against exact rays.");
+}
+
+void add_measuring(CLI::App& app, MeasureRequests& requests) {
+  add_compare(app, requests.compare);
+  CLI::App* merge = app.add_subcommand("merge", "join the results of shards, and write their report");
+  merge->add_option("DIR", requests.merge_folders, "folders with results.jsonl")->required();
+  merge->add_option("--out", requests.merge_out, "folder that the whole goes to")->capture_default_str();
+  CLI::App* report = app.add_subcommand("report", "write the report of results anew, without measuring");
+  report->add_option("DIR", requests.report_folders, "folders with results.jsonl")->required();
+  CLI::App* doctor = app.add_subcommand("doctor", "what works on this machine, and why something does not");
+  for (CLI::App* command : {merge, report, doctor}) command->set_version_flag("--version", kVersion);
+  for (const char* command : {"compare", "merge", "report", "doctor"})
+    app.get_subcommand(command)->add_flag("--json", requests.json, "say what was done as one line of JSON");
+}
+
+int run_measuring(const CLI::App& app, const MeasureRequests& requests) {
+  if (app.got_subcommand("compare")) return run_compare(requests.compare, requests.json);
+  if (app.got_subcommand("merge"))
+    return run_merge(requests.merge_folders, requests.merge_out, requests.json);
+  if (app.got_subcommand("report")) return run_report(requests.report_folders, requests.json);
+  return run_doctor(requests.json);
+}
+#else
+struct MeasureRequests {};
+void add_measuring(CLI::App&, MeasureRequests&) {}
+int run_measuring(const CLI::App&, const MeasureRequests&) {
+  return 0;
+}
+#endif
 
 CLI::App* add_plan(CLI::App& app, PlanRequest& request) {
   CLI::App* plan = app.add_subcommand("plan", "print the shadow plan of each case as one line of JSON");
@@ -82,8 +157,10 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   PlanRequest plan_request;
   ScenesRequest scenes_request;
+  MeasureRequests measure_requests;
   const CLI::App* plan = add_plan(app, plan_request);
-  add_scenes(app, scenes_request);
+  const CLI::App* scenes = add_scenes(app, scenes_request);
+  add_measuring(app, measure_requests);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -94,7 +171,9 @@ int run(int argc, char** argv) {
     if (!std::cout) throw std::runtime_error("standard output cannot be written");
     return 0;
   }
-  return plan->parsed() ? run_plan(plan_request) : run_scenes(scenes_request);
+  if (plan->parsed()) return run_plan(plan_request);
+  if (scenes->parsed()) return run_scenes(scenes_request);
+  return run_measuring(app, measure_requests);
 }
 
 }  // namespace

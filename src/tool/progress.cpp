@@ -9,10 +9,24 @@
 
 namespace gnomon::tool {
 
+namespace {
+
+/// As long again as it took so far, by the share that is left; nothing before the first steps tell.
+std::string time_left(double share, double seconds_so_far) {
+  if (share <= 0.0) return {};
+  const auto seconds = static_cast<long long>(seconds_so_far * (1.0 - share) / share + 0.5);
+  char text[32];
+  std::snprintf(text, sizeof text, ", %lld:%02lld left", seconds / 60, seconds % 60);
+  return text;
+}
+
+}  // namespace
+
 Progress::Progress(std::string label, long long total)
     : label_(std::move(label)),
       total_(total),
-      next_draw_(Clock::now() + std::chrono::seconds(1)),
+      begin_(Clock::now()),
+      next_draw_(begin_ + std::chrono::seconds(1)),
       on_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void Progress::set(long long done) {
@@ -28,7 +42,8 @@ void Progress::set(long long done) {
   constexpr int kBarWidth = 30;
   const double share = std::clamp(static_cast<double>(done) / static_cast<double>(total_), 0.0, 1.0);
   const std::string bar(static_cast<std::size_t>(share * kBarWidth), '#');
-  std::fprintf(stderr, "\r%s [%-*s] %3.0f %%\033[K", label_.c_str(), kBarWidth, bar.c_str(), 100.0 * share);
+  std::fprintf(stderr, "\r%s [%-*s] %3.0f %%%s\033[K", label_.c_str(), kBarWidth, bar.c_str(), 100.0 * share,
+               time_left(share, std::chrono::duration<double>(now - begin_).count()).c_str());
 }
 
 void Progress::clear() {

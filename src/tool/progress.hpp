@@ -24,7 +24,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   std::string label_;
   long long total_;
-  Clock::time_point next_draw_;
+  Clock::time_point begin_, next_draw_;
   bool on_terminal_;
   bool drawn_ = false;
 };

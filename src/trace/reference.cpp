@@ -121,12 +121,17 @@ KernelAxes texel_axes(const ShadowMap& map, const glm::dvec3& point, double radi
   return {x * (radius_texels / determinant), y * (radius_texels / determinant)};
 }
 
+KernelAxes world_axes(const Light& light, const glm::dvec3& point, double radius) noexcept {
+  const Frame across = frame_across(light_ray(light, point).direction);
+  return {radius * across.x, radius * across.y};
+}
+
 SoftReference filtered_reference(const Tracer& tracer, const SurfacePoints& points, const Light& light,
-                                 KernelShape shape,
-                                 const std::function<KernelAxes(const SurfacePoint&)>& axes, int samples) {
+                                 KernelShape shape, const std::function<KernelAxes(std::size_t pixel)>& axes,
+                                 int samples) {
   return mean_of_rays(tracer, points, samples,
                       [&](const SurfacePoint& point, std::uint32_t pixel, int sample) {
-                        const KernelAxes kernel = axes(point);
+                        const KernelAxes kernel = axes(pixel);
                         const glm::dvec2 at = to_kernel(shape, stratified(pixel, sample, samples));
                         const LightRay centre = light_ray(light, point.position);
                         const double error = error_of(tracer, light, point);

@@ -133,7 +133,7 @@ TEST(Reference, a_box_filter_over_a_straight_edge_is_a_ramp) {
   const SurfacePoints points = surface_points(tracer, camera, sun, picture.positions, picture.normals);
   const KernelAxes axes{{0.5, 0, 0}, {0, 0, 0.5}};
   const SoftReference soft = filtered_reference(
-      tracer, points, sun, KernelShape::box, [&](const SurfacePoint&) { return axes; }, kSamples);
+      tracer, points, sun, KernelShape::box, [&](std::size_t) { return axes; }, kSamples);
   for (std::size_t i = 0; i < soft.pixels.size(); ++i) {
     const double x = world_of(i % kSize, kSize);
     // Strata are 1/16 of the kernel wide, and at most one column of them is cut.
@@ -150,7 +150,7 @@ TEST(Reference, a_kernel_without_extent_is_the_hard_shadow) {
     const SurfacePoints points = surface_points(tracer, camera, light, picture.positions, picture.normals);
     const HardReference hard = hard_reference(tracer, points, light);
     const SoftReference filtered = filtered_reference(tracer, points, light, KernelShape::gauss,
-                                                      [](const SurfacePoint&) { return KernelAxes{}; });
+                                                      [](std::size_t) { return KernelAxes{}; });
     const SoftReference area = area_reference(tracer, points, light, 0.0);
     int shadow = 0;
     for (std::size_t i = 0; i < hard.pixels.size(); ++i) {

@@ -1,6 +1,7 @@
 // The true shadow at every pixel of a frame: hard, through an ideal filter, and of a light with an extent.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -79,16 +80,18 @@ struct KernelAxes {
 /// of that radius in the map. Zero where the map is singular.
 [[nodiscard]] KernelAxes texel_axes(const ShadowMap& map, const glm::dvec3& point,
                                     double radius_texels) noexcept;
+/// Two axes of this length across the light at a point, world units.
+[[nodiscard]] KernelAxes world_axes(const Light& light, const glm::dvec3& point, double radius) noexcept;
 
 /// Samples per pixel of the soft references: stratified, jittered by a hash of pixel and sample, the same in
 /// every run. 16 are good to about 0.03 at the middle of a straight edge's penumbra.
 inline constexpr int kSoftSamples = 16;
 
 /// What an ideal filter of that kernel gives: the part of the kernel's weight, laid along the receiver's
-/// plane, from which the light's centre is visible. `axes` is called from several threads.
+/// plane, from which the light's centre is visible. `axes` is asked for facing pixels, from several threads.
 [[nodiscard]] SoftReference filtered_reference(const Tracer& tracer, const SurfacePoints& points,
                                                const Light& light, KernelShape shape,
-                                               const std::function<KernelAxes(const SurfacePoint&)>& axes,
+                                               const std::function<KernelAxes(std::size_t pixel)>& axes,
                                                int samples = kSoftSamples);
 
 /// The visible part of a light with an extent: a disc that faces the point. `radius` is world units for a

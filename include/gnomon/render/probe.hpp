@@ -1,0 +1,26 @@
+// What the current context's driver can do, and whether its clock can be believed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gnomon::render {
+
+struct Limit {
+  std::string name;
+  std::int64_t value = 0;
+};
+
+struct Probe {
+  std::vector<Limit> limits;  ///< those that maps and passes can run into
+  /// GL_TIME_ELAPSED of a heavy pass against the wall clock around it with nothing else in flight. Software
+  /// drivers draw after the query has ended, and their timers run several times too fast.
+  bool timers_trusted = false;
+  std::string timers_why;  ///< one line, with both times
+  double timer_ms = 0.0, wall_ms = 0.0;
+};
+/// Draws for some 50 ms in the context that is current. Throws RenderError.
+[[nodiscard]] Probe probe_driver();
+
+}  // namespace gnomon::render

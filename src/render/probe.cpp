@@ -1,0 +1,92 @@
+// What the current context's driver can do, and whether its clock can be believed.
+#include "gnomon/render/probe.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+
+#include "gl_object.hpp"
+#include "gnomon/render/error.hpp"
+
+namespace gnomon::render {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Times {
+  double timer_ms, wall_ms;
+};
+
+/// Clears layers until the work takes long enough for the clock's own cost not to matter.
+Times timed_clears(const Framebuffer& fbo, int count) {
+  GLuint query = 0;
+  glGenQueries(1, &query);
+  glFinish();
+  const Clock::time_point begin = Clock::now();
+  glBeginQuery(GL_TIME_ELAPSED, query);
+  for (int i = 0; i < count; ++i) {
+    const std::array<float, 4> color{static_cast<float>(i), 0.0f, 0.0f, 1.0f};
+    glClearNamedFramebufferfv(fbo.name(), GL_COLOR, 0, color.data());
+  }
+  glEndQuery(GL_TIME_ELAPSED);
+  glFinish();
+  const double wall = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  GLuint64 nanoseconds = 0;
+  glGetQueryObjectui64v(query, GL_QUERY_RESULT, &nanoseconds);
+  glDeleteQueries(1, &query);
+  return {static_cast<double>(nanoseconds) * 1e-6, wall};
+}
+
+void judge_timers(Probe& probe) {
+  GLint bits = 0;
+  glGetQueryiv(GL_TIME_ELAPSED, GL_QUERY_COUNTER_BITS, &bits);
+  if (bits == 0) {
+    probe.timers_why = "the driver counts no time";
+    return;
+  }
+  constexpr int kSide = 2048;
+  const Texture target = make_texture(GL_TEXTURE_2D);
+  glTextureStorage2D(target.name(), 1, GL_RGBA32F, kSide, kSide);
+  const Framebuffer fbo = make_framebuffer();
+  glNamedFramebufferTexture(fbo.name(), GL_COLOR_ATTACHMENT0, target.name(), 0);
+  (void)timed_clears(fbo, 1);  // what is allocated on first use
+  constexpr double kLongEnoughMs = 20.0;
+  Times times{};
+  for (int count = 4; count <= 4096; count *= 4) {
+    times = timed_clears(fbo, count);
+    if (times.wall_ms >= kLongEnoughMs) break;
+  }
+  probe.timer_ms = times.timer_ms;
+  probe.wall_ms = times.wall_ms;
+  // The wall clock holds the start and the wait besides: a fifth is far more than either takes.
+  constexpr double kLeast = 0.8, kMost = 1.02;
+  const double ratio = times.timer_ms / times.wall_ms;
+  probe.timers_trusted = ratio >= kLeast && ratio <= kMost;
+  std::array<char, 128> text;
+  std::snprintf(text.data(), text.size(), "the timer says %.2f ms where the wall clock says %.2f ms",
+                times.timer_ms, times.wall_ms);
+  probe.timers_why = text.data();
+}
+
+}  // namespace
+
+Probe probe_driver() {
+  Probe probe;
+  constexpr std::array<std::pair<const char*, GLenum>, 6> kLimits{
+      {{"texture side", GL_MAX_TEXTURE_SIZE},
+       {"array layers", GL_MAX_ARRAY_TEXTURE_LAYERS},
+       {"draw buffers", GL_MAX_DRAW_BUFFERS},
+       {"image units", GL_MAX_TEXTURE_IMAGE_UNITS},
+       {"uniform block bytes", GL_MAX_UNIFORM_BLOCK_SIZE},
+       {"samples", GL_MAX_SAMPLES}}};
+  for (const auto& [name, parameter] : kLimits) {
+    GLint64 value = 0;
+    glGetInteger64v(parameter, &value);
+    probe.limits.push_back({name, value});
+  }
+  judge_timers(probe);
+  return probe;
+}
+
+}  // namespace gnomon::render

@@ -1,0 +1,20 @@
+# Writes OUT, a header with the version and what git says of the sources; left alone where nothing has changed.
+# cmake -DVERSION=... -DSOURCE=... -DOUT=... -P build_version.cmake
+set(described "")
+find_program(GIT git)
+if(GIT)
+  execute_process(COMMAND ${GIT} -C ${SOURCE} describe --always --dirty --match v*
+    OUTPUT_VARIABLE described OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+endif()
+set(version ${VERSION})
+if(described)
+  string(APPEND version " (${described})")
+endif()
+set(text "// Generated at build time.\n#define GNOMON_BUILD_VERSION \"${version}\"\n")
+set(old "")
+if(EXISTS ${OUT})
+  file(READ ${OUT} old)
+endif()
+if(NOT old STREQUAL text)
+  file(WRITE ${OUT} "${text}")
+endif()

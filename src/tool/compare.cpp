@@ -1,0 +1,176 @@
+// `gnomon compare`: every technique of a sweep on every frame of every scene, a row of results each.
+#include "compare.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "frame_pictures.hpp"
+#include "gnomon/report/page.hpp"
+#include "gnomon/report/rows_file.hpp"
+#include "gnomon/scene/load.hpp"
+#include "machine.hpp"
+#include "measure.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "stage.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A row of the sweep that is still to be measured.
+struct Task {
+  std::size_t entry = 0;
+  report::Row row;
+};
+
+report::Row empty_row(const Sweep& sweep, std::size_t scene, int frame, std::size_t entry) {
+  report::Row row;
+  row.index = sweep.index(scene, frame, entry);
+  row.scene = sweep.scenes[scene];
+  row.frame = frame;
+  row.frames = sweep.frames;
+  row.width = sweep.width;
+  row.height = sweep.height;
+  row.light_elevation_deg = sweep.light_elevation_deg;
+  row.light_azimuth_deg = sweep.light_azimuth_deg;
+  row.technique = sweep.entries[entry].technique;
+  return row;
+}
+
+/// Rows of a frame that are this shard's and not yet in the file.
+std::vector<Task> tasks_of(const Sweep& sweep, std::size_t scene, int frame,
+                           const std::set<std::string>& known) {
+  std::vector<Task> tasks;
+  for (std::size_t entry = 0; entry < sweep.entries.size(); ++entry) {
+    report::Row row = empty_row(sweep, scene, frame, entry);
+    if (sweep.is_mine(row.index) && !known.contains(row.key())) tasks.push_back({entry, std::move(row)});
+  }
+  return tasks;
+}
+
+/// A name that is wrong is found now and not after an hour.
+void check_scenes(const Sweep& sweep) {
+  for (const std::string& scene : sweep.scenes) {
+    const std::string builtin = "builtin:";
+    std::error_code ignored;
+    if (scene.rfind(builtin, 0) == 0) {
+      const auto names = builtin_scenes();
+      if (std::none_of(names.begin(), names.end(),
+                       [&](const BuiltinScene& known) { return known.name == scene.substr(builtin.size()); }))
+        (void)load_scene(scene);  // refuses, and says which there are
+    } else if (!fs::exists(scene, ignored)) {
+      throw std::runtime_error(scene + ": no such file");
+    }
+  }
+}
+
+std::set<std::string> known_keys(const Sweep& sweep) {
+  const fs::path file = fs::path(sweep.out) / report::kRowsFile;
+  std::set<std::string> keys;
+  if (!fs::exists(file)) return keys;
+  if (!sweep.resume)
+    throw std::runtime_error(file.string() +
+                             ": there already; --resume goes on with it, another --out starts anew");
+  for (const report::Row& row : report::read_rows(file)) keys.insert(row.key());
+  return keys;
+}
+
+/// One sweep under way.
+class Run {
+ public:
+  Run(const Sweep& sweep, const report::Machine& machine, std::set<std::string> known)
+      : sweep_(sweep),
+        machine_(machine),
+        known_(std::move(known)),
+        file_(fs::path(sweep.out) / report::kRowsFile),
+        progress_("gnomon compare", steps_in_all()) {}
+
+  void all() {
+    for (std::size_t scene = 0; scene < sweep_.scenes.size(); ++scene) {
+      std::unique_ptr<Stage> stage;
+      for (int frame = 0; frame < sweep_.frames; ++frame) {
+        std::vector<Task> tasks = tasks_of(sweep_, scene, frame, known_);
+        if (tasks.empty()) continue;
+        if (!stage) stage = std::make_unique<Stage>(sweep_, sweep_.scenes[scene]);
+        one_frame(*stage, scene, frame, tasks);
+      }
+    }
+  }
+
+ private:
+  /// Errors of a row weigh as much as its rounds.
+  [[nodiscard]] int steps_of_errors() const { return sweep_.rounds + 1; }
+
+  [[nodiscard]] long long steps_in_all() const {
+    long long steps = 0;
+    for (std::size_t scene = 0; scene < sweep_.scenes.size(); ++scene) {
+      for (int frame = 0; frame < sweep_.frames; ++frame) {
+        const auto tasks = static_cast<long long>(tasks_of(sweep_, scene, frame, known_).size());
+        if (tasks > 0) steps += (2 * tasks + 1) * steps_of_errors();
+      }
+    }
+    return steps;
+  }
+
+  void step(long long count) { progress_.set(steps_ += count); }
+
+  void one_frame(Stage& stage, std::size_t scene, int frame, std::vector<Task>& tasks) {
+    const FrameTruth truth = frame_truth(stage, frame, sweep_.baseline);
+    const bool pictures = frame == sweep_.frames / 2;
+    std::vector<const SweepEntry*> entries;
+    for (Task& task : tasks) {
+      const SweepEntry& entry = sweep_.entries[task.entry];
+      entries.push_back(&entry);
+      Seen seen;
+      measure_errors(stage, truth, entry, task.row, pictures ? &seen : nullptr);
+      if (pictures) task.row.pictures = write_pictures(sweep_.out, scene, task.entry, truth, seen);
+      step(steps_of_errors());
+    }
+    const std::vector<report::Times> times =
+        measure_times(stage, truth.camera, entries, sweep_.baseline, sweep_.rounds, [this] { step(1); });
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      tasks[i].row.times = times[i];
+      tasks[i].row.machine = machine_;
+      tasks[i].row.machine.load = current_load();
+      file_.append(tasks[i].row);
+    }
+  }
+
+  const Sweep& sweep_;
+  report::Machine machine_;
+  std::set<std::string> known_;
+  report::RowsFile file_;
+  Progress progress_;
+  long long steps_ = 0;
+};
+
+}  // namespace
+
+int run_compare(const CompareRequest& request, bool json) {
+  const Sweep sweep = make_sweep(request);
+  check_scenes(sweep);
+  const std::set<std::string> known = known_keys(sweep);
+  const std::unique_ptr<render::Context> context = render::create_context(sweep.context);
+  std::error_code error;
+  fs::create_directories(sweep.out, error);
+  if (error) throw std::runtime_error("--out " + sweep.out + ": cannot be made a folder: " + error.message());
+  Run(sweep, machine(context->info()), known).all();
+  const std::string rows = (fs::path(sweep.out) / report::kRowsFile).string();
+  // A shard's report would show a part as if it were the whole.
+  const std::string page = sweep.shards == 1 ? report::write_report(sweep.out).string() : std::string();
+  if (json) {
+    print_line(nlohmann::json{{"rows", rows}, {"report", page}}.dump());
+  } else {
+    print_line("rows:   " + rows);
+    if (!page.empty()) print_line("report: " + page);
+  }
+  flush_output();
+  return 0;
+}
+
+}  // namespace gnomon::tool

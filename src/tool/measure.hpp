@@ -1,0 +1,41 @@
+// What one technique does on one frame: its errors against the truth, what it costs, and how long it takes.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "gnomon/report/row.hpp"
+#include "stage.hpp"
+
+namespace gnomon::tool {
+
+/// What all techniques of a frame are judged by.
+struct FrameTruth {
+  Camera camera, before;
+  trace::SurfacePoints points;
+  trace::HardReference hard;
+  std::vector<float> judged;  ///< the hard answer as 1 and 0, -1 where there is none
+  std::uint64_t undecided = 0;
+};
+/// Draws the frame once with `entry` to learn what is seen, and traces it.
+[[nodiscard]] FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry);
+
+/// A technique's pictures of the frame, for those who look.
+struct Seen {
+  Image image, heat;
+  std::vector<float> mask;
+};
+
+/// Fills in the row's errors, aliasing, costs, status and what was left out; the pictures where `seen` is not
+/// nullptr.
+void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, report::Row& row,
+                    Seen* seen);
+
+/// Times the entries one after the other, in a new random order in every round; the first round warms up and
+/// is dropped. `done` is called after each measurement. One result per entry, in their order.
+[[nodiscard]] std::vector<report::Times> measure_times(Stage& stage, const Camera& camera,
+                                                       const std::vector<const SweepEntry*>& entries,
+                                                       const SweepEntry& baseline, int rounds,
+                                                       const std::function<void()>& done);
+
+}  // namespace gnomon::tool

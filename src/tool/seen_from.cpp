@@ -1,0 +1,21 @@
+// The shadow of one frame looked up at the points of the next.
+#include "seen_from.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace gnomon::tool {
+
+ShadowPlan seen_from(ShadowPlan plan, const Camera& before, const Camera& after) noexcept {
+  const double moved = glm::dot(after.position - before.position, camera_axes(after).forward);
+  plan.origin_world = after.position;
+  for (std::size_t i = 0; i < plan.maps().size(); ++i) {
+    ShadowMap& map = plan.map[i];
+    map.clip_from_camera_relative = glm::mat4(glm::translate(map.clip_from_world, after.position));
+    map.depth_begin -= moved;
+    map.depth_end -= moved;
+  }
+  return plan;
+}
+
+}  // namespace gnomon::tool

@@ -1,0 +1,215 @@
+// The product of techniques that `gnomon compare` goes through.
+#include "sweep.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+
+namespace gnomon::tool {
+namespace {
+
+constexpr int kMinMapSize = 4, kMaxMapSize = 16'384, kMinSide = 16, kMaxSide = 16'384, kMaxShards = 1'000'000;
+
+[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& wants) {
+  throw std::runtime_error(option + " " + value + ": wants " + wants);
+}
+
+bool parse_int(std::string_view text, int& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+/// "A<separator>B" as two numbers in [low, high].
+bool parse_pair(const std::string& text, char separator, int low, int high, int& a, int& b) {
+  const std::size_t at = text.find(separator);
+  if (at == std::string::npos) return false;
+  const std::string_view view = text;
+  return parse_int(view.substr(0, at), a) && parse_int(view.substr(at + 1), b) && a >= low && b >= low &&
+         a <= high && b <= high;
+}
+
+std::vector<int> parse_numbers(const std::string& option, const std::vector<std::string>& texts, int low,
+                               int high) {
+  std::vector<int> numbers;
+  for (const std::string& text : split_lists(texts)) {
+    int number = 0;
+    if (!parse_int(text, number) || number < low || number > high)
+      refuse(option, text, "whole numbers from " + std::to_string(low) + " to " + std::to_string(high));
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+template <class Entries>
+std::string names_of(const Entries& entries) {
+  std::string all;
+  for (const auto* entry : entries) all += ", " + std::string(entry->name);
+  return all;
+}
+
+/// The list with "all" replaced by every entry of a registry.
+template <class Entries>
+std::vector<std::string> expanded(const std::vector<std::string>& texts, const Entries& entries) {
+  std::vector<std::string> names;
+  for (const std::string& text : split_lists(texts)) {
+    if (text != "all") {
+      names.push_back(text);
+      continue;
+    }
+    for (const auto* entry : entries) names.emplace_back(entry->name);
+  }
+  return names;
+}
+
+void set_filter(const std::string& text, SweepEntry& entry) {
+  const render::ParsedFilter parsed = render::parse_filter(text);
+  if (!parsed.error.empty()) throw std::runtime_error("--filters " + parsed.error);
+  entry.filter = parsed.settings;
+  entry.technique.filter = render::to_string(parsed.settings);
+  render::set_margin(entry.filter, entry.plan);
+}
+
+void set_warp(const std::string& text, SweepEntry& entry) {
+  entry.technique.warp = text;
+  entry.plan.warp = find_warp(text);
+  if (entry.plan.warp == nullptr && text != "auto")
+    refuse("--warps", text, "all, auto" + names_of(all_warps()));
+}
+
+void set_split(const std::string& text, SweepEntry& entry) {
+  entry.technique.split = text;
+  if (!split_scheme_from_name(text, entry.plan.split) && !partition_from_name(text, entry.plan.partition))
+    refuse("--splits", text,
+           "auto, uniform, logarithmic, practical, pseudo_near or optimal, or a partition: frustum_faces or "
+           "separating_plane");
+}
+
+void set_fit(const std::string& text, SweepEntry& entry) {
+  entry.technique.fit = text;
+  if (text != "tight" && text != "stable") refuse("--fits", text, "tight or stable");
+  entry.plan.fit = text == "stable" ? Fit::stable : Fit::tight;
+}
+
+void set_size(int size, SweepEntry& entry) {
+  entry.technique.map_size = entry.plan.map_size = size;
+}
+
+void set_cascades(int cascades, SweepEntry& entry) {
+  entry.technique.cascades = entry.plan.cascades = cascades;
+}
+
+/// Each entry once for each of the values.
+template <class Values, class Set>
+void multiply(std::vector<SweepEntry>& entries, const Values& values, Set&& set) {
+  std::vector<SweepEntry> product;
+  for (const SweepEntry& entry : entries) {
+    for (const auto& value : values) {
+      product.push_back(entry);
+      set(value, product.back());
+    }
+  }
+  entries = std::move(product);
+}
+
+/// The first of each list: what stands for all of it where it makes no difference.
+struct Firsts {
+  std::string split, warp;
+  int cascades = 1;
+};
+
+/// True where another entry of the product says the same.
+bool is_double(const SweepEntry& entry, const Firsts& first) {
+  const report::Technique& t = entry.technique;
+  const bool by_depth = entry.plan.partition == Partition::view_depth;
+  if (by_depth && t.cascades == 1 && t.split != first.split) return true;
+  if (!by_depth && t.cascades != first.cascades) return true;
+  return t.fit == "stable" && (!by_depth || (t.warp != "none" && t.warp != first.warp));
+}
+
+std::vector<SweepEntry> product_of(const CompareRequest& request) {
+  std::vector<SweepEntry> entries(1);
+  const std::vector<std::string> splits = split_lists(request.splits);
+  const std::vector<std::string> warps = expanded(request.warps, all_warps());
+  multiply(entries, expanded(request.filters, render::all_filters()), set_filter);
+  multiply(entries, split_lists(request.fits), set_fit);
+  multiply(entries, warps, set_warp);
+  multiply(entries, splits, set_split);
+  multiply(entries, parse_numbers("--cascades", request.cascades, 1, kMaxMaps), set_cascades);
+  multiply(entries, parse_numbers("--map-sizes", request.map_sizes, kMinMapSize, kMaxMapSize), set_size);
+  Firsts first{splits.front(), warps.front(), entries.front().technique.cascades};
+  if (std::find(warps.begin(), warps.end(), "none") != warps.end()) first.warp = "none";
+  std::erase_if(entries, [&](const SweepEntry& entry) { return is_double(entry, first); });
+  // A list that names something twice.
+  std::vector<SweepEntry> once;
+  for (SweepEntry& entry : entries) {
+    const bool known = std::any_of(once.begin(), once.end(), [&](const SweepEntry& other) {
+      return other.technique == entry.technique;
+    });
+    if (!known) once.push_back(std::move(entry));
+  }
+  return once;
+}
+
+}  // namespace
+
+DirectionalLight Sweep::sun() const noexcept {
+  const double elevation = light_elevation_deg * std::numbers::pi / 180.0;
+  const double azimuth = light_azimuth_deg * std::numbers::pi / 180.0;
+  return {{-std::cos(elevation) * std::sin(azimuth), -std::sin(elevation),
+           std::cos(elevation) * std::cos(azimuth)}};
+}
+
+std::vector<std::string> split_lists(const std::vector<std::string>& lists) {
+  std::vector<std::string> elements;
+  for (const std::string& list : lists) {
+    bool first_of_list = true;
+    for (std::size_t begin = 0; begin <= list.size();) {
+      const std::size_t end = std::min(list.find(',', begin), list.size());
+      const std::string element = list.substr(begin, end - begin);
+      const bool continues =
+          !first_of_list && element.find('=') != std::string::npos && element.find(':') == std::string::npos;
+      if (continues) {
+        elements.back() += "," + element;
+      } else {
+        elements.push_back(element);
+      }
+      first_of_list = false;
+      begin = end + 1;
+    }
+  }
+  return elements;
+}
+
+Sweep make_sweep(const CompareRequest& request) {
+  Sweep sweep;
+  sweep.scenes = request.scenes;
+  sweep.frames = request.frames;
+  sweep.rounds = request.rounds;
+  sweep.light_elevation_deg = request.light_elevation_deg;
+  sweep.light_azimuth_deg = request.light_azimuth_deg;
+  sweep.out = request.out;
+  sweep.resume = request.resume;
+  if (!parse_pair(request.size, 'x', kMinSide, kMaxSide, sweep.width, sweep.height))
+    refuse("--size", request.size, "WIDTHxHEIGHT, each 16 to 16384, as in 480x270");
+  int shard = 0, shards = 0;
+  if (!parse_pair(request.shard, '/', 1, kMaxShards, shard, shards) || shard > shards)
+    refuse("--shard", request.shard, "I/N with 1 <= I <= N, as in 2/8");
+  sweep.shard = static_cast<std::size_t>(shard - 1);
+  sweep.shards = static_cast<std::size_t>(shards);
+  if (!render::context_kind_from_name(request.context, sweep.context) ||
+      sweep.context == render::ContextKind::glfw)
+    refuse("--context", request.context, "auto, osmesa or egl");
+  sweep.entries = product_of(request);
+  set_filter("hard", sweep.baseline);
+  set_fit("tight", sweep.baseline);
+  set_warp("none", sweep.baseline);
+  set_split("uniform", sweep.baseline);
+  set_cascades(1, sweep.baseline);
+  set_size(sweep.entries.front().technique.map_size, sweep.baseline);
+  return sweep;
+}
+
+}  // namespace gnomon::tool

@@ -1,0 +1,241 @@
+// `gnomon compare` from outside: whole, in shards, killed and taken up again.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "gnomon/report/rows_file.hpp"
+#include "process.hpp"
+
+namespace gnomon::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Four techniques on two frames of one scene: small enough to run often.
+std::vector<std::string> small_sweep(const fs::path& out, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{"compare", "builtin:fence", "--warps",     "none,lispsm", "--cascades",
+                                     "1",       "--filters",     "hard,pcf",    "--frames",    "2",
+                                     "--size",  "64x36",         "--map-sizes", "128",         "--rounds",
+                                     "1",       "--context",     "osmesa",      "--out",       out.string()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+constexpr std::size_t kSmallRows = 8;
+
+std::vector<std::string> lasting(const fs::path& folder) {
+  std::vector<std::string> lines;
+  for (const report::Row& row : report::read_rows(folder)) lines.push_back(report::without_times(row));
+  return lines;
+}
+
+/// The whole sweep, measured once for all tests.
+const fs::path& whole() {
+  static const TemporaryFolder folder;
+  static const fs::path out = [] {
+    fs::path path = folder.path() / "whole";
+    const Finished finished = run_gnomon(small_sweep(path));
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return path;
+  }();
+  return out;
+}
+
+TEST(Compare, measures_every_technique_on_every_frame) {
+  const std::vector<report::Row> rows = report::read_rows(whole());
+  ASSERT_EQ(rows.size(), kSmallRows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const report::Row& row = rows[i];
+    EXPECT_EQ(row.index, i);
+    EXPECT_EQ(row.plan_status, "ok");
+    EXPECT_GT(row.errors.pixels, 500u);
+    EXPECT_LT(row.errors.false_lit + row.errors.false_shadow, 0.2);
+    EXPECT_LT(row.errors.mean_error, 0.2);
+    EXPECT_GT(row.aliasing.p95, 0.5);
+    EXPECT_GT(row.times.total_ms.median, 0.0);
+    EXPECT_GT(row.times.baseline_ms, 0.0);
+    EXPECT_EQ(row.costs.map_bytes % row.costs.texels, 0u);
+    EXPECT_FALSE(row.machine.renderer.empty());
+    EXPECT_FALSE(row.machine.cpu.empty());
+    EXPECT_EQ(row.pictures.mask.empty(), row.frame == 0) << "pictures of the flight's middle alone";
+  }
+  for (const char* file : {"report.html", "summary.csv", "frames.csv", "charts/error_time_scene0.svg",
+                           "pictures/scene0_truth.png", "pictures/scene0_technique3_difference.png"})
+    EXPECT_TRUE(fs::exists(whole() / file)) << file;
+}
+
+TEST(Compare, says_the_same_in_every_run_but_for_times) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_gnomon(small_sweep(folder.path())).exit_code, 0);
+  EXPECT_EQ(lasting(folder.path()), lasting(whole()));
+}
+
+TEST(Compare, shards_merge_into_the_whole) {
+  const TemporaryFolder folder;
+  std::vector<std::string> merge{"merge", "--out", (folder.path() / "merged").string()};
+  for (const char* shard : {"1", "2", "3"}) {
+    const fs::path out = folder.path() / shard;
+    ASSERT_EQ(run_gnomon(small_sweep(out, {"--shard", std::string(shard) + "/3"})).exit_code, 0);
+    EXPECT_FALSE(fs::exists(out / "report.html")) << "a part is no whole";
+    merge.push_back(out.string());
+  }
+  const Finished merged = run_gnomon(merge);
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_EQ(lasting(folder.path() / "merged"), lasting(whole()));
+  EXPECT_TRUE(fs::exists(folder.path() / "merged/report.html"));
+  EXPECT_TRUE(fs::exists(folder.path() / "merged/pictures/scene0_technique3_mask.png"));
+}
+
+TEST(Compare, a_killed_run_goes_on_where_it_was) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> arguments = small_sweep(folder.path());
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const int nowhere = ::open("/dev/null", O_WRONLY);
+    ::dup2(nowhere, STDOUT_FILENO);
+    ::dup2(nowhere, STDERR_FILENO);
+    std::vector<char*> argv{const_cast<char*>(GNOMON_PROGRAM)};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    ::execv(GNOMON_PROGRAM, argv.data());
+    ::_exit(127);
+  }
+  // Killed as soon as it has written something, or at its end if it is faster than the look.
+  const fs::path file = folder.path() / report::kRowsFile;
+  std::error_code ignored;
+  for (int i = 0; i < 6000 && ::waitpid(child, nullptr, WNOHANG) == 0; ++i) {
+    if (fs::exists(file, ignored) && fs::file_size(file, ignored) > 0) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  const std::size_t before = report::read_rows(folder.path()).size();
+  EXPECT_GT(before, 0u);
+  // And as if it had been within a line.
+  std::ofstream(file, std::ios::app) << "{\"schema\":";
+  const Finished resumed = run_gnomon(small_sweep(folder.path(), {"--resume"}));
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(lasting(folder.path()), lasting(whole()));
+}
+
+TEST(Compare, does_not_write_over_results_unasked) {
+  const Finished finished = run_gnomon(small_sweep(whole()));
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_NE(finished.err.find("--resume"), std::string::npos);
+  EXPECT_EQ(report::read_rows(whole()).size(), kSmallRows);
+}
+
+TEST(Compare, a_finished_sweep_that_is_resumed_measures_nothing) {
+  const std::vector<report::Row> before = report::read_rows(whole());
+  EXPECT_EQ(run_gnomon(small_sweep(whole(), {"--resume"})).exit_code, 0);
+  const std::vector<report::Row> after = report::read_rows(whole());
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(to_json_line(after[i]), to_json_line(before[i]));
+}
+
+TEST(Compare, the_same_technique_under_two_names_is_measured_once) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_gnomon({"compare",
+                        "builtin:fence",
+                        "--warps",
+                        "none,none",
+                        "--splits",
+                        "uniform,logarithmic",
+                        "--cascades",
+                        "1",
+                        "--fits",
+                        "tight",
+                        "stable",
+                        "--filters",
+                        "hard",
+                        "--frames",
+                        "1",
+                        "--rounds",
+                        "1",
+                        "--size",
+                        "32x32",
+                        "--map-sizes",
+                        "64",
+                        "--context",
+                        "osmesa",
+                        "--out",
+                        folder.path().string()})
+                .exit_code,
+            0);
+  EXPECT_EQ(report::read_rows(folder.path()).size(), 2u);
+}
+
+TEST(Compare, refuses_bad_input_before_it_measures) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::vector<std::string>& more) {
+    const Finished finished = run_gnomon(small_sweep(folder.path() / "none", more));
+    EXPECT_EQ(finished.exit_code, 2) << more.back();
+    EXPECT_EQ(finished.lines().size(), 0u);
+    EXPECT_FALSE(fs::exists(folder.path() / "none"));
+    return finished.err;
+  };
+  EXPECT_NE(refusal({"--shard", "4/3"}).find("--shard 4/3: wants"), std::string::npos);
+  EXPECT_NE(refusal({"--shard", "x"}).find("--shard x: wants"), std::string::npos);
+  EXPECT_EQ(run_gnomon({"compare", "builtin:nowhere", "--out", (folder.path() / "none").string()}).exit_code,
+            2);
+  EXPECT_EQ(run_gnomon({"compare", "/nowhere.glb", "--out", (folder.path() / "none").string()}).exit_code, 2);
+  for (const auto& [option, value] :
+       std::vector<std::pair<std::string, std::string>>{{"--warps", "bent"},
+                                                        {"--splits", "even"},
+                                                        {"--fits", "loose"},
+                                                        {"--filters", "soap"},
+                                                        {"--cascades", "0"},
+                                                        {"--cascades", "9"},
+                                                        {"--map-sizes", "3"},
+                                                        {"--size", "64"},
+                                                        {"--context", "glfw"}}) {
+    const Finished finished =
+        run_gnomon({"compare", "builtin:fence", option, value, "--out", (folder.path() / "none").string()});
+    EXPECT_EQ(finished.exit_code, 2) << option;
+    EXPECT_NE(finished.err.find(option), std::string::npos) << finished.err;
+    EXPECT_NE(finished.err.find(value), std::string::npos) << finished.err;
+  }
+  EXPECT_FALSE(fs::exists(folder.path() / "none"));
+}
+
+TEST(Compare, runs_under_gnu_parallel) {
+  if (std::system("parallel --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "GNU parallel is not installed";
+  const TemporaryFolder folder;
+  std::string command = "parallel --will-cite -j2 " GNOMON_PROGRAM;
+  for (const std::string& argument : small_sweep(folder.path() / "{}", {"--shard", "{}/3"}))
+    command += " " + argument;
+  ASSERT_EQ(std::system((command + " ::: 1 2 3 >/dev/null").c_str()), 0);
+  std::vector<std::string> merge{"merge", "--out", (folder.path() / "merged").string()};
+  for (const char* shard : {"1", "2", "3"}) merge.push_back((folder.path() / shard).string());
+  ASSERT_EQ(run_gnomon(merge).exit_code, 0);
+  EXPECT_EQ(lasting(folder.path() / "merged"), lasting(whole()));
+}
+
+TEST(Report, is_written_anew_without_measuring) {
+  fs::remove(whole() / "report.html");
+  const Finished finished = run_gnomon({"report", whole().string()});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(finished.lines(), std::vector<std::string>{(whole() / "report.html").string()});
+  EXPECT_TRUE(fs::exists(whole() / "report.html"));
+  EXPECT_EQ(run_gnomon({"report", "/nowhere"}).exit_code, 2);
+}
+
+TEST(Doctor, names_contexts_timers_and_packages) {
+  const Finished finished = run_gnomon({"doctor"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  for (const char* word :
+       {"context auto", "context osmesa", "context egl", "timer queries", "libembree-dev", "OpenGL 4.5"})
+    EXPECT_NE(finished.out.find(word), std::string::npos) << word;
+  EXPECT_EQ(run_gnomon({"doctor", "--json"}).lines().size(), 1u);
+}
+
+}  // namespace
+}  // namespace gnomon::test
