@@ -76,6 +76,26 @@ struct Studio {
   ContactSheet sheet;
 };
 
+/// The frame once more under each warp that is compared, side by side.
+void draw_comparison(Studio& studio, const gnomon::Camera& camera, int frame) {
+  const Options& options = studio.options;
+  gnomon::PlanOptions plan_options = options.plan;
+  WarpStrip strip;
+  for (const gnomon::Warp* warp : options.compared_warps) {
+    plan_options.warp = warp;
+    const gnomon::ShadowPlan plan =
+        gnomon::make_plan(camera, sun(options), studio.flight.bounds(), plan_options);
+    studio.renderer.draw(plan, camera, studio.filter, {});
+    const PixelAliasing m = pixel_aliasing(studio.renderer.aliasing());
+    strip.add(fmt::format("{}: m p95 {:.3g}, median {:.3g}, {:.0f} % undersampled",
+                          warp == nullptr ? "auto" : warp->name, m.p95, m.p50, 100.0 * m.share_undersampled),
+              studio.renderer.image(), studio.renderer.heat_map());
+  }
+  const std::string title = fmt::format("{}, {} map{} of {}", options.scene, plan_options.cascades,
+                                        plan_options.cascades == 1 ? "" : "s", plan_options.map_size);
+  gnomon::write_png(strip.strip(title), options.out / fmt::format("frame_{:04}_warps.png", frame));
+}
+
 FrameRow draw_frame(Studio& studio, int frame) {
   const Options& options = studio.options;
   const gnomon::Camera camera = camera_of(options, studio.flight, frame);
@@ -101,6 +121,7 @@ FrameRow draw_frame(Studio& studio, int frame) {
   gnomon::write_png(lit, file("image"));
   gnomon::write_png(heat, file("heat"));
   gnomon::write_png(tint, file("cascades"));
+  if (!options.compared_warps.empty()) draw_comparison(studio, camera, frame);
   return row;
 }
 

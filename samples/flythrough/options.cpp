@@ -34,6 +34,7 @@ struct Raw {
   std::string size = "960x540", context = "auto", split, warp = "auto", objective = "storage", filter = "pcf",
               path;
   bool stable = false, lambda_given = false;
+  std::vector<std::string> compared_warps;
 };
 
 void parse_size(const std::string& text, Options& options) {
@@ -46,6 +47,15 @@ void parse_size(const std::string& text, Options& options) {
     throw UsageError(
         fmt::format("--size {}: wants WIDTHxHEIGHT, each 16 to {}, as in 960x540", text, kMaxSide));
   }
+}
+
+/// nullptr: chosen by the plan.
+const gnomon::Warp* warp_named(const char* option, const std::string& name) {
+  const gnomon::Warp* warp = gnomon::find_warp(name);
+  if (warp == nullptr && name != "auto") {
+    throw UsageError(fmt::format("{} {}: wants auto, {}", option, name, names_of(gnomon::all_warps())));
+  }
+  return warp;
 }
 
 /// CLI::Range lets not-a-number through.
@@ -66,10 +76,9 @@ void resolve(const Raw& raw, Options& options) {
         "--split {}: wants auto, uniform, logarithmic, practical, pseudo_near or optimal", raw.split));
   }
   if (raw.split.empty() && raw.lambda_given) options.plan.split = gnomon::SplitScheme::practical;
-  options.plan.warp = gnomon::find_warp(raw.warp);
-  if (options.plan.warp == nullptr && raw.warp != "auto") {
-    throw UsageError(fmt::format("--warp {}: wants auto, {}", raw.warp, names_of(gnomon::all_warps())));
-  }
+  options.plan.warp = warp_named("--warp", raw.warp);
+  for (const std::string& name : raw.compared_warps)
+    options.compared_warps.push_back(warp_named("--compare-warps", name));
   if (!gnomon::objective_from_name(raw.objective, options.plan.objective)) {
     throw UsageError(fmt::format("--objective {}: wants storage, max or p95", raw.objective));
   }
@@ -107,6 +116,9 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
                  "practical split (taken for it): 0 uniform .. 1 logarithmic")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--warp", raw.warp, "auto, " + names_of(gnomon::all_warps()));
+  app.add_option("--compare-warps", raw.compared_warps,
+                 "draw every frame with each of these side by side as well, as in none,lispsm,auto")
+      ->delimiter(',');
   app.add_option("--objective", raw.objective, "what the warp lowers: storage, max or p95");
   app.add_option("--filter", raw.filter, "as in pcf:radius=2,unit=texels. " + gnomon::render::filter_help());
   app.add_option("--map-size", options.plan.map_size, "texels along each side of a map")

@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "gnomon/plan.hpp"
 #include "gnomon/render/context.hpp"
@@ -30,6 +31,7 @@ struct Options {
   double light_elevation_deg = 38.0;
   double light_azimuth_deg = 140.0;
   std::optional<std::filesystem::path> path;
+  std::vector<const gnomon::Warp*> compared_warps;  ///< nullptr: chosen by the plan; none: no comparison
 };
 
 /// Prints help or the version and answers nothing where those were asked for. Throws UsageError.

@@ -17,6 +17,9 @@ using gnomon::Image;
 using gnomon::render::Color;
 using gnomon::render::Pass;
 
+constexpr Color kPaper{24, 24, 28}, kInk{240, 240, 236};
+constexpr int kGap = 4, kLabel = 16;  // pixels
+
 /// A CSV field in quotes, RFC 4180.
 std::string csv_field(std::string_view text) {
   std::string out = "\"";
@@ -132,8 +135,6 @@ void ContactSheet::add(int frame, const Image& lit, const Image& heat, const Ima
 }
 
 Image ContactSheet::sheet(const std::string& title) const {
-  constexpr Color kPaper{24, 24, 28}, kInk{240, 240, 236};
-  constexpr int kGap = 4, kLabel = 16;
   constexpr const char* kRows[3] = {"image", "m", "maps"};
   const int count = static_cast<int>(columns_.size());
   const int heading = 2 * kLabel;
@@ -150,6 +151,30 @@ Image ContactSheet::sheet(const std::string& title) const {
     }
   }
   return sheet;
+}
+
+void WarpStrip::add(const std::string& label, const Image& lit, const Image& heat) {
+  const int width = std::min(lit.width, kMaxColumnWidth);
+  const int height = std::max(1, static_cast<int>(std::lround(1.0 * width * lit.height / lit.width)));
+  columns_.push_back(
+      {label, gnomon::render::shrunk(lit, width, height), gnomon::render::shrunk(heat, width, height)});
+  if (columns_.size() == 1) gnomon::render::draw_heat_legend(columns_.back().heat);  // once, in the first
+}
+
+Image WarpStrip::strip(const std::string& title) const {
+  const int width = columns_.front().lit.width, height = columns_.front().lit.height;
+  const int heading = 2 * kLabel;
+  Image strip = gnomon::render::blank_image(kGap + static_cast<int>(columns_.size()) * (width + kGap),
+                                            heading + kLabel + 2 * (height + kGap), kPaper);
+  gnomon::render::draw_text(strip, 2 * kGap, 2 * kGap, title, kInk, 2);
+  int x = kGap;
+  for (const Column& column : columns_) {
+    gnomon::render::draw_text(strip, x + kGap, heading + kGap, column.label, kInk);
+    gnomon::render::paste(strip, column.lit, x, heading + kLabel);
+    gnomon::render::paste(strip, column.heat, x, heading + kLabel + height + kGap);
+    x += width + kGap;
+  }
+  return strip;
 }
 
 }  // namespace flythrough

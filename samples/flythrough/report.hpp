@@ -57,4 +57,19 @@ class ContactSheet {
   std::vector<Column> columns_;
 };
 
+/// One frame under several warps side by side: a column per warp, the picture above the aliasing error.
+class WarpStrip {
+ public:
+  void add(const std::string& label, const gnomon::Image& lit, const gnomon::Image& heat);
+  [[nodiscard]] gnomon::Image strip(const std::string& title) const;
+
+ private:
+  static constexpr int kMaxColumnWidth = 420;
+  struct Column {
+    std::string label;
+    gnomon::Image lit, heat;
+  };
+  std::vector<Column> columns_;
+};
+
 }  // namespace flythrough

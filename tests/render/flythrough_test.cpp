@@ -69,6 +69,7 @@ TEST_F(Flythrough, refuses_bad_input_with_one_line_and_writes_nothing) {
   } kCases[] = {{"no_such_file.glb", "no_such_file.glb"},
                 {"builtin:nowhere", "nowhere"},
                 {"--warp bent", "bent"},
+                {"--compare-warps none,bent", "bent"},
                 {"--filter soap", "soap"},
                 {"--split even", "even"},
                 {"--size 640", "640"},
@@ -95,11 +96,21 @@ TEST_F(Flythrough, tells_its_version_and_its_options) {
   EXPECT_NE(version.out.find("flythrough"), std::string::npos);
   const Outcome help = run("--help");
   EXPECT_EQ(help.code, 0);
-  for (const char* option :
-       {"--frames", "--size", "--out", "--context", "--cascades", "--split", "--lambda", "--warp", "--filter",
-        "--map-size", "--stable", "--light-elevation-deg", "--light-azimuth-deg", "--path"}) {
+  for (const char* option : {"--frames", "--size", "--out", "--context", "--cascades", "--split", "--lambda",
+                             "--warp", "--compare-warps", "--filter", "--map-size", "--stable",
+                             "--light-elevation-deg", "--light-azimuth-deg", "--path"}) {
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
   }
+}
+
+TEST_F(Flythrough, draws_a_frame_under_several_warps_side_by_side) {
+  const char* scene = "builtin:fence --frames 1 --size 96x64 --map-size 128 --cascades 1";
+  ASSERT_EQ(run(scene).code, 0);
+  EXPECT_FALSE(fs::exists(out() / "frame_0000_warps.png"));
+  const Outcome outcome = run(std::string(scene) + " --compare-warps none,auto");
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_GT(fs::exists(out() / "frame_0000_warps.png") ? fs::file_size(out() / "frame_0000_warps.png") : 0,
+            100u);
 }
 
 TEST_F(Flythrough, writes_three_pictures_and_a_row_per_frame_and_a_sheet) {
