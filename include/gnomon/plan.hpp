@@ -66,6 +66,11 @@ struct PlanOptions {
   /// First split of SplitScheme::pseudo_near, and the depth from which error counts for the warps, in world
   /// units. 0: the near plane itself. Larger values stop a very near plane from taking all the texels.
   double near_hint = 0.0;
+  /// World-space box in which error counts `focus_weight` times for the choice of warp and of optimal splits:
+  /// a hero, a cockpit, a table top. Everything else keeps its map, with larger texels; by Objective::max the
+  /// worst texel inside shrinks most surely. Directional lights; an empty box, as by default, is none.
+  Box focus;
+  double focus_weight = 4.0;  ///< 1..1e6
   /// Which depths are divided: those that hold receivers, or the camera's whole range. `automatic` takes the
   /// receivers' for Fit::tight and the camera's for Fit::stable, whose grid must not depend on what is in
   /// view.

@@ -168,6 +168,8 @@ PlanOptions options_from(const json& value, std::vector<double>& given_splits) {
                        "near_hint",
                        "split_range",
                        "target_m",
+                       "focus",
+                       "focus_weight",
                        "texel_budget",
                        "partition",
                        "warp",
@@ -192,6 +194,8 @@ PlanOptions options_from(const json& value, std::vector<double>& given_splits) {
     options.given_splits = given_splits;
   }
   fields.read("target_m", options.target_m);
+  if (fields.has("focus")) options.focus = box_from(fields.at("focus"), "options.focus");
+  fields.read("focus_weight", options.focus_weight);
   fields.read("texel_budget", options.texel_budget);
   fields.read("lambda", options.lambda);
   // Who gives a blend means the scheme that blends.
@@ -285,6 +289,8 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"bounds.receivers", "receivers: a corner is beyond 1e30"},
       {"options.map_size", "options.map_size: must lie in 4..16384"},
       {"options.lambda", "options.lambda: must lie in 0..1"},
+      {"options.focus", "options.focus: must be a box of finite numbers"},
+      {"options.focus_weight", "options.focus_weight: must lie in 1..1e6"},
       {"options.near_hint", "options.near_hint: must not be below 0"},
       {"options.filter_radius_world", "options.filter_radius_world: must be 0 or more"},
       {"options.stable_size_steps", "options.stable_size_steps: must lie in 1..1024"},

@@ -35,12 +35,12 @@ glm::dvec3 vector_from(const json& value, const std::string& path) {
   return vector;
 }
 
+}  // namespace
+
 Box box_from(const json& value, const std::string& path) {
   const Fields fields(value, path, {"min", "max"});
   return {fields.vector("min"), fields.vector("max")};
 }
-
-}  // namespace
 
 Fields::Fields(const json& value, std::string path, std::initializer_list<std::string_view> known)
     : value_(value), path_(std::move(path)) {

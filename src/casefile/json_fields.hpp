@@ -55,4 +55,7 @@ class Fields {
   std::string path_;
 };
 
+/// {"min": [x, y, z], "max": [x, y, z]}; throws CaseError with `path` before what is wrong.
+[[nodiscard]] Box box_from(const nlohmann::json& value, const std::string& path);
+
 }  // namespace gnomon

@@ -61,11 +61,14 @@ LightPlaneError::LightPlaneError(const WarpInput& input) noexcept : input_(input
   share_ = kShareAbove95;
   if (count_ == 0) {
     share_ = 0.0;
-    add_vertices_and_edges();
+    // First, as there may be no room for all.
+    const bool focused = !input.focus->empty();
+    if (focused) add_vertices_and_edges(*input.focus, 1.0);
+    add_vertices_and_edges(*input.polytope, focused ? input.focus_weight : 1.0);
   }
 }
 
-void LightPlaneError::add(const glm::dvec3& p) noexcept {
+void LightPlaneError::add(const glm::dvec3& p, double pixels) noexcept {
   if (count_ == kMaxSamples) return;
   const ViewInLight& view = input_.view;
   const double depth = glm::dot(view.forward, p);
@@ -75,7 +78,7 @@ void LightPlaneError::add(const glm::dvec3& p) noexcept {
   // effect.
   const glm::dvec3 sum{eye_ray.x, eye_ray.y, eye_ray.z - 1.0};
   const double twice = 2.0 / max_of(glm::dot(sum, sum), std::numeric_limits<double>::min());
-  const double scale = max_of(depth, input_.depth_begin);
+  const double scale = max_of(depth, input_.depth_begin) * pixels;
   const auto index = static_cast<std::size_t>(count_++);
   const auto turned = [&](const glm::dvec3& pixel, double& x, double& y) {
     const glm::dvec3 across = pixel - eye_ray * glm::dot(eye_ray, pixel);
@@ -90,19 +93,27 @@ void LightPlaneError::add(const glm::dvec3& p) noexcept {
   y_[index] = p.y;
 }
 
-void LightPlaneError::add_vertices_and_edges() noexcept {
-  const Polytope& body = *input_.polytope;
+void LightPlaneError::add_vertices_and_edges(const Polytope& body, double pixels) noexcept {
   for (std::size_t i = 0; i < body.vertices().size(); ++i) {
     const Polytope::Vertex& v = body.vertex[i];
-    add(v.position);
+    add(v.position, pixels);
     for (const std::uint8_t other : v.neighbour) {
-      if (other > i) add((v.position + body.vertex[other].position) * 0.5);
+      if (other > i) add((v.position + body.vertex[other].position) * 0.5, pixels);
     }
   }
 }
 
 void LightPlaneError::add_visible_points() noexcept {
   const ViewInLight& view = input_.view;
+  const Polytope& focus = *input_.focus;
+  const auto weight_at = [&](const glm::dvec3& p) {
+    if (focus.empty()) return 1.0;
+    for (int f = 0; f < focus.face_count; ++f) {
+      const Plane& plane = focus.plane[static_cast<std::size_t>(f)];
+      if (glm::dot(plane.normal, p) + plane.offset < 0.0) return input_.focus_weight;
+    }
+    return 1.0;
+  };
   const InverseDepthBounds bounds = inverse_depth_bounds(*input_.polytope, view, input_.depth_begin);
   struct Ray {
     glm::dvec3 step;
@@ -132,7 +143,8 @@ void LightPlaneError::add_visible_points() noexcept {
   for (std::size_t i = 0; i < ray_count; ++i) {
     const Ray& ray = rays[i];
     double depth = next < ray.length ? ray.begin * elementary::exp(next) : 0.0;
-    for (; next < ray.length; next += spacing, depth *= ratio) add(ray.step * depth);
+    for (; next < ray.length; next += spacing, depth *= ratio)
+      add(ray.step * depth, weight_at(ray.step * depth));
     next -= ray.length;
   }
 }

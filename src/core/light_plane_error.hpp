@@ -23,8 +23,9 @@ class LightPlaneError {
   [[nodiscard]] double value(const WarpChoice& choice) noexcept;
 
  private:
-  void add(const glm::dvec3& point_light) noexcept;
-  void add_vertices_and_edges() noexcept;
+  /// A pixel counts as `pixels` times as wide as it is there.
+  void add(const glm::dvec3& point_light, double pixels) noexcept;
+  void add_vertices_and_edges(const Polytope& body, double pixels) noexcept;
   void add_visible_points() noexcept;
   [[nodiscard]] double storage_squared() const noexcept;
   [[nodiscard]] double worst_squared() noexcept;

@@ -69,6 +69,23 @@ LightBody in_light_frame(const PlanContext& c, const LightFrame& frame, const Po
   return result;
 }
 
+LightBody judged_body(const PlanContext& c, const LightFrame& frame, const Polytope& body,
+                      Polytope& focus) noexcept {
+  LightBody points = in_light_frame(c, frame, body);
+  focus.vertex_count = 0;
+  if (c.options.focus.empty()) return points;
+  focus = body;
+  clip(focus, relative_to(c.options.focus, c.camera.position));
+  if (focus.empty()) return points;
+  for (int i = 0; i < points.count; ++i)
+    points.point[static_cast<std::size_t>(i)].depth *= c.options.focus_weight;
+  const LightBody inside = in_light_frame(c, frame, focus);
+  for (const WarpInput::Point& p : inside.points()) {
+    if (points.count < kMaxVertices) points.point[static_cast<std::size_t>(points.count++)] = p;
+  }
+  return points;
+}
+
 double lowest(const LightBody& body) noexcept {
   double z = body.point[0].z;
   for (const WarpInput::Point& p : body.points()) z = min_of(z, p.z);

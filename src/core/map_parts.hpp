@@ -21,6 +21,10 @@ struct LightBody {
 
 [[nodiscard]] LightBody in_light_frame(const PlanContext& c, const LightFrame& frame,
                                        const Polytope& body) noexcept;
+/// The body's vertices as warps judge them: with the focus's own, all others as much deeper as they count
+/// less. `focus`: the part of the body in the focus, relative to the camera; empty where there is none.
+[[nodiscard]] LightBody judged_body(const PlanContext& c, const LightFrame& frame, const Polytope& body,
+                                    Polytope& focus) noexcept;
 /// Lowest z of the body.
 [[nodiscard]] double lowest(const LightBody& body) noexcept;
 

@@ -37,10 +37,35 @@ ViewInLight view_in_light(const PlanContext& c) noexcept {
           (camera.top - camera.bottom) / camera.height};
 }
 
-/// The body as warps see it; `body_light` is the body in the light frame.
-WarpInput warp_input(const PlanContext& c, const LightBody& points, const Polytope& body_light, double begin,
-                     double end) noexcept {
-  WarpInput in{};
+/// The body with vertices and faces in the light frame.
+Polytope turned(const Polytope& body, const LightFrame& frame) noexcept {
+  Polytope out = body;
+  const auto turn = [&](const glm::dvec3& v) {
+    return glm::dvec3(glm::dot(frame.x, v), glm::dot(frame.y, v), glm::dot(frame.z, v));
+  };
+  for (int i = 0; i < body.vertex_count; ++i) {
+    out.vertex[static_cast<std::size_t>(i)].position =
+        turn(body.vertex[static_cast<std::size_t>(i)].position);
+  }
+  for (int f = 0; f < body.face_count; ++f) {
+    out.plane[static_cast<std::size_t>(f)].normal = turn(body.plane[static_cast<std::size_t>(f)].normal);
+  }
+  return out;
+}
+
+/// What warps are asked about a body, with what it refers to.
+struct Question {
+  Polytope focus, body_light;
+  LightBody points;
+  WarpInput in;
+  Question(const PlanContext& c, const Polytope& body, double begin, double end) noexcept;
+  Question(const Question&) = delete;
+  Question& operator=(const Question&) = delete;
+};
+
+Question::Question(const PlanContext& c, const Polytope& body, double begin, double end) noexcept
+    : body_light(turned(body, c.frame)), points(judged_body(c, c.frame, body, focus)), in{} {
+  focus = turned(focus, c.frame);
   in.body = points.points();
   in.y_min = in.y_max = points.point[0].y;
   for (const WarpInput::Point& p : in.body) {
@@ -55,8 +80,9 @@ WarpInput warp_input(const PlanContext& c, const LightBody& points, const Polyto
   in.orthographic = c.camera.orthographic;
   in.objective = c.options.objective;
   in.polytope = &body_light;
+  in.focus = &focus;
+  in.focus_weight = c.options.focus_weight;
   in.view = view_in_light(c);
-  return in;
 }
 
 // A gain by the simplified weights above this factor is one by the exact error, too: they differ by the
@@ -111,28 +137,11 @@ WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) n
   return error.value(turned) < error.value(choice) * (1.0 - kLeastGain) ? turned : choice;
 }
 
-/// The body with vertices and faces in the light frame.
-Polytope turned(const Polytope& body, const LightFrame& frame) noexcept {
-  Polytope out = body;
-  const auto turn = [&](const glm::dvec3& v) {
-    return glm::dvec3(glm::dot(frame.x, v), glm::dot(frame.y, v), glm::dot(frame.z, v));
-  };
-  for (int i = 0; i < body.vertex_count; ++i) {
-    out.vertex[static_cast<std::size_t>(i)].position =
-        turn(body.vertex[static_cast<std::size_t>(i)].position);
-  }
-  for (int f = 0; f < body.face_count; ++f) {
-    out.plane[static_cast<std::size_t>(f)].normal = turn(body.plane[static_cast<std::size_t>(f)].normal);
-  }
-  return out;
-}
-
 }  // namespace
 
 double tight_objective(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
-  const LightBody points = in_light_frame(c, c.frame, body);
-  const Polytope body_light = turned(body, c.frame);
-  const WarpInput in = warp_input(c, points, body_light, begin, end);
+  const Question question(c, body, begin, end);
+  const WarpInput& in = question.in;
   const WarpChoice choice = c.warp.choose(in);
   LightPlaneError error(in);
   const double without = error.value({}), with = usable(in, choice) ? error.value(choice) : without;
@@ -140,13 +149,12 @@ double tight_objective(const PlanContext& c, const Polytope& body, double begin,
 }
 
 PlaneMap tight_plane(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
-  const LightBody points = in_light_frame(c, c.frame, body);
-  const Polytope body_light = turned(body, c.frame);
-  const WarpInput in = warp_input(c, points, body_light, begin, end);
+  const Question question(c, body, begin, end);
+  const WarpInput& in = question.in;
   const WarpChoice choice = c.warp.choose(in);
   const double ratio = gain_ratio(in, choice);
   const bool taken = std::isfinite(ratio) && (ratio < 1.0 - kLeastGain || !c.warp.drop_without_gain);
-  return plane_map(points.points(), taken ? choice : WarpChoice{});
+  return plane_map(in.body, taken ? choice : WarpChoice{});
 }
 
 namespace {
@@ -205,8 +213,8 @@ PlaneMap chosen_plane(const PlanContext& c, const Polytope& body, const LightBod
   const bool steady = c.history != nullptr && c.options.fit != Fit::warped_stable;
   if (&c.warp == &warps::none && c.options.fit != Fit::rotated && !steady)
     return plane_map(points.points(), {});
-  const Polytope body_light = turned(body, c.frame);
-  const WarpInput in = warp_input(c, points, body_light, begin, end);
+  const Question question(c, body, begin, end);
+  const WarpInput& in = question.in;
   WarpChoice choice = chosen_warp(c, in, map.cascade, map.warp);
   if (c.options.fit == Fit::rotated) choice = turned_to_least_area(in, choice);
   return steady ? steady_plane(c, in, choice, map) : plane_map(in.body, choice);

@@ -102,6 +102,8 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
   }
   if (!(o.filter_radius_world >= 0.0 && o.filter_radius_world <= kLargest))
     return "options.filter_radius_world";
+  if (any_unusable({&o.focus, 1})) return "options.focus";
+  if (!(o.focus_weight >= 1.0 && o.focus_weight <= 1e6)) return "options.focus_weight";
   if (o.stable_size_steps < 1 || o.stable_size_steps > 1024) return "options.stable_size_steps";
   const BiasOptions& b = o.bias;
   for (const double v : {b.constant_texels, b.slope_texels, b.normal_offset_texels, b.max_slope}) {

@@ -41,7 +41,8 @@ Polytope between(const PlanContext& c, const Polytope& body, double from, double
 double error_between(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
   const Polytope part = between(c, body, begin, end);
   if (part.empty()) return 0.0;
-  const LightBody points = in_light_frame(c, c.frame, part);
+  Polytope focus;
+  const LightBody points = judged_body(c, c.frame, part, focus);
   WarpInput in{};
   in.body = points.points();
   in.y_min = in.y_max = points.point[0].y;
