@@ -31,8 +31,9 @@ double compare_box(const FilterLookup& lookup) {
   return sum / (4.0 * lookup.box.x * lookup.box.y);
 }
 
-/// The hardware's: bilinear 2 x 2 with one depth.
+/// The hardware's: bilinear 2 x 2 with one depth, in front of the plane at all four texels.
 double compare_hardware(FilterLookup lookup) {
+  lookup.depth -= std::abs(lookup.depth_gradient.x) + std::abs(lookup.depth_gradient.y);
   lookup.depth_gradient = glm::dvec2(0.0);
   return compare_2x2(lookup, lookup.position);
 }

@@ -1,6 +1,8 @@
 // Percentage-closer filtering: kernels of every width, the same on GPU and CPU.
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+
 #include "filter_harness.hpp"
 
 namespace gnomon::render {
@@ -30,6 +32,24 @@ FilterLookup edge_at_8(double x, const FilterSettings& settings) {
   lookup.position = {x, 5.2};
   lookup.depth = 0.5;
   return lookup;
+}
+
+TEST(PcfFilter, keeps_a_slanted_plane_lit_with_the_hardware_s_2_x_2_too) {
+  for (const double radius : kRadii) {
+    for (const glm::dvec2& gradient : {glm::dvec2(0.0), glm::dvec2(1e-3, 0.0), glm::dvec2(-2e-3, 5e-3)}) {
+      for (const double x : {8.0, 8.3, 8.5, 8.97}) {
+        FilterLookup lookup;
+        lookup.position = {x, 5.2};
+        lookup.depth = 0.5;
+        lookup.depth_gradient = gradient;
+        lookup.map_depth = [&](int column, int row) {
+          constexpr double kRounding = 1e-9;
+          return 0.5 + glm::dot(gradient, glm::dvec2(column + 0.5, row + 0.5) - lookup.position) + kRounding;
+        };
+        EXPECT_NEAR(see(lookup, radius), 1.0, kWeights) << radius << " " << x;
+      }
+    }
+  }
 }
 
 TEST(PcfFilter, is_all_or_nothing_where_all_texels_agree) {
