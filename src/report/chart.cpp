@@ -21,6 +21,15 @@ std::string coordinate(double value) {
   return text.data();
 }
 
+/// What fits beside the plot. Names are cut between characters of UTF-8.
+std::string shortened(const std::string& name) {
+  constexpr std::size_t kFits = 40;
+  if (name.size() <= kFits) return name;
+  std::size_t end = kFits - 1;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80) --end;
+  return name.substr(0, end) + "\xE2\x80\xA6";
+}
+
 std::string element_end(const std::string& tip, const char* name) {
   return "><title>" + escaped(tip) + "</title></" + name + ">\n";
 }
@@ -146,7 +155,8 @@ void Chart::steps(const std::vector<Point>& points, std::size_t color, std::stri
   line(corners, color, classes, tip);
 }
 
-void Chart::legend_color(const std::string& name, std::size_t color) {
+void Chart::legend_color(const std::string& full_name, std::size_t color) {
+  const std::string name = shortened(full_name);
   const double y = kTop + 6 + kLegendLine * legend_lines_++;
   legend_ += "<rect class=\"c" + std::to_string(color % kColors) + "\" x=\"" + coordinate(kLegendLeft) +
              "\" y=\"" + coordinate(y - 6) + "\" width=\"12\" height=\"12\"/><text x=\"" +

@@ -40,7 +40,8 @@ class Chart {
   /// First `y` from `x` on, then straight down or up to the next: what holds until a better one is reached.
   void steps(const std::vector<Point>& points, std::size_t color, std::string_view classes,
              const std::string& tip);
-  void legend_color(const std::string& name, std::size_t color);
+  /// Names that are too long for the margin are cut.
+  void legend_color(const std::string& full_name, std::size_t color);
   void legend_mark(const std::string& name, std::size_t mark);
 
   /// For the page: colours come from its style.

@@ -58,7 +58,8 @@ void add_compare(CLI::App& app, CompareRequest& request) {
   compare->option_defaults()->always_capture_default();
   compare->add_option("SCENE", request.scenes, "builtin:NAME or glTF files")->required();
   compare->add_option("--warps", request.warps, "names, or all; auto lets the plan choose");
-  compare->add_option("--splits", request.splits, "how the view depth is divided");
+  compare->add_option("--splits", request.splits,
+                      "how receivers are divided: schemes of view depth, or partitions");
   compare->add_option("--fits", request.fits, "tight, stable");
   compare->add_option("--cascades", request.cascades, "maps along the view");
   compare->add_option("--filters", request.filters, "names, with their options where they have any, or all");
@@ -78,11 +79,7 @@ void add_compare(CLI::App& app, CompareRequest& request) {
                    "where the sun stands: 0 over -Z, 90 over +X")
       ->check(CLI::Range(-360.0, 360.0));
   compare->add_flag("--resume", request.resume, "go on with the results in --out");
-  compare->footer(
-      "Lists take commas or spaces. The sweep is the product of all lists, combinations that are the same\n"
-      "technique taken once. Each row is on the disk before the next frame begins: a run that was killed "
-      "goes\n"
-      "on with --resume. Errors are those of the shadow mask against exact rays.");
+  compare->footer(compare_footer());
 }
 
 void add_measuring(CLI::App& app, MeasureRequests& requests) {

@@ -13,6 +13,11 @@ namespace {
 
 constexpr int kMinMapSize = 4, kMaxMapSize = 16'384, kMinSide = 16, kMaxSide = 16'384, kMaxShards = 1'000'000;
 
+constexpr const char* kSplitNames =
+    "auto, uniform, logarithmic, practical, pseudo_near or optimal; or a partition: view_depth, "
+    "frustum_faces or "
+    "separating_plane";
+
 [[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& wants) {
   throw std::runtime_error(option + " " + value + ": wants " + wants);
 }
@@ -82,9 +87,7 @@ void set_warp(const std::string& text, SweepEntry& entry) {
 void set_split(const std::string& text, SweepEntry& entry) {
   entry.technique.split = text;
   if (!split_scheme_from_name(text, entry.plan.split) && !partition_from_name(text, entry.plan.partition))
-    refuse("--splits", text,
-           "auto, uniform, logarithmic, practical, pseudo_near or optimal, or a partition: frustum_faces or "
-           "separating_plane");
+    refuse("--splits", text, kSplitNames);
 }
 
 void set_fit(const std::string& text, SweepEntry& entry) {
@@ -160,6 +163,17 @@ DirectionalLight Sweep::sun() const noexcept {
   const double azimuth = light_azimuth_deg * std::numbers::pi / 180.0;
   return {{-std::cos(elevation) * std::sin(azimuth), -std::sin(elevation),
            std::cos(elevation) * std::cos(azimuth)}};
+}
+
+std::string compare_footer() {
+  return "Lists take commas or spaces. The sweep is the product of all lists, combinations that are the "
+         "same\n"
+         "technique taken once. Each row is on the disk before the next frame begins: a run that was killed "
+         "goes\n"
+         "on with --resume. Errors are those of the shadow mask against exact rays.\n"
+         "Warps: auto" +
+         names_of(all_warps()) + "\nSplits: " + kSplitNames + "\nFilters, with their options:\n" +
+         render::filter_help();
 }
 
 std::vector<std::string> split_lists(const std::vector<std::string>& lists) {

@@ -54,6 +54,9 @@ struct Sweep {
 /// names are taken once: with one map the split does not matter, and a stable fit takes no warp.
 [[nodiscard]] Sweep make_sweep(const CompareRequest& request);
 
+/// What the lists take, for the end of the help.
+[[nodiscard]] std::string compare_footer();
+
 /// Elements of lists with commas; an element of the form `key=value` without a colon belongs to the one
 /// before it, as in `esm:c=40,radius=3,pcf`.
 [[nodiscard]] std::vector<std::string> split_lists(const std::vector<std::string>& lists);
