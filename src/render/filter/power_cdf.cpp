@@ -1,0 +1,76 @@
+// Power-law shadow maps: the least, mean and largest depth of the kernel make a distribution of its depths,
+// which is read at the receiver.
+// Based on: Gumbau, Szirmay-Kalos, Sbert, Chover, "Improving Shadow Map Filtering with Statistical Analysis",
+// 2011.
+#include "power_cdf.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
+/// A texel that counts less is in the kernel by the rounding of its place alone.
+constexpr double kLeastWeight = 1e-4;
+
+int channels(const FilterSettings&) noexcept {
+  return 3;
+}
+
+/// Of u = 2 depth - 1, whose numbers are the smallest for what they tell, or of the depth in [0, 1].
+StoredTexel store(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
+  const double value = is_unsigned_unit(settings.format) ? depth : 2.0 * depth - 1.0;
+  return {value, value, value};
+}
+
+StoredTexel nothing(const FilterSettings&) noexcept {
+  constexpr double kBeyond = 2.0;  // any texel is nearer to 0
+  return {kBeyond, 0.0, -kBeyond};
+}
+
+void join(StoredTexel& sum, const StoredTexel& texel, double weight, const FilterSettings&) noexcept {
+  sum[1] += weight * texel[1];
+  if (weight < kLeastWeight) return;
+  sum[0] = std::min(sum[0], texel[0]);
+  sum[2] = std::max(sum[2], texel[2]);
+}
+
+double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
+  constexpr double kRoundings = 4.0;  // of the mean, stored after each half of the blur, read and compared
+  const double depth = std::min(lookup.depth, 1.0);
+  const double value = is_unsigned_unit(settings.format) ? depth : 2.0 * depth - 1.0;
+  return saturate(power_lit(texel[0], texel[1], texel[2], value - kRoundings * rounding_of(settings.format)));
+}
+
+}  // namespace
+
+double power_lit(double least, double mean, double largest, double depth) noexcept {
+  mean = std::min(std::max(mean, least), largest);
+  if (!(depth > mean)) return 1.0;
+  if (depth >= largest || mean == least) return 0.0;
+  const double range = largest - least;
+  const double exponent = (mean - least) / (largest - mean);
+  // 1 - t^b without the digits that are lost where t^b is close to 1; so is the logarithm close to 0.
+  const auto one_less_power = [&](double at) {
+    return -std::expm1(exponent * std::log1p((at - largest) / range));
+  };
+  return one_less_power(depth) / one_less_power(mean);
+}
+
+const Filter filters::power_cdf{
+    .name = "power_cdf",
+    .summary = "a power law through least, mean and largest depth: little bleeding, soft contacts, no bound",
+    .source =
+        "Gumbau, Szirmay-Kalos, Sbert, Chover 2011, Improving shadow map filtering with statistical "
+        "analysis",
+    .reads = MapRead::joined,
+    .bias_class = FilterClass::prefiltered,
+    .formats = kFormats,
+    .may_mipmap = true,
+    .contact = 0.01,  // four roundings of half floats are 0.001
+    .channels = channels,
+    .store = store,
+    .join = join,
+    .nothing = nothing,
+    .visibility = visibility,
+};
+
+}  // namespace gnomon::render

@@ -1,0 +1,106 @@
+// The power-law filter against the golden rows, its limits and its degenerate kernels.
+#include "power_cdf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "filter_harness.hpp"
+#include "golden_filters.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr double kGolden = 1e-9;  ///< golden rows are computed in double
+
+TEST(PowerCdfFilter, is_a_step_where_all_depths_agree) {
+  EXPECT_EQ(power_lit(0.5, 0.5, 0.5, 0.5), 1.0);
+  EXPECT_EQ(power_lit(0.5, 0.5, 0.5, 0.5 + 1e-12), 0.0);
+}
+
+TEST(PowerCdfFilter, stays_finite_where_the_mean_is_an_end_of_the_range_or_rounded_beyond_it) {
+  EXPECT_EQ(power_lit(0.2, 0.2, 0.8, 0.5), 0.0);
+  EXPECT_EQ(power_lit(0.2, 0.2 - 1e-7, 0.8, 0.5), 0.0);
+  EXPECT_EQ(power_lit(0.2, 0.8, 0.8, 0.79), 1.0);
+  EXPECT_EQ(power_lit(0.2, 0.8 + 1e-7, 0.8, 0.79), 1.0);
+  EXPECT_EQ(power_lit(0.2, 0.8, 0.8, 0.81), 0.0);
+  // The mean nearly at the largest depth: the power's exponent is huge, the answer is not.
+  const double lit = power_lit(0.2, 0.8 - 1e-9, 0.8, 0.8 - 0.5e-9);
+  EXPECT_GT(lit, 0.0);
+  EXPECT_LT(lit, 1.0);
+}
+
+TEST(PowerCdfFilter, is_one_up_to_the_mean_and_falls_to_nothing_at_the_largest_depth) {
+  for (const double mean : {0.25, 0.5, 0.75}) {
+    double before = 1.0;
+    for (double depth = 0.0; depth <= 1.0; depth += 1.0 / 1024) {
+      const double lit = power_lit(0.2, mean, 0.8, depth);
+      if (depth <= mean) {
+        EXPECT_EQ(lit, 1.0);
+      }
+      if (depth >= 0.8) {
+        EXPECT_EQ(lit, 0.0);
+      }
+      EXPECT_LE(lit, before + 1e-12);
+      before = lit;
+    }
+  }
+}
+
+TEST(PowerCdfFilter, is_linear_where_the_mean_is_in_the_middle) {
+  EXPECT_NEAR(power_lit(0.2, 0.5, 0.8, 0.6), 2.0 / 3.0, 1e-12);
+  EXPECT_NEAR(power_lit(0.2, 0.5, 0.8, 0.7), 1.0 / 3.0, 1e-12);
+}
+
+TEST(PowerCdfFilter, agrees_with_the_golden_rows) {
+  for (const nlohmann::json& row : golden_filters().at("power")) {
+    const double least = row.at("zmin").get<double>(), largest = row.at("zmax").get<double>();
+    const double mean = row.at("mu").get<double>(), depth = row.at("zr").get<double>();
+    EXPECT_NEAR(power_lit(least, mean, largest, depth), row.at("v").get<double>(), kGolden)
+        << least << " " << mean << " " << largest << " " << depth;
+  }
+}
+
+TEST(PowerCdfFilter, agrees_with_the_golden_kernels) {
+  for (const GoldenRow& row : golden_rows()) {
+    const auto [least, largest] = std::minmax_element(row.kernel.depth.begin(), row.kernel.depth.end());
+    double mean = 0.0;
+    for (std::size_t i = 0; i < row.kernel.depth.size(); ++i)
+      mean += row.kernel.weight[i] * row.kernel.depth[i];
+    EXPECT_NEAR(power_lit(*least, mean, *largest, row.depth), row.answer("power"), kGolden)
+        << row.kernel.name << " " << row.depth;
+  }
+}
+
+TEST(PowerCdfFilter, puts_least_and_largest_together_without_averaging_them) {
+  const FilterSettings settings = settings_from("power_cdf");
+  const StoredTexel sum = mean_over({"", {0.1, 0.6, 0.3}, {0.25, 0.25, 0.5}}, settings);
+  EXPECT_NEAR(sum[0], 2.0 * 0.1 - 1.0, 1e-15);
+  EXPECT_NEAR(sum[1], 2.0 * 0.325 - 1.0, 1e-15);
+  EXPECT_NEAR(sum[2], 2.0 * 0.6 - 1.0, 1e-15);
+}
+
+TEST(PowerCdfFilter, leaves_a_surface_lit_that_16_bits_have_rounded_towards_the_light) {
+  for (const char* text : {"power_cdf:format=fp16", "power_cdf:format=unorm16", "power_cdf"}) {
+    const FilterSettings settings = settings_from(text);
+    for (double depth = 0.0; depth <= 1.0; depth += 1.0 / 1021) {
+      StoredTexel texel = filters::power_cdf.store(depth, {}, settings);
+      for (double& channel : texel) channel = rounded_to(settings.format, channel);
+      FilterLookup lookup;
+      lookup.depth = depth;
+      EXPECT_EQ(filters::power_cdf.visibility(texel, lookup, settings), 1.0) << text << " " << depth;
+    }
+  }
+}
+
+TEST(PowerCdfFilter, bleeds_nothing_behind_the_farthest_occluder) {
+  // Two moments would let through 0.2 here.
+  const FilterSettings settings = settings_from("power_cdf");
+  FilterLookup lookup;
+  lookup.depth = 0.8;
+  const StoredTexel sum = mean_over({"", {0.2, 0.6}, {0.5, 0.5}}, settings);
+  EXPECT_EQ(filters::power_cdf.visibility(sum, lookup, settings), 0.0);
+}
+
+}  // namespace
+}  // namespace gnomon::render
