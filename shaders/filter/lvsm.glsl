@@ -1,0 +1,52 @@
+// Layered variance shadow maps (Lauritzen, McCool 2008): two moments per layer of depth, and the least of the layers'
+// bounds. What stands in front of a layer counts as one depth there, and bleeds no light into it.
+#include "library/mean.glsl"
+#include "library/variance.glsl"
+
+// Options: bleed, floor, slope, layers, overlap.
+int layer_count(ShadowOptions options) { return min(int(options.value[3] + 0.5), 2 * GNOMON_SHADOW_VECTORS); }
+
+// Where layer i begins and ends.
+vec2 layer_ends(int i, ShadowOptions options) {
+  float overlap = options.value[4], count = options.value[3];
+  return vec2(max(float(i) - overlap, 0.0), min(float(i + 1) + overlap, count)) / count;
+}
+
+// At its end a slanted surface's depths pile up and shadow it: there a layer says nothing, 1, and the one behind answers.
+float beyond_layer(int i, float deepest, ShadowOptions options) {
+  float layers = min(deepest, 1.0) * options.value[3];
+  return clamp((layers - float(i + 1)) / max(options.value[4], 1e-6), 0.0, 1.0);
+}
+
+ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) {
+  ShadowTexel texel = shadow_nothing(options);
+  for (int i = 0; i < layer_count(options); ++i) {
+    vec2 ends = layer_ends(i, options);
+    float size = ends.y - ends.x;
+    bool within = depth > ends.x && depth < ends.y;
+    vec2 moments =
+        store_moments(clamp((depth - ends.x) / size, 0.0, 1.0), within ? slope / size : vec2(0.0), options).v[0].xy;
+    if ((i & 1) == 0) {
+      texel.v[i >> 1].xy = moments;
+    } else {
+      texel.v[i >> 1].zw = moments;
+    }
+  }
+  return texel;
+}
+
+float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DArray depth_max, ShadowLookup at,
+                        ShadowOptions options) {
+  float lit = 1.0;
+  float spread = dot(abs(at.depth_gradient), at.box + 1.0);  // of the receiver's plane under kernel and bilinear read
+  ShadowLookup in_layer = at;
+  ShadowTexel moments = texel;
+  for (int i = 0; i < layer_count(options); ++i) {
+    vec2 ends = layer_ends(i, options);
+    in_layer.depth = clamp((min(at.depth, 1.0) - ends.x) / (ends.y - ends.x), 0.0, 1.0);
+    moments.v[0].xy = (i & 1) == 0 ? texel.v[i >> 1].xy : texel.v[i >> 1].zw;
+    float beyond = beyond_layer(i, min(at.depth, 1.0) + spread, options);
+    lit = min(lit, max(variance_visibility(moments, in_layer, options), beyond));
+  }
+  return lit;
+}

@@ -1,0 +1,98 @@
+// Layered variance shadow maps: two moments per layer of depth. What stands in front of a layer counts as one
+// depth there, and bleeds no light into it.
+// Based on: Lauritzen, McCool, "Layered Variance Shadow Maps", 2008. The paper reads the one layer that holds
+// the receiver. Each layer's bound is a bound, so the least of them is taken: it is tighter, and does not
+// jump from layer to layer. At its beginning a layer's bound says little, and at its end the depths of a
+// slanted surface pile up and shadow it; there the overlapping neighbours answer. Layers are even: the
+// paper's placement by a histogram wants the depths back on the CPU.
+#include "lvsm.hpp"
+
+#include <glm/common.hpp>
+
+#include "variance.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr int kMostLayers = 8;
+constexpr FilterOption kOptions[] = {
+    {"bleed", 0.1, 0.0, 0.95,
+     "answers below it count as dark, the rest is stretched: less light through, harder"},
+    {"floor", 1e-6, 0.0, 0.1,
+     "least variance, of a layer's depth squared; never below the format's rounding"},
+    {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment takes in"},
+    {"layers", 4, 1, kMostLayers, "two channels each: more of them, less bleeding"},
+    {"overlap", 0.5, 0.0, 1.0, "how far a layer reaches into the ones before and behind it, in layers"},
+};
+constexpr TexelFormat kFormats[] = {TexelFormat::unorm16, TexelFormat::fp16, TexelFormat::fp32};
+
+int layers_of(const FilterSettings& settings) noexcept {
+  return static_cast<int>(settings.option[3]);
+}
+void settle(FilterSettings& settings) noexcept {
+  settings.option[3] = std::round(settings.option[3]);
+}
+int channels(const FilterSettings& settings) noexcept {
+  return 2 * layers_of(settings);
+}
+
+StoredTexel store(double depth, const glm::dvec2& slope, const FilterSettings& settings) noexcept {
+  StoredTexel texel{};
+  for (int i = 0; i < layers_of(settings); ++i) {
+    const DepthLayer layer = even_layer(i, layers_of(settings), settings.option[4]);
+    const bool within = depth > layer.begin && depth < layer.end;
+    const glm::dvec2 warped_slope = within ? slope / (layer.end - layer.begin) : glm::dvec2(0.0);
+    const StoredTexel moments = store_moments(layer.warped(depth), warped_slope, settings);
+    texel[static_cast<std::size_t>(2 * i)] = moments[0];
+    texel[static_cast<std::size_t>(2 * i + 1)] = moments[1];
+  }
+  return texel;
+}
+
+double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
+  const int count = layers_of(settings);
+  const double depth = std::min(lookup.depth, 1.0), overlap = settings.option[4];
+  // The receiver's plane under the kernel and the bilinear read.
+  const double spread = glm::dot(glm::abs(lookup.depth_gradient), lookup.box + 1.0);
+  double lit = 1.0;
+  FilterLookup in_layer;
+  for (int i = 0; i < count; ++i) {
+    in_layer.depth = even_layer(i, count, overlap).warped(depth);
+    const StoredTexel moments{texel[static_cast<std::size_t>(2 * i)],
+                              texel[static_cast<std::size_t>(2 * i + 1)]};
+    const double bound = variance_visibility(moments, in_layer, settings);
+    lit = std::min(lit, std::max(bound, beyond_layer(i, count, overlap, depth + spread)));
+  }
+  return lit;
+}
+
+}  // namespace
+
+DepthLayer even_layer(int i, int count, double overlap) noexcept {
+  return {std::max(i - overlap, 0.0) / count, std::min(i + 1.0 + overlap, 1.0 * count) / count};
+}
+
+double beyond_layer(int i, int count, double overlap, double deepest) noexcept {
+  constexpr double kLeastOverlap = 1e-6;                 // a step where there is none
+  const double layers = std::min(deepest, 1.0) * count;  // nothing is deeper than the map
+  return std::clamp((layers - (i + 1.0)) / std::max(overlap, kLeastOverlap), 0.0, 1.0);
+}
+
+const Filter filters::lvsm{
+    .name = "lvsm",
+    .summary = "bounds from mean and variance per layer of depth: bleeding stays within a layer",
+    .source = "Lauritzen, McCool 2008, Layered variance shadow maps",
+    .reads = MapRead::filtered,
+    .bias_class = FilterClass::prefiltered,
+    .options = kOptions,
+    .formats = kFormats,
+    .may_mipmap = true,
+    .tolerance = 0.01,  // the variance's floor in half floats, under a contact of a tenth of the depth range
+    .contact = 0.1,
+    .settle = settle,
+    .channels = channels,
+    .store = store,
+    .visibility = visibility,
+};
+
+}  // namespace gnomon::render
