@@ -11,6 +11,7 @@
 #include "gnomon/fit.hpp"
 #include "gnomon/history.hpp"
 #include "gnomon/light.hpp"
+#include "gnomon/log_perspective.hpp"
 #include "gnomon/metric.hpp"
 #include "gnomon/omni.hpp"
 #include "gnomon/partition.hpp"

@@ -1,36 +1,15 @@
 // The error over everything the camera sees: percentiles, share of undersampled points, storage.
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 
-#include "elementary.hpp"
 #include "gnomon/metric.hpp"
 #include "log_histogram.hpp"
+#include "measure_grid.hpp"
 #include "metric_lanes.hpp"
 #include "vector.hpp"
 
 namespace gnomon {
 namespace {
-
-/// Where a ray from the eye is inside a box, as view depths; empty where begin > end.
-struct Interval {
-  double begin, end;
-};
-
-Interval depths_in_box(const Box& box, const glm::dvec3& start, const glm::dvec3& step,
-                       Interval range) noexcept {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (step[axis] == 0.0) {
-      if (start[axis] < box.min[axis] || start[axis] > box.max[axis]) return {1.0, 0.0};
-      continue;
-    }
-    const double a = (box.min[axis] - start[axis]) / step[axis],
-                 b = (box.max[axis] - start[axis]) / step[axis];
-    range.begin = max_of(range.begin, min_of(a, b));
-    range.end = min_of(range.end, max_of(a, b));
-  }
-  return range;
-}
 
 /// Points on their way to their maps' blocks, and what came out so far.
 class Tally {
@@ -99,57 +78,6 @@ AliasingStats Tally::stats() noexcept {
   return stats;
 }
 
-/// Where a pixel's ray starts, and how it goes on per unit of view depth.
-struct PixelRay {
-  glm::dvec3 start, step;
-};
-
-PixelRay pixel_ray(const Camera& camera, const CameraAxes& axes, const MeasureGrid& grid, int column,
-                   int row) noexcept {
-  const double x = camera.left + (camera.right - camera.left) * (column + 0.5) / grid.columns;
-  const double y = camera.bottom + (camera.top - camera.bottom) * (row + 0.5) / grid.rows;
-  const glm::dvec3 image = axes.right * x + axes.up * y;
-  if (camera.orthographic) return {camera.position + image, axes.forward};
-  return {camera.position, axes.forward + image};
-}
-
-/// From where the ray enters the first box to where it leaves the last.
-Interval depths_in_hull(std::span<const Box> boxes, const PixelRay& ray, Interval range) noexcept {
-  Interval hull{range.end, range.begin};
-  for (const Box& box : boxes) {
-    const Interval part = depths_in_box(box, ray.start, ray.step, range);
-    if (part.begin > part.end) continue;
-    hull = {min_of(hull.begin, part.begin), max_of(hull.end, part.end)};
-  }
-  return hull;
-}
-
-bool in_some_box(std::span<const Box> boxes, const PixelRay& ray, double depth, Interval range) noexcept {
-  for (const Box& box : boxes) {
-    const Interval part = depths_in_box(box, ray.start, ray.step, range);
-    if (depth >= part.begin && depth <= part.end) return true;
-  }
-  return false;
-}
-
-/// Depths of a grid, a table at a time: their powers are taken once for all pixels.
-constexpr int kDepths = 256;
-struct DepthTable {
-  std::array<double, kDepths> depth;
-  int count;
-};
-
-DepthTable depth_table(const Camera& camera, const MeasureGrid& grid, int begin) noexcept {
-  DepthTable table;
-  table.count = grid.depths - begin < kDepths ? grid.depths - begin : kDepths;
-  const double n = camera.near_depth, f = camera.far_depth;
-  for (int k = 0; k < table.count; ++k) {
-    const double t = (begin + k + 0.5) / grid.depths;
-    table.depth[static_cast<std::size_t>(k)] = n > 0.0 ? n * elementary::pow(f / n, t) : n + (f - n) * t;
-  }
-  return table;
-}
-
 AliasingStats measure_maps(const ShadowPlan& plan, int only, const Camera& camera, const SceneBounds& bounds,
                            const MeasureGrid& grid) noexcept {
   if (plan.map_count == 0) return {};
@@ -157,29 +85,13 @@ AliasingStats measure_maps(const ShadowPlan& plan, int only, const Camera& camer
     return measure_maps(plan, only, with_finite_far(camera, bounds.receivers), bounds, grid);
   }
   const CameraAxes axes = camera_axes(camera);
-  const Interval range{camera.near_depth, camera.far_depth};
-  const bool one_box = bounds.receivers.size() == 1;
   Tally tally(plan, camera, axes);
-  const auto sample = [&](const PixelRay& ray, double depth) {
-    const glm::dvec3 point = ray.start + ray.step * depth;
+  const auto sample = [&](const glm::dvec3& point, double depth) {
     const int map = map_serving(plan, point, depth);
     if (map < 0) tally.add_outside();
     if (map >= 0 && (only < 0 || map == only)) tally.add(map, point);
   };
-  for (int begin = 0; begin < grid.depths; begin += kDepths) {
-    const DepthTable table = depth_table(camera, grid, begin);
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int column = 0; column < grid.columns; ++column) {
-        const PixelRay ray = pixel_ray(camera, axes, grid, column, row);
-        const Interval hull = depths_in_hull(bounds.receivers, ray, range);
-        for (int k = 0; k < table.count; ++k) {
-          const double depth = table.depth[static_cast<std::size_t>(k)];
-          if (depth < hull.begin || depth > hull.end) continue;
-          if (one_box || in_some_box(bounds.receivers, ray, depth, range)) sample(ray, depth);
-        }
-      }
-    }
-  }
+  for_each_visible(camera, axes, bounds.receivers, grid, sample);
   return tally.stats();
 }
 

@@ -118,6 +118,8 @@ CLI::App* add_plan(CLI::App& app, PlanRequest& request) {
   plan->add_option("--repeat", request.repeats, "add \"plan_ns\": what N plans of each case took")
       ->type_name("N")
       ->check(CLI::Range(1, kMaxRepeats));
+  plan->add_flag("--logpsm", request.log_perspective,
+                 "add \"logpsm\": the error of one logarithmic perspective map, in numbers only");
   plan->add_flag("--pretty", request.pretty, "indent, several lines per plan");
   // Every subcommand takes --json; a plan is nothing else.
   plan->add_flag_callback(

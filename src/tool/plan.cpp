@@ -35,6 +35,7 @@ int run_plan(const PlanRequest& request) {
     if (plan.status == PlanStatus::invalid_input)
       throw CaseError(name + ": " + invalid_input_text(plan.invalid_field));
     Json result = plan_json(plan, input);
+    if (request.log_perspective) result["logpsm"] = log_perspective_json(input);
     if (request.repeats > 0)
       result["plan_ns"] = timing_json(time_plan(input, request.repeats, progress, steps));
     steps += std::max(request.repeats, 1);

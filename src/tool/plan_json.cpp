@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/log_perspective.hpp"
 #include "gnomon/metric.hpp"
 
 namespace gnomon::tool {
@@ -133,6 +134,19 @@ std::string pretty_text(const Json& value) {
   std::string text;
   append_pretty(value, 0, text);
   return text;
+}
+
+Json log_perspective_json(const Case& input) {
+  const auto* light = std::get_if<DirectionalLight>(&input.light);
+  if (light == nullptr) return nullptr;
+  const LogPerspectiveMap map =
+      log_perspective_map(input.camera, *light, input.bounds(), input.options.map_size);
+  if (!map.valid) return nullptr;
+  const AliasingStats stats = measure(map, input.camera, input.bounds());
+  Json result = stats_of(stats);
+  result["storage"] = number(stats.storage);
+  result["kappa"] = number(map.kappa);
+  return result;
 }
 
 Json plan_json(const ShadowPlan& plan, const Case& input) {

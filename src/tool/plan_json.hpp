@@ -15,6 +15,10 @@ using Json = nlohmann::ordered_json;
 /// std::logic_error for NaN, which no plan may hold.
 [[nodiscard]] Json plan_json(const ShadowPlan& plan, const Case& input);
 
+/// The error of one logarithmic perspective map for this case; null where there is none (a light with a
+/// position, nothing in view).
+[[nodiscard]] Json log_perspective_json(const Case& input);
+
 /// On several lines, indented; lists of numbers stay on one line, so that a matrix looks like one.
 [[nodiscard]] std::string pretty_text(const Json& value);
 

@@ -146,6 +146,27 @@ Table summary(const std::vector<Row>& rows, int cascades, std::size_t cases, int
   return table;
 }
 
+/// What a logarithmic perspective map would come to: nothing that is planned or drawn, and so without times.
+std::vector<std::string> log_perspective_line(const std::vector<NamedCase>& cases) {
+  std::vector<double> p95, max, storage;
+  for (const NamedCase& c : cases) {
+    const auto* light = std::get_if<gnomon::DirectionalLight>(&c.light);
+    if (light == nullptr) continue;
+    const gnomon::AliasingStats base = gnomon::unwarped_error(c, 1);
+    const auto map = log_perspective_map(c.camera, *light, c.bounds(), gnomon::PlanOptions{}.map_size);
+    const gnomon::AliasingStats error = measure(map, c.camera, c.bounds());
+    p95.push_back(error.p95 / base.p95);
+    max.push_back(error.max / base.max);
+    storage.push_back(error.storage);
+  }
+  return {"logpsm (numbers only)",
+          number(gnomon::geometric_mean(p95), 4),
+          number(gnomon::geometric_mean(max), 4),
+          number(gnomon::geometric_mean(storage), 1),
+          "-",
+          "-"};
+}
+
 /// One quantity of every technique in every case.
 template <typename Value>
 Table by_case(const std::vector<Row>& rows, int cascades, const std::vector<NamedCase>& cases,
@@ -242,6 +263,7 @@ int main(int argc, char** argv) {
   std::vector<Table> tables;
   for (const int cascades : {1, 4}) {
     tables.push_back(summary(table, cascades, cases.size(), arguments->rounds));
+    if (cascades == 1) tables.back().line.push_back(log_perspective_line(cases));
     if (arguments->cases) add_by_case(tables, table, cascades, cases);
   }
   for (const Table& t : tables) print(t);

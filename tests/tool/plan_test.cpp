@@ -177,5 +177,18 @@ TEST(Plan, lists_the_casters_a_map_needs_by_index) {
   EXPECT_EQ(json::parse(finished.out)["maps"][0]["casters"], json::array({0, 2}));
 }
 
+TEST(Plan, logpsm_adds_the_numbers_of_one_logarithmic_perspective_map_on_request) {
+  const auto files = case_files();
+  const Finished finished = run_gnomon({"plan", files.front().string(), "--logpsm"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const json printed = json::parse(finished.lines().at(0));
+  const Case input = load_case(files.front());
+  const LogPerspectiveMap map = log_perspective_map(input.camera, std::get<DirectionalLight>(input.light),
+                                                    input.bounds(), input.options.map_size);
+  const AliasingStats stats = measure(map, input.camera, input.bounds());
+  EXPECT_EQ(printed["logpsm"]["storage"].get<double>(), stats.storage);
+  EXPECT_EQ(printed["logpsm"]["p95"].get<double>(), stats.p95);
+}
+
 }  // namespace
 }  // namespace gnomon::test
