@@ -224,7 +224,8 @@ struct ShadowPlan {
 /// point is inside all select_planes.
 [[nodiscard]] bool map_holds(const ShadowPlan& plan, const ShadowMap& map,
                              const glm::dvec3& point_world) noexcept;
-/// Index of the map that serves a point at this view depth, or -1; see ShadowPlan::select_by_map.
+/// Index of the map that serves a point at this view depth, or -1; see ShadowPlan::select_by_map. Depths
+/// beyond the outermost ends, or in a gap, by no more than their rounding belong to the map that ends there.
 [[nodiscard]] int map_serving(const ShadowPlan& plan, const glm::dvec3& point_world,
                               double view_depth) noexcept;
 

@@ -212,13 +212,25 @@ bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& p
 }
 
 int map_serving(const ShadowPlan& plan, const glm::dvec3& point, double depth) noexcept {
+  if (plan.select_by_map) {
+    for (int i = 0; i < plan.map_count; ++i) {
+      if (map_holds(plan, plan.map[static_cast<std::size_t>(i)], point)) return i;
+    }
+    return -1;
+  }
   for (int i = 0; i < plan.map_count; ++i) {
     const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
-    if (plan.select_by_map) {
-      if (map_holds(plan, map, point)) return i;
-    } else if (depth <= map.depth_end) {
-      return depth >= map.depth_begin ? i : -1;
-    }
+    if (depth >= map.depth_begin && depth <= map.depth_end) return i;
+  }
+  // Who computes the depth of a corner on the last map's end gets there but for rounding: of the depth
+  // itself, and of the position it was computed from.
+  constexpr double kDepthRounding = 1e-12, kPositionRounding = 4e-13;
+  const double slack =
+      kDepthRounding * std::abs(depth) +
+      kPositionRounding * max_of(largest_component(point), largest_component(plan.origin_world));
+  for (int i = 0; i < plan.map_count; ++i) {
+    const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
+    if (depth >= map.depth_begin - slack && depth <= map.depth_end + slack) return i;
   }
   return -1;
 }

@@ -238,5 +238,31 @@ TEST(Plan, a_receiver_without_thickness_among_others_keeps_its_map) {
             PlanStatus::ok);
 }
 
+TEST(Plan, a_receiver_exactly_on_the_far_end_is_served_whatever_rounding_makes_of_its_depth) {
+  // A corner on the far plane, seen from far off the origin along a slanted view: its depth, computed anew,
+  // comes out on either side of the end.
+  int beyond = 0;
+  for (int i = 1; i <= 200; ++i) {
+    const glm::dvec3 eye{1e5 + 0.1 * i, 37.3, -2e5};
+    const Camera camera = perspective_camera(eye, {0.3 * i, -1.0, -17.0 + 0.1 * i}, {0, 1, 0}, 1.0, 1.5, 0.5,
+                                             100.0 + 0.37 * i, 640, 480);
+    const CameraAxes axes = camera_axes(camera);
+    const glm::dvec3 corner = eye + axes.forward * camera.far_depth + axes.right * (0.5 * camera.far_depth);
+    const Box box{glm::min(corner, eye), glm::max(corner, eye)};
+    const ShadowPlan plan = make_plan(camera, DirectionalLight{}, {{&box, 1}, {&box, 1}}, {});
+    ASSERT_EQ(plan.status, PlanStatus::ok);
+    const ShadowMap& last = plan.maps().back();
+    for (const double ulps : {-4.0, 0.0, 4.0}) {
+      const double depth = glm::dot(axes.forward, corner - eye) * (1.0 + ulps * 0x1p-52);
+      if (depth > last.depth_end) ++beyond;
+      EXPECT_EQ(map_serving(plan, corner, depth), plan.map_count - 1);
+    }
+    // What is beyond by more than rounding is not served.
+    EXPECT_EQ(map_serving(plan, corner, last.depth_end * (1.0 + 1e-6)), -1);
+    EXPECT_EQ(map_serving(plan, corner, plan.map[0].depth_begin * (1.0 - 1e-6)), -1);
+  }
+  EXPECT_GT(beyond, 0);
+}
+
 }  // namespace
 }  // namespace gnomon::test
