@@ -36,7 +36,8 @@ TimedPlan timed_plan(const gnomon::Camera& camera, const Options& options, const
   std::array<std::int64_t, kPlanRepeats> taken{};
   for (std::int64_t& ns : taken) {
     const auto begin = std::chrono::steady_clock::now();
-    result.plan = gnomon::make_plan(camera, sun(options), flight.bounds(), options.plan);
+    result.plan = gnomon::make_plan(camera, light_of(options, flight.scene.bounds_world), flight.bounds(),
+                                    options.plan);
     ns = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin)
              .count();
   }
@@ -83,8 +84,8 @@ void draw_comparison(Studio& studio, const gnomon::Camera& camera, int frame) {
   WarpStrip strip;
   for (const gnomon::Warp* warp : options.compared_warps) {
     plan_options.warp = warp;
-    const gnomon::ShadowPlan plan =
-        gnomon::make_plan(camera, sun(options), studio.flight.bounds(), plan_options);
+    const gnomon::ShadowPlan plan = gnomon::make_plan(
+        camera, light_of(options, studio.flight.scene.bounds_world), studio.flight.bounds(), plan_options);
     studio.renderer.draw(plan, camera, studio.filter, {});
     const PixelAliasing m = pixel_aliasing(studio.renderer.aliasing());
     strip.add(fmt::format("{}: m p95 {:.3g}, median {:.3g}, {:.0f} % undersampled",
@@ -105,6 +106,8 @@ FrameRow draw_frame(Studio& studio, int frame) {
   row.status = timed.plan.status;
   row.plan_ns = timed.nanoseconds;
   gnomon::render::FrameOptions drawn;
+  const gnomon::Light light = light_of(options, studio.flight.scene.bounds_world);
+  drawn.light = &light;
   row.stats = studio.renderer.draw(timed.plan, camera, studio.filter, drawn);
   row.aliasing = pixel_aliasing(studio.renderer.aliasing());
   row.warps = warps_text(timed.plan);
@@ -129,7 +132,8 @@ FrameRow draw_frame(Studio& studio, int frame) {
 void check_plans(const Options& options, const Flight& flight) {
   for (int frame = 0; frame < options.frames; ++frame) {
     const gnomon::Camera camera = camera_of(options, flight, frame);
-    const gnomon::ShadowPlan plan = gnomon::make_plan(camera, sun(options), flight.bounds(), options.plan);
+    const gnomon::ShadowPlan plan = gnomon::make_plan(camera, light_of(options, flight.scene.bounds_world),
+                                                      flight.bounds(), options.plan);
     if (plan.status == gnomon::PlanStatus::invalid_input) {
       throw UsageError(
           fmt::format("{}: frame {}: the plan refuses {}", options.scene, frame, plan.invalid_field));

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -32,7 +33,7 @@ std::string names_of(const Entries& entries) {
 /// What the command line says, before it is understood.
 struct Raw {
   std::string size = "960x540", context = "auto", split, warp = "auto", objective = "storage", filter = "pcf",
-              path;
+              path, light = "sun";
   bool stable = false, lambda_given = false;
   std::vector<std::string> compared_warps;
 };
@@ -76,6 +77,12 @@ void resolve(const Raw& raw, Options& options) {
         "--split {}: wants auto, uniform, logarithmic, practical, pseudo_near or optimal", raw.split));
   }
   if (raw.split.empty() && raw.lambda_given) options.plan.split = gnomon::SplitScheme::practical;
+  options.light = raw.light == "spot"    ? Options::LightKind::spot
+                  : raw.light == "point" ? Options::LightKind::point
+                                         : Options::LightKind::sun;
+  if (options.light == Options::LightKind::sun && raw.light != "sun") {
+    throw UsageError(fmt::format("--light {}: wants sun, spot or point", raw.light));
+  }
   options.plan.warp = warp_named("--warp", raw.warp);
   for (const std::string& name : raw.compared_warps)
     options.compared_warps.push_back(warp_named("--compare-warps", name));
@@ -124,6 +131,7 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
   app.add_option("--map-size", options.plan.map_size, "texels along each side of a map")
       ->check(CLI::Range(4, kMaxSide));
   app.add_flag("--stable", raw.stable, "texel grids that stand still while the camera moves");
+  app.add_option("--light", raw.light, "sun, or a spot or point light in the middle of the scene");
   app.add_option("--light-elevation-deg", options.light_elevation_deg, "of the sun above the horizon")
       ->check(CLI::Range(0.1, 90.0));
   app.add_option("--light-azimuth-deg", options.light_azimuth_deg,
@@ -156,12 +164,19 @@ std::optional<Options> parse_options(int argc, char** argv) {
   return options;
 }
 
-gnomon::DirectionalLight sun(const Options& options) noexcept {
+gnomon::Light light_of(const Options& options, const gnomon::Box& scene) noexcept {
   const double elevation = options.light_elevation_deg * std::numbers::pi / 180.0;
   const double azimuth = options.light_azimuth_deg * std::numbers::pi / 180.0;
-  const glm::dvec3 to_sun{std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-                          -std::cos(elevation) * std::cos(azimuth)};
-  return {-to_sun};
+  const glm::dvec3 to_light{std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                            -std::cos(elevation) * std::cos(azimuth)};
+  if (options.light == Options::LightKind::sun) return gnomon::DirectionalLight{-to_light};
+  const glm::dvec3 size = scene.max - scene.min, middle = 0.5 * (scene.min + scene.max);
+  const double extent = std::max({size.x, size.y, size.z});
+  if (options.light == Options::LightKind::spot) {
+    constexpr double kHalfAngle = 0.6;
+    return gnomon::SpotLight{middle + 0.6 * extent * to_light, -to_light, kHalfAngle, 1.5 * extent};
+  }
+  return gnomon::PointLight{middle + glm::dvec3(0.0, 0.3 * size.y, 0.0), 0.75 * extent};
 }
 
 }  // namespace flythrough

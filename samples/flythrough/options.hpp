@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/bounds.hpp"
+#include "gnomon/light.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/filter.hpp"
@@ -28,6 +30,7 @@ struct Options {
   gnomon::render::ContextKind context = gnomon::render::ContextKind::automatic;
   gnomon::PlanOptions plan;
   gnomon::render::FilterSettings filter = gnomon::render::default_settings(gnomon::render::filters::pcf);
+  enum class LightKind { sun, spot, point } light = LightKind::sun;
   double light_elevation_deg = 38.0;
   double light_azimuth_deg = 140.0;
   std::optional<std::filesystem::path> path;
@@ -37,7 +40,8 @@ struct Options {
 /// Prints help or the version and answers nothing where those were asked for. Throws UsageError.
 [[nodiscard]] std::optional<Options> parse_options(int argc, char** argv);
 
-/// The way the light travels. Azimuth 0: the sun stands over -Z; 90: over +X.
-[[nodiscard]] gnomon::DirectionalLight sun(const Options& options) noexcept;
+/// The sun, or a lamp in its direction over the middle of the scene. Azimuth 0: it stands over -Z; 90: over
+/// +X.
+[[nodiscard]] gnomon::Light light_of(const Options& options, const gnomon::Box& scene) noexcept;
 
 }  // namespace flythrough

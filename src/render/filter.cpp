@@ -109,7 +109,7 @@ double bytes_per_texel(const FilterSettings& settings) noexcept {
     const int channels = filter.channels(settings), stored = channels > 2 ? (channels + 3) / 4 * 4 : channels;
     bytes += stored * bytes_per_channel(settings.format) * (settings.mipmap ? kMipChain : 1.0);
   }
-  return bytes + (filter.needs_depth_max ? kMaxPyramid : 0.0);
+  return bytes + (filter.needs_depth_max != nullptr && filter.needs_depth_max(settings) ? kMaxPyramid : 0.0);
 }
 
 void set_margin(const FilterSettings& settings, PlanOptions& options) noexcept {

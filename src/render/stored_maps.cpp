@@ -107,7 +107,7 @@ std::vector<std::string_view> filter_shaders(const Filter& filter) {
   }
   if (filter.reads == MapRead::joined && filter.may_mipmap) paths.emplace_back("join_mip.frag");
   if (filter.reads == MapRead::summed) paths.insert(paths.end(), {"sum_rows.comp", "sum_columns.comp"});
-  if (filter.needs_depth_max) paths.emplace_back("depth_max.frag");
+  if (filter.needs_depth_max != nullptr) paths.emplace_back("depth_max.frag");
   return paths;
 }
 
@@ -150,7 +150,7 @@ void StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& setti
   wanted.vectors = stores ? programs.vectors : 0;
   wanted.format = stores ? internal_format(settings.format, filter.channels(settings)) : 0;
   wanted.scratch = blurred;
-  wanted.depth_max = filter.needs_depth_max;
+  wanted.depth_max = filter.needs_depth_max != nullptr && filter.needs_depth_max(settings);
   Shape same_but_fewer = shape_;
   if (wanted.layers < shape_.layers) same_but_fewer.layers = wanted.layers;
   if (wanted == same_but_fewer) return;
@@ -275,7 +275,7 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
     if (programs.sum_rows) sum_map(programs, map, job);
   }
   if (programs.sum_rows) glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-  if (programs.depth_max) build_depth_max(programs, job);
+  if (shape_.depth_max) build_depth_max(programs, job);
   const bool mipmaps = job.mipmaps && shape_.levels > 1 && maps > 0;
   if (mipmaps && programs.join_mip) {
     join_mips(programs, job);

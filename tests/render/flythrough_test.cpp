@@ -72,6 +72,8 @@ TEST_F(Flythrough, refuses_bad_input_with_one_line_and_writes_nothing) {
                 {"--compare-warps none,bent", "bent"},
                 {"--filter soap", "soap"},
                 {"--split even", "even"},
+                {"--light candle", "candle"},
+                {"--filter vsm:bleed=2", "bleed=2"},
                 {"--size 640", "640"},
                 {"--size 640x", "640x"},
                 {"--frames 0", "--frames"},
@@ -97,7 +99,7 @@ TEST_F(Flythrough, tells_its_version_and_its_options) {
   const Outcome help = run("--help");
   EXPECT_EQ(help.code, 0);
   for (const char* option : {"--frames", "--size", "--out", "--context", "--cascades", "--split", "--lambda",
-                             "--warp", "--compare-warps", "--filter", "--map-size", "--stable",
+                             "--warp", "--compare-warps", "--filter", "--map-size", "--stable", "--light",
                              "--light-elevation-deg", "--light-azimuth-deg", "--path"}) {
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
   }

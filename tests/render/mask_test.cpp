@@ -33,11 +33,14 @@ struct Frame {
   }
 };
 
-Frame draw(Renderer& renderer, const Camera& camera, const ShadowPlan& plan, const Filter& filter,
+Frame draw(Renderer& renderer, const Camera& camera, const ShadowPlan& plan, const FilterSettings& filter,
            FrameOptions options = {}) {
   options.aliasing = options.cascade_tint = options.time_passes = false;
   renderer.draw(plan, camera, renderer.prepare(filter), options);
   return {camera, plan, renderer.mask(), renderer.positions(), renderer.normals()};
+}
+Frame draw(Renderer& renderer, const Camera& camera, const ShadowPlan& plan, const Filter& filter) {
+  return draw(renderer, camera, plan, default_settings(filter));
 }
 
 Frame draw_scene(const Scene& scene, const Camera& camera, const glm::dvec3& light,
@@ -222,6 +225,9 @@ Verdict judge(const Frame& frame, double reach_texels, const Filter& filter = fi
 }
 
 void expect_clean(const Filter& filter, Fit fit) {
+  // Wide kernels leave too few pixels that are far enough from every edge to be judged.
+  FilterSettings settings = default_settings(filter);
+  settings.radius = std::min(settings.radius, 2.0);
   Renderer renderer(box_on_ground());
   const Scene scene = box_on_ground();
   const Camera camera = camera_on_box(kSize, kSize);
@@ -237,10 +243,10 @@ void expect_clean(const Filter& filter, Fit fit) {
         options.cascades = 2;
         options.warp = warp;
         options.fit = fit;
-        set_margin(default_settings(filter), options);
+        set_margin(settings, options);
         const ShadowPlan plan = plan_for(scene, camera, light, options);
         ASSERT_GT(plan.map_count, 0) << elevation << " " << azimuth;
-        const Verdict v = judge(draw(renderer, camera, plan, filter), options.filter_radius_texels, filter);
+        const Verdict v = judge(draw(renderer, camera, plan, settings), options.filter_radius_texels, filter);
         EXPECT_EQ(v.acne, 0u) << warp->name << " elevation " << elevation << " azimuth " << azimuth << " at "
                               << v.first_wrong.x << " " << v.first_wrong.y << " " << v.first_wrong.z;
         EXPECT_EQ(v.gap, 0u) << warp->name << " elevation " << elevation << " azimuth " << azimuth << " at "

@@ -110,13 +110,14 @@ struct Filter {
   FilterClass bias_class = FilterClass::single_compare;
   std::span<const FilterOption> options = {};
   std::span<const TexelFormat> formats = {};  ///< the first is the default; none for MapRead::depth
-  bool may_mipmap = false;       ///< mip-maps and anisotropic reads, for MapRead::filtered and joined
-  bool needs_depth_max = false;  ///< reads the largest depth under the kernel
-  double default_radius = 1.0;   ///< texels
+  bool may_mipmap = false;      ///< mip-maps and anisotropic reads, for MapRead::filtered and joined
+  double default_radius = 1.0;  ///< texels
   /// Within this of the right answer where all texels of the kernel agree, for a receiver at least `contact`
   /// (of the map's depth range) in front of or behind them: what filter_laws asks for.
   double tolerance = 1e-6, contact = 0.0;
 
+  /// Whether the lookup reads the largest depth under the kernel. nullptr: never.
+  bool (*needs_depth_max)(const FilterSettings& settings) noexcept = nullptr;
   /// Brings options into what the format can hold. nullptr: nothing to do.
   void (*settle)(FilterSettings& settings) noexcept = nullptr;
   /// Channels of a stored texel, 1..kMaxChannels. nullptr for MapRead::depth.

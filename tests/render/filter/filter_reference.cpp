@@ -26,7 +26,7 @@ FilterLookup lookup_of(const FilterSettings& settings, const TestMap& map, const
   lookup.texels_per_world = glm::dmat2(kTestTexelsPerWorld);
   lookup.ray = {q.depth, 1.0, 1.0 / kTestDepthRange, 0.0};
   lookup.rotation = q.rotation;
-  if (settings.filter->needs_depth_max) {
+  if (settings.filter->needs_depth_max != nullptr && settings.filter->needs_depth_max(settings)) {
     // The pyramid's texels, as depth_max_in takes them.
     const double side = 2.0 * lookup.box.x;
     const int span = 1 << static_cast<int>(std::ceil(std::log2(std::max(side, 2.0))));

@@ -1,0 +1,40 @@
+// How much of a distribution with four given moments must lie in front of a depth (Peters, Klein 2015). Depths are
+// u = 2 depth - 1: odd and even moments then part, and numbers stay small.
+
+// Least share in front of u, for any support: Hamburger's problem. Also answers the other two depths, z, at which the
+// extreme distribution lies, for the bound below.
+float share_in_front(vec4 b, float u, out vec2 z) {
+  // Cholesky factors of the Hankel matrix (1 b1 b2; b1 b2 b3; b2 b3 b4).
+  float d22 = b.y - b.x * b.x;
+  float l32_d22 = b.z - b.x * b.y;
+  float d33_d22 = (b.w - b.y * b.y) * d22 - l32_d22 * l32_d22;
+  float l32 = l32_d22 / d22;
+  // c = Hankel^-1 (1, u, u^2): its polynomial has the other two depths as roots.
+  float c1 = u - b.x;
+  float c2 = u * u - b.y - l32 * c1;
+  c1 /= d22;
+  c2 *= d22 / d33_d22;
+  c1 -= l32 * c2;
+  float c0 = 1.0 - b.x * c1 - b.y * c2;
+  float p = c1 / c2, q = c0 / c2;
+  float root = sqrt(max(0.25 * p * p - q, 0.0));
+  z = vec2(-0.5 * p - root, -0.5 * p + root);
+  if (u <= z.x) return 0.0;
+  // Weight of z.x, or all but that of u, where u lies between or behind both: by Lagrange's polynomial.
+  if (u <= z.y) return (z.y * u - b.x * (z.y + u) + b.y) / ((z.x - u) * (z.x - z.y));
+  return 1.0 - (z.x * z.y - b.x * (z.x + z.y) + b.y) / ((u - z.x) * (u - z.y));
+}
+
+// The same when all depths are known to lie in -1..1: Hausdorff's problem. Where Hamburger's extreme distribution leaves
+// that range, the extreme one has depths -1, u, 1 and a free one.
+float share_in_front_bounded(vec4 b, float u) {
+  vec2 z;
+  float unbounded = share_in_front(b, u, z);
+  if (z.x >= -1.0 && z.y <= 1.0) return unbounded;
+  float free_at = (b.y - b.w - u * (b.x - b.z)) / (b.x - b.z - u * (1.0 - b.y));
+  // Weights of -1 and of the free depth, by Lagrange's polynomials over the four.
+  float first = (b.z - b.y * (u + free_at + 1.0) + b.x * (u * free_at + u + free_at) - u * free_at) /
+                ((-1.0 - u) * (-1.0 - free_at) * -2.0);
+  float free_weight = (b.z - b.y * u - b.x + u) / ((free_at + 1.0) * (free_at - u) * (free_at - 1.0));
+  return free_at < u ? first + free_weight : first;
+}

@@ -1,0 +1,86 @@
+// Exponential shadow maps: the step of the shadow test becomes exp(c (z - d)), which parts into a factor of
+// the receiver and one of the map, and that one may be blurred. Based on: Annen, Mertens, Seidel, Flerackers,
+// Kautz, "Exponential Shadow Maps", 2008; blurred in the logarithm: Salvi, "Rendering Filtered Shadows with
+// Exponential Shadow Maps", ShaderX6, 2008.
+//
+// Shadows fade over ln(20) / c of the depth range in front of the receiver: contacts leak below that. The
+// mean is right only where no texel of the kernel lies behind the receiver; where one does, by either of the
+// paper's classifications, the four texels round the point are compared instead.
+#include "filter_parts.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr FilterOption kOptions[] = {
+    {"c", 80.0, 1.0, 10000.0,
+     "steepness over the depth range: higher leaks less at contacts; at most 80 in 16 bits"},
+    {"fallback", 1.0, 0.0, 2.0,
+     "2x2 comparisons where the mean fails: 0 never, 1 by threshold, 2 by largest depth"},
+    {"epsilon", 0.02, 0.0, 1.0, "by how much the answer may exceed 1 before it counts as failed"},
+};
+constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
+
+/// 16 bits hold the soft maximum to 2^-12 of the range: at c = 80 that is 2 % of the answer.
+constexpr double kMaxC16 = 80.0;
+
+void settle(FilterSettings& settings) noexcept {
+  if (settings.format != TexelFormat::fp32) settings.option[0] = std::min(settings.option[0], kMaxC16);
+  settings.option[1] = std::round(settings.option[1]);
+}
+
+int channels(const FilterSettings&) noexcept {
+  return 1;
+}
+
+bool needs_depth_max(const FilterSettings& settings) noexcept {
+  return settings.option[1] == 2.0;
+}
+
+StoredTexel store(double depth, const glm::dvec2&, const FilterSettings&) noexcept {
+  return {depth};
+}
+
+StoredTexel nothing(const FilterSettings&) noexcept {
+  return {-1e30};
+}
+
+void join(StoredTexel& sum, const StoredTexel& texel, double weight,
+          const FilterSettings& settings) noexcept {
+  const double c = settings.option[0], largest = std::max(sum[0], texel[0]);
+  sum[0] =
+      largest + std::log(std::exp(c * (sum[0] - largest)) + weight * std::exp(c * (texel[0] - largest))) / c;
+}
+
+double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
+  const double c = settings.option[0], fallback = settings.option[1], epsilon = settings.option[2];
+  const double depth = std::min(lookup.depth, 1.0) - rounding_of(settings.format);
+  const double lit = std::exp(c * (texel[0] - depth));
+  bool fails = fallback == 1.0 && lit > 1.0 + epsilon;
+  if (fallback == 2.0) fails = depth + std::log(1.0 + epsilon) / c < lookup.depth_max;
+  return fails ? compare_2x2(lookup, lookup.position) : saturate(lit);
+}
+
+}  // namespace
+
+const Filter filters::esm{
+    .name = "esm",
+    .summary =
+        "exponential of the depth difference, blurred in the logarithm; one channel, leaks at contacts",
+    .source = "Annen et al. 2008, Exponential shadow maps",
+    .reads = MapRead::joined,
+    .bias_class = FilterClass::prefiltered,
+    .options = kOptions,
+    .formats = kFormats,
+    .may_mipmap = true,
+    .tolerance = 0.01,  // exp(-80 * 0.1) is below it by far
+    .contact = 0.1,
+    .needs_depth_max = needs_depth_max,
+    .settle = settle,
+    .channels = channels,
+    .store = store,
+    .join = join,
+    .nothing = nothing,
+    .visibility = visibility,
+};
+
+}  // namespace gnomon::render

@@ -1,0 +1,57 @@
+// Exponential variance shadow maps, one warp: two channels.
+// Based on: Lauritzen, McCool, "Layered Variance Shadow Maps", 2008, section 5.2.
+#include "exponential_variance.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr FilterOption kOptions[] = {
+    {"c", 40.0, 0.5, 42.0,
+     "exponent over half the depth range: higher bleeds less; at most 5.54 in half floats"},
+    {"bleed", 0.1, 0.0, 0.95, "answers below it count as dark, the rest is stretched"},
+    {"floor", 1e-4, 0.0, 0.1,
+     "least standard deviation, of the depth range; never below the format's rounding"},
+};
+constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16};
+
+void settle(FilterSettings& settings) noexcept {
+  for (std::size_t i = 0; i < 1; ++i) {
+    settings.option[i] = std::min(settings.option[i], largest_exponent(settings.format));
+  }
+}
+
+int channels(const FilterSettings&) noexcept {
+  return 2;
+}
+
+StoredTexel store(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
+  const auto [mean, square] = warped_moments(depth, settings.option[0]);
+  return {mean, square};
+}
+
+double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
+  const double depth = std::min(lookup.depth, 1.0), rounding = rounding_of(settings.format);
+  const double c = settings.option[0], bleed = settings.option[1], least = settings.option[2];
+  return without_bleeding(warped_bound(texel[0], texel[1], depth, c, 1.0, least, rounding), bleed);
+}
+
+}  // namespace
+
+const Filter filters::evsm2{
+    .name = "evsm2",
+    .summary = "variance bound under an exponential: bleeds far less than vsm",
+    .source = "Lauritzen, McCool 2008, Layered variance shadow maps",
+    .reads = MapRead::filtered,
+    .bias_class = FilterClass::prefiltered,
+    .options = kOptions,
+    .formats = kFormats,
+    .may_mipmap = true,
+    .tolerance = 0.01,  // what rounding leaves under a contact of a tenth of the depth range, in half floats
+    .contact = 0.1,
+    .settle = settle,
+    .channels = channels,
+    .store = store,
+    .visibility = visibility,
+};
+
+}  // namespace gnomon::render

@@ -1,0 +1,22 @@
+// Depths warped by exponentials: shared by evsm2 and evsm4. shaders/library/exponential_variance.glsl mirrors
+// it.
+#pragma once
+
+#include <array>
+
+#include "variance.hpp"
+
+namespace gnomon::render {
+
+/// Largest exponent whose square a format holds, with room for sums: exp(2 c) stays below its largest number.
+[[nodiscard]] double largest_exponent(TexelFormat format) noexcept;
+
+/// exp(c u) of u = 2 depth - 1, and its square.
+[[nodiscard]] std::array<double, 2> warped_moments(double depth, double c) noexcept;
+
+/// The variance bound in one warp: exp(c u) for `sign` 1, -exp(-c u) for -1, of which the moments of exp(-c
+/// u) are given. `least`: a standard deviation, of the depth range; the warp's derivative takes it along.
+[[nodiscard]] double warped_bound(double mean, double square, double depth, double c, double sign,
+                                  double least, double rounding) noexcept;
+
+}  // namespace gnomon::render

@@ -1,0 +1,45 @@
+// Hamburger's and Hausdorff's moment problems, by canonical distributions.
+// Based on: Peters, Klein, "Moment Shadow Mapping", 2015; the bounded case is derived here from the condition
+// that the polynomial with all four depths as roots has no mean.
+#include "moments.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::render {
+
+ShareInFront share_in_front(const Moments& b, double u) noexcept {
+  // Cholesky factors of the Hankel matrix (1 b1 b2; b1 b2 b3; b2 b3 b4).
+  const double d22 = b[1] - b[0] * b[0];
+  const double l32_d22 = b[2] - b[0] * b[1];
+  const double d33_d22 = (b[3] - b[1] * b[1]) * d22 - l32_d22 * l32_d22;
+  const double l32 = l32_d22 / d22;
+  // c = Hankel^-1 (1, u, u^2): its polynomial has the other two depths as roots.
+  double c1 = u - b[0];
+  double c2 = u * u - b[1] - l32 * c1;
+  c1 /= d22;
+  c2 *= d22 / d33_d22;
+  c1 -= l32 * c2;
+  const double c0 = 1.0 - b[0] * c1 - b[1] * c2;
+  const double p = c1 / c2, q = c0 / c2;
+  const double root = std::sqrt(std::max(0.25 * p * p - q, 0.0));
+  const glm::dvec2 z{-0.5 * p - root, -0.5 * p + root};
+  if (u <= z.x) return {0.0, z};
+  // Weight of z.x, or all but that of u, by Lagrange's polynomial.
+  if (u <= z.y) return {(z.y * u - b[0] * (z.y + u) + b[1]) / ((z.x - u) * (z.x - z.y)), z};
+  return {1.0 - (z.x * z.y - b[0] * (z.x + z.y) + b[1]) / ((u - z.x) * (u - z.y)), z};
+}
+
+double share_in_front_bounded(const Moments& b, double u) noexcept {
+  const ShareInFront unbounded = share_in_front(b, u);
+  if (unbounded.others.x >= -1.0 && unbounded.others.y <= 1.0) return unbounded.share;
+  const double free_at = (b[1] - b[3] - u * (b[0] - b[2])) / (b[0] - b[2] - u * (1.0 - b[1]));
+  const double first =
+      (b[2] - b[1] * (u + free_at + 1.0) + b[0] * (u * free_at + u + free_at) - u * free_at) /
+      ((-1.0 - u) * (-1.0 - free_at) * -2.0);
+  const double free_weight =
+      (b[2] - b[1] * u - b[0] + u) / ((free_at + 1.0) * (free_at - u) * (free_at - 1.0));
+  return free_at < u ? first + free_weight : first;
+}
+
+}  // namespace gnomon::render

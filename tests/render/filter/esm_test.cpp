@@ -1,0 +1,83 @@
+// Exponential shadow maps: the golden rows, the logarithm's blur, and when the mean counts as failed.
+#include <gtest/gtest.h>
+
+#include "filter_harness.hpp"
+#include "golden_filters.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr double kGolden = 1e-9;
+
+TEST(EsmFilter, agrees_with_the_golden_rows_of_the_clamped_exponential) {
+  for (const GoldenRow& row : golden_rows()) {
+    for (const char* text : {"esm:c=10,fallback=0", "esm:c=80,fallback=0"}) {
+      const FilterSettings settings = settings_from(text);
+      FilterLookup lookup;
+      // What the filter takes off for the format's rounding is given back.
+      lookup.depth = row.depth + rounding_of(settings.format);
+      const double lit = filters::esm.visibility(mean_over(row.kernel, settings), lookup, settings);
+      EXPECT_NEAR(lit, row.answer(settings.option[0] == 10.0 ? "esm10" : "esm80"), kGolden)
+          << row.kernel.name << row.depth;
+    }
+  }
+}
+
+TEST(EsmFilter, blurs_in_the_logarithm_without_overflow_for_any_exponent) {
+  for (const nlohmann::json& row : golden_filters().at("esm").at("logspace")) {
+    FilterSettings settings = settings_from("esm");
+    settings.option[0] = row.at("c").get<double>();
+    const GoldenKernel kernel{"", row.at("z").get<std::vector<double>>(),
+                              row.at("w").get<std::vector<double>>()};
+    EXPECT_NEAR(mean_over(kernel, settings)[0], row.at("log_filtered_over_c").get<double>(), kGolden);
+  }
+}
+
+TEST(EsmFilter, fades_by_the_exponential_of_the_distance) {
+  for (const nlohmann::json& row : golden_filters().at("esm").at("rows")) {
+    FilterSettings settings = settings_from("esm:fallback=0");
+    settings.option[0] = row.at("c").get<double>();
+    FilterLookup lookup;
+    lookup.depth = -0.5 + row.at("t").get<double>() + rounding_of(settings.format);
+    EXPECT_NEAR(filters::esm.visibility({-0.5}, lookup, settings), std::min(row.at("f").get<double>(), 1.0),
+                1e-9);
+  }
+}
+
+TEST(EsmFilter, compares_four_texels_where_a_texel_of_the_kernel_lies_behind_the_receiver) {
+  // Dark left of column 8, far background right of it; the receiver half way. The mean over both is far
+  // above 1.
+  FilterLookup lookup;
+  lookup.map_depth = [](int x, int) { return x < 8 ? 0.25 : 1.0; };
+  lookup.depth = 0.5;
+  lookup.depth_max = 1.0;
+  lookup.position = {6.5, 5.5};
+  const StoredTexel mean{0.98};
+  EXPECT_EQ(filters::esm.visibility(mean, lookup, settings_from("esm:fallback=0")), 1.0);
+  EXPECT_EQ(filters::esm.visibility(mean, lookup, settings_from("esm:fallback=1")), 0.0);
+  EXPECT_EQ(filters::esm.visibility(mean, lookup, settings_from("esm:fallback=2")), 0.0);
+  lookup.position.x = 8.0;
+  EXPECT_NEAR(filters::esm.visibility(mean, lookup, settings_from("esm:fallback=1")), 0.5, 1e-12);
+}
+
+TEST(EsmFilter, classifies_by_the_largest_depth_alike_on_gpu_and_cpu) {
+  const TestMap map = random_map(40, 43, 21);
+  const std::vector<Question> questions = random_questions(map, 512, 22, 6);
+  for (const char* text :
+       {"esm:fallback=2,radius=1", "esm:fallback=2,radius=3", "esm:fallback=2,radius=0,c=20"}) {
+    const FilterSettings settings = settings_from(text);
+    const std::vector<float> gpu = ask_shader(settings, map, questions);
+    const Reference reference(settings, map);
+    for (std::size_t i = 0; i < gpu.size(); ++i) {
+      ASSERT_NEAR(gpu[i], reference.answer(questions[i]), reference.bound(questions[i])) << text << " " << i;
+    }
+  }
+}
+
+TEST(EsmFilter, keeps_its_exponent_within_what_16_bits_hold) {
+  EXPECT_EQ(settings_from("esm:c=500").value("c"), 500.0);
+  EXPECT_EQ(settings_from("esm:c=500,format=fp16").value("c"), 80.0);
+}
+
+}  // namespace
+}  // namespace gnomon::render
