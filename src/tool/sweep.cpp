@@ -86,7 +86,8 @@ void set_warp(const std::string& text, SweepEntry& entry) {
 
 void set_split(const std::string& text, SweepEntry& entry) {
   entry.technique.split = text;
-  if (!split_scheme_from_name(text, entry.plan.split) && !partition_from_name(text, entry.plan.partition))
+  const bool is_partition = partition_from_name(text, entry.plan.partition);
+  if (!split_scheme_from_name(text, entry.plan.split) && (!is_partition || text == "view_depth"))
     refuse("--splits", text, kSplitNames);
 }
 

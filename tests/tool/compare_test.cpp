@@ -11,6 +11,7 @@
 #include <fstream>
 #include <thread>
 
+#include "gnomon/render/filter.hpp"
 #include "gnomon/report/rows_file.hpp"
 #include "process.hpp"
 
@@ -171,6 +172,32 @@ TEST(Compare, the_same_technique_under_two_names_is_measured_once) {
                 .exit_code,
             0);
   EXPECT_EQ(report::read_rows(folder.path()).size(), 4u) << "two fits of two filters";
+}
+
+TEST(Compare, measures_every_filter_of_the_registry_against_its_own_truth) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",     "builtin:fence",
+                                        "--warps",     "optimal",
+                                        "--cascades",  "1",
+                                        "--filters",   "all",
+                                        "--frames",    "1",
+                                        "--rounds",    "1",
+                                        "--size",      "96x54",
+                                        "--map-sizes", "256",
+                                        "--context",   "osmesa",
+                                        "--out",       folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  ASSERT_EQ(rows.size(), render::all_filters().size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const render::Filter& filter = *render::all_filters()[i];
+    const bool knows_lights = render::default_settings(filter).value("angle_deg") > 0.0;
+    EXPECT_EQ(rows[i].technique.filter, filter.name);
+    EXPECT_EQ(rows[i].truth, knows_lights ? "area" : "filtered") << filter.name;
+    // 256 texels are coarse for a fence: a tenth of its pixels may be wrong, and no filter halves the light.
+    EXPECT_LT(rows[i].errors.false_lit + rows[i].errors.false_shadow, 0.1) << filter.name;
+    EXPECT_LT(rows[i].errors.darkening, 0.05) << filter.name;
+  }
 }
 
 TEST(Compare, refuses_bad_input_before_it_measures) {
