@@ -130,8 +130,10 @@ double plane_bias_ndc(const BiasOptions& options, const Receiver& receiver,
 double plane_bias_world(const BiasOptions& options, const Receiver& receiver,
                         double kernel_radius_texels) noexcept {
   const double bias = plane_bias_ndc(options, receiver, kernel_radius_texels);
-  if (bias == 0.0) return 0.0;
-  return bias / ndc_depth_per_world_unit(receiver.clip_from_world, receiver.light_direction, receiver.point);
+  const double per_world =
+      ndc_depth_per_world_unit(receiver.clip_from_world, receiver.light_direction, receiver.point);
+  // A light direction across the map's own has no depth to move along.
+  return bias == 0.0 || per_world == 0.0 ? 0.0 : bias / per_world;
 }
 
 glm::dvec3 normal_offset_world(const BiasOptions& options, const Receiver& receiver,

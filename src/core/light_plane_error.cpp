@@ -79,7 +79,7 @@ void LightPlaneError::add(const glm::dvec3& p, double pixels) noexcept {
   const glm::dvec3 sum{eye_ray.x, eye_ray.y, eye_ray.z - 1.0};
   const double twice = 2.0 / max_of(glm::dot(sum, sum), std::numeric_limits<double>::min());
   const double scale = max_of(depth, input_.depth_begin) * pixels;
-  const auto index = static_cast<std::size_t>(count_++);
+  const auto index = static_cast<std::size_t>(count_);
   const auto turned = [&](const glm::dvec3& pixel, double& x, double& y) {
     const glm::dvec3 across = pixel - eye_ray * glm::dot(eye_ray, pixel);
     const double along = twice * glm::dot(sum, across);
@@ -88,7 +88,13 @@ void LightPlaneError::add(const glm::dvec3& p, double pixels) noexcept {
   };
   turned(view.right * (view.pixel_x * scale), xx_[index], yx_[index]);
   turned(view.up * (view.pixel_y * scale), xy_[index], yy_[index]);
-  inverse_determinant_[index] = 1.0 / (xx_[index] * yy_[index] - xy_[index] * yx_[index]);
+  const double determinant = xx_[index] * yy_[index] - xy_[index] * yx_[index];
+  // Of a pixel that rounding leaves no area, beside the eye or at the edge of a field of view near pi,
+  // nothing is known.
+  constexpr double kLeastArea = 1e-30;
+  if (!(std::abs(determinant) > kLeastArea * (view.pixel_x * scale) * (view.pixel_y * scale))) return;
+  ++count_;
+  inverse_determinant_[index] = 1.0 / determinant;
   x_[index] = p.x;
   y_[index] = p.y;
 }

@@ -106,7 +106,8 @@ double gain_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
     if (ratio < kCertainRatio) return ratio;
   }
   LightPlaneError error(in);
-  return error.value(choice) / error.value({});
+  const double without = error.value({});
+  return without > 0.0 ? error.value(choice) / without : std::numeric_limits<double>::infinity();
 }
 
 /// Asks the warp, measures its answer, and takes it only where it lowers the objective.

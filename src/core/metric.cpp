@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "metric_kernel.hpp"
 #include "metric_lanes.hpp"
@@ -42,7 +43,7 @@ PointAliasing surface_result(const MetricBlock& block, std::size_t i) noexcept {
     return result;
   }
   const ExtentLanes& e = block.surface;
-  result.projection = cos_eye / cos_light;
+  result.projection = cos_light > 0.0 ? cos_eye / cos_light : std::numeric_limits<double>::infinity();
   result.m_max = e.longest[i];
   result.m_min = e.shortest[i];
   result.m_s = e.s[i];

@@ -68,10 +68,12 @@ struct Extents {
   const double half = 0.5 * (j.xx * j.xx + j.xy * j.xy + j.yx * j.yx + j.yy * j.yy);
   const double spread = (half - determinant) * (half + determinant);
   const double largest = std::sqrt(half + std::sqrt(spread > 0.0 ? spread : 0.0));
-  const double inverse = determinant > 0.0 ? 1.0 / determinant : kInfinite;
-  // Vector units take no branches, and infinity times zero is not a number.
+  // Vector units take no branches and divide by zero where the quotient is thrown away, too. This changes no
+  // bit of what is above 1e-133.
+  constexpr double kLeast = 1e-150;
+  const double inverse = 1.0 / (determinant + kLeast);
   const auto over_determinant = [&](double v) { return determinant > 0.0 ? v * inverse : kInfinite; };
-  return {over_determinant(largest), largest > 0.0 ? 1.0 / largest : kInfinite,
+  return {over_determinant(largest), largest > 0.0 ? 1.0 / (largest + kLeast) : kInfinite,
           over_determinant(std::sqrt(j.yy * j.yy + j.yx * j.yx)),
           over_determinant(std::sqrt(j.xx * j.xx + j.xy * j.xy))};
 }
@@ -87,7 +89,7 @@ struct Extents {
   result.m_t = result.perspective_t = e.t;
   result.m_min = e.shortest;
   result.m_area = std::sqrt(e.longest * e.shortest);
-  result.anisotropy = e.longest / e.shortest;
+  if (e.shortest < std::numeric_limits<double>::infinity()) result.anisotropy = e.longest / e.shortest;
   return result;
 }
 

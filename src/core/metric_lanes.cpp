@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "metric_kernel.hpp"
 #include "wide.hpp"
@@ -12,6 +13,8 @@ namespace {
 
 // A few units in the last place beyond the rim is rounding, not outside.
 constexpr double kRim = 1.0 + 1e-9;
+// Keeps 1 / w away from zero, and changes no bit of a w above 1e-44.
+constexpr double kLeastW = 1e-60;
 
 /// Unit vector along v, and `fallback` where v vanishes; without branches.
 inline glm::dvec3 direction(const glm::dvec3& v, const glm::dvec3& fallback) noexcept {
@@ -19,8 +22,10 @@ inline glm::dvec3 direction(const glm::dvec3& v, const glm::dvec3& fallback) noe
   const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
   const double scale = max_of(max_of(x, y), z);
   const bool some = scale > kNothing;
-  const glm::dvec3 scaled = v * (1.0 / (some ? scale : 1.0));
-  const double inverse = 1.0 / std::sqrt(glm::dot(scaled, scaled));
+  // A sum, not a choice: compilers divide first and choose then, and dividing by zero raises a flag. It
+  // changes no bit of what is not tiny itself.
+  const glm::dvec3 scaled = v * (1.0 / (scale + kNothing));
+  const double inverse = 1.0 / std::sqrt(glm::dot(scaled, scaled) + kNothing);
   return {some ? scaled.x * inverse : fallback.x, some ? scaled.y * inverse : fallback.y,
           some ? scaled.z * inverse : fallback.z};
 }
@@ -47,7 +52,8 @@ GNOMON_WIDE void find_texels(const MetricFrame& f, MetricBlock& b, std::size_t c
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 p = b.point[i];
     const double w = m[0][3] * p.x + m[1][3] * p.y + m[2][3] * p.z + m[3][3];
-    const double inverse = 1.0 / w;
+    // What lies behind is outside, whatever comes out.
+    const double inverse = 1.0 / (w + kLeastW);
     const double x = (m[0][0] * p.x + m[1][0] * p.y + m[2][0] * p.z + m[3][0]) * inverse;
     const double y = (m[0][1] * p.x + m[1][1] * p.y + m[2][1] * p.z + m[3][1]) * inverse;
     const double sx = half_width * inverse, sy = half_height * inverse;
@@ -67,7 +73,9 @@ inline void store(ExtentLanes& lanes, std::size_t i, const Jacobian2& j) noexcep
   lanes.s[i] = e.s;
   lanes.t[i] = e.t;
   lanes.area[i] = std::sqrt(e.longest * e.shortest);
-  lanes.anisotropy[i] = e.longest / e.shortest;
+  constexpr double kInfinite = std::numeric_limits<double>::infinity(), kLargest = 1e150;
+  const double ratio = min_of(e.longest, kLargest) / min_of(max_of(e.shortest, 1.0 / kLargest), kLargest);
+  lanes.anisotropy[i] = e.longest < kInfinite ? ratio : e.shortest < kInfinite ? kInfinite : 1.0;
 }
 
 inline Jacobian2 jacobian(const MetricBlock& b, std::size_t i, const glm::dvec3& px,
@@ -81,7 +89,8 @@ GNOMON_WIDE void find_perspective(const MetricFrame& f, MetricBlock& b, std::siz
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 ray = b.eye_ray[i], sum = ray + b.light_ray[i];
     const double sum2 = glm::dot(sum, sum);
-    const double twice = 2.0 / sum2;
+    // Opposed rays are done anew, with branches.
+    const double twice = 2.0 / (sum2 + std::numeric_limits<double>::min());
     const auto turned = [&](const glm::dvec3& pixel) {
       const glm::dvec3 across = pixel - ray * glm::dot(ray, pixel);
       return across - sum * (twice * glm::dot(sum, across));
@@ -96,7 +105,9 @@ GNOMON_WIDE void find_surface(const MetricFrame& f, MetricBlock& b, std::size_t 
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 ray = b.eye_ray[i], normal = b.normal[i];
     const double along = glm::dot(ray, normal);
-    const double facing = 1.0 / along;
+    // Edge-on, the extents tend to limits; their fourth powers must not overflow on the way.
+    constexpr double kEdgeOn = 1e-60;
+    const double facing = 1.0 / (along + kEdgeOn);
     b.cos_eye[i] = -along;
     b.cos_light[i] = -glm::dot(normal, b.light_ray[i]);
     const auto slid = [&](const glm::dvec3& pixel) {

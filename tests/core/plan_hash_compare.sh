@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Are plans the same bits with every compiler and optimization? Builds the core and plan_hash with each of
+# g++ and clang++ that is there, at -O0 and -O3, and compares their hashes.
+#   plan_hash_compare.sh SOURCE_DIR WORK_DIR [PLANS]
+set -euo pipefail
+source_dir=$1 work=$2 plans=${3:-2000}
+launcher=$(command -v ccache || true)
+hashes=()
+for compiler in g++ clang++; do
+  command -v "$compiler" >/dev/null || { echo "no $compiler here: left out"; continue; }
+  for level in -O0 -O3; do
+    out="$work/$compiler$level"
+    mkdir -p "$out"
+    files=("$source_dir"/src/core/*.cpp "$source_dir"/src/core/warp/*.cpp "$source_dir"/tests/core/plan_hash.cpp
+      "$source_dir"/tests/core/support/seeded_input.cpp)
+    printf '%s\n' "${files[@]}" | CCACHE_BASEDIR="$source_dir" xargs -P 2 -I FILE sh -c '
+      $1 $2 -std=c++20 $3 -ffp-contract=off -fno-exceptions -fno-math-errno -fno-trapping-math -w \
+        -I"$4/include" -I"$4/src/core" -I"$4/tests/core" -c "$6" -o "$5/$(basename "$6" .cpp).o"' \
+      sh "$launcher" "$compiler" "$level" "$source_dir" "$out" FILE
+    "$compiler" "$out"/*.o -o "$out/plan_hash"
+    hash=$("$out/plan_hash" "$plans")
+    echo "$compiler $level: $hash"
+    hashes+=("$hash")
+  done
+done
+((${#hashes[@]} > 1)) || { echo "nothing to compare"; exit 1; }
+for hash in "${hashes[@]}"; do
+  [[ $hash == "${hashes[0]}" ]] || { echo "plans differ: run plan_hash N --each of both builds"; exit 1; }
+done
