@@ -8,6 +8,7 @@
 #include <chrono>
 #include <system_error>
 
+#include "gnomon/history.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
@@ -31,19 +32,35 @@ gnomon::Camera camera_of(const Options& options, const Flight& flight, int frame
   return flight.path.at(t, options.width, options.height);
 }
 
-TimedPlan timed_plan(const gnomon::Camera& camera, const Options& options, const Flight& flight) {
+/// `history` may be nullptr; it is taken one frame further.
+TimedPlan timed_plan(const gnomon::Camera& camera, const gnomon::Light& light, const Flight& flight,
+                     const gnomon::PlanOptions& options, gnomon::PlanHistory* history) {
   TimedPlan result;
   std::array<std::int64_t, kPlanRepeats> taken{};
+  gnomon::PlanHistory next;
   for (std::int64_t& ns : taken) {
+    if (history != nullptr) next = *history;
     const auto begin = std::chrono::steady_clock::now();
-    result.plan = gnomon::make_plan(camera, light_of(options, flight.scene.bounds_world), flight.bounds(),
-                                    options.plan);
+    result.plan = history != nullptr ? gnomon::make_plan(camera, light, flight.bounds(), options, next)
+                                     : gnomon::make_plan(camera, light, flight.bounds(), options);
     ns = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin)
              .count();
   }
   std::nth_element(taken.begin(), taken.begin() + kPlanRepeats / 2, taken.end());
   result.nanoseconds = taken[kPlanRepeats / 2];
+  if (history != nullptr) *history = next;
   return result;
+}
+
+/// The view depths of the frame last drawn.
+gnomon::VisibleDepths depths_shown(const gnomon::render::Renderer& renderer) {
+  const gnomon::FloatImage positions = renderer.positions();
+  const auto channels = static_cast<std::size_t>(positions.channels);
+  gnomon::VisibleDepths depths;
+  // The last of the channels x, y, z, depth; 0 for the sky.
+  for (std::size_t i = channels - 1; i < positions.values.size(); i += channels)
+    depths.add(static_cast<double>(positions.values[i]));
+  return depths;
 }
 
 void label_cascades(Image& image, const gnomon::ShadowPlan& plan) {
@@ -75,6 +92,7 @@ struct Studio {
   gnomon::render::Renderer renderer;
   gnomon::render::PreparedFilter filter;
   ContactSheet sheet;
+  gnomon::PlanHistory history;
 };
 
 /// The frame once more under each warp that is compared, side by side.
@@ -100,13 +118,22 @@ void draw_comparison(Studio& studio, const gnomon::Camera& camera, int frame) {
 FrameRow draw_frame(Studio& studio, int frame) {
   const Options& options = studio.options;
   const gnomon::Camera camera = camera_of(options, studio.flight, frame);
-  const TimedPlan timed = timed_plan(camera, options, studio.flight);
+  const gnomon::Light light = light_of(options, studio.flight.scene.bounds_world);
+  gnomon::PlanOptions plan_options = options.plan;
+  gnomon::VisibleDepths depths;
+  if (options.visible_depths) {
+    studio.renderer.draw(gnomon::make_plan(camera, light, studio.flight.bounds(), plan_options), camera,
+                         studio.filter, {});
+    depths = depths_shown(studio.renderer);
+    plan_options.visible_depths = &depths;
+  }
+  const TimedPlan timed =
+      timed_plan(camera, light, studio.flight, plan_options, options.history ? &studio.history : nullptr);
   FrameRow row;
   row.frame = frame;
   row.status = timed.plan.status;
   row.plan_ns = timed.nanoseconds;
   gnomon::render::FrameOptions drawn;
-  const gnomon::Light light = light_of(options, studio.flight.scene.bounds_world);
   drawn.light = &light;
   row.stats = studio.renderer.draw(timed.plan, camera, studio.filter, drawn);
   row.aliasing = pixel_aliasing(studio.renderer.aliasing());
@@ -193,7 +220,8 @@ int fly_to_files(const Options& options, const Flight& flight) {
                 flight,
                 gnomon::render::Renderer(flight.scene),
                 {},
-                ContactSheet(options.frames, options.width, options.height)};
+                ContactSheet(options.frames, options.width, options.height),
+                {}};
   studio.filter = studio.renderer.prepare(options.filter);
   std::vector<FrameRow> rows;
   {
@@ -203,9 +231,10 @@ int fly_to_files(const Options& options, const Flight& flight) {
       rows.push_back(draw_frame(studio, frame));
     }
   }
-  const std::string title = fmt::format("{}: {} maps of {}, {}{}", options.scene, options.plan.cascades,
-                                        options.plan.map_size, gnomon::render::to_string(options.filter),
-                                        options.plan.fit == gnomon::Fit::stable ? ", stable" : "");
+  const std::string title = fmt::format(
+      "{}: {} maps of {}, {}{}", options.scene, options.plan.cascades, options.plan.map_size,
+      gnomon::render::to_string(options.filter),
+      options.plan.fit == gnomon::Fit::tight ? "" : fmt::format(", {}", to_string(options.plan.fit)));
   gnomon::write_png(studio.sheet.sheet(title), options.out / "contact_sheet.png");
   write_csv(rows, options.plan.cascades, context->info().software, options.out / "frames.csv");
   print_summary(options, rows);

@@ -34,6 +34,7 @@ std::string names_of(const Entries& entries) {
 struct Raw {
   std::string size = "960x540", context = "auto", split, warp = "auto", objective = "storage", filter = "pcf",
               path, light = "sun";
+  std::string fit = "tight";
   bool stable = false, lambda_given = false;
   std::vector<std::string> compared_warps;
 };
@@ -92,7 +93,12 @@ void resolve(const Raw& raw, Options& options) {
   const gnomon::render::ParsedFilter filter = gnomon::render::parse_filter(raw.filter);
   if (!filter.error.empty()) throw UsageError(fmt::format("--filter {}", filter.error));
   options.filter = filter.settings;
-  options.plan.fit = raw.stable ? gnomon::Fit::stable : gnomon::Fit::tight;
+  if (!gnomon::fit_from_name(raw.fit, options.plan.fit)) {
+    throw UsageError(fmt::format("--fit {}: wants tight, rotated, stable or warped_stable", raw.fit));
+  }
+  if (raw.stable) options.plan.fit = gnomon::Fit::stable;
+  // A warped grid can only stand still from frame to frame.
+  if (options.plan.fit == gnomon::Fit::warped_stable) options.history = true;
   gnomon::render::set_margin(options.filter, options.plan);
   if (!raw.path.empty()) options.path = raw.path;
 }
@@ -130,7 +136,12 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
   app.add_option("--filter", raw.filter, "as in pcf:radius=2,unit=texels. " + gnomon::render::filter_help());
   app.add_option("--map-size", options.plan.map_size, "texels along each side of a map")
       ->check(CLI::Range(4, kMaxSide));
-  app.add_flag("--stable", raw.stable, "texel grids that stand still while the camera moves");
+  app.add_option("--fit", raw.fit, "how maps are laid: tight, rotated, stable or warped_stable");
+  app.add_flag("--stable", raw.stable, "the same as --fit stable: texel grids that stand still");
+  app.add_flag("--history", options.history,
+               "let texels change smoothly from frame to frame; for flights of many frames");
+  app.add_flag("--visible-depths", options.visible_depths,
+               "draw each frame twice and plan the second for the depths that the first one shows");
   app.add_option("--light", raw.light, "sun, or a spot or point light in the middle of the scene");
   app.add_option("--light-elevation-deg", options.light_elevation_deg, "of the sun above the horizon")
       ->check(CLI::Range(0.1, 90.0));

@@ -30,6 +30,10 @@ struct Options {
   gnomon::render::ContextKind context = gnomon::render::ContextKind::automatic;
   gnomon::PlanOptions plan;
   gnomon::render::FilterSettings filter = gnomon::render::default_settings(gnomon::render::filters::pcf);
+  /// Frames are steps of one flight: texels change smoothly from each to the next.
+  bool history = false;
+  /// Every frame is drawn twice: the first tells which depths show a surface, the second's maps cover those.
+  bool visible_depths = false;
   enum class LightKind { sun, spot, point } light = LightKind::sun;
   double light_elevation_deg = 38.0;
   double light_azimuth_deg = 140.0;
