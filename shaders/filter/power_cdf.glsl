@@ -42,11 +42,13 @@ float power_lit(float least, float mean, float largest, float depth) {
   return one_less_power((largest - depth) / range, exponent) / one_less_power((largest - mean) / range, exponent);
 }
 
+// Options: offset.
 float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DArray depth_max, ShadowLookup at,
                         ShadowOptions options) {
   const float kRoundings = 4.0;  // of the mean, stored after each half of the blur, read and compared
   float depth = min(at.depth, 1.0);
   float value = options.unsigned_unit ? depth : 2.0 * depth - 1.0;
-  float lit = power_lit(texel.v[0].x, texel.v[0].y, texel.v[0].z, value - kRoundings * options.rounding);
+  float offset = options.value[0] * (texel.v[0].z - texel.v[0].x) + kRoundings * options.rounding;
+  float lit = power_lit(texel.v[0].x, texel.v[0].y, texel.v[0].z, value - offset);
   return lit < 1.0 ? max(lit, 0.0) : 1.0;  // not-a-number is lit
 }
