@@ -17,6 +17,7 @@
 #ifdef GNOMON_HAS_COMPARE
 #include "compare.hpp"
 #include "doctor.hpp"
+#include "filters.hpp"
 #include "merge.hpp"
 #endif
 
@@ -47,6 +48,7 @@ const std::string kVersion = std::string("gnomon ") + GNOMON_VERSION;
 /// What the commands about measuring were told.
 struct MeasureRequests {
   CompareRequest compare;
+  FiltersRequest filters;
   std::vector<std::string> merge_folders, report_folders;
   std::string merge_out = "out/merged";
   bool json = false;
@@ -82,8 +84,25 @@ void add_compare(CLI::App& app, CompareRequest& request) {
   compare->footer(compare_footer());
 }
 
+void add_filters(CLI::App& app, FiltersRequest& request) {
+  CLI::App* filters = app.add_subcommand("filters", "list the shadow filters, what they cost, what they do");
+  filters->set_version_flag("--version", kVersion);
+  filters->option_defaults()->always_capture_default();
+  filters->add_flag("--cost", request.cost, "time and memory against `hard`, as a table");
+  filters->add_option("--gallery", request.gallery,
+                      "write the papers' comparisons as pictures to this folder");
+  filters->add_option("--filters", request.filters, "of the cost table: names with their options, or all");
+  filters->add_option("--map-sizes", request.map_sizes, "of the cost table: texels along each side of a map")
+      ->check(CLI::Range(4, 16384));
+  filters->add_option("--rounds", request.rounds, "of the cost table")->check(CLI::Range(1, 1000));
+  filters->add_option("--scene", request.scene, "of the cost table: builtin:NAME or a glTF file");
+  filters->add_flag("--json", request.json, "list and cost table as JSON");
+  filters->add_option("--context", request.context, "auto, osmesa or egl");
+}
+
 void add_measuring(CLI::App& app, MeasureRequests& requests) {
   add_compare(app, requests.compare);
+  add_filters(app, requests.filters);
   CLI::App* merge = app.add_subcommand("merge", "join the results of shards, and write their report");
   merge->add_option("DIR", requests.merge_folders, "folders with results.jsonl")->required();
   merge->add_option("--out", requests.merge_out, "folder that the whole goes to")->capture_default_str();
@@ -97,6 +116,7 @@ void add_measuring(CLI::App& app, MeasureRequests& requests) {
 
 int run_measuring(const CLI::App& app, const MeasureRequests& requests) {
   if (app.got_subcommand("compare")) return run_compare(requests.compare, requests.json);
+  if (app.got_subcommand("filters")) return run_filters(requests.filters);
   if (app.got_subcommand("merge"))
     return run_merge(requests.merge_folders, requests.merge_out, requests.json);
   if (app.got_subcommand("report")) return run_report(requests.report_folders, requests.json);

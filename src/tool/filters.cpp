@@ -1,0 +1,165 @@
+// The list of filters and the table of their cost.
+#include "filters.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "filter_stage.hpp"
+#include "gnomon/render/context.hpp"
+#include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/load.hpp"
+#include "output.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+using render::FilterSettings;
+
+constexpr int kWidth = 480, kHeight = 270;        // a small frame: maps are to dominate
+constexpr double kBlurRadii[] = {0.0, 1.0, 3.0};  // none, 3 x 3, 7 x 7
+
+struct Measured {
+  FilterSettings settings;
+  std::vector<double> milliseconds;
+  render::FrameStats stats;
+};
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// What a filter answers for: maps drawn, stored and blurred, and read at every pixel.
+double shadow_milliseconds(const render::FrameStats& stats) {
+  double sum = 0.0;
+  for (const render::Pass pass : {render::Pass::shadow_maps, render::Pass::prefilter, render::Pass::mask})
+    sum += stats.milliseconds[static_cast<std::size_t>(pass)];
+  return sum;
+}
+
+std::vector<FilterSettings> asked_for(const std::vector<std::string>& texts) {
+  std::vector<FilterSettings> all;
+  for (const std::string& text : texts) {
+    if (text != "all") {
+      all.push_back(filter_from(text));
+      continue;
+    }
+    for (const render::Filter* filter : render::all_filters())
+      all.push_back(render::default_settings(*filter));
+  }
+  return all;
+}
+
+/// Every filter with every blur; `hard`, which has none, comes first.
+std::vector<Measured> runs_of(const std::vector<FilterSettings>& filters) {
+  std::vector<Measured> runs{{filter_from("hard"), {}, {}}};
+  for (const FilterSettings& settings : filters) {
+    if (settings.filter == runs[0].settings.filter) continue;
+    for (const double radius : kBlurRadii) {
+      Measured& run = runs.emplace_back();
+      run.settings = settings;
+      run.settings.radius = radius;
+    }
+  }
+  return runs;
+}
+
+std::string cost_row(int map_size, const Measured& run, const Measured& hard, bool json) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < run.milliseconds.size(); ++i)
+    ratios.push_back(run.milliseconds[i] / hard.milliseconds[i]);
+  const auto bytes = static_cast<double>(run.stats.map_bytes);
+  const double bytes_ratio = bytes / static_cast<double>(hard.stats.map_bytes);
+  const int blur = static_cast<int>(2.0 * run.settings.radius + 1.0);
+  if (json) {
+    return nlohmann::ordered_json{{"map_size", map_size},
+                                  {"filter", to_string(run.settings)},
+                                  {"blur", blur},
+                                  {"ms", median(run.milliseconds)},
+                                  {"ms_ratio", median(ratios)},
+                                  {"prefilter_passes", run.stats.prefilter_passes},
+                                  {"bytes", run.stats.map_bytes},
+                                  {"bytes_ratio", bytes_ratio}}
+        .dump();
+  }
+  constexpr double kMebi = 1024.0 * 1024.0;
+  const std::string box = blur == 1 ? "none" : std::to_string(blur) + "x" + std::to_string(blur);
+  char text[256];
+  std::snprintf(text, sizeof text, "| %d | %s | %s | %.1f | %.2f | %d | %.1f | %.2f |", map_size,
+                std::string(run.settings.filter->name).c_str(), box.c_str(), median(run.milliseconds),
+                median(ratios), run.stats.prefilter_passes, bytes / kMebi, bytes_ratio);
+  return text;
+}
+
+std::string list_as_json() {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const render::Filter* filter : render::all_filters()) {
+    nlohmann::ordered_json options = nlohmann::ordered_json::array(), formats = options;
+    for (const render::FilterOption& option : filter->options) {
+      options.push_back({{"name", option.name},
+                         {"default", option.fallback},
+                         {"min", option.min},
+                         {"max", option.max},
+                         {"summary", option.summary}});
+    }
+    for (const render::TexelFormat format : filter->formats) formats.push_back(to_string(format));
+    list.push_back({{"name", filter->name},
+                    {"summary", filter->summary},
+                    {"source", filter->source},
+                    {"options", options},
+                    {"formats", formats}});
+  }
+  return list.dump();
+}
+
+}  // namespace
+
+void print_filter_cost(const FiltersRequest& request) {
+  const std::vector<FilterSettings> filters = asked_for(request.filters);
+  FilterStage stage(load_scene(request.scene), 38.0, 140.0);
+  const Camera camera = default_path(stage.scene()).at(0.5, kWidth, kHeight);
+  if (!request.json) {
+    print_line("| map | filter | blur | ms | ratio to hard | prefilter passes | MiB | ratio |");
+    print_line("|---|---|---|---|---|---|---|---|");
+  }
+  for (const int map_size : request.map_sizes) {
+    std::vector<Measured> runs = runs_of(filters);
+    for (int round = 0; round < request.rounds; ++round) {
+      for (Measured& run : runs) {
+        // Images are made anew where the filter before had others: the first of two draws pays for that.
+        (void)stage.draw(run.settings, camera, map_size);
+        run.stats = stage.draw(run.settings, camera, map_size);
+        run.milliseconds.push_back(shadow_milliseconds(run.stats));
+      }
+    }
+    for (const Measured& run : runs) print_line(cost_row(map_size, run, runs[0], request.json));
+    flush_output();
+  }
+}
+
+int run_filters(const FiltersRequest& request) {
+  if (!request.cost && request.gallery.empty()) {
+    std::string text = request.json ? list_as_json() : render::filter_help();
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    print_line(text);
+    flush_output();
+    return 0;
+  }
+  render::ContextKind kind{};
+  if (!render::context_kind_from_name(request.context, kind))
+    throw std::runtime_error("--context " + request.context + ": wants auto, osmesa or egl");
+  const auto context = render::create_context(kind);
+  if (request.cost) {
+    if (!request.json) {
+      print_line(context->info().renderer +
+                 ": wall clock with glFinish after each pass, median of interleaved rounds\n");
+    }
+    print_filter_cost(request);
+  }
+  if (!request.gallery.empty()) write_filter_gallery(request.gallery);
+  return 0;
+}
+
+}  // namespace gnomon::tool

@@ -1,0 +1,55 @@
+// `gnomon filters` from outside: the list, and the table of cost.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "process.hpp"
+
+namespace gnomon::test {
+namespace {
+
+using nlohmann::json;
+
+TEST(Filters, lists_every_filter_with_its_source_and_options) {
+  const Finished finished = run_gnomon({"filters", "--json"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const json list = json::parse(finished.out);
+  std::set<std::string> names;
+  for (const json& filter : list) {
+    names.insert(filter.at("name").get<std::string>());
+    EXPECT_FALSE(filter.at("source").get<std::string>().empty());
+    for (const json& option : filter.at("options"))
+      EXPECT_LE(option.at("min").get<double>(), option.at("default").get<double>());
+  }
+  EXPECT_TRUE(names.contains("hard"));
+  EXPECT_TRUE(names.contains("convolution"));
+  const std::string text = run_gnomon({"filters"}).out;
+  for (const std::string& name : names) EXPECT_NE(text.find(name + ": "), std::string::npos) << name;
+}
+
+TEST(Filters, counts_passes_and_bytes_of_each_blur_against_hard) {
+  const Finished finished =
+      run_gnomon({"filters", "--cost", "--json", "--filters", "vsm", "--map-sizes", "64", "--rounds", "1"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  std::vector<json> rows;
+  for (const std::string& line : finished.lines()) rows.push_back(json::parse(line));
+  ASSERT_EQ(rows.size(), 4u);  // hard, and vsm unblurred, 3 x 3 and 7 x 7
+  EXPECT_EQ(rows[0].at("ms_ratio"), 1.0);
+  EXPECT_EQ(rows[0].at("prefilter_passes"), 0);
+  EXPECT_EQ(rows[1].at("prefilter_passes"), 1);
+  EXPECT_EQ(rows[3].at("prefilter_passes"), 2);
+  // Depth 4 bytes, two floats 8, and as much again while it is blurred.
+  EXPECT_EQ(rows[1].at("bytes_ratio"), 3.0);
+  EXPECT_EQ(rows[3].at("bytes_ratio"), 5.0);
+}
+
+TEST(Filters, says_what_is_wrong_in_one_line) {
+  const Finished finished = run_gnomon({"filters", "--cost", "--filters", "soft"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_EQ(finished.out.find("| "), std::string::npos);
+  EXPECT_NE(finished.err.find("'soft'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gnomon::test
