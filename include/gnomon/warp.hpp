@@ -45,8 +45,8 @@ struct WarpInput {
   bool orthographic;              ///< then there is no perspective to undo
   Objective objective;
   const Polytope* polytope;  ///< the same body with its faces and edges, in the light frame
-  /// What of the body error counts `focus_weight` times in; empty where there is no focus. `body` then has
-  /// its vertices, too, and all others are `focus_weight` times as deep as they are.
+  /// What of the body error counts `focus_weight` times in; nullptr or empty where there is none. `body` then
+  /// has its vertices, too, and all others are `focus_weight` times as deep as they are.
   const Polytope* focus;
   double focus_weight;
   ViewInLight view;

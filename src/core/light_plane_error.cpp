@@ -62,7 +62,7 @@ LightPlaneError::LightPlaneError(const WarpInput& input) noexcept : input_(input
   if (count_ == 0) {
     share_ = 0.0;
     // First, as there may be no room for all.
-    const bool focused = !input.focus->empty();
+    const bool focused = input.focus != nullptr && !input.focus->empty();
     if (focused) add_vertices_and_edges(*input.focus, 1.0);
     add_vertices_and_edges(*input.polytope, focused ? input.focus_weight : 1.0);
   }
@@ -111,11 +111,11 @@ void LightPlaneError::add_vertices_and_edges(const Polytope& body, double pixels
 
 void LightPlaneError::add_visible_points() noexcept {
   const ViewInLight& view = input_.view;
-  const Polytope& focus = *input_.focus;
+  const Polytope* const focus = input_.focus;
   const auto weight_at = [&](const glm::dvec3& p) {
-    if (focus.empty()) return 1.0;
-    for (int f = 0; f < focus.face_count; ++f) {
-      const Plane& plane = focus.plane[static_cast<std::size_t>(f)];
+    if (focus == nullptr || focus->empty()) return 1.0;
+    for (int f = 0; f < focus->face_count; ++f) {
+      const Plane& plane = focus->plane[static_cast<std::size_t>(f)];
       if (glm::dot(plane.normal, p) + plane.offset < 0.0) return input_.focus_weight;
     }
     return 1.0;
