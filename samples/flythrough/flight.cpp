@@ -27,11 +27,6 @@ struct TimedPlan {
   std::int64_t nanoseconds = 0;
 };
 
-gnomon::Camera camera_of(const Options& options, const Flight& flight, int frame) {
-  const double t = options.frames == 1 ? 0.5 : 1.0 * frame / (options.frames - 1);
-  return flight.path.at(t, options.width, options.height);
-}
-
 /// `history` may be nullptr; it is taken one frame further.
 TimedPlan timed_plan(const gnomon::Camera& camera, const gnomon::Light& light, const Flight& flight,
                      const gnomon::PlanOptions& options, gnomon::PlanHistory* history) {
@@ -201,6 +196,11 @@ Flight load_flight(const Options& options) {
   } catch (const gnomon::SceneError& error) {
     throw UsageError(error.what());
   }
+}
+
+gnomon::Camera camera_of(const Options& options, const Flight& flight, int frame) {
+  const double t = options.frames == 1 ? 0.5 : 1.0 * frame / (options.frames - 1);
+  return flight.path.at(t, options.width, options.height);
 }
 
 int fly_to_files(const Options& options, const Flight& flight) {

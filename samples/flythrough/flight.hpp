@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gnomon/bounds.hpp"
+#include "gnomon/camera.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/scene.hpp"
 #include "options.hpp"
@@ -20,6 +21,13 @@ struct Flight {
 
 /// Loads scene and path. Throws UsageError with what is wrong and where.
 [[nodiscard]] Flight load_flight(const Options& options);
+
+/// Of a frame of the flight.
+[[nodiscard]] gnomon::Camera camera_of(const Options& options, const Flight& flight, int frame);
+
+/// The smallest map size whose texels the filter hides in all frames; prints it. Throws UsageError where
+/// none does.
+[[nodiscard]] int perceptual_map_size(const Options& options, const Flight& flight);
 
 /// Draws the frames off-screen and writes them. Returns the exit code.
 int fly_to_files(const Options& options, const Flight& flight);

@@ -8,9 +8,11 @@
 
 int main(int argc, char** argv) {
   try {
-    const std::optional<flythrough::Options> options = flythrough::parse_options(argc, argv);
+    std::optional<flythrough::Options> options = flythrough::parse_options(argc, argv);
     if (!options) return 0;
     const flythrough::Flight flight = flythrough::load_flight(*options);
+    if (options->perceptual_resolution)
+      options->plan.map_size = flythrough::perceptual_map_size(*options, flight);
     return options->context == gnomon::render::ContextKind::glfw ? flythrough::fly_in_window(*options, flight)
                                                                  : flythrough::fly_to_files(*options, flight);
   } catch (const flythrough::UsageError& error) {

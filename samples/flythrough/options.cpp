@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "gnomon/render/perceptual.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/split.hpp"
 
@@ -34,7 +35,7 @@ std::string names_of(const Entries& entries) {
 struct Raw {
   std::string size = "960x540", context = "auto", split, warp = "auto", objective = "storage", filter = "pcf",
               path, light = "sun";
-  std::string fit = "tight";
+  std::string fit = "tight", resolution = "given";
   bool stable = false, lambda_given = false;
   std::vector<std::string> compared_warps;
 };
@@ -63,6 +64,20 @@ const gnomon::Warp* warp_named(const char* option, const std::string& name) {
 /// CLI::Range lets not-a-number through.
 void need_number(const char* name, double value) {
   if (std::isnan(value)) throw UsageError(fmt::format("{} nan: wants a number", name));
+}
+
+void resolve_resolution(const Raw& raw, Options& options) {
+  need_number("--blocker-distance", options.blocker_distance);
+  options.perceptual_resolution = raw.resolution == "perceptual";
+  if (!options.perceptual_resolution && raw.resolution != "given") {
+    throw UsageError(fmt::format("--resolution {}: wants given or perceptual", raw.resolution));
+  }
+  if (options.perceptual_resolution && !gnomon::render::is_kernel_in_world(options.filter)) {
+    throw UsageError(
+        fmt::format("--resolution perceptual: {} has no size in the world; give it radius and unit=world, or "
+                    "take pcss",
+                    gnomon::render::to_string(options.filter)));
+  }
 }
 
 void resolve(const Raw& raw, Options& options) {
@@ -100,6 +115,7 @@ void resolve(const Raw& raw, Options& options) {
   // A warped grid can only stand still from frame to frame.
   if (options.plan.fit == gnomon::Fit::warped_stable) options.history = true;
   gnomon::render::set_margin(options.filter, options.plan);
+  resolve_resolution(raw, options);
   if (!raw.path.empty()) options.path = raw.path;
 }
 
@@ -136,6 +152,11 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
   app.add_option("--filter", raw.filter, "as in pcf:radius=2,unit=texels. " + gnomon::render::filter_help());
   app.add_option("--map-size", options.plan.map_size, "texels along each side of a map")
       ->check(CLI::Range(4, kMaxSide));
+  app.add_option("--resolution", raw.resolution,
+                 "given by --map-size, or perceptual: the smallest maps whose texels the filter hides");
+  app.add_option("--blocker-distance", options.blocker_distance,
+                 "world units from a shadow to what casts it, for pcss; 0: half the scene's height")
+      ->check(CLI::Range(0.0, 1e12));
   app.add_option("--fit", raw.fit, "how maps are laid: tight, rotated, stable or warped_stable");
   app.add_flag("--stable", raw.stable, "the same as --fit stable: texel grids that stand still");
   app.add_flag("--history", options.history,

@@ -30,6 +30,10 @@ struct Options {
   gnomon::render::ContextKind context = gnomon::render::ContextKind::automatic;
   gnomon::PlanOptions plan;
   gnomon::render::FilterSettings filter = gnomon::render::default_settings(gnomon::render::filters::pcf);
+  /// The map size is chosen: the smallest whose texels the filter hides, in every frame.
+  bool perceptual_resolution = false;
+  /// From a shadow to what casts it, world units, for filters with penumbras; 0: half the scene's height.
+  double blocker_distance = 0.0;
   /// Frames are steps of one flight: texels change smoothly from each to the next.
   bool history = false;
   /// Every frame is drawn twice: the first tells which depths show a surface, the second's maps cover those.

@@ -74,6 +74,11 @@ TEST_F(Flythrough, refuses_bad_input_with_one_line_and_writes_nothing) {
                 {"--split even", "even"},
                 {"--light candle", "candle"},
                 {"--filter vsm:bleed=2", "bleed=2"},
+                {"--resolution blurry", "blurry"},
+                {"--resolution perceptual", "--resolution perceptual"},
+                {"--resolution perceptual --filter hard:radius=1,unit=world", "hard"},
+                {"--resolution perceptual --filter pcf:radius=0.000001,unit=world", "widen the kernel"},
+                {"--blocker-distance nan", "--blocker-distance"},
                 {"--size 640", "640"},
                 {"--size 640x", "640x"},
                 {"--frames 0", "--frames"},
@@ -98,9 +103,10 @@ TEST_F(Flythrough, tells_its_version_and_its_options) {
   EXPECT_NE(version.out.find("flythrough"), std::string::npos);
   const Outcome help = run("--help");
   EXPECT_EQ(help.code, 0);
-  for (const char* option : {"--frames", "--size", "--out", "--context", "--cascades", "--split", "--lambda",
-                             "--warp", "--compare-warps", "--filter", "--map-size", "--stable", "--light",
-                             "--light-elevation-deg", "--light-azimuth-deg", "--path"}) {
+  for (const char* option :
+       {"--frames", "--size", "--out", "--context", "--cascades", "--split", "--lambda", "--warp",
+        "--compare-warps", "--filter", "--map-size", "--stable", "--light", "--light-elevation-deg",
+        "--light-azimuth-deg", "--path", "--resolution", "--blocker-distance"}) {
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
   }
 }
@@ -113,6 +119,22 @@ TEST_F(Flythrough, draws_a_frame_under_several_warps_side_by_side) {
   ASSERT_EQ(outcome.code, 0) << outcome.error;
   EXPECT_GT(fs::exists(out() / "frame_0000_warps.png") ? fs::file_size(out() / "frame_0000_warps.png") : 0,
             100u);
+}
+
+TEST_F(Flythrough, takes_the_smallest_maps_whose_texels_the_filter_hides) {
+  const auto chosen = [this](const char* filter) {
+    const Outcome outcome = run(std::string("builtin:fence --frames 1 --size 96x64 --cascades 1 "
+                                            "--resolution perceptual --filter ") +
+                                filter);
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    const std::size_t line = outcome.out.find("maps:");
+    return line == std::string::npos ? 0 : std::atoi(outcome.out.c_str() + line + 5);
+  };
+  const int narrow = chosen("pcf:radius=0.5,unit=world"), wide = chosen("pcf:radius=1,unit=world");
+  EXPECT_GT(wide, 0);
+  EXPECT_GT(narrow, wide);
+  EXPECT_GT(chosen("pcss:angle_deg=10 --blocker-distance 5"),
+            chosen("pcss:angle_deg=10 --blocker-distance 10"));
 }
 
 TEST_F(Flythrough, writes_three_pictures_and_a_row_per_frame_and_a_sheet) {

@@ -112,12 +112,18 @@ struct Filter {
   std::span<const TexelFormat> formats = {};  ///< the first is the default; none for MapRead::depth
   bool may_mipmap = false;      ///< mip-maps and anisotropic reads, for MapRead::filtered and joined
   double default_radius = 1.0;  ///< texels
+  bool has_kernel = true;       ///< false: the nearest texel alone, whatever the radius says
   /// Within this of the right answer where all texels of the kernel agree, for a receiver at least `contact`
   /// (of the map's depth range) in front of or behind them: what filter_laws asks for.
   double tolerance = 1e-6, contact = 0.0;
 
   /// Whether the lookup reads the largest depth under the kernel. nullptr: never.
   bool (*needs_depth_max)(const FilterSettings& settings) noexcept = nullptr;
+  /// Radius across the light at the receiver, world units, of the kernel over the shadow of something this
+  /// far from the receiver; light_distance 0: parallel light. FilterSettings::radius is then the widest that
+  /// a kernel gets. nullptr: it is the kernel's own.
+  double (*penumbra_radius_world)(const FilterSettings& settings, double blocker_distance_world,
+                                  double light_distance_world) noexcept = nullptr;
   /// Brings options into what the format can hold. nullptr: nothing to do.
   void (*settle)(FilterSettings& settings) noexcept = nullptr;
   /// Channels of a stored texel, 1..kMaxChannels. nullptr for MapRead::depth.

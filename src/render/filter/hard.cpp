@@ -23,6 +23,7 @@ const Filter filters::hard{
     .reads = MapRead::depth,
     .bias_class = FilterClass::single_compare,
     .default_radius = 0.0,
+    .has_kernel = false,
     .lookup_reach_texels = 0.5,
     .visibility = visibility,
 };

@@ -19,11 +19,9 @@ constexpr FilterOption kOptions[] = {
     {"rotate", 1, 0, 1, "1 turns the samples from pixel to pixel: noise in the place of bands"},
 };
 
-double penumbra_radius(const FilterLookup& lookup, const FilterSettings& settings, double away) noexcept {
-  if (lookup.light_distance == 0.0) {
-    return std::tan(0.5 * settings.option[0] * std::numbers::pi / 180.0) * away;
-  }
-  return settings.option[1] * away / std::max(lookup.light_distance - away, 0.01 * lookup.light_distance);
+double penumbra_radius(const FilterSettings& settings, double away, double light_distance) noexcept {
+  if (light_distance == 0.0) return std::tan(0.5 * settings.option[0] * std::numbers::pi / 180.0) * away;
+  return settings.option[1] * away / std::max(light_distance - away, 0.01 * light_distance);
 }
 
 double widest_column(const glm::dmat2& m) noexcept {
@@ -41,8 +39,9 @@ double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSe
   const int search_samples = static_cast<int>(settings.option[2]),
             samples = static_cast<int>(settings.option[3]);
   const double angle = settings.option[4] > 0.5 ? lookup.rotation : 0.0;
-  const glm::dmat2 search =
-      disc_of(lookup, penumbra_radius(lookup, settings, std::max(distance_to_depth(lookup, 0.0), 0.0)));
+  const glm::dmat2 search = disc_of(
+      lookup,
+      penumbra_radius(settings, std::max(distance_to_depth(lookup, 0.0), 0.0), lookup.light_distance));
   double sum = 0.0;
   int blockers = 0;
   for (int i = 0; i < search_samples; ++i) {
@@ -54,7 +53,7 @@ double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSe
     ++blockers;
   }
   if (blockers == 0) return 1.0;
-  const glm::dmat2 disc = disc_of(lookup, penumbra_radius(lookup, settings, sum / blockers));
+  const glm::dmat2 disc = disc_of(lookup, penumbra_radius(settings, sum / blockers, lookup.light_distance));
   double lit = 0.0;
   for (int i = 0; i < samples; ++i) {
     lit += compare_2x2(lookup, lookup.position + disc * vogel_point(i, samples, angle));
@@ -77,6 +76,7 @@ const Filter filters::pcss{
     .bias_class = FilterClass::blocker_search,
     .options = kOptions,
     .default_radius = 12.0,
+    .penumbra_radius_world = penumbra_radius,
     .settle = settle,
     .lookup_reach_texels = 1.5,
     .visibility = visibility,
