@@ -68,7 +68,8 @@ TEST(Budget, a_stable_map_stays_square) {
   Plain plain;
   plain.options.texel_budget = 1 << 20;
   plain.options.fit = Fit::stable;
-  for (const ShadowMap& map : plain.plan().maps()) EXPECT_EQ(map.width, map.height);
+  const ShadowPlan plan = plain.plan();
+  for (const ShadowMap& map : plan.maps()) EXPECT_EQ(map.width, map.height);
 }
 
 TEST(Budget, faces_of_a_point_light_share_it_too) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -232,10 +233,19 @@ void expect_clean(const Filter& filter, Fit fit) {
   const Scene scene = box_on_ground();
   const Camera camera = camera_on_box(kSize, kSize);
   Verdict sum;
-  for (const Warp* warp : all_warps()) {
+  std::size_t frames = 0;
+  // Every elevation with every azimuth where all texels are compared; each of both once, in the other order
+  // for every warp, where they are blurred first, which takes ten times as long.
+  const bool thorough = filter.reads == MapRead::depth;
+  constexpr std::array kElevations{0.25, 0.5, 0.9, 1.3, 1.57}, kAzimuths{0.1, 1.3, 2.6, 3.7, 5.2};
+  for (std::size_t w = 0; w < all_warps().size(); ++w) {
+    const Warp* warp = all_warps()[w];
     if (fit == Fit::stable && warp != &warps::none) continue;
-    for (const double elevation : {0.25, 0.5, 0.9, 1.3, 1.57}) {
-      for (const double azimuth : {0.1, 1.3, 2.6, 3.7, 5.2}) {
+    for (std::size_t e = 0; e < kElevations.size(); ++e) {
+      for (std::size_t a = 0; a < kAzimuths.size(); ++a) {
+        if (!thorough && (e + a + w) % kAzimuths.size() != 0) continue;
+        const double elevation = kElevations[e], azimuth = kAzimuths[a];
+        ++frames;
         const glm::dvec3 light{std::cos(elevation) * std::cos(azimuth), -std::sin(elevation),
                                std::cos(elevation) * std::sin(azimuth)};
         PlanOptions options;
@@ -256,8 +266,8 @@ void expect_clean(const Filter& filter, Fit fit) {
       }
     }
   }
-  EXPECT_GT(sum.lit, 100'000u);
-  EXPECT_GT(sum.dark, 1'000u);
+  EXPECT_GT(sum.lit, 2000u * frames);
+  EXPECT_GT(sum.dark, 10u * frames);
 }
 
 TEST(Mask, has_neither_acne_nor_gap_for_any_filter_under_any_warp_in_tight_fit) {
