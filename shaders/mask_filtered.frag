@@ -6,5 +6,5 @@
 layout(binding = 8) uniform sampler2DArray shadow_stored[GNOMON_SHADOW_VECTORS];
 
 float visibility(ShadowLookup at, ShadowOptions options) {
-  return shadow_visibility(fetch_filtered(shadow_stored, at), shadow_depth, shadow_depth_max, at, options);
+  return shadow_visibility(fetch_filtered(shadow_stored, at, int(filtering.sums.z)), shadow_depth, shadow_depth_max, at, options);
 }

@@ -6,7 +6,7 @@ const int kTapVectors = 9;  // weights of the taps 0..35 to either side
 layout(std140, binding = 1) uniform Filter {
   vec4 options[2];  // FilterSettings::option
   vec4 kernel;      // radius; 1: in world units; 1: averages over the pixel; rounding of the format
-  vec4 sums;        // steps of a summed-area table per 1; 1: the format stores only 0..1; 0; 0
+  vec4 sums;        // steps of a summed-area table per 1; 1: the format stores only 0..1; reads along a long footprint; 0
   ivec4 reach[GNOMON_MAX_MAPS];                // per map: taps to either side of the middle one
   vec4 weights[GNOMON_MAX_MAPS * kTapVectors];  // per map: of the taps, from the middle on
 } filtering;

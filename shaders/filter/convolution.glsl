@@ -38,7 +38,10 @@ float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DAr
                         ShadowOptions options) {
   int order = fourier_order(options);
   float offset = options.value[2] * 0.5 / options.value[0];
-  float angle = kPi * (fourier_range(options) * min(at.depth, 1.0) - offset);
+  // On a slanted plane half of the kernel lies in front of the point, and its share would be right, and dark.
+  const float kSlant = 0.5;
+  float depth = min(at.depth - kSlant * dot(abs(at.depth_gradient), at.box), 1.0);
+  float angle = kPi * (fourier_range(options) * depth - offset);
   vec2 receiver = vec2(cos(angle), sin(angle));
   vec2 twice = turned(receiver, receiver);
   float sum = 0.5;

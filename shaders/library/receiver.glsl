@@ -57,6 +57,12 @@ void set_kernel(inout ShadowLookup at, ShadowMap map, ShadowKernel kernel, mat2 
     at.disc = mat2(half_side);
     at.box = vec2(half_side);
   }
+  if (kernel.minify) {
+    vec2 across_x = vec2(texels_per_pixel[0].x, texels_per_pixel[1].x);
+    vec2 across_y = vec2(texels_per_pixel[0].y, texels_per_pixel[1].y);
+    vec2 squared = vec2(dot(across_x, across_x), dot(across_y, across_y));
+    at.box = sqrt(at.box * at.box + kBoxOfDisc * kBoxOfDisc * squared);
+  }
   float stored = 2.0 * map.kernel.y;  // the box that was blurred with: its variance is that of a disc of side^2 / 3
   at.footprint = ellipse_of_sum(kernel.in_world ? at.disc : none, kernel.minify ? texels_per_pixel : none,
                                 kernel.in_world ? stored * stored / 3.0 : 0.0);

@@ -75,6 +75,7 @@ FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides)
                                       settings.mipmap ? 1.0 : 0.0, rounding_of(settings.format)));
   block.sums.y = is_unsigned_unit(settings.format) ? 1.0f : 0.0f;
   block.sums.x = static_cast<float>(sum_steps(settings));
+  block.sums.z = static_cast<float>(settings.anisotropy);
   for (std::size_t map = 0; map < kMaxMaps; ++map) {
     std::array<double, 4 * kTapVectors> weights{};
     block.reach[map].x = tap_weights(settings.blur, sides[map], weights);

@@ -290,8 +290,6 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
   glSamplerParameteri(stored_sampler_.name(), GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
   glSamplerParameteri(stored_sampler_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glSamplerParameteri(stored_sampler_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  glSamplerParameterf(stored_sampler_.name(), GL_TEXTURE_MAX_ANISOTROPY_EXT,
-                      mipmaps && smooth ? static_cast<float>(settings.anisotropy) : 1.0f);
 }
 
 void StoredMaps::bind() const noexcept {

@@ -54,7 +54,10 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
     for (double& channel : basis) channel = 2.0 * channel - 1.0;
   }
   const int order = order_of(settings);
-  const double depth = range_of(settings) * std::min(lookup.depth, 1.0);
+  // On a slanted plane half of the kernel lies in front of the point, and its share would be right, and dark.
+  constexpr double kSlant = 0.5;
+  const double slant = kSlant * glm::dot(glm::abs(lookup.depth_gradient), lookup.box);
+  const double depth = range_of(settings) * std::min(lookup.depth - slant, 1.0);
   const double offset = settings.option[2] * fourier_half_step(order);
   return saturate(settings.option[3] * fourier_lit(basis, depth - offset, {order, settings.option[1]}));
 }

@@ -23,7 +23,7 @@ int channels(const FilterSettings&) noexcept {
 
 const Filter filters::vsm{
     .name = "vsm",
-    .summary = "bound from mean and variance; blurs, shrinks and stretches in hardware, bleeds light",
+    .summary = "bound from mean and variance; blurs, shrinks and stretches by mip-maps, bleeds light",
     .source = "Donnelly, Lauritzen 2006, Variance shadow maps",
     .reads = MapRead::filtered,
     .bias_class = FilterClass::prefiltered,

@@ -53,7 +53,7 @@ constexpr const char* kAskFiltered = R"(
 layout(binding = 8) uniform sampler2DArray stored[GNOMON_SHADOW_VECTORS];
 void main() {
   ShadowLookup at = question();
-  answer = vec4(shadow_visibility(fetch_filtered(stored, at), depth_map, depth_max, at, shadow_options()));
+  answer = vec4(shadow_visibility(fetch_filtered(stored, at, 1), depth_map, depth_max, at, shadow_options()));
 }
 )";
 constexpr const char* kAskJoined = R"(
