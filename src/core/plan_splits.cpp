@@ -61,8 +61,8 @@ DepthRange received_depths(const PlanContext& c, const Polytope& body) noexcept 
   }
   // A flat scene's depth must not fall outside its own range by rounding.
   constexpr double kRounding = 1e-12;
-  const double begin = clamp_to(low * (1.0 - kRounding), n, f);
-  const double end = clamp_to(high * (1.0 + kRounding), begin, f);
+  const double begin = clamp_to(low - kRounding * std::abs(low), n, f);
+  const double end = clamp_to(high + kRounding * std::abs(high), begin, f);
   tell_unseen(c, OmissionKind::depth_without_receiver, n, begin);
   tell_unseen(c, OmissionKind::depth_without_receiver, end, f);
   return {begin, end};

@@ -288,6 +288,16 @@ TEST(Conventions, off_axis_and_orthographic_cameras_get_all_they_see_inside_thei
   }
 }
 
+TEST(Conventions, an_orthographic_camera_sees_behind_its_own_position) {
+  Case c = scene();
+  c.camera = orthographic_camera({3, 30, 10}, {0, -1, 0}, {0, 0, -1}, 40.0, 1.5, -5.0, 150.0, 600, 400);
+  c.receivers = {{{-50, -5, -50}, {50, 60, 50}}};
+  c.options.cascades = 1;
+  const ShadowPlan plan = c.plan();
+  ASSERT_EQ(plan.map_count, 1);
+  EXPECT_LE(plan.map[0].depth_begin, -5.0);
+}
+
 TEST(Conventions, a_tile_of_a_picture_never_needs_more_texels_than_the_whole) {
   Case c = scene();
   const double whole = c.plan().map[0].storage * c.camera.width * c.camera.height;
