@@ -13,6 +13,8 @@ constexpr double kFlattest = 1e-6;
 // An extent that is smaller than this much of the body's distance is its rounding: the body is a point.
 constexpr double kPointSize = 1e-9;
 
+}  // namespace
+
 void widen(double& low, double& high, double least) noexcept {
   if (high - low >= least) return;
   const double middle = 0.5 * (low + high);
@@ -20,7 +22,13 @@ void widen(double& low, double& high, double least) noexcept {
   high = middle + 0.5 * least;
 }
 
-}  // namespace
+void grow(PlaneMap& map, double share) noexcept {
+  const double a = share * (map.a_max - map.a_min), b = share * (map.b_max - map.b_min);
+  map.a_min -= a;
+  map.a_max += a;
+  map.b_min -= b;
+  map.b_max += b;
+}
 
 PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& choice) noexcept {
   PlaneMap map{};

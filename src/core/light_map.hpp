@@ -28,6 +28,11 @@ struct PlaneMap {
   }
 };
 
+/// Moves both ends apart to `least` where they are nearer.
+void widen(double& low, double& high, double least) noexcept;
+/// Moves each side of the rectangle out by this share of the rectangle.
+void grow(PlaneMap& map, double share) noexcept;
+
 /// The smallest rectangle that holds the body's image. Flat and single-point bodies get an extent of 1e-6 of
 /// the largest one.
 [[nodiscard]] PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& choice) noexcept;

@@ -121,13 +121,6 @@ double published_stretch(const Draft& d, const ViewInSlopes& view) noexcept {
   return usable ? std::sqrt(far_depth / view.depth) : 1.0;
 }
 
-void widen(double& low, double& high, double least) noexcept {
-  if (high - low >= least) return;
-  const double middle = 0.5 * (low + high);
-  low = middle - 0.5 * least;
-  high = middle + 0.5 * least;
-}
-
 /// The rim that kernels need round the rectangle as it is now. A step across the ray at a distance is, as a
 /// slope, at most this step over the distance over the cosine to the light's axis.
 void lay_rim(Draft& d, ShadowMap& map) noexcept {

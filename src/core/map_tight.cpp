@@ -198,16 +198,6 @@ bool lay_as_before(const PlanContext& c, const Polytope& body, const LightBody& 
   return lowest(points) >= held.depths.bottom && height <= held.depths.height;
 }
 
-/// Room for the view to move in before a map that stands still must be laid anew.
-void add_room(PlaneMap& plane) noexcept {
-  constexpr double kRoom = 0.1;  // of an extent, on each side
-  const double a = kRoom * (plane.a_max - plane.a_min), b = kRoom * (plane.b_max - plane.b_min);
-  plane.a_min -= a;
-  plane.a_max += a;
-  plane.b_min -= b;
-  plane.b_max += b;
-}
-
 /// The best map of the plane, or the steady way there.
 PlaneMap chosen_plane(const PlanContext& c, const Polytope& body, const LightBody& points, double begin,
                       double end, ShadowMap& map) noexcept {
@@ -221,11 +211,15 @@ PlaneMap chosen_plane(const PlanContext& c, const Polytope& body, const LightBod
   return steady ? steady_plane(c, in, choice, map) : plane_map(in.body, choice);
 }
 
+// Room for the view to move in before a map that stands still must be laid anew, on each side: of the
+// rectangle and of the depths.
+constexpr double kRoom = 0.1;
+
 void lay_anew(const PlanContext& c, const Polytope& body, const LightBody& points, double begin, double end,
               Laid& laid, ShadowMap& map) noexcept {
   const bool still = c.options.fit == Fit::warped_stable;
   laid.plane = chosen_plane(c, body, points, begin, end, map);
-  if (still) add_room(laid.plane);
+  if (still) grow(laid.plane, kRoom);
   if (c.history != nullptr) {
     map.warp = laid.plane.choice.kappa > 0.0 ? &c.warp : &warps::none;
     if (still)
@@ -246,7 +240,6 @@ void lay_anew(const PlanContext& c, const Polytope& body, const LightBody& point
   laid.depths = padded(bottom, height,
                        max_of(laid.plane.a_max - laid.plane.a_min, laid.plane.b_max - laid.plane.b_min));
   if (!still) return;
-  constexpr double kRoom = 0.1;  // of the depths, on each side
   laid.depths.bottom -= kRoom * laid.depths.height;
   laid.depths.height *= 1.0 + 2.0 * kRoom;
 }

@@ -182,16 +182,6 @@ Change change_between(const Homography& before, const Homography& now,
   return change;
 }
 
-/// Gives the rectangle more room: fewer texels per area, everywhere by the same factor.
-void widen_area(PlaneMap& plane, double log_factor) noexcept {
-  const double grow = 0.5 * (elementary::exp(0.5 * log_factor) - 1.0);
-  const double a = (plane.a_max - plane.a_min) * grow, b = (plane.b_max - plane.b_min) * grow;
-  plane.a_min -= a;
-  plane.a_max += a;
-  plane.b_min -= b;
-  plane.b_max += b;
-}
-
 /// The strongest fall-off whose texels keep up with the camera: texels of a warp that moves along with the
 /// viewer change with the third power of w.
 double strongest_in_motion(const PlanContext& c, double length) noexcept {
@@ -270,7 +260,8 @@ PlaneMap steady_plane(const PlanContext& c, const WarpInput& in, const WarpChoic
   if (change.largest() > kCut) return jump(target, changed(target));
   if (change.high > kLimit) {
     const double less = change.high - kLimit;
-    widen_area(plane, less);
+    // Fewer texels per area, everywhere by the same factor.
+    grow(plane, 0.5 * (elementary::exp(0.5 * less) - 1.0));
     change.low -= less;
     change.high -= less;
   }
