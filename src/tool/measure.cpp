@@ -5,12 +5,10 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <random>
 #include <stdexcept>
 #include <utility>
-#include <variant>
 
 #include "seen_from.hpp"
 
@@ -42,16 +40,16 @@ double kernel_half_side(const render::FilterSettings& filter) {
   return filter.unit == render::KernelUnit::world ? kBoxOfDisc * filter.radius : filter.radius + kHalfTexel;
 }
 
-/// Radius of the light that the filter softens its shadows for, as trace::area_reference wants it; 0 where it
-/// knows of none.
-double light_radius(const render::FilterSettings& filter, const Light& light) noexcept {
-  if (!std::holds_alternative<DirectionalLight>(light)) return filter.value("light_radius");
-  return std::tan(0.5 * filter.value("angle_deg") * std::numbers::pi / 180.0);
+/// Radius at unit distance of the parallel light that the filter softens its shadows for, as
+/// trace::area_reference wants it; 0 where it knows of none.
+double light_radius(const render::FilterSettings& filter) noexcept {
+  const auto penumbra = filter.filter->penumbra_radius_world;
+  return penumbra == nullptr ? 0.0 : penumbra(filter, 1.0, 0.0);
 }
 
 std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const ShadowPlan& plan,
                               const SweepEntry& entry, const std::vector<float>& maps) {
-  const double light = light_radius(entry.filter, stage.light());
+  const double light = light_radius(entry.filter);
   if (light > 0.0) return trace::area_reference(stage.tracer(), truth.points, stage.light(), light).pixels;
   // Stored texels are blurred by a Gauss that is cut at two deviations, the box's half side: 0.88 of a
   // deviation is what is left of it.
@@ -160,7 +158,7 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
   const render::FrameStats stats = renderer.draw(plan, truth.camera, filter, frame_options(true));
   const FloatImage mask_image = renderer.mask();
   const std::vector<float> mask = channel(mask_image, 0), maps = channel(mask_image, 1);
-  row.truth = light_radius(entry.filter, stage.light()) > 0.0 ? "area" : "filtered";
+  row.truth = light_radius(entry.filter) > 0.0 ? "area" : "filtered";
   const std::vector<float> soft = soft_truth(stage, truth, plan, entry, maps);
   row.errors = report::mask_errors(mask, truth.judged, soft);
   row.undecided_pixels = truth.undecided;

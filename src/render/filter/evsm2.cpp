@@ -15,9 +15,7 @@ constexpr FilterOption kOptions[] = {
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16};
 
 void settle(FilterSettings& settings) noexcept {
-  for (std::size_t i = 0; i < 1; ++i) {
-    settings.option[i] = std::min(settings.option[i], largest_exponent(settings.format));
-  }
+  settings.option[0] = std::min(settings.option[0], largest_exponent(settings.format));
 }
 
 int channels(const FilterSettings&) noexcept {
