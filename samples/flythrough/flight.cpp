@@ -97,8 +97,9 @@ void draw_comparison(Studio& studio, const gnomon::Camera& camera, int frame) {
   WarpStrip strip;
   for (const gnomon::Warp* warp : options.compared_warps) {
     plan_options.warp = warp;
-    const gnomon::ShadowPlan plan = gnomon::make_plan(
-        camera, light_of(options, studio.flight.scene.bounds_world), studio.flight.bounds(), plan_options);
+    const gnomon::ShadowPlan plan =
+        gnomon::make_plan(camera, gnomon::default_light(options.light, studio.flight.scene.bounds_world),
+                          studio.flight.bounds(), plan_options);
     studio.renderer.draw(plan, camera, studio.filter, {});
     const PixelAliasing m = pixel_aliasing(studio.renderer.aliasing());
     strip.add(fmt::format("{}: m p95 {:.3g}, median {:.3g}, {:.0f} % undersampled",
@@ -113,7 +114,7 @@ void draw_comparison(Studio& studio, const gnomon::Camera& camera, int frame) {
 FrameRow draw_frame(Studio& studio, int frame) {
   const Options& options = studio.options;
   const gnomon::Camera camera = camera_of(options, studio.flight, frame);
-  const gnomon::Light light = light_of(options, studio.flight.scene.bounds_world);
+  const gnomon::Light light = gnomon::default_light(options.light, studio.flight.scene.bounds_world);
   gnomon::PlanOptions plan_options = options.plan;
   gnomon::VisibleDepths depths;
   if (options.visible_depths) {
@@ -154,8 +155,9 @@ FrameRow draw_frame(Studio& studio, int frame) {
 void check_plans(const Options& options, const Flight& flight) {
   for (int frame = 0; frame < options.frames; ++frame) {
     const gnomon::Camera camera = camera_of(options, flight, frame);
-    const gnomon::ShadowPlan plan = gnomon::make_plan(camera, light_of(options, flight.scene.bounds_world),
-                                                      flight.bounds(), options.plan);
+    const gnomon::ShadowPlan plan =
+        gnomon::make_plan(camera, gnomon::default_light(options.light, flight.scene.bounds_world),
+                          flight.bounds(), options.plan);
     if (plan.status == gnomon::PlanStatus::invalid_input) {
       throw UsageError(
           fmt::format("{}: frame {}: the plan refuses {}", options.scene, frame, plan.invalid_field));

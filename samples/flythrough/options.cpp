@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
 #include "gnomon/render/perceptual.hpp"
 #include "gnomon/scene/load.hpp"
@@ -83,8 +82,8 @@ void resolve_resolution(const Raw& raw, Options& options) {
 void resolve(const Raw& raw, Options& options) {
   parse_size(raw.size, options);
   need_number("--lambda", options.plan.lambda);
-  need_number("--light-elevation-deg", options.light_elevation_deg);
-  need_number("--light-azimuth-deg", options.light_azimuth_deg);
+  need_number("--light-elevation-deg", options.light.elevation_deg);
+  need_number("--light-azimuth-deg", options.light.azimuth_deg);
   if (!gnomon::render::context_kind_from_name(raw.context, options.context)) {
     throw UsageError(fmt::format("--context {}: wants auto, osmesa, egl or glfw", raw.context));
   }
@@ -93,10 +92,7 @@ void resolve(const Raw& raw, Options& options) {
         "--split {}: wants auto, uniform, logarithmic, practical, pseudo_near or optimal", raw.split));
   }
   if (raw.split.empty() && raw.lambda_given) options.plan.split = gnomon::SplitScheme::practical;
-  options.light = raw.light == "spot"    ? Options::LightKind::spot
-                  : raw.light == "point" ? Options::LightKind::point
-                                         : Options::LightKind::sun;
-  if (options.light == Options::LightKind::sun && raw.light != "sun") {
+  if (!gnomon::light_kind_from_name(raw.light, options.light.kind)) {
     throw UsageError(fmt::format("--light {}: wants sun, spot or point", raw.light));
   }
   options.plan.warp = warp_named("--warp", raw.warp);
@@ -164,9 +160,9 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
   app.add_flag("--visible-depths", options.visible_depths,
                "draw each frame twice and plan the second for the depths that the first one shows");
   app.add_option("--light", raw.light, "sun, or a spot or point light in the middle of the scene");
-  app.add_option("--light-elevation-deg", options.light_elevation_deg, "of the sun above the horizon")
+  app.add_option("--light-elevation-deg", options.light.elevation_deg, "of the sun above the horizon")
       ->check(CLI::Range(0.1, 90.0));
-  app.add_option("--light-azimuth-deg", options.light_azimuth_deg,
+  app.add_option("--light-azimuth-deg", options.light.azimuth_deg,
                  "where the sun stands: 0 over -Z, 90 over +X")
       ->check(CLI::Range(-360.0, 360.0));
   app.add_option("--path", raw.path, "camera flight, a JSON file; else the scene's own");
@@ -194,21 +190,6 @@ std::optional<Options> parse_options(int argc, char** argv) {
   raw.lambda_given = app.count("--lambda") > 0;
   resolve(raw, options);
   return options;
-}
-
-gnomon::Light light_of(const Options& options, const gnomon::Box& scene) noexcept {
-  const double elevation = options.light_elevation_deg * std::numbers::pi / 180.0;
-  const double azimuth = options.light_azimuth_deg * std::numbers::pi / 180.0;
-  const glm::dvec3 to_light{std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-                            -std::cos(elevation) * std::cos(azimuth)};
-  if (options.light == Options::LightKind::sun) return gnomon::DirectionalLight{-to_light};
-  const glm::dvec3 size = scene.max - scene.min, middle = 0.5 * (scene.min + scene.max);
-  const double extent = std::max({size.x, size.y, size.z});
-  if (options.light == Options::LightKind::spot) {
-    constexpr double kHalfAngle = 0.6;
-    return gnomon::SpotLight{middle + 0.6 * extent * to_light, -to_light, kHalfAngle, 1.5 * extent};
-  }
-  return gnomon::PointLight{middle + glm::dvec3(0.0, 0.3 * size.y, 0.0), 0.75 * extent};
 }
 
 }  // namespace flythrough

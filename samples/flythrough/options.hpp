@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/bounds.hpp"
-#include "gnomon/light.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/filter.hpp"
+#include "gnomon/scene/default_light.hpp"
 
 namespace flythrough {
 
@@ -38,18 +37,12 @@ struct Options {
   bool history = false;
   /// Every frame is drawn twice: the first tells which depths show a surface, the second's maps cover those.
   bool visible_depths = false;
-  enum class LightKind { sun, spot, point } light = LightKind::sun;
-  double light_elevation_deg = 38.0;
-  double light_azimuth_deg = 140.0;
+  gnomon::LightPlacement light;
   std::optional<std::filesystem::path> path;
   std::vector<const gnomon::Warp*> compared_warps;  ///< nullptr: chosen by the plan; none: no comparison
 };
 
 /// Prints help or the version and answers nothing where those were asked for. Throws UsageError.
 [[nodiscard]] std::optional<Options> parse_options(int argc, char** argv);
-
-/// The sun, or a lamp in its direction over the middle of the scene. Azimuth 0: it stands over -Z; 90: over
-/// +X.
-[[nodiscard]] gnomon::Light light_of(const Options& options, const gnomon::Box& scene) noexcept;
 
 }  // namespace flythrough

@@ -27,7 +27,7 @@ ShadowDistances distances_of(const Options& options, const Flight& flight, const
 }  // namespace
 
 int perceptual_map_size(const Options& options, const Flight& flight) {
-  const gnomon::Light light = light_of(options, flight.scene.bounds_world);
+  const gnomon::Light light = gnomon::default_light(options.light, flight.scene.bounds_world);
   const ShadowDistances distances = distances_of(options, flight, light);
   gnomon::PlanOptions plan_options = options.plan;
   // Smaller maps are all rim.

@@ -174,11 +174,11 @@ void draw(Viewer& viewer, double seconds) {
   height = std::max(height, 16);
   const gnomon::Camera camera = next_camera(viewer, width, height, seconds);
   const gnomon::ShadowPlan plan =
-      gnomon::make_plan(camera, light_of(viewer.options, viewer.flight.scene.bounds_world),
+      gnomon::make_plan(camera, gnomon::default_light(viewer.options.light, viewer.flight.scene.bounds_world),
                         viewer.flight.bounds(), viewer.options.plan);
   gnomon::render::FrameOptions frame;
   frame.time_passes = false;
-  const gnomon::Light light = light_of(viewer.options, viewer.flight.scene.bounds_world);
+  const gnomon::Light light = gnomon::default_light(viewer.options.light, viewer.flight.scene.bounds_world);
   frame.light = &light;
   frame.aliasing = frame.heat_map = viewer.picture == Renderer::Picture::heat_map;
   frame.cascade_tint = viewer.picture == Renderer::Picture::cascade_tint;

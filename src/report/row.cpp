@@ -88,6 +88,7 @@ Json settings_json(const Row& row) {
           {"frames", row.frames},
           {"width", row.width},
           {"height", row.height},
+          {"light", row.light},
           {"light_elevation_deg", row.light_elevation_deg},
           {"light_azimuth_deg", row.light_azimuth_deg},
           {"technique", to_json(row.technique)}};
@@ -217,6 +218,7 @@ Row row_from_json(const std::string& line, const std::string& where) {
     json.at("frames").get_to(row.frames);
     json.at("width").get_to(row.width);
     json.at("height").get_to(row.height);
+    json.at("light").get_to(row.light);
     json.at("light_elevation_deg").get_to(row.light_elevation_deg);
     json.at("light_azimuth_deg").get_to(row.light_azimuth_deg);
     row.technique = technique_from(json.at("technique"));

@@ -250,9 +250,10 @@ std::string section_method(const PageInput& input) {
                     m.cpu + ", " + std::to_string(m.cores) + " cores; gnomon " + m.version +
                     "; rays: " + m.rays);
     settings.insert(std::to_string(row.width) + "x" + std::to_string(row.height) + " pixels, " +
-                    std::to_string(row.frames) + " frames, sun at " + short_number(row.light_elevation_deg) +
-                    " degrees elevation and " + short_number(row.light_azimuth_deg) + " azimuth, " +
-                    std::to_string(row.times.rounds) + " rounds");
+                    std::to_string(row.frames) + " frames, " + row.light + " at " +
+                    short_number(row.light_elevation_deg) + " degrees elevation and " +
+                    short_number(row.light_azimuth_deg) + " azimuth, " + std::to_string(row.times.rounds) +
+                    " rounds");
     low = std::min(low, m.load);
     high = std::max(high, m.load);
   }

@@ -36,8 +36,9 @@ report::Row empty_row(const Sweep& sweep, std::size_t scene, int frame, std::siz
   row.frames = sweep.frames;
   row.width = sweep.width;
   row.height = sweep.height;
-  row.light_elevation_deg = sweep.light_elevation_deg;
-  row.light_azimuth_deg = sweep.light_azimuth_deg;
+  row.light = to_string(sweep.light.kind);
+  row.light_elevation_deg = sweep.light.elevation_deg;
+  row.light_azimuth_deg = sweep.light.azimuth_deg;
   row.technique = sweep.entries[entry].technique;
   return row;
 }

@@ -74,6 +74,7 @@ void add_compare(CLI::App& app, CompareRequest& request) {
   compare->add_option("--shard", request.shard,
                       "I/N: only every N-th row from the I-th on; join with gnomon merge");
   compare->add_option("--context", request.context, "auto, osmesa or egl");
+  compare->add_option("--light", request.light, "sun, or a spot or point light in the middle of the scene");
   compare->add_option("--light-elevation-deg", request.light_elevation_deg, "of the sun above the horizon")
       ->check(CLI::Range(0.1, 90.0));
   compare

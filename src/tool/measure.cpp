@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "seen_from.hpp"
 
@@ -40,16 +41,19 @@ double kernel_half_side(const render::FilterSettings& filter) {
   return filter.unit == render::KernelUnit::world ? kBoxOfDisc * filter.radius : filter.radius + kHalfTexel;
 }
 
-/// Radius at unit distance of the parallel light that the filter softens its shadows for, as
-/// trace::area_reference wants it; 0 where it knows of none.
-double light_radius(const render::FilterSettings& filter) noexcept {
+/// Radius of the light that the filter softens its shadows for, as trace::area_reference wants it; 0 where it
+/// knows of none.
+double light_radius(const render::FilterSettings& filter, const Light& light) noexcept {
   const auto penumbra = filter.filter->penumbra_radius_world;
-  return penumbra == nullptr ? 0.0 : penumbra(filter, 1.0, 0.0);
+  if (penumbra == nullptr) return 0.0;
+  // Half way to a lamp the penumbra is as wide as the lamp.
+  return std::holds_alternative<DirectionalLight>(light) ? penumbra(filter, 1.0, 0.0)
+                                                         : penumbra(filter, 0.5, 1.0);
 }
 
 std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const ShadowPlan& plan,
                               const SweepEntry& entry, const std::vector<float>& maps) {
-  const double light = light_radius(entry.filter);
+  const double light = light_radius(entry.filter, stage.light());
   if (light > 0.0) return trace::area_reference(stage.tracer(), truth.points, stage.light(), light).pixels;
   // Stored texels are blurred by a Gauss that is cut at two deviations, the box's half side: 0.88 of a
   // deviation is what is left of it.
@@ -158,7 +162,7 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
   const render::FrameStats stats = renderer.draw(plan, truth.camera, filter, frame_options(true));
   const FloatImage mask_image = renderer.mask();
   const std::vector<float> mask = channel(mask_image, 0), maps = channel(mask_image, 1);
-  row.truth = light_radius(entry.filter) > 0.0 ? "area" : "filtered";
+  row.truth = light_radius(entry.filter, stage.light()) > 0.0 ? "area" : "filtered";
   const std::vector<float> soft = soft_truth(stage, truth, plan, entry, maps);
   row.errors = report::mask_errors(mask, truth.judged, soft);
   row.undecided_pixels = truth.undecided;

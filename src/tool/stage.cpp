@@ -11,7 +11,10 @@ constexpr double kFlightSeconds = 10.0, kViewerHz = 60.0;
 }  // namespace
 
 Stage::Stage(const Sweep& sweep, const std::string& scene)
-    : sweep_(sweep), scene_(load_scene(scene)), path_(default_path(scene_)), light_(sweep.sun()) {
+    : sweep_(sweep),
+      scene_(load_scene(scene)),
+      path_(default_path(scene_)),
+      light_(default_light(sweep.light, scene_.bounds_world)) {
   for (const Instance& instance : scene_.instances) boxes_.push_back(instance.bounds_world);
   tracer_ = std::make_unique<trace::Tracer>(scene_);
   renderer_ = std::make_unique<render::Renderer>(scene_);

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <functional>
-#include <numbers>
 #include <stdexcept>
 
 namespace gnomon::tool {
@@ -120,20 +118,23 @@ void multiply(std::vector<SweepEntry>& entries, const Values& values, Set&& set)
 
 /// The first of each list: what stands for all of it where it makes no difference.
 struct Firsts {
-  std::string split, warp;
+  std::string split, warp, fit;
   int cascades = 1;
 };
 
 /// True where another entry of the product says the same.
-bool is_double(const SweepEntry& entry, const Firsts& first) {
+bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
   const report::Technique& t = entry.technique;
+  // The maps of a lamp follow from its cone and what it lights.
+  if (light != LightKind::sun)
+    return t.split != first.split || t.cascades != first.cascades || t.fit != first.fit;
   const bool by_depth = entry.plan.partition == Partition::view_depth;
   if (by_depth && t.cascades == 1 && t.split != first.split) return true;
   if (!by_depth && t.cascades != first.cascades) return true;
   return t.fit == "stable" && (!by_depth || (t.warp != "none" && t.warp != first.warp));
 }
 
-std::vector<SweepEntry> product_of(const CompareRequest& request) {
+std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind light) {
   std::vector<SweepEntry> entries(1);
   const std::vector<std::string> splits = split_lists(request.splits);
   const std::vector<std::string> warps = expanded(request.warps, all_warps());
@@ -143,9 +144,10 @@ std::vector<SweepEntry> product_of(const CompareRequest& request) {
   multiply(entries, splits, set_split);
   multiply(entries, parse_numbers("--cascades", request.cascades, 1, kMaxMaps), set_cascades);
   multiply(entries, parse_numbers("--map-sizes", request.map_sizes, kMinMapSize, kMaxMapSize), set_size);
-  Firsts first{splits.front(), warps.front(), entries.front().technique.cascades};
+  Firsts first{splits.front(), warps.front(), entries.front().technique.fit,
+               entries.front().technique.cascades};
   if (std::find(warps.begin(), warps.end(), "none") != warps.end()) first.warp = "none";
-  std::erase_if(entries, [&](const SweepEntry& entry) { return is_double(entry, first); });
+  std::erase_if(entries, [&](const SweepEntry& entry) { return is_double(entry, first, light); });
   // A list that names something twice.
   std::vector<SweepEntry> once;
   for (SweepEntry& entry : entries) {
@@ -158,13 +160,6 @@ std::vector<SweepEntry> product_of(const CompareRequest& request) {
 }
 
 }  // namespace
-
-DirectionalLight Sweep::sun() const noexcept {
-  const double elevation = light_elevation_deg * std::numbers::pi / 180.0;
-  const double azimuth = light_azimuth_deg * std::numbers::pi / 180.0;
-  return {{-std::cos(elevation) * std::sin(azimuth), -std::sin(elevation),
-           std::cos(elevation) * std::cos(azimuth)}};
-}
 
 std::string compare_footer() {
   return "Lists take commas or spaces. The sweep is the product of all lists, combinations that are the "
@@ -203,8 +198,9 @@ Sweep make_sweep(const CompareRequest& request) {
   sweep.scenes = request.scenes;
   sweep.frames = request.frames;
   sweep.rounds = request.rounds;
-  sweep.light_elevation_deg = request.light_elevation_deg;
-  sweep.light_azimuth_deg = request.light_azimuth_deg;
+  sweep.light = {LightKind::sun, request.light_elevation_deg, request.light_azimuth_deg};
+  if (!light_kind_from_name(request.light, sweep.light.kind))
+    refuse("--light", request.light, "sun, spot or point");
   sweep.out = request.out;
   sweep.resume = request.resume;
   if (!parse_pair(request.size, 'x', kMinSide, kMaxSide, sweep.width, sweep.height))
@@ -217,7 +213,7 @@ Sweep make_sweep(const CompareRequest& request) {
   if (!render::context_kind_from_name(request.context, sweep.context) ||
       sweep.context == render::ContextKind::glfw)
     refuse("--context", request.context, "auto, osmesa or egl");
-  sweep.entries = product_of(request);
+  sweep.entries = product_of(request, sweep.light.kind);
   set_filter("hard", sweep.baseline);
   set_fit("tight", sweep.baseline);
   set_warp("none", sweep.baseline);

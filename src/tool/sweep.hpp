@@ -8,6 +8,7 @@
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/report/row.hpp"
+#include "gnomon/scene/default_light.hpp"
 
 namespace gnomon::tool {
 
@@ -18,6 +19,7 @@ struct CompareRequest {
   std::vector<std::string> cascades{"1", "4"}, map_sizes{"1024"};
   int frames = 4, rounds = 5;
   std::string size = "480x270", shard = "1/1", context = "auto", out = "out/compare";
+  std::string light = "sun";
   double light_elevation_deg = 38.0, light_azimuth_deg = 140.0;
   bool resume = false;
 };
@@ -36,7 +38,7 @@ struct Sweep {
   int frames = 1, rounds = 1, width = 0, height = 0;
   std::size_t shard = 0, shards = 1;
   render::ContextKind context = render::ContextKind::automatic;
-  double light_elevation_deg = 0.0, light_azimuth_deg = 0.0;
+  LightPlacement light;
   std::string out;
   bool resume = false;
 
@@ -47,11 +49,11 @@ struct Sweep {
     return row * entries.size() + entry;
   }
   [[nodiscard]] bool is_mine(std::uint64_t row) const noexcept { return row % shards == shard; }
-  [[nodiscard]] DirectionalLight sun() const noexcept;
 };
 
 /// Throws std::runtime_error with what is wrong and where. Combinations that are the same technique under two
-/// names are taken once: with one map the split does not matter, and a stable fit takes no warp.
+/// names are taken once: with one map or under a lamp the split does not matter, and a stable fit takes no
+/// warp.
 [[nodiscard]] Sweep make_sweep(const CompareRequest& request);
 
 /// What the lists take, for the end of the help.

@@ -16,6 +16,7 @@ Row sample_row(std::uint64_t index) {
   row.frames = 2;
   row.width = 320;
   row.height = 180;
+  row.light = "sun";
   row.light_elevation_deg = 38;
   row.light_azimuth_deg = 140;
   row.technique = {"none", "auto", "tight", "hard", 1 + static_cast<int>(index % 4), 1024};

@@ -72,6 +72,36 @@ TEST(Compare, measures_every_technique_on_every_frame) {
     EXPECT_TRUE(fs::exists(whole() / file)) << file;
 }
 
+TEST(Compare, measures_lamps_against_their_own_shadows) {
+  for (const char* light : {"spot", "point"}) {
+    const TemporaryFolder folder;
+    // Splits and cascades mean nothing under a lamp: no row twice.
+    const Finished finished = run_gnomon({"compare",     "builtin:hangar",
+                                          "--warps",     "none",
+                                          "--splits",    "uniform,auto",
+                                          "--cascades",  "1,4",
+                                          "--filters",   "hard,pcss",
+                                          "--frames",    "1",
+                                          "--size",      "96x54",
+                                          "--map-sizes", "1024",
+                                          "--rounds",    "1",
+                                          "--light",     light,
+                                          "--context",   "osmesa",
+                                          "--out",       folder.path().string()});
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    const std::vector<report::Row> rows = report::read_rows(folder.path());
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[1].truth, "area");
+    for (const report::Row& row : rows) {
+      EXPECT_EQ(row.light, light);
+      EXPECT_EQ(row.plan_status, "ok");
+      EXPECT_GT(row.errors.pixels, 1000u);
+      EXPECT_LT(row.errors.false_lit + row.errors.false_shadow, 0.1) << light << " " << row.technique.name();
+      EXPECT_GT(row.aliasing.p95, 0.1);
+    }
+  }
+}
+
 TEST(Compare, says_the_same_in_every_run_but_for_times) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_gnomon(small_sweep(folder.path())).exit_code, 0);

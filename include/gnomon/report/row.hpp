@@ -67,6 +67,7 @@ struct Row {
   std::uint64_t index = 0;  ///< place in the whole sweep, the same in every shard
   std::string scene;
   int frame = 0, frames = 1, width = 0, height = 0;
+  std::string light;  ///< "sun", "spot" or "point", in the direction of elevation and azimuth
   double light_elevation_deg = 0.0, light_azimuth_deg = 0.0;
   Technique technique;
   std::string plan_status;

@@ -1,0 +1,29 @@
+// A light for a scene that brings none: the sun, or a lamp in its direction over the middle of the scene.
+#pragma once
+
+#include <string_view>
+
+#include "gnomon/bounds.hpp"
+#include "gnomon/light.hpp"
+
+namespace gnomon {
+
+enum class LightKind : unsigned char { sun, spot, point };
+
+/// Names as on the command line: sun, spot, point.
+[[nodiscard]] std::string_view to_string(LightKind kind) noexcept;
+/// False, and `kind` unchanged, for any other name.
+[[nodiscard]] bool light_kind_from_name(std::string_view name, LightKind& kind) noexcept;
+
+struct LightPlacement {
+  LightKind kind = LightKind::sun;
+  double elevation_deg = 38.0;  ///< above the horizon
+  double azimuth_deg = 140.0;   ///< 0: over -Z; 90: over +X
+};
+
+/// Sun: parallel light from that direction. Spot: from that direction at 0.6 of the scene's longest side from
+/// its middle, half angle 0.6 radians, range 1.5 sides. Point: over the middle at 0.8 of the scene's height,
+/// range 0.75 sides; direction does not matter. A scene without extent has lamps without range.
+[[nodiscard]] Light default_light(const LightPlacement& placement, const Box& scene) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,46 @@
+// A light for a scene that brings none: the sun, or a lamp in its direction over the middle of the scene.
+#include "gnomon/scene/default_light.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gnomon {
+
+std::string_view to_string(LightKind kind) noexcept {
+  switch (kind) {
+    case LightKind::sun:
+      return "sun";
+    case LightKind::spot:
+      return "spot";
+    case LightKind::point:
+      return "point";
+  }
+  return "?";
+}
+
+bool light_kind_from_name(std::string_view name, LightKind& kind) noexcept {
+  for (const LightKind known : {LightKind::sun, LightKind::spot, LightKind::point}) {
+    if (to_string(known) != name) continue;
+    kind = known;
+    return true;
+  }
+  return false;
+}
+
+Light default_light(const LightPlacement& placement, const Box& scene) noexcept {
+  const double elevation = placement.elevation_deg * std::numbers::pi / 180.0;
+  const double azimuth = placement.azimuth_deg * std::numbers::pi / 180.0;
+  const glm::dvec3 to_light{std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                            -std::cos(elevation) * std::cos(azimuth)};
+  if (placement.kind == LightKind::sun) return DirectionalLight{-to_light};
+  const glm::dvec3 size = scene.max - scene.min, middle = 0.5 * (scene.min + scene.max);
+  const double extent = std::max({size.x, size.y, size.z});
+  if (placement.kind == LightKind::spot) {
+    constexpr double kHalfAngle = 0.6;
+    return SpotLight{middle + 0.6 * extent * to_light, -to_light, kHalfAngle, 1.5 * extent};
+  }
+  return PointLight{middle + glm::dvec3(0.0, 0.3 * size.y, 0.0), 0.75 * extent};
+}
+
+}  // namespace gnomon
