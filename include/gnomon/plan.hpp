@@ -78,6 +78,11 @@ struct PlanOptions {
   /// For SplitScheme::given: the cascades - 1 view depths between neighbouring cascades, ascending, world
   /// units. They are clamped to the depths that are divided; a cascade that this leaves nothing is left out.
   std::span<const double> given_splits;
+  /// Share of each cascade's depths, at its far end, that the cascade behind it shows as well, with all of
+  /// their casters, 0..1: room to pass from one map into the next (render::SplitTransition). Wider passages
+  /// hide the step between their texels better, and take texels off the map behind. Directional lights and
+  /// Partition::view_depth only.
+  double split_overlap = 0.0;
   /// View depths at which the camera sees a surface (visible_depths.hpp), from this frame or tracked over the
   /// last ones; nullptr: unknown. Cascades then cover only the range between the nearest and the farthest of
   /// them, with kDepthSafety on either side, and step over depths between that show nothing. What lies
@@ -154,6 +159,9 @@ struct ShadowMap {
   glm::dmat4 clip_from_world{1.0};
   glm::mat4 clip_from_camera_relative{1.0f};
   double depth_begin = 0.0, depth_end = 0.0;  ///< view depths served, world units
+  /// So far in front of depth_begin the map shows receivers as well, with all their casters
+  /// (PlanOptions::split_overlap), in world units of view depth. 0 where no other map ends at depth_begin.
+  double overlap = 0.0;
   /// The light in homogeneous world coordinates: its position with w = 1, or the unit direction towards it
   /// with w = 0.
   glm::dvec4 light_world{0.0, 1.0, 0.0, 0.0};

@@ -51,8 +51,8 @@ void main() {
   if (map < 0 || !faces_light) return;
   float noise = pixel_noise(gl_FragCoord.xy);
   float next_share = 0.0;
-  if (frame.selection.y > 0.5 && !by_hold && map + 1 < count && map_spans(shadow_map(map + 1), s.position, 0.0)) {
-    next_share = share_of_next_map(shadow_map(map), s.depth, frame.selection.z);
+  if (frame.selection.y > 0.5 && !by_hold && map + 1 < count) {
+    next_share = share_of_next_map(shadow_map(map + 1), s.depth);
   }
   if (frame.selection.y == kDither) next_share = next_share > noise ? 1.0 : 0.0;
   if (next_share < 1.0) mask.x = visibility_through(map, s, noise);

@@ -66,10 +66,11 @@ int map_of_finest_texel(vec3 position, float radius_world, vec3 light, int count
   return best;
 }
 
-// Share of the next map in the answer, over the last `share` of the interval of `map`: 0 before, 1 at its end.
-float share_of_next_map(ShadowMap map, float view_depth, float share) {
-  float begin = mix(map.interval_size.y, map.interval_size.x, share);
-  return clamp((view_depth - begin) / max(map.interval_size.y - begin, 1e-30), 0.0, 1.0);
+// Share of the next map in the answer at a depth that the one before it serves: 0 up to where the next map begins to show
+// receivers, 1 from where they are its own.
+float share_of_next_map(ShadowMap next, float view_depth) {
+  float overlap = next.kernel.z;
+  return overlap > 0.0 ? clamp((view_depth - next.interval_size.x) / overlap + 1.0, 0.0, 1.0) : 0.0;
 }
 
 // Even noise in 0..1 from pixel to pixel, whose neighbourhoods of 3 x 3 hold all values (Jimenez, "Next Generation Post

@@ -28,33 +28,49 @@ std::int64_t texels_of(const PlanOptions& options) noexcept {
   return std::int64_t{options.map_size} * options.map_size;
 }
 
+/// Depths in front of `begin` that a cascade shows besides its own: none where the one before it ends sooner.
+double overlap_before(const PlanContext& c, double begin) noexcept {
+  if (c.plan.map_count == 0) return 0.0;
+  const ShadowMap& before = c.plan.map[static_cast<std::size_t>(c.plan.map_count - 1)];
+  return before.depth_end == begin ? c.options.split_overlap * (begin - before.depth_begin) : 0.0;
+}
+
+/// The part of `body` between two depths that holds receivers.
+Polytope receivers_between(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
+  Polytope part = body;
+  clip(part, Plane{c.axes.forward, -begin});
+  clip(part, Plane{-c.axes.forward, end});
+  if (c.bounds.receivers.size() > 1 && !part.empty()) {
+    clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
+  }
+  return part;
+}
+
 /// `all` is the body of everything in view, [from, to] the depths between the neighbouring cascades.
 void plan_cascade(const PlanContext& c, const Polytope& all, int cascade, double from, double to,
                   MapSizes::Size size) noexcept {
   const auto [begin, end] = seen_between(c, from, to);
-  Polytope body = all;
   // A single depth is a slice only where it is all there is.
   const bool covered = from == to && c.plan.map_count > 0;
-  if (!(begin <= end) || covered) body.vertex_count = 0;
-  clip(body, Plane{c.axes.forward, -begin});
-  clip(body, Plane{-c.axes.forward, end});
-  if (c.bounds.receivers.size() > 1 && !body.empty()) {
-    clip(body, visible_bounds(body, c.bounds.receivers, c.camera.position));
-  }
+  Polytope body;
+  if (begin <= end && !covered) body = receivers_between(c, all, begin, end);
   if (body.empty()) {
     omit(c.plan, {OmissionKind::cascade_without_receiver, cascade, from, to, texels_of(c.options)});
     return;
   }
+  const double overlap = overlap_before(c, begin), low = begin - overlap;
+  if (overlap > 0.0) body = receivers_between(c, all, low, end);
   ShadowMap& map = c.plan.map[static_cast<std::size_t>(c.plan.map_count)];
   map = ShadowMap{};
   map.cascade = cascade;
   map.depth_begin = begin;
   map.depth_end = end;
+  map.overlap = overlap;
   map.width = size.width;
   map.height = size.height;
   map.warp = &c.warp;
   const bool drawn =
-      c.stable ? lay_stable_map(c, body, begin, end, map) : lay_tight_map(c, body, begin, end, map);
+      c.stable ? lay_stable_map(c, body, low, end, map) : lay_tight_map(c, body, low, end, map);
   if (drawn) {
     ++c.plan.map_count;
   } else {

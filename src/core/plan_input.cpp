@@ -93,6 +93,7 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
   if (o.map_size < 4 || o.map_size > 16384) return "options.map_size";
   if (o.cascades < 1 || o.cascades > kMaxMaps) return "options.cascades";
   if (!(o.lambda >= 0.0 && o.lambda <= 1.0)) return "options.lambda";
+  if (!(o.split_overlap >= 0.0 && o.split_overlap <= 1.0)) return "options.split_overlap";
   if (!(o.target_m >= 0.0 && o.target_m <= kLargest)) return "options.target_m";
   if (!usable_splits(o)) return "options.given_splits";
   if (o.visible_depths != nullptr && !usable(*o.visible_depths)) return "options.visible_depths";

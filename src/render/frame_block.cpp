@@ -59,7 +59,7 @@ MapBlock map_block(const ShadowMap& map, const glm::dmat4& drawn_from_plan, cons
     block.select_planes[at] =
         glm::vec4(glm::vec3(plane), static_cast<float>(plane.w + glm::dot(glm::dvec3(plane), eye)));
   }
-  block.kernel = glm::vec4(glm::dvec4(map.filter_margin_texels, blur, 0.0, 0.0));
+  block.kernel = glm::vec4(glm::dvec4(map.filter_margin_texels, blur, map.overlap, 0.0));
   return block;
 }
 
@@ -81,9 +81,8 @@ FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const Frame
   block.light_place = light_place(plan, camera);
   block.layer = glm::vec4(glm::dvec4(layer_width, layer_height, 0.0, camera.far_depth));
   set_lamp(options.light, block);
-  block.selection =
-      glm::vec4(glm::dvec4(plan.select_by_map ? 1.0 : 0.0, static_cast<double>(options.transition),
-                           options.transition_share, 0.0));
+  block.selection = glm::vec4(
+      glm::dvec4(plan.select_by_map ? 1.0 : 0.0, static_cast<double>(options.transition), 0.0, 0.0));
   const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
     block.maps[i] = map_block(plan.map[i], drawn_from_plan, camera.position, blur[i]);

@@ -157,7 +157,7 @@ void main() {
   set_kernel(at, shadow_map(map), ShadowKernel(1.0, true, true), mat2(1.0));
   float lit = )" +
          visible + R"(;
-  float next = share_of_next_map(shadow_map(map), engine_point.z, 0.1);
+  float next = share_of_next_map(shadow_map(map), engine_point.z);
   color = vec4(lit, next, pixel_noise(gl_FragCoord.xy), 1.0);
 }
 )";

@@ -37,7 +37,8 @@ struct PreparedFilter {
   std::size_t program = 0;
 };
 
-/// How one map passes into the next where maps follow each other in view depth.
+/// How one map passes into the next where maps follow each other in view depth: over ShadowMap::overlap,
+/// which a plan has where PlanOptions::split_overlap asks for it.
 enum class SplitTransition : std::uint8_t {
   cut,     ///< at the split
   blend,   ///< both maps are read and mixed: twice the reads over the transition
@@ -46,9 +47,7 @@ enum class SplitTransition : std::uint8_t {
 
 /// What to draw besides the lit picture.
 struct FrameOptions {
-  /// Only where the next map shows the point, too.
   SplitTransition transition = SplitTransition::cut;
-  double transition_share = 0.1;  ///< of each map's depth interval, at its end
   /// Of a spot or point light: fades the picture out at its cone and range. The mask is the plan's alone.
   const Light* light = nullptr;
   bool aliasing = true;      ///< the error per pixel
