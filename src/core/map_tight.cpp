@@ -211,6 +211,27 @@ PlaneMap chosen_plane(const PlanContext& c, const Polytope& body, const LightBod
   return steady ? steady_plane(c, in, choice, map) : plane_map(in.body, choice);
 }
 
+// A float offset from the camera is rounded by up to 2^-24 of its length: a rectangle narrower than 2^14 of
+// that has texels, 1024 across, that no shader can tell apart, and one 2^10 times narrower still loses every
+// point it was laid round.
+constexpr double kNarrowest = 0x1p-14;
+
+/// Widens the rectangle to what shaders can aim at. Only bodies that are tiny for their distance, far below a
+/// pixel of any camera wider than a hundredth of a degree, or edge-on to the light are that narrow.
+void widen_for_floats(PlaneMap& map, std::span<const WarpInput::Point> body) noexcept {
+  double across = 0.0, along = 0.0;  // of the image, per unit of relative rounding
+  for (const WarpInput::Point& p : body) {
+    const double reach = largest_component({p.x, p.y, p.z}) / map.w(p.x, p.y);
+    across = max_of(across, reach);
+    along = max_of(along, reach * map.stretch / map.w(p.x, p.y));
+  }
+  const auto least = [&](const glm::dvec2& row) {
+    return kNarrowest * (std::abs(row.x) * across + std::abs(row.y) * along);
+  };
+  widen(map.a_min, map.a_max, least(map.choice.row_a));
+  widen(map.b_min, map.b_max, least(map.choice.row_b));
+}
+
 // Room for the view to move in before a map that stands still must be laid anew, on each side: of the
 // rectangle and of the depths.
 constexpr double kRoom = 0.1;
@@ -219,6 +240,7 @@ void lay_anew(const PlanContext& c, const Polytope& body, const LightBody& point
               Laid& laid, ShadowMap& map) noexcept {
   const bool still = c.options.fit == Fit::warped_stable;
   laid.plane = chosen_plane(c, body, points, begin, end, map);
+  widen_for_floats(laid.plane, points.points());
   if (still) grow(laid.plane, kRoom);
   if (c.history != nullptr) {
     map.warp = laid.plane.choice.kappa > 0.0 ? &c.warp : &warps::none;

@@ -61,6 +61,33 @@ TEST(Precision, camera_relative_floats_hold_their_texel_from_the_origin_to_ten_t
   }
 }
 
+TEST(Precision, floats_hit_the_map_of_a_receiver_that_is_tiny_for_its_distance) {
+  // Without room for their rounding, offsets of 1e4 units land up to a hundred maps beside one of 1e-4 units.
+  for (const double size : {1.0, 1e-3, 1e-6, 0.0}) {
+    for (const Warp* warp : {&warps::none, &warps::lispsm, &warps::optimal}) {
+      Case c = scene_at({});
+      c.camera.far_depth = 2e4;
+      c.options.cascades = 1;
+      c.options.warp = warp;
+      const glm::dvec3 centre = point_at(c.camera, 0.1, -0.2, 1e4);
+      c.receivers = {{centre - glm::dvec3(size, 0.3 * size, 2.0 * size), centre + glm::dvec3(size)}};
+      c.casters = {{centre - glm::dvec3(5.0), centre + glm::dvec3(5.0)}};
+      const ShadowPlan plan = c.plan();
+      ASSERT_EQ(plan.status, PlanStatus::ok) << size;
+      const ShadowMap& map = plan.map[0];
+      for (const glm::dvec3& p : {c.receivers[0].min, c.receivers[0].max, centre}) {
+        const glm::vec4 clip =
+            map.clip_from_camera_relative * glm::vec4(glm::vec3(p - c.camera.position), 1.0f);
+        const glm::dvec4 exact = map.clip_from_world * glm::dvec4(p, 1.0);
+        for (int axis = 0; axis < 2; ++axis) {
+          const double off = static_cast<double>(clip[axis] / clip.w) - exact[axis] / exact.w;
+          EXPECT_LT(std::abs(off) * 0.5 * map.width, 2.0) << size << ' ' << warp->name;
+        }
+      }
+    }
+  }
+}
+
 TEST(Precision, an_absolute_float_matrix_would_not_do) {
   // The reason for the second matrix: if this held, it could go.
   const Case c = scene_at({1e6, 3e5, -7e5});
