@@ -130,6 +130,7 @@ FrameRow draw_frame(Studio& studio, int frame) {
   row.status = timed.plan.status;
   row.plan_ns = timed.nanoseconds;
   gnomon::render::FrameOptions drawn;
+  drawn.transition = options.transition;
   drawn.light = &light;
   row.stats = studio.renderer.draw(timed.plan, camera, studio.filter, drawn);
   row.aliasing = pixel_aliasing(studio.renderer.aliasing());

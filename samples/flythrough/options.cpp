@@ -34,7 +34,7 @@ std::string names_of(const Entries& entries) {
 struct Raw {
   std::string size = "960x540", context = "auto", split, warp = "auto", objective = "storage", filter = "pcf",
               path, light = "sun";
-  std::string fit = "tight", resolution = "given";
+  std::string fit = "tight", resolution = "given", transition = "cut";
   bool stable = false, lambda_given = false;
   std::vector<std::string> compared_warps;
 };
@@ -79,6 +79,16 @@ void resolve_resolution(const Raw& raw, Options& options) {
   }
 }
 
+void resolve_transition(const Raw& raw, Options& options) {
+  using gnomon::render::SplitTransition;
+  if (raw.transition == "cut") return;
+  if (raw.transition != "blend" && raw.transition != "dither") {
+    throw UsageError(fmt::format("--transition {}: wants cut, blend or dither", raw.transition));
+  }
+  options.transition = raw.transition == "blend" ? SplitTransition::blend : SplitTransition::dither;
+  options.plan.split_overlap = kTransitionShare;
+}
+
 void resolve(const Raw& raw, Options& options) {
   parse_size(raw.size, options);
   need_number("--lambda", options.plan.lambda);
@@ -112,6 +122,7 @@ void resolve(const Raw& raw, Options& options) {
   if (options.plan.fit == gnomon::Fit::warped_stable) options.history = true;
   gnomon::render::set_margin(options.filter, options.plan);
   resolve_resolution(raw, options);
+  resolve_transition(raw, options);
   if (!raw.path.empty()) options.path = raw.path;
 }
 
@@ -154,6 +165,8 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
                  "world units from a shadow to what casts it, for pcss; 0: half the scene's height")
       ->check(CLI::Range(0.0, 1e12));
   app.add_option("--fit", raw.fit, "how maps are laid: tight, rotated, stable or warped_stable");
+  app.add_option("--transition", raw.transition,
+                 "from map to map: cut at the split; blend or dither over the tenth of the map before it");
   app.add_flag("--stable", raw.stable, "the same as --fit stable: texel grids that stand still");
   app.add_flag("--history", options.history,
                "let texels change smoothly from frame to frame; for flights of many frames");

@@ -10,6 +10,7 @@
 #include "gnomon/plan.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/filter.hpp"
+#include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/default_light.hpp"
 
 namespace flythrough {
@@ -20,6 +21,10 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// PlanOptions::split_overlap where maps pass into each other: the step between their texels is hidden, and a
+/// tenth of the texels is all it costs.
+inline constexpr double kTransitionShare = 0.1;
+
 struct Options {
   std::string scene = "builtin:city";
   int frames = 8;
@@ -29,6 +34,8 @@ struct Options {
   gnomon::render::ContextKind context = gnomon::render::ContextKind::automatic;
   gnomon::PlanOptions plan;
   gnomon::render::FilterSettings filter = gnomon::render::default_settings(gnomon::render::filters::pcf);
+  /// Other than cut: maps overlap by kTransitionShare of the cascade before the split.
+  gnomon::render::SplitTransition transition = gnomon::render::SplitTransition::cut;
   /// The map size is chosen: the smallest whose texels the filter hides, in every frame.
   bool perceptual_resolution = false;
   /// From a shadow to what casts it, world units, for filters with penumbras; 0: half the scene's height.

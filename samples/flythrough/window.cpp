@@ -177,6 +177,7 @@ void draw(Viewer& viewer, double seconds) {
       gnomon::make_plan(camera, gnomon::default_light(viewer.options.light, viewer.flight.scene.bounds_world),
                         viewer.flight.bounds(), viewer.options.plan);
   gnomon::render::FrameOptions frame;
+  frame.transition = viewer.options.transition;
   frame.time_passes = false;
   const gnomon::Light light = gnomon::default_light(viewer.options.light, viewer.flight.scene.bounds_world);
   frame.light = &light;

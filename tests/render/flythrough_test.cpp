@@ -106,7 +106,7 @@ TEST_F(Flythrough, tells_its_version_and_its_options) {
   for (const char* option :
        {"--frames", "--size", "--out", "--context", "--cascades", "--split", "--lambda", "--warp",
         "--compare-warps", "--filter", "--map-size", "--stable", "--light", "--light-elevation-deg",
-        "--light-azimuth-deg", "--path", "--resolution", "--blocker-distance"}) {
+        "--light-azimuth-deg", "--path", "--resolution", "--blocker-distance", "--transition"}) {
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
   }
 }
@@ -119,6 +119,21 @@ TEST_F(Flythrough, draws_a_frame_under_several_warps_side_by_side) {
   ASSERT_EQ(outcome.code, 0) << outcome.error;
   EXPECT_GT(fs::exists(out() / "frame_0000_warps.png") ? fs::file_size(out() / "frame_0000_warps.png") : 0,
             100u);
+}
+
+TEST_F(Flythrough, passes_from_map_to_map_as_asked_and_refuses_what_it_does_not_know) {
+  const char* scene = "builtin:fence --frames 1 --size 96x64 --map-size 128 --cascades 3 --transition ";
+  std::vector<std::string> pictures;
+  for (const char* transition : {"cut", "blend", "dither"}) {
+    const Outcome outcome = run(std::string(scene) + transition);
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    pictures.push_back(text_of(out() / "frame_0000_image.png"));
+  }
+  EXPECT_NE(pictures[0], pictures[1]);
+  EXPECT_NE(pictures[1], pictures[2]);
+  const Outcome refused = run(std::string(scene) + "fade");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.error.find("--transition fade: wants cut, blend or dither"), std::string::npos);
 }
 
 TEST_F(Flythrough, takes_the_smallest_maps_whose_texels_the_filter_hides) {
