@@ -21,6 +21,9 @@ namespace {
 constexpr double kDistancePadding = 1.0 / 1024.0;
 // Narrowest rectangle, as a slope: below it positions are rounding.
 constexpr double kLeastSlope = 1e-8;
+// Offsets from the camera are floats in a shader: a rectangle at the body's far end is at least this much of
+// them wide, 1024 of their steps.
+constexpr double kLeastOfOffset = 0x1p-14;
 // Rounding of positions, relative to their distance from the origin of the world.
 constexpr double kPositionRounding = 1e-14;
 // Casters whose part inside the map is cut out exactly to find the light's near plane; further ones count
@@ -135,7 +138,9 @@ void lay_rim(Draft& d, ShadowMap& map) noexcept {
 /// The rectangle round the body's image, as wide as rounding needs it.
 PlaneMap rectangle(const Draft& d, const WarpChoice& choice) noexcept {
   PlaneMap plane = plane_map(d.slopes.points(), choice);
-  const double least = kLeastSlope / plane.stretch;
+  double offset = 0.0;
+  for (const Polytope::Vertex& v : d.body.vertices()) offset = max_of(offset, largest_component(v.position));
+  const double least = max_of(kLeastSlope, kLeastOfOffset * offset / d.slopes.farthest) / plane.stretch;
   widen(plane.a_min, plane.a_max, least);
   widen(plane.b_min, plane.b_max, least);
   return plane;

@@ -88,6 +88,28 @@ TEST(Precision, floats_hit_the_map_of_a_receiver_that_is_tiny_for_its_distance) 
   }
 }
 
+TEST(Precision, floats_hit_the_map_of_a_spot_that_is_all_but_a_ray) {
+  // Without room for their rounding they land hundreds of maps beside it.
+  for (const Fit fit : {Fit::tight, Fit::stable}) {
+    for (const double outer : {1e-3, 1e-6, 1e-9}) {
+      Case c = scene_at({});
+      c.options.fit = fit;
+      const glm::dvec3 lamp{5.0, 30.0, -60.0}, aim{0.0, 0.0, -70.0};
+      const ShadowPlan plan =
+          make_plan(c.camera, SpotLight{lamp, aim - lamp, outer, 50.0}, c.bounds(), c.options);
+      ASSERT_EQ(plan.status, PlanStatus::ok) << outer;
+      const ShadowMap& map = plan.map[0];
+      const glm::vec4 clip =
+          map.clip_from_camera_relative * glm::vec4(glm::vec3(aim - c.camera.position), 1.0f);
+      const glm::dvec4 exact = map.clip_from_world * glm::dvec4(aim, 1.0);
+      for (int axis = 0; axis < 2; ++axis) {
+        const double off = static_cast<double>(clip[axis] / clip.w) - exact[axis] / exact.w;
+        EXPECT_LT(std::abs(off) * 0.5 * map.width, 8.0) << outer << ' ' << to_string(fit);
+      }
+    }
+  }
+}
+
 TEST(Precision, an_absolute_float_matrix_would_not_do) {
   // The reason for the second matrix: if this held, it could go.
   const Case c = scene_at({1e6, 3e5, -7e5});
