@@ -10,6 +10,7 @@
 
 #include "output.hpp"
 #include "plan.hpp"
+#include "stress.hpp"
 #include "timing.hpp"
 #ifdef GNOMON_HAS_SCENE
 #include "scenes.hpp"
@@ -165,6 +166,25 @@ CLI::App* add_scenes(CLI::App& app, ScenesRequest& request) {
   return scenes;
 }
 
+CLI::App* add_stress(CLI::App& app, StressRequest& request) {
+  CLI::App* stress = app.add_subcommand(
+      "stress", "extreme cases, and plans along stiff axes, held against exact arithmetic");
+  stress->set_version_flag("--version", kVersion);
+  stress->option_defaults()->always_capture_default();
+  stress->add_option("--axis", request.axes, "names of axes, or all; alone, without the cases");
+  stress->add_flag("--cases", request.cases, "the extreme cases; alone, without the axes");
+  stress->add_option("--samples", request.samples, "values per axis, about")->check(CLI::Range(2, 100'000));
+  stress->add_option("--scenes", request.scenes, "per value: a plain one and random ones")
+      ->check(CLI::Range(1, 100'000));
+  stress->add_option("--seed", request.seed, "of the random scenes");
+  stress->add_option("--out", request.out,
+                     "folder for stability.jsonl, which gnomon report shows, and stability.csv");
+  CLI::Option* json = stress->add_flag("--json", request.json, "print a JSON object per row");
+  stress->add_flag("--csv", request.csv, "print CSV")->excludes(json);
+  stress->footer("Exit: 0 all cases hold; 1 one does not, or a plan holds what is no number; 2 bad input.");
+  return stress;
+}
+
 int complain(const std::string& what, int code) {
   std::fprintf(stderr, "gnomon: %s\n", what.c_str());
   return code;
@@ -177,9 +197,11 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   PlanRequest plan_request;
   ScenesRequest scenes_request;
+  StressRequest stress_request;
   MeasureRequests measure_requests;
   const CLI::App* plan = add_plan(app, plan_request);
   const CLI::App* scenes = add_scenes(app, scenes_request);
+  const CLI::App* stress = add_stress(app, stress_request);
   add_measuring(app, measure_requests);
   try {
     app.parse(argc, argv);
@@ -193,6 +215,7 @@ int run(int argc, char** argv) {
   }
   if (plan->parsed()) return run_plan(plan_request);
   if (scenes->parsed()) return run_scenes(scenes_request);
+  if (stress->parsed()) return run_stress(stress_request);
   return run_measuring(app, measure_requests);
 }
 

@@ -2,47 +2,16 @@
 // such operation traps here, also one whose result is thrown away.
 #include <gtest/gtest.h>
 
-#include <setjmp.h>
 #include <array>
-#include <cfenv>
 #include <cmath>
-#include <csignal>
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "support/float_traps.hpp"
 #include "support/seeded_input.hpp"
 
 namespace gnomon::test {
 namespace {
-
-// Traps kill by SIGFPE; the handler jumps back so that the test names the case.
-sigjmp_buf back_to_test;
-extern "C" void on_trap(int) {
-  siglongjmp(back_to_test, 1);
-}
-
-constexpr int kTraps = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
-
-/// Runs `work` with traps on; false where one sprang.
-template <typename Work>
-bool runs_without_trap(Work&& work) {
-  struct sigaction ours {
-  }, before{};
-  ours.sa_handler = on_trap;
-  sigaction(SIGFPE, &ours, &before);
-  volatile bool quiet = true;
-  std::feclearexcept(FE_ALL_EXCEPT);
-  if (sigsetjmp(back_to_test, 1) == 0) {
-    feenableexcept(kTraps);
-    work();
-  } else {
-    quiet = false;
-  }
-  fedisableexcept(kTraps);
-  std::feclearexcept(FE_ALL_EXCEPT);
-  sigaction(SIGFPE, &before, nullptr);
-  return quiet;
-}
 
 /// Everything that a frame asks of the core, over memory that stands outside.
 struct Frame {

@@ -1,0 +1,41 @@
+// Input of make_plan with its memory, and random scenes to strain.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "gnomon/gnomon.hpp"
+
+namespace gnomon::stress {
+
+/// Everything make_plan takes.
+struct Input {
+  Camera camera;
+  Light light;
+  std::vector<Box> casters, receivers;
+  PlanOptions options;
+  [[nodiscard]] SceneBounds bounds() const noexcept { return {casters, receivers}; }
+  [[nodiscard]] ShadowPlan plan() const noexcept { return make_plan(camera, light, bounds(), options); }
+};
+
+/// Random numbers that are the same everywhere.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  [[nodiscard]] double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  [[nodiscard]] double between(double low, double high) { return low + (high - low) * unit(); }
+  [[nodiscard]] int pick(int count) { return static_cast<int>(unit() * count); }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// A flat world of 1 km round a camera 2 m above its ground, some towers, a sun at 20 to 80 degrees: nothing
+/// in it is extreme. Near 0.1, far 1000, one receiver box. `seed` turns camera and sun; 0 is a plain one.
+[[nodiscard]] Input plain_input(std::uint64_t seed);
+
+/// A unit vector across `v`, turned by `angle_radians` about it.
+[[nodiscard]] glm::dvec3 across(const glm::dvec3& v, double angle_radians);
+
+}  // namespace gnomon::stress

@@ -1,0 +1,99 @@
+// `gnomon stress`: extreme cases and stiff axes, judged.
+#include "stress.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "output.hpp"
+#include "progress.hpp"
+#include "rows.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<const stress::Axis*> axes_of(const StressRequest& request) {
+  std::vector<const stress::Axis*> axes;
+  const bool everything = request.axes.empty() && !request.cases;
+  const bool all = everything || (request.axes.size() == 1 && request.axes[0] == "all");
+  if (all) {
+    for (const stress::Axis& axis : stress::all_axes()) axes.push_back(&axis);
+    return axes;
+  }
+  for (const std::string& name : request.axes) {
+    const stress::Axis* axis = stress::find_axis(name);
+    if (axis == nullptr) {
+      std::string known;
+      for (const stress::Axis& a : stress::all_axes()) known += " " + std::string(a.name);
+      throw std::runtime_error("--axis: there is no axis of that name; there are:" + known);
+    }
+    axes.push_back(axis);
+  }
+  return axes;
+}
+
+/// Beside the target first, then renamed: no half file under that name.
+void write_file(const fs::path& file, const std::string& text) {
+  fs::path aside = file;
+  aside += "." + std::to_string(::getpid());
+  std::ofstream stream(aside, std::ios::binary);
+  stream << text;
+  stream.close();
+  std::error_code error;
+  if (stream) fs::rename(aside, file, error);
+  if (!stream || error) {
+    std::error_code ignored;
+    fs::remove(aside, ignored);
+    throw std::runtime_error(file.string() + ": cannot be written");
+  }
+}
+
+void make_folder(const std::string& folder) {
+  if (folder.empty()) return;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw std::runtime_error("--out " + folder + ": cannot be made a folder: " + error.message());
+}
+
+stress::Results run_all(const StressRequest& request, const std::vector<const stress::Axis*>& axes) {
+  stress::Results results;
+  long long steps = 0, done = 0;
+  for (const stress::Axis* axis : axes) steps += static_cast<long long>(axis->values(request.samples).size());
+  Progress progress("gnomon stress", steps);
+  if (request.cases || request.axes.empty()) {
+    for (const stress::ExtremeCase& extreme : stress::all_cases())
+      results.cases.push_back(stress::run_case(extreme));
+  }
+  for (const stress::Axis* axis : axes) {
+    const std::vector<stress::AxisRow> rows =
+        stress::sweep(*axis, {request.samples, request.scenes, request.seed}, [&] { progress.set(++done); });
+    results.axes.insert(results.axes.end(), rows.begin(), rows.end());
+  }
+  return results;
+}
+
+}  // namespace
+
+int run_stress(const StressRequest& request) {
+  const std::vector<const stress::Axis*> axes = axes_of(request);
+  make_folder(request.out);
+  const stress::Results results = run_all(request, axes);
+  if (!request.out.empty()) {
+    write_file(fs::path(request.out) / "stability.jsonl", stress::json_lines(results));
+    write_file(fs::path(request.out) / "stability.csv", stress::csv(results));
+  }
+  std::string text = request.json  ? stress::json_lines(results)
+                     : request.csv ? stress::csv(results)
+                                   : stress::tables(results);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  print_line(text);
+  flush_output();
+  return results.all_hold() ? 0 : 1;
+}
+
+}  // namespace gnomon::tool

@@ -1,0 +1,24 @@
+// `gnomon stress`: extreme cases and stiff axes, judged.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gnomon::tool {
+
+struct StressRequest {
+  std::vector<std::string> axes;  ///< names, or all; none and no cases: everything
+  bool cases = false;
+  int samples = 80;  ///< values per axis
+  int scenes = 4;    ///< per value
+  std::uint64_t seed = 1;
+  std::string out;  ///< folder for stability.jsonl and stability.csv; empty: none
+  bool json = false, csv = false;
+};
+
+/// Prints tables, JSON lines or CSV. Throws std::runtime_error for what is no axis and for folders that
+/// cannot be written. Returns 1 where a case fails or a number is not finite, else 0.
+int run_stress(const StressRequest& request);
+
+}  // namespace gnomon::tool

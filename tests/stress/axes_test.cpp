@@ -1,0 +1,95 @@
+// Along every stiff axis: are plans finite, exact to a small part of a texel, and smooth?
+#include "axes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/float_traps.hpp"
+
+namespace gnomon::stress {
+
+void PrintTo(const Axis& axis, std::ostream* out) {
+  *out << axis.name;
+}
+
+namespace {
+
+constexpr SweepOptions kSmall{10, 2, 3};
+
+// What double may lose: most where everything is 1e9 units from the origin and a texel is a tenth of a unit.
+constexpr double kDoubleTexels = 1e-3;
+// Floats relative to the camera. A receiver or a cone smaller than 1e-4 of its distance has a map as narrow
+// as floats allow: they tell its texels apart by a few at best, by some more close to a spot.
+double most_float_texels(std::string_view axis) {
+  constexpr double kOrdinary = 0.5, kTiny = 4.0, kNarrowSpot = 32.0;
+  if (axis == "cone") return kNarrowSpot;
+  return axis == "extent" || axis == "thickness" ? kTiny : kOrdinary;
+}
+// Of texels per area for a step of 1e-6: what a search's own steps and a stable map's sizes amount to.
+constexpr double kJump = 3e-3;
+
+class StiffAxes : public testing::TestWithParam<Axis> {};
+
+TEST_P(StiffAxes, stay_finite_exact_and_smooth) {
+  const Axis& axis = GetParam();
+  int planned = 0;
+  for (const AxisRow& row : sweep(axis, kSmall)) {
+    const auto at = [&] { return std::string(row.variant) + " at " + std::to_string(row.value); };
+    EXPECT_TRUE(row.worst.finite) << at();
+    if (row.maps == 0) continue;
+    ++planned;
+    EXPECT_TRUE(!kRealIsFiner || row.worst.error_texels <= kDoubleTexels)
+        << at() << " is off by " << row.worst.error_texels;
+    EXPECT_LE(row.worst.float_relative_texels, most_float_texels(axis.name)) << at();
+    EXPECT_TRUE(std::isnan(row.jump) || row.jump <= kJump) << at() << " jumps by " << row.jump;
+    EXPECT_GE(row.worst.condition, 1.0) << at();
+  }
+  EXPECT_GT(planned, 10);
+}
+
+TEST_P(StiffAxes, raise_no_floating_point_exception) {
+  const Axis& axis = GetParam();
+  for (const double value : axis.values(24)) {
+    for (const Variant& variant : all_variants()) {
+      Input input = plain_input(5);
+      variant.apply(input.options);
+      axis.apply(value, 0.4, input);
+      ShadowPlan plan;
+      EXPECT_TRUE(test::runs_without_trap([&] {
+        plan = input.plan();
+        if (plan.status == PlanStatus::ok) (void)measure(plan, input.camera, input.bounds(), {5, 5, 5});
+      })) << variant.name
+          << " at " << value;
+    }
+  }
+}
+
+TEST_P(StiffAxes, have_ascending_values) {
+  const std::vector<double> values = GetParam().values(20);
+  ASSERT_GE(values.size(), 10u);
+  for (std::size_t i = 1; i < values.size(); ++i) EXPECT_LT(values[i - 1], values[i]);
+}
+
+std::string name_of(const testing::TestParamInfo<Axis>& axis) {
+  return std::string(axis.param.name);
+}
+INSTANTIATE_TEST_SUITE_P(All, StiffAxes, testing::ValuesIn(all_axes().begin(), all_axes().end()), name_of);
+
+TEST(Axes, fall_back_where_they_must) {
+  const auto used_at = [](std::string_view name, double value) {
+    Input input = plain_input(0);
+    find_axis(name)->apply(value, 0.0, input);
+    return used_by(input, input.plan());
+  };
+  EXPECT_EQ(used_at("cone", 0.0), "refused: light.outer_radians");
+  EXPECT_EQ(used_at("cone", 169.0), "optimal");
+  EXPECT_EQ(used_at("cone", 171.0).substr(0, 4), "cube");
+  EXPECT_EQ(used_at("cone", 360.0), "refused: light.outer_radians");
+  EXPECT_EQ(used_at("map_size", 3.0), "refused: options.map_size");
+  EXPECT_EQ(used_at("depth_ratio", 1e9), "optimal");
+  EXPECT_EQ(find_axis("nonsense"), nullptr);
+}
+
+}  // namespace
+}  // namespace gnomon::stress
