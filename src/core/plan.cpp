@@ -95,21 +95,27 @@ void plan_cascades(PlanContext& c, const Polytope& body, int cascades, const Map
 }
 
 /// The sizes of the last frame's maps, and how many there were.
-MapSizes last_sizes(const PlanHistory& history) noexcept {
-  MapSizes sizes;
-  for (std::size_t i = 0; i < history.map.size(); ++i)
-    sizes.of[i] = {history.map[i].width, history.map[i].height};
+MapSizes last_sizes(const PlanHistory& history, const PlanOptions& options) noexcept {
+  const int least = least_budget_side(options);
+  // Of a cascade that had no map: under steady edges it may get one that the trial did not.
+  MapSizes sizes = equal_sizes(options.texel_budget > 0 ? least : options.map_size);
+  for (std::size_t i = 0; i < history.map.size(); ++i) {
+    if (history.map[i].width >= least) sizes.of[i] = {history.map[i].width, history.map[i].height};
+  }
   return sizes;
 }
 bool last_sizes_serve(const PlanHistory& history, const ShadowPlan& laid,
                       const PlanOptions& options) noexcept {
-  std::int64_t texels = 0;
   for (const ShadowMap& map : laid.maps()) {
     const PlanHistory::Map& last = history.map[static_cast<std::size_t>(map.cascade)];
     if (last.frame + 1 != history.frame || last.width < least_budget_side(options)) return false;
-    texels += std::int64_t{last.width} * last.height;
   }
-  return options.texel_budget == 0 || texels <= options.texel_budget;
+  if (options.texel_budget == 0) return true;
+  const MapSizes sizes = last_sizes(history, options);
+  std::int64_t texels = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(history.edge_count - 1); ++i)
+    texels += std::int64_t{sizes.of[i].width} * sizes.of[i].height;
+  return texels <= options.texel_budget;
 }
 
 /// As many cascades, as large, as the target or the budget asks for. Errors go by 1 / size, so that maps of
@@ -138,15 +144,15 @@ void plan_within(PlanContext& c, const Polytope& body) noexcept {
       sizes = trial;
     }
     if (history != nullptr && n == history->edge_count - 1 && last_sizes_serve(*history, c.plan, options))
-      before = largest_error(c.plan, options, last_sizes(*history));
+      before = largest_error(c.plan, options, last_sizes(*history, options));
     if (m <= options.target_m) break;
   }
   c.history = history;
   // Another size moves every texel: worth it only for errors this much smaller.
   constexpr double kWorthResizing = 0.8;
-  if (history != nullptr && least >= before * kWorthResizing) {
+  if (std::isfinite(before) && least >= before * kWorthResizing) {
     best = history->edge_count - 1;
-    sizes = last_sizes(*history);
+    sizes = last_sizes(*history, options);
   }
   plan_cascades(c, body, best, sizes);
 }
