@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "gnomon/render/picture.hpp"
+#include "gnomon/report/csv.hpp"
 
 namespace flythrough {
 namespace {
@@ -16,19 +17,10 @@ namespace {
 using gnomon::Image;
 using gnomon::render::Color;
 using gnomon::render::Pass;
+using gnomon::report::csv_field;
 
 constexpr Color kPaper{24, 24, 28}, kInk{240, 240, 236};
 constexpr int kGap = 4, kLabel = 16;  // pixels
-
-/// A CSV field in quotes, RFC 4180.
-std::string csv_field(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
 
 std::string header(int cascades, bool software) {
   std::string line = "frame,plan_status,plan_ns,";

@@ -59,9 +59,11 @@ std::string_view mark_path(std::size_t kind) noexcept {
 }
 
 void Axis::fit(const std::vector<double>& values) {
+  // Beyond these, ranges overflow and steps between ticks vanish; nothing measured comes near.
+  constexpr double kLeast = 1e-30, kMost = 1e30;
   bool any = false;
   for (const double value : values) {
-    if (!std::isfinite(value) || (logarithmic && value <= 0.0)) continue;
+    if (!(std::abs(value) <= kMost) || (logarithmic && value < kLeast)) continue;
     low = any ? std::min(low, value) : value;
     high = any ? std::max(high, value) : value;
     any = true;
@@ -76,7 +78,8 @@ void Axis::fit(const std::vector<double>& values) {
     high *= kRoom;
   } else {
     low = std::min(low, 0.0);
-    if (high <= low) high = low + 1.0;
+    // A step must still be a step when added to the lower end.
+    if (high - low < std::max(kLeast, -1e-6 * low)) high = low + std::max(1.0, -low);
     constexpr double kRoom = 0.06;
     if (!whole) high += kRoom * (high - low);
   }

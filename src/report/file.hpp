@@ -6,13 +6,17 @@
 
 namespace gnomon::report {
 
-/// Throws ReportError.
+/// Of a regular file of at most 1 GiB; devices and pipes are refused without waiting for them. Throws
+/// ReportError.
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);
+/// The same, of a PNG of at most 64 MiB: what rows call a picture must look like one before it is copied or
+/// shown.
+[[nodiscard]] std::string read_picture(const std::filesystem::path& file);
 /// Written beside the target first, then renamed. Throws ReportError.
 void write_text(const std::filesystem::path& file, const std::string& text);
 /// Throws ReportError.
 void make_folder(const std::filesystem::path& folder);
-/// `name` below `folder`. Throws ReportError where the name leads out of it.
+/// `name` below `folder`. Throws ReportError where the name, or a link on its way, leads out of it.
 [[nodiscard]] std::filesystem::path inside(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace gnomon::report

@@ -3,6 +3,7 @@
 
 #include "charts.hpp"
 #include "file.hpp"
+#include "gnomon/report/csv.hpp"
 #include "gnomon/report/rows_file.hpp"
 #include "page_files.hpp"
 #include "sections.hpp"
@@ -42,16 +43,6 @@ std::string opening(const PageInput& input) {
       "</p>\n<nav><a href=\"#s1\">Error and time</a><a href=\"#s2\">Table</a><a href=\"#s3\">Pictures</a>"
       "<a href=\"#s4\">Along the flight</a><a href=\"#s5\">Stability</a><a href=\"#s6\">Left out</a>"
       "<a href=\"#s7\">Method</a></nav>\n</header>\n";
-  return out;
-}
-
-std::string page(const PageInput& input) {
-  const PagePictures pictures = page_pictures(input);
-  std::string out = head() + opening(input) + "<main>\n";
-  out += section_error_time(input) + section_summary(input) + section_viewers(input, pictures) +
-         section_flight(input) + section_stability(input) + section_left_out(input) + section_method(input);
-  out += "</main>\n<script type=\"application/json\" id=\"data\">" + for_script(page_data(input, pictures)) +
-         "</script>\n<script>" + std::string(page_script()) + "</script>\n</body>\n</html>\n";
   return out;
 }
 
@@ -111,18 +102,33 @@ std::string frames_csv(const std::vector<Row>& rows) {
 
 }  // namespace
 
-std::filesystem::path write_report(const std::filesystem::path& folder) {
+std::string whole_page(const PageInput& input) {
+  const PagePictures pictures = page_pictures(input);
+  std::string out = head() + opening(input) + "<main>\n";
+  out += section_error_time(input) + section_summary(input) + section_viewers(input, pictures) +
+         section_flight(input) + section_stability(input) + section_left_out(input) + section_method(input);
+  out += "</main>\n<script type=\"application/json\" id=\"data\">" + for_script(page_data(input, pictures)) +
+         "</script>\n<script>" + std::string(page_script()) + "</script>\n</body>\n</html>\n";
+  return out;
+}
+
+PageInput page_input(const std::filesystem::path& folder, std::vector<Row> rows) {
   PageInput input;
   input.folder = folder;
-  input.rows = read_rows(folder);
+  input.rows = std::move(rows);
   input.summary = summarize(input.rows);
   // All scenes together say something only where there are several, and a technique that was on all of them.
   const bool together = input.summary.scenes.size() > 2 && !notable(input.summary, 0, 1).empty();
   input.start_scene = together || input.summary.scenes.size() < 2 ? 0 : 1;
+  return input;
+}
+
+std::filesystem::path write_report(const std::filesystem::path& folder) {
+  const PageInput input = page_input(folder, read_rows(folder));
   write_charts(input);
   write_text(folder / "summary.csv", summary_csv(input.summary));
   write_text(folder / "frames.csv", frames_csv(input.rows));
-  write_text(folder / "report.html", page(input));
+  write_text(folder / "report.html", whole_page(input));
   return folder / "report.html";
 }
 

@@ -21,7 +21,7 @@ class Shelf {
   Shelf(const std::filesystem::path& folder, PagePictures& pictures) : folder_(folder), pictures_(pictures) {}
 
   std::size_t put(const std::string& name) {
-    std::string text = base64(read_text(inside(folder_, name)));
+    std::string text = base64(read_picture(inside(folder_, name)));
     const auto [at, is_new] = known_.try_emplace(text, pictures_.base64.size());
     if (is_new) {
       bytes_ += text.size();

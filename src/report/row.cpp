@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
+
+#include "text.hpp"
 
 namespace gnomon::report {
 namespace {
@@ -107,52 +110,80 @@ Json lasting_json(const Row& row) {
   return json;
 }
 
+/// A whole number that fits. The library's own conversion would take 1e300 for an int.
+template <class Whole>
+void get_whole(const Json& json, Whole& out) {
+  const bool is_natural = json.is_number_unsigned();
+  const auto natural = is_natural ? json.get<std::uint64_t>() : 0;
+  const auto integer = json.is_number_integer() && !is_natural ? json.get<std::int64_t>() : 0;
+  if (!json.is_number_integer() ||
+      (is_natural ? !std::in_range<Whole>(natural) : !std::in_range<Whole>(integer)))
+    throw ReportError("a whole number is wanted, not " +
+                      json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  out = is_natural ? static_cast<Whole>(natural) : static_cast<Whole>(integer);
+}
+
+template <class Whole>
+Whole whole_from(const Json& json) {
+  Whole out{};
+  get_whole(json, out);
+  return out;
+}
+
+/// A number whose sums and products stay finite: nothing that was measured is larger.
+double real_from(const Json& json) {
+  constexpr double kLargest = 1e30;
+  const double value = json.get<double>();
+  if (!(std::abs(value) <= kLargest)) throw ReportError("a number is beyond 1e30");
+  return value;
+}
+
 double number_from(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+  return json.is_null() ? std::numeric_limits<double>::infinity() : real_from(json);
 }
 
 Estimate estimate_from(const Json& json) {
-  return {json.at("median").get<double>(), json.at("low").get<double>(), json.at("high").get<double>()};
+  return {real_from(json.at("median")), real_from(json.at("low")), real_from(json.at("high"))};
 }
 
 Technique technique_from(const Json& json) {
   Technique t;
   json.at("warp").get_to(t.warp);
   json.at("split").get_to(t.split);
-  json.at("cascades").get_to(t.cascades);
+  get_whole(json.at("cascades"), t.cascades);
   json.at("fit").get_to(t.fit);
-  json.at("map_size").get_to(t.map_size);
+  get_whole(json.at("map_size"), t.map_size);
   json.at("filter").get_to(t.filter);
   return t;
 }
 
 void errors_from(const Json& json, Row& row) {
   MaskErrors& e = row.errors;
-  json.at("pixels").get_to(e.pixels);
-  json.at("undecided_pixels").get_to(row.undecided_pixels);
-  json.at("false_lit").get_to(e.false_lit);
-  json.at("false_shadow").get_to(e.false_shadow);
+  get_whole(json.at("pixels"), e.pixels);
+  get_whole(json.at("undecided_pixels"), row.undecided_pixels);
+  e.false_lit = real_from(json.at("false_lit"));
+  e.false_shadow = real_from(json.at("false_shadow"));
   json.at("truth").get_to(row.truth);
-  json.at("mean_error").get_to(e.mean_error);
-  json.at("leaking").get_to(e.leaking);
-  json.at("deep_pixels").get_to(e.deep_pixels);
-  json.at("darkening").get_to(e.darkening);
-  json.at("open_pixels").get_to(e.open_pixels);
-  json.at("flips").get_to(row.flips);
+  e.mean_error = real_from(json.at("mean_error"));
+  e.leaking = real_from(json.at("leaking"));
+  get_whole(json.at("deep_pixels"), e.deep_pixels);
+  e.darkening = real_from(json.at("darkening"));
+  get_whole(json.at("open_pixels"), e.open_pixels);
+  row.flips = real_from(json.at("flips"));
 }
 
 void results_from(const Json& json, Row& row) {
   errors_from(json.at("errors"), row);
   const Json& m = json.at("m");
   row.aliasing = {number_from(m.at("p50")), number_from(m.at("p95")), number_from(m.at("max")),
-                  m.at("share_undersampled").get<double>(), m.at("pixels").get<std::uint64_t>()};
+                  real_from(m.at("share_undersampled")), whole_from<std::uint64_t>(m.at("pixels"))};
   const Json& c = json.at("costs");
-  row.costs = {c.at("maps").get<int>(), c.at("draws").get<std::uint64_t>(),
-               c.at("triangles").get<std::uint64_t>(), c.at("texels").get<std::uint64_t>(),
-               c.at("map_bytes").get<std::uint64_t>()};
+  row.costs = {whole_from<int>(c.at("maps")), whole_from<std::uint64_t>(c.at("draws")),
+               whole_from<std::uint64_t>(c.at("triangles")), whole_from<std::uint64_t>(c.at("texels")),
+               whole_from<std::uint64_t>(c.at("map_bytes"))};
   for (const Json& l : json.at("left_out"))
     row.left_out.push_back({l.at("what").get<std::string>(), l.at("why").get<std::string>(),
-                            l.at("saves_texels").get<std::int64_t>()});
+                            whole_from<std::int64_t>(l.at("saves_texels"))});
   const Json& p = json.at("pictures");
   p.at("image").get_to(row.pictures.image);
   p.at("truth").get_to(row.pictures.truth);
@@ -169,16 +200,16 @@ void measurement_from(const Json& json, Row& row) {
   times.prefilter_ms = estimate_from(t.at("prefilter_ms"));
   times.shade_ms = estimate_from(t.at("shade_ms"));
   times.total_ms = estimate_from(t.at("total_ms"));
-  t.at("baseline_ms").get_to(times.baseline_ms);
-  t.at("rounds").get_to(times.rounds);
+  times.baseline_ms = real_from(t.at("baseline_ms"));
+  get_whole(t.at("rounds"), times.rounds);
   const Json& m = json.at("machine");
   Machine& machine = row.machine;
   m.at("renderer").get_to(machine.renderer);
   m.at("context").get_to(machine.context);
   m.at("software").get_to(machine.software);
   m.at("cpu").get_to(machine.cpu);
-  m.at("cores").get_to(machine.cores);
-  m.at("load").get_to(machine.load);
+  get_whole(m.at("cores"), machine.cores);
+  machine.load = real_from(m.at("load"));
   m.at("version").get_to(machine.version);
   m.at("rays").get_to(machine.rays);
 }
@@ -208,26 +239,29 @@ std::string without_times(const Row& row) {
 
 Row row_from_json(const std::string& line, const std::string& where) {
   try {
+    check_nesting(line);
     const Json json = Json::parse(line);
     const std::string schema = json.at("schema").get<std::string>();
-    if (schema != kSchema) throw ReportError(where + ": schema '" + schema + "', wanted '" + kSchema + "'");
+    if (schema != kSchema) throw ReportError("schema '" + schema + "', wanted '" + kSchema + "'");
     Row row;
-    json.at("index").get_to(row.index);
+    get_whole(json.at("index"), row.index);
     json.at("scene").get_to(row.scene);
-    json.at("frame").get_to(row.frame);
-    json.at("frames").get_to(row.frames);
-    json.at("width").get_to(row.width);
-    json.at("height").get_to(row.height);
+    get_whole(json.at("frame"), row.frame);
+    get_whole(json.at("frames"), row.frames);
+    get_whole(json.at("width"), row.width);
+    get_whole(json.at("height"), row.height);
     json.at("light").get_to(row.light);
-    json.at("light_elevation_deg").get_to(row.light_elevation_deg);
-    json.at("light_azimuth_deg").get_to(row.light_azimuth_deg);
+    row.light_elevation_deg = real_from(json.at("light_elevation_deg"));
+    row.light_azimuth_deg = real_from(json.at("light_azimuth_deg"));
     row.technique = technique_from(json.at("technique"));
     json.at("plan_status").get_to(row.plan_status);
     results_from(json, row);
     measurement_from(json, row);
     return row;
   } catch (const Json::exception& error) {
-    throw ReportError(where + ": " + error.what());
+    throw ReportError(one_line(where + ": " + error.what()));
+  } catch (const ReportError& error) {
+    throw ReportError(one_line(where + ": " + error.what()));
   }
 }
 

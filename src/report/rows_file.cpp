@@ -11,14 +11,19 @@
 #include <system_error>
 
 #include "file.hpp"
+#include "rows_text.hpp"
+#include "text.hpp"
 
 namespace gnomon::report {
 namespace {
 
 namespace fs = std::filesystem;
 
+// A row takes about 2 KB; its longest part is the list of what a plan left out.
+constexpr std::size_t kMaxLineBytes = 1u << 20;
+
 [[noreturn]] void fail(const fs::path& file) {
-  throw ReportError(file.string() + ": " + std::strerror(errno));
+  throw ReportError(one_line(file.string()) + ": " + std::strerror(errno));
 }
 
 fs::path rows_path(const fs::path& path) {
@@ -32,8 +37,7 @@ void copy_picture(const std::string& name, const fs::path& from, const fs::path&
   std::error_code error;
   if (!fs::exists(source, error) || fs::equivalent(source, target, error)) return;
   fs::create_directories(target.parent_path(), error);
-  fs::copy_file(source, target, fs::copy_options::overwrite_existing, error);
-  if (error) throw ReportError(target.string() + ": " + error.message());
+  write_text(target, read_picture(source));
 }
 
 void copy_pictures(const Row& row, const fs::path& from, const fs::path& to) {
@@ -68,17 +72,23 @@ void RowsFile::append(const Row& row) {
   if (::fsync(descriptor_) != 0) fail(file_);
 }
 
-std::vector<Row> read_rows(const fs::path& path) {
-  const fs::path file = rows_path(path);
-  const std::string text = read_text(file);
+std::vector<Row> rows_from_text(std::string_view text, const std::string& name) {
   std::vector<Row> rows;
   std::size_t number = 0;
   for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
     ++number;
-    const std::string line = text.substr(begin, end - begin);
-    if (!line.empty()) rows.push_back(row_from_json(line, file.string() + ":" + std::to_string(number)));
+    if (end == begin) continue;
+    const std::string where = name + ":" + std::to_string(number);
+    if (end - begin > kMaxLineBytes)
+      throw ReportError(where + ": longer than " + std::to_string(kMaxLineBytes) + " bytes");
+    rows.push_back(row_from_json(std::string(text.substr(begin, end - begin)), where));
   }
   return rows;
+}
+
+std::vector<Row> read_rows(const fs::path& path) {
+  const fs::path file = rows_path(path);
+  return rows_from_text(read_text(file), file.string());
 }
 
 std::size_t merge_rows(std::span<const fs::path> folders, const fs::path& out) {

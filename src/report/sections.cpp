@@ -78,6 +78,7 @@ std::string table_of_lines(const std::string& text, const std::string& where) {
   for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
     ++number;
     if (end == begin) continue;
+    check_nesting(std::string_view(text).substr(begin, end - begin));
     const Json json = Json::parse(text.substr(begin, end - begin), nullptr, false);
     if (!json.is_object()) throw ReportError(where + ":" + std::to_string(number) + ": not a JSON object");
     if (columns.empty()) {

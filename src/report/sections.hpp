@@ -18,6 +18,8 @@ struct PageInput {
   std::size_t start_scene = 0;  ///< which the page shows first
 };
 
+[[nodiscard]] PageInput page_input(const std::filesystem::path& folder, std::vector<Row> rows);
+
 /// Pictures that go into the page, each once.
 struct PagePictures {
   struct OfTechnique {
@@ -45,5 +47,7 @@ struct PagePictures {
 [[nodiscard]] std::string section_method(const PageInput& input);
 /// What the page's script reads, as JSON.
 [[nodiscard]] std::string page_data(const PageInput& input, const PagePictures& pictures);
+/// All of it: the file of HTML.
+[[nodiscard]] std::string whole_page(const PageInput& input);
 
 }  // namespace gnomon::report

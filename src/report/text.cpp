@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "gnomon/report/row.hpp"
+
 namespace gnomon::report {
 namespace {
 
@@ -89,13 +91,32 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-std::string csv_field(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
+std::string one_line(std::string_view text) {
+  constexpr std::size_t kLength = 400;
+  std::string line(text.substr(0, kLength));
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == '\x7f') c = '?';
   }
-  return out + '"';
+  return text.size() > kLength ? line + "..." : line;
+}
+
+void check_nesting(std::string_view json) {
+  constexpr int kDepth = 32;
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDepth) throw ReportError("nested deeper than " + std::to_string(kDepth) + " levels");
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
 }
 
 std::string for_script(std::string json) {

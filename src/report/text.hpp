@@ -8,8 +8,10 @@ namespace gnomon::report {
 
 /// For HTML and SVG, as content and within double quotes.
 [[nodiscard]] std::string escaped(std::string_view text);
-/// A CSV field in quotes, RFC 4180.
-[[nodiscard]] std::string csv_field(std::string_view text);
+/// One line for a message: control characters become '?', and what is longer than 400 bytes is cut.
+[[nodiscard]] std::string one_line(std::string_view text);
+/// Throws ReportError for brackets deeper than 32, which would be taken apart on the stack; a row needs 4.
+void check_nesting(std::string_view json);
 /// JSON that may stand in a script element: no character of it can end the element.
 [[nodiscard]] std::string for_script(std::string json);
 /// Three significant digits, without an exponent between 1e-4 and 1e6.

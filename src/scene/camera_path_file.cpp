@@ -10,6 +10,7 @@
 #include "glb.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
+#include "load_memory.hpp"
 #include "refusal.hpp"
 
 namespace gnomon {
@@ -87,17 +88,30 @@ json to_json(const glm::dvec3& v) {
 
 }  // namespace
 
-CameraPath load_camera_path(const std::filesystem::path& file) {
+namespace detail {
+
+CameraPath camera_path_from_text(std::string_view text, const std::string& path_in_errors) {
   try {
-    const detail::Bytes bytes = detail::read_regular_file(file, kFileBytes);
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    detail::check_json_size(text);
+    check_json_size(text);
     return parse(json::parse(text));
   } catch (const Refusal& e) {
-    throw SceneError(detail::one_line(file.string() + ": " + e.what()));
+    throw SceneError(one_line(path_in_errors + ": " + e.what()));
+  } catch (const std::exception& e) {
+    throw SceneError(one_line(path_in_errors + ": file: " + e.what()));
+  }
+}
+
+}  // namespace detail
+
+CameraPath load_camera_path(const std::filesystem::path& file) {
+  detail::Bytes bytes;
+  try {
+    bytes = detail::read_regular_file(file, kFileBytes);
   } catch (const std::exception& e) {
     throw SceneError(detail::one_line(file.string() + ": file: " + e.what()));
   }
+  return detail::camera_path_from_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                                       file.string());
 }
 
 void save_camera_path(const CameraPath& path, const std::filesystem::path& file) {

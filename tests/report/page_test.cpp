@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 
 #include "chart.hpp"
+#include "gnomon/report/csv.hpp"
 #include "gnomon/report/page.hpp"
 #include "gnomon/report/rows_file.hpp"
 #include "sample_rows.hpp"
@@ -55,6 +57,13 @@ TEST(Text, what_could_end_an_element_cannot) {
   EXPECT_EQ(escaped(std::string("a\0b\x1b", 4)), "a b ");
   EXPECT_EQ(for_script("\"</script><!--\""), "\"\\u003c/script>\\u003c!--\"");
   EXPECT_EQ(csv_field("a,\"b\"\n"), "\"a,\"\"b\"\"\n\"");
+}
+
+TEST(Text, no_spreadsheet_takes_a_name_for_a_formula) {
+  for (const std::string name : {"=cmd()", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1"})
+    EXPECT_EQ(csv_field(name), "\"'" + name + "\"");
+  for (const std::string name : {"", "a=b", "1-2", "'", "hard"})
+    EXPECT_EQ(csv_field(name), "\"" + name + "\"");
 }
 
 TEST(Text, short_numbers_stay_short) {
@@ -152,6 +161,77 @@ TEST(Page, loads_nothing_and_lets_only_its_own_script_run) {
   const std::size_t begin = page.rfind("<script>") + 8, end = page.rfind("</script>");
   EXPECT_NE(page.find(policy_hash(page.substr(begin, end - begin))), std::string::npos);
   EXPECT_EQ(count(page, " style=\""), 0u);
+}
+
+// What people may call a scene: the page shows it and keeps its elements, and tables take it for text.
+TEST(Page, no_name_of_a_row_becomes_markup_or_a_formula) {
+  const std::string evil = "</script><img src=x onerror=alert(1)>\"'><!--", formula = "=cmd|'/c calc'!A1";
+  std::vector<Row> rows = sample_rows(1, 3);
+  for (Row& row : rows) {
+    row.scene = evil;
+    row.technique.warp = row.technique.split = row.technique.fit = row.technique.filter = evil;
+    row.truth = row.plan_status = row.light = evil;
+    row.left_out = {{evil, evil, 1}};
+    row.machine = {evil, evil, evil, evil, evil, true, 2, 0.5};
+  }
+  rows.back().technique.filter = formula;
+  TemporaryFolder folder;
+  RowsFile file(folder.path() / kRowsFile);
+  for (const Row& row : rows) file.append(row);
+  std::ofstream(folder.path() / "stability.jsonl") << R"({"</script><img src=x onerror=1>":"<!--"})"
+                                                   << "\n";
+  const std::string page = text_of(write_report(folder.path()));
+  EXPECT_EQ(count(page, "<img src=x"), 0u);
+  EXPECT_EQ(count(page, "<!--"), 0u);
+  EXPECT_EQ(count(page, "</script>"), 2u);
+  EXPECT_GT(count(page, "&lt;img src=x"), 5u) << "the name is shown";
+  for (const auto& entry : fs::directory_iterator(folder.path() / "charts"))
+    EXPECT_EQ(count(text_of(entry.path()), "<img"), 0u) << entry.path();
+  for (const char* table : {"summary.csv", "frames.csv"}) {
+    const std::string text = text_of(folder.path() / table);
+    EXPECT_EQ(count(text, "\"=cmd"), 0u) << table;
+    EXPECT_GT(count(text, "\"'=cmd"), 0u) << table;
+  }
+}
+
+// Numbers that a row may hold but no measurement has: steps between ticks must not vanish or overflow.
+TEST(Page, of_extreme_numbers_stands) {
+  for (const double value : {5e-324, 1e-300, 1e29, -1e30}) {
+    std::vector<Row> rows = sample_rows(1, 2);
+    for (Row& row : rows) {
+      row.errors.false_lit = row.flips = value;
+      row.times.total_ms.median = value;
+      row.frame = value < 0.0 ? std::numeric_limits<int>::min() : std::numeric_limits<int>::max();
+    }
+    EXPECT_EQ(count(Reported(rows).page, "<section"), 7u) << value;
+  }
+}
+
+TEST(Page, shows_nothing_but_pictures_of_its_own_folder) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "report");
+  std::ofstream(folder.path() / "secret.png") << "\x89PNG\r\n\x1a\nsecret";
+  std::ofstream(folder.path() / "report/text.png") << "no picture";
+  fs::create_symlink("../secret.png", folder.path() / "report/link.png");
+  const struct {
+    const char *name, *why;
+  } kCases[] = {{"link.png", "a link out of its folder"},
+                {"../secret.png", "outside of its folder"},
+                {"text.png", "is not a PNG"},
+                {"/dev/zero", "outside of its folder"},
+                {"none.png", "cannot be read"}};
+  for (const auto& c : kCases) {
+    fs::remove(folder.path() / "report" / kRowsFile);
+    Row row = sample_row();
+    row.pictures = {c.name, c.name, c.name, c.name, c.name};
+    RowsFile(folder.path() / "report" / kRowsFile).append(row);
+    try {
+      (void)write_report(folder.path() / "report");
+      ADD_FAILURE() << c.name << " was shown";
+    } catch (const ReportError& error) {
+      EXPECT_NE(std::string(error.what()).find(c.why), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(Page, a_stability_file_that_is_no_json_is_refused_by_name) {

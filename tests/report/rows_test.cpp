@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gnomon/report/rows_file.hpp"
+#include "rows_text.hpp"
 #include "sample_rows.hpp"
 
 namespace gnomon::report {
@@ -53,6 +54,41 @@ TEST(Rows, a_bad_line_is_refused_with_its_place) {
   EXPECT_EQ(message("{").rfind("file:3: ", 0), 0u);
   EXPECT_EQ(message("{\"schema\":\"other\"}"), "file:3: schema 'other', wanted 'gnomon.compare.1'");
   EXPECT_NE(message("{\"schema\":\"gnomon.compare.1\"}").find("index"), std::string::npos);
+}
+
+TEST(Rows, hostile_lines_are_refused_with_one_line) {
+  const std::string good = to_json_line(sample_row());
+  const auto refused = [](const std::string& line, const std::string& why) {
+    try {
+      (void)rows_from_text(line + "\n", "file");
+      ADD_FAILURE() << "accepted: " << line.substr(0, 80);
+    } catch (const ReportError& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.rfind("file:1: ", 0), 0u) << what;
+      EXPECT_NE(what.find(why), std::string::npos) << what;
+      EXPECT_EQ(what.find_first_of("\n\r\x1b"), std::string::npos) << what;
+      EXPECT_LT(what.size(), 500u);
+    }
+  };
+  const auto with = [&](const std::string& key, const std::string& value) {
+    const std::size_t at = good.find("\"" + key + "\":") + key.size() + 3;
+    return good.substr(0, at) + value + good.substr(good.find_first_of(",}", at));
+  };
+  refused(with("index", "-1"), "whole number");
+  refused(with("index", "1.5"), "whole number");
+  refused(with("frame", "4294967296"), "whole number");
+  refused(with("map_size", "1e300"), "whole number");
+  refused(with("pixels", "18446744073709551616"), "whole number");
+  refused(with("false_lit", "1e31"), "beyond 1e30");
+  refused(with("load", "\"\\u001b[31m\\n\""), "string");
+  refused(with("schema", "\"\\n\\u001b[31m\""), "schema");
+  refused(std::string(100, '[') + std::string(100, ']'), "nested deeper than 32");
+  refused("\"" + std::string(2 << 20, 'x') + "\"", "longer than");
+  EXPECT_EQ(rows_from_text(good + "\n", "file").size(), 1u);
+}
+
+TEST(RowsFile, a_device_is_no_file_of_rows) {
+  EXPECT_THROW((void)read_rows("/dev/zero"), ReportError);
 }
 
 TEST(Rows, keys_tell_measurements_apart_and_times_do_not_matter) {
@@ -109,13 +145,14 @@ TEST(Merge, shards_are_the_whole_row_for_row) {
 TEST(Merge, pictures_come_along) {
   const TemporaryFolder folder;
   fs::create_directories(folder.path() / "a/pictures");
-  std::ofstream(folder.path() / "a/pictures/x.png") << "picture";
+  const std::string picture = "\x89PNG\r\n\x1a\npicture";
+  std::ofstream(folder.path() / "a/pictures/x.png", std::ios::binary) << picture;
   Row row = sample_row();
   row.pictures.mask = "pictures/x.png";
   RowsFile(folder.path() / "a" / kRowsFile).append(row);
   const std::vector<fs::path> shards{folder.path() / "a"};
   merge_rows(shards, folder.path() / "out");
-  EXPECT_EQ(text_of(folder.path() / "out/pictures/x.png"), "picture");
+  EXPECT_EQ(text_of(folder.path() / "out/pictures/x.png"), picture);
 }
 
 TEST(Merge, a_picture_outside_of_its_folder_is_refused) {

@@ -1,0 +1,15 @@
+// Rows from text that is already in memory.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gnomon/report/row.hpp"
+
+namespace gnomon::report {
+
+/// read_rows on text; `name` stands in front of errors. Throws ReportError.
+[[nodiscard]] std::vector<Row> rows_from_text(std::string_view text, const std::string& name);
+
+}  // namespace gnomon::report
