@@ -19,5 +19,6 @@
 #include "gnomon/reuse.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/split.hpp"
+#include "gnomon/technique.hpp"
 #include "gnomon/visible_depths.hpp"
 #include "gnomon/warp.hpp"

@@ -47,6 +47,8 @@ static_assert(noexcept(measure(any<ShadowPlan>(), any<Camera>(), any<SceneBounds
 static_assert(noexcept(measure_point(any<ShadowMap>(), any<Camera>(), any<glm::dvec3>(), any<glm::dvec3>())));
 static_assert(noexcept(measure_points(any<ShadowMap>(), any<Camera>(), {}, {}, {})));
 static_assert(noexcept(measure_perspectives(any<ShadowMap>(), any<Camera>(), {}, {})));
+static_assert(noexcept(choose_technique(any<Camera>(), any<Light>(), any<SceneBounds>(), {}, {}, {},
+                                        any<CostModel>(), any<PlanOptions>())));
 static_assert(noexcept(describe(any<Omission>())));
 
 TEST(Allocation, the_counter_counts) {
@@ -67,6 +69,20 @@ TEST(Allocation, planning_culling_measuring_and_describing_allocate_nothing) {
     for (const Omission& omission : plan.omitted()) (void)describe(omission);
     const std::uint64_t allocated = g_allocations - before;
     require(allocated == 0, "allocations", allocated, "samples", stats.samples);
+  });
+}
+
+TEST(Allocation, choosing_a_technique_allocates_nothing) {
+  constexpr FilterCost kFilter{"hard"};
+  CostModel costs;
+  costs.filters = {&kFilter, 1};
+  for_all(10, [&] {
+    const Case c = draw_case();
+    const std::uint64_t before = g_allocations;
+    const TechniqueChoice choice =
+        choose_technique(c.camera, DirectionalLight{c.light}, c.bounds(), {}, {}, {}, costs, c.options);
+    const std::uint64_t allocated = g_allocations - before;
+    require(allocated == 0, "allocations", allocated, "tried", choice.tried);
   });
 }
 

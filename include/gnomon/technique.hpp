@@ -1,0 +1,94 @@
+// Which technique to take: the cheapest that meets an error, or the one with the least error within a budget.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "gnomon/bounds.hpp"
+#include "gnomon/camera.hpp"
+#include "gnomon/light.hpp"
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+
+/// What a filter costs on some machine, and how it errs. Milliseconds are of the wall clock.
+struct FilterCost {
+  std::string_view name;
+  double prefilter_ms_per_map = 0.0, prefilter_ms_per_megatexel = 0.0;
+  double lookup_ms_per_megapixel = 0.0;  ///< of the frame
+  double bytes_per_texel = 4.0;          ///< depth and stored texels together
+  /// Its wrong pixels over those of a filter with ratio 1 in the same maps, told as the ratio of the m that
+  /// would make as many.
+  double error_ratio = 1.0;
+};
+
+/// What drawing a caster takes.
+struct CasterWork {
+  std::uint32_t triangles = 0;
+  bool alpha_tested = false;  ///< holes cut by a texture: each texel that it covers is asked
+};
+
+/// What a frame's shadows cost on some machine: a sum over what is drawn. `gnomon calibrate` measures it.
+struct CostModel {
+  double frame_ms = 0.0, ms_per_map = 0.0, ms_per_megatexel = 0.0;
+  double ms_per_kilodraw = 0.0, ms_per_megatriangle = 0.0;
+  /// Per million texels of a map, times the share of alpha-tested triangles among all that it draws.
+  double ms_per_megatexel_tested = 0.0;
+  std::span<const FilterCost> filters;  ///< to choose from, at least one
+};
+
+/// Limits; 0 is none. Without target_error the least error within them is taken, with it the cheapest
+/// technique that meets it: by milliseconds, or by texels where the cost model says all cost nothing.
+struct Budget {
+  std::int64_t texels = 0, bytes = 0;
+  double milliseconds = 0.0;
+  double target_error = 0.0;  ///< of m that 95 % of what is seen stay below, screen pixels per texel
+};
+
+/// What is tried: the product of all lists. An empty list is the default named beside it.
+struct TechniqueSet {
+  std::span<const Warp* const> warps;        ///< none, lispsm, optimal
+  std::span<const SplitScheme> splits;       ///< automatic
+  std::span<const int> cascades;             ///< 1, 2, 3, 4; a light with a position has the maps it has
+  std::span<const int> map_sizes;            ///< 256, 512, 1024, 2048, 4096
+  static constexpr std::size_t kMost = 512;  ///< of warps x splits x cascades; what comes later is not tried
+};
+
+/// One technique with what it would cost and err.
+struct Technique {
+  const Warp* warp = nullptr;
+  SplitScheme split = SplitScheme::automatic;
+  int cascades = 0, map_size = 0;
+  int filter = 0;      ///< index into CostModel::filters
+  double error = 0.0;  ///< m at the 95th percentile times the filter's error_ratio
+  double milliseconds = 0.0;
+  std::int64_t texels = 0, bytes = 0;
+};
+
+/// The choice and the trade it made.
+struct TechniqueChoice {
+  /// ok: plan and options are those of `chosen`. Otherwise what make_plan answered: there is nothing to
+  /// choose.
+  PlanStatus status = PlanStatus::invalid_input;
+  std::string_view invalid_field;  ///< of make_plan, or "budget", "cost_model"
+  bool met = false;                ///< false: nothing fits, `chosen` is the nearest to fitting
+  Technique chosen;
+  /// What a fifth less would have cost in error, and what a fifth less error would cost; map_size 0: there is
+  /// none such. Limits other than the one traded do not bind them.
+  Technique cheaper, better;
+  int tried = 0;  ///< techniques that were priced
+  PlanOptions options;
+  ShadowPlan plan;
+};
+
+/// Plans each parametrization once, measures it (measure() over the visible receivers), and prices it at
+/// every size with every filter: some 0.1 ms a parametrization. For when a scene, a view or a light is new,
+/// not for every frame. `base` gives all options that are not chosen; `work` belongs to bounds.casters, in
+/// their order; missing entries cost nothing. Pure, allocates nothing, never throws.
+[[nodiscard]] TechniqueChoice choose_technique(const Camera& camera, const Light& light,
+                                               const SceneBounds& bounds, std::span<const CasterWork> work,
+                                               const TechniqueSet& among, const Budget& budget,
+                                               const CostModel& costs, const PlanOptions& base = {}) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,208 @@
+// Is the technique that is chosen the right one, and is what it is said to cost and to err true?
+#include "gnomon/technique.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "gnomon/metric.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr FilterCost kFilters[] = {{"hard", 0.0, 0.0, 2.0, 4.0, 1.2}, {"pcf", 0.0, 0.0, 5.0, 4.0, 1.0}};
+constexpr std::int64_t kMebi = 1 << 20;
+
+/// A plain with boxes on it, and a machine that takes time for all there is.
+struct Plain {
+  Camera camera = perspective_camera({0, 5, 0}, {0, -0.2, -1}, {0, 1, 0}, 1.0, 1.5, 0.5, 200, 960, 640);
+  std::vector<Box> receivers = {{{-90, -1, -200}, {90, 0, -1}}}, casters;
+  std::vector<CasterWork> work;
+  Light light = DirectionalLight{{0.2, -1, 0.1}};
+  CostModel costs{0.5, 0.2, 2.0, 1.0, 40.0, 3.0, kFilters};
+  Budget budget;
+  TechniqueSet among;
+  PlanOptions base;
+
+  Plain() {
+    for (int i = 0; i < 40; ++i) {
+      const double z = -2.0 - 5.0 * i;
+      casters.push_back({{-20, 0, z - 1}, {20, 4, z}});
+      work.push_back({1000, i % 2 == 0});
+    }
+  }
+  [[nodiscard]] TechniqueChoice choose() const {
+    return choose_technique(camera, light, {casters, receivers}, work, among, budget, costs, base);
+  }
+  /// Every technique of the set, each chosen from itself alone.
+  [[nodiscard]] std::vector<Technique> all() const {
+    std::vector<Technique> list;
+    for (const Warp* warp : {&warps::none, &warps::lispsm, &warps::optimal}) {
+      for (int cascades = 1; cascades <= 4; ++cascades) {
+        for (const int size : {256, 512, 1024, 2048, 4096}) {
+          for (const FilterCost& filter : kFilters) {
+            Plain one = *this;
+            one.budget = {};
+            const Warp* const warp_list[] = {warp};
+            const int cascade_list[] = {cascades}, size_list[] = {size};
+            one.among = {warp_list, {}, cascade_list, size_list};
+            one.costs.filters = {&filter, 1};
+            list.push_back(one.choose().chosen);
+          }
+        }
+      }
+    }
+    return list;
+  }
+};
+
+std::int64_t texels(const ShadowPlan& plan) {
+  std::int64_t sum = 0;
+  for (const ShadowMap& map : plan.maps()) sum += std::int64_t{map.width} * map.height;
+  return sum;
+}
+
+TEST(Technique, error_and_texels_are_those_of_the_plan_that_is_given_out) {
+  for (const double milliseconds : {4.0, 10.0, 40.0}) {
+    Plain plain;
+    plain.budget.milliseconds = milliseconds;
+    const TechniqueChoice choice = plain.choose();
+    ASSERT_EQ(choice.status, PlanStatus::ok);
+    const double ratio = kFilters[choice.chosen.filter].error_ratio;
+    const AliasingStats stats = measure(choice.plan, plain.camera, {plain.casters, plain.receivers});
+    EXPECT_NEAR(choice.chosen.error / ratio, stats.p95, 0.1 * stats.p95) << milliseconds;
+    EXPECT_EQ(choice.chosen.texels, texels(choice.plan));
+    EXPECT_EQ(choice.plan.map[0].width, choice.chosen.map_size);
+  }
+}
+
+TEST(Technique, least_error_within_a_budget_is_found_among_all) {
+  Plain plain;
+  const std::vector<Technique> all = plain.all();
+  for (const double milliseconds : {5.0, 12.0, 30.0}) {
+    for (const std::int64_t limit : {std::int64_t{0}, 2 * kMebi}) {
+      plain.budget = {limit, 0, milliseconds, 0.0};
+      const TechniqueChoice choice = plain.choose();
+      EXPECT_TRUE(choice.met);
+      EXPECT_LE(choice.chosen.milliseconds, milliseconds);
+      double least = std::numeric_limits<double>::infinity();
+      for (const Technique& t : all) {
+        if (t.milliseconds <= milliseconds && (limit == 0 || t.texels <= limit))
+          least = std::min(least, t.error);
+      }
+      EXPECT_EQ(choice.chosen.error, least);
+    }
+  }
+}
+
+TEST(Technique, cheapest_at_an_error_is_found_among_all) {
+  Plain plain;
+  const std::vector<Technique> all = plain.all();
+  for (const double error : {0.7, 2.0, 8.0}) {
+    plain.budget = {0, 0, 0.0, error};
+    const TechniqueChoice choice = plain.choose();
+    EXPECT_TRUE(choice.met);
+    EXPECT_LE(choice.chosen.error, error);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Technique& t : all) {
+      if (t.error <= error) least = std::min(least, t.milliseconds);
+    }
+    EXPECT_EQ(choice.chosen.milliseconds, least);
+  }
+}
+
+TEST(Technique, says_what_less_cost_and_what_less_error_would_have_taken) {
+  Plain plain;
+  plain.budget.milliseconds = 15.0;
+  const TechniqueChoice choice = plain.choose();
+  ASSERT_GT(choice.cheaper.map_size, 0);
+  EXPECT_LE(choice.cheaper.milliseconds, 0.8 * choice.chosen.milliseconds);
+  EXPECT_GE(choice.cheaper.error, choice.chosen.error);
+  ASSERT_GT(choice.better.map_size, 0);
+  EXPECT_LE(choice.better.error, 0.8 * choice.chosen.error);
+  EXPECT_GT(choice.better.milliseconds, plain.budget.milliseconds);
+  EXPECT_EQ(choice.tried, 3 * 4 * 5 * 2);
+}
+
+TEST(Technique, nearest_is_taken_and_told_where_nothing_fits) {
+  Plain plain;
+  plain.budget.milliseconds = 0.1;
+  const TechniqueChoice choice = plain.choose();
+  EXPECT_EQ(choice.status, PlanStatus::ok);
+  EXPECT_FALSE(choice.met);
+  for (const Technique& t : plain.all()) EXPECT_GE(t.milliseconds, choice.chosen.milliseconds);
+}
+
+TEST(Technique, alpha_tested_casters_cost_what_their_texels_cost) {
+  Plain plain;
+  const Warp* const one[] = {&warps::none};
+  const int cascades[] = {1}, sizes[] = {1024};
+  plain.among = {one, {}, cascades, sizes};
+  for (CasterWork& w : plain.work) w.alpha_tested = false;
+  const double opaque = plain.choose().chosen.milliseconds;
+  for (CasterWork& w : plain.work) w.alpha_tested = true;
+  EXPECT_NEAR(plain.choose().chosen.milliseconds - opaque, 3.0 * 1024 * 1024 / 1e6, 1e-9);
+}
+
+TEST(Technique, is_judged_by_texels_where_no_time_is_known) {
+  Plain plain;
+  plain.costs = {};
+  plain.costs.filters = kFilters;
+  plain.budget.target_error = 2.0;
+  const TechniqueChoice choice = plain.choose();
+  ASSERT_TRUE(choice.met);
+  for (const Technique& t : plain.all()) {
+    EXPECT_TRUE(t.error > 2.0 || t.texels >= choice.chosen.texels);
+  }
+}
+
+TEST(Technique, lamps_have_the_maps_they_have) {
+  Plain plain;
+  plain.light = PointLight{{0, 6, -10}, 80};
+  const TechniqueChoice choice = plain.choose();
+  ASSERT_EQ(choice.status, PlanStatus::ok);
+  EXPECT_EQ(choice.tried, 3 * 5 * 2);
+  EXPECT_EQ(choice.chosen.texels, texels(choice.plan));
+}
+
+TEST(Technique, broken_input_is_named) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
+  const auto field = [](const Plain& plain) {
+    const TechniqueChoice choice = plain.choose();
+    EXPECT_EQ(choice.status, PlanStatus::invalid_input);
+    return choice.invalid_field;
+  };
+  for (const double bad : {nan, infinity, -1.0}) {
+    Plain plain;
+    plain.budget.milliseconds = bad;
+    EXPECT_EQ(field(plain), "budget");
+    plain = {};
+    plain.costs.ms_per_map = bad;
+    EXPECT_EQ(field(plain), "cost_model");
+  }
+  Plain plain;
+  plain.costs.filters = {};
+  EXPECT_EQ(field(plain), "cost_model.filters");
+  plain = {};
+  const int sizes[] = {1024, 2};
+  plain.among.map_sizes = sizes;
+  EXPECT_EQ(field(plain), "map_sizes");
+  plain = {};
+  plain.camera.far_depth = nan;
+  EXPECT_EQ(field(plain), "camera.far_depth");
+}
+
+TEST(Technique, nothing_is_chosen_where_nothing_is_in_view) {
+  Plain plain;
+  plain.receivers = {{{-1, 0, 50}, {1, 1, 60}}};
+  const TechniqueChoice choice = plain.choose();
+  EXPECT_EQ(choice.status, PlanStatus::nothing_visible);
+  EXPECT_EQ(choice.plan.map_count, 0);
+  EXPECT_EQ(choice.chosen.map_size, 0);
+}
+
+}  // namespace
+}  // namespace gnomon::test
