@@ -16,6 +16,7 @@
 #include "scenes.hpp"
 #endif
 #ifdef GNOMON_HAS_COMPARE
+#include "calibrate.hpp"
 #include "compare.hpp"
 #include "doctor.hpp"
 #include "filters.hpp"
@@ -50,6 +51,7 @@ const std::string kVersion = std::string("gnomon ") + GNOMON_VERSION;
 struct MeasureRequests {
   CompareRequest compare;
   FiltersRequest filters;
+  CalibrateRequest calibrate;
   std::vector<std::string> merge_folders, report_folders;
   std::string merge_out = "out/merged";
   bool json = false;
@@ -102,23 +104,37 @@ void add_filters(CLI::App& app, FiltersRequest& request) {
   filters->add_option("--context", request.context, "auto, osmesa or egl");
 }
 
+void add_calibrate(CLI::App& app, CalibrateRequest& request) {
+  CLI::App* calibrate = app.add_subcommand("calibrate", "fit what shadows cost on this machine to a sweep");
+  calibrate->option_defaults()->always_capture_default();
+  calibrate->add_option("DIR", request.folders,
+                        "folders with results.jsonl; none: a sweep is measured first");
+  calibrate->add_option("--model", request.model, "the cost model, written, or read by --check");
+  calibrate->add_flag("--check", request.check, "hold the model's picks against what the folders measured");
+  calibrate->add_option("--out", request.out, "folder of the sweep that is measured first");
+  calibrate->add_option("--context", request.context, "of that sweep: auto, osmesa or egl");
+}
+
 void add_measuring(CLI::App& app, MeasureRequests& requests) {
   add_compare(app, requests.compare);
   add_filters(app, requests.filters);
+  add_calibrate(app, requests.calibrate);
   CLI::App* merge = app.add_subcommand("merge", "join the results of shards, and write their report");
   merge->add_option("DIR", requests.merge_folders, "folders with results.jsonl")->required();
   merge->add_option("--out", requests.merge_out, "folder that the whole goes to")->capture_default_str();
   CLI::App* report = app.add_subcommand("report", "write the report of results anew, without measuring");
   report->add_option("DIR", requests.report_folders, "folders with results.jsonl")->required();
   CLI::App* doctor = app.add_subcommand("doctor", "what works on this machine, and why something does not");
-  for (CLI::App* command : {merge, report, doctor}) command->set_version_flag("--version", kVersion);
-  for (const char* command : {"compare", "merge", "report", "doctor"})
+  for (CLI::App* command : {merge, report, doctor, app.get_subcommand("calibrate")})
+    command->set_version_flag("--version", kVersion);
+  for (const char* command : {"compare", "merge", "report", "doctor", "calibrate"})
     app.get_subcommand(command)->add_flag("--json", requests.json, "say what was done as one line of JSON");
 }
 
 int run_measuring(const CLI::App& app, const MeasureRequests& requests) {
   if (app.got_subcommand("compare")) return run_compare(requests.compare, requests.json);
   if (app.got_subcommand("filters")) return run_filters(requests.filters);
+  if (app.got_subcommand("calibrate")) return run_calibrate(requests.calibrate, requests.json);
   if (app.got_subcommand("merge"))
     return run_merge(requests.merge_folders, requests.merge_out, requests.json);
   if (app.got_subcommand("report")) return run_report(requests.report_folders, requests.json);

@@ -3,11 +3,10 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "gnomon/render/renderer.hpp"
-#include "gnomon/scene/camera_path.hpp"
 #include "gnomon/trace/reference.hpp"
+#include "scene_view.hpp"
 #include "sweep.hpp"
 
 namespace gnomon::tool {
@@ -19,24 +18,18 @@ class Stage {
 
   [[nodiscard]] ShadowPlan plan(const SweepEntry& entry, const Camera& camera) const noexcept;
   [[nodiscard]] Camera camera(int frame) const noexcept;
-  /// Where a viewer at 60 Hz stood one frame earlier, in a flight of ten seconds.
   [[nodiscard]] Camera camera_before(int frame) const noexcept;
-  [[nodiscard]] const Light& light() const noexcept { return light_; }
+  [[nodiscard]] const Light& light() const noexcept { return view_.light(); }
   [[nodiscard]] const trace::Tracer& tracer() const noexcept { return *tracer_; }
   [[nodiscard]] render::Renderer& renderer() noexcept { return *renderer_; }
   [[nodiscard]] render::PreparedFilter filter(const SweepEntry& entry) {
     return renderer_->prepare(entry.filter);
   }
-  [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
+  [[nodiscard]] const Scene& scene() const noexcept { return view_.scene(); }
 
  private:
-  [[nodiscard]] double time_of(int frame) const noexcept;
-
   const Sweep& sweep_;
-  Scene scene_;
-  CameraPath path_;
-  std::vector<Box> boxes_;
-  Light light_;
+  SceneView view_;
   std::unique_ptr<trace::Tracer> tracer_;
   std::unique_ptr<render::Renderer> renderer_;
 };

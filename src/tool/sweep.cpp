@@ -193,6 +193,17 @@ std::vector<std::string> split_lists(const std::vector<std::string>& lists) {
   return elements;
 }
 
+SweepEntry sweep_entry(const report::Technique& technique) {
+  SweepEntry entry;
+  set_filter(technique.filter, entry);
+  set_fit(technique.fit, entry);
+  set_warp(technique.warp, entry);
+  set_split(technique.split, entry);
+  set_cascades(technique.cascades, entry);
+  set_size(technique.map_size, entry);
+  return entry;
+}
+
 Sweep make_sweep(const CompareRequest& request) {
   Sweep sweep;
   sweep.scenes = request.scenes;
@@ -214,12 +225,8 @@ Sweep make_sweep(const CompareRequest& request) {
       sweep.context == render::ContextKind::glfw)
     refuse("--context", request.context, "auto, osmesa or egl");
   sweep.entries = product_of(request, sweep.light.kind);
-  set_filter("hard", sweep.baseline);
-  set_fit("tight", sweep.baseline);
-  set_warp("none", sweep.baseline);
-  set_split("uniform", sweep.baseline);
-  set_cascades(1, sweep.baseline);
-  set_size(sweep.entries.front().technique.map_size, sweep.baseline);
+  sweep.baseline =
+      sweep_entry({"none", "uniform", "tight", "hard", 1, sweep.entries.front().technique.map_size});
   return sweep;
 }
 

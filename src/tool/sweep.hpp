@@ -56,6 +56,9 @@ struct Sweep {
 /// warp.
 [[nodiscard]] Sweep make_sweep(const CompareRequest& request);
 
+/// What a technique's names stand for. Throws std::runtime_error where one of them means nothing.
+[[nodiscard]] SweepEntry sweep_entry(const report::Technique& technique);
+
 /// What the lists take, for the end of the help.
 [[nodiscard]] std::string compare_footer();
 

@@ -276,6 +276,28 @@ TEST(Compare, runs_under_gnu_parallel) {
   EXPECT_EQ(lasting(folder.path() / "merged"), lasting(whole()));
 }
 
+TEST(Calibrate, fits_a_cost_model_to_a_sweep_and_holds_its_picks_against_another) {
+  const TemporaryFolder folder;
+  const std::string model = (folder.path() / "model.json").string();
+  const Finished fitted = run_gnomon({"calibrate", whole().string(), "--model", model});
+  ASSERT_EQ(fitted.exit_code, 0) << fitted.err;
+  EXPECT_NE(fitted.out.find("| hard |"), std::string::npos);
+  const Finished checked = run_gnomon({"calibrate", whole().string(), "--model", model, "--check"});
+  ASSERT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_NE(checked.out.find("of 12 picks"), std::string::npos) << "two views, six questions each";
+}
+
+TEST(Calibrate, refuses_what_it_cannot_use) {
+  const TemporaryFolder folder;
+  const std::string model = (folder.path() / "model.json").string();
+  EXPECT_EQ(run_gnomon({"calibrate", "--check"}).exit_code, 2);
+  EXPECT_EQ(run_gnomon({"calibrate", "/does/not/exist", "--model", model}).exit_code, 2);
+  const Finished unfitted = run_gnomon({"calibrate", whole().string(), "--model", model, "--check"});
+  EXPECT_EQ(unfitted.exit_code, 2);
+  EXPECT_NE(unfitted.err.find("model.json"), std::string::npos);
+  EXPECT_FALSE(fs::exists(model));
+}
+
 TEST(Report, is_written_anew_without_measuring) {
   fs::remove(whole() / "report.html");
   const Finished finished = run_gnomon({"report", whole().string()});

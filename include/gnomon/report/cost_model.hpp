@@ -1,0 +1,54 @@
+// The cost model of a machine: fitted to measurements, kept in a file.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gnomon/technique.hpp"
+
+namespace gnomon::report {
+
+/// What one technique was predicted to draw and measured to take, on one frame.
+struct Observation {
+  std::string view;    ///< scene, frame and light: what errors can be compared within
+  std::string filter;  ///< with its options
+  double maps = 0.0, megatexels = 0.0, kilodraws = 0.0, megatriangles = 0.0, megapixels = 0.0;
+  double megatexels_tested = 0.0;  ///< weighed as CostModel::ms_per_megatexel_tested
+  double bytes_per_texel = 4.0;
+  double frame_ms = 0.0, depth_ms = 0.0, prefilter_ms = 0.0, lookup_ms = 0.0;
+  double m = 0.0;      ///< predicted, at the 95th percentile
+  double wrong = 0.0;  ///< share of the pixels on the wrong side of one half, measured
+};
+
+/// A CostModel that owns its names.
+struct StoredCostModel {
+  std::string machine;  ///< renderer and CPU it was measured on
+  double frame_ms = 0.0, ms_per_map = 0.0, ms_per_megatexel = 0.0;
+  double ms_per_kilodraw = 0.0, ms_per_megatriangle = 0.0, ms_per_megatexel_tested = 0.0;
+  struct Filter {
+    std::string name;
+    FilterCost cost;
+  };
+  std::vector<Filter> filters;
+  double depth_error = 0.0, prefilter_error = 0.0, lookup_error = 0.0;  ///< mean relative error of the fit
+
+  /// Views into this object, which must outlive them. `costs` is where the filters go.
+  [[nodiscard]] CostModel view(std::vector<FilterCost>& costs) const;
+};
+
+/// Least squares of relative errors, no cost below zero. Throws ReportError for fewer than eight
+/// observations.
+[[nodiscard]] StoredCostModel fit_costs(std::span<const Observation> observations, std::string machine);
+
+/// Coefficients >= 0 that make sum over rows of ((features . x - value) / value)^2 least; rows whose value is
+/// not above zero do not count. Each row holds as many features as the answer has coefficients.
+[[nodiscard]] std::vector<double> least_squares(std::span<const std::vector<double>> rows,
+                                                std::span<const double> values);
+
+/// Throw ReportError with the file's name and what is wrong.
+void save_cost_model(const StoredCostModel& model, const std::filesystem::path& file);
+[[nodiscard]] StoredCostModel load_cost_model(const std::filesystem::path& file);
+
+}  // namespace gnomon::report

@@ -1,0 +1,197 @@
+// The cost model of a machine, fitted to measurements.
+#include "gnomon/report/cost_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "gnomon/report/row.hpp"
+
+namespace gnomon::report {
+namespace {
+
+constexpr std::size_t kFewest = 8;
+
+/// Mean of |predicted - value| / value.
+double relative_error(std::span<const std::vector<double>> rows, std::span<const double> values,
+                      const std::vector<double>& x) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!(values[i] > 0.0)) continue;
+    const double predicted = std::inner_product(x.begin(), x.end(), rows[i].begin(), 0.0);
+    sum += std::abs(predicted - values[i]) / values[i];
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+/// Features and values of one part of the time.
+struct Part {
+  std::vector<std::vector<double>> rows;
+  std::vector<double> values;
+  void add(std::vector<double> features, double value) {
+    rows.push_back(std::move(features));
+    values.push_back(value);
+  }
+};
+
+/// How errors depend on m and on the filter: log wrong = view + power log m + filter, by alternating
+/// averages.
+class ErrorLaw {
+ public:
+  explicit ErrorLaw(std::span<const Observation> observations) {
+    for (const Observation& o : observations) {
+      if (o.wrong > 0.0 && o.m > 0.0 && std::isfinite(o.m))
+        points_.push_back({o.view, o.filter, std::log(o.m), std::log(o.wrong)});
+    }
+    constexpr int kRounds = 50;
+    for (int round = 0; round < kRounds && !points_.empty(); ++round) {
+      average(&Point::view, views_, filters_);
+      average(&Point::filter, filters_, views_);
+      fit_power();
+    }
+  }
+
+  /// The ratio of m that errs as much, beside the filter that errs least.
+  [[nodiscard]] double ratio(const std::string& filter) const {
+    const auto found = filters_.find(filter);
+    if (found == filters_.end() || power_ < kFlat) return 1.0;
+    double least = found->second;
+    for (const auto& [name, value] : filters_) least = std::min(least, value);
+    return std::exp((found->second - least) / power_);
+  }
+
+ private:
+  /// Below it errors do not depend on m, and no m makes up for a filter.
+  static constexpr double kFlat = 0.05;
+
+  struct Point {
+    std::string view, filter;
+    double log_m, log_wrong;
+  };
+  using Levels = std::map<std::string, double>;
+
+  void average(std::string Point::*key, Levels& levels, const Levels& others) {
+    const auto other_key = key == &Point::view ? &Point::filter : &Point::view;
+    std::map<std::string, std::pair<double, double>> sums;
+    for (const Point& p : points_) {
+      const auto other = others.find(p.*other_key);
+      auto& [sum, count] = sums[p.*key];
+      sum += p.log_wrong - power_ * p.log_m - (other == others.end() ? 0.0 : other->second);
+      count += 1.0;
+    }
+    for (const auto& [name, sum] : sums) levels[name] = sum.first / sum.second;
+  }
+
+  void fit_power() {
+    std::map<std::string, std::array<double, 3>> means;  // of log m, of what is left, and how many
+    for (const Point& p : points_) {
+      auto& mean = means[p.view];
+      mean[0] += p.log_m;
+      mean[1] += p.log_wrong - filters_.at(p.filter);
+      mean[2] += 1.0;
+    }
+    double xy = 0.0, xx = 0.0;
+    for (const Point& p : points_) {
+      const auto& mean = means.at(p.view);
+      const double x = p.log_m - mean[0] / mean[2];
+      xy += x * (p.log_wrong - filters_.at(p.filter) - mean[1] / mean[2]);
+      xx += x * x;
+    }
+    power_ = xx > 0.0 ? std::max(xy / xx, 0.0) : 0.0;
+  }
+
+  std::vector<Point> points_;
+  Levels views_, filters_;
+  double power_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<double> least_squares(std::span<const std::vector<double>> rows, std::span<const double> values) {
+  const std::size_t n = rows.empty() ? 0 : rows.front().size();
+  std::vector<double> square(n * n), right(n), x(n);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!(values[i] > 0.0)) continue;
+    for (std::size_t a = 0; a < n; ++a) {
+      right[a] += rows[i][a] / values[i];
+      for (std::size_t b = 0; b < n; ++b)
+        square[a * n + b] += rows[i][a] * rows[i][b] / (values[i] * values[i]);
+    }
+  }
+  // Coordinate descent: the sum is convex, and so each step to the least along one axis, cut at zero, leads
+  // down.
+  constexpr int kSweeps = 20'000;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    double moved = 0.0;
+    for (std::size_t a = 0; a < n; ++a) {
+      const double diagonal = square[a * n + a];
+      if (!(diagonal > 0.0)) continue;
+      double rest = right[a];
+      for (std::size_t b = 0; b < n; ++b) rest -= b == a ? 0.0 : square[a * n + b] * x[b];
+      const double next = std::max(rest / diagonal, 0.0);
+      moved = std::max(moved, std::abs(next - x[a]) * std::sqrt(diagonal));
+      x[a] = next;
+    }
+    if (moved < 1e-12) break;
+  }
+  return x;
+}
+
+CostModel StoredCostModel::view(std::vector<FilterCost>& costs) const {
+  costs.clear();
+  for (const Filter& filter : filters) {
+    costs.push_back(filter.cost);
+    costs.back().name = filter.name;
+  }
+  return {
+      frame_ms, ms_per_map, ms_per_megatexel, ms_per_kilodraw, ms_per_megatriangle, ms_per_megatexel_tested,
+      costs};
+}
+
+StoredCostModel fit_costs(std::span<const Observation> observations, std::string machine) {
+  if (observations.size() < kFewest)
+    throw ReportError("a cost model wants at least " + std::to_string(kFewest) + " rows, there are " +
+                      std::to_string(observations.size()));
+  StoredCostModel model;
+  model.machine = std::move(machine);
+  Part depth;
+  std::map<std::string, std::pair<Part, Part>> filters;  // prefilter and look-up
+  std::map<std::string, double> bytes;
+  for (const Observation& o : observations) {
+    depth.add({1.0, o.maps, o.megatexels, o.kilodraws, o.megatriangles, o.megatexels_tested},
+              o.frame_ms + o.depth_ms);
+    filters[o.filter].first.add({o.maps, o.megatexels}, o.prefilter_ms);
+    filters[o.filter].second.add({o.megapixels}, o.lookup_ms);
+    bytes[o.filter] = o.bytes_per_texel;
+  }
+  const std::vector<double> x = least_squares(depth.rows, depth.values);
+  model.frame_ms = x[0];
+  model.ms_per_map = x[1];
+  model.ms_per_megatexel = x[2];
+  model.ms_per_kilodraw = x[3];
+  model.ms_per_megatriangle = x[4];
+  model.ms_per_megatexel_tested = x[5];
+  model.depth_error = relative_error(depth.rows, depth.values, x);
+  const ErrorLaw law(observations);
+  const auto count = static_cast<double>(filters.size());
+  for (const auto& [name, parts] : filters) {
+    const std::vector<double> stored = least_squares(parts.first.rows, parts.first.values);
+    const std::vector<double> looked = least_squares(parts.second.rows, parts.second.values);
+    FilterCost cost;
+    cost.prefilter_ms_per_map = stored[0];
+    cost.prefilter_ms_per_megatexel = stored[1];
+    cost.lookup_ms_per_megapixel = looked[0];
+    cost.bytes_per_texel = bytes.at(name);
+    cost.error_ratio = law.ratio(name);
+    model.filters.push_back({name, cost});
+    model.prefilter_error += relative_error(parts.first.rows, parts.first.values, stored) / count;
+    model.lookup_error += relative_error(parts.second.rows, parts.second.values, looked) / count;
+  }
+  return model;
+}
+
+}  // namespace gnomon::report

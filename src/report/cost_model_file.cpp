@@ -1,0 +1,80 @@
+// A cost model in a file of JSON.
+#include <nlohmann/json.hpp>
+
+#include "file.hpp"
+#include "gnomon/report/cost_model.hpp"
+#include "gnomon/report/row.hpp"
+
+namespace gnomon::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "gnomon.cost.1";
+constexpr std::size_t kLargestFile = 1 << 20;
+
+}  // namespace
+
+void save_cost_model(const StoredCostModel& model, const std::filesystem::path& file) {
+  Json json{
+      {"schema", kSchema},
+      {"machine", model.machine},
+      {"frame_ms", model.frame_ms},
+      {"ms_per_map", model.ms_per_map},
+      {"ms_per_megatexel", model.ms_per_megatexel},
+      {"ms_per_kilodraw", model.ms_per_kilodraw},
+      {"ms_per_megatriangle", model.ms_per_megatriangle},
+      {"ms_per_megatexel_tested", model.ms_per_megatexel_tested},
+      {"mean_relative_error",
+       {{"depth", model.depth_error}, {"prefilter", model.prefilter_error}, {"lookup", model.lookup_error}}}};
+  json["filters"] = Json::array();
+  for (const auto& [name, cost] : model.filters) {
+    json["filters"].push_back({{"name", name},
+                               {"prefilter_ms_per_map", cost.prefilter_ms_per_map},
+                               {"prefilter_ms_per_megatexel", cost.prefilter_ms_per_megatexel},
+                               {"lookup_ms_per_megapixel", cost.lookup_ms_per_megapixel},
+                               {"bytes_per_texel", cost.bytes_per_texel},
+                               {"error_ratio", cost.error_ratio}});
+  }
+  write_text(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+StoredCostModel load_cost_model(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(file, ignored) &&
+      std::filesystem::file_size(file, ignored) > kLargestFile)
+    throw ReportError(file.string() + ": larger than any cost model");
+  const std::string text = read_text(file);
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("schema").get<std::string>() != kSchema)
+      throw ReportError(file.string() + ": schema '" + json.at("schema").get<std::string>() + "', wanted '" +
+                        kSchema + "'");
+    StoredCostModel model;
+    json.at("machine").get_to(model.machine);
+    json.at("frame_ms").get_to(model.frame_ms);
+    json.at("ms_per_map").get_to(model.ms_per_map);
+    json.at("ms_per_megatexel").get_to(model.ms_per_megatexel);
+    json.at("ms_per_kilodraw").get_to(model.ms_per_kilodraw);
+    json.at("ms_per_megatriangle").get_to(model.ms_per_megatriangle);
+    json.at("ms_per_megatexel_tested").get_to(model.ms_per_megatexel_tested);
+    const Json& errors = json.at("mean_relative_error");
+    errors.at("depth").get_to(model.depth_error);
+    errors.at("prefilter").get_to(model.prefilter_error);
+    errors.at("lookup").get_to(model.lookup_error);
+    for (const Json& entry : json.at("filters")) {
+      StoredCostModel::Filter filter{entry.at("name").get<std::string>(), {}};
+      entry.at("prefilter_ms_per_map").get_to(filter.cost.prefilter_ms_per_map);
+      entry.at("prefilter_ms_per_megatexel").get_to(filter.cost.prefilter_ms_per_megatexel);
+      entry.at("lookup_ms_per_megapixel").get_to(filter.cost.lookup_ms_per_megapixel);
+      entry.at("bytes_per_texel").get_to(filter.cost.bytes_per_texel);
+      entry.at("error_ratio").get_to(filter.cost.error_ratio);
+      model.filters.push_back(std::move(filter));
+    }
+    return model;
+  } catch (const Json::exception& error) {
+    throw ReportError(file.string() + ": " + error.what());
+  }
+}
+
+}  // namespace gnomon::report

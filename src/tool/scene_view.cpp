@@ -1,0 +1,38 @@
+// A scene with the boxes, the light and the cameras that it is planned for.
+#include "scene_view.hpp"
+
+#include "gnomon/scene/load.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+constexpr double kFlightSeconds = 10.0, kViewerHz = 60.0;
+
+double time_of(int frame, int frames) noexcept {
+  return (frame + 0.5) / frames;
+}
+
+}  // namespace
+
+SceneView::SceneView(const std::string& scene, const LightPlacement& light)
+    : scene_(load_scene(scene)),
+      path_(default_path(scene_)),
+      light_(default_light(light, scene_.bounds_world)) {
+  for (const Instance& instance : scene_.instances) {
+    boxes_.push_back(instance.bounds_world);
+    const Primitive& primitive = scene_.primitives[instance.primitive];
+    const bool tested =
+        scene_.materials[static_cast<std::size_t>(primitive.material)].alpha_mode != AlphaMode::opaque;
+    work_.push_back({primitive.index_count / 3, tested});
+  }
+}
+
+Camera SceneView::camera(int frame, int frames, int width, int height) const noexcept {
+  return path_.at(time_of(frame, frames), width, height);
+}
+
+Camera SceneView::camera_before(int frame, int frames, int width, int height) const noexcept {
+  return path_.at(time_of(frame, frames) - 1.0 / (kFlightSeconds * kViewerHz), width, height);
+}
+
+}  // namespace gnomon::tool

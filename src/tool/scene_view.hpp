@@ -1,0 +1,39 @@
+// A scene with the boxes, the light and the cameras that it is planned for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gnomon/plan.hpp"
+#include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/default_light.hpp"
+#include "gnomon/scene/scene.hpp"
+#include "gnomon/technique.hpp"
+
+namespace gnomon::tool {
+
+class SceneView {
+ public:
+  /// Throws SceneError.
+  SceneView(const std::string& scene, const LightPlacement& light);
+
+  [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
+  [[nodiscard]] const Light& light() const noexcept { return light_; }
+  [[nodiscard]] SceneBounds bounds() const noexcept { return {boxes_, boxes_}; }
+  /// Of each instance, as bounds() has them.
+  [[nodiscard]] const std::vector<CasterWork>& work() const noexcept { return work_; }
+  /// The frame's place is the middle of one of `frames` equal parts of the flight: its ends are often at
+  /// rest.
+  [[nodiscard]] Camera camera(int frame, int frames, int width, int height) const noexcept;
+  /// Where a viewer at 60 Hz stood one frame earlier, in a flight of ten seconds.
+  [[nodiscard]] Camera camera_before(int frame, int frames, int width, int height) const noexcept;
+
+ private:
+  Scene scene_;
+  CameraPath path_;
+  std::vector<Box> boxes_;
+  std::vector<CasterWork> work_;
+  Light light_;
+};
+
+}  // namespace gnomon::tool

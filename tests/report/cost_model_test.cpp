@@ -1,0 +1,119 @@
+// Does the fit find the costs that made the times, and does a model survive its file?
+#include "gnomon/report/cost_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+
+#include "gnomon/report/row.hpp"
+#include "sample_rows.hpp"
+
+namespace gnomon::report {
+namespace {
+
+/// Times that are exactly those of a model, of techniques that are drawn at random.
+std::vector<Observation> made_observations() {
+  std::mt19937 random(7);
+  const auto draw = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
+  };
+  std::vector<Observation> all;
+  for (int i = 0; i < 60; ++i) {
+    Observation o;
+    o.view = i % 3 == 0 ? "a" : "b";
+    o.filter = i % 2 == 0 ? "hard" : "vsm";
+    o.maps = 1.0 + i % 4;
+    o.megatexels = o.maps * draw(0.1, 4.0);
+    o.kilodraws = o.maps * draw(0.0, 2.0);
+    o.megatriangles = o.kilodraws * draw(0.01, 0.2);
+    o.megatexels_tested = i % 5 == 0 ? 0.3 * o.megatexels : 0.0;
+    o.megapixels = draw(0.05, 0.5);
+    o.bytes_per_texel = i % 2 == 0 ? 4.0 : 12.0;
+    o.depth_ms = 0.5 + 0.25 * o.maps + 3.0 * o.megatexels + 1.5 * o.kilodraws + 40.0 * o.megatriangles +
+                 9.0 * o.megatexels_tested;
+    o.prefilter_ms = i % 2 == 0 ? 0.0 : 0.1 * o.maps + 7.0 * o.megatexels;
+    o.lookup_ms = (i % 2 == 0 ? 20.0 : 50.0) * o.megapixels;
+    o.m = draw(0.3, 10.0);
+    // vsm errs as hard does at 1.5 times the m.
+    o.wrong = (o.view == "a" ? 0.01 : 0.04) * std::pow(o.m * (i % 2 == 0 ? 1.0 : 1.5), 0.6);
+    all.push_back(o);
+  }
+  return all;
+}
+
+TEST(CostModel, fit_finds_the_costs_that_made_the_times) {
+  const StoredCostModel model = fit_costs(made_observations(), "a machine");
+  EXPECT_NEAR(model.frame_ms, 0.5, 1e-4);
+  EXPECT_NEAR(model.ms_per_map, 0.25, 1e-4);
+  EXPECT_NEAR(model.ms_per_megatexel, 3.0, 1e-4);
+  EXPECT_NEAR(model.ms_per_kilodraw, 1.5, 1e-3);
+  EXPECT_NEAR(model.ms_per_megatriangle, 40.0, 1e-2);
+  EXPECT_NEAR(model.ms_per_megatexel_tested, 9.0, 1e-3);
+  EXPECT_LT(model.depth_error, 1e-4);
+  ASSERT_EQ(model.filters.size(), 2u);
+  const FilterCost &hard = model.filters[0].cost, &vsm = model.filters[1].cost;
+  EXPECT_EQ(hard.prefilter_ms_per_megatexel, 0.0);
+  EXPECT_NEAR(vsm.prefilter_ms_per_map, 0.1, 1e-5);
+  EXPECT_NEAR(vsm.prefilter_ms_per_megatexel, 7.0, 1e-5);
+  EXPECT_NEAR(hard.lookup_ms_per_megapixel, 20.0, 1e-9);
+  EXPECT_EQ(vsm.bytes_per_texel, 12.0);
+  EXPECT_DOUBLE_EQ(hard.error_ratio, 1.0);
+  EXPECT_NEAR(vsm.error_ratio, 1.5, 1e-6);
+}
+
+TEST(CostModel, no_cost_is_below_zero) {
+  // Values that fall as the second feature rises: without the limit its coefficient would be -1.
+  const std::vector<std::vector<double>> rows{{1.0, 0.0}, {1.0, 1.0}, {1.0, 2.0}};
+  const std::vector<double> values{4.0, 3.0, 2.0};
+  const std::vector<double> x = least_squares(rows, values);
+  EXPECT_GT(x[0], 2.0);
+  EXPECT_EQ(x[1], 0.0);
+}
+
+TEST(CostModel, features_that_say_the_same_do_no_harm) {
+  const std::vector<std::vector<double>> rows{{1.0, 1.0}, {2.0, 2.0}};
+  const std::vector<double> x = least_squares(rows, std::vector<double>{3.0, 6.0});
+  EXPECT_NEAR(x[0] + x[1], 3.0, 1e-9);
+}
+
+TEST(CostModel, too_few_rows_are_refused) {
+  const std::vector<Observation> all = made_observations();
+  EXPECT_THROW((void)fit_costs({all.data(), 7}, "a machine"), ReportError);
+}
+
+TEST(CostModel, comes_back_from_its_file) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "model.json";
+  const StoredCostModel model = fit_costs(made_observations(), "a \"machine\"");
+  save_cost_model(model, file);
+  const StoredCostModel read = load_cost_model(file);
+  EXPECT_EQ(read.machine, model.machine);
+  EXPECT_EQ(read.ms_per_megatexel, model.ms_per_megatexel);
+  EXPECT_EQ(read.ms_per_megatexel_tested, model.ms_per_megatexel_tested);
+  ASSERT_EQ(read.filters.size(), 2u);
+  EXPECT_EQ(read.filters[1].cost.error_ratio, model.filters[1].cost.error_ratio);
+  std::vector<FilterCost> storage;
+  const CostModel view = read.view(storage);
+  EXPECT_EQ(view.filters[1].name, "vsm");
+}
+
+TEST(CostModel, a_file_that_is_none_is_refused_by_name) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "model.json";
+  for (const char* text :
+       {"", "{}", "[1]", "{\"schema\":\"gnomon.cost.2\"}", "{\"schema\":\"gnomon.cost.1\"}"}) {
+    std::ofstream(file) << text;
+    try {
+      (void)load_cost_model(file);
+      ADD_FAILURE() << text;
+    } catch (const ReportError& error) {
+      EXPECT_NE(std::string(error.what()).find("model.json"), std::string::npos);
+    }
+  }
+  EXPECT_THROW((void)load_cost_model(folder.path() / "missing.json"), ReportError);
+}
+
+}  // namespace
+}  // namespace gnomon::report
