@@ -3,6 +3,7 @@
 
 #include "charts.hpp"
 #include "file.hpp"
+#include "front_table.hpp"
 #include "gnomon/report/csv.hpp"
 #include "gnomon/report/rows_file.hpp"
 #include "page_files.hpp"
@@ -127,6 +128,7 @@ std::filesystem::path write_report(const std::filesystem::path& folder) {
   const PageInput input = page_input(folder, read_rows(folder));
   write_charts(input);
   write_text(folder / "summary.csv", summary_csv(input.summary));
+  write_text(folder / "fronts.md", front_tables(input.summary));
   write_text(folder / "frames.csv", frames_csv(input.rows));
   write_text(folder / "report.html", whole_page(input));
   return folder / "report.html";

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "chart.hpp"
+#include "front_table.hpp"
 #include "gnomon/report/csv.hpp"
 #include "gnomon/report/page.hpp"
 #include "gnomon/report/rows_file.hpp"
@@ -39,6 +40,31 @@ class Reported {
   TemporaryFolder folder;
   std::string page;
 };
+
+TEST(FrontTable, has_the_front_by_time_and_behind_it_the_best_of_each_other_filter) {
+  std::vector<Row> rows(4, sample_row(0));
+  const auto set = [](Row& row, const char* filter, int cascades, double wrong, double ms) {
+    row.technique.filter = filter;
+    row.technique.cascades = cascades;
+    row.errors.false_lit = wrong;
+    row.errors.false_shadow = 0.0;
+    row.times.total_ms.median = ms;
+  };
+  set(rows[0], "hard", 4, 0.01, 20.0);
+  set(rows[1], "hard", 1, 0.04, 10.0);
+  set(rows[2], "a|b", 1, 0.03, 30.0);
+  set(rows[3], "a|b", 4, 0.02, 40.0);
+  const std::string text = front_tables(summarize(rows));
+  const std::size_t first = text.find("1 x 1024 / hard | yes | 4 % |"),
+                    second = text.find("4 x 1024 / hard | yes | 1 % |"),
+                    behind = text.find("4 x 1024 / a\\|b |  | 2 % |");
+  ASSERT_NE(first, std::string::npos) << text;
+  ASSERT_NE(second, std::string::npos) << text;
+  ASSERT_NE(behind, std::string::npos) << text;
+  EXPECT_LT(first, second);
+  EXPECT_LT(second, behind);
+  EXPECT_EQ(count(text, "1 x 1024 / a"), 0u) << "only the best of a filter behind the front";
+}
 
 TEST(Text, base64_and_hashes_are_those_of_the_standards) {
   EXPECT_EQ(base64(""), "");

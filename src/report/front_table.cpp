@@ -1,0 +1,66 @@
+// Each scene's front as a table in Markdown: for READMEs and notes.
+#include "front_table.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "text.hpp"
+
+namespace gnomon::report {
+namespace {
+
+/// What stands between bars, with nothing in it that would end the cell.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, 1, '\\');
+  return one_line(text);
+}
+
+std::string percent(double share) {
+  return short_number(100.0 * share) + " %";
+}
+
+std::string line(const Summary& summary, std::size_t scene, std::size_t technique, bool on_front) {
+  const std::vector<double>& values = summary.cells[scene][technique].values;
+  const auto value = [&](std::string_view key) { return values[measure_index(key)]; };
+  return "| " + cell(summary.techniques[technique].name()) + " | " + (on_front ? "yes" : "") + " | " +
+         percent(value("wrong")) + " | " + percent(value("mean_error")) + " | " + percent(value("flips")) +
+         " | " + short_number(value("m_p95")) + " | " + short_number(value("total_ms")) + " | " +
+         short_number(value("ratio")) + " |\n";
+}
+
+/// Of the filters that have no technique on the front, the one with the fewest wrong pixels.
+std::vector<std::size_t> best_behind(const Summary& summary, std::size_t scene,
+                                     const std::vector<std::size_t>& front) {
+  const std::size_t error = measure_index(kDefaultError);
+  std::set<std::string> seen;
+  for (const std::size_t t : front) seen.insert(summary.techniques[t].filter);
+  std::vector<std::size_t> all;
+  for (std::size_t t = 0; t < summary.techniques.size(); ++t) {
+    if (summary.cells[scene][t].measured) all.push_back(t);
+  }
+  std::stable_sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) {
+    return summary.cells[scene][a].values[error] < summary.cells[scene][b].values[error];
+  });
+  std::erase_if(all, [&](std::size_t t) { return !seen.insert(summary.techniques[t].filter).second; });
+  return all;
+}
+
+}  // namespace
+
+std::string front_tables(const Summary& summary) {
+  std::string out;
+  for (std::size_t scene = 0; scene < summary.scenes.size(); ++scene) {
+    const std::vector<std::size_t> front =
+        summary.front(scene, measure_index(kDefaultError), measure_index(kDefaultCost));
+    if (front.empty()) continue;
+    out += "## " + cell(summary.scenes[scene]) +
+           "\n\n| technique | front | wrong pixels | mean error | flicker | m p95 | ms | to baseline |\n"
+           "|--|--|--:|--:|--:|--:|--:|--:|\n";
+    for (const std::size_t t : front) out += line(summary, scene, t, true);
+    for (const std::size_t t : best_behind(summary, scene, front)) out += line(summary, scene, t, false);
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace gnomon::report
