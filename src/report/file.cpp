@@ -74,6 +74,11 @@ std::string read_picture(const fs::path& file) {
   return bytes;
 }
 
+std::string optional_text(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored) ? read_text(file) : std::string();
+}
+
 void write_text(const fs::path& file, const std::string& text) {
   fs::path aside = file;
   aside += "." + std::to_string(::getpid());

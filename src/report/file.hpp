@@ -12,6 +12,8 @@ namespace gnomon::report {
 /// The same, of a PNG of at most 64 MiB: what rows call a picture must look like one before it is copied or
 /// shown.
 [[nodiscard]] std::string read_picture(const std::filesystem::path& file);
+/// Empty where there is no such file. Throws ReportError where it cannot be read.
+[[nodiscard]] std::string optional_text(const std::filesystem::path& file);
 /// Written beside the target first, then renamed. Throws ReportError.
 void write_text(const std::filesystem::path& file, const std::string& text);
 /// Throws ReportError.

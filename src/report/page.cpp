@@ -50,6 +50,7 @@ std::string opening(const PageInput& input) {
 void write_charts(const PageInput& input) {
   const std::filesystem::path folder = input.folder / "charts";
   make_folder(folder);
+  write_stability_charts(input.stability, folder);
   for (std::size_t scene = 0; scene < input.summary.scenes.size(); ++scene) {
     const std::string name = scene == 0 ? "all" : "scene" + std::to_string(scene - 1);
     write_text(folder / ("error_time_" + name + ".svg"), error_time_chart(input.summary, scene).standalone());
@@ -117,6 +118,8 @@ PageInput page_input(const std::filesystem::path& folder, std::vector<Row> rows)
   PageInput input;
   input.folder = folder;
   input.rows = std::move(rows);
+  const std::filesystem::path stability = folder / kStabilityFile;
+  input.stability = read_stability(optional_text(stability), stability.string());
   input.summary = summarize(input.rows);
   // All scenes together say something only where there are several, and a technique that was on all of them.
   const bool together = input.summary.scenes.size() > 2 && !notable(input.summary, 0, 1).empty();
@@ -125,7 +128,11 @@ PageInput page_input(const std::filesystem::path& folder, std::vector<Row> rows)
 }
 
 std::filesystem::path write_report(const std::filesystem::path& folder) {
-  const PageInput input = page_input(folder, read_rows(folder));
+  // A folder of gnomon stress alone has a report, too.
+  std::error_code ignored;
+  const bool alone = std::filesystem::exists(folder / kStabilityFile, ignored) &&
+                     !std::filesystem::exists(folder / kRowsFile, ignored);
+  const PageInput input = page_input(folder, alone ? std::vector<Row>() : read_rows(folder));
   write_charts(input);
   write_text(folder / "summary.csv", summary_csv(input.summary));
   write_text(folder / "fronts.md", front_tables(input.summary));

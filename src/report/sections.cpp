@@ -8,6 +8,7 @@
 
 #include "charts.hpp"
 #include "file.hpp"
+#include "stability.hpp"
 #include "text.hpp"
 
 namespace gnomon::report {
@@ -57,11 +58,6 @@ std::string matched_error_table(const Summary& summary, std::size_t scene) {
            "</td><td>" + escaped(summary.techniques[t].name()) + "</td></tr>\n";
   }
   return out + "</tbody></table></div>\n";
-}
-
-std::string optional_text(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored) ? read_text(file) : std::string();
 }
 
 std::string words_of(const Json& value) {
@@ -216,12 +212,13 @@ std::string section_flight(const PageInput& input) {
 }
 
 std::string section_stability(const PageInput& input) {
-  const std::filesystem::path file = input.folder / "stability.jsonl";
-  const std::string table = table_of_lines(optional_text(file), file.string());
-  return "<section id=\"s5\">\n<h2>5. Numerical stability</h2>\n" +
-         (table.empty() ? "<p class=\"note\">Not measured here: this folder holds no stability.jsonl.</p>\n"
-                        : table) +
-         "</section>\n";
+  const std::string where = (input.folder / kStabilityFile).string();
+  // Lines that gnomon stress did not write are shown as they are.
+  std::string content = input.stability.empty() ? table_of_lines(optional_text(where), where)
+                                                : stability_section(input.stability);
+  if (content.empty())
+    content = "<p class=\"note\">Not measured here: this folder holds no stability.jsonl.</p>\n";
+  return "<section id=\"s5\">\n<h2>5. Numerical stability</h2>\n" + content + "</section>\n";
 }
 
 std::string section_left_out(const PageInput& input) {

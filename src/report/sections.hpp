@@ -6,15 +6,20 @@
 #include <string>
 #include <vector>
 
+#include "stability.hpp"
 #include "summary.hpp"
 
 namespace gnomon::report {
+
+/// What `gnomon stress` writes into a folder.
+inline constexpr const char* kStabilityFile = "stability.jsonl";
 
 /// All that the page is made of.
 struct PageInput {
   std::filesystem::path folder;
   std::vector<Row> rows;
   Summary summary;
+  Stability stability;
   std::size_t start_scene = 0;  ///< which the page shows first
 };
 

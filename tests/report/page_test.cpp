@@ -130,6 +130,13 @@ TEST(Axis, ticks_lie_within_and_are_neither_few_nor_many) {
   }
 }
 
+TEST(Axis, of_many_decades_leaves_some_out) {
+  Axis axis{"", true};
+  axis.fit({1e-18, 1e9});
+  EXPECT_GE(axis.ticks().size(), 6u);
+  EXPECT_LE(axis.ticks().size(), 14u);
+}
+
 TEST(Summary, gathers_frames_and_scenes) {
   std::vector<Row> rows(4, sample_row());
   rows[0].scene = rows[1].scene = "a";
