@@ -29,6 +29,10 @@ struct Flight {
 /// none does.
 [[nodiscard]] int perceptual_map_size(const Options& options, const Flight& flight);
 
+/// Takes maps and filter that meet Options::budget in the frame that is hardest to serve, and prints them
+/// with what less cost and what less error would have taken. Throws UsageError.
+void choose_technique_of(Options& options, const Flight& flight);
+
 /// Draws the frames off-screen and writes them. Returns the exit code.
 int fly_to_files(const Options& options, const Flight& flight);
 

@@ -11,6 +11,8 @@ int main(int argc, char** argv) {
     std::optional<flythrough::Options> options = flythrough::parse_options(argc, argv);
     if (!options) return 0;
     const flythrough::Flight flight = flythrough::load_flight(*options);
+    if (options->budget.milliseconds > 0.0 || options->budget.target_error > 0.0)
+      flythrough::choose_technique_of(*options, flight);
     if (options->perceptual_resolution)
       options->plan.map_size = flythrough::perceptual_map_size(*options, flight);
     return options->context == gnomon::render::ContextKind::glfw ? flythrough::fly_in_window(*options, flight)

@@ -34,6 +34,7 @@ std::string names_of(const Entries& entries) {
 struct Raw {
   std::string size = "960x540", context = "auto", split, warp = "auto", objective = "storage", filter = "pcf",
               path, light = "sun";
+  std::string cost_model;
   std::string fit = "tight", resolution = "given", transition = "cut";
   bool stable = false, lambda_given = false;
   std::vector<std::string> compared_warps;
@@ -77,6 +78,14 @@ void resolve_resolution(const Raw& raw, Options& options) {
                     "take pcss",
                     gnomon::render::to_string(options.filter)));
   }
+}
+
+void resolve_budget(const Raw& raw, Options& options) {
+  need_number("--budget-ms", options.budget.milliseconds);
+  need_number("--target-error", options.budget.target_error);
+  if (!raw.cost_model.empty()) options.cost_model = raw.cost_model;
+  if (options.budget.milliseconds > 0.0 && !options.cost_model)
+    throw UsageError("--budget-ms: wants --cost-model FILE, which gnomon calibrate writes");
 }
 
 void resolve_transition(const Raw& raw, Options& options) {
@@ -123,6 +132,7 @@ void resolve(const Raw& raw, Options& options) {
   gnomon::render::set_margin(options.filter, options.plan);
   resolve_resolution(raw, options);
   resolve_transition(raw, options);
+  resolve_budget(raw, options);
   if (!raw.path.empty()) options.path = raw.path;
 }
 
@@ -161,6 +171,14 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
       ->check(CLI::Range(4, kMaxSide));
   app.add_option("--resolution", raw.resolution,
                  "given by --map-size, or perceptual: the smallest maps whose texels the filter hides");
+  app.add_option("--budget-ms", options.budget.milliseconds,
+                 "choose warp, maps and filter for the least error within these milliseconds; 0: no budget")
+      ->check(CLI::Range(0.0, 1e9));
+  app.add_option("--target-error", options.budget.target_error,
+                 "choose the cheapest that brings m, for 95 % of what is seen, below this; 0: none")
+      ->check(CLI::Range(0.0, 1e9));
+  app.add_option("--cost-model", raw.cost_model,
+                 "what gnomon calibrate wrote; without it texels are the cost");
   app.add_option("--blocker-distance", options.blocker_distance,
                  "world units from a shadow to what casts it, for pcss; 0: half the scene's height")
       ->check(CLI::Range(0.0, 1e12));

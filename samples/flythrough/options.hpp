@@ -12,6 +12,7 @@
 #include "gnomon/render/filter.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/default_light.hpp"
+#include "gnomon/technique.hpp"
 
 namespace flythrough {
 
@@ -38,6 +39,9 @@ struct Options {
   gnomon::render::SplitTransition transition = gnomon::render::SplitTransition::cut;
   /// The map size is chosen: the smallest whose texels the filter hides, in every frame.
   bool perceptual_resolution = false;
+  /// Maps and filter are chosen: the least error within it, or the cheapest at its error.
+  gnomon::Budget budget;
+  std::optional<std::filesystem::path> cost_model;  ///< of gnomon calibrate; none: texels are what counts
   /// From a shadow to what casts it, world units, for filters with penumbras; 0: half the scene's height.
   double blocker_distance = 0.0;
   /// Frames are steps of one flight: texels change smoothly from each to the next.

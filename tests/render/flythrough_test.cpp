@@ -79,6 +79,9 @@ TEST_F(Flythrough, refuses_bad_input_with_one_line_and_writes_nothing) {
                 {"--resolution perceptual --filter hard:radius=1,unit=world", "hard"},
                 {"--resolution perceptual --filter pcf:radius=0.000001,unit=world", "widen the kernel"},
                 {"--blocker-distance nan", "--blocker-distance"},
+                {"--budget-ms 5", "--cost-model"},
+                {"--budget-ms 5 --cost-model no_such_model.json", "no_such_model.json"},
+                {"--target-error nan", "--target-error"},
                 {"--size 640", "640"},
                 {"--size 640x", "640x"},
                 {"--frames 0", "--frames"},
@@ -103,10 +106,28 @@ TEST_F(Flythrough, tells_its_version_and_its_options) {
   EXPECT_NE(version.out.find("flythrough"), std::string::npos);
   const Outcome help = run("--help");
   EXPECT_EQ(help.code, 0);
-  for (const char* option :
-       {"--frames", "--size", "--out", "--context", "--cascades", "--split", "--lambda", "--warp",
-        "--compare-warps", "--filter", "--map-size", "--stable", "--light", "--light-elevation-deg",
-        "--light-azimuth-deg", "--path", "--resolution", "--blocker-distance", "--transition"}) {
+  for (const char* option : {"--frames",
+                             "--size",
+                             "--out",
+                             "--context",
+                             "--cascades",
+                             "--split",
+                             "--lambda",
+                             "--warp",
+                             "--compare-warps",
+                             "--filter",
+                             "--map-size",
+                             "--stable",
+                             "--light",
+                             "--light-elevation-deg",
+                             "--light-azimuth-deg",
+                             "--path",
+                             "--resolution",
+                             "--blocker-distance",
+                             "--transition",
+                             "--budget-ms",
+                             "--target-error",
+                             "--cost-model"}) {
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
   }
 }
@@ -119,6 +140,31 @@ TEST_F(Flythrough, draws_a_frame_under_several_warps_side_by_side) {
   ASSERT_EQ(outcome.code, 0) << outcome.error;
   EXPECT_GT(fs::exists(out() / "frame_0000_warps.png") ? fs::file_size(out() / "frame_0000_warps.png") : 0,
             100u);
+}
+
+TEST_F(Flythrough, chooses_maps_that_keep_to_an_error) {
+  const auto texels_and_error = [this](double error) {
+    const Outcome outcome =
+        run("builtin:fence --frames 1 --size 96x64 --target-error " + std::to_string(error));
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    EXPECT_NE(outcome.out.find("technique: "), std::string::npos);
+    EXPECT_NE(outcome.out.find("a fifth better: "), std::string::npos) << outcome.out;
+    std::ifstream csv(out() / "frames.csv");
+    std::string head, row;
+    std::getline(csv, head);
+    std::getline(csv, row);
+    const std::vector<std::string> names = fields_of(head), values = fields_of(row);
+    const auto number = [&](const char* name) {
+      const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+      return std::atof(values.at(static_cast<std::size_t>(at)).c_str());
+    };
+    return std::pair(number("texels"), number("m_p95"));
+  };
+  const auto [few, coarse] = texels_and_error(1.0);
+  const auto [many, fine] = texels_and_error(0.2);
+  EXPECT_LT(coarse, 1.3) << "what is seen of the boxes is a part of what was planned for";
+  EXPECT_LT(fine, 0.26);
+  EXPECT_LT(few, many);
 }
 
 TEST_F(Flythrough, passes_from_map_to_map_as_asked_and_refuses_what_it_does_not_know) {

@@ -1,0 +1,105 @@
+// Which maps and which filter meet the budget, or the error, that was asked for?
+#include "gnomon/technique.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "flight.hpp"
+#include "gnomon/report/cost_model.hpp"
+#include "gnomon/report/row.hpp"
+
+namespace flythrough {
+namespace {
+
+/// Frames that are looked at: a flight changes slowly.
+constexpr int kMostFrames = 16;
+
+std::vector<gnomon::CasterWork> work_of(const gnomon::Scene& scene) {
+  std::vector<gnomon::CasterWork> work;
+  work.reserve(scene.instances.size());
+  for (const gnomon::Instance& instance : scene.instances) {
+    const gnomon::Primitive& primitive = scene.primitives[instance.primitive];
+    const gnomon::Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+    work.push_back({primitive.index_count / 3, material.alpha_mode != gnomon::AlphaMode::opaque});
+  }
+  return work;
+}
+
+/// Filters that the program knows, with what they cost; without a model the one that was given, at no cost.
+struct Known {
+  gnomon::CostModel costs;
+  std::vector<gnomon::FilterCost> filters;
+  std::vector<gnomon::render::FilterSettings> settings;
+};
+
+void know(const Options& options, const gnomon::report::StoredCostModel& model, Known& known) {
+  known.costs = model.view(known.filters);
+  for (const gnomon::FilterCost& filter : known.filters) {
+    const gnomon::render::ParsedFilter parsed = gnomon::render::parse_filter(filter.name);
+    if (!parsed.error.empty())
+      throw UsageError(fmt::format("{}: filter {}", options.cost_model->string(), parsed.error));
+    known.settings.push_back(parsed.settings);
+  }
+}
+
+std::string text_of(const gnomon::Technique& t, const Known& known) {
+  std::string text =
+      fmt::format("{} / {} x {} / {}: m p95 {:.2f}, {:.1f} million texels", t.warp->name, t.cascades,
+                  t.map_size, gnomon::render::to_string(known.settings[static_cast<std::size_t>(t.filter)]),
+                  t.error, static_cast<double>(t.texels) / 1e6);
+  // Without a cost model nobody knows.
+  if (t.milliseconds > 0.0) text += fmt::format(", {:.1f} ms", t.milliseconds);
+  return text;
+}
+
+void print_choice(const gnomon::TechniqueChoice& choice, const Known& known) {
+  fmt::print("technique: {}{}\n", text_of(choice.chosen, known),
+             choice.met ? "" : " (beyond what was asked for: nothing meets it)");
+  if (choice.cheaper.map_size > 0) fmt::print("  a fifth cheaper: {}\n", text_of(choice.cheaper, known));
+  if (choice.better.map_size > 0) fmt::print("  a fifth better:  {}\n", text_of(choice.better, known));
+}
+
+}  // namespace
+
+void choose_technique_of(Options& options, const Flight& flight) {
+  Known known;
+  gnomon::report::StoredCostModel model;
+  if (options.cost_model) {
+    try {
+      model = gnomon::report::load_cost_model(*options.cost_model);
+    } catch (const gnomon::report::ReportError& error) {
+      throw UsageError(error.what());
+    }
+  } else {
+    model.filters.push_back({gnomon::render::to_string(options.filter), {}});
+  }
+  know(options, model, known);
+  const std::vector<gnomon::CasterWork> work = work_of(flight.scene);
+  const gnomon::Light light = gnomon::default_light(options.light, flight.scene.bounds_world);
+  gnomon::TechniqueChoice hardest;
+  const int frames = std::min(options.frames, kMostFrames);
+  for (int i = 0; i < frames; ++i) {
+    // Of `frames` equal parts the middle.
+    const int frame = static_cast<int>((i + 0.5) * options.frames / frames);
+    const gnomon::TechniqueChoice choice =
+        gnomon::choose_technique(camera_of(options, flight, frame), light, flight.bounds(), work, {},
+                                 options.budget, known.costs, options.plan);
+    if (choice.status == gnomon::PlanStatus::invalid_input)
+      throw UsageError(fmt::format("frame {}: no technique for {}", frame, choice.invalid_field));
+    if (choice.status != gnomon::PlanStatus::ok) continue;
+    const auto hardness = [&](const gnomon::Technique& t) {
+      return options.budget.target_error > 0.0 ? static_cast<double>(t.texels) : t.error;
+    };
+    if (hardest.status != gnomon::PlanStatus::ok || hardness(choice.chosen) > hardness(hardest.chosen))
+      hardest = choice;
+  }
+  if (hardest.status != gnomon::PlanStatus::ok) return;  // nothing to see, nothing to choose
+  print_choice(hardest, known);
+  options.plan = hardest.options;
+  options.filter = known.settings[static_cast<std::size_t>(hardest.chosen.filter)];
+  gnomon::render::set_margin(options.filter, options.plan);
+}
+
+}  // namespace flythrough
