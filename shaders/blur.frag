@@ -10,7 +10,7 @@ layout(location = 0) out vec4 texel_out[GNOMON_SHADOW_VECTORS];
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
   int height = textureSize(stored[0], 0).y;
-  ShadowOptions options = shadow_options();
+  ShadowOptions options = shadow_options(map);
   ShadowTexel sum = shadow_nothing(options);
   ShadowTexel outside = shadow_store(1.0, vec2(0.0), options);
   int reach = filtering.reach[map].x;

@@ -10,7 +10,7 @@ layout(location = 0) out vec4 texel_out[GNOMON_SHADOW_VECTORS];
 
 void main() {
   ivec2 last = textureSize(stored[0], 0).xy - 1;
-  ShadowOptions options = shadow_options();
+  ShadowOptions options = shadow_options(map);
   ShadowTexel sum = shadow_nothing(options);
   for (int corner = 0; corner < 4; ++corner) {
     ivec2 at = min(2 * ivec2(gl_FragCoord.xy) + ivec2(corner & 1, corner >> 1), last);

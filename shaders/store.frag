@@ -6,7 +6,7 @@ layout(location = 0) out vec4 texel_out[GNOMON_SHADOW_VECTORS];
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
-  ShadowOptions options = shadow_options();
+  ShadowOptions options = shadow_options(map);
   ShadowTexel sum = shadow_nothing(options);
   int reach = filtering.reach[map].x;
   for (int i = -reach; i <= reach; ++i) {

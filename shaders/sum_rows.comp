@@ -10,7 +10,7 @@ void main() {
   int y = int(gl_GlobalInvocationID.x);
   ivec2 size = imageSize(sums).xy;
   if (y >= size.y) return;
-  ShadowOptions options = shadow_options();
+  ShadowOptions options = shadow_options(map);
   uvec4 sum = uvec4(0u);
   for (int x = 0; x < size.x; ++x) {
     vec4 value = stored_at(ivec2(x, y), options).v[0];

@@ -3,18 +3,22 @@
 
 const int kTapVectors = 9;  // weights of the taps 0..35 to either side
 
+const int kOptionVectors = 4;
+
 layout(std140, binding = 1) uniform Filter {
-  vec4 options[2];  // FilterSettings::option
   vec4 kernel;      // radius; 1: in world units; 1: averages over the pixel; rounding of the format
   vec4 sums;        // steps of a summed-area table per 1; 1: the format stores only 0..1; reads along a long footprint; 0
-  ivec4 reach[GNOMON_MAX_MAPS];                // per map: taps to either side of the middle one
+  ivec4 reach[GNOMON_MAX_MAPS];                     // per map: taps to either side of the middle one
+  vec4 options[GNOMON_MAX_MAPS * kOptionVectors];  // per map: FilterSettings::option
   vec4 weights[GNOMON_MAX_MAPS * kTapVectors];  // per map: of the taps, from the middle on
 } filtering;
 
-ShadowOptions shadow_options() {
-  vec4 a = filtering.options[0], b = filtering.options[1];
-  return ShadowOptions(float[8](a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w), filtering.kernel.w,
-                       filtering.sums.y > 0.5);
+ShadowOptions shadow_options(int map) {
+  ShadowOptions options;
+  for (int i = 0; i < 4 * kOptionVectors; ++i) options.value[i] = filtering.options[map * kOptionVectors + i / 4][i & 3];
+  options.rounding = filtering.kernel.w;
+  options.unsigned_unit = filtering.sums.y > 0.5;
+  return options;
 }
 
 float tap_weight(int map, int distance_to_middle) {

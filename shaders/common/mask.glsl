@@ -35,7 +35,7 @@ float visibility_through(int index, Surface s, float noise) {
   ShadowKernel kernel = ShadowKernel(filtering.kernel.x, filtering.kernel.y > 0.5, filtering.kernel.z > 0.5);
   set_kernel(at, map, kernel, kernel.minify ? texels_per_pixel(map, s) : mat2(0.0));
   at.rotation = 6.2831853 * noise;
-  return visibility(at, shadow_options());
+  return visibility(at, shadow_options(index));
 }
 
 void main() {

@@ -3,19 +3,30 @@
 #include "library/mean.glsl"
 #include "library/variance.glsl"
 
-// Options: bleed, floor, slope, layers, overlap.
+// Options: bleed, floor, slope, layers, overlap, placement; then the ends of all layers but the last, 0: even ones.
 int layer_count(ShadowOptions options) { return min(int(options.value[3] + 0.5), 2 * GNOMON_SHADOW_VECTORS); }
+
+// Where layer i - 1 ends and layer i begins, without overlap.
+float end_before(int i, ShadowOptions options) {
+  const int kFirstEnd = 6;
+  float count = options.value[3];
+  if (i <= 0) return 0.0;
+  if (float(i) > count - 0.5) return 1.0;
+  float placed = options.value[kFirstEnd + i - 1];
+  return placed > 0.0 ? placed : float(i) / count;
+}
 
 // Where layer i begins and ends.
 vec2 layer_ends(int i, ShadowOptions options) {
-  float overlap = options.value[4], count = options.value[3];
-  return vec2(max(float(i) - overlap, 0.0), min(float(i + 1) + overlap, count)) / count;
+  float overlap = options.value[4], begin = end_before(i, options), end = end_before(i + 1, options);
+  return vec2(begin - overlap * (begin - end_before(i - 1, options)),
+              end + overlap * (end_before(i + 2, options) - end));
 }
 
 // At its end a slanted surface's depths pile up and shadow it: there a layer says nothing, 1, and the one behind answers.
 float beyond_layer(int i, float deepest, ShadowOptions options) {
-  float layers = min(deepest, 1.0) * options.value[3];
-  return clamp((layers - float(i + 1)) / max(options.value[4], 1e-6), 0.0, 1.0);
+  float end = end_before(i + 1, options);
+  return clamp((min(deepest, 1.0) - end) / max(layer_ends(i, options).y - end, 1e-6), 0.0, 1.0);
 }
 
 ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) {

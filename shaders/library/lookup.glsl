@@ -20,9 +20,9 @@ struct ShadowLookup {
   float rotation;         // radians, random from pixel to pixel
 };
 
-// The filter's options in the order in which its .cpp lists them, and what the stored format does to numbers.
+// The filter's options in the order in which its .cpp lists them, then those that it sets for itself, and what the stored format does to numbers.
 struct ShadowOptions {
-  float value[8];
+  float value[16];
   float rounding;  // of a number near 1
   bool unsigned_unit;  // only 0..1 can be stored
 };

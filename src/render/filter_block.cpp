@@ -66,17 +66,22 @@ int tap_weights(BlurShape shape, double half_side, std::array<double, 4 * kTapVe
   return reach;
 }
 
+void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& block) noexcept {
+  for (std::size_t i = 0; i < kMaxFilterOptions; ++i) {
+    block.options[map * kOptionVectors + i / 4][static_cast<int>(i % 4)] =
+        static_cast<float>(settings.option[i]);
+  }
+}
+
 FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides) noexcept {
   FilterBlock block{};
-  for (std::size_t i = 0; i < kMaxFilterOptions; ++i) {
-    block.options[i / 4][static_cast<int>(i % 4)] = static_cast<float>(settings.option[i]);
-  }
   block.kernel = glm::vec4(glm::dvec4(settings.radius, settings.unit == KernelUnit::world ? 1.0 : 0.0,
                                       settings.mipmap ? 1.0 : 0.0, rounding_of(settings.format)));
   block.sums.y = is_unsigned_unit(settings.format) ? 1.0f : 0.0f;
   block.sums.x = static_cast<float>(sum_steps(settings));
   block.sums.z = static_cast<float>(settings.anisotropy);
   for (std::size_t map = 0; map < kMaxMaps; ++map) {
+    set_options(settings, map, block);
     std::array<double, 4 * kTapVectors> weights{};
     block.reach[map].x = tap_weights(settings.blur, sides[map], weights);
     for (std::size_t i = 0; i < weights.size(); ++i) {

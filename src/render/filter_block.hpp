@@ -11,13 +11,15 @@ namespace gnomon::render {
 
 inline constexpr std::size_t kTapVectors = 9;  ///< 36 taps: the widest kernel reaches 32 texels
 
+inline constexpr std::size_t kOptionVectors = kMaxFilterOptions / 4;
+
 struct FilterBlock {
-  std::array<glm::vec4, 2> options;
   glm::vec4 kernel, sums;
   std::array<glm::ivec4, kMaxMaps> reach;
+  std::array<glm::vec4, kMaxMaps * kOptionVectors> options;
   std::array<glm::vec4, kMaxMaps * kTapVectors> weights;
 };
-static_assert(sizeof(FilterBlock) == 16 * (4 + kMaxMaps + kMaxMaps * kTapVectors),
+static_assert(sizeof(FilterBlock) == 16 * (2 + kMaxMaps * (1 + kOptionVectors + kTapVectors)),
               "std140 has no padding here");
 
 /// Half the side of the box that each map's stored texels are blurred with, texels; 0: not blurred.
@@ -32,6 +34,9 @@ using BlurSides = std::array<double, kMaxMaps>;
 /// many there are beyond the middle one.
 int tap_weights(BlurShape shape, double half_side, std::array<double, 4 * kTapVectors>& weights) noexcept;
 
+/// Options of one map.
+void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& block) noexcept;
+/// With the same options for all maps.
 [[nodiscard]] FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides) noexcept;
 
 /// Vectors of four channels that a stored texel of these settings takes, 1 where nothing is stored.

@@ -1,5 +1,6 @@
 // What each pass of a frame binds and draws.
 #include <array>
+#include <vector>
 
 #include "program.hpp"
 #include "renderer_impl.hpp"
@@ -64,8 +65,23 @@ void Renderer::Impl::draw_shadow_maps(const ShadowPlan& plan) noexcept {
   }
 }
 
+void Renderer::Impl::adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept {
+  if (settings.filter->adapts == nullptr || !settings.filter->adapts(settings)) return;
+  std::vector<float> depths;
+  for (int i = 0; i < map_count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    depths.resize(static_cast<std::size_t>(map_size[at].x) * static_cast<std::size_t>(map_size[at].y));
+    read_depths(i, depths);
+    FilterSettings own = settings;
+    settings.filter->adapt(own, depths);
+    set_options(own, at, block);
+  }
+  glNamedBufferSubData(filter_buffer.name(), 0, sizeof block, &block);
+}
+
 void Renderer::Impl::prefilter(const ShadowPlan& plan, const PreparedFilter& filter,
-                               const FilterBlock& block) noexcept {
+                               FilterBlock& block) noexcept {
+  adapt_filter(filter.settings, block);
   StoreJob job;
   job.depth = maps.depth.name();
   job.layer_width = maps.width;

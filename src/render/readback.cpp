@@ -103,13 +103,17 @@ Image Renderer::screen() const {
 FloatImage Renderer::depth_map(int map) const {
   if (map < 0 || map >= impl_->map_count)
     throw RenderError("no map " + std::to_string(map) + " in the last frame");
-  const int width = impl_->map_size[static_cast<std::size_t>(map)].x;
-  const int height = impl_->map_size[static_cast<std::size_t>(map)].y;
-  FloatImage image{width, height, 1, {}, {"depth"}};
-  image.values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  glGetTextureSubImage(impl_->maps.depth.name(), 0, 0, 0, map, width, height, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
-                       static_cast<GLsizei>(image.values.size() * sizeof(float)), image.values.data());
+  const glm::ivec2 size = impl_->map_size[static_cast<std::size_t>(map)];
+  FloatImage image{size.x, size.y, 1, {}, {"depth"}};
+  image.values.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+  impl_->read_depths(map, image.values);
   return image;
+}
+
+void Renderer::Impl::read_depths(int map, std::span<float> depths) const noexcept {
+  const glm::ivec2 size = map_size[static_cast<std::size_t>(map)];
+  glGetTextureSubImage(maps.depth.name(), 0, 0, 0, map, size.x, size.y, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                       static_cast<GLsizei>(depths.size_bytes()), depths.data());
 }
 
 }  // namespace gnomon::render

@@ -97,7 +97,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   impl.maps.fit(width, height, std::max(plan.map_count, 1));
 
   const BlurSides blur = blur_sides(filter.settings, plan);
-  const FilterBlock filtering = filter_block(filter.settings, blur);
+  FilterBlock filtering = filter_block(filter.settings, blur);
   timed(Pass::shadow_maps, [&] {
     const FrameBlock block = frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur);
     glNamedBufferSubData(impl.frame_buffer.name(), 0, sizeof block, &block);

@@ -24,7 +24,11 @@ struct Renderer::Impl {
   explicit Impl(const Scene& scene);
 
   void draw_shadow_maps(const ShadowPlan& plan) noexcept;
-  void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, const FilterBlock& block) noexcept;
+  /// `block`: with the options that the filter chooses for each map, on return.
+  void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block) noexcept;
+  void adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept;
+  /// Of the last frame's map, row by row.
+  void read_depths(int map, std::span<float> depths) const noexcept;
   void draw_surfaces() noexcept;
   void draw_mask(const PreparedFilter& filter) noexcept;
   void draw_shade() noexcept;

@@ -120,7 +120,7 @@ std::string engine_shader(const Filter& filter) {
 #include "library/select_map.glsl"
 layout(std140, binding = 20) uniform Engine {
   ShadowMap engine_maps[4];
-  vec4 sun, tuning, settings[2];
+  vec4 sun, tuning, settings[4];
 } engine;
 layout(binding = 21) uniform sampler2DArray engine_depth;
 layout(binding = 22) uniform sampler2DArrayShadow engine_compare;
@@ -147,7 +147,10 @@ ShadowMap shadow_map(int index) { return engine.engine_maps[index]; }
   }
   return text + R"(
 void main() {
-  ShadowOptions options = ShadowOptions(float[8](engine.settings[0].x, 0, 0, 0, 0, 0, 0, 0), 6e-8, false);
+  ShadowOptions options;
+  for (int i = 0; i < 16; ++i) options.value[i] = engine.settings[i / 4][i & 3];
+  options.rounding = 6e-8;
+  options.unsigned_unit = false;
   vec3 ray = light_at(engine.sun, engine_point);
   int map = map_of_finest_texel(engine_point, 0.1, ray, 4);
   if (map < 0) map = map_by_depth(engine_point, engine_point.z, 4);

@@ -19,7 +19,7 @@ namespace gnomon::render {
 
 struct Filter;
 
-inline constexpr std::size_t kMaxFilterOptions = 8;
+inline constexpr std::size_t kMaxFilterOptions = 16;  ///< those that a filter sets for itself included
 inline constexpr std::size_t kMaxChannels = 32;   ///< 8 images of 4, what every driver can draw into at once
 inline constexpr double kMaxRadiusTexels = 32.0;  ///< of a kernel
 inline constexpr double kMaxRadiusWorld = 1.0e6;
@@ -63,7 +63,7 @@ struct FilterSettings {
   TexelFormat format = TexelFormat::fp32;
   bool mipmap = false;  ///< averages over the pixel's footprint where texels are smaller than pixels
   int anisotropy = 1;   ///< 1..16 probes along a long footprint; needs `mipmap`
-  std::array<double, kMaxFilterOptions> option{};  ///< in the order of Filter::options
+  std::array<double, kMaxFilterOptions> option{};  ///< in the order of Filter::options; then the filter's own
 
   /// The option of this name; 0 where the filter has none of that name.
   [[nodiscard]] double value(std::string_view name) const noexcept;
@@ -126,6 +126,11 @@ struct Filter {
                                   double light_distance_world) noexcept = nullptr;
   /// Brings options into what the format can hold. nullptr: nothing to do.
   void (*settle)(FilterSettings& settings) noexcept = nullptr;
+  /// Whether `adapt` has something to do for every map. nullptr: never.
+  bool (*adapts)(const FilterSettings& settings) noexcept = nullptr;
+  /// Sets the options behind those of `options` for one map from the depths that were drawn into it, 1 where
+  /// there is nothing. Costs a copy of them to the CPU in every frame.
+  void (*adapt)(FilterSettings& settings, std::span<const float> depths) noexcept = nullptr;
   /// Channels of a stored texel, 1..kMaxChannels. nullptr for MapRead::depth.
   int (*channels)(const FilterSettings& settings) noexcept = nullptr;
   /// How far from the point the lookup itself reads the depth map, in texels, beyond the kernel's box.

@@ -3,11 +3,14 @@
 // Based on: Lauritzen, McCool, "Layered Variance Shadow Maps", 2008. The paper reads the one layer that holds
 // the receiver. Each layer's bound is a bound, so the least of them is taken: it is tighter, and does not
 // jump from layer to layer. At its beginning a layer's bound says little, and at its end the depths of a
-// slanted surface pile up and shadow it; there the overlapping neighbours answer. Layers are even: the
-// paper's placement by a histogram wants the depths back on the CPU.
+// slanted surface pile up and shadow it; there the overlapping neighbours answer. Where the layers end is
+// chosen, when asked, as in the paper from the map's own depths; the paper gets near the least variance
+// within layers step by step, here it is found: over so few bins that costs nothing.
 #include "lvsm.hpp"
 
+#include <array>
 #include <glm/common.hpp>
+#include <limits>
 
 #include "variance.hpp"
 
@@ -16,14 +19,19 @@ namespace {
 
 constexpr int kMostLayers = 8;
 constexpr FilterOption kOptions[] = {
-    {"bleed", 0.1, 0.0, 0.95,
+    {"bleed", 0.15, 0.0, 0.95,
      "answers below it count as dark, the rest is stretched: less light through, harder"},
     {"floor", 1e-6, 0.0, 0.1,
      "least variance, of a layer's depth squared; never below the format's rounding"},
     {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment takes in"},
     {"layers", 4, 1, kMostLayers, "two channels each: more of them, less bleeding"},
     {"overlap", 0.5, 0.0, 1.0, "how far a layer reaches into the ones before and behind it, in layers"},
+    {"placement", 0, 0, 1,
+     "1 puts the layers' ends between the depths that each map holds, read back to the CPU; 0: even layers"},
 };
+/// Where the first option of the filter's own is: the ends of all layers but the last; 0: even layers.
+constexpr std::size_t kFirstEnd = 6;
+static_assert(kFirstEnd + kMostLayers - 1 <= kMaxFilterOptions);
 constexpr TexelFormat kFormats[] = {TexelFormat::unorm16, TexelFormat::fp16, TexelFormat::fp32};
 
 int layers_of(const FilterSettings& settings) noexcept {
@@ -31,6 +39,7 @@ int layers_of(const FilterSettings& settings) noexcept {
 }
 void settle(FilterSettings& settings) noexcept {
   settings.option[3] = std::round(settings.option[3]);
+  settings.option[5] = std::round(settings.option[5]);
 }
 int channels(const FilterSettings& settings) noexcept {
   return 2 * layers_of(settings);
@@ -39,7 +48,7 @@ int channels(const FilterSettings& settings) noexcept {
 StoredTexel store(double depth, const glm::dvec2& slope, const FilterSettings& settings) noexcept {
   StoredTexel texel{};
   for (int i = 0; i < layers_of(settings); ++i) {
-    const DepthLayer layer = even_layer(i, layers_of(settings), settings.option[4]);
+    const DepthLayer layer = layer_of(i, settings);
     const bool within = depth > layer.begin && depth < layer.end;
     const glm::dvec2 warped_slope = within ? slope / (layer.end - layer.begin) : glm::dvec2(0.0);
     const StoredTexel moments = store_moments(layer.warped(depth), warped_slope, settings);
@@ -51,31 +60,52 @@ StoredTexel store(double depth, const glm::dvec2& slope, const FilterSettings& s
 
 double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
   const int count = layers_of(settings);
-  const double depth = std::min(lookup.depth, 1.0), overlap = settings.option[4];
+  const double depth = std::min(lookup.depth, 1.0);
   // The receiver's plane under the kernel and the bilinear read.
   const double spread = glm::dot(glm::abs(lookup.depth_gradient), lookup.box + 1.0);
   double lit = 1.0;
   FilterLookup in_layer;
   for (int i = 0; i < count; ++i) {
-    in_layer.depth = even_layer(i, count, overlap).warped(depth);
+    in_layer.depth = layer_of(i, settings).warped(depth);
     const StoredTexel moments{texel[static_cast<std::size_t>(2 * i)],
                               texel[static_cast<std::size_t>(2 * i + 1)]};
     const double bound = variance_visibility(moments, in_layer, settings);
-    lit = std::min(lit, std::max(bound, beyond_layer(i, count, overlap, depth + spread)));
+    lit = std::min(lit, std::max(bound, beyond_layer(i, settings, depth + spread)));
   }
   return lit;
 }
 
-}  // namespace
-
-DepthLayer even_layer(int i, int count, double overlap) noexcept {
-  return {std::max(i - overlap, 0.0) / count, std::min(i + 1.0 + overlap, 1.0 * count) / count};
+/// Where layer i - 1 ends and layer i begins, without overlap.
+double end_before(int i, const FilterSettings& settings) noexcept {
+  const int count = layers_of(settings);
+  if (i <= 0 || i >= count) return i <= 0 ? 0.0 : 1.0;
+  const double placed = settings.option[kFirstEnd + static_cast<std::size_t>(i - 1)];
+  return placed > 0.0 ? placed : 1.0 * i / count;
 }
 
-double beyond_layer(int i, int count, double overlap, double deepest) noexcept {
-  constexpr double kLeastOverlap = 1e-6;                 // a step where there is none
-  const double layers = std::min(deepest, 1.0) * count;  // nothing is deeper than the map
-  return std::clamp((layers - (i + 1.0)) / std::max(overlap, kLeastOverlap), 0.0, 1.0);
+bool adapts(const FilterSettings& settings) noexcept {
+  return settings.option[5] > 0.5 && layers_of(settings) > 1;
+}
+
+void adapt(FilterSettings& settings, std::span<const float> depths) noexcept {
+  const auto count = static_cast<std::size_t>(layers_of(settings));
+  place_layers(depths, std::span(settings.option).subspan(kFirstEnd, count - 1));
+}
+
+}  // namespace
+
+DepthLayer layer_of(int i, const FilterSettings& settings) noexcept {
+  const double begin = end_before(i, settings), end = end_before(i + 1, settings),
+               overlap = settings.option[4];
+  return {begin - overlap * (begin - end_before(i - 1, settings)),
+          end + overlap * (end_before(i + 2, settings) - end)};
+}
+
+double beyond_layer(int i, const FilterSettings& settings, double deepest) noexcept {
+  constexpr double kLeastOverlap = 1e-6;  // a step where there is none
+  const double end = end_before(i + 1, settings), last = layer_of(i, settings).end;
+  // Nothing is deeper than the map.
+  return std::clamp((std::min(deepest, 1.0) - end) / std::max(last - end, kLeastOverlap), 0.0, 1.0);
 }
 
 const Filter filters::lvsm{
@@ -90,6 +120,8 @@ const Filter filters::lvsm{
     .tolerance = 0.01,  // the variance's floor in half floats, under a contact of a tenth of the depth range
     .contact = 0.1,
     .settle = settle,
+    .adapts = adapts,
+    .adapt = adapt,
     .channels = channels,
     .store = store,
     .visibility = visibility,

@@ -13,11 +13,15 @@ struct DepthLayer {
     return std::clamp((depth - begin) / (end - begin), 0.0, 1.0);
   }
 };
-/// Layer i of `count` of equal depth, each reaching into the ones before and behind it by `overlap` of a
-/// layer.
-[[nodiscard]] DepthLayer even_layer(int i, int count, double overlap) noexcept;
+/// Layer i, reaching into the ones before and behind it by a share of them.
+[[nodiscard]] DepthLayer layer_of(int i, const FilterSettings& settings) noexcept;
 /// How little layer i says about a receiver whose deepest texel under the kernel is at `deepest`: 0 up to
 /// where the layer would end without overlap, 1 from its end on.
-[[nodiscard]] double beyond_layer(int i, int count, double overlap, double deepest) noexcept;
+[[nodiscard]] double beyond_layer(int i, const FilterSettings& settings, double deepest) noexcept;
+
+/// Ends of all layers but the last, ascending in (0, 1), one more layer than ends: those under which the
+/// depths within each layer vary least, in the middle of the gaps between them. Depths of 1 are not counted;
+/// all ends 0 where there are no others.
+void place_layers(std::span<const float> depths, std::span<double> ends) noexcept;
 
 }  // namespace gnomon::render

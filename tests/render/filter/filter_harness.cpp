@@ -46,14 +46,14 @@ ShadowLookup question() {
 }
 )";
 constexpr const char* kAskDepth = R"(
-void main() { answer = vec4(shadow_visibility(compare_map, depth_map, question(), shadow_options())); }
+void main() { answer = vec4(shadow_visibility(compare_map, depth_map, question(), shadow_options(0))); }
 )";
 constexpr const char* kAskFiltered = R"(
 #include "library/fetch_filtered.glsl"
 layout(binding = 8) uniform sampler2DArray stored[GNOMON_SHADOW_VECTORS];
 void main() {
   ShadowLookup at = question();
-  answer = vec4(shadow_visibility(fetch_filtered(stored, at, 1), depth_map, depth_max, at, shadow_options()));
+  answer = vec4(shadow_visibility(fetch_filtered(stored, at, 1), depth_map, depth_max, at, shadow_options(0)));
 }
 )";
 constexpr const char* kAskJoined = R"(
@@ -61,7 +61,7 @@ constexpr const char* kAskJoined = R"(
 layout(binding = 8) uniform sampler2DArray stored[GNOMON_SHADOW_VECTORS];
 void main() {
   ShadowLookup at = question();
-  ShadowOptions options = shadow_options();
+  ShadowOptions options = shadow_options(0);
   answer = vec4(shadow_visibility(fetch_joined(stored, at, options), depth_map, depth_max, at, options));
 }
 )";
@@ -71,21 +71,21 @@ layout(binding = 8) uniform usampler2DArray sums;
 void main() {
   ShadowLookup at = question();
   answer = vec4(shadow_visibility(fetch_summed(sums, at, filtering.sums.x), depth_map, depth_max, at,
-                                  shadow_options()));
+                                  shadow_options(0)));
 }
 )";
 constexpr const char* kAskTexels = R"(
 void main() {
   ShadowTexel texel;
   for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) texel.v[i] = texelFetch(texels, ivec2(gl_FragCoord.x, i), 0);
-  answer = vec4(shadow_visibility(texel, depth_map, depth_max, question(), shadow_options()));
+  answer = vec4(shadow_visibility(texel, depth_map, depth_max, question(), shadow_options(0)));
 }
 )";
 constexpr const char* kStore = R"(
 layout(location = 1) uniform int vector;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  answer = shadow_store(texelFetch(questions, pixel, 0).z, texelFetch(gradients, pixel, 0).xy, shadow_options()).v[vector];
+  answer = shadow_store(texelFetch(questions, pixel, 0).z, texelFetch(gradients, pixel, 0).xy, shadow_options(0)).v[vector];
 }
 )";
 

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
 
 #include "filter_harness.hpp"
 #include "golden_filters.hpp"
@@ -28,6 +31,14 @@ double bound_in(const DepthLayer& layer, const GoldenKernel& kernel, double dept
 GoldenKernel five() {
   const nlohmann::json& kernel = golden_filters().at("kernels").at("five");
   return {"five", kernel.at("z").get<std::vector<double>>(), kernel.at("w").get<std::vector<double>>()};
+}
+
+/// Layer i of `count` even ones.
+DepthLayer even_layer(int i, int count, double overlap) {
+  FilterSettings settings = default_settings(filters::lvsm);
+  settings.option[3] = count;
+  settings.option[4] = overlap;
+  return layer_of(i, settings);
 }
 
 double see(std::string_view text, const GoldenKernel& kernel, double depth) {
@@ -121,6 +132,74 @@ TEST(LvsmFilter, lets_nothing_through_where_the_occluders_are_in_layers_in_front
   const GoldenKernel kernel{"", {0.1, 0.3}, {0.5, 0.5}};
   EXPECT_GT(see("lvsm:layers=1,bleed=0,format=fp32", kernel, 0.45), 0.1);
   EXPECT_LT(see("lvsm:layers=8,bleed=0,format=fp32", kernel, 0.45), 1e-4);
+}
+
+TEST(LayerPlacement, puts_ends_in_the_middle_of_gaps_between_depths) {
+  std::vector<float> depths;
+  for (int i = 0; i < 1000; ++i) {
+    const float within = 0.04f * static_cast<float>(i) / 1000.0f;
+    for (const float cluster : {0.1f, 0.3f, 0.8f}) depths.push_back(cluster + within);
+    depths.push_back(1.0f);  // nothing there: must not count
+  }
+  std::array<double, 2> ends{};
+  place_layers(depths, ends);
+  constexpr double kBin = 1.0 / 128;
+  EXPECT_NEAR(ends[0], 0.5 * (0.14 + 0.3), kBin);
+  EXPECT_NEAR(ends[1], 0.5 * (0.34 + 0.8), kBin);
+}
+
+TEST(LayerPlacement, leaves_every_layer_some_depth_whatever_the_map_holds) {
+  const std::vector<std::vector<float>> maps{{},
+                                             {1.0f},
+                                             {0.0f},
+                                             {0.5f},
+                                             {0.5f, 0.5f, 0.5001f},
+                                             {0.0f, 0.999999f},
+                                             {0.2f, 0.3f, 0.9f, -1.0f, 2.0f, NAN}};
+  for (const std::vector<float>& depths : maps) {
+    for (std::size_t layers = 2; layers <= 8; ++layers) {
+      std::array<double, 7> ends{};
+      place_layers(depths, std::span(ends).first(layers - 1));
+      if (ends[0] == 0.0) continue;  // even
+      double before = 0.0;
+      for (std::size_t i = 0; i + 1 < layers; ++i) {
+        ASSERT_GE(ends[i] - before, 1.0 / 128) << layers;
+        before = ends[i];
+      }
+      ASSERT_LE(before, 1.0 - 1.0 / 128);
+    }
+  }
+}
+
+TEST(LvsmFilter, bleeds_less_where_layers_are_placed_between_the_depths_of_the_map) {
+  // Two fences and a ground, all within the second of two even layers.
+  const GoldenKernel kernel{"", {0.55, 0.65}, {0.5, 0.5}};
+  std::vector<float> depths;
+  for (int i = 0; i < 100; ++i)
+    depths.insert(depths.end(), {0.55f, 0.65f, 0.8f + 0.001f * static_cast<float>(i)});
+  FilterSettings settings = settings_from("lvsm:layers=2,bleed=0,format=fp32,overlap=0.1,placement=1");
+  ASSERT_TRUE(filters::lvsm.adapts(settings));
+  FilterLookup lookup;
+  lookup.depth = 0.8;
+  const double even = filters::lvsm.visibility(mean_over(kernel, settings), lookup, settings);
+  filters::lvsm.adapt(settings, depths);
+  const double placed = filters::lvsm.visibility(mean_over(kernel, settings), lookup, settings);
+  EXPECT_GT(even, 0.05);
+  EXPECT_LT(placed, 0.1 * even);
+}
+
+TEST(LvsmFilter, gives_the_same_answers_on_the_gpu_where_layers_are_placed) {
+  FilterSettings settings = settings_from("lvsm:placement=1,radius=2");
+  const TestMap map = random_map(40, 40, 21);
+  filters::lvsm.adapt(settings, map.depth);
+  ASSERT_GT(settings.option[6], 0.0);
+  const std::vector<Question> questions = random_questions(map, 256, 22, 4);
+  const std::vector<float> gpu = ask_shader(settings, map, questions);
+  const Reference reference(settings, map);
+  int off = 0;
+  for (std::size_t i = 0; i < gpu.size(); ++i)
+    off += std::abs(gpu[i] - reference.answer(questions[i])) > reference.bound(questions[i]) ? 1 : 0;
+  EXPECT_LE(off, 2);
 }
 
 }  // namespace
