@@ -59,8 +59,8 @@ Camera with_finite_far(const Camera& camera, std::span<const Box> boxes) noexcep
   const double reach = camera.orthographic
                            ? n + height * next_step(max_of((farthest - n) / height, kThinnest))
                            : n * next_step(max_of(farthest / n, 1.0 + kThinnest));
-  // The logarithm's rounding must cut nothing off.
-  finite.far_depth = max_of(reach, farthest);
+  // The logarithm's rounding must cut nothing off; and a ratio that overflows has no next step.
+  finite.far_depth = std::isfinite(reach) ? max_of(reach, farthest) : farthest;
   return finite;
 }
 

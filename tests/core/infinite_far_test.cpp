@@ -129,6 +129,18 @@ TEST(InfiniteFar, nothing_ahead_is_nothing_visible_and_a_near_plane_of_zero_is_r
   EXPECT_EQ(c.plan().invalid_field, "camera.near_depth");
 }
 
+TEST(InfiniteFar, a_near_plane_whose_ratio_to_what_is_seen_overflows_is_refused) {
+  Case c = scene();
+  c.camera.far_depth = kInfinity;
+  for (const double n : {5e-324, 1e-310, 1e-300}) {
+    c.camera.near_depth = n;
+    EXPECT_LT(with_finite_far(c.camera, c.bounds().receivers).far_depth, kInfinity) << n;
+    const ShadowPlan plan = c.plan();
+    EXPECT_EQ(plan.invalid_field, "camera.near_depth") << n;
+    EXPECT_EQ(measure(plan, c.camera, c.bounds()).samples, 0u) << n;
+  }
+}
+
 TEST(InfiniteFar, a_stable_grid_holds_still_while_the_camera_walks) {
   Case c = scene();
   c.camera.far_depth = kInfinity;
