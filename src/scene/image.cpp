@@ -6,6 +6,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <iterator>
 #include <optional>
 #include <string_view>
@@ -104,21 +107,38 @@ void remove_quietly(const std::filesystem::path& file) {
   std::filesystem::remove(file, ignored);
 }
 
-// Writes beside the target and renames, so that a reader never sees half a file.
+std::vector<unsigned char> encoded(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                                   const void* pixels, const std::string& where) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  auto out = OIIO::ImageOutput::create(format);
+  const bool done = out && out->set_ioproxy(&memory) && out->open("memory", spec) &&
+                    out->write_image(type, pixels) && out->close();
+  if (!done) {
+    throw SceneError(detail::one_line(
+        where + ": picture: cannot be encoded: " + (out ? out->geterror() : OIIO::geterror())));
+  }
+  return bytes;
+}
+
+// Writes beside the target and renames, so that a reader never sees half a file. Not through OpenImageIO,
+// whose PNG writer does not notice a disk that is full.
 void write_file(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels,
                 const std::filesystem::path& file) {
+  const std::vector<unsigned char> bytes = encoded(format, spec, type, pixels, file.string());
   std::filesystem::path temporary = file;
   temporary += ".";
   temporary += std::to_string(::getpid());
-  auto out = OIIO::ImageOutput::create(format);
-  const bool opened = out && out->open(temporary.string(), spec);
-  const bool written = opened && out->write_image(type, pixels) && out->close();
+  std::ofstream stream(temporary, std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  const std::string why = std::strerror(errno);
   std::error_code error;
-  if (written) std::filesystem::rename(temporary, file, error);
-  if (!written || error) {
-    const std::string why = error ? error.message() : out ? out->geterror() : OIIO::geterror();
+  if (stream) std::filesystem::rename(temporary, file, error);
+  if (!stream || error) {
     remove_quietly(temporary);
-    throw SceneError(detail::one_line(file.string() + ": picture: cannot be written: " + why));
+    throw SceneError(
+        detail::one_line(file.string() + ": picture: cannot be written: " + (error ? error.message() : why)));
   }
 }
 
@@ -168,13 +188,7 @@ Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name,
 
 std::vector<std::uint8_t> encode_png(const Image& image) {
   const OIIO::ImageSpec spec = rgb_spec(image, 4, image.name);
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  auto out = OIIO::ImageOutput::create("png");
-  const bool done = out && out->set_ioproxy(&memory) && out->open("memory.png", spec) &&
-                    out->write_image(OIIO::TypeDesc::UINT8, image.rgba.data()) && out->close();
-  if (!done) throw SceneError(detail::one_line(image.name + ": picture: cannot be encoded"));
-  return bytes;
+  return encoded("png", spec, OIIO::TypeDesc::UINT8, image.rgba.data(), image.name);
 }
 
 void write_png(const Image& image, const std::filesystem::path& file) {

@@ -1,4 +1,5 @@
 // From a glTF file to a scene: which instances are drawn, and where they stand.
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <glm/mat3x3.hpp>
@@ -67,6 +68,44 @@ class Placer {
   std::uint64_t triangles_ = 0;
 };
 
+/// Triangles that a primitive will come to, by what it says and no more than its bytes allow.
+std::uint64_t announced(const detail::Document& document, std::size_t mesh, std::size_t primitive) {
+  const tinygltf::Primitive& source = document.model.meshes[mesh].primitives[primitive];
+  int corners = document.indices[mesh][primitive];
+  const auto position = source.attributes.find("POSITION");
+  if (corners < 0 && position != source.attributes.end()) corners = position->second;
+  if (corners < 0 || source.mode < TINYGLTF_MODE_TRIANGLES) return 0;
+  const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(corners)];
+  if (accessor.bufferView < 0) return 0;
+  const auto& view = document.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
+  const std::uint64_t count = std::min<std::uint64_t>(accessor.count, view.byteLength);
+  return source.mode == TINYGLTF_MODE_TRIANGLES ? count / 3 : count;
+}
+
+/// A scene too large is refused by what it says it is, before memory is spent on it.
+void check_size(const detail::Document& document, const detail::NodeTree& tree, const LoadLimits& limits) {
+  std::vector<std::uint64_t> of_mesh(document.model.meshes.size());
+  for (std::size_t m = 0; m < of_mesh.size(); ++m) {
+    for (std::size_t p = 0; p < document.indices[m].size(); ++p) of_mesh[m] += announced(document, m, p);
+  }
+  std::uint64_t triangles = 0, stored = 0;
+  std::vector<bool> seen(of_mesh.size(), false);
+  for (const int n : tree.shown) {
+    const int mesh = document.model.nodes[static_cast<std::size_t>(n)].mesh;
+    if (mesh < 0) continue;
+    const auto m = static_cast<std::size_t>(mesh);
+    triangles += of_mesh[m];
+    if (!seen[m]) stored += of_mesh[m];
+    seen[m] = true;
+  }
+  if (triangles <= limits.triangles) return;
+  // Three corners of 32 bytes and their indices, where no vertex is shared.
+  constexpr std::uint64_t kTriangleBytes = 3 * (sizeof(glm::vec3) * 2 + sizeof(glm::vec2) + 4);
+  throw Refusal("scene", std::to_string(triangles) + " triangles, up to " +
+                             std::to_string(stored * kTriangleBytes >> 20) + " MiB, are above the limit of " +
+                             std::to_string(limits.triangles));
+}
+
 void place_nodes(const detail::Document& document, const detail::NodeTree& tree, const LoadLimits& limits,
                  Scene& scene) {
   detail::MeshReader meshes(document, tree, limits, scene);
@@ -100,6 +139,7 @@ Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& sc
     SceneFolder files(folder, limits.file_bytes, limits.total_bytes);
     const Document document = open_document(bytes, files, limits, scene.warnings);
     const NodeTree tree = build_node_tree(document.model, limits, scene.warnings);
+    check_size(document, tree, limits);
     place_nodes(document, tree, limits, scene);
     read_materials(document, files, limits, scene);
     return scene;

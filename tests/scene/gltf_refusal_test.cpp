@@ -189,7 +189,7 @@ TEST(GltfRefusal, limits_on_triangles_vertices_and_nodes_count_every_instance) {
   EXPECT_EQ(refusal_of(gltf, limits), "");
   LoadLimits fewer = limits;
   fewer.triangles = 9;
-  expect_refused(refusal_of(gltf, fewer), "9 triangles");
+  expect_refused(refusal_of(gltf, fewer), "scene: 10 triangles, up to 0 MiB, are above the limit of 9");
   fewer = limits;
   fewer.vertices = 2;
   expect_refused(refusal_of(gltf, fewer), "accessors[0]");

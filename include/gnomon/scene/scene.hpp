@@ -68,6 +68,13 @@ struct Scene {
   std::vector<std::string> warnings;  ///< what was repaired or left out on loading, a line each
   Box bounds_world;                   ///< of all instances; empty for an empty scene
 
+  /// What vertices, indices, instances and pictures take in memory.
+  [[nodiscard]] std::uint64_t bytes() const noexcept {
+    std::uint64_t n = positions.size() * (sizeof(glm::vec3) * 2 + sizeof(glm::vec2)) +
+                      indices.size() * sizeof(std::uint32_t) + instances.size() * sizeof(Instance);
+    for (const Image& image : images) n += image.rgba.size();
+    return n;
+  }
   /// Triangles drawn in one pass over all instances.
   [[nodiscard]] std::uint64_t triangle_count() const noexcept {
     std::uint64_t n = 0;
