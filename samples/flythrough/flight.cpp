@@ -9,9 +9,12 @@
 #include <system_error>
 
 #include "gnomon/history.hpp"
+#include "gnomon/render/filter.hpp"
 #include "gnomon/render/picture.hpp"
+#include "gnomon/render/probe.hpp"
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
+#include "interrupt.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 
@@ -146,6 +149,7 @@ FrameRow draw_frame(Studio& studio, int frame) {
     return options.out / fmt::format("frame_{:04}_{}.png", frame, kind);
   };
   gnomon::write_png(lit, file("image"));
+  gnomon::tool::check_interrupt();
   gnomon::write_png(heat, file("heat"));
   gnomon::write_png(tint, file("cascades"));
   if (!options.compared_warps.empty()) draw_comparison(studio, camera, frame);
@@ -164,6 +168,30 @@ void check_plans(const Options& options, const Flight& flight) {
           fmt::format("{}: frame {}: the plan refuses {}", options.scene, frame, plan.invalid_field));
     }
   }
+}
+
+/// Halves the maps until memory takes them, and says so. Throws UsageError where not even the least fit.
+void fit_maps_to_memory(Options& options) {
+  constexpr double kMebi = 1024.0 * 1024.0;
+  constexpr int kLeastMap = 16;
+  const int wanted = options.plan.map_size;
+  std::string why;
+  for (int size = wanted; size >= kLeastMap; size /= 2) {
+    const double bytes = gnomon::render::bytes_per_texel(options.filter) * size * size;
+    const double mebibytes = bytes * options.plan.cascades / kMebi;
+    if (options.map_memory_mib > 0.0 && mebibytes > options.map_memory_mib) {
+      if (why.empty()) why = fmt::format("--map-memory-mib {:g}", options.map_memory_mib);
+    } else if (!gnomon::render::memory_takes_maps(size, options.plan.cascades, bytes / size / size)) {
+      if (why.empty()) why = "out of memory";
+    } else {
+      options.plan.map_size = size;
+      if (size < wanted)
+        fmt::print(stderr, "flythrough: warning: maps of {} do not fit ({}): maps of {}, {:.4g} MiB\n",
+                   wanted, why, size, mebibytes);
+      return;
+    }
+  }
+  throw UsageError(fmt::format("--map-size {}: no map fits ({})", wanted, why));
 }
 
 void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
@@ -188,7 +216,10 @@ void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
 Flight load_flight(const Options& options) {
   try {
     Flight flight;
-    flight.scene = gnomon::load_scene(options.scene);
+    gnomon::LoadLimits limits;
+    limits.triangles = options.max_triangles;
+    limits.vertices = std::max(limits.vertices, 3 * options.max_triangles);
+    flight.scene = gnomon::load_scene(options.scene, limits);
     for (const std::string& warning : flight.scene.warnings)
       fmt::print(stderr, "flythrough: warning: {}\n", warning);
     flight.path = options.path ? gnomon::load_camera_path(*options.path) : gnomon::default_path(flight.scene);
@@ -206,7 +237,8 @@ gnomon::Camera camera_of(const Options& options, const Flight& flight, int frame
   return flight.path.at(t, options.width, options.height);
 }
 
-int fly_to_files(const Options& options, const Flight& flight) {
+int fly_to_files(const Options& asked, const Flight& flight) {
+  Options options = asked;
   const auto context = [&options] {
     try {
       return gnomon::render::create_context(options.context);
@@ -215,10 +247,14 @@ int fly_to_files(const Options& options, const Flight& flight) {
     }
   }();
   fmt::print("context:  {}\n", context->info().description());
-  fmt::print("scene:    {}, {} instances, {} triangles\n", flight.scene.name, flight.scene.instances.size(),
-             flight.scene.triangle_count());
+  constexpr double kMebi = 1024.0 * 1024.0;
+  fmt::print("scene:    {}, {} instances, {} triangles, {:.4g} MiB\n", flight.scene.name,
+             flight.scene.instances.size(), flight.scene.triangle_count(),
+             static_cast<double>(flight.scene.bytes()) / kMebi);
+  fit_maps_to_memory(options);
   check_plans(options, flight);
   make_folder(options.out);
+  gnomon::tool::watch_interrupts();
   Studio studio{options,
                 flight,
                 gnomon::render::Renderer(flight.scene),
@@ -230,6 +266,7 @@ int fly_to_files(const Options& options, const Flight& flight) {
   {
     Progress progress(options.frames);
     for (int frame = 0; frame < options.frames; ++frame) {
+      gnomon::tool::check_interrupt();
       progress.show(frame, "frames");
       rows.push_back(draw_frame(studio, frame));
     }

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "flight.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 
 int main(int argc, char** argv) {
@@ -20,6 +21,9 @@ int main(int argc, char** argv) {
   } catch (const flythrough::UsageError& error) {
     fmt::print(stderr, "flythrough: {}\n", error.what());
     return 2;
+  } catch (const gnomon::tool::Interrupted&) {
+    fmt::print(stderr, "flythrough: interrupted\n");
+    return gnomon::tool::kInterrupted;
   } catch (const std::exception& error) {
     fmt::print(stderr, "flythrough: {}\n", error.what());
     return 1;

@@ -101,6 +101,7 @@ void resolve_transition(const Raw& raw, Options& options) {
 void resolve(const Raw& raw, Options& options) {
   parse_size(raw.size, options);
   need_number("--lambda", options.plan.lambda);
+  need_number("--map-memory-mib", options.map_memory_mib);
   need_number("--light-elevation-deg", options.light.elevation_deg);
   need_number("--light-azimuth-deg", options.light.azimuth_deg);
   if (!gnomon::render::context_kind_from_name(raw.context, options.context)) {
@@ -169,6 +170,13 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
   app.add_option("--filter", raw.filter, "as in pcf:radius=2,unit=texels. " + gnomon::render::filter_help());
   app.add_option("--map-size", options.plan.map_size, "texels along each side of a map")
       ->check(CLI::Range(4, kMaxSide));
+  app.add_option(
+         "--map-memory-mib", options.map_memory_mib,
+         "MiB that all maps may take together; larger ones are halved until they fit; 0: what there is")
+      ->check(CLI::Range(0.0, 1e9));
+  app.add_option("--max-triangles", options.max_triangles,
+                 "scenes of more, over all instances, are refused; one takes up to 100 bytes")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   app.add_option("--resolution", raw.resolution,
                  "given by --map-size, or perceptual: the smallest maps whose texels the filter hides");
   app.add_option("--budget-ms", options.budget.milliseconds,

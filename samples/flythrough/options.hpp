@@ -12,6 +12,7 @@
 #include "gnomon/render/filter.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/default_light.hpp"
+#include "gnomon/scene/load.hpp"
 #include "gnomon/technique.hpp"
 
 namespace flythrough {
@@ -50,6 +51,10 @@ struct Options {
   bool visible_depths = false;
   gnomon::LightPlacement light;
   std::optional<std::filesystem::path> path;
+  /// Maps that take more together are halved until they fit, with a warning; 0: as much as there is.
+  double map_memory_mib = 0.0;
+  /// Scenes of more triangles, over all instances, are refused before they take the machine's memory.
+  std::uint64_t max_triangles = gnomon::LoadLimits{}.triangles;
   std::vector<const gnomon::Warp*> compared_warps;  ///< nullptr: chosen by the plan; none: no comparison
 };
 

@@ -5,6 +5,9 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string_view>
 
 #include "gl_object.hpp"
 #include "gnomon/render/error.hpp"
@@ -69,7 +72,39 @@ void judge_timers(Probe& probe) {
   probe.timers_why = text.data();
 }
 
+/// Of the machine; 0 where it does not say.
+double free_memory_bytes() {
+  std::ifstream table("/proc/meminfo");
+  for (std::string line; std::getline(table, line);) {
+    constexpr std::string_view kKey = "MemAvailable:";
+    constexpr double kKibi = 1024.0;
+    if (line.rfind(kKey, 0) == 0) return kKibi * std::strtod(line.c_str() + kKey.size(), nullptr);
+  }
+  return 0.0;
+}
+
+bool draws_in_memory() {
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return renderer != nullptr && std::string_view(renderer).find("llvmpipe") != std::string_view::npos;
+}
+
 }  // namespace
+
+bool memory_takes_maps(int map_size, int maps, double bytes_per_texel) {
+  // A software driver takes what it is asked for, and the machine ends the program that has taken too much.
+  const double bytes = bytes_per_texel * maps * map_size * map_size, free = free_memory_bytes();
+  if (draws_in_memory() && free > 0.0 && bytes > 0.9 * free) return false;
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  constexpr double kTexelBytes = 4.0;  // of GL_DEPTH_COMPONENT32F
+  std::vector<Texture> taken;
+  for (double left = bytes_per_texel; left > 0.0; left -= kTexelBytes) {
+    taken.push_back(make_texture(GL_TEXTURE_2D_ARRAY));
+    glTextureStorage3D(taken.back().name(), 1, GL_DEPTH_COMPONENT32F, map_size, map_size, maps);
+    if (glGetError() != GL_NO_ERROR) return false;
+  }
+  return true;
+}
 
 Probe probe_driver() {
   Probe probe;

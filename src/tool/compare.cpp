@@ -11,6 +11,7 @@
 #include "gnomon/report/page.hpp"
 #include "gnomon/report/rows_file.hpp"
 #include "gnomon/scene/load.hpp"
+#include "interrupt.hpp"
 #include "machine.hpp"
 #include "measure.hpp"
 #include "output.hpp"
@@ -118,7 +119,10 @@ class Run {
     return steps;
   }
 
-  void step(long long count) { progress_.set(steps_ += count); }
+  void step(long long count) {
+    check_interrupt();
+    progress_.set(steps_ += count);
+  }
 
   void one_frame(Stage& stage, std::size_t scene, int frame, std::vector<Task>& tasks) {
     const FrameTruth truth = frame_truth(stage, frame, sweep_.baseline);
@@ -160,6 +164,7 @@ int run_compare(const CompareRequest& request, bool json) {
   std::error_code error;
   fs::create_directories(sweep.out, error);
   if (error) throw std::runtime_error("--out " + sweep.out + ": cannot be made a folder: " + error.message());
+  watch_interrupts();
   Run(sweep, machine(context->info()), known).all();
   const std::string rows = (fs::path(sweep.out) / report::kRowsFile).string();
   // A shard's report would show a part as if it were the whole.

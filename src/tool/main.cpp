@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "interrupt.hpp"
 #include "output.hpp"
 #include "plan.hpp"
 #include "stress.hpp"
@@ -244,6 +245,8 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   try {
     return run(argc, argv);
+  } catch (const Interrupted&) {
+    return complain("interrupted", kInterrupted);
   } catch (const std::runtime_error& error) {  // the world outside: files, cases, pipes
     return complain(error.what(), kBadInput);
   } catch (const std::exception& error) {

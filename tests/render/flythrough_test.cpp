@@ -34,10 +34,12 @@ class Flythrough : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   [[nodiscard]] fs::path out() const { return folder_ / "pictures"; }
-  [[nodiscard]] Outcome run(const std::string& arguments) const {
-    const std::string command = "env -u DISPLAY -u WAYLAND_DISPLAY " FLYTHROUGH " --out " + out().string() +
-                                " " + arguments + " > " + (folder_ / "out").string() + " 2> " +
-                                (folder_ / "error").string();
+  /// `before`: of the shell, in front of the program.
+  [[nodiscard]] Outcome run(const std::string& arguments, const std::string& before = "",
+                            const std::string& folder = "") const {
+    const std::string command = before + " env -u DISPLAY -u WAYLAND_DISPLAY " FLYTHROUGH " --out " +
+                                (folder.empty() ? out().string() : folder) + " " + arguments + " > " +
+                                (folder_ / "out").string() + " 2> " + (folder_ / "error").string();
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "out"),
             text_of(folder_ / "error")};
@@ -228,6 +230,135 @@ TEST_F(Flythrough, writes_three_pictures_and_a_row_per_frame_and_a_sheet) {
   EXPECT_EQ(rows, 2);
   // Nothing is left of the files that were written aside.
   for (const auto& entry : fs::directory_iterator(out())) EXPECT_NE(entry.path().extension(), ".part");
+}
+
+/// A file that calls itself a library: what asks for it by this name does not get it.
+std::string without_libraries(const fs::path& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names) std::ofstream(folder / name) << "no library";
+  return "LD_LIBRARY_PATH=" + folder.string();
+}
+
+constexpr const char* kOneFrame = "builtin:fence --frames 1 --size 64x32 --map-size 64 --cascades 1 ";
+
+TEST_F(Flythrough, takes_the_next_context_where_one_is_refused_and_says_why) {
+  const std::string no_osmesa =
+      without_libraries(folder_, {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"});
+  const Outcome other = run(kOneFrame, no_osmesa);
+  EXPECT_EQ(other.code, 0) << other.error;
+  // Taken only where no GPU is.
+  if (other.out.find("software") != std::string::npos) {
+    EXPECT_NE(other.out.find("not taken: OSMesa: libOSMesa.so.8 is not installed"), std::string::npos)
+        << other.out;
+  }
+  const Outcome none = run(kOneFrame, without_libraries(folder_, {"libEGL.so.1"}));
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.error.find("libOSMesa.so.8 is not installed"), std::string::npos) << none.error;
+  EXPECT_NE(none.error.find("libEGL.so.1 is not installed"), std::string::npos) << none.error;
+}
+
+TEST_F(Flythrough, halves_maps_that_memory_does_not_take_and_says_so) {
+  const Outcome outcome =
+      run("builtin:fence --frames 1 --size 64x32 --map-size 1024 --cascades 2 --filter hard --map-memory-mib "
+          "0.6");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.error.find("maps of 1024 do not fit (--map-memory-mib 0.6): maps of 256, 0.5 MiB"),
+            std::string::npos)
+      << outcome.error;
+  std::ifstream csv(out() / "frames.csv");
+  std::string head, row;
+  std::getline(csv, head);
+  std::getline(csv, row);
+  EXPECT_NE(row.find("," + std::to_string(2 * 256 * 256) + ","), std::string::npos) << row;
+  const Outcome none = run(std::string(kOneFrame) + "--map-memory-mib 0.000001");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.error.find("no map fits"), std::string::npos) << none.error;
+}
+
+TEST_F(Flythrough, leaves_no_half_file_where_the_disk_is_full) {
+  // 512 or 1024 bytes a block: less than any picture.
+  const Outcome outcome =
+      run("builtin:fence --frames 1 --size 640x320 --map-size 64 --cascades 1", "ulimit -f 4; ");
+  EXPECT_NE(outcome.code, 0);
+  EXPECT_NE(outcome.error.find("cannot be written"), std::string::npos) << outcome.error;
+  EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  for (const auto& entry : fs::directory_iterator(out())) ADD_FAILURE() << entry.path() << " is left";
+}
+
+TEST_F(Flythrough, refuses_a_folder_that_cannot_be_written) {
+  const fs::path file = folder_ / "file";
+  std::ofstream(file) << "in the way";
+  for (const std::string& folder : {file.string() + "/below", std::string("/proc/none")}) {
+    const Outcome outcome = run(kOneFrame, "", folder);
+    EXPECT_EQ(outcome.code, 2) << folder;
+    EXPECT_NE(outcome.error.find(folder), std::string::npos) << outcome.error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  }
+}
+
+TEST_F(Flythrough, ends_with_130_and_whole_files_when_interrupted) {
+  const std::string command =
+      "env -u DISPLAY " FLYTHROUGH " --out " + out().string() +
+      " builtin:fence --frames 5000 --size 320x160 --map-size 64 --cascades 1 > /dev/null 2> " +
+      (folder_ / "error").string() + " & pid=$!; i=0; while [ ! -e " +
+      (out() / "frame_0001_image.png").string() +
+      " ] && [ $i -lt 3000 ]; do sleep 0.01; i=$((i+1)); done; kill -TERM $pid; wait $pid";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130) << text_of(folder_ / "error");
+  EXPECT_EQ(text_of(folder_ / "error"), "flythrough: interrupted\n");
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(out())) {
+    EXPECT_EQ(entry.path().extension(), ".png") << entry.path();
+    const std::string bytes = text_of(entry.path());
+    EXPECT_NE(bytes.find("IEND", bytes.size() - std::min<std::size_t>(bytes.size(), 12)), std::string::npos)
+        << entry.path();
+    ++files;
+  }
+  EXPECT_GE(files, 4u);
+}
+
+TEST_F(Flythrough, draws_a_scene_without_triangles) {
+  const fs::path scene = folder_ / "empty.gltf";
+  std::ofstream(scene) << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[]}]})";
+  const Outcome outcome = run(scene.string() + " --frames 2 --size 64x32 --map-size 64");
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_NE(outcome.out.find("0 triangles"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(fs::exists(out() / "frame_0001_image.png"));
+}
+
+TEST_F(Flythrough, refuses_more_triangles_than_asked_for_before_it_makes_them) {
+  const Outcome refused = run("builtin:fence --frames 1 --max-triangles 10");
+  EXPECT_EQ(refused.code, 0) << "scenes of our own have no limit";
+  // One triangle, four times over.
+  const fs::path scene = folder_ / "many.gltf";
+  const std::string text =
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2,3]}],)"
+      R"("buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+      R"("nodes":[{"mesh":0},{"mesh":0},{"mesh":0},{"mesh":0}]})";
+  std::ofstream(scene) << text;
+  const Outcome limited = run(scene.string() + " --frames 1 --size 64x32 --max-triangles 3");
+  EXPECT_EQ(limited.code, 2);
+  EXPECT_NE(limited.error.find("many.gltf: scene: 4 triangles, up to 0 MiB, are above the limit of 3"),
+            std::string::npos)
+      << limited.error;
+  const Outcome raised = run(scene.string() + " --frames 1 --size 64x32 --map-size 64 --max-triangles 4");
+  EXPECT_EQ(raised.code, 0) << raised.error;
+}
+
+TEST_F(Flythrough, draws_the_same_in_four_processes_at_once) {
+  std::string command;
+  for (const char* name : {"a", "b", "c", "d"}) {
+    command += "env -u DISPLAY " FLYTHROUGH " --out " + (folder_ / name).string() + " " + kOneFrame +
+               " > /dev/null 2>&1 & ";
+  }
+  ASSERT_EQ(std::system((command + "wait").c_str()), 0);
+  const std::string first = text_of(folder_ / "a/frame_0000_image.png");
+  EXPECT_GT(first.size(), 100u);
+  for (const char* name : {"b", "c", "d"})
+    EXPECT_EQ(text_of(folder_ / name / "frame_0000_image.png"), first) << name;
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 // Rows survive JSON, kills and shards.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <fstream>
 #include <limits>
 
+#include "file.hpp"
 #include "gnomon/report/rows_file.hpp"
 #include "rows_text.hpp"
 #include "sample_rows.hpp"
@@ -85,6 +88,53 @@ TEST(Rows, hostile_lines_are_refused_with_one_line) {
   refused(std::string(100, '[') + std::string(100, ']'), "nested deeper than 32");
   refused("\"" + std::string(2 << 20, 'x') + "\"", "longer than");
   EXPECT_EQ(rows_from_text(good + "\n", "file").size(), 1u);
+}
+
+/// While it lives, no file can be made longer than this, as if the disk were full.
+class FullDisk {
+ public:
+  explicit FullDisk(std::size_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit less{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &less);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+TEST(RowsFile, a_disk_that_fills_up_is_an_error_and_costs_one_row) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / kRowsFile;
+  const std::size_t row = to_json_line(sample_row(0)).size() + 1;
+  {
+    RowsFile out(file);
+    const FullDisk full(row + row / 2);
+    out.append(sample_row(0));
+    EXPECT_THROW(out.append(sample_row(1)), ReportError);
+  }
+  EXPECT_EQ(read_rows(file).size(), 1u);
+  RowsFile(file).append(sample_row(1));
+  EXPECT_EQ(read_rows(file).size(), 2u);
+}
+
+TEST(RowsFile, a_page_that_finds_no_room_leaves_the_one_before_and_nothing_else) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "page";
+  write_text(file, "before");
+  {
+    const FullDisk full(1000);
+    EXPECT_THROW(write_text(file, std::string(5000, 'x')), ReportError);
+  }
+  EXPECT_EQ(text_of(file), "before");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
 
 TEST(RowsFile, a_device_is_no_file_of_rows) {

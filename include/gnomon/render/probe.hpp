@@ -23,4 +23,9 @@ struct Probe {
 /// Draws for some 50 ms in the context that is current. Throws RenderError.
 [[nodiscard]] Probe probe_driver();
 
+/// Whether the driver gives `maps` maps of this size and so many bytes a texel, and, where it draws in
+/// software, whether that much memory is free. Takes the images of the size asked for, for a moment, in the
+/// context that is current.
+[[nodiscard]] bool memory_takes_maps(int map_size, int maps, double bytes_per_texel);
+
 }  // namespace gnomon::render

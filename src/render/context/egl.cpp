@@ -4,6 +4,7 @@
 #include <EGL/eglext.h>
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -162,17 +163,18 @@ std::unique_ptr<Context> create_egl_context(bool software_too, std::vector<std::
     }
     if (taken == nullptr && software && software_too) {
       taken = std::make_unique<EglBackend>(egl, software->platform, software->native, software->name);
-      std::erase_if(reasons,
-                    [&](const std::string& line) { return line.rfind(software->name + ":", 0) == 0; });
+      for (std::vector<std::string>* lines : {&reasons, &refused})
+        std::erase_if(*lines,
+                      [&](const std::string& line) { return line.rfind(software->name + ":", 0) == 0; });
     }
   } catch (const RenderError& error) {
     reasons.emplace_back(error.what());
   }
-  if (taken != nullptr) {
-    taken->set_refused(std::move(reasons));
-  } else {
-    refused.insert(refused.end(), reasons.begin(), reasons.end());
+  for (std::string& reason : reasons) {
+    if (std::find(refused.begin(), refused.end(), reason) == refused.end())
+      refused.push_back(std::move(reason));
   }
+  if (taken != nullptr) taken->set_refused(refused);
   return taken;
 }
 
