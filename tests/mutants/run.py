@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""Does the suite notice a fault? Puts each fault of mutants.json into a copy of the sources, builds the tests that
+could notice, and runs them until one fails. Prints who caught it; exits 1 where nobody did.
+
+    run.py SOURCE_DIR WORK_DIR [TEXT...]     only the faults whose file or description holds one of TEXT
+"""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+# The pinned hash of all plans would notice any change of a bit, and say nothing of what the other tests are worth.
+NOT_THE_HASH = "--gtest_filter=-PlanHash.*"
+SUITES = {  # the quick ones first
+    "src/core/": ["core_tests", "core_golden_tests", "core_extreme_tests", "core_laws_tests"],
+    "src/scene/": ["load_gltf_test", "gltf_refusal_test", "gltf_confinement_test", "gltf_skin_test", "scene_image_test",
+                   "camera_path_test", "builtin_scene_test"],
+    "src/casefile/": ["casefile_test"],
+}
+PATIENCE = 300  # seconds for one test program: a fault that never ends is caught, too
+OFF = ["RENDER", "TRACE", "REPORT", "TOOL", "SAMPLES", "BENCH"]
+
+
+def suite_of(file):
+    for folder, tests in SUITES.items():
+        if file.startswith(folder):
+            return tests
+    sys.exit(f"mutants: no tests are named for {file}")
+
+
+def tracked_files(source):
+    listed = subprocess.run(["git", "-C", source, "ls-files", "-co", "--exclude-standard"], capture_output=True, text=True)
+    if listed.returncode == 0:
+        return listed.stdout.split("\n")[:-1]
+    return [str(p.relative_to(source)) for p in pathlib.Path(source).rglob("*") if p.is_file() and "build" not in p.parts]
+
+
+def copy_sources(source, copy):
+    """Only what differs is written, so that nothing is built anew for no reason."""
+    wanted = set(tracked_files(source))
+    for name in wanted:
+        from_file, to_file = source / name, copy / name
+        if not from_file.is_file():
+            continue
+        content = from_file.read_bytes()
+        if not to_file.is_file() or to_file.read_bytes() != content:
+            to_file.parent.mkdir(parents=True, exist_ok=True)
+            to_file.write_bytes(content)
+            shutil.copymode(from_file, to_file)
+
+
+def run(command, **options):
+    return subprocess.run([str(c) for c in command], capture_output=True, text=True, errors="replace", **options)
+
+
+def build(work, tests):
+    done = run(["cmake", "--build", work / "build", "--target", *tests])
+    return done.returncode == 0, done.stdout + done.stderr
+
+
+def caught_by(work, tests):
+    """The first test that fails, or nothing."""
+    environment = dict(os.environ, GTEST_FAIL_FAST="1", GTEST_BRIEF="1", RC_PARAMS="seed=1")
+    for test in tests:
+        try:
+            done = run([work / "build/bin/tests" / test, NOT_THE_HASH], env=environment, timeout=PATIENCE)
+        except subprocess.TimeoutExpired:
+            return f"{test} (did not end within {PATIENCE} s)"
+        if done.returncode != 0:
+            failed = [l.split("]")[1].split(",")[0].split(" (")[0].strip()
+                      for l in done.stdout.split("\n") if l.startswith("[  FAILED  ]")]
+            return failed[0] if failed else f"{test} (exit {done.returncode})"
+    return None
+
+
+def check_texts(source, mutants):
+    for m in mutants:
+        count = (source / m["file"]).read_text().count(m["old"]) if (source / m["file"]).is_file() else 0
+        if count != 1:
+            sys.exit(f"mutants: {m['file']}: '{m['old']}' stands there {count} times, not once: "
+                     f"the list needs to follow the code ({m['breaks']})")
+
+
+def main():
+    source, work = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+    mutants = json.loads((pathlib.Path(__file__).parent / "mutants.json").read_text())
+    check_texts(source, mutants)
+    if sys.argv[3:] == ["--check"]:
+        return print(f"{len(mutants)} faults, each with its place in the sources")
+    mutants = [m for m in mutants if not sys.argv[3:] or any(t in m["file"] + m["breaks"] for t in sys.argv[3:])]
+    copy = work / "source"
+    copy_sources(source, copy)
+    configured = run(["cmake", "-S", copy, "-B", work / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
+                      "-DGNOMON_TESTS=ON", "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache",
+                      # A write beyond a vector's end must not pass for luck.
+                      "-DCMAKE_CXX_FLAGS=-O1 -D_GLIBCXX_ASSERTIONS",
+                      *[f"-DGNOMON_{part}=OFF" for part in OFF]])
+    if configured.returncode != 0:
+        sys.exit(configured.stdout + configured.stderr)
+    tests = sorted({t for m in mutants for t in suite_of(m["file"])})
+    good, log = build(work, tests)
+    if not good:
+        sys.exit("mutants: the sources do not build as they are:\n" + log[-4000:])
+    if name := caught_by(work, tests):
+        sys.exit(f"mutants: {name} fails without any fault")
+    survivors = 0
+    for number, m in enumerate(mutants, 1):
+        file, begin = copy / m["file"], time.monotonic()
+        text = file.read_text()
+        file.write_text(text.replace(m["old"], m["new"]))
+        try:
+            good, log = build(work, suite_of(m["file"]))
+            by = caught_by(work, suite_of(m["file"])) if good else "the compiler"
+        finally:
+            file.write_text(text)
+        survivors += by is None
+        print(f"{number:2}/{len(mutants)} {'SURVIVED' if by is None else 'caught':8} {m['file']}: {m['breaks']}"
+              f"{'' if by is None else ' | ' + by} ({time.monotonic() - begin:.0f} s)", flush=True)
+    print(f"{len(mutants) - survivors} of {len(mutants)} faults caught")
+    return 1 if survivors else 0
+
+
+sys.exit(main())
