@@ -18,7 +18,10 @@ float share_in_front(vec4 b, float u, out vec2 z) {
   float c0 = 1.0 - b.x * c1 - b.y * c2;
   float p = c1 / c2, q = c0 / c2;
   float root = sqrt(max(0.25 * p * p - q, 0.0));
-  z = vec2(-0.5 * p - root, -0.5 * p + root);
+  // The root that is nearer to 0 as a quotient: as a difference it would be rounding where p is large.
+  float away = -0.5 * p + (p > 0.0 ? -root : root);
+  float near = root > 0.0 ? q / away : away;
+  z = vec2(min(near, away), max(near, away));
   if (u <= z.x) return 0.0;
   // Weight of z.x, or all but that of u, where u lies between or behind both: by Lagrange's polynomial.
   if (u <= z.y) return (z.y * u - b.x * (z.y + u) + b.y) / ((z.x - u) * (z.x - z.y));

@@ -23,7 +23,10 @@ ShareInFront share_in_front(const Moments& b, double u) noexcept {
   const double c0 = 1.0 - b[0] * c1 - b[1] * c2;
   const double p = c1 / c2, q = c0 / c2;
   const double root = std::sqrt(std::max(0.25 * p * p - q, 0.0));
-  const glm::dvec2 z{-0.5 * p - root, -0.5 * p + root};
+  // The root that is nearer to 0 as a quotient: as a difference it would be rounding where p is large.
+  const double away = -0.5 * p + (p > 0.0 ? -root : root);
+  const double near = root > 0.0 ? q / away : away;
+  const glm::dvec2 z{std::min(near, away), std::max(near, away)};
   if (u <= z.x) return {0.0, z};
   // Weight of z.x, or all but that of u, by Lagrange's polynomial.
   if (u <= z.y) return {(z.y * u - b[0] * (z.y + u) + b[1]) / ((z.x - u) * (z.x - z.y)), z};
