@@ -54,8 +54,8 @@ void add_filter_row(const Json& json, Stability& stability) {
                                                       [](const StabilityFilter& a, const StabilityFilter& b) {
                                                         return a.axis == b.axis && a.filter == b.filter;
                                                       });
-  filter.rows.push_back(
-      {number(json, "value"), number(json, "error"), number(json, "bound"), json.at("within").get<bool>()});
+  filter.rows.push_back({number(json, "value"), number(json, "error"), number(json, "bound"),
+                         number(json, "beyond"), json.at("within").get<bool>()});
 }
 
 void add_line(const Json& json, Stability& stability) {

@@ -32,6 +32,7 @@ struct StabilityCase {
 /// A filter at one value of what strains it.
 struct StabilityFilterRow {
   double value = 0.0, error = 0.0, bound = 0.0;
+  double beyond = 0.0;  ///< share of the answers that are off by more than their own bound
   bool within = true;
 };
 struct StabilityFilter {

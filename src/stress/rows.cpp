@@ -45,9 +45,9 @@ Json to_json(const AxisRow& row) {
 }
 
 Json to_json(const FilterRow& row) {
-  return {{"kind", "filter"},       {"axis", row.axis},     {"label", row.label},
-          {"log", row.logarithmic}, {"filter", row.filter}, {"value", row.value},
-          {"error", row.error},     {"bound", row.bound},   {"within", row.within}};
+  return {{"kind", "filter"},     {"axis", row.axis},    {"label", row.label}, {"log", row.logarithmic},
+          {"filter", row.filter}, {"value", row.value},  {"error", row.error}, {"bound", row.bound},
+          {"beyond", row.beyond}, {"within", row.within}};
 }
 
 template <typename Take>

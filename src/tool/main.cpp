@@ -190,6 +190,9 @@ CLI::App* add_stress(CLI::App& app, StressRequest& request) {
   stress->option_defaults()->always_capture_default();
   stress->add_option("--axis", request.axes, "names of axes, or all; alone, without the cases");
   stress->add_flag("--cases", request.cases, "the extreme cases; alone, without the axes");
+  stress->add_flag("--filters", request.filters,
+                   "filters where formats run out, shader against double; alone, only these");
+  stress->add_option("--context", request.context, "of --filters: auto, osmesa or egl");
   stress->add_option("--samples", request.samples, "values per axis, about")->check(CLI::Range(2, 100'000));
   stress->add_option("--scenes", request.scenes, "per value: a plain one and random ones")
       ->check(CLI::Range(1, 100'000));

@@ -5,12 +5,17 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <system_error>
 
 #include "output.hpp"
 #include "progress.hpp"
 #include "rows.hpp"
+#ifdef GNOMON_STRESS_HAS_FILTERS
+#include "filter_limits.hpp"
+#include "gnomon/render/context.hpp"
+#endif
 
 namespace gnomon::tool {
 namespace {
@@ -19,7 +24,7 @@ namespace fs = std::filesystem;
 
 std::vector<const stress::Axis*> axes_of(const StressRequest& request) {
   std::vector<const stress::Axis*> axes;
-  const bool everything = request.axes.empty() && !request.cases;
+  const bool everything = request.axes.empty() && !request.cases && !request.filters;
   const bool all = everything || (request.axes.size() == 1 && request.axes[0] == "all");
   if (all) {
     for (const stress::Axis& axis : stress::all_axes()) axes.push_back(&axis);
@@ -60,12 +65,35 @@ void make_folder(const std::string& folder) {
   if (error) throw std::runtime_error("--out " + folder + ": cannot be made a folder: " + error.message());
 }
 
+#ifdef GNOMON_STRESS_HAS_FILTERS
+std::vector<stress::FilterRow> run_filter_limits(const StressRequest& request) {
+  render::ContextKind kind{};
+  if (!render::context_kind_from_name(request.context, kind))
+    throw std::runtime_error("--context: " + request.context + ": there are auto, osmesa and egl");
+  const std::unique_ptr<render::Context> context = render::create_context(kind);
+  long long steps = 0, done = 0;
+  for (const stress::FilterStrain& strain : stress::filter_strains())
+    steps += static_cast<long long>(strain.filters.size());
+  Progress progress("gnomon stress --filters", steps);
+  std::vector<stress::FilterRow> all;
+  for (const stress::FilterStrain& strain : stress::filter_strains()) {
+    const std::vector<stress::FilterRow> rows = stress::sweep_filters(strain, [&] { progress.set(++done); });
+    all.insert(all.end(), rows.begin(), rows.end());
+  }
+  return all;
+}
+#else
+std::vector<stress::FilterRow> run_filter_limits(const StressRequest&) {
+  throw std::runtime_error("--filters: this program was built without the renderer (GNOMON_RENDER=OFF)");
+}
+#endif
+
 stress::Results run_all(const StressRequest& request, const std::vector<const stress::Axis*>& axes) {
   stress::Results results;
   long long steps = 0, done = 0;
   for (const stress::Axis* axis : axes) steps += static_cast<long long>(axis->values(request.samples).size());
   Progress progress("gnomon stress", steps);
-  if (request.cases || request.axes.empty()) {
+  if (request.cases || (request.axes.empty() && !request.filters)) {
     for (const stress::ExtremeCase& extreme : stress::all_cases())
       results.cases.push_back(stress::run_case(extreme));
   }
@@ -74,6 +102,8 @@ stress::Results run_all(const StressRequest& request, const std::vector<const st
         stress::sweep(*axis, {request.samples, request.scenes, request.seed}, [&] { progress.set(++done); });
     results.axes.insert(results.axes.end(), rows.begin(), rows.end());
   }
+  progress.clear();
+  if (request.filters) results.filters = run_filter_limits(request);
   return results;
 }
 

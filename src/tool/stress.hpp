@@ -8,8 +8,10 @@
 namespace gnomon::tool {
 
 struct StressRequest {
-  std::vector<std::string> axes;  ///< names, or all; none and no cases: everything
+  std::vector<std::string> axes;  ///< names, or all; none, no cases, no filters: all axes and cases
   bool cases = false;
+  bool filters = false;  ///< filters at their limits, drawn
+  std::string context = "auto";
   int samples = 80;  ///< values per axis
   int scenes = 4;    ///< per value
   std::uint64_t seed = 1;

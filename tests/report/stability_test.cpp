@@ -43,7 +43,7 @@ const std::string kCase =
     "\n";
 const std::string kFilter =
     R"({"kind":"filter","axis":"exponent","label":"c","log":true,"filter":"esm","value":80,"error":0.001,)"
-    R"("bound":0.01,"within":true})"
+    R"("bound":0.01,"beyond":0,"within":true})"
     "\n";
 
 std::string sample_text() {

@@ -22,7 +22,7 @@ Results some_results() {
   row.maps = 5;
   row.worst.float_absolute_texels = std::numeric_limits<double>::infinity();
   results.axes.push_back(row);
-  results.filters.push_back({"exponent", "c", "esm", true, 80.0, 1e-3, 1e-2, true});
+  results.filters.push_back({"exponent", "c", "esm", true, 80.0, 1e-3, 1e-2, 0.0, true});
   return results;
 }
 

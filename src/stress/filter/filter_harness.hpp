@@ -1,6 +1,7 @@
 // Asks a filter's shader and its CPU reference the same questions, through the passes that the renderer runs.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "gnomon/render/filter.hpp"
@@ -45,11 +46,14 @@ inline constexpr double kTestDepthRange = 10.0, kTestTexelsPerWorld = 8.0;
                                                         const std::vector<float>& depths,
                                                         const std::vector<glm::vec2>& slopes);
 
-/// The same by the CPU reference, in double, rounded to the stored format where the passes round. Without
-/// mip-maps.
+/// What the reference stores: what the format holds, or the very numbers, which no format does.
+enum class Storing : std::uint8_t { rounded, exact };
+
+/// The same by the CPU reference, in double, rounded to the stored format where the passes round, unless the
+/// exact answer is asked for. Without mip-maps.
 class Reference {
  public:
-  Reference(const FilterSettings& settings, const TestMap& map);
+  Reference(const FilterSettings& settings, const TestMap& map, Storing storing = Storing::rounded);
   [[nodiscard]] StoredTexel texel(const glm::dvec2& position) const;  ///< as a lookup there finds it
   [[nodiscard]] double answer(const Question& question) const;
   /// How far the shader may be off: what the answer changes by when each channel and the receiver's depth do
@@ -66,12 +70,13 @@ class Reference {
 
   FilterSettings settings_;
   const TestMap& map_;
+  bool exact_;
   std::vector<StoredTexel> blurred_;
 };
 [[nodiscard]] std::vector<double> ask_reference(const FilterSettings& settings, const TestMap& map,
                                                 const std::vector<Question>& questions);
 
-/// "NAME:KEY=VALUE,..", which must be understood.
+/// "NAME:KEY=VALUE,.."; throws std::runtime_error where it is not understood.
 [[nodiscard]] FilterSettings settings_from(std::string_view text);
 
 }  // namespace gnomon::render

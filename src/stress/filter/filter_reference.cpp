@@ -1,13 +1,21 @@
 // The passes of the renderer on the CPU, in double, for any filter of the registry.
+#include <glad/gl.h>
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "filter_block.hpp"
 #include "filter_harness.hpp"
-#include "shared_context.hpp"
 
 namespace gnomon::render {
 namespace {
+
+/// A graphics card's bilinear weights have 8 bits; Mesa's rasterizers compute them in float.
+bool weights_are_floats() {
+  const GLubyte* renderer = glGetString(GL_RENDERER);
+  const std::string_view name = renderer == nullptr ? "" : reinterpret_cast<const char*>(renderer);
+  return name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos;
+}
 
 double smaller_step(double before, double here, double after) {
   return std::abs(here - before) < std::abs(after - here) ? here - before : after - here;
@@ -43,7 +51,8 @@ FilterLookup lookup_of(const FilterSettings& settings, const TestMap& map, const
   return lookup;
 }
 
-Reference::Reference(const FilterSettings& settings, const TestMap& map) : settings_(settings), map_(map) {
+Reference::Reference(const FilterSettings& settings, const TestMap& map, Storing storing)
+    : settings_(settings), map_(map), exact_(storing == Storing::exact) {
   const MapRead reads = settings.filter->reads;
   if (reads != MapRead::filtered && reads != MapRead::joined) return;
   std::array<double, 4 * kTapVectors> weights{};
@@ -84,6 +93,7 @@ StoredTexel Reference::stored(int x, int y) const {
 }
 
 StoredTexel Reference::rounded(StoredTexel texel) const noexcept {
+  if (exact_) return texel;
   for (double& channel : texel) channel = rounded_to(settings_.format, channel);
   return texel;
 }
@@ -111,7 +121,8 @@ StoredTexel Reference::mean_of_box(const glm::dvec2& position) const {
       const double share = overlap(x, low.x, high.x) * overlap(y, low.y, high.y);
       const StoredTexel texel = stored(x, y);
       for (std::size_t i = 0; i < 2; ++i) {
-        sum[i] += share * std::floor(std::clamp(texel[i], 0.0, 1.0) * steps + 0.5) / steps;
+        const double kept = std::clamp(texel[i], 0.0, 1.0);
+        sum[i] += share * (exact_ ? kept : std::floor(kept * steps + 0.5) / steps);
       }
       area += share;
     }
@@ -156,8 +167,7 @@ double Reference::bound(const Question& question) const {
     sum += std::abs(value(changed, asked) - known);
   };
   const int channels = settings_.filter->channels == nullptr ? 0 : settings_.filter->channels(settings_);
-  // A graphics card's bilinear weights have 8 bits.
-  const double weights = shared_context().info().software ? 0.0 : 1.0 / 512.0;
+  const double weights = weights_are_floats() ? 0.0 : 1.0 / 512.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(channels); ++i) {
     double spread = 0.0;
     for (const glm::dvec2 step : {glm::dvec2(-1, 0), glm::dvec2(1, 0), glm::dvec2(0, -1), glm::dvec2(0, 1)}) {
@@ -165,7 +175,11 @@ double Reference::bound(const Question& question) const {
         spread = std::max(spread, std::abs(texel(glm::dvec2(question.position) + step)[i] - here[i]));
     }
     const double size = is_unsigned_unit(settings_.format) ? 1.0 : std::max(std::abs(here[i]), 0x1p-14);
-    const double change = size * (2.0 * rounding_of(settings_.format) + kSumRounding) + spread * weights;
+    // Whole steps are what a sum of integers rounds texels to.
+    const double step =
+        exact_ && settings_.filter->reads == MapRead::summed ? 0.5 / filter_block(settings_, {}).sums.x : 0.0;
+    const double change =
+        size * (2.0 * rounding_of(settings_.format) + kSumRounding) + spread * weights + step;
     for (const double sign : {-1.0, 1.0}) {
       StoredTexel changed = here;
       changed[i] += sign * change;
