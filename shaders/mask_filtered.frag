@@ -5,6 +5,7 @@
 
 layout(binding = 8) uniform sampler2DArray shadow_stored[GNOMON_SHADOW_VECTORS];
 
-float visibility(ShadowLookup at, ShadowOptions options) {
+float visibility(ShadowLookup question, ShadowMap map, ShadowOptions options) {
+  ShadowLookup at = stored_lookup(question, map);
   return shadow_visibility(fetch_filtered(shadow_stored, at, int(filtering.sums.z)), shadow_depth, shadow_depth_max, at, options);
 }

@@ -5,6 +5,7 @@
 
 layout(binding = 8) uniform usampler2DArray shadow_sums;
 
-float visibility(ShadowLookup at, ShadowOptions options) {
+float visibility(ShadowLookup question, ShadowMap map, ShadowOptions options) {
+  ShadowLookup at = stored_lookup(question, map);
   return shadow_visibility(fetch_summed(shadow_sums, at, filtering.sums.x), shadow_depth, shadow_depth_max, at, options);
 }

@@ -12,7 +12,7 @@ layout(binding = 5) uniform sampler2DArray shadow_depth;
 layout(binding = 7) uniform sampler2DArray shadow_depth_max;
 layout(location = 0) out vec2 mask;  // 1 lit .. 0 in shadow; map or -1
 
-float visibility(ShadowLookup at, ShadowOptions options);
+float visibility(ShadowLookup at, ShadowMap map, ShadowOptions options);
 
 // Texels per pixel: the pixel's sides on the surface, in the map.
 mat2 texels_per_pixel(ShadowMap map, Surface s) {
@@ -35,7 +35,7 @@ float visibility_through(int index, Surface s, float noise) {
   ShadowKernel kernel = ShadowKernel(filtering.kernel.x, filtering.kernel.y > 0.5, filtering.kernel.z > 0.5);
   set_kernel(at, map, kernel, kernel.minify ? texels_per_pixel(map, s) : mat2(0.0));
   at.rotation = 6.2831853 * noise;
-  return visibility(at, shadow_options(index));
+  return visibility(at, map, shadow_options(index));
 }
 
 void main() {

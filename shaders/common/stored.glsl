@@ -9,7 +9,7 @@ layout(location = 0) uniform int map;
 float depth_at(ivec2 texel) {
   ivec2 size = textureSize(depth_map, 0).xy;
   bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
-  return inside ? texelFetch(depth_map, ivec3(texel, map), 0).r : 1.0;
+  return inside ? linear_depth(texelFetch(depth_map, ivec3(texel, map), 0).r, filtering.depth_curve[map].x) : 1.0;
 }
 
 float smaller_step(float before, float here, float after) {

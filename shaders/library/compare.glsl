@@ -10,6 +10,9 @@ float compare_2x2(sampler2DArray depth_map, ShadowLookup at, vec2 texel) {
   vec2 corner = floor(texel - 0.5) + 1.0;  // shared by the four texels
   vec2 right_top = texel - corner + 0.5;
   vec4 stored = textureGather(depth_map, vec3(corner / at.layer_size, at.layer));
+  if (at.depth_curve != 0.0) {
+    for (int i = 0; i < 4; ++i) stored[i] = linear_depth(stored[i], at.depth_curve);
+  }
   vec2 to_corner = corner - at.texel;
   // textureGather's order: (left, top), (right, top), (right, bottom), (left, bottom); top is the higher row.
   vec4 depth = vec4(plane_depth(at, to_corner + vec2(-0.5, 0.5)), plane_depth(at, to_corner + vec2(0.5, 0.5)),

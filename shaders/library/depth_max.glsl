@@ -10,7 +10,9 @@ float depth_max_in(sampler2DArray pyramid, ShadowLookup at, vec2 half_sides) {
   ivec2 low = clamp(ivec2(floor((at.texel - half_sides) / span)), ivec2(0), last);
   ivec2 high = clamp(ivec2(floor((at.texel + half_sides) / span)), ivec2(0), last);
   int layer = int(at.layer);
-  return max(max(texelFetch(pyramid, ivec3(low, layer), level).r, texelFetch(pyramid, ivec3(high, layer), level).r),
-             max(texelFetch(pyramid, ivec3(low.x, high.y, layer), level).r,
-                 texelFetch(pyramid, ivec3(high.x, low.y, layer), level).r));
+  float largest =
+      max(max(texelFetch(pyramid, ivec3(low, layer), level).r, texelFetch(pyramid, ivec3(high, layer), level).r),
+          max(texelFetch(pyramid, ivec3(low.x, high.y, layer), level).r,
+              texelFetch(pyramid, ivec3(high.x, low.y, layer), level).r));
+  return linear_depth(largest, at.depth_curve);
 }

@@ -8,6 +8,7 @@ struct ShadowTexel {
 struct ShadowLookup {
   vec2 texel;             // position; the centre of texel i is at i + 0.5
   float layer;
+  float depth_curve;      // map depths are read through linear_depth with it; 0: as they are
   float depth;            // of the receiver, 0 near the light .. 1, bias taken off
   vec2 depth_gradient;    // change of the receiver plane's depth per texel
   vec2 layer_size;        // texels of a layer along x and y
@@ -26,6 +27,10 @@ struct ShadowOptions {
   float rounding;  // of a number near 1
   bool unsigned_unit;  // only 0..1 can be stored
 };
+
+// A lamp's map has its depths as perspective leaves them, nearly all at the far end. With curve = far / near - 1 this makes
+// them even in distance, 0 near .. 1 far again; 0, for parallel light, leaves them.
+float linear_depth(float depth, float curve) { return depth / (1.0 + (1.0 - depth) * curve); }
 
 // From the receiver towards the light to where the map's depth is z, world units; negative behind the receiver.
 float distance_to_depth(ShadowLookup at, float z) {

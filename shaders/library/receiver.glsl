@@ -68,6 +68,17 @@ void set_kernel(inout ShadowLookup at, ShadowMap map, ShadowKernel kernel, mat2 
                                 kernel.in_world ? stored * stored / 3.0 : 0.0);
 }
 
+// The same question with depths as stored texels have them, even in distance along a lamp's rays.
+ShadowLookup stored_lookup(ShadowLookup at, ShadowMap map) {
+  float curve = map.kernel.w;
+  float depth = min(at.depth, 1.0);  // what lies beyond the far plane would pass the curve's pole
+  float scale = 1.0 + (1.0 - depth) * curve;
+  at.depth = linear_depth(depth, curve);
+  at.depth_gradient *= (1.0 + curve) / (scale * scale);
+  at.depth_curve = curve;
+  return at;
+}
+
 // `bias`: gnomon::BiasOptions, constant, slope, normal offset in texels of this map at this point, largest slope. The
 // kernel's reach needs none: filters follow the receiver's plane by its gradient. The plane's slope is capped, so that a
 // surface nearly along the light does not lose its shadows.
@@ -95,6 +106,7 @@ ShadowLookup shadow_lookup(ShadowMap map, float layer, vec2 layer_size, ShadowSu
   ShadowLookup at;
   at.texel = (p.ndc.xy * 0.5 + 0.5) * map.interval_size.zw;
   at.layer = layer;
+  at.depth_curve = 0.0;
   at.layer_size = layer_size;
   at.depth = p.ndc.z - along_light * bias_world - kDepthRounding;
   at.depth_gradient = vec2(dot(p.d_depth, side_x), dot(p.d_depth, side_y)) + along_light * rise;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 namespace gnomon::render {
 namespace {
@@ -71,6 +73,24 @@ void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& b
     block.options[map * kOptionVectors + i / 4][static_cast<int>(i % 4)] =
         static_cast<float>(settings.option[i]);
   }
+}
+
+double depth_curve(const ShadowPlan& plan, const ShadowMap& map) noexcept {
+  if (map.light_world.w == 0.0) return 0.0;
+  const glm::dmat4 world_from_gl_clip =
+      glm::inverse(map.clip_from_world) * clip_from_gl_clip(plan.clip_space);
+  const auto distance = [&](double z) {
+    const glm::dvec4 h = world_from_gl_clip * glm::dvec4(0.0, 0.0, z, 1.0);
+    return glm::length(glm::dvec3(h) / h.w - glm::dvec3(map.light_world));
+  };
+  const double near_distance = distance(-1.0), far_distance = distance(1.0);
+  const double curve = far_distance / near_distance - 1.0;
+  return std::isfinite(curve) ? std::max(curve, 0.0) : 0.0;
+}
+
+void set_depth_curves(const ShadowPlan& plan, FilterBlock& block) noexcept {
+  for (std::size_t i = 0; i < plan.maps().size(); ++i)
+    block.depth_curve[i].x = static_cast<float>(depth_curve(plan, plan.map[i]));
 }
 
 FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides) noexcept {

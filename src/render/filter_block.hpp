@@ -18,8 +18,9 @@ struct FilterBlock {
   std::array<glm::ivec4, kMaxMaps> reach;
   std::array<glm::vec4, kMaxMaps * kOptionVectors> options;
   std::array<glm::vec4, kMaxMaps * kTapVectors> weights;
+  std::array<glm::vec4, kMaxMaps> depth_curve;
 };
-static_assert(sizeof(FilterBlock) == 16 * (2 + kMaxMaps * (1 + kOptionVectors + kTapVectors)),
+static_assert(sizeof(FilterBlock) == 16 * (2 + kMaxMaps * (2 + kOptionVectors + kTapVectors)),
               "std140 has no padding here");
 
 /// Half the side of the box that each map's stored texels are blurred with, texels; 0: not blurred.
@@ -37,6 +38,15 @@ int tap_weights(BlurShape shape, double half_side, std::array<double, 4 * kTapVe
 /// Options of one map.
 void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& block) noexcept;
 /// With the same options for all maps.
+/// shaders/library/lookup.glsl: depths of a lamp's map made even in distance.
+[[nodiscard]] inline double linear_depth(double depth, double curve) noexcept {
+  return depth / (1.0 + (1.0 - depth) * curve);
+}
+/// The curve of a map: far over near distance less 1 along its middle ray for a lamp, 0 for parallel light.
+[[nodiscard]] double depth_curve(const ShadowPlan& plan, const ShadowMap& map) noexcept;
+void set_depth_curves(const ShadowPlan& plan, FilterBlock& block) noexcept;
+
+/// With no curve for any map.
 [[nodiscard]] FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides) noexcept;
 
 /// Vectors of four channels that a stored texel of these settings takes, 1 where nothing is stored.

@@ -72,6 +72,10 @@ void Renderer::Impl::adapt_filter(const FilterSettings& settings, FilterBlock& b
     const auto at = static_cast<std::size_t>(i);
     depths.resize(static_cast<std::size_t>(map_size[at].x) * static_cast<std::size_t>(map_size[at].y));
     read_depths(i, depths);
+    // As the layers will store them.
+    const double curve = block.depth_curve[at].x;
+    if (curve > 0.0)
+      for (float& depth : depths) depth = static_cast<float>(linear_depth(depth, curve));
     FilterSettings own = settings;
     settings.filter->adapt(own, depths);
     set_options(own, at, block);

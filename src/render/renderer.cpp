@@ -98,6 +98,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
 
   const BlurSides blur = blur_sides(filter.settings, plan);
   FilterBlock filtering = filter_block(filter.settings, blur);
+  set_depth_curves(plan, filtering);
   timed(Pass::shadow_maps, [&] {
     const FrameBlock block = frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur);
     glNamedBufferSubData(impl.frame_buffer.name(), 0, sizeof block, &block);

@@ -31,6 +31,7 @@ ShadowLookup question() {
   ShadowLookup at;
   at.texel = q.xy;
   at.layer = 1.0;
+  at.depth_curve = 0.0;
   at.depth = q.z;
   at.rotation = q.w;
   at.depth_gradient = texelFetch(gradients, pixel, 0).xy;
