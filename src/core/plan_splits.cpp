@@ -135,6 +135,12 @@ void choose_edges(PlanContext& c, const Polytope& body, std::span<double> edges)
   if (logarithmic && c.seen != nullptr) split_seen(*c.seen, cover, edges);
   // What is in view would move the edges of a stable plan, and with them its grids.
   if (scheme == SplitScheme::optimal && !c.stable) optimise_splits(c, body, edges);
+  // One visible depth is one slice: more of them would divide the safety round it. Over frames the number of
+  // maps must not come and go with one pixel.
+  const bool single = c.seen != nullptr && c.seen->min == c.seen->max && c.history == nullptr;
+  if (single && scheme != SplitScheme::given) {
+    for (double& edge : edges.subspan(1)) edge = cover.end;
+  }
   if (c.history != nullptr && !c.stable) steady_edges(*c.history, edges);
 }
 

@@ -144,7 +144,7 @@ void case_histograms(Check& check) {
   const CameraAxes axes = camera_axes(plain.camera);
   check.that(map_serving(with_one, plain.camera.position + axes.forward * 19.9, 19.9) >= 0,
              "and its depth is served");
-  check.note("maps for one pixel", with_one.map_count);
+  check.that(with_one.map_count == 1, "by one map");
   VisibleDepths wrong = one;
   wrong.min = kNan;
   plain.options.visible_depths = &wrong;

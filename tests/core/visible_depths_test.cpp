@@ -145,6 +145,25 @@ TEST(VisibleDepths, one_visible_pixel_gets_one_map_or_more_and_no_map_twice) {
   }
 }
 
+TEST(VisibleDepths, a_single_visible_depth_gets_a_single_map) {
+  for (const SplitScheme scheme : {SplitScheme::automatic, SplitScheme::uniform, SplitScheme::optimal}) {
+    Plain plain;
+    VisibleDepths depths;
+    depths.add(20.0);
+    depths.add(20.0);
+    plain.options.visible_depths = &depths;
+    plain.options.split = scheme;
+    const ShadowPlan plan = plain.plan();
+    ASSERT_EQ(plan.map_count, 1) << to_string(scheme);
+    EXPECT_LT(plan.map[0].depth_begin, 20.0);
+    EXPECT_GT(plan.map[0].depth_end, 20.0);
+    EXPECT_EQ(
+        std::count_if(plan.omitted().begin(), plan.omitted().end(),
+                      [](const Omission& o) { return o.kind == OmissionKind::cascade_without_receiver; }),
+        3);
+  }
+}
+
 TEST(VisibleDepths, nothing_visible_or_a_whole_range_asked_for_changes_nothing) {
   Plain plain;
   const ShadowPlan before = plain.plan();
