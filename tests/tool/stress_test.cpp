@@ -1,0 +1,70 @@
+// `gnomon stress` from outside: tables, JSON, CSV, files, and what it refuses.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "process.hpp"
+
+namespace gnomon::test {
+namespace {
+
+TEST(Stress, cases_are_a_table_of_32_that_hold) {
+  const Finished run = run_gnomon({"stress", "--cases"});
+  EXPECT_EQ(run.exit_code, 0) << run.err << run.out;
+  EXPECT_EQ(run.lines().size(), 34u);
+  EXPECT_EQ(run.out.find("| fails |"), std::string::npos);
+}
+
+TEST(Stress, an_axis_is_json_lines_with_a_row_per_value_and_variant) {
+  const Finished run = run_gnomon({"stress", "--axis", "cascades", "--scenes", "1", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  ASSERT_EQ(run.lines().size(), 50u);
+  int refused = 0;
+  for (const std::string& line : run.lines()) {
+    const nlohmann::json row = nlohmann::json::parse(line);
+    EXPECT_EQ(row["axis"], "cascades");
+    refused += row["used"] == "refused: options.cascades" ? 1 : 0;
+  }
+  EXPECT_EQ(refused, 10);
+}
+
+TEST(Stress, the_same_seed_says_the_same_and_another_does_not) {
+  const auto run = [](const char* seed) {
+    return run_gnomon({"stress", "--axis", "fov", "--samples", "3", "--seed", seed, "--csv"}).out;
+  };
+  const std::string first = run("1");
+  EXPECT_EQ(first, run("1"));
+  EXPECT_NE(first, run("2"));
+}
+
+TEST(Stress, files_are_whole_and_make_a_report) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "a/b").string();
+  const Finished run = run_gnomon({"stress", "--axis", "gap", "--samples", "4", "--out", out});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(out)) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"stability.csv", "stability.jsonl"}));
+}
+
+TEST(Stress, refuses_with_one_line) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("file", "");
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"stress", "--axis", "nonsense"},
+                                                    {"stress", "--samples", "1"},
+                                                    {"stress", "--cases", "--out", file + "/x"},
+                                                    {"stress", "--json", "--csv", "--cases"},
+                                                    {"stress", "--filters", "--context", "nonsense"}}) {
+    const Finished run = run_gnomon(arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments.back();
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(run.out, "");
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::test
