@@ -207,7 +207,7 @@ void case_pseudo_near(Check& check) {
       if (!warp->drop_without_gain) continue;
       const ShadowMap map = one_map(input, *warp, check);
       check.that(map.kappa >= 0.0, "the strength is not negative");
-      check.that(map.storage <= none.storage * (1.0 + 0.05), "no more texels than no warp");
+      check.that(map.storage <= none.storage * (1.0 + kRounding), "no more texels than no warp");
       if (hint >= 67.1) ratio = std::max(ratio, none.storage / map.storage);
     }
   }

@@ -36,7 +36,7 @@ void case_widest_view(Check& check) {
     const double none = one_map(input, warps::none, check).storage;
     for (const Warp* warp : all_warps()) {
       const ShadowMap map = one_map(input, *warp, check);
-      check.that(!warp->drop_without_gain || map.storage <= none * (1.0 + 0.05),
+      check.that(!warp->drop_without_gain || map.storage <= none * (1.0 + 1e-9),
                  "no more texels than no warp");
     }
   }
