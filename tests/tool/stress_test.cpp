@@ -40,7 +40,7 @@ TEST(Stress, the_same_seed_says_the_same_and_another_does_not) {
   EXPECT_NE(first, run("2"));
 }
 
-TEST(Stress, files_are_whole_and_make_a_report) {
+TEST(Stress, files_appear_whole_and_nothing_beside_them) {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "a/b").string();
   const Finished run = run_gnomon({"stress", "--axis", "gap", "--samples", "4", "--out", out});
