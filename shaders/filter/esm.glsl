@@ -23,15 +23,27 @@ void shadow_join(inout ShadowTexel sum, ShadowTexel texel, float weight, ShadowO
       largest + log(exp(c * (sum.v[0].x - largest)) + weight * exp(c * (texel.v[0].x - largest))) / c;
 }
 
+// ln(sinh(s) / s) for s >= 0: how far a plane's exponentials' mean lies above its middle's.
+float log_mean_over(float s) {
+  return s < 0.5 ? s * s * (1.0 / 6.0 - s * s / 180.0) : s + log((1.0 - exp(-2.0 * s)) / (2.0 * s));
+}
+
 float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DArray depth_max, ShadowLookup at,
                         ShadowOptions options) {
   const float kThreshold = 1.0, kLargestDepth = 2.0;
   float c = options.value[0], fallback = options.value[1], epsilon = options.value[2];
   float depth = min(at.depth, 1.0) - options.rounding;
-  float lit = exp(c * (texel.v[0].x - depth));
-  // The mean holds only where no texel of the kernel lies behind the receiver.
-  bool fails = fallback == kThreshold && lit > 1.0 + epsilon;
-  if (fallback == kLargestDepth) fails = depth + log(1.0 + epsilon) / c < depth_max_in(depth_max, at, at.box);
+  vec2 rise = abs(at.depth_gradient);
+  float log_lit = c * (texel.v[0].x - depth) - log_mean_over(c * rise.x * at.box.x) - log_mean_over(c * rise.y * at.box.y);
+  // The mean holds only where no texel of the kernel lies behind the receiver by more than slope bias and normal offset
+  // lift it off its plane, up to half a texel of its rise each.
+  float allowed = log(1.0 + epsilon) + c * (rise.x + rise.y);
+  bool fails = fallback == kThreshold && log_lit > allowed;
+  const float kPyramidReach = 5.0;  // of its texels from the point, in half sides of the kernel
+  if (fallback == kLargestDepth) {
+    fails = depth + allowed / c + kPyramidReach * dot(rise, at.box) < depth_max_in(depth_max, at, at.box);
+  }
   if (fails) return compare_2x2(depth_map, at, at.texel);
+  float lit = exp(log_lit);
   return lit < 1.0 ? max(lit, 0.0) : 1.0;
 }

@@ -1,30 +1,38 @@
 // Reads stored texels that only the filter's own shadow_join may put together, bilinear and over at.footprint where there
 // are mip-maps. The filter's file is included before this one.
-#include "library/lookup.glsl"
+#include "library/footprint.glsl"
 
-void join_2x2(inout ShadowTexel sum, sampler2DArray stored[GNOMON_SHADOW_VECTORS], ShadowLookup at, int level,
-              float share, ShadowOptions options) {
-  ivec2 last = textureSize(stored[0], level).xy - 1;
-  vec2 texel = at.texel / at.layer_size * vec2(last + 1) - 0.5;
-  ivec2 first = ivec2(floor(texel));
-  vec2 part = texel - vec2(first);
+// Texels are read at their centres, by place: software renderers take one level for four neighbouring pixels, and a texel
+// that is counted in another pixel's level may lie outside of this one.
+void join_2x2(inout ShadowTexel sum, sampler2DArray stored[GNOMON_SHADOW_VECTORS], vec3 place, int level, float share,
+              ShadowOptions options) {
+  vec2 size = vec2(textureSize(stored[0], level).xy);
+  vec2 texel = place.xy * size - 0.5;
+  vec2 first = floor(texel), part = texel - first;
   for (int corner = 0; corner < 4; ++corner) {
-    ivec2 step_to = ivec2(corner & 1, corner >> 1);
-    vec2 weight = mix(1.0 - part, part, vec2(step_to));
+    vec2 step_to = vec2(corner & 1, corner >> 1);
+    vec2 weight = mix(1.0 - part, part, step_to);
     if (weight.x * weight.y * share <= 0.0) continue;
+    vec2 centre = clamp(first + step_to, vec2(0.0), size - 1.0) + 0.5;
     ShadowTexel texel_at;
     for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) {
-      texel_at.v[i] = texelFetch(stored[i], ivec3(clamp(first + step_to, ivec2(0), last), int(at.layer)), level);
+      texel_at.v[i] = textureLod(stored[i], vec3(centre / size, place.z), float(level));
     }
     shadow_join(sum, texel_at, weight.x * weight.y * share, options);
   }
 }
 
-ShadowTexel fetch_joined(sampler2DArray stored[GNOMON_SHADOW_VECTORS], ShadowLookup at, ShadowOptions options) {
-  float longest = max(length(at.footprint[0]), length(at.footprint[1]));
-  float level = clamp(log2(max(longest, 1.0)), 0.0, float(textureQueryLevels(stored[0]) - 1));
+// `probes`: at most so many reads along a long footprint.
+ShadowTexel fetch_joined(sampler2DArray stored[GNOMON_SHADOW_VECTORS], ShadowLookup at, int probes,
+                         ShadowOptions options) {
+  FootprintReads reads = footprint_reads(at, probes);
+  float level = min(reads.level, float(textureQueryLevels(stored[0]) - 1)), share = 1.0 / float(reads.count);
   ShadowTexel sum = shadow_nothing(options);
-  join_2x2(sum, stored, at, int(level), 1.0 - fract(level), options);
-  if (fract(level) > 0.0) join_2x2(sum, stored, at, int(level) + 1, fract(level), options);
+  for (int read = 0; read < reads.count; ++read) {
+    vec2 texel = at.texel + (float(read) - 0.5 * float(reads.count - 1)) * reads.apart;
+    vec3 place = vec3(texel / at.layer_size, at.layer);
+    join_2x2(sum, stored, place, int(level), (1.0 - fract(level)) * share, options);
+    if (fract(level) > 0.0) join_2x2(sum, stored, place, int(level) + 1, fract(level) * share, options);
+  }
   return sum;
 }

@@ -102,4 +102,20 @@ Camera contact_camera(int width, int height) noexcept {
                             height);
 }
 
+Scene grating_scene() {
+  Scene scene;
+  scene.name = "grating";
+  scene.materials.emplace_back().double_sided = true;
+  add_quad(scene, {-15, 0, 5}, {30, 0, 0}, {0, 0, -30});
+  for (int i = 0; i < 48; ++i)
+    add_box(scene, {-15, 6, -25.0f + 0.6f * static_cast<float>(i)}, {30, 0.1f, 0.25f});
+  return scene;
+}
+
+Camera grating_camera(double distance, int width, int height) noexcept {
+  const glm::dvec3 target{0.0, 0.0, -8.0}, eye = target + distance * glm::dvec3(0.0, 3.0, 12.0);
+  return perspective_camera(eye, target - eye, {0, 1, 0}, 0.65, 1.0 * width / height, 0.5, 200.0, width,
+                            height);
+}
+
 }  // namespace gnomon::tool

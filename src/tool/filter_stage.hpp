@@ -38,5 +38,10 @@ class FilterStage {
 /// `bars`, a fence stands on the sun's side, and its shadow falls over the others'.
 [[nodiscard]] Scene contact_scene(bool bars);
 [[nodiscard]] Camera contact_camera(int width, int height) noexcept;
+/// Bars high over a long ground, across the view: stripes of shadow without a contact, thinner the farther
+/// off.
+[[nodiscard]] Scene grating_scene();
+/// Looks under the bars along the ground, from `distance` times as far off.
+[[nodiscard]] Camera grating_camera(double distance, int width, int height) noexcept;
 
 }  // namespace gnomon::tool

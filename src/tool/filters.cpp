@@ -158,7 +158,7 @@ int run_filters(const FiltersRequest& request) {
     }
     print_filter_cost(request);
   }
-  if (!request.gallery.empty()) write_filter_gallery(request.gallery);
+  if (!request.gallery.empty()) write_filter_gallery(request.gallery, request.scene);
   return 0;
 }
 

@@ -13,7 +13,7 @@ struct FiltersRequest {
   std::vector<std::string> filters{"all"};      ///< of the cost table
   std::vector<int> map_sizes{512, 1024, 2048};  ///< likewise
   int rounds = 3;                               ///< likewise
-  std::string scene = "builtin:fence";          ///< likewise
+  std::string scene = "builtin:fence";          ///< likewise, and of the gallery's last strip
   std::string context = "auto";
 };
 
@@ -22,7 +22,8 @@ int run_filters(const FiltersRequest& request);
 
 /// Prints a row for every filter, blur and map size, each against `hard` in the same interleaved rounds.
 void print_filter_cost(const FiltersRequest& request);
-/// Writes strips as PNG, and their numbers as gallery.md.
-void write_filter_gallery(const std::string& folder);
+/// Writes the papers' figures as strips in PNG, and their numbers as gallery.md; all filters on `scene` at
+/// the end.
+void write_filter_gallery(const std::string& folder, const std::string& scene);
 
 }  // namespace gnomon::tool

@@ -139,7 +139,7 @@ ShadowMap shadow_map(int index) { return engine.engine_maps[index]; }
     text += filter.reads == MapRead::summed
                 ? "layout(binding = 24) uniform usampler2DArray engine_stored;\n"
                 : "layout(binding = 24) uniform sampler2DArray engine_stored[GNOMON_SHADOW_VECTORS];\n";
-    const std::string more = filter.reads == MapRead::joined   ? ", options"
+    const std::string more = filter.reads == MapRead::joined   ? ", 16, options"
                              : filter.reads == MapRead::summed ? ", 1048576.0"
                                                                : ", 4";
     visible = "shadow_visibility(fetch_" + std::string(reads) + "(engine_stored, at" + more +

@@ -3,9 +3,16 @@
 // Kautz, "Exponential Shadow Maps", 2008; blurred in the logarithm: Salvi, "Rendering Filtered Shadows with
 // Exponential Shadow Maps", ShaderX6, 2008.
 //
+// Beyond the paper: over a slanted receiver the kernel's depths rise and fall, and their exponentials' mean
+// lies above that of the middle by sinh(s) / s, with s = c times half the rise: known, and divided out. What
+// the plan's bias lifts the receiver by is no failure, either. Else nearly all of a lit slope would count as
+// failed, and a mip-map's wide kernel be read as four texels.
+//
 // Shadows fade over ln(20) / c of the depth range in front of the receiver: contacts leak below that. The
 // mean is right only where no texel of the kernel lies behind the receiver; where one does, by either of the
 // paper's classifications, the four texels round the point are compared instead.
+#include <glm/common.hpp>
+
 #include "filter_parts.hpp"
 
 namespace gnomon::render {
@@ -51,13 +58,27 @@ void join(StoredTexel& sum, const StoredTexel& texel, double weight,
       largest + std::log(std::exp(c * (sum[0] - largest)) + weight * std::exp(c * (texel[0] - largest))) / c;
 }
 
+/// ln(sinh(s) / s) for s >= 0.
+double log_mean_over(double s) noexcept {
+  constexpr double kSeries = 0.5;  // below it the two terms are good to 6e-6
+  return s < kSeries ? s * s * (1.0 / 6.0 - s * s / 180.0)
+                     : s + std::log((1.0 - std::exp(-2.0 * s)) / (2.0 * s));
+}
+
 double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
   const double c = settings.option[0], fallback = settings.option[1], epsilon = settings.option[2];
   const double depth = std::min(lookup.depth, 1.0) - rounding_of(settings.format);
-  const double lit = std::exp(c * (texel[0] - depth));
-  bool fails = fallback == 1.0 && lit > 1.0 + epsilon;
-  if (fallback == 2.0) fails = depth + std::log(1.0 + epsilon) / c < lookup.depth_max;
-  return fails ? compare_2x2(lookup, lookup.position) : saturate(lit);
+  const glm::dvec2 rise = glm::abs(lookup.depth_gradient);
+  const double plane = log_mean_over(c * rise.x * lookup.box.x) + log_mean_over(c * rise.y * lookup.box.y);
+  const double log_lit = c * (texel[0] - depth) - plane;
+  // Slope bias and normal offset lift receivers off their plane by up to half a texel of its rise each.
+  const double allowed = std::log(1.0 + epsilon) + c * (rise.x + rise.y);
+  // The pyramid's texels reach less than five half sides of the kernel from the point.
+  constexpr double kPyramidReach = 5.0;
+  bool fails = fallback == 1.0 && log_lit > allowed;
+  if (fallback == 2.0)
+    fails = depth + allowed / c + kPyramidReach * glm::dot(rise, lookup.box) < lookup.depth_max;
+  return fails ? compare_2x2(lookup, lookup.position) : saturate(std::exp(log_lit));
 }
 
 }  // namespace

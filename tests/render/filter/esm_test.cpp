@@ -60,6 +60,26 @@ TEST(EsmFilter, compares_four_texels_where_a_texel_of_the_kernel_lies_behind_the
   EXPECT_NEAR(filters::esm.visibility(mean, lookup, settings_from("esm:fallback=1")), 0.5, 1e-12);
 }
 
+TEST(EsmFilter, lights_a_slanted_plane_by_its_own_mean_and_calls_it_no_failure) {
+  // A plane whose depths rise by 0.002 a texel under a kernel of 9 x 9: the mean is 1.08 of the middle's.
+  const FilterSettings settings = settings_from("esm:radius=4");
+  FilterLookup lookup;
+  lookup.map_depth = [](int, int) { return 0.0; };  // what a comparison would call dark
+  lookup.depth_gradient = {0.002, 0.0};
+  lookup.box = {4.5, 4.5};
+  for (const double lit_columns : {9.0, 4.0}) {
+    StoredTexel sum = filters::esm.nothing(settings);
+    for (int i = 0; i < 9; ++i) {
+      const double depth = i < lit_columns ? 0.5 + 0.002 * (i - 4) : 0.1;
+      filters::esm.join(sum, {depth}, 1.0 / 9.0, settings);
+    }
+    lookup.depth = 0.5;
+    const double lit = filters::esm.visibility(sum, lookup, settings);
+    // Of the columns those in front count less, by the plane's fall.
+    EXPECT_NEAR(lit, lit_columns / 9.0, lit_columns == 9.0 ? 0.01 : 0.2) << lit_columns;
+  }
+}
+
 TEST(EsmFilter, classifies_by_the_largest_depth_alike_on_gpu_and_cpu) {
   const TestMap map = random_map(40, 43, 21);
   const std::vector<Question> questions = random_questions(map, 512, 22, 6);

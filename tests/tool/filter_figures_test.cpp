@@ -1,0 +1,77 @@
+// Do small pictures of the gallery order the filters as the filters' papers do?
+#include <gtest/gtest.h>
+
+#include "filter_figures.hpp"
+#include "render/shared_context.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+constexpr FigureSize kSmall{100, 75, 1024, 512, 2048};
+
+TEST(FilterFigures, convolution_nears_the_truth_with_every_doubling_of_its_order) {
+  const Figure figure = convolution_orders(kSmall);
+  for (const char* way : {",attenuation=0", ",attenuation=0,offset=0,scale=2"}) {
+    double before = 1.0;
+    for (const int order : {1, 2, 4, 8, 16}) {
+      const double error = figure.value("convolution:radius=2,order=" + std::to_string(order) + way);
+      EXPECT_LT(error, before) << order << way;
+      before = error;
+    }
+    EXPECT_LT(before, 0.5 * figure.value(std::string("convolution:radius=2,order=1") + way)) << way;
+  }
+}
+
+TEST(FilterFigures, layers_and_warps_and_more_moments_bleed_less_than_two_moments) {
+  const Figure figure = bleeding_bars(kSmall);
+  constexpr std::size_t kLeaked = 1;
+  const double two_moments = figure.value("vsm:radius=2,bleed=0", kLeaked);
+  EXPECT_GT(two_moments, 0.01);
+  EXPECT_LT(figure.value("lvsm:radius=2,bleed=0,format=fp32", kLeaked), 0.8 * two_moments);
+  EXPECT_LT(figure.value("vsm:radius=2", kLeaked), two_moments);
+  EXPECT_LT(figure.value("lvsm:radius=2", kLeaked), figure.value("vsm:radius=2", kLeaked));
+  EXPECT_LT(figure.value("evsm4:radius=2", kLeaked), figure.value("vsm:radius=2", kLeaked));
+  EXPECT_LT(figure.value("msm:radius=2", kLeaked), figure.value("vsm:radius=2", kLeaked));
+}
+
+TEST(FilterFigures, prefiltered_maps_shrink_where_comparisons_alias) {
+  const Figure figure = minification(kSmall);
+  constexpr std::size_t kFar = 2;  // 4 times the distance
+  const double comparisons = figure.value("pcf:radius=1", kFar);
+  EXPECT_LT(comparisons, figure.value("hard", kFar));
+  EXPECT_LT(figure.value("vsm:radius=1,mipmap=1,anisotropy=16", kFar), 0.6 * comparisons);
+  EXPECT_LT(figure.value("convolution:radius=1,mipmap=1,anisotropy=16", kFar), 0.6 * comparisons);
+}
+
+TEST(FilterFigures, a_trilinear_read_of_esm_is_worth_many_samples_under_a_high_sun) {
+  const Figure figure = matching_samples(kSmall);
+  const double esm = figure.value("esm:radius=1,mipmap=1,fallback=0");
+  EXPECT_LT(esm, figure.value("pcf:pattern=1,radius=4,samples=1"));
+  EXPECT_LT(esm, figure.value("pcf:pattern=1,radius=4,samples=4"));
+}
+
+TEST(FilterFigures, esm_fails_on_few_pixels_and_on_more_the_wider_the_blur) {
+  const Figure figure = exponential_failures(kSmall);
+  for (const char* scene : {"builtin:fence, ", "builtin:trees, "}) {
+    for (const std::size_t classification : {0u, 1u}) {
+      EXPECT_LT(figure.value(scene + std::string("1x1"), classification),
+                figure.value(scene + std::string("7x7"), classification));
+      EXPECT_LT(figure.value(scene + std::string("7x7"), classification), 25.0) << scene;
+    }
+  }
+}
+
+TEST(FilterFigures, the_papers_power_law_closes_contacts_and_its_offset_serves_the_whole) {
+  constexpr std::size_t kLeaked = 1;
+  const Figure figure = contacts(kSmall);
+  EXPECT_LT(figure.value("power_cdf:radius=2,offset=0", kLeaked),
+            0.5 * figure.value("esm:radius=2", kLeaked));
+  EXPECT_LT(figure.value("power_cdf:radius=2"), figure.value("power_cdf:radius=2,offset=0"));
+}
+
+TEST(FilterFigures, esm_takes_an_eighth_of_convolutions_memory) {
+  EXPECT_EQ(memory_of_filters().value("esm, fp32", 1), 0.125);
+}
+
+}  // namespace
+}  // namespace gnomon::tool
