@@ -20,19 +20,25 @@ bool map_holds(ShadowMap map, vec3 position) {
   return map_spans(map, position, map.kernel.x - kRim) && z >= -kSlack * w && z <= (1.0 + kSlack) * w;
 }
 
-// Maps that follow each other in view depth. A gap between the depths of two maps is one that the plan left out because
-// no caster reaches it. A point that its own map does not hold goes to the next.
-int map_by_depth(vec3 position, float view_depth, int count) {
-  const float kSlack = 1e-5;  // of the interval: view depths are rounded to float on their way here
-  bool own = true;
+// The first map whose depths, widened by `slack` of themselves at both ends, hold this one.
+int map_at_depth(float view_depth, float slack, int count) {
   for (int i = 0; i < count; ++i) {
-    ShadowMap map = shadow_map(i);
-    vec2 interval = map.interval_size.xy;
-    float slack = kSlack * max(abs(interval.x), abs(interval.y));
-    if (view_depth > interval.y + slack) continue;
-    if (own && view_depth < interval.x - slack) return -1;
-    own = false;
-    if (map_spans(map, position, 0.0)) return i;
+    vec2 interval = shadow_map(i).interval_size.xy;
+    vec2 wider = interval + vec2(-slack, slack) * max(abs(interval.x), abs(interval.y));
+    if (view_depth >= wider.x && view_depth <= wider.y) return i;
+  }
+  return -1;
+}
+
+// Maps that follow each other in view depth, as gnomon::map_serving tells them apart: what no map holds belongs to one
+// that ends there but for rounding. A gap between the depths of two maps is one that the plan left out because no caster
+// reaches it. A point that its own map does not hold goes to the next.
+int map_by_depth(vec3 position, float view_depth, int count) {
+  const float kSlack = 1e-5;  // view depths are rounded to float on their way here
+  int own = map_at_depth(view_depth, 0.0, count);
+  if (own < 0) own = map_at_depth(view_depth, kSlack, count);
+  for (int i = own; i >= 0 && i < count; ++i) {
+    if (map_spans(shadow_map(i), position, 0.0)) return i;
   }
   return -1;
 }
