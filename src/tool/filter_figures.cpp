@@ -237,7 +237,13 @@ Figure one_scene(const std::string& scene, const FigureSize& size) {
     if (name != "pcf") filters.push_back(filter->has_kernel && name != "pcss" ? name + ":radius=2" : name);
   }
   FilterStage stage = scene_stage(scene);
-  compare(figure, stage, filters, along_path(stage, 0.3), size, size.wide_map);
+  // The flight goes round all of a scene; half its width shows the shadows.
+  const CameraOf closer = [path = along_path(stage, 0.3)](int width, int height) {
+    Camera camera = path(width, height);
+    for (double* edge : {&camera.left, &camera.right, &camera.bottom, &camera.top}) *edge *= 0.5;
+    return camera;
+  };
+  compare(figure, stage, filters, closer, size, size.wide_map);
   return figure;
 }
 

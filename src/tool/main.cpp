@@ -100,7 +100,8 @@ void add_filters(CLI::App& app, FiltersRequest& request) {
   filters->add_option("--map-sizes", request.map_sizes, "of the cost table: texels along each side of a map")
       ->check(CLI::Range(4, 16384));
   filters->add_option("--rounds", request.rounds, "of the cost table")->check(CLI::Range(1, 1000));
-  filters->add_option("--scene", request.scene, "of the cost table: builtin:NAME or a glTF file");
+  filters->add_option("--scene", request.scene,
+                      "of the cost table and the last strip: builtin:NAME or a glTF file");
   filters->add_flag("--json", request.json, "list and cost table as JSON");
   filters->add_option("--context", request.context, "auto, osmesa or egl");
 }
