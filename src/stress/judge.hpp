@@ -11,7 +11,7 @@
 namespace gnomon::stress {
 
 /// The largest of each over the maps of a plan, at the corners of what each map shows and at points between.
-/// Errors in texels; NaN where there was nothing to compare.
+/// Errors in texels; 0 where there is no map.
 struct Judgement {
   bool finite = true;  ///< every number of the plan
   /// Doubles, as a consumer evaluates them, against long double: the place of a point in the map (its
@@ -34,11 +34,11 @@ struct Judgement {
 /// Texels per unit of area across the light at a point; 0 behind the map's projection.
 [[nodiscard]] double texel_density(const ShadowMap& map, const glm::dvec3& point);
 
-/// True where every number of the plan is finite and every matrix invertible enough to have a place.
+/// True where every number of the plan is finite.
 [[nodiscard]] bool all_finite(const ShadowPlan& plan);
 
-/// What the toolkit did: the warps that were used, or what stood in for a map ("optimal", "none", "cube of
-/// 5", "nothing_visible", "refused: options.map_size").
+/// What the toolkit did: the warps that were used, or what stood in for a map ("optimal", "none", "cube, 5
+/// faces", "nothing_visible", "refused: options.map_size").
 [[nodiscard]] std::string used_by(const Input& input, const ShadowPlan& plan);
 /// What the plan left out, by kind, with how often: "warp without gain x2".
 [[nodiscard]] std::string left_out_of(const ShadowPlan& plan);

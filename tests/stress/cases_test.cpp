@@ -45,7 +45,7 @@ TEST(Cases, are_32_in_order) {
 TEST(Cases, one_that_fails_says_what_and_stays_failed) {
   const ExtremeCase wrong{0, "wrong", "", "", [](Check& check) {
                             check.that(1 + 1 == 2, "sums");
-                            check.that(1 + 1 == 3, "sums of another kind");
+                            for (const int sum : {3, 4}) check.that(1 + 1 == sum, "sums of another kind");
                             check.note("found", 2.0);
                           }};
   const CaseRow row = run_case(wrong);
