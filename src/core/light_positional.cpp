@@ -43,9 +43,14 @@ void clip_to_sides(Polytope& body, const LightFrustum& frustum) noexcept {
 void clip_to_distances(Polytope& body, const LightFrustum& frustum, double range) noexcept {
   Plane far_plane = distance_plane(frustum, range);
   clip(body, {-far_plane.normal, -far_plane.offset});
-  double farthest = 0.0;
-  for (const Polytope::Vertex& v : body.vertices()) farthest = max_of(farthest, frustum.distance(v.position));
-  if (!(farthest > 0.0)) {
+  double farthest = 0.0, offset = largest_component(frustum.apex);
+  for (const Polytope::Vertex& v : body.vertices()) {
+    farthest = max_of(farthest, frustum.distance(v.position));
+    offset = max_of(offset, largest_component(v.position));
+  }
+  // In the light's own plane, all but the rounding of positions: nothing there has a slope.
+  constexpr double kRounding = 1e-13;
+  if (!(farthest > kRounding * offset)) {
     body.vertex_count = 0;
     return;
   }

@@ -258,5 +258,28 @@ TEST(Positional, every_clip_space_holds_the_same_points) {
   }
 }
 
+// The first receiver lies in the light's own plane but for the last bits: nothing that a map could show.
+TEST(Positional, a_light_on_a_flat_receiver_gets_no_map_of_it) {
+  Room room;
+  room.camera.position = {-0.49999999576071913, -0.50878376816441961, -0.50878376816441961};
+  room.camera.forward = {0.045813742875781889, -0.99060848656401512, -0.12882518119941924};
+  room.camera.right = 0.8475183723942501;
+  room.camera.left = -room.camera.right;
+  room.camera.top = 1.084534040498436;
+  room.camera.bottom = -room.camera.top;
+  room.camera.near_depth = 0.0011605291092999966;
+  room.camera.far_depth = 0.25439188408220981;
+  room.receivers = {{{-0.51197452193473947, -0.53549334333114407, -0.5158044745110858},
+                     {-0.51197452193473947, -0.53526259944021126, -0.48875490949791656}},
+                    {{-0.50114086848282191, -0.51216782871902022, -0.50912950366157861},
+                     {-0.50111382691831052, -0.50803291721934307, -0.50721329361667578}}};
+  room.casters = {{{-0.6, -0.6, -0.6}, {-0.4, -0.4, -0.4}}};
+  room.point = {{-0.51197452193473947, -0.53537797138567766, -0.50227969200450118}, 0.5659484116335215};
+  const ShadowPlan plan = room.plan(room.point);
+  EXPECT_GT(plan.map_count, 0);
+  EXPECT_TRUE(finite(plan));
+  for (const ShadowMap& map : plan.maps()) EXPECT_GT(map.cascade, 1) << "a face towards +x or -x";
+}
+
 }  // namespace
 }  // namespace gnomon::test
