@@ -16,6 +16,7 @@
 #include "gnomon/omni.hpp"
 #include "gnomon/partition.hpp"
 #include "gnomon/plan.hpp"
+#include "gnomon/prune.hpp"
 #include "gnomon/reuse.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/split.hpp"

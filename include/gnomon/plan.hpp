@@ -20,6 +20,7 @@
 #include "gnomon/fit.hpp"
 #include "gnomon/light.hpp"
 #include "gnomon/partition.hpp"
+#include "gnomon/prune.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/split.hpp"
 #include "gnomon/visible_depths.hpp"
@@ -109,6 +110,13 @@ struct PlanOptions {
   BiasOptions bias;
   /// Clip space of the matrices given out.
   ClipSpace clip_space;
+  /// What may be left out: empty_cascades, casterless_cascades and metric_resolution are the plan's to
+  /// decide.
+  PruneRules prune;
+  /// PruneRule::metric_resolution makes maps smaller, in steps of kBudgetStep, while m_s_max and m_t_max
+  /// (screen pixels per texel, bounds over everything in view) stay at or below this; > 0. Larger: smaller
+  /// maps with texels that show. Never makes a map larger than map_size.
+  double prune_m = 1.0;
 };
 
 /// Sides of maps under PlanOptions::texel_budget are multiples of this: a tile that rasterizers like.
@@ -138,6 +146,7 @@ enum class OmissionKind : std::uint8_t {
   partition_in_stable_fit,  ///< another partition than view_depth was asked for, and Fit::stable takes none
   face_without_receiver,    ///< of a cube round the light: no visible receiver in it within range and cone
   face_without_caster,      ///< of a cube round the light: no caster between it and its receivers
+  resolution_without_gain,  ///< a smaller map meets PlanOptions::prune_m; a: bound of m before, b: with it
 };
 struct Omission {
   OmissionKind kind{};

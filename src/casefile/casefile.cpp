@@ -179,6 +179,8 @@ PlanOptions options_from(const json& value, std::vector<double>& given_splits) {
                        "stable_size_steps",
                        "filter_radius_texels",
                        "filter_radius_world",
+                       "prune",
+                       "prune_m",
                        "bias",
                        "clip_space"});
   PlanOptions options;
@@ -217,6 +219,9 @@ PlanOptions options_from(const json& value, std::vector<double>& given_splits) {
   fields.read("stable_size_steps", options.stable_size_steps);
   fields.read("filter_radius_texels", options.filter_radius_texels);
   fields.read("filter_radius_world", options.filter_radius_world);
+  read_name(fields, "prune", options.prune, "all, none, exact, or names of rules divided by commas",
+            parse_prune_rules);
+  fields.read("prune_m", options.prune_m);
   if (fields.has("bias")) options.bias = bias_from(fields.at("bias"));
   if (fields.has("clip_space")) options.clip_space = clip_space_from(fields.at("clip_space"));
   return options;
@@ -296,6 +301,7 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"options.stable_size_steps", "options.stable_size_steps: must lie in 1..1024"},
       {"options.given_splits", "options.given_splits: needs cascades - 1 depths, ascending"},
       {"options.target_m", "options.target_m: must not be below 0"},
+      {"options.prune_m", "options.prune_m: must be above 0"},
       {"options.texel_budget",
        "options.texel_budget: must be 0, or hold the least maps: 16 x 16, or four filter radii"},
       {"options.filter_radius_texels", "options.filter_radius_texels: must lie in 0..map_size/4"},

@@ -138,6 +138,12 @@ SweptBody sweep(const PlanContext& c, const Polytope& body, double margin_world)
   for (int i = 0; i < swept.plane_count; ++i) swept.plane[static_cast<std::size_t>(i)].offset += slack;
   swept.reach = casters_inside({swept.plane.data(), static_cast<std::size_t>(swept.plane_count)},
                                c.bounds.casters, c.camera.position, c.frame.z);
+  // A map that is laid for no caster at all is as deep as its receivers.
+  if (swept.reach.count == 0 && !c.options.prune.has(PruneRule::casterless_cascades)) {
+    swept.reach = {bounds_of(body), -std::numeric_limits<double>::infinity(), 1};
+    for (const Polytope::Vertex& v : body.vertices())
+      swept.reach.top = max_of(swept.reach.top, glm::dot(c.frame.z, v.position));
+  }
   return swept;
 }
 

@@ -61,6 +61,16 @@ bool lay_stable_map(const PlanContext& c, const Polytope& body, double begin, do
                            static_cast<double>(map.snap_key.depth_near - map.snap_key.depth_far) * step};
   map.depth_range_world = depths.height;
   finish_map(c, points, plane, swept, clip_from_light(plane, depths, 0.0) * light_from_relative(frame), map);
+  // Of the key alone: the same key, the same bits, and what was drawn stays as it is.
+  PlaneMap still = plane;
+  still.u_min = 0.0;
+  still.a_min = x - half;
+  still.a_max = x + half;
+  still.b_min = y - half;
+  still.b_max = y + half;
+  const LightDepths still_depths{static_cast<double>(map.snap_key.depth_far) * step, depths.height};
+  map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * clip_from_light(still, still_depths, 0.0) *
+                        light_from_relative(frame);
   return true;
 }
 

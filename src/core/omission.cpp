@@ -72,6 +72,10 @@ OmissionText describe(const Omission& o) noexcept {
       what("face %d", o.map);
       why("no caster lies between the light and the receivers in it");
       break;
+    case OmissionKind::resolution_without_gain:
+      what("texels of map %d", o.map);
+      why("a texel covers at most %.3g pixels at full size and %.3g at this one", o.a, o.b);
+      break;
   }
   return text;
 }

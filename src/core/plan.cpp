@@ -49,17 +49,23 @@ Polytope receivers_between(const PlanContext& c, const Polytope& body, double be
 /// `all` is the body of everything in view, [from, to] the depths between the neighbouring cascades.
 void plan_cascade(const PlanContext& c, const Polytope& all, int cascade, double from, double to,
                   MapSizes::Size size) noexcept {
-  const auto [begin, end] = seen_between(c, from, to);
+  auto [begin, end] = seen_between(c, from, to);
   // A single depth is a slice only where it is all there is.
   const bool covered = from == to && c.plan.map_count > 0;
   Polytope body;
   if (begin <= end && !covered) body = receivers_between(c, all, begin, end);
-  if (body.empty()) {
-    omit(c.plan, {OmissionKind::cascade_without_receiver, cascade, from, to, texels_of(c.options)});
-    return;
+  const bool holds_nothing = body.empty();
+  if (holds_nothing) {
+    if (c.options.prune.has(PruneRule::empty_cascades) || !(from < to)) {
+      omit(c.plan, {OmissionKind::cascade_without_receiver, cascade, from, to, texels_of(c.options)});
+      return;
+    }
+    body = frustum_slice(c.camera, c.axes, from, to);
+    begin = from;
+    end = to;
   }
   const double overlap = overlap_before(c, begin), low = begin - overlap;
-  if (overlap > 0.0) body = receivers_between(c, all, low, end);
+  if (overlap > 0.0 && !holds_nothing) body = receivers_between(c, all, low, end);
   ShadowMap& map = c.plan.map[static_cast<std::size_t>(c.plan.map_count)];
   map = ShadowMap{};
   map.cascade = cascade;
@@ -119,8 +125,8 @@ bool last_sizes_serve(const PlanHistory& history, const ShadowPlan& laid,
 }
 
 /// As many cascades, as large, as the target or the budget asks for. Errors go by 1 / size, so that maps of
-/// any other size tell: one trial for each number of cascades, and the plan itself.
-void plan_within(PlanContext& c, const Polytope& body) noexcept {
+/// any other size tell: one trial for each number of cascades, and the plan itself. Returns that number.
+int plan_within(PlanContext& c, const Polytope& body) noexcept {
   const PlanOptions& options = c.options;
   PlanHistory* const history = c.history;
   // Trials leave nothing to remember.
@@ -155,6 +161,28 @@ void plan_within(PlanContext& c, const Polytope& body) noexcept {
     sizes = last_sizes(*history, options);
   }
   plan_cascades(c, body, best, sizes);
+  return best;
+}
+
+/// The plan again with maps no larger than PlanOptions::prune_m needs.
+void prune_resolution(PlanContext& c, const Polytope& body, int cascades) noexcept {
+  const PlanOptions& options = c.options;
+  const bool free = options.fit == Fit::tight || options.fit == Fit::rotated;
+  if (!options.prune.has(PruneRule::metric_resolution) || !free || c.history != nullptr ||
+      options.texel_budget > 0)
+    return;
+  MapSizes sizes = equal_sizes(options.map_size);
+  if (!least_sizes(c.plan, options, options.prune_m, sizes)) return;
+  std::array<double, kMaxMaps> before{};
+  for (const ShadowMap& map : c.plan.maps())
+    before[static_cast<std::size_t>(map.cascade)] = max_of(map.m_s_max, map.m_t_max);
+  plan_cascades(c, body, cascades, sizes);
+  for (const ShadowMap& map : c.plan.maps()) {
+    const std::int64_t left_out = texels_of(options) - std::int64_t{map.width} * map.height;
+    if (left_out == 0) continue;
+    omit(c.plan, {OmissionKind::resolution_without_gain, map.cascade,
+                  before[static_cast<std::size_t>(map.cascade)], max_of(map.m_s_max, map.m_t_max), left_out});
+  }
 }
 
 /// A plan of one frame; `history` may be nullptr.
@@ -203,9 +231,10 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
     choose_edges(context, body, edges);
     plan_parts(context, body, edges[0], edges[1]);
   } else if (options.target_m > 0.0 || options.texel_budget > 0) {
-    plan_within(context, body);
+    prune_resolution(context, body, plan_within(context, body));
   } else {
     plan_cascades(context, body, options.cascades, equal_sizes(options.map_size));
+    prune_resolution(context, body, options.cascades);
   }
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
   return plan;

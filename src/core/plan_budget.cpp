@@ -85,6 +85,29 @@ MapSizes budgeted_sizes(const ShadowPlan& laid, const PlanOptions& options, int 
   return sizes_at(enough);
 }
 
+bool least_sizes(const ShadowPlan& laid, const PlanOptions& options, double m, MapSizes& sizes) noexcept {
+  const int least = least_budget_side(options);
+  bool any = false;
+  const auto least_side = [&](double texels, const Demand& demand, int full) {
+    // Room for the rim's rounding to whole texels.
+    constexpr double kRoom = 1.01;
+    const double wanted = kRoom * texels / m / (1.0 - demand.rim_share) + demand.rim_texels;
+    if (!(wanted < full)) return full;
+    const int steps = static_cast<int>(std::ceil(wanted / kBudgetStep));
+    const int size = steps * kBudgetStep > least ? steps * kBudgetStep : least;
+    any = any || size < full;
+    return size < full ? size : full;
+  };
+  // The rim of a kernel in world units is the same share of both sides.
+  const bool square = options.filter_radius_world > 0.0;
+  for (const ShadowMap& map : laid.maps()) {
+    const Demand demand = demand_of(map, options, square);
+    sizes.of[static_cast<std::size_t>(map.cascade)] = {least_side(demand.s, demand, map.width),
+                                                       least_side(demand.t, demand, map.height)};
+  }
+  return any;
+}
+
 double largest_error(const ShadowPlan& laid, const PlanOptions& options, const MapSizes& sizes) noexcept {
   double m = 0.0;
   for (const ShadowMap& map : laid.maps()) {

@@ -24,6 +24,11 @@ struct MapSizes {
 [[nodiscard]] MapSizes budgeted_sizes(const ShadowPlan& laid, const PlanOptions& options, int count,
                                       bool square) noexcept;
 
+/// The least sizes, in whole steps of kBudgetStep, that keep both bounds of m of every map laid at or below
+/// `m`; a side that has a larger bound stays as it is. True where any is smaller than the map it is for.
+[[nodiscard]] bool least_sizes(const ShadowPlan& laid, const PlanOptions& options, double m,
+                               MapSizes& sizes) noexcept;
+
 /// The largest bound of m over the plan's maps, were they of these sizes.
 [[nodiscard]] double largest_error(const ShadowPlan& laid, const PlanOptions& options,
                                    const MapSizes& sizes) noexcept;

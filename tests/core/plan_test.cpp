@@ -161,6 +161,7 @@ TEST(Plan, doubling_the_map_halves_the_error) {
   Case c = ground_case();
   c.options.filter_radius_texels = 0.0;
   c.options.warp = &warps::none;
+  c.options.prune = kPruneNothing;
   const MeasureGrid grid{16, 16, 32};
   const AliasingStats coarse = measure(c.plan(), c.camera, c.bounds(), grid);
   c.options.map_size = 2048;

@@ -62,6 +62,7 @@ TEST(WarpLaw, no_warp_that_may_be_dropped_makes_its_objective_worse_than_no_warp
     Case c = draw_single_receiver();
     RC_LOG() << c;
     c.options.warp = &warps::none;
+    c.options.prune = kPruneNothing;  // maps of one size
     const ShadowPlan uniform = c.plan();
     const AliasingStats without = measure(uniform, c.camera, c.bounds(), kGrid);
     if (without.samples < kEnough) return;

@@ -1,0 +1,71 @@
+// What may be left out of a frame: every rule by its name, with what it takes for granted and why nothing
+// (or how little) is lost. All are on unless switched off.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace gnomon {
+
+enum class PruneRule : std::uint8_t {
+#define GNOMON_PRUNE_RULE(name, certainty, what, premise, proof) name,
+#include "gnomon/prune_rules.def"
+#undef GNOMON_PRUNE_RULE
+};
+inline constexpr std::size_t kPruneRuleCount = 0
+#define GNOMON_PRUNE_RULE(name, certainty, what, premise, proof) +1
+#include "gnomon/prune_rules.def"
+#undef GNOMON_PRUNE_RULE
+    ;
+
+enum class PruneCertainty : std::uint8_t {
+  exact,    ///< the shadow mask is the same to the last bit
+  bounded,  ///< it may differ, by no more than PruneRuleInfo::proof says
+};
+
+struct PruneRuleInfo {
+  PruneRule rule{};
+  std::string_view name;
+  PruneCertainty certainty{};
+  std::string_view what;     ///< is left out
+  std::string_view premise;  ///< where this does not hold, the rule does nothing
+  std::string_view proof;    ///< that no pixel changes; of bounded rules: the bound
+};
+/// All rules, in the order in which a frame applies them.
+[[nodiscard]] std::span<const PruneRuleInfo, kPruneRuleCount> prune_rules() noexcept;
+
+/// Which of them are on.
+struct PruneRules {
+  static constexpr std::uint32_t kAll = (std::uint32_t{1} << kPruneRuleCount) - 1;
+  std::uint32_t bits = kAll;
+
+  [[nodiscard]] constexpr bool has(PruneRule rule) const noexcept {
+    return (bits >> static_cast<unsigned>(rule) & 1u) != 0;
+  }
+  [[nodiscard]] constexpr PruneRules with(PruneRule rule) const noexcept {
+    return {bits | (std::uint32_t{1} << static_cast<unsigned>(rule))};
+  }
+  [[nodiscard]] constexpr PruneRules without(PruneRule rule) const noexcept {
+    return {bits & ~(std::uint32_t{1} << static_cast<unsigned>(rule))};
+  }
+  bool operator==(const PruneRules&) const = default;
+};
+inline constexpr PruneRules kPruneNothing{0};
+/// The rules that change no bit of the mask.
+[[nodiscard]] PruneRules exact_prune_rules() noexcept;
+
+/// Reads "all", "none", "exact" or names divided by commas. False, and `rules` as they were, where a name is
+/// unknown.
+[[nodiscard]] bool parse_prune_rules(std::string_view text, PruneRules& rules) noexcept;
+
+/// What a rule left out of one frame.
+struct PruneSaving {
+  std::uint64_t texels = 0;     ///< of shadow maps, not drawn
+  std::uint64_t triangles = 0;  ///< not drawn into maps
+  std::uint64_t instances = 0;  ///< the same
+  std::uint64_t maps = 0;       ///< cascades left out, or maps that were not drawn at all
+};
+
+}  // namespace gnomon

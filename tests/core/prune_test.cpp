@@ -1,0 +1,140 @@
+// What does the plan leave out, and can each rule be switched off?
+#include "gnomon/prune.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gnomon/gnomon.hpp"
+
+namespace gnomon::test {
+namespace {
+
+/// Ground with a wall on it, and nothing in view between 12 and 80 units of depth.
+struct Valley {
+  Camera camera = perspective_camera({0, 4, 0}, {0, -0.2, -1}, {0, 1, 0}, 1.0, 1.5, 0.5, 400.0, 960, 640);
+  std::array<Box, 3> boxes{Box{{-8, -1, -12}, {8, 0, 0}}, Box{{-60, -60, -300}, {60, -59, -80}},
+                           Box{{-1, 0, -9}, {1, 2, -8}}};
+  DirectionalLight sun{{0.3, -1, -0.2}};
+  PlanOptions options;
+  [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, sun, {boxes, boxes}, options); }
+};
+
+TEST(Prune, rules_are_read_by_name) {
+  PruneRules rules = kPruneNothing;
+  EXPECT_TRUE(parse_prune_rules("all", rules));
+  EXPECT_EQ(rules, PruneRules{});
+  EXPECT_TRUE(parse_prune_rules("none", rules));
+  EXPECT_EQ(rules, kPruneNothing);
+  EXPECT_TRUE(parse_prune_rules("held_maps,swept_casters", rules));
+  EXPECT_EQ(rules, kPruneNothing.with(PruneRule::held_maps).with(PruneRule::swept_casters));
+  for (const char* wrong : {"", ",", "held_maps,", "held", "All", "held_maps swept_casters"}) {
+    EXPECT_FALSE(parse_prune_rules(wrong, rules)) << wrong;
+  }
+  EXPECT_TRUE(rules.has(PruneRule::held_maps)) << "a refused text changes nothing";
+}
+
+TEST(Prune, every_rule_says_what_it_takes_for_granted_and_why_nothing_is_lost) {
+  std::size_t at = 0;
+  for (const PruneRuleInfo& info : prune_rules()) {
+    EXPECT_EQ(static_cast<std::size_t>(info.rule), at++);
+    EXPECT_FALSE(info.name.empty() || info.what.empty() || info.premise.empty() || info.proof.empty());
+    PruneRules alone = kPruneNothing;
+    EXPECT_TRUE(parse_prune_rules(info.name, alone));
+    EXPECT_EQ(alone, kPruneNothing.with(info.rule));
+    EXPECT_EQ(exact_prune_rules().has(info.rule), info.certainty == PruneCertainty::exact);
+  }
+}
+
+TEST(Prune, a_cascade_without_receivers_is_laid_only_where_the_rule_is_off) {
+  Valley valley;
+  valley.options.split = SplitScheme::given;
+  const std::array splits{14.0, 70.0};
+  valley.options.given_splits = splits;
+  valley.options.cascades = 3;
+  const ShadowPlan pruned = valley.plan();
+  ASSERT_EQ(pruned.map_count, 2);
+  EXPECT_EQ(pruned.map[1].cascade, 2);
+  valley.options.prune =
+      valley.options.prune.without(PruneRule::empty_cascades).without(PruneRule::casterless_cascades);
+  const ShadowPlan full = valley.plan();
+  ASSERT_EQ(full.map_count, 3);
+  EXPECT_EQ(full.map[1].depth_begin, 14.0);
+  EXPECT_EQ(full.map[1].depth_end, 70.0);
+  for (const int same : {0, 2}) {
+    EXPECT_EQ(full.map[static_cast<std::size_t>(same)].clip_from_world,
+              pruned.map[same == 0 ? 0 : 1].clip_from_world);
+  }
+}
+
+TEST(Prune, a_cascade_without_casters_is_laid_only_where_the_rule_is_off) {
+  Valley valley;
+  const std::array<Box, 1> wall{valley.boxes[2]};
+  valley.options.cascades = 2;
+  const auto plan = [&] {
+    return make_plan(valley.camera, valley.sun, {wall, valley.boxes}, valley.options);
+  };
+  const ShadowPlan pruned = plan();
+  ASSERT_EQ(pruned.map_count, 1);
+  valley.options.prune = valley.options.prune.without(PruneRule::casterless_cascades);
+  const ShadowPlan full = plan();
+  ASSERT_EQ(full.map_count, 2);
+  for (const ShadowMap& map : full.maps()) {
+    for (int c = 0; c < 4; ++c)
+      for (int r = 0; r < 4; ++r) EXPECT_TRUE(std::isfinite(map.clip_from_world[c][r]));
+    EXPECT_GT(map.depth_range_world, 0.0);
+  }
+}
+
+TEST(Prune, maps_become_no_smaller_than_the_metric_allows_and_the_plan_says_by_how_much) {
+  Valley valley;
+  for (const double m : {0.5, 1.0, 4.0}) {
+    for (const int size : {512, 4096}) {
+      valley.options.map_size = size;
+      valley.options.prune_m = m;
+      valley.options.prune = PruneRules{};
+      const ShadowPlan pruned = valley.plan();
+      valley.options.prune = valley.options.prune.without(PruneRule::metric_resolution);
+      const ShadowPlan full = valley.plan();
+      ASSERT_EQ(pruned.map_count, full.map_count);
+      std::int64_t saved = 0, listed = 0;
+      for (int i = 0; i < full.map_count; ++i) {
+        const ShadowMap &a = full.map[static_cast<std::size_t>(i)],
+                        &b = pruned.map[static_cast<std::size_t>(i)];
+        saved += std::int64_t{a.width} * a.height - std::int64_t{b.width} * b.height;
+        EXPECT_LE(b.m_s_max, std::max(m, a.m_s_max * (1.0 + 1e-9))) << i;
+        EXPECT_LE(b.m_t_max, std::max(m, a.m_t_max * (1.0 + 1e-9))) << i;
+      }
+      for (const Omission& o : pruned.omitted())
+        if (o.kind == OmissionKind::resolution_without_gain) listed += o.saves_texels;
+      EXPECT_EQ(saved, listed);
+      if (size == 4096 && m >= 1.0) {
+        EXPECT_GT(saved, 0);
+      }
+    }
+  }
+}
+
+TEST(Prune, random_maps_meet_the_bound_that_made_them_smaller) {
+  int smaller = 0;
+  for (int i = 0; i < 300; ++i) {
+    Valley valley;
+    const double t = 0.01 * i;
+    valley.camera = perspective_camera({4.0 * std::sin(t), 1.0 + 3.0 * std::cos(7.0 * t), 2.0 * t},
+                                       {std::sin(2.0 * t), -0.3, -1.0}, {0, 1, 0}, 0.5 + 0.002 * i, 1.5, 0.2,
+                                       400.0, 640, 400);
+    valley.options.map_size = 2048;
+    for (const Omission& o : valley.plan().omitted()) {
+      if (o.kind != OmissionKind::resolution_without_gain) continue;
+      ++smaller;
+      // One side may have had more to begin with.
+      EXPECT_LE(o.b, std::max(1.0, o.a * (1.0 + 1e-9))) << i;
+    }
+  }
+  EXPECT_GT(smaller, 50);
+}
+
+}  // namespace
+}  // namespace gnomon::test
