@@ -12,7 +12,7 @@ layout(location = 1) out vec3 normal_out;
 layout(location = 2) out vec2 texcoord_out;
 
 void main() {
-  vec3 position = camera_relative_from_object(object_index, position_object);
+  vec3 position = relative_from_object(object_index, position_object);
   gl_Position = frame.clip_from_camera_relative * vec4(position, 1.0);
   position_out = position;
   normal_out = world_normal_from_object(object_index, normal_object);

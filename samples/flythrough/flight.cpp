@@ -135,10 +135,11 @@ FrameRow draw_frame(Studio& studio, int frame) {
   gnomon::render::FrameOptions drawn;
   drawn.transition = options.transition;
   drawn.light = &light;
+  drawn.prune = options.prune;
   row.stats = studio.renderer.draw(timed.plan, camera, studio.filter, drawn);
   row.aliasing = pixel_aliasing(studio.renderer.aliasing());
   row.warps = warps_text(timed.plan);
-  row.omitted = omitted_text(timed.plan);
+  row.omitted = omitted_text(timed.plan, row.stats);
 
   const Image lit = studio.renderer.image();
   Image heat = studio.renderer.heat_map(), tint = studio.renderer.cascade_tint();

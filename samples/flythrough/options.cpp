@@ -36,6 +36,7 @@ struct Raw {
               path, light = "sun";
   std::string cost_model;
   std::string fit = "tight", resolution = "given", transition = "cut";
+  std::string prune = "all";
   bool stable = false, lambda_given = false;
   std::vector<std::string> compared_warps;
 };
@@ -131,6 +132,16 @@ void resolve(const Raw& raw, Options& options) {
   // A warped grid can only stand still from frame to frame.
   if (options.plan.fit == gnomon::Fit::warped_stable) options.history = true;
   gnomon::render::set_margin(options.filter, options.plan);
+  if (!gnomon::parse_prune_rules(raw.prune, options.prune)) {
+    std::string names;
+    for (const gnomon::PruneRuleInfo& rule : gnomon::prune_rules()) names += fmt::format(", {}", rule.name);
+    throw UsageError(fmt::format("--prune {}: wants all, exact, none, or a list of rules without spaces{}",
+                                 raw.prune, names));
+  }
+  options.plan.prune = options.prune;
+  // Whoever asks for texels that the filter hides may want more of them than the metric.
+  if (raw.resolution == "perceptual")
+    options.plan.prune = options.plan.prune.without(gnomon::PruneRule::metric_resolution);
   resolve_resolution(raw, options);
   resolve_transition(raw, options);
   resolve_budget(raw, options);
@@ -141,6 +152,13 @@ std::string scene_help() {
   std::string text = "glTF file (.gltf, .glb) or one of";
   for (const gnomon::BuiltinScene& scene : gnomon::builtin_scenes())
     text += fmt::format(" builtin:{}", scene.name);
+  return text;
+}
+
+std::string prune_help() {
+  std::string text;
+  for (const gnomon::PruneRuleInfo& rule : gnomon::prune_rules())
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", rule.name, rule.what);
   return text;
 }
 
@@ -198,6 +216,8 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
                "let texels change smoothly from frame to frame; for flights of many frames");
   app.add_flag("--visible-depths", options.visible_depths,
                "draw each frame twice and plan the second for the depths that the first one shows");
+  app.add_option("--prune", raw.prune,
+                 "what may be left out: all, exact, none, or RULE,.. of " + prune_help());
   app.add_option("--light", raw.light, "sun, or a spot or point light in the middle of the scene");
   app.add_option("--light-elevation-deg", options.light.elevation_deg, "of the sun above the horizon")
       ->check(CLI::Range(0.1, 90.0));

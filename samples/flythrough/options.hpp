@@ -50,6 +50,8 @@ struct Options {
   /// Every frame is drawn twice: the first tells which depths show a surface, the second's maps cover those.
   bool visible_depths = false;
   gnomon::LightPlacement light;
+  /// What may be left out, of plans and of drawing.
+  gnomon::PruneRules prune;
   std::optional<std::filesystem::path> path;
   /// Maps that take more together are halved until they fit, with a warning; 0: as much as there is.
   double map_memory_mib = 0.0;

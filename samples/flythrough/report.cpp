@@ -30,7 +30,9 @@ std::string header(int cascades, bool software) {
   line += "maps,texels,m_p50,m_p95,m_max,share_undersampled,pixels_measured,camera_triangles,camera_draws,";
   for (int i = 0; i < cascades; ++i)
     line += fmt::format("map{0}_triangles,map{0}_draws,map{0}_instances,", i);
-  return line + "warps,omitted\n";
+  for (const gnomon::PruneRuleInfo& rule : gnomon::prune_rules())
+    line += fmt::format("{0}_saved_texels,{0}_saved_triangles,", rule.name);
+  return line + "prefilter_passes,warps,omitted\n";
 }
 
 std::string line_of(const FrameRow& row, int cascades) {
@@ -45,6 +47,9 @@ std::string line_of(const FrameRow& row, int cascades) {
     line +=
         i < row.stats.map_count ? fmt::format("{},{},{},", map.triangles, map.draws, map.instances) : ",,,";
   }
+  for (const gnomon::PruneSaving& saved : row.stats.saved)
+    line += fmt::format("{},{},", saved.texels, saved.triangles);
+  line += fmt::format("{},", row.stats.prefilter_passes);
   return line + csv_field(row.warps) + "," + csv_field(row.omitted) + "\n";
 }
 
@@ -82,11 +87,18 @@ std::string warps_text(const gnomon::ShadowPlan& plan) {
   return text;
 }
 
-std::string omitted_text(const gnomon::ShadowPlan& plan) {
+std::string omitted_text(const gnomon::ShadowPlan& plan, const gnomon::render::FrameStats& stats) {
   std::string text;
   for (const gnomon::Omission& omission : plan.omitted()) {
     const gnomon::OmissionText words = describe(omission);
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", words.what.data(), words.why.data());
+  }
+  for (const gnomon::PruneRuleInfo& rule : gnomon::prune_rules()) {
+    const gnomon::PruneSaving& saved = stats.saved[static_cast<std::size_t>(rule.rule)];
+    const bool of_plan = rule.rule <= gnomon::PruneRule::metric_resolution;
+    if (of_plan || (saved.instances == 0 && saved.texels == 0)) continue;
+    text += fmt::format("{}{}: {} instances, {} triangles, {} texels", text.empty() ? "" : "; ", rule.what,
+                        saved.instances, saved.triangles, saved.texels);
   }
   return text;
 }

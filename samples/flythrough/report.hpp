@@ -31,7 +31,8 @@ struct FrameRow {
 
 /// Names and strengths of the maps' warps, and the plan's omissions, as text for a row.
 [[nodiscard]] std::string warps_text(const gnomon::ShadowPlan& plan);
-[[nodiscard]] std::string omitted_text(const gnomon::ShadowPlan& plan);
+[[nodiscard]] std::string omitted_text(const gnomon::ShadowPlan& plan,
+                                       const gnomon::render::FrameStats& stats);
 
 /// Writes the table with columns for `cascades` maps: beside the target first, then renamed. Throws
 /// std::runtime_error.

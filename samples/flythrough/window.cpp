@@ -181,6 +181,7 @@ void draw(Viewer& viewer, double seconds) {
   frame.time_passes = false;
   const gnomon::Light light = gnomon::default_light(viewer.options.light, viewer.flight.scene.bounds_world);
   frame.light = &light;
+  frame.prune = viewer.options.prune;
   frame.aliasing = frame.heat_map = viewer.picture == Renderer::Picture::heat_map;
   frame.cascade_tint = viewer.picture == Renderer::Picture::cascade_tint;
   viewer.renderer.draw(plan, camera, viewer.renderer.prepare(viewer.options.filter), frame);

@@ -1,10 +1,10 @@
-// Where the objects stand: affine matrices in rows, relative to the camera position.
+// Where the objects stand: affine matrices in rows, relative to the camera or to the origin that maps are drawn from.
 struct Object {
   vec4 row[3];
 };
 layout(std430, binding = 0) readonly buffer Objects { Object objects[]; };
 
-vec3 camera_relative_from_object(uint index, vec3 position) {
+vec3 relative_from_object(uint index, vec3 position) {
   vec4 p = vec4(position, 1.0);
   return vec3(dot(objects[index].row[0], p), dot(objects[index].row[1], p), dot(objects[index].row[2], p));
 }

@@ -46,30 +46,31 @@ bool wholly_outside(const Box& box, const glm::dvec3& origin, const ViewPlane& p
 }  // namespace
 
 DrawLists::DrawLists(const SceneBuffers& scene)
-    : scene_(scene), culled_(scene.order().size()), visible_(scene.order().size()) {
+    : scene_(scene), culling_(scene), visible_(scene.order().size()) {
   commands_.reserve(scene.order().size());
   objects_.reserve(scene.order().size() * 2);
 }
 
-void DrawLists::build(const ShadowPlan& plan, const Camera& camera) {
+void DrawLists::build(const CullingJob& job, const Camera& camera) {
   objects_.clear();
   commands_.clear();
   ranges_.clear();
+  culling_.begin(job);
   for (std::size_t v = 0; v < kMaxMaps; ++v) {
     stats_[v] = {};
     first_range_[v] = ranges_.size();
-    if (v >= plan.maps().size()) continue;
-    const std::size_t count = cull_casters(plan.map[v], scene_.boxes(), culled_);
-    std::fill(visible_.begin(), visible_.end(), std::uint8_t{0});
-    for (std::size_t i = 0; i < std::min(count, culled_.size()); ++i) visible_[culled_[i]] = 1;
-    add_view(v);
-    stats_[v].texels =
-        static_cast<std::uint64_t>(plan.map[v].width) * static_cast<std::uint64_t>(plan.map[v].height);
+    if (v >= job.plan.maps().size()) continue;
+    const MapWork work = culling_.choose(job, v);
+    add_view(v, work.draws);
+    adds_[v] = !work.clear;
+    stats_[v].texels = work.texels;
+    stats_[v].held = !work.clear && stats_[v].instances == 0;
   }
+  saved_ = culling_.saved();
   first_range_[kCameraView] = ranges_.size();
   stats_[kCameraView] = {};
   mark_visible(camera);
-  add_view(kCameraView);
+  add_view(kCameraView, visible_);
   stats_[kCameraView].texels =
       static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
   first_range_[kCameraView + 1] = ranges_.size();
@@ -89,7 +90,7 @@ void DrawLists::mark_visible(const Camera& camera) {
   }
 }
 
-void DrawLists::add_view(std::size_t v) {
+void DrawLists::add_view(std::size_t v, std::span<const std::uint8_t> draws) {
   MapStats& stats = stats_[v];
   const std::span<const Batch> batches = scene_.batches();
   for (std::uint32_t b = 0; b < batches.size(); ++b) {
@@ -97,7 +98,7 @@ void DrawLists::add_view(std::size_t v) {
     std::uint32_t previous = ~0u;
     for (std::uint32_t n = batches[b].begin; n < batches[b].end; ++n) {
       const std::uint32_t instance = scene_.order()[n];
-      if (visible_[instance] == 0) continue;
+      if (draws[instance] == 0) continue;
       const Primitive& primitive = scene_.primitive_of(instance);
       if (scene_.primitive_index(instance) != previous) {
         previous = scene_.primitive_index(instance);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "caster_culling.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/renderer.hpp"
@@ -25,7 +26,9 @@ class DrawLists {
   explicit DrawLists(const SceneBuffers& scene);
 
   /// Rebuilds and uploads everything for this frame.
-  void build(const ShadowPlan& plan, const Camera& camera);
+  void build(const CullingJob& job, const Camera& camera);
+  /// What the maps hold is gone: the next build() draws them whole.
+  void forget_maps() noexcept { culling_.forget(); }
 
   [[nodiscard]] std::span<const BatchRange> map(int index) const noexcept {
     return view(static_cast<std::size_t>(index));
@@ -34,6 +37,9 @@ class DrawLists {
   [[nodiscard]] const MapStats& map_stats(int index) const noexcept {
     return stats_[static_cast<std::size_t>(index)];
   }
+  /// Whether the map is drawn on top of what it holds.
+  [[nodiscard]] bool adds_to(int index) const noexcept { return adds_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] const std::array<PruneSaving, kPruneRuleCount>& saved() const noexcept { return saved_; }
   [[nodiscard]] const MapStats& camera_stats() const noexcept { return stats_[kCameraView]; }
 
   /// Draws commands [begin, end) with the state that is bound.
@@ -44,11 +50,13 @@ class DrawLists {
   [[nodiscard]] std::span<const BatchRange> view(std::size_t v) const noexcept {
     return {ranges_.data() + first_range_[v], first_range_[v + 1] - first_range_[v]};
   }
-  void add_view(std::size_t v);
+  void add_view(std::size_t v, std::span<const std::uint8_t> draws);
   void mark_visible(const Camera& camera);
 
   const SceneBuffers& scene_;
-  std::vector<std::uint32_t> culled_;   ///< scratch: what cull_casters answers
+  CasterCulling culling_;
+  std::array<PruneSaving, kPruneRuleCount> saved_{};
+  std::array<bool, kMaxMaps> adds_{};
   std::vector<std::uint8_t> visible_;   ///< scratch: by instance
   std::vector<std::uint32_t> objects_;  ///< object of each drawn instance, all views one after the other
   std::vector<DrawCommand> commands_;

@@ -9,7 +9,7 @@ namespace gnomon::render {
 namespace {
 
 // Bindings and locations as the shaders state them.
-constexpr GLint kMapLocation = 0, kBaseColorLocation = 1, kAlphaCutoffLocation = 2;
+constexpr GLint kBaseColorLocation = 1, kAlphaCutoffLocation = 2, kClipLocation = 3;
 constexpr GLuint kPositionUnit = 0, kNormalUnit = 1, kAlbedoUnit = 2, kColorImageUnit = 3, kMaskUnit = 6,
                  kExtraUnit = 7;
 
@@ -31,33 +31,36 @@ CommonPrograms::CommonPrograms()
       heat(make_program("fullscreen.vert", "heat.frag")),
       tint(make_program("fullscreen.vert", "tint.frag")) {}
 
-void Renderer::Impl::draw_shadow_maps(const ShadowPlan& plan) noexcept {
+void Renderer::Impl::draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept {
   const std::span<const Batch> batches = scene.batches();
   glBindVertexArray(scene.vertex_array());
+  scene.use(SceneBuffers::Placed::for_maps);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   // Both sides cast: open and thin things have one side only, and the truth knows no sides.
   glDisable(GL_CULL_FACE);
-  for (int i = 0; i < plan.map_count; ++i) {
-    const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
+  for (int i = 0; i < map_count; ++i) {
+    if (lists.map_stats(i).held) continue;
+    const DrawnMap& map = drawn.map[static_cast<std::size_t>(i)];
     glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0, i);
     glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
     glViewport(0, 0, map.width, map.height);
     constexpr float kFarthest = 1.0f;
-    glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest);
+    if (!lists.adds_to(i)) glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest);
     // Opaque batches come first in the order of batches, and their commands follow each other: one call draws
     // them.
     const std::span<const BatchRange> ranges = lists.map(i);
     std::size_t opaque = 0;
-    while (opaque < ranges.size() && !batches[ranges[opaque].batch].masked) ++opaque;
+    while (alpha_test_where_masked && opaque < ranges.size() && !batches[ranges[opaque].batch].masked)
+      ++opaque;
     if (opaque > 0) {
       glUseProgram(programs.depth.name());
-      glUniform1i(kMapLocation, i);
+      glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
       lists.draw(ranges.front().begin, ranges[opaque - 1].end);
     }
     if (opaque == ranges.size()) continue;
     glUseProgram(programs.depth_masked.name());
-    glUniform1i(kMapLocation, i);
+    glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
     for (const BatchRange& range : ranges.subspan(opaque)) {
       bind_material(batches[range.batch]);
       lists.draw(range.begin, range.end);
@@ -92,6 +95,7 @@ void Renderer::Impl::prefilter(const ShadowPlan& plan, const PreparedFilter& fil
   job.layer_height = maps.height;
   job.map_size = {map_size.data(), static_cast<std::size_t>(plan.map_count)};
   job.mipmaps = wants_mipmaps(filter.settings, plan);
+  for (int i = 0; i < plan.map_count; ++i) job.held[static_cast<std::size_t>(i)] = lists.map_stats(i).held;
   stored.build(filter_programs[filter.program], filter.settings, block, job);
 }
 
@@ -107,6 +111,7 @@ void Renderer::Impl::draw_surfaces() noexcept {
   glDepthFunc(GL_GREATER);
   glEnable(GL_FRAMEBUFFER_SRGB);
   glBindVertexArray(scene.vertex_array());
+  scene.use(SceneBuffers::Placed::for_camera);
   glUseProgram(programs.surfaces.name());
   const std::span<const Batch> batches = scene.batches();
   for (const BatchRange& range : lists.camera()) {

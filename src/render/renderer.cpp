@@ -20,6 +20,13 @@ void GLAD_API_PTR report_gl_error(GLenum, GLenum type, GLuint, GLenum, GLsizei, 
   if (type == GL_DEBUG_TYPE_ERROR) std::fprintf(stderr, "OpenGL: %s\n", message);
 }
 
+/// Averages over a pixel's footprint, and pyramids of depths, know no margin.
+bool reads_everywhere(const FilterSettings& settings, const ShadowPlan& plan) noexcept {
+  const Filter& filter = *settings.filter;
+  return wants_mipmaps(settings, plan) ||
+         (filter.needs_depth_max != nullptr && filter.needs_depth_max(settings));
+}
+
 }  // namespace
 
 std::string_view to_string(Pass pass) noexcept {
@@ -63,6 +70,25 @@ Renderer::Renderer(const Scene& scene) {
 
 Renderer::~Renderer() = default;
 
+void Renderer::Impl::fit_maps(const ShadowPlan& plan) {
+  int width = 1, height = 1;
+  bool alike = true;
+  map_count = plan.map_count;
+  for (std::size_t i = 0; i < plan.maps().size(); ++i) {
+    map_size[i] = glm::ivec2(plan.map[i].width, plan.map[i].height);
+    alike = alike && map_size[i] == map_size[0] && map_size[i].x == map_size[i].y;
+    width = std::max(width, plan.map[i].width);
+    height = std::max(height, plan.map[i].height);
+  }
+  // Sizes that follow the view differ by little from frame to frame: new images for all of that would cost
+  // more than the texels.
+  constexpr int kLayerStep = 256;
+  const auto layer = [alike](int side) {
+    return alike ? side : (side + kLayerStep - 1) / kLayerStep * kLayerStep;
+  };
+  if (maps.fit(layer(width), layer(height), std::max(plan.map_count, 1))) lists.forget_maps();
+}
+
 PreparedFilter Renderer::prepare(const FilterSettings& settings) {
   auto& known = impl_->filter_programs;
   const auto found = std::find_if(known.begin(), known.end(), [&](const FilterPrograms& p) {
@@ -87,15 +113,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   };
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   impl.targets.resize(camera.width, camera.height);
-  int width = 1, height = 1;
-  impl.map_count = plan.map_count;
-  for (std::size_t i = 0; i < plan.maps().size(); ++i) {
-    impl.map_size[i] = glm::ivec2(plan.map[i].width, plan.map[i].height);
-    width = std::max(width, plan.map[i].width);
-    height = std::max(height, plan.map[i].height);
-  }
-  impl.maps.fit(width, height, std::max(plan.map_count, 1));
-
+  impl.fit_maps(plan);
   const BlurSides blur = blur_sides(filter.settings, plan);
   FilterBlock filtering = filter_block(filter.settings, blur);
   set_depth_curves(plan, filtering);
@@ -105,9 +123,13 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, impl.frame_buffer.name());
     glNamedBufferSubData(impl.filter_buffer.name(), 0, sizeof filtering, &filtering);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFilterBinding, impl.filter_buffer.name());
-    impl.scene.place(camera.position);
-    impl.lists.build(plan, camera);
-    impl.draw_shadow_maps(plan);
+    const DrawnMaps drawn = drawn_maps(plan, camera.position, impl.scene.origin_step());
+    impl.scene.place(SceneBuffers::Placed::for_camera, camera.position);
+    impl.scene.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
+    impl.lists.build(
+        {plan, drawn, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan)},
+        camera);
+    impl.draw_shadow_maps(drawn, options.prune.has(PruneRule::alpha_test));
   });
   timed(Pass::prefilter, [&] { impl.prefilter(plan, filter, filtering); });
   timed(Pass::surfaces, [&] { impl.draw_surfaces(); });
@@ -122,6 +144,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     stats.map[static_cast<std::size_t>(i)] = impl.lists.map_stats(i);
     stats.texels += impl.lists.map_stats(i).texels;
   }
+  stats.saved = impl.lists.saved();
   stats.camera = impl.lists.camera_stats();
   stats.prefilter_passes = impl.stored.passes();
   stats.map_bytes = impl.maps.bytes() + impl.stored.bytes();

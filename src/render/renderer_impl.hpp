@@ -23,7 +23,8 @@ struct CommonPrograms {
 struct Renderer::Impl {
   explicit Impl(const Scene& scene);
 
-  void draw_shadow_maps(const ShadowPlan& plan) noexcept;
+  void fit_maps(const ShadowPlan& plan);
+  void draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept;
   /// `block`: with the options that the filter chooses for each map, on return.
   void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block) noexcept;
   void adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <tuple>
 
@@ -73,7 +75,15 @@ SceneBuffers::SceneBuffers(const Scene& scene)
   upload_vertices(scene);
   upload_images(scene);
   make_batches(scene);
-  object_buffer_ = filled_buffer(objects_);
+  for (Placement& placement : placement_) placement.buffer = filled_buffer(objects_);
+  Box all;
+  for (const Box& box : boxes_) {
+    if (!box.empty()) all.extend(box);
+  }
+  const double diagonal = all.empty() ? 0.0 : glm::length(all.max - all.min);
+  constexpr int kStepsPerDiagonal = 4;  // as a power of two
+  if (diagonal > 0.0 && std::isfinite(diagonal))
+    origin_step_ = std::ldexp(1.0, std::ilogb(diagonal) - kStepsPerDiagonal);
 }
 
 void SceneBuffers::upload_vertices(const Scene& scene) {
@@ -165,14 +175,21 @@ void SceneBuffers::make_batches(const Scene& scene) {
   }
 }
 
-void SceneBuffers::place(const glm::dvec3& origin_world) {
+void SceneBuffers::place(Placed placed, const glm::dvec3& origin_world) {
+  Placement& placement = placement_[static_cast<std::size_t>(placed)];
+  if (placement.origin_world == origin_world) return;
+  placement.origin_world = origin_world;
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     const glm::dvec3 relative = translation_[i] - origin_world;
     for (int r = 0; r < 3; ++r) objects_[i].row[r].value[3] = static_cast<float>(relative[r]);
   }
-  glNamedBufferSubData(object_buffer_.name(), 0, static_cast<GLsizeiptr>(objects_.size() * sizeof(Object)),
+  glNamedBufferSubData(placement.buffer.name(), 0, static_cast<GLsizeiptr>(objects_.size() * sizeof(Object)),
                        objects_.data());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kObjectsBinding, object_buffer_.name());
+}
+
+void SceneBuffers::use(Placed placed) const noexcept {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kObjectsBinding,
+                   placement_[static_cast<std::size_t>(placed)].buffer.name());
 }
 
 }  // namespace gnomon::render

@@ -1,9 +1,11 @@
 // A scene on the GPU, and the order in which its instances are drawn.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,8 +35,16 @@ class SceneBuffers {
   /// Uploads everything that does not change. Throws RenderError where an image exceeds the driver's limit.
   explicit SceneBuffers(const Scene& scene);
 
-  /// Sends the instances' matrices relative to `origin_world`.
-  void place(const glm::dvec3& origin_world);
+  /// Who draws: maps are drawn from an origin of their own, so that they stay what they are under a camera
+  /// that moves.
+  enum class Placed : std::uint8_t { for_camera, for_maps };
+  /// Sends the instances' matrices relative to `origin_world`, where they are not there yet.
+  void place(Placed placed, const glm::dvec3& origin_world);
+  /// Takes those for the next draws.
+  void use(Placed placed) const noexcept;
+  /// Distance that loses nothing of a float's precision on this scene, a power of two: 1/16 of its diagonal
+  /// or less.
+  [[nodiscard]] double origin_step() const noexcept { return origin_step_; }
 
   [[nodiscard]] std::span<const std::uint32_t> order() const noexcept { return order_; }
   [[nodiscard]] std::span<const Batch> batches() const noexcept { return batches_; }
@@ -69,7 +79,13 @@ class SceneBuffers {
   std::vector<std::uint32_t> order_;
   std::vector<Batch> batches_;
   VertexArray vertex_array_;
-  Buffer positions_, normals_, texcoords_, indices_, object_buffer_;
+  Buffer positions_, normals_, texcoords_, indices_;
+  struct Placement {
+    Buffer buffer;
+    std::optional<glm::dvec3> origin_world;
+  };
+  std::array<Placement, 2> placement_;  ///< by Placed
+  double origin_step_ = 1.0;
   std::vector<Texture> textures_;
   std::vector<Sampler> samplers_;  ///< by wrap_u * 3 + wrap_v
   Texture white_;

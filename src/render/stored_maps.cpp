@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -138,7 +139,7 @@ StoredMaps::StoredMaps() {
   glSamplerParameteri(nearest_sampler_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-void StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& settings, const StoreJob& job,
+bool StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& settings, const StoreJob& job,
                      bool blurred) {
   const Filter& filter = *settings.filter;
   const bool stores = filter.reads != MapRead::depth;
@@ -153,7 +154,7 @@ void StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& setti
   wanted.depth_max = filter.needs_depth_max != nullptr && filter.needs_depth_max(settings);
   Shape same_but_fewer = shape_;
   if (wanted.layers < shape_.layers) same_but_fewer.layers = wanted.layers;
-  if (wanted == same_but_fewer) return;
+  if (wanted == same_but_fewer) return false;
   shape_ = wanted;
   bytes_ = 0;
   stored_.clear();
@@ -174,6 +175,16 @@ void StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& setti
   draw_into_all(stored_fbo_, std::max<std::size_t>(stored_.size(), 1));
   draw_into_all(scratch_fbo_, std::max<std::size_t>(scratch_.size(), 1));
   attach(scratch_fbo_, scratch_, 0, 0);
+  return true;
+}
+
+bool StoredMaps::made_alike(const FilterSettings& settings, const FilterBlock& block) noexcept {
+  // The block has the rest of the settings, and no padding.
+  const bool alike = made_with_.filter == settings.filter && made_with_.format == settings.format &&
+                     std::memcmp(&made_block_, &block, sizeof block) == 0;
+  made_with_ = settings;
+  made_block_ = block;
+  return alike;
 }
 
 void StoredMaps::draw(GLuint fbo, glm::ivec2 size) {
@@ -195,10 +206,11 @@ void StoredMaps::blur_map(const FilterPrograms& programs, GLint map, bool blurre
   draw(stored_fbo_.name(), viewport_);
 }
 
-void StoredMaps::join_mips(const FilterPrograms& programs, const StoreJob& job) {
+void StoredMaps::join_mips(const FilterPrograms& programs, const StoreJob& job, const Held& held) {
   glUseProgram(programs.join_mip.name());
   bind_images(stored_, nearest_sampler_);
   for (GLint map = 0; map < static_cast<GLint>(job.map_size.size()); ++map) {
+    if (held[static_cast<std::size_t>(map)]) continue;
     glUniform1i(kMapLocation, map);
     for (GLint level = 1; level < shape_.levels; ++level) {
       // Reading and drawing different levels of one image is defined only where the levels read are the only
@@ -232,12 +244,13 @@ void StoredMaps::sum_map(const FilterPrograms& programs, GLint map, const StoreJ
   passes_ += 2;
 }
 
-void StoredMaps::build_depth_max(const FilterPrograms& programs, const StoreJob& job) {
+void StoredMaps::build_depth_max(const FilterPrograms& programs, const StoreJob& job, const Held& held) {
   const int width = std::max(shape_.width / 2, 1), height = std::max(shape_.height / 2, 1);
   const int levels = full_chain(width, height);
   const Framebuffer fbo = make_framebuffer();
   glUseProgram(programs.depth_max.name());
   for (GLint map = 0; map < static_cast<GLint>(job.map_size.size()); ++map) {
+    if (held[static_cast<std::size_t>(map)]) continue;
     glUniform1i(kMapLocation, map);
     for (GLint level = 0; level < levels; ++level) {
       if (level > 0) {
@@ -261,13 +274,16 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
   const bool any_blur =
       std::any_of(block.reach.begin(), block.reach.begin() + static_cast<std::ptrdiff_t>(maps),
                   [](const glm::ivec4& reach) { return reach.x > 0; });
-  fit(programs, settings, job, any_blur && programs.blur);
+  const bool alike = made_alike(settings, block);
+  const bool fresh = fit(programs, settings, job, any_blur && programs.blur);
+  const Held held = alike && !fresh ? job.held : Held{};
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glBindVertexArray(no_vertices_.name());
   glBindTextureUnit(kDepthUnit, job.depth);
   glBindSampler(kDepthUnit, nearest_sampler_.name());
   for (std::size_t i = 0; i < maps; ++i) {
+    if (held[i]) continue;
     const auto map = static_cast<GLint>(i);
     // Beyond the map nothing is read but by mip-maps.
     viewport_ = job.mipmaps ? glm::ivec2(job.layer_width, job.layer_height) : job.map_size[i];
@@ -275,10 +291,14 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
     if (programs.sum_rows) sum_map(programs, map, job);
   }
   if (programs.sum_rows) glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-  if (shape_.depth_max) build_depth_max(programs, job);
+  if (shape_.depth_max) build_depth_max(programs, job, held);
   const bool mipmaps = job.mipmaps && shape_.levels > 1 && maps > 0;
-  if (mipmaps && programs.join_mip) {
-    join_mips(programs, job);
+  const bool any = std::find(held.begin(), held.begin() + static_cast<std::ptrdiff_t>(maps), false) !=
+                   held.begin() + static_cast<std::ptrdiff_t>(maps);
+  if (!any) {
+    // What shrinks is as it was, too.
+  } else if (mipmaps && programs.join_mip) {
+    join_mips(programs, job, held);
   } else if (mipmaps) {
     for (const Texture& image : stored_) glGenerateTextureMipmap(image.name());
     ++passes_;

@@ -36,10 +36,14 @@ struct StoreJob {
   int layer_width = 0, layer_height = 0;
   std::span<const glm::ivec2> map_size;
   bool mipmaps = false;
+  /// Maps whose depths are those of the last build(): what was made of them stays, where it was made alike.
+  std::array<bool, kMaxMaps> held{};
 };
 
 class StoredMaps {
  public:
+  using Held = std::array<bool, kMaxMaps>;
+
   StoredMaps();
   /// Fills everything that `settings` reads; images are made anew where size or format changes, and given up
   /// where the filter has no use for them. The block must be bound at kFilterBinding and be the one of
@@ -57,11 +61,14 @@ class StoredMaps {
   }
 
  private:
-  void fit(const FilterPrograms& programs, const FilterSettings& settings, const StoreJob& job, bool blurred);
+  /// True where all images are new.
+  bool fit(const FilterPrograms& programs, const FilterSettings& settings, const StoreJob& job, bool blurred);
+  /// Whether what the last build() made of a held map is what this one would make.
+  [[nodiscard]] bool made_alike(const FilterSettings& settings, const FilterBlock& block) noexcept;
   void blur_map(const FilterPrograms& programs, GLint map, bool blurred);
-  void join_mips(const FilterPrograms& programs, const StoreJob& job);
+  void join_mips(const FilterPrograms& programs, const StoreJob& job, const Held& held);
   void sum_map(const FilterPrograms& programs, GLint map, const StoreJob& job);
-  void build_depth_max(const FilterPrograms& programs, const StoreJob& job);
+  void build_depth_max(const FilterPrograms& programs, const StoreJob& job, const Held& held);
   void draw(GLuint fbo, glm::ivec2 size);
 
   struct Shape {
@@ -76,6 +83,8 @@ class StoredMaps {
   Framebuffer stored_fbo_ = make_framebuffer(), scratch_fbo_ = make_framebuffer();
   VertexArray no_vertices_ = make_vertex_array();
   Sampler stored_sampler_ = make_sampler(), nearest_sampler_ = make_sampler();
+  FilterSettings made_with_;  ///< of the last build()
+  FilterBlock made_block_{};
   glm::ivec2 viewport_{0};
   int passes_ = 0;
   std::uint64_t bytes_ = 0;

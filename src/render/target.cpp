@@ -73,8 +73,8 @@ std::uint64_t MapTargets::bytes() const noexcept {
          static_cast<std::uint64_t>(layers);
 }
 
-void MapTargets::fit(int new_width, int new_height, int new_layers) {
-  if (width == new_width && height == new_height && layers >= new_layers) return;
+bool MapTargets::fit(int new_width, int new_height, int new_layers) {
+  if (width == new_width && height == new_height && layers >= new_layers) return false;
   width = new_width;
   height = new_height;
   layers = std::max(layers, new_layers);
@@ -83,6 +83,7 @@ void MapTargets::fit(int new_width, int new_height, int new_layers) {
   fbo = make_framebuffer();
   glNamedFramebufferDrawBuffer(fbo.name(), GL_NONE);
   glNamedFramebufferReadBuffer(fbo.name(), GL_NONE);
+  return true;
 }
 
 }  // namespace gnomon::render

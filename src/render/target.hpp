@@ -26,8 +26,8 @@ struct MapTargets {
   Sampler plain_sampler;    ///< reads depths, nearest
 
   MapTargets();
-  /// Grows to hold maps of this size; never shrinks the number of layers.
-  void fit(int new_width, int new_height, int new_layers);
+  /// Grows to hold maps of this size; never shrinks the number of layers. True where all maps are new.
+  bool fit(int new_width, int new_height, int new_layers);
   [[nodiscard]] std::uint64_t bytes() const noexcept;
 };
 

@@ -20,6 +20,8 @@ using render::Pass;
 
 render::FrameOptions frame_options(bool pictures) {
   render::FrameOptions options;
+  // Each round measures the whole frame: none may live on the one before.
+  options.prune = PruneRules{}.without(PruneRule::held_maps);
   options.aliasing = options.heat_map = pictures;
   options.cascade_tint = false;
   return options;

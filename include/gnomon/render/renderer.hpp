@@ -10,6 +10,7 @@
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
 #include "gnomon/plan.hpp"
+#include "gnomon/prune.hpp"
 #include "gnomon/render/error.hpp"
 #include "gnomon/render/filter.hpp"
 #include "gnomon/scene/image.hpp"
@@ -55,21 +56,29 @@ struct FrameOptions {
   bool cascade_tint = true;  ///< the picture tinted by map
   /// Waits for each pass to end and takes its wall-clock time. Costs the overlap of passes.
   bool time_passes = true;
+  /// What may be left out of drawing; those that the plan decides say nothing here. Maps are held for the
+  /// next frame whether it asks for them or not.
+  PruneRules prune;
+  /// PruneRule::small_casters: the most texels of a map, as a share of all, that casters left out may cover,
+  /// 0..1. Larger: fewer draws, and shadows of small things gone.
+  double lost_shadow_share = 1e-4;
 };
 
 struct MapStats {
   std::uint32_t instances = 0;  ///< drawn into this map, after culling
   std::uint32_t draws = 0;      ///< draw commands: runs of instances of one primitive
   std::uint64_t triangles = 0;
-  std::uint64_t texels = 0;  ///< rasterized into: width times height
+  std::uint64_t texels = 0;  ///< rasterized into: width times height; of held maps, those drawn to
+  bool held = false;         ///< as it was: nothing drawn, nothing filtered
 };
 
 struct FrameStats {
   std::array<double, kPassCount> milliseconds{};  ///< by Pass; 0 where not drawn or not timed
   std::array<MapStats, kMaxMaps> map{};
   int map_count = 0;
-  MapStats camera;           ///< the surfaces pass; its texels are pixels
-  std::uint64_t texels = 0;  ///< over all maps
+  MapStats camera;                                   ///< the surfaces pass; its texels are pixels
+  std::uint64_t texels = 0;                          ///< over all maps
+  std::array<PruneSaving, kPruneRuleCount> saved{};  ///< by PruneRule, the plan's own included
   int prefilter_passes = 0;  ///< over all maps: what the filter stores, blurs, sums and shrinks
   /// Depth maps and everything that the filter keeps besides, scratch images included.
   std::uint64_t map_bytes = 0;

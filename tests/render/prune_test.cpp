@@ -1,0 +1,280 @@
+// Does leaving out change the mask? Frames with every exact rule against the same frames with none, bit by
+// bit.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "../scene/shared_files.hpp"
+#include "gnomon/history.hpp"
+#include "gnomon/render/renderer.hpp"
+#include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/load.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 90, kMapSize = 256;
+constexpr double kLostShare = 1e-4;
+
+/// Numbers in 0..1 that are the same everywhere.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : state_(seed * 2 + 1) {}
+  double next() noexcept {
+    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<double>(state_ >> 11) * 0x1p-53;
+  }
+  double between(double low, double high) noexcept { return low + (high - low) * next(); }
+
+ private:
+  std::uint64_t state_;
+};
+
+std::vector<Box> boxes_of(const Scene& scene) {
+  std::vector<Box> boxes;
+  for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
+  return boxes;
+}
+
+FrameOptions mask_only(PruneRules rules) {
+  FrameOptions options;
+  options.aliasing = options.heat_map = options.cascade_tint = options.time_passes = false;
+  options.prune = rules;
+  options.lost_shadow_share = kLostShare;
+  return options;
+}
+
+std::size_t differing(const FloatImage& a, const FloatImage& b) {
+  std::size_t count = 0;
+  // Of visibility and map the first: a map that is not there changes the numbers of those behind it.
+  for (std::size_t i = 0; i < a.values.size(); i += 2)
+    count += std::bit_cast<std::uint32_t>(a.values[i]) != std::bit_cast<std::uint32_t>(b.values[i]) ? 1 : 0;
+  return count;
+}
+
+std::size_t shadowed(const FloatImage& mask) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < mask.values.size(); i += 2) count += mask.values[i] < 1.0f ? 1 : 0;
+  return count;
+}
+
+/// A scene drawn by two renderers, one that leaves out and one that does not.
+struct Pair {
+  Scene scene;
+  std::vector<Box> boxes;
+  Renderer pruned, full;
+  explicit Pair(Scene of) : scene(std::move(of)), boxes(boxes_of(scene)), pruned(scene), full(scene) {}
+  [[nodiscard]] SceneBounds bounds() const noexcept { return {boxes, boxes}; }
+};
+
+struct Tally {
+  std::size_t views = 0, shadowed = 0, held = 0, added = 0;
+  std::array<PruneSaving, kPruneRuleCount> saved{};
+  void add(const FrameStats& stats) {
+    for (std::size_t r = 0; r < kPruneRuleCount; ++r) {
+      saved[r].instances += stats.saved[r].instances;
+      saved[r].maps += stats.saved[r].maps;
+    }
+    for (int i = 0; i < stats.map_count; ++i) {
+      const MapStats& map = stats.map[static_cast<std::size_t>(i)];
+      held += map.held ? 1 : 0;
+      added += !map.held && map.texels < static_cast<std::uint64_t>(kMapSize) * kMapSize ? 1 : 0;
+    }
+  }
+  [[nodiscard]] const PruneSaving& of(PruneRule rule) const { return saved[static_cast<std::size_t>(rule)]; }
+};
+
+/// A few steps of a camera, some of them none, under one technique.
+void fly(Pair& pair, std::uint64_t seed, int frames, Tally& tally) {
+  Dice dice(seed);
+  const Fit fit = std::array{Fit::tight, Fit::stable, Fit::warped_stable}[seed % 3];
+  const Filter& filter = *std::array{&filters::pcf, &filters::vsm, &filters::hard, &filters::pcss,
+                                     &filters::savsm}[seed / 3 % 5];
+  PlanOptions options;
+  options.map_size = kMapSize;
+  options.fit = fit;
+  options.cascades = 1 + static_cast<int>(seed % 4);
+  options.prune = exact_prune_rules();
+  set_margin(default_settings(filter), options);
+  const PreparedFilter with = pair.pruned.prepare(filter), without = pair.full.prepare(filter);
+  const DirectionalLight sun{{dice.between(-1, 1), -dice.between(0.3, 1), dice.between(-1, 1)}};
+  const CameraPath path = default_path(pair.scene);
+  double t = dice.next();
+  PlanHistory history;
+  for (int frame = 0; frame < frames; ++frame) {
+    if (frame % 3 != 2) t += 1.0 / 2000.0;  // else the view stands still
+    const Camera camera = path.at(t, kWidth, kHeight);
+    const ShadowPlan plan = fit == Fit::warped_stable
+                                ? make_plan(camera, sun, pair.bounds(), options, history)
+                                : make_plan(camera, sun, pair.bounds(), options);
+    ShadowPlan all = plan;
+    if (fit != Fit::warped_stable) {
+      PlanOptions without_rules = options;
+      without_rules.prune = kPruneNothing;
+      all = make_plan(camera, sun, pair.bounds(), without_rules);
+      ASSERT_GE(all.map_count, plan.map_count);
+    }
+    tally.add(pair.pruned.draw(plan, camera, with, mask_only(exact_prune_rules())));
+    pair.full.draw(all, camera, without, mask_only(kPruneNothing));
+    const FloatImage mask = pair.full.mask();
+    ASSERT_EQ(differing(pair.pruned.mask(), mask), 0u)
+        << pair.scene.name << ", seed " << seed << ", frame " << frame << ", " << filter.name << ", "
+        << to_string(fit);
+    tally.shadowed += shadowed(mask);
+    ++tally.views;
+  }
+}
+
+TEST(Prune, exact_rules_change_no_bit_of_the_mask_in_any_built_in_scene) {
+  struct Flown {
+    const char* name;
+    int flights, frames;
+  };
+  Tally tally;
+  // The large scenes take long to draw whole.
+  for (const Flown& flown : {Flown{"hangar", 15, 6}, Flown{"fence", 15, 6}, Flown{"trees", 3, 5},
+                             Flown{"terrain", 2, 3}, Flown{"city", 1, 2}}) {
+    Pair pair(load_builtin(flown.name));
+    for (int i = 0; i < flown.flights; ++i) {
+      fly(pair, static_cast<std::uint64_t>(i), flown.frames, tally);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GE(tally.views, 200u);
+  EXPECT_GT(tally.shadowed, tally.views * 100) << "scenes without shadows prove nothing";
+  for (const PruneRule rule : {PruneRule::swept_casters, PruneRule::held_maps})
+    EXPECT_GT(tally.of(rule).instances, 0u);
+  EXPECT_GT(tally.of(PruneRule::empty_cascades).maps, 0u);
+  EXPECT_GT(tally.held, 0u);
+  EXPECT_GT(tally.added, 0u) << "no caster came into reach of a map that stood still";
+}
+
+TEST(Prune, exact_rules_change_no_bit_of_the_mask_in_real_scenes) {
+  constexpr std::uintmax_t kLargestFile = 4u << 20;  // larger ones take too long here
+  Tally tally;
+  for (const std::filesystem::path& file : test::gltf_files(test::shared_folder() / "scenes")) {
+    if (std::filesystem::file_size(file) > kLargestFile) continue;
+    Scene scene;
+    try {
+      scene = load_gltf(file);
+    } catch (const SceneError&) {
+      continue;
+    }
+    if (scene.triangle_count() > 100'000) continue;
+    Pair pair(std::move(scene));
+    fly(pair, tally.views, 3, tally);
+    if (HasFatalFailure()) return;
+  }
+  if (tally.views == 0) GTEST_SKIP() << "no real scenes in " << test::shared_folder();
+}
+
+TEST(Prune, a_view_that_stands_still_draws_no_map_and_filters_none) {
+  const Scene scene = load_builtin("hangar");
+  const std::vector<Box> boxes = boxes_of(scene);
+  Renderer renderer(scene);
+  const Camera camera = default_path(scene).at(0.3, kWidth, kHeight);
+  for (const Filter* filter : {&filters::pcf, &filters::vsm, &filters::savsm, &filters::esm}) {
+    PlanOptions options;
+    options.map_size = kMapSize;
+    set_margin(default_settings(*filter), options);
+    const PreparedFilter prepared = renderer.prepare(*filter);
+    const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options);
+    ASSERT_GT(plan.map_count, 0);
+    renderer.draw(plan, camera, prepared, mask_only({}));
+    const FloatImage first = renderer.mask();
+    const FrameStats still = renderer.draw(plan, camera, prepared, mask_only({}));
+    EXPECT_EQ(still.texels, 0u) << filter->name;
+    EXPECT_EQ(still.prefilter_passes, 0) << filter->name;
+    for (int i = 0; i < still.map_count; ++i) EXPECT_TRUE(still.map[static_cast<std::size_t>(i)].held);
+    EXPECT_EQ(differing(renderer.mask(), first), 0u) << filter->name;
+    const FrameStats redrawn =
+        renderer.draw(plan, camera, prepared, mask_only(PruneRules{}.without(PruneRule::held_maps)));
+    EXPECT_GT(redrawn.texels, 0u) << filter->name;
+    EXPECT_EQ(differing(renderer.mask(), first), 0u) << filter->name;
+  }
+}
+
+TEST(Prune, savings_and_what_is_drawn_add_up_to_the_frame_without_rules) {
+  const Scene scene = load_builtin("fence");
+  const std::vector<Box> boxes = boxes_of(scene);
+  Renderer pruned(scene), full(scene);
+  const PreparedFilter with = pruned.prepare(filters::pcf), without = full.prepare(filters::pcf);
+  PlanOptions options;
+  options.map_size = kMapSize;
+  const CameraPath path = default_path(scene);
+  for (const double t : {0.1, 0.1, 0.4, 0.7}) {
+    const Camera camera = path.at(t, kWidth, kHeight);
+    const auto plan = [&](PruneRules rules) {
+      PlanOptions with_rules = options;
+      with_rules.prune = rules;
+      return make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, with_rules);
+    };
+    const FrameStats few = pruned.draw(plan({}), camera, with, mask_only({}));
+    const FrameStats all = full.draw(plan(kPruneNothing), camera, without, mask_only(kPruneNothing));
+    std::uint64_t texels = few.texels, triangles = 0, triangles_of_all = 0;
+    for (int i = 0; i < few.map_count; ++i) triangles += few.map[static_cast<std::size_t>(i)].triangles;
+    for (int i = 0; i < all.map_count; ++i)
+      triangles_of_all += all.map[static_cast<std::size_t>(i)].triangles;
+    for (const PruneSaving& saved : few.saved) {
+      texels += saved.texels;
+      triangles += saved.triangles;
+    }
+    EXPECT_EQ(texels, all.texels) << t;
+    EXPECT_EQ(triangles, triangles_of_all) << t;
+  }
+}
+
+/// Pebbles on a plate: what a small caster's rule is for.
+Scene pebbles() {
+  Scene scene = load_builtin("fence");
+  const Instance some = scene.instances.front();
+  const Box box = some.bounds_world;
+  const glm::dvec3 middle = 0.5 * (box.min + box.max);
+  for (int i = 0; i < 400; ++i) {
+    Instance pebble = some;
+    const double size = 0.004 / std::max(1e-9, glm::length(box.max - box.min));
+    const glm::dvec3 at{-10.0 + (i % 20), 0.2, -10.0 + (i / 20)};
+    glm::dmat4 shrink(size);
+    shrink[3] = glm::dvec4(at - size * middle, 1.0);
+    pebble.world_from_object = shrink * some.world_from_object;
+    pebble.bounds_world = {at - 0.5 * size * (box.max - box.min), at + 0.5 * size * (box.max - box.min)};
+    scene.instances.push_back(pebble);
+  }
+  return scene;
+}
+
+TEST(Prune, small_casters_take_no_more_of_the_shadow_than_their_share) {
+  const Scene scene = pebbles();
+  const std::vector<Box> boxes = boxes_of(scene);
+  Renderer pruned(scene), full(scene);
+  const PreparedFilter with = pruned.prepare(filters::hard), without = full.prepare(filters::hard);
+  PlanOptions options;
+  options.map_size = kMapSize;
+  options.cascades = 1;
+  std::uint64_t dropped = 0;
+  const PruneRules rule = exact_prune_rules().with(PruneRule::small_casters);
+  const CameraPath path = default_path(scene);
+  for (const double t : {0.0, 0.25, 0.5, 0.75}) {
+    const Camera camera = path.at(t, kWidth, kHeight);
+    const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options);
+    ASSERT_EQ(plan.map_count, 1);
+    const FrameStats stats = pruned.draw(plan, camera, with, mask_only(rule));
+    full.draw(plan, camera, without, mask_only(kPruneNothing));
+    dropped += stats.saved[static_cast<std::size_t>(PruneRule::small_casters)].instances;
+    // In the map itself: the share that the bound speaks of.
+    const FloatImage a = pruned.depth_map(0), b = full.depth_map(0);
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < a.values.size(); ++i) changed += a.values[i] != b.values[i] ? 1 : 0;
+    EXPECT_LE(static_cast<double>(changed), kLostShare * static_cast<double>(a.values.size())) << t;
+  }
+  EXPECT_GT(dropped, 0u);
+}
+
+}  // namespace
+}  // namespace gnomon::render
