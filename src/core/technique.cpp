@@ -208,6 +208,8 @@ PlanOptions options_of(const PlanOptions& base, const Technique& t) noexcept {
   options.map_size = t.map_size;
   options.texel_budget = 0;
   options.target_m = 0.0;
+  // Sizes are what is chosen among.
+  options.prune = base.prune.without(PruneRule::metric_resolution);
   // What a small map cannot spare.
   options.filter_radius_texels = std::min(base.filter_radius_texels, 0.25 * t.map_size);
   return options;

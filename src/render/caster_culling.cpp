@@ -45,10 +45,12 @@ std::size_t planes_of_what_is_read(const CullingJob& job, const ShadowMap& map,
   const std::array<glm::dvec4, 5> whole =
       rectangle_planes(map, {0, 0, map.width, map.height}, job.plan.clip_space);
   std::size_t count = 0;
-  // The planes of a light with a position are its map's sides; the margin moved all others off its rays.
-  if (map.light_world.w != 0.0) {
-    std::copy(whole.begin(), whole.end(), out.begin());
-    return whole.size();
+  // The planes of a light with a position are its map's sides; the margin moved all others off its rays. A
+  // texel more, so that rounding decides about none.
+  if (map.light_world.w != 0.0 || job.reads_everywhere) {
+    const double texel = std::max(map.texel_world_max.x, map.texel_world_max.y);
+    for (const glm::dvec4& plane : whole) out[count++] = plane + glm::dvec4(0.0, 0.0, 0.0, texel);
+    return count;
   }
   // Of rounding; a plane too few only draws more.
   constexpr double kParallel = 1e-9;

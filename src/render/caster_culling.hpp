@@ -35,7 +35,8 @@ struct CullingJob {
   const DrawnMaps& drawn;
   PruneRules prune;
   double lost_shadow_share = 0.0;
-  /// A lookup may read beyond the map's filter margin: what no receiver needs counts, too.
+  /// A lookup may read beyond the map's filter margin, or follows from the whole map: what no receiver needs
+  /// counts, too.
   bool reads_everywhere = false;
 };
 

@@ -20,11 +20,13 @@ void GLAD_API_PTR report_gl_error(GLenum, GLenum type, GLuint, GLenum, GLsizei, 
   if (type == GL_DEBUG_TYPE_ERROR) std::fprintf(stderr, "OpenGL: %s\n", message);
 }
 
-/// Averages over a pixel's footprint, and pyramids of depths, know no margin.
+/// Averages over a pixel's footprint, pyramids of depths, and options found from all of a map's depths know
+/// no margin.
 bool reads_everywhere(const FilterSettings& settings, const ShadowPlan& plan) noexcept {
   const Filter& filter = *settings.filter;
   return wants_mipmaps(settings, plan) ||
-         (filter.needs_depth_max != nullptr && filter.needs_depth_max(settings));
+         (filter.needs_depth_max != nullptr && filter.needs_depth_max(settings)) ||
+         (filter.adapts != nullptr && filter.adapts(settings));
 }
 
 }  // namespace

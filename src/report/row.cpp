@@ -67,7 +67,11 @@ Json times_json(const Times& t) {
 Json left_out_json(const std::vector<LeftOut>& list) {
   Json array = Json::array();
   for (const LeftOut& l : list)
-    array.push_back({{"what", l.what}, {"why", l.why}, {"saves_texels", l.saves_texels}});
+    array.push_back({{"what", l.what},
+                     {"why", l.why},
+                     {"saves_texels", l.saves_texels},
+                     {"rule", l.rule},
+                     {"saves_triangles", l.saves_triangles}});
   return array;
 }
 
@@ -181,9 +185,16 @@ void results_from(const Json& json, Row& row) {
   row.costs = {whole_from<int>(c.at("maps")), whole_from<std::uint64_t>(c.at("draws")),
                whole_from<std::uint64_t>(c.at("triangles")), whole_from<std::uint64_t>(c.at("texels")),
                whole_from<std::uint64_t>(c.at("map_bytes"))};
-  for (const Json& l : json.at("left_out"))
-    row.left_out.push_back({l.at("what").get<std::string>(), l.at("why").get<std::string>(),
-                            whole_from<std::int64_t>(l.at("saves_texels"))});
+  for (const Json& l : json.at("left_out")) {
+    LeftOut left{l.at("what").get<std::string>(), l.at("why").get<std::string>(),
+                 whole_from<std::int64_t>(l.at("saves_texels"))};
+    // Rows of an earlier version have none.
+    if (l.contains("rule")) {
+      l.at("rule").get_to(left.rule);
+      left.saves_triangles = whole_from<std::int64_t>(l.at("saves_triangles"));
+    }
+    row.left_out.push_back(std::move(left));
+  }
   const Json& p = json.at("pictures");
   p.at("image").get_to(row.pictures.image);
   p.at("truth").get_to(row.pictures.truth);

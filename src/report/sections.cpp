@@ -10,6 +10,7 @@
 #include "file.hpp"
 #include "stability.hpp"
 #include "text.hpp"
+#include "waterfall.hpp"
 
 namespace gnomon::report {
 namespace {
@@ -126,6 +127,7 @@ std::vector<LeftOutKind> left_out_kinds(const std::vector<Row>& rows) {
     // Filters share plans: each is counted with the first of them.
     if (!counted.insert(row.scene + "\n" + name + "\n" + std::to_string(row.frame)).second) continue;
     for (const LeftOut& l : row.left_out) {
+      if (!l.rule.empty()) continue;
       const std::string kind = without_numbers(l.what);
       auto at = std::find_if(kinds.begin(), kinds.end(), [&](const LeftOutKind& k) {
         return k.scene == row.scene && k.parametrization == name && k.kind == kind;
@@ -236,7 +238,7 @@ std::string section_left_out(const PageInput& input) {
            "</td><td>" + short_number(k.saves_texels / k.times / kMebi) + "</td></tr>\n";
   }
   if (kinds.empty()) out += "<tr><td colspan=\"6\">nothing</td></tr>\n";
-  return out + "</tbody></table></div>\n</section>\n";
+  return out + "</tbody></table></div>\n" + waterfalls(input.rows) + "</section>\n";
 }
 
 std::string section_method(const PageInput& input) {

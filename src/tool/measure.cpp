@@ -88,6 +88,17 @@ void count_costs(const render::FrameStats& stats, const SweepEntry& entry, repor
       static_cast<std::uint64_t>(static_cast<double>(stats.texels) * render::bytes_per_texel(entry.filter));
 }
 
+/// What each rule saved, in the order of the rules.
+void count_savings(const render::FrameStats& stats, report::Row& row) {
+  for (const PruneRuleInfo& rule : prune_rules()) {
+    const PruneSaving& saved = stats.saved[static_cast<std::size_t>(rule.rule)];
+    if (saved.texels == 0 && saved.triangles == 0) continue;
+    row.left_out.push_back({std::string(rule.what), std::string(rule.proof),
+                            static_cast<std::int64_t>(saved.texels), std::string(rule.name),
+                            static_cast<std::int64_t>(saved.triangles)});
+  }
+}
+
 double milliseconds(const render::FrameStats& stats, Pass pass) {
   return stats.milliseconds[static_cast<std::size_t>(pass)];
 }
@@ -183,6 +194,7 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
     const OmissionText text = describe(omission);
     row.left_out.push_back({text.what.data(), text.why.data(), omission.saves_texels});
   }
+  count_savings(stats, row);
   if (seen != nullptr) *seen = {renderer.image(), renderer.heat_map(), mask};
 }
 

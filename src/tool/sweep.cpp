@@ -97,6 +97,8 @@ void set_fit(const std::string& text, SweepEntry& entry) {
 
 void set_size(int size, SweepEntry& entry) {
   entry.technique.map_size = entry.plan.map_size = size;
+  // Techniques are compared at the sizes asked for.
+  entry.plan.prune = entry.plan.prune.without(PruneRule::metric_resolution);
 }
 
 void set_cascades(int cascades, SweepEntry& entry) {

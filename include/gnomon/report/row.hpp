@@ -56,6 +56,8 @@ struct Costs {
 struct LeftOut {
   std::string what, why;
   std::int64_t saves_texels = 0;
+  std::string rule = {};  ///< of gnomon::prune_rules(): all that it saved of the frame; empty: one thing
+  std::int64_t saves_triangles = 0;
 };
 
 /// Files beside the rows, relative to their folder; empty: none was written for this frame.
