@@ -34,7 +34,7 @@ struct Arguments {
   int starts = 3, frames = 10, width = 480, height = 270;
 };
 
-struct Technique {
+struct Layout {
   const char* name;
   Fit fit;
   const Warp* warp;
@@ -43,12 +43,12 @@ struct Technique {
   bool still;
 };
 constexpr int kSmall = 1024, kLarge = 2048;
-const std::array kTechniques = {
-    Technique{"tight, 1024", Fit::tight, nullptr, false, kSmall, false},
-    Technique{"tight, 2048", Fit::tight, nullptr, false, kLarge, false},
-    Technique{"stable, 1024", Fit::stable, nullptr, false, kSmall, false},
-    Technique{"warped-stable, 1024", Fit::warped_stable, nullptr, true, kSmall, false},
-    Technique{"tight, 1024, standing still", Fit::tight, nullptr, false, kSmall, true},
+const std::array kLayouts = {
+    Layout{"tight, 1024", Fit::tight, nullptr, false, kSmall, false},
+    Layout{"tight, 2048", Fit::tight, nullptr, false, kLarge, false},
+    Layout{"stable, 1024", Fit::stable, nullptr, false, kSmall, false},
+    Layout{"warped-stable, 1024", Fit::warped_stable, nullptr, true, kSmall, false},
+    Layout{"tight, 1024, standing still", Fit::tight, nullptr, false, kSmall, true},
 };
 
 /// One side of the comparison: a renderer with its plans.
@@ -76,7 +76,7 @@ double sum(const std::vector<double>& values) {
   return total;
 }
 
-void draw(Side& side, const Camera& camera, const std::vector<Box>& boxes, const Technique& technique) {
+void draw(Side& side, const Camera& camera, const std::vector<Box>& boxes, const Layout& technique) {
   PlanOptions options;
   options.map_size = technique.map_size;
   options.fit = technique.fit;
@@ -113,7 +113,7 @@ void draw(Side& side, const Camera& camera, const std::vector<Box>& boxes, const
 
 struct Outcome {
   std::string scene;
-  const Technique* technique;
+  const Layout* technique;
   int frames;
   double texels, triangles, time;  // of those without rules
   double plan_us[2], frame_ms[2];
@@ -126,7 +126,7 @@ double share(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 1.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-Outcome compare(const Scene& scene, const std::vector<Box>& boxes, const Technique& technique,
+Outcome compare(const Scene& scene, const std::vector<Box>& boxes, const Layout& technique,
                 const Arguments& arguments) {
   Side with(scene, PruneRules{}), without(scene, kPruneNothing);
   for (Side* side : {&with, &without}) side->filter = side->renderer.prepare(filters::pcf);
@@ -273,7 +273,7 @@ int main(int argc, char** argv) {
       const Scene scene = load_scene(name);
       std::vector<Box> boxes;
       for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
-      for (const Technique& technique : kTechniques) {
+      for (const Layout& technique : kLayouts) {
         outcomes.push_back(compare(scene, boxes, technique, arguments));
         print(outcomes.back());
       }

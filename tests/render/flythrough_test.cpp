@@ -259,8 +259,8 @@ TEST_F(Flythrough, takes_the_next_context_where_one_is_refused_and_says_why) {
 
 TEST_F(Flythrough, halves_maps_that_memory_does_not_take_and_says_so) {
   const Outcome outcome =
-      run("builtin:fence --frames 1 --size 64x32 --map-size 1024 --cascades 2 --filter hard --map-memory-mib "
-          "0.6");
+      run("builtin:fence --frames 1 --size 64x32 --map-size 1024 --cascades 2 --filter hard --prune none "
+          "--map-memory-mib 0.6");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_NE(outcome.error.find("maps of 1024 do not fit (--map-memory-mib 0.6): maps of 256, 0.5 MiB"),
             std::string::npos)
