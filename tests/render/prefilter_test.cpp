@@ -23,6 +23,7 @@ class Prefilter : public testing::Test {
     PlanOptions options;
     options.map_size = map_size;
     options.cascades = cascades;
+    options.prune = kPruneNothing;  // the sizes asked for
     set_margin(filter, options);
     const Camera camera = camera_on_box(kSize, kSize);
     const ShadowPlan plan = plan_for(scene_, camera, kSlant, options);
@@ -30,6 +31,7 @@ class Prefilter : public testing::Test {
     maps_ = plan.map_count;
     FrameOptions frame;
     frame.aliasing = frame.cascade_tint = frame.time_passes = false;
+    frame.prune = kPruneNothing;
     return renderer_.draw(plan, camera, renderer_.prepare(filter), frame);
   }
 
