@@ -19,7 +19,7 @@ function(expect_word part)
   endif()
 endfunction()
 
-step("configuring" 0 ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR} -G Ninja -DCMAKE_BUILD_TYPE=None
+step("configuring" 0 ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR} -G Ninja -DCMAKE_BUILD_TYPE=Release
   -DCMAKE_CXX_COMPILER=${CXX} -DGNOMON_WERROR=ON -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} ${parts})
 foreach(part OPENIMAGEIO EMBREE GLFW)
   expect_word("Built without ${part}, as asked for")

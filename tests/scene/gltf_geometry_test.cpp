@@ -167,6 +167,19 @@ TEST(GltfGeometry, signed_normalized_normals_never_pass_minus_one) {
   for (const glm::vec3& n : gltf.load().normals) EXPECT_EQ(n, glm::vec3(0, 0, -1));
 }
 
+// Normals are made unit length afterwards; positions stand as they are read.
+TEST(GltfGeometry, signed_normalized_positions_never_pass_minus_one) {
+  TestGltf gltf;
+  const std::vector<std::int8_t> bytes{-128, 0, 0, 0, 127, 0, 0, 0, 0, -127, 0, 0};
+  const int position = gltf.accessor(gltf.view(bytes, 4), kByte, "VEC3", 3, {{"normalized", true}});
+  gltf.document["extensionsRequired"] = {"KHR_mesh_quantization"};
+  gltf.show({{"attributes", {{"POSITION", position}}}});
+  const Scene scene = gltf.load();
+  EXPECT_EQ(corner(scene, 0), glm::vec3(-1, 0, 0));
+  EXPECT_EQ(corner(scene, 1), glm::vec3(1, 0, 0));
+  EXPECT_EQ(corner(scene, 2), glm::vec3(0, -1, 0));
+}
+
 TEST(GltfGeometry, missing_normals_are_those_of_the_faces_with_vertices_unshared) {
   TestGltf gltf;
   const int position = gltf.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
