@@ -147,6 +147,21 @@ TEST(CaseFile, names_the_file_in_front_of_the_complaint) {
   }
 }
 
+TEST(CaseFile, nests_no_deeper_than_its_limit) {
+  const auto refusal = [](int depth) {
+    try {
+      (void)read_case(std::string(static_cast<std::size_t>(depth), '[') +
+                      std::string(static_cast<std::size_t>(depth), ']'));
+    } catch (const CaseError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal(kMaxCaseNesting + 1).find("nested deeper than 32 levels"), std::string::npos);
+  EXPECT_NE(refusal(100'000).find("nested deeper than 32 levels"), std::string::npos);
+  EXPECT_NE(refusal(kMaxCaseNesting).find("needs an object"), std::string::npos) << refusal(kMaxCaseNesting);
+}
+
 TEST(CaseFile, brackets_inside_strings_are_not_nesting) {
   const std::string brackets(100, '[');
   try {

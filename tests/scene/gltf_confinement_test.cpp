@@ -113,6 +113,17 @@ TEST_F(Confinement, files_above_the_limits_are_refused_one_by_one_and_together) 
   EXPECT_EQ(load_gltf(scene, limits).triangle_count(), 1u);
 }
 
+TEST_F(Confinement, what_one_file_took_is_gone_for_the_next) {
+  json document = json::parse(scene_with_buffer("inside.bin"));
+  document["buffers"].push_back(document["buffers"][0]);
+  const fs::path scene = folder_.write("scene/scene.gltf", document.dump());
+  LoadLimits limits;
+  limits.total_bytes = 71;
+  EXPECT_THROW((void)load_gltf(scene, limits), SceneError);
+  limits.total_bytes = 72;
+  EXPECT_EQ(load_gltf(scene, limits).triangle_count(), 1u);
+}
+
 TEST_F(Confinement, a_buffer_longer_than_it_says_is_cut_and_one_shorter_is_refused) {
   folder_.write("scene/long.bin", triangle_bytes() + "more");
   folder_.write("scene/short.bin", triangle_bytes().substr(1));
