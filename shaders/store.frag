@@ -9,8 +9,15 @@ void main() {
   ShadowOptions options = shadow_options(map);
   ShadowTexel sum = shadow_nothing(options);
   int reach = filtering.reach[map].x;
+  // Each depth along x is fetched once, though three taps ask for it.
+  float before = depth_at(texel - ivec2(reach + 1, 0)), here = depth_at(texel - ivec2(reach, 0));
   for (int i = -reach; i <= reach; ++i) {
-    shadow_join(sum, stored_at(texel + ivec2(i, 0), options), tap_weight(map, abs(i)), options);
+    ivec2 at = texel + ivec2(i, 0);
+    float after = depth_at(at + ivec2(1, 0));
+    vec2 slope = vec2(smaller_step(before, here, after), slope_along_y(at, here));
+    shadow_join(sum, shadow_store(here, slope, options), tap_weight(map, abs(i)), options);
+    before = here;
+    here = after;
   }
   for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) texel_out[i] = sum.v[i];
 }

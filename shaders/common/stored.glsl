@@ -16,11 +16,14 @@ float smaller_step(float before, float here, float after) {
   return abs(here - before) < abs(after - here) ? here - before : after - here;
 }
 
-// Change of depth per texel along x and y: of either side the one that changes less, so that no edge counts.
+// Change of depth per texel along y, or along x and y: of either side the one that changes less, so that no edge counts.
+float slope_along_y(ivec2 texel, float here) {
+  return smaller_step(depth_at(texel - ivec2(0, 1)), here, depth_at(texel + ivec2(0, 1)));
+}
 vec2 slope_at(ivec2 texel) {
   float here = depth_at(texel);
   return vec2(smaller_step(depth_at(texel - ivec2(1, 0)), here, depth_at(texel + ivec2(1, 0))),
-              smaller_step(depth_at(texel - ivec2(0, 1)), here, depth_at(texel + ivec2(0, 1))));
+              slope_along_y(texel, here));
 }
 
 ShadowTexel stored_at(ivec2 texel, ShadowOptions options) {
