@@ -25,7 +25,8 @@ struct MapSizes {
                                       bool square) noexcept;
 
 /// The least sizes, in whole steps of kBudgetStep, that keep both bounds of m of every map laid at or below
-/// `m`; a side that has a larger bound stays as it is. True where any is smaller than the map it is for.
+/// `m`; a side that has a larger bound stays as it is. True where that leaves out enough texels to be worth
+/// another plan.
 [[nodiscard]] bool least_sizes(const ShadowPlan& laid, const PlanOptions& options, double m,
                                MapSizes& sizes) noexcept;
 
