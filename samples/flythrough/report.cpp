@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
 #include "gnomon/render/picture.hpp"
 #include "gnomon/report/csv.hpp"
+#include "whole_file.hpp"
 
 namespace flythrough {
 namespace {
@@ -105,16 +105,10 @@ std::string omitted_text(const gnomon::ShadowPlan& plan, const gnomon::render::F
 
 void write_csv(const std::vector<FrameRow>& rows, int cascades, bool software,
                const std::filesystem::path& file) {
-  std::filesystem::path aside = file;
-  aside += ".part";
-  {
-    std::ofstream out(aside, std::ios::binary);
-    out << header(cascades, software);
-    for (const FrameRow& row : rows) out << line_of(row, cascades);
-    out.flush();
-    if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", aside.string()));
-  }
-  std::filesystem::rename(aside, file);
+  std::string text = header(cascades, software);
+  for (const FrameRow& row : rows) text += line_of(row, cascades);
+  const std::string why = gnomon::write_whole_file(file, text);
+  if (!why.empty()) throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(), why));
 }
 
 ContactSheet::ContactSheet(int frames, int width, int height)

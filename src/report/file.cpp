@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 
 #include "gnomon/report/row.hpp"
 #include "text.hpp"
+#include "whole_file.hpp"
 
 namespace gnomon::report {
 
@@ -80,25 +80,8 @@ std::string optional_text(const fs::path& file) {
 }
 
 void write_text(const fs::path& file, const std::string& text) {
-  fs::path aside = file;
-  aside += "." + std::to_string(::getpid());
-  std::error_code error;
-  {
-    std::ofstream out(aside, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) {
-      const std::string why = std::strerror(errno);
-      fs::remove(aside, error);
-      refuse(file, "cannot be written: " + why);
-    }
-  }
-  fs::rename(aside, file, error);
-  if (error) {
-    const std::string why = error.message();
-    fs::remove(aside, error);
-    refuse(file, why);
-  }
+  const std::string why = write_whole_file(file, text);
+  if (!why.empty()) refuse(file, "cannot be written: " + why);
 }
 
 void make_folder(const fs::path& folder) {

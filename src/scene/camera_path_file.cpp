@@ -1,8 +1,6 @@
 // A camera flight as a JSON file: written and read back to the same numbers.
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -12,6 +10,7 @@
 #include "gnomon/scene/load.hpp"
 #include "load_memory.hpp"
 #include "refusal.hpp"
+#include "whole_file.hpp"
 
 namespace gnomon {
 
@@ -124,10 +123,8 @@ void save_camera_path(const CameraPath& path, const std::filesystem::path& file)
                     {"fov_y_deg", path.fov_y_radians / kDegree},
                     {"near", path.near_depth},
                     {"far", path.far_depth}};
-  std::ofstream stream(file, std::ios::binary);
-  stream << out.dump(1) << '\n';
-  stream.close();
-  if (!stream) throw SceneError(detail::one_line(file.string() + ": file: cannot be written"));
+  const std::string why = write_whole_file(file, out.dump(1) + "\n");
+  if (!why.empty()) throw SceneError(detail::one_line(file.string() + ": file: cannot be written: " + why));
 }
 
 }  // namespace gnomon

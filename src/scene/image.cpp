@@ -3,18 +3,15 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <string_view>
 
 #include "gnomon/scene/load.hpp"
 #include "refusal.hpp"
+#include "whole_file.hpp"
 
 namespace gnomon {
 
@@ -102,11 +99,6 @@ void expand(const std::vector<std::uint8_t>& raw, std::size_t channels, std::vec
   }
 }
 
-void remove_quietly(const std::filesystem::path& file) {
-  std::error_code ignored;
-  std::filesystem::remove(file, ignored);
-}
-
 std::vector<unsigned char> encoded(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                                    const void* pixels, const std::string& where) {
   std::vector<unsigned char> bytes;
@@ -121,24 +113,13 @@ std::vector<unsigned char> encoded(const char* format, const OIIO::ImageSpec& sp
   return bytes;
 }
 
-// Writes beside the target and renames, so that a reader never sees half a file. Not through OpenImageIO,
-// whose PNG writer does not notice a disk that is full.
+// Not through OpenImageIO, whose PNG writer does not notice a disk that is full.
 void write_file(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels,
                 const std::filesystem::path& file) {
   const std::vector<unsigned char> bytes = encoded(format, spec, type, pixels, file.string());
-  std::filesystem::path temporary = file;
-  temporary += ".";
-  temporary += std::to_string(::getpid());
-  std::ofstream stream(temporary, std::ios::binary);
-  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  const std::string why = std::strerror(errno);
-  std::error_code error;
-  if (stream) std::filesystem::rename(temporary, file, error);
-  if (!stream || error) {
-    remove_quietly(temporary);
-    throw SceneError(
-        detail::one_line(file.string() + ": picture: cannot be written: " + (error ? error.message() : why)));
+  const std::string why = write_whole_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (!why.empty()) {
+    throw SceneError(detail::one_line(file.string() + ": picture: cannot be written: " + why));
   }
 }
 

@@ -1,16 +1,13 @@
 // `gnomon scenes`: which scenes come with the program, and how to get one as a file.
 #include "scenes.hpp"
 
-#include <unistd.h>
-
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <system_error>
 
 #include "gnomon/scene/load.hpp"
 #include "output.hpp"
+#include "whole_file.hpp"
 
 namespace gnomon::tool {
 
@@ -51,21 +48,8 @@ int list_scenes(bool json) {
 }
 
 int write_scene(const std::string& name, const std::filesystem::path& out) {
-  const std::string glb = build_glb(name);
-  std::filesystem::path temporary = out;
-  temporary += ".";
-  temporary += std::to_string(::getpid());
-  std::ofstream stream(temporary, std::ios::binary);
-  stream.write(glb.data(), static_cast<std::streamsize>(glb.size()));
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(temporary, out, error);
-  if (!stream || error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error(out.string() + ": cannot be written" +
-                             (error ? ": " + error.message() : std::string()));
-  }
+  const std::string why = write_whole_file(out, build_glb(name));
+  if (!why.empty()) throw std::runtime_error(out.string() + ": cannot be written: " + why);
   return 0;
 }
 

@@ -1,17 +1,14 @@
 // `gnomon stress`: extreme cases and stiff axes, judged.
 #include "stress.hpp"
 
-#include <unistd.h>
-
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
-#include <system_error>
 
 #include "output.hpp"
 #include "progress.hpp"
 #include "rows.hpp"
+#include "whole_file.hpp"
 #ifdef GNOMON_STRESS_HAS_FILTERS
 #include "filter_limits.hpp"
 #include "gnomon/render/context.hpp"
@@ -42,20 +39,9 @@ std::vector<const stress::Axis*> axes_of(const StressRequest& request) {
   return axes;
 }
 
-/// Beside the target first, then renamed: no half file under that name.
 void write_file(const fs::path& file, const std::string& text) {
-  fs::path aside = file;
-  aside += "." + std::to_string(::getpid());
-  std::ofstream stream(aside, std::ios::binary);
-  stream << text;
-  stream.close();
-  std::error_code error;
-  if (stream) fs::rename(aside, file, error);
-  if (!stream || error) {
-    std::error_code ignored;
-    fs::remove(aside, ignored);
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
+  const std::string why = write_whole_file(file, text);
+  if (!why.empty()) throw std::runtime_error(file.string() + ": cannot be written: " + why);
 }
 
 void make_folder(const std::string& folder) {

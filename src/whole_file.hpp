@@ -1,0 +1,36 @@
+// A file that is either there as a whole or as it was before: a full disk or a kill leaves no half one.
+#pragma once
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace gnomon {
+
+/// Writes beside the target and renames. Answers why it could not, "" where it could; nothing of the attempt
+/// is left then.
+[[nodiscard]] inline std::string write_whole_file(const std::filesystem::path& file, std::string_view bytes) {
+  std::filesystem::path aside = file;
+  aside += "." + std::to_string(::getpid());
+  errno = 0;
+  std::ofstream out(aside, std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  std::string why;
+  if (!out) why = errno != 0 ? std::strerror(errno) : "the system does not say why";
+  std::error_code error;
+  if (why.empty()) {
+    std::filesystem::rename(aside, file, error);
+    if (error) why = error.message();
+  }
+  if (!why.empty()) std::filesystem::remove(aside, error);
+  return why;
+}
+
+}  // namespace gnomon
