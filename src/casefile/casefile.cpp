@@ -167,6 +167,7 @@ PlanOptions options_from(const json& value, std::vector<double>& given_splits) {
                        "pseudo_near",
                        "near_hint",
                        "split_range",
+                       "split_overlap",
                        "target_m",
                        "focus",
                        "focus_weight",
@@ -195,6 +196,7 @@ PlanOptions options_from(const json& value, std::vector<double>& given_splits) {
     options.split = SplitScheme::given;
     options.given_splits = given_splits;
   }
+  fields.read("split_overlap", options.split_overlap);
   fields.read("target_m", options.target_m);
   if (fields.has("focus")) options.focus = box_from(fields.at("focus"), "options.focus");
   fields.read("focus_weight", options.focus_weight);
@@ -300,6 +302,7 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"options.filter_radius_world", "options.filter_radius_world: must be 0 or more"},
       {"options.stable_size_steps", "options.stable_size_steps: must lie in 1..1024"},
       {"options.given_splits", "options.given_splits: needs cascades - 1 depths, ascending"},
+      {"options.split_overlap", "options.split_overlap: must lie in 0..1"},
       {"options.target_m", "options.target_m: must not be below 0"},
       {"options.prune_m", "options.prune_m: must be above 0"},
       {"options.texel_budget",
