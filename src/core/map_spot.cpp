@@ -16,8 +16,7 @@
 namespace gnomon {
 namespace {
 
-// Room beyond the nearest and farthest distance, relative to them: float rounding must not push a surface
-// out.
+// Room beyond the nearest and farthest distance, relative to them, for float rounding.
 constexpr double kDistancePadding = 1.0 / 1024.0;
 // Narrowest rectangle, as a slope: below it positions are rounding.
 constexpr double kLeastSlope = 1e-8;

@@ -19,7 +19,7 @@ namespace {
 /// costs may depend on.
 CompareRequest own_sweep(const CalibrateRequest& request) {
   CompareRequest sweep;
-  sweep.scenes = {"builtin:terrain", "builtin:trees"};
+  sweep.scenes = {"builtin:city", "builtin:fence", "builtin:hangar", "builtin:terrain", "builtin:trees"};
   sweep.warps = {"none", "optimal"};
   sweep.filters = {"hard", "pcf", "pcss", "vsm", "evsm4", "msm"};
   sweep.cascades = {"1", "3"};
