@@ -194,7 +194,7 @@ TEST(Reference, texel_axes_are_the_sides_of_a_texel) {
   const KernelAxes axes = texel_axes(map, point, 1.0);
   const auto texel = [&](const glm::dvec3& p) {
     const glm::dvec4 clip = map.clip_from_world * glm::dvec4(p, 1.0);
-    return glm::dvec2(clip) / clip.w * (0.5 * map.width);
+    return glm::dvec2(clip) / clip.w * 0.5 * glm::dvec2(map.width, map.height);
   };
   // A warp's texels change over their own extent: a hundredth of one shows the derivative.
   constexpr double kStep = 0.01;
