@@ -36,6 +36,8 @@ Input plain_input(std::uint64_t seed) {
     input.casters.push_back({foot, foot + glm::dvec3(6, 30 + 5 * i, 6)});
   }
   input.options.cascades = 1;
+  // Errors are told in texels: of the size that was asked for.
+  input.options.prune = input.options.prune.without(PruneRule::metric_resolution);
   return input;
 }
 

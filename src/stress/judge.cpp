@@ -200,6 +200,8 @@ const char* kind_name(OmissionKind kind) {
       return "face without receiver";
     case OmissionKind::face_without_caster:
       return "face without caster";
+    case OmissionKind::resolution_without_gain:
+      return "texels finer than asked for";
     default:
       return "something else";
   }
