@@ -2,6 +2,8 @@
 # -ffp-contract=off keeps results bit-equal over compilers: no multiply-add is fused behind our back.
 function(gnomon_target name)
   target_compile_features(${name} PUBLIC cxx_std_20)
+  # What belongs to no library alone lies in src itself: headers without a source.
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -ffp-contract=off)
   # gcc 12 takes "literal" + std::string&& for overlapping memory.
   target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gnomon/casefile/casefile.hpp"
+#include "json_scan.hpp"
 
 namespace gnomon {
 namespace {
@@ -21,23 +22,10 @@ std::string place_of(std::string_view text, std::size_t offset) {
 }
 
 void check_nesting(std::string_view text) {
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > kMaxCaseNesting)
-        throw CaseError(place_of(text, i) + ": nested deeper than " + std::to_string(kMaxCaseNesting) +
-                        " levels");
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
+  const std::size_t at = nested_deeper_at(text, kMaxCaseNesting);
+  if (at != std::string_view::npos)
+    throw CaseError(place_of(text, at) + ": nested deeper than " + std::to_string(kMaxCaseNesting) +
+                    " levels");
 }
 
 // nlohmann's messages read "[json.exception.parse_error.101] parse error at line 1, column 2: what".

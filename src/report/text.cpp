@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "gnomon/report/row.hpp"
+#include "json_scan.hpp"
 
 namespace gnomon::report {
 namespace {
@@ -102,21 +103,8 @@ std::string one_line(std::string_view text) {
 
 void check_nesting(std::string_view json) {
   constexpr int kDepth = 32;
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > kDepth) throw ReportError("nested deeper than " + std::to_string(kDepth) + " levels");
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
+  if (nested_deeper_at(json, kDepth) != std::string_view::npos)
+    throw ReportError("nested deeper than " + std::to_string(kDepth) + " levels");
 }
 
 std::string for_script(std::string json) {

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "json_scan.hpp"
 #include "refusal.hpp"
 
 namespace gnomon::detail {
@@ -69,27 +70,12 @@ Container open_container(std::span<const std::uint8_t> bytes) {
 
 void check_json_size(std::string_view json) {
   if (json.find_first_not_of(" \t\r\n") == std::string_view::npos) throw Refusal("JSON", "is empty");
-  int depth = 0;
+  if (nested_deeper_at(json, kJsonDepth) != std::string_view::npos)
+    throw Refusal("JSON", "nested more than " + std::to_string(kJsonDepth) + " deep");
   std::size_t values = 1;
-  bool in_string = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      ++values;
-      if (++depth > kJsonDepth) {
-        throw Refusal("JSON", "nested more than " + std::to_string(kJsonDepth) + " deep");
-      }
-    } else if (c == ']' || c == '}') {
-      --depth;
-    } else if (c == ',' || c == ':') {
-      ++values;
-    }
-  }
+  scan_outside_strings(json, [&](std::size_t, char c) {
+    if (c == '[' || c == '{' || c == ',' || c == ':') ++values;
+  });
   if (values > kJsonValues) throw Refusal("JSON", "more than " + std::to_string(kJsonValues) + " values");
 }
 
