@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
+#include "random.hpp"
 
 namespace gnomon::stress {
 
@@ -17,18 +17,6 @@ struct Input {
   PlanOptions options;
   [[nodiscard]] SceneBounds bounds() const noexcept { return {casters, receivers}; }
   [[nodiscard]] ShadowPlan plan() const noexcept { return make_plan(camera, light, bounds(), options); }
-};
-
-/// Random numbers that are the same everywhere.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  [[nodiscard]] double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  [[nodiscard]] double between(double low, double high) { return low + (high - low) * unit(); }
-  [[nodiscard]] int pick(int count) { return static_cast<int>(unit() * count); }
-
- private:
-  std::mt19937_64 engine_;
 };
 
 /// A flat world of 1 km round a camera 2 m above its ground, some towers, a sun at 20 to 80 degrees: nothing

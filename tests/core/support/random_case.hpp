@@ -3,24 +3,18 @@
 
 #include <glm/vec3.hpp>
 #include <iosfwd>
-#include <random>
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
+#include "random.hpp"
 
 namespace gnomon::test {
 
-/// Random numbers for bulk data, where shrinking each would cost more than it tells. Same on every platform.
-class Random {
+/// For bulk data, where shrinking each number would cost more than it tells.
+class Random : public gnomon::Random {
  public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  [[nodiscard]] double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  [[nodiscard]] double between(double low, double high) { return low + (high - low) * unit(); }
-  [[nodiscard]] int pick(int count) { return static_cast<int>(unit() * count); }
+  using gnomon::Random::Random;
   [[nodiscard]] glm::dvec3 direction();
-
- private:
-  std::mt19937_64 engine_;
 };
 
 /// Input of make_plan with its memory.
