@@ -202,9 +202,8 @@ const char* kind_name(OmissionKind kind) {
       return "face without caster";
     case OmissionKind::resolution_without_gain:
       return "texels finer than asked for";
-    default:
-      return "something else";
   }
+  return "?";
 }
 
 }  // namespace
