@@ -156,9 +156,12 @@ TEST(Prune, exact_rules_change_no_bit_of_the_mask_in_any_built_in_scene) {
 }
 
 TEST(Prune, exact_rules_change_no_bit_of_the_mask_in_real_scenes) {
+  // They are a folder beside this project, which not every machine has.
+  const std::vector<std::filesystem::path> files = test::gltf_files(test::shared_folder() / "scenes");
+  if (files.empty()) GTEST_SKIP() << "no real scenes in " << test::shared_folder();
   constexpr std::uintmax_t kLargestFile = 4u << 20;  // larger ones take too long here
   Tally tally;
-  for (const std::filesystem::path& file : test::gltf_files(test::shared_folder() / "scenes")) {
+  for (const std::filesystem::path& file : files) {
     if (std::filesystem::file_size(file) > kLargestFile) continue;
     Scene scene;
     try {
@@ -171,7 +174,7 @@ TEST(Prune, exact_rules_change_no_bit_of_the_mask_in_real_scenes) {
     fly(pair, tally.views, 3, tally);
     if (HasFatalFailure()) return;
   }
-  if (tally.views == 0) GTEST_SKIP() << "no real scenes in " << test::shared_folder();
+  EXPECT_GT(tally.views, 0u);
 }
 
 TEST(Prune, a_view_that_stands_still_draws_no_map_and_filters_none) {
