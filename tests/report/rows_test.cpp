@@ -22,11 +22,6 @@ std::vector<std::string> lines_of(const std::vector<Row>& rows) {
   return lines;
 }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST(Rows, come_back_from_json_as_they_were) {
   const Row row = sample_row(7);
   const std::string line = to_json_line(row);

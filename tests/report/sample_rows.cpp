@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include <fstream>
+#include <iterator>
 #include <string>
 
 namespace gnomon::report {
@@ -56,6 +58,17 @@ std::vector<Row> sample_rows(int scenes, int techniques) {
     }
   }
   return rows;
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "gnomon/report/row.hpp"
@@ -12,6 +13,11 @@ namespace gnomon::report {
 [[nodiscard]] Row sample_row(std::uint64_t index = 0);
 /// `scenes` x `techniques` x 2 frames.
 [[nodiscard]] std::vector<Row> sample_rows(int scenes, int techniques);
+
+/// All of a file.
+[[nodiscard]] std::string text_of(const std::filesystem::path& file);
+/// How often `part` stands in `text`.
+[[nodiscard]] std::size_t count(const std::string& text, const std::string& part);
 
 /// A folder of this test's own, empty, removed at the end.
 class TemporaryFolder {
