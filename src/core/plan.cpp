@@ -60,12 +60,15 @@ void plan_cascade(const PlanContext& c, const Polytope& all, int cascade, double
       omit(c.plan, {OmissionKind::cascade_without_receiver, cascade, from, to, texels_of(c.options)});
       return;
     }
-    body = frustum_slice(c.camera, c.axes, from, to);
     begin = from;
     end = to;
   }
   const double overlap = overlap_before(c, begin), low = begin - overlap;
-  if (overlap > 0.0 && !holds_nothing) body = receivers_between(c, all, low, end);
+  if (holds_nothing) {
+    body = frustum_slice(c.camera, c.axes, low, end);
+  } else if (overlap > 0.0) {
+    body = receivers_between(c, all, low, end);
+  }
   ShadowMap& map = c.plan.map[static_cast<std::size_t>(c.plan.map_count)];
   map = ShadowMap{};
   map.cascade = cascade;
@@ -172,7 +175,8 @@ void prune_resolution(PlanContext& c, const Polytope& body, int cascades) noexce
       options.texel_budget > 0)
     return;
   MapSizes sizes = equal_sizes(options.map_size);
-  if (!least_sizes(c.plan, options, options.prune_m, sizes)) return;
+  const double m = options.target_m > 0.0 ? min_of(options.target_m, options.prune_m) : options.prune_m;
+  if (!least_sizes(c.plan, options, m, sizes)) return;
   std::array<double, kMaxMaps> before{};
   for (const ShadowMap& map : c.plan.maps())
     before[static_cast<std::size_t>(map.cascade)] = max_of(map.m_s_max, map.m_t_max);

@@ -111,6 +111,16 @@ TEST(Target, the_fewest_maps_that_meet_it_are_taken) {
   }
 }
 
+TEST(Target, maps_that_are_made_smaller_still_meet_it) {
+  Plain plain;
+  plain.options.map_size = 8192;
+  plain.options.target_m = 0.25;  // below prune_m
+  const ShadowPlan plan = plain.plan();
+  ASSERT_GT(plan.map_count, 0);
+  EXPECT_LT(texels(plan), std::int64_t{plan.map_count} * 8192 * 8192) << "some are made smaller";
+  EXPECT_LE(worst(plan), 0.25);
+}
+
 TEST(Target, one_out_of_reach_gives_the_best_there_is) {
   Plain plain;
   plain.options.target_m = 1e-9;
