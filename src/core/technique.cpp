@@ -97,12 +97,14 @@ class Choosing {
     for (const double cost : {costs.frame_ms, costs.ms_per_map, costs.ms_per_megatexel, costs.ms_per_kilodraw,
                               costs.ms_per_megatriangle, costs.ms_per_megatexel_tested})
       any_time_ = any_time_ || cost > 0.0;
+    for (const FilterCost& f : costs.filters)
+      any_time_ = any_time_ || f.prefilter_ms_per_map > 0.0 || f.prefilter_ms_per_megatexel > 0.0 ||
+                  f.lookup_ms_per_megapixel > 0.0;
   }
 
   void add(const Parametrization& p) noexcept {
     if (count_ < all_.size()) all_[count_++] = p;
   }
-  [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
   [[nodiscard]] int tried() const noexcept {
     return static_cast<int>(count_ * sizes_.size() * costs_.filters.size());
   }

@@ -47,8 +47,11 @@ Measured measured(const report::Row& row) noexcept {
 double beyond_front(const Measured& pick, const std::vector<Measured>& all,
                     double Measured::*error) noexcept {
   double most = 1.0;
-  for (const Measured& other : all)
-    most = std::max(most, std::min(pick.ms / other.ms, pick.*error / other.*error));
+  // Where neither has an error, or both have no end of it, they are alike.
+  const auto ratio = [&](const Measured& other) {
+    return pick.*error == other.*error ? 1.0 : pick.*error / other.*error;
+  };
+  for (const Measured& other : all) most = std::max(most, std::min(pick.ms / other.ms, ratio(other)));
   return most;
 }
 
