@@ -276,7 +276,12 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
                   [](const glm::ivec4& reach) { return reach.x > 0; });
   const bool alike = made_alike(settings, block);
   const bool fresh = fit(programs, settings, job, any_blur && programs.blur);
-  const Held held = alike && !fresh ? job.held : Held{};
+  if (!alike || fresh) made_ = {};
+  Held held{};
+  for (std::size_t i = 0; i < maps; ++i) {
+    held[i] = job.held[i] && made_[i];
+    made_[i] = true;
+  }
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glBindVertexArray(no_vertices_.name());

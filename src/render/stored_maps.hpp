@@ -63,7 +63,7 @@ class StoredMaps {
  private:
   /// True where all images are new.
   bool fit(const FilterPrograms& programs, const FilterSettings& settings, const StoreJob& job, bool blurred);
-  /// Whether what the last build() made of a held map is what this one would make.
+  /// Whether the last build() was told the same.
   [[nodiscard]] bool made_alike(const FilterSettings& settings, const FilterBlock& block) noexcept;
   void blur_map(const FilterPrograms& programs, GLint map, bool blurred);
   void join_mips(const FilterPrograms& programs, const StoreJob& job, const Held& held);
@@ -85,6 +85,7 @@ class StoredMaps {
   Sampler stored_sampler_ = make_sampler(), nearest_sampler_ = make_sampler();
   FilterSettings made_with_;  ///< of the last build()
   FilterBlock made_block_{};
+  Held made_{};  ///< layers that are of these settings: a frame touches those of its maps alone
   glm::ivec2 viewport_{0};
   int passes_ = 0;
   std::uint64_t bytes_ = 0;

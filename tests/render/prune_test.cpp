@@ -203,6 +203,29 @@ TEST(Prune, a_view_that_stands_still_draws_no_map_and_filters_none) {
   }
 }
 
+TEST(Prune, what_a_filter_stored_under_other_settings_is_not_taken_for_its_own) {
+  const Scene scene = load_builtin("hangar");
+  const std::vector<Box> boxes = boxes_of(scene);
+  Renderer renderer(scene), fresh(scene);
+  const Camera camera = default_path(scene).at(0.3, kWidth, kHeight);
+  PlanOptions options;
+  options.map_size = kMapSize;
+  const ShadowPlan all = make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options);
+  ASSERT_GT(all.map_count, 1);
+  ShadowPlan nearest = all;
+  nearest.map_count = 1;
+  const auto draw = [&](Renderer& with, const ShadowPlan& plan, const char* filter) {
+    with.draw(plan, camera, with.prepare(parse_filter(filter).settings), mask_only({}));
+    return with.mask();
+  };
+  const FloatImage wanted = draw(fresh, all, "savsm:floor=1e-6");
+  const FloatImage other = draw(renderer, all, "savsm:slope=0.1,floor=0.01");
+  EXPECT_GT(differing(other, wanted), 0u) << "the settings are to make a difference";
+  // Stores the first map alone; the others hold what the settings before left there.
+  draw(renderer, nearest, "savsm:floor=1e-6");
+  EXPECT_EQ(differing(draw(renderer, all, "savsm:floor=1e-6"), wanted), 0u);
+}
+
 TEST(Prune, casters_that_come_into_reach_are_added_to_a_map_that_stands_still) {
   const Scene scene = load_builtin("hangar");
   const std::vector<Box> boxes = boxes_of(scene);
