@@ -71,7 +71,7 @@ struct TechniqueChoice {
   /// ok: plan and options are those of `chosen`. Otherwise what make_plan answered: there is nothing to
   /// choose.
   PlanStatus status = PlanStatus::invalid_input;
-  std::string_view invalid_field;  ///< of make_plan, or "budget", "cost_model"
+  std::string_view invalid_field;  ///< of make_plan, or "budget", "cost_model[.filters]", "map_sizes"
   bool met = false;                ///< false: nothing fits, `chosen` is the nearest to fitting
   Technique chosen;
   /// What a fifth less would have cost in error, and what a fifth less error would cost; map_size 0: there is

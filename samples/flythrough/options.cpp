@@ -87,6 +87,9 @@ void resolve_budget(const Raw& raw, Options& options) {
   if (!raw.cost_model.empty()) options.cost_model = raw.cost_model;
   if (options.budget.milliseconds > 0.0 && !options.cost_model)
     throw UsageError("--budget-ms: wants --cost-model FILE, which gnomon calibrate writes");
+  const bool chosen = options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0;
+  if (chosen && options.perceptual_resolution)
+    throw UsageError("--resolution perceptual: --budget-ms and --target-error choose the maps already");
 }
 
 void resolve_transition(const Raw& raw, Options& options) {

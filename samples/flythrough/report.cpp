@@ -95,7 +95,11 @@ std::string omitted_text(const gnomon::ShadowPlan& plan, const gnomon::render::F
   }
   for (const gnomon::PruneRuleInfo& rule : gnomon::prune_rules()) {
     const gnomon::PruneSaving& saved = stats.saved[static_cast<std::size_t>(rule.rule)];
-    const bool of_plan = rule.rule <= gnomon::PruneRule::metric_resolution;
+    // What the plan left out is told above, map by map.
+    using gnomon::PruneRule;
+    const bool of_plan = rule.rule == PruneRule::empty_cascades ||
+                         rule.rule == PruneRule::casterless_cascades ||
+                         rule.rule == PruneRule::metric_resolution;
     if (of_plan || (saved.instances == 0 && saved.texels == 0)) continue;
     text += fmt::format("{}{}: {} instances, {} triangles, {} texels", text.empty() ? "" : "; ", rule.what,
                         saved.instances, saved.triangles, saved.texels);

@@ -4,6 +4,7 @@
 #include "file.hpp"
 #include "gnomon/report/cost_model.hpp"
 #include "gnomon/report/row.hpp"
+#include "text.hpp"
 
 namespace gnomon::report {
 namespace {
@@ -45,6 +46,11 @@ StoredCostModel load_cost_model(const std::filesystem::path& file) {
       std::filesystem::file_size(file, ignored) > kLargestFile)
     throw ReportError(file.string() + ": larger than any cost model");
   const std::string text = read_text(file);
+  try {
+    check_nesting(text);
+  } catch (const ReportError& error) {
+    throw ReportError(file.string() + ": " + error.what());
+  }
   try {
     const Json json = Json::parse(text);
     if (json.at("schema").get<std::string>() != kSchema)

@@ -138,8 +138,13 @@ Stability read_stability(const std::string& text, const std::string& where) {
   for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
     ++number;
     if (end == begin) continue;
-    const Json json = Json::parse(text.substr(begin, end - begin), nullptr, false);
     const std::string line = where + ":" + std::to_string(number);
+    try {
+      check_nesting(std::string_view(text).substr(begin, end - begin));
+    } catch (const ReportError& error) {
+      throw ReportError(line + ": " + error.what());
+    }
+    const Json json = Json::parse(text.substr(begin, end - begin), nullptr, false);
     if (!json.is_object()) throw ReportError(line + ": not a JSON object");
     try {
       add_line(json, stability);

@@ -116,11 +116,16 @@ TEST(CaseFile, given_splits_go_with_every_copy) {
 }
 
 TEST(CaseFile, reads_a_target_a_budget_and_the_whole_clip_space) {
-  const PlanOptions options = read_case(text_with(kSun, R"({"target_m": 1.5, "texel_budget": 4294967296, "split_overlap": 0.1,
+  const PlanOptions options =
+      read_case(text_with(kSun, R"({"target_m": 1.5, "texel_budget": 4294967296, "split_overlap": 0.1,
+      "prune": "swept_casters,held_maps", "prune_m": 0.5,
       "clip_space": {"handedness": "left", "first_row": "y_plus_one"}})"))
-                                  .options;
+          .options;
   EXPECT_EQ(options.target_m, 1.5);
   EXPECT_EQ(options.split_overlap, 0.1);
+  EXPECT_EQ(options.prune, kPruneNothing.with(PruneRule::swept_casters).with(PruneRule::held_maps));
+  EXPECT_EQ(options.prune_m, 0.5);
+  EXPECT_THROW((void)read_case(text_with(kSun, R"({"prune": "everything"})")), CaseError);
   EXPECT_EQ(options.texel_budget, std::int64_t{1} << 32);
   EXPECT_EQ(options.clip_space.handedness, Handedness::left);
   EXPECT_EQ(options.clip_space.first_row, FirstRow::y_plus_one);

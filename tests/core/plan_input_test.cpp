@@ -108,6 +108,8 @@ TEST(PlanInput, every_broken_field_is_named) {
       {"options.target_m", [](Input& i) { i.options.target_m = kNan; }},
       {"options.texel_budget", [](Input& i) { i.options.texel_budget = -1; }},
       {"options.texel_budget", [](Input& i) { i.options.texel_budget = 4 * 16 * 16 - 1; }},
+      {"options.prune_m", [](Input& i) { i.options.prune_m = 0.0; }},
+      {"options.prune_m", [](Input& i) { i.options.prune_m = kNan; }},
       {"options.split_overlap", [](Input& i) { i.options.split_overlap = -0.1; }},
       {"options.split_overlap", [](Input& i) { i.options.split_overlap = kNan; }},
       {"options.given_splits", [](Input& i) { i.give_splits({}); }},

@@ -84,6 +84,9 @@ TEST_F(Flythrough, refuses_bad_input_with_one_line_and_writes_nothing) {
                 {"--budget-ms 5", "--cost-model"},
                 {"--budget-ms 5 --cost-model no_such_model.json", "no_such_model.json"},
                 {"--target-error nan", "--target-error"},
+                {"--target-error 1 --resolution perceptual --filter pcss", "--resolution perceptual"},
+                {"--prune everything", "--prune everything"},
+                {"--fit loose", "--fit loose"},
                 {"--size 640", "640"},
                 {"--size 640x", "640x"},
                 {"--frames 0", "--frames"},
@@ -129,7 +132,13 @@ TEST_F(Flythrough, tells_its_version_and_its_options) {
                              "--transition",
                              "--budget-ms",
                              "--target-error",
-                             "--cost-model"}) {
+                             "--cost-model",
+                             "--fit",
+                             "--history",
+                             "--visible-depths",
+                             "--prune",
+                             "--map-memory-mib",
+                             "--max-triangles"}) {
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
   }
 }

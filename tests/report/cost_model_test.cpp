@@ -102,8 +102,9 @@ TEST(CostModel, comes_back_from_its_file) {
 TEST(CostModel, a_file_that_is_none_is_refused_by_name) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "model.json";
+  const std::string deep(1000, '[');
   for (const char* text :
-       {"", "{}", "[1]", "{\"schema\":\"gnomon.cost.2\"}", "{\"schema\":\"gnomon.cost.1\"}"}) {
+       {"", "{}", "[1]", "{\"schema\":\"gnomon.cost.2\"}", "{\"schema\":\"gnomon.cost.1\"}", deep.c_str()}) {
     std::ofstream(file) << text;
     try {
       (void)load_cost_model(file);

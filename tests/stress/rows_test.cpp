@@ -75,11 +75,14 @@ TEST(Tables, keep_their_columns) {
   std::istringstream lines(tables(some_results()));
   std::string line;
   std::ptrdiff_t bars = 0;
+  int rows = 0;
   while (std::getline(lines, line)) {
+    rows += line.find('|') != std::string::npos ? 1 : 0;
     const auto here = std::count(line.begin(), line.end(), '|');
     if (here == 0 || bars == 0) bars = here;
     EXPECT_EQ(here, bars) << line;
   }
+  EXPECT_EQ(rows, 9) << "three tables: head, rule and a row";
 }
 
 }  // namespace
