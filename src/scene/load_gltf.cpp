@@ -79,7 +79,8 @@ std::uint64_t announced(const detail::Document& document, std::size_t mesh, std:
   if (accessor.bufferView < 0) return 0;
   const auto& view = document.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
   const std::uint64_t count = std::min<std::uint64_t>(accessor.count, view.byteLength);
-  return source.mode == TINYGLTF_MODE_TRIANGLES ? count / 3 : count;
+  if (source.mode == TINYGLTF_MODE_TRIANGLES) return count / 3;
+  return count < 3 ? 0 : count - 2;
 }
 
 /// A scene too large is refused by what it says it is, before memory is spent on it.
@@ -91,12 +92,14 @@ void check_size(const detail::Document& document, const detail::NodeTree& tree, 
   std::uint64_t triangles = 0, stored = 0;
   std::vector<bool> seen(of_mesh.size(), false);
   for (const int n : tree.shown) {
-    const int mesh = document.model.nodes[static_cast<std::size_t>(n)].mesh;
-    if (mesh < 0) continue;
-    const auto m = static_cast<std::size_t>(mesh);
+    const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(n)];
+    if (node.mesh < 0) continue;
+    const auto m = static_cast<std::size_t>(node.mesh);
     triangles += of_mesh[m];
-    if (!seen[m]) stored += of_mesh[m];
-    seen[m] = true;
+    // A mesh is stored once for all its nodes, but anew for each that bends it.
+    const bool bent = node.skin >= 0;
+    if (bent || !seen[m]) stored += of_mesh[m];
+    seen[m] = seen[m] || !bent;
   }
   if (triangles <= limits.triangles) return;
   // Three corners of 32 bytes and their indices, where no vertex is shared.

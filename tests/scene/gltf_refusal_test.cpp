@@ -198,6 +198,33 @@ TEST(GltfRefusal, limits_on_triangles_vertices_and_nodes_count_every_instance) {
   expect_refused(refusal_of(gltf, fewer), "nodes");
 }
 
+TEST(GltfRefusal, strips_and_fans_count_as_the_triangles_they_stand_for) {
+  for (const int mode : {5, 6}) {
+    TestGltf gltf;
+    const int corners = gltf.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
+    gltf.show({{"attributes", {{"POSITION", corners}}}, {"mode", mode}});
+    LoadLimits limits;
+    limits.triangles = 2;
+    EXPECT_EQ(refusal_of(gltf, limits), "") << "mode " << mode;
+    limits.triangles = 1;
+    expect_refused(refusal_of(gltf, limits), "scene: 2 triangles");
+  }
+}
+
+TEST(GltfRefusal, the_memory_that_is_told_of_counts_a_mesh_once_but_for_each_node_that_bends_it) {
+  constexpr std::size_t kTriangles = 10'000;  // 108 bytes each: a little above 1 MiB
+  TestGltf gltf;
+  const int corners = gltf.positions(std::vector<float>(kTriangles * 9));
+  gltf.show({{"attributes", {{"POSITION", corners}}}});
+  for (int i = 0; i < 3; ++i) gltf.show_node({{"mesh", 0}});
+  gltf.add("skins", {{"joints", {0}}});
+  LoadLimits limits;
+  limits.triangles = 1;
+  expect_refused(refusal_of(gltf, limits), "40000 triangles, up to 1 MiB");
+  for (json& node : gltf.document["nodes"]) node["skin"] = 0;
+  expect_refused(refusal_of(gltf, limits), "40000 triangles, up to 4 MiB");
+}
+
 TEST(GltfRefusal, text_that_is_not_json_or_not_an_object_is_refused) {
   expect_refused(refusal_of_bytes(""), "JSON");
   expect_refused(refusal_of_bytes("   \n"), "JSON");
