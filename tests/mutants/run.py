@@ -3,6 +3,7 @@
 could notice, and runs them until one fails. Prints who caught it; exits 1 where nobody did.
 
     run.py SOURCE_DIR WORK_DIR [TEXT...]     only the faults whose file or description holds one of TEXT
+    run.py SOURCE_DIR WORK_DIR --check       only looks whether each fault still has its one place in the sources
 """
 import json
 import os
