@@ -7,7 +7,7 @@
 
 namespace gnomon::stress {
 
-/// Collects what a case found. A case fails with the first thing that does not hold.
+/// Collects what a case found. A case fails where anything does not hold, and says all that does not.
 class Check {
  public:
   /// `what`: the requirement in few words, told where it does not hold.

@@ -6,10 +6,13 @@
 
 namespace gnomon::report {
 
-/// Reads the rows in `folder` and, where they are, `stability.jsonl`; writes there
+/// Reads from `folder` its rows, its `stability.jsonl` (what gnomon stress writes), or both; writes there
 ///   report.html         all of it, opens offline, readable without scripts,
 ///   charts/NAME.svg     the charts,
-///   summary.csv         a line per scene and technique, frames.csv one per row.
+///   summary.csv         a line per scene and technique,
+///   frames.csv          a line per row,
+///   fronts.md           what no other technique beats on each scene, as tables.
+/// Files that are there already are replaced, each as a whole. A folder with neither is refused.
 /// Throws ReportError. Returns the path of the page.
 std::filesystem::path write_report(const std::filesystem::path& folder);
 

@@ -23,7 +23,8 @@ struct LightPlacement {
 
 /// Sun: parallel light from that direction. Spot: from that direction at 0.6 of the scene's longest side from
 /// its middle, half angle 0.6 radians, range 1.5 sides. Point: over the middle at 0.8 of the scene's height,
-/// range 0.75 sides; direction does not matter. A scene without extent has lamps without range.
+/// range 0.75 sides; direction does not matter. A scene that is one point has lamps of range zero in that
+/// very point, and an empty one lamps nowhere (not a number): make_plan refuses both.
 [[nodiscard]] Light default_light(const LightPlacement& placement, const Box& scene) noexcept;
 
 }  // namespace gnomon
