@@ -173,26 +173,15 @@ void check_plans(const Options& options, const Flight& flight) {
 
 /// Halves the maps until memory takes them, and says so. Throws UsageError where not even the least fit.
 void fit_maps_to_memory(Options& options) {
-  constexpr double kMebi = 1024.0 * 1024.0;
-  constexpr int kLeastMap = 16;
   const int wanted = options.plan.map_size;
-  std::string why;
-  for (int size = wanted; size >= kLeastMap; size /= 2) {
-    const double bytes = gnomon::render::bytes_per_texel(options.filter) * size * size;
-    const double mebibytes = bytes * options.plan.cascades / kMebi;
-    if (options.map_memory_mib > 0.0 && mebibytes > options.map_memory_mib) {
-      if (why.empty()) why = fmt::format("--map-memory-mib {:g}", options.map_memory_mib);
-    } else if (!gnomon::render::memory_takes_maps(size, options.plan.cascades, bytes / size / size)) {
-      if (why.empty()) why = "out of memory";
-    } else {
-      options.plan.map_size = size;
-      if (size < wanted)
-        fmt::print(stderr, "flythrough: warning: maps of {} do not fit ({}): maps of {}, {:.4g} MiB\n",
-                   wanted, why, size, mebibytes);
-      return;
-    }
-  }
-  throw UsageError(fmt::format("--map-size {}: no map fits ({})", wanted, why));
+  const gnomon::render::FittingMaps fitting = gnomon::render::largest_maps(
+      wanted, options.plan.cascades, gnomon::render::bytes_per_texel(options.filter), options.map_memory_mib);
+  if (fitting.size == 0)
+    throw UsageError(fmt::format("--map-size {}: no map fits ({})", wanted, fitting.why));
+  if (fitting.size < wanted)
+    fmt::print(stderr, "flythrough: warning: maps of {} do not fit ({}): maps of {}, {:.4g} MiB\n", wanted,
+               fitting.why, fitting.size, fitting.mebibytes);
+  options.plan.map_size = fitting.size;
 }
 
 void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
@@ -217,10 +206,7 @@ void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
 Flight load_flight(const Options& options) {
   try {
     Flight flight;
-    gnomon::LoadLimits limits;
-    limits.triangles = options.max_triangles;
-    limits.vertices = std::max(limits.vertices, 3 * options.max_triangles);
-    flight.scene = gnomon::load_scene(options.scene, limits);
+    flight.scene = gnomon::load_scene(options.scene, gnomon::limits_of_triangles(options.max_triangles));
     for (const std::string& warning : flight.scene.warnings)
       fmt::print(stderr, "flythrough: warning: {}\n", warning);
     flight.path = options.path ? gnomon::load_camera_path(*options.path) : gnomon::default_path(flight.scene);

@@ -106,6 +106,26 @@ bool memory_takes_maps(int map_size, int maps, double bytes_per_texel) {
   return true;
 }
 
+FittingMaps largest_maps(int map_size, int maps, double bytes_per_texel, double limit_mib) {
+  constexpr double kMebi = 1024.0 * 1024.0;
+  constexpr int kLeastMap = 16;
+  FittingMaps fitting;
+  for (int size = map_size; size >= std::min(map_size, kLeastMap); size /= 2) {
+    const double mebibytes = bytes_per_texel * maps * size * size / kMebi;
+    const bool within = limit_mib <= 0.0 || mebibytes <= limit_mib;
+    if (within && memory_takes_maps(size, maps, bytes_per_texel)) {
+      fitting.size = size;
+      fitting.mebibytes = mebibytes;
+      return fitting;
+    }
+    if (!fitting.why.empty()) continue;
+    std::array<char, 64> text;
+    std::snprintf(text.data(), text.size(), "above the limit of %g MiB", limit_mib);
+    fitting.why = within ? "out of memory" : text.data();
+  }
+  return fitting;
+}
+
 Probe probe_driver() {
   Probe probe;
   constexpr std::array<std::pair<const char*, GLenum>, 6> kLimits{

@@ -105,6 +105,7 @@ Json settings_json(const Row& row) {
 Json lasting_json(const Row& row) {
   Json json{{"schema", kSchema}, {"index", row.index}};
   json.update(settings_json(row));
+  json["scene_hash"] = row.scene_hash;
   json["plan_status"] = row.plan_status;
   json["errors"] = errors_json(row);
   json["m"] = aliasing_json(row.aliasing);
@@ -264,6 +265,8 @@ Row row_from_json(const std::string& line, const std::string& where) {
     json.at("light").get_to(row.light);
     row.light_elevation_deg = real_from(json.at("light_elevation_deg"));
     row.light_azimuth_deg = real_from(json.at("light_azimuth_deg"));
+    // Rows of an earlier version have none.
+    if (json.contains("scene_hash")) json.at("scene_hash").get_to(row.scene_hash);
     row.technique = technique_from(json.at("technique"));
     json.at("plan_status").get_to(row.plan_status);
     results_from(json, row);

@@ -91,16 +91,26 @@ std::vector<Row> read_rows(const fs::path& path) {
   return rows_from_text(read_text(file), file.string());
 }
 
+bool SceneHashes::agree(const std::string& scene, const std::string& hash) {
+  return hash.empty() || known_.try_emplace(scene, hash).first->second == hash;
+}
+
 std::size_t merge_rows(std::span<const fs::path> folders, const fs::path& out) {
   std::vector<Row> rows;
   std::set<std::string> keys;
+  std::vector<fs::path> from;  // of each row
+  SceneHashes scenes;
   for (const fs::path& folder : folders) {
     for (Row& row : read_rows(folder)) {
+      if (!scenes.agree(row.scene, row.scene_hash))
+        throw ReportError(
+            one_line(folder.string() + ": " + row.scene + " is not the one that was measured before"));
       if (!keys.insert(row.key()).second) continue;
-      copy_pictures(row, rows_path(folder).parent_path(), out);
+      from.push_back(rows_path(folder).parent_path());
       rows.push_back(std::move(row));
     }
   }
+  for (std::size_t i = 0; i < rows.size(); ++i) copy_pictures(rows[i], from[i], out);
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.index < b.index; });
   std::string text;
   for (const Row& row : rows) text += to_json_line(row) + "\n";

@@ -135,7 +135,7 @@ namespace detail {
 
 Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& scene_name,
                       const std::string& path_in_errors, const std::filesystem::path& folder,
-                      const LoadLimits& limits) {
+                      const LoadLimits& limits, std::uint64_t* files_hash) {
   try {
     Scene scene;
     scene.name = scene_name;
@@ -145,6 +145,7 @@ Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& sc
     check_size(document, tree, limits);
     place_nodes(document, tree, limits, scene);
     read_materials(document, files, limits, scene);
+    if (files_hash != nullptr) *files_hash = hash_of(bytes, files.hash());
     return scene;
   } catch (const std::bad_alloc&) {
     throw SceneError(one_line(path_in_errors + ": file: needs more memory than there is"));
@@ -155,7 +156,11 @@ Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& sc
 
 }  // namespace detail
 
-Scene load_gltf(const std::filesystem::path& path, const LoadLimits& limits) {
+namespace {
+
+constexpr std::string_view kBuiltin = "builtin:";
+
+Scene load_file(const std::filesystem::path& path, const LoadLimits& limits, std::uint64_t* files_hash) {
   detail::Bytes bytes;
   try {
     bytes = detail::read_regular_file(path, limits.file_bytes);
@@ -164,13 +169,39 @@ Scene load_gltf(const std::filesystem::path& path, const LoadLimits& limits) {
   }
   const std::filesystem::path parent = path.parent_path();
   return detail::load_gltf_bytes(bytes, path.stem().string(), path.string(), parent.empty() ? "." : parent,
-                                 limits);
+                                 limits, files_hash);
+}
+
+}  // namespace
+
+LoadLimits limits_of_triangles(std::uint64_t triangles) noexcept {
+  LoadLimits limits;
+  limits.triangles = triangles;
+  // Where none shares a corner.
+  limits.vertices = std::max(limits.vertices, 3 * std::min(triangles, UINT64_MAX / 3));
+  return limits;
+}
+
+Scene load_gltf(const std::filesystem::path& path, const LoadLimits& limits) {
+  return load_file(path, limits, nullptr);
 }
 
 Scene load_scene(const std::string& spec, const LoadLimits& limits) {
-  constexpr std::string_view kBuiltin = "builtin:";
   if (spec.starts_with(kBuiltin)) return load_builtin(std::string_view(spec).substr(kBuiltin.size()));
   return load_gltf(spec, limits);
+}
+
+std::uint64_t scene_files_hash(const std::string& spec, const LoadLimits& limits) {
+  std::uint64_t hash = 0;
+  if (!spec.starts_with(kBuiltin)) {
+    (void)load_file(spec, limits, &hash);
+    return hash;
+  }
+  const std::string_view name = std::string_view(spec).substr(kBuiltin.size());
+  const auto known = builtin_scenes();
+  if (std::none_of(known.begin(), known.end(), [&](const BuiltinScene& scene) { return scene.name == name; }))
+    (void)load_builtin(name);  // refuses, and says which there are
+  return hash;
 }
 
 }  // namespace gnomon

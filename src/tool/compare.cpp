@@ -1,7 +1,9 @@
 // `gnomon compare`: every technique of a sweep on every frame of every scene, a row of results each.
 #include "compare.hpp"
 
-#include <algorithm>
+#include <array>
+#include <cinttypes>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -48,45 +50,52 @@ report::Row empty_row(const Sweep& sweep, std::size_t scene, int frame, std::siz
 std::vector<Task> tasks_of(const Sweep& sweep, std::size_t scene, int frame,
                            const std::set<std::string>& known) {
   std::vector<Task> tasks;
+  std::set<std::string> asked;  // maps made smaller may be those of another entry
   for (std::size_t entry = 0; entry < sweep.entries.size(); ++entry) {
     report::Row row = empty_row(sweep, scene, frame, entry);
-    if (sweep.is_mine(row.index) && !known.contains(row.key())) tasks.push_back({entry, std::move(row)});
+    if (!sweep.is_mine(row.index) || known.contains(row.key()) || !asked.insert(row.key()).second) continue;
+    tasks.push_back({entry, std::move(row)});
   }
   return tasks;
 }
 
-/// A name that is wrong is found now and not after an hour.
-void check_scenes(const Sweep& sweep) {
+/// What each scene's files hold. A scene that cannot be loaded is found now and not after an hour.
+std::vector<std::string> hashes_of(const Sweep& sweep) {
+  std::vector<std::string> hashes;
   for (const std::string& scene : sweep.scenes) {
-    const std::string builtin = "builtin:";
-    std::error_code ignored;
-    if (scene.rfind(builtin, 0) == 0) {
-      const auto names = builtin_scenes();
-      if (std::none_of(names.begin(), names.end(),
-                       [&](const BuiltinScene& known) { return known.name == scene.substr(builtin.size()); }))
-        (void)load_scene(scene);  // refuses, and says which there are
-    } else if (!fs::exists(scene, ignored)) {
-      throw std::runtime_error(scene + ": no such file");
-    }
+    const std::uint64_t hash = scene_files_hash(scene, limits_of_triangles(sweep.max_triangles));
+    std::array<char, 17> text{};
+    if (hash != 0) std::snprintf(text.data(), text.size(), "%016" PRIx64, hash);
+    hashes.emplace_back(text.data());
   }
+  return hashes;
 }
 
-std::set<std::string> known_keys(const Sweep& sweep) {
+std::set<std::string> known_keys(const Sweep& sweep, const std::vector<std::string>& hashes) {
   const fs::path file = fs::path(sweep.out) / report::kRowsFile;
   std::set<std::string> keys;
   if (!fs::exists(file)) return keys;
   if (!sweep.resume)
     throw std::runtime_error(file.string() +
                              ": there already; --resume goes on with it, another --out starts anew");
-  for (const report::Row& row : report::read_rows(file)) keys.insert(row.key());
+  report::SceneHashes now;
+  for (std::size_t i = 0; i < hashes.size(); ++i) (void)now.agree(sweep.scenes[i], hashes[i]);
+  for (const report::Row& row : report::read_rows(file)) {
+    if (!now.agree(row.scene, row.scene_hash))
+      throw std::runtime_error(file.string() + ": " + row.scene +
+                               " is no longer what was measured; another --out starts anew");
+    keys.insert(row.key());
+  }
   return keys;
 }
 
 /// One sweep under way.
 class Run {
  public:
-  Run(const Sweep& sweep, const report::Machine& machine, std::set<std::string> known)
+  Run(const Sweep& sweep, std::vector<std::string> hashes, const report::Machine& machine,
+      std::set<std::string> known)
       : sweep_(sweep),
+        hashes_(std::move(hashes)),
         machine_(machine),
         known_(std::move(known)),
         file_(fs::path(sweep.out) / report::kRowsFile),
@@ -139,6 +148,7 @@ class Run {
     const std::vector<report::Times> times =
         measure_times(stage, truth.camera, entries, sweep_.baseline, sweep_.rounds, [this] { step(1); });
     for (std::size_t i = 0; i < tasks.size(); ++i) {
+      tasks[i].row.scene_hash = hashes_[scene];
       tasks[i].row.times = times[i];
       tasks[i].row.machine = machine_;
       tasks[i].row.machine.load = current_load();
@@ -147,6 +157,7 @@ class Run {
   }
 
   const Sweep& sweep_;
+  std::vector<std::string> hashes_;  ///< of the scenes
   report::Machine machine_;
   std::set<std::string> known_;
   report::RowsFile file_;
@@ -157,15 +168,17 @@ class Run {
 }  // namespace
 
 int run_compare(const CompareRequest& request, bool json) {
-  const Sweep sweep = make_sweep(request);
-  check_scenes(sweep);
-  const std::set<std::string> known = known_keys(sweep);
+  Sweep sweep = make_sweep(request);
+  const std::vector<std::string> hashes = hashes_of(sweep);
+  const std::set<std::string> known = known_keys(sweep, hashes);
   const std::unique_ptr<render::Context> context = render::create_context(sweep.context);
+  for (const std::string& line : fit_to_memory(sweep))
+    std::fprintf(stderr, "gnomon: warning: %s\n", line.c_str());
   std::error_code error;
   fs::create_directories(sweep.out, error);
   if (error) throw std::runtime_error("--out " + sweep.out + ": cannot be made a folder: " + error.message());
   watch_interrupts();
-  Run(sweep, machine(context->info()), known).all();
+  Run(sweep, hashes, machine(context->info()), known).all();
   const std::string rows = (fs::path(sweep.out) / report::kRowsFile).string();
   // A shard's report would show a part as if it were the whole.
   const std::string page = sweep.shards == 1 ? report::write_report(sweep.out).string() : std::string();

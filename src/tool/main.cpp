@@ -85,6 +85,15 @@ void add_compare(CLI::App& app, CompareRequest& request) {
       ->add_option("--light-azimuth-deg", request.light_azimuth_deg,
                    "where the sun stands: 0 over -Z, 90 over +X")
       ->check(CLI::Range(-360.0, 360.0));
+  compare
+      ->add_option("--map-memory-mib", request.map_memory_mib,
+                   "MiB that a technique's maps may take together; larger ones are halved until they fit; "
+                   "0: what there is")
+      ->check(CLI::Range(0.0, 1e9));
+  compare
+      ->add_option("--max-triangles", request.max_triangles,
+                   "scenes of more, over all instances, are refused; one takes up to 100 bytes")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   compare->add_flag("--resume", request.resume, "go on with the results in --out");
   compare->footer(compare_footer());
 }

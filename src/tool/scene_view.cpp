@@ -1,8 +1,6 @@
 // A scene with the boxes, the light and the cameras that it is planned for.
 #include "scene_view.hpp"
 
-#include "gnomon/scene/load.hpp"
-
 namespace gnomon::tool {
 namespace {
 
@@ -14,8 +12,8 @@ double time_of(int frame, int frames) noexcept {
 
 }  // namespace
 
-SceneView::SceneView(const std::string& scene, const LightPlacement& light)
-    : scene_(load_scene(scene)),
+SceneView::SceneView(const std::string& scene, const LightPlacement& light, const LoadLimits& limits)
+    : scene_(load_scene(scene, limits)),
       path_(default_path(scene_)),
       light_(default_light(light, scene_.bounds_world)) {
   for (const Instance& instance : scene_.instances) {

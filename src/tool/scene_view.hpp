@@ -7,6 +7,7 @@
 #include "gnomon/plan.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/default_light.hpp"
+#include "gnomon/scene/load.hpp"
 #include "gnomon/scene/scene.hpp"
 #include "gnomon/technique.hpp"
 
@@ -15,7 +16,7 @@ namespace gnomon::tool {
 class SceneView {
  public:
   /// Throws SceneError.
-  SceneView(const std::string& scene, const LightPlacement& light);
+  SceneView(const std::string& scene, const LightPlacement& light, const LoadLimits& limits = {});
 
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
   [[nodiscard]] const Light& light() const noexcept { return light_; }

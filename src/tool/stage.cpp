@@ -3,7 +3,8 @@
 
 namespace gnomon::tool {
 
-Stage::Stage(const Sweep& sweep, const std::string& scene) : sweep_(sweep), view_(scene, sweep.light) {
+Stage::Stage(const Sweep& sweep, const std::string& scene)
+    : sweep_(sweep), view_(scene, sweep.light, limits_of_triangles(sweep.max_triangles)) {
   tracer_ = std::make_unique<trace::Tracer>(view_.scene());
   renderer_ = std::make_unique<render::Renderer>(view_.scene());
 }

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <functional>
 #include <stdexcept>
+
+#include "gnomon/render/probe.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -161,7 +164,37 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
   return once;
 }
 
+/// Of the maps that its plans may have.
+int most_maps(const SweepEntry& entry, LightKind light) noexcept {
+  constexpr int kCubeFaces = 6;
+  if (light != LightKind::sun) return kCubeFaces;
+  return entry.plan.partition == Partition::view_depth ? entry.plan.cascades : kMaxMaps;
+}
+
+std::string fit_to_memory(SweepEntry& entry, const Sweep& sweep) {
+  const int wanted = entry.plan.map_size;
+  const std::string name = entry.technique.name();
+  const render::FittingMaps fitting =
+      render::largest_maps(wanted, most_maps(entry, sweep.light.kind), render::bytes_per_texel(entry.filter),
+                           sweep.map_memory_mib);
+  if (fitting.size == 0) throw std::runtime_error(name + ": no map fits (" + fitting.why + ")");
+  if (fitting.size == wanted) return {};
+  set_size(fitting.size, entry);
+  return name + ": maps of " + std::to_string(wanted) + " do not fit (" + fitting.why + "): maps of " +
+         std::to_string(fitting.size);
+}
+
 }  // namespace
+
+std::vector<std::string> fit_to_memory(Sweep& sweep) {
+  std::vector<std::string> lines;
+  for (SweepEntry& entry : sweep.entries) {
+    if (std::string line = fit_to_memory(entry, sweep); !line.empty()) lines.push_back(std::move(line));
+  }
+  if (std::string line = fit_to_memory(sweep.baseline, sweep); !line.empty())
+    lines.push_back("baseline " + line);
+  return lines;
+}
 
 std::string compare_footer() {
   return "Lists take commas or spaces. The sweep is the product of all lists, combinations that are the "
@@ -216,6 +249,9 @@ Sweep make_sweep(const CompareRequest& request) {
     refuse("--light", request.light, "sun, spot or point");
   sweep.out = request.out;
   sweep.resume = request.resume;
+  if (std::isnan(request.map_memory_mib)) refuse("--map-memory-mib", "nan", "a number");
+  sweep.map_memory_mib = request.map_memory_mib;
+  sweep.max_triangles = request.max_triangles;
   if (!parse_pair(request.size, 'x', kMinSide, kMaxSide, sweep.width, sweep.height))
     refuse("--size", request.size, "WIDTHxHEIGHT, each 16 to 16384, as in 480x270");
   int shard = 0, shards = 0;

@@ -9,6 +9,7 @@
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/report/row.hpp"
 #include "gnomon/scene/default_light.hpp"
+#include "gnomon/scene/load.hpp"
 
 namespace gnomon::tool {
 
@@ -21,6 +22,8 @@ struct CompareRequest {
   std::string size = "480x270", shard = "1/1", context = "auto", out = "out/compare";
   std::string light = "sun";
   double light_elevation_deg = 38.0, light_azimuth_deg = 140.0;
+  double map_memory_mib = 0.0;  ///< that a technique's maps may take; 0: what there is
+  std::uint64_t max_triangles = LoadLimits{}.triangles;
   bool resume = false;
 };
 
@@ -40,6 +43,8 @@ struct Sweep {
   render::ContextKind context = render::ContextKind::automatic;
   LightPlacement light;
   std::string out;
+  double map_memory_mib = 0.0;
+  std::uint64_t max_triangles = 0;
   bool resume = false;
 
   /// Place of a row in the whole sweep.
@@ -55,6 +60,10 @@ struct Sweep {
 /// names are taken once: with one map or under a lamp the split does not matter, and a stable fit takes no
 /// warp.
 [[nodiscard]] Sweep make_sweep(const CompareRequest& request);
+
+/// Makes maps smaller that memory does not take, in the context that is current: a technique goes by the size
+/// it is measured with. Returns a line for each. Throws std::runtime_error where not even the least fit.
+std::vector<std::string> fit_to_memory(Sweep& sweep);
 
 /// What a technique's names stand for. Throws std::runtime_error where one of them means nothing.
 [[nodiscard]] SweepEntry sweep_entry(const report::Technique& technique);

@@ -172,6 +172,96 @@ TEST(Compare, a_finished_sweep_that_is_resumed_measures_nothing) {
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(to_json_line(after[i]), to_json_line(before[i]));
 }
 
+/// A triangle on the ground, with its corners in a file of their own.
+std::string write_triangle(const TemporaryFolder& folder, float height) {
+  const float corners[] = {0, height, 0, 0, height, 5, 5, height, 0};
+  (void)folder.write("corners.bin", {reinterpret_cast<const char*>(corners), sizeof corners});
+  return folder.write(
+      "triangle.gltf",
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+      R"("buffers":[{"byteLength":36,"uri":"corners.bin"}],"bufferViews":[{"buffer":0,"byteLength":36}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})");
+}
+
+TEST(Compare, does_not_go_on_with_a_scene_whose_files_have_changed) {
+  const TemporaryFolder folder;
+  const auto compare = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = small_sweep(folder.path() / out, more);
+    arguments[1] = write_triangle(folder, out == "raised" ? 2.0f : 1.0f);
+    return run_gnomon(arguments);
+  };
+  ASSERT_EQ(compare("first", {}).exit_code, 0);
+  EXPECT_EQ(compare("first", {"--resume"}).exit_code, 0) << "written anew, with the same bytes";
+  // A file that the scene names has changed, and the scene's own has not.
+  ASSERT_EQ(compare("raised", {}).exit_code, 0);
+  const Finished changed = run_gnomon([&] {
+    std::vector<std::string> arguments = small_sweep(folder.path() / "first", {"--resume"});
+    arguments[1] = write_triangle(folder, 2.0f);
+    return arguments;
+  }());
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_NE(changed.err.find("triangle.gltf is no longer what was measured"), std::string::npos)
+      << changed.err;
+  EXPECT_EQ(std::count(changed.err.begin(), changed.err.end(), '\n'), 1) << changed.err;
+  const fs::path merged = folder.path() / "merged";
+  const Finished both = run_gnomon({"merge", (folder.path() / "first").string(),
+                                    (folder.path() / "raised").string(), "--out", merged.string()});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_NE(both.err.find("triangle.gltf is not the one that was measured before"), std::string::npos)
+      << both.err;
+  EXPECT_FALSE(fs::exists(merged)) << "nothing is written for a merge that is refused";
+}
+
+TEST(Compare, refuses_a_scene_that_cannot_be_loaded_before_it_measures_another) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const Finished broken = run_gnomon(small_sweep(out, {folder.write("broken.gltf", "{")}));
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_NE(broken.err.find("broken.gltf: JSON"), std::string::npos) << broken.err;
+  std::vector<std::string> limited = small_sweep(out, {"--max-triangles", "1"});
+  limited[1] = write_triangle(folder, 0.0f);
+  EXPECT_EQ(run_gnomon(limited).exit_code, 0);
+  const std::string two = folder.write("two.gltf", [&] {
+    std::ifstream in(write_triangle(folder, 0.0f));
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string once = R"("nodes":[{"mesh":0}])", shown = R"("nodes":[0])";
+    text.replace(text.find(once), once.size(), R"("nodes":[{"mesh":0},{"mesh":0}])");
+    return text.replace(text.find(shown), shown.size(), R"("nodes":[0,1])");
+  }());
+  limited[1] = two;
+  limited.push_back("--resume");
+  const Finished many = run_gnomon(limited);
+  EXPECT_EQ(many.exit_code, 2);
+  EXPECT_NE(many.err.find("two.gltf: scene: 2 triangles, up to 0 MiB, are above the limit of 1"),
+            std::string::npos)
+      << many.err;
+}
+
+TEST(Compare, measures_maps_that_memory_does_not_take_at_the_size_it_takes) {
+  const TemporaryFolder folder;
+  // A depth of four bytes a texel: 128 texels a side take 0.0625 MiB, 64 take a quarter of it.
+  const Finished finished =
+      run_gnomon(small_sweep(folder.path(), {"--map-sizes", "64", "--map-memory-mib", "0.02"}));
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(
+      finished.err.find("gnomon: warning: none / auto / 1 x 128 / hard: maps of 128 do not fit (above the "
+                        "limit of 0.02 MiB): maps of 64"),
+      std::string::npos)
+      << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  EXPECT_EQ(rows.size(), kSmallRows) << "what became 64 is the same as what was asked for as 64";
+  for (const report::Row& row : rows) {
+    EXPECT_EQ(row.technique.map_size, 64);
+    EXPECT_EQ(row.costs.texels, 64u * 64u);
+  }
+  const TemporaryFolder none;
+  const Finished refused = run_gnomon(small_sweep(none.path() / "out", {"--map-memory-mib", "0.000001"}));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("no map fits"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(none.path() / "out"));
+}
+
 TEST(Compare, the_same_technique_under_two_names_is_measured_once) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_gnomon({"compare",

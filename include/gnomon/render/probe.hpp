@@ -28,4 +28,13 @@ struct Probe {
 /// context that is current.
 [[nodiscard]] bool memory_takes_maps(int map_size, int maps, double bytes_per_texel);
 
+struct FittingMaps {
+  int size = 0;            ///< texels along each side; 0: none fits
+  double mebibytes = 0.0;  ///< that all of them take
+  std::string why;         ///< what larger ones are too large for; empty: they are as large as asked for
+};
+/// Maps of `map_size` texels a side, halved until memory takes `maps` of them and they stay within
+/// `limit_mib` (0: no limit), down to 16. Asks memory_takes_maps(), in the context that is current.
+[[nodiscard]] FittingMaps largest_maps(int map_size, int maps, double bytes_per_texel, double limit_mib);
+
 }  // namespace gnomon::render

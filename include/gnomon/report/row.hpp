@@ -68,6 +68,7 @@ struct Pictures {
 struct Row {
   std::uint64_t index = 0;  ///< place in the whole sweep, the same in every shard
   std::string scene;
+  std::string scene_hash;  ///< of the scene's files, in hexadecimal; empty: built in, or not known
   int frame = 0, frames = 1, width = 0, height = 0;
   std::string light;  ///< "sun", "spot" or "point", in the direction of elevation and azimuth
   double light_elevation_deg = 0.0, light_azimuth_deg = 0.0;
@@ -84,7 +85,8 @@ struct Row {
   Pictures pictures;
   Machine machine;
 
-  /// All that decides what a row says, apart from the machine: equal keys mean the same measurement.
+  /// All that decides what a row says, apart from the machine and what the scene's files hold: equal keys
+  /// mean the same measurement.
   [[nodiscard]] std::string key() const;
 };
 

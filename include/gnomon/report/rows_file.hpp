@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,8 +35,19 @@ class RowsFile {
 /// ReportError with file and line.
 [[nodiscard]] std::vector<Row> read_rows(const std::filesystem::path& path);
 
+/// Which files of scenes rows were measured with: one for each name.
+class SceneHashes {
+ public:
+  /// False where the scene is known under another hash. One that is empty says nothing.
+  [[nodiscard]] bool agree(const std::string& scene, const std::string& hash);
+
+ private:
+  std::map<std::string, std::string> known_;
+};
+
 /// Writes the rows of `folders` to `out`, ordered by their place in the sweep; of rows with the same key the
-/// first stands. Their pictures are copied along. Returns how many there are. Throws ReportError.
+/// first stands. Their pictures are copied along. Rows of one scene under different hashes are refused.
+/// Returns how many there are. Throws ReportError.
 std::size_t merge_rows(std::span<const std::filesystem::path> folders, const std::filesystem::path& out);
 
 }  // namespace gnomon::report

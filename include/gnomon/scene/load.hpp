@@ -29,6 +29,9 @@ struct LoadLimits {
   std::uint32_t node_depth = 256;          ///< parents above a node
 };
 
+/// The defaults, for scenes of up to so many triangles over all instances.
+[[nodiscard]] LoadLimits limits_of_triangles(std::uint64_t triangles) noexcept;
+
 /// Loads a .gltf or .glb file. Reads no file outside the scene's own folder. Throws SceneError.
 [[nodiscard]] Scene load_gltf(const std::filesystem::path& path, const LoadLimits& limits = {});
 
@@ -44,5 +47,10 @@ struct BuiltinScene {
 
 /// `builtin:NAME` or a path. Throws SceneError.
 [[nodiscard]] Scene load_scene(const std::string& spec, const LoadLimits& limits = {});
+
+/// What a scene's file and all files it names hold, as one number (FNV-1a, 64 bits): tells whether a scene is
+/// still the one it was, whatever the dates of its files say. 0 for builtin scenes, which are the program's.
+/// Loads a file to learn which others it names. Throws what load_scene() throws.
+[[nodiscard]] std::uint64_t scene_files_hash(const std::string& spec, const LoadLimits& limits = {});
 
 }  // namespace gnomon
