@@ -112,20 +112,13 @@ std::string without_numbers(const std::string& text) {
   return out;
 }
 
-std::string parametrization_of(Technique technique) {
-  technique.filter.clear();
-  const std::string name = technique.name();
-  return name.substr(0, name.rfind(" / "));
-}
-
 /// What saves most comes first.
 std::vector<LeftOutKind> left_out_kinds(const std::vector<Row>& rows) {
   std::vector<LeftOutKind> kinds;
   std::set<std::string> counted;
   for (const Row& row : rows) {
     const std::string name = parametrization_of(row.technique);
-    // Filters share plans: each is counted with the first of them.
-    if (!counted.insert(row.scene + "\n" + name + "\n" + std::to_string(row.frame)).second) continue;
+    if (!counted.insert(plan_of(row)).second) continue;
     for (const LeftOut& l : row.left_out) {
       if (!l.rule.empty()) continue;
       const std::string kind = without_numbers(l.what);

@@ -1,29 +1,16 @@
 // Section 5 of the page: tables of what `gnomon stress` found, between its charts.
 #include <algorithm>
-#include <cmath>
 
 #include "stability.hpp"
+#include "stiff_axis.hpp"
 #include "text.hpp"
 
 namespace gnomon::report {
 namespace {
 
-constexpr double kHalfTexel = 0.5;
-
-/// The row in which `get` is largest; nullptr where nothing was measured.
-template <typename Get>
-const StabilityRow* worst_row(const StabilityAxis& axis, Get get) {
-  const StabilityRow* worst = nullptr;
-  for (const StabilityRow& row : axis.rows) {
-    if (row.maps == 0 || std::isnan(get(row))) continue;
-    if (worst == nullptr || get(row) > get(*worst)) worst = &row;
-  }
-  return worst;
-}
-
 template <typename Get>
 std::string worst_cell(const StabilityAxis& axis, Get get) {
-  const StabilityRow* row = worst_row(axis, get);
+  const StabilityRow* row = worst_row(axis.rows, get);
   if (row == nullptr) return "<td>-</td>";
   return "<td>" + short_number(get(*row)) + "<br><small>" + escaped(row->variant) + " at " +
          short_number(row->value) + "</small></td>";
@@ -31,29 +18,19 @@ std::string worst_cell(const StabilityAxis& axis, Get get) {
 
 template <typename Get>
 std::string half_texel_cell(const StabilityAxis& axis, Get get) {
-  double low = 0.0, high = 0.0;
-  bool any = false;
-  for (const StabilityRow& row : axis.rows) {
-    if (row.maps == 0 || !(get(row) > kHalfTexel)) continue;
-    if (!any) low = row.value;
-    high = row.value;
-    any = true;
-  }
-  if (!any) return "<td>nowhere</td>";
+  const auto range = beyond_half_texel(axis.rows, get);
+  if (!range) return "<td>nowhere</td>";
+  const auto [low, high] = *range;
   return "<td>" + short_number(low) + (high > low ? " to " + short_number(high) : "") + "</td>";
 }
 
 std::string fallback_cell(const StabilityAxis& axis) {
-  std::string out = "<td>", before;
-  int changes = 0;
-  constexpr int kShown = 6;
-  for (const StabilityRow& row : axis.rows) {
-    if (row.variant != "optimal" || row.used == before) continue;
-    if (++changes <= kShown)
-      out += (changes > 1 ? "; from " + short_number(row.value) + ": " : "") + escaped(row.used);
-    before = row.used;
-  }
-  if (changes > kShown) out += "; " + std::to_string(changes - kShown) + " more";
+  constexpr std::size_t kShown = 6;
+  const std::vector<const StabilityRow*> changes = changes_of_use(axis.rows);
+  std::string out = "<td>";
+  for (std::size_t i = 0; i < std::min(changes.size(), kShown); ++i)
+    out += (i == 0 ? "" : "; from " + short_number(changes[i]->value) + ": ") + escaped(changes[i]->used);
+  if (changes.size() > kShown) out += "; " + std::to_string(changes.size() - kShown) + " more";
   return out + "</td>";
 }
 
@@ -69,7 +46,7 @@ std::string axes_table(const Stability& stability) {
   const auto relative = [](const StabilityRow& r) { return r.float_relative_texels; };
   const auto error = [](const StabilityRow& r) { return r.error_texels; };
   for (const StabilityAxis& axis : stability.axes) {
-    const StabilityRow* worst = worst_row(axis, error);
+    const StabilityRow* worst = worst_row(axis.rows, error);
     out += "<tr><td>" + escaped(axis.name) + "</td>" + worst_cell(axis, error) + "<td>" +
            (worst == nullptr ? "-" : short_number(worst->error_ulp)) + "</td>" + worst_cell(axis, relative) +
            half_texel_cell(axis, relative) +
@@ -100,18 +77,11 @@ std::string filters_table(const Stability& stability) {
       "1]</th></tr>"
       "</thead><tbody>\n";
   for (const StabilityFilter& filter : stability.filters) {
-    StabilityFilterRow worst = filter.rows.front();
-    double beyond = 0.0;
-    bool within = true;
-    for (const StabilityFilterRow& row : filter.rows) {
-      if (row.error > worst.error) worst = row;
-      beyond = std::max(beyond, row.beyond);
-      within = within && row.within;
-    }
+    const StabilityFilterRow worst = worst_of_filter(filter.rows);
     out += "<tr><td>" + escaped(filter.axis) + "</td><td>" + escaped(filter.filter) + "</td><td>" +
            short_number(worst.error) + "</td><td>" + short_number(worst.value) + "</td><td>" +
-           short_number(worst.bound) + "</td><td>" + short_number(beyond) + "</td><td>" +
-           (within ? "yes" : "<b>no</b>") + "</td></tr>\n";
+           short_number(worst.bound) + "</td><td>" + short_number(worst.beyond) + "</td><td>" +
+           (worst.within ? "yes" : "<b>no</b>") + "</td></tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }

@@ -152,4 +152,15 @@ Summary summarize(const std::vector<Row>& rows) {
   return s;
 }
 
+std::string parametrization_of(Technique technique) {
+  technique.filter.clear();
+  const std::string name = technique.name();
+  return name.substr(0, name.rfind(" / "));
+}
+
+std::string plan_of(const Row& row) {
+  return row.scene + "\n" + row.light + "\n" + std::to_string(row.frame) + "\n" +
+         parametrization_of(row.technique);
+}
+
 }  // namespace gnomon::report

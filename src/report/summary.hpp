@@ -47,6 +47,12 @@ struct Summary {
 /// measured on all of them.
 [[nodiscard]] Summary summarize(const std::vector<Row>& rows);
 
+/// How a technique lays its maps, for people: its name without the filter.
+[[nodiscard]] std::string parametrization_of(Technique technique);
+/// The same text for rows of one plan. Filters share plans: what a plan left out counts with the first of
+/// them.
+[[nodiscard]] std::string plan_of(const Row& row);
+
 inline constexpr std::string_view kDefaultError = "wrong", kDefaultCost = "total_ms";
 
 }  // namespace gnomon::report

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "summary.hpp"
 #include "text.hpp"
 
 namespace gnomon::report {
@@ -20,13 +21,6 @@ struct Waterfall {
   double texels = 0.0, triangles = 0.0;  ///< drawn in the end
   std::vector<Step> steps = {};
 };
-
-/// Rows of one frame and one way to lay maps have the same savings, whatever their filter.
-std::string plan_of(const Row& row) {
-  const Technique& t = row.technique;
-  return row.scene + "\n" + t.warp + "\n" + t.split + "\n" + t.fit + "\n" + std::to_string(t.cascades) +
-         "\n" + std::to_string(t.map_size) + "\n" + std::to_string(row.frame);
-}
 
 void add(const Row& row, Waterfall& fall) {
   ++fall.frames;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "gnomon/report/csv.hpp"
+
 namespace gnomon::stress {
 namespace {
 
@@ -57,14 +59,11 @@ void for_each_row(const Results& results, Take&& take) {
   for (const FilterRow& row : results.filters) take(to_json(row));
 }
 
-std::string csv_field(const Json& value) {
-  if (!value.is_string()) return value.is_null() || value.dump() == "null" ? std::string() : value.dump();
-  std::string out = "\"";
-  for (const char c : value.get<std::string>()) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
+std::string field(const Json& value) {
+  if (value.is_string()) return report::csv_field(value.get<std::string>());
+  // dump() has no other word for what is not finite.
+  const std::string text = value.dump();
+  return text == "null" ? std::string() : text;
 }
 
 }  // namespace
@@ -95,7 +94,7 @@ std::string csv(const Results& results) {
     std::string line;
     for (const std::string& name : names) {
       if (&name != &names.front()) line += ",";
-      if (row.contains(name)) line += csv_field(row[name]);
+      if (row.contains(name)) line += field(row[name]);
     }
     out += line + "\n";
   });

@@ -1,96 +1,66 @@
 // The stress test for people: a line per case, a line per axis with its worst.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
-#include <limits>
+#include <iterator>
 
 #include "rows.hpp"
+#include "stiff_axis.hpp"
 
 namespace gnomon::stress {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 std::string number(double value) {
-  if (std::isnan(value)) return "-";
   std::array<char, 32> text;
   std::snprintf(text.data(), text.size(), "%.3g", value);
   return text.data();
 }
 
-/// The rows of one axis.
-std::vector<const AxisRow*> rows_of(const Results& results, std::string_view axis) {
-  std::vector<const AxisRow*> rows;
-  for (const AxisRow& row : results.axes) {
-    if (row.axis == axis) rows.push_back(&row);
-  }
+std::vector<AxisRow> rows_of(const Results& results, std::string_view axis) {
+  std::vector<AxisRow> rows;
+  std::copy_if(results.axes.begin(), results.axes.end(), std::back_inserter(rows),
+               [&](const AxisRow& row) { return row.axis == axis; });
   return rows;
 }
 
-struct Worst {
-  double value = kNone;
-  const AxisRow* row = nullptr;
-  /// "1.2e-3 (optimal x4 at 1e9)"
-  [[nodiscard]] std::string text() const {
-    if (row == nullptr) return "-";
-    return number(value) + " (" + std::string(row->variant) + " at " + number(row->value) + ")";
-  }
-};
-
+/// "1.2e-3 (optimal x4 at 1e9)"
 template <typename Get>
-Worst worst_of(const std::vector<const AxisRow*>& rows, Get get) {
-  Worst worst;
-  for (const AxisRow* row : rows) {
-    const double value = get(*row);
-    if (row->maps == 0 || std::isnan(value) || value <= worst.value) continue;
-    worst = {value, row};
-  }
-  return worst;
+std::string worst_text(const std::vector<AxisRow>& rows, Get get) {
+  const AxisRow* row = worst_row(rows, get);
+  if (row == nullptr) return "-";
+  return number(get(*row)) + " (" + std::string(row->variant) + " at " + number(row->value) + ")";
 }
 
-/// The values at which floats are off by more than half a texel, from the first to the last.
 template <typename Get>
-std::string beyond_half_texel(const std::vector<const AxisRow*>& rows, Get get) {
-  constexpr double kHalf = 0.5;
-  double low = kNone, high = kNone;
-  for (const AxisRow* row : rows) {
-    if (row->maps == 0 || get(*row) <= kHalf) continue;
-    if (std::isnan(low)) low = row->value;
-    high = row->value;
-  }
-  if (std::isnan(low)) return "nowhere";
+std::string half_texel_text(const std::vector<AxisRow>& rows, Get get) {
+  const auto range = beyond_half_texel(rows, get);
+  if (!range) return "nowhere";
+  const auto [low, high] = *range;
   return low == high ? number(low) : number(low) + " to " + number(high);
 }
 
-/// Where what is used changes along the axis, for the map that may choose its warp.
-std::string fallbacks(const std::vector<const AxisRow*>& rows) {
-  std::string text, before;
-  int changes = 0;
-  constexpr int kShown = 4;
-  for (const AxisRow* row : rows) {
-    if (row->variant != "optimal" || row->used == before) continue;
-    if (changes++ < kShown)
-      text += (text.empty() ? "" : "; ") + row->used + (before.empty() ? "" : " from " + number(row->value));
-    before = row->used;
-  }
-  if (changes > kShown) text += "; " + std::to_string(changes - kShown) + " changes more";
+std::string fallbacks(const std::vector<AxisRow>& rows) {
+  constexpr std::size_t kShown = 4;
+  const std::vector<const AxisRow*> changes = changes_of_use(rows);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(changes.size(), kShown); ++i)
+    text += i == 0 ? changes[i]->used : "; " + changes[i]->used + " from " + number(changes[i]->value);
+  if (changes.size() > kShown) text += "; " + std::to_string(changes.size() - kShown) + " changes more";
   return text;
 }
 
 std::string axis_line(const Results& results, const Axis& axis) {
-  const std::vector<const AxisRow*> rows = rows_of(results, axis.name);
+  const std::vector<AxisRow> rows = rows_of(results, axis.name);
   if (rows.empty()) return {};
-  const Worst error = worst_of(rows, [](const AxisRow& r) { return r.worst.error_texels; });
+  const auto error = [](const AxisRow& r) { return r.worst.error_texels; };
   const auto relative = [](const AxisRow& r) { return r.worst.float_relative_texels; };
   const auto absolute = [](const AxisRow& r) { return r.worst.float_absolute_texels; };
-  std::string line = "| " + std::string(axis.name) + " | " + error.text() + " | " +
-                     (error.row == nullptr ? "-" : number(error.row->worst.error_ulp)) + " | " +
-                     worst_of(rows, relative).text() + " | " + beyond_half_texel(rows, relative) + " | " +
-                     beyond_half_texel(rows, absolute) + " | " +
-                     worst_of(rows, [](const AxisRow& r) { return r.worst.condition; }).text() + " | " +
-                     worst_of(rows, [](const AxisRow& r) { return r.jump; }).text() + " | ";
-  return line + fallbacks(rows) + " |\n";
+  const AxisRow* worst = worst_row(rows, error);
+  return "| " + std::string(axis.name) + " | " + worst_text(rows, error) + " | " +
+         (worst == nullptr ? "-" : number(worst->worst.error_ulp)) + " | " + worst_text(rows, relative) +
+         " | " + half_texel_text(rows, relative) + " | " + half_texel_text(rows, absolute) + " | " +
+         worst_text(rows, [](const AxisRow& r) { return r.worst.condition; }) + " | " +
+         worst_text(rows, [](const AxisRow& r) { return r.jump; }) + " | " + fallbacks(rows) + " |\n";
 }
 
 std::string escaped_bars(std::string text) {
@@ -126,22 +96,15 @@ std::string tables(const Results& results) {
         "| strain | filter | largest error | at | bound there | share beyond their bound | answers in [0, 1] "
         "|\n"
         "|--|--|--|--|--|--|--|\n";
-    for (std::size_t i = 0; i < results.filters.size();) {
-      const FilterRow& first = results.filters[i];
-      FilterRow worst = first;
-      for (; i < results.filters.size() && results.filters[i].axis == first.axis &&
-             results.filters[i].filter == first.filter;
-           ++i) {
-        const FilterRow& row = results.filters[i];
-        const double beyond = std::max(worst.beyond, row.beyond);
-        const bool within = worst.within && row.within;
-        if (row.error > worst.error) worst = row;
-        worst.beyond = beyond;
-        worst.within = within;
-      }
+    for (auto row = results.filters.begin(); row != results.filters.end();) {
+      const auto end = std::find_if(row, results.filters.end(), [&](const FilterRow& other) {
+        return other.axis != row->axis || other.filter != row->filter;
+      });
+      const FilterRow worst = worst_of_filter(std::vector<FilterRow>(row, end));
       out += "| " + worst.axis + " | " + worst.filter + " | " + number(worst.error) + " | " +
              number(worst.value) + " | " + number(worst.bound) + " | " + number(worst.beyond) + " | " +
              (worst.within ? "yes" : "no") + " |\n";
+      row = end;
     }
   }
   return out;

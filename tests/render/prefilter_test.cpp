@@ -1,5 +1,5 @@
-// Does a filter cost the passes that it uses, and no others? And does the shader find the maps that the core
-// does?
+// Does prefiltering cost the passes and images that it should? And does the shader find the maps that the
+// core does?
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,16 +19,15 @@ FilterSettings parsed(const std::string& text) {
 
 class Prefilter : public testing::Test {
  protected:
-  FrameStats stats_of(const FilterSettings& filter, int map_size, int cascades = 1) {
+  FrameStats stats_of(const FilterSettings& filter, int map_size) {
     PlanOptions options;
     options.map_size = map_size;
-    options.cascades = cascades;
+    options.cascades = 1;
     options.prune = kPruneNothing;  // the sizes asked for
     set_margin(filter, options);
     const Camera camera = camera_on_box(kSize, kSize);
     const ShadowPlan plan = plan_for(scene_, camera, kSlant, options);
     EXPECT_GT(plan.map_count, 0);
-    maps_ = plan.map_count;
     FrameOptions frame;
     frame.aliasing = frame.cascade_tint = frame.time_passes = false;
     frame.prune = kPruneNothing;
@@ -37,22 +36,7 @@ class Prefilter : public testing::Test {
 
   Scene scene_ = box_on_ground();
   Renderer renderer_{scene_};
-  int maps_ = 0;
 };
-
-TEST_F(Prefilter,
-       takes_one_pass_a_map_to_store_and_one_more_to_blur_and_none_for_filters_that_store_nothing) {
-  for (const Filter* filter : all_filters()) {
-    const bool stores = filter->reads != MapRead::depth, sums = filter->reads == MapRead::summed;
-    for (const double radius : {0.0, 1.0, 3.0}) {
-      FilterSettings settings = default_settings(*filter);
-      settings.radius = radius;
-      const int passes = stats_of(settings, 128, 3).prefilter_passes;
-      const int a_map = !stores ? 0 : sums || radius > 0.0 ? 2 : 1;
-      EXPECT_EQ(passes, a_map * maps_) << filter->name << " " << radius;
-    }
-  }
-}
 
 TEST_F(Prefilter, blurs_7_by_7_on_1024_texels_of_two_floats_in_two_passes_and_one_more_image) {
   const FrameStats stats = stats_of(parsed("vsm:radius=3,format=fp32"), 1024);

@@ -103,7 +103,7 @@ TEST(Reads, a_frame_takes_the_passes_that_its_filter_needs_for_each_map) {
   frame.aliasing = frame.heat_map = frame.cascade_tint = frame.time_passes = false;
   frame.prune = PruneRules{}.without(PruneRule::held_maps);
   for (const Filter* filter : all_filters()) {
-    for (const double radius : {0.0, 2.0}) {
+    for (const double radius : {0.0, 1.0, 3.0}) {
       FilterSettings settings = default_settings(*filter);
       settings.radius = radius;
       PlanOptions options;

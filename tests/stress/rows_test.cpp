@@ -58,6 +58,14 @@ TEST(Rows, are_csv_with_as_many_fields_in_each_line) {
   EXPECT_EQ(count, 4u);
 }
 
+TEST(Rows, of_csv_keep_spreadsheets_from_taking_text_for_formulas) {
+  Results results;
+  results.cases.push_back({1, "name", "=1+1", "-3", "holds", "said \"so\""});
+  const std::string text = csv(results);
+  EXPECT_NE(text.find("\"'=1+1\",\"'-3\""), std::string::npos) << text;
+  EXPECT_NE(text.find("\"said \"\"so\"\"\""), std::string::npos) << text;
+}
+
 TEST(Rows, hold_only_where_everything_holds) {
   Results results = some_results();
   EXPECT_TRUE(results.all_hold());
