@@ -174,9 +174,7 @@ int run_compare(const CompareRequest& request, bool json) {
   const std::unique_ptr<render::Context> context = render::create_context(sweep.context);
   for (const std::string& line : fit_to_memory(sweep))
     std::fprintf(stderr, "gnomon: warning: %s\n", line.c_str());
-  std::error_code error;
-  fs::create_directories(sweep.out, error);
-  if (error) throw std::runtime_error("--out " + sweep.out + ": cannot be made a folder: " + error.message());
+  make_folder("--out", sweep.out);
   watch_interrupts();
   Run(sweep, hashes, machine(context->info()), known).all();
   const std::string rows = (fs::path(sweep.out) / report::kRowsFile).string();

@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
 #include "filter_figures.hpp"
 #include "filters.hpp"
@@ -56,14 +54,14 @@ std::string table_of(const Figure& figure) {
 }  // namespace
 
 void write_filter_gallery(const std::string& folder, const std::string& scene) {
-  fs::create_directories(folder);
-  std::ofstream text(fs::path(folder) / "gallery.md");
-  text << "# Shadow filters\n\nTruth: the mean of 4 x 4 hard samples a pixel out of a map of 4096 texels.\n";
+  make_folder("--gallery", folder);
+  std::string text =
+      "# Shadow filters\n\nTruth: the mean of 4 x 4 hard samples a pixel out of a map of 4096 texels.\n";
   const auto add = [&](const Figure& figure) {
-    text << "\n## " << figure.title << "\n\n" << table_of(figure);
+    text += "\n## " + figure.title + "\n\n" + table_of(figure);
     if (figure.panels.empty()) return;
     write_strip(figure.panels, fs::path(folder) / (figure.name + ".png"));
-    text << "\n![" << figure.title << "](" << figure.name << ".png)\n";
+    text += "\n![" + figure.title + "](" + figure.name + ".png)\n";
   };
   const FigureSize size;
   add(convolution_orders(size));
@@ -77,8 +75,7 @@ void write_filter_gallery(const std::string& folder, const std::string& scene) {
   add(bits(size));
   add(memory_of_filters());
   add(one_scene(scene, size));
-  text.flush();
-  if (!text) throw std::runtime_error(folder + ": gallery.md cannot be written");
+  write_file(fs::path(folder) / "gallery.md", text);
   print_line((fs::path(folder) / "gallery.md").string());
   flush_output();
 }

@@ -2,9 +2,10 @@
 #include "filter_stage.hpp"
 
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "gnomon/scene/default_light.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -40,17 +41,12 @@ void add_box(Scene& scene, const glm::vec3& low, const glm::vec3& size) {
   add_quad(scene, low + y + z, x, -z);
 }
 
-DirectionalLight sun_at(double elevation_deg, double azimuth_deg) {
-  const double elevation = glm::radians(elevation_deg), azimuth = glm::radians(azimuth_deg);
-  const glm::dvec3 to_sun{std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-                          -std::cos(elevation) * std::cos(azimuth)};
-  return DirectionalLight{-to_sun};
-}
-
 }  // namespace
 
 FilterStage::FilterStage(Scene scene, double elevation_deg, double azimuth_deg)
-    : scene_(std::move(scene)), sun_(sun_at(elevation_deg, azimuth_deg)), renderer_(scene_) {
+    : scene_(std::move(scene)),
+      sun_(default_light({LightKind::sun, elevation_deg, azimuth_deg}, scene_.bounds_world)),
+      renderer_(scene_) {
   for (const Instance& instance : scene_.instances) boxes_.push_back(instance.bounds_world);
 }
 

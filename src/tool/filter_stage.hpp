@@ -26,7 +26,7 @@ class FilterStage {
  private:
   Scene scene_;
   std::vector<Box> boxes_;
-  DirectionalLight sun_;
+  Light sun_;
   render::Renderer renderer_;
   ShadowPlan plan_;
 };

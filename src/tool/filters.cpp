@@ -1,21 +1,21 @@
 // The list of filters and the table of their cost.
 #include "filters.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "filter_stage.hpp"
-#include "gnomon/render/context.hpp"
+#include "gnomon/report/statistics.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
+#include "offscreen_context.hpp"
 #include "output.hpp"
 
 namespace gnomon::tool {
 namespace {
 
 using render::FilterSettings;
+using report::median;
 
 constexpr int kWidth = 480, kHeight = 270;        // a small frame: maps are to dominate
 constexpr double kBlurRadii[] = {0.0, 1.0, 3.0};  // none, 3 x 3, 7 x 7
@@ -25,11 +25,6 @@ struct Measured {
   std::vector<double> milliseconds;
   render::FrameStats stats;
 };
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 /// What a filter answers for: maps drawn, stored and blurred, and read at every pixel.
 double shadow_milliseconds(const render::FrameStats& stats) {
@@ -147,10 +142,7 @@ int run_filters(const FiltersRequest& request) {
     flush_output();
     return 0;
   }
-  render::ContextKind kind{};
-  if (!render::context_kind_from_name(request.context, kind))
-    throw std::runtime_error("--context " + request.context + ": wants auto, osmesa or egl");
-  const auto context = render::create_context(kind);
+  const auto context = render::create_context(offscreen_context(request.context));
   if (request.cost) {
     if (!request.json) {
       print_line(context->info().renderer +

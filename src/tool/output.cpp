@@ -1,4 +1,5 @@
-// Standard output as a file that can fail: a plan that did not arrive must not look like success.
+// Output that can fail, on standard output or in files: a plan that did not arrive must not look like
+// success.
 #include "output.hpp"
 
 #include <cerrno>
@@ -6,6 +7,9 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+
+#include "whole_file.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -23,6 +27,21 @@ void print_line(std::string_view text) {
 
 void flush_output() {
   if (std::fflush(stdout) != 0) fail();
+}
+
+void make_folder(const std::string& option, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error && !std::filesystem::is_directory(folder, error) && !error)
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error)
+    throw std::runtime_error(option + " " + folder.string() +
+                             ": cannot be made a folder: " + error.message());
+}
+
+void write_file(const std::filesystem::path& file, std::string_view bytes) {
+  const std::string why = write_whole_file(file, bytes);
+  if (!why.empty()) throw std::runtime_error(file.string() + ": cannot be written: " + why);
 }
 
 }  // namespace gnomon::tool

@@ -1,6 +1,9 @@
-// Standard output as a file that can fail: a plan that did not arrive must not look like success.
+// Output that can fail, on standard output or in files: a plan that did not arrive must not look like
+// success.
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace gnomon::tool {
@@ -9,5 +12,10 @@ namespace gnomon::tool {
 void print_line(std::string_view text);
 /// Hands everything written so far to the system; throws like print_line().
 void flush_output();
+
+/// Makes the folder that `option` names, and those above it. Throws std::runtime_error.
+void make_folder(const std::string& option, const std::filesystem::path& folder);
+/// The file as a whole, or as it was before. Throws std::runtime_error.
+void write_file(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace gnomon::tool

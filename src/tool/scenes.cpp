@@ -3,11 +3,9 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "gnomon/scene/load.hpp"
 #include "output.hpp"
-#include "whole_file.hpp"
 
 namespace gnomon::tool {
 
@@ -48,8 +46,7 @@ int list_scenes(bool json) {
 }
 
 int write_scene(const std::string& name, const std::filesystem::path& out) {
-  const std::string why = write_whole_file(out, build_glb(name));
-  if (!why.empty()) throw std::runtime_error(out.string() + ": cannot be written: " + why);
+  write_file(out, build_glb(name));
   return 0;
 }
 

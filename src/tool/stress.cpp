@@ -8,10 +8,9 @@
 #include "output.hpp"
 #include "progress.hpp"
 #include "rows.hpp"
-#include "whole_file.hpp"
 #ifdef GNOMON_STRESS_HAS_FILTERS
 #include "filter_limits.hpp"
-#include "gnomon/render/context.hpp"
+#include "offscreen_context.hpp"
 #endif
 
 namespace gnomon::tool {
@@ -39,24 +38,9 @@ std::vector<const stress::Axis*> axes_of(const StressRequest& request) {
   return axes;
 }
 
-void write_file(const fs::path& file, const std::string& text) {
-  const std::string why = write_whole_file(file, text);
-  if (!why.empty()) throw std::runtime_error(file.string() + ": cannot be written: " + why);
-}
-
-void make_folder(const std::string& folder) {
-  if (folder.empty()) return;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw std::runtime_error("--out " + folder + ": cannot be made a folder: " + error.message());
-}
-
 #ifdef GNOMON_STRESS_HAS_FILTERS
 std::vector<stress::FilterRow> run_filter_limits(const StressRequest& request) {
-  render::ContextKind kind{};
-  if (!render::context_kind_from_name(request.context, kind))
-    throw std::runtime_error("--context: " + request.context + ": there are auto, osmesa and egl");
-  const std::unique_ptr<render::Context> context = render::create_context(kind);
+  const std::unique_ptr<render::Context> context = render::create_context(offscreen_context(request.context));
   long long steps = 0, done = 0;
   for (const stress::FilterStrain& strain : stress::filter_strains())
     steps += static_cast<long long>(strain.filters.size());
@@ -97,7 +81,7 @@ stress::Results run_all(const StressRequest& request, const std::vector<const st
 
 int run_stress(const StressRequest& request) {
   const std::vector<const stress::Axis*> axes = axes_of(request);
-  make_folder(request.out);
+  if (!request.out.empty()) make_folder("--out", request.out);
   const stress::Results results = run_all(request, axes);
   if (!request.out.empty()) {
     write_file(fs::path(request.out) / "stability.jsonl", stress::json_lines(results));

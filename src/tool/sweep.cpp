@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "gnomon/render/probe.hpp"
+#include "offscreen_context.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -259,9 +260,7 @@ Sweep make_sweep(const CompareRequest& request) {
     refuse("--shard", request.shard, "I/N with 1 <= I <= N, as in 2/8");
   sweep.shard = static_cast<std::size_t>(shard - 1);
   sweep.shards = static_cast<std::size_t>(shards);
-  if (!render::context_kind_from_name(request.context, sweep.context) ||
-      sweep.context == render::ContextKind::glfw)
-    refuse("--context", request.context, "auto, osmesa or egl");
+  sweep.context = offscreen_context(request.context);
   sweep.entries = product_of(request, sweep.light.kind);
   sweep.baseline =
       sweep_entry({"none", "uniform", "tight", "hard", 1, sweep.entries.front().technique.map_size});

@@ -1,6 +1,7 @@
 // `gnomon filters` from outside: the list, and the table of cost.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -49,6 +50,17 @@ TEST(Filters, says_what_is_wrong_in_one_line) {
   EXPECT_EQ(finished.exit_code, 2);
   EXPECT_EQ(finished.out.find("| "), std::string::npos);
   EXPECT_NE(finished.err.find("'soft'"), std::string::npos);
+  const TemporaryFolder folder;
+  const std::string below_a_file = folder.write("file", "") + "/gallery";
+  for (const auto& [arguments, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"filters", "--cost", "--context", "glfw"}, "--context glfw: wants auto, osmesa or egl"},
+           {{"filters", "--gallery", below_a_file},
+            "--gallery " + below_a_file + ": cannot be made a folder"}}) {
+    const Finished refused = run_gnomon(arguments);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find(said), std::string::npos) << refused.err;
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,19 @@
+// Which contexts may --context name in this program, which opens no window?
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "gnomon/render/context.hpp"
+
+namespace gnomon::tool {
+
+/// Throws std::runtime_error for any other name.
+[[nodiscard]] inline render::ContextKind offscreen_context(const std::string& name) {
+  render::ContextKind kind{};
+  if (!render::context_kind_from_name(name, kind) || kind == render::ContextKind::glfw)
+    throw std::runtime_error("--context " + name + ": wants auto, osmesa or egl");
+  return kind;
+}
+
+}  // namespace gnomon::tool
