@@ -47,8 +47,6 @@ void expect_nothing(const Input& input, Check& check) {
              "there is no error to measure");
 }
 
-constexpr const Warp* kWarps[] = {&warps::none, &warps::lispsm, &warps::psm, &warps::optimal};
-
 }  // namespace
 
 void case_looking_away(Check& check) {
@@ -78,7 +76,7 @@ void case_behind_eye(Check& check) {
   // A tower 40 m behind the eye: its shadow ends 60 m in front of it.
   const Box tower{{-4, 0, 38}, {4, 50, 42}};
   input.casters = {input.receivers[0], tower};
-  for (const Warp* warp : kWarps) {
+  for (const Warp* warp : all_warps()) {
     input.options.warp = warp;
     const ShadowPlan plan = input.plan();
     check.that(plan.status == PlanStatus::ok && all_finite(plan), "planned, finite");
@@ -109,7 +107,7 @@ void case_degenerate_body(Check& check) {
       input.receivers = {{centre - half, centre + half}};
       input.casters = {{centre - glm::dvec3(6.0), centre + glm::dvec3(6.0)}};
       input.light = DirectionalLight{travel};
-      for (const Warp* warp : kWarps) {
+      for (const Warp* warp : all_warps()) {
         const ShadowMap map = one_map(input, *warp, check);
         input.options.warp = warp;
         const Judgement judged = judge(input, input.plan());
@@ -132,7 +130,7 @@ void case_edge_on(Check& check) {
   input.receivers = {{{x, centre.y - 5, centre.z - 5}, {x, centre.y + 5, centre.z + 5}}};
   input.casters = {{{x - 5, centre.y + 6, centre.z - 5}, {x + 5, centre.y + 7, centre.z + 5}}};
   input.light = DirectionalLight{{0, -1, 0.3}};
-  for (const Warp* warp : kWarps) {
+  for (const Warp* warp : all_warps()) {
     const ShadowMap map = one_map(input, *warp, check);
     const glm::dvec3 towards_eye{input.camera.position.x > x ? 1.0 : -1.0, 0, 0};
     const PointAliasing at = measure_point(map, input.camera, centre, towards_eye);
@@ -210,7 +208,7 @@ void case_into_light(Check& check) {
     Input input = plain_input(0);
     const glm::dvec3 forward = glm::normalize(input.camera.forward);
     input.light = DirectionalLight{forward * sign};
-    for (const Warp* warp : kWarps) {
+    for (const Warp* warp : all_warps()) {
       const ShadowMap map = one_map(input, *warp, check);
       for (const double depth : {0.2, 3.0, 15.0}) {
         const PointAliasing at =
@@ -234,7 +232,7 @@ void case_edge_on_surfaces(Check& check) {
          {a.m_max, a.m_min, a.m_s, a.m_t, a.m_area, a.anisotropy, a.perspective_max, a.projection})
       check.that(!std::isnan(v), "no value is not-a-number");
   };
-  for (const Warp* warp : kWarps) {
+  for (const Warp* warp : all_warps()) {
     const ShadowMap map = one_map(input, *warp, check);
     const auto at = [&](const glm::dvec3& normal) {
       const PointAliasing a = measure_point(map, input.camera, p, glm::normalize(normal));

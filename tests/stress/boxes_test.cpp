@@ -69,7 +69,7 @@ Input random_input(std::uint64_t seed) {
 }
 
 TEST(Boxes, of_every_kind_make_whole_plans_without_a_floating_point_exception) {
-  int planned = 0;
+  int planned = 0, points = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
     const Input input = random_input(seed);
     ShadowPlan plan;
@@ -82,11 +82,14 @@ TEST(Boxes, of_every_kind_make_whole_plans_without_a_floating_point_exception) {
       ASSERT_LE(map.depth_begin, map.depth_end) << seed;
       // A pixel of a receiver that has a depth of this map finds it there.
       if (plan.select_by_map) continue;
-      for (const glm::dvec3& p : points_of(input, plan, i, 2, seed))
+      for (const glm::dvec3& p : points_of(input, plan, i, 2, seed)) {
         ASSERT_TRUE(map_holds(plan, map, p)) << seed << " map " << i;
+        ++points;
+      }
     }
   }
   EXPECT_GT(planned, 300);
+  EXPECT_GT(points, 3000);
 }
 
 TEST(Boxes, that_are_all_empty_make_no_map) {
