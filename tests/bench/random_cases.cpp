@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "support/finite.hpp"
 #include "support/seeded_input.hpp"
 
 namespace {
@@ -47,13 +48,7 @@ void fail(Totals& totals, std::uint64_t seed, const SeededInput& in, const std::
 }
 
 bool finite_and_regular(const glm::dmat4& m) {
-  const glm::dmat4 inverse = glm::inverse(m);
-  for (int i = 0; i < 4; ++i) {
-    for (int k = 0; k < 4; ++k) {
-      if (!std::isfinite(m[i][k]) || !std::isfinite(inverse[i][k])) return false;
-    }
-  }
-  return true;
+  return test::all_finite(m) && test::all_finite(glm::inverse(m));
 }
 
 /// How far along the ray from `start` the box is crossed, beyond `least`; 0 where it is not.

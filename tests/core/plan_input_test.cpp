@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
+#include "support/finite.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -188,10 +189,7 @@ TEST(PlanInput, legal_extremes_are_planned) {
       for (const ShadowMap& map : plan.maps()) {
         EXPECT_TRUE(std::isfinite(map.storage) && std::isfinite(map.texel_world.x) && map.texel_world.x > 0.0)
             << name;
-        for (int column = 0; column < 4; ++column) {
-          for (int row = 0; row < 4; ++row)
-            EXPECT_TRUE(std::isfinite(map.clip_from_world[column][row])) << name;
-        }
+        EXPECT_TRUE(all_finite(map.clip_from_world)) << name;
       }
     }
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
+#include "support/finite.hpp"
 #include "support/near.hpp"
 #include "support/random_case.hpp"
 
@@ -38,11 +39,7 @@ int told(const ShadowPlan& plan, OmissionKind kind) {
 
 bool finite(const ShadowPlan& plan) {
   for (const ShadowMap& map : plan.maps()) {
-    for (int i = 0; i < 4; ++i) {
-      for (int k = 0; k < 4; ++k) {
-        if (!std::isfinite(map.clip_from_world[i][k])) return false;
-      }
-    }
+    if (!all_finite(map.clip_from_world)) return false;
     if (!std::isfinite(map.storage + map.kappa + map.texel_world_max.x + map.bias_world.slope)) return false;
   }
   return true;

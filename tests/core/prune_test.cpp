@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "gnomon/gnomon.hpp"
+#include "support/finite.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -83,8 +84,7 @@ TEST(Prune, a_cascade_without_casters_is_laid_only_where_the_rule_is_off) {
   const ShadowPlan full = plan();
   ASSERT_EQ(full.map_count, 2);
   for (const ShadowMap& map : full.maps()) {
-    for (int c = 0; c < 4; ++c)
-      for (int r = 0; r < 4; ++r) EXPECT_TRUE(std::isfinite(map.clip_from_world[c][r]));
+    EXPECT_TRUE(all_finite(map.clip_from_world));
     EXPECT_GT(map.depth_range_world, 0.0);
   }
 }

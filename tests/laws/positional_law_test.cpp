@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "support/finite.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -260,12 +261,8 @@ TEST(PositionalLaw, every_number_of_a_map_is_finite_and_of_its_sign) {
     require(plan.select_by_map, "selection");
     require(std::abs(glm::length(plan.light_direction) - 1.0) < 1e-9, "direction");
     for (const ShadowMap& map : plan.maps()) {
-      for (int i = 0; i < 4; ++i) {
-        for (int k = 0; k < 4; ++k) {
-          require(std::isfinite(map.clip_from_world[i][k]), "clip_from_world", i, k);
-          require(std::isfinite(map.clip_from_camera_relative[i][k]), "clip_from_camera_relative", i, k);
-        }
-      }
+      require(all_finite(map.clip_from_world), "clip_from_world");
+      require(all_finite(map.clip_from_camera_relative), "clip_from_camera_relative");
       require(glm::dvec3(map.light_world) == c.position ||
                   glm::length(glm::dvec3(map.light_world) - c.position) <=
                       1e-12 * glm::length(c.position) + 1e-12 * c.scene.camera.far_depth,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/vec4.hpp>
 
+#include "support/finite.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -13,15 +14,6 @@ namespace {
 // Rounding of a position through two matrices, relative to the map's half width: positions are up to 1e5 near
 // planes away and clipped with a tolerance of 1e-13 of that distance.
 constexpr double kRim = 1e-7;
-
-bool all_finite(const glm::dmat4& m) {
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) {
-      if (!std::isfinite(m[column][row])) return false;
-    }
-  }
-  return true;
-}
 
 TEST(ReceiversLaw, a_visible_receiver_lies_inside_its_map_and_off_the_filter_margin) {
   std::uint64_t checked = 0, planned = 0;
@@ -62,7 +54,7 @@ TEST(ReceiversLaw, every_number_of_a_map_is_finite_and_of_its_sign) {
     int last_cascade = -1;
     for (const ShadowMap& map : plan.maps()) {
       require(all_finite(map.clip_from_world), "clip_from_world of cascade", map.cascade);
-      require(all_finite(glm::dmat4(map.clip_from_camera_relative)), "clip_from_camera_relative");
+      require(all_finite(map.clip_from_camera_relative), "clip_from_camera_relative");
       require(std::abs(glm::determinant(map.clip_from_world)) > 0.0, "singular matrix");
       require(map.warp != nullptr && map.kappa >= 0.0 && std::isfinite(map.kappa), "kappa", map.kappa);
       require(map.depth_begin <= map.depth_end && map.depth_begin >= last_end, "depths", map.depth_begin,

@@ -182,6 +182,7 @@ TEST(Perceptual, holds_of_plans_of_the_size_it_answers) {
   options.map_size = size;
   constexpr double kRim = 1.1;  // a small map's rim is a larger share of it
   const ShadowPlan smaller = plan();
+  ASSERT_GT(smaller.map_count, 0);
   for (const ShadowMap& map : smaller.maps()) {
     EXPECT_LE(std::max(map.texel_world_max.x, map.texel_world_max.y) * kHidingRadius, kRim * settings.radius);
   }

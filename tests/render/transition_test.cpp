@@ -169,7 +169,9 @@ TEST(Transition, without_an_overlap_in_the_plan_every_transition_is_a_cut) {
   Renderer renderer(scene);
   const Camera camera = along_the_rows();
   const ShadowPlan plan = plan_for(scene, camera, kSteep, two_maps(filters::pcf, 0.0));
+  ASSERT_EQ(plan.map_count, 2) << "no split to pass over";
   const Frame cut = draw(renderer, camera, plan, filters::pcf);
+  EXPECT_GT(std::count(cut.mask.values.begin(), cut.mask.values.end(), 0.0f), 100) << "no shadow";
   for (const SplitTransition transition : {SplitTransition::blend, SplitTransition::dither}) {
     FrameOptions options;
     options.transition = transition;
