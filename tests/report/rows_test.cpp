@@ -1,6 +1,7 @@
 // Rows survive JSON, kills and shards.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <fstream>
@@ -130,6 +131,23 @@ TEST(RowsFile, a_page_that_finds_no_room_leaves_the_one_before_and_nothing_else)
   }
   EXPECT_EQ(text_of(file), "before");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
+TEST(RowsFile, a_file_is_written_where_a_link_leads_and_in_the_place_of_nothing_that_is_no_file) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "file", link = folder.path() / "link", pipe = folder.path() / "pipe",
+                 nowhere = folder.path() / "nowhere";
+  write_text(file, "before");
+  fs::create_symlink(file, link);
+  write_text(link, "after");
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(text_of(file), "after");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(write_text(pipe, "text"), ReportError);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  fs::create_symlink(folder.path() / "not there", nowhere);
+  EXPECT_THROW(write_text(nowhere, "text"), ReportError);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 4);
 }
 
 TEST(RowsFile, a_device_is_no_file_of_rows) {
