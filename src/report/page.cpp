@@ -128,8 +128,10 @@ PageInput page_input(const std::filesystem::path& folder, std::vector<Row> rows)
 }
 
 std::filesystem::path write_report(const std::filesystem::path& folder) {
-  // A folder of gnomon stress alone has a report, too.
   std::error_code ignored;
+  if (std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored))
+    throw ReportError(one_line(folder.string() + ": is not a folder"));
+  // A folder of gnomon stress alone has a report, too.
   const bool alone = std::filesystem::exists(folder / kStabilityFile, ignored) &&
                      !std::filesystem::exists(folder / kRowsFile, ignored);
   const PageInput input = page_input(folder, alone ? std::vector<Row>() : read_rows(folder));

@@ -1,5 +1,6 @@
 // The `gnomon` program: its command line, and what becomes of an error.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -102,13 +103,17 @@ void add_filters(CLI::App& app, FiltersRequest& request) {
   CLI::App* filters = app.add_subcommand("filters", "list the shadow filters, what they cost, what they do");
   filters->set_version_flag("--version", kVersion);
   filters->option_defaults()->always_capture_default();
-  filters->add_flag("--cost", request.cost, "time and memory against `hard`, as a table");
+  CLI::Option* cost = filters->add_flag("--cost", request.cost, "time and memory against `hard`, as a table");
   filters->add_option("--gallery", request.gallery,
                       "write the papers' comparisons as pictures to this folder");
-  filters->add_option("--filters", request.filters, "of the cost table: names with their options, or all");
+  filters->add_option("--filters", request.filters, "of the cost table: names with their options, or all")
+      ->needs(cost);
   filters->add_option("--map-sizes", request.map_sizes, "of the cost table: texels along each side of a map")
-      ->check(CLI::Range(4, 16384));
-  filters->add_option("--rounds", request.rounds, "of the cost table")->check(CLI::Range(1, 1000));
+      ->check(CLI::Range(4, 16384))
+      ->needs(cost);
+  filters->add_option("--rounds", request.rounds, "of the cost table")
+      ->check(CLI::Range(1, 1000))
+      ->needs(cost);
   filters->add_option("--scene", request.scene,
                       "of the cost table and the last strip: builtin:NAME or a glTF file");
   filters->add_flag("--json", request.json, "list and cost table as JSON");
@@ -206,7 +211,9 @@ CLI::App* add_stress(CLI::App& app, StressRequest& request) {
   stress->add_option("--samples", request.samples, "values per axis, about")->check(CLI::Range(2, 100'000));
   stress->add_option("--scenes", request.scenes, "per value: a plain one and random ones")
       ->check(CLI::Range(1, 100'000));
-  stress->add_option("--seed", request.seed, "of the random scenes");
+  // Below the largest that fits: CLI11 takes what does not fit, and what is negative, for that one.
+  stress->add_option("--seed", request.seed, "of the random scenes")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
   stress->add_option("--out", request.out,
                      "folder for stability.jsonl, which gnomon report shows, and stability.csv");
   CLI::Option* json = stress->add_flag("--json", request.json, "print a JSON object per row");
@@ -218,6 +225,14 @@ CLI::App* add_stress(CLI::App& app, StressRequest& request) {
 int complain(const std::string& what, int code) {
   std::fprintf(stderr, "gnomon: %s\n", what.c_str());
   return code;
+}
+
+/// Of the first word on the command line. CLI11 would only say that a command is missing.
+bool is_command(CLI::App& app, const std::string& word) {
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  return word.starts_with('-') || std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
+           return command->get_name() == word;
+         });
 }
 
 int run(int argc, char** argv) {
@@ -233,6 +248,8 @@ int run(int argc, char** argv) {
   const CLI::App* scenes = add_scenes(app, scenes_request);
   const CLI::App* stress = add_stress(app, stress_request);
   add_measuring(app, measure_requests);
+  if (argc > 1 && !is_command(app, argv[1]))
+    return complain("there is no command '" + one_line(argv[1], 80) + "' (see --help)", kBadInput);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -254,8 +271,9 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace gnomon::tool;
-  // A reader that leaves early is an error to report, not a signal to die of.
+  // A reader that leaves early, and a file that may not grow, are errors to report, not signals to die of.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run(argc, argv);
   } catch (const Interrupted&) {

@@ -42,6 +42,7 @@ int list_scenes(bool json) {
     }
   }
   if (json) print_line(nlohmann::json{{"scenes", list}}.dump());
+  flush_output();
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include "gnomon/render/probe.hpp"
 #include "offscreen_context.hpp"
@@ -250,7 +251,12 @@ Sweep make_sweep(const CompareRequest& request) {
     refuse("--light", request.light, "sun, spot or point");
   sweep.out = request.out;
   sweep.resume = request.resume;
-  if (std::isnan(request.map_memory_mib)) refuse("--map-memory-mib", "nan", "a number");
+  // CLI::Range lets not-a-number through.
+  for (const auto& [option, value] : {std::pair{"--light-elevation-deg", request.light_elevation_deg},
+                                      std::pair{"--light-azimuth-deg", request.light_azimuth_deg},
+                                      std::pair{"--map-memory-mib", request.map_memory_mib}}) {
+    if (std::isnan(value)) refuse(option, "nan", "a number");
+  }
   sweep.map_memory_mib = request.map_memory_mib;
   sweep.max_triangles = request.max_triangles;
   if (!parse_pair(request.size, 'x', kMinSide, kMaxSide, sweep.width, sweep.height))

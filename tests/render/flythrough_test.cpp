@@ -297,6 +297,16 @@ TEST_F(Flythrough, leaves_no_half_file_where_the_disk_is_full) {
   for (const auto& entry : fs::directory_iterator(out())) ADD_FAILURE() << entry.path() << " is left";
 }
 
+TEST_F(Flythrough, standard_output_that_cannot_be_written_is_an_error) {
+  for (const std::string& arguments : {std::string("--help"), kOneFrame + ("--out " + out().string())}) {
+    const fs::path error = folder_ / "error";
+    const int status =
+        std::system((FLYTHROUGH " " + arguments + " > /dev/full 2> " + error.string()).c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << arguments;
+    EXPECT_EQ(text_of(error), "flythrough: standard output cannot be written\n");
+  }
+}
+
 TEST_F(Flythrough, refuses_a_folder_that_cannot_be_written) {
   const fs::path file = folder_ / "file";
   std::ofstream(file) << "in the way";

@@ -42,6 +42,7 @@ TEST(CommandLine, refuses_what_it_does_not_know) {
   const std::string file = case_files().front().string();
   expect_usage_error({});
   expect_usage_error({"plant"});
+  EXPECT_NE(run_gnomon({"plant", "--help"}).err.find("no command 'plant'"), std::string::npos);
   expect_usage_error({"plan"});
   expect_usage_error({"plan", file, "--prety"});
   expect_usage_error({"plan", file, "--repeat"});
@@ -49,6 +50,8 @@ TEST(CommandLine, refuses_what_it_does_not_know) {
   expect_usage_error({"plan", file, "--repeat", "-3"});
   expect_usage_error({"plan", file, "--repeat", "many"});
   expect_usage_error({"plan", file, "--repeat", "99999999999999999999"});
+  expect_usage_error({"stress", "--seed", "-1"});
+  expect_usage_error({"stress", "--seed", "99999999999999999999"});
 }
 
 TEST(CommandLine, takes_json_where_json_is_all_there_is) {
@@ -58,8 +61,8 @@ TEST(CommandLine, takes_json_where_json_is_all_there_is) {
 
 TEST(CommandLine, output_that_cannot_be_written_is_an_error) {
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"plan", case_files().front().string()},
-        std::vector<std::string>{"--help"}}) {
+       {std::vector<std::string>{"plan", case_files().front().string()}, std::vector<std::string>{"--help"},
+        std::vector<std::string>{"stress", "--axis", "gap", "--samples", "2"}}) {
     const Finished finished = run_gnomon(arguments, "", "/dev/full");
     EXPECT_EQ(finished.exit_code, 2);
     EXPECT_NE(finished.err.find("standard output"), std::string::npos) << finished.err;

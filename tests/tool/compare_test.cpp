@@ -343,6 +343,9 @@ TEST(Compare, refuses_bad_input_before_it_measures) {
                                                         {"--cascades", "9"},
                                                         {"--map-sizes", "3"},
                                                         {"--size", "64"},
+                                                        {"--light-elevation-deg", "nan"},
+                                                        {"--light-azimuth-deg", "nan"},
+                                                        {"--map-memory-mib", "nan"},
                                                         {"--context", "glfw"}}) {
     const Finished finished =
         run_gnomon({"compare", "builtin:fence", option, value, "--out", (folder.path() / "none").string()});
@@ -395,6 +398,17 @@ TEST(Report, is_written_anew_without_measuring) {
   EXPECT_EQ(finished.lines(), std::vector<std::string>{(whole() / "report.html").string()});
   EXPECT_TRUE(fs::exists(whole() / "report.html"));
   EXPECT_EQ(run_gnomon({"report", "/nowhere"}).exit_code, 2);
+  const Finished of_a_file = run_gnomon({"report", (whole() / report::kRowsFile).string()});
+  EXPECT_EQ(of_a_file.exit_code, 2);
+  EXPECT_NE(of_a_file.err.find("is not a folder"), std::string::npos) << of_a_file.err;
+}
+
+TEST(Scenes, are_listed_where_the_output_takes_them_and_written_to_files_alone) {
+  EXPECT_EQ(run_gnomon({"scenes"}, "", "/dev/full").exit_code, 2);
+  const TemporaryFolder folder;
+  const Finished refused = run_gnomon({"scenes", "--write", "city", folder.path().string()});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("cannot be written: Is a directory"), std::string::npos) << refused.err;
 }
 
 TEST(Doctor, names_contexts_timers_and_packages) {

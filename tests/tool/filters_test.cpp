@@ -53,6 +53,7 @@ TEST(Filters, says_what_is_wrong_in_one_line) {
   const TemporaryFolder folder;
   const std::string below_a_file = folder.write("file", "") + "/gallery";
   for (const auto& [arguments, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"filters", "--filters", "pcf"}, "--filters requires --cost"},
            {{"filters", "--cost", "--context", "glfw"}, "--context glfw: wants auto, osmesa or egl"},
            {{"filters", "--gallery", below_a_file},
             "--gallery " + below_a_file + ": cannot be made a folder"}}) {
