@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
+#include "frame_block.hpp"
 #include "gnomon/reuse.hpp"
 
 namespace gnomon::render {
@@ -86,8 +87,7 @@ std::optional<PruneRule> rule_of(OmissionKind kind) noexcept {
 DrawnMaps drawn_maps(const ShadowPlan& plan, const glm::dvec3& camera_world, double step) noexcept {
   DrawnMaps drawn;
   drawn.origin_world = glm::round(camera_world / step) * step;
-  const glm::dmat4 drawn_from_plan =
-      clip_from_gl_clip(kOpenGlZeroToOne) * glm::inverse(clip_from_gl_clip(plan.clip_space));
+  const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
     const ShadowMap& map = plan.map[i];
     glm::dmat4 clip_from_position = map.clip_from_world;
@@ -107,9 +107,10 @@ CasterCulling::CasterCulling(const SceneBuffers& scene)
   diagonal_.reserve(scene.boxes().size());
   for (std::uint32_t i = 0; i < scene.boxes().size(); ++i) {
     diagonal_.push_back(glm::length(scene.boxes()[i].max - scene.boxes()[i].min));
-    triangles_ += scene.primitive_of(i).index_count / 3;
+    triangles_ += triangles_of(i);
   }
   for (Kept& kept : kept_) kept.holds.resize(scene.boxes().size());
+  for (std::vector<std::uint8_t>& draws : strip_draws_) draws.resize(scene.boxes().size());
 }
 
 void CasterCulling::forget() noexcept {
@@ -132,7 +133,7 @@ void CasterCulling::begin(const CullingJob& job) {
 void CasterCulling::leave_out(PruneRule rule, std::uint32_t instance) noexcept {
   draws_[instance] = 0;
   ++saving(rule).instances;
-  saving(rule).triangles += scene_.primitive_of(instance).index_count / 3;
+  saving(rule).triangles += triangles_of(instance);
 }
 
 void CasterCulling::mark_swept(const CullingJob& job, const ShadowMap& map) {
@@ -150,7 +151,7 @@ void CasterCulling::mark_swept(const CullingJob& job, const ShadowMap& map) {
   saved.triangles += triangles_;
   for (const std::uint32_t instance : std::span(listed_).first(count)) {
     draws_[instance] = 1;
-    saved.triangles -= scene_.primitive_of(instance).index_count / 3;
+    saved.triangles -= triangles_of(instance);
   }
 }
 
@@ -170,40 +171,107 @@ void CasterCulling::drop_small(const CullingJob& job, const ShadowMap& map) {
   }
 }
 
-MapWork CasterCulling::hold(const CullingJob& job, std::size_t map) {
-  Kept& kept = kept_[map];
-  const DrawnMap& drawn = job.drawn.map[map];
-  const ShadowMap& planned = job.plan.map[map];
-  const bool serves = job.prune.has(PruneRule::held_maps) && kept.valid &&
-                      kept.origin_world == job.drawn.origin_world && kept.drawn == drawn &&
-                      (!job.reads_everywhere || kept.holds == draws_);
-  if (!serves) {
-    kept = {true, job.drawn.origin_world, drawn, draws_};
-    return {true, draws_, texels_of(planned)};
-  }
-  MapWork work{false, draws_, 0};
+std::uint64_t CasterCulling::draw_what_is_missing(PruneRule rule, const ShadowMap& map, Kept& kept) {
   double texels = 0.0;
   for (std::uint32_t i = 0; i < draws_.size(); ++i) {
     if (draws_[i] == 0) continue;
     if (kept.holds[i] != 0) {
-      leave_out(PruneRule::held_maps, i);
+      leave_out(rule, i);
       continue;
     }
     kept.holds[i] = 1;
-    const std::optional<TexelExtent> extent = extent_in_map(planned, scene_.boxes()[i]);
-    texels += extent ? extent->area() : static_cast<double>(texels_of(planned));
+    const std::optional<TexelExtent> extent = extent_in_map(map, scene_.boxes()[i]);
+    texels += extent ? extent->area() : static_cast<double>(texels_of(map));
   }
-  work.texels = std::min(static_cast<std::uint64_t>(std::ceil(texels)), texels_of(planned));
-  PruneSaving& saved = saving(PruneRule::held_maps);
-  saved.texels += texels_of(planned) - work.texels;
-  if (std::none_of(draws_.begin(), draws_.end(), [](std::uint8_t d) { return d != 0; })) ++saved.maps;
+  return std::min(static_cast<std::uint64_t>(std::ceil(texels)), texels_of(map));
+}
+
+MapWork CasterCulling::draw_whole(const ShadowMap& map, Kept& kept) {
+  kept.holds = draws_;
+  MapWork work;
+  work.add({{0, 0, map.width, map.height}, true, draws_});
+  work.texels = texels_of(map);
   return work;
 }
 
-MapWork CasterCulling::choose(const CullingJob& job, std::size_t map) {
-  mark_swept(job, job.plan.map[map]);
-  drop_small(job, job.plan.map[map]);
-  return hold(job, map);
+MapWork CasterCulling::hold(const ShadowMap& map, Kept& kept) {
+  MapWork work;
+  work.texels = draw_what_is_missing(PruneRule::held_maps, map, kept);
+  PruneSaving& saved = saving(PruneRule::held_maps);
+  saved.texels += texels_of(map) - work.texels;
+  if (draws_any())
+    work.add({{0, 0, map.width, map.height}, false, draws_});
+  else
+    ++saved.maps;
+  return work;
+}
+
+MapWork CasterCulling::scroll(const CullingJob& job, const ShadowMap& map, const MapReuse& moved,
+                              Kept& kept) {
+  MapWork work;
+  work.move = {moved.shift_x, moved.shift_y, moved.kept};
+  PruneSaving drawn, held;
+  for (std::uint32_t i = 0; i < draws_.size(); ++i) {
+    if (job.reads_everywhere && draws_[i] == 0) kept.holds[i] = 0;
+    if (draws_[i] == 0 || kept.holds[i] == 0) continue;
+    ++held.instances;
+    held.triangles += triangles_of(i);
+  }
+  for (std::size_t s = 0; s < static_cast<std::size_t>(moved.strip_count); ++s) {
+    const TexelRect& strip = moved.strip[s];
+    std::vector<std::uint8_t>& draws = strip_draws_[s];
+    std::fill(draws.begin(), draws.end(), std::uint8_t{0});
+    const std::size_t count =
+        std::min(set_.cull(rectangle_planes(map, strip, kOpenGlZeroToOne), listed_), listed_.size());
+    for (const std::uint32_t instance : std::span(listed_).first(count)) {
+      if (draws_[instance] == 0) {
+        kept.holds[instance] = 0;  // in the rest of the map, but not here
+      } else if (kept.holds[instance] != 0) {
+        draws[instance] = 1;
+        ++drawn.instances;
+        drawn.triangles += triangles_of(instance);
+      }
+    }
+    work.add({strip, true, draws});
+    work.texels += static_cast<std::uint64_t>(strip.width) * static_cast<std::uint64_t>(strip.height);
+  }
+  // Large casters are in both strips: not worth it where they are all there is.
+  if (drawn.triangles > held.triangles || drawn.instances > held.instances) return draw_whole(map, kept);
+  work.texels =
+      std::min(work.texels + draw_what_is_missing(PruneRule::scrolled_maps, map, kept), texels_of(map));
+  if (draws_any()) work.add({{0, 0, map.width, map.height}, false, draws_});
+  PruneSaving& saved = saving(PruneRule::scrolled_maps);
+  saved.texels += texels_of(map) - work.texels;
+  saved.instances -= drawn.instances;
+  saved.triangles -= drawn.triangles;
+  return work;
+}
+
+bool CasterCulling::draws_any() const noexcept {
+  return std::any_of(draws_.begin(), draws_.end(), [](std::uint8_t d) { return d != 0; });
+}
+
+MapWork CasterCulling::choose(const CullingJob& job, std::size_t index) {
+  mark_swept(job, job.plan.map[index]);
+  drop_small(job, job.plan.map[index]);
+  Kept& kept = kept_[index];
+  const DrawnMap& drawn = job.drawn.map[index];
+  ShadowMap map = job.plan.map[index];
+  map.clip_from_world = drawn_from_plan_clip(job.plan.clip_space) * map.clip_from_world;
+  const bool usable = kept.valid && kept.origin_world == job.drawn.origin_world;
+  const bool holds = usable && job.prune.has(PruneRule::held_maps) && kept.drawn == drawn &&
+                     (!job.reads_everywhere || kept.holds == draws_);
+  const MapReuse moved = usable && !holds && job.prune.has(PruneRule::scrolled_maps)
+                             ? reuse(kept.map, map, kOpenGlZeroToOne)
+                             : MapReuse{};
+  const MapWork work = holds                               ? hold(map, kept)
+                       : moved.kind == ReuseKind::scrolled ? scroll(job, map, moved, kept)
+                                                           : draw_whole(map, kept);
+  kept.valid = true;
+  kept.origin_world = job.drawn.origin_world;
+  kept.drawn = drawn;
+  kept.map = map;
+  return work;
 }
 
 }  // namespace gnomon::render

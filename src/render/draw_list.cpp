@@ -56,28 +56,36 @@ void DrawLists::build(const CullingJob& job, const Camera& camera) {
   commands_.clear();
   ranges_.clear();
   culling_.begin(job);
-  for (std::size_t v = 0; v < kMaxMaps; ++v) {
-    stats_[v] = {};
-    first_range_[v] = ranges_.size();
-    if (v >= job.plan.maps().size()) continue;
-    const MapWork work = culling_.choose(job, v);
-    add_view(v, work.draws);
-    adds_[v] = !work.clear;
-    stats_[v].texels = work.texels;
-    stats_[v].held = !work.clear && stats_[v].instances == 0;
+  for (std::size_t map = 0; map < kMaxMaps; ++map) {
+    stats_[map] = {};
+    part_count_[map] = 0;
+    if (map < job.plan.maps().size()) add_map(job, map);
   }
   saved_ = culling_.saved();
-  first_range_[kCameraView] = ranges_.size();
-  stats_[kCameraView] = {};
+  camera_begin_ = ranges_.size();
+  MapStats& of_camera = stats_.back();
+  of_camera = {};
   mark_visible(camera);
-  add_view(kCameraView, visible_);
-  stats_[kCameraView].texels =
-      static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
-  first_range_[kCameraView + 1] = ranges_.size();
+  add_view(visible_, of_camera);
+  of_camera.texels = static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
   send(object_buffer_, object_capacity_, objects_);
   send(command_buffer_, command_capacity_, commands_);
   scene_.set_object_index_buffer(object_buffer_.name());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_.name());
+}
+
+void DrawLists::add_map(const CullingJob& job, std::size_t map) {
+  const MapWork work = culling_.choose(job, map);
+  MapStats& stats = stats_[map];
+  move_[map] = work.move;
+  for (const MapPart& part : work.parts()) {
+    DrawnPart& drawn = parts_[map][part_count_[map]++];
+    drawn = {part.rectangle, part.clear, ranges_.size(), 0};
+    add_view(part.draws, stats);
+    drawn.end = ranges_.size();
+  }
+  stats.texels = work.texels;
+  stats.held = work.parts().empty();
 }
 
 void DrawLists::mark_visible(const Camera& camera) {
@@ -90,8 +98,7 @@ void DrawLists::mark_visible(const Camera& camera) {
   }
 }
 
-void DrawLists::add_view(std::size_t v, std::span<const std::uint8_t> draws) {
-  MapStats& stats = stats_[v];
+void DrawLists::add_view(std::span<const std::uint8_t> draws, MapStats& stats) {
   const std::span<const Batch> batches = scene_.batches();
   for (std::uint32_t b = 0; b < batches.size(); ++b) {
     BatchRange range{b, static_cast<std::uint32_t>(commands_.size()), 0};

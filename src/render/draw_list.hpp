@@ -19,6 +19,13 @@ struct BatchRange {
   std::uint32_t batch = 0, begin = 0, end = 0;
 };
 
+/// A rectangle of a map, and what is drawn there.
+struct DrawnPart {
+  TexelRect rectangle;
+  bool clear = true;               ///< before drawing
+  std::size_t begin = 0, end = 0;  ///< of DrawLists' ranges
+};
+
 /// The draw lists of all maps and of the camera, built on the CPU and sent in one go before the first pass: a
 /// buffer that changes between passes makes the driver wait for the pass before.
 class DrawLists {
@@ -30,39 +37,46 @@ class DrawLists {
   /// What the maps hold is gone: the next build() draws them whole.
   void forget_maps() noexcept { culling_.forget(); }
 
-  [[nodiscard]] std::span<const BatchRange> map(int index) const noexcept {
-    return view(static_cast<std::size_t>(index));
+  /// What a map holds that is to be moved, before anything of it is drawn.
+  [[nodiscard]] const MapMove& move(int index) const noexcept {
+    return move_[static_cast<std::size_t>(index)];
   }
-  [[nodiscard]] std::span<const BatchRange> camera() const noexcept { return view(kCameraView); }
+  [[nodiscard]] std::span<const DrawnPart> parts(int index) const noexcept {
+    const auto map = static_cast<std::size_t>(index);
+    return {parts_[map].data(), part_count_[map]};
+  }
+  [[nodiscard]] std::span<const BatchRange> ranges(const DrawnPart& part) const noexcept {
+    return {ranges_.data() + part.begin, part.end - part.begin};
+  }
+  [[nodiscard]] std::span<const BatchRange> camera() const noexcept {
+    return std::span(ranges_).subspan(camera_begin_);
+  }
   [[nodiscard]] const MapStats& map_stats(int index) const noexcept {
     return stats_[static_cast<std::size_t>(index)];
   }
-  /// Whether the map is drawn on top of what it holds.
-  [[nodiscard]] bool adds_to(int index) const noexcept { return adds_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] const std::array<PruneSaving, kPruneRuleCount>& saved() const noexcept { return saved_; }
-  [[nodiscard]] const MapStats& camera_stats() const noexcept { return stats_[kCameraView]; }
+  [[nodiscard]] const MapStats& camera_stats() const noexcept { return stats_.back(); }
 
   /// Draws commands [begin, end) with the state that is bound.
   void draw(std::uint32_t begin, std::uint32_t end) const noexcept;
 
  private:
-  static constexpr std::size_t kCameraView = kMaxMaps;
-  [[nodiscard]] std::span<const BatchRange> view(std::size_t v) const noexcept {
-    return {ranges_.data() + first_range_[v], first_range_[v + 1] - first_range_[v]};
-  }
-  void add_view(std::size_t v, std::span<const std::uint8_t> draws);
+  void add_map(const CullingJob& job, std::size_t map);
+  void add_view(std::span<const std::uint8_t> draws, MapStats& stats);
   void mark_visible(const Camera& camera);
 
   const SceneBuffers& scene_;
   CasterCulling culling_;
   std::array<PruneSaving, kPruneRuleCount> saved_{};
-  std::array<bool, kMaxMaps> adds_{};
+  std::array<MapMove, kMaxMaps> move_{};
+  std::array<std::array<DrawnPart, MapWork::kMaxParts>, kMaxMaps> parts_{};
+  std::array<std::size_t, kMaxMaps> part_count_{};
   std::vector<std::uint8_t> visible_;   ///< scratch: by instance
   std::vector<std::uint32_t> objects_;  ///< object of each drawn instance, all views one after the other
   std::vector<DrawCommand> commands_;
   std::vector<BatchRange> ranges_;
-  std::array<std::size_t, kMaxMaps + 2> first_range_{};
-  std::array<MapStats, kMaxMaps + 1> stats_{};
+  std::size_t camera_begin_ = 0;                ///< of ranges_, whose last are the camera's
+  std::array<MapStats, kMaxMaps + 1> stats_{};  ///< the camera's last
   Buffer object_buffer_, command_buffer_;
   std::size_t object_capacity_ = 0, command_capacity_ = 0;
 };

@@ -24,11 +24,6 @@ glm::dmat4 camera_clip_from_relative(const Camera& camera, const CameraAxes& axe
   return reversed * clip_from_view(camera) * view_from_relative;
 }
 
-/// Any clip space of a plan to the one all passes are drawn in.
-glm::dmat4 drawn_from_plan_clip(const ClipSpace& plan_space) noexcept {
-  return clip_from_gl_clip(kOpenGlZeroToOne) * glm::inverse(clip_from_gl_clip(plan_space));
-}
-
 /// Direction, or position relative to the camera, as light_at of shaders/library/shadow_map.glsl takes it.
 glm::vec4 light_place(const ShadowPlan& plan, const Camera& camera) noexcept {
   if (plan.map_count == 0 || plan.map[0].light_world.w == 0.0) return {glm::vec3(plan.light_direction), 0.0f};
@@ -64,6 +59,10 @@ MapBlock map_block(const ShadowPlan& plan, const ShadowMap& map, const glm::dmat
 }
 
 }  // namespace
+
+glm::dmat4 drawn_from_plan_clip(const ClipSpace& plan_space) noexcept {
+  return clip_from_gl_clip(kOpenGlZeroToOne) * glm::inverse(clip_from_gl_clip(plan_space));
+}
 
 FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const FrameOptions& options,
                        int layer_width, int layer_height, const BlurSides& blur) noexcept {

@@ -27,6 +27,9 @@ struct FrameBlock {
 static_assert(sizeof(FrameBlock) == 64 + 10 * 16 + kMaxMaps * (96 + 16 * kMaxSelectPlanes),
               "std140 has no padding here");
 
+/// Any clip space of a plan to the one that all passes draw in.
+[[nodiscard]] glm::dmat4 drawn_from_plan_clip(const ClipSpace& plan_space) noexcept;
+
 /// Everything brought to OpenGL clip space with depth 0..1, whatever the plan was made for. `layer_width` and
 /// `layer_height`: texels of the map array's layers. `blur`: of the stored texels.
 [[nodiscard]] FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera,

@@ -31,8 +31,44 @@ CommonPrograms::CommonPrograms()
       heat(make_program("fullscreen.vert", "heat.frag")),
       tint(make_program("fullscreen.vert", "tint.frag")) {}
 
-void Renderer::Impl::draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept {
+void Renderer::Impl::draw_map_part(const DrawnPart& part, const DrawnMap& map,
+                                   bool alpha_test_where_masked) noexcept {
   const std::span<const Batch> batches = scene.batches();
+  const TexelRect& at = part.rectangle;
+  // Whole maps with all of their layer, which may be larger.
+  if (at.width == map.width && at.height == map.height) {
+    glDisable(GL_SCISSOR_TEST);
+  } else {
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(at.x, at.y, at.width, at.height);
+  }
+  constexpr float kFarthest = 1.0f;
+  if (part.clear) glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest);
+  // Opaque batches come first in the order of batches, and their commands follow each other: one call draws
+  // them.
+  const std::span<const BatchRange> ranges = lists.ranges(part);
+  std::size_t opaque = 0;
+  while (alpha_test_where_masked && opaque < ranges.size() && !batches[ranges[opaque].batch].masked) ++opaque;
+  if (opaque > 0) {
+    glUseProgram(programs.depth.name());
+    glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
+    lists.draw(ranges.front().begin, ranges[opaque - 1].end);
+  }
+  if (opaque == ranges.size()) return;
+  glUseProgram(programs.depth_masked.name());
+  glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
+  for (const BatchRange& range : ranges.subspan(opaque)) {
+    bind_material(batches[range.batch]);
+    lists.draw(range.begin, range.end);
+  }
+}
+
+void Renderer::Impl::draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept {
+  // All moves before the first draw: a copy waits for what is being drawn into its image.
+  for (int i = 0; i < map_count; ++i) {
+    const MapMove& move = lists.move(i);
+    if (move.any()) maps.move(i, move.kept, move.shift_x, move.shift_y);
+  }
   glBindVertexArray(scene.vertex_array());
   scene.use(SceneBuffers::Placed::for_maps);
   glEnable(GL_DEPTH_TEST);
@@ -40,32 +76,14 @@ void Renderer::Impl::draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_wh
   // Both sides cast: open and thin things have one side only, and the truth knows no sides.
   glDisable(GL_CULL_FACE);
   for (int i = 0; i < map_count; ++i) {
-    if (lists.map_stats(i).held) continue;
+    if (lists.parts(i).empty()) continue;
     const DrawnMap& map = drawn.map[static_cast<std::size_t>(i)];
     glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0, i);
     glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
     glViewport(0, 0, map.width, map.height);
-    constexpr float kFarthest = 1.0f;
-    if (!lists.adds_to(i)) glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest);
-    // Opaque batches come first in the order of batches, and their commands follow each other: one call draws
-    // them.
-    const std::span<const BatchRange> ranges = lists.map(i);
-    std::size_t opaque = 0;
-    while (alpha_test_where_masked && opaque < ranges.size() && !batches[ranges[opaque].batch].masked)
-      ++opaque;
-    if (opaque > 0) {
-      glUseProgram(programs.depth.name());
-      glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
-      lists.draw(ranges.front().begin, ranges[opaque - 1].end);
-    }
-    if (opaque == ranges.size()) continue;
-    glUseProgram(programs.depth_masked.name());
-    glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
-    for (const BatchRange& range : ranges.subspan(opaque)) {
-      bind_material(batches[range.batch]);
-      lists.draw(range.begin, range.end);
-    }
+    for (const DrawnPart& part : lists.parts(i)) draw_map_part(part, map, alpha_test_where_masked);
   }
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void Renderer::Impl::adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept {

@@ -24,6 +24,7 @@ struct Renderer::Impl {
   explicit Impl(const Scene& scene);
 
   void fit_maps(const ShadowPlan& plan);
+  void draw_map_part(const DrawnPart& part, const DrawnMap& map, bool alpha_test_where_masked) noexcept;
   void draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept;
   /// `block`: with the options that the filter chooses for each map, on return.
   void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block) noexcept;

@@ -21,6 +21,12 @@ Framebuffer framebuffer_of(const Texture& color) {
   return fbo;
 }
 
+Texture depth_layers(int width, int height, int layers) {
+  Texture texture = make_texture(GL_TEXTURE_2D_ARRAY);
+  glTextureStorage3D(texture.name(), 1, GL_DEPTH_COMPONENT32F, width, height, layers);
+  return texture;
+}
+
 Sampler depth_sampler(GLint filter) {
   Sampler sampler = make_sampler();
   glSamplerParameteri(sampler.name(), GL_TEXTURE_MIN_FILTER, filter);
@@ -70,7 +76,7 @@ MapTargets::MapTargets()
 std::uint64_t MapTargets::bytes() const noexcept {
   constexpr std::uint64_t kDepthBytes = 4;
   return kDepthBytes * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) *
-         static_cast<std::uint64_t>(layers);
+         static_cast<std::uint64_t>(layers + (scratch ? 1 : 0));
 }
 
 bool MapTargets::fit(int new_width, int new_height, int new_layers) {
@@ -78,12 +84,24 @@ bool MapTargets::fit(int new_width, int new_height, int new_layers) {
   width = new_width;
   height = new_height;
   layers = std::max(layers, new_layers);
-  depth = make_texture(GL_TEXTURE_2D_ARRAY);
-  glTextureStorage3D(depth.name(), 1, GL_DEPTH_COMPONENT32F, width, height, layers);
+  depth = depth_layers(width, height, layers);
+  scratch = {};
   fbo = make_framebuffer();
   glNamedFramebufferDrawBuffer(fbo.name(), GL_NONE);
   glNamedFramebufferReadBuffer(fbo.name(), GL_NONE);
   return true;
+}
+
+void MapTargets::move(int layer, const TexelRect& to, int shift_x, int shift_y) noexcept {
+  if (!scratch) scratch = depth_layers(width, height, 1);
+  // By way of another image: within one, source and destination would overlap.
+  const auto copy = [&to](GLuint from, int from_x, int from_y, int from_layer, GLuint into, int x, int y,
+                          int z) {
+    glCopyImageSubData(from, GL_TEXTURE_2D_ARRAY, 0, from_x, from_y, from_layer, into, GL_TEXTURE_2D_ARRAY, 0,
+                       x, y, z, to.width, to.height, 1);
+  };
+  copy(depth.name(), to.x - shift_x, to.y - shift_y, layer, scratch.name(), 0, 0, 0);
+  copy(scratch.name(), 0, 0, 0, depth.name(), to.x, to.y, layer);
 }
 
 }  // namespace gnomon::render

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "gl_object.hpp"
+#include "gnomon/reuse.hpp"
 
 namespace gnomon::render {
 
@@ -21,6 +22,7 @@ struct FrameTargets {
 struct MapTargets {
   int width = 0, height = 0, layers = 0;
   Texture depth;
+  Texture scratch;  ///< one layer, made by the first move()
   Framebuffer fbo;
   Sampler compare_sampler;  ///< compares, bilinear
   Sampler plain_sampler;    ///< reads depths, nearest
@@ -28,6 +30,8 @@ struct MapTargets {
   MapTargets();
   /// Grows to hold maps of this size; never shrinks the number of layers. True where all maps are new.
   bool fit(int new_width, int new_height, int new_layers);
+  /// Copies what lies in the rectangle of a layer, once moved by `shift`, from where it is now.
+  void move(int layer, const TexelRect& to, int shift_x, int shift_y) noexcept;
   [[nodiscard]] std::uint64_t bytes() const noexcept;
 };
 

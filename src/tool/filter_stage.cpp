@@ -62,7 +62,7 @@ render::FrameStats FilterStage::draw(const render::FilterSettings& filter, const
   plan_ = make_plan(camera, sun_, {boxes_, boxes_}, options);
   render::FrameOptions frame;
   // What is timed is the whole frame.
-  frame.prune = PruneRules{}.without(PruneRule::held_maps);
+  frame.prune = PruneRules{}.without(PruneRule::held_maps).without(PruneRule::scrolled_maps);
   frame.aliasing = frame.heat_map = frame.cascade_tint = false;
   return renderer_.draw(plan_, camera, renderer_.prepare(filter), frame);
 }

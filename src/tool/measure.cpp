@@ -21,7 +21,7 @@ using render::Pass;
 render::FrameOptions frame_options(bool pictures) {
   render::FrameOptions options;
   // Each round measures the whole frame: none may live on the one before.
-  options.prune = PruneRules{}.without(PruneRule::held_maps);
+  options.prune = PruneRules{}.without(PruneRule::held_maps).without(PruneRule::scrolled_maps);
   options.aliasing = options.heat_map = pictures;
   options.cascade_tint = false;
   return options;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
@@ -15,12 +14,12 @@
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
+#include "prune_pair.hpp"
 
 namespace gnomon::render {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 90, kMapSize = 256;
-constexpr double kLostShare = 1e-4;
 
 /// Numbers in 0..1 that are the same everywhere.
 class Dice {
@@ -34,43 +33,6 @@ class Dice {
 
  private:
   std::uint64_t state_;
-};
-
-std::vector<Box> boxes_of(const Scene& scene) {
-  std::vector<Box> boxes;
-  for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
-  return boxes;
-}
-
-FrameOptions mask_only(PruneRules rules) {
-  FrameOptions options;
-  options.aliasing = options.heat_map = options.cascade_tint = options.time_passes = false;
-  options.prune = rules;
-  options.lost_shadow_share = kLostShare;
-  return options;
-}
-
-std::size_t differing(const FloatImage& a, const FloatImage& b) {
-  std::size_t count = 0;
-  // Of visibility and map the first: a map that is not there changes the numbers of those behind it.
-  for (std::size_t i = 0; i < a.values.size(); i += 2)
-    count += std::bit_cast<std::uint32_t>(a.values[i]) != std::bit_cast<std::uint32_t>(b.values[i]) ? 1 : 0;
-  return count;
-}
-
-std::size_t shadowed(const FloatImage& mask) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < mask.values.size(); i += 2) count += mask.values[i] < 1.0f ? 1 : 0;
-  return count;
-}
-
-/// A scene drawn by two renderers, one that leaves out and one that does not.
-struct Pair {
-  Scene scene;
-  std::vector<Box> boxes;
-  Renderer pruned, full;
-  explicit Pair(Scene of) : scene(std::move(of)), boxes(boxes_of(scene)), pruned(scene), full(scene) {}
-  [[nodiscard]] SceneBounds bounds() const noexcept { return {boxes, boxes}; }
 };
 
 struct Tally {

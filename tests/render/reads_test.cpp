@@ -101,7 +101,7 @@ TEST(Reads, a_frame_takes_the_passes_that_its_filter_needs_for_each_map) {
   const Camera camera = camera_on_box(kSize, kSize);
   FrameOptions frame;
   frame.aliasing = frame.heat_map = frame.cascade_tint = frame.time_passes = false;
-  frame.prune = PruneRules{}.without(PruneRule::held_maps);
+  frame.prune = PruneRules{}.without(PruneRule::held_maps).without(PruneRule::scrolled_maps);
   for (const Filter* filter : all_filters()) {
     for (const double radius : {0.0, 1.0, 3.0}) {
       FilterSettings settings = default_settings(*filter);
