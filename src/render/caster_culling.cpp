@@ -188,6 +188,7 @@ std::uint64_t CasterCulling::draw_what_is_missing(PruneRule rule, const ShadowMa
 
 MapWork CasterCulling::draw_whole(const ShadowMap& map, Kept& kept) {
   kept.holds = draws_;
+  kept.age = -1;
   MapWork work;
   work.add({{0, 0, map.width, map.height}, true, draws_});
   work.texels = texels_of(map);
@@ -264,13 +265,14 @@ MapWork CasterCulling::choose(const CullingJob& job, std::size_t index) {
   const MapReuse moved = usable && !holds && job.prune.has(PruneRule::scrolled_maps)
                              ? reuse(kept.map, map, kOpenGlZeroToOne)
                              : MapReuse{};
-  const MapWork work = holds                               ? hold(map, kept)
-                       : moved.kind == ReuseKind::scrolled ? scroll(job, map, moved, kept)
-                                                           : draw_whole(map, kept);
+  MapWork work = holds                               ? hold(map, kept)
+                 : moved.kind == ReuseKind::scrolled ? scroll(job, map, moved, kept)
+                                                     : draw_whole(map, kept);
   kept.valid = true;
   kept.origin_world = job.drawn.origin_world;
   kept.drawn = drawn;
   kept.map = map;
+  work.age = ++kept.age;
   return work;
 }
 

@@ -61,6 +61,7 @@ struct MapWork {
   std::array<MapPart, kMaxParts> part;
   std::size_t part_count = 0;
   std::uint64_t texels = 0;  ///< that drawing touches, at most
+  int age = 0;               ///< frames since all of it was drawn
 
   [[nodiscard]] std::span<const MapPart> parts() const noexcept { return {part.data(), part_count}; }
   void add(const MapPart& of) noexcept { part[part_count++] = of; }
@@ -82,6 +83,7 @@ class CasterCulling {
  private:
   struct Kept {
     bool valid = false;
+    int age = 0;  ///< frames since it was drawn whole
     glm::dvec3 origin_world{0.0};
     DrawnMap drawn;
     ShadowMap map;                    ///< in the clip space that it was drawn in

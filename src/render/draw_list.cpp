@@ -86,6 +86,8 @@ void DrawLists::add_map(const CullingJob& job, std::size_t map) {
   }
   stats.texels = work.texels;
   stats.held = work.parts().empty();
+  stats.scrolled = work.move.any();
+  stats.age = work.age;
 }
 
 void DrawLists::mark_visible(const Camera& camera) {

@@ -88,9 +88,14 @@ double depth_curve(const ShadowPlan& plan, const ShadowMap& map) noexcept {
   return std::isfinite(curve) ? std::max(curve, 0.0) : 0.0;
 }
 
-void set_depth_curves(const ShadowPlan& plan, FilterBlock& block) noexcept {
-  for (std::size_t i = 0; i < plan.maps().size(); ++i)
-    block.depth_curve[i].x = static_cast<float>(depth_curve(plan, plan.map[i]));
+DepthCurves depth_curves(const ShadowPlan& plan) noexcept {
+  DepthCurves curves{};
+  for (std::size_t i = 0; i < plan.maps().size(); ++i) curves[i] = depth_curve(plan, plan.map[i]);
+  return curves;
+}
+
+void set_depth_curves(const DepthCurves& curves, FilterBlock& block) noexcept {
+  for (std::size_t i = 0; i < curves.size(); ++i) block.depth_curve[i].x = static_cast<float>(curves[i]);
 }
 
 FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides) noexcept {

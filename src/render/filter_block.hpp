@@ -37,16 +37,17 @@ int tap_weights(BlurShape shape, double half_side, std::array<double, 4 * kTapVe
 
 /// Options of one map.
 void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& block) noexcept;
-/// With the same options for all maps.
 /// shaders/library/lookup.glsl: depths of a lamp's map made even in distance.
 [[nodiscard]] inline double linear_depth(double depth, double curve) noexcept {
   return depth / (1.0 + (1.0 - depth) * curve);
 }
 /// The curve of a map: far over near distance less 1 along its middle ray for a lamp, 0 for parallel light.
 [[nodiscard]] double depth_curve(const ShadowPlan& plan, const ShadowMap& map) noexcept;
-void set_depth_curves(const ShadowPlan& plan, FilterBlock& block) noexcept;
+using DepthCurves = std::array<double, kMaxMaps>;
+[[nodiscard]] DepthCurves depth_curves(const ShadowPlan& plan) noexcept;
+void set_depth_curves(const DepthCurves& curves, FilterBlock& block) noexcept;
 
-/// With no curve for any map.
+/// With the same options for all maps, and no curve for any.
 [[nodiscard]] FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides) noexcept;
 
 /// Vectors of four channels that a stored texel of these settings takes, 1 where nothing is stored.

@@ -42,8 +42,8 @@ void set_lamp(const Light* light, FrameBlock& block) noexcept {
   if (const auto* point = std::get_if<PointLight>(light)) block.layer.z = static_cast<float>(point->range);
 }
 
-MapBlock map_block(const ShadowPlan& plan, const ShadowMap& map, const glm::dmat4& drawn_from_plan,
-                   const glm::dvec3& eye, double blur) noexcept {
+MapBlock map_block(const ShadowMap& map, const glm::dmat4& drawn_from_plan, const glm::dvec3& eye,
+                   double blur, double curve) noexcept {
   MapBlock block{};
   block.clip_from_camera_relative = glm::mat4(drawn_from_plan * glm::dmat4(map.clip_from_camera_relative));
   block.interval_size = glm::vec4(glm::dvec4(map.depth_begin, map.depth_end, map.width, map.height));
@@ -54,7 +54,7 @@ MapBlock map_block(const ShadowPlan& plan, const ShadowMap& map, const glm::dmat
     block.select_planes[at] =
         glm::vec4(glm::vec3(plane), static_cast<float>(plane.w + glm::dot(glm::dvec3(plane), eye)));
   }
-  block.kernel = glm::vec4(glm::dvec4(map.filter_margin_texels, blur, map.overlap, depth_curve(plan, map)));
+  block.kernel = glm::vec4(glm::dvec4(map.filter_margin_texels, blur, map.overlap, curve));
   return block;
 }
 
@@ -65,7 +65,8 @@ glm::dmat4 drawn_from_plan_clip(const ClipSpace& plan_space) noexcept {
 }
 
 FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const FrameOptions& options,
-                       int layer_width, int layer_height, const BlurSides& blur) noexcept {
+                       int layer_width, int layer_height, const BlurSides& blur,
+                       const DepthCurves& curves) noexcept {
   const CameraAxes axes = camera_axes(camera);
   FrameBlock block{};
   block.clip_from_camera_relative = glm::mat4(camera_clip_from_relative(camera, axes));
@@ -84,7 +85,7 @@ FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const Frame
       glm::dvec4(plan.select_by_map ? 1.0 : 0.0, static_cast<double>(options.transition), 0.0, 0.0));
   const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
-    block.maps[i] = map_block(plan, plan.map[i], drawn_from_plan, camera.position, blur[i]);
+    block.maps[i] = map_block(plan.map[i], drawn_from_plan, camera.position, blur[i], curves[i]);
   }
   return block;
 }

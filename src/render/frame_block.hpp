@@ -34,6 +34,6 @@ static_assert(sizeof(FrameBlock) == 64 + 10 * 16 + kMaxMaps * (96 + 16 * kMaxSel
 /// `layer_height`: texels of the map array's layers. `blur`: of the stored texels.
 [[nodiscard]] FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera,
                                      const FrameOptions& options, int layer_width, int layer_height,
-                                     const BlurSides& blur) noexcept;
+                                     const BlurSides& blur, const DepthCurves& curves) noexcept;
 
 }  // namespace gnomon::render

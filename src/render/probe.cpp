@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "context/backend.hpp"
 #include "gl_object.hpp"
 #include "gnomon/render/error.hpp"
 
@@ -85,7 +86,14 @@ double free_memory_bytes() {
 
 bool draws_in_memory() {
   const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  return renderer != nullptr && std::string_view(renderer).find("llvmpipe") != std::string_view::npos;
+  return renderer != nullptr && is_software(renderer);
+}
+
+/// Of earlier calls. A context that is lost answers with an error every time.
+void forget_errors() {
+  constexpr int kMostErrors = 64;
+  for (int i = 0; i < kMostErrors && glGetError() != GL_NO_ERROR; ++i) {
+  }
 }
 
 }  // namespace
@@ -94,8 +102,7 @@ bool memory_takes_maps(int map_size, int maps, double bytes_per_texel) {
   // A software driver takes what it is asked for, and the machine ends the program that has taken too much.
   const double bytes = bytes_per_texel * maps * map_size * map_size, free = free_memory_bytes();
   if (draws_in_memory() && free > 0.0 && bytes > 0.9 * free) return false;
-  while (glGetError() != GL_NO_ERROR) {
-  }
+  forget_errors();
   constexpr double kTexelBytes = 4.0;  // of GL_DEPTH_COMPONENT32F
   std::vector<Texture> taken;
   for (double left = bytes_per_texel; left > 0.0; left -= kTexelBytes) {

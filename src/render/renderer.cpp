@@ -76,6 +76,7 @@ void Renderer::Impl::fit_maps(const ShadowPlan& plan) {
   int width = 1, height = 1;
   bool alike = true;
   map_count = plan.map_count;
+  if (map_count == 0) return;  // what the maps hold stays for the next frame
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
     map_size[i] = glm::ivec2(plan.map[i].width, plan.map[i].height);
     alike = alike && map_size[i] == map_size[0] && map_size[i].x == map_size[i].y;
@@ -88,7 +89,7 @@ void Renderer::Impl::fit_maps(const ShadowPlan& plan) {
   const auto layer = [alike](int side) {
     return alike ? side : (side + kLayerStep - 1) / kLayerStep * kLayerStep;
   };
-  if (maps.fit(layer(width), layer(height), std::max(plan.map_count, 1))) lists.forget_maps();
+  if (maps.fit(layer(width), layer(height), plan.map_count)) lists.forget_maps();
 }
 
 PreparedFilter Renderer::prepare(const FilterSettings& settings) {
@@ -118,9 +119,11 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   impl.fit_maps(plan);
   const BlurSides blur = blur_sides(filter.settings, plan);
   FilterBlock filtering = filter_block(filter.settings, blur);
-  set_depth_curves(plan, filtering);
+  const DepthCurves curves = depth_curves(plan);
+  set_depth_curves(curves, filtering);
   timed(Pass::shadow_maps, [&] {
-    const FrameBlock block = frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur);
+    const FrameBlock block =
+        frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur, curves);
     glNamedBufferSubData(impl.frame_buffer.name(), 0, sizeof block, &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, impl.frame_buffer.name());
     glNamedBufferSubData(impl.filter_buffer.name(), 0, sizeof filtering, &filtering);

@@ -85,7 +85,7 @@ TEST(StableLaw, the_grid_stands_still_under_any_motion_and_turn_of_the_camera) {
   EXPECT_GT(compared, 4000u);
 }
 
-TEST(StableLaw, equal_snap_keys_mean_the_same_matrix) {
+TEST(StableLaw, equal_snap_keys_mean_the_same_matrix_to_the_last_bit) {
   std::uint64_t equal = 0;
   for_all(1000, [&] {
     Case c = draw_stable_case();
@@ -99,18 +99,7 @@ TEST(StableLaw, equal_snap_keys_mean_the_same_matrix) {
       for (const ShadowMap& n : after.maps()) {
         if (n.cascade != m.cascade || !(n.snap_key == m.snap_key)) continue;
         ++equal;
-        Random random(5);
-        for (int i = 0; i < 4; ++i) {
-          const glm::dvec3 p = point_at(c.camera, random.between(-1, 1), random.between(-1, 1),
-                                        random.between(m.depth_begin, m.depth_end));
-          const glm::dvec4 a = m.clip_from_world * glm::dvec4(p, 1.0),
-                           b = n.clip_from_world * glm::dvec4(p, 1.0);
-          const double half = 0.5 * m.width;
-          require(std::abs(a.x - b.x) * half <= kTexel && std::abs(a.y - b.y) * half <= kTexel, "grid moved",
-                  (a.x - b.x) * half, (a.y - b.y) * half);
-          // Depth in the map's own units, far below what 24 bits of depth can tell.
-          require(std::abs(a.z - b.z) <= 1e-9, "depth moved", a.z - b.z);
-        }
+        require(m.clip_from_world == n.clip_from_world, "matrices of equal keys differ", m.cascade);
       }
     }
   });

@@ -1,4 +1,5 @@
 // Contexts: which is taken, and do all of them draw the same?
+#include <glad/gl.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -6,6 +7,7 @@
 #include <optional>
 
 #include "gnomon/render/context.hpp"
+#include "gnomon/render/probe.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "test_scene.hpp"
 
@@ -48,6 +50,29 @@ TEST(CreateContext, needs_no_display_and_says_what_it_took_and_why) {
     EXPECT_FALSE(info.refused.empty());
   }
   for (const std::string& line : info.refused) EXPECT_NE(info.description().find(line), std::string::npos);
+}
+
+TEST(MemoryTakesMaps, what_fits_and_refuses_what_no_machine_has) {
+  const auto context = create_context();
+  EXPECT_TRUE(memory_takes_maps(64, 4, 4.0));
+  EXPECT_TRUE(memory_takes_maps(64, 4, 40.0));
+  // 16 Pi of bytes: refused before anything is taken in software, by the driver else.
+  EXPECT_FALSE(memory_takes_maps(1 << 14, 1 << 11, 1 << 15));
+  // An earlier call's error is not taken for its answer.
+  glEnable(GL_TEXTURE_2D_ARRAY);
+  EXPECT_TRUE(memory_takes_maps(64, 1, 4.0));
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+TEST(LargestMaps, are_halved_to_the_limit_and_say_why) {
+  const auto context = create_context();
+  const FittingMaps all = largest_maps(256, 4, 4.0, 1.0);
+  EXPECT_EQ(all.size, 256);
+  EXPECT_TRUE(all.why.empty()) << all.why;
+  const FittingMaps half = largest_maps(256, 4, 4.0, 0.3);
+  EXPECT_EQ(half.size, 128);
+  EXPECT_NE(half.why.find("0.3"), std::string::npos) << half.why;
+  EXPECT_EQ(largest_maps(256, 4, 4.0, 1e-6).size, 0);
 }
 
 /// FNV-1a, 64 bits.

@@ -70,6 +70,8 @@ struct MapStats {
   std::uint64_t triangles = 0;
   std::uint64_t texels = 0;  ///< rasterized into: width times height; of held maps, those drawn to
   bool held = false;         ///< as it was: nothing drawn, nothing filtered
+  bool scrolled = false;     ///< moved by whole texels and drawn where it was not in the map before
+  int age = 0;               ///< frames since all of it was drawn
 };
 
 struct FrameStats {

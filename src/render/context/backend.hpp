@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gnomon/render/context.hpp"
@@ -12,6 +13,9 @@ namespace gnomon::render {
 /// Points the process-wide table of OpenGL functions at the context that is current, and fills in renderer,
 /// version and whether it is software. Throws RenderError below OpenGL 4.5.
 void load_gl(void* (*get_proc_address)(const char*), ContextInfo* info);
+
+/// Whether GL_RENDERER names a driver that draws on the CPU, into its memory.
+[[nodiscard]] bool is_software(std::string_view renderer);
 
 /// `refused` is kept in the context's info.
 [[nodiscard]] std::unique_ptr<Context> create_osmesa_context(const std::vector<std::string>& refused = {});

@@ -18,13 +18,6 @@ constexpr std::array<std::pair<ContextKind, std::string_view>, 4> kKindNames{{
     {ContextKind::glfw, "glfw"},
 }};
 
-bool is_software(std::string_view renderer) {
-  for (const std::string_view mark : {"llvmpipe", "softpipe", "swrast", "SWR", "Software Rasterizer"}) {
-    if (renderer.find(mark) != std::string_view::npos) return true;
-  }
-  return false;
-}
-
 std::string gl_string(GLenum name) {
   const GLubyte* text = glGetString(name);
   return text == nullptr ? std::string{} : std::string{reinterpret_cast<const char*>(text)};
@@ -37,6 +30,13 @@ std::string joined(const std::vector<std::string>& lines) {
 }
 
 }  // namespace
+
+bool is_software(std::string_view renderer) {
+  for (const std::string_view mark : {"llvmpipe", "softpipe", "swrast", "SWR", "Software Rasterizer"}) {
+    if (renderer.find(mark) != std::string_view::npos) return true;
+  }
+  return false;
+}
 
 std::string_view to_string(ContextKind kind) noexcept {
   for (const auto& [value, name] : kKindNames) {
