@@ -8,7 +8,7 @@
 #include <chrono>
 #include <system_error>
 
-#include "gnomon/history.hpp"
+#include "frame_plan.hpp"
 #include "gnomon/render/filter.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/render/probe.hpp"
@@ -30,35 +30,24 @@ struct TimedPlan {
   std::int64_t nanoseconds = 0;
 };
 
-/// `history` may be nullptr; it is taken one frame further.
-TimedPlan timed_plan(const gnomon::Camera& camera, const gnomon::Light& light, const Flight& flight,
-                     const gnomon::PlanOptions& options, gnomon::PlanHistory* history) {
+/// `history` is taken one frame further, where the options ask for one.
+TimedPlan timed_plan(const Options& options, const Flight& flight, const gnomon::Light& light,
+                     const gnomon::Camera& camera, const gnomon::PlanOptions& plan,
+                     gnomon::PlanHistory& history) {
   TimedPlan result;
   std::array<std::int64_t, kPlanRepeats> taken{};
   gnomon::PlanHistory next;
   for (std::int64_t& ns : taken) {
-    if (history != nullptr) next = *history;
+    next = history;
     const auto begin = std::chrono::steady_clock::now();
-    result.plan = history != nullptr ? gnomon::make_plan(camera, light, flight.bounds(), options, next)
-                                     : gnomon::make_plan(camera, light, flight.bounds(), options);
+    result.plan = plan_frame(options, flight, light, camera, plan, next);
     ns = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin)
              .count();
   }
   std::nth_element(taken.begin(), taken.begin() + kPlanRepeats / 2, taken.end());
   result.nanoseconds = taken[kPlanRepeats / 2];
-  if (history != nullptr) *history = next;
+  history = next;
   return result;
-}
-
-/// The view depths of the frame last drawn.
-gnomon::VisibleDepths depths_shown(const gnomon::render::Renderer& renderer) {
-  const gnomon::FloatImage positions = renderer.positions();
-  const auto channels = static_cast<std::size_t>(positions.channels);
-  gnomon::VisibleDepths depths;
-  // The last of the channels x, y, z, depth; 0 for the sky.
-  for (std::size_t i = channels - 1; i < positions.values.size(); i += channels)
-    depths.add(static_cast<double>(positions.values[i]));
-  return depths;
 }
 
 void label_cascades(Image& image, const gnomon::ShadowPlan& plan) {
@@ -118,16 +107,10 @@ FrameRow draw_frame(Studio& studio, int frame) {
   const Options& options = studio.options;
   const gnomon::Camera camera = camera_of(options, studio.flight, frame);
   const gnomon::Light light = gnomon::default_light(options.light, studio.flight.scene.bounds_world);
-  gnomon::PlanOptions plan_options = options.plan;
   gnomon::VisibleDepths depths;
-  if (options.visible_depths) {
-    studio.renderer.draw(gnomon::make_plan(camera, light, studio.flight.bounds(), plan_options), camera,
-                         studio.filter, {});
-    depths = depths_shown(studio.renderer);
-    plan_options.visible_depths = &depths;
-  }
-  const TimedPlan timed =
-      timed_plan(camera, light, studio.flight, plan_options, options.history ? &studio.history : nullptr);
+  const gnomon::PlanOptions plan_options =
+      frame_options(options, studio.renderer, studio.filter, camera, depths);
+  const TimedPlan timed = timed_plan(options, studio.flight, light, camera, plan_options, studio.history);
   FrameRow row;
   row.frame = frame;
   row.status = timed.plan.status;
@@ -138,6 +121,8 @@ FrameRow draw_frame(Studio& studio, int frame) {
   drawn.prune = options.prune;
   row.stats = studio.renderer.draw(timed.plan, camera, studio.filter, drawn);
   row.aliasing = pixel_aliasing(studio.renderer.aliasing());
+  for (std::size_t i = 0; i < timed.plan.maps().size(); ++i)
+    row.m_bound[i] = std::max(timed.plan.map[i].m_s_max, timed.plan.map[i].m_t_max);
   row.warps = warps_text(timed.plan);
   row.omitted = omitted_text(timed.plan, row.stats);
 
@@ -169,19 +154,6 @@ void check_plans(const Options& options, const Flight& flight) {
           fmt::format("{}: frame {}: the plan refuses {}", options.scene, frame, plan.invalid_field));
     }
   }
-}
-
-/// Halves the maps until memory takes them, and says so. Throws UsageError where not even the least fit.
-void fit_maps_to_memory(Options& options) {
-  const int wanted = options.plan.map_size;
-  const gnomon::render::FittingMaps fitting = gnomon::render::largest_maps(
-      wanted, options.plan.cascades, gnomon::render::bytes_per_texel(options.filter), options.map_memory_mib);
-  if (fitting.size == 0)
-    throw UsageError(fmt::format("--map-size {}: no map fits ({})", wanted, fitting.why));
-  if (fitting.size < wanted)
-    fmt::print(stderr, "flythrough: warning: maps of {} do not fit ({}): maps of {}, {:.4g} MiB\n", wanted,
-               fitting.why, fitting.size, fitting.mebibytes);
-  options.plan.map_size = fitting.size;
 }
 
 void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
@@ -222,6 +194,18 @@ Flight load_flight(const Options& options) {
 gnomon::Camera camera_of(const Options& options, const Flight& flight, int frame) {
   const double t = options.frames == 1 ? 0.5 : 1.0 * frame / (options.frames - 1);
   return flight.path.at(t, options.width, options.height);
+}
+
+void fit_maps_to_memory(Options& options) {
+  const int wanted = options.plan.map_size;
+  const gnomon::render::FittingMaps fitting = gnomon::render::largest_maps(
+      wanted, options.plan.cascades, gnomon::render::bytes_per_texel(options.filter), options.map_memory_mib);
+  if (fitting.size == 0)
+    throw UsageError(fmt::format("--map-size {}: no map fits ({})", wanted, fitting.why));
+  if (fitting.size < wanted)
+    fmt::print(stderr, "flythrough: warning: maps of {} do not fit ({}): maps of {}, {:.4g} MiB\n", wanted,
+               fitting.why, fitting.size, fitting.mebibytes);
+  options.plan.map_size = fitting.size;
 }
 
 int fly_to_files(const Options& asked, const Flight& flight) {

@@ -25,6 +25,10 @@ struct Flight {
 /// Of a frame of the flight.
 [[nodiscard]] gnomon::Camera camera_of(const Options& options, const Flight& flight, int frame);
 
+/// Halves the maps until memory takes them, and says so. A context must be current. Throws UsageError where
+/// not even the least fit.
+void fit_maps_to_memory(Options& options);
+
 /// The smallest map size whose texels the filter hides in all frames; prints it. Throws UsageError where
 /// none does.
 [[nodiscard]] int perceptual_map_size(const Options& options, const Flight& flight);

@@ -29,7 +29,8 @@ std::string header(int cascades, bool software) {
   }
   line += "maps,texels,m_p50,m_p95,m_max,share_undersampled,pixels_measured,camera_triangles,camera_draws,";
   for (int i = 0; i < cascades; ++i)
-    line += fmt::format("map{0}_triangles,map{0}_draws,map{0}_instances,", i);
+    line += fmt::format(
+        "map{0}_triangles,map{0}_draws,map{0}_instances,map{0}_texels,map{0}_age,map{0}_m_bound,", i);
   for (const gnomon::PruneRuleInfo& rule : gnomon::prune_rules())
     line += fmt::format("{0}_saved_texels,{0}_saved_triangles,", rule.name);
   return line + "prefilter_passes,warps,omitted\n";
@@ -44,8 +45,10 @@ std::string line_of(const FrameRow& row, int cascades) {
   line += fmt::format("{},{},", row.stats.camera.triangles, row.stats.camera.draws);
   for (int i = 0; i < cascades; ++i) {
     const gnomon::render::MapStats& map = row.stats.map[static_cast<std::size_t>(i)];
-    line +=
-        i < row.stats.map_count ? fmt::format("{},{},{},", map.triangles, map.draws, map.instances) : ",,,";
+    line += i < row.stats.map_count
+                ? fmt::format("{},{},{},{},{},{:.5g},", map.triangles, map.draws, map.instances, map.texels,
+                              map.age, row.m_bound[static_cast<std::size_t>(i)])
+                : ",,,,,,";
   }
   for (const gnomon::PruneSaving& saved : row.stats.saved)
     line += fmt::format("{},{},", saved.texels, saved.triangles);

@@ -25,8 +25,9 @@ struct FrameRow {
   std::int64_t plan_ns = 0;
   gnomon::render::FrameStats stats;
   PixelAliasing aliasing;
-  std::string warps;    ///< of each map, with its kappa
-  std::string omitted;  ///< what the plan left out, and why
+  std::array<double, gnomon::kMaxMaps> m_bound{};  ///< of each map, over all that is in view
+  std::string warps;                               ///< of each map, with its kappa
+  std::string omitted;                             ///< what the plan left out, and why
 };
 
 /// Names and strengths of the maps' warps, and the plan's omissions, as text for a row.

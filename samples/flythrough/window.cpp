@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "flight.hpp"
+#include "frame_plan.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/render/window.hpp"
@@ -39,6 +40,7 @@ struct Viewer {
   double path_time = 0.0;
   glm::dvec2 mouse{0.0};
   gnomon::Image legend;
+  gnomon::PlanHistory history;
 };
 
 bool down(const Viewer& viewer, int key) {
@@ -50,8 +52,8 @@ void show_title(const Viewer& viewer, double frame_ms) {
   glfwSetWindowTitle(
       viewer.window,
       fmt::format("flythrough: warp {} (V), filter {} (F), {} (T), heat H, maps C, path P: {:.1f} ms", warp,
-                  gnomon::render::all_filters()[viewer.filter]->name,
-                  viewer.options.plan.fit == gnomon::Fit::stable ? "stable" : "tight", frame_ms)
+                  gnomon::render::all_filters()[viewer.filter]->name, to_string(viewer.options.plan.fit),
+                  frame_ms)
           .c_str());
 }
 
@@ -62,6 +64,7 @@ void apply(Viewer& viewer) {
   if (viewer.options.filter.filter != filter)
     viewer.options.filter = gnomon::render::default_settings(*filter);
   gnomon::render::set_margin(viewer.options.filter, viewer.options.plan);
+  viewer.history.clear();
 }
 
 void on_key(GLFWwindow* window, int key, int, int action, int) {
@@ -173,18 +176,21 @@ void draw(Viewer& viewer, double seconds) {
   width = std::max(width, 16);
   height = std::max(height, 16);
   const gnomon::Camera camera = next_camera(viewer, width, height, seconds);
+  const gnomon::Light light = gnomon::default_light(viewer.options.light, viewer.flight.scene.bounds_world);
+  const gnomon::render::PreparedFilter filter = viewer.renderer.prepare(viewer.options.filter);
+  gnomon::VisibleDepths depths;
+  const gnomon::PlanOptions plan_options =
+      frame_options(viewer.options, viewer.renderer, filter, camera, depths);
   const gnomon::ShadowPlan plan =
-      gnomon::make_plan(camera, gnomon::default_light(viewer.options.light, viewer.flight.scene.bounds_world),
-                        viewer.flight.bounds(), viewer.options.plan);
+      plan_frame(viewer.options, viewer.flight, light, camera, plan_options, viewer.history);
   gnomon::render::FrameOptions frame;
   frame.transition = viewer.options.transition;
   frame.time_passes = false;
-  const gnomon::Light light = gnomon::default_light(viewer.options.light, viewer.flight.scene.bounds_world);
   frame.light = &light;
   frame.prune = viewer.options.prune;
   frame.aliasing = frame.heat_map = viewer.picture == Renderer::Picture::heat_map;
   frame.cascade_tint = viewer.picture == Renderer::Picture::cascade_tint;
-  viewer.renderer.draw(plan, camera, viewer.renderer.prepare(viewer.options.filter), frame);
+  viewer.renderer.draw(plan, camera, filter, frame);
   viewer.renderer.show(viewer.picture, width, height);
   if (viewer.picture == Renderer::Picture::heat_map) {
     if (viewer.legend.width == 0) viewer.legend = heat_legend(width);
@@ -225,7 +231,8 @@ void fly_once(Viewer& viewer) {
 
 }  // namespace
 
-int fly_in_window(const Options& options, const Flight& flight) {
+int fly_in_window(const Options& asked, const Flight& flight) {
+  Options options = asked;
   const auto window = [&options] {
     try {
       return gnomon::render::create_window(options.width, options.height, "flythrough");
@@ -234,6 +241,7 @@ int fly_in_window(const Options& options, const Flight& flight) {
     }
   }();
   fmt::print("context:  {}\n{}\n", window->info().description(), kKeys);
+  fit_maps_to_memory(options);
   Viewer viewer(options, flight, window->handle());
   for (std::size_t i = 0; i < gnomon::all_warps().size(); ++i) {
     if (gnomon::all_warps()[i] == options.plan.warp) viewer.warp = i + 1;

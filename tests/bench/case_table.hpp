@@ -9,6 +9,7 @@
 
 #include "gnomon/casefile/casefile.hpp"
 #include "gnomon/gnomon.hpp"
+#include "median.hpp"
 
 namespace gnomon {
 
@@ -43,12 +44,6 @@ inline double geometric_mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double v : values) sum += std::log(v);
   return std::exp(sum / static_cast<double>(values.size()));
-}
-
-inline double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace gnomon

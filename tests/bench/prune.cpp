@@ -22,6 +22,7 @@
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
+#include "median.hpp"
 
 namespace {
 
@@ -64,12 +65,6 @@ struct Side {
   Side(const Scene& scene, PruneRules with) : renderer(scene), filter(), rules(with) {}
 };
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
 double sum(const std::vector<double>& values) {
   double total = 0.0;
   for (const double v : values) total += v;
@@ -191,37 +186,6 @@ void print_waterfall(const std::vector<Outcome>& outcomes) {
   }
 }
 
-/// The part of the pass that does not draw: culling and comparing, on boxes alone.
-void print_pass_cost() {
-  constexpr std::size_t kBoxes = 1000;
-  constexpr int kRepeats = 2001;
-  std::vector<Box> boxes;
-  std::uint64_t state = 1;
-  const auto next = [&state] {
-    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<double>(state >> 11) * 0x1p-53;
-  };
-  for (std::size_t i = 0; i < kBoxes; ++i) {
-    const glm::dvec3 at{400.0 * next() - 200.0, 0.0, 400.0 * next() - 200.0};
-    boxes.push_back({at, at + glm::dvec3(1.0 + 4.0 * next(), 1.0 + 20.0 * next(), 1.0 + 4.0 * next())});
-  }
-  std::vector<CasterBlock> blocks(CasterSet::block_count(kBoxes));
-  std::vector<std::uint32_t> indices(CasterSet::index_count(kBoxes)), out(kBoxes);
-  const CasterSet set(boxes, blocks, indices);
-  const Camera camera =
-      perspective_camera({0, 3, 0}, {0, -0.1, -1}, {0, 1, 0}, 1.0, 16.0 / 9, 0.2, 300, 1920, 1080);
-  const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.5, -0.8, 0.4}}, {boxes, boxes}, {});
-  std::vector<double> us;
-  std::uint64_t kept = 0;
-  for (int i = 0; i < kRepeats; ++i) {
-    const Clock::time_point begin = Clock::now();
-    for (const ShadowMap& map : plan.maps()) kept += set.cull(map, out);
-    us.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
-  }
-  std::printf("\nculling 1000 boxes for %d maps: %.2f us (checksum %llu)\n", plan.map_count, median(us),
-              static_cast<unsigned long long>(kept / kRepeats));
-}
-
 std::vector<std::string> split(const char* text) {
   std::vector<std::string> parts(1);
   for (; *text != '\0'; ++text) {
@@ -283,6 +247,5 @@ int main(int argc, char** argv) {
     }
   }
   print_waterfall(outcomes);
-  print_pass_cost();
   return 0;
 }

@@ -242,6 +242,36 @@ TEST_F(Flythrough, writes_three_pictures_and_a_row_per_frame_and_a_sheet) {
   for (const auto& entry : fs::directory_iterator(out())) EXPECT_NE(entry.path().extension(), ".part");
 }
 
+/// The column of frames.csv in all rows.
+std::vector<double> column_of(const fs::path& file, const std::string& name) {
+  std::ifstream csv(file);
+  std::string line;
+  std::getline(csv, line);
+  const std::vector<std::string> header = fields_of(line);
+  const auto at = static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+  std::vector<double> values;
+  while (at < header.size() && std::getline(csv, line)) values.push_back(std::stod(fields_of(line).at(at)));
+  return values;
+}
+
+TEST_F(Flythrough, tells_of_each_map_what_was_drawn_how_old_it_is_and_its_error) {
+  // A stable fit plans alike with and without: looking for the depths must not draw the maps that count.
+  const Outcome outcome =
+      run("builtin:fence --frames 3 --size 96x64 --map-size 128 --cascades 1 --fit stable --visible-depths");
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  const fs::path csv = out() / "frames.csv";
+  const std::vector<double> texels = column_of(csv, "texels"), of_map = column_of(csv, "map0_texels");
+  ASSERT_EQ(texels.size(), 3u);
+  EXPECT_EQ(texels, of_map);
+  EXPECT_EQ(texels[0], 128.0 * 128.0);
+  const std::vector<double> age = column_of(csv, "map0_age");
+  ASSERT_EQ(age.size(), 3u);
+  EXPECT_EQ(age[0], 0.0);
+  for (std::size_t i = 1; i < 3; ++i)
+    EXPECT_EQ(age[i], texels[i] < 128.0 * 128.0 ? age[i - 1] + 1.0 : 0.0) << i;
+  for (const double m : column_of(csv, "map0_m_bound")) EXPECT_GT(m, 0.0);
+}
+
 /// A file that calls itself a library: what asks for it by this name does not get it.
 std::string without_libraries(const fs::path& folder, const std::vector<std::string>& names) {
   for (const std::string& name : names) std::ofstream(folder / name) << "no library";
