@@ -36,10 +36,17 @@ inline constexpr int kMaxOmissions =
 /// has four edges.
 inline constexpr int kMaxSelectPlanes = 4;
 
+/// Texels along a side of a map: fewer hold no filter's margin, more are beyond what drivers take.
+inline constexpr int kLeastMapSize = 4, kMostMapSize = 16384;
+
+/// Least PlanOptions::prune_m, screen pixels per texel: no map gets near it.
+inline constexpr double kLeastPruneM = 1e-9;
+
 /// What the caller may choose. Every default is right for most scenes.
 struct PlanOptions {
-  /// Texels along each side of each map, 4..16384. Doubling it halves the error and costs four times the
-  /// memory.
+  /// Texels along each side of each map, kLeastMapSize..kMostMapSize. Doubling it halves the error and costs
+  /// four times the memory. Under PruneRule::metric_resolution the most that a side gets; without that rule,
+  /// and without a budget, what each gets.
   int map_size = 1024;
   /// Maps along the view, 1..kMaxMaps. More maps lower the error far away and cost one pass each. For
   /// directional lights only: a spot gets one map, a point light or a spot of 85 degrees and more half angle
@@ -52,13 +59,13 @@ struct PlanOptions {
   /// the least. Directional lights and Partition::view_depth only. Plans up to `cascades` times, and so
   /// costs as much.
   double target_m = 0.0;
-  /// 0: every map is map_size x map_size. Above: the most texels that all maps together may have; each gets
-  /// as many as make the largest m_s_max and m_t_max of all maps equal, in steps of kBudgetStep, up to 16384
-  /// along a side. With Fit::tight and Fit::rotated the sides may differ; Fit::stable, Fit::warped_stable,
-  /// lights with a position and plans with a history keep them equal. Directional lights get the number of
-  /// maps, up to `cascades`, that brings m lowest. At least least_budget_side() squared for each of
-  /// `cascades` maps (of a cube: six). Plans as often as target_m does, and once more. Of the partitions,
-  /// view_depth only.
+  /// 0: none; map_size says how large maps are. Above: the most texels that all maps together may have; each
+  /// gets as many as make the largest m_s_max and m_t_max of all maps equal, in steps of kBudgetStep, up to
+  /// kMostMapSize along a side, and PruneRule::metric_resolution takes none off. With Fit::tight and
+  /// Fit::rotated the sides may differ; Fit::stable, Fit::warped_stable, lights with a position and plans
+  /// with a history keep them equal. Directional lights get the number of maps, up to `cascades`, that brings
+  /// m lowest. At least least_budget_side() squared for each of `cascades` maps (of a cube: six). Plans as
+  /// often as target_m does, and once more. Of the partitions, view_depth only.
   std::int64_t texel_budget = 0;
   /// How the view depth is divided among them.
   SplitScheme split = SplitScheme::automatic;
@@ -110,12 +117,12 @@ struct PlanOptions {
   BiasOptions bias;
   /// Clip space of the matrices given out.
   ClipSpace clip_space;
-  /// What may be left out: empty_cascades, casterless_cascades and metric_resolution are the plan's to
-  /// decide.
+  /// What may be left out; the rules of prune_rules.def up to metric_resolution are the plan's to decide.
   PruneRules prune;
   /// PruneRule::metric_resolution makes maps smaller, in steps of kBudgetStep, while m_s_max and m_t_max
-  /// (screen pixels per texel, bounds over everything in view) stay at or below this; > 0. Larger: smaller
-  /// maps with texels that show. Never makes a map larger than map_size.
+  /// (screen pixels per texel, bounds over everything in view) stay at or below this; kLeastPruneM or more.
+  /// Larger: smaller maps with texels that show. Never makes a map larger than map_size. Not with
+  /// Fit::stable, Fit::warped_stable, a history or a texel budget.
   double prune_m = 1.0;
 };
 
@@ -140,7 +147,6 @@ enum class OmissionKind : std::uint8_t {
   depth_not_visible,        ///< PlanOptions::visible_depths shows nothing there: a: depth_begin, b: depth_end
   warp_without_gain,        ///< a: objective with the warp over the objective without
   warp_in_stable_fit,       ///< a warp was asked for, and Fit::stable takes none
-                            ///< the casters do
   part_without_caster,      ///< of a partition other than by depth; a: depth_begin, b: depth_end
   partition_without_gain,   ///< one map takes all; a: objective of the parts over that of one map
   partition_in_stable_fit,  ///< another partition than view_depth was asked for, and Fit::stable takes none
@@ -179,7 +185,7 @@ struct ShadowMap {
   /// wide spot's face 5 looks along it). Of Partition::frustum_faces the face: left, right, bottom, top,
   /// near, far; of separating_plane 0 before the plane, 1 behind.
   int cascade = 0;
-  int width = 0, height = 0;   ///< texels
+  int width = 0, height = 0;   ///< texels; may differ, and from map to map (metric_resolution, texel_budget)
   const Warp* warp = nullptr;  ///< never nullptr in a plan's maps; the one that was used
   /// Strength of the warp, 1 / world units; 0: none. Of a light with a position: 1 / slope, as the warp works
   /// on offsets across the light per unit of distance along it.

@@ -37,7 +37,7 @@ int perceptual_map_size(const Options& options, const Flight& flight) {
     return hiding_map_size(gnomon::make_plan(camera, light, flight.bounds(), plan_options), camera,
                            options.filter, distances);
   };
-  int size = std::max(least, gnomon::render::kSmallestMapSize);
+  int size = std::max(least, gnomon::kLeastMapSize);
   for (int frame = 0; frame < options.frames; ++frame) size = std::max(size, needed(frame).map_size);
   HidingMapSize widest;
   for (int frame = 0; frame < options.frames; ++frame) {

@@ -304,7 +304,7 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"options.given_splits", "options.given_splits: needs cascades - 1 depths, ascending"},
       {"options.split_overlap", "options.split_overlap: must lie in 0..1"},
       {"options.target_m", "options.target_m: must not be below 0"},
-      {"options.prune_m", "options.prune_m: must be above 0"},
+      {"options.prune_m", "options.prune_m: must be at least 1e-9"},
       {"options.texel_budget",
        "options.texel_budget: must be 0, or hold the least maps: 16 x 16, or four filter radii"},
       {"options.filter_radius_texels", "options.filter_radius_texels: must lie in 0..map_size/4"},

@@ -10,8 +10,6 @@
 namespace gnomon {
 namespace {
 
-constexpr double kLargestSide = 16384.0;  // as options.map_size
-
 /// Texels inside the rim that bring the bound of m to 1, along both axes.
 struct Demand {
   double s, t;
@@ -32,7 +30,7 @@ Demand demand_of(const ShadowMap& map, const PlanOptions& options, bool square) 
 /// Side in whole steps under which m is at least about `m`.
 int side(double texels, const Demand& demand, double m, int least) noexcept {
   const double wanted = texels / m / (1.0 - demand.rim_share) + demand.rim_texels;
-  return static_cast<int>(clamp_to(std::floor(wanted / kBudgetStep) * kBudgetStep, least, kLargestSide));
+  return static_cast<int>(clamp_to(std::floor(wanted / kBudgetStep) * kBudgetStep, least, kMostMapSize));
 }
 
 double error(double texels, const Demand& demand, int size) noexcept {
@@ -74,7 +72,7 @@ MapSizes budgeted_sizes(const ShadowPlan& laid, const PlanOptions& options, int 
   if (!(largest > 0.0 && std::isfinite(largest))) return equal_sizes(least);
   // At the first every side is the least; at the second the largest map has the largest side, and the bound
   // is as low as a side of a map can bring it.
-  double enough = largest, too_little = largest / kLargestSide;
+  double enough = largest, too_little = largest / kMostMapSize;
   if (fits(too_little)) return sizes_at(too_little);
   // Steps of the logarithm down to far below what one step of a side changes.
   constexpr int kHalvings = 40;

@@ -90,12 +90,12 @@ bool usable(const VisibleDepths& depths) noexcept {
 }
 
 std::string_view invalid_options(const PlanOptions& o) noexcept {
-  if (o.map_size < 4 || o.map_size > 16384) return "options.map_size";
+  if (o.map_size < kLeastMapSize || o.map_size > kMostMapSize) return "options.map_size";
   if (o.cascades < 1 || o.cascades > kMaxMaps) return "options.cascades";
   if (!(o.lambda >= 0.0 && o.lambda <= 1.0)) return "options.lambda";
   if (!(o.split_overlap >= 0.0 && o.split_overlap <= 1.0)) return "options.split_overlap";
   if (!(o.target_m >= 0.0 && o.target_m <= kLargest)) return "options.target_m";
-  if (!(o.prune_m > 0.0 && o.prune_m <= kLargest)) return "options.prune_m";
+  if (!(o.prune_m >= kLeastPruneM && o.prune_m <= kLargest)) return "options.prune_m";
   if (!usable_splits(o)) return "options.given_splits";
   if (o.visible_depths != nullptr && !usable(*o.visible_depths)) return "options.visible_depths";
   if (!(o.near_hint >= 0.0 && o.near_hint <= kLargest)) return "options.near_hint";

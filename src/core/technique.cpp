@@ -63,7 +63,7 @@ std::string_view broken(const Budget& budget, const CostModel& costs, const Tech
     if (!fine) return "cost_model.filters";
   }
   const bool sizes = std::all_of(among.map_sizes.begin(), among.map_sizes.end(),
-                                 [](int size) { return size >= 4 && size <= 16384; });
+                                 [](int size) { return size >= kLeastMapSize && size <= kMostMapSize; });
   return sizes ? std::string_view() : "map_sizes";
 }
 

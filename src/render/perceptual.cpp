@@ -62,7 +62,7 @@ double kernel_radius_world(const FilterSettings& settings, const ShadowDistances
 HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera, const FilterSettings& settings,
                               const ShadowDistances& distances) noexcept {
   HidingMapSize result;
-  if (plan.map_count == 0) return {.map_size = kSmallestMapSize, .hides = true};
+  if (plan.map_count == 0) return {.map_size = kLeastMapSize, .hides = true};
   if (settings.filter == nullptr || !settings.filter->has_kernel) return result;
   if (is_kernel_in_world(settings)) {
     result.radius_world = kernel_radius_world(settings, distances);
@@ -71,12 +71,12 @@ HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera, cons
   // The kernel is a box of this half side, or no wider than that.
   const double widest_texels = settings.radius + 0.5;
   if (settings.unit == KernelUnit::texels && !(widest_texels >= kHidingRadius)) return result;
-  if (!is_kernel_in_world(settings)) return {.map_size = kSmallestMapSize, .hides = true};
+  if (!is_kernel_in_world(settings)) return {.map_size = kLeastMapSize, .hides = true};
 
   constexpr double kRounding = 1e-9;  // a texel of just the right size takes no larger map
   const double side = side_for(plan, result.radius_world / kHidingRadius) * (1.0 - kRounding);
-  result.hides = side <= kLargestMapSize;  // false for not-a-number
-  if (result.hides) result.map_size = std::max(kSmallestMapSize, static_cast<int>(std::ceil(side)));
+  result.hides = side <= kMostMapSize;  // false for not-a-number
+  if (result.hides) result.map_size = std::max(kLeastMapSize, static_cast<int>(std::ceil(side)));
   return result;
 }
 

@@ -75,12 +75,12 @@ void case_off_axis(Check& check) {
 }
 
 void case_tiny_maps(Check& check) {
-  for (const int size : {-1, 0, 1, 2, 3, 16385}) {
+  for (const int size : {-1, 0, 1, 2, kLeastMapSize - 1, kMostMapSize + 1}) {
     Input input = plain_input(0);
     input.options.map_size = size;
     expect_refused(input, "options.map_size", check);
   }
-  for (const int size : {4, 5, 16384}) {
+  for (const int size : {kLeastMapSize, 5, kMostMapSize}) {
     Input input = plain_input(0);
     input.options.map_size = size;
     const ShadowPlan plan = input.plan();

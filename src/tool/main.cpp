@@ -109,7 +109,7 @@ void add_filters(CLI::App& app, FiltersRequest& request) {
   filters->add_option("--filters", request.filters, "of the cost table: names with their options, or all")
       ->needs(cost);
   filters->add_option("--map-sizes", request.map_sizes, "of the cost table: texels along each side of a map")
-      ->check(CLI::Range(4, 16384))
+      ->check(CLI::Range(kLeastMapSize, kMostMapSize))
       ->needs(cost);
   filters->add_option("--rounds", request.rounds, "of the cost table")
       ->check(CLI::Range(1, 1000))

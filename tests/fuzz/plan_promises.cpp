@@ -9,8 +9,6 @@
 namespace gnomon::fuzz {
 namespace {
 
-constexpr int kLargestSide = 16384;  // texels, as PlanOptions::map_size says
-
 template <class Matrix>
 void require_finite(const Matrix& m, const char* promise) {
   for (int c = 0; c < 4; ++c) {
@@ -26,7 +24,7 @@ void require_plane(const glm::dvec4& plane) {
 void check_map(const ShadowMap& map) {
   require_finite(map.clip_from_world, "a finite matrix");
   require_finite(map.clip_from_camera_relative, "a finite camera-relative matrix");
-  require(map.width >= 1 && map.width <= kLargestSide && map.height >= 1 && map.height <= kLargestSide,
+  require(map.width >= 1 && map.width <= kMostMapSize && map.height >= 1 && map.height <= kMostMapSize,
           "a map has a size");
   require(std::isfinite(map.depth_begin) && map.depth_begin <= map.depth_end && std::isfinite(map.depth_end),
           "a range of depths");

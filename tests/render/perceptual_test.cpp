@@ -56,7 +56,7 @@ TEST(Perceptual, takes_no_kernel_for_no_texel_and_hides_nothing_without_kernel) 
 
 TEST(Perceptual, has_nothing_to_hide_without_maps) {
   const HidingMapSize size = hiding_map_size({}, camera(), filter("hard"));
-  EXPECT_EQ(size.map_size, kSmallestMapSize);
+  EXPECT_EQ(size.map_size, kLeastMapSize);
   EXPECT_TRUE(size.hides);
 }
 
@@ -66,7 +66,7 @@ TEST(Perceptual, finds_no_map_for_filters_without_kernel_and_for_contacts) {
   for (const FilterSettings& settings : {FilterSettings{}, filter("hard"), filter("hard:radius=9,unit=world"),
                                          filter("vsm:radius=0,unit=world"), filter("pcss:radius=2")}) {
     const HidingMapSize size = hiding_map_size(plan, camera(), settings, far);
-    EXPECT_EQ(size.map_size, kLargestMapSize);
+    EXPECT_EQ(size.map_size, kMostMapSize);
     EXPECT_FALSE(size.hides);
   }
   for (const double contact : {0.0, -1.0, kNan}) {
@@ -79,11 +79,11 @@ TEST(Perceptual, finds_no_map_for_filters_without_kernel_and_for_contacts) {
 TEST(Perceptual, stays_within_the_sizes_that_a_plan_takes) {
   const FilterSettings one = filter("pcf:radius=1,unit=world");
   const HidingMapSize tiny = hiding_map_size(plan_of(1024, 1e-9), camera(), one);
-  EXPECT_EQ(tiny.map_size, kSmallestMapSize);
+  EXPECT_EQ(tiny.map_size, kLeastMapSize);
   EXPECT_TRUE(tiny.hides);
   for (const double texel_world : {1e6, kInfinity}) {
     const HidingMapSize huge = hiding_map_size(plan_of(1024, texel_world), camera(), one);
-    EXPECT_EQ(huge.map_size, kLargestMapSize);
+    EXPECT_EQ(huge.map_size, kMostMapSize);
     EXPECT_FALSE(huge.hides);
   }
 }
@@ -119,7 +119,7 @@ TEST(Perceptual, sizes_all_maps_for_the_worst_of_them) {
 TEST(Perceptual, asks_kernels_in_texels_only_whether_they_span_enough_of_them) {
   const ShadowPlan plan = plan_of(1000, 0.1);
   const HidingMapSize wide = hiding_map_size(plan, camera(), filter("vsm:radius=3"));
-  EXPECT_EQ(wide.map_size, kSmallestMapSize);
+  EXPECT_EQ(wide.map_size, kLeastMapSize);
   EXPECT_TRUE(wide.hides);
   EXPECT_EQ(wide.radius_world, 0.0);
   EXPECT_FALSE(hiding_map_size(plan, camera(), filter("vsm:radius=2.9")).hides);
@@ -157,9 +157,9 @@ TEST(Perceptual,
     // Texels as they are on a map of the answer's size, and on one a texel smaller.
     const auto wants = [&](int map_size) { return kHidingRadius * texel * side / map_size; };
     constexpr double kCeiling = 1e-8;  // the code lets a billionth of a side pass
-    require(size.hides == (wants(kLargestMapSize) <= settings.radius), side, texel, settings.radius);
+    require(size.hides == (wants(kMostMapSize) <= settings.radius), side, texel, settings.radius);
     if (size.hides) require(wants(size.map_size) <= settings.radius * (1.0 + kCeiling), size.map_size);
-    if (size.map_size > kSmallestMapSize) require(wants(size.map_size - 1) > settings.radius, size.map_size);
+    if (size.map_size > kLeastMapSize) require(wants(size.map_size - 1) > settings.radius, size.map_size);
     const int coarser = hiding_map_size(plan_of(side, more * texel), camera(), settings).map_size;
     require(coarser >= size.map_size, coarser, size.map_size);
     settings.radius *= more;

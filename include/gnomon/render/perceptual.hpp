@@ -35,12 +35,10 @@ struct ShadowDistances {
 [[nodiscard]] double kernel_radius_world(const FilterSettings& settings,
                                          const ShadowDistances& distances) noexcept;
 
-inline constexpr int kSmallestMapSize = 4, kLargestMapSize = 16384;  ///< of PlanOptions::map_size, texels
-
 struct HidingMapSize {
-  int map_size = kLargestMapSize;  ///< PlanOptions::map_size, texels along a side, 4..16384
-  bool hides = false;              ///< false: not even the largest map does, and map_size is that
-  double radius_world = 0.0;       ///< of the kernel, world units; 0: it has no size in the world
+  int map_size = kMostMapSize;  ///< PlanOptions::map_size, texels along a side
+  bool hides = false;           ///< false: not even the largest map does, and map_size is that
+  double radius_world = 0.0;    ///< of the kernel, world units; 0: it has no size in the world
   /// The same in pixels where it is largest on the screen: at the least view depth of any map, on a surface
   /// that faces camera and light. Tells how far from the study's range one is.
   double radius_pixels = 0.0;
