@@ -92,7 +92,7 @@ void plan_cone(const PositionalLight& light, const glm::dvec3& direction, double
     return;
   }
   ShadowMap& map = next_map(light, 0, plan);
-  if (lay_positional_map(light, frustum, body, true, plan, map)) ++plan.map_count;
+  if (lay_positional_map(light, frustum, body, false, plan, map)) ++plan.map_count;
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
 
@@ -109,6 +109,14 @@ void clip_to_cone(Polytope& body, const LightFrustum& face, const Cone& cone) no
   const double slope = cotangent > 0.0 ? cotangent : cotangent * (std::sqrt(2.0) + kFaceOverlap);
   if (slope <= -face.slope) return;
   clip(body, slope_plane(face, -cone.direction, -slope));
+}
+
+/// All that a face shows, for a map that no receiver asks for.
+Polytope whole_face(const PositionalLight& light, const LightFrustum& face) noexcept {
+  Polytope body = box_polytope({light.apex - glm::dvec3(light.range), light.apex + glm::dvec3(light.range)});
+  clip_to_sides(body, face);
+  if (!body.empty()) clip_to_distances(body, face, light.range);
+  return body;
 }
 
 /// Six faces in the order +x -x +y -y +z -z of `base`.
@@ -130,13 +138,15 @@ void plan_cube(const PositionalLight& light, const LightFrame& base, const Cone*
     if (!body.empty()) clip_to_distances(body, frustum, light.range);
     clip_to_receivers(body, light);
     const std::int64_t texels = std::int64_t{light.options.map_size} * light.options.map_size;
+    if (body.empty() && !dark && !light.options.prune.has(PruneRule::empty_faces))
+      body = whole_face(light, frustum);
     if (body.empty()) {
       omit(plan, {OmissionKind::face_without_receiver, face, 0.0, 0.0, texels});
       continue;
     }
     any_receiver = true;
     ShadowMap& map = next_map(light, face, plan);
-    if (lay_positional_map(light, frustum, body, false, plan, map)) {
+    if (lay_positional_map(light, frustum, body, true, plan, map)) {
       ++plan.map_count;
     } else {
       omit(plan, {OmissionKind::face_without_caster, face, 0.0, 0.0, texels});
@@ -167,7 +177,7 @@ void plan_frusta(const PositionalLight& p, const Light& light, ShadowPlan& plan)
 }  // namespace
 
 void plan_positional(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                     const PlanOptions& options, ShadowPlan& plan) noexcept {
+                     const PlanOptions& options, double prune_m, ShadowPlan& plan) noexcept {
   const auto* spot = std::get_if<SpotLight>(&light);
   const auto* point = std::get_if<PointLight>(&light);
   if (spot == nullptr && point == nullptr) return;
@@ -182,7 +192,8 @@ void plan_positional(const Camera& camera, const Light& light, const SceneBounds
                     camera.position,
                     bounds,
                     options,
-                    equal_sizes(options.map_size)};
+                    equal_sizes(options.map_size),
+                    prune_m};
   plan.select_by_map = true;
   // A light whose whole range is rounding of its position reaches no pixel.
   constexpr double kLeastRange = 1e-12;

@@ -18,18 +18,20 @@ struct PositionalLight {
   const SceneBounds& bounds;
   const PlanOptions& options;
   MapSizes sizes;
+  double prune_m = 0.0;  // maps become as small as this bound of m lets them; 0: they keep their size
 };
 
 /// Lays one map round `body`, the part of light.lit inside `frustum` (not empty, in front of the light), and
-/// fills in the record. `whole` is what the frustum shows at most, as slopes. False where no caster can reach
-/// the body.
+/// fills in the record. A cube's faces must meet, and so are not turned along the view. False where no caster
+/// can reach the body; of a cube, only where PruneRule::casterless_faces is on.
 [[nodiscard]] bool lay_positional_map(const PositionalLight& light, const LightFrustum& frustum,
-                                      const Polytope& body, bool along_view, ShadowPlan& plan,
+                                      const Polytope& body, bool in_cube, ShadowPlan& plan,
                                       ShadowMap& map) noexcept;
 
-/// Plans a spot or point light; the input is valid. Writes status, maps and omissions.
+/// Plans a spot or point light; the input is valid. Writes status, maps and omissions. `prune_m`: as
+/// PositionalLight's.
 void plan_positional(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                     const PlanOptions& options, ShadowPlan& plan) noexcept;
+                     const PlanOptions& options, double prune_m, ShadowPlan& plan) noexcept;
 
 /// Nearest distance from a positional light that its maps show, over the farthest: less, and depth loses its
 /// precision to the first step away from the light.

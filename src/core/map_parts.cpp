@@ -26,36 +26,6 @@ constexpr double kShortest = 1e-6, kShortestOfDistance = 1e-9;
 // Ratio of the far to the near end's texels beyond which float matrices no longer hold the map together.
 constexpr double kStrongest = 1e9;
 
-/// Bounds of the error in pixels per texel over the body, from a texel's extents across the light at each
-/// vertex.
-void judge(const PlanContext& c, const LightBody& body, const PlaneMap& plane, ShadowMap& map) noexcept {
-  const WarpChoice& choice = plane.choice;
-  const glm::dvec2 axis = choice.axis;
-  // The image's X and Y per unit of A and B.
-  const double area = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
-  const glm::dvec2 per_a = glm::dvec2(choice.row_b.y, -choice.row_b.x) / area;
-  const glm::dvec2 per_b = glm::dvec2(-choice.row_a.y, choice.row_a.x) / area;
-  double a_max = 0.0, b_max = 0.0;
-  for (const WarpInput::Point& p : body.points()) {
-    const double w = plane.w(p.x, p.y);
-    const double lean = choice.kappa * (p.x * axis.y - p.y * axis.x - choice.centre) / w;
-    const double along = w * w / plane.stretch;  // of one unit of the image's Y
-    const auto extent = [&](const glm::dvec2& image) {
-      const double u = along * image.y, s = w * image.x + lean * u;
-      return std::sqrt(u * u + s * s) / p.depth;
-    };
-    a_max = max_of(a_max, extent(per_a));
-    b_max = max_of(b_max, extent(per_b));
-  }
-  const double pixels_per_unit = max_of(c.camera.width / (c.camera.right - c.camera.left),
-                                        c.camera.height / (c.camera.top - c.camera.bottom));
-  const double rim = 2.0 * map.filter_margin_texels;
-  map.m_s_max = a_max * (plane.a_max - plane.a_min) * pixels_per_unit / (map.width - rim);
-  map.m_t_max = b_max * (plane.b_max - plane.b_min) * pixels_per_unit / (map.height - rim);
-  map.storage = map.m_s_max * map.m_t_max * static_cast<double>(map.width) * map.height /
-                (static_cast<double>(c.camera.width) * c.camera.height);
-}
-
 }  // namespace
 
 LightBody in_light_frame(const PlanContext& c, const LightFrame& frame, const Polytope& body) noexcept {
@@ -99,6 +69,31 @@ bool usable(const WarpInput& in, const WarpChoice& choice) noexcept {
   const double extent = max_of(map.a_max - map.a_min, map.b_max - map.b_min);
   return map.length > kShortest * extent && map.length > kShortestOfDistance * farthest &&
          map.stretch <= kStrongest;
+}
+
+glm::dvec2 texels_needed(const PlanContext& c, const LightBody& body, const PlaneMap& plane) noexcept {
+  const WarpChoice& choice = plane.choice;
+  const glm::dvec2 axis = choice.axis;
+  // The image's X and Y per unit of A and B.
+  const double area = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
+  const glm::dvec2 per_a = glm::dvec2(choice.row_b.y, -choice.row_b.x) / area;
+  const glm::dvec2 per_b = glm::dvec2(-choice.row_a.y, choice.row_a.x) / area;
+  double a_max = 0.0, b_max = 0.0;
+  for (const WarpInput::Point& p : body.points()) {
+    const double w = plane.w(p.x, p.y);
+    const double lean = choice.kappa * (p.x * axis.y - p.y * axis.x - choice.centre) / w;
+    const double along = w * w / plane.stretch;  // of one unit of the image's Y
+    const auto extent = [&](const glm::dvec2& image) {
+      const double u = along * image.y, s = w * image.x + lean * u;
+      return std::sqrt(u * u + s * s) / p.depth;
+    };
+    a_max = max_of(a_max, extent(per_a));
+    b_max = max_of(b_max, extent(per_b));
+  }
+  const double pixels_per_unit = max_of(c.camera.width / (c.camera.right - c.camera.left),
+                                        c.camera.height / (c.camera.top - c.camera.bottom));
+  return {a_max * (plane.a_max - plane.a_min) * pixels_per_unit,
+          b_max * (plane.b_max - plane.b_min) * pixels_per_unit};
 }
 
 double share_per_unit(const PlaneMap& map, std::span<const WarpInput::Point> body) noexcept {
@@ -145,6 +140,22 @@ SweptBody sweep(const PlanContext& c, const Polytope& body, double margin_world)
       swept.reach.top = max_of(swept.reach.top, glm::dot(c.frame.z, v.position));
   }
   return swept;
+}
+
+DepthExtent depth_extent(const PlanContext& c, const LightBody& body, const SweptBody& swept) noexcept {
+  DepthExtent extent{swept.reach, lowest(body)};
+  if (c.options.prune.has(PruneRule::light_depths)) return extent;
+  const glm::dvec3 up = c.frame.z;
+  const CasterReach all = casters_inside({}, c.bounds.casters, c.camera.position, up);
+  if (all.count > 0) extent.reach = all;
+  for (const Box& world : c.bounds.receivers) {
+    if (world.empty()) continue;
+    const Box box = relative_to(world, c.camera.position);
+    const glm::dvec3 corner{up.x > 0.0 ? box.min.x : box.max.x, up.y > 0.0 ? box.min.y : box.max.y,
+                            up.z > 0.0 ? box.min.z : box.max.z};
+    extent.bottom = min_of(extent.bottom, glm::dot(up, corner));
+  }
+  return extent;
 }
 
 double caster_height(const CasterReach& reach, const LightFrame& frame, const LightBody& body,
@@ -234,7 +245,12 @@ void finish_map(const PlanContext& c, const LightBody& body, const PlaneMap& pla
   const double texel = max_of(map.texel_world.x, map.texel_world.y);
   map.bias_world = {c.options.bias.constant_texels * texel, c.options.bias.slope_texels * texel,
                     c.options.bias.normal_offset_texels * texel};
-  judge(c, body, plane, map);
+  const glm::dvec2 needed = texels_needed(c, body, plane);
+  const double rim = 2.0 * map.filter_margin_texels;
+  map.m_s_max = needed.x / (map.width - rim);
+  map.m_t_max = needed.y / (map.height - rim);
+  map.storage = map.m_s_max * map.m_t_max * static_cast<double>(map.width) * map.height /
+                (static_cast<double>(c.camera.width) * c.camera.height);
 }
 
 }  // namespace gnomon

@@ -32,6 +32,15 @@ struct LightBody {
 /// body whose length that way is rounding.
 [[nodiscard]] bool usable(const WarpInput& in, const WarpChoice& choice) noexcept;
 
+/// A float offset from the camera is rounded by up to 2^-24 of its length: a rectangle narrower than this
+/// much of it has texels, 1024 across, that no shader can tell apart, and one 2^10 times narrower still loses
+/// every point it was laid round.
+inline constexpr double kLeastOfOffset = 0x1p-14;
+
+/// Texels inside the rim, along the map's width and height, under which the bounds of m over the body are 1.
+[[nodiscard]] glm::dvec2 texels_needed(const PlanContext& c, const LightBody& body,
+                                       const PlaneMap& plane) noexcept;
+
 /// How far a step of one unit across the light moves a point in the map, at most over the body, as a share of
 /// the rectangle's side.
 [[nodiscard]] double share_per_unit(const PlaneMap& map, std::span<const WarpInput::Point> body) noexcept;
@@ -54,6 +63,15 @@ struct SweptBody {
   CasterReach reach;
 };
 [[nodiscard]] SweptBody sweep(const PlanContext& c, const Polytope& body, double margin_world) noexcept;
+
+/// What a map's depths are laid round: the casters that reach the body, and its lowest z; of the whole scene
+/// where PruneRule::light_depths is off.
+struct DepthExtent {
+  CasterReach reach;
+  double bottom;
+};
+[[nodiscard]] DepthExtent depth_extent(const PlanContext& c, const LightBody& body,
+                                       const SweptBody& swept) noexcept;
 
 /// Upper bound of (z - bottom) / w over every caster point above the body: along the light, the casters' box
 /// ends at the lowest of its faces towards the light, and a face's height over the body is largest at one of

@@ -20,9 +20,11 @@ namespace {
 constexpr double kDistancePadding = 1.0 / 1024.0;
 // Narrowest rectangle, as a slope: below it positions are rounding.
 constexpr double kLeastSlope = 1e-8;
-// Offsets from the camera are floats in a shader: a rectangle at the body's far end is at least this much of
-// them wide, 1024 of their steps.
-constexpr double kLeastOfOffset = 0x1p-14;
+// The rim may reach no farther than where the far end's texels are twice as long again.
+constexpr double kRimGrowth = 0.5;
+// Near over far distance of a map whose depths are not pulled to what is there: 2^10, as engines tend to ask
+// for.
+constexpr double kLooseNear = 0x1p-10;
 // Rounding of positions, relative to their distance from the origin of the world.
 constexpr double kPositionRounding = 1e-14;
 // Casters whose part inside the map is cut out exactly to find the light's near plane; further ones count
@@ -38,6 +40,7 @@ struct Draft {
   PlaneMap plane;
   double rim;  // share of a side that no receiver falls into
   double near_distance, far_distance;
+  double m_at_full_size = 0.0;  // bound of m before pruning
   /// The rim as a share of what it surrounds.
   [[nodiscard]] double margin() const noexcept { return rim / (1.0 - 2.0 * rim); }
 };
@@ -123,14 +126,20 @@ double published_stretch(const Draft& d, const ViewInSlopes& view) noexcept {
   return usable ? std::sqrt(far_depth / view.depth) : 1.0;
 }
 
-/// The rim that kernels need round the rectangle as it is now. A step across the ray at a distance is, as a
-/// slope, at most this step over the distance over the cosine to the light's axis.
-void lay_rim(Draft& d, ShadowMap& map) noexcept {
+/// How far a kernel's step of one world unit moves a point in the rectangle as it is now, as a share of its
+/// side. A step across the ray at a distance is, as a slope, at most this step over the distance over the
+/// cosine to the light's axis.
+double share_of_unit(const Draft& d) noexcept {
+  if (!(d.light.options.filter_radius_world > 0.0)) return 0.0;
   double steepest = 0.0;
   for (const WarpInput::Point& p : d.slopes.points()) steepest = max_of(steepest, p.x * p.x + p.y * p.y);
   const double slope_per_unit = std::sqrt(1.0 + steepest) / max_of(d.slopes.nearest, d.near_distance);
-  map.filter_margin_texels =
-      margin_texels(d.light.options, map.width, d.plane, d.slopes.points(), slope_per_unit);
+  return share_per_unit(d.plane, d.slopes.points()) * slope_per_unit;
+}
+
+/// The rim that kernels need round the rectangle as it is now.
+void lay_rim(Draft& d, ShadowMap& map) noexcept {
+  map.filter_margin_texels = margin_texels(d.light.options, map.width, share_of_unit(d));
   d.rim = static_cast<double>(map.filter_margin_texels) / map.width;
 }
 
@@ -145,7 +154,38 @@ PlaneMap rectangle(const Draft& d, const WarpChoice& choice) noexcept {
   return plane;
 }
 
-/// The rectangle and its warp; fills in the map's bounds of the error.
+/// Makes the map as small as light.prune_m lets it. What it shows does not depend on its size, but for a
+/// warp, which must not bring the rim any nearer to its horizon than it may be, or is.
+void shrink(Draft& d, double texels, ShadowMap& map) noexcept {
+  const double share = share_of_unit(d);
+  const auto rim = [&](int size) { return margin_texels(d.light.options, size, share); };
+  const double beyond = d.plane.stretch - 1.0, now = d.margin();
+  const double most =
+      beyond > 0.0 ? max_of(now, kRimGrowth / beyond) : std::numeric_limits<double>::infinity();
+  // From a share of what the rim surrounds to one of the side.
+  const double most_rim = std::isfinite(most) ? most / (1.0 + 2.0 * most) : 0.5;
+  map.width = map.height = least_side({texels, d.light.prune_m, most_rim}, map.width, d.light.options, rim);
+}
+
+/// The map's bounds of the error, and the size that they ask for.
+void judge(Draft& d, const WarpChoice& choice, double least_depth, ShadowMap& map) noexcept {
+  // At vertices and edges, whatever the warp was judged by.
+  SlopeError extremes(d.light.camera, d.light.axes, d.frustum, d.body, Objective::storage, least_depth);
+  (void)extremes.value(choice, d.slopes.points());
+  if (d.light.prune_m > 0.0) {
+    const double texels = max_of(extremes.m_s(), extremes.m_t());
+    d.m_at_full_size = texels / (map.width - 2.0 * map.filter_margin_texels);
+    shrink(d, texels, map);
+    lay_rim(d, map);
+  }
+  const double usable = map.width - 2.0 * map.filter_margin_texels;
+  map.m_s_max = extremes.m_s() / usable;
+  map.m_t_max = extremes.m_t() / usable;
+  map.storage = map.m_s_max * map.m_t_max * static_cast<double>(map.width) * map.height /
+                (static_cast<double>(d.light.camera.width) * d.light.camera.height);
+}
+
+/// The rectangle and its warp; fills in the map's size and its bounds of the error.
 void choose_rectangle(Draft& d, bool along_view, ShadowPlan& plan, ShadowMap& map) noexcept {
   const PlanOptions& options = d.light.options;
   const ViewInSlopes view = view_in_slopes(d);
@@ -159,8 +199,6 @@ void choose_rectangle(Draft& d, bool along_view, ShadowPlan& plan, ShadowMap& ma
   if (options.fit == Fit::stable) {
     map.warp = &warps::none;
   } else if (map.warp != &warps::none) {
-    // The rim may reach no farther than where the far end's texels are twice as long again.
-    constexpr double kRimGrowth = 0.5;
     const double most = 1.0 + kRimGrowth / max_of(d.margin(), 1e-4);
     const FoundWarp found = find_slope_warp(
         error, {d.slopes.points(), unwarped, view.axis, view.nearest, published_stretch(d, view), most},
@@ -178,14 +216,7 @@ void choose_rectangle(Draft& d, bool along_view, ShadowPlan& plan, ShadowMap& ma
   }
   d.plane = rectangle(d, choice);
   lay_rim(d, map);
-  // At vertices and edges, whatever the warp was judged by.
-  SlopeError extremes(d.light.camera, d.light.axes, d.frustum, d.body, Objective::storage, least_depth);
-  (void)extremes.value(choice, d.slopes.points());
-  const double usable = map.width - 2.0 * map.filter_margin_texels;
-  map.m_s_max = extremes.m_s() / usable;
-  map.m_t_max = extremes.m_t() / usable;
-  map.storage = map.m_s_max * map.m_t_max * static_cast<double>(map.width) * map.height /
-                (static_cast<double>(d.light.camera.width) * d.light.camera.height);
+  judge(d, choice, least_depth, map);
 }
 
 /// OpenGL clip space from points relative to the camera. Depth: 1 - s (1 / distance - 1 / far) / w, with w of
@@ -366,9 +397,9 @@ void finish(const Draft& d, const Reach& reach, const glm::dmat4& gl_from_relati
 }  // namespace
 
 bool lay_positional_map(const PositionalLight& light, const LightFrustum& frustum, const Polytope& body,
-                        bool along_view, ShadowPlan& plan, ShadowMap& map) noexcept {
+                        bool in_cube, ShadowPlan& plan, ShadowMap& map) noexcept {
   const bool stable = light.options.fit == Fit::stable;
-  Draft d{light, frustum, body, in_slopes(frustum, body), {}, 0.0, 0.0, 0.0};
+  Draft d{light, frustum, body, in_slopes(frustum, body), {}, 0.0, 0.0, 0.0, 0.0};
   if (stable) whole_frustum(frustum, d.slopes);
   d.far_distance = d.slopes.farthest * (1.0 + kDistancePadding);
   d.near_distance = d.slopes.nearest * (1.0 - kDistancePadding);
@@ -376,7 +407,7 @@ bool lay_positional_map(const PositionalLight& light, const LightFrustum& frustu
   constexpr double kFlattest = 1e-3;
   d.near_distance = min_of(d.near_distance, d.far_distance * (1.0 - kFlattest));
   const int omitted = plan.omission_count;
-  choose_rectangle(d, along_view, plan, map);
+  choose_rectangle(d, !in_cube, plan, map);
   const double slack =
       kPositionRounding * max_of(largest_component(light.eye_world), largest_component(frustum.apex));
   const double least_distance = kNearestShare * d.slopes.farthest * (1.0 - kDistancePadding);
@@ -384,16 +415,21 @@ bool lay_positional_map(const PositionalLight& light, const LightFrustum& frustu
   // Replaced below, once the nearest caster is known.
   reach.add(near_plane(frustum, least_distance - slack));
   const CastersSeen seen = casters_seen(d, reach);
-  if (seen.count == 0) {
+  if (seen.count == 0 && (!in_cube || light.options.prune.has(PruneRule::casterless_faces))) {
     plan.omission_count = omitted;
     return false;
   }
   const double nearest = max_of(seen.nearest * (1.0 - kDistancePadding), least_distance);
   d.near_distance = min_of(d.near_distance, nearest);
+  if (!light.options.prune.has(PruneRule::light_depths)) {
+    d.far_distance = max_of(d.far_distance, light.range * (1.0 + kDistancePadding));
+    d.near_distance = min_of(d.near_distance, kLooseNear * d.far_distance);
+  }
   if (stable) snap_depths(d, map);
   --reach.count;
   reach.add(near_plane(frustum, d.near_distance - slack));
   finish(d, reach, matrix_of(d), map);
+  if (light.prune_m > 0.0) omit_texels(light.options, d.m_at_full_size, map, plan);
   return true;
 }
 

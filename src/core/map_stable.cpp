@@ -39,7 +39,8 @@ bool lay_stable_map(const PlanContext& c, const Polytope& body, double begin, do
   const SweptBody swept = sweep(c, body, texel * map.filter_margin_texels);
   if (swept.reach.count == 0) return false;
   const LightBody points = in_light_frame(c, frame, body);
-  const double bottom = lowest(points);
+  const DepthExtent extent = depth_extent(c, points, swept);
+  const double bottom = extent.bottom;
   PlaneMap plane = plane_map(points.points(), {});
   const double x = static_cast<double>(map.snap_key.x) * texel,
                y = static_cast<double>(map.snap_key.y) * texel;
@@ -47,7 +48,7 @@ bool lay_stable_map(const PlanContext& c, const Polytope& body, double begin, do
   plane.a_max = x + half - eye.x;
   plane.b_min = y - half - eye.y - plane.u_min;
   plane.b_max = y + half - eye.y - plane.u_min;
-  const double height = caster_height(swept.reach, frame, points, plane, bottom,
+  const double height = caster_height(extent.reach, frame, points, plane, bottom,
                                       static_cast<double>(map.filter_margin_texels) / map.width);
   // Depths in whole steps of a sixteenth of the side: the stored depths hold still, too.
   const double step = side / 16.0;

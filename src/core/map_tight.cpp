@@ -6,6 +6,7 @@
 #include "least_rectangle.hpp"
 #include "light_plane_error.hpp"
 #include "map_parts.hpp"
+#include "plan_budget.hpp"
 #include "steady.hpp"
 #include "vector.hpp"
 
@@ -165,6 +166,7 @@ struct Laid {
   PlaneMap plane;
   LightDepths depths;
   SweptBody swept;
+  double m_at_full_size = 0.0;  // bound of m before pruning
 };
 
 /// The rim of a map round its rectangle, as a share of the rectangle's side; the wider of both.
@@ -193,9 +195,10 @@ bool lay_as_before(const PlanContext& c, const Polytope& body, const LightBody& 
       margin_texels(c.options, map.width, held.plane, points.points()) > map.filter_margin_texels)
     return false;
   laid = {held.plane, held.depths, swept_for(c, body, held.plane, map)};
+  const DepthExtent extent = depth_extent(c, points, laid.swept);
   const double height =
-      caster_height(laid.swept.reach, c.frame, points, held.plane, held.depths.bottom, rim_of_body(map));
-  return lowest(points) >= held.depths.bottom && height <= held.depths.height;
+      caster_height(extent.reach, c.frame, points, held.plane, held.depths.bottom, rim_of_body(map));
+  return extent.bottom >= held.depths.bottom && height <= held.depths.height;
 }
 
 /// The best map of the plane, or the steady way there.
@@ -211,11 +214,6 @@ PlaneMap chosen_plane(const PlanContext& c, const Polytope& body, const LightBod
   return steady ? steady_plane(c, in, choice, map) : plane_map(in.body, choice);
 }
 
-// A float offset from the camera is rounded by up to 2^-24 of its length: a rectangle narrower than 2^14 of
-// that has texels, 1024 across, that no shader can tell apart, and one 2^10 times narrower still loses every
-// point it was laid round.
-constexpr double kNarrowest = 0x1p-14;
-
 /// Widens the rectangle to what shaders can aim at. Only bodies that are tiny for their distance, far below a
 /// pixel of any camera wider than a hundredth of a degree, or edge-on to the light are that narrow.
 void widen_for_floats(PlaneMap& map, std::span<const WarpInput::Point> body) noexcept {
@@ -226,10 +224,37 @@ void widen_for_floats(PlaneMap& map, std::span<const WarpInput::Point> body) noe
     along = max_of(along, reach * map.stretch / map.w(p.x, p.y));
   }
   const auto least = [&](const glm::dvec2& row) {
-    return kNarrowest * (std::abs(row.x) * across + std::abs(row.y) * along);
+    return kLeastOfOffset * (std::abs(row.x) * across + std::abs(row.y) * along);
   };
   widen(map.a_min, map.a_max, least(map.choice.row_a));
   widen(map.b_min, map.b_max, least(map.choice.row_b));
+}
+
+/// The rim that kernels need on a map of this size.
+int margin_of(const PlanContext& c, int width, int height, double share) noexcept {
+  // Of a kernel in world units the longer side has more texels; the shorter side has room for no more than a
+  // quarter of its own.
+  const int longer = width > height ? width : height, shorter = width + height - longer;
+  const int margin = margin_texels(c.options, longer, share);
+  return margin < shorter / 4 ? margin : margin_texels(c.options, shorter, share);
+}
+
+/// Makes the map as small as c.prune_m lets it. What it shows does not depend on its size.
+double shrink(const PlanContext& c, const LightBody& points, const PlaneMap& plane, double share,
+              ShadowMap& map) noexcept {
+  const glm::dvec2 needed = texels_needed(c, points, plane);
+  const double rim = 2.0 * margin_of(c, map.width, map.height, share);
+  const double before = max_of(needed.x / (map.width - rim), needed.y / (map.height - rim));
+  const auto side = [&](double texels, int full) {
+    return least_side({texels, c.prune_m}, full, c.options,
+                      [&](int size) { return margin_texels(c.options, size, share); });
+  };
+  // The rim of a kernel in world units is the same share of both sides.
+  const bool square = c.options.filter_radius_world > 0.0;
+  const double most = max_of(needed.x, needed.y);
+  map.width = side(square ? most : needed.x, map.width);
+  map.height = side(square ? most : needed.y, map.height);
+  return before;
 }
 
 // Room for the view to move in before a map that stands still must be laid anew, on each side: of the
@@ -248,18 +273,15 @@ void lay_anew(const PlanContext& c, const Polytope& body, const LightBody& point
       add_event(*c.history, remembered(c, map) ? PlanEventKind::map_relaid : PlanEventKind::map_appeared,
                 map.cascade, 1.0);
   }
-  // Of a kernel in world units the longer side has more texels; the shorter side has room for no more than a
-  // quarter of its own.
-  const int longer = map.width > map.height ? map.width : map.height,
-            shorter = map.width + map.height - longer;
-  const int margin = margin_texels(c.options, longer, laid.plane, points.points());
-  map.filter_margin_texels =
-      margin < shorter / 4 ? margin : margin_texels(c.options, shorter, laid.plane, points.points());
+  const double share =
+      c.options.filter_radius_world > 0.0 ? share_per_unit(laid.plane, points.points()) : 0.0;
+  if (c.prune_m > 0.0) laid.m_at_full_size = shrink(c, points, laid.plane, share, map);
+  map.filter_margin_texels = margin_of(c, map.width, map.height, share);
   laid.swept = swept_for(c, body, laid.plane, map);
-  const double bottom = lowest(points);
+  const DepthExtent extent = depth_extent(c, points, laid.swept);
   const double height =
-      caster_height(laid.swept.reach, c.frame, points, laid.plane, bottom, rim_of_body(map));
-  laid.depths = padded(bottom, height,
+      caster_height(extent.reach, c.frame, points, laid.plane, extent.bottom, rim_of_body(map));
+  laid.depths = padded(extent.bottom, height,
                        max_of(laid.plane.a_max - laid.plane.a_min, laid.plane.b_max - laid.plane.b_min));
   if (!still) return;
   laid.depths.bottom -= kRoom * laid.depths.height;
@@ -280,6 +302,7 @@ bool lay_tight_map(const PlanContext& c, const Polytope& body, double begin, dou
   const glm::dmat4 gl_from_relative =
       clip_from_light(laid.plane, laid.depths, rim) * light_from_relative(c.frame);
   finish_map(c, points, laid.plane, laid.swept, gl_from_relative, map);
+  if (c.prune_m > 0.0) omit_texels(c.options, laid.m_at_full_size, map, c.plan);
   if (c.history == nullptr) return true;
   glm::dmat4 gl_from_world = gl_from_relative;
   gl_from_world[3] = gl_from_relative * glm::dvec4(-c.camera.position, 1.0);

@@ -47,7 +47,7 @@ struct Parts {
 
 PlanContext context_of(const PlanContext& c, const Part& part) noexcept {
   return {c.camera,   c.bounds,    c.options,   c.axes, c.light_direction, part.frame, c.stable,
-          *part.warp, c.sin_gamma, c.cos_gamma, c.plan, nullptr,           c.seen};
+          *part.warp, c.sin_gamma, c.cos_gamma, c.plan, nullptr,           c.seen,     c.prune_m};
 }
 
 /// Cuts the part's depths to its body's.

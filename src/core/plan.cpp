@@ -128,8 +128,8 @@ bool last_sizes_serve(const PlanHistory& history, const ShadowPlan& laid,
 }
 
 /// As many cascades, as large, as the target or the budget asks for. Errors go by 1 / size, so that maps of
-/// any other size tell: one trial for each number of cascades, and the plan itself. Returns that number.
-int plan_within(PlanContext& c, const Polytope& body) noexcept {
+/// any other size tell: one trial for each number of cascades, and the plan itself.
+void plan_within(PlanContext& c, const Polytope& body) noexcept {
   const PlanOptions& options = c.options;
   PlanHistory* const history = c.history;
   // Trials leave nothing to remember.
@@ -157,6 +157,7 @@ int plan_within(PlanContext& c, const Polytope& body) noexcept {
     if (m <= options.target_m) break;
   }
   c.history = history;
+  c.prune_m = bound_of_pruning(options, history != nullptr);
   // Another size moves every texel: worth it only for errors this much smaller.
   constexpr double kWorthResizing = 0.8;
   if (std::isfinite(before) && least >= before * kWorthResizing) {
@@ -164,29 +165,6 @@ int plan_within(PlanContext& c, const Polytope& body) noexcept {
     sizes = last_sizes(*history, options);
   }
   plan_cascades(c, body, best, sizes);
-  return best;
-}
-
-/// The plan again with maps no larger than PlanOptions::prune_m needs.
-void prune_resolution(PlanContext& c, const Polytope& body, int cascades) noexcept {
-  const PlanOptions& options = c.options;
-  const bool free = options.fit == Fit::tight || options.fit == Fit::rotated;
-  if (!options.prune.has(PruneRule::metric_resolution) || !free || c.history != nullptr ||
-      options.texel_budget > 0)
-    return;
-  MapSizes sizes = equal_sizes(options.map_size);
-  const double m = options.target_m > 0.0 ? min_of(options.target_m, options.prune_m) : options.prune_m;
-  if (!least_sizes(c.plan, options, m, sizes)) return;
-  std::array<double, kMaxMaps> before{};
-  for (const ShadowMap& map : c.plan.maps())
-    before[static_cast<std::size_t>(map.cascade)] = max_of(map.m_s_max, map.m_t_max);
-  plan_cascades(c, body, cascades, sizes);
-  for (const ShadowMap& map : c.plan.maps()) {
-    const std::int64_t left_out = texels_of(options) - std::int64_t{map.width} * map.height;
-    if (left_out == 0) continue;
-    omit(c.plan, {OmissionKind::resolution_without_gain, map.cascade,
-                  before[static_cast<std::size_t>(map.cascade)], max_of(map.m_s_max, map.m_t_max), left_out});
-  }
 }
 
 /// A plan of one frame; `history` may be nullptr.
@@ -203,7 +181,7 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
   plan.bias = options.bias;
   const auto* directional = std::get_if<DirectionalLight>(&light);
   if (directional == nullptr) {
-    plan_positional(camera, light, bounds, options, plan);
+    plan_positional(camera, light, bounds, options, bound_of_pruning(options, history != nullptr), plan);
     return plan;
   }
   plan.light_direction = safe_normalize(directional->direction, {0.0, -1.0, 0.0});
@@ -230,15 +208,17 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
     plan.status = PlanStatus::nothing_visible;
     return plan;
   }
+  const double prune_m = bound_of_pruning(options, history != nullptr);
   if (options.partition != Partition::view_depth && !stable) {
+    context.prune_m = prune_m;
     std::array<double, 2> edges{};
     choose_edges(context, body, edges);
     plan_parts(context, body, edges[0], edges[1]);
   } else if (options.target_m > 0.0 || options.texel_budget > 0) {
-    prune_resolution(context, body, plan_within(context, body));
+    plan_within(context, body);
   } else {
+    context.prune_m = prune_m;
     plan_cascades(context, body, options.cascades, equal_sizes(options.map_size));
-    prune_resolution(context, body, options.cascades);
   }
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
   return plan;

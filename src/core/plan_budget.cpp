@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "plan_context.hpp"
 #include "vector.hpp"
 
 namespace gnomon {
@@ -83,30 +84,20 @@ MapSizes budgeted_sizes(const ShadowPlan& laid, const PlanOptions& options, int 
   return sizes_at(enough);
 }
 
-bool least_sizes(const ShadowPlan& laid, const PlanOptions& options, double m, MapSizes& sizes) noexcept {
-  const int least = least_budget_side(options);
-  const auto least_side = [&](double texels, const Demand& demand, int full) {
-    // Room for the rim's rounding to whole texels.
-    constexpr double kRoom = 1.01;
-    const double wanted = kRoom * texels / m / (1.0 - demand.rim_share) + demand.rim_texels;
-    if (!(wanted < full)) return full;
-    const int steps = static_cast<int>(std::ceil(wanted / kBudgetStep));
-    const int size = steps * kBudgetStep > least ? steps * kBudgetStep : least;
-    return size < full ? size : full;
-  };
-  // The rim of a kernel in world units is the same share of both sides.
-  const bool square = options.filter_radius_world > 0.0;
-  double full = 0.0, left = 0.0;
-  for (const ShadowMap& map : laid.maps()) {
-    const Demand demand = demand_of(map, options, square);
-    MapSizes::Size& size = sizes.of[static_cast<std::size_t>(map.cascade)];
-    size = {least_side(demand.s, demand, map.width), least_side(demand.t, demand, map.height)};
-    full += static_cast<double>(map.width) * map.height;
-    left += static_cast<double>(size.width) * size.height;
-  }
-  // Laying the maps again takes a tenth of a millisecond; texels below this share take less.
-  constexpr double kWorthAPlan = 0.95;
-  return left < kWorthAPlan * full;
+double bound_of_pruning(const PlanOptions& options, bool has_history) noexcept {
+  const bool free = options.fit == Fit::tight || options.fit == Fit::rotated;
+  if (!options.prune.has(PruneRule::metric_resolution) || !free || has_history || options.texel_budget > 0)
+    return 0.0;
+  const double m = options.target_m > 0.0 ? min_of(options.target_m, options.prune_m) : options.prune_m;
+  return max_of(m, kLeastPruneM);
+}
+
+void omit_texels(const PlanOptions& options, double before, const ShadowMap& map, ShadowPlan& plan) noexcept {
+  const std::int64_t left_out =
+      std::int64_t{options.map_size} * options.map_size - std::int64_t{map.width} * map.height;
+  if (left_out == 0) return;
+  omit(plan, {OmissionKind::resolution_without_gain, map.cascade, before, max_of(map.m_s_max, map.m_t_max),
+              left_out});
 }
 
 double largest_error(const ShadowPlan& laid, const PlanOptions& options, const MapSizes& sizes) noexcept {

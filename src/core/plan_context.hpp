@@ -24,6 +24,7 @@ struct PlanContext {
   ShadowPlan& plan;
   PlanHistory* history;                 // nullptr: every frame stands for itself
   const VisibleDepths* seen = nullptr;  // of the options, where they say something; nullptr: unknown
+  double prune_m = 0.0;  // maps become as small as this bound of m lets them; 0: they keep their size
 };
 
 void omit(ShadowPlan& plan, const Omission& omission) noexcept;

@@ -75,6 +75,10 @@ std::optional<PruneRule> rule_of(OmissionKind kind) noexcept {
       return PruneRule::empty_cascades;
     case OmissionKind::cascade_without_caster:
       return PruneRule::casterless_cascades;
+    case OmissionKind::face_without_receiver:
+      return PruneRule::empty_faces;
+    case OmissionKind::face_without_caster:
+      return PruneRule::casterless_faces;
     case OmissionKind::resolution_without_gain:
       return PruneRule::metric_resolution;
     default:

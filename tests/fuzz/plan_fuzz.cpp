@@ -61,9 +61,10 @@ void add_light(Light& light, Fields& f) {
 
 void add_options(PlanOptions& o, Fields& f) {
   f.add(o.focus);
-  f.real.insert(f.real.end(), {&o.target_m, &o.lambda, &o.near_hint, &o.focus_weight, &o.filter_radius_texels,
-                               &o.filter_radius_world, &o.bias.constant_texels, &o.bias.slope_texels,
-                               &o.bias.normal_offset_texels, &o.bias.max_slope});
+  f.real.insert(f.real.end(),
+                {&o.target_m, &o.prune_m, &o.split_overlap, &o.lambda, &o.near_hint, &o.focus_weight,
+                 &o.filter_radius_texels, &o.filter_radius_world, &o.bias.constant_texels,
+                 &o.bias.slope_texels, &o.bias.normal_offset_texels, &o.bias.max_slope});
   f.whole.insert(f.whole.end(), {&o.map_size, &o.cascades, &o.stable_size_steps});
   f.flag.insert(f.flag.end(), {&o.clip_space.reversed_z, &o.clip_space.y_down});
   f.add_name(o.partition);
@@ -121,7 +122,8 @@ void change(Bytes& bytes, SeededInput& in) {
     if (what >= 0xa0 && what < 0xc0) *f.whole[which % f.whole.size()] = bytes.take<std::int32_t>();
     if (what >= 0xc0 && what < 0xd0) *f.flag[which % f.flag.size()] = (bytes.take<std::uint8_t>() & 1) != 0;
     if (what >= 0xd0 && what < 0xf0) *f.name[which % f.name.size()] = bytes.take<std::uint8_t>();
-    if (what >= 0xf0) in.options.texel_budget = bytes.take<std::int64_t>();
+    if (what >= 0xf0 && what < 0xf8) in.options.texel_budget = bytes.take<std::int64_t>();
+    if (what >= 0xf8) in.options.prune.bits = bytes.take<std::uint32_t>();
   }
 }
 
@@ -130,7 +132,10 @@ void use(const ShadowPlan& plan, const SeededInput& in) {
   std::array<std::uint32_t, 4> list{};
   for (const ShadowMap& map : plan.maps()) {
     require(cull_casters(map, in.casters, list) <= in.casters.size(), "no more casters than there are");
-    require(!in.casters.empty() || plan.status != PlanStatus::ok, "maps only where there are casters");
+    const bool bare = !in.options.prune.has(PruneRule::casterless_cascades) ||
+                      !in.options.prune.has(PruneRule::casterless_faces);
+    require(bare || !in.casters.empty() || plan.status != PlanStatus::ok,
+            "maps only where there are casters");
   }
   const AliasingStats m = measure(plan, in.camera, in.bounds(), {4, 4, 4});
   require(!std::isnan(m.p50) && !std::isnan(m.p95) && !std::isnan(m.max), "an error that is a number");

@@ -132,6 +132,7 @@ TEST(PartitionLaw, no_partition_makes_its_objective_worse_than_one_uniform_map_w
     c.receivers = c.casters = {{at - half, at + half}};
     c.options.fit = Fit::tight;
     c.options.cascades = 1;
+    c.options.prune = c.options.prune.without(PruneRule::metric_resolution);
     c.options.near_hint = c.options.filter_radius_world = 0.0;
     if (c.options.warp != nullptr && !c.options.warp->drop_without_gain) c.options.warp = nullptr;
     Case single = c;

@@ -291,6 +291,7 @@ TEST(PositionalLaw, a_warp_never_makes_its_map_need_more_storage) {
   for_all(1500, [&] {
     LightCase c = draw_light_case();
     c.scene.options.fit = Fit::tight;
+    c.scene.options.prune = c.scene.options.prune.without(PruneRule::metric_resolution);
     c.scene.options.objective = Objective::storage;
     c.scene.options.warp = chance(0.5) ? nullptr : &warps::lispsm;
     RC_LOG() << c;
@@ -319,6 +320,7 @@ TEST(PositionalLaw, a_measured_warp_is_not_above_the_unwarped_map_by_more_than_s
     // Of several receivers the body is their common box, and the measure sees only part of that.
     c.scene.receivers = {c.scene.receivers.back()};
     c.scene.options.fit = Fit::tight;
+    c.scene.options.prune = c.scene.options.prune.without(PruneRule::metric_resolution);
     c.scene.options.objective = Objective::max;
     c.scene.options.near_hint = 0.0;
     c.scene.options.warp = nullptr;

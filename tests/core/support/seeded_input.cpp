@@ -126,6 +126,9 @@ void seed_options(SeededNumbers& random, double reach, SeededInput& input) {
     input.depths = visible_between(begin, std::max(begin, reach * random.unit()));
     o.visible_depths = &input.depths;
   }
+  if (random.chance(0.2)) o.split_overlap = random.unit();
+  if (random.chance(0.3)) o.prune.bits = static_cast<std::uint32_t>(random.bits()) & PruneRules::kAll;
+  if (random.chance(0.3)) o.prune_m = random.power_of_two(random.chance(0.1) ? -29 : -3, 3);
   o.clip_space.ndc_depth = static_cast<NdcDepth>(random.pick(2));
   o.clip_space.reversed_z = random.chance(0.3);
   o.clip_space.y_down = random.chance(0.3);

@@ -1,0 +1,232 @@
+// What does the plan leave out under lights with a position, and can each rule be switched off?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <vector>
+
+#include "gnomon/gnomon.hpp"
+#include "support/random_case.hpp"
+
+namespace gnomon::test {
+namespace {
+
+/// A furnished room that a lamp anywhere in it lights.
+struct Lamp {
+  Camera camera;
+  std::vector<Box> boxes, casters;  // walls and furniture; what of it casts
+  Light light;
+  PlanOptions options;
+  [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, light, {casters, boxes}, options); }
+  [[nodiscard]] ShadowPlan plan_without(PruneRule rule) const {
+    PlanOptions without = options;
+    without.prune = without.prune.without(rule);
+    return make_plan(camera, light, {casters, boxes}, without);
+  }
+};
+
+Lamp random_lamp(Random& random) {
+  Lamp lamp;
+  const auto inside = [&] {
+    return glm::dvec3(random.between(-9, 9), random.between(0.5, 5.5), random.between(-9, 9));
+  };
+  lamp.camera = perspective_camera(inside(), random.direction() - glm::dvec3(0, 0.5, 0), {0, 1, 0},
+                                   random.between(0.4, 1.8), 1.5, random.between(0.05, 0.5), 60.0, 640, 427);
+  lamp.boxes = {{{-10, -0.2, -10}, {10, 0, 10}}, {{-10, 0, -10.2}, {10, 6, -10}}};
+  for (int i = 0; i < 6; ++i) {
+    const glm::dvec3 at = inside() * glm::dvec3(1, 0.3, 1), half(random.between(0.05, 1.0));
+    lamp.boxes.push_back({at - half, at + half});
+  }
+  lamp.casters.assign(lamp.boxes.begin() + (random.unit() < 0.5 ? 0 : 2), lamp.boxes.end());
+  const glm::dvec3 position = inside();
+  const double cone = random.between(0.1, 2.6);
+  if (random.unit() < 0.4) {
+    lamp.light = PointLight{position, random.between(3, 30)};
+  } else {
+    lamp.light = SpotLight{position, random.direction(), cone, random.between(3, 30)};
+  }
+  const int kernel = random.pick(3);
+  lamp.options.filter_radius_texels = kernel == 1 ? random.between(1, 8) : 1.0;
+  lamp.options.filter_radius_world = kernel == 2 ? random.between(0.001, 0.2) : 0.0;
+  lamp.options.map_size = 256 << random.pick(5);
+  return lamp;
+}
+
+std::int64_t texels_of(const ShadowPlan& plan) {
+  std::int64_t sum = 0;
+  for (const ShadowMap& map : plan.maps()) sum += std::int64_t{map.width} * map.height;
+  return sum;
+}
+
+const ShadowMap* map_of(const ShadowPlan& plan, int face) {
+  const auto maps = plan.maps();
+  const auto found =
+      std::find_if(maps.begin(), maps.end(), [&](const ShadowMap& m) { return m.cascade == face; });
+  return found == maps.end() ? nullptr : &*found;
+}
+
+TEST(PruneLamp, random_lamps_get_maps_no_larger_than_the_metric_asks_for_and_the_plan_says_what_that_saves) {
+  Random random(1);
+  int smaller = 0, whole = 0;
+  std::int64_t all = 0, left = 0;
+  for (int i = 0; i < 600; ++i) {
+    Lamp lamp = random_lamp(random);
+    lamp.options.prune_m = std::exp2(random.between(-2, 2));
+    const ShadowPlan pruned = lamp.plan(), full = lamp.plan_without(PruneRule::metric_resolution);
+    ASSERT_EQ(pruned.map_count, full.map_count) << i;
+    std::int64_t listed = 0;
+    for (const Omission& o : pruned.omitted())
+      if (o.kind == OmissionKind::resolution_without_gain) listed += o.saves_texels;
+    EXPECT_EQ(texels_of(full) - texels_of(pruned), listed) << i;
+    for (int k = 0; k < full.map_count; ++k) {
+      const ShadowMap &a = full.map[static_cast<std::size_t>(k)],
+                      &b = pruned.map[static_cast<std::size_t>(k)];
+      EXPECT_EQ(a.width, lamp.options.map_size);
+      EXPECT_EQ(b.width, b.height);
+      EXPECT_LE(b.width, a.width);
+      (b.width < a.width ? smaller : whole) += 1;
+      if (b.width == a.width) {
+        EXPECT_EQ(a.clip_from_world, b.clip_from_world) << i;
+        continue;
+      }
+      EXPECT_LE(std::max(b.m_s_max, b.m_t_max), lamp.options.prune_m) << i;
+      EXPECT_EQ(a.kappa, b.kappa) << "what a map shows does not depend on its size";
+      EXPECT_GE(4 * b.width, 16 * b.filter_margin_texels) << "no receiver in more than half of a side";
+    }
+    all += texels_of(full);
+    left += texels_of(pruned);
+  }
+  EXPECT_GT(smaller, 200);
+  EXPECT_GT(whole, 200);
+  RecordProperty("percent_of_texels_left", static_cast<int>(100 * left / all));
+}
+
+TEST(PruneLamp, maps_of_a_stable_fit_a_history_or_a_budget_keep_their_size) {
+  Random random(2);
+  int maps = 0;
+  for (int i = 0; i < 60; ++i) {
+    Lamp lamp = random_lamp(random);
+    lamp.options.map_size = 4096;
+    Lamp stable = lamp;
+    stable.options.fit = Fit::stable;
+    PlanHistory history;
+    for (const ShadowPlan& plan :
+         {stable.plan(),
+          make_plan(lamp.camera, lamp.light, {lamp.casters, lamp.boxes}, lamp.options, history)}) {
+      for (const ShadowMap& map : plan.maps()) {
+        EXPECT_EQ(map.width, 4096);
+        ++maps;
+      }
+    }
+    lamp.options.texel_budget = 6 * 512 * 512;
+    EXPECT_EQ(texels_of(lamp.plan()), texels_of(lamp.plan_without(PruneRule::metric_resolution)));
+  }
+  EXPECT_GT(maps, 60);
+}
+
+/// Whether the lamp reaches the point, if nothing is in its way.
+bool reaches(const Light& light, const glm::dvec3& p) {
+  if (const auto* point = std::get_if<PointLight>(&light))
+    return glm::length(p - point->position) < point->range;
+  const auto& spot = std::get<SpotLight>(light);
+  const glm::dvec3 way = p - spot.position;
+  const double cosine = glm::dot(glm::normalize(way), glm::normalize(spot.direction));
+  return glm::length(way) < spot.range && cosine > std::cos(spot.outer_radians);
+}
+
+TEST(PruneLamp, random_lamps_meet_the_bound_that_made_their_maps_smaller_where_it_is_measured) {
+  Random random(3);
+  int points = 0, above = 0;
+  double largest = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    Lamp lamp = random_lamp(random);
+    lamp.options.map_size = 8192;
+    lamp.options.filter_radius_world = 0.0;
+    const ShadowPlan plan = lamp.plan();
+    bool met = plan.map_count > 0;
+    for (const ShadowMap& map : plan.maps()) met = met && map.m_s_max <= 1.0 && map.m_t_max <= 1.0;
+    if (!met) continue;
+    Case scene;
+    scene.camera = lamp.camera;
+    scene.receivers = lamp.boxes;
+    for (const glm::dvec3& p : visible_points(scene, random, 8, 16)) {
+      if (!reaches(lamp.light, p)) continue;
+      const int map = map_serving(plan, p, depth_of(lamp.camera, p));
+      if (map < 0) continue;
+      const PointAliasing m = measure_perspective(plan.map[static_cast<std::size_t>(map)], lamp.camera, p);
+      if (m.status != PointAliasing::Status::ok) continue;
+      ++points;
+      largest = std::max({largest, m.perspective_s, m.perspective_t});
+      // The bounds are those of vertices and middles of edges; rays that fan out have theirs in between.
+      const double error = std::max(m.perspective_s, m.perspective_t);
+      EXPECT_LE(error, 1.5) << i;
+      above += error > 1.05 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(points, 1000);
+  EXPECT_LE(100 * above, points);
+  EXPECT_GT(largest, 0.5) << "maps are far larger than the metric needs";
+}
+
+TEST(PruneLamp, faces_without_receivers_or_casters_are_laid_only_where_the_rules_are_off) {
+  Random random(4);
+  int more[2] = {};
+  for (int i = 0; i < 200; ++i) {
+    const Lamp lamp = random_lamp(random);
+    const ShadowPlan pruned = lamp.plan();
+    const PruneRule rules[] = {PruneRule::empty_faces, PruneRule::casterless_faces};
+    for (int k = 0; k < 2; ++k) {
+      const ShadowPlan full = lamp.plan_without(rules[k]);
+      more[k] += full.map_count - pruned.map_count;
+      const OmissionKind kind =
+          k == 0 ? OmissionKind::face_without_receiver : OmissionKind::face_without_caster;
+      for (const Omission& o : full.omitted()) {
+        // The face behind a narrow cone is dark, whatever is in it.
+        const bool dark = std::holds_alternative<SpotLight>(lamp.light) && o.map == 4;
+        EXPECT_TRUE(o.kind != kind || dark) << i;
+      }
+      for (const ShadowMap& map : pruned.maps()) {
+        const ShadowMap* same = map_of(full, map.cascade);
+        ASSERT_NE(same, nullptr) << i;
+        EXPECT_EQ(same->clip_from_world, map.clip_from_world) << i;
+      }
+      for (const ShadowMap& map : full.maps()) {
+        EXPECT_TRUE(std::isfinite(map.m_s_max + map.m_t_max + map.storage + map.depth_range_world)) << i;
+        for (int c = 0; c < 4; ++c)
+          for (int r = 0; r < 4; ++r) EXPECT_TRUE(std::isfinite(map.clip_from_world[c][r])) << i;
+      }
+    }
+  }
+  EXPECT_GT(more[0], 50);
+  EXPECT_GT(more[1], 20);
+}
+
+TEST(PruneLamp, depths_are_pulled_to_what_is_there_only_where_the_rule_is_on) {
+  Random random(5);
+  int looser = 0, maps = 0;
+  for (int i = 0; i < 300; ++i) {
+    Lamp lamp = random_lamp(random);
+    if (i % 3 == 0) lamp.light = DirectionalLight{random.direction() - glm::dvec3(0, 2, 0)};
+    if (i % 2 == 0) lamp.options.fit = Fit::stable;
+    const ShadowPlan pruned = lamp.plan(), full = lamp.plan_without(PruneRule::light_depths);
+    ASSERT_EQ(pruned.map_count, full.map_count) << i;
+    for (int k = 0; k < full.map_count; ++k) {
+      const ShadowMap &a = full.map[static_cast<std::size_t>(k)],
+                      &b = pruned.map[static_cast<std::size_t>(k)];
+      ++maps;
+      looser += a.depth_range_world > b.depth_range_world * 1.01 ? 1 : 0;
+      EXPECT_GE(a.depth_range_world, b.depth_range_world * (1.0 - 1e-9)) << i;
+      // The same texels: only depths differ.
+      for (int column = 0; column < 4; ++column)
+        for (const int row : {0, 1, 3})
+          EXPECT_EQ(a.clip_from_world[column][row], b.clip_from_world[column][row]) << i;
+    }
+  }
+  EXPECT_GT(maps, 200);
+  EXPECT_GT(looser, maps / 4);
+}
+
+}  // namespace
+}  // namespace gnomon::test
