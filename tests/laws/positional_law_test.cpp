@@ -237,13 +237,13 @@ TEST(PositionalLaw, a_caster_that_only_the_filter_kernel_reaches_is_drawn_too) {
       const double reach = 2.0 * (c.scene.options.filter_radius_texels - 0.25) / map.width;
       const glm::dvec2 tap{clip.x / clip.w + random.between(-reach, reach),
                            clip.y / clip.w + random.between(-reach, reach)};
-      // The ray through the tap, as far from the light as the receiver.
+      // The ray through the tap, up to the depth that its texel is compared with. Farther off, though as far
+      // from the light as the receiver, it may be beyond the map's far plane.
       const glm::dvec4 at = glm::inverse(map.clip_from_world) * glm::dvec4(tap, clip.z / clip.w, 1.0);
-      const glm::dvec3 way = glm::dvec3(at) / at.w - c.position;
-      const double length = glm::length(p - c.position) * (1.0 - 1e-6);
+      const glm::dvec3 way = (glm::dvec3(at) / at.w - c.position) * (1.0 - 1e-6);
       std::vector<std::uint32_t> list(c.scene.casters.size());
       list.resize(cull_casters(map, c.scene.casters, list));
-      for (const Blocker& blocker : blockers(c, c.position + way * (length / glm::length(way)))) {
+      for (const Blocker& blocker : blockers(c, c.position + way)) {
         ++shadows;
         require(std::binary_search(list.begin(), list.end(), blocker.index), "caster", blocker.index,
                 "culled from face", map.cascade, map.warp->name, "kappa", map.kappa);
