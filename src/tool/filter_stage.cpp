@@ -55,7 +55,7 @@ render::FrameStats FilterStage::draw(const render::FilterSettings& filter, const
   PlanOptions options;
   options.map_size = map_size;
   options.cascades = 1;
-  options.prune = kPruneNothing;  // the size that was asked for
+  options.prune = kPruneNothing.with(PruneRule::light_depths);  // the size that was asked for
   options.warp = &warps::none;
   options.clip_space = kOpenGlZeroToOne;  // depths as the maps hold them
   render::set_margin(filter, options);

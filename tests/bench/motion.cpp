@@ -151,7 +151,7 @@ void fly(const gnomon::Scene& scene, int frames, int cascades, std::vector<Tally
       Frame& f = state[t];
       Tally& tally = tallies[t];
       gnomon::PlanOptions options;
-      options.prune = gnomon::kPruneNothing;  // maps of one size
+      options.prune = gnomon::kPruneNothing.with(gnomon::PruneRule::light_depths);  // maps of one size
       options.cascades = cascades;
       options.fit = kTechniques[t].fit;
       options.warp = kTechniques[t].warp;

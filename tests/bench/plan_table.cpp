@@ -53,7 +53,7 @@ std::vector<Row> rows() {
 
 gnomon::PlanOptions options_of(const Row& row) {
   gnomon::PlanOptions o;
-  o.prune = gnomon::kPruneNothing;  // maps of one size
+  o.prune = gnomon::kPruneNothing.with(gnomon::PruneRule::light_depths);  // maps of one size
   o.cascades = row.cascades;
   o.warp = row.warp;
   o.objective = row.objective;
