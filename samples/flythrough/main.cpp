@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <system_error>
+#include <stdexcept>
 
 #include "flight.hpp"
 #include "interrupt.hpp"
@@ -35,15 +35,12 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0 || !std::cout)
       throw flythrough::UsageError("standard output cannot be written");
     return code;
-  } catch (const flythrough::UsageError& error) {
-    fmt::print(stderr, "flythrough: {}\n", error.what());
-    return 2;
-  } catch (const std::system_error& error) {  // files and standard output
-    fmt::print(stderr, "flythrough: {}\n", error.what());
-    return 2;
   } catch (const gnomon::tool::Interrupted&) {
     fmt::print(stderr, "flythrough: interrupted\n");
     return gnomon::tool::kInterrupted;
+  } catch (const std::runtime_error& error) {  // the world outside: arguments, files, drivers
+    fmt::print(stderr, "flythrough: {}\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     fmt::print(stderr, "flythrough: {}\n", error.what());
     return 1;

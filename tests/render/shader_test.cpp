@@ -1,5 +1,6 @@
 // Are shaders put together rightly, and are mistakes in them found where they are?
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -73,9 +74,8 @@ TEST(Program, says_which_shaders_do_not_link) {
 /// The validator's words, empty where it is content. `target`: what for, as the validator takes it.
 std::string validated(const ComposedShader& shader, const std::string& stage,
                       const std::string& target = "") {
-  const auto file = std::filesystem::path(testing::TempDir()) / ("gnomon_shader." + stage);
-  const auto log = std::filesystem::path(testing::TempDir()) / "gnomon_shader.log";
-  const auto binary = std::filesystem::path(testing::TempDir()) / "gnomon_shader.spv";
+  const std::string name = testing::TempDir() + "gnomon_shader_" + std::to_string(::getpid());
+  const std::filesystem::path file = name + "." + stage, log = name + ".log", binary = name + ".spv";
   std::ofstream(file) << shader.text;
   const std::string command = std::string(GLSLANG_VALIDATOR) + " " + target + " -S " + stage +
                               (target.empty() ? "" : " -o " + binary.string()) + " " + file.string() + " > " +
