@@ -243,7 +243,10 @@ SweepEntry sweep_entry(const report::Technique& technique) {
 
 Sweep make_sweep(const CompareRequest& request) {
   Sweep sweep;
-  sweep.scenes = request.scenes;
+  for (const std::string& scene : request.scenes) {
+    if (std::find(sweep.scenes.begin(), sweep.scenes.end(), scene) == sweep.scenes.end())
+      sweep.scenes.push_back(scene);
+  }
   sweep.frames = request.frames;
   sweep.rounds = request.rounds;
   sweep.light = {LightKind::sun, request.light_elevation_deg, request.light_azimuth_deg};

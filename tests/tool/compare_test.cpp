@@ -262,9 +262,10 @@ TEST(Compare, measures_maps_that_memory_does_not_take_at_the_size_it_takes) {
   EXPECT_FALSE(fs::exists(none.path() / "out"));
 }
 
-TEST(Compare, the_same_technique_under_two_names_is_measured_once) {
+TEST(Compare, the_same_technique_under_two_names_and_the_same_scene_are_measured_once) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_gnomon({"compare",
+                        "builtin:fence",
                         "builtin:fence",
                         "--warps",
                         "none,none",
