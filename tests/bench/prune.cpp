@@ -2,8 +2,10 @@
 // on one machine: texels and triangles drawn, time of a frame, what each rule saved, and how many pixels of
 // the mask differ.
 //
-//     bench_prune [--scenes a,b] [--starts N] [--frames N] [--size WxH]
+//     bench_prune [--scenes a,b] [--starts N] [--frames N] [--size WxH] [--maps TEXT] [--filter NAME]
+//                 [--against RULES]
 //
+// --maps takes the layouts whose name holds the text; --against compares with these rules instead of none.
 // Each flight is flown in pieces of consecutive frames of a 600th of the way; the first of each piece finds
 // nothing to hold on to.
 #include <algorithm>
@@ -15,6 +17,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
@@ -32,6 +35,9 @@ using Clock = std::chrono::steady_clock;
 
 struct Arguments {
   std::vector<std::string> scenes;
+  std::string maps;  // part of a layout's name
+  FilterSettings filter = default_settings(filters::pcf);
+  PruneRules against = kPruneNothing;
   int starts = 3, frames = 10, width = 480, height = 270;
 };
 
@@ -123,8 +129,8 @@ double share(std::uint64_t part, std::uint64_t whole) {
 
 Outcome compare(const Scene& scene, const std::vector<Box>& boxes, const Layout& technique,
                 const Arguments& arguments) {
-  Side with(scene, PruneRules{}), without(scene, kPruneNothing);
-  for (Side* side : {&with, &without}) side->filter = side->renderer.prepare(filters::pcf);
+  Side with(scene, PruneRules{}), without(scene, arguments.against);
+  for (Side* side : {&with, &without}) side->filter = side->renderer.prepare(arguments.filter);
   const CameraPath path = default_path(scene);
   std::size_t differing = 0, pixels = 0;
   int drawn = 0;
@@ -206,6 +212,13 @@ bool parse(int argc, char** argv, Arguments& arguments) {
       arguments.starts = std::atoi(argv[++i]);
     else if (more && std::strcmp(argv[i], "--frames") == 0)
       arguments.frames = std::atoi(argv[++i]);
+    else if (more && std::strcmp(argv[i], "--maps") == 0)
+      arguments.maps = argv[++i];
+    else if (more && std::strcmp(argv[i], "--filter") == 0)
+      arguments.filter = parse_filter(argv[++i]).settings;
+    else if (more && std::strcmp(argv[i], "--against") == 0 &&
+             parse_prune_rules(argv[i + 1], arguments.against))
+      ++i;
     else if (more && std::strcmp(argv[i], "--size") == 0)
       (void)std::sscanf(argv[++i], "%dx%d", &arguments.width, &arguments.height);
     else
@@ -215,7 +228,8 @@ bool parse(int argc, char** argv, Arguments& arguments) {
     for (const BuiltinScene& scene : builtin_scenes())
       arguments.scenes.push_back("builtin:" + std::string(scene.name));
   }
-  return arguments.starts > 0 && arguments.frames > 0 && arguments.width > 0 && arguments.height > 0;
+  return arguments.filter.filter != nullptr && arguments.starts > 0 && arguments.frames > 0 &&
+         arguments.width > 0 && arguments.height > 0;
 }
 
 }  // namespace
@@ -223,12 +237,16 @@ bool parse(int argc, char** argv, Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   if (!parse(argc, argv, arguments)) {
-    std::fputs("usage: bench_prune [--scenes A,B] [--starts N] [--frames N] [--size WxH]\n", stderr);
+    std::fputs(
+        "usage: bench_prune [--scenes A,B] [--starts N] [--frames N] [--size WxH] [--maps TEXT] "
+        "[--filter NAME] [--against RULES]\n",
+        stderr);
     return 2;
   }
   const auto context = create_context(ContextKind::automatic);
-  std::printf("%s, %dx%d, %d x %d frames, pcf, up to 4 maps\n\n", context->info().description().c_str(),
-              arguments.width, arguments.height, arguments.starts, arguments.frames);
+  std::printf("%s, %dx%d, %d x %d frames, %s, up to 4 maps\n\n", context->info().description().c_str(),
+              arguments.width, arguments.height, arguments.starts, arguments.frames,
+              to_string(arguments.filter).c_str());
   std::printf("| scene | maps | texels | triangles | time | frame, ms | plan, us | pixels that differ |\n");
   std::printf("|--|--|--|--|--|--|--|--|\n");
   std::vector<Outcome> outcomes;
@@ -238,6 +256,7 @@ int main(int argc, char** argv) {
       std::vector<Box> boxes;
       for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
       for (const Layout& technique : kLayouts) {
+        if (std::string_view(technique.name).find(arguments.maps) == std::string_view::npos) continue;
         outcomes.push_back(compare(scene, boxes, technique, arguments));
         print(outcomes.back());
       }
@@ -246,6 +265,6 @@ int main(int argc, char** argv) {
       return 2;
     }
   }
-  print_waterfall(outcomes);
+  if (arguments.against == kPruneNothing) print_waterfall(outcomes);
   return 0;
 }
