@@ -10,6 +10,11 @@
 namespace gnomon::report {
 namespace {
 
+/// Told of frames drawn after the one before; the others, and what was drawn, of frames drawn alone.
+bool draws_from_before(const std::string& rule) {
+  return rule == "held_maps" || rule == "scrolled_maps";
+}
+
 struct Step {
   std::string rule, what, why;
   double texels = 0.0, triangles = 0.0;  ///< saved, over all frames
@@ -46,6 +51,9 @@ std::vector<Waterfall> waterfalls_of(const std::vector<Row>& rows) {
     if (at == falls.end()) at = falls.insert(falls.end(), {row.scene});
     add(row, *at);
   }
+  for (Waterfall& fall : falls)
+    std::stable_partition(fall.steps.begin(), fall.steps.end(),
+                          [](const Step& step) { return !draws_from_before(step.rule); });
   std::erase_if(falls, [](const Waterfall& fall) { return fall.steps.empty(); });
   return falls;
 }
@@ -62,6 +70,7 @@ std::string share_with_bar(double part, double whole) {
 std::string table(const Waterfall& fall) {
   double texels = fall.texels, triangles = fall.triangles;
   for (const Step& step : fall.steps) {
+    if (draws_from_before(step.rule)) continue;
     texels += step.texels;
     triangles += step.triangles;
   }
@@ -90,7 +99,9 @@ std::string waterfalls(const std::vector<Row>& rows) {
   for (const Waterfall& fall : waterfalls_of(rows)) out += table(fall);
   if (out.empty()) return out;
   return "<h3>What each rule saved</h3>\n<p>One after the other, in the order in which a frame applies them. "
-         "Frames of a sweep stand alone, so that maps held from the frame before do not count here.</p>\n" +
+         "Frames of a sweep are measured alone, as if none had been drawn before; what stable fits save "
+         "where one "
+         "was, a viewer's frame earlier, is taken off last.</p>\n" +
          out;
 }
 

@@ -88,9 +88,14 @@ void count_costs(const render::FrameStats& stats, const SweepEntry& entry, repor
       static_cast<std::uint64_t>(static_cast<double>(stats.texels) * render::bytes_per_texel(entry.filter));
 }
 
-/// What each rule saved, in the order of the rules.
-void count_savings(const render::FrameStats& stats, report::Row& row) {
+/// Rules that draw a frame's maps from those of the frame before.
+constexpr std::array kFromBefore{PruneRule::held_maps, PruneRule::scrolled_maps};
+
+/// What the rules saved, those alone that draw from the frame before or all others, in their order.
+void count_savings(const render::FrameStats& stats, bool from_before, report::Row& row) {
   for (const PruneRuleInfo& rule : prune_rules()) {
+    if ((std::find(kFromBefore.begin(), kFromBefore.end(), rule.rule) != kFromBefore.end()) != from_before)
+      continue;
     const PruneSaving& saved = stats.saved[static_cast<std::size_t>(rule.rule)];
     if (saved.texels == 0 && saved.triangles == 0) continue;
     row.left_out.push_back({std::string(rule.what), std::string(rule.proof),
@@ -194,8 +199,14 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
     const OmissionText text = describe(omission);
     row.left_out.push_back({text.what.data(), text.why.data(), omission.saves_texels});
   }
-  count_savings(stats, row);
+  count_savings(stats, false, row);
   if (seen != nullptr) *seen = {renderer.image(), renderer.heat_map(), mask};
+  // Tight maps are others in every frame.
+  if (entry.plan.fit == Fit::tight) return;
+  render::FrameOptions all_rules = frame_options(false);
+  all_rules.prune = {};
+  renderer.draw(before, truth.camera, filter, all_rules);
+  count_savings(renderer.draw(plan, truth.camera, filter, all_rules), true, row);
 }
 
 std::vector<report::Times> measure_times(Stage& stage, const Camera& camera,

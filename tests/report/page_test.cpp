@@ -12,6 +12,7 @@
 #include "sample_rows.hpp"
 #include "summary.hpp"
 #include "text.hpp"
+#include "waterfall.hpp"
 
 namespace gnomon::report {
 namespace {
@@ -183,6 +184,21 @@ TEST(Page, loads_nothing_and_lets_only_its_own_script_run) {
   const std::size_t begin = page.rfind("<script>") + 8, end = page.rfind("</script>");
   EXPECT_NE(page.find(policy_hash(page.substr(begin, end - begin))), std::string::npos);
   EXPECT_EQ(count(page, " style=\""), 0u);
+}
+
+TEST(Page, what_is_drawn_from_the_frame_before_is_taken_off_the_frame_drawn_alone) {
+  std::vector<Row> rows = sample_rows(1, 1);
+  for (Row& row : rows) {
+    row.costs.texels = 500'000;
+    row.left_out = {{"moved", "copies", 400'000, "scrolled_maps", 0},
+                    {"fine", "m", 500'000, "metric_resolution", 0}};
+  }
+  const std::string text = waterfalls(rows);
+  EXPECT_EQ(count(text, "Without rules 1 million texels"), 1u) << text;
+  const std::size_t alone = text.find("<td>50 %</td>"), after = text.find("<td>10 %</td>");
+  ASSERT_NE(alone, std::string::npos) << text;
+  ASSERT_NE(after, std::string::npos) << text;
+  EXPECT_LT(alone, after) << "last, whichever row told it first";
 }
 
 // What people may call a scene: the page shows it and keeps its elements, and tables take it for text.
