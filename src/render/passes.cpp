@@ -87,19 +87,26 @@ void Renderer::Impl::draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_wh
 }
 
 void Renderer::Impl::adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept {
+  maps_read_back = 0;
+  for (int i = 0; i < map_count; ++i)
+    if (!lists.map_stats(i).held) adapted[static_cast<std::size_t>(i)].valid = false;
   if (settings.filter->adapts == nullptr || !settings.filter->adapts(settings)) return;
   std::vector<float> depths;
   for (int i = 0; i < map_count; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    depths.resize(static_cast<std::size_t>(map_size[at].x) * static_cast<std::size_t>(map_size[at].y));
-    read_depths(i, depths);
-    // As the layers will store them.
-    const double curve = block.depth_curve[at].x;
-    if (curve > 0.0)
-      for (float& depth : depths) depth = static_cast<float>(linear_depth(depth, curve));
-    FilterSettings own = settings;
-    settings.filter->adapt(own, depths);
-    set_options(own, at, block);
+    Adapted& chosen = adapted[at];
+    if (!chosen.valid || chosen.told.filter != settings.filter || chosen.told.option != settings.option) {
+      depths.resize(static_cast<std::size_t>(map_size[at].x) * static_cast<std::size_t>(map_size[at].y));
+      read_depths(i, depths);
+      ++maps_read_back;
+      // As the layers will store them.
+      const double curve = block.depth_curve[at].x;
+      if (curve > 0.0)
+        for (float& depth : depths) depth = static_cast<float>(linear_depth(depth, curve));
+      chosen = {true, settings, settings};
+      settings.filter->adapt(chosen.own, depths);
+    }
+    set_options(chosen.own, at, block);
   }
   glNamedBufferSubData(filter_buffer.name(), 0, sizeof block, &block);
 }

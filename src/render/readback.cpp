@@ -110,6 +110,24 @@ FloatImage Renderer::depth_map(int map) const {
   return image;
 }
 
+std::vector<DrawnDepths> Renderer::drawn_depths(const FilterSettings& settings,
+                                                const ShadowPlan& plan) const {
+  std::vector<DrawnDepths> maps;
+  const BlurSides sides = blur_sides(settings, plan);
+  for (int i = 0; i < std::min(plan.map_count, impl_->map_count); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const ShadowMap& map = plan.map[at];
+    const double curve = depth_curve(plan, map);
+    std::vector<float> depths = depth_map(i).values;
+    if (curve > 0.0)
+      for (float& depth : depths) depth = static_cast<float>(linear_depth(depth, curve));
+    const BiasWorld& bias = map.bias_world;
+    maps.push_back({std::move(depths), map.width, map.height, std::max(sides[at], 0.5),
+                    (bias.constant + bias.slope) / map.depth_range_world});
+  }
+  return maps;
+}
+
 void Renderer::Impl::read_depths(int map, std::span<float> depths) const noexcept {
   const glm::ivec2 size = map_size[static_cast<std::size_t>(map)];
   glGetTextureSubImage(maps.depth.name(), 0, 0, 0, map, size.x, size.y, 1, GL_DEPTH_COMPONENT, GL_FLOAT,

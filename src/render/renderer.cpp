@@ -152,6 +152,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   stats.saved = impl.lists.saved();
   stats.camera = impl.lists.camera_stats();
   stats.prefilter_passes = impl.stored.passes();
+  stats.maps_read_back = impl.maps_read_back;
   stats.map_bytes = impl.maps.bytes() + impl.stored.bytes();
   return stats;
 }

@@ -28,6 +28,7 @@ struct Renderer::Impl {
   void draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept;
   /// `block`: with the options that the filter chooses for each map, on return.
   void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block) noexcept;
+  /// For maps whose depths are not those of the last frame; the others keep what was chosen then.
   void adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept;
   /// Of the last frame's map, row by row.
   void read_depths(int map, std::span<float> depths) const noexcept;
@@ -51,6 +52,13 @@ struct Renderer::Impl {
   VertexArray no_vertices;
   std::array<glm::ivec2, kMaxMaps> map_size{};  ///< of the last frame
   int map_count = 0;
+  /// What the filter chose for each map from its depths, and what it was told when it did.
+  struct Adapted {
+    bool valid = false;
+    FilterSettings told, own;
+  };
+  std::array<Adapted, kMaxMaps> adapted;
+  int maps_read_back = 0;            ///< in the last frame
   std::array<int, 2> screen_size{};  ///< of the default framebuffer, as last shown
 };
 

@@ -34,19 +34,6 @@ double shadow_milliseconds(const render::FrameStats& stats) {
   return sum;
 }
 
-std::vector<FilterSettings> asked_for(const std::vector<std::string>& texts) {
-  std::vector<FilterSettings> all;
-  for (const std::string& text : texts) {
-    if (text != "all") {
-      all.push_back(filter_from(text));
-      continue;
-    }
-    for (const render::Filter* filter : render::all_filters())
-      all.push_back(render::default_settings(*filter));
-  }
-  return all;
-}
-
 /// Every filter with every blur; `hard`, which has none, comes first.
 std::vector<Measured> runs_of(const std::vector<FilterSettings>& filters) {
   std::vector<Measured> runs{{filter_from("hard"), {}, {}}};
@@ -111,8 +98,21 @@ std::string list_as_json() {
 
 }  // namespace
 
+std::vector<FilterSettings> filters_asked_for(const std::vector<std::string>& texts) {
+  std::vector<FilterSettings> all;
+  for (const std::string& text : texts) {
+    if (text != "all") {
+      all.push_back(filter_from(text));
+      continue;
+    }
+    for (const render::Filter* filter : render::all_filters())
+      all.push_back(render::default_settings(*filter));
+  }
+  return all;
+}
+
 void print_filter_cost(const FiltersRequest& request) {
-  const std::vector<FilterSettings> filters = asked_for(request.filters);
+  const std::vector<FilterSettings> filters = filters_asked_for(request.filters);
   FilterStage stage(load_scene(request.scene), 38.0, 140.0);
   const Camera camera = default_path(stage.scene()).at(0.5, kWidth, kHeight);
   if (!request.json) {
@@ -135,7 +135,9 @@ void print_filter_cost(const FiltersRequest& request) {
 }
 
 int run_filters(const FiltersRequest& request) {
-  if (!request.cost && request.gallery.empty()) {
+  if (!request.cost && request.fit.empty() && request.filters != FiltersRequest{}.filters)
+    throw std::runtime_error("--filters requires --cost or --fit");
+  if (!request.cost && request.fit.empty() && request.gallery.empty()) {
     std::string text = request.json ? list_as_json() : render::filter_help();
     while (!text.empty() && text.back() == '\n') text.pop_back();
     print_line(text);
@@ -150,6 +152,7 @@ int run_filters(const FiltersRequest& request) {
     }
     print_filter_cost(request);
   }
+  if (!request.fit.empty()) print_filter_needs(request);
   if (!request.gallery.empty()) write_filter_gallery(request.gallery, request.scene);
   return 0;
 }

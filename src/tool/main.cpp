@@ -106,8 +106,21 @@ void add_filters(CLI::App& app, FiltersRequest& request) {
   CLI::Option* cost = filters->add_flag("--cost", request.cost, "time and memory against `hard`, as a table");
   filters->add_option("--gallery", request.gallery,
                       "write the papers' comparisons as pictures to this folder");
-  filters->add_option("--filters", request.filters, "of the cost table: names with their options, or all")
-      ->needs(cost);
+  CLI::Option* fit = filters->add_option(
+      "--fit", request.fit,
+      "what each filter could do without on the maps of this scene: builtin:NAME or a glTF file");
+  filters
+      ->add_option("--fit-bound", request.fit_bound,
+                   "by how much its answers may then differ, in steps of 8 bits")
+      ->check(CLI::Range(0.0, 255.0))
+      ->needs(fit);
+  filters
+      ->add_option("--fit-exceptions", request.fit_exceptions,
+                   "percent of the receivers tried that may differ by more")
+      ->check(CLI::Range(0.0, 100.0))
+      ->needs(fit);
+  filters->add_option("--filters", request.filters,
+                      "of the cost table and --fit: names with their options, or all");
   filters->add_option("--map-sizes", request.map_sizes, "of the cost table: texels along each side of a map")
       ->check(CLI::Range(kLeastMapSize, kMostMapSize))
       ->needs(cost);

@@ -298,6 +298,51 @@ TEST(Prune, depths_pulled_to_what_is_there_change_no_more_than_their_rounding) {
   EXPECT_GT(changed, 0) << "the rule is exact, and should say so";
 }
 
+TEST(Prune, a_filter_that_chooses_from_depths_reads_back_only_maps_that_changed) {
+  const Scene scene = load_builtin("hangar");
+  const std::vector<Box> boxes = boxes_of(scene);
+  Renderer renderer(scene);
+  PlanOptions options;
+  options.map_size = kMapSize;
+  const PreparedFilter placed = renderer.prepare(parse_filter("lvsm:placement=1").settings);
+  const PreparedFilter plain = renderer.prepare(filters::pcf);
+  const auto draw = [&](double t, const PreparedFilter& filter) {
+    const Camera camera = default_path(scene).at(t, kWidth, kHeight);
+    const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options);
+    return renderer.draw(plan, camera, filter, mask_only({}));
+  };
+  const FrameStats first = draw(0.3, placed);
+  EXPECT_GT(first.map_count, 0);
+  EXPECT_EQ(first.maps_read_back, first.map_count);
+  const FloatImage mask = renderer.mask();
+  EXPECT_EQ(draw(0.3, placed).maps_read_back, 0);
+  EXPECT_EQ(differing(renderer.mask(), mask), 0u);
+  EXPECT_GT(draw(0.6, placed).maps_read_back, 0);
+  // Another filter draws the maps anew; what was chosen before is of other depths.
+  EXPECT_EQ(draw(0.3, plain).maps_read_back, 0);
+  EXPECT_GT(draw(0.3, placed).maps_read_back, 0);
+  EXPECT_EQ(differing(renderer.mask(), mask), 0u);
+}
+
+TEST(Prune, a_filter_that_stores_less_within_a_bound_draws_the_same_picture) {
+  const Scene scene = load_builtin("hangar");
+  const std::vector<Box> boxes = boxes_of(scene);
+  Renderer renderer(scene);
+  const FilterSettings full = default_settings(filters::esm);
+  PlanOptions options;
+  options.map_size = kMapSize;
+  set_margin(full, options);
+  const Camera camera = default_path(scene).at(0.3, kWidth, kHeight);
+  const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options);
+  renderer.draw(plan, camera, renderer.prepare(full), mask_only({}));
+  const FloatImage wanted = renderer.mask();
+  ASSERT_GT(shadowed(wanted), 100u);
+  const FilterFit fit = fit_filter(full, renderer.drawn_depths(full, plan));
+  ASSERT_TRUE(fit.saves());
+  renderer.draw(plan, camera, renderer.prepare(fit.settings), mask_only({}));
+  EXPECT_LE(mean_difference(renderer.mask(), wanted), 0.5 / 255);
+}
+
 /// Pebbles on a plate: what a small caster's rule is for.
 Scene pebbles() {
   Scene scene = load_builtin("fence");

@@ -45,6 +45,29 @@ TEST(Filters, counts_passes_and_bytes_of_each_blur_against_hard) {
   EXPECT_EQ(rows[3].at("bytes_ratio"), 5.0);
 }
 
+TEST(Filters, says_what_the_maps_of_a_scene_need_and_what_that_saves) {
+  const auto fit = [](const std::string& bound) {
+    const Finished finished = run_gnomon({"filters", "--fit", "builtin:hangar", "--fit-bound", bound,
+                                          "--json", "--filters", "esm", "lvsm:layers=3", "pcf"});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    std::vector<json> rows;
+    for (const std::string& line : finished.lines()) rows.push_back(json::parse(line));
+    return rows;
+  };
+  const std::vector<json> strict = fit("0.5"), lax = fit("255");
+  ASSERT_EQ(strict.size(), 2u) << "pcf stores nothing";
+  ASSERT_EQ(lax.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_GT(strict[i].at("receivers"), 100);
+    EXPECT_LE(strict[i].at("error").get<double>(), 0.5 / 255);
+    EXPECT_LE(lax[i].at("bytes_per_texel").get<double>(), strict[i].at("bytes_per_texel").get<double>());
+    EXPECT_LE(strict[i].at("bytes_per_texel").get<double>(),
+              strict[i].at("bytes_per_texel_asked").get<double>());
+  }
+  EXPECT_EQ(lax[1].at("needed"), "lvsm:layers=1");
+  EXPECT_EQ(lax[1].at("channels_asked"), 6);
+}
+
 TEST(Filters, says_what_is_wrong_in_one_line) {
   const Finished finished = run_gnomon({"filters", "--cost", "--filters", "soft"});
   EXPECT_EQ(finished.exit_code, 2);
@@ -53,7 +76,9 @@ TEST(Filters, says_what_is_wrong_in_one_line) {
   const TemporaryFolder folder;
   const std::string below_a_file = folder.write("file", "") + "/gallery";
   for (const auto& [arguments, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{"filters", "--filters", "pcf"}, "--filters requires --cost"},
+           {{"filters", "--filters", "pcf"}, "--filters requires --cost or --fit"},
+           {{"filters", "--fit-bound", "1"}, "--fit-bound requires --fit"},
+           {{"filters", "--fit", "builtin:nowhere"}, "nowhere"},
            {{"filters", "--cost", "--context", "glfw"}, "--context glfw: wants auto, osmesa or egl"},
            {{"filters", "--gallery", below_a_file},
             "--gallery " + below_a_file + ": cannot be made a folder"}}) {

@@ -116,6 +116,10 @@ struct Filter {
   /// Within this of the right answer where all texels of the kernel agree, for a receiver at least `contact`
   /// (of the map's depth range) in front of or behind them: what filter_laws asks for.
   double tolerance = 1e-6, contact = 0.0;
+  /// Which of `options` says how many terms or layers are stored, each in channels of its own; -1: none.
+  int terms_option = -1;
+  /// A filter that answers alike from fewer channels where depths allow (filter_fit.hpp). nullptr: none.
+  const Filter* leaner = nullptr;
 
   /// Whether the lookup reads the largest depth under the kernel. nullptr: never.
   bool (*needs_depth_max)(const FilterSettings& settings) noexcept = nullptr;
@@ -129,7 +133,7 @@ struct Filter {
   /// Whether `adapt` has something to do for every map. nullptr: never.
   bool (*adapts)(const FilterSettings& settings) noexcept = nullptr;
   /// Sets the options behind those of `options` for one map from the depths that were drawn into it, 1 where
-  /// there is nothing. Costs a copy of them to the CPU in every frame.
+  /// there is nothing. Costs a copy of them to the CPU in every frame that draws the map anew.
   void (*adapt)(FilterSettings& settings, std::span<const float> depths) noexcept = nullptr;
   /// Channels of a stored texel, 1..kMaxChannels. nullptr for MapRead::depth.
   int (*channels)(const FilterSettings& settings) noexcept = nullptr;

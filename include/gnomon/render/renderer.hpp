@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "gnomon/bias.hpp"
 #include "gnomon/camera.hpp"
@@ -13,6 +14,7 @@
 #include "gnomon/prune.hpp"
 #include "gnomon/render/error.hpp"
 #include "gnomon/render/filter.hpp"
+#include "gnomon/render/filter_fit.hpp"
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/scene.hpp"
 
@@ -82,6 +84,7 @@ struct FrameStats {
   std::uint64_t texels = 0;                          ///< over all maps
   std::array<PruneSaving, kPruneRuleCount> saved{};  ///< by PruneRule, the plan's own included
   int prefilter_passes = 0;  ///< over all maps: what the filter stores, blurs, sums and shrinks
+  int maps_read_back = 0;    ///< by filters that choose for each map from its depths
   /// Depth maps and everything that the filter keeps besides, scratch images included.
   std::uint64_t map_bytes = 0;
 };
@@ -122,6 +125,9 @@ class Renderer {
   /// Channel "depth" of one map of the last frame: 0 near the light .. 1; row 0 is texel row 0 of the map
   /// (ndc y = -1).
   [[nodiscard]] FloatImage depth_map(int map) const;
+  /// The last frame's maps, which were drawn for this plan, as fit_filter wants them: reads them all back.
+  [[nodiscard]] std::vector<DrawnDepths> drawn_depths(const FilterSettings& settings,
+                                                      const ShadowPlan& plan) const;
 
   /// Which of the last frame's pictures to show in a window.
   enum class Picture : std::uint8_t { lit, heat_map, cascade_tint };

@@ -100,6 +100,7 @@ const Filter filters::convolution{
     // after each half of the blur.
     .tolerance = 0.04,
     .contact = 0.1,
+    .terms_option = 0,
     .settle = settle,
     .channels = channels,
     .store = store,

@@ -54,6 +54,7 @@ const Filter filters::evsm4{
     .may_mipmap = true,
     .tolerance = 0.01,  // what rounding leaves under a contact of a tenth of the depth range, in half floats
     .contact = 0.1,
+    .leaner = &filters::evsm2,
     .settle = settle,
     .channels = channels,
     .store = store,

@@ -1,4 +1,5 @@
-// Where layers of depth end so that the depths within each vary least: exactly, over a histogram.
+// Where layers of depth end so that the depths within each vary least, weighted by the root of their number:
+// exactly, over a histogram.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -119,6 +119,7 @@ const Filter filters::lvsm{
     .may_mipmap = true,
     .tolerance = 0.01,  // the variance's floor in half floats, under a contact of a tenth of the depth range
     .contact = 0.1,
+    .terms_option = 3,
     .settle = settle,
     .adapts = adapts,
     .adapt = adapt,

@@ -20,8 +20,9 @@ struct DepthLayer {
 [[nodiscard]] double beyond_layer(int i, const FilterSettings& settings, double deepest) noexcept;
 
 /// Ends of all layers but the last, ascending in (0, 1), one more layer than ends: those under which the
-/// depths within each layer vary least, in the middle of the gaps between them. Depths of 1 are not counted;
-/// all ends 0 where there are no others.
+/// depths within each layer vary least, each bin of depths weighted by the square root of how many it holds
+/// (a large ground must not take all layers), in the middle of the gaps between them. Depths of 1 are not
+/// counted; all ends 0 where there are no others.
 void place_layers(std::span<const float> depths, std::span<double> ends) noexcept;
 
 }  // namespace gnomon::render
