@@ -16,11 +16,12 @@ namespace gnomon {
 struct FilterCost {
   std::string_view name;
   double prefilter_ms_per_map = 0.0, prefilter_ms_per_megatexel = 0.0;
-  double lookup_ms_per_megapixel = 0.0;  ///< of the frame
-  double bytes_per_texel = 4.0;          ///< depth and stored texels together
-  /// Its wrong pixels over those of a filter with ratio 1 in the same maps, told as the ratio of the m that
-  /// would make as many.
-  double error_ratio = 1.0;
+  double lookup_ms_per_megapixel = 0.0;       ///< of the frame
+  double lookup_ms_per_seen_megapixel = 0.0;  ///< beside it, of SceneDetail::seen_world's share of the frame
+  double bytes_per_texel = 4.0;               ///< depth and stored texels together
+  /// It makes as many wrong pixels in maps of error m as a filter with ratio and power 1 does in maps of
+  /// error_ratio * m^error_power: a filter that smooths is better in coarse maps than in fine ones.
+  double error_ratio = 1.0, error_power = 1.0;
 };
 
 /// What drawing a caster takes.
@@ -29,13 +30,43 @@ struct CasterWork {
   bool alpha_tested = false;  ///< holes cut by a texture: each texel that it covers is asked
 };
 
+/// What drawing the depths of a plan's maps takes, over all of them.
+struct PlanWork {
+  double maps = 0.0, megatexels = 0.0, kilodraws = 0.0, megatriangles = 0.0;
+  /// A map's, times the share of alpha-tested triangles among all that it draws.
+  double megatexels_tested = 0.0;
+};
+
+/// Milliseconds for each unit of PlanWork, and for the frame.
+struct DrawingCosts {
+  double per_frame = 0.0, per_map = 0.0, per_megatexel = 0.0, per_kilodraw = 0.0, per_megatriangle = 0.0;
+  double per_megatexel_tested = 0.0;
+};
+
 /// What a frame's shadows cost on some machine: a sum over what is drawn. `gnomon calibrate` measures it.
 struct CostModel {
-  double frame_ms = 0.0, ms_per_map = 0.0, ms_per_megatexel = 0.0;
-  double ms_per_kilodraw = 0.0, ms_per_megatriangle = 0.0;
-  /// Per million texels of a map, times the share of alpha-tested triangles among all that it draws.
-  double ms_per_megatexel_tested = 0.0;
+  DrawingCosts drawing;
   std::span<const FilterCost> filters;  ///< to choose from, at least one
+};
+
+/// What is known of a scene beyond its bounds.
+struct SceneDetail {
+  /// Of bounds.casters, in their order; missing entries cost nothing.
+  std::span<const CasterWork> work;
+  /// Points that the camera sees: of a depth buffer read at every tenth pixel, or of rays
+  /// (trace::seen_points). Some thousand do. Empty: anywhere in the receivers' boxes, which misjudges warps
+  /// and splits where the boxes are mostly air.
+  std::span<const glm::dvec3> seen_world;
+  /// Pixels that were looked at for them: what is missing among the points is sky, or turned from the light.
+  /// 0: nobody knows, as many as there are points.
+  std::size_t looked_at = 0;
+
+  /// Of the frame, in [0,1].
+  [[nodiscard]] double seen_share() const noexcept {
+    return looked_at > seen_world.size()
+               ? static_cast<double>(seen_world.size()) / static_cast<double>(looked_at)
+               : 1.0;
+  }
 };
 
 /// Limits; 0 is none. Without target_error the least error within them is taken, with it the cheapest
@@ -43,7 +74,7 @@ struct CostModel {
 struct Budget {
   std::int64_t texels = 0, bytes = 0;
   double milliseconds = 0.0;
-  double target_error = 0.0;  ///< of m that 95 % of what is seen stay below, screen pixels per texel
+  double target_error = 0.0;  ///< Technique::error, screen pixels per texel
 };
 
 /// What is tried: the product of all lists. An empty list is the default named beside it.
@@ -60,8 +91,10 @@ struct Technique {
   const Warp* warp = nullptr;
   SplitScheme split = SplitScheme::automatic;
   int cascades = 0, map_size = 0;
-  int filter = 0;      ///< index into CostModel::filters
-  double error = 0.0;  ///< m at the 95th percentile times the filter's error_ratio
+  int filter = 0;  ///< index into CostModel::filters
+  /// The mean of m over what is seen, screen pixels per texel, as it would have to be of a filter with
+  /// error_ratio and error_power 1 to make as many wrong pixels.
+  double error = 0.0;
   double milliseconds = 0.0;
   std::int64_t texels = 0, bytes = 0;
 };
@@ -82,13 +115,18 @@ struct TechniqueChoice {
   ShadowPlan plan;
 };
 
-/// Plans each parametrization once, measures it (measure() over the visible receivers), and prices it at
-/// every size with every filter: some 0.1 ms a parametrization. For when a scene, a view or a light is new,
-/// not for every frame. `base` gives all options that are not chosen; `work` belongs to bounds.casters, in
-/// their order; missing entries cost nothing. Pure, allocates nothing, never throws.
+/// Plans each parametrization once, judges it (planned_error), and prices it at every size with every filter:
+/// some 0.1 ms a parametrization. For when a scene, a view or a light is new, not for every frame. `base`
+/// gives all options that are not chosen. Pure, allocates nothing, never throws.
 [[nodiscard]] TechniqueChoice choose_technique(const Camera& camera, const Light& light,
-                                               const SceneBounds& bounds, std::span<const CasterWork> work,
+                                               const SceneBounds& bounds, const SceneDetail& detail,
                                                const TechniqueSet& among, const Budget& budget,
                                                const CostModel& costs, const PlanOptions& base = {}) noexcept;
+
+/// What choose_technique knows of a plan: the mean of m over what is seen, and what drawing takes.
+[[nodiscard]] double planned_error(const ShadowPlan& plan, const Camera& camera, const SceneBounds& bounds,
+                                   const SceneDetail& detail) noexcept;
+[[nodiscard]] PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds,
+                                    const SceneDetail& detail) noexcept;
 
 }  // namespace gnomon

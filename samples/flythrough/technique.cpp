@@ -9,6 +9,10 @@
 #include "flight.hpp"
 #include "gnomon/report/cost_model.hpp"
 #include "gnomon/report/row.hpp"
+#include "gnomon/scene/caster_work.hpp"
+#ifdef GNOMON_HAS_TRACE
+#include "gnomon/trace/seen_points.hpp"
+#endif
 
 namespace flythrough {
 namespace {
@@ -16,16 +20,24 @@ namespace {
 /// Frames that are looked at: a flight changes slowly.
 constexpr int kMostFrames = 16;
 
-std::vector<gnomon::CasterWork> work_of(const gnomon::Scene& scene) {
-  std::vector<gnomon::CasterWork> work;
-  work.reserve(scene.instances.size());
-  for (const gnomon::Instance& instance : scene.instances) {
-    const gnomon::Primitive& primitive = scene.primitives[instance.primitive];
-    const gnomon::Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
-    work.push_back({primitive.index_count / 3, material.alpha_mode != gnomon::AlphaMode::opaque});
+/// What the camera sees, by rays where they were built in; else nobody knows.
+class SeenBy {
+ public:
+#ifdef GNOMON_HAS_TRACE
+  explicit SeenBy(const gnomon::Scene& scene) : tracer_(scene) {}
+  gnomon::trace::SeenPoints operator()(const gnomon::Camera& camera, const gnomon::Light& light) const {
+    return gnomon::trace::seen_points(tracer_, camera, light);
   }
-  return work;
-}
+
+ private:
+  gnomon::trace::Tracer tracer_;
+#else
+  explicit SeenBy(const gnomon::Scene&) {}
+  std::vector<glm::dvec3> operator()(const gnomon::Camera&, const gnomon::Light&) const {
+    return {};
+  }
+#endif
+};
 
 /// Filters that the program knows, with what they cost; without a model the one that was given, at no cost.
 struct Known {
@@ -46,7 +58,7 @@ void know(const Options& options, const gnomon::report::StoredCostModel& model, 
 
 std::string text_of(const gnomon::Technique& t, const Known& known) {
   std::string text =
-      fmt::format("{} / {} x {} / {}: m p95 {:.2f}, {:.1f} million texels", t.warp->name, t.cascades,
+      fmt::format("{} / {} x {} / {}: mean m {:.2f}, {:.1f} million texels", t.warp->name, t.cascades,
                   t.map_size, gnomon::render::to_string(known.settings[static_cast<std::size_t>(t.filter)]),
                   t.error, static_cast<double>(t.texels) / 1e6);
   // Without a cost model nobody knows.
@@ -76,15 +88,18 @@ void choose_technique_of(Options& options, const Flight& flight) {
     model.filters.push_back({gnomon::render::to_string(options.filter), {}});
   }
   know(options, model, known);
-  const std::vector<gnomon::CasterWork> work = work_of(flight.scene);
+  const std::vector<gnomon::CasterWork> work = gnomon::caster_work(flight.scene);
   const gnomon::Light light = gnomon::default_light(options.light, flight.scene.bounds_world);
+  const SeenBy seen_by(flight.scene);
   gnomon::TechniqueChoice hardest;
   const int frames = std::min(options.frames, kMostFrames);
   for (int i = 0; i < frames; ++i) {
     // Of `frames` equal parts the middle.
     const int frame = static_cast<int>((i + 0.5) * options.frames / frames);
+    const gnomon::Camera camera = camera_of(options, flight, frame);
+    const auto seen = seen_by(camera, light);
     const gnomon::TechniqueChoice choice =
-        gnomon::choose_technique(camera_of(options, flight, frame), light, flight.bounds(), work, {},
+        gnomon::choose_technique(camera, light, flight.bounds(), {work, seen.world, seen.looked_at}, {},
                                  options.budget, known.costs, options.plan);
     if (choice.status == gnomon::PlanStatus::invalid_input)
       throw UsageError(fmt::format("frame {}: no technique for {}", frame, choice.invalid_field));

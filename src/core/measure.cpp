@@ -1,6 +1,7 @@
 // The error over everything the camera sees: percentiles, share of undersampled points, storage.
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "gnomon/metric.hpp"
 #include "log_histogram.hpp"
@@ -38,6 +39,7 @@ class Tally {
   std::array<Waiting, kMaxMaps> waiting_;
   MetricBlock block_;
   LogHistogram<10> histogram_;
+  double sum_ = 0.0;
   std::array<double, kMaxMaps> s_max_{}, t_max_{};
   std::uint64_t undersampled_ = 0, outside_ = 0;
 };
@@ -53,6 +55,7 @@ void Tally::judge(std::size_t index) noexcept {
       continue;
     }
     histogram_.add(e.longest[i]);
+    sum_ += e.longest[i];
     if (e.longest[i] > 1.0) ++undersampled_;
     s_max_[index] = max_of(s_max_[index], e.s[i]);
     t_max_[index] = max_of(t_max_[index], e.t[i]);
@@ -73,6 +76,7 @@ AliasingStats Tally::stats() noexcept {
     stats.p50 = histogram_.percentile(0.50);
     stats.p95 = histogram_.percentile(0.95);
     stats.max = histogram_.largest();
+    stats.mean = sum_ / static_cast<double>(stats.samples);
     stats.share_undersampled = static_cast<double>(undersampled_) / static_cast<double>(stats.samples);
   }
   return stats;
@@ -100,6 +104,19 @@ AliasingStats measure_maps(const ShadowPlan& plan, int only, const Camera& camer
 AliasingStats measure(const ShadowPlan& plan, const Camera& camera, const SceneBounds& bounds,
                       const MeasureGrid& grid) noexcept {
   return measure_maps(plan, -1, camera, bounds, grid);
+}
+
+AliasingStats measure_seen(const ShadowPlan& plan, const Camera& camera,
+                           std::span<const glm::dvec3> points_world) noexcept {
+  if (plan.map_count == 0) return {};
+  const CameraAxes axes = camera_axes(camera);
+  Tally tally(plan, camera, axes);
+  for (const glm::dvec3& point : points_world) {
+    const int map = map_serving(plan, point, glm::dot(point - camera.position, axes.forward));
+    if (map < 0) tally.add_outside();
+    if (map >= 0) tally.add(map, point);
+  }
+  return tally.stats();
 }
 
 AliasingStats measure_map(const ShadowPlan& plan, int map, const Camera& camera, const SceneBounds& bounds,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "elementary.hpp"
 #include "gnomon/metric.hpp"
 
 namespace gnomon {
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double kMega = 1e6, kKilo = 1e3;
 constexpr int kReferenceSize = 1024;
-/// Pixels and depths that measure() looks at: p95 is good to some percent, and it is the order that counts.
+/// Pixels and depths that stand for what is seen where nobody knows: it is the order of plans that counts.
 constexpr MeasureGrid kGrid{24, 16, 24};
 /// How much less counts as a trade.
 constexpr double kTrade = 0.8;
@@ -22,11 +23,9 @@ struct Parametrization {
   const Warp* warp = nullptr;
   SplitScheme split = SplitScheme::automatic;
   int cascades = 0;
-  int maps = 0;
-  double p95 = 0.0;
+  double m = 0.0;
   double margin_share = 0.0;  ///< of the map's side that is rim
-  double draws = 0.0, triangles = 0.0;
-  double tested_maps = 0.0;  ///< sum over the maps of the share of alpha-tested triangles
+  PlanWork work;
 };
 
 const Warp* const kWarps[] = {&warps::none, &warps::lispsm, &warps::optimal};
@@ -43,23 +42,30 @@ std::span<const T> given_or(std::span<const T> given, const T (&otherwise)[N]) n
 constexpr double kLargest = 1e12;
 /// Of a texel: a map's bytes must be a whole number of 64 bits.
 constexpr double kMostBytes = 1e6;
+constexpr double kMostPower = 100.0;
 
 bool is_limit(double value) noexcept {
   return value >= 0.0 && value <= kLargest;
+}
+
+std::array<double, 6> all_of(const DrawingCosts& costs) noexcept {
+  return {costs.per_frame,    costs.per_map,          costs.per_megatexel,
+          costs.per_kilodraw, costs.per_megatriangle, costs.per_megatexel_tested};
 }
 
 std::string_view broken(const Budget& budget, const CostModel& costs, const TechniqueSet& among) noexcept {
   if (budget.texels < 0 || budget.bytes < 0 || !is_limit(budget.milliseconds) ||
       !is_limit(budget.target_error))
     return "budget";
-  for (const double cost : {costs.frame_ms, costs.ms_per_map, costs.ms_per_megatexel, costs.ms_per_kilodraw,
-                            costs.ms_per_megatriangle, costs.ms_per_megatexel_tested})
+  for (const double cost : all_of(costs.drawing))
     if (!is_limit(cost)) return "cost_model";
   if (costs.filters.empty()) return "cost_model.filters";
   for (const FilterCost& f : costs.filters) {
     const bool fine = is_limit(f.prefilter_ms_per_map) && is_limit(f.prefilter_ms_per_megatexel) &&
-                      is_limit(f.lookup_ms_per_megapixel) && is_limit(f.bytes_per_texel) &&
-                      f.bytes_per_texel <= kMostBytes && is_limit(f.error_ratio) && f.error_ratio > 0.0;
+                      is_limit(f.lookup_ms_per_megapixel) && is_limit(f.lookup_ms_per_seen_megapixel) &&
+                      is_limit(f.bytes_per_texel) && f.bytes_per_texel <= kMostBytes &&
+                      is_limit(f.error_ratio) && f.error_ratio > 0.0 && f.error_power >= 0.0 &&
+                      f.error_power <= kMostPower;
     if (!fine) return "cost_model.filters";
   }
   const bool sizes = std::all_of(among.map_sizes.begin(), among.map_sizes.end(),
@@ -67,39 +73,24 @@ std::string_view broken(const Budget& budget, const CostModel& costs, const Tech
   return sizes ? std::string_view() : "map_sizes";
 }
 
-/// Casters and their triangles that the plan's maps draw.
-void count_casters(const ShadowPlan& plan, const SceneBounds& bounds, std::span<const CasterWork> work,
-                   Parametrization& p) noexcept {
-  constexpr std::size_t kBlock = 256;
-  std::array<std::uint32_t, kBlock> kept;
-  for (const ShadowMap& map : plan.maps()) {
-    double triangles = 0.0, tested = 0.0;
-    for (std::size_t begin = 0; begin < bounds.casters.size(); begin += kBlock) {
-      const std::size_t size = std::min(kBlock, bounds.casters.size() - begin);
-      const std::size_t count = cull_casters(map, bounds.casters.subspan(begin, size), kept);
-      p.draws += static_cast<double>(count);
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t caster = begin + kept[i];
-        if (caster >= work.size()) continue;
-        triangles += work[caster].triangles;
-        tested += work[caster].alpha_tested ? work[caster].triangles : 0.0;
-      }
-    }
-    p.triangles += triangles;
-    p.tested_maps += triangles > 0.0 ? tested / triangles : 0.0;
-  }
+double drawing_ms(const DrawingCosts& costs, const PlanWork& work) noexcept {
+  return costs.per_frame + costs.per_map * work.maps + costs.per_megatexel * work.megatexels +
+         costs.per_kilodraw * work.kilodraws + costs.per_megatriangle * work.megatriangles +
+         costs.per_megatexel_tested * work.megatexels_tested;
 }
 
 class Choosing {
  public:
-  Choosing(const Camera& camera, const CostModel& costs, std::span<const int> sizes) noexcept
-      : costs_(costs), sizes_(sizes), megapixels_(static_cast<double>(camera.width) * camera.height / kMega) {
-    for (const double cost : {costs.frame_ms, costs.ms_per_map, costs.ms_per_megatexel, costs.ms_per_kilodraw,
-                              costs.ms_per_megatriangle, costs.ms_per_megatexel_tested})
-      any_time_ = any_time_ || cost > 0.0;
+  Choosing(const Camera& camera, const SceneDetail& detail, const CostModel& costs,
+           std::span<const int> sizes) noexcept
+      : costs_(costs),
+        sizes_(sizes),
+        megapixels_(static_cast<double>(camera.width) * camera.height / kMega),
+        seen_share_(detail.seen_share()) {
+    for (const double cost : all_of(costs.drawing)) any_time_ = any_time_ || cost > 0.0;
     for (const FilterCost& f : costs.filters)
       any_time_ = any_time_ || f.prefilter_ms_per_map > 0.0 || f.prefilter_ms_per_megatexel > 0.0 ||
-                  f.lookup_ms_per_megapixel > 0.0;
+                  f.lookup_ms_per_megapixel > 0.0 || f.lookup_ms_per_seen_megapixel > 0.0;
   }
 
   void add(const Parametrization& p) noexcept {
@@ -171,16 +162,19 @@ class Choosing {
     const double margin = 2.0 * p.margin_share * kReferenceSize;
     const double usable = std::max(size - margin, 1.0);
     Technique t{p.warp, p.split, p.cascades, size, static_cast<int>(filter)};
-    t.error = p.p95 * (kReferenceSize - margin) / usable * f.error_ratio;
-    t.texels = static_cast<std::int64_t>(p.maps) * size * size;
-    const double megatexels = static_cast<double>(t.texels) / kMega;
+    const double m = p.m * (kReferenceSize - margin) / usable;
+    // Neither nothing nor what has no end has a logarithm.
+    const bool has_power = f.error_power != 1.0 && m > 0.0 && std::isfinite(m);
+    t.error = f.error_ratio * (has_power ? elementary::pow(m, f.error_power) : m);
+    PlanWork work = p.work;
+    const double growth = static_cast<double>(size) * size / (kReferenceSize * kReferenceSize);
+    work.megatexels *= growth;
+    work.megatexels_tested *= growth;
+    t.texels = static_cast<std::int64_t>(p.work.maps) * size * size;
     t.bytes = static_cast<std::int64_t>(std::llround(static_cast<double>(t.texels) * f.bytes_per_texel));
-    t.milliseconds = costs_.frame_ms + (costs_.ms_per_map + f.prefilter_ms_per_map) * p.maps +
-                     (costs_.ms_per_megatexel + f.prefilter_ms_per_megatexel) * megatexels +
-                     costs_.ms_per_megatexel_tested * p.tested_maps * size * size / kMega +
-                     costs_.ms_per_kilodraw * p.draws / kKilo +
-                     costs_.ms_per_megatriangle * p.triangles / kMega +
-                     f.lookup_ms_per_megapixel * megapixels_;
+    t.milliseconds = drawing_ms(costs_.drawing, work) + f.prefilter_ms_per_map * work.maps +
+                     f.prefilter_ms_per_megatexel * work.megatexels +
+                     (f.lookup_ms_per_megapixel + f.lookup_ms_per_seen_megapixel * seen_share_) * megapixels_;
     return t;
   }
 
@@ -196,7 +190,7 @@ class Choosing {
 
   const CostModel& costs_;
   std::span<const int> sizes_;
-  double megapixels_;
+  double megapixels_, seen_share_;
   bool any_time_ = false;
   std::array<Parametrization, TechniqueSet::kMost> all_;
   std::size_t count_ = 0;
@@ -219,14 +213,45 @@ PlanOptions options_of(const PlanOptions& base, const Technique& t) noexcept {
 
 }  // namespace
 
+double planned_error(const ShadowPlan& plan, const Camera& camera, const SceneBounds& bounds,
+                     const SceneDetail& detail) noexcept {
+  const AliasingStats seen = measure_seen(plan, camera, detail.seen_world);
+  return seen.samples > 0 ? seen.mean : measure(plan, camera, bounds, kGrid).mean;
+}
+
+PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds, const SceneDetail& detail) noexcept {
+  constexpr std::size_t kBlock = 256;
+  std::array<std::uint32_t, kBlock> kept;
+  PlanWork work;
+  for (const ShadowMap& map : plan.maps()) {
+    const double megatexels = static_cast<double>(map.width) * map.height / kMega;
+    double triangles = 0.0, tested = 0.0;
+    for (std::size_t begin = 0; begin < bounds.casters.size(); begin += kBlock) {
+      const std::size_t size = std::min(kBlock, bounds.casters.size() - begin);
+      const std::size_t count = cull_casters(map, bounds.casters.subspan(begin, size), kept);
+      work.kilodraws += static_cast<double>(count) / kKilo;
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t caster = begin + kept[i];
+        if (caster >= detail.work.size()) continue;
+        triangles += detail.work[caster].triangles;
+        tested += detail.work[caster].alpha_tested ? detail.work[caster].triangles : 0.0;
+      }
+    }
+    work.maps += 1.0;
+    work.megatexels += megatexels;
+    work.megatriangles += triangles / kMega;
+    work.megatexels_tested += triangles > 0.0 ? tested / triangles * megatexels : 0.0;
+  }
+  return work;
+}
+
 TechniqueChoice choose_technique(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                                 std::span<const CasterWork> work, const TechniqueSet& among,
-                                 const Budget& budget, const CostModel& costs,
-                                 const PlanOptions& base) noexcept {
+                                 const SceneDetail& detail, const TechniqueSet& among, const Budget& budget,
+                                 const CostModel& costs, const PlanOptions& base) noexcept {
   TechniqueChoice choice;
   choice.invalid_field = broken(budget, costs, among);
   if (!choice.invalid_field.empty()) return choice;
-  Choosing choosing(camera, costs, given_or(among.map_sizes, kSizes));
+  Choosing choosing(camera, detail, costs, given_or(among.map_sizes, kSizes));
   const bool positional = !std::holds_alternative<DirectionalLight>(light);
   const std::span<const int> cascades = given_or(among.cascades, kCascades);
   for (const Warp* warp : given_or(among.warps, kWarps)) {
@@ -241,11 +266,12 @@ TechniqueChoice choose_technique(const Camera& camera, const Light& light, const
           choice.plan = plan;
           return choice;
         }
-        Parametrization p{warp, split, count, plan.map_count, measure(plan, camera, bounds, kGrid).p95};
+        Parametrization p{warp,  split,
+                          count, planned_error(plan, camera, bounds, detail),
+                          0.0,   planned_work(plan, bounds, detail)};
         for (const ShadowMap& map : plan.maps())
           p.margin_share =
               std::max(p.margin_share, static_cast<double>(map.filter_margin_texels) / kReferenceSize);
-        count_casters(plan, bounds, work, p);
         choosing.add(p);
       }
     }

@@ -38,8 +38,7 @@ struct Part {
   }
 };
 
-/// How errors depend on m and on the filter: log wrong = view + power log m + filter, by alternating
-/// averages.
+/// How errors depend on m and on the filter: log wrong = view + filter + power of the filter * log m.
 class ErrorLaw {
  public:
   explicit ErrorLaw(std::span<const Observation> observations) {
@@ -47,21 +46,25 @@ class ErrorLaw {
       if (o.wrong > 0.0 && o.m > 0.0 && std::isfinite(o.m))
         points_.push_back({o.view, o.filter, std::log(o.m), std::log(o.wrong)});
     }
+    fit_powers();
+    // Levels of views and filters, by turns: each the mean of what the other leaves.
     constexpr int kRounds = 50;
-    for (int round = 0; round < kRounds && !points_.empty(); ++round) {
+    for (int round = 0; round < kRounds; ++round) {
       average(&Point::view, views_, filters_);
       average(&Point::filter, filters_, views_);
-      fit_power();
+    }
+    for (const auto& [name, power] : powers_) {
+      if (reference_.empty() || power > powers_.at(reference_)) reference_ = name;
     }
   }
 
-  /// The ratio of m that errs as much, beside the filter that errs least.
-  [[nodiscard]] double ratio(const std::string& filter) const {
-    const auto found = filters_.find(filter);
-    if (found == filters_.end() || power_ < kFlat) return 1.0;
-    double least = found->second;
-    for (const auto& [name, value] : filters_) least = std::min(least, value);
-    return std::exp((found->second - least) / power_);
+  /// Beside the filter whose errors depend most on m.
+  void tell(const std::string& filter, FilterCost& cost) const {
+    const auto found = powers_.find(filter);
+    if (found == powers_.end() || powers_.at(reference_) < kFlat) return;
+    const double power = powers_.at(reference_);
+    cost.error_power = found->second / power;
+    cost.error_ratio = std::exp((filters_.at(filter) - filters_.at(reference_)) / power);
   }
 
  private:
@@ -74,39 +77,45 @@ class ErrorLaw {
   };
   using Levels = std::map<std::string, double>;
 
+  /// Of each filter the slope within its views, for they differ in level.
+  void fit_powers() {
+    struct Mean {
+      double log_m = 0.0, log_wrong = 0.0, count = 0.0;
+    };
+    std::map<std::pair<std::string, std::string>, Mean> means;
+    for (const Point& p : points_) {
+      Mean& mean = means[{p.view, p.filter}];
+      mean.log_m += p.log_m;
+      mean.log_wrong += p.log_wrong;
+      mean.count += 1.0;
+    }
+    std::map<std::string, std::pair<double, double>> sums;  // of x y and x x
+    for (const Point& p : points_) {
+      const Mean& mean = means.at({p.view, p.filter});
+      const double x = p.log_m - mean.log_m / mean.count;
+      auto& [xy, xx] = sums[p.filter];
+      xy += x * (p.log_wrong - mean.log_wrong / mean.count);
+      xx += x * x;
+    }
+    for (const auto& [name, sum] : sums)
+      powers_[name] = sum.second > 0.0 ? std::max(sum.first / sum.second, 0.0) : 0.0;
+  }
+
   void average(std::string Point::*key, Levels& levels, const Levels& others) {
     const auto other_key = key == &Point::view ? &Point::filter : &Point::view;
     std::map<std::string, std::pair<double, double>> sums;
     for (const Point& p : points_) {
       const auto other = others.find(p.*other_key);
       auto& [sum, count] = sums[p.*key];
-      sum += p.log_wrong - power_ * p.log_m - (other == others.end() ? 0.0 : other->second);
+      sum += p.log_wrong - powers_.at(p.filter) * p.log_m - (other == others.end() ? 0.0 : other->second);
       count += 1.0;
     }
     for (const auto& [name, sum] : sums) levels[name] = sum.first / sum.second;
   }
 
-  void fit_power() {
-    std::map<std::string, std::array<double, 3>> means;  // of log m, of what is left, and how many
-    for (const Point& p : points_) {
-      auto& mean = means[p.view];
-      mean[0] += p.log_m;
-      mean[1] += p.log_wrong - filters_.at(p.filter);
-      mean[2] += 1.0;
-    }
-    double xy = 0.0, xx = 0.0;
-    for (const Point& p : points_) {
-      const auto& mean = means.at(p.view);
-      const double x = p.log_m - mean[0] / mean[2];
-      xy += x * (p.log_wrong - filters_.at(p.filter) - mean[1] / mean[2]);
-      xx += x * x;
-    }
-    power_ = xx > 0.0 ? std::max(xy / xx, 0.0) : 0.0;
-  }
-
   std::vector<Point> points_;
-  Levels views_, filters_;
-  double power_ = 0.0;
+  Levels views_, filters_, powers_;
+  std::string reference_;
 };
 
 }  // namespace
@@ -147,9 +156,7 @@ CostModel StoredCostModel::view(std::vector<FilterCost>& costs) const {
     costs.push_back(filter.cost);
     costs.back().name = filter.name;
   }
-  return {
-      frame_ms, ms_per_map, ms_per_megatexel, ms_per_kilodraw, ms_per_megatriangle, ms_per_megatexel_tested,
-      costs};
+  return {drawing, costs};
 }
 
 StoredCostModel fit_costs(std::span<const Observation> observations, std::string machine) {
@@ -162,19 +169,15 @@ StoredCostModel fit_costs(std::span<const Observation> observations, std::string
   std::map<std::string, std::pair<Part, Part>> filters;  // prefilter and look-up
   std::map<std::string, double> bytes;
   for (const Observation& o : observations) {
-    depth.add({1.0, o.maps, o.megatexels, o.kilodraws, o.megatriangles, o.megatexels_tested},
+    const PlanWork& w = o.work;
+    depth.add({1.0, w.maps, w.megatexels, w.kilodraws, w.megatriangles, w.megatexels_tested},
               o.frame_ms + o.depth_ms);
-    filters[o.filter].first.add({o.maps, o.megatexels}, o.prefilter_ms);
-    filters[o.filter].second.add({o.megapixels}, o.lookup_ms);
+    filters[o.filter].first.add({w.maps, w.megatexels}, o.prefilter_ms);
+    filters[o.filter].second.add({o.megapixels, o.megapixels_seen}, o.lookup_ms);
     bytes[o.filter] = o.bytes_per_texel;
   }
   const std::vector<double> x = least_squares(depth.rows, depth.values);
-  model.frame_ms = x[0];
-  model.ms_per_map = x[1];
-  model.ms_per_megatexel = x[2];
-  model.ms_per_kilodraw = x[3];
-  model.ms_per_megatriangle = x[4];
-  model.ms_per_megatexel_tested = x[5];
+  model.drawing = {x[0], x[1], x[2], x[3], x[4], x[5]};
   model.depth_error = relative_error(depth.rows, depth.values, x);
   const ErrorLaw law(observations);
   const auto count = static_cast<double>(filters.size());
@@ -185,8 +188,9 @@ StoredCostModel fit_costs(std::span<const Observation> observations, std::string
     cost.prefilter_ms_per_map = stored[0];
     cost.prefilter_ms_per_megatexel = stored[1];
     cost.lookup_ms_per_megapixel = looked[0];
+    cost.lookup_ms_per_seen_megapixel = looked[1];
     cost.bytes_per_texel = bytes.at(name);
-    cost.error_ratio = law.ratio(name);
+    law.tell(name, cost);
     model.filters.push_back({name, cost});
     model.prefilter_error += relative_error(parts.first.rows, parts.first.values, stored) / count;
     model.lookup_error += relative_error(parts.second.rows, parts.second.values, looked) / count;

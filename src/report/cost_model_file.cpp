@@ -1,5 +1,6 @@
 // A cost model in a file of JSON.
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "file.hpp"
 #include "gnomon/report/cost_model.hpp"
@@ -11,8 +12,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "gnomon.cost.1";
+constexpr const char* kSchema = "gnomon.cost.2";
 constexpr std::size_t kLargestFile = 1 << 20;
+constexpr std::pair<const char*, double DrawingCosts::*> kDrawing[] = {
+    {"frame_ms", &DrawingCosts::per_frame},
+    {"ms_per_map", &DrawingCosts::per_map},
+    {"ms_per_megatexel", &DrawingCosts::per_megatexel},
+    {"ms_per_kilodraw", &DrawingCosts::per_kilodraw},
+    {"ms_per_megatriangle", &DrawingCosts::per_megatriangle},
+    {"ms_per_megatexel_tested", &DrawingCosts::per_megatexel_tested}};
 
 }  // namespace
 
@@ -20,22 +28,19 @@ void save_cost_model(const StoredCostModel& model, const std::filesystem::path& 
   Json json{
       {"schema", kSchema},
       {"machine", model.machine},
-      {"frame_ms", model.frame_ms},
-      {"ms_per_map", model.ms_per_map},
-      {"ms_per_megatexel", model.ms_per_megatexel},
-      {"ms_per_kilodraw", model.ms_per_kilodraw},
-      {"ms_per_megatriangle", model.ms_per_megatriangle},
-      {"ms_per_megatexel_tested", model.ms_per_megatexel_tested},
       {"mean_relative_error",
        {{"depth", model.depth_error}, {"prefilter", model.prefilter_error}, {"lookup", model.lookup_error}}}};
+  for (const auto& [key, cost] : kDrawing) json[key] = model.drawing.*cost;
   json["filters"] = Json::array();
   for (const auto& [name, cost] : model.filters) {
     json["filters"].push_back({{"name", name},
                                {"prefilter_ms_per_map", cost.prefilter_ms_per_map},
                                {"prefilter_ms_per_megatexel", cost.prefilter_ms_per_megatexel},
                                {"lookup_ms_per_megapixel", cost.lookup_ms_per_megapixel},
+                               {"lookup_ms_per_seen_megapixel", cost.lookup_ms_per_seen_megapixel},
                                {"bytes_per_texel", cost.bytes_per_texel},
-                               {"error_ratio", cost.error_ratio}});
+                               {"error_ratio", cost.error_ratio},
+                               {"error_power", cost.error_power}});
   }
   write_text(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
@@ -58,12 +63,7 @@ StoredCostModel load_cost_model(const std::filesystem::path& file) {
                         kSchema + "'");
     StoredCostModel model;
     json.at("machine").get_to(model.machine);
-    json.at("frame_ms").get_to(model.frame_ms);
-    json.at("ms_per_map").get_to(model.ms_per_map);
-    json.at("ms_per_megatexel").get_to(model.ms_per_megatexel);
-    json.at("ms_per_kilodraw").get_to(model.ms_per_kilodraw);
-    json.at("ms_per_megatriangle").get_to(model.ms_per_megatriangle);
-    json.at("ms_per_megatexel_tested").get_to(model.ms_per_megatexel_tested);
+    for (const auto& [key, cost] : kDrawing) json.at(key).get_to(model.drawing.*cost);
     const Json& errors = json.at("mean_relative_error");
     errors.at("depth").get_to(model.depth_error);
     errors.at("prefilter").get_to(model.prefilter_error);
@@ -73,8 +73,10 @@ StoredCostModel load_cost_model(const std::filesystem::path& file) {
       entry.at("prefilter_ms_per_map").get_to(filter.cost.prefilter_ms_per_map);
       entry.at("prefilter_ms_per_megatexel").get_to(filter.cost.prefilter_ms_per_megatexel);
       entry.at("lookup_ms_per_megapixel").get_to(filter.cost.lookup_ms_per_megapixel);
+      entry.at("lookup_ms_per_seen_megapixel").get_to(filter.cost.lookup_ms_per_seen_megapixel);
       entry.at("bytes_per_texel").get_to(filter.cost.bytes_per_texel);
       entry.at("error_ratio").get_to(filter.cost.error_ratio);
+      entry.at("error_power").get_to(filter.cost.error_power);
       model.filters.push_back(std::move(filter));
     }
     return model;

@@ -33,19 +33,20 @@ CompareRequest own_sweep(const CalibrateRequest& request) {
 }
 
 void print_model(const report::StoredCostModel& m, const std::string& file) {
+  const DrawingCosts& d = m.drawing;
   print_line(fmt::format(
       "# {}\nms = {:.3f} + {:.3f} per map + {:.3f} per million texels + {:.3f} per thousand draws + "
       "{:.3f} per million triangles + {:.3f} per million texels of alpha-tested casters",
-      m.machine, m.frame_ms, m.ms_per_map, m.ms_per_megatexel, m.ms_per_kilodraw, m.ms_per_megatriangle,
-      m.ms_per_megatexel_tested));
+      m.machine, d.per_frame, d.per_map, d.per_megatexel, d.per_kilodraw, d.per_megatriangle,
+      d.per_megatexel_tested));
   print_line(
-      "\n| filter | prefilter ms per map | per million texels | look-up ms per million pixels | bytes per "
-      "texel | "
-      "error |\n|--|--:|--:|--:|--:|--:|");
+      "\n| filter | prefilter ms per map | per million texels | look-up ms per million pixels | per million "
+      "lit or shadowed | bytes per "
+      "texel | error at m = 1 | power of m |\n|--|--:|--:|--:|--:|--:|--:|--:|");
   for (const auto& [name, c] : m.filters) {
-    print_line(fmt::format("| {} | {:.3f} | {:.3f} | {:.2f} | {:.0f} | {:.3f} |", name,
+    print_line(fmt::format("| {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.0f} | {:.3f} | {:.3f} |", name,
                            c.prefilter_ms_per_map, c.prefilter_ms_per_megatexel, c.lookup_ms_per_megapixel,
-                           c.bytes_per_texel, c.error_ratio));
+                           c.lookup_ms_per_seen_megapixel, c.bytes_per_texel, c.error_ratio, c.error_power));
   }
   print_line(
       fmt::format("\nmean relative error of the fit: depth {:.0f} %, prefilter {:.0f} %, look-up {:.0f} %",

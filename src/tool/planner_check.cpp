@@ -17,7 +17,7 @@
 namespace gnomon::tool {
 namespace {
 
-constexpr double kMega = 1e6, kKilo = 1e3;
+constexpr double kMega = 1e6;
 /// What counts as on the front.
 constexpr double kHit = 1.1;
 
@@ -143,7 +143,8 @@ Replanned::Replanned(const View& view)
     : name_(view.name),
       scene_(view.rows.front().scene, light_of(view.rows.front())),
       camera_(scene_.camera(view.rows.front().frame, view.rows.front().frames, view.rows.front().width,
-                            view.rows.front().height)) {}
+                            view.rows.front().height)),
+      seen_(trace::seen_points(trace::Tracer(scene_.scene()), camera_, scene_.light())) {}
 
 report::Observation Replanned::observe(const report::Row& row) const {
   const SweepEntry entry = sweep_entry(row.technique);
@@ -151,28 +152,15 @@ report::Observation Replanned::observe(const report::Row& row) const {
   report::Observation o;
   o.view = name_;
   o.filter = row.technique.filter;
-  o.maps = plan.map_count;
-  for (const ShadowMap& map : plan.maps()) {
-    o.megatexels += static_cast<double>(map.width) * map.height / kMega;
-    std::vector<std::uint32_t> kept(scene_.bounds().casters.size());
-    const std::size_t count = cull_casters(map, scene_.bounds().casters, kept);
-    o.kilodraws += static_cast<double>(count) / kKilo;
-    double triangles = 0.0, tested = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const CasterWork& work = scene_.work()[kept[i]];
-      triangles += work.triangles;
-      tested += work.alpha_tested ? work.triangles : 0.0;
-    }
-    o.megatriangles += triangles / kMega;
-    if (triangles > 0.0) o.megatexels_tested += tested / triangles * map.width * map.height / kMega;
-  }
+  o.work = planned_work(plan, scene_.bounds(), detail());
   o.megapixels = static_cast<double>(row.width) * row.height / kMega;
+  o.megapixels_seen = o.megapixels * detail().seen_share();
   o.bytes_per_texel = render::bytes_per_texel(entry.filter);
   o.frame_ms = row.times.plan_ns.median / kMega;
   o.depth_ms = row.times.depth_ms.median;
   o.prefilter_ms = row.times.prefilter_ms.median;
   o.lookup_ms = row.times.shade_ms.median;
-  o.m = measure(plan, camera_, scene_.bounds(), {24, 16, 24}).p95;
+  o.m = planned_error(plan, camera_, scene_.bounds(), detail());
   o.wrong = wrong_pixels(row);
   return o;
 }
@@ -196,7 +184,7 @@ TechniqueChoice Replanned::choose(const View& view, const Budget& budget, const 
     once(sizes, entry.plan.map_size);
   }
   if (splits.size() > 1) throw std::runtime_error(view.name + ": more than one kind of split");
-  return choose_technique(camera_, scene_.light(), scene_.bounds(), scene_.work(),
+  return choose_technique(camera_, scene_.light(), scene_.bounds(), detail(),
                           {warps, splits, cascades, sizes}, budget, costs,
                           sweep_entry(view.rows.front().technique).plan);
 }

@@ -7,6 +7,7 @@
 
 #include "gnomon/report/cost_model.hpp"
 #include "gnomon/report/row.hpp"
+#include "gnomon/trace/seen_points.hpp"
 #include "scene_view.hpp"
 
 namespace gnomon::tool {
@@ -30,9 +31,12 @@ class Replanned {
   [[nodiscard]] TechniqueChoice choose(const View& view, const Budget& budget, const CostModel& costs) const;
 
  private:
+  [[nodiscard]] SceneDetail detail() const noexcept { return {scene_.work(), seen_.world, seen_.looked_at}; }
+
   std::string name_;
   SceneView scene_;
   Camera camera_;
+  trace::SeenPoints seen_;
 };
 
 /// Asks for picks within budgets and at errors from end to end of what each view measured, and prints for

@@ -1,6 +1,8 @@
 // A scene with the boxes, the light and the cameras that it is planned for.
 #include "scene_view.hpp"
 
+#include "gnomon/scene/caster_work.hpp"
+
 namespace gnomon::tool {
 namespace {
 
@@ -15,14 +17,9 @@ double time_of(int frame, int frames) noexcept {
 SceneView::SceneView(const std::string& scene, const LightPlacement& light, const LoadLimits& limits)
     : scene_(load_scene(scene, limits)),
       path_(default_path(scene_)),
+      work_(caster_work(scene_)),
       light_(default_light(light, scene_.bounds_world)) {
-  for (const Instance& instance : scene_.instances) {
-    boxes_.push_back(instance.bounds_world);
-    const Primitive& primitive = scene_.primitives[instance.primitive];
-    const bool tested =
-        scene_.materials[static_cast<std::size_t>(primitive.material)].alpha_mode != AlphaMode::opaque;
-    work_.push_back({primitive.index_count / 3, tested});
-  }
+  for (const Instance& instance : scene_.instances) boxes_.push_back(instance.bounds_world);
 }
 
 Camera SceneView::camera(int frame, int frames, int width, int height) const noexcept {

@@ -32,8 +32,8 @@ class SceneView {
  private:
   Scene scene_;
   CameraPath path_;
-  std::vector<Box> boxes_;
   std::vector<CasterWork> work_;
+  std::vector<Box> boxes_;
   Light light_;
 };
 

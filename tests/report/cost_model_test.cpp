@@ -24,20 +24,21 @@ std::vector<Observation> made_observations() {
     Observation o;
     o.view = i % 3 == 0 ? "a" : "b";
     o.filter = i % 2 == 0 ? "hard" : "vsm";
-    o.maps = 1.0 + i % 4;
-    o.megatexels = o.maps * draw(0.1, 4.0);
-    o.kilodraws = o.maps * draw(0.0, 2.0);
-    o.megatriangles = o.kilodraws * draw(0.01, 0.2);
-    o.megatexels_tested = i % 5 == 0 ? 0.3 * o.megatexels : 0.0;
+    o.work.maps = 1.0 + i % 4;
+    o.work.megatexels = o.work.maps * draw(0.1, 4.0);
+    o.work.kilodraws = o.work.maps * draw(0.0, 2.0);
+    o.work.megatriangles = o.work.kilodraws * draw(0.01, 0.2);
+    o.work.megatexels_tested = i % 5 == 0 ? 0.3 * o.work.megatexels : 0.0;
     o.megapixels = draw(0.05, 0.5);
+    o.megapixels_seen = o.megapixels * draw(0.0, 1.0);
     o.bytes_per_texel = i % 2 == 0 ? 4.0 : 12.0;
-    o.depth_ms = 0.5 + 0.25 * o.maps + 3.0 * o.megatexels + 1.5 * o.kilodraws + 40.0 * o.megatriangles +
-                 9.0 * o.megatexels_tested;
-    o.prefilter_ms = i % 2 == 0 ? 0.0 : 0.1 * o.maps + 7.0 * o.megatexels;
-    o.lookup_ms = (i % 2 == 0 ? 20.0 : 50.0) * o.megapixels;
+    o.depth_ms = 0.5 + 0.25 * o.work.maps + 3.0 * o.work.megatexels + 1.5 * o.work.kilodraws +
+                 40.0 * o.work.megatriangles + 9.0 * o.work.megatexels_tested;
+    o.prefilter_ms = i % 2 == 0 ? 0.0 : 0.1 * o.work.maps + 7.0 * o.work.megatexels;
+    o.lookup_ms = (i % 2 == 0 ? 20.0 : 50.0) * o.megapixels + (i % 2 == 0 ? 5.0 : 60.0) * o.megapixels_seen;
     o.m = draw(0.3, 10.0);
-    // vsm errs as hard does at 1.5 times the m.
-    o.wrong = (o.view == "a" ? 0.01 : 0.04) * std::pow(o.m * (i % 2 == 0 ? 1.0 : 1.5), 0.6);
+    // vsm errs as hard does at 1.5 m^0.5.
+    o.wrong = (o.view == "a" ? 0.01 : 0.04) * std::pow(i % 2 == 0 ? o.m : 1.5 * std::sqrt(o.m), 0.6);
     all.push_back(o);
   }
   return all;
@@ -45,12 +46,12 @@ std::vector<Observation> made_observations() {
 
 TEST(CostModel, fit_finds_the_costs_that_made_the_times) {
   const StoredCostModel model = fit_costs(made_observations(), "a machine");
-  EXPECT_NEAR(model.frame_ms, 0.5, 1e-4);
-  EXPECT_NEAR(model.ms_per_map, 0.25, 1e-4);
-  EXPECT_NEAR(model.ms_per_megatexel, 3.0, 1e-4);
-  EXPECT_NEAR(model.ms_per_kilodraw, 1.5, 1e-3);
-  EXPECT_NEAR(model.ms_per_megatriangle, 40.0, 1e-2);
-  EXPECT_NEAR(model.ms_per_megatexel_tested, 9.0, 1e-3);
+  EXPECT_NEAR(model.drawing.per_frame, 0.5, 1e-4);
+  EXPECT_NEAR(model.drawing.per_map, 0.25, 1e-4);
+  EXPECT_NEAR(model.drawing.per_megatexel, 3.0, 1e-4);
+  EXPECT_NEAR(model.drawing.per_kilodraw, 1.5, 1e-3);
+  EXPECT_NEAR(model.drawing.per_megatriangle, 40.0, 1e-2);
+  EXPECT_NEAR(model.drawing.per_megatexel_tested, 9.0, 1e-3);
   EXPECT_LT(model.depth_error, 1e-4);
   ASSERT_EQ(model.filters.size(), 2u);
   const FilterCost &hard = model.filters[0].cost, &vsm = model.filters[1].cost;
@@ -58,9 +59,12 @@ TEST(CostModel, fit_finds_the_costs_that_made_the_times) {
   EXPECT_NEAR(vsm.prefilter_ms_per_map, 0.1, 1e-5);
   EXPECT_NEAR(vsm.prefilter_ms_per_megatexel, 7.0, 1e-5);
   EXPECT_NEAR(hard.lookup_ms_per_megapixel, 20.0, 1e-9);
+  EXPECT_NEAR(vsm.lookup_ms_per_seen_megapixel, 60.0, 1e-9);
   EXPECT_EQ(vsm.bytes_per_texel, 12.0);
   EXPECT_DOUBLE_EQ(hard.error_ratio, 1.0);
+  EXPECT_DOUBLE_EQ(hard.error_power, 1.0);
   EXPECT_NEAR(vsm.error_ratio, 1.5, 1e-6);
+  EXPECT_NEAR(vsm.error_power, 0.5, 1e-9);
 }
 
 TEST(CostModel, no_cost_is_below_zero) {
@@ -90,10 +94,11 @@ TEST(CostModel, comes_back_from_its_file) {
   save_cost_model(model, file);
   const StoredCostModel read = load_cost_model(file);
   EXPECT_EQ(read.machine, model.machine);
-  EXPECT_EQ(read.ms_per_megatexel, model.ms_per_megatexel);
-  EXPECT_EQ(read.ms_per_megatexel_tested, model.ms_per_megatexel_tested);
+  EXPECT_EQ(read.drawing.per_megatexel, model.drawing.per_megatexel);
+  EXPECT_EQ(read.drawing.per_megatexel_tested, model.drawing.per_megatexel_tested);
   ASSERT_EQ(read.filters.size(), 2u);
   EXPECT_EQ(read.filters[1].cost.error_ratio, model.filters[1].cost.error_ratio);
+  EXPECT_EQ(read.filters[1].cost.error_power, model.filters[1].cost.error_power);
   std::vector<FilterCost> storage;
   const CostModel view = read.view(storage);
   EXPECT_EQ(view.filters[1].name, "vsm");
@@ -104,7 +109,7 @@ TEST(CostModel, a_file_that_is_none_is_refused_by_name) {
   const auto file = folder.path() / "model.json";
   const std::string deep(1000, '[');
   for (const char* text :
-       {"", "{}", "[1]", "{\"schema\":\"gnomon.cost.2\"}", "{\"schema\":\"gnomon.cost.1\"}", deep.c_str()}) {
+       {"", "{}", "[1]", "{\"schema\":\"gnomon.cost.3\"}", "{\"schema\":\"gnomon.cost.2\"}", deep.c_str()}) {
     std::ofstream(file) << text;
     try {
       (void)load_cost_model(file);

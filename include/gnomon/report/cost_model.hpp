@@ -14,19 +14,18 @@ namespace gnomon::report {
 struct Observation {
   std::string view;    ///< scene, frame and light: what errors can be compared within
   std::string filter;  ///< with its options
-  double maps = 0.0, megatexels = 0.0, kilodraws = 0.0, megatriangles = 0.0, megapixels = 0.0;
-  double megatexels_tested = 0.0;  ///< weighed as CostModel::ms_per_megatexel_tested
+  PlanWork work;
+  double megapixels = 0.0, megapixels_seen = 0.0;  ///< of the frame; of SceneDetail::seen_world's share
   double bytes_per_texel = 4.0;
   double frame_ms = 0.0, depth_ms = 0.0, prefilter_ms = 0.0, lookup_ms = 0.0;
-  double m = 0.0;      ///< predicted, at the 95th percentile
+  double m = 0.0;      ///< predicted: planned_error
   double wrong = 0.0;  ///< share of the pixels on the wrong side of one half, measured
 };
 
 /// A CostModel that owns its names.
 struct StoredCostModel {
   std::string machine;  ///< renderer and CPU it was measured on
-  double frame_ms = 0.0, ms_per_map = 0.0, ms_per_megatexel = 0.0;
-  double ms_per_kilodraw = 0.0, ms_per_megatriangle = 0.0, ms_per_megatexel_tested = 0.0;
+  DrawingCosts drawing;
   struct Filter {
     std::string name;
     FilterCost cost;

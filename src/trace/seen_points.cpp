@@ -1,0 +1,58 @@
+// Where does the camera see a surface on which the light could fall?
+#include "gnomon/trace/seen_points.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "light_ray.hpp"
+#include "sampling.hpp"
+
+namespace gnomon::trace {
+namespace {
+
+Ray eye_ray(const Camera& camera, const CameraAxes& axes, double column_share, double row_share) noexcept {
+  const double x = camera.left + (camera.right - camera.left) * column_share,
+               y = camera.top + (camera.bottom - camera.top) * row_share;
+  const glm::dvec3 image = axes.right * x + axes.up * y;
+  // Per unit of view depth, so that t is the depth.
+  Ray ray;
+  ray.origin = camera.orthographic ? camera.position + image : camera.position;
+  ray.direction = camera.orthographic ? axes.forward : axes.forward + image;
+  ray.begin = camera.near_depth;
+  ray.end = camera.far_depth;
+  return ray;
+}
+
+}  // namespace
+
+SeenPoints seen_points(const Tracer& tracer, const Camera& camera, const Light& light, int columns,
+                       int rows) {
+  struct Seen {
+    glm::dvec3 point;
+    bool counts = false;
+  };
+  const auto width = static_cast<std::size_t>(std::max(columns, 0));
+  std::vector<Seen> seen(width * static_cast<std::size_t>(std::max(rows, 0)));
+  const CameraAxes axes = camera_axes(camera);
+  for_each_row(seen.empty() ? 0 : rows, [&](int row) {
+    for (std::size_t column = 0; column < width; ++column) {
+      const Ray ray =
+          eye_ray(camera, axes, (static_cast<double>(column) + 0.5) / columns, (row + 0.5) / rows);
+      const Hit hit = tracer.first_hit(ray);
+      if (hit.triangle == kNoTriangle) continue;
+      const glm::dvec3 point = ray.origin + ray.direction * hit.t;
+      const glm::dvec3 normal = glm::dot(hit.normal, ray.direction) > 0.0 ? -hit.normal : hit.normal;
+      const LightRay to_light = light_ray(light, point);
+      seen[static_cast<std::size_t>(row) * width + column] = {
+          point, to_light.lit && glm::dot(normal, to_light.direction) > 0.0};
+    }
+  });
+  SeenPoints points;
+  points.looked_at = seen.size();
+  for (const Seen& one : seen) {
+    if (one.counts) points.world.push_back(one.point);
+  }
+  return points;
+}
+
+}  // namespace gnomon::trace
