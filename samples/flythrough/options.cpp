@@ -204,7 +204,7 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
                  "choose warp, maps and filter for the least error within these milliseconds; 0: no budget")
       ->check(CLI::Range(0.0, 1e9));
   app.add_option("--target-error", options.budget.target_error,
-                 "choose the cheapest that brings m, for 95 % of what is seen, below this; 0: none")
+                 "choose the cheapest that brings m, in the mean over what is seen, to this; 0: none")
       ->check(CLI::Range(0.0, 1e9));
   app.add_option("--cost-model", raw.cost_model,
                  "what gnomon calibrate wrote; without it texels are the cost");

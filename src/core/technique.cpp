@@ -93,9 +93,8 @@ class Choosing {
                   f.lookup_ms_per_megapixel > 0.0 || f.lookup_ms_per_seen_megapixel > 0.0;
   }
 
-  void add(const Parametrization& p) noexcept {
-    if (count_ < all_.size()) all_[count_++] = p;
-  }
+  [[nodiscard]] bool full() const noexcept { return count_ == all_.size(); }
+  void add(const Parametrization& p) noexcept { all_[count_++] = p; }
   [[nodiscard]] int tried() const noexcept {
     return static_cast<int>(count_ * sizes_.size() * costs_.filters.size());
   }
@@ -257,6 +256,7 @@ TechniqueChoice choose_technique(const Camera& camera, const Light& light, const
   for (const Warp* warp : given_or(among.warps, kWarps)) {
     for (const SplitScheme split : given_or(among.splits, kSplits)) {
       for (const int count : positional ? cascades.first(1) : cascades) {
+        if (choosing.full()) break;
         Technique t{warp, split, count, kReferenceSize};
         const PlanOptions options = options_of(base, t);
         const ShadowPlan plan = make_plan(camera, light, bounds, options);

@@ -81,7 +81,10 @@ int run_calibrate(const CalibrateRequest& request, bool json) {
   std::vector<std::string> folders = request.folders;
   if (folders.empty()) {
     if (request.check) throw std::runtime_error("--check: wants folders with results to be held against");
-    (void)run_compare(own_sweep(request), json);
+    if (std::filesystem::exists(std::filesystem::path(request.out) / report::kRowsFile))
+      throw std::runtime_error(request.out + ": was measured already: gnomon calibrate " + request.out +
+                               " fits to that; another --out measures anew");
+    (void)compare(own_sweep(request));
     folders.push_back(request.out);
   }
   std::vector<report::Row> rows;

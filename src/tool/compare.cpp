@@ -167,7 +167,7 @@ class Run {
 
 }  // namespace
 
-int run_compare(const CompareRequest& request, bool json) {
+Compared compare(const CompareRequest& request) {
   Sweep sweep = make_sweep(request);
   const std::vector<std::string> hashes = hashes_of(sweep);
   const std::set<std::string> known = known_keys(sweep, hashes);
@@ -177,9 +177,13 @@ int run_compare(const CompareRequest& request, bool json) {
   make_folder("--out", sweep.out);
   watch_interrupts();
   Run(sweep, hashes, machine(context->info()), known).all();
-  const std::string rows = (fs::path(sweep.out) / report::kRowsFile).string();
   // A shard's report would show a part as if it were the whole.
-  const std::string page = sweep.shards == 1 ? report::write_report(sweep.out).string() : std::string();
+  return {(fs::path(sweep.out) / report::kRowsFile).string(),
+          sweep.shards == 1 ? report::write_report(sweep.out).string() : std::string()};
+}
+
+int run_compare(const CompareRequest& request, bool json) {
+  const auto [rows, page] = compare(request);
   if (json) {
     print_line(nlohmann::json{{"rows", rows}, {"report", page}}.dump());
   } else {

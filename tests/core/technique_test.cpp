@@ -239,6 +239,16 @@ TEST(Technique, filters_alone_may_take_time) {
   EXPECT_EQ(plain.choose().chosen.filter, 0) << "hard takes less than pcf, whatever the texels";
 }
 
+TEST(Technique, what_is_beyond_the_most_is_not_tried) {
+  Plain plain;
+  const std::vector<int> cascades(200, 1);  // of three warps
+  const int size[] = {512};
+  plain.among.cascades = cascades;
+  plain.among.map_sizes = size;
+  plain.costs.filters = {kFilters, 1};
+  EXPECT_EQ(plain.choose().tried, static_cast<int>(TechniqueSet::kMost));
+}
+
 TEST(Technique, lamps_have_the_maps_they_have) {
   Plain plain;
   plain.light = PointLight{{0, 6, -10}, 80};

@@ -390,6 +390,14 @@ TEST(Calibrate, fits_a_cost_model_to_a_sweep_and_holds_its_picks_against_another
   EXPECT_NE(checked.out.find("of 12 picks"), std::string::npos) << "two views, six questions each";
 }
 
+TEST(Calibrate, says_what_to_do_with_what_was_measured_before) {
+  const TemporaryFolder folder;
+  const Finished again = run_gnomon(
+      {"calibrate", "--out", whole().string(), "--model", (folder.path() / "model.json").string()});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("gnomon calibrate " + whole().string()), std::string::npos) << again.err;
+}
+
 TEST(Calibrate, refuses_what_it_cannot_use) {
   const TemporaryFolder folder;
   const std::string model = (folder.path() / "model.json").string();
