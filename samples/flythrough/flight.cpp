@@ -103,6 +103,23 @@ void draw_comparison(Studio& studio, const gnomon::Camera& camera, int frame) {
   gnomon::write_png(strip.strip(title), options.out / fmt::format("frame_{:04}_warps.png", frame));
 }
 
+/// Asks the maps just drawn what the filter can do without, and takes that for the frames to come: where maps
+/// are new, which is after the first frame, and now and then. Reading maps back takes longer than a frame of
+/// a GPU.
+void save_filter_precision(Studio& studio, const gnomon::ShadowPlan& plan, int frame, FrameRow& row) {
+  constexpr int kFramesBetween = 60;
+  const Options& options = studio.options;
+  if (!(options.filter_precision > 0.0) || frame % kFramesBetween != 0) return;
+  const gnomon::render::FilterFit fit =
+      gnomon::render::fit_filter(options.filter, studio.renderer.drawn_depths(options.filter, plan),
+                                 {.bound = options.filter_precision / 255.0});
+  studio.filter = studio.renderer.prepare(fit.settings);
+  const std::string left_out = describe(fit, options.filter);
+  if (!left_out.empty())
+    row.omitted +=
+        fmt::format("{}filter, from the next frame on: {}", row.omitted.empty() ? "" : "; ", left_out);
+}
+
 FrameRow draw_frame(Studio& studio, int frame) {
   const Options& options = studio.options;
   const gnomon::Camera camera = camera_of(options, studio.flight, frame);
@@ -125,6 +142,7 @@ FrameRow draw_frame(Studio& studio, int frame) {
     row.m_bound[i] = std::max(timed.plan.map[i].m_s_max, timed.plan.map[i].m_t_max);
   row.warps = warps_text(timed.plan);
   row.omitted = omitted_text(timed.plan, row.stats);
+  save_filter_precision(studio, timed.plan, frame, row);
 
   const Image lit = studio.renderer.image();
   Image heat = studio.renderer.heat_map(), tint = studio.renderer.cascade_tint();

@@ -219,6 +219,11 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
                "let texels change smoothly from frame to frame; for flights of many frames");
   app.add_flag("--visible-depths", options.visible_depths,
                "draw each frame twice and plan the second for the depths that the first one shows");
+  app.add_option(
+         "--filter-precision", options.filter_precision,
+         "let the filter store less where its answers on the maps just drawn differ by no more than this, "
+         "in steps of 8 bits; asked after the first frame and every 60th; 0: never")
+      ->check(CLI::Range(0.0, 255.0));
   app.add_option("--prune", raw.prune,
                  "what may be left out: all, exact, none, or RULE,.. of " + prune_help());
   app.add_option("--light", raw.light, "sun, or a spot or point light in the middle of the scene");

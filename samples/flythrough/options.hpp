@@ -38,6 +38,9 @@ struct Options {
   gnomon::render::FilterSettings filter = gnomon::render::default_settings(gnomon::render::filters::pcf);
   /// Other than cut: maps overlap by kTransitionShare of the cascade before the split.
   gnomon::render::SplitTransition transition = gnomon::render::SplitTransition::cut;
+  /// Steps of 8 bits by which the filter's answers may differ where it stores less than it was asked to; 0:
+  /// it stores all of it.
+  double filter_precision = 0.0;
   /// The map size is chosen: the smallest whose texels the filter hides, in every frame.
   bool perceptual_resolution = false;
   /// Maps and filter are chosen: the least error within it, or the cheapest at its error.

@@ -101,7 +101,8 @@ std::string omitted_text(const gnomon::ShadowPlan& plan, const gnomon::render::F
     // What the plan left out is told above, map by map.
     using gnomon::PruneRule;
     const bool of_plan = rule.rule == PruneRule::empty_cascades ||
-                         rule.rule == PruneRule::casterless_cascades ||
+                         rule.rule == PruneRule::casterless_cascades || rule.rule == PruneRule::empty_faces ||
+                         rule.rule == PruneRule::casterless_faces ||
                          rule.rule == PruneRule::metric_resolution;
     if (of_plan || (saved.instances == 0 && saved.texels == 0)) continue;
     text += fmt::format("{}{}: {} instances, {} triangles, {} texels", text.empty() ? "" : "; ", rule.what,

@@ -107,6 +107,19 @@ TEST_F(Flythrough, refuses_bad_input_with_one_line_and_writes_nothing) {
   }
 }
 
+TEST_F(Flythrough, lets_the_filter_store_less_within_a_bound_and_says_so) {
+  const std::string flight = "builtin:hangar --frames 1 --size 96x64 --map-size 128 --filter esm ";
+  const auto told = [&](const std::string& more) {
+    const Outcome outcome = run(flight + more);
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    std::ifstream csv(out() / "frames.csv");
+    const std::string text{std::istreambuf_iterator<char>(csv), {}};
+    return text.find("esm:format=unorm16 does for esm") != std::string::npos;
+  };
+  EXPECT_TRUE(told("--filter-precision 0.5"));
+  EXPECT_FALSE(told("--filter-precision 0"));
+}
+
 TEST_F(Flythrough, tells_its_version_and_its_options) {
   const Outcome version = run("--version");
   EXPECT_EQ(version.code, 0);
