@@ -169,6 +169,15 @@ std::string first_line(std::string text) {
   return text.substr(0, text.find('\n'));
 }
 
+void declare_light(CLI::App& app, Raw& raw, Options& options) {
+  app.add_option("--light", raw.light, "sun, or a spot or point light in the middle of the scene");
+  app.add_option("--light-elevation-deg", options.light.elevation_deg, "of the sun above the horizon")
+      ->check(CLI::Range(0.1, 90.0));
+  app.add_option("--light-azimuth-deg", options.light.azimuth_deg,
+                 "where the sun stands: 0 over -Z, 90 over +X")
+      ->check(CLI::Range(-360.0, 360.0));
+}
+
 void declare(CLI::App& app, Raw& raw, Options& options) {
   app.set_version_flag("--version", "flythrough " GNOMON_VERSION);
   app.option_defaults()->always_capture_default();
@@ -226,12 +235,7 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
       ->check(CLI::Range(0.0, 255.0));
   app.add_option("--prune", raw.prune,
                  "what may be left out: all, exact, none, or RULE,.. of " + prune_help());
-  app.add_option("--light", raw.light, "sun, or a spot or point light in the middle of the scene");
-  app.add_option("--light-elevation-deg", options.light.elevation_deg, "of the sun above the horizon")
-      ->check(CLI::Range(0.1, 90.0));
-  app.add_option("--light-azimuth-deg", options.light.azimuth_deg,
-                 "where the sun stands: 0 over -Z, 90 over +X")
-      ->check(CLI::Range(-360.0, 360.0));
+  declare_light(app, raw, options);
   app.add_option("--path", raw.path, "camera flight, a JSON file; else the scene's own");
 }
 

@@ -3,15 +3,14 @@
 // 2006; Brabec, Annen, Seidel, "Practical Shadow Mapping", 2002 (focusing).
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <limits>
 
 #include "light_map.hpp"
 #include "light_positional.hpp"
 #include "map_parts.hpp"
 #include "plan_context.hpp"
+#include "spot_draft.hpp"
 #include "vector.hpp"
-#include "visible.hpp"
 
 namespace gnomon {
 namespace {
@@ -27,23 +26,6 @@ constexpr double kRimGrowth = 0.5;
 constexpr double kLooseNear = 0x1p-10;
 // Rounding of positions, relative to their distance from the origin of the world.
 constexpr double kPositionRounding = 1e-14;
-// Casters whose part inside the map is cut out exactly to find the light's near plane; further ones count
-// with their whole box.
-constexpr int kExactCasters = 64;
-
-/// One map in the making.
-struct Draft {
-  const PositionalLight& light;
-  const LightFrustum& frustum;
-  const Polytope& body;
-  SlopeBody slopes;
-  PlaneMap plane;
-  double rim;  // share of a side that no receiver falls into
-  double near_distance, far_distance;
-  double m_at_full_size = 0.0;  // bound of m before pruning
-  /// The rim as a share of what it surrounds.
-  [[nodiscard]] double margin() const noexcept { return rim / (1.0 - 2.0 * rim); }
-};
 
 /// All that the frustum shows.
 void whole_frustum(const LightFrustum& frustum, SlopeBody& slopes) noexcept {
@@ -242,101 +224,8 @@ glm::dmat4 matrix_of(const Draft& d) noexcept {
   return m * light_from_relative;
 }
 
-/// How far a filter's kernel reaches, as a slope: from the corners without the rim to those with it.
-double kernel_reach(const Draft& d) noexcept {
-  if (!(d.rim > 0.0)) return 0.0;
-  const glm::dmat4 flat = clip_from_light(d.plane, {0.0, 1.0}, d.rim);
-  const glm::dmat3 slopes_from_ndc = glm::inverse(glm::dmat3(glm::dvec3(flat[0][0], flat[0][1], flat[0][3]),
-                                                             glm::dvec3(flat[1][0], flat[1][1], flat[1][3]),
-                                                             glm::dvec3(flat[3][0], flat[3][1], flat[3][3])));
-  double reach = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const double x = (i & 1) ? 1.0 : -1.0, y = (i & 2) ? 1.0 : -1.0, fill = 1.0 - 2.0 * d.rim;
-    const glm::dvec3 outer = slopes_from_ndc * glm::dvec3(x, y, 1.0);
-    const glm::dvec3 inner = slopes_from_ndc * glm::dvec3(x * fill, y * fill, 1.0);
-    const glm::dvec2 apart = glm::dvec2(outer) / outer.z - glm::dvec2(inner) / inner.z;
-    reach = max_of(reach, std::sqrt(glm::dot(apart, apart)));
-  }
-  return reach;
-}
-
-/// What a caster must reach to shadow anything in the map, relative to the camera: the map's own sides, which
-/// meet in the light, its far plane, and the faces round all lit receivers that have the light on their inner
-/// side. Whatever lies inside these has every caster between it and the light inside them, too, so that a map
-/// serves each point it holds, also those of a neighbouring face's body.
-struct Reach {
-  std::array<Plane, kMaxCullPlanes> plane;
-  int count = 0;
-  void add(const Plane& p) noexcept {
-    if (count < kMaxCullPlanes) plane[static_cast<std::size_t>(count++)] = p;
-  }
-};
-
-Reach reach_of(const Draft& d, const glm::dmat4& m, double slack) noexcept {
-  Reach reach;
-  const glm::dvec3 row_w{m[0][3], m[1][3], m[2][3]};
-  for (int side = 0; side < 4; ++side) {
-    const int axis = side / 2;
-    const glm::dvec3 row{m[0][axis], m[1][axis], m[2][axis]};
-    const glm::dvec3 normal = safe_normalize(side % 2 == 0 ? row_w + row : row_w - row, -d.frustum.frame.z);
-    reach.add({normal, slack - glm::dot(normal, d.frustum.apex)});
-  }
-  const glm::dvec3 axis = -d.frustum.frame.z;
-  reach.add({-axis, glm::dot(axis, d.frustum.apex) + d.far_distance + slack});
-  bool used[kMaxFaces] = {};
-  for (const Polytope::Vertex& v : d.light.lit.vertices()) {
-    for (const std::uint8_t f : v.face) used[f] = true;
-  }
-  const double outward = slack + kernel_reach(d) * d.far_distance;
-  for (int f = 0; f < d.light.lit.face_count; ++f) {
-    const Plane& p = d.light.lit.plane[static_cast<std::size_t>(f)];
-    if (!used[f] || !(glm::dot(p.normal, d.frustum.apex) + p.offset >= 0.0)) continue;
-    reach.add({p.normal, p.offset + outward});
-  }
-  return reach;
-}
-
 Plane near_plane(const LightFrustum& frustum, double distance) noexcept {
   return {-frustum.frame.z, glm::dot(frustum.frame.z, frustum.apex) - distance};
-}
-
-/// Number of casters inside, and the nearest distance from the light that any of them has there.
-struct CastersSeen {
-  int count = 0;
-  double nearest = std::numeric_limits<double>::infinity();
-};
-
-CastersSeen casters_seen(const Draft& d, const Reach& reach) noexcept {
-  CastersSeen seen;
-  const glm::dvec3 z = d.frustum.frame.z;
-  const double apex_z = glm::dot(z, d.frustum.apex);
-  int exact = 0;
-  for (const Box& world : d.light.bounds.casters) {
-    if (world.empty()) continue;
-    const Box box = relative_to(world, d.light.eye_world);
-    bool reaches = true;
-    for (int i = 0; i < reach.count && reaches; ++i)
-      reaches = side_of(reach.plane[static_cast<std::size_t>(i)], box) != Side::outside;
-    if (!reaches) continue;
-    const glm::dvec3 corner{z.x > 0.0 ? box.max.x : box.min.x, z.y > 0.0 ? box.max.y : box.min.y,
-                            z.z > 0.0 ? box.max.z : box.min.z};
-    double nearest = apex_z - glm::dot(z, corner);
-    if (!(nearest < seen.nearest)) {
-      ++seen.count;
-      continue;
-    }
-    if (exact++ < kExactCasters) {
-      Polytope part = box_polytope(box);
-      for (int i = 0; i < reach.count; ++i) clip(part, reach.plane[static_cast<std::size_t>(i)]);
-      if (part.empty()) continue;
-      double cut = std::numeric_limits<double>::infinity();
-      for (const Polytope::Vertex& v : part.vertices()) cut = min_of(cut, d.frustum.distance(v.position));
-      nearest = max_of(nearest, cut);
-    }
-    ++seen.count;
-    seen.nearest = min_of(seen.nearest, nearest);
-  }
-  return seen;
 }
 
 /// Depths in whole powers of two, so that the stored ones hold still while the nearest caster moves a little.
