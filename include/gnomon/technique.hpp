@@ -69,12 +69,17 @@ struct SceneDetail {
   }
 };
 
-/// Limits; 0 is none. Without target_error the least error within them is taken, with it the cheapest
-/// technique that meets it: by milliseconds, or by texels where the cost model says all cost nothing.
+/// Limits; 0 is none. Without target_error the least error within them is taken, or what is alike; with it
+/// the cheapest technique that meets it: by milliseconds, or by texels where the cost model says all cost
+/// nothing.
 struct Budget {
   std::int64_t texels = 0, bytes = 0;
   double milliseconds = 0.0;
   double target_error = 0.0;  ///< Technique::error, screen pixels per texel
+  /// Without target_error: errors above the least by no more than this share count as alike, and the cheapest
+  /// of them is taken, >= 0. The default is about what the prediction is good to; less pays for errors that
+  /// may be none.
+  double alike = 0.1;
 };
 
 /// What is tried: the product of all lists. An empty list is the default named beside it.

@@ -55,7 +55,7 @@ std::array<double, 6> all_of(const DrawingCosts& costs) noexcept {
 
 std::string_view broken(const Budget& budget, const CostModel& costs, const TechniqueSet& among) noexcept {
   if (budget.texels < 0 || budget.bytes < 0 || !is_limit(budget.milliseconds) ||
-      !is_limit(budget.target_error))
+      !is_limit(budget.target_error) || !is_limit(budget.alike))
     return "budget";
   for (const double cost : all_of(costs.drawing))
     if (!is_limit(cost)) return "cost_model";
@@ -128,6 +128,12 @@ class Choosing {
       least_excess = over;
     });
     met = least_excess == 0.0;
+    if (budget.target_error > 0.0 || !met) return best;
+    const double enough = best.error * (1.0 + budget.alike);
+    each([&](const Technique& t) {
+      if (t.error <= enough && excess(t, budget) == 0.0 && less(cost(t), t.error, cost(best), best.error))
+        best = t;
+    });
     return best;
   }
 

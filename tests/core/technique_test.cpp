@@ -85,7 +85,7 @@ TEST(Technique, least_error_within_a_budget_is_found_among_all) {
   const std::vector<Technique> all = plain.all();
   for (const double milliseconds : {5.0, 12.0, 30.0}) {
     for (const std::int64_t limit : {std::int64_t{0}, 2 * kMebi}) {
-      plain.budget = {limit, 0, milliseconds, 0.0};
+      plain.budget = {limit, 0, milliseconds, 0.0, 0.0};
       const TechniqueChoice choice = plain.choose();
       EXPECT_TRUE(choice.met);
       EXPECT_LE(choice.chosen.milliseconds, milliseconds);
@@ -99,11 +99,32 @@ TEST(Technique, least_error_within_a_budget_is_found_among_all) {
   }
 }
 
+TEST(Technique, of_errors_that_are_alike_the_cheapest_is_taken) {
+  Plain plain;
+  const std::vector<Technique> all = plain.all();
+  int cheaper = 0;
+  for (const double milliseconds : {5.0, 12.0, 30.0}) {
+    plain.budget = {0, 0, milliseconds, 0.0, 0.0};
+    const Technique strict = plain.choose().chosen;
+    plain.budget.alike = 0.3;
+    const Technique chosen = plain.choose().chosen;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Technique& t : all) {
+      if (t.error <= 1.3 * strict.error && t.milliseconds <= milliseconds)
+        least = std::min(least, t.milliseconds);
+    }
+    EXPECT_EQ(chosen.milliseconds, least);
+    EXPECT_LE(chosen.error, 1.3 * strict.error);
+    cheaper += chosen.milliseconds < strict.milliseconds ? 1 : 0;
+  }
+  EXPECT_GT(cheaper, 0);
+}
+
 TEST(Technique, cheapest_at_an_error_is_found_among_all) {
   Plain plain;
   const std::vector<Technique> all = plain.all();
   for (const double error : {0.7, 2.0, 8.0}) {
-    plain.budget = {0, 0, 0.0, error};
+    plain.budget = {0, 0, 0.0, error, 0.0};
     const TechniqueChoice choice = plain.choose();
     EXPECT_TRUE(choice.met);
     EXPECT_LE(choice.chosen.error, error);
@@ -149,6 +170,7 @@ TEST(Technique, a_filters_errors_go_with_its_own_power_of_m) {
   Plain plain;
   constexpr FilterCost kSquare[] = {{"a", 0.0, 0.0, 2.0, 0.0, 4.0, 1.0, 1.0},
                                     {"b", 0.0, 0.0, 1.0, 0.0, 12.0, 3.0, 0.5}};
+  plain.budget.alike = 0.0;
   plain.costs.filters = {kSquare, 1};
   const Technique linear = plain.choose().chosen;
   plain.costs.filters = {kSquare + 1, 1};
