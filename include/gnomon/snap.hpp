@@ -6,8 +6,8 @@
 namespace gnomon {
 
 /// Whole-texel coordinates of a stable map's centre in light space, and its depth range in whole depth steps.
-/// Two maps of the same light, slice and size with equal keys have the same texel grid and depths, to under
-/// 1e-6 texel: their matrices differ by the rounding of the camera position alone.
+/// Two maps of the same light, slice and size with equal keys have the same texel grid and depths: their
+/// clip_from_world are equal to the last bit.
 struct SnapKey {
   std::int64_t x = 0, y = 0;
   std::int64_t depth_near = 0, depth_far = 0;
