@@ -74,7 +74,10 @@ Renderer::~Renderer() = default;
 
 void Renderer::Impl::fit_maps(const ShadowPlan& plan) {
   int width = 1, height = 1;
-  bool alike = true;
+  const auto omitted = plan.omitted();
+  bool alike = std::none_of(omitted.begin(), omitted.end(), [](const Omission& o) {
+    return o.kind == OmissionKind::resolution_without_gain;
+  });
   map_count = plan.map_count;
   if (map_count == 0) return;  // what the maps hold stays for the next frame
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
