@@ -61,9 +61,9 @@ std::vector<Waterfall> waterfalls_of(const std::vector<Row>& rows) {
 std::string share_with_bar(double part, double whole) {
   constexpr double kBarPixels = 120.0;
   const double share = whole > 0.0 ? std::clamp(part / whole, 0.0, 1.0) : 1.0;
-  return "<td>" + short_number(100.0 * share) + " %</td><td><svg width=\"120\" height=\"10\" role=\"img\" " +
-         "aria-label=\"" + short_number(100.0 * share) + " percent\"><rect width=\"" +
-         short_number(kBarPixels * share) +
+  return "<td>" + short_number(100.0 * share) +
+         "&nbsp;%</td><td><svg width=\"120\" height=\"10\" role=\"img\" " + "aria-label=\"" +
+         short_number(100.0 * share) + " percent\"><rect width=\"" + short_number(kBarPixels * share) +
          "\" height=\"10\" fill=\"currentColor\" opacity=\"0.6\"/></svg></td>";
 }
 

@@ -195,7 +195,7 @@ TEST(Page, what_is_drawn_from_the_frame_before_is_taken_off_the_frame_drawn_alon
   }
   const std::string text = waterfalls(rows);
   EXPECT_EQ(count(text, "Without rules 1 million texels"), 1u) << text;
-  const std::size_t alone = text.find("<td>50 %</td>"), after = text.find("<td>10 %</td>");
+  const std::size_t alone = text.find("<td>50&nbsp;%</td>"), after = text.find("<td>10&nbsp;%</td>");
   ASSERT_NE(alone, std::string::npos) << text;
   ASSERT_NE(after, std::string::npos) << text;
   EXPECT_LT(alone, after) << "last, whichever row told it first";
