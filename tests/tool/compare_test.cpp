@@ -12,42 +12,10 @@
 #include <thread>
 
 #include "gnomon/render/filter.hpp"
-#include "gnomon/report/rows_file.hpp"
-#include "process.hpp"
+#include "small_sweep.hpp"
 
 namespace gnomon::test {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Four techniques on two frames of one scene: small enough to run often.
-std::vector<std::string> small_sweep(const fs::path& out, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments{"compare", "builtin:fence", "--warps",     "none,lispsm", "--cascades",
-                                     "1",       "--filters",     "hard,pcf",    "--frames",    "2",
-                                     "--size",  "64x36",         "--map-sizes", "128",         "--rounds",
-                                     "1",       "--context",     "osmesa",      "--out",       out.string()};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-constexpr std::size_t kSmallRows = 8;
-
-std::vector<std::string> lasting(const fs::path& folder) {
-  std::vector<std::string> lines;
-  for (const report::Row& row : report::read_rows(folder)) lines.push_back(report::without_times(row));
-  return lines;
-}
-
-/// The whole sweep, measured once for all tests.
-const fs::path& whole() {
-  static const TemporaryFolder folder;
-  static const fs::path out = [] {
-    fs::path path = folder.path() / "whole";
-    const Finished finished = run_gnomon(small_sweep(path));
-    EXPECT_EQ(finished.exit_code, 0) << finished.err;
-    return path;
-  }();
-  return out;
-}
 
 TEST(Compare, measures_every_technique_on_every_frame) {
   const std::vector<report::Row> rows = report::read_rows(whole());
@@ -377,48 +345,6 @@ TEST(Compare, runs_under_gnu_parallel) {
   for (const char* shard : {"1", "2", "3"}) merge.push_back((folder.path() / shard).string());
   ASSERT_EQ(run_gnomon(merge).exit_code, 0);
   EXPECT_EQ(lasting(folder.path() / "merged"), lasting(whole()));
-}
-
-TEST(Calibrate, fits_a_cost_model_to_a_sweep_and_holds_its_picks_against_another) {
-  const TemporaryFolder folder;
-  const std::string model = (folder.path() / "model.json").string();
-  const Finished fitted = run_gnomon({"calibrate", whole().string(), "--model", model});
-  ASSERT_EQ(fitted.exit_code, 0) << fitted.err;
-  EXPECT_NE(fitted.out.find("| hard |"), std::string::npos);
-  const Finished checked = run_gnomon({"calibrate", whole().string(), "--model", model, "--check"});
-  ASSERT_EQ(checked.exit_code, 0) << checked.err;
-  EXPECT_NE(checked.out.find("of 12 picks"), std::string::npos) << "two views, six questions each";
-}
-
-TEST(Calibrate, says_what_to_do_with_what_was_measured_before) {
-  const TemporaryFolder folder;
-  const Finished again = run_gnomon(
-      {"calibrate", "--out", whole().string(), "--model", (folder.path() / "model.json").string()});
-  EXPECT_EQ(again.exit_code, 2);
-  EXPECT_NE(again.err.find("gnomon calibrate " + whole().string()), std::string::npos) << again.err;
-}
-
-TEST(Calibrate, refuses_what_it_cannot_use) {
-  const TemporaryFolder folder;
-  const std::string model = (folder.path() / "model.json").string();
-  EXPECT_EQ(run_gnomon({"calibrate", "--check"}).exit_code, 2);
-  EXPECT_EQ(run_gnomon({"calibrate", "/does/not/exist", "--model", model}).exit_code, 2);
-  const Finished unfitted = run_gnomon({"calibrate", whole().string(), "--model", model, "--check"});
-  EXPECT_EQ(unfitted.exit_code, 2);
-  EXPECT_NE(unfitted.err.find("model.json"), std::string::npos);
-  EXPECT_FALSE(fs::exists(model));
-}
-
-TEST(Report, is_written_anew_without_measuring) {
-  fs::remove(whole() / "report.html");
-  const Finished finished = run_gnomon({"report", whole().string()});
-  EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_EQ(finished.lines(), std::vector<std::string>{(whole() / "report.html").string()});
-  EXPECT_TRUE(fs::exists(whole() / "report.html"));
-  EXPECT_EQ(run_gnomon({"report", "/nowhere"}).exit_code, 2);
-  const Finished of_a_file = run_gnomon({"report", (whole() / report::kRowsFile).string()});
-  EXPECT_EQ(of_a_file.exit_code, 2);
-  EXPECT_NE(of_a_file.err.find("is not a folder"), std::string::npos) << of_a_file.err;
 }
 
 TEST(Scenes, are_listed_where_the_output_takes_them_and_written_to_files_alone) {

@@ -1,0 +1,55 @@
+// What is made of a sweep that was measured: a cost model, picks held against it, the page written anew.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "small_sweep.hpp"
+
+namespace gnomon::test {
+namespace {
+
+TEST(Calibrate, fits_a_cost_model_to_a_sweep_and_holds_its_picks_against_another) {
+  const TemporaryFolder folder;
+  const std::string model = (folder.path() / "model.json").string();
+  const Finished fitted = run_gnomon({"calibrate", whole().string(), "--model", model});
+  ASSERT_EQ(fitted.exit_code, 0) << fitted.err;
+  EXPECT_NE(fitted.out.find("| hard |"), std::string::npos);
+  const Finished checked = run_gnomon({"calibrate", whole().string(), "--model", model, "--check"});
+  ASSERT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_NE(checked.out.find("of 12 picks"), std::string::npos) << "two views, six questions each";
+}
+
+TEST(Calibrate, says_what_to_do_with_what_was_measured_before) {
+  const TemporaryFolder folder;
+  const Finished again = run_gnomon(
+      {"calibrate", "--out", whole().string(), "--model", (folder.path() / "model.json").string()});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("gnomon calibrate " + whole().string()), std::string::npos) << again.err;
+}
+
+TEST(Calibrate, refuses_what_it_cannot_use) {
+  const TemporaryFolder folder;
+  const std::string model = (folder.path() / "model.json").string();
+  EXPECT_EQ(run_gnomon({"calibrate", "--check"}).exit_code, 2);
+  EXPECT_EQ(run_gnomon({"calibrate", "/does/not/exist", "--model", model}).exit_code, 2);
+  const Finished unfitted = run_gnomon({"calibrate", whole().string(), "--model", model, "--check"});
+  EXPECT_EQ(unfitted.exit_code, 2);
+  EXPECT_NE(unfitted.err.find("model.json"), std::string::npos);
+  EXPECT_FALSE(fs::exists(model));
+}
+
+TEST(Report, is_written_anew_without_measuring) {
+  fs::remove(whole() / "report.html");
+  const Finished finished = run_gnomon({"report", whole().string()});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(finished.lines(), std::vector<std::string>{(whole() / "report.html").string()});
+  EXPECT_TRUE(fs::exists(whole() / "report.html"));
+  EXPECT_EQ(run_gnomon({"report", "/nowhere"}).exit_code, 2);
+  const Finished of_a_file = run_gnomon({"report", (whole() / report::kRowsFile).string()});
+  EXPECT_EQ(of_a_file.exit_code, 2);
+  EXPECT_NE(of_a_file.err.find("is not a folder"), std::string::npos) << of_a_file.err;
+}
+
+}  // namespace
+}  // namespace gnomon::test
