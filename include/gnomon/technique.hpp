@@ -16,9 +16,8 @@ namespace gnomon {
 struct FilterCost {
   std::string_view name;
   double prefilter_ms_per_map = 0.0, prefilter_ms_per_megatexel = 0.0;
-  double lookup_ms_per_megapixel = 0.0;       ///< of the frame
-  double lookup_ms_per_seen_megapixel = 0.0;  ///< beside it, of SceneDetail::seen_world's share of the frame
-  double bytes_per_texel = 4.0;               ///< depth and stored texels together
+  double lookup_ms_per_megapixel = 0.0;  ///< of the frame
+  double bytes_per_texel = 4.0;          ///< depth and stored texels together
   /// It makes as many wrong pixels in maps of error m as a filter with ratio and power 1 does in maps of
   /// error_ratio * m^error_power: a filter that smooths is better in coarse maps than in fine ones.
   double error_ratio = 1.0, error_power = 1.0;
@@ -57,16 +56,6 @@ struct SceneDetail {
   /// (trace::seen_points). Some thousand do. Empty: anywhere in the receivers' boxes, which misjudges warps
   /// and splits where the boxes are mostly air.
   std::span<const glm::dvec3> seen_world;
-  /// Pixels that were looked at for them: what is missing among the points is sky, or turned from the light.
-  /// 0: nobody knows, as many as there are points.
-  std::size_t looked_at = 0;
-
-  /// Of the frame, in [0,1].
-  [[nodiscard]] double seen_share() const noexcept {
-    return looked_at > seen_world.size()
-               ? static_cast<double>(seen_world.size()) / static_cast<double>(looked_at)
-               : 1.0;
-  }
 };
 
 /// Limits; 0 is none. Without target_error the least error within them is taken, or what is alike; with it

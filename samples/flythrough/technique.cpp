@@ -25,7 +25,7 @@ class SeenBy {
  public:
 #ifdef GNOMON_HAS_TRACE
   explicit SeenBy(const gnomon::Scene& scene) : tracer_(scene) {}
-  gnomon::trace::SeenPoints operator()(const gnomon::Camera& camera, const gnomon::Light& light) const {
+  std::vector<glm::dvec3> operator()(const gnomon::Camera& camera, const gnomon::Light& light) const {
     return gnomon::trace::seen_points(tracer_, camera, light);
   }
 
@@ -97,10 +97,9 @@ void choose_technique_of(Options& options, const Flight& flight) {
     // Of `frames` equal parts the middle.
     const int frame = static_cast<int>((i + 0.5) * options.frames / frames);
     const gnomon::Camera camera = camera_of(options, flight, frame);
-    const auto seen = seen_by(camera, light);
-    const gnomon::TechniqueChoice choice =
-        gnomon::choose_technique(camera, light, flight.bounds(), {work, seen.world, seen.looked_at}, {},
-                                 options.budget, known.costs, options.plan);
+    const std::vector<glm::dvec3> seen = seen_by(camera, light);
+    const gnomon::TechniqueChoice choice = gnomon::choose_technique(
+        camera, light, flight.bounds(), {work, seen}, {}, options.budget, known.costs, options.plan);
     if (choice.status == gnomon::PlanStatus::invalid_input)
       throw UsageError(fmt::format("frame {}: no technique for {}", frame, choice.invalid_field));
     if (choice.status != gnomon::PlanStatus::ok) continue;

@@ -62,10 +62,9 @@ std::string_view broken(const Budget& budget, const CostModel& costs, const Tech
   if (costs.filters.empty()) return "cost_model.filters";
   for (const FilterCost& f : costs.filters) {
     const bool fine = is_limit(f.prefilter_ms_per_map) && is_limit(f.prefilter_ms_per_megatexel) &&
-                      is_limit(f.lookup_ms_per_megapixel) && is_limit(f.lookup_ms_per_seen_megapixel) &&
-                      is_limit(f.bytes_per_texel) && f.bytes_per_texel <= kMostBytes &&
-                      is_limit(f.error_ratio) && f.error_ratio > 0.0 && f.error_power >= 0.0 &&
-                      f.error_power <= kMostPower;
+                      is_limit(f.lookup_ms_per_megapixel) && is_limit(f.bytes_per_texel) &&
+                      f.bytes_per_texel <= kMostBytes && is_limit(f.error_ratio) && f.error_ratio > 0.0 &&
+                      f.error_power >= 0.0 && f.error_power <= kMostPower;
     if (!fine) return "cost_model.filters";
   }
   const bool sizes = std::all_of(among.map_sizes.begin(), among.map_sizes.end(),
@@ -81,16 +80,12 @@ double drawing_ms(const DrawingCosts& costs, const PlanWork& work) noexcept {
 
 class Choosing {
  public:
-  Choosing(const Camera& camera, const SceneDetail& detail, const CostModel& costs,
-           std::span<const int> sizes) noexcept
-      : costs_(costs),
-        sizes_(sizes),
-        megapixels_(static_cast<double>(camera.width) * camera.height / kMega),
-        seen_share_(detail.seen_share()) {
+  Choosing(const Camera& camera, const CostModel& costs, std::span<const int> sizes) noexcept
+      : costs_(costs), sizes_(sizes), megapixels_(static_cast<double>(camera.width) * camera.height / kMega) {
     for (const double cost : all_of(costs.drawing)) any_time_ = any_time_ || cost > 0.0;
     for (const FilterCost& f : costs.filters)
       any_time_ = any_time_ || f.prefilter_ms_per_map > 0.0 || f.prefilter_ms_per_megatexel > 0.0 ||
-                  f.lookup_ms_per_megapixel > 0.0 || f.lookup_ms_per_seen_megapixel > 0.0;
+                  f.lookup_ms_per_megapixel > 0.0;
   }
 
   [[nodiscard]] bool full() const noexcept { return count_ == all_.size(); }
@@ -178,8 +173,7 @@ class Choosing {
     t.texels = static_cast<std::int64_t>(p.work.maps) * size * size;
     t.bytes = static_cast<std::int64_t>(std::llround(static_cast<double>(t.texels) * f.bytes_per_texel));
     t.milliseconds = drawing_ms(costs_.drawing, work) + f.prefilter_ms_per_map * work.maps +
-                     f.prefilter_ms_per_megatexel * work.megatexels +
-                     (f.lookup_ms_per_megapixel + f.lookup_ms_per_seen_megapixel * seen_share_) * megapixels_;
+                     f.prefilter_ms_per_megatexel * work.megatexels + f.lookup_ms_per_megapixel * megapixels_;
     return t;
   }
 
@@ -195,7 +189,7 @@ class Choosing {
 
   const CostModel& costs_;
   std::span<const int> sizes_;
-  double megapixels_, seen_share_;
+  double megapixels_;
   bool any_time_ = false;
   std::array<Parametrization, TechniqueSet::kMost> all_;
   std::size_t count_ = 0;
@@ -256,7 +250,7 @@ TechniqueChoice choose_technique(const Camera& camera, const Light& light, const
   TechniqueChoice choice;
   choice.invalid_field = broken(budget, costs, among);
   if (!choice.invalid_field.empty()) return choice;
-  Choosing choosing(camera, detail, costs, given_or(among.map_sizes, kSizes));
+  Choosing choosing(camera, costs, given_or(among.map_sizes, kSizes));
   const bool positional = !std::holds_alternative<DirectionalLight>(light);
   const std::span<const int> cascades = given_or(among.cascades, kCascades);
   for (const Warp* warp : given_or(among.warps, kWarps)) {

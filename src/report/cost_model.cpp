@@ -173,7 +173,7 @@ StoredCostModel fit_costs(std::span<const Observation> observations, std::string
     depth.add({1.0, w.maps, w.megatexels, w.kilodraws, w.megatriangles, w.megatexels_tested},
               o.frame_ms + o.depth_ms);
     filters[o.filter].first.add({w.maps, w.megatexels}, o.prefilter_ms);
-    filters[o.filter].second.add({o.megapixels, o.megapixels_seen}, o.lookup_ms);
+    filters[o.filter].second.add({o.megapixels}, o.lookup_ms);
     bytes[o.filter] = o.bytes_per_texel;
   }
   const std::vector<double> x = least_squares(depth.rows, depth.values);
@@ -188,7 +188,6 @@ StoredCostModel fit_costs(std::span<const Observation> observations, std::string
     cost.prefilter_ms_per_map = stored[0];
     cost.prefilter_ms_per_megatexel = stored[1];
     cost.lookup_ms_per_megapixel = looked[0];
-    cost.lookup_ms_per_seen_megapixel = looked[1];
     cost.bytes_per_texel = bytes.at(name);
     law.tell(name, cost);
     model.filters.push_back({name, cost});

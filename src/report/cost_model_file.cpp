@@ -37,7 +37,6 @@ void save_cost_model(const StoredCostModel& model, const std::filesystem::path& 
                                {"prefilter_ms_per_map", cost.prefilter_ms_per_map},
                                {"prefilter_ms_per_megatexel", cost.prefilter_ms_per_megatexel},
                                {"lookup_ms_per_megapixel", cost.lookup_ms_per_megapixel},
-                               {"lookup_ms_per_seen_megapixel", cost.lookup_ms_per_seen_megapixel},
                                {"bytes_per_texel", cost.bytes_per_texel},
                                {"error_ratio", cost.error_ratio},
                                {"error_power", cost.error_power}});
@@ -73,7 +72,6 @@ StoredCostModel load_cost_model(const std::filesystem::path& file) {
       entry.at("prefilter_ms_per_map").get_to(filter.cost.prefilter_ms_per_map);
       entry.at("prefilter_ms_per_megatexel").get_to(filter.cost.prefilter_ms_per_megatexel);
       entry.at("lookup_ms_per_megapixel").get_to(filter.cost.lookup_ms_per_megapixel);
-      entry.at("lookup_ms_per_seen_megapixel").get_to(filter.cost.lookup_ms_per_seen_megapixel);
       entry.at("bytes_per_texel").get_to(filter.cost.bytes_per_texel);
       entry.at("error_ratio").get_to(filter.cost.error_ratio);
       entry.at("error_power").get_to(filter.cost.error_power);

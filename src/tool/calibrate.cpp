@@ -40,13 +40,12 @@ void print_model(const report::StoredCostModel& m, const std::string& file) {
       m.machine, d.per_frame, d.per_map, d.per_megatexel, d.per_kilodraw, d.per_megatriangle,
       d.per_megatexel_tested));
   print_line(
-      "\n| filter | prefilter ms per map | per million texels | look-up ms per million pixels | per million "
-      "lit or shadowed | bytes per "
-      "texel | error at m = 1 | power of m |\n|--|--:|--:|--:|--:|--:|--:|--:|");
+      "\n| filter | prefilter ms per map | per million texels | look-up ms per million pixels | "
+      "bytes per texel | error at m = 1 | power of m |\n|--|--:|--:|--:|--:|--:|--:|");
   for (const auto& [name, c] : m.filters) {
-    print_line(fmt::format("| {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.0f} | {:.3f} | {:.3f} |", name,
+    print_line(fmt::format("| {} | {:.3f} | {:.3f} | {:.2f} | {:.0f} | {:.3f} | {:.3f} |", name,
                            c.prefilter_ms_per_map, c.prefilter_ms_per_megatexel, c.lookup_ms_per_megapixel,
-                           c.lookup_ms_per_seen_megapixel, c.bytes_per_texel, c.error_ratio, c.error_power));
+                           c.bytes_per_texel, c.error_ratio, c.error_power));
   }
   print_line(
       fmt::format("\nmean relative error of the fit: depth {:.0f} %, prefilter {:.0f} %, look-up {:.0f} %",

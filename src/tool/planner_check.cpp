@@ -154,7 +154,6 @@ report::Observation Replanned::observe(const report::Row& row) const {
   o.filter = row.technique.filter;
   o.work = planned_work(plan, scene_.bounds(), detail());
   o.megapixels = static_cast<double>(row.width) * row.height / kMega;
-  o.megapixels_seen = o.megapixels * detail().seen_share();
   o.bytes_per_texel = render::bytes_per_texel(entry.filter);
   o.frame_ms = row.times.plan_ns.median / kMega;
   o.depth_ms = row.times.depth_ms.median;

@@ -25,8 +25,8 @@ Ray eye_ray(const Camera& camera, const CameraAxes& axes, double column_share, d
 
 }  // namespace
 
-SeenPoints seen_points(const Tracer& tracer, const Camera& camera, const Light& light, int columns,
-                       int rows) {
+std::vector<glm::dvec3> seen_points(const Tracer& tracer, const Camera& camera, const Light& light,
+                                    int columns, int rows) {
   struct Seen {
     glm::dvec3 point;
     bool counts = false;
@@ -47,10 +47,9 @@ SeenPoints seen_points(const Tracer& tracer, const Camera& camera, const Light& 
           point, to_light.lit && glm::dot(normal, to_light.direction) > 0.0};
     }
   });
-  SeenPoints points;
-  points.looked_at = seen.size();
+  std::vector<glm::dvec3> points;
   for (const Seen& one : seen) {
-    if (one.counts) points.world.push_back(one.point);
+    if (one.counts) points.push_back(one.point);
   }
   return points;
 }

@@ -30,12 +30,11 @@ std::vector<Observation> made_observations() {
     o.work.megatriangles = o.work.kilodraws * draw(0.01, 0.2);
     o.work.megatexels_tested = i % 5 == 0 ? 0.3 * o.work.megatexels : 0.0;
     o.megapixels = draw(0.05, 0.5);
-    o.megapixels_seen = o.megapixels * draw(0.0, 1.0);
     o.bytes_per_texel = i % 2 == 0 ? 4.0 : 12.0;
     o.depth_ms = 0.5 + 0.25 * o.work.maps + 3.0 * o.work.megatexels + 1.5 * o.work.kilodraws +
                  40.0 * o.work.megatriangles + 9.0 * o.work.megatexels_tested;
     o.prefilter_ms = i % 2 == 0 ? 0.0 : 0.1 * o.work.maps + 7.0 * o.work.megatexels;
-    o.lookup_ms = (i % 2 == 0 ? 20.0 : 50.0) * o.megapixels + (i % 2 == 0 ? 5.0 : 60.0) * o.megapixels_seen;
+    o.lookup_ms = (i % 2 == 0 ? 20.0 : 50.0) * o.megapixels;
     o.m = draw(0.3, 10.0);
     // vsm errs as hard does at 1.5 m^0.5.
     o.wrong = (o.view == "a" ? 0.01 : 0.04) * std::pow(i % 2 == 0 ? o.m : 1.5 * std::sqrt(o.m), 0.6);
@@ -59,7 +58,6 @@ TEST(CostModel, fit_finds_the_costs_that_made_the_times) {
   EXPECT_NEAR(vsm.prefilter_ms_per_map, 0.1, 1e-5);
   EXPECT_NEAR(vsm.prefilter_ms_per_megatexel, 7.0, 1e-5);
   EXPECT_NEAR(hard.lookup_ms_per_megapixel, 20.0, 1e-9);
-  EXPECT_NEAR(vsm.lookup_ms_per_seen_megapixel, 60.0, 1e-9);
   EXPECT_EQ(vsm.bytes_per_texel, 12.0);
   EXPECT_DOUBLE_EQ(hard.error_ratio, 1.0);
   EXPECT_DOUBLE_EQ(hard.error_power, 1.0);

@@ -15,8 +15,7 @@ struct Observation {
   std::string view;    ///< scene, frame and light: what errors can be compared within
   std::string filter;  ///< with its options
   PlanWork work;
-  double megapixels = 0.0, megapixels_seen = 0.0;  ///< of the frame; of SceneDetail::seen_world's share
-  double bytes_per_texel = 4.0;
+  double megapixels = 0.0, bytes_per_texel = 4.0;
   double frame_ms = 0.0, depth_ms = 0.0, prefilter_ms = 0.0, lookup_ms = 0.0;
   double m = 0.0;      ///< predicted: planned_error
   double wrong = 0.0;  ///< share of the pixels on the wrong side of one half, measured

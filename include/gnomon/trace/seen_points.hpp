@@ -10,15 +10,10 @@
 
 namespace gnomon::trace {
 
-struct SeenPoints {
-  std::vector<glm::dvec3> world;  ///< row by row
-  std::size_t looked_at = 0;      ///< rays
-};
-
 /// What rays through the centres of columns x rows equal parts of the image first hit between the camera's
-/// near and far depth, for SceneDetail and measure_seen. Surfaces that are turned from the light or that it
-/// does not reach are left out: no shadow map is asked about them. Empty without columns or rows.
-[[nodiscard]] SeenPoints seen_points(const Tracer& tracer, const Camera& camera, const Light& light,
-                                     int columns = 64, int rows = 36);
+/// near and far depth, row by row, for SceneDetail and measure_seen. Surfaces that are turned from the light
+/// or that it does not reach are left out: no shadow map is asked about them. Empty without columns or rows.
+[[nodiscard]] std::vector<glm::dvec3> seen_points(const Tracer& tracer, const Camera& camera,
+                                                  const Light& light, int columns = 64, int rows = 36);
 
 }  // namespace gnomon::trace
