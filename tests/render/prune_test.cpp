@@ -187,14 +187,26 @@ TEST(Prune, a_view_that_stands_still_draws_no_map_and_filters_none) {
   }
 }
 
-TEST(Prune, what_a_filter_stored_under_other_settings_is_not_taken_for_its_own) {
-  const Scene scene = load_builtin("hangar");
+/// One view of a scene's flight with its maps.
+struct View {
+  Camera camera;
+  ShadowPlan plan;
+};
+View view_of(const Scene& scene, int cascades) {
   const std::vector<Box> boxes = boxes_of(scene);
-  Renderer renderer(scene), fresh(scene);
   const Camera camera = default_path(scene).at(0.3, kWidth, kHeight);
   PlanOptions options;
   options.map_size = kMapSize;
-  const ShadowPlan all = make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options);
+  options.cascades = cascades;
+  return {camera, make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options)};
+}
+
+TEST(Prune, what_a_filter_stored_under_other_settings_is_not_taken_for_its_own) {
+  const Scene scene = load_builtin("hangar");
+  const View view = view_of(scene, 4);
+  const Camera& camera = view.camera;
+  const ShadowPlan& all = view.plan;
+  Renderer renderer(scene), fresh(scene);
   ASSERT_GT(all.map_count, 1);
   ShadowPlan nearest = all;
   nearest.map_count = 1;
@@ -212,13 +224,10 @@ TEST(Prune, what_a_filter_stored_under_other_settings_is_not_taken_for_its_own) 
 
 TEST(Prune, casters_that_come_into_reach_are_added_to_a_map_that_stands_still) {
   const Scene scene = load_builtin("hangar");
-  const std::vector<Box> boxes = boxes_of(scene);
+  const View view = view_of(scene, 1);
+  const Camera& camera = view.camera;
+  const ShadowPlan& all = view.plan;
   Renderer renderer(scene), fresh(scene);
-  const Camera camera = default_path(scene).at(0.3, kWidth, kHeight);
-  PlanOptions options;
-  options.map_size = kMapSize;
-  options.cascades = 1;
-  const ShadowPlan all = make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options);
   ASSERT_EQ(all.map_count, 1);
   // The same map, as if only receivers on one side of the camera had been in view before.
   ShadowPlan some = all;

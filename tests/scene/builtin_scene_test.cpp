@@ -8,6 +8,7 @@
 #include <set>
 
 #include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/caster_work.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gtest/gtest.h"
 
@@ -207,6 +208,23 @@ TEST(BuiltinScenes, the_leaves_are_cut_out_by_a_picture_with_holes) {
     cut += m.alpha_mode == AlphaMode::mask && m.base_color_image == 0 && m.double_sided ? 1u : 0u;
   }
   EXPECT_EQ(cut, 4u) << "one crown per kind of tree";
+}
+
+TEST(BuiltinScenes, the_work_of_casters_is_that_of_their_meshes_and_crowns_are_tested) {
+  const Scene trees = load_builtin("trees");
+  const std::vector<CasterWork> work = caster_work(trees);
+  ASSERT_EQ(work.size(), trees.instances.size());
+  std::size_t triangles = 0, tested = 0, crowns = 0;
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    triangles += work[i].triangles;
+    tested += work[i].alpha_tested ? 1u : 0u;
+    const int material = trees.primitives[trees.instances[i].primitive].material;
+    crowns += trees.materials[static_cast<std::size_t>(material)].base_color_image == 0 ? 1u : 0u;
+  }
+  EXPECT_EQ(triangles, trees.triangle_count());
+  EXPECT_EQ(tested, crowns);
+  EXPECT_GT(tested, 0u);
+  EXPECT_LT(tested, work.size());
 }
 
 TEST(BuiltinScenes, the_terrain_is_a_kilometre_of_256_by_256_quads) {
