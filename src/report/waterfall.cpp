@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <set>
 
+#include "from_before.hpp"
 #include "summary.hpp"
 #include "text.hpp"
 
 namespace gnomon::report {
 namespace {
-
-/// Told of frames drawn after the one before; the others, and what was drawn, of frames drawn alone.
-bool draws_from_before(const std::string& rule) {
-  return rule == "held_maps" || rule == "scrolled_maps";
-}
 
 struct Step {
   std::string rule, what, why;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <variant>
 
+#include "from_before.hpp"
 #include "seen_from.hpp"
 
 namespace gnomon::tool {
@@ -21,7 +22,8 @@ using render::Pass;
 render::FrameOptions frame_options(bool pictures) {
   render::FrameOptions options;
   // Each round measures the whole frame: none may live on the one before.
-  options.prune = PruneRules{}.without(PruneRule::held_maps).without(PruneRule::scrolled_maps);
+  for (const PruneRuleInfo& rule : prune_rules())
+    if (draws_from_before(rule.name)) options.prune = options.prune.without(rule.rule);
   options.aliasing = options.heat_map = pictures;
   options.cascade_tint = false;
   return options;
@@ -88,14 +90,10 @@ void count_costs(const render::FrameStats& stats, const SweepEntry& entry, repor
       static_cast<std::uint64_t>(static_cast<double>(stats.texels) * render::bytes_per_texel(entry.filter));
 }
 
-/// Rules that draw a frame's maps from those of the frame before.
-constexpr std::array kFromBefore{PruneRule::held_maps, PruneRule::scrolled_maps};
-
 /// What the rules saved, those alone that draw from the frame before or all others, in their order.
 void count_savings(const render::FrameStats& stats, bool from_before, report::Row& row) {
   for (const PruneRuleInfo& rule : prune_rules()) {
-    if ((std::find(kFromBefore.begin(), kFromBefore.end(), rule.rule) != kFromBefore.end()) != from_before)
-      continue;
+    if (draws_from_before(rule.name) != from_before) continue;
     const PruneSaving& saved = stats.saved[static_cast<std::size_t>(rule.rule)];
     if (saved.texels == 0 && saved.triangles == 0) continue;
     row.left_out.push_back({std::string(rule.what), std::string(rule.proof),
