@@ -88,7 +88,7 @@ void draw_comparison(Studio& studio, const gnomon::Camera& camera, int frame) {
   gnomon::PlanOptions plan_options = options.plan;
   WarpStrip strip;
   for (const gnomon::Warp* warp : options.compared_warps) {
-    plan_options.warp = warp;
+    plan_options.warp.warp = warp;
     const gnomon::ShadowPlan plan =
         gnomon::make_plan(camera, gnomon::default_light(options.light, studio.flight.scene.bounds_world),
                           studio.flight.bounds(), plan_options);
@@ -98,8 +98,9 @@ void draw_comparison(Studio& studio, const gnomon::Camera& camera, int frame) {
                           warp == nullptr ? "auto" : warp->name, m.p95, m.p50, 100.0 * m.share_undersampled),
               studio.renderer.image(), studio.renderer.heat_map());
   }
-  const std::string title = fmt::format("{}, {} map{} of {}", options.scene, plan_options.cascades,
-                                        plan_options.cascades == 1 ? "" : "s", plan_options.map_size);
+  const std::string title =
+      fmt::format("{}, {} map{} of {}", options.scene, plan_options.cascades,
+                  plan_options.cascades == 1 ? "" : "s", plan_options.resolution.max_size);
   gnomon::write_png(strip.strip(title), options.out / fmt::format("frame_{:04}_warps.png", frame));
 }
 
@@ -215,7 +216,7 @@ gnomon::Camera camera_of(const Options& options, const Flight& flight, int frame
 }
 
 void fit_maps_to_memory(Options& options) {
-  const int wanted = options.plan.map_size;
+  const int wanted = options.plan.resolution.max_size;
   const gnomon::render::FittingMaps fitting = gnomon::render::largest_maps(
       wanted, options.plan.cascades, gnomon::render::bytes_per_texel(options.filter), options.map_memory_mib);
   if (fitting.size == 0)
@@ -223,7 +224,7 @@ void fit_maps_to_memory(Options& options) {
   if (fitting.size < wanted)
     fmt::print(stderr, "flythrough: warning: maps of {} do not fit ({}): maps of {}, {:.4g} MiB\n", wanted,
                fitting.why, fitting.size, fitting.mebibytes);
-  options.plan.map_size = fitting.size;
+  options.plan.resolution.max_size = fitting.size;
 }
 
 int fly_to_files(const Options& asked, const Flight& flight) {
@@ -261,7 +262,7 @@ int fly_to_files(const Options& asked, const Flight& flight) {
     }
   }
   const std::string title = fmt::format(
-      "{}: {} maps of {}, {}{}", options.scene, options.plan.cascades, options.plan.map_size,
+      "{}: {} maps of {}, {}{}", options.scene, options.plan.cascades, options.plan.resolution.max_size,
       gnomon::render::to_string(options.filter),
       options.plan.fit == gnomon::Fit::tight ? "" : fmt::format(", {}", to_string(options.plan.fit)));
   gnomon::write_png(studio.sheet.sheet(title), options.out / "contact_sheet.png");

@@ -99,30 +99,30 @@ void resolve_transition(const Raw& raw, Options& options) {
     throw UsageError(fmt::format("--transition {}: wants cut, blend or dither", raw.transition));
   }
   options.transition = raw.transition == "blend" ? SplitTransition::blend : SplitTransition::dither;
-  options.plan.split_overlap = kTransitionShare;
+  options.plan.split.overlap = kTransitionShare;
 }
 
 void resolve(const Raw& raw, Options& options) {
   parse_size(raw.size, options);
-  need_number("--lambda", options.plan.lambda);
+  need_number("--lambda", options.plan.split.lambda);
   need_number("--map-memory-mib", options.map_memory_mib);
   need_number("--light-elevation-deg", options.light.elevation_deg);
   need_number("--light-azimuth-deg", options.light.azimuth_deg);
   if (!gnomon::render::context_kind_from_name(raw.context, options.context)) {
     throw UsageError(fmt::format("--context {}: wants auto, osmesa, egl or glfw", raw.context));
   }
-  if (!raw.split.empty() && !gnomon::split_scheme_from_name(raw.split, options.plan.split)) {
+  if (!raw.split.empty() && !gnomon::split_scheme_from_name(raw.split, options.plan.split.scheme)) {
     throw UsageError(fmt::format(
         "--split {}: wants auto, uniform, logarithmic, practical, pseudo_near or optimal", raw.split));
   }
-  if (raw.split.empty() && raw.lambda_given) options.plan.split = gnomon::SplitScheme::practical;
+  if (raw.split.empty() && raw.lambda_given) options.plan.split.scheme = gnomon::SplitScheme::practical;
   if (!gnomon::light_kind_from_name(raw.light, options.light.kind)) {
     throw UsageError(fmt::format("--light {}: wants sun, spot or point", raw.light));
   }
-  options.plan.warp = warp_named("--warp", raw.warp);
+  options.plan.warp.warp = warp_named("--warp", raw.warp);
   for (const std::string& name : raw.compared_warps)
     options.compared_warps.push_back(warp_named("--compare-warps", name));
-  if (!gnomon::objective_from_name(raw.objective, options.plan.objective)) {
+  if (!gnomon::objective_from_name(raw.objective, options.plan.warp.objective)) {
     throw UsageError(fmt::format("--objective {}: wants storage, max or p95", raw.objective));
   }
   const gnomon::render::ParsedFilter filter = gnomon::render::parse_filter(raw.filter);
@@ -189,7 +189,7 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
   app.add_option("--cascades", options.plan.cascades, "shadow maps along the view")
       ->check(CLI::Range(1, gnomon::kMaxMaps));
   app.add_option("--split", raw.split, "auto, uniform, logarithmic, practical, pseudo_near or optimal");
-  app.add_option("--lambda", options.plan.lambda,
+  app.add_option("--lambda", options.plan.split.lambda,
                  "practical split (taken for it): 0 uniform .. 1 logarithmic")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--warp", raw.warp, "auto, " + names_of(gnomon::all_warps()));
@@ -198,7 +198,7 @@ void declare(CLI::App& app, Raw& raw, Options& options) {
       ->delimiter(',');
   app.add_option("--objective", raw.objective, "what the warp lowers: storage, max or p95");
   app.add_option("--filter", raw.filter, "as in pcf:radius=2,unit=texels. " + gnomon::render::filter_help());
-  app.add_option("--map-size", options.plan.map_size, "texels along each side of a map")
+  app.add_option("--map-size", options.plan.resolution.max_size, "texels along each side of a map")
       ->check(CLI::Range(4, kMaxSide));
   app.add_option(
          "--map-memory-mib", options.map_memory_mib,

@@ -31,7 +31,7 @@ int perceptual_map_size(const Options& options, const Flight& flight) {
   const ShadowDistances distances = distances_of(options, flight, light);
   gnomon::PlanOptions plan_options = options.plan;
   // Smaller maps are all rim.
-  const int least = static_cast<int>(std::ceil(4.0 * plan_options.filter_radius_texels));
+  const int least = static_cast<int>(std::ceil(4.0 * plan_options.filter.texels));
   const auto needed = [&](int frame) {
     const gnomon::Camera camera = camera_of(options, flight, frame);
     return hiding_map_size(gnomon::make_plan(camera, light, flight.bounds(), plan_options), camera,
@@ -44,13 +44,14 @@ int perceptual_map_size(const Options& options, const Flight& flight) {
     // Plans of another size have another rim, and may have another warp: asked until they agree. Each turn
     // grows the maps, so that this ends.
     HidingMapSize asked;
-    for (plan_options.map_size = size; (asked = needed(frame)).map_size > size; plan_options.map_size = size)
-      size = asked.map_size;
+    for (plan_options.resolution.max_size = size; (asked = needed(frame)).map_size > size;
+         plan_options.resolution.max_size = size)
+      size = asked.resolution.max_size;
     if (!asked.hides) {
       throw UsageError(fmt::format(
           "--resolution perceptual: frame {}: no map of up to {} texels has texels that a kernel of {:.3g} "
           "world units hides; widen the kernel, or take more cascades",
-          frame, asked.map_size, asked.radius_world));
+          frame, asked.resolution.max_size, asked.radius_world));
     }
     if (asked.radius_pixels > widest.radius_pixels) widest = asked;
   }

@@ -58,7 +58,7 @@ void show_title(const Viewer& viewer, double frame_ms) {
 }
 
 void apply(Viewer& viewer) {
-  viewer.options.plan.warp = viewer.warp == 0 ? nullptr : gnomon::all_warps()[viewer.warp - 1];
+  viewer.options.plan.warp.warp = viewer.warp == 0 ? nullptr : gnomon::all_warps()[viewer.warp - 1];
   // Other than the command line's filter, each as it is by default.
   const gnomon::render::Filter* filter = gnomon::render::all_filters()[viewer.filter];
   if (viewer.options.filter.filter != filter)
@@ -244,7 +244,7 @@ int fly_in_window(const Options& asked, const Flight& flight) {
   fit_maps_to_memory(options);
   Viewer viewer(options, flight, window->handle());
   for (std::size_t i = 0; i < gnomon::all_warps().size(); ++i) {
-    if (gnomon::all_warps()[i] == options.plan.warp) viewer.warp = i + 1;
+    if (gnomon::all_warps()[i] == options.plan.warp.warp) viewer.warp = i + 1;
   }
   for (std::size_t i = 0; i < gnomon::render::all_filters().size(); ++i) {
     if (gnomon::render::all_filters()[i] == options.filter.filter) viewer.filter = i;

@@ -1,6 +1,8 @@
 // The case format: which keys there are, and what they become.
 #include "gnomon/casefile/casefile.hpp"
 
+#include <algorithm>
+
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -150,14 +152,14 @@ BiasOptions bias_from(const json& value) {
 /// chooses.
 void read_warp(const Fields& fields, PlanOptions& options) {
   if (!fields.has("warp") || fields.text("warp") != to_string(Partition::separating_plane)) {
-    read_name(fields, "warp", options.warp, warp_names().c_str(), warp_from_name);
+    read_name(fields, "warp", options.warp.warp, warp_names().c_str(), warp_from_name);
     return;
   }
   if (fields.has("partition")) fields.refuse("warp", "is a partition: give it as partition alone");
-  options.partition = Partition::separating_plane;
+  options.split.partition = Partition::separating_plane;
 }
 
-PlanOptions options_from(const json& value, std::vector<double>& given_splits) {
+PlanOptions options_from(const json& value) {
   const Fields fields(value, "options",
                       {"map_size",
                        "cascades",
@@ -185,45 +187,46 @@ PlanOptions options_from(const json& value, std::vector<double>& given_splits) {
                        "bias",
                        "clip_space"});
   PlanOptions options;
-  fields.read("map_size", options.map_size);
+  fields.read("map_size", options.resolution.max_size);
   fields.read("cascades", options.cascades);
-  read_name(fields, "split", options.split,
+  read_name(fields, "split", options.split.scheme,
             "auto, uniform, logarithmic, practical, pseudo_near, optimal, given", split_scheme_from_name);
   if (fields.has("given_splits")) {
-    if (fields.has("split") && options.split != SplitScheme::given)
+    if (fields.has("split") && options.split.scheme != SplitScheme::given)
       fields.refuse("given_splits", "needs split to be given");
-    given_splits = fields.numbers("given_splits");
-    options.split = SplitScheme::given;
-    options.given_splits = given_splits;
+    const std::vector<double> depths = fields.numbers("given_splits");
+    if (depths.size() > options.split.given.size()) fields.refuse("given_splits", "holds too many depths");
+    std::copy(depths.begin(), depths.end(), options.split.given.begin());
+    options.split.scheme = SplitScheme::given;
   }
-  fields.read("split_overlap", options.split_overlap);
-  fields.read("target_m", options.target_m);
-  if (fields.has("focus")) options.focus = box_from(fields.at("focus"), "options.focus");
-  fields.read("focus_weight", options.focus_weight);
-  fields.read("texel_budget", options.texel_budget);
-  fields.read("lambda", options.lambda);
+  fields.read("split_overlap", options.split.overlap);
+  fields.read("target_m", options.resolution.max_error);
+  if (fields.has("focus")) options.warp.focus = box_from(fields.at("focus"), "options.focus");
+  fields.read("focus_weight", options.warp.focus_weight);
+  fields.read("texel_budget", options.resolution.texel_budget);
+  fields.read("lambda", options.split.lambda);
   // Who gives a blend means the scheme that blends.
   if (fields.has("lambda") && !fields.has("split") && !fields.has("given_splits"))
-    options.split = SplitScheme::practical;
+    options.split.scheme = SplitScheme::practical;
   if (fields.has("pseudo_near") && fields.has("near_hint"))
     fields.refuse("pseudo_near", "is another name of near_hint: give one of them");
-  fields.read("pseudo_near", options.near_hint);
-  fields.read("near_hint", options.near_hint);
-  read_name(fields, "split_range", options.split_range, "auto, receivers, camera", split_range_from_name);
-  read_name(fields, "partition", options.partition, "view_depth, frustum_faces, separating_plane",
+  fields.read("pseudo_near", options.split.pseudo_near);
+  fields.read("near_hint", options.split.pseudo_near);
+  read_name(fields, "split_range", options.split.range, "auto, receivers, camera", split_range_from_name);
+  read_name(fields, "partition", options.split.partition, "view_depth, frustum_faces, separating_plane",
             partition_from_name);
   read_warp(fields, options);
-  read_name(fields, "objective", options.objective, "storage, max, p95", objective_from_name);
+  read_name(fields, "objective", options.warp.objective, "storage, max, p95", objective_from_name);
   if (fields.has("stable") && fields.has("fit"))
     fields.refuse("stable", "is another name of fit: give one of them");
   if (fields.has("stable")) options.fit = fields.boolean("stable") ? Fit::stable : Fit::tight;
   read_name(fields, "fit", options.fit, "tight, rotated, stable, warped_stable", fit_from_name);
-  fields.read("stable_size_steps", options.stable_size_steps);
-  fields.read("filter_radius_texels", options.filter_radius_texels);
-  fields.read("filter_radius_world", options.filter_radius_world);
+  fields.read("stable_size_steps", options.resolution.stable_size_steps);
+  fields.read("filter_radius_texels", options.filter.texels);
+  fields.read("filter_radius_world", options.filter.world);
   read_name(fields, "prune", options.prune, "all, none, exact, or names of rules divided by commas",
             parse_prune_rules);
-  fields.read("prune_m", options.prune_m);
+  fields.read("prune_m", options.resolution.prune_error);
   if (fields.has("bias")) options.bias = bias_from(fields.at("bias"));
   if (fields.has("clip_space")) options.clip_space = clip_space_from(fields.at("clip_space"));
   return options;
@@ -245,18 +248,6 @@ std::string read_text(const std::filesystem::path& file) {
 
 }  // namespace
 
-Case& Case::operator=(const Case& other) {
-  camera = other.camera;
-  light = other.light;
-  receivers = other.receivers;
-  casters = other.casters;
-  given_splits = other.given_splits;
-  options = other.options;
-  // The copy's own list, where it was the case's.
-  if (options.given_splits.data() == other.given_splits.data()) options.given_splits = given_splits;
-  return *this;
-}
-
 Case read_case(std::string_view json_text) {
   const json value = parse_json(json_text);
   const Fields fields(value, "", {"camera", "light", "receivers", "casters", "options"});
@@ -265,7 +256,7 @@ Case read_case(std::string_view json_text) {
   result.light = light_from(fields.at("light"));
   result.receivers = fields.boxes("receivers");
   result.casters = fields.boxes("casters");
-  if (fields.has("options")) result.options = options_from(fields.at("options"), result.given_splits);
+  if (fields.has("options")) result.options = options_from(fields.at("options"));
   return result;
 }
 
@@ -294,20 +285,20 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"light.range", "light.range: must be above 0"},
       {"bounds.casters", "casters: a corner is beyond 1e30"},
       {"bounds.receivers", "receivers: a corner is beyond 1e30"},
-      {"options.map_size", "options.map_size: must lie in 4..16384"},
-      {"options.lambda", "options.lambda: must lie in 0..1"},
-      {"options.focus", "options.focus: must be a box of finite numbers"},
-      {"options.focus_weight", "options.focus_weight: must lie in 1..1e6"},
-      {"options.near_hint", "options.near_hint: must not be below 0"},
-      {"options.filter_radius_world", "options.filter_radius_world: must be 0 or more"},
-      {"options.stable_size_steps", "options.stable_size_steps: must lie in 1..1024"},
-      {"options.given_splits", "options.given_splits: needs cascades - 1 depths, ascending"},
-      {"options.split_overlap", "options.split_overlap: must lie in 0..1"},
-      {"options.target_m", "options.target_m: must not be below 0"},
-      {"options.prune_m", "options.prune_m: must be at least 1e-9"},
-      {"options.texel_budget",
+      {"options.resolution.max_size", "options.map_size: must lie in 4..16384"},
+      {"options.split.lambda", "options.lambda: must lie in 0..1"},
+      {"options.warp.focus", "options.focus: must be a box of finite numbers"},
+      {"options.warp.focus_weight", "options.focus_weight: must lie in 1..1e6"},
+      {"options.split.pseudo_near", "options.near_hint: must not be below 0"},
+      {"options.filter.world", "options.filter_radius_world: must be 0 or more"},
+      {"options.resolution.stable_size_steps", "options.stable_size_steps: must lie in 1..1024"},
+      {"options.split.given", "options.given_splits: needs cascades - 1 depths, ascending"},
+      {"options.split.overlap", "options.split_overlap: must lie in 0..1"},
+      {"options.resolution.max_error", "options.target_m: must not be below 0"},
+      {"options.resolution.prune_error", "options.prune_m: must be at least 1e-9"},
+      {"options.resolution.texel_budget",
        "options.texel_budget: must be 0, or hold the least maps: 16 x 16, or four filter radii"},
-      {"options.filter_radius_texels", "options.filter_radius_texels: must lie in 0..map_size/4"},
+      {"options.filter.texels", "options.filter_radius_texels: must lie in 0..map_size/4"},
       {"options.bias", "options.bias: every value must be 0 or above"},
   });
   if (invalid_field == "options.cascades")

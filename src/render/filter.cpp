@@ -119,9 +119,9 @@ void set_margin(const FilterSettings& settings, PlanOptions& options) noexcept {
   // half of them to each side at most.
   const double widest = filter.may_mipmap ? 3.0 : 1.0;
   const bool in_world = settings.unit == KernelUnit::world;
-  options.filter_radius_texels =
+  options.filter.texels =
       filter.lookup_reach_texels + (in_world ? 0.0 : settings.radius) + (filter.channels ? kBilinear : 0.0);
-  options.filter_radius_world = in_world ? settings.radius * widest : 0.0;
+  options.filter.world = in_world ? settings.radius * widest : 0.0;
 }
 
 }  // namespace gnomon::render

@@ -38,7 +38,7 @@ struct Judgement {
 [[nodiscard]] bool all_finite(const ShadowPlan& plan);
 
 /// What the toolkit did: the warps that were used, or what stood in for a map ("optimal", "none", "cube, 5
-/// faces", "nothing_visible", "refused: options.map_size").
+/// faces", "nothing_visible", "refused: options.resolution.max_size").
 [[nodiscard]] std::string used_by(const Input& input, const ShadowPlan& plan);
 /// What the plan left out, by kind, with how often: "warp without gain x2".
 [[nodiscard]] std::string left_out_of(const ShadowPlan& plan);

@@ -53,7 +53,7 @@ class Views {
 std::vector<render::DrawnDepths> Views::maps_for(const render::FilterSettings& filter) {
   const Light light = default_light({}, scene_.bounds_world);
   PlanOptions options;
-  options.map_size = kMapSize;
+  options.resolution.max_size = kMapSize;
   render::set_margin(filter, options);
   render::FrameOptions frame;
   frame.aliasing = frame.heat_map = frame.cascade_tint = frame.time_passes = false;

@@ -53,10 +53,10 @@ FilterStage::FilterStage(Scene scene, double elevation_deg, double azimuth_deg)
 render::FrameStats FilterStage::draw(const render::FilterSettings& filter, const Camera& camera,
                                      int map_size) {
   PlanOptions options;
-  options.map_size = map_size;
+  options.resolution.max_size = map_size;
   options.cascades = 1;
   options.prune = kPruneNothing.with(PruneRule::light_depths);  // the size that was asked for
-  options.warp = &warps::none;
+  options.warp.warp = &warps::none;
   options.clip_space = kOpenGlZeroToOne;  // depths as the maps hold them
   render::set_margin(filter, options);
   plan_ = make_plan(camera, sun_, {boxes_, boxes_}, options);

@@ -140,7 +140,7 @@ Json log_perspective_json(const Case& input) {
   const auto* light = std::get_if<DirectionalLight>(&input.light);
   if (light == nullptr) return nullptr;
   const LogPerspectiveMap map =
-      log_perspective_map(input.camera, *light, input.bounds(), input.options.map_size);
+      log_perspective_map(input.camera, *light, input.bounds(), input.options.resolution.max_size);
   if (!map.valid) return nullptr;
   const AliasingStats stats = measure(map, input.camera, input.bounds());
   Json result = stats_of(stats);

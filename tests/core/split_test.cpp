@@ -40,11 +40,14 @@ TEST(Split, a_near_depth_of_zero_or_less_falls_back_to_even_shares) {
 }
 
 TEST(Split, given_borders_are_kept_inside_the_range) {
-  const std::array<double, 3> inner = {0.5, 20.0, 2000.0};
-  const auto edges = edges_of(1.0, 100.0, {SplitScheme::given, 0.0, 0.0, inner}, 4);
+  SplitOptions given{SplitScheme::given};
+  given.given = {0.5, 20.0, 2000.0};
+  const auto edges = edges_of(1.0, 100.0, given, 4);
   EXPECT_EQ(edges, (std::vector<double>{1.0, 1.0, 20.0, 100.0, 100.0}));
   // Missing ones leave the last maps nothing.
-  const auto few = edges_of(-2.0, 100.0, {SplitScheme::given, 0.0, 0.0, std::span(inner).first(1)}, 3);
+  given.given = SplitOptions::endless_splits();
+  given.given[0] = 0.5;
+  const auto few = edges_of(-2.0, 100.0, given, 3);
   EXPECT_EQ(few, (std::vector<double>{-2.0, 0.5, 100.0, 100.0}));
 }
 

@@ -113,10 +113,10 @@ double planned_storage(double alpha, int k, const glm::dvec3& light, const Warp&
   const Box everything{glm::dvec3(-2 * alpha), glm::dvec3(2 * alpha)};
   PlanOptions options;
   options.cascades = k;
-  options.split = SplitScheme::logarithmic;
-  options.split_range = SplitRange::camera;
-  options.filter_radius_texels = 0.0;
-  options.warp = &warp;
+  options.split.scheme = SplitScheme::logarithmic;
+  options.split.range = SplitRange::camera;
+  options.filter.texels = 0.0;
+  options.warp.warp = &warp;
   const ShadowPlan plan =
       make_plan(camera, DirectionalLight{light}, {{&everything, 1}, {&everything, 1}}, options);
   double sum = 0.0;

@@ -6,7 +6,7 @@
 #include "gnomon/gnomon.hpp"
 #include "support/golden.hpp"
 #include "support/near.hpp"
-#include "warp_formulas.hpp"
+#include "warp/formulas.hpp"
 
 namespace gnomon::test {
 namespace {

@@ -69,9 +69,9 @@ Walk draw_walk() {
   w.turn = between(-0.01, 0.01);  // up to 34 degrees a second
   w.pitch = between(-0.4, 0.1);
   w.options.cascades = 1 + pick(4);
-  w.options.objective = static_cast<Objective>(pick(3));
+  w.options.warp.objective = static_cast<Objective>(pick(3));
   const Warp* const warps[] = {nullptr, &warps::lispsm, &warps::lispsm_closed, &warps::none};
-  w.options.warp = warps[pick(4)];
+  w.options.warp.warp = warps[pick(4)];
   return w;
 }
 
@@ -133,7 +133,7 @@ TEST(MotionLaw, texels_per_area_jump_only_where_an_event_says_so) {
             if (listed(history, n->cascade)) continue;
             const double ratio = density(*n, w.light, p) / density(*m, w.light, p);
             require(std::max(ratio, 1.0 / ratio) <= 1.0 + kDensityStep + kRounding, "ratio", ratio, "cascade",
-                    n->cascade, n->warp->name, "of", to_string(w.options.objective));
+                    n->cascade, n->warp->name, "of", to_string(w.options.warp.objective));
           }
         });
   });

@@ -26,8 +26,8 @@ double from_whole(double v) {
 Case draw_stable_case() {
   Case c = draw_case({.max_depth_ratio = 1e4, .max_boxes = 8});
   c.options.fit = Fit::stable;
-  c.options.split_range = SplitRange::automatic;
-  c.options.near_hint = 0.0;
+  c.options.split.range = SplitRange::automatic;
+  c.options.split.pseudo_near = 0.0;
   const double f = 4.0 * c.camera.far_depth;
   c.receivers = {{c.camera.position - glm::dvec3(f), c.camera.position + glm::dvec3(f)}};
   c.casters = c.receivers;
@@ -116,7 +116,9 @@ TEST(StableLaw, a_stable_map_is_never_warped_and_says_so_when_one_was_asked_for)
       require(std::abs(map.texel_world.x - map.texel_world.y) <= 1e-9 * map.texel_world.x, "texels",
               map.texel_world.x, map.texel_world.y);
     }
-    if (plan.status != PlanStatus::ok || c.options.warp == nullptr || c.options.warp == &warps::none) return;
+    if (plan.status != PlanStatus::ok || c.options.warp.warp == nullptr ||
+        c.options.warp.warp == &warps::none)
+      return;
     bool told = false;
     for (const Omission& o : plan.omitted()) told = told || o.kind == OmissionKind::warp_in_stable_fit;
     require(told, "warp left out without a word");

@@ -41,7 +41,7 @@ Case draw_single_receiver() {
   c.receivers = c.casters = {{at - half, at + half}};
   c.options.fit = Fit::tight;
   c.options.cascades = 1;
-  c.options.near_hint = 0.0;
+  c.options.split.pseudo_near = 0.0;
   return c;
 }
 
@@ -61,22 +61,22 @@ TEST(WarpLaw, no_warp_that_may_be_dropped_makes_its_objective_worse_than_no_warp
   for_all(700, [&] {
     Case c = draw_single_receiver();
     RC_LOG() << c;
-    c.options.warp = &warps::none;
+    c.options.warp.warp = &warps::none;
     c.options.prune = kPruneNothing;  // maps of one size
     const ShadowPlan uniform = c.plan();
     const AliasingStats without = measure(uniform, c.camera, c.bounds(), kGrid);
     if (without.samples < kEnough) return;
     for (const Warp* warp : all_warps()) {
       if (!warp->drop_without_gain) continue;
-      c.options.warp = warp;
+      c.options.warp.warp = warp;
       const ShadowPlan plan = c.plan();
       if (plan.map_count == 0 || plan.map[0].kappa == 0.0) continue;
       ++warped;
       const AliasingStats with = measure(plan, c.camera, c.bounds(), kGrid);
-      const double after = measured(with, c.options.objective),
-                   before = measured(without, c.options.objective);
-      require(after <= before * kJudged, warp->name, to_string(c.options.objective), after, "without", before,
-              "kappa", plan.map[0].kappa);
+      const double after = measured(with, c.options.warp.objective),
+                   before = measured(without, c.options.warp.objective);
+      require(after <= before * kJudged, warp->name, to_string(c.options.warp.objective), after, "without",
+              before, "kappa", plan.map[0].kappa);
     }
   });
   EXPECT_GT(warped, 500u);
@@ -91,7 +91,7 @@ TEST(WarpLaw, a_map_names_the_warp_that_was_used_and_what_was_dropped_is_told) {
     for (const ShadowMap& map : plan.maps()) {
       // The other way round a warp may slant the map alone, with kappa 0.
       require(map.warp != &warps::none || map.kappa == 0.0, "none with kappa", map.kappa);
-      if (map.warp != &warps::none || c.options.warp == &warps::none) continue;
+      if (map.warp != &warps::none || c.options.warp.warp == &warps::none) continue;
       bool told = plan.omission_count > kMaxOmissions;
       for (const Omission& o : plan.omitted()) {
         told = told || (o.kind == OmissionKind::warp_without_gain && (o.map == map.cascade || o.map == -1));

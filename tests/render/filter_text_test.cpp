@@ -116,11 +116,11 @@ TEST(Filters, cost_what_their_images_take) {
 TEST(Filters, ask_the_plan_for_a_margin_in_the_kernels_own_unit) {
   PlanOptions options;
   set_margin(parse_filter("vsm:radius=3").settings, options);
-  EXPECT_GE(options.filter_radius_texels, 4.0);
-  EXPECT_EQ(options.filter_radius_world, 0.0);
+  EXPECT_GE(options.filter.texels, 4.0);
+  EXPECT_EQ(options.filter.world, 0.0);
   set_margin(parse_filter("vsm:radius=3,unit=world").settings, options);
-  EXPECT_LE(options.filter_radius_texels, 3.0);
-  EXPECT_GE(options.filter_radius_world, 3.0);
+  EXPECT_LE(options.filter.texels, 3.0);
+  EXPECT_GE(options.filter.world, 3.0);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ MeanLight under(const Light& lamp, const Filter& filter) {
       perspective_camera({0, 9, 26}, {0, -0.4, -1}, {0, 1, 0}, 0.9, 1.0, 0.5, 80.0, kSize, kSize);
   const std::vector<Box> boxes = boxes_of(scene);
   PlanOptions options;
-  options.map_size = 256;
+  options.resolution.max_size = 256;
   set_margin(default_settings(filter), options);
   const ShadowPlan plan = make_plan(camera, lamp, {boxes, boxes}, options);
   EXPECT_EQ(plan.status, PlanStatus::ok);
@@ -79,7 +79,7 @@ TEST(LampDepth, is_even_in_distance_along_the_middle_of_a_spot) {
   for (const ClipSpace space : {kOpenGl, kOpenGlZeroToOne}) {
     PlanOptions options;
     options.clip_space = space;
-    options.warp = &warps::none;
+    options.warp.warp = &warps::none;
     const ShadowPlan plan = make_plan(camera, spot, {casters, receivers}, options);
     ASSERT_EQ(plan.status, PlanStatus::ok);
     const double curve = depth_curve(plan, plan.map[0]);

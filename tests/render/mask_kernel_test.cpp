@@ -34,7 +34,7 @@ TEST(Mask, of_a_lit_plane_is_lit_under_any_footprint) {
         settings.mipmap = true;
         settings.anisotropy = anisotropy;
         PlanOptions options;
-        options.map_size = 1024;
+        options.resolution.max_size = 1024;
         options.cascades = 1;
         set_margin(settings, options);
         const Frame frame = draw(renderer, camera, plan_for(scene, camera, kSlant, options), settings);
@@ -93,9 +93,9 @@ TEST(Mask, of_a_kernel_in_world_units_has_edges_as_wide_in_every_map_and_under_a
     double first = 0.0;
     for (const Warp* warp : {&warps::none, &warps::lispsm}) {
       PlanOptions options;
-      options.map_size = 192;  // the kernel stays below kMaxRadiusTexels, and above a texel
+      options.resolution.max_size = 192;  // the kernel stays below kMaxRadiusTexels, and above a texel
       options.cascades = 2;
-      options.warp = warp;
+      options.warp.warp = warp;
       set_margin(settings, options);
       const Frame frame =
           draw(renderer, camera, plan_for(scene, camera, {0.0, -1.0, 0.0}, options), settings);

@@ -208,14 +208,15 @@ void expect_clean(const Filter& filter, Fit fit) {
         const glm::dvec3 light{std::cos(elevation) * std::cos(azimuth), -std::sin(elevation),
                                std::cos(elevation) * std::sin(azimuth)};
         PlanOptions options;
-        options.map_size = fit == Fit::stable ? 1024 : 256;  // a stable map is wider than its slice
+        options.resolution.max_size =
+            fit == Fit::stable ? 1024 : 256;  // a stable map is wider than its slice
         options.cascades = 2;
-        options.warp = warp;
+        options.warp.warp = warp;
         options.fit = fit;
         set_margin(settings, options);
         const ShadowPlan plan = plan_for(scene, camera, light, options);
         ASSERT_GT(plan.map_count, 0) << elevation << " " << azimuth;
-        const Verdict v = judge(draw(renderer, camera, plan, settings), options.filter_radius_texels, filter);
+        const Verdict v = judge(draw(renderer, camera, plan, settings), options.filter.texels, filter);
         EXPECT_EQ(v.acne, 0u) << warp->name << " elevation " << elevation << " azimuth " << azimuth << " at "
                               << v.first_wrong.x << " " << v.first_wrong.y << " " << v.first_wrong.z;
         EXPECT_EQ(v.gap, 0u) << warp->name << " elevation " << elevation << " azimuth " << azimuth << " at "
@@ -248,7 +249,7 @@ TEST(Mask, shows_acne_without_bias_and_gaps_with_far_too_much) {
   Renderer renderer(scene);
   const Camera camera = camera_on_box(kSize, kSize);
   PlanOptions options;
-  options.map_size = 256;
+  options.resolution.max_size = 256;
   options.cascades = 2;
   ShadowPlan none = plan_for(scene, camera, kSlant, options), much = none;
   none.bias = {-0.05, 0.0, 0.0, 0.0};
@@ -261,11 +262,11 @@ TEST(Mask, stands_still_in_stable_fit_while_the_camera_moves) {
   const Scene scene = box_on_ground();
   Renderer renderer(scene);
   PlanOptions options;
-  options.map_size = 512;
+  options.resolution.max_size = 512;
   options.cascades = 1;
   const auto edges_in = [&](Fit fit, double step) {
     options.fit = fit;
-    options.warp = &warps::none;
+    options.warp.warp = &warps::none;
     Camera camera = camera_on_box(kSize, kSize);
     // A parallel camera that moves along its own view sees the same picture: only the grid could move.
     camera =

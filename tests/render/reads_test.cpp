@@ -107,7 +107,7 @@ TEST(Reads, a_frame_takes_the_passes_that_its_filter_needs_for_each_map) {
       FilterSettings settings = default_settings(*filter);
       settings.radius = radius;
       PlanOptions options;
-      options.map_size = kMapSize;
+      options.resolution.max_size = kMapSize;
       options.cascades = 2;
       options.prune = kPruneNothing;
       set_margin(settings, options);

@@ -41,9 +41,9 @@ Camera along_the_rows() {
 
 PlanOptions two_maps(const Filter& filter, double overlap) {
   PlanOptions options;
-  options.map_size = 512;
+  options.resolution.max_size = 512;
   options.cascades = 2;
-  options.split_overlap = overlap;
+  options.split.overlap = overlap;
   set_margin(default_settings(filter), options);
   return options;
 }

@@ -118,7 +118,7 @@ TEST(PcfFilter, reads_no_further_than_it_says) {
   for (const double radius : kRadii) {
     PlanOptions options;
     set_margin(box_of(radius), options);
-    const double reach = options.filter_radius_texels;
+    const double reach = options.filter.texels;
     FilterLookup lookup = edge_at_8(0.0, box_of(radius));
     lookup.map_depth = [&](int x, int) {
       EXPECT_LE(std::abs(x + 0.5 - lookup.position.x), reach);
