@@ -134,8 +134,8 @@ SweptBody sweep(const PlanContext& c, const Polytope& body, double margin_world)
   swept.reach = casters_inside({swept.plane.data(), static_cast<std::size_t>(swept.plane_count)},
                                c.bounds.casters, c.camera.position, c.frame.z);
   // A map that is laid for no caster at all is as deep as its receivers.
-  if (swept.reach.count == 0 && !c.options.prune.has(PruneRule::casterless_cascades)) {
-    swept.reach = {bounds_of(body), -std::numeric_limits<double>::infinity(), 1};
+  if (!swept.reach.any && !c.options.prune.has(PruneRule::casterless_cascades)) {
+    swept.reach = {bounds_of(body), -std::numeric_limits<double>::infinity(), true};
     for (const Polytope::Vertex& v : body.vertices())
       swept.reach.top = max_of(swept.reach.top, glm::dot(c.frame.z, v.position));
   }
@@ -147,14 +147,9 @@ DepthExtent depth_extent(const PlanContext& c, const LightBody& body, const Swep
   if (c.options.prune.has(PruneRule::light_depths)) return extent;
   const glm::dvec3 up = c.frame.z;
   const CasterReach all = casters_inside({}, c.bounds.casters, c.camera.position, up);
-  if (all.count > 0) extent.reach = all;
-  for (const Box& world : c.bounds.receivers) {
-    if (world.empty()) continue;
-    const Box box = relative_to(world, c.camera.position);
-    const glm::dvec3 corner{up.x > 0.0 ? box.min.x : box.max.x, up.y > 0.0 ? box.min.y : box.max.y,
-                            up.z > 0.0 ? box.min.z : box.max.z};
-    extent.bottom = min_of(extent.bottom, glm::dot(up, corner));
-  }
+  if (all.any) extent.reach = all;
+  const double below = casters_inside({}, c.bounds.receivers, c.camera.position, -up).top;
+  extent.bottom = min_of(extent.bottom, -below);
   return extent;
 }
 

@@ -303,12 +303,12 @@ bool lay_positional_map(const PositionalLight& light, const LightFrustum& frustu
   Reach reach = reach_of(d, matrix_of(d), slack);
   // Replaced below, once the nearest caster is known.
   reach.add(near_plane(frustum, least_distance - slack));
-  const CastersSeen seen = casters_seen(d, reach);
-  if (seen.count == 0 && (!in_cube || light.options.prune.has(PruneRule::casterless_faces))) {
+  const double caster = nearest_caster(d, reach);
+  if (!std::isfinite(caster) && (!in_cube || light.options.prune.has(PruneRule::casterless_faces))) {
     plan.omission_count = omitted;
     return false;
   }
-  const double nearest = max_of(seen.nearest * (1.0 - kDistancePadding), least_distance);
+  const double nearest = max_of(caster * (1.0 - kDistancePadding), least_distance);
   d.near_distance = min_of(d.near_distance, nearest);
   if (!light.options.prune.has(PruneRule::light_depths)) {
     d.far_distance = max_of(d.far_distance, light.range * (1.0 + kDistancePadding));

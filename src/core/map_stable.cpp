@@ -37,7 +37,7 @@ bool lay_stable_map(const PlanContext& c, const Polytope& body, double begin, do
   map.snap_key.y = snap_index(eye.y + 0.5 * (box.min.y + box.max.y), texel);
 
   const SweptBody swept = sweep(c, body, texel * map.filter_margin_texels);
-  if (swept.reach.count == 0) return false;
+  if (!swept.reach.any) return false;
   const LightBody points = in_light_frame(c, frame, body);
   const DepthExtent extent = depth_extent(c, points, swept);
   const double bottom = extent.bottom;

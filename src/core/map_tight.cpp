@@ -296,7 +296,7 @@ bool lay_tight_map(const PlanContext& c, const Polytope& body, double begin, dou
   Laid laid;
   const bool held = c.options.fit == Fit::warped_stable && lay_as_before(c, body, points, laid, map);
   if (!held) lay_anew(c, body, points, begin, end, laid, map);
-  if (laid.swept.reach.count == 0) return false;
+  if (!laid.swept.reach.any) return false;
   map.depth_range_world = laid.depths.height;
   const glm::dvec2 rim = static_cast<double>(map.filter_margin_texels) / glm::dvec2(map.width, map.height);
   const glm::dmat4 gl_from_relative =

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <glm/mat4x4.hpp>
-#include <limits>
 
 #include "light_map.hpp"
 #include "light_positional.hpp"
@@ -38,11 +37,7 @@ struct Reach {
 /// `m`: OpenGL clip space from points relative to the camera. All planes are moved out by `slack`.
 [[nodiscard]] Reach reach_of(const Draft& d, const glm::dmat4& m, double slack) noexcept;
 
-/// Number of casters inside, and the nearest distance from the light that any of them has there.
-struct CastersSeen {
-  int count = 0;
-  double nearest = std::numeric_limits<double>::infinity();
-};
-[[nodiscard]] CastersSeen casters_seen(const Draft& d, const Reach& reach) noexcept;
+/// Nearest distance from the light that a caster has inside; infinity where none is.
+[[nodiscard]] double nearest_caster(const Draft& d, const Reach& reach) noexcept;
 
 }  // namespace gnomon

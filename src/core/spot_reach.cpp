@@ -10,10 +10,6 @@
 namespace gnomon {
 namespace {
 
-// Casters whose part inside the map is cut out exactly to find the light's near plane; further ones count
-// with their whole box.
-constexpr int kExactCasters = 64;
-
 /// How far a filter's kernel reaches, as a slope: from the corners without the rim to those with it.
 double kernel_reach(const Draft& d) noexcept {
   if (!(d.rim > 0.0)) return 0.0;
@@ -58,37 +54,9 @@ Reach reach_of(const Draft& d, const glm::dmat4& m, double slack) noexcept {
   return reach;
 }
 
-CastersSeen casters_seen(const Draft& d, const Reach& reach) noexcept {
-  CastersSeen seen;
-  const glm::dvec3 z = d.frustum.frame.z;
-  const double apex_z = glm::dot(z, d.frustum.apex);
-  int exact = 0;
-  for (const Box& world : d.light.bounds.casters) {
-    if (world.empty()) continue;
-    const Box box = relative_to(world, d.light.eye_world);
-    bool reaches = true;
-    for (int i = 0; i < reach.count && reaches; ++i)
-      reaches = side_of(reach.plane[static_cast<std::size_t>(i)], box) != Side::outside;
-    if (!reaches) continue;
-    const glm::dvec3 corner{z.x > 0.0 ? box.max.x : box.min.x, z.y > 0.0 ? box.max.y : box.min.y,
-                            z.z > 0.0 ? box.max.z : box.min.z};
-    double nearest = apex_z - glm::dot(z, corner);
-    if (!(nearest < seen.nearest)) {
-      ++seen.count;
-      continue;
-    }
-    if (exact++ < kExactCasters) {
-      Polytope part = box_polytope(box);
-      for (int i = 0; i < reach.count; ++i) clip(part, reach.plane[static_cast<std::size_t>(i)]);
-      if (part.empty()) continue;
-      double cut = std::numeric_limits<double>::infinity();
-      for (const Polytope::Vertex& v : part.vertices()) cut = min_of(cut, d.frustum.distance(v.position));
-      nearest = max_of(nearest, cut);
-    }
-    ++seen.count;
-    seen.nearest = min_of(seen.nearest, nearest);
-  }
-  return seen;
+double nearest_caster(const Draft& d, const Reach& reach) noexcept {
+  return nearest_inside({reach.plane.data(), static_cast<std::size_t>(reach.count)}, d.light.bounds.casters,
+                        d.light.eye_world, d.frustum.frame.z, d.frustum.apex);
 }
 
 }  // namespace gnomon
