@@ -26,6 +26,11 @@ inline constexpr double kTouching = 1e-12;
           {block.max[0][lane], block.max[1][lane], block.max[2][lane]}};
 }
 
+/// Lanes up to the last that holds anything, in pairs: lists may be short.
+[[nodiscard]] inline std::size_t used_lanes(const CasterBlock& block) noexcept {
+  return (static_cast<std::size_t>(std::bit_width(unsigned{block.occupied})) + 1) & ~std::size_t{1};
+}
+
 /// Which lanes a plane parts from its inside. What is neither outside nor across is inside.
 struct LaneSides {
   std::uint32_t outside, across;
@@ -43,6 +48,7 @@ struct LaneSides {
   };
   const CasterBlock::Lanes &ix = inner(0), &iy = inner(1), &iz = inner(2);
   const CasterBlock::Lanes &ox = outer(0), &oy = outer(1), &oz = outer(2);
+  const std::size_t used = used_lanes(block);
   std::uint32_t outside = 0, inside = 0;
 #if defined(__SSE2__)
   const __m128d nx = _mm_set1_pd(n.x), ny = _mm_set1_pd(n.y), nz = _mm_set1_pd(n.z);
@@ -53,7 +59,7 @@ struct LaneSides {
     const __m128d xy = _mm_add_pd(_mm_mul_pd(_mm_loadu_pd(&x[i]), nx), _mm_mul_pd(_mm_loadu_pd(&y[i]), ny));
     return _mm_add_pd(xy, _mm_mul_pd(_mm_loadu_pd(&z[i]), nz));
   };
-  for (std::size_t i = 0; i < kLanes; i += 2) {
+  for (std::size_t i = 0; i < used; i += 2) {
     const __m128d inward = sum(ix, iy, iz, i), outward = sum(ox, oy, oz, i);
     const __m128d limit = _mm_mul_pd(touching, _mm_add_pd(_mm_andnot_pd(sign, inward), offset_size));
     outside |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmplt_pd(_mm_add_pd(inward, offset), limit)))
@@ -63,7 +69,7 @@ struct LaneSides {
               << i;
   }
 #else
-  for (std::size_t i = 0; i < kLanes; ++i) {
+  for (std::size_t i = 0; i < used; ++i) {
     const double inward = ix[i] * n.x + iy[i] * n.y + iz[i] * n.z;
     const double outward = ox[i] * n.x + oy[i] * n.y + oz[i] * n.z;
     const double limit = -kTouching * (std::abs(inward) + std::abs(plane.offset));
@@ -77,18 +83,19 @@ struct LaneSides {
 /// Lanes that reach beyond these bounds.
 [[nodiscard]] inline std::uint32_t lanes_beyond(const glm::dvec3& low, const glm::dvec3& high,
                                                 const CasterBlock& block) noexcept {
+  const std::size_t used = used_lanes(block);
   std::uint32_t beyond = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double l = low[static_cast<int>(axis)], h = high[static_cast<int>(axis)];
 #if defined(__SSE2__)
     const __m128d l2 = _mm_set1_pd(l), h2 = _mm_set1_pd(h);
-    for (std::size_t i = 0; i < kLanes; i += 2) {
+    for (std::size_t i = 0; i < used; i += 2) {
       const __m128d below = _mm_cmplt_pd(_mm_loadu_pd(&block.min[axis][i]), l2);
       const __m128d above = _mm_cmpgt_pd(_mm_loadu_pd(&block.max[axis][i]), h2);
       beyond |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_or_pd(below, above))) << i;
     }
 #else
-    for (std::size_t i = 0; i < kLanes; ++i)
+    for (std::size_t i = 0; i < used; ++i)
       beyond |= static_cast<std::uint32_t>(block.min[axis][i] < l || block.max[axis][i] > h) << i;
 #endif
   }
@@ -150,7 +157,7 @@ inline void set_relative(std::span<const Box> boxes, const glm::dvec3& origin, C
 
 /// One walk over boxes for a query that grows its answer as it goes. A query has
 ///   uint32_t wanted(const CasterBlock&): lanes that could still change the answer,
-///   void inside(const CasterBlock&, lanes, bool leaf): lanes whose boxes, or all boxes below which, are
+///   uint32_t inside(const CasterBlock&, lanes, bool leaf): lanes whose boxes, or all boxes below which, are
 ///   inside
 ///     of every plane; returns those below which it wants to look further (of boxes: none),
 ///   void across(const CasterBlock&, lanes): boxes that are neither inside nor outside.
@@ -197,12 +204,17 @@ class BoxWalk {
     std::uint32_t kept = block.occupied;
     if (kept != 0) kept &= query_.wanted(block);
     std::uint32_t across = 0;
-    for (std::uint32_t rest = asked; rest != 0 && kept != 0; rest &= rest - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+    // What eight boxes were outside of, the next often are, too.
+    std::uint32_t rest = asked;
+    std::size_t k = (asked >> last_ & 1) != 0 ? last_ : static_cast<std::size_t>(std::countr_zero(rest));
+    while (rest != 0 && kept != 0) {
       const LaneSides sides = sides_of(planes_[k], block);
       kept &= ~sides.outside;
       open[k] = static_cast<std::uint8_t>(sides.across);
       across |= sides.across;
+      rest &= ~(std::uint32_t{1} << k);
+      if (kept == 0) last_ = k;
+      k = static_cast<std::size_t>(std::countr_zero(rest));
     }
     Below below{0, across & kept};
     if (const std::uint32_t inside = kept & ~across; inside != 0)
@@ -217,19 +229,29 @@ class BoxWalk {
     std::array<std::uint8_t, 32> open;
     const Below below = judge(block, level == 0, asked, open);
     if (level <= finest_) return;
-    for_each_bit(below.inside, [&](std::size_t lane) { visit(set, level - 1, at * kLanes + lane, 0); });
-    for_each_bit(below.across, [&](std::size_t lane) {
+    // What was found below one child may leave nothing to ask of the next.
+    for_each_wanted(block, below.inside,
+                    [&](std::size_t lane) { visit(set, level - 1, at * kLanes + lane, 0); });
+    for_each_wanted(block, below.across, [&](std::size_t lane) {
       std::uint32_t still = 0;
       for_each_bit(asked, [&](std::size_t k) { still |= (std::uint32_t{open[k]} >> lane & 1u) << k; });
       visit(set, level - 1, at * kLanes + lane, still);
     });
+  }
+  template <typename Use>
+  void for_each_wanted(const CasterBlock& block, std::uint32_t lanes, Use&& use) noexcept {
+    while (lanes != 0) {
+      use(static_cast<std::size_t>(std::countr_zero(lanes)));
+      lanes &= lanes - 1;
+      if (lanes != 0) lanes &= query_.wanted(block);
+    }
   }
 
   std::span<const Plane> planes_;
   const Boxes& boxes_;
   glm::dvec3 origin_;
   Query& query_;
-  std::size_t finest_ = 0;
+  std::size_t finest_ = 0, last_ = 0;
   bool across_ = true;
 };
 

@@ -2,6 +2,7 @@
 #include "visible.hpp"
 
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -30,11 +31,19 @@ double reach(const Box& box, const glm::dvec3& direction) noexcept {
          (direction.z > 0.0 ? box.max.z : box.min.z) * direction.z;
 }
 
+/// A box in a table, which takes no time to make.
+struct Corners {
+  glm::dvec3 min, max;
+  operator Box() const noexcept { return {min, max}; }
+};
+
 /// Grows to hold what of each box is in the region. Each box adds what lies inside itself and the region's
 /// own box, to the last bit: so the answer depends on no order, and what cannot add anything may be left out.
 class VisibleQuery {
  public:
-  explicit VisibleQuery(const Polytope& region) noexcept : region_(region), limit_(bounds_of(region)) {}
+  /// `later`: boxes are cut at the end, when the others have left little of them to ask.
+  VisibleQuery(const Polytope& region, bool later) noexcept
+      : region_(region), limit_(bounds_of(region)), later_(later) {}
 
   [[nodiscard]] std::uint32_t wanted(const CasterBlock& block) const noexcept {
     return lanes_beyond(low_, high_, block);
@@ -44,19 +53,40 @@ class VisibleQuery {
     return 0;
   }
   void across(const CasterBlock& block, std::uint32_t lanes) noexcept {
-    for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+    for_each_bit(lanes, [&](std::size_t lane) {
       const Box box = lane_box(block, lane);
-      Polytope part = region_;
-      clip(part, box);
-      if (const Box held = bounds_of(part); !held.empty())
-        add({clamp_to(held.min, box), clamp_to(held.max, box)});
-      rest &= wanted(block) | 1u << lane;
-    }
+      if (!later_) {
+        if (beyond(box)) cut(box);
+        return;
+      }
+      if (waiting_count_ == kRoom) cut_waiting();
+      waiting_[waiting_count_++] = {box.min, box.max};
+    });
   }
-  [[nodiscard]] Box answer() const noexcept { return without_signed_zeros(all_); }
+  [[nodiscard]] Box answer() noexcept {
+    cut_waiting();
+    return without_signed_zeros(all_);
+  }
 
  private:
+  static constexpr std::size_t kRoom = 64;
+
+  void cut_waiting() noexcept {
+    for (std::size_t i = 0; i < waiting_count_; ++i) {
+      if (const Box box = waiting_[i]; beyond(box)) cut(box);
+    }
+    waiting_count_ = 0;
+  }
+  [[nodiscard]] bool beyond(const Box& box) const noexcept {
+    return box.min.x < low_.x || box.min.y < low_.y || box.min.z < low_.z || box.max.x > high_.x ||
+           box.max.y > high_.y || box.max.z > high_.z;
+  }
+  void cut(const Box& box) noexcept {
+    Polytope part = region_;
+    clip(part, box);
+    if (const Box held = bounds_of(part); !held.empty())
+      add({clamp_to(held.min, box), clamp_to(held.max, box)});
+  }
   void add(const Box& box) noexcept {
     all_.extend(Box{clamp_to(box.min, limit_), clamp_to(box.max, limit_)});
     // Nothing goes beyond the region's own box.
@@ -68,7 +98,10 @@ class VisibleQuery {
 
   const Polytope& region_;
   Box limit_, all_;
+  bool later_;
+  std::size_t waiting_count_ = 0;
   glm::dvec3 low_{kInfinity}, high_{-kInfinity};  // boxes within these add nothing
+  std::array<Corners, kRoom> waiting_;
 };
 
 /// Grows to hold each box that reaches the region.
@@ -131,7 +164,7 @@ class NearestQuery {
  public:
   struct Candidate {
     double distance;
-    Box box;
+    Corners box;
   };
   /// Room for boxes to be cut, and one more that tells how near the next one is.
   static constexpr std::size_t kMost = 65;
@@ -158,7 +191,7 @@ class NearestQuery {
       if (count_ == room_ && !(d < found_[count_ - 1].distance)) return;
       std::size_t at = count_ < room_ ? count_++ : count_ - 1;
       for (; at > 0 && d < found_[at - 1].distance; --at) found_[at] = found_[at - 1];
-      found_[at] = {d, box};
+      found_[at] = {d, {box.min, box.max}};
     });
   }
   [[nodiscard]] std::span<const Candidate> found() const noexcept { return {found_.data(), count_}; }
@@ -175,11 +208,11 @@ class NearestQuery {
   std::array<Candidate, kMost> found_;
 };
 
-/// Coarse answers first leave little to ask of the fine levels.
+/// Coarse answers first leave little to ask of the fine levels: every other level is worth a walk of its own.
 template <typename Query>
 void walk_down(BoxWalk<Query>& walk, const Boxes& boxes) noexcept {
   if (boxes.set() != nullptr) {
-    for (std::size_t level = boxes.set()->level_count(); level-- > 1;) walk.coarse(level);
+    for (std::size_t level = boxes.set()->level_count(); level > 3;) walk.coarse(level -= 2);
   }
   walk.whole();
 }
@@ -198,10 +231,9 @@ Box visible_bounds(const Polytope& region, const Boxes& boxes, const glm::dvec3&
     return only.empty() ? Box{} : relative_to(only, origin);
   }
   if (region.empty()) return {};
-  VisibleQuery query(region);
+  // Cutting a box costs as much as asking a hundred. In a tree, cut ones also tell where not to look.
+  VisibleQuery query(region, boxes.set() == nullptr);
   BoxWalk walk({region.plane.data(), static_cast<std::size_t>(region.face_count)}, boxes, origin, query);
-  // Cutting a box costs as much as asking a hundred: what is inside as a whole goes first.
-  if (boxes.size() > kLanes && boxes.set() == nullptr) walk.coarse(0);
   walk_down(walk, boxes);
   return query.answer();
 }
