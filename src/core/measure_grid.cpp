@@ -41,6 +41,7 @@ Range over_depth(Range x, Range depth) noexcept {
 
 /// Boxes that any ray of the piece meets are marked.
 struct MarkQuery {
+  static constexpr bool kCuts = false;
   VisiblePiece& piece;
 
   [[nodiscard]] std::uint32_t wanted(const CasterBlock& block) const noexcept {
@@ -57,7 +58,6 @@ struct MarkQuery {
     for_each_bit(lanes, [&](std::size_t lane) { piece.mark(lane_box(block, lane)); });
     return 0;
   }
-  void across(const CasterBlock&, std::uint32_t) const noexcept {}
 };
 
 }  // namespace

@@ -41,6 +41,8 @@ struct Corners {
 /// own box, to the last bit: so the answer depends on no order, and what cannot add anything may be left out.
 class VisibleQuery {
  public:
+  static constexpr bool kCuts = true;
+
   /// `later`: boxes are cut at the end, when the others have left little of them to ask.
   VisibleQuery(const Polytope& region, bool later) noexcept
       : region_(region), limit_(bounds_of(region)), later_(later) {}
@@ -107,6 +109,8 @@ class VisibleQuery {
 /// Grows to hold each box that reaches the region.
 class ReachQuery {
  public:
+  static constexpr bool kCuts = false;
+
   explicit ReachQuery(const glm::dvec3& up) noexcept : up_(up) {}
 
   [[nodiscard]] std::uint32_t wanted(const CasterBlock& block) const noexcept {
@@ -123,7 +127,6 @@ class ReachQuery {
     if (!leaf) higher = lanes_above(tops, top_) & lanes;
     return higher;
   }
-  void across(const CasterBlock& block, std::uint32_t lanes) noexcept { (void)inside(block, lanes, true); }
   [[nodiscard]] CasterReach answer() const noexcept {
     return {without_signed_zeros(all_), top_ + 0.0, !all_.empty()};
   }
@@ -136,6 +139,8 @@ class ReachQuery {
 
 class PointQuery {
  public:
+  static constexpr bool kCuts = false;
+
   explicit PointQuery(const glm::dvec3& point) noexcept : point_(point) {}
   [[nodiscard]] std::uint32_t wanted(const CasterBlock& block) const noexcept {
     if (found_) return 0;
@@ -151,7 +156,6 @@ class PointQuery {
     found_ = found_ || leaf;
     return leaf ? 0 : lanes;
   }
-  void across(const CasterBlock&, std::uint32_t) noexcept {}
   [[nodiscard]] bool answer() const noexcept { return found_; }
 
  private:
@@ -162,6 +166,8 @@ class PointQuery {
 /// The boxes with the nearest corners, sorted, as many as there is room for.
 class NearestQuery {
  public:
+  static constexpr bool kCuts = false;
+
   struct Candidate {
     double distance;
     Corners box;
@@ -181,10 +187,6 @@ class NearestQuery {
   }
   [[nodiscard]] std::uint32_t inside(const CasterBlock& block, std::uint32_t lanes, bool leaf) noexcept {
     if (!leaf) return lanes;
-    across(block, lanes);
-    return 0;
-  }
-  void across(const CasterBlock& block, std::uint32_t lanes) noexcept {
     for_each_bit(lanes, [&](std::size_t lane) {
       const Box box = lane_box(block, lane);
       const double d = distance(box);
@@ -193,6 +195,7 @@ class NearestQuery {
       for (; at > 0 && d < found_[at - 1].distance; --at) found_[at] = found_[at - 1];
       found_[at] = {d, {box.min, box.max}};
     });
+    return 0;
   }
   [[nodiscard]] std::span<const Candidate> found() const noexcept { return {found_.data(), count_}; }
   /// Of the box's nearest corner.
