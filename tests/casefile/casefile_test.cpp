@@ -51,7 +51,7 @@ TEST(CaseFile, reads_camera_and_boxes) {
   EXPECT_EQ(input.receivers.size(), 1u);
   ASSERT_EQ(input.casters.size(), 2u);
   EXPECT_EQ(input.casters[1].max, glm::dvec3(3, 3, 3));
-  EXPECT_EQ(input.bounds().casters.data(), input.casters.data());
+  EXPECT_EQ(input.bounds().casters.list().data(), input.casters.data());
 }
 
 TEST(CaseFile, reads_all_three_kinds_of_light) {

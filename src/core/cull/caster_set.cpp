@@ -1,4 +1,4 @@
-// Which of very many casters does a map need? A tree of boxes that answers for all of them at once.
+// Which of very many boxes does a plan or a map need? A tree that answers for all of them at once.
 // Based on: Assarsson, Moeller, "Optimized View Frustum Culling Algorithms for Bounding Boxes", 2000 (planes
 // that a node is inside of are not asked again below it); Wald, Benthin, Boulos, "Getting Rid of Packets",
 // 2008 (nodes with as many children as a vector has lanes). The exact agreement by monotone rounding is this
@@ -10,7 +10,7 @@
 #include <glm/vec4.hpp>
 #include <limits>
 
-#include "cull/caster_lanes.hpp"
+#include "geometry/caster_lanes.hpp"
 
 namespace gnomon {
 namespace {
@@ -109,6 +109,8 @@ struct Walk {
 
 }  // namespace
 
+Boxes::Boxes(const CasterSet& set) noexcept : set_(&set), size_(set.size()) {}
+
 std::size_t CasterSet::block_count(std::size_t boxes) noexcept {
   std::size_t total = 0;
   while (boxes > 0) {
@@ -187,6 +189,7 @@ void CasterSet::join(std::size_t level, std::size_t child) noexcept {
   };
   set(to.occupied, from.occupied != 0);
   set(to.full, from.full == 0xff);
+  set(to.unusable, from.unusable != 0);
 }
 
 std::size_t CasterSet::cull(const ShadowMap& map, std::span<std::uint32_t> out) const noexcept {

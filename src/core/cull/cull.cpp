@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "cull/caster_lanes.hpp"
+#include "geometry/caster_lanes.hpp"
 #include "gnomon/plan.hpp"
 
 namespace gnomon {

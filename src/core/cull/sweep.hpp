@@ -1,4 +1,4 @@
-// Which casters can shadow a body: the body swept towards the light, and the casters inside.
+// Which casters can shadow a body: the body swept towards the light.
 #pragma once
 
 #include <array>
@@ -21,17 +21,5 @@ struct SweptBody {
 /// positions this far from the world's origin.
 [[nodiscard]] SweptBody sweep(const Polytope& body, const glm::dvec4& light, double margin_world,
                               const glm::dvec3& eye_world) noexcept;
-
-/// How near to a local light boxes come inside a region.
-struct NearBoxes {
-  int count = 0;     ///< boxes that reach the region
-  double nearest;    ///< distance along the axis of the nearest one; infinity where there is none
-  int too_near = 0;  ///< boxes that reach nearer than `least`: the light is in or at them
-};
-/// `axis`: unit, relative to the world, the way distance grows; `apex` relative to `origin`. Boxes nearer
-/// than `least` count with `stand_in`.
-[[nodiscard]] NearBoxes nearest_boxes(std::span<const Plane> planes, std::span<const Box> boxes,
-                                      const glm::dvec3& origin, const glm::dvec3& apex,
-                                      const glm::dvec3& axis, double least, double stand_in) noexcept;
 
 }  // namespace gnomon

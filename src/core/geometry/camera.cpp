@@ -7,6 +7,7 @@
 
 #include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
+#include "geometry/visible.hpp"
 
 namespace gnomon {
 
@@ -38,17 +39,11 @@ CameraAxes camera_axes(const Camera& camera) noexcept {
   return {right, glm::cross(right, forward), forward};
 }
 
-Camera with_finite_far(const Camera& camera, std::span<const Box> boxes) noexcept {
+Camera with_finite_far(const Camera& camera, const Boxes& boxes) noexcept {
   Camera finite = camera;
   if (!(camera.far_depth > std::numeric_limits<double>::max())) return finite;
   const glm::dvec3 forward = camera_axes(camera).forward;
-  double farthest = camera.near_depth;
-  for (const Box& box : boxes) {
-    if (box.empty()) continue;
-    const glm::dvec3 corner{forward.x > 0.0 ? box.max.x : box.min.x, forward.y > 0.0 ? box.max.y : box.min.y,
-                            forward.z > 0.0 ? box.max.z : box.min.z};
-    farthest = max_of(farthest, glm::dot(forward, corner - camera.position));
-  }
+  const double farthest = max_of(camera.near_depth, casters_inside({}, boxes, camera.position, forward).top);
   constexpr double kStepsPerOctave = 4.0;
   const auto next_step = [](double ratio) {
     return elementary::exp2(std::ceil(elementary::log2(ratio) * kStepsPerOctave) / kStepsPerOctave);

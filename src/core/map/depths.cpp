@@ -89,34 +89,22 @@ double caster_height(const CasterReach& reach, const LightFrame& frame, const Fi
   return max_of(lowest_face, b.height);
 }
 
-/// The lowest corner of any receiver.
-double receivers_bottom(const PlanContext& c, const glm::dvec3& up) noexcept {
-  double bottom = std::numeric_limits<double>::infinity();
-  for (const Box& world : c.bounds.receivers) {
-    if (world.empty()) continue;
-    const Box box = relative_to(world, c.camera.position);
-    const glm::dvec3 corner{up.x > 0.0 ? box.min.x : box.max.x, up.y > 0.0 ? box.min.y : box.max.y,
-                            up.z > 0.0 ? box.min.z : box.max.z};
-    bottom = min_of(bottom, glm::dot(up, corner));
-  }
-  return bottom;
-}
-
 HeightRange parallel_heights(const PlanContext& c, const MapRequest& request, const FittedPlane& f) noexcept {
   const LightFrame& frame = request.space.frame;
   HeightRange range;
   CasterReach reach = casters_inside(f.swept.planes(), c.bounds.casters, c.camera.position, frame.z);
-  range.casters = reach.count;
-  if (reach.count == 0) {
+  range.has_casters = reach.any;
+  if (!reach.any) {
     // A map for no caster at all is as deep as its receivers.
-    reach = {bounds_of(request.body), -std::numeric_limits<double>::infinity(), 0};
+    reach = {bounds_of(request.body), -std::numeric_limits<double>::infinity(), false};
     for (const WarpInput::Point& p : f.body.points()) reach.top = max_of(reach.top, p.z);
   }
   range.bottom = lowest(f.body);
   if (!c.options.prune.has(PruneRule::light_depths)) {
     const CasterReach all = casters_inside({}, c.bounds.casters, c.camera.position, frame.z);
-    if (all.count > 0) reach = all;
-    range.bottom = min_of(range.bottom, receivers_bottom(c, frame.z));
+    if (all.any) reach = all;
+    range.bottom = min_of(
+        range.bottom, -casters_inside({}, c.bounds.receivers, c.camera.position, -frame.z).top);
   }
   range.height = caster_height(reach, frame, f, f.measured_from.value_or(range.bottom));
   return range;
@@ -137,7 +125,7 @@ HeightRange perspective_heights(const PlanContext& c, const MapRequest& request,
   // A single distance still needs a range: rounding of float over it.
   double near_distance =
       min_of(f.body.nearest * (1.0 - kDepthPadding), far_distance * (1.0 - kFlattestDepth));
-  near_distance = min_of(near_distance, max_of(casters.nearest * (1.0 - kDepthPadding), least));
+  near_distance = min_of(near_distance, max_of(nearest * (1.0 - kDepthPadding), least));
   if (!c.options.prune.has(PruneRule::light_depths)) {
     far_distance = max_of(far_distance, request.range * (1.0 + kDepthPadding));
     near_distance = min_of(near_distance, kLooseNear * far_distance);

@@ -20,7 +20,7 @@ struct FittedPlane {
 /// Heights that a map covers, in light space.
 struct HeightRange {
   double bottom = 0.0, height = 0.0;
-  int casters = 0;       ///< that reach the body
+  bool has_casters = false;  ///< any that reaches the body
   int too_near = 0;      ///< casters nearer to a local light than its maps show
   double nearest = 0.0;  ///< local light: distance from which on the map shows casters
 };

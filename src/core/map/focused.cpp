@@ -211,7 +211,7 @@ MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept 
   const double obliquity = pixel_obliquity(c, request.body);
   const std::optional<Fitted> kept = kept_from_before(c, request, body, map);
   const Fitted fitted = kept ? *kept : fitted_anew(c, request, body, obliquity, result);
-  if (fitted.heights.casters == 0 && !request.without_casters) return result;
+  if (!fitted.heights.has_casters && !request.without_casters) return result;
   result.drawn = true;
   if (fitted.heights.too_near > 0)
     result.omit({OmissionKind::depth_near_light, request.slot.cascade, fitted.heights.nearest,

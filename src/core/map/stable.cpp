@@ -91,7 +91,7 @@ MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
   const SweptBody swept =
       sweep(request.body, light, grid.texel * map.filter_margin_texels, c.camera.position);
   const HeightRange heights = height_range(c, request, {body, plane, swept, border});
-  if (heights.casters == 0 && !request.without_casters) return result;
+  if (!heights.has_casters && !request.without_casters) return result;
   result.drawn = true;
   const LightDepths still_depths = snapped_depths(grid, heights, map.snap_key);
   const LightDepths depths{still_depths.bottom - grid.eye.z, still_depths.height};

@@ -2,9 +2,11 @@
 // the receivers.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <glm/vec3.hpp>
-#include <span>
 
 #include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
@@ -46,27 +48,6 @@ struct PixelRay {
   return {camera.position, axes.forward + image};
 }
 
-/// From where the ray enters the first box to where it leaves the last.
-[[nodiscard]] inline DepthInterval depths_in_hull(std::span<const Box> boxes, const PixelRay& ray,
-                                                  DepthInterval range) noexcept {
-  DepthInterval hull{range.end, range.begin};
-  for (const Box& box : boxes) {
-    const DepthInterval part = depths_in_box(box, ray.start, ray.step, range);
-    if (part.begin > part.end) continue;
-    hull = {min_of(hull.begin, part.begin), max_of(hull.end, part.end)};
-  }
-  return hull;
-}
-
-[[nodiscard]] inline bool in_some_box(std::span<const Box> boxes, const PixelRay& ray, double depth,
-                                      DepthInterval range) noexcept {
-  for (const Box& box : boxes) {
-    const DepthInterval part = depths_in_box(box, ray.start, ray.step, range);
-    if (depth >= part.begin && depth <= part.end) return true;
-  }
-  return false;
-}
-
 /// Depths of a grid, a table at a time: their powers are taken once for all pixels.
 inline constexpr int kTableDepths = 256;
 struct DepthTable {
@@ -86,24 +67,68 @@ struct DepthTable {
   return table;
 }
 
+/// Which points of a piece of the grid, some rays one after the other along the rows, lie in a box: a bit
+/// each.
+class VisiblePiece {
+ public:
+  VisiblePiece(const Camera& camera, const CameraAxes& axes, const MeasureGrid& grid,
+               const DepthTable& table) noexcept;
+
+  /// Takes the rays from number `first` on, at most `rays` of them, and finds their points in these boxes.
+  /// Draws each box where it appears in the image, so that time grows with what the boxes cover.
+  void find(const Boxes& boxes, std::int64_t first, std::int64_t rays) noexcept;
+  /// Rays that fit.
+  [[nodiscard]] std::int64_t capacity() const noexcept { return kWords / words_; }
+  /// Which of 64 depths from 64 `at` on.
+  [[nodiscard]] std::uint64_t held(std::int64_t ray, int at) const noexcept {
+    return bits_[word(ray, 64 * at)];
+  }
+
+  /// Where a box may be met: columns, rows and depths of the table, first and last. A superset.
+  struct Footprint {
+    int column[2], row[2], depth[2];
+  };
+  /// False where no ray of the piece meets the box at any depth of the table.
+  [[nodiscard]] bool footprint(const Box& box, Footprint& out) const noexcept;
+  void mark(const Box& box) noexcept;
+
+ private:
+  static constexpr std::int64_t kWords = 4096;  // 32 KiB: the default grid in one piece
+  [[nodiscard]] std::size_t word(std::int64_t ray, int depth) const noexcept {
+    return static_cast<std::size_t>((ray - first_) * words_ + depth / 64);
+  }
+  void mark(std::int64_t ray, DepthInterval part, const Footprint& where) noexcept;
+
+  const Camera& camera_;
+  const CameraAxes& axes_;
+  const MeasureGrid& grid_;
+  const DepthTable& table_;
+  int words_;
+  std::int64_t first_ = 0, end_ = 0;
+  std::array<std::uint64_t, kWords> bits_;
+};
+
 /// Calls sample(point, view depth) for each point of the grid that lies in a receiver. Needs a finite far
 /// plane.
 template <typename Sample>
-void for_each_visible(const Camera& camera, const CameraAxes& axes, std::span<const Box> receivers,
+void for_each_visible(const Camera& camera, const CameraAxes& axes, const Boxes& receivers,
                       const MeasureGrid& grid, Sample&& sample) noexcept {
-  const DepthInterval range{camera.near_depth, camera.far_depth};
-  const bool one_box = receivers.size() == 1;
+  if (grid.columns <= 0 || grid.rows <= 0) return;
+  const std::int64_t rays = std::int64_t{grid.columns} * grid.rows;
   for (int begin = 0; begin < grid.depths; begin += kTableDepths) {
     const DepthTable table = depth_table(camera, grid, begin);
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int column = 0; column < grid.columns; ++column) {
-        const PixelRay ray = pixel_ray(camera, axes, grid, column, row);
-        const DepthInterval hull = depths_in_hull(receivers, ray, range);
-        for (int k = 0; k < table.count; ++k) {
-          const double depth = table.depth[static_cast<std::size_t>(k)];
-          if (depth < hull.begin || depth > hull.end) continue;
-          if (one_box || in_some_box(receivers, ray, depth, range))
+    VisiblePiece piece(camera, axes, grid, table);
+    for (std::int64_t first = 0; first < rays; first += piece.capacity()) {
+      const std::int64_t end = std::min(first + piece.capacity(), rays);
+      piece.find(receivers, first, end - first);
+      for (std::int64_t i = first; i < end; ++i) {
+        const PixelRay ray = pixel_ray(camera, axes, grid, static_cast<int>(i % grid.columns),
+                                       static_cast<int>(i / grid.columns));
+        for (int at = 0; 64 * at < table.count; ++at) {
+          for (std::uint64_t left = piece.held(i, at); left != 0; left &= left - 1) {
+            const double depth = table.depth[static_cast<std::size_t>(64 * at + std::countr_zero(left))];
             sample(ray.start + ray.step * depth, depth);
+          }
         }
       }
     }

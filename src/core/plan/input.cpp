@@ -5,34 +5,25 @@
 #include <limits>
 
 #include "geometry/vector.hpp"
+#include "geometry/usable.hpp"
+#include "gnomon/caster_set.hpp"
 
 namespace gnomon {
 namespace {
 
-// Largest magnitude accepted anywhere: its square, and a product of three such, stay far inside double's
-// range.
-constexpr double kLargest = 1e30;
 // Smallest near plane relative to the far plane: beyond it 1 / depth weights lose all meaning.
 constexpr double kNearestRatio = 1e-12;
 
 constexpr int kCubeFaces = 6;
 
-bool usable(double v) noexcept {
-  return std::abs(v) <= kLargest;
-}  // false for NaN
-bool usable(const glm::dvec3& v) noexcept {
-  return usable(v.x) && usable(v.y) && usable(v.z);
-}
 bool is_direction(const glm::dvec3& v) noexcept {
   return usable(v) && largest_component(v) > 0.0;
 }
 
-bool any_unusable(std::span<const Box> boxes) noexcept {
-  for (const Box& box : boxes) {
-    // An empty box may hold infinities: that is how one is made.
-    if (std::isnan(box.min.x + box.min.y + box.min.z) || std::isnan(box.max.x + box.max.y + box.max.z))
-      return true;
-    if (!box.empty() && (!usable(box.min) || !usable(box.max))) return true;
+bool any_unusable(const Boxes& boxes) noexcept {
+  if (boxes.set() != nullptr) return !boxes.set()->usable();
+  for (const Box& box : boxes.list()) {
+    if (!usable(box)) return true;
   }
   return false;
 }
@@ -104,7 +95,7 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
     return "options.filter.texels";
   }
   if (!(o.filter.world >= 0.0 && o.filter.world <= kLargest)) return "options.filter.world";
-  if (any_unusable({&o.warp.focus, 1})) return "options.warp.focus";
+  if (!usable(o.warp.focus)) return "options.warp.focus";
   if (!(o.warp.focus_weight >= 1.0 && o.warp.focus_weight <= 1e6)) return "options.warp.focus_weight";
   if (o.resolution.stable_size_steps < 1 || o.resolution.stable_size_steps > 1024)
     return "options.resolution.stable_size_steps";

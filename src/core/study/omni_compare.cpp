@@ -6,6 +6,7 @@
 #include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
 #include "gnomon/omni.hpp"
+#include "geometry/visible.hpp"
 #include "measure/log_histogram.hpp"
 
 namespace gnomon {
@@ -37,15 +38,6 @@ struct Tally {
   }
 };
 
-bool in_any(std::span<const Box> boxes, const glm::dvec3& p) noexcept {
-  for (const Box& b : boxes) {
-    if (p.x >= b.min.x && p.x <= b.max.x && p.y >= b.min.y && p.y <= b.max.y && p.z >= b.min.z &&
-        p.z <= b.max.z)
-      return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 OmniComparison compare_omni(const PointLight& light, const Camera& any_camera, const SceneBounds& bounds,
@@ -66,7 +58,8 @@ OmniComparison compare_omni(const PointLight& light, const Camera& any_camera, c
       const double y = camera.bottom + (camera.top - camera.bottom) * (i / grid.columns + 0.5) / grid.rows;
       const glm::dvec3 p = camera.position + axes.forward * depth + (axes.right * x + axes.up * y) * scale;
       const glm::dvec3 offset = p - light.position;
-      if (!(glm::dot(offset, offset) <= light.range * light.range) || !in_any(bounds.receivers, p)) continue;
+      if (!(glm::dot(offset, offset) <= light.range * light.range) || !in_some_box(bounds.receivers, p))
+        continue;
       for (std::size_t m = 0; m < kMappings.size(); ++m) {
         const PointAliasing a = omni_aliasing(kMappings[m], texels, light.position, camera, p);
         if (a.status != PointAliasing::Status::ok) continue;

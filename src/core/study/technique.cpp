@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "geometry/elementary.hpp"
+#include "geometry/caster_lanes.hpp"
 #include "gnomon/metric.hpp"
 
 namespace gnomon {
@@ -210,6 +211,28 @@ PlanOptions options_of(const PlanOptions& base, const Technique& t) noexcept {
   return options;
 }
 
+/// Calls `use` with the index of each caster that the map needs.
+template <typename Use>
+void for_each_caster(const ShadowMap& map, const Boxes& casters, Use&& use) noexcept {
+  if (const CasterSet* set = casters.set(); set != nullptr && set->size() > 0) {
+    for (std::size_t begin = 0; begin < set->size(); begin += kLanes) {
+      const CasterBlock& block = set->block(0, begin / kLanes);
+      std::uint32_t kept = block.occupied;
+      for (int k = 0; k < map.cull_plane_count && kept != 0; ++k)
+        kept &= ~lanes<Ask::outside>(map.cull_planes[static_cast<std::size_t>(k)], block);
+      for_each_bit(kept, [&](std::size_t lane) { use(set->index(begin + lane)); });
+    }
+  }
+  constexpr std::size_t kBlock = 256;
+  std::array<std::uint32_t, kBlock> kept;
+  const std::span<const Box> list = casters.list();
+  for (std::size_t begin = 0; begin < list.size(); begin += kBlock) {
+    const std::size_t size = std::min(kBlock, list.size() - begin);
+    const std::size_t count = cull_casters(map, list.subspan(begin, size), kept);
+    for (std::size_t i = 0; i < count; ++i) use(begin + kept[i]);
+  }
+}
+
 }  // namespace
 
 double planned_error(const ShadowPlan& plan, const Camera& camera, const SceneBounds& bounds,
@@ -219,28 +242,23 @@ double planned_error(const ShadowPlan& plan, const Camera& camera, const SceneBo
 }
 
 PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds, const SceneDetail& detail) noexcept {
-  constexpr std::size_t kBlock = 256;
-  std::array<std::uint32_t, kBlock> kept;
   PlanWork work;
+  std::size_t draws = 0;
   for (const ShadowMap& map : plan.maps()) {
     const double megatexels = static_cast<double>(map.width) * map.height / kMega;
     double triangles = 0.0, tested = 0.0;
-    for (std::size_t begin = 0; begin < bounds.casters.size(); begin += kBlock) {
-      const std::size_t size = std::min(kBlock, bounds.casters.size() - begin);
-      const std::size_t count = cull_casters(map, bounds.casters.subspan(begin, size), kept);
-      work.kilodraws += static_cast<double>(count) / kKilo;
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t caster = begin + kept[i];
-        if (caster >= detail.work.size()) continue;
-        triangles += detail.work[caster].triangles;
-        tested += detail.work[caster].alpha_tested ? detail.work[caster].triangles : 0.0;
-      }
-    }
+    for_each_caster(map, bounds.casters, [&](std::size_t caster) {
+      ++draws;
+      if (caster >= detail.work.size()) return;
+      triangles += detail.work[caster].triangles;
+      tested += detail.work[caster].alpha_tested ? detail.work[caster].triangles : 0.0;
+    });
     work.maps += 1.0;
     work.megatexels += megatexels;
     work.megatriangles += triangles / kMega;
     work.megatexels_tested += triangles > 0.0 ? tested / triangles * megatexels : 0.0;
   }
+  work.kilodraws = static_cast<double>(draws) / kKilo;
   return work;
 }
 

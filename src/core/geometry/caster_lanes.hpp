@@ -5,6 +5,7 @@
 #include <glm/vec4.hpp>
 
 #include "gnomon/caster_set.hpp"
+#include "geometry/usable.hpp"
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -23,6 +24,7 @@ inline void set_lane(CasterBlock& block, std::size_t lane, const Box& box) noexc
   const bool empty = box.empty();
   block.occupied = static_cast<std::uint8_t>(empty ? block.occupied & ~bit : block.occupied | bit);
   block.full = block.occupied;
+  block.unusable = static_cast<std::uint8_t>(usable(box) ? block.unusable & ~bit : block.unusable | bit);
 }
 
 /// Which corner of a box a sum is taken at, and what of the sum is asked.
