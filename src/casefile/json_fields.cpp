@@ -42,7 +42,7 @@ Box box_from(const json& value, const std::string& path) {
   return {fields.vector("min"), fields.vector("max")};
 }
 
-Fields::Fields(const json& value, std::string path, std::initializer_list<std::string_view> known)
+Fields::Fields(const json& value, std::string path, std::span<const std::string_view> known)
     : value_(value), path_(std::move(path)) {
   if (!value.is_object()) wrong_type(path_.empty() ? "case" : path_, "an object", value);
   for (const auto& [key, unused] : value.items()) {

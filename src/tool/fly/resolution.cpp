@@ -3,41 +3,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "flight.hpp"
 #include "gnomon/render/perceptual.hpp"
 
-namespace flythrough {
+namespace gnomon::tool::fly {
 namespace {
 
-using gnomon::render::HidingMapSize;
-using gnomon::render::ShadowDistances;
+using render::HidingMapSize;
+using render::ShadowDistances;
 
-ShadowDistances distances_of(const Options& options, const Flight& flight, const gnomon::Light& light) {
-  const gnomon::Box& scene = flight.scene.bounds_world;
+ShadowDistances distances_of(const Options& options, const Flight& flight, const Light& light) {
+  const Box& scene = flight.scene.bounds_world;
   ShadowDistances distances;
   distances.blocker_world =
       options.blocker_distance > 0.0 ? options.blocker_distance : 0.5 * (scene.max.y - scene.min.y);
   // A lamp's penumbras are narrowest where its light ends.
-  if (const auto* spot = std::get_if<gnomon::SpotLight>(&light)) distances.light_world = spot->range;
-  if (const auto* point = std::get_if<gnomon::PointLight>(&light)) distances.light_world = point->range;
+  if (const auto* spot = std::get_if<SpotLight>(&light)) distances.light_world = spot->range;
+  if (const auto* point = std::get_if<PointLight>(&light)) distances.light_world = point->range;
   return distances;
 }
 
 }  // namespace
 
 int perceptual_map_size(const Options& options, const Flight& flight) {
-  const gnomon::Light light = gnomon::default_light(options.light, flight.scene.bounds_world);
+  const Light light = default_light(options.light, flight.scene.bounds_world);
   const ShadowDistances distances = distances_of(options, flight, light);
-  gnomon::PlanOptions plan_options = options.plan;
+  PlanOptions plan_options = options.plan;
   // Smaller maps are all rim.
   const int least = static_cast<int>(std::ceil(4.0 * plan_options.filter_radius_texels));
   const auto needed = [&](int frame) {
-    const gnomon::Camera camera = camera_of(options, flight, frame);
-    return hiding_map_size(gnomon::make_plan(camera, light, flight.bounds(), plan_options), camera,
-                           options.filter, distances);
+    const Camera camera = camera_of(options, flight, frame);
+    return hiding_map_size(make_plan(camera, light, flight.bounds(), plan_options), camera, options.filter,
+                           distances);
   };
-  int size = std::max(least, gnomon::kLeastMapSize);
+  int size = std::max(least, kLeastMapSize);
   for (int frame = 0; frame < options.frames; ++frame) size = std::max(size, needed(frame).map_size);
   HidingMapSize widest;
   for (int frame = 0; frame < options.frames; ++frame) {
@@ -47,7 +48,7 @@ int perceptual_map_size(const Options& options, const Flight& flight) {
     for (plan_options.map_size = size; (asked = needed(frame)).map_size > size; plan_options.map_size = size)
       size = asked.map_size;
     if (!asked.hides) {
-      throw UsageError(fmt::format(
+      throw std::runtime_error(fmt::format(
           "--resolution perceptual: frame {}: no map of up to {} texels has texels that a kernel of {:.3g} "
           "world units hides; widen the kernel, or take more cascades",
           frame, asked.map_size, asked.radius_world));
@@ -59,4 +60,4 @@ int perceptual_map_size(const Options& options, const Flight& flight) {
   return size;
 }
 
-}  // namespace flythrough
+}  // namespace gnomon::tool::fly

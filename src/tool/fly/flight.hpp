@@ -9,32 +9,32 @@
 #include "gnomon/scene/scene.hpp"
 #include "options.hpp"
 
-namespace flythrough {
+namespace gnomon::tool::fly {
 
 /// What flies where.
 struct Flight {
-  gnomon::Scene scene;
-  gnomon::CameraPath path;
-  std::vector<gnomon::Box> boxes;  ///< of the instances: they cast and receive
-  [[nodiscard]] gnomon::SceneBounds bounds() const noexcept { return {boxes, boxes}; }
+  Scene scene;
+  CameraPath path;
+  std::vector<Box> boxes;  ///< of the instances: they cast and receive
+  [[nodiscard]] SceneBounds bounds() const noexcept { return {boxes, boxes}; }
 };
 
-/// Loads scene and path. Throws UsageError with what is wrong and where.
+/// Loads scene and path. Throws std::runtime_error with what is wrong and where.
 [[nodiscard]] Flight load_flight(const Options& options);
 
 /// Of a frame of the flight.
-[[nodiscard]] gnomon::Camera camera_of(const Options& options, const Flight& flight, int frame);
+[[nodiscard]] Camera camera_of(const Options& options, const Flight& flight, int frame);
 
-/// Halves the maps until memory takes them, and says so. A context must be current. Throws UsageError where
-/// not even the least fit.
+/// Halves the maps until memory takes them, and says so. A context must be current. Throws std::runtime_error
+/// where not even the least fit.
 void fit_maps_to_memory(Options& options);
 
-/// The smallest map size whose texels the filter hides in all frames; prints it. Throws UsageError where
-/// none does.
+/// The smallest map size whose texels the filter hides in all frames; prints it. Throws std::runtime_error
+/// where none does.
 [[nodiscard]] int perceptual_map_size(const Options& options, const Flight& flight);
 
 /// Takes maps and filter that meet Options::budget in the frame that is hardest to serve, and prints them
-/// with what less cost and what less error would have taken. Throws UsageError.
+/// with what less cost and what less error would have taken. Throws std::runtime_error.
 void choose_technique_of(Options& options, const Flight& flight);
 
 /// Draws the frames off-screen and writes them. Returns the exit code.
@@ -44,4 +44,4 @@ int fly_to_files(const Options& options, const Flight& flight);
 /// the user flies. Returns the exit code.
 int fly_in_window(const Options& options, const Flight& flight);
 
-}  // namespace flythrough
+}  // namespace gnomon::tool::fly

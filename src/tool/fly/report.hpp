@@ -9,7 +9,7 @@
 #include "gnomon/plan.hpp"
 #include "gnomon/render/renderer.hpp"
 
-namespace flythrough {
+namespace gnomon::tool::fly {
 
 /// The aliasing error over the pixels of a frame whose surface faces the light and lies in a map.
 struct PixelAliasing {
@@ -17,23 +17,22 @@ struct PixelAliasing {
   double share_undersampled = 0.0;  ///< of those pixels, m > 1
   std::size_t pixels = 0;
 };
-[[nodiscard]] PixelAliasing pixel_aliasing(const gnomon::FloatImage& aliasing);
+[[nodiscard]] PixelAliasing pixel_aliasing(const FloatImage& aliasing);
 
 struct FrameRow {
   int frame = 0;
-  gnomon::PlanStatus status{};
+  PlanStatus status{};
   std::int64_t plan_ns = 0;
-  gnomon::render::FrameStats stats;
+  render::FrameStats stats;
   PixelAliasing aliasing;
-  std::array<double, gnomon::kMaxMaps> m_bound{};  ///< of each map, over all that is in view
-  std::string warps;                               ///< of each map, with its kappa
-  std::string omitted;                             ///< what the plan left out, and why
+  std::array<double, kMaxMaps> m_bound{};  ///< of each map, over all that is in view
+  std::string warps;                       ///< of each map, with its kappa
+  std::string omitted;                     ///< what the plan left out, and why
 };
 
 /// Names and strengths of the maps' warps, and the plan's omissions, as text for a row.
-[[nodiscard]] std::string warps_text(const gnomon::ShadowPlan& plan);
-[[nodiscard]] std::string omitted_text(const gnomon::ShadowPlan& plan,
-                                       const gnomon::render::FrameStats& stats);
+[[nodiscard]] std::string warps_text(const ShadowPlan& plan);
+[[nodiscard]] std::string omitted_text(const ShadowPlan& plan, const render::FrameStats& stats);
 
 /// Writes the table with columns for `cascades` maps: beside the target first, then renamed. Throws
 /// std::runtime_error.
@@ -46,14 +45,14 @@ class ContactSheet {
   ContactSheet(int frames, int width, int height);
   /// True where this frame has a column.
   [[nodiscard]] bool wants(int frame) const;
-  void add(int frame, const gnomon::Image& lit, const gnomon::Image& heat, const gnomon::Image& tint);
-  [[nodiscard]] gnomon::Image sheet(const std::string& title) const;
+  void add(int frame, const Image& lit, const Image& heat, const Image& tint);
+  [[nodiscard]] Image sheet(const std::string& title) const;
 
  private:
   static constexpr int kMaxColumns = 8, kColumnWidth = 320;
   struct Column {
     int frame;
-    gnomon::Image picture[3];
+    Image picture[3];
   };
   int frames_, thumb_width_, thumb_height_;
   std::vector<Column> columns_;
@@ -62,16 +61,16 @@ class ContactSheet {
 /// One frame under several warps side by side: a column per warp, the picture above the aliasing error.
 class WarpStrip {
  public:
-  void add(const std::string& label, const gnomon::Image& lit, const gnomon::Image& heat);
-  [[nodiscard]] gnomon::Image strip(const std::string& title) const;
+  void add(const std::string& label, const Image& lit, const Image& heat);
+  [[nodiscard]] Image strip(const std::string& title) const;
 
  private:
   static constexpr int kMaxColumnWidth = 420;
   struct Column {
     std::string label;
-    gnomon::Image lit, heat;
+    Image lit, heat;
   };
   std::vector<Column> columns_;
 };
 
-}  // namespace flythrough
+}  // namespace gnomon::tool::fly

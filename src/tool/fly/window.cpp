@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
+#include "command.hpp"
 #include "flight.hpp"
 #include "frame_plan.hpp"
 #include "gnomon/render/picture.hpp"
@@ -14,10 +16,10 @@
 #include "gnomon/render/window.hpp"
 #include "gnomon/scene/image.hpp"
 
-namespace flythrough {
+namespace gnomon::tool::fly {
 namespace {
 
-using gnomon::render::Renderer;
+using render::Renderer;
 
 constexpr const char* kKeys =
     "WASD move, Q E down up, mouse or arrows look, shift faster, V warp, F filter, H heat map, C cascade "
@@ -35,12 +37,12 @@ struct Viewer {
   std::size_t warp = 0;    ///< 0: auto, then all_warps()
   std::size_t filter = 0;  ///< of all_filters()
   Renderer::Picture picture = Renderer::Picture::lit;
-  gnomon::CameraKey eye;  ///< where the user is, and what is looked at
+  CameraKey eye;  ///< where the user is, and what is looked at
   bool on_path = true, mouse_held = false;
   double path_time = 0.0;
   glm::dvec2 mouse{0.0};
-  gnomon::Image legend;
-  gnomon::PlanHistory history;
+  Image legend;
+  PlanHistory history;
 };
 
 bool down(const Viewer& viewer, int key) {
@@ -48,22 +50,20 @@ bool down(const Viewer& viewer, int key) {
 }
 
 void show_title(const Viewer& viewer, double frame_ms) {
-  const std::string_view warp = viewer.warp == 0 ? "auto" : gnomon::all_warps()[viewer.warp - 1]->name;
-  glfwSetWindowTitle(
-      viewer.window,
-      fmt::format("flythrough: warp {} (V), filter {} (F), {} (T), heat H, maps C, path P: {:.1f} ms", warp,
-                  gnomon::render::all_filters()[viewer.filter]->name, to_string(viewer.options.plan.fit),
-                  frame_ms)
-          .c_str());
+  const std::string_view warp = viewer.warp == 0 ? "auto" : all_warps()[viewer.warp - 1]->name;
+  glfwSetWindowTitle(viewer.window,
+                     fmt::format("{}: warp {} (V), filter {} (F), {} (T), heat H, maps C, path P: {:.1f} ms",
+                                 program_name(), warp, render::all_filters()[viewer.filter]->name,
+                                 to_string(viewer.options.plan.fit), frame_ms)
+                         .c_str());
 }
 
 void apply(Viewer& viewer) {
-  viewer.options.plan.warp = viewer.warp == 0 ? nullptr : gnomon::all_warps()[viewer.warp - 1];
+  viewer.options.plan.warp = viewer.warp == 0 ? nullptr : all_warps()[viewer.warp - 1];
   // Other than the command line's filter, each as it is by default.
-  const gnomon::render::Filter* filter = gnomon::render::all_filters()[viewer.filter];
-  if (viewer.options.filter.filter != filter)
-    viewer.options.filter = gnomon::render::default_settings(*filter);
-  gnomon::render::set_margin(viewer.options.filter, viewer.options.plan);
+  const render::Filter* filter = render::all_filters()[viewer.filter];
+  if (viewer.options.filter.filter != filter) viewer.options.filter = render::default_settings(*filter);
+  render::set_margin(viewer.options.filter, viewer.options.plan);
   viewer.history.clear();
 }
 
@@ -78,10 +78,10 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
       glfwSetWindowShouldClose(window, GLFW_TRUE);
       break;
     case GLFW_KEY_V:
-      viewer.warp = (viewer.warp + 1) % (gnomon::all_warps().size() + 1);
+      viewer.warp = (viewer.warp + 1) % (all_warps().size() + 1);
       break;
     case GLFW_KEY_F:
-      viewer.filter = (viewer.filter + 1) % gnomon::render::all_filters().size();
+      viewer.filter = (viewer.filter + 1) % render::all_filters().size();
       break;
     case GLFW_KEY_H:
       toggle(Renderer::Picture::heat_map);
@@ -98,8 +98,7 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
       glfwGetCursorPos(window, &viewer.mouse.x, &viewer.mouse.y);
       break;
     case GLFW_KEY_T:
-      viewer.options.plan.fit =
-          viewer.options.plan.fit == gnomon::Fit::stable ? gnomon::Fit::tight : gnomon::Fit::stable;
+      viewer.options.plan.fit = viewer.options.plan.fit == Fit::stable ? Fit::tight : Fit::stable;
       break;
     default:
       break;
@@ -132,9 +131,9 @@ void steer(Viewer& viewer, double seconds) {
   turn(viewer, axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) * kRadiansPerSecond * seconds,
        axis(GLFW_KEY_UP, GLFW_KEY_DOWN) * kRadiansPerSecond * seconds);
 
-  gnomon::Camera camera = viewer.flight.path.at(0.0, 16, 16);
+  Camera camera = viewer.flight.path.at(0.0, 16, 16);
   camera.forward = viewer.eye.target - viewer.eye.position;
-  const gnomon::CameraAxes axes = gnomon::camera_axes(camera);
+  const CameraAxes axes = camera_axes(camera);
   const glm::dvec3 step = axes.forward * axis(GLFW_KEY_W, GLFW_KEY_S) +
                           axes.right * axis(GLFW_KEY_D, GLFW_KEY_A) +
                           glm::dvec3(0.0, axis(GLFW_KEY_E, GLFW_KEY_Q), 0.0);
@@ -144,29 +143,28 @@ void steer(Viewer& viewer, double seconds) {
   viewer.eye.target += step * (speed * seconds);
 }
 
-gnomon::Camera next_camera(Viewer& viewer, int width, int height, double seconds) {
+Camera next_camera(Viewer& viewer, int width, int height, double seconds) {
   if (viewer.on_path) {
     constexpr double kFlightSeconds = 30.0;
     if (!viewer.options.frames_given)
       viewer.path_time = std::fmod(viewer.path_time + seconds / kFlightSeconds, 1.0);
-    const gnomon::Camera camera = viewer.flight.path.at(viewer.path_time, width, height);
+    const Camera camera = viewer.flight.path.at(viewer.path_time, width, height);
     viewer.eye = {camera.position, camera.position + camera.forward};
     return camera;
   }
   steer(viewer, seconds);
-  gnomon::Camera camera = viewer.flight.path.at(viewer.path_time, width, height);
+  Camera camera = viewer.flight.path.at(viewer.path_time, width, height);
   camera.position = viewer.eye.position;
   camera.forward = viewer.eye.target - viewer.eye.position;
   return camera;
 }
 
 /// The heat map's legend by itself, cut out of a picture as wide as the window.
-gnomon::Image heat_legend(int width) {
-  gnomon::Image sheet = gnomon::render::blank_image(width, 160, {24, 24, 28});
-  gnomon::render::draw_heat_legend(sheet);
-  gnomon::Image legend =
-      gnomon::render::blank_image(std::min(width, 300 * std::max(1, width / 640)), 64, {24, 24, 28});
-  gnomon::render::paste(legend, sheet, 0, legend.height - sheet.height);
+Image heat_legend(int width) {
+  Image sheet = render::blank_image(width, 160, {24, 24, 28});
+  render::draw_heat_legend(sheet);
+  Image legend = render::blank_image(std::min(width, 300 * std::max(1, width / 640)), 64, {24, 24, 28});
+  render::paste(legend, sheet, 0, legend.height - sheet.height);
   return legend;
 }
 
@@ -175,15 +173,14 @@ void draw(Viewer& viewer, double seconds) {
   glfwGetFramebufferSize(viewer.window, &width, &height);
   width = std::max(width, 16);
   height = std::max(height, 16);
-  const gnomon::Camera camera = next_camera(viewer, width, height, seconds);
-  const gnomon::Light light = gnomon::default_light(viewer.options.light, viewer.flight.scene.bounds_world);
-  const gnomon::render::PreparedFilter filter = viewer.renderer.prepare(viewer.options.filter);
-  gnomon::VisibleDepths depths;
-  const gnomon::PlanOptions plan_options =
-      frame_options(viewer.options, viewer.renderer, filter, camera, depths);
-  const gnomon::ShadowPlan plan =
+  const Camera camera = next_camera(viewer, width, height, seconds);
+  const Light light = default_light(viewer.options.light, viewer.flight.scene.bounds_world);
+  const render::PreparedFilter filter = viewer.renderer.prepare(viewer.options.filter);
+  VisibleDepths depths;
+  const PlanOptions plan_options = frame_options(viewer.options, viewer.renderer, filter, camera, depths);
+  const ShadowPlan plan =
       plan_frame(viewer.options, viewer.flight, light, camera, plan_options, viewer.history);
-  gnomon::render::FrameOptions frame;
+  render::FrameOptions frame;
   frame.transition = viewer.options.transition;
   frame.time_passes = false;
   frame.light = &light;
@@ -224,7 +221,7 @@ void fly_once(Viewer& viewer) {
     show_title(viewer, 0.0);
     glfwPollEvents();
     const auto file = viewer.options.out / fmt::format("window_{:04}.png", frame);
-    gnomon::write_png(viewer.renderer.screen(), file);
+    write_png(viewer.renderer.screen(), file);
   }
   fmt::print("what the window showed: {}\n", (viewer.options.out / "window_0000.png").string());
 }
@@ -235,19 +232,19 @@ int fly_in_window(const Options& asked, const Flight& flight) {
   Options options = asked;
   const auto window = [&options] {
     try {
-      return gnomon::render::create_window(options.width, options.height, "flythrough");
-    } catch (const gnomon::render::RenderError& error) {
-      throw UsageError(fmt::format("--context glfw: {}", error.what()));
+      return render::create_window(options.width, options.height, std::string(program_name()));
+    } catch (const render::RenderError& error) {
+      throw std::runtime_error(fmt::format("--context glfw: {}", error.what()));
     }
   }();
   fmt::print("context:  {}\n{}\n", window->info().description(), kKeys);
   fit_maps_to_memory(options);
   Viewer viewer(options, flight, window->handle());
-  for (std::size_t i = 0; i < gnomon::all_warps().size(); ++i) {
-    if (gnomon::all_warps()[i] == options.plan.warp) viewer.warp = i + 1;
+  for (std::size_t i = 0; i < all_warps().size(); ++i) {
+    if (all_warps()[i] == options.plan.warp) viewer.warp = i + 1;
   }
-  for (std::size_t i = 0; i < gnomon::render::all_filters().size(); ++i) {
-    if (gnomon::render::all_filters()[i] == options.filter.filter) viewer.filter = i;
+  for (std::size_t i = 0; i < render::all_filters().size(); ++i) {
+    if (render::all_filters()[i] == options.filter.filter) viewer.filter = i;
   }
   glfwSetWindowUserPointer(window->handle(), &viewer);
   glfwSetKeyCallback(window->handle(), on_key);
@@ -260,4 +257,4 @@ int fly_in_window(const Options& asked, const Flight& flight) {
   return 0;
 }
 
-}  // namespace flythrough
+}  // namespace gnomon::tool::fly

@@ -11,27 +11,26 @@
 #include "gnomon/report/csv.hpp"
 #include "whole_file.hpp"
 
-namespace flythrough {
+namespace gnomon::tool::fly {
 namespace {
 
-using gnomon::Image;
-using gnomon::render::Color;
-using gnomon::render::Pass;
-using gnomon::report::csv_field;
+using render::Color;
+using render::Pass;
+using report::csv_field;
 
 constexpr Color kPaper{24, 24, 28}, kInk{240, 240, 236};
 constexpr int kGap = 4, kLabel = 16;  // pixels
 
 std::string header(int cascades, bool software) {
   std::string line = "frame,plan_status,plan_ns,";
-  for (std::size_t p = 0; p < gnomon::render::kPassCount; ++p) {
+  for (std::size_t p = 0; p < render::kPassCount; ++p) {
     line += fmt::format("{}_{}ms,", to_string(static_cast<Pass>(p)), software ? "software_wall_clock_" : "");
   }
   line += "maps,texels,m_p50,m_p95,m_max,share_undersampled,pixels_measured,camera_triangles,camera_draws,";
   for (int i = 0; i < cascades; ++i)
     line += fmt::format(
         "map{0}_triangles,map{0}_draws,map{0}_instances,map{0}_texels,map{0}_age,map{0}_m_bound,", i);
-  for (const gnomon::PruneRuleInfo& rule : gnomon::prune_rules())
+  for (const PruneRuleInfo& rule : prune_rules())
     line += fmt::format("{0}_saved_texels,{0}_saved_triangles,", rule.name);
   return line + "prefilter_passes,warps,omitted\n";
 }
@@ -44,13 +43,13 @@ std::string line_of(const FrameRow& row, int cascades) {
                       row.aliasing.pixels);
   line += fmt::format("{},{},", row.stats.camera.triangles, row.stats.camera.draws);
   for (int i = 0; i < cascades; ++i) {
-    const gnomon::render::MapStats& map = row.stats.map[static_cast<std::size_t>(i)];
+    const render::MapStats& map = row.stats.map[static_cast<std::size_t>(i)];
     line += i < row.stats.map_count
                 ? fmt::format("{},{},{},{},{},{:.5g},", map.triangles, map.draws, map.instances, map.texels,
                               map.age, row.m_bound[static_cast<std::size_t>(i)])
                 : ",,,,,,";
   }
-  for (const gnomon::PruneSaving& saved : row.stats.saved)
+  for (const PruneSaving& saved : row.stats.saved)
     line += fmt::format("{},{},", saved.texels, saved.triangles);
   line += fmt::format("{},", row.stats.prefilter_passes);
   return line + csv_field(row.warps) + "," + csv_field(row.omitted) + "\n";
@@ -58,7 +57,7 @@ std::string line_of(const FrameRow& row, int cascades) {
 
 }  // namespace
 
-PixelAliasing pixel_aliasing(const gnomon::FloatImage& aliasing) {
+PixelAliasing pixel_aliasing(const FloatImage& aliasing) {
   std::vector<float> m;
   m.reserve(aliasing.values.size() / 4);
   std::size_t undersampled = 0;
@@ -82,24 +81,23 @@ PixelAliasing pixel_aliasing(const gnomon::FloatImage& aliasing) {
   return result;
 }
 
-std::string warps_text(const gnomon::ShadowPlan& plan) {
+std::string warps_text(const ShadowPlan& plan) {
   std::string text;
-  for (const gnomon::ShadowMap& map : plan.maps()) {
+  for (const ShadowMap& map : plan.maps()) {
     text += fmt::format("{}{} {:.4g}", text.empty() ? "" : "; ", map.warp->name, map.kappa);
   }
   return text;
 }
 
-std::string omitted_text(const gnomon::ShadowPlan& plan, const gnomon::render::FrameStats& stats) {
+std::string omitted_text(const ShadowPlan& plan, const render::FrameStats& stats) {
   std::string text;
-  for (const gnomon::Omission& omission : plan.omitted()) {
-    const gnomon::OmissionText words = describe(omission);
+  for (const Omission& omission : plan.omitted()) {
+    const OmissionText words = describe(omission);
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", words.what.data(), words.why.data());
   }
-  for (const gnomon::PruneRuleInfo& rule : gnomon::prune_rules()) {
-    const gnomon::PruneSaving& saved = stats.saved[static_cast<std::size_t>(rule.rule)];
+  for (const PruneRuleInfo& rule : prune_rules()) {
+    const PruneSaving& saved = stats.saved[static_cast<std::size_t>(rule.rule)];
     // What the plan left out is told above, map by map.
-    using gnomon::PruneRule;
     const bool of_plan = rule.rule == PruneRule::empty_cascades ||
                          rule.rule == PruneRule::casterless_cascades || rule.rule == PruneRule::empty_faces ||
                          rule.rule == PruneRule::casterless_faces ||
@@ -115,7 +113,7 @@ void write_csv(const std::vector<FrameRow>& rows, int cascades, bool software,
                const std::filesystem::path& file) {
   std::string text = header(cascades, software);
   for (const FrameRow& row : rows) text += line_of(row, cascades);
-  const std::string why = gnomon::write_whole_file(file, text);
+  const std::string why = write_whole_file(file, text);
   if (!why.empty()) throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(), why));
 }
 
@@ -135,7 +133,7 @@ bool ContactSheet::wants(int frame) const {
 
 void ContactSheet::add(int frame, const Image& lit, const Image& heat, const Image& tint) {
   const auto thumb = [this](const Image& image) {
-    return gnomon::render::shrunk(image, thumb_width_, thumb_height_);
+    return render::shrunk(image, thumb_width_, thumb_height_);
   };
   columns_.push_back({frame, {thumb(lit), thumb(heat), thumb(tint)}});
 }
@@ -144,16 +142,15 @@ Image ContactSheet::sheet(const std::string& title) const {
   constexpr const char* kRows[3] = {"image", "m", "maps"};
   const int count = static_cast<int>(columns_.size());
   const int heading = 2 * kLabel;
-  Image sheet = gnomon::render::blank_image(kGap + count * (thumb_width_ + kGap),
-                                            heading + 3 * (thumb_height_ + kGap + kLabel) + kGap, kPaper);
-  gnomon::render::draw_text(sheet, 2 * kGap, 2 * kGap, title, kInk, 2);
+  Image sheet = render::blank_image(kGap + count * (thumb_width_ + kGap),
+                                    heading + 3 * (thumb_height_ + kGap + kLabel) + kGap, kPaper);
+  render::draw_text(sheet, 2 * kGap, 2 * kGap, title, kInk, 2);
   for (int c = 0; c < count; ++c) {
     const Column& column = columns_[static_cast<std::size_t>(c)];
     for (int r = 0; r < 3; ++r) {
       const int x = kGap + c * (thumb_width_ + kGap), y = heading + r * (thumb_height_ + kGap + kLabel);
-      gnomon::render::draw_text(sheet, x + kGap, y + kGap, fmt::format("frame {} {}", column.frame, kRows[r]),
-                                kInk);
-      gnomon::render::paste(sheet, column.picture[r], x, y + kLabel);
+      render::draw_text(sheet, x + kGap, y + kGap, fmt::format("frame {} {}", column.frame, kRows[r]), kInk);
+      render::paste(sheet, column.picture[r], x, y + kLabel);
     }
   }
   return sheet;
@@ -162,25 +159,24 @@ Image ContactSheet::sheet(const std::string& title) const {
 void WarpStrip::add(const std::string& label, const Image& lit, const Image& heat) {
   const int width = std::min(lit.width, kMaxColumnWidth);
   const int height = std::max(1, static_cast<int>(std::lround(1.0 * width * lit.height / lit.width)));
-  columns_.push_back(
-      {label, gnomon::render::shrunk(lit, width, height), gnomon::render::shrunk(heat, width, height)});
-  if (columns_.size() == 1) gnomon::render::draw_heat_legend(columns_.back().heat);  // once, in the first
+  columns_.push_back({label, render::shrunk(lit, width, height), render::shrunk(heat, width, height)});
+  if (columns_.size() == 1) render::draw_heat_legend(columns_.back().heat);  // once, in the first
 }
 
 Image WarpStrip::strip(const std::string& title) const {
   const int width = columns_.front().lit.width, height = columns_.front().lit.height;
   const int heading = 2 * kLabel;
-  Image strip = gnomon::render::blank_image(kGap + static_cast<int>(columns_.size()) * (width + kGap),
-                                            heading + kLabel + 2 * (height + kGap), kPaper);
-  gnomon::render::draw_text(strip, 2 * kGap, 2 * kGap, title, kInk, 2);
+  Image strip = render::blank_image(kGap + static_cast<int>(columns_.size()) * (width + kGap),
+                                    heading + kLabel + 2 * (height + kGap), kPaper);
+  render::draw_text(strip, 2 * kGap, 2 * kGap, title, kInk, 2);
   int x = kGap;
   for (const Column& column : columns_) {
-    gnomon::render::draw_text(strip, x + kGap, heading + kGap, column.label, kInk);
-    gnomon::render::paste(strip, column.lit, x, heading + kLabel);
-    gnomon::render::paste(strip, column.heat, x, heading + kLabel + height + kGap);
+    render::draw_text(strip, x + kGap, heading + kGap, column.label, kInk);
+    render::paste(strip, column.lit, x, heading + kLabel);
+    render::paste(strip, column.heat, x, heading + kLabel + height + kGap);
     x += width + kGap;
   }
   return strip;
 }
 
-}  // namespace flythrough
+}  // namespace gnomon::tool::fly

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,13 +14,7 @@
 #include "gnomon/scene/load.hpp"
 #include "gnomon/technique.hpp"
 
-namespace flythrough {
-
-/// Bad input: one line that names what is wrong and where. The program ends with exit code 2.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace gnomon::tool::fly {
 
 /// PlanOptions::split_overlap where maps pass into each other: the step between their texels is hidden, and a
 /// tenth of the texels is all it costs.
@@ -33,18 +26,18 @@ struct Options {
   bool frames_given = false;
   int width = 960, height = 540;
   std::filesystem::path out = "out/flythrough";
-  gnomon::render::ContextKind context = gnomon::render::ContextKind::automatic;
-  gnomon::PlanOptions plan;
-  gnomon::render::FilterSettings filter = gnomon::render::default_settings(gnomon::render::filters::pcf);
+  render::ContextKind context = render::ContextKind::automatic;
+  PlanOptions plan;
+  render::FilterSettings filter = render::default_settings(render::filters::pcf);
   /// Other than cut: maps overlap by kTransitionShare of the cascade before the split.
-  gnomon::render::SplitTransition transition = gnomon::render::SplitTransition::cut;
+  render::SplitTransition transition = render::SplitTransition::cut;
   /// Steps of 8 bits by which the filter's answers may differ where it stores less than it was asked to; 0:
   /// it stores all of it.
   double filter_precision = 0.0;
   /// The map size is chosen: the smallest whose texels the filter hides, in every frame.
   bool perceptual_resolution = false;
   /// Maps and filter are chosen: the least error within it, or the cheapest at its error.
-  gnomon::Budget budget;
+  Budget budget;
   std::optional<std::filesystem::path> cost_model;  ///< of gnomon calibrate; none: texels are what counts
   /// From a shadow to what casts it, world units, for filters with penumbras; 0: half the scene's height.
   double blocker_distance = 0.0;
@@ -52,18 +45,18 @@ struct Options {
   bool history = false;
   /// Every frame is drawn twice: the first tells which depths show a surface, the second's maps cover those.
   bool visible_depths = false;
-  gnomon::LightPlacement light;
+  LightPlacement light;
   /// What may be left out, of plans and of drawing.
-  gnomon::PruneRules prune;
+  PruneRules prune;
   std::optional<std::filesystem::path> path;
   /// Maps that take more together are halved until they fit, with a warning; 0: as much as there is.
   double map_memory_mib = 0.0;
   /// Scenes of more triangles, over all instances, are refused before they take the machine's memory.
-  std::uint64_t max_triangles = gnomon::LoadLimits{}.triangles;
-  std::vector<const gnomon::Warp*> compared_warps;  ///< nullptr: chosen by the plan; none: no comparison
+  std::uint64_t max_triangles = LoadLimits{}.triangles;
+  std::vector<const Warp*> compared_warps;  ///< nullptr: chosen by the plan; none: no comparison
 };
 
-/// Prints help or the version and answers nothing where those were asked for. Throws UsageError.
-[[nodiscard]] std::optional<Options> parse_options(int argc, char** argv);
+/// Flies as the options say. Returns the exit code.
+int run(Options options);
 
-}  // namespace flythrough
+}  // namespace gnomon::tool::fly

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <system_error>
+#include <cstdio>
+#include <stdexcept>
 
+#include "command.hpp"
 #include "frame_plan.hpp"
 #include "gnomon/render/filter.hpp"
 #include "gnomon/render/picture.hpp"
@@ -15,28 +17,26 @@
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
 #include "interrupt.hpp"
+#include "output.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 
-namespace flythrough {
+namespace gnomon::tool::fly {
 namespace {
-
-using gnomon::Image;
 
 constexpr int kPlanRepeats = 5;  ///< the time of a plan is the median over these
 
 struct TimedPlan {
-  gnomon::ShadowPlan plan;
+  ShadowPlan plan;
   std::int64_t nanoseconds = 0;
 };
 
 /// `history` is taken one frame further, where the options ask for one.
-TimedPlan timed_plan(const Options& options, const Flight& flight, const gnomon::Light& light,
-                     const gnomon::Camera& camera, const gnomon::PlanOptions& plan,
-                     gnomon::PlanHistory& history) {
+TimedPlan timed_plan(const Options& options, const Flight& flight, const Light& light, const Camera& camera,
+                     const PlanOptions& plan, PlanHistory& history) {
   TimedPlan result;
   std::array<std::int64_t, kPlanRepeats> taken{};
-  gnomon::PlanHistory next;
+  PlanHistory next;
   for (std::int64_t& ns : taken) {
     next = history;
     const auto begin = std::chrono::steady_clock::now();
@@ -50,48 +50,39 @@ TimedPlan timed_plan(const Options& options, const Flight& flight, const gnomon:
   return result;
 }
 
-void label_cascades(Image& image, const gnomon::ShadowPlan& plan) {
-  std::array<std::string, gnomon::kMaxMaps> text;
-  std::array<gnomon::render::LegendEntry, gnomon::kMaxMaps> entries{};
+void label_cascades(Image& image, const ShadowPlan& plan) {
+  std::array<std::string, kMaxMaps> text;
+  std::array<render::LegendEntry, kMaxMaps> entries{};
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
-    const gnomon::ShadowMap& map = plan.map[i];
+    const ShadowMap& map = plan.map[i];
     text[i] = fmt::format("map {}: depth {:.4g} to {:.4g}, {}x{}, {}", i, map.depth_begin, map.depth_end,
                           map.width, map.height, map.warp->name);
-    entries[i] = {gnomon::render::cascade_color(static_cast<int>(i)), text[i]};
+    entries[i] = {render::cascade_color(static_cast<int>(i)), text[i]};
   }
   const std::string title =
       plan.map_count > 0 ? "shadow maps" : fmt::format("no map: {}", to_string(plan.status));
-  gnomon::render::draw_legend(image, title, {entries.data(), plan.maps().size()});
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw UsageError(fmt::format("--out {}: cannot be made a folder ({})", folder.string(), error.message()));
-  }
+  render::draw_legend(image, title, {entries.data(), plan.maps().size()});
 }
 
 /// Everything a frame needs over the whole flight.
 struct Studio {
   const Options& options;
   const Flight& flight;
-  gnomon::render::Renderer renderer;
-  gnomon::render::PreparedFilter filter;
+  render::Renderer renderer;
+  render::PreparedFilter filter;
   ContactSheet sheet;
-  gnomon::PlanHistory history;
+  PlanHistory history;
 };
 
 /// The frame once more under each warp that is compared, side by side.
-void draw_comparison(Studio& studio, const gnomon::Camera& camera, int frame) {
+void draw_comparison(Studio& studio, const Camera& camera, int frame) {
   const Options& options = studio.options;
-  gnomon::PlanOptions plan_options = options.plan;
+  PlanOptions plan_options = options.plan;
   WarpStrip strip;
-  for (const gnomon::Warp* warp : options.compared_warps) {
+  for (const Warp* warp : options.compared_warps) {
     plan_options.warp = warp;
-    const gnomon::ShadowPlan plan =
-        gnomon::make_plan(camera, gnomon::default_light(options.light, studio.flight.scene.bounds_world),
-                          studio.flight.bounds(), plan_options);
+    const ShadowPlan plan = make_plan(camera, default_light(options.light, studio.flight.scene.bounds_world),
+                                      studio.flight.bounds(), plan_options);
     studio.renderer.draw(plan, camera, studio.filter, {});
     const PixelAliasing m = pixel_aliasing(studio.renderer.aliasing());
     strip.add(fmt::format("{}: m p95 {:.3g}, median {:.3g}, {:.0f} % undersampled",
@@ -100,19 +91,19 @@ void draw_comparison(Studio& studio, const gnomon::Camera& camera, int frame) {
   }
   const std::string title = fmt::format("{}, {} map{} of {}", options.scene, plan_options.cascades,
                                         plan_options.cascades == 1 ? "" : "s", plan_options.map_size);
-  gnomon::write_png(strip.strip(title), options.out / fmt::format("frame_{:04}_warps.png", frame));
+  write_png(strip.strip(title), options.out / fmt::format("frame_{:04}_warps.png", frame));
 }
 
 /// Asks the maps just drawn what the filter can do without, and takes that for the frames to come: where maps
 /// are new, which is after the first frame, and now and then. Reading maps back takes longer than a frame of
 /// a GPU.
-void save_filter_precision(Studio& studio, const gnomon::ShadowPlan& plan, int frame, FrameRow& row) {
+void save_filter_precision(Studio& studio, const ShadowPlan& plan, int frame, FrameRow& row) {
   constexpr int kFramesBetween = 60;
   const Options& options = studio.options;
   if (!(options.filter_precision > 0.0) || frame % kFramesBetween != 0) return;
-  const gnomon::render::FilterFit fit =
-      gnomon::render::fit_filter(options.filter, studio.renderer.drawn_depths(options.filter, plan),
-                                 {.bound = options.filter_precision / 255.0});
+  const render::FilterFit fit =
+      render::fit_filter(options.filter, studio.renderer.drawn_depths(options.filter, plan),
+                         {.bound = options.filter_precision / 255.0});
   studio.filter = studio.renderer.prepare(fit.settings);
   const std::string left_out = describe(fit, options.filter);
   if (!left_out.empty())
@@ -122,17 +113,16 @@ void save_filter_precision(Studio& studio, const gnomon::ShadowPlan& plan, int f
 
 FrameRow draw_frame(Studio& studio, int frame) {
   const Options& options = studio.options;
-  const gnomon::Camera camera = camera_of(options, studio.flight, frame);
-  const gnomon::Light light = gnomon::default_light(options.light, studio.flight.scene.bounds_world);
-  gnomon::VisibleDepths depths;
-  const gnomon::PlanOptions plan_options =
-      frame_options(options, studio.renderer, studio.filter, camera, depths);
+  const Camera camera = camera_of(options, studio.flight, frame);
+  const Light light = default_light(options.light, studio.flight.scene.bounds_world);
+  VisibleDepths depths;
+  const PlanOptions plan_options = frame_options(options, studio.renderer, studio.filter, camera, depths);
   const TimedPlan timed = timed_plan(options, studio.flight, light, camera, plan_options, studio.history);
   FrameRow row;
   row.frame = frame;
   row.status = timed.plan.status;
   row.plan_ns = timed.nanoseconds;
-  gnomon::render::FrameOptions drawn;
+  render::FrameOptions drawn;
   drawn.transition = options.transition;
   drawn.light = &light;
   drawn.prune = options.prune;
@@ -147,15 +137,15 @@ FrameRow draw_frame(Studio& studio, int frame) {
   const Image lit = studio.renderer.image();
   Image heat = studio.renderer.heat_map(), tint = studio.renderer.cascade_tint();
   if (studio.sheet.wants(frame)) studio.sheet.add(frame, lit, heat, tint);
-  gnomon::render::draw_heat_legend(heat);
+  render::draw_heat_legend(heat);
   label_cascades(tint, timed.plan);
   const auto file = [&](const char* kind) {
     return options.out / fmt::format("frame_{:04}_{}.png", frame, kind);
   };
-  gnomon::write_png(lit, file("image"));
-  gnomon::tool::check_interrupt();
-  gnomon::write_png(heat, file("heat"));
-  gnomon::write_png(tint, file("cascades"));
+  write_png(lit, file("image"));
+  check_interrupt();
+  write_png(heat, file("heat"));
+  write_png(tint, file("cascades"));
   if (!options.compared_warps.empty()) draw_comparison(studio, camera, frame);
   return row;
 }
@@ -163,12 +153,11 @@ FrameRow draw_frame(Studio& studio, int frame) {
 /// Every frame's plan once, before anything is written: a flight is refused as a whole.
 void check_plans(const Options& options, const Flight& flight) {
   for (int frame = 0; frame < options.frames; ++frame) {
-    const gnomon::Camera camera = camera_of(options, flight, frame);
-    const gnomon::ShadowPlan plan =
-        gnomon::make_plan(camera, gnomon::default_light(options.light, flight.scene.bounds_world),
-                          flight.bounds(), options.plan);
-    if (plan.status == gnomon::PlanStatus::invalid_input) {
-      throw UsageError(
+    const Camera camera = camera_of(options, flight, frame);
+    const ShadowPlan plan = make_plan(camera, default_light(options.light, flight.scene.bounds_world),
+                                      flight.bounds(), options.plan);
+    if (plan.status == PlanStatus::invalid_input) {
+      throw std::runtime_error(
           fmt::format("{}: frame {}: the plan refuses {}", options.scene, frame, plan.invalid_field));
     }
   }
@@ -196,33 +185,31 @@ void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
 Flight load_flight(const Options& options) {
   try {
     Flight flight;
-    flight.scene = gnomon::load_scene(options.scene, gnomon::limits_of_triangles(options.max_triangles));
-    for (const std::string& warning : flight.scene.warnings)
-      fmt::print(stderr, "flythrough: warning: {}\n", warning);
-    flight.path = options.path ? gnomon::load_camera_path(*options.path) : gnomon::default_path(flight.scene);
+    flight.scene = load_scene(options.scene, limits_of_triangles(options.max_triangles));
+    for (const std::string& warning : flight.scene.warnings) warn(warning);
+    flight.path = options.path ? load_camera_path(*options.path) : default_path(flight.scene);
     flight.boxes.reserve(flight.scene.instances.size());
-    for (const gnomon::Instance& instance : flight.scene.instances)
-      flight.boxes.push_back(instance.bounds_world);
+    for (const Instance& instance : flight.scene.instances) flight.boxes.push_back(instance.bounds_world);
     return flight;
-  } catch (const gnomon::SceneError& error) {
-    throw UsageError(error.what());
+  } catch (const SceneError& error) {
+    throw std::runtime_error(error.what());
   }
 }
 
-gnomon::Camera camera_of(const Options& options, const Flight& flight, int frame) {
+Camera camera_of(const Options& options, const Flight& flight, int frame) {
   const double t = options.frames == 1 ? 0.5 : 1.0 * frame / (options.frames - 1);
   return flight.path.at(t, options.width, options.height);
 }
 
 void fit_maps_to_memory(Options& options) {
   const int wanted = options.plan.map_size;
-  const gnomon::render::FittingMaps fitting = gnomon::render::largest_maps(
-      wanted, options.plan.cascades, gnomon::render::bytes_per_texel(options.filter), options.map_memory_mib);
+  const render::FittingMaps fitting = render::largest_maps(
+      wanted, options.plan.cascades, render::bytes_per_texel(options.filter), options.map_memory_mib);
   if (fitting.size == 0)
-    throw UsageError(fmt::format("--map-size {}: no map fits ({})", wanted, fitting.why));
+    throw std::runtime_error(fmt::format("--map-size {}: no map fits ({})", wanted, fitting.why));
   if (fitting.size < wanted)
-    fmt::print(stderr, "flythrough: warning: maps of {} do not fit ({}): maps of {}, {:.4g} MiB\n", wanted,
-               fitting.why, fitting.size, fitting.mebibytes);
+    warn(fmt::format("maps of {} do not fit ({}): maps of {}, {:.4g} MiB", wanted, fitting.why, fitting.size,
+                     fitting.mebibytes));
   options.plan.map_size = fitting.size;
 }
 
@@ -230,9 +217,9 @@ int fly_to_files(const Options& asked, const Flight& flight) {
   Options options = asked;
   const auto context = [&options] {
     try {
-      return gnomon::render::create_context(options.context);
-    } catch (const gnomon::render::RenderError& error) {
-      throw UsageError(fmt::format("--context {}: {}", to_string(options.context), error.what()));
+      return render::create_context(options.context);
+    } catch (const render::RenderError& error) {
+      throw std::runtime_error(fmt::format("--context {}: {}", to_string(options.context), error.what()));
     }
   }();
   fmt::print("context:  {}\n", context->info().description());
@@ -242,32 +229,43 @@ int fly_to_files(const Options& asked, const Flight& flight) {
              static_cast<double>(flight.scene.bytes()) / kMebi);
   fit_maps_to_memory(options);
   check_plans(options, flight);
-  make_folder(options.out);
-  gnomon::tool::watch_interrupts();
+  make_folder("--out", options.out);
+  watch_interrupts();
   Studio studio{options,
                 flight,
-                gnomon::render::Renderer(flight.scene),
+                render::Renderer(flight.scene),
                 {},
                 ContactSheet(options.frames, options.width, options.height),
                 {}};
   studio.filter = studio.renderer.prepare(options.filter);
   std::vector<FrameRow> rows;
   {
-    Progress progress(options.frames);
+    Progress progress(fmt::format("{} frames", program_name()), options.frames);
     for (int frame = 0; frame < options.frames; ++frame) {
-      gnomon::tool::check_interrupt();
-      progress.show(frame, "frames");
+      check_interrupt();
+      progress.set(frame);
       rows.push_back(draw_frame(studio, frame));
     }
   }
-  const std::string title = fmt::format(
-      "{}: {} maps of {}, {}{}", options.scene, options.plan.cascades, options.plan.map_size,
-      gnomon::render::to_string(options.filter),
-      options.plan.fit == gnomon::Fit::tight ? "" : fmt::format(", {}", to_string(options.plan.fit)));
-  gnomon::write_png(studio.sheet.sheet(title), options.out / "contact_sheet.png");
+  const std::string title =
+      fmt::format("{}: {} maps of {}, {}{}", options.scene, options.plan.cascades, options.plan.map_size,
+                  render::to_string(options.filter),
+                  options.plan.fit == Fit::tight ? "" : fmt::format(", {}", to_string(options.plan.fit)));
+  write_png(studio.sheet.sheet(title), options.out / "contact_sheet.png");
   write_csv(rows, options.plan.cascades, context->info().software, options.out / "frames.csv");
   print_summary(options, rows);
   return 0;
 }
 
-}  // namespace flythrough
+int run(Options options) {
+  const Flight flight = load_flight(options);
+  if (options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0)
+    choose_technique_of(options, flight);
+  if (options.perceptual_resolution) options.plan.map_size = perceptual_map_size(options, flight);
+  const int code = options.context == render::ContextKind::glfw ? fly_in_window(options, flight)
+                                                                : fly_to_files(options, flight);
+  if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
+  return code;
+}
+
+}  // namespace gnomon::tool::fly
