@@ -13,6 +13,7 @@
 #include "gnomon/casefile/plan_fields.hpp"
 #include "json_fields.hpp"
 #include "json_text.hpp"
+#include "nearest_name.hpp"
 
 namespace gnomon {
 namespace {
@@ -152,7 +153,8 @@ void read_field(const Fields& fields, std::string_view key, const PlanField& fie
         if constexpr (std::is_same_v<Place, PlanChoice>) {
           const std::string name = fields.text(key);
           if (!place.set(name, options))
-            fields.refuse(key, "is \"" + one_line(name, 40) + "\", not one of " + listed(place.names()));
+            fields.refuse(key, "is \"" + one_line(name, 40) + "\", not one of " + listed(place.names()) +
+                                   meant(name, place.names()));
         } else if constexpr (std::is_same_v<Place, PlanMember<Box>>) {
           place(options) = box_from(fields.at(key), fields.path_of(key));
         } else if constexpr (std::is_same_v<Place, PlanMember<BiasOptions>>) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "gnomon/casefile/casefile.hpp"
+#include "nearest_name.hpp"
 
 namespace gnomon {
 namespace {
@@ -49,7 +50,8 @@ Fields::Fields(const json& value, std::string path, std::span<const std::string_
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     std::string list;
     for (const std::string_view name : known) list += (list.empty() ? "" : ", ") + std::string(name);
-    throw CaseError(joined(path_, one_line(key, 60)) + ": unknown key (known here: " + list + ")");
+    throw CaseError(joined(path_, one_line(key, 60)) + ": unknown key (known here: " + list + ")" +
+                    meant(key, known));
   }
 }
 

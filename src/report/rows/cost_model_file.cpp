@@ -5,6 +5,7 @@
 #include "file.hpp"
 #include "gnomon/report/cost_model.hpp"
 #include "gnomon/report/row.hpp"
+#include "json_words.hpp"
 #include "text.hpp"
 
 namespace gnomon::report {
@@ -79,7 +80,7 @@ StoredCostModel load_cost_model(const std::filesystem::path& file) {
     }
     return model;
   } catch (const Json::exception& error) {
-    throw ReportError(file.string() + ": " + error.what());
+    throw ReportError(one_line(file.string() + ": " + json_words(error.what())));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "json_words.hpp"
 #include "text.hpp"
 
 namespace gnomon::report {
@@ -273,7 +274,7 @@ Row row_from_json(const std::string& line, const std::string& where) {
     measurement_from(json, row);
     return row;
   } catch (const Json::exception& error) {
-    throw ReportError(one_line(where + ": " + error.what()));
+    throw ReportError(one_line(where + ": " + json_words(error.what())));
   } catch (const ReportError& error) {
     throw ReportError(one_line(where + ": " + error.what()));
   }
