@@ -12,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include "nearest_name.hpp"
+
 namespace gnomon::tool {
 
 /// A value that is more than text: `set` returns false for a word that it does not know.
@@ -23,8 +25,8 @@ struct ParsedWord {
 using Target = std::variant<bool*, int*, double*, std::uint64_t*, std::string*, std::vector<int>*,
                             std::vector<std::string>*, ParsedWord>;
 
-/// What a shell completes an option's value with.
-enum class Completion { names, files, folders, scenes };
+/// What a shell completes an option's value with, besides its names.
+enum class Completion { names, files, folders };
 
 /// One option, or one word without a name.
 struct Option {
@@ -76,8 +78,6 @@ void warn(const std::string& what);
 
 /// "a, b or c".
 [[nodiscard]] std::string any_of_text(std::span<const std::string> names);
-/// The name that is nearest to `word`, a typing mistake or two away; empty where none is.
-[[nodiscard]] std::string nearest_name(std::string_view word, std::span<const std::string> names);
 /// Throws std::runtime_error "OPTION VALUE: wants a, b or c", with the nearest name where there is one.
 [[noreturn]] void refuse_name(std::string_view option, const std::string& value,
                               std::span<const std::string> names);

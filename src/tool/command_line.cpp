@@ -11,6 +11,8 @@
 #include "command.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "interrupt.hpp"
+#include "output.hpp"
+#include "shell_texts.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -145,12 +147,23 @@ std::string version_of(const Program& program) {
   return std::string(program.name) + " " + GNOMON_VERSION;
 }
 
+void declare_texts(CLI::App& app) {
+  // Read before the parser sees them; declared for --help.
+  app.add_option("--completion")
+      ->description("print a completion script for bash, zsh or fish")
+      ->type_name("SHELL");
+  app.add_option("--manual")
+      ->description("print the manual page, of a command where one is named")
+      ->type_name("[COMMAND]");
+}
+
 int run_single(const Program& program, int argc, char** argv) {
   CLI::App app(std::string(program.summary), std::string(program.name));
   app.set_version_flag("--version", version_of(program));
   Arguments arguments;
   const std::function<int()> run = program.commands.front().declare(arguments);
   declare_options(app, arguments);
+  declare_texts(app);
   return parse(app, app, arguments, argc, argv) ? run() : 0;
 }
 
@@ -163,15 +176,15 @@ const Command* find_command(const Program& program, std::string_view name) {
 [[noreturn]] void refuse_command(const Program& program, const std::string& word) {
   std::vector<std::string> names;
   for (const Command& command : program.commands) names.emplace_back(command.name);
-  const std::string near = nearest_name(word, names);
   // CLI11 would only say that a command is missing.
-  throw std::runtime_error("there is no command '" + one_line(word, 80) + "'" +
-                           (near.empty() ? "" : "; did you mean '" + near + "'?") + " (see --help)");
+  throw std::runtime_error("there is no command '" + one_line(word, 80) + "'" + meant(word, names) +
+                           " (see --help)");
 }
 
 int run_command(const Program& program, int argc, char** argv) {
   CLI::App app(std::string(program.summary), std::string(program.name));
   app.set_version_flag("--version", version_of(program));
+  declare_texts(app);
   app.require_subcommand(1);
   const std::string word = argc > 1 ? argv[1] : "";
   const Command* chosen = find_command(program, word);
@@ -194,6 +207,25 @@ int run_command(const Program& program, int argc, char** argv) {
   return parse(app, *parsed, arguments, argc, argv) ? run() : 0;
 }
 
+/// True where the command line asks for a text that the tables become, which is then printed.
+bool print_text(const Program& program, int argc, char** argv) {
+  const std::string what = argc > 1 ? argv[1] : "", of = argc > 2 ? argv[2] : "";
+  std::string text;
+  if (what == "--completion") {
+    text = completion_script(program, of);
+  } else if (what == "--manual") {
+    const Command* command = of.empty() ? nullptr : find_command(program, of);
+    if (!of.empty() && (command == nullptr || command->declare == nullptr)) refuse_command(program, of);
+    text = manual_page(program, command);
+  } else {
+    return false;
+  }
+  text.pop_back();  // the end of the last line, which print_line() adds
+  print_line(text);
+  flush_output();
+  return true;
+}
+
 }  // namespace
 
 std::string_view program_name() noexcept {
@@ -211,6 +243,7 @@ int run_program(const Program& program, int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   try {
+    if (print_text(program, argc, argv)) return 0;
     return program.single ? run_single(program, argc, argv) : run_command(program, argc, argv);
   } catch (const Interrupted&) {
     return complain("interrupted", kInterrupted);

@@ -2,6 +2,7 @@
 #include "plan_option.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <type_traits>
 
@@ -32,6 +33,23 @@ Option plan_option(std::string_view key, PlanOptions& options, std::string help)
       },
       field.place);
   return option;
+}
+
+nlohmann::ordered_json plan_options_json(PlanOptions options) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const PlanField& field : plan_fields()) {
+    std::visit(
+        [&](const auto& place) {
+          using Place = std::remove_cvref_t<decltype(place)>;
+          if constexpr (std::is_same_v<Place, PlanChoice>) {
+            json[std::string(field.key)] = place.get(options);
+          } else if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(place(options))>>) {
+            json[std::string(field.key)] = place(options);
+          }
+        },
+        field.place);
+  }
+  return json;
 }
 
 bool set_plan_choice(std::string_view key, std::string_view name, PlanOptions& options) {

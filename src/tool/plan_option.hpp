@@ -1,6 +1,7 @@
 // A field of a case file's "options" as an option of a command line.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,9 @@ namespace gnomon::tool {
 /// `help` stands in for the field's own summary. Numbers and choices only: throws std::logic_error for
 /// others.
 [[nodiscard]] Option plan_option(std::string_view key, PlanOptions& options, std::string help = {});
+
+/// Numbers and choices of a plan as "options" of a case file has them.
+[[nodiscard]] nlohmann::ordered_json plan_options_json(PlanOptions options);
 
 /// Sets the choice `key` by its name; false where the name is unknown.
 [[nodiscard]] bool set_plan_choice(std::string_view key, std::string_view name, PlanOptions& options);

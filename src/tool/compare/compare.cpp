@@ -20,6 +20,7 @@
 #include "measure.hpp"
 #include "output.hpp"
 #include "progress.hpp"
+#include "scene_words.hpp"
 #include "stage.hpp"
 
 namespace gnomon::tool {
@@ -170,7 +171,9 @@ class Run {
 }  // namespace
 
 Compared compare(const CompareRequest& request) {
+  for (const std::string& scene : request.scenes) check_scene_word("SCENE", scene);
   Sweep sweep = make_sweep(request);
+  check_folder("--out", sweep.out);
   const std::vector<std::string> hashes = hashes_of(sweep);
   const std::set<std::string> known = known_keys(sweep, hashes);
   const std::unique_ptr<render::Context> context = render::create_context(sweep.context);
@@ -282,7 +285,9 @@ std::function<int()> declare_compare(Arguments& arguments) {
                         .target = &request->scenes,
                         .help = "builtin:NAME or glTF files",
                         .required = true,
-                        .completion = Completion::scenes}};
+                        .names = builtin_scene_words(),
+                        .only_names = false,
+                        .completion = Completion::files}};
   for (const auto& part : {technique_options, measuring_options, setting_options}) {
     for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
   }

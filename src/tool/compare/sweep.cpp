@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "command.hpp"
+#include "filter_words.hpp"
 #include "gnomon/render/probe.hpp"
 #include "offscreen_context.hpp"
 
@@ -61,10 +62,8 @@ std::vector<std::string> expanded(const std::vector<std::string>& texts, const E
 }
 
 void set_filter(const std::string& text, SweepEntry& entry) {
-  const render::ParsedFilter parsed = render::parse_filter(text);
-  if (!parsed.error.empty()) throw std::runtime_error("--filters " + parsed.error);
-  entry.filter = parsed.settings;
-  entry.technique.filter = render::to_string(parsed.settings);
+  entry.filter = filter_word("--filters", text);
+  entry.technique.filter = render::to_string(entry.filter);
   render::set_margin(entry.filter, entry.plan);
 }
 

@@ -11,6 +11,7 @@
 #include "gnomon/scene/load.hpp"
 #include "offscreen_context.hpp"
 #include "output.hpp"
+#include "scene_words.hpp"
 #include "stage.hpp"
 
 namespace gnomon::tool {
@@ -140,6 +141,9 @@ namespace {
 
 /// Prints the list, or the cost table in Markdown, or writes the gallery. Throws std::runtime_error.
 int run_filters(const FiltersRequest& request) {
+  check_scene_word("--scene", request.scene);
+  check_scene_word("--fit", request.fit);
+  if (!request.gallery.empty()) check_folder("--gallery", request.gallery);
   if (!request.cost && request.fit.empty() && request.filters != FiltersRequest{}.filters)
     throw std::runtime_error("--filters requires --cost or --fit");
   if (!request.cost && request.fit.empty() && request.gallery.empty()) {
@@ -167,7 +171,9 @@ std::vector<Option> fit_options(FiltersRequest& request) {
   return {{.name = "--fit",
            .target = &request.fit,
            .help = "what each filter could do without on the maps of this scene: builtin:NAME or a glTF file",
-           .completion = Completion::scenes},
+           .names = builtin_scene_words(),
+           .only_names = false,
+           .completion = Completion::files},
           {.name = "--fit-bound",
            .target = &request.fit_bound,
            .help = "by how much its answers may then differ, in steps of 8 bits",
@@ -200,7 +206,9 @@ std::vector<Option> cost_options(FiltersRequest& request) {
           {.name = "--scene",
            .target = &request.scene,
            .help = "of the cost table and the last strip: builtin:NAME or a glTF file",
-           .completion = Completion::scenes}};
+           .names = builtin_scene_words(),
+           .only_names = false,
+           .completion = Completion::files}};
 }
 
 }  // namespace

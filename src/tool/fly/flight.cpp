@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "command.hpp"
@@ -18,6 +19,7 @@
 #include "gnomon/scene/load.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"
+#include "plan_option.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 
@@ -163,21 +165,56 @@ void check_plans(const Options& options, const Flight& flight) {
   }
 }
 
-void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
-  double worst_p95 = 0.0, undersampled = 0.0, milliseconds = 0.0;
-  std::int64_t slowest_plan = 0;
+/// Mean and worst over the frames.
+struct Summary {
+  double milliseconds = 0.0, worst_p95 = 0.0, undersampled = 0.0;
+  std::int64_t slowest_plan_ns = 0;
+};
+
+Summary summary_of(const std::vector<FrameRow>& rows) {
+  Summary summary;
   for (const FrameRow& row : rows) {
-    worst_p95 = std::max(worst_p95, row.aliasing.p95);
-    undersampled += row.aliasing.share_undersampled / static_cast<double>(rows.size());
-    slowest_plan = std::max(slowest_plan, row.plan_ns);
-    for (const double ms : row.stats.milliseconds) milliseconds += ms / static_cast<double>(rows.size());
+    summary.worst_p95 = std::max(summary.worst_p95, row.aliasing.p95);
+    summary.undersampled += row.aliasing.share_undersampled / static_cast<double>(rows.size());
+    summary.slowest_plan_ns = std::max(summary.slowest_plan_ns, row.plan_ns);
+    for (const double ms : row.stats.milliseconds)
+      summary.milliseconds += ms / static_cast<double>(rows.size());
   }
+  return summary;
+}
+
+void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
+  const Summary s = summary_of(rows);
   fmt::print(
       "{} frames: {:.1f} ms a frame, slowest plan {:.1f} us, worst m p95 {:.3g}, {:.1f} % of pixels "
       "undersampled\n",
-      rows.size(), milliseconds, static_cast<double>(slowest_plan) * 1e-3, worst_p95, undersampled * 100.0);
+      rows.size(), s.milliseconds, static_cast<double>(s.slowest_plan_ns) * 1e-3, s.worst_p95,
+      s.undersampled * 100.0);
   fmt::print("pictures: {}\nsheet:    {}\nnumbers:  {}\n", (options.out / "frame_0000_image.png").string(),
              (options.out / "contact_sheet.png").string(), (options.out / "frames.csv").string());
+}
+
+void print_json(const Options& options, const Flight& flight, const render::ContextInfo& context,
+                const std::vector<FrameRow>& rows) {
+  using Json = nlohmann::ordered_json;
+  const Summary s = summary_of(rows);
+  const Json json{{"scene", flight.scene.name},
+                  {"instances", flight.scene.instances.size()},
+                  {"triangles", flight.scene.triangle_count()},
+                  {"context", context.description()},
+                  {"software", context.software},
+                  {"filter", render::to_string(options.filter)},
+                  {"options", plan_options_json(options.plan)},
+                  {"summary",
+                   {{"frames", rows.size()},
+                    {"ms", s.milliseconds},
+                    {"slowest_plan_ns", s.slowest_plan_ns},
+                    {"worst_m_p95", s.worst_p95},
+                    {"share_undersampled", s.undersampled}}},
+                  {"sheet", (options.out / "contact_sheet.png").string()},
+                  {"numbers", (options.out / "frames.csv").string()},
+                  {"frames", frames_json(rows)}};
+  print_line(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace
@@ -187,7 +224,8 @@ Flight load_flight(const Options& options) {
     Flight flight;
     flight.scene = load_scene(options.scene, limits_of_triangles(options.max_triangles));
     for (const std::string& warning : flight.scene.warnings) warn(warning);
-    flight.path = options.path ? load_camera_path(*options.path) : default_path(flight.scene);
+    flight.path = options.path ? load_camera_path(*options.path)
+                               : default_path(flight.scene, 1.0 * options.width / options.height);
     flight.boxes.reserve(flight.scene.instances.size());
     for (const Instance& instance : flight.scene.instances) flight.boxes.push_back(instance.bounds_world);
     return flight;
@@ -197,7 +235,9 @@ Flight load_flight(const Options& options) {
 }
 
 Camera camera_of(const Options& options, const Flight& flight, int frame) {
-  const double t = options.frames == 1 ? 0.5 : 1.0 * frame / (options.frames - 1);
+  // The end of a closed path is its beginning: the last frame stands one step before it.
+  const int steps = flight.path.closed ? options.frames : options.frames - 1;
+  const double t = options.frames == 1 ? 0.5 : 1.0 * frame / steps;
   return flight.path.at(t, options.width, options.height);
 }
 
@@ -213,6 +253,46 @@ void fit_maps_to_memory(Options& options) {
   options.plan.map_size = fitting.size;
 }
 
+namespace {
+
+/// Draws the frames, and keeps the rows of those that were drawn whatever ends the flight.
+std::vector<FrameRow> draw_frames(Studio& studio, bool software) {
+  const Options& options = studio.options;
+  const auto write_rows = [&](const std::vector<FrameRow>& rows) {
+    write_csv(rows, options.plan.cascades, software, options.out / "frames.csv");
+  };
+  std::vector<FrameRow> rows;
+  try {
+    Progress progress(fmt::format("{} frames", program_name()), options.frames);
+    for (int frame = 0; frame < options.frames; ++frame) {
+      check_interrupt();
+      progress.set(frame);
+      rows.push_back(draw_frame(studio, frame));
+    }
+  } catch (const Interrupted&) {
+    if (!rows.empty()) write_rows(rows);
+    throw;
+  }
+  write_rows(rows);
+  return rows;
+}
+
+std::string sheet_title(const Options& options) {
+  return fmt::format("{}: {} maps of {}, {}{}", options.scene, options.plan.cascades, options.plan.map_size,
+                     render::to_string(options.filter),
+                     options.plan.fit == Fit::tight ? "" : fmt::format(", {}", to_string(options.plan.fit)));
+}
+
+void print_scene(const Flight& flight, const render::ContextInfo& context) {
+  constexpr double kMebi = 1024.0 * 1024.0;
+  fmt::print("context:  {}\n", context.description());
+  fmt::print("scene:    {}, {} instances, {} triangles, {:.4g} MiB\n", flight.scene.name,
+             flight.scene.instances.size(), flight.scene.triangle_count(),
+             static_cast<double>(flight.scene.bytes()) / kMebi);
+}
+
+}  // namespace
+
 int fly_to_files(const Options& asked, const Flight& flight) {
   Options options = asked;
   const auto context = [&options] {
@@ -222,11 +302,7 @@ int fly_to_files(const Options& asked, const Flight& flight) {
       throw std::runtime_error(fmt::format("--context {}: {}", to_string(options.context), error.what()));
     }
   }();
-  fmt::print("context:  {}\n", context->info().description());
-  constexpr double kMebi = 1024.0 * 1024.0;
-  fmt::print("scene:    {}, {} instances, {} triangles, {:.4g} MiB\n", flight.scene.name,
-             flight.scene.instances.size(), flight.scene.triangle_count(),
-             static_cast<double>(flight.scene.bytes()) / kMebi);
+  if (!options.json) print_scene(flight, context->info());
   fit_maps_to_memory(options);
   check_plans(options, flight);
   make_folder("--out", options.out);
@@ -238,26 +314,19 @@ int fly_to_files(const Options& asked, const Flight& flight) {
                 ContactSheet(options.frames, options.width, options.height),
                 {}};
   studio.filter = studio.renderer.prepare(options.filter);
-  std::vector<FrameRow> rows;
-  {
-    Progress progress(fmt::format("{} frames", program_name()), options.frames);
-    for (int frame = 0; frame < options.frames; ++frame) {
-      check_interrupt();
-      progress.set(frame);
-      rows.push_back(draw_frame(studio, frame));
-    }
+  const std::vector<FrameRow> rows = draw_frames(studio, context->info().software);
+  write_png(studio.sheet.sheet(sheet_title(options)), options.out / "contact_sheet.png");
+  if (options.json) {
+    print_json(options, flight, context->info(), rows);
+  } else {
+    print_summary(options, rows);
   }
-  const std::string title =
-      fmt::format("{}: {} maps of {}, {}{}", options.scene, options.plan.cascades, options.plan.map_size,
-                  render::to_string(options.filter),
-                  options.plan.fit == Fit::tight ? "" : fmt::format(", {}", to_string(options.plan.fit)));
-  write_png(studio.sheet.sheet(title), options.out / "contact_sheet.png");
-  write_csv(rows, options.plan.cascades, context->info().software, options.out / "frames.csv");
-  print_summary(options, rows);
   return 0;
 }
 
 int run(Options options) {
+  // A folder that cannot be written is found before a scene is loaded for minutes.
+  check_folder("--out", options.out);
   const Flight flight = load_flight(options);
   if (options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0)
     choose_technique_of(options, flight);

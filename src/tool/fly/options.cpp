@@ -8,9 +8,11 @@
 #include <stdexcept>
 
 #include "command.hpp"
+#include "filter_words.hpp"
 #include "gnomon/render/perceptual.hpp"
 #include "gnomon/scene/load.hpp"
 #include "plan_option.hpp"
+#include "scene_words.hpp"
 
 namespace gnomon::tool::fly {
 namespace {
@@ -70,6 +72,7 @@ void resolve_transition(const Request& request, Options& options) {
 
 Options resolved(const Request& request) {
   Options options = request.options;
+  check_scene_word("scene", options.scene);
   parse_size(request.size, options);
   options.out = request.out;
   (void)render::context_kind_from_name(request.context, options.context);
@@ -81,9 +84,7 @@ Options resolved(const Request& request) {
     if (!set_plan_choice("warp", name, one)) refuse_name("--compare-warps", name, warps);
     options.compared_warps.push_back(one.warp);
   }
-  const render::ParsedFilter filter = render::parse_filter(request.filter);
-  if (!filter.error.empty()) throw std::runtime_error(fmt::format("--filter {}", filter.error));
-  options.filter = filter.settings;
+  options.filter = filter_word("--filter", request.filter);
   if (request.stable) (void)set_plan_choice("fit", "stable", options.plan);
   // A warped grid is only stable from frame to frame.
   if (options.plan.fit == Fit::warped_stable) options.history = true;
@@ -118,7 +119,12 @@ Option prune_option(PlanOptions& plan) {
 /// Where to fly, and what becomes of it.
 std::vector<Option> flight_options(Request& request) {
   Options& options = request.options;
-  return {{.name = "scene", .target = &options.scene, .help = scene_help(), .completion = Completion::scenes},
+  return {{.name = "scene",
+           .target = &options.scene,
+           .help = scene_help(),
+           .names = builtin_scene_words(),
+           .only_names = false,
+           .completion = Completion::files},
           {.name = "--frames",
            .target = &options.frames,
            .help = "pictures along the flight",
@@ -133,6 +139,9 @@ std::vector<Option> flight_options(Request& request) {
            .target = &request.out,
            .help = "folder that the files go to",
            .completion = Completion::folders},
+          {.name = "--json",
+           .target = &options.json,
+           .help = "print files, options, and what each frame measured as one line of JSON"},
           {.name = "--context",
            .target = &request.context,
            .help = "auto, osmesa, egl, or glfw for a window",
@@ -210,7 +219,7 @@ std::vector<Option> filter_options(Request& request) {
   Options& options = request.options;
   return {{.name = "--filter",
            .target = &request.filter,
-           .help = "as in pcf:radius=2,unit=texels. " + render::filter_help(),
+           .help = "NAME or NAME:OPTION=VALUE,.. as in pcf:radius=2,unit=texels; gnomon filters lists them",
            .names = names_in(render::all_filters()),
            .only_names = false},
           {.name = "--filter-precision",

@@ -26,6 +26,7 @@ struct Options {
   bool frames_given = false;
   int width = 960, height = 540;
   std::filesystem::path out = "out/flythrough";
+  bool json = false;  ///< files and numbers as one line of JSON, in place of text
   render::ContextKind context = render::ContextKind::automatic;
   PlanOptions plan;
   render::FilterSettings filter = render::default_settings(render::filters::pcf);

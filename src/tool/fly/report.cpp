@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "gnomon/render/picture.hpp"
@@ -20,6 +21,49 @@ using report::csv_field;
 
 constexpr Color kPaper{24, 24, 28}, kInk{240, 240, 236};
 constexpr int kGap = 4, kLabel = 16;  // pixels
+
+constexpr int kLine = 12;  // pixels from one line of small text to the next
+
+/// The text in small letters on as many lines as it takes, broken at spaces where there are some.
+std::vector<std::string> broken_lines(const std::string& text, int room) {
+  const int step = render::text_width("xx") - render::text_width("x");  // a glyph and its gap
+  const auto longest = static_cast<std::size_t>(std::max(1, room / step));
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = std::min(begin + longest, text.size());
+    const std::size_t space = text.rfind(' ', end);
+    if (end < text.size() && space != std::string::npos && space > begin) end = space;
+    lines.push_back(text.substr(begin, end - begin));
+    begin = std::min(text.find_first_not_of(' ', end), text.size());
+  }
+  return lines;
+}
+
+void draw_lines(Image& image, int x, int y, const std::vector<std::string>& lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    render::draw_text(image, x, y + static_cast<int>(i) * kLine, lines[i], kInk);
+}
+
+/// A title that is not cut off: in large letters where they fit on one line, else in small ones.
+struct Heading {
+  std::string large;
+  std::vector<std::string> small;
+
+  Heading(const std::string& title, int width) {
+    const int room = width - 4 * kGap;
+    if (render::text_width(title, 2) <= room)
+      large = title;
+    else
+      small = broken_lines(title, room);
+  }
+  [[nodiscard]] int height() const {
+    return small.empty() ? 2 * kLabel : kGap + static_cast<int>(small.size()) * kLine;
+  }
+  void draw(Image& image) const {
+    render::draw_text(image, 2 * kGap, 2 * kGap, large, kInk, 2);
+    draw_lines(image, 2 * kGap, kGap, small);
+  }
+};
 
 std::string header(int cascades, bool software) {
   std::string line = "frame,plan_status,plan_ns,";
@@ -117,6 +161,33 @@ void write_csv(const std::vector<FrameRow>& rows, int cascades, bool software,
   if (!why.empty()) throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(), why));
 }
 
+nlohmann::ordered_json frames_json(const std::vector<FrameRow>& rows) {
+  nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+  for (const FrameRow& row : rows) {
+    nlohmann::ordered_json ms = nlohmann::ordered_json::object();
+    for (std::size_t p = 0; p < render::kPassCount; ++p)
+      ms[std::string(to_string(static_cast<Pass>(p)))] = row.stats.milliseconds[p];
+    nlohmann::ordered_json bounds = nlohmann::ordered_json::array();
+    for (int i = 0; i < row.stats.map_count; ++i) bounds.push_back(row.m_bound[static_cast<std::size_t>(i)]);
+    frames.push_back({{"frame", row.frame},
+                      {"status", std::string(to_string(row.status))},
+                      {"plan_ns", row.plan_ns},
+                      {"ms", ms},
+                      {"maps", row.stats.map_count},
+                      {"texels", row.stats.texels},
+                      {"m",
+                       {{"p50", row.aliasing.p50},
+                        {"p95", row.aliasing.p95},
+                        {"max", row.aliasing.max},
+                        {"share_undersampled", row.aliasing.share_undersampled},
+                        {"pixels", row.aliasing.pixels},
+                        {"bounds", bounds}}},
+                      {"warps", row.warps},
+                      {"omitted", row.omitted}});
+  }
+  return frames;
+}
+
 ContactSheet::ContactSheet(int frames, int width, int height)
     : frames_(frames),
       thumb_width_(std::min(width, kColumnWidth)),
@@ -141,10 +212,11 @@ void ContactSheet::add(int frame, const Image& lit, const Image& heat, const Ima
 Image ContactSheet::sheet(const std::string& title) const {
   constexpr const char* kRows[3] = {"image", "m", "maps"};
   const int count = static_cast<int>(columns_.size());
-  const int heading = 2 * kLabel;
-  Image sheet = render::blank_image(kGap + count * (thumb_width_ + kGap),
-                                    heading + 3 * (thumb_height_ + kGap + kLabel) + kGap, kPaper);
-  render::draw_text(sheet, 2 * kGap, 2 * kGap, title, kInk, 2);
+  const int width = kGap + count * (thumb_width_ + kGap);
+  const Heading title_text(title, width);
+  const int heading = title_text.height();
+  Image sheet = render::blank_image(width, heading + 3 * (thumb_height_ + kGap + kLabel) + kGap, kPaper);
+  title_text.draw(sheet);
   for (int c = 0; c < count; ++c) {
     const Column& column = columns_[static_cast<std::size_t>(c)];
     for (int r = 0; r < 3; ++r) {
@@ -165,15 +237,22 @@ void WarpStrip::add(const std::string& label, const Image& lit, const Image& hea
 
 Image WarpStrip::strip(const std::string& title) const {
   const int width = columns_.front().lit.width, height = columns_.front().lit.height;
-  const int heading = 2 * kLabel;
-  Image strip = render::blank_image(kGap + static_cast<int>(columns_.size()) * (width + kGap),
-                                    heading + kLabel + 2 * (height + kGap), kPaper);
-  render::draw_text(strip, 2 * kGap, 2 * kGap, title, kInk, 2);
-  int x = kGap;
+  const int whole = kGap + static_cast<int>(columns_.size()) * (width + kGap);
+  const Heading title_text(title, whole);
+  std::vector<std::vector<std::string>> labels;
+  std::size_t label_lines = 1;
   for (const Column& column : columns_) {
-    render::draw_text(strip, x + kGap, heading + kGap, column.label, kInk);
-    render::paste(strip, column.lit, x, heading + kLabel);
-    render::paste(strip, column.heat, x, heading + kLabel + height + kGap);
+    labels.push_back(broken_lines(column.label, width - kGap));
+    label_lines = std::max(label_lines, labels.back().size());
+  }
+  const int heading = title_text.height(), pictures = heading + kGap + static_cast<int>(label_lines) * kLine;
+  Image strip = render::blank_image(whole, pictures + 2 * (height + kGap), kPaper);
+  title_text.draw(strip);
+  int x = kGap;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    draw_lines(strip, x + kGap, heading + kGap, labels[i]);
+    render::paste(strip, columns_[i].lit, x, pictures);
+    render::paste(strip, columns_[i].heat, x, pictures + height + kGap);
     x += width + kGap;
   }
   return strip;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ struct FrameRow {
 /// std::runtime_error.
 void write_csv(const std::vector<FrameRow>& rows, int cascades, bool software,
                const std::filesystem::path& file);
+
+/// A list of objects, one per frame, with what the table has.
+[[nodiscard]] nlohmann::ordered_json frames_json(const std::vector<FrameRow>& rows);
 
 /// Small versions of some frames' pictures, evenly chosen: a column per frame, a row per kind of picture.
 class ContactSheet {

@@ -55,8 +55,9 @@ int perceptual_map_size(const Options& options, const Flight& flight) {
     }
     if (asked.radius_pixels > widest.radius_pixels) widest = asked;
   }
-  fmt::print("maps:     {0}x{0} texels, hidden by kernels of {1:.3g} world units, up to {2:.3g} pixels\n",
-             size, widest.radius_world, widest.radius_pixels);
+  if (!options.json)
+    fmt::print("maps:     {0}x{0} texels, hidden by kernels of {1:.3g} world units, up to {2:.3g} pixels\n",
+               size, widest.radius_world, widest.radius_pixels);
   return size;
 }
 

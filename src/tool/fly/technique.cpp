@@ -111,7 +111,7 @@ void choose_technique_of(Options& options, const Flight& flight) {
       hardest = choice;
   }
   if (hardest.status != PlanStatus::ok) return;  // nothing to see, nothing to choose
-  print_choice(hardest, known);
+  if (!options.json) print_choice(hardest, known);
   options.plan = hardest.options;
   options.filter = known.settings[static_cast<std::size_t>(hardest.chosen.filter)];
   render::set_margin(options.filter, options.plan);

@@ -214,7 +214,7 @@ void look_around(Viewer& viewer) {
 void fly_once(Viewer& viewer) {
   const int frames = viewer.options.frames;
   for (int frame = 0; frame < frames && glfwWindowShouldClose(viewer.window) == GLFW_FALSE; ++frame) {
-    viewer.path_time = frames == 1 ? 0.5 : 1.0 * frame / (frames - 1);
+    viewer.path_time = frames == 1 ? 0.5 : 1.0 * frame / (viewer.flight.path.closed ? frames : frames - 1);
     // Each view in turn, so that a run without hands shows all of them.
     viewer.picture = static_cast<Renderer::Picture>(frame % 3);
     draw(viewer, 0.0);

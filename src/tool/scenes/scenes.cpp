@@ -1,4 +1,5 @@
 // `gnomon scenes`: which scenes come with the program, and how to get one as a file.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -17,6 +18,12 @@ struct ScenesRequest {
   std::vector<std::string> write;  ///< empty, or a name and a file
   bool json = false;
 };
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const BuiltinScene& scene : builtin_scenes()) names.emplace_back(scene.name);
+  return names;
+}
 
 std::string table_row(const BuiltinScene& entry, const Scene& scene) {
   const glm::dvec3 size = scene.bounds_world.max - scene.bounds_world.min;
@@ -54,6 +61,8 @@ int list_scenes(bool json) {
 
 /// Writes a builtin scene as a binary glTF file. Throws SceneError for an unknown name.
 int write_scene(const std::string& name, const std::filesystem::path& out) {
+  const std::vector<std::string> names = scene_names();
+  if (std::find(names.begin(), names.end(), name) == names.end()) refuse_name("--write", name, names);
   write_file(out, build_glb(name));
   return 0;
 }
@@ -66,7 +75,8 @@ std::function<int()> declare_scenes(Arguments& arguments) {
                         .target = &request->write,
                         .help = "write the built-in scene NAME to FILE.glb",
                         .word = "NAME FILE.glb",
-                        .completion = Completion::scenes,
+                        .names = scene_names(),
+                        .only_names = false,
                         .words = 2},
                        {.name = "--json", .target = &request->json, .help = "list as JSON"}};
   return [request] {
