@@ -9,6 +9,11 @@
 #include <fstream>
 #include <numbers>
 #include <sstream>
+#include <type_traits>
+#include <variant>
+
+#include "gnomon/casefile/plan_fields.hpp"
+#include "json_words.hpp"
 
 namespace gnomon {
 namespace {
@@ -179,6 +184,84 @@ TEST(CaseFile, every_beginning_of_a_case_is_refused) {
   ASSERT_TRUE(reads(text));
   for (std::size_t length = 0; length < text.size(); ++length)
     EXPECT_FALSE(reads(text.substr(0, length))) << length;
+}
+
+/// A value other than the default for each field that one word can say.
+std::string other_value(const PlanField& field) {
+  const PlanOptions defaults;
+  if (const auto* choice = std::get_if<PlanChoice>(&field.place)) {
+    for (const std::string& name : choice->names())
+      if (name != choice->get(defaults)) return "\"" + name + "\"";
+  }
+  return std::holds_alternative<PlanMember<bool>>(field.place) ? "true" : "7";
+}
+
+TEST(PlanFields, of_each_name_a_case_reads_into_the_same_place) {
+  std::size_t checked = 0;
+  for (const PlanField& field : plan_fields()) {
+    const std::string value = other_value(field), key(field.key);
+    std::visit(
+        [&](const auto& place) {
+          using Place = std::remove_cvref_t<decltype(place)>;
+          constexpr bool is_word =
+              std::is_same_v<Place, PlanChoice> || std::is_same_v<Place, PlanMember<int>> ||
+              std::is_same_v<Place, PlanMember<double>> || std::is_same_v<Place, PlanMember<std::int64_t>>;
+          if constexpr (is_word) {
+            Case read = read_case(text_with(kSun, "{\"" + key + "\": " + value + "}"));
+            if constexpr (std::is_same_v<Place, PlanChoice>) {
+              EXPECT_EQ("\"" + place.get(read.options) + "\"", value) << key;
+            } else {
+              EXPECT_EQ(static_cast<double>(place(read.options)), 7.0) << key;
+            }
+            ++checked;
+          }
+        },
+        field.place);
+  }
+  EXPECT_GE(checked, 17u);
+}
+
+TEST(PlanFields, have_a_text_for_what_a_plan_refuses) {
+  std::size_t texts = 0;
+  for (const PlanField& field : plan_fields()) {
+    EXPECT_EQ(field.invalid_field.empty(), field.must.empty()) << field.key;
+    if (field.invalid_field.empty()) continue;
+    ++texts;
+    EXPECT_EQ(invalid_input_text(field.invalid_field),
+              "options." + std::string(field.key) + ": " + std::string(field.must));
+  }
+  EXPECT_GE(texts, 14u);
+  EXPECT_EQ(invalid_input_text("options.map_size"), "options.map_size: must lie in 4..16384");
+}
+
+TEST(PlanFields, are_suggested_where_a_key_or_a_name_nearly_matches) {
+  const auto refusal = [](const std::string& options) {
+    try {
+      (void)read_case(text_with(kSun, options));
+    } catch (const CaseError& error) {
+      return std::string(error.what());
+    }
+    return std::string("read");
+  };
+  EXPECT_NE(refusal(R"({"lamda": 0.5})").find("did you mean 'lambda'?"), std::string::npos);
+  EXPECT_NE(refusal(R"({"warp": "lispms"})").find("did you mean 'lispsm'?"), std::string::npos);
+  EXPECT_EQ(refusal(R"({"elephants": 0.5})").find("did you mean"), std::string::npos);
+}
+
+TEST(JsonWords, are_ours) {
+  EXPECT_EQ(json_words("[json.exception.out_of_range.403] key 'near' not found"), "\"near\" is missing");
+  EXPECT_EQ(json_words("[json.exception.type_error.302] type must be string, but is number"),
+            "needs string, is number");
+  EXPECT_EQ(json_words("[json.exception.type_error.304] cannot use at() with null"),
+            "needs an object, is null");
+  const char* parse_error =
+      "[json.exception.parse_error.101] parse error at line 2, column 5: syntax error while parsing value - "
+      "invalid literal; last read: 'x'";
+  EXPECT_EQ(json_words(parse_error), "line 2, column 5: invalid literal; last read: 'x'");
+  EXPECT_EQ(json_words(parse_error, false), "invalid literal; last read: 'x'");
+  for (const char* cut :
+       {"", "[json.exception.", "[json.exception.x] ", "parse error", "parse error at", "key '"})
+    EXPECT_EQ(json_words(cut).find("json.exception."), std::string::npos) << cut;
 }
 
 RC_GTEST_PROP(CaseFile, any_bytes_are_read_or_refused, (const std::string& bytes)) {

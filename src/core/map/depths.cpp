@@ -119,9 +119,10 @@ HeightRange perspective_heights(const PlanContext& c, const MapRequest& request,
   double far_distance = f.body.farthest * (1.0 + kDepthPadding);
   const double least = kLeastNearShare * f.body.farthest, stand_in = kNearShare * f.body.farthest;
   const NearBoxes casters =
-      nearest_boxes(f.swept.planes(), c.bounds.casters, c.camera.position, apex, -frame.z, least, stand_in);
-  range.casters = casters.count;
+      nearest_inside(f.swept.planes(), c.bounds.casters, c.camera.position, frame.z, apex, least);
+  range.has_casters = casters.too_near > 0 || casters.nearest < std::numeric_limits<double>::infinity();
   range.too_near = casters.too_near;
+  const double nearest = casters.too_near > 0 ? min_of(casters.nearest, stand_in) : casters.nearest;
   // A single distance still needs a range: rounding of float over it.
   double near_distance =
       min_of(f.body.nearest * (1.0 - kDepthPadding), far_distance * (1.0 - kFlattestDepth));
