@@ -52,7 +52,7 @@ void show_title(const Viewer& viewer, double frame_ms) {
   glfwSetWindowTitle(
       viewer.window,
       fmt::format("flythrough: warp {} (V), filter {} (F), {} (T), heat H, maps C, path P: {:.1f} ms", warp,
-                  gnomon::render::all_filters()[viewer.filter]->name, to_string(viewer.options.plan.fit),
+                  gnomon::render::all_filters()[viewer.filter]->info.name, to_string(viewer.options.plan.fit),
                   frame_ms)
           .c_str());
 }

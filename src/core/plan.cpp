@@ -179,9 +179,11 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
   plan.origin_world = camera.position;
   plan.clip_space = options.clip_space;
   plan.bias = options.bias;
+  const double prune_m = bound_of_pruning(options, history != nullptr);
+  plan.sizes_vary = prune_m > 0.0 || options.texel_budget > 0;
   const auto* directional = std::get_if<DirectionalLight>(&light);
   if (directional == nullptr) {
-    plan_positional(camera, light, bounds, options, bound_of_pruning(options, history != nullptr), plan);
+    plan_positional(camera, light, bounds, options, prune_m, plan);
     return plan;
   }
   plan.light_direction = safe_normalize(directional->direction, {0.0, -1.0, 0.0});
@@ -208,7 +210,6 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
     plan.status = PlanStatus::nothing_visible;
     return plan;
   }
-  const double prune_m = bound_of_pruning(options, history != nullptr);
   if (options.partition != Partition::view_depth && !stable) {
     context.prune_m = prune_m;
     std::array<double, 2> edges{};

@@ -25,8 +25,8 @@ void GLAD_API_PTR report_gl_error(GLenum, GLenum type, GLuint, GLenum, GLsizei, 
 bool reads_everywhere(const FilterSettings& settings, const ShadowPlan& plan) noexcept {
   const Filter& filter = *settings.filter;
   return wants_mipmaps(settings, plan) ||
-         (filter.needs_depth_max != nullptr && filter.needs_depth_max(settings)) ||
-         (filter.adapts != nullptr && filter.adapts(settings));
+         (filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings)) ||
+         (filter.hooks.adapts != nullptr && filter.hooks.adapts(settings));
 }
 
 }  // namespace
@@ -74,10 +74,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::Impl::fit_maps(const ShadowPlan& plan) {
   int width = 1, height = 1;
-  const auto omitted = plan.omitted();
-  bool alike = std::none_of(omitted.begin(), omitted.end(), [](const Omission& o) {
-    return o.kind == OmissionKind::resolution_without_gain;
-  });
+  bool alike = !plan.sizes_vary;
   map_count = plan.map_count;
   if (map_count == 0) return;  // what the maps hold stays for the next frame
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
@@ -135,7 +132,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     impl.scene.place(SceneBuffers::Placed::for_camera, camera.position);
     impl.scene.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
     impl.lists.build(
-        {plan, drawn, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan)},
+        {plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan)}, drawn,
         camera);
     impl.draw_shadow_maps(drawn, options.prune.has(PruneRule::alpha_test));
   });

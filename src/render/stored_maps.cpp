@@ -17,7 +17,7 @@ constexpr GLuint kSumsImage = 0;
 constexpr GLuint kRowsPerGroup = 32;  ///< local_size_x of sum_rows.comp and sum_columns.comp
 
 std::string filter_path(const Filter& filter) {
-  return "filter/" + std::string(filter.name) + ".glsl";
+  return "filter/" + std::string(filter.info.name) + ".glsl";
 }
 
 std::string_view mask_path(MapRead reads) noexcept {
@@ -102,13 +102,13 @@ void bind_images(const std::vector<Texture>& images, const Sampler& sampler) {
 }  // namespace
 
 std::vector<std::string_view> filter_shaders(const Filter& filter) {
-  std::vector<std::string_view> paths{mask_path(filter.reads)};
-  if (filter.reads == MapRead::filtered || filter.reads == MapRead::joined) {
+  std::vector<std::string_view> paths{mask_path(filter.info.reads)};
+  if (filter.info.reads == MapRead::filtered || filter.info.reads == MapRead::joined) {
     paths.insert(paths.end(), {"store.frag", "blur.frag"});
   }
-  if (filter.reads == MapRead::joined && filter.may_mipmap) paths.emplace_back("join_mip.frag");
-  if (filter.reads == MapRead::summed) paths.insert(paths.end(), {"sum_rows.comp", "sum_columns.comp"});
-  if (filter.needs_depth_max != nullptr) paths.emplace_back("depth_max.frag");
+  if (filter.info.reads == MapRead::joined && filter.info.may_mipmap) paths.emplace_back("join_mip.frag");
+  if (filter.info.reads == MapRead::summed) paths.insert(paths.end(), {"sum_rows.comp", "sum_columns.comp"});
+  if (filter.hooks.needs_depth_max != nullptr) paths.emplace_back("depth_max.frag");
   return paths;
 }
 
@@ -142,16 +142,16 @@ StoredMaps::StoredMaps() {
 bool StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& settings, const StoreJob& job,
                      bool blurred) {
   const Filter& filter = *settings.filter;
-  const bool stores = filter.reads != MapRead::depth;
+  const bool stores = filter.info.reads != MapRead::depth;
   Shape wanted;
   wanted.width = job.layer_width;
   wanted.height = job.layer_height;
   wanted.layers = std::max(static_cast<int>(job.map_size.size()), 1);
   wanted.levels = job.mipmaps ? full_chain(job.layer_width, job.layer_height) : 1;
   wanted.vectors = stores ? programs.vectors : 0;
-  wanted.format = stores ? internal_format(settings.format, filter.channels(settings)) : 0;
+  wanted.format = stores ? internal_format(settings.format, filter.info.channels(settings)) : 0;
   wanted.scratch = blurred;
-  wanted.depth_max = filter.needs_depth_max != nullptr && filter.needs_depth_max(settings);
+  wanted.depth_max = filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings);
   Shape same_but_fewer = shape_;
   if (wanted.layers < shape_.layers) same_but_fewer.layers = wanted.layers;
   if (wanted == same_but_fewer) return false;
@@ -308,7 +308,7 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
     for (const Texture& image : stored_) glGenerateTextureMipmap(image.name());
     ++passes_;
   }
-  const bool smooth = settings.filter->reads == MapRead::filtered;
+  const bool smooth = settings.filter->info.reads == MapRead::filtered;
   const GLint shrinking = !smooth ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR;
   glSamplerParameteri(stored_sampler_.name(), GL_TEXTURE_MIN_FILTER,
                       mipmaps ? shrinking : (smooth ? GL_LINEAR : GL_NEAREST));

@@ -58,6 +58,13 @@ std::string names_of(const Entries& entries) {
   return all;
 }
 
+std::string_view name_of(const Warp& warp) noexcept {
+  return warp.name;
+}
+std::string_view name_of(const render::Filter& filter) noexcept {
+  return filter.info.name;
+}
+
 /// The list with "all" replaced by every entry of a registry.
 template <class Entries>
 std::vector<std::string> expanded(const std::vector<std::string>& texts, const Entries& entries) {
@@ -67,7 +74,7 @@ std::vector<std::string> expanded(const std::vector<std::string>& texts, const E
       names.push_back(text);
       continue;
     }
-    for (const auto* entry : entries) names.emplace_back(entry->name);
+    for (const auto* entry : entries) names.emplace_back(name_of(*entry));
   }
   return names;
 }
