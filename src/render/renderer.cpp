@@ -94,9 +94,9 @@ void Renderer::Impl::fit_maps(const ShadowPlan& plan) {
 
 PreparedFilter Renderer::prepare(const FilterSettings& settings) {
   auto& known = impl_->filter_programs;
-  const auto found = std::find_if(known.begin(), known.end(), [&](const FilterPrograms& p) {
-    return p.filter == settings.filter && p.vectors == shadow_vectors(settings);
-  });
+  const FilterVariant variant = variant_of(settings);
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const FilterPrograms& p) { return p.variant == variant; });
   if (found != known.end()) return {settings, static_cast<std::size_t>(found - known.begin())};
   known.push_back(make_filter_programs(settings));
   return {settings, known.size() - 1};

@@ -153,6 +153,8 @@ struct FilterReference {
 
 /// What the renderer does for a filter besides running its shaders.
 struct FilterHooks {
+  /// True if shadow_store uses its slope: two to four more depths are fetched per texel. nullptr: never.
+  bool (*reads_slope)(const FilterSettings& settings) noexcept = nullptr;
   /// True if the lookup reads the largest depth under the kernel. nullptr: never.
   bool (*needs_depth_max)(const FilterSettings& settings) noexcept = nullptr;
   /// True if `adapt` has something to do for every map. nullptr: never.

@@ -133,6 +133,7 @@ const Filter filters::lvsm{
         },
     .hooks =
         {
+            .reads_slope = reads_slope,
             .adapts = adapts,
             .adapt = adapt,
         },

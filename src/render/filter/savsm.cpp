@@ -42,6 +42,7 @@ const Filter filters::savsm{
             .store = store_moments,
             .visibility = variance_visibility,
         },
+    .hooks = {.reads_slope = reads_slope},
 };
 
 }  // namespace gnomon::render
