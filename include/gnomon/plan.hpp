@@ -136,7 +136,8 @@ struct ShadowPlan {
   /// with a position and for receivers parted by planes: the first map that holds it (map_holds), at any
   /// depth. A point that no map holds is lit.
   bool select_by_map = false;
-  /// True where the sizes of maps follow the view, from frame to frame: keep room for maps of max_size.
+  /// True if map sizes depend on the view (metric_resolution, max_error or texel_budget), so that they may
+  /// differ from frame to frame. Renderers then keep images a little larger than the maps.
   bool sizes_vary = false;
   std::array<ShadowMap, kMaxMaps> map;
   int map_count = 0;

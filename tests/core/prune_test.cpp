@@ -38,6 +38,24 @@ TEST(Prune, rules_are_read_by_name) {
   EXPECT_TRUE(rules.has(PruneRule::held_maps)) << "a refused text changes nothing";
 }
 
+TEST(Prune, only_cached_and_scrolled_maps_draw_from_the_last_frame) {
+  const PruneRules cached = kPruneNothing.with(PruneRule::held_maps).with(PruneRule::scrolled_maps);
+  EXPECT_EQ(prune_rules_of(PruneSource::last_frame), cached);
+  EXPECT_EQ(prune_rules_of(PruneSource::this_frame).bits, PruneRules::kAll & ~cached.bits);
+}
+
+TEST(Prune, a_plan_says_whether_its_map_sizes_follow_the_view) {
+  Valley valley;
+  EXPECT_TRUE(valley.plan().sizes_vary);
+  valley.options.prune = exact_prune_rules();
+  EXPECT_FALSE(valley.plan().sizes_vary);
+  valley.options.texel_budget = 1 << 20;
+  EXPECT_TRUE(valley.plan().sizes_vary);
+  valley.options = {};
+  valley.options.fit = Fit::stable;
+  EXPECT_FALSE(valley.plan().sizes_vary) << "a stable grid is never pruned by the metric";
+}
+
 TEST(Prune, every_rule_says_what_it_takes_for_granted_and_why_nothing_is_lost) {
   std::size_t at = 0;
   for (const PruneRuleInfo& info : prune_rules()) {
@@ -46,6 +64,7 @@ TEST(Prune, every_rule_says_what_it_takes_for_granted_and_why_nothing_is_lost) {
     PruneRules alone = kPruneNothing;
     EXPECT_TRUE(parse_prune_rules(info.name, alone));
     EXPECT_EQ(alone, kPruneNothing.with(info.rule));
+    EXPECT_EQ(find_prune_rule(info.name), &info);
     EXPECT_EQ(exact_prune_rules().has(info.rule), info.certainty == PruneCertainty::exact);
   }
 }

@@ -58,16 +58,16 @@ MeanLight under(const Light& lamp, const Filter& filter) {
 TEST(LampDepth, every_filter_keeps_the_shadow_of_a_plate_under_a_spot) {
   for (const Filter* filter : all_filters()) {
     const MeanLight light = under(SpotLight{kLamp, {0, -1, 0}, 0.5, 60.0}, *filter);
-    EXPECT_LT(light.shadow, 0.05) << filter->name;
-    EXPECT_GT(light.open, 0.95) << filter->name;
+    EXPECT_LT(light.shadow, 0.05) << filter->info.name;
+    EXPECT_GT(light.open, 0.95) << filter->info.name;
   }
 }
 
 TEST(LampDepth, stored_depths_keep_it_under_a_point_light) {
   for (const Filter* filter : {&filters::vsm, &filters::esm}) {
     const MeanLight light = under(PointLight{kLamp, 60.0}, *filter);
-    EXPECT_LT(light.shadow, 0.05) << filter->name;
-    EXPECT_GT(light.open, 0.95) << filter->name;
+    EXPECT_LT(light.shadow, 0.05) << filter->info.name;
+    EXPECT_GT(light.open, 0.95) << filter->info.name;
   }
 }
 

@@ -176,14 +176,14 @@ TEST(Prune, a_view_that_stands_still_draws_no_map_and_filters_none) {
     renderer.draw(plan, camera, prepared, mask_only({}));
     const FloatImage first = renderer.mask();
     const FrameStats still = renderer.draw(plan, camera, prepared, mask_only({}));
-    EXPECT_EQ(still.texels, 0u) << filter->name;
-    EXPECT_EQ(still.prefilter_passes, 0) << filter->name;
+    EXPECT_EQ(still.texels, 0u) << filter->info.name;
+    EXPECT_EQ(still.prefilter_passes, 0) << filter->info.name;
     for (int i = 0; i < still.map_count; ++i) EXPECT_TRUE(still.map[static_cast<std::size_t>(i)].held);
-    EXPECT_EQ(differing(renderer.mask(), first), 0u) << filter->name;
+    EXPECT_EQ(differing(renderer.mask(), first), 0u) << filter->info.name;
     const FrameStats redrawn =
         renderer.draw(plan, camera, prepared, mask_only(PruneRules{}.without(PruneRule::held_maps)));
-    EXPECT_GT(redrawn.texels, 0u) << filter->name;
-    EXPECT_EQ(differing(renderer.mask(), first), 0u) << filter->name;
+    EXPECT_GT(redrawn.texels, 0u) << filter->info.name;
+    EXPECT_EQ(differing(renderer.mask(), first), 0u) << filter->info.name;
   }
 }
 

@@ -7,8 +7,8 @@ namespace gnomon {
 namespace {
 
 constexpr std::array<PruneRuleInfo, kPruneRuleCount> kRules{{
-#define GNOMON_PRUNE_RULE(name, certainty, what, premise, proof) \
-  {PruneRule::name, #name, PruneCertainty::certainty, what, premise, proof},
+#define GNOMON_PRUNE_RULE(name, certainty, source, what, premise, proof) \
+  {PruneRule::name, #name, PruneCertainty::certainty, PruneSource::source, what, premise, proof},
 #include "gnomon/prune_rules.def"
 #undef GNOMON_PRUNE_RULE
 }};
@@ -17,6 +17,21 @@ constexpr std::array<PruneRuleInfo, kPruneRuleCount> kRules{{
 
 std::span<const PruneRuleInfo, kPruneRuleCount> prune_rules() noexcept {
   return kRules;
+}
+
+PruneRules prune_rules_of(PruneSource source) noexcept {
+  PruneRules rules = kPruneNothing;
+  for (const PruneRuleInfo& info : kRules) {
+    if (info.source == source) rules = rules.with(info.rule);
+  }
+  return rules;
+}
+
+const PruneRuleInfo* find_prune_rule(std::string_view name) noexcept {
+  for (const PruneRuleInfo& info : kRules) {
+    if (info.name == name) return &info;
+  }
+  return nullptr;
 }
 
 bool parse_prune_rules(std::string_view text, PruneRules& rules) noexcept {
@@ -38,13 +53,9 @@ bool parse_prune_rules(std::string_view text, PruneRules& rules) noexcept {
     const std::size_t comma = text.find(',');
     last = comma == std::string_view::npos;
     const std::string_view name = text.substr(0, comma);
-    bool known = false;
-    for (const PruneRuleInfo& info : kRules) {
-      if (info.name != name) continue;
-      read = read.with(info.rule);
-      known = true;
-    }
-    if (!known) return false;
+    const PruneRuleInfo* const info = find_prune_rule(name);
+    if (info == nullptr) return false;
+    read = read.with(info->rule);
     if (!last) text.remove_prefix(comma + 1);
   }
   rules = read;

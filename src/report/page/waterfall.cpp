@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "from_before.hpp"
+#include "gnomon/prune.hpp"
 #include "summary.hpp"
 #include "text.hpp"
 
@@ -22,6 +22,11 @@ struct Waterfall {
   double texels = 0.0, triangles = 0.0;  ///< drawn in the end
   std::vector<Step> steps = {};
 };
+
+bool draws_from_last_frame(std::string_view rule) noexcept {
+  const PruneRuleInfo* const info = find_prune_rule(rule);
+  return info != nullptr && info->source == PruneSource::last_frame;
+}
 
 void add(const Row& row, Waterfall& fall) {
   ++fall.frames;
@@ -49,7 +54,7 @@ std::vector<Waterfall> waterfalls_of(const std::vector<Row>& rows) {
   }
   for (Waterfall& fall : falls)
     std::stable_partition(fall.steps.begin(), fall.steps.end(),
-                          [](const Step& step) { return !draws_from_before(step.rule); });
+                          [](const Step& step) { return !draws_from_last_frame(step.rule); });
   std::erase_if(falls, [](const Waterfall& fall) { return fall.steps.empty(); });
   return falls;
 }
@@ -66,7 +71,7 @@ std::string share_with_bar(double part, double whole) {
 std::string table(const Waterfall& fall) {
   double texels = fall.texels, triangles = fall.triangles;
   for (const Step& step : fall.steps) {
-    if (draws_from_before(step.rule)) continue;
+    if (draws_from_last_frame(step.rule)) continue;
     texels += step.texels;
     triangles += step.triangles;
   }

@@ -11,7 +11,6 @@
 #include <utility>
 #include <variant>
 
-#include "from_before.hpp"
 #include "seen_from.hpp"
 
 namespace gnomon::tool {
@@ -22,8 +21,7 @@ using render::Pass;
 render::FrameOptions frame_options(bool pictures) {
   render::FrameOptions options;
   // Each round measures the whole frame: none may live on the one before.
-  for (const PruneRuleInfo& rule : prune_rules())
-    if (draws_from_before(rule.name)) options.prune = options.prune.without(rule.rule);
+  options.prune = prune_rules_of(PruneSource::this_frame);
   options.aliasing = options.heat_map = pictures;
   options.cascade_tint = false;
   return options;
@@ -48,7 +46,7 @@ double kernel_half_side(const render::FilterSettings& filter) {
 /// Radius of the light that the filter softens its shadows for, as trace::area_reference wants it; 0 where it
 /// knows of none.
 double light_radius(const render::FilterSettings& filter, const Light& light) noexcept {
-  const auto penumbra = filter.filter->penumbra_radius_world;
+  const auto penumbra = filter.filter->info.penumbra_radius_world;
   if (penumbra == nullptr) return 0.0;
   // Half way to a lamp the penumbra is as wide as the lamp.
   return std::holds_alternative<DirectionalLight>(light) ? penumbra(filter, 1.0, 0.0)
@@ -62,8 +60,8 @@ std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const
   // Stored texels are blurred by a Gauss that is cut at two deviations, the box's half side: 0.88 of a
   // deviation is what is left of it.
   constexpr double kDeviationOfSide = 0.44;
-  const bool gauss =
-      entry.filter.filter->reads != render::MapRead::depth && entry.filter.blur == render::BlurShape::gauss;
+  const bool gauss = entry.filter.filter->info.reads != render::MapRead::depth &&
+                     entry.filter.blur == render::BlurShape::gauss;
   const double side = kernel_half_side(entry.filter) * (gauss ? kDeviationOfSide : 1.0);
   const auto axes = [&](std::size_t pixel) {
     const glm::dvec3& point = truth.points.pixels[pixel].position;
@@ -90,10 +88,10 @@ void count_costs(const render::FrameStats& stats, const SweepEntry& entry, repor
       static_cast<std::uint64_t>(static_cast<double>(stats.texels) * render::bytes_per_texel(entry.filter));
 }
 
-/// What the rules saved, those alone that draw from the frame before or all others, in their order.
-void count_savings(const render::FrameStats& stats, bool from_before, report::Row& row) {
+/// What the rules of one source saved, in their order.
+void count_savings(const render::FrameStats& stats, PruneSource source, report::Row& row) {
   for (const PruneRuleInfo& rule : prune_rules()) {
-    if (draws_from_before(rule.name) != from_before) continue;
+    if (rule.source != source) continue;
     const PruneSaving& saved = stats.saved[static_cast<std::size_t>(rule.rule)];
     if (saved.texels == 0 && saved.triangles == 0) continue;
     row.left_out.push_back({std::string(rule.what), std::string(rule.proof),
@@ -197,14 +195,14 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
     const OmissionText text = describe(omission);
     row.left_out.push_back({text.what.data(), text.why.data(), omission.saves_texels});
   }
-  count_savings(stats, false, row);
+  count_savings(stats, PruneSource::this_frame, row);
   if (seen != nullptr) *seen = {renderer.image(), renderer.heat_map(), mask};
   // Tight maps are others in every frame.
   if (entry.plan.fit == Fit::tight) return;
   render::FrameOptions all_rules = frame_options(false);
   all_rules.prune = {};
   renderer.draw(before, truth.camera, filter, all_rules);
-  count_savings(renderer.draw(plan, truth.camera, filter, all_rules), true, row);
+  count_savings(renderer.draw(plan, truth.camera, filter, all_rules), PruneSource::last_frame, row);
 }
 
 std::vector<report::Times> measure_times(Stage& stage, const Camera& camera,

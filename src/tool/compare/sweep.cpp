@@ -47,6 +47,13 @@ std::vector<int> parse_numbers(const std::string& option, const std::vector<std:
   return numbers;
 }
 
+std::string_view name_of(const Warp& warp) noexcept {
+  return warp.name;
+}
+std::string_view name_of(const render::Filter& filter) noexcept {
+  return filter.info.name;
+}
+
 /// The list with "all" replaced by every entry of a registry.
 template <class Entries>
 std::vector<std::string> expanded(const std::vector<std::string>& texts, const Entries& entries) {
@@ -56,7 +63,7 @@ std::vector<std::string> expanded(const std::vector<std::string>& texts, const E
       names.push_back(text);
       continue;
     }
-    for (const auto* entry : entries) names.emplace_back(entry->name);
+    for (const auto* entry : entries) names.emplace_back(name_of(*entry));
   }
   return names;
 }

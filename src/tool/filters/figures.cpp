@@ -280,7 +280,7 @@ Figure bits(const FigureSize& size) {
     const std::string text = std::string(name) + ":radius=2";
     const std::vector<float> full =
         draw_panel(figure, trees, text + ",format=fp32", camera, size, size.wide_map);
-    for (const render::TexelFormat format : filter.formats) {
+    for (const render::TexelFormat format : filter.info.formats) {
       if (render::bytes_per_channel(format) != 2) continue;
       const std::string shorter = text + ",format=" + std::string(to_string(format));
       figure.rows.push_back(
@@ -294,8 +294,9 @@ Figure one_scene(const std::string& scene, const FigureSize& size) {
   Figure figure{"one_scene", "All filters on " + scene, kLeakColumns, {}, {}};
   std::vector<std::string> filters{"pcf:radius=2"};
   for (const render::Filter* filter : render::all_filters()) {
-    const std::string name(filter->name);
-    if (name != "pcf") filters.push_back(filter->has_kernel && name != "pcss" ? name + ":radius=2" : name);
+    const std::string name(filter->info.name);
+    if (name != "pcf")
+      filters.push_back(filter->info.has_kernel && name != "pcss" ? name + ":radius=2" : name);
   }
   FilterStage stage = scene_stage(scene);
   // The flight goes round all of a scene; half its width shows the shadows.

@@ -73,7 +73,7 @@ std::string cost_row(int map_size, const Measured& run, const Measured& hard, bo
   const std::string box = blur == 1 ? "none" : std::to_string(blur) + "x" + std::to_string(blur);
   char text[256];
   std::snprintf(text, sizeof text, "| %d | %s | %s | %.1f | %.2f | %d | %.1f | %.2f |", map_size,
-                std::string(run.settings.filter->name).c_str(), box.c_str(), median(run.milliseconds),
+                std::string(run.settings.filter->info.name).c_str(), box.c_str(), median(run.milliseconds),
                 median(ratios), run.stats.prefilter_passes, bytes / kMebi, bytes_ratio);
   return text;
 }
@@ -82,17 +82,17 @@ std::string list_as_json() {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const render::Filter* filter : render::all_filters()) {
     nlohmann::ordered_json options = nlohmann::ordered_json::array(), formats = options;
-    for (const render::FilterOption& option : filter->options) {
+    for (const render::FilterOption& option : filter->info.options) {
       options.push_back({{"name", option.name},
                          {"default", option.fallback},
                          {"min", option.min},
                          {"max", option.max},
                          {"summary", option.summary}});
     }
-    for (const render::TexelFormat format : filter->formats) formats.push_back(to_string(format));
-    list.push_back({{"name", filter->name},
-                    {"summary", filter->summary},
-                    {"source", filter->source},
+    for (const render::TexelFormat format : filter->info.formats) formats.push_back(to_string(format));
+    list.push_back({{"name", filter->info.name},
+                    {"summary", filter->info.summary},
+                    {"source", filter->info.source},
                     {"options", options},
                     {"formats", formats}});
   }

@@ -84,7 +84,7 @@ void print_filter_needs(const FiltersRequest& request) {
   options.exceptions = request.fit_exceptions / 100.0;
   for (const render::FilterSettings& full : filters_asked_for(request.filters)) {
     // Those that store nothing have nothing to leave out.
-    if (full.filter->formats.empty()) continue;
+    if (full.filter->info.formats.empty()) continue;
     print_line(row_of(full, render::fit_filter(full, views.maps_for(full), options), request.json));
     flush_output();
   }

@@ -53,7 +53,7 @@ void show_title(const Viewer& viewer, double frame_ms) {
   const std::string_view warp = viewer.warp == 0 ? "auto" : all_warps()[viewer.warp - 1]->name;
   glfwSetWindowTitle(viewer.window,
                      fmt::format("{}: warp {} (V), filter {} (F), {} (T), heat H, maps C, path P: {:.1f} ms",
-                                 program_name(), warp, render::all_filters()[viewer.filter]->name,
+                                 program_name(), warp, render::all_filters()[viewer.filter]->info.name,
                                  to_string(viewer.options.plan.fit), frame_ms)
                          .c_str());
 }
