@@ -228,7 +228,11 @@ CLI::App* add_stress(CLI::App& app, StressRequest& request) {
   stress->add_option("--seed", request.seed, "of the random scenes")
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
   stress->add_option("--out", request.out,
-                     "folder for stability.jsonl, which gnomon report shows, and stability.csv");
+                     "folder for stability.jsonl, which gnomon report shows, and stability.csv; of --random for "
+                     "the cases that fail");
+  stress->add_option("--random", request.random, "random cases over all legal input; alone, only these")
+      ->check(CLI::Range(1LL, 1'000'000'000LL));
+  stress->add_option("--replay", request.replay, "case files, checked as random cases are; alone, only these");
   CLI::Option* json = stress->add_flag("--json", request.json, "print a JSON object per row");
   stress->add_flag("--csv", request.csv, "print CSV")->excludes(json);
   stress->footer("Exit: 0 all cases hold; 1 one does not, or a plan holds what is no number; 2 bad input.");

@@ -7,6 +7,7 @@
 
 #include "output.hpp"
 #include "progress.hpp"
+#include "random_stress.hpp"
 #include "rows.hpp"
 #ifdef GNOMON_STRESS_HAS_FILTERS
 #include "filter_limits.hpp"
@@ -80,6 +81,7 @@ stress::Results run_all(const StressRequest& request, const std::vector<const st
 }  // namespace
 
 int run_stress(const StressRequest& request) {
+  if (request.random > 0 || !request.replay.empty()) return run_random_stress(request);
   const std::vector<const stress::Axis*> axes = axes_of(request);
   if (!request.out.empty()) make_folder("--out", request.out);
   const stress::Results results = run_all(request, axes);
