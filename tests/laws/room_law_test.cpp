@@ -18,7 +18,11 @@ namespace {
 /// heights the map must show is plain.
 struct Stack {
   Case c;
-  double low = 0.0, high = 0.0;
+  double size = 1.0, low = 0.0, high = 0.0, near = 0.0, far = 0.0;
+  void set_boxes() {
+    c.receivers = {{{-size, low, far}, {size, low + 0.5 * size, near}}};
+    c.casters = {c.receivers[0], {{-size, high - 0.1 * size, far}, {size, high, near}}};
+  }
 };
 Stack draw_stack() {
   Stack s;
@@ -28,9 +32,10 @@ Stack draw_stack() {
   c.light = {0, -1, 0};
   s.low = -size * between(0.1, 1.0);
   s.high = size * between(2.0, 9.0);
-  const double near = -size * between(5.0, 8.0), far = near - size * between(0.5, 9.0);
-  c.receivers = {{{-size, s.low, far}, {size, s.low + 0.5 * size, near}}};
-  c.casters = {c.receivers[0], {{-size, s.high - 0.1 * size, far}, {size, s.high, near}}};
+  s.near = -size * between(15.0, 20.0);
+  s.far = s.near - size * between(0.5, 9.0);
+  s.size = size;
+  s.set_boxes();
   c.options.cascades = 1;
   c.options.warp = &warps::none;
   return s;
@@ -44,6 +49,15 @@ TEST(RoomLaw, nearest_and_farthest_depths_are_off_both_planes_by_more_than_a_flo
     Stack s = draw_stack();
     const Fit fits[] = {Fit::tight, Fit::rotated, Fit::stable, Fit::warped_stable};
     s.c.options.fit = fits[pick(4)];
+    if (s.c.options.fit == Fit::stable) {
+      // Depths in whole steps leave room by luck: none where both ends lie just inside of a step.
+      const ShadowMap first = s.c.plan().map[0];
+      const double side = first.snap_key.texel * (first.width - 1 - 2 * first.filter_margin_texels);
+      const double step = side / 16.0;
+      s.low = -step * (1.0 - 1e-6);
+      s.high = step * (1 + pick(3)) * (1.0 - 1e-6);
+      s.set_boxes();
+    }
     RC_LOG() << s.c;
     const ShadowPlan plan = s.c.plan();
     require(plan.map_count == 1, "maps", plan.map_count);
