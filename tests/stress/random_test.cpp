@@ -26,7 +26,7 @@ Json plain_case(const char* light) {
                      R"(,
     "receivers": [{"min": [-50, -1, -50], "max": [50, 0, 50]}],
     "casters": [{"min": [-50, -1, -50], "max": [50, 0, 50]}, {"min": [-2, 1, -12], "max": [2, 1.5, -6]}],
-    "options": {"cascades": 2, "map_size": 256}})");
+    "options": {"cascades": 2, "map_size": 256, "warp": "none"}})");
 }
 const char* const kSun = R"({"type": "directional", "direction": [0.2, -1, 0.1]})";
 const char* const kSpot =

@@ -38,6 +38,7 @@ const std::vector<Kind>& all_kinds() {
       {"local_caster_before_near_plane", "the same under a spot or point light"},
       {"matrices_disagree", "clip_from_world and clip_from_camera_relative show a point at one place"},
       {"metric_wrong", "measure_perspective is the metric's definition, to rounding"},
+      {"texel_larger_than_largest", "no texel of a map's receivers is larger than texel_world_max"},
       {"empty_box_counts", "a box with min above max takes no part in anything"},
       {"measure_wrong", "measure() is the metric at the points of its grid"},
       {"warp_worse_than_none", "a warp that may be dropped is not worse than none by the plan's objective"},

@@ -217,7 +217,8 @@ void check_empty_boxes(const Case& input, const ShadowPlan& plan, Report& report
   if (a.samples != b.samples || a.outside != b.outside || a.max != b.max)
     report.add("empty_box_counts", 1.0,
                "measure() changes where empty boxes are taken out: " + std::to_string(a.samples) +
-                   " samples with them, " + std::to_string(b.samples) + " without");
+                   " samples and " + std::to_string(a.outside) + " outside with them, " +
+                   std::to_string(b.samples) + " and " + std::to_string(b.outside) + " without");
 }
 
 void check_metric(const Case& input, const ShadowPlan& plan, Report& report) {

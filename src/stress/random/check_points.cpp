@@ -183,6 +183,27 @@ void check_matrices(const Scene& s, int index, const Real3& p, Report& report) {
   }
 }
 
+/// Texels at the point against what the map says of its largest.
+void check_texel(const Scene& s, int index, const Real3& p, Report& report) {
+  const auto k = static_cast<std::size_t>(index);
+  const ShadowMap& map = s.plan.map[k];
+  const Shown shown = s.maps[k].show(p);
+  // Only where positions are far finer than texels.
+  constexpr Real kFine = 1e-4L, kLoose = 1e-3L;
+  const Real side = std::max(map.width, map.height);
+  if (!(std::max(shown.ndc_error(0), shown.ndc_error(1)) * side < kFine)) return;
+  const glm::dvec3 world(p + s.view.eye);
+  const glm::dvec2 texel =
+      texel_extent_world(map.clip_from_world, map.width, map.height, glm::dvec3(s.light.travel(p)), world);
+  for (int axis = 0; axis < 2; ++axis) {
+    const Real ratio = Real(texel[axis]) / map.texel_world_max[axis];
+    if (!(ratio <= 1.0L + kLoose))
+      report.add("texel_larger_than_largest", static_cast<double>(ratio),
+                 name(map) + ": a texel is " + number(texel[axis]) + ", texel_world_max " +
+                     number(map.texel_world_max[axis]) + at(s, p));
+  }
+}
+
 void check_unmapped(const Scene& s, const Real3& p, Report& report) {
   if (!s.view.clearly_sees(p)) return;
   ++report.counts().unmapped;
@@ -207,6 +228,7 @@ void check_by_depth(const Scene& s, const Real3& p, Report& report) {
   ++report.counts().receivers;
   check_receiver(s, index, p, report);
   check_matrices(s, index, p, report);
+  check_texel(s, index, p, report);
   if (!s.view.clearly_sees(p)) return;
   for (const Blocker& blocker : blockers(s, p, 4)) {
     ++report.counts().casters;
