@@ -49,7 +49,7 @@ TEST(Prune, a_plan_says_whether_its_map_sizes_follow_the_view) {
   EXPECT_TRUE(valley.plan().sizes_vary);
   valley.options.prune = exact_prune_rules();
   EXPECT_FALSE(valley.plan().sizes_vary);
-  valley.options.texel_budget = 1 << 20;
+  valley.options.resolution.texel_budget = 1 << 20;
   EXPECT_TRUE(valley.plan().sizes_vary);
   valley.options = {};
   valley.options.fit = Fit::stable;

@@ -7,8 +7,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "gnomon/partition.hpp"
 #include "support/near.hpp"
 #include "support/property.hpp"
 
@@ -16,9 +19,9 @@ namespace gnomon::test {
 namespace {
 
 constexpr double kRounding = 1e-13;
-constexpr SplitScheme kSchemes[] = {SplitScheme::uniform,   SplitScheme::logarithmic,
-                                    SplitScheme::practical, SplitScheme::pseudo_near,
-                                    SplitScheme::optimal,   SplitScheme::given};
+constexpr SplitScheme kSchemes[] = {
+    SplitScheme::uniform, SplitScheme::logarithmic, SplitScheme::practical, SplitScheme::pseudo_near,
+    SplitScheme::optimal, SplitScheme::automatic,   SplitScheme::given};
 
 std::vector<double> edges_of(double n, double f, const SplitOptions& options, std::size_t maps) {
   std::vector<double> edges(maps + 1, -1.0);
@@ -74,6 +77,33 @@ TEST(Split, a_blend_that_is_no_number_counts_as_a_half_and_others_are_clamped) {
             edges_of(1, 100, {SplitScheme::logarithmic, 0, 0}, 4));
   EXPECT_EQ(edges_of(1, 100, {SplitScheme::practical, -1.0, 0}, 4),
             edges_of(1, 100, {SplitScheme::uniform, 0, 0}, 4));
+}
+
+TEST(Split, every_scheme_has_the_name_that_case_files_use) {
+  constexpr std::pair<SplitScheme, std::string_view> kNames[] = {
+      {SplitScheme::uniform, "uniform"},     {SplitScheme::logarithmic, "logarithmic"},
+      {SplitScheme::practical, "practical"}, {SplitScheme::pseudo_near, "pseudo_near"},
+      {SplitScheme::optimal, "optimal"},     {SplitScheme::automatic, "auto"},
+      {SplitScheme::given, "given"}};
+  for (const auto& [scheme, name] : kNames) {
+    EXPECT_EQ(to_string(scheme), name);
+    SplitScheme found = scheme == SplitScheme::uniform ? SplitScheme::given : SplitScheme::uniform;
+    EXPECT_TRUE(split_scheme_from_name(name, found)) << name;
+    EXPECT_EQ(found, scheme) << name;
+  }
+}
+
+TEST(Split, every_partition_has_the_name_that_case_files_use) {
+  constexpr std::pair<Partition, std::string_view> kNames[] = {
+      {Partition::view_depth, "view_depth"},
+      {Partition::frustum_faces, "frustum_faces"},
+      {Partition::separating_plane, "separating_plane"}};
+  for (const auto& [partition, name] : kNames) {
+    EXPECT_EQ(to_string(partition), name);
+    Partition found = partition == Partition::view_depth ? Partition::frustum_faces : Partition::view_depth;
+    EXPECT_TRUE(partition_from_name(name, found)) << name;
+    EXPECT_EQ(found, partition) << name;
+  }
 }
 
 TEST(Split, names_lead_back_to_their_schemes) {

@@ -253,6 +253,47 @@ TEST(PositionalLaw, a_caster_that_only_the_filter_kernel_reaches_is_drawn_too) {
   EXPECT_GT(shadows, 1000u);
 }
 
+TEST(PositionalLaw, no_kernel_in_world_units_reads_outside_its_map) {
+  // Rounding of a position in the map, in texels.
+  constexpr double kTexel = 1e-3;
+  std::uint64_t judged = 0, wide = 0;
+  for_all(1500, [&] {
+    LightCase c = draw_light_case();
+    c.scene.options.filter.texels = 0.0;
+    c.scene.options.filter.world = c.range * std::pow(10.0, between(-5.0, -1.0));
+    RC_LOG() << c;
+    const ShadowPlan plan = c.plan();
+    Random random(19);
+    for (const glm::dvec3& p : visible_points(c.scene, random, 4, 6)) {
+      const int index = lit(c, p) ? map_serving(plan, p, 0.0) : -1;
+      if (index < 0) continue;
+      const ShadowMap& map = plan.map[static_cast<std::size_t>(index)];
+      // A margin of a quarter is as wide as it gets: the kernel is too wide for the map.
+      if (4 * map.filter_margin_texels >= map.width) continue;
+      const glm::dvec4 clip = map.clip_from_world * glm::dvec4(p, 1.0);
+      const glm::dvec3 travel = glm::normalize(p - c.position);
+      for (int axis = 0; axis < 2; ++axis) {
+        const double ndc = clip[axis] / clip.w;
+        // In the quarter texel beyond the margin that map_holds leaves to rounding, a kernel may, too.
+        if (std::abs(ndc) > 1.0 - 2.0 * map.filter_margin_texels / map.width) continue;
+        glm::dvec3 gradient;
+        for (int column = 0; column < 3; ++column)
+          gradient[column] =
+              (map.clip_from_world[column][axis] - ndc * map.clip_from_world[column].w) / clip.w;
+        const glm::dvec3 across = gradient - travel * glm::dot(gradient, travel);
+        const double texels = 0.5 * map.width * glm::length(across) * c.scene.options.filter.world;
+        const double room = 0.5 * map.width * (1.0 - std::abs(ndc));
+        require(texels <= room + kTexel, "a kernel of", texels, "texels has room for", room, "margin",
+                map.filter_margin_texels, "face", map.cascade, map.warp->name);
+      }
+      wide += map.filter_margin_texels > 2;
+      ++judged;
+    }
+  });
+  EXPECT_GT(judged, 1000u);
+  EXPECT_GT(wide, 100u);
+}
+
 TEST(PositionalLaw, every_number_of_a_map_is_finite_and_of_its_sign) {
   for_all(2500, [&] {
     const LightCase c = draw_light_case();

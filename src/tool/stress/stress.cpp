@@ -9,6 +9,7 @@
 #include "output.hpp"
 #include "progress.hpp"
 #include "rows.hpp"
+#include "stress/random.hpp"
 #ifdef GNOMON_STRESS_HAS_FILTERS
 #include "filter_limits.hpp"
 #include "offscreen_context.hpp"
@@ -29,6 +30,8 @@ struct StressRequest {
   std::uint64_t seed = 1;
   std::string out;  ///< folder for stability.jsonl and stability.csv; empty: none
   bool json = false, csv = false;
+  long long random = 0;  ///< random cases; above 0: these alone, `out` is the folder for cases that fail
+  std::vector<std::string> replay;  ///< case files that are checked as random cases are, alone
 };
 
 std::vector<std::string> axis_names() {
@@ -94,6 +97,8 @@ stress::Results run_all(const StressRequest& request, const std::vector<const st
 
 /// Returns 1 where a case fails or a number is not finite, else 0.
 int run_stress(const StressRequest& request) {
+  if (request.random > 0 || !request.replay.empty()) 
+    return run_random_stress({request.random, request.seed, request.out, request.replay});
   const std::vector<const stress::Axis*> axes = axes_of(request);
   if (!request.out.empty()) make_folder("--out", request.out);
   const stress::Results results = run_all(request, axes);
@@ -143,8 +148,17 @@ std::function<int()> declare_stress(Arguments& arguments) {
        .range = {{0, static_cast<double>(std::uint64_t{1} << 62)}}},
       {.name = "--out",
        .target = &request->out,
-       .help = "folder for stability.jsonl, which gnomon report shows, and stability.csv",
+       .help = "folder for stability.jsonl, which gnomon report shows, and stability.csv; of --random for cases "
+               "that fail",
        .completion = Completion::folders},
+      {.name = "--random",
+       .target = &request->random,
+       .help = "random cases over all legal input; alone, only these",
+       .range = {{1, 1e12}}},
+      {.name = "--replay",
+       .target = &request->replay,
+       .help = "case files, checked as random cases are; alone, only these",
+       .completion = Completion::files},
       {.name = "--json", .target = &request->json, .help = "print a JSON object per row"},
       {.name = "--csv", .target = &request->csv, .help = "print CSV", .excludes = "--json"}};
   arguments.footer =
