@@ -160,6 +160,29 @@ FrameRow draw_frame(Studio& studio, int frame) {
   return row;
 }
 
+/// All frames. A flight that ends early, by Ctrl-C, a full disk or a lost context, leaves the numbers of the
+/// frames that were finished.
+template <class WriteNumbers>
+std::vector<FrameRow> draw_frames(Studio& studio, const WriteNumbers& write_numbers) {
+  std::vector<FrameRow> rows;
+  try {
+    Progress progress(studio.options.frames);
+    for (int frame = 0; frame < studio.options.frames; ++frame) {
+      gnomon::tool::check_interrupt();
+      progress.show(frame, "frames");
+      rows.push_back(draw_frame(studio, frame));
+    }
+  } catch (...) {
+    try {
+      if (!rows.empty()) write_numbers(rows);
+    } catch (const std::exception&) {
+      // The first failure is the one to report.
+    }
+    throw;
+  }
+  return rows;
+}
+
 /// Every frame's plan once, before anything is written: a flight is refused as a whole.
 void check_plans(const Options& options, const Flight& flight) {
   for (int frame = 0; frame < options.frames; ++frame) {
@@ -251,21 +274,16 @@ int fly_to_files(const Options& asked, const Flight& flight) {
                 ContactSheet(options.frames, options.width, options.height),
                 {}};
   studio.filter = studio.renderer.prepare(options.filter);
-  std::vector<FrameRow> rows;
-  {
-    Progress progress(options.frames);
-    for (int frame = 0; frame < options.frames; ++frame) {
-      gnomon::tool::check_interrupt();
-      progress.show(frame, "frames");
-      rows.push_back(draw_frame(studio, frame));
-    }
-  }
+  const auto write_numbers = [&](const std::vector<FrameRow>& rows) {
+    write_csv(rows, options.plan.cascades, context->info().software, options.out / "frames.csv");
+  };
+  const std::vector<FrameRow> rows = draw_frames(studio, write_numbers);
   const std::string title = fmt::format(
       "{}: {} maps of {}, {}{}", options.scene, options.plan.cascades, options.plan.map_size,
       gnomon::render::to_string(options.filter),
       options.plan.fit == gnomon::Fit::tight ? "" : fmt::format(", {}", to_string(options.plan.fit)));
   gnomon::write_png(studio.sheet.sheet(title), options.out / "contact_sheet.png");
-  write_csv(rows, options.plan.cascades, context->info().software, options.out / "frames.csv");
+  write_numbers(rows);
   print_summary(options, rows);
   return 0;
 }
