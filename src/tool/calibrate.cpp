@@ -2,6 +2,7 @@
 #include "calibrate.hpp"
 
 #include <fmt/core.h>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -88,7 +89,9 @@ int run_calibrate(const CalibrateRequest& request, bool json) {
   }
   std::vector<report::Row> rows;
   for (const std::string& folder : folders) {
-    const std::vector<report::Row> more = report::read_rows(folder);
+    std::vector<std::string> warnings;
+    const std::vector<report::Row> more = report::read_rows(folder, &warnings);
+    for (const std::string& line : warnings) std::fprintf(stderr, "gnomon: warning: %s\n", line.c_str());
     rows.insert(rows.end(), more.begin(), more.end());
   }
   if (rows.empty()) throw std::runtime_error("no results to calibrate with");
