@@ -24,6 +24,16 @@ double number(const Json& json, const char* key, double for_null = kInfinity) {
   return value.is_null() ? for_null : value.get<double>();
 }
 
+/// The library's own conversion would take 1e300 for an int.
+int whole(const Json& json, const char* key) {
+  const Json& value = json.at(key);
+  const bool fits = value.is_number_unsigned()
+                        ? std::in_range<int>(value.get<std::uint64_t>())
+                        : value.is_number_integer() && std::in_range<int>(value.get<std::int64_t>());
+  if (!fits) throw ReportError(std::string(key) + ": wants a whole number");
+  return value.get<int>();
+}
+
 template <typename Entry>
 Entry& entry_of(std::vector<Entry>& entries, const Entry& wanted, bool (*same)(const Entry&, const Entry&)) {
   const auto at =
@@ -38,7 +48,7 @@ void add_axis_row(const Json& json, Stability& stability) {
       [](const StabilityAxis& a, const StabilityAxis& b) { return a.name == b.name; });
   StabilityRow row{json.at("variant"), json.at("status"), json.at("used"), json.at("left_out")};
   row.value = number(json, "value");
-  row.maps = json.at("maps");
+  row.maps = whole(json, "maps");
   row.error_texels = number(json, "error_texels");
   row.error_ulp = number(json, "error_ulp");
   row.float_absolute_texels = number(json, "float_absolute_texels");
@@ -64,7 +74,7 @@ void add_line(const Json& json, Stability& stability) {
   if (kind == "filter") add_filter_row(json, stability);
   if (kind == "case")
     stability.cases.push_back(
-        {json.at("row"), json.at("input"), json.at("required"), json.at("verdict"), json.at("found")});
+        {whole(json, "row"), json.at("input"), json.at("required"), json.at("verdict"), json.at("found")});
 }
 
 /// The largest over the variants at each value, in pieces between which there was nothing to measure.
@@ -150,6 +160,8 @@ Stability read_stability(const std::string& text, const std::string& where) {
       add_line(json, stability);
     } catch (const Json::exception&) {
       throw ReportError(line + ": not a row of gnomon stress");
+    } catch (const ReportError& error) {
+      throw ReportError(line + ": " + error.what());
     }
   }
   const auto by_value = [](const auto& a, const auto& b) { return a.value < b.value; };
