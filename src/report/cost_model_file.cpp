@@ -30,8 +30,15 @@ void get_cost(const Json& json, const char* key, double& cost) {
     throw ReportError(std::string(key) + ": wants a number from 0 to 1e30");
 }
 
+/// Words that programs print: one line of them, without control characters.
+std::string words_from(const Json& json, const char* key) {
+  std::string words = json.at(key).get<std::string>();
+  if (words != one_line(words)) throw ReportError(std::string(key) + ": wants one line of printable text");
+  return words;
+}
+
 StoredCostModel::Filter filter_from(const Json& json) {
-  StoredCostModel::Filter filter{json.at("name").get<std::string>(), {}};
+  StoredCostModel::Filter filter{words_from(json, "name"), {}};
   get_cost(json, "prefilter_ms_per_map", filter.cost.prefilter_ms_per_map);
   get_cost(json, "prefilter_ms_per_megatexel", filter.cost.prefilter_ms_per_megatexel);
   get_cost(json, "lookup_ms_per_megapixel", filter.cost.lookup_ms_per_megapixel);
@@ -45,7 +52,7 @@ StoredCostModel model_from(const Json& json) {
   const std::string schema = json.at("schema").get<std::string>();
   if (schema != kSchema) throw ReportError("schema '" + schema + "', wanted '" + kSchema + "'");
   StoredCostModel model;
-  json.at("machine").get_to(model.machine);
+  model.machine = words_from(json, "machine");
   for (const auto& [key, cost] : kDrawing) get_cost(json, key, model.drawing.*cost);
   const Json& errors = json.at("mean_relative_error");
   get_cost(errors, "depth", model.depth_error);

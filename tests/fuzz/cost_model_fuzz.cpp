@@ -21,6 +21,8 @@ void check(const gnomon::report::StoredCostModel& model) {
     require_cost(cost);
   std::vector<gnomon::FilterCost> costs;
   const gnomon::CostModel view = model.view(costs);
+  for (const gnomon::report::StoredCostModel::Filter& filter : model.filters)
+    for (const char c : filter.name) require(static_cast<unsigned char>(c) >= 0x20, "names are printable");
   require(view.filters.size() == model.filters.size(), "as many filters as in the file");
   for (const gnomon::FilterCost& c : costs)
     for (const double cost : {c.prefilter_ms_per_map, c.prefilter_ms_per_megatexel, c.lookup_ms_per_megapixel,

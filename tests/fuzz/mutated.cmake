@@ -42,16 +42,16 @@ if(TARGET gnomon_report)
   gnomon_mutated(cost_model SEEDS ${seeds_cost_model} LIBS gnomon::report)
 endif()
 if(TARGET gnomon_program AND TARGET mutated_case)
-  gnomon_mutated_test(mutated_case_program case --count 40 ${seeds_case} -- $<TARGET_FILE:gnomon_program> plan {})
+  gnomon_mutated_test(mutated_case_program case --count 15 ${seeds_case} -- $<TARGET_FILE:gnomon_program> plan {})
   if(TARGET mutated_rows)
-    gnomon_mutated_test(mutated_rows_program rows --count 10 --name results.jsonl ${seeds_rows}
+    gnomon_mutated_test(mutated_rows_program rows --count 6 --name results.jsonl ${seeds_rows}
       -- $<TARGET_FILE:gnomon_program> report {in})
   endif()
 endif()
 if(TARGET flythrough)
   set(fly --frames 1 --size 32x18 --map-size 64 --context osmesa --out {out})
-  gnomon_mutated_test(mutated_gltf_program gltf --count 8 ${seeds_gltf} -- $<TARGET_FILE:flythrough> {} ${fly})
-  gnomon_mutated_test(mutated_camera_path_program camera_path --count 6 ${seeds_camera_path}
+  gnomon_mutated_test(mutated_gltf_program gltf --count 7 ${seeds_gltf} -- $<TARGET_FILE:flythrough> {} ${fly})
+  gnomon_mutated_test(mutated_camera_path_program camera_path --count 4 ${seeds_camera_path}
     -- $<TARGET_FILE:flythrough> builtin:fence --path {} ${fly})
   gnomon_mutated_test(mutated_cost_model_program cost_model --count 4 ${seeds_cost_model}
     -- $<TARGET_FILE:flythrough> builtin:fence --budget-ms 5 --cost-model {} ${fly})

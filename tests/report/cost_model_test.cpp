@@ -124,6 +124,8 @@ TEST(CostModel, hostile_values_are_refused_with_one_line) {
   refused("ms_per_map", "true", "ms_per_map: wants");
   refused("bytes_per_texel", "1e31", "bytes_per_texel: wants");
   refused("lookup", "1e999", "number overflow");
+  refused("name", "\"hard\\u001b[31m\\n\"", "name: wants one line of printable text");
+  refused("machine", "\"" + std::string(500, 'x') + "\"", "machine: wants");
   refused("schema", "\"\\n\\u001b[31m\"", "schema");
 }
 
