@@ -108,7 +108,9 @@ bool memory_takes_maps(int map_size, int maps, double bytes_per_texel) {
   for (double left = bytes_per_texel; left > 0.0; left -= kTexelBytes) {
     taken.push_back(make_texture(GL_TEXTURE_2D_ARRAY));
     glTextureStorage3D(taken.back().name(), 1, GL_DEPTH_COMPONENT32F, map_size, map_size, maps);
-    if (glGetError() != GL_NO_ERROR) return false;
+    if (glGetError() == GL_NO_ERROR) continue;
+    check_context();
+    return false;
   }
   return true;
 }

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "gnomon/render/error.hpp"
+#include "gnomon/render/context.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -18,6 +18,7 @@ Shader compile(GLenum stage, const ComposedShader& source) {
   GLint ok = GL_FALSE, length = 0;
   glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &ok);
   if (ok == GL_TRUE) return shader;
+  check_context();  // a lost context compiles nothing, and the shader is not to blame
   glGetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
   glGetShaderInfoLog(shader.name(), length, nullptr, log.data());
@@ -34,6 +35,7 @@ Program link(std::span<const Shader* const> shaders, const std::string& names) {
   GLint ok = GL_FALSE, length = 0;
   glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
   if (ok == GL_TRUE) return program;
+  check_context();
   glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
   glGetProgramInfoLog(program.name(), length, nullptr, log.data());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gnomon/render/context.hpp"
 #include "renderer_impl.hpp"
 
 namespace gnomon::render {
@@ -24,6 +25,7 @@ Image read_color(const Texture& texture, int width, int height, const char* name
   image.rgba.resize(row * static_cast<std::size_t>(height));
   glGetTextureImage(texture.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(image.rgba.size()),
                     image.rgba.data());
+  check_context();  // after the copy, which waits for the drawing
   flip_rows(image.rgba, row, height);
   return image;
 }
@@ -35,6 +37,7 @@ FloatImage read_floats(const Texture& texture, int width, int height, GLenum for
   image.values.resize(row * static_cast<std::size_t>(height));
   glGetTextureImage(texture.name(), 0, format, GL_FLOAT,
                     static_cast<GLsizei>(image.values.size() * sizeof(float)), image.values.data());
+  check_context();
   flip_rows(image.values, row, height);
   return image;
 }
@@ -96,6 +99,7 @@ Image Renderer::screen() const {
   image.rgba.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  check_context();
   flip_rows(image.rgba, static_cast<std::size_t>(width) * 4, height);
   return image;
 }
@@ -107,6 +111,7 @@ FloatImage Renderer::depth_map(int map) const {
   FloatImage image{size.x, size.y, 1, {}, {"depth"}};
   image.values.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
   impl_->read_depths(map, image.values);
+  check_context();
   return image;
 }
 

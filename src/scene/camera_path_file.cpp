@@ -22,6 +22,7 @@ using detail::Refusal;
 using nlohmann::json;
 
 constexpr std::uint64_t kFileBytes = 16u << 20;  // a key takes about 100 bytes; no flight has 100 thousand
+constexpr double kLargest = 1e30;                // as make_plan takes it; squares of larger ones overflow
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 void refuse_unknown(const json& object, const std::string& where, std::initializer_list<const char*> known) {
@@ -33,10 +34,14 @@ void refuse_unknown(const json& object, const std::string& where, std::initializ
   }
 }
 
+bool is_number(const json& value) {
+  return value.is_number() && std::abs(value.get<double>()) <= kLargest;
+}
+
 double number(const json& object, const char* key, double otherwise) {
   const auto it = object.find(key);
   if (it == object.end()) return otherwise;
-  if (!it->is_number() || !std::isfinite(it->get<double>())) throw Refusal(key, "must be a finite number");
+  if (!is_number(*it)) throw Refusal(key, "must be a number up to 1e30");
   return it->get<double>();
 }
 
@@ -47,9 +52,7 @@ glm::dvec3 point(const json& object, const char* key, const std::string& where) 
   glm::dvec3 out(0.0);
   for (std::size_t c = 0; c < 3; ++c) {
     const json& value = (*it)[c];
-    if (!value.is_number() || !std::isfinite(value.get<double>())) {
-      throw Refusal(where + "." + key, "must be three finite numbers");
-    }
+    if (!is_number(value)) throw Refusal(where + "." + key, "must be three numbers up to 1e30");
     out[static_cast<int>(c)] = value.get<double>();
   }
   return out;

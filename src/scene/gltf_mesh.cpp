@@ -161,6 +161,7 @@ std::uint32_t MeshReader::build_triangles(int mesh, std::size_t primitive, const
   if (joints != nullptr) bend(document_.model, source, *joints, vertices, triangles);
   bool shareable = joints == nullptr && !vertices.normals.empty();
   if (vertices.normals.empty()) {
+    vertices_left_ += vertices.positions.size();  // the flat ones are stored in their place
     spend_vertices(triangles.size(), where);
     make_flat(vertices, triangles);
   } else if (const std::size_t repaired = repair_normals(vertices.positions, triangles, vertices.normals)) {

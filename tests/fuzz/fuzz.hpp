@@ -29,6 +29,12 @@ inline std::string_view as_text(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
+/// Where files lie that the input names; empty: nowhere, as with made-up bytes.
+inline std::string& folder_of_input() {
+  static std::string folder;
+  return folder;
+}
+
 /// Takes values off the front of the input; zeros where it has ended.
 class Bytes {
  public:

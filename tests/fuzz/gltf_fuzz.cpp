@@ -10,9 +10,16 @@ namespace {
 using gnomon::Scene;
 using gnomon::fuzz::require;
 
-// Small, so that an input of a few bytes that stands for millions of triangles is refused and not built.
+// Small, so that an input of a few bytes that stands for millions of triangles is refused and not built. Real
+// scenes, which have files beside them, get what the largest of them needs.
 gnomon::LoadLimits small_limits() {
   gnomon::LoadLimits limits;
+  if (!gnomon::fuzz::folder_of_input().empty()) {
+    limits.file_bytes = limits.total_bytes = 1 << 26;
+    limits.triangles = limits.vertices = 2'000'000;
+    limits.pixels = 1 << 24;
+    return limits;
+  }
   limits.file_bytes = limits.total_bytes = 1 << 20;
   limits.triangles = limits.vertices = 20'000;
   limits.pixels = 1 << 16;
@@ -65,7 +72,8 @@ void check_records(const Scene& scene) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const Scene scene = gnomon::detail::load_gltf_bytes({data, size}, "fuzz", "fuzz", {}, small_limits());
+    const Scene scene = gnomon::detail::load_gltf_bytes({data, size}, "fuzz", "fuzz",
+                                                        gnomon::fuzz::folder_of_input(), small_limits());
     check_arrays(scene);
     check_records(scene);
     for (const std::string& warning : scene.warnings) gnomon::fuzz::require_one_line(warning);

@@ -1,10 +1,14 @@
 // Contexts: which is taken, and do all of them draw the same?
 #include <glad/gl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <optional>
+#include <thread>
 
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/probe.hpp"
@@ -159,6 +163,127 @@ TEST(Contexts, of_two_kinds_take_turns) {
   in_b->draw(ShadowPlan{}, camera, in_b->prepare(filters::hard));
   EXPECT_EQ(in_b->image().rgba.size(), from_a.rgba.size());
   in_b.reset();
+}
+
+TEST(Contexts, of_two_threads_draw_at_the_same_time) {
+  std::string name;
+  const std::optional<Hashes> alone = drawn_by(ContextKind::automatic, name);
+  ASSERT_TRUE(alone) << name;
+  constexpr int kFrames = 4;  // of each thread: contexts come and go while the other draws
+  std::array<std::vector<Hashes>, 2> drawn;
+  const auto draw = [&drawn](std::size_t thread) {
+    std::string renderer;
+    for (int i = 0; i < kFrames; ++i)
+      drawn[thread].push_back(drawn_by(ContextKind::automatic, renderer).value_or(Hashes{}));
+  };
+  std::thread first(draw, 0u), second(draw, 1u);
+  first.join();
+  second.join();
+  for (const std::vector<Hashes>& of_thread : drawn)
+    for (const Hashes& hashes : of_thread) EXPECT_EQ(hashes, *alone);
+}
+
+TEST(Contexts, have_a_table_of_functions_on_the_threads_that_make_them_current_alone) {
+  const auto context = create_context();
+  ASSERT_NE(glad_glClear, nullptr);
+  bool elsewhere = true;
+  std::thread([&elsewhere] { elsewhere = glad_glClear != nullptr; }).join();
+  EXPECT_FALSE(elsewhere);
+}
+
+/// While it lives, the driver of this thread's context says that it was reset.
+class LostContext {
+ public:
+  explicit LostContext(GLenum status) {
+    status_ = status;
+    glad_glGetGraphicsResetStatus = [] { return status_; };
+  }
+  ~LostContext() { glad_glGetGraphicsResetStatus = driver_; }
+  LostContext(const LostContext&) = delete;
+  LostContext& operator=(const LostContext&) = delete;
+
+ private:
+  static inline GLenum status_ = GL_NO_ERROR;
+  PFNGLGETGRAPHICSRESETSTATUSPROC driver_ = glad_glGetGraphicsResetStatus;
+};
+
+TEST(CheckContext, says_in_one_line_who_lost_it) {
+  const auto context = create_context();
+  EXPECT_NO_THROW(check_context());
+  for (const auto& [status, who] : {std::pair{GL_GUILTY_CONTEXT_RESET, "what was drawn here"},
+                                    {GL_INNOCENT_CONTEXT_RESET, "another program"},
+                                    {GL_UNKNOWN_CONTEXT_RESET, "unknown reason"}}) {
+    const LostContext lost(static_cast<GLenum>(status));
+    try {
+      check_context();
+      ADD_FAILURE() << "took a lost context for a sound one: " << who;
+    } catch (const RenderError& error) {
+      EXPECT_NE(std::string(error.what()).find(who), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+  EXPECT_NO_THROW(check_context());
+}
+
+TEST(Renderer, gives_no_picture_of_a_lost_context) {
+  const auto context = create_context();
+  const Scene scene = box_on_ground();
+  const Camera camera = camera_on_box(kSize, kSize);
+  Renderer renderer(scene);
+  PlanOptions options;
+  options.map_size = 64;
+  const PreparedFilter filter = renderer.prepare(filters::pcf);
+  const ShadowPlan plan = plan_for(scene, camera, {0.4, -0.8, -0.3}, options);
+  renderer.draw(plan, camera, filter);
+  {
+    const LostContext lost(GL_UNKNOWN_CONTEXT_RESET);
+    renderer.draw(plan, camera, filter);  // nothing throws while a frame is drawn
+    EXPECT_THROW((void)renderer.image(), RenderError);
+    EXPECT_THROW((void)renderer.heat_map(), RenderError);
+    EXPECT_THROW((void)renderer.cascade_tint(), RenderError);
+    EXPECT_THROW((void)renderer.mask(), RenderError);
+    EXPECT_THROW((void)renderer.aliasing(), RenderError);
+    EXPECT_THROW((void)renderer.positions(), RenderError);
+    EXPECT_THROW((void)renderer.normals(), RenderError);
+    EXPECT_THROW((void)renderer.depth_map(0), RenderError);
+    EXPECT_THROW((void)renderer.drawn_depths(filter.settings, plan), RenderError);
+  }
+  EXPECT_FALSE(renderer.image().rgba.empty());
+}
+
+/// Of this process, now.
+double resident_mib() {
+  std::ifstream statm("/proc/self/statm");
+  double pages = 0.0, resident = 0.0;
+  statm >> pages >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+TEST(Renderer, leaves_no_memory_behind) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer keeps freed memory, and finds leaks itself";
+#endif
+  const auto context = create_context();
+  const Scene scene = box_on_ground();
+  const Camera camera = camera_on_box(kSize, kSize);
+  const auto draw_once = [&] {
+    Renderer renderer(scene);
+    PlanOptions options;
+    options.map_size = 512;
+    options.cascades = 4;
+    renderer.draw(plan_for(scene, camera, {0.4, -0.8, -0.3}, options), camera,
+                  renderer.prepare(filters::vsm));
+    EXPECT_FALSE(renderer.mask().values.empty());
+  };
+  constexpr int kFirst = 10, kMore = 190;
+  for (int i = 0; i < kFirst; ++i) draw_once();  // caches of the driver fill
+  const double before = resident_mib();
+  for (int i = 0; i < kMore; ++i) draw_once();
+  // A renderer holds over 12 MiB of maps: one of them that is left behind is noticed.
+  constexpr double kMostGrowthMib = 8.0;
+  const double after = resident_mib();
+  RecordProperty("mebibytes", std::to_string(before) + " then " + std::to_string(after));
+  EXPECT_LT(after - before, kMostGrowthMib) << "from " << before << " MiB";
 }
 
 }  // namespace

@@ -164,6 +164,7 @@ TEST_F(Flythrough, ends_with_130_and_whole_files_when_interrupted) {
   const std::string rows = text_of(out() / "frames.csv");
   EXPECT_GE(std::count(rows.begin(), rows.end(), '\n'), 2) << "a head and a row at least";
   EXPECT_EQ(rows.find("frame,"), 0u);
+  EXPECT_EQ(rows.back(), '\n');
   for (const auto& entry : fs::directory_iterator(out())) {
     if (entry.path().filename() == "frames.csv") continue;
     EXPECT_EQ(entry.path().extension(), ".png") << entry.path();
@@ -174,6 +175,22 @@ TEST_F(Flythrough, ends_with_130_and_whole_files_when_interrupted) {
   }
   EXPECT_GE(files, 4u);
 }
+
+#ifdef GNOMON_LOST_OSMESA
+TEST_F(Flythrough, ends_with_one_line_and_what_it_has_where_the_driver_is_reset) {
+  // The third frame asks more often than that.
+  const Outcome outcome =
+      run("builtin:fence --frames 5 --size 64x32 --map-size 64 --cascades 1 --context osmesa",
+          "LD_LIBRARY_PATH=" GNOMON_LOST_OSMESA " GNOMON_TEST_RESET_AFTER=10");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.error,
+            "flythrough: the OpenGL context was lost: the driver was reset for an unknown reason\n");
+  EXPECT_TRUE(fs::exists(out() / "frame_0001_cascades.png"));
+  EXPECT_FALSE(fs::exists(out() / "frame_0004_image.png"));
+  const std::string numbers = text_of(out() / "frames.csv");
+  EXPECT_EQ(std::count(numbers.begin(), numbers.end(), '\n'), 3) << "a head and two frames: " << numbers;
+}
+#endif
 
 TEST_F(Flythrough, refuses_more_triangles_than_asked_for_before_it_makes_them) {
   const Outcome refused = run("builtin:fence --frames 1 --max-triangles 10");

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <random>
 
+#include "rows/cost_model_text.hpp"
 #include "gnomon/report/row.hpp"
 #include "sample_rows.hpp"
 
@@ -100,6 +101,38 @@ TEST(CostModel, comes_back_from_its_file) {
   std::vector<FilterCost> storage;
   const CostModel view = read.view(storage);
   EXPECT_EQ(view.filters[1].name, "vsm");
+}
+
+TEST(CostModel, hostile_values_are_refused_with_one_line) {
+  const std::string good = to_text(fit_costs(made_observations(), "a machine"));
+  EXPECT_EQ(to_text(cost_model_from_text(good, "file")), good);
+  const auto refused = [&](const std::string& key, const std::string& value, const std::string& why) {
+    std::string text = good;
+    const std::size_t at = text.find("\"" + key + "\":") + key.size() + 4;
+    text.replace(at, text.find_first_of(",\n", at) - at, value);
+    try {
+      (void)cost_model_from_text(text, "file");
+      ADD_FAILURE() << "accepted: " << key << " " << value;
+    } catch (const ReportError& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.rfind("file: ", 0), 0u) << what;
+      EXPECT_NE(what.find(why), std::string::npos) << what;
+      EXPECT_EQ(what.find_first_of("\n\r\x1b"), std::string::npos) << what;
+    }
+  };
+  refused("frame_ms", "-1", "frame_ms: wants a number from 0 to 1e30");
+  refused("ms_per_map", "true", "ms_per_map: wants");
+  refused("bytes_per_texel", "1e31", "bytes_per_texel: wants");
+  refused("lookup", "1e999", "number overflow");
+  refused("name", "\"hard\\u001b[31m\\n\"", "name: wants one line of printable text");
+  refused("machine", "\"" + std::string(500, 'x') + "\"", "machine: wants");
+  refused("schema", "\"\\n\\u001b[31m\"", "schema");
+}
+
+TEST(CostModel, a_model_without_filters_is_refused) {
+  StoredCostModel model = fit_costs(made_observations(), "a machine");
+  model.filters.clear();
+  EXPECT_THROW((void)cost_model_from_text(to_text(model), "file"), ReportError);
 }
 
 TEST(CostModel, a_file_that_is_none_is_refused_by_name) {

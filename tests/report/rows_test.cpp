@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -120,6 +122,86 @@ TEST(RowsFile, a_disk_that_fills_up_is_an_error_and_costs_one_row) {
   EXPECT_EQ(read_rows(file).size(), 2u);
 }
 
+TEST(RowsFile, a_disk_that_fills_up_at_any_byte_leaves_whole_rows) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / kRowsFile;
+  const std::string row = to_json_line(sample_row(0)) + "\n";
+  for (std::size_t room = 0; room < 3 * row.size(); room += 97) {
+    fs::remove(file);
+    {
+      RowsFile out(file);
+      const FullDisk full(room);
+      std::size_t written = 0;
+      EXPECT_THROW(for (;; ++written) out.append(sample_row(0)), ReportError);
+      EXPECT_EQ(written, room / row.size());
+    }
+    std::string whole;
+    for (std::size_t i = 0; i < room / row.size(); ++i) whole += row;
+    EXPECT_EQ(text_of(file), whole) << room;
+  }
+}
+
+TEST(RowsFile, a_second_writer_is_refused_until_the_first_is_gone) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / kRowsFile;
+  const auto refusal = [&] {
+    try {
+      RowsFile second(file);
+    } catch (const ReportError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  {
+    RowsFile first(file);
+    first.append(sample_row(0));
+    EXPECT_EQ(refusal(), folder.path().string() + ": in use by process " + std::to_string(::getpid()));
+    const std::vector<fs::path> folders{folder.path()};
+    EXPECT_THROW(merge_rows(folders, folder.path()), ReportError) << "it would write over the first's rows";
+    first.append(sample_row(1));
+  }
+  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(read_rows(file).size(), 2u);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1)
+      << "nothing but the rows stays";
+}
+
+TEST(ResultsLock, ends_with_its_process_and_names_it_while_it_runs) {
+  const TemporaryFolder folder;
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const ResultsLock lock(folder.path());
+    (void)!::write(ready[1], "x", 1);
+    for (;;) ::pause();
+  }
+  char x = 0;
+  ASSERT_EQ(::read(ready[0], &x, 1), 1);
+  try {
+    const ResultsLock second(folder.path());
+    ADD_FAILURE() << "two processes hold one folder";
+  } catch (const ReportError& error) {
+    EXPECT_NE(std::string(error.what()).find("in use by process " + std::to_string(child)), std::string::npos)
+        << error.what();
+  }
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  EXPECT_NO_THROW(ResultsLock(folder.path()));
+  for (const int end : ready) ::close(end);
+}
+
+TEST(ResultsLock, a_folder_that_is_not_there_is_named) {
+  try {
+    const ResultsLock lock("/nowhere/at/all");
+    ADD_FAILURE() << "locked nothing";
+  } catch (const ReportError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "/nowhere/at/all/results.lock: cannot be made: No such file or directory");
+  }
+}
+
 TEST(RowsFile, a_page_that_finds_no_room_leaves_the_one_before_and_nothing_else) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "page";
@@ -179,6 +261,27 @@ TEST(RowsFile, a_line_cut_short_by_a_kill_is_dropped_and_written_anew) {
     RowsFile(file).append(sample_row(1));
     EXPECT_EQ(text_of(file), whole) << cut;
   }
+}
+
+TEST(RowsFile, torn_lines_are_skipped_with_one_warning_and_other_bad_ones_refused) {
+  const std::string row = to_json_line(sample_row(0)) + "\n";
+  const auto read = [](const std::string& text) {
+    std::vector<std::string> warnings;
+    const std::size_t rows = rows_from_text(text, "file", &warnings).size();
+    EXPECT_LE(warnings.size(), 1u);
+    return std::to_string(rows) + (warnings.empty() ? "" : " " + warnings[0]);
+  };
+  const std::string half = row.substr(0, row.size() / 2);
+  EXPECT_EQ(read(row + row), "2");
+  EXPECT_EQ(read(row + half), "1 file:2: a row is not whole and was skipped");
+  EXPECT_EQ(read(half + row + row), "1 file:1: a row is not whole and was skipped")
+      << "two rows run together";
+  EXPECT_EQ(read(row + half + "\n" + row + row.substr(100) + std::string(50, '\0')),
+            "2 file:2: the first of 3 rows that are not whole and were skipped");
+  EXPECT_EQ(read(half), "0 file:1: a row is not whole and was skipped") << "killed in the first row";
+  EXPECT_EQ(rows_from_text(row + half + "\n", "file").size(), 1u) << "nobody wants the warnings";
+  EXPECT_THROW((void)read(row + "{}\n"), ReportError) << "whole, and no row";
+  EXPECT_THROW((void)read("name,value\n1,2\n"), ReportError) << "no file of rows at all";
 }
 
 TEST(RowsFile, a_file_that_cannot_be_opened_is_named) {

@@ -55,14 +55,23 @@ TEST(Stability, rows_are_gathered_by_axis_and_value) {
   EXPECT_EQ(stability.filters.size(), 1u);
 }
 
+TEST(Stability, numbers_that_are_no_whole_ones_are_refused_where_whole_ones_belong) {
+  for (const char* row : {"1e300", "1.5", "4294967296", "-18446744073709551615", "true", "null"}) {
+    const std::string line = std::string(R"({"kind":"case","row":)") + row +
+                             R"(,"name":"n","input":"i","required":"refused","verdict":"holds","found":""})" +
+                             "\n";
+    EXPECT_THROW((void)read_stability(line, "file"), ReportError) << row;
+  }
+}
+
 TEST(Stability, a_row_that_lacks_something_is_refused_by_line) {
-  for (const std::string& text :
-       {kCase + "{\"kind\":\"axis\"}\n", kCase + "{\"kind\":\"case\",\"row\":\"three\"}\n"}) {
+  for (const auto& [line, why] : {std::pair{"{\"kind\":\"axis\"}\n", "not a row of gnomon stress"},
+                                  {"{\"kind\":\"case\",\"row\":\"three\"}\n", "row: wants a whole number"}}) {
     try {
-      (void)read_stability(text, "stability.jsonl");
-      FAIL() << text;
+      (void)read_stability(kCase + line, "stability.jsonl");
+      FAIL() << line;
     } catch (const ReportError& error) {
-      EXPECT_EQ(std::string(error.what()), "stability.jsonl:2: not a row of gnomon stress");
+      EXPECT_EQ(std::string(error.what()), std::string("stability.jsonl:2: ") + why);
     }
   }
 }

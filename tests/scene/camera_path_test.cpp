@@ -68,6 +68,17 @@ TEST(CameraPath, a_target_that_meets_the_position_between_keys_still_gives_a_dir
   EXPECT_GT(glm::length(path.at(0.5, 4, 4).forward), 0.0);
 }
 
+TEST(CameraPath, keys_as_far_away_as_files_may_have_them_give_finite_cameras) {
+  const CameraPath path =
+      path_of({{{1e30, 0, -1e30}, {-1e30, 0, 0}}, {{0, 0, 0}, {1, 0, 0}}, {{0, 1e30, 0}, {1e30, 0, 0}}});
+  for (int i = 0; i <= 10; ++i) {
+    const Camera camera = path.at(0.1 * i, 4, 4);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_TRUE(std::isfinite(camera.position[c]) && std::isfinite(camera.forward[c])) << i;
+    }
+  }
+}
+
 TEST(CameraPath, passes_through_every_key_in_order) {
   const std::vector<CameraKey> keys{{{0, 0, 0}, {0, 0, -9}},
                                     {{1, 5, 0}, {4, 0, 0}},
@@ -153,6 +164,10 @@ TEST(CameraPathFile, what_is_wrong_is_named_with_its_file_and_key) {
       {R"({"keys":[{"position":[0,0],"target":[0,0,1]}]})", "keys[0].position"},
       {R"({"keys":[{"position":[0,0,"1"],"target":[0,0,1]}]})", "keys[0].position"},
       {R"({"keys":[{"position":[0,0,1],"target":[0,0,1]}]})", "keys[0]: target is the position"},
+      {R"({"keys":[{"position":[0,0,1e31],"target":[0,0,1]}]})",
+       "keys[0].position: must be three numbers up to 1e30"},
+      {R"({"keys":[{"position":[0,0,1],"target":[-1e155,0,1]}]})", "keys[0].target: must be"},
+      {R"({"keys":[)" + key + R"(],"near":1e307,"far":1e308})", "near: must be a number up to 1e30"},
       {R"({"keys":[{"position":[0,0,1],"target":[0,0,2],"roll":1}]})", "unknown key 'roll'"},
       {R"({"keys":[)" + key + R"(],"fov":60})", "unknown key 'fov'"},
       {R"({"keys":[)" + key + R"(],"fov_y_deg":180})", "fov_y_deg"},

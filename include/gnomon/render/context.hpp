@@ -29,14 +29,15 @@ struct ContextInfo {
   std::string renderer;                       ///< GL_RENDERER
   std::string version;                        ///< GL_VERSION
   bool software = true;                       ///< drawn by the CPU: timings are wall clock
+  bool reports_resets = false;                ///< check_context() notices when the driver is reset
   std::vector<std::string> refused;           ///< those tried before, a line each: which and why not
 
   /// All of it in a few lines of English.
   [[nodiscard]] std::string description() const;
 };
 
-/// An OpenGL 4.5 core context. All contexts of a process share one table of function pointers, which
-/// make_current() fills: draw only through the context made current last.
+/// An OpenGL 4.5 core context. Each thread has its own table of OpenGL functions, which make_current() fills.
+/// A thread draws through the context that it made current last; other threads draw through theirs.
 class Context {
  public:
   virtual ~Context() = default;
@@ -54,5 +55,9 @@ class Context {
 /// Makes an off-screen context and makes it current. Throws RenderError with the reason of every candidate
 /// that was tried; ContextKind::glfw is refused here, see gnomon/render/window.hpp.
 [[nodiscard]] std::unique_ptr<Context> create_context(ContextKind kind = ContextKind::automatic);
+
+/// Throws RenderError where the driver has reset the current context: everything drawn in it is undefined.
+/// Call it after a frame, before its pictures or times are used; the Renderer's pictures do so themselves.
+void check_context();
 
 }  // namespace gnomon::render

@@ -109,7 +109,8 @@ class Renderer {
   FrameStats draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                   const FrameOptions& options = {}) noexcept;
 
-  /// The last frame's pictures, rows top to bottom.
+  /// The last frame's pictures, rows top to bottom. They, and all that follow, throw RenderError where the
+  /// driver has reset the context since.
   [[nodiscard]] Image image() const;
   [[nodiscard]] Image heat_map() const;
   [[nodiscard]] Image cascade_tint() const;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace gnomon::report {
 
@@ -13,7 +14,8 @@ namespace gnomon::report {
 ///   frames.csv          a line per row,
 ///   fronts.md           what no other technique beats on each scene, as tables.
 /// Files that are there already are replaced, each as a whole. A folder with neither is refused.
-/// Throws ReportError. Returns the path of the page.
-std::filesystem::path write_report(const std::filesystem::path& folder);
+/// Warnings as read_rows. Throws ReportError. Returns the path of the page.
+std::filesystem::path write_report(const std::filesystem::path& folder,
+                                   std::vector<std::string>* warnings = nullptr);
 
 }  // namespace gnomon::report

@@ -10,8 +10,8 @@
 
 namespace gnomon::render {
 
-/// Points the process-wide table of OpenGL functions at the context that is current, and fills in renderer,
-/// version and whether it is software. Throws RenderError below OpenGL 4.5.
+/// Points this thread's table of OpenGL functions at the context that is current, and fills in renderer,
+/// version, whether it is software and whether it reports resets. Throws RenderError below OpenGL 4.5.
 void load_gl(void* (*get_proc_address)(const char*), ContextInfo* info);
 
 /// Whether GL_RENDERER names a driver that draws on the CPU, into its memory.

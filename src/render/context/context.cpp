@@ -72,6 +72,22 @@ void load_gl(void* (*get_proc_address)(const char*), ContextInfo* info) {
   info->renderer = gl_string(GL_RENDERER);
   info->version = gl_string(GL_VERSION);
   info->software = is_software(info->renderer);
+  GLint strategy = GL_NO_RESET_NOTIFICATION;
+  glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+  info->reports_resets = strategy == GL_LOSE_CONTEXT_ON_RESET;
+}
+
+void check_context() {
+  switch (glGetGraphicsResetStatus()) {
+    case GL_NO_ERROR:
+      return;
+    case GL_GUILTY_CONTEXT_RESET:
+      throw RenderError("the OpenGL context was lost: the driver was reset by what was drawn here");
+    case GL_INNOCENT_CONTEXT_RESET:
+      throw RenderError("the OpenGL context was lost: the driver was reset by another program");
+    default:
+      throw RenderError("the OpenGL context was lost: the driver was reset for an unknown reason");
+  }
 }
 
 std::unique_ptr<Context> create_context(ContextKind kind) {

@@ -56,7 +56,7 @@ Egl load_egl() {
 }
 
 /// load_gl takes a plain function; EGL's returns a function pointer type of its own.
-decltype(&eglGetProcAddress) current_get_proc_address = nullptr;
+thread_local decltype(&eglGetProcAddress) current_get_proc_address = nullptr;
 void* egl_proc(const char* name) {
   return reinterpret_cast<void*>(current_get_proc_address(name));
 }
@@ -83,14 +83,21 @@ class EglBackend final : public Context {
  private:
   void open() {
     if (egl_.bind_api(EGL_OPENGL_API) == EGL_FALSE) fail("has no desktop OpenGL");
-    const std::array<EGLint, 7> attributes{EGL_CONTEXT_MAJOR_VERSION,
-                                           4,
-                                           EGL_CONTEXT_MINOR_VERSION,
-                                           5,
-                                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                           EGL_NONE};
-    context_ = egl_.create_context(display_, nullptr, EGL_NO_CONTEXT, attributes.data());
+    constexpr std::array<EGLint, 6> kCore{
+        EGL_CONTEXT_MAJOR_VERSION,          4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+    // Robust access and reports of resets where the driver has both, else the latter alone, else neither.
+    for (const std::vector<EGLint>& more :
+         {std::vector<EGLint>{EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
+                              EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET},
+          std::vector<EGLint>{EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET},
+          std::vector<EGLint>{}}) {
+      std::vector<EGLint> attributes(kCore.begin(), kCore.end());
+      attributes.insert(attributes.end(), more.begin(), more.end());
+      attributes.push_back(EGL_NONE);
+      context_ = egl_.create_context(display_, nullptr, EGL_NO_CONTEXT, attributes.data());
+      if (context_ != EGL_NO_CONTEXT) break;
+    }
     if (context_ == EGL_NO_CONTEXT) fail("refuses an OpenGL 4.5 core context");
     bind(&info_);
   }

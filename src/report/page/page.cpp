@@ -127,14 +127,14 @@ PageInput page_input(const std::filesystem::path& folder, std::vector<Row> rows)
   return input;
 }
 
-std::filesystem::path write_report(const std::filesystem::path& folder) {
+std::filesystem::path write_report(const std::filesystem::path& folder, std::vector<std::string>* warnings) {
   std::error_code ignored;
   if (std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored))
     throw ReportError(one_line(folder.string() + ": is not a folder"));
   // A folder of gnomon stress alone has a report, too.
   const bool alone = std::filesystem::exists(folder / kStabilityFile, ignored) &&
                      !std::filesystem::exists(folder / kRowsFile, ignored);
-  const PageInput input = page_input(folder, alone ? std::vector<Row>() : read_rows(folder));
+  const PageInput input = page_input(folder, alone ? std::vector<Row>() : read_rows(folder, warnings));
   write_charts(input);
   write_text(folder / "summary.csv", summary_csv(input.summary));
   write_text(folder / "fronts.md", front_tables(input.summary));

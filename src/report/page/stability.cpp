@@ -34,8 +34,8 @@ Row row_from(const Json& json) {
     } else if constexpr (std::is_same_v<Value, int>) {
       // The library's own conversion would take 1e300 for an int.
       const auto whole = found.get_ref<const Json::number_integer_t&>();
-      value = static_cast<int>(std::clamp<Json::number_integer_t>(whole, std::numeric_limits<int>::min(),
-                                                                  std::numeric_limits<int>::max()));
+      if (!std::in_range<int>(whole)) throw ReportError(std::string(name) + \": wants a whole number\");
+      value = static_cast<int>(whole);
     } else {
       found.get_to(value);
     }
@@ -229,6 +229,8 @@ Stability read_stability(const std::string& text, const std::string& where) {
       add_line(json, stability);
     } catch (const Json::exception&) {
       throw ReportError(line + ": not a row of gnomon stress");
+    } catch (const ReportError& error) {
+      throw ReportError(line + ": " + error.what());
     }
   }
   const auto by_value = [](const auto& a, const auto& b) { return a.value < b.value; };

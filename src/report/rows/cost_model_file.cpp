@@ -2,10 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "rows/cost_model_text.hpp"
 #include "file.hpp"
-#include "gnomon/report/cost_model.hpp"
-#include "gnomon/report/row.hpp"
-#include "json_words.hpp"
 #include "text.hpp"
 
 namespace gnomon::report {
@@ -23,9 +21,51 @@ constexpr std::pair<const char*, double DrawingCosts::*> kDrawing[] = {
     {"ms_per_megatriangle", &DrawingCosts::per_megatriangle},
     {"ms_per_megatexel_tested", &DrawingCosts::per_megatexel_tested}};
 
+/// A cost: neither below zero nor so large that sums over techniques overflow.
+void get_cost(const Json& json, const char* key, double& cost) {
+  constexpr double kLargest = 1e30;
+  const Json& value = json.at(key);
+  if (value.is_number()) cost = value.get<double>();
+  if (!value.is_number() || !(cost >= 0.0 && cost <= kLargest))
+    throw ReportError(std::string(key) + ": wants a number from 0 to 1e30");
+}
+
+/// Words that programs print: one line of them, without control characters.
+std::string words_from(const Json& json, const char* key) {
+  std::string words = json.at(key).get<std::string>();
+  if (words != one_line(words)) throw ReportError(std::string(key) + ": wants one line of printable text");
+  return words;
+}
+
+StoredCostModel::Filter filter_from(const Json& json) {
+  StoredCostModel::Filter filter{words_from(json, "name"), {}};
+  get_cost(json, "prefilter_ms_per_map", filter.cost.prefilter_ms_per_map);
+  get_cost(json, "prefilter_ms_per_megatexel", filter.cost.prefilter_ms_per_megatexel);
+  get_cost(json, "lookup_ms_per_megapixel", filter.cost.lookup_ms_per_megapixel);
+  get_cost(json, "bytes_per_texel", filter.cost.bytes_per_texel);
+  get_cost(json, "error_ratio", filter.cost.error_ratio);
+  get_cost(json, "error_power", filter.cost.error_power);
+  return filter;
+}
+
+StoredCostModel model_from(const Json& json) {
+  const std::string schema = json.at("schema").get<std::string>();
+  if (schema != kSchema) throw ReportError("schema '" + schema + "', wanted '" + kSchema + "'");
+  StoredCostModel model;
+  model.machine = words_from(json, "machine");
+  for (const auto& [key, cost] : kDrawing) get_cost(json, key, model.drawing.*cost);
+  const Json& errors = json.at("mean_relative_error");
+  get_cost(errors, "depth", model.depth_error);
+  get_cost(errors, "prefilter", model.prefilter_error);
+  get_cost(errors, "lookup", model.lookup_error);
+  for (const Json& filter : json.at("filters")) model.filters.push_back(filter_from(filter));
+  if (model.filters.empty()) throw ReportError("filters: there is none");
+  return model;
+}
+
 }  // namespace
 
-void save_cost_model(const StoredCostModel& model, const std::filesystem::path& file) {
+std::string to_text(const StoredCostModel& model) {
   Json json{
       {"schema", kSchema},
       {"machine", model.machine},
@@ -42,46 +82,30 @@ void save_cost_model(const StoredCostModel& model, const std::filesystem::path& 
                                {"error_ratio", cost.error_ratio},
                                {"error_power", cost.error_power}});
   }
-  write_text(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+StoredCostModel cost_model_from_text(std::string_view text, const std::string& name) {
+  try {
+    check_nesting(text);
+    return model_from(Json::parse(text));
+  } catch (const Json::exception& error) {
+    throw ReportError(one_line(name + ": " + error.what()));
+  } catch (const ReportError& error) {
+    throw ReportError(one_line(name + ": " + error.what()));
+  }
+}
+
+void save_cost_model(const StoredCostModel& model, const std::filesystem::path& file) {
+  write_text(file, to_text(model));
 }
 
 StoredCostModel load_cost_model(const std::filesystem::path& file) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(file, ignored) &&
       std::filesystem::file_size(file, ignored) > kLargestFile)
-    throw ReportError(file.string() + ": larger than any cost model");
-  const std::string text = read_text(file);
-  try {
-    check_nesting(text);
-  } catch (const ReportError& error) {
-    throw ReportError(file.string() + ": " + error.what());
-  }
-  try {
-    const Json json = Json::parse(text);
-    if (json.at("schema").get<std::string>() != kSchema)
-      throw ReportError(file.string() + ": schema '" + json.at("schema").get<std::string>() + "', wanted '" +
-                        kSchema + "'");
-    StoredCostModel model;
-    json.at("machine").get_to(model.machine);
-    for (const auto& [key, cost] : kDrawing) json.at(key).get_to(model.drawing.*cost);
-    const Json& errors = json.at("mean_relative_error");
-    errors.at("depth").get_to(model.depth_error);
-    errors.at("prefilter").get_to(model.prefilter_error);
-    errors.at("lookup").get_to(model.lookup_error);
-    for (const Json& entry : json.at("filters")) {
-      StoredCostModel::Filter filter{entry.at("name").get<std::string>(), {}};
-      entry.at("prefilter_ms_per_map").get_to(filter.cost.prefilter_ms_per_map);
-      entry.at("prefilter_ms_per_megatexel").get_to(filter.cost.prefilter_ms_per_megatexel);
-      entry.at("lookup_ms_per_megapixel").get_to(filter.cost.lookup_ms_per_megapixel);
-      entry.at("bytes_per_texel").get_to(filter.cost.bytes_per_texel);
-      entry.at("error_ratio").get_to(filter.cost.error_ratio);
-      entry.at("error_power").get_to(filter.cost.error_power);
-      model.filters.push_back(std::move(filter));
-    }
-    return model;
-  } catch (const Json::exception& error) {
-    throw ReportError(one_line(file.string() + ": " + json_words(error.what())));
-  }
+    throw ReportError(one_line(file.string() + ": larger than any cost model"));
+  return cost_model_from_text(read_text(file), file.string());
 }
 
 }  // namespace gnomon::report

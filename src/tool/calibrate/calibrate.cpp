@@ -1,5 +1,6 @@
 // `gnomon calibrate`: what shadows cost on this machine, fitted to a sweep, and held against others.
 #include <fmt/core.h>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -98,7 +99,9 @@ int run_calibrate(const CalibrateRequest& request, bool json) {
   }
   std::vector<report::Row> rows;
   for (const std::string& folder : folders) {
-    const std::vector<report::Row> more = report::read_rows(folder);
+    std::vector<std::string> warnings;
+    const std::vector<report::Row> more = report::read_rows(folder, &warnings);
+    for (const std::string& line : warnings) std::fprintf(stderr, "gnomon: warning: %s\n", line.c_str());
     rows.insert(rows.end(), more.begin(), more.end());
   }
   if (rows.empty()) throw std::runtime_error("no results to calibrate with");

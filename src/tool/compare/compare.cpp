@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -83,7 +84,11 @@ std::set<std::string> known_keys(const Sweep& sweep, const std::vector<std::stri
                              ": there already; --resume goes on with it, another --out starts anew");
   report::SceneHashes now;
   for (std::size_t i = 0; i < hashes.size(); ++i) (void)now.agree(sweep.scenes[i], hashes[i]);
-  for (const report::Row& row : report::read_rows(file)) {
+  std::vector<std::string> warnings;
+  const std::vector<report::Row> rows = report::read_rows(file, &warnings);
+  for (const std::string& line : warnings)
+    std::fprintf(stderr, "gnomon: warning: %s; it is measured again\n", line.c_str());
+  for (const report::Row& row : rows) {
     if (!now.agree(row.scene, row.scene_hash))
       throw std::runtime_error(file.string() + ": " + row.scene +
                                " is no longer what was measured; another --out starts anew");
@@ -96,12 +101,12 @@ std::set<std::string> known_keys(const Sweep& sweep, const std::vector<std::stri
 class Run {
  public:
   Run(const Sweep& sweep, std::vector<std::string> hashes, const report::Machine& machine,
-      std::set<std::string> known)
+      std::set<std::string> known, report::ResultsLock lock)
       : sweep_(sweep),
         hashes_(std::move(hashes)),
         machine_(machine),
         known_(std::move(known)),
-        file_(fs::path(sweep.out) / report::kRowsFile),
+        file_(fs::path(sweep.out) / report::kRowsFile, std::move(lock)),
         progress_("gnomon compare", steps_in_all()) {}
 
   void all() {
@@ -174,13 +179,19 @@ Compared compare(const CompareRequest& request) {
   for (const std::string& scene : request.scenes) check_scene_word("SCENE", scene);
   Sweep sweep = make_sweep(request);
   check_folder("--out", sweep.out);
+  std::optional<report::ResultsLock> lock;  // before rows are read: another process may be writing them
+  if (fs::is_directory(sweep.out)) lock.emplace(sweep.out);
   const std::vector<std::string> hashes = hashes_of(sweep);
-  const std::set<std::string> known = known_keys(sweep, hashes);
+  std::set<std::string> known = known_keys(sweep, hashes);
   const std::unique_ptr<render::Context> context = render::create_context(sweep.context);
   for (const std::string& line : fit_to_memory(sweep)) warn(line);
   make_folder("--out", sweep.out);
+  if (!lock) {
+    lock.emplace(sweep.out);
+    known = known_keys(sweep, hashes);
+  }
   watch_interrupts();
-  Run(sweep, hashes, machine(context->info()), known).all();
+  Run(sweep, hashes, machine(context->info()), std::move(known), std::move(*lock)).all();
   // A shard's report would show a part as if it were the whole.
   return {(fs::path(sweep.out) / report::kRowsFile).string(),
           sweep.shards == 1 ? report::write_report(sweep.out).string() : std::string()};

@@ -138,6 +138,7 @@ void time_visit(Stage& stage, const Camera& camera, const SweepEntry& entry, Sam
     samples->shade_ms.push_back(shade);
     samples->total_ms.push_back(plan_time * kMillisecondsPerNanosecond + depth + prefilter + shade);
   }
+  render::check_context();
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ Json context_json(render::ContextKind kind) {
     json["renderer"] = info.renderer;
     json["version"] = info.version;
     json["software"] = info.software;
+    json["reports_resets"] = info.reports_resets;
     json["refused_before"] = info.refused;
     const render::Probe probe = render::probe_driver();
     json["limits"] = Json::object();
@@ -74,6 +75,8 @@ void print_context(const Json& c) {
   }
   print_line("  " + c["platform"].get<std::string>() + ", " + c["renderer"].get<std::string>() + ", OpenGL " +
              c["version"].get<std::string>() + (c["software"].get<bool>() ? ", drawn by the CPU" : ""));
+  print_line(std::string("  resets of the driver ") +
+             (c["reports_resets"].get<bool>() ? "are reported" : "are not reported"));
   for (const Json& line : c["refused_before"]) print_line("  before it: " + line.get<std::string>());
   std::string limits = "  limits:";
   for (const auto& [name, value] : c["limits"].items()) limits += " " + name + " " + value.dump() + ",";

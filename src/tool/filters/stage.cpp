@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "gnomon/render/context.hpp"
 #include "gnomon/scene/default_light.hpp"
 
 namespace gnomon::tool {
@@ -64,7 +65,9 @@ render::FrameStats FilterStage::draw(const render::FilterSettings& filter, const
   // What is timed is the whole frame.
   frame.prune = PruneRules{}.without(PruneRule::held_maps).without(PruneRule::scrolled_maps);
   frame.aliasing = frame.heat_map = frame.cascade_tint = false;
-  return renderer_.draw(plan_, camera, renderer_.prepare(filter), frame);
+  const render::FrameStats stats = renderer_.draw(plan_, camera, renderer_.prepare(filter), frame);
+  render::check_context();
+  return stats;
 }
 
 std::vector<float> FilterStage::visibility() const {

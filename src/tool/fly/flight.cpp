@@ -269,8 +269,12 @@ std::vector<FrameRow> draw_frames(Studio& studio, bool software) {
       progress.set(frame);
       rows.push_back(draw_frame(studio, frame));
     }
-  } catch (const Interrupted&) {
-    if (!rows.empty()) write_rows(rows);
+  } catch (...) {
+    // Ctrl-C, a full disk, a lost context: the first failure is the one to report.
+    try {
+      if (!rows.empty()) write_rows(rows);
+    } catch (const std::exception&) {
+    }
     throw;
   }
   write_rows(rows);

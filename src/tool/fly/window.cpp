@@ -194,6 +194,7 @@ void draw(Viewer& viewer, double seconds) {
     viewer.renderer.show_overlay(viewer.legend);
   }
   glfwSwapBuffers(viewer.window);
+  gnomon::render::check_context();
 }
 
 void look_around(Viewer& viewer) {

@@ -11,10 +11,16 @@
 namespace gnomon::tool {
 namespace {
 
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& line : warnings) warn(line);
+}
+
 /// Joins the folders' rows and pictures in `out` and writes the report there.
 int run_merge(const std::vector<std::string>& folders, const std::string& out, bool json) {
   const std::vector<std::filesystem::path> paths(folders.begin(), folders.end());
-  const std::size_t rows = report::merge_rows(paths, out);
+  std::vector<std::string> warnings;
+  const std::size_t rows = report::merge_rows(paths, out, &warnings);
+  print_warnings(warnings);
   const std::string file = (std::filesystem::path(out) / report::kRowsFile).string();
   const std::string page = report::write_report(out).string();
   if (json) {
@@ -31,7 +37,9 @@ int run_merge(const std::vector<std::string>& folders, const std::string& out, b
 int run_report(const std::vector<std::string>& folders, bool json) {
   nlohmann::json pages = nlohmann::json::array();
   for (const std::string& folder : folders) {
-    pages.push_back(report::write_report(folder).string());
+    std::vector<std::string> warnings;
+    pages.push_back(report::write_report(folder, &warnings).string());
+    print_warnings(warnings);
     if (!json) print_line(pages.back().get<std::string>());
   }
   if (json) print_line(nlohmann::json{{"reports", pages}}.dump());

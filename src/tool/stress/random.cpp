@@ -40,8 +40,8 @@ int replay(const RandomStressRequest& request) {
 int run_random_stress(const RandomStressRequest& request) {
   if (!request.replay.empty()) return replay(request);
   const fs::path folder = request.out.empty() ? fs::path("stress_random") : fs::path(request.out);
-  const stress::RandomOptions options{request.random, request.seed, true};
-  Progress progress("gnomon stress --random", request.random);
+  const stress::RandomOptions options{static_cast<long long>(request.random), request.seed, true};
+  Progress progress("gnomon stress --random", options.cases);
   long long done = 0;
   const stress::RandomResult result = stress::run_random(options, [&] { progress.set(++done); });
   progress.clear();

@@ -8,7 +8,7 @@
 namespace gnomon::tool {
 
 struct RandomStressRequest {
-  long long random = 0;  ///< random cases
+  std::uint64_t random = 0;  ///< random cases
   std::uint64_t seed = 1;
   std::string out;                  ///< folder for cases that fail; empty: stress_random
   std::vector<std::string> replay;  ///< case files that are checked as random cases are, in their place

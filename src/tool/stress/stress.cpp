@@ -30,7 +30,7 @@ struct StressRequest {
   std::uint64_t seed = 1;
   std::string out;  ///< folder for stability.jsonl and stability.csv; empty: none
   bool json = false, csv = false;
-  long long random = 0;  ///< random cases; above 0: these alone, `out` is the folder for cases that fail
+  std::uint64_t random = 0;  ///< random cases; above 0: these alone, `out` is the folder for cases that fail
   std::vector<std::string> replay;  ///< case files that are checked as random cases are, alone
 };
 
