@@ -34,6 +34,10 @@ function(gnomon_add_shared name)
   endif()
   set_target_properties(${shared} PROPERTIES LINKER_LANGUAGE CXX OUTPUT_NAME gnomon_${name} EXPORT_NAME ${name}
     VERSION ${gnomon_abi_version}.${PROJECT_VERSION} SOVERSION ${gnomon_abi_version})
+  if(NOT GNOMON_PACKAGES)
+    # Wherever they are installed, the libraries find each other.
+    set_target_properties(${shared} PROPERTIES INSTALL_RPATH "$ORIGIN")
+  endif()
   get_target_property(linked ${static} LINK_LIBRARIES)
   get_target_property(interface ${static} INTERFACE_LINK_LIBRARIES)
   get_target_property(directories ${static} INTERFACE_INCLUDE_DIRECTORIES)

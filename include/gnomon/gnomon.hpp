@@ -1,6 +1,8 @@
 // The core of gnomon in one include.
 #pragma once
 
+#include "gnomon/version.hpp"  // first: it stops compilers that are set below C++20
+
 #include "gnomon/atlas.hpp"
 #include "gnomon/bias.hpp"
 #include "gnomon/body.hpp"
