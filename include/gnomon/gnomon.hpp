@@ -20,6 +20,7 @@
 #include "gnomon/plan.hpp"
 #include "gnomon/prune.hpp"
 #include "gnomon/reuse.hpp"
+#include "gnomon/shader_block.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/split.hpp"
 #include "gnomon/technique.hpp"

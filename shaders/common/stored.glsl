@@ -1,4 +1,6 @@
 // What a filter stores of the depth map, before any blur.
+#ifndef GNOMON_COMMON_STORED_GLSL
+#define GNOMON_COMMON_STORED_GLSL
 #include "common/filter.glsl"
 #include <filter>
 
@@ -29,3 +31,4 @@ vec2 slope_at(ivec2 texel) {
 ShadowTexel stored_at(ivec2 texel, ShadowOptions options) {
   return shadow_store(depth_at(texel), slope_at(texel), options);
 }
+#endif
