@@ -1,8 +1,10 @@
 # How a test program is built and run: one ctest entry per program (a process per case would pay for start-up).
 #
-# gnomon_test(NAME SOURCES file... [LIBS target...] [TIMEOUT seconds] [LABELS label...])
+# gnomon_test(NAME SOURCES file... [LIBS target...] [TIMEOUT seconds] [LABELS label...] [SHARDS count] [OWN_OPTIONS])
 #   LIBS come on top of GoogleTest with its main, RapidCheck and its GoogleTest bridge. TIMEOUT is 300 s unless
-#   said otherwise. The program sees GNOMON_SOURCE_DIR and GNOMON_TEST_DATA as string literals.
+#   said otherwise. SHARDS: so many ctest entries share the program's cases, for those that would run on alone at the
+#   end. OWN_OPTIONS: compiled without the precompiled headers, whose compiler options the test does not share.
+#   The program sees GNOMON_SOURCE_DIR and GNOMON_TEST_DATA as string literals.
 #
 # GNOMON_TEST_ENVIRONMENT: what every test runs under; for tests that are added by plain add_test as well.
 #   LP_NUM_THREADS=1 because ctest already runs one test per core, and llvmpipe would take all cores for each.
@@ -15,20 +17,55 @@ set(GNOMON_TEST_ENVIRONMENT
   "UBSAN_OPTIONS=print_stacktrace=1"
   "LP_NUM_THREADS=1")
 
+# What nearly every test reads first, parsed once for all of them (a third of their compile time). Nothing of this project
+# is among it: a header that changes must not compile every test anew.
+function(gnomon_precompiled_test_headers)
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp CONTENT "// Generated: the target needs a source.\n")
+  add_library(gnomon_test_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp)
+  gnomon_test_options(gnomon_test_headers)
+  target_link_libraries(gnomon_test_headers PRIVATE GTest::gmock GTest::gtest_main rapidcheck rapidcheck_gtest)
+  target_precompile_headers(gnomon_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h> <rapidcheck.h>
+    <rapidcheck/gtest.h> <algorithm> <array> <cmath> <filesystem> <fstream> <glm/glm.hpp> <random> <regex> <set> <sstream>)
+endfunction()
+
+# Optimizing tests beyond -O1 costs more time to compile than it saves when they run: the work is in the libraries.
+function(gnomon_test_options name)
+  gnomon_target(${name})
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 function(gnomon_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LIBS;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "OWN_OPTIONS" "TIMEOUT;SHARDS" "SOURCES;LIBS;LABELS")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
   add_executable(${name} ${arg_SOURCES} ${arg_UNPARSED_ARGUMENTS})
-  gnomon_target(${name})
+  gnomon_test_options(${name})
+  if(NOT arg_OWN_OPTIONS)
+    target_precompile_headers(${name} REUSE_FROM gnomon_test_headers)
+  endif()
   target_link_libraries(${name} PRIVATE ${arg_LIBS} GTest::gmock GTest::gtest_main rapidcheck rapidcheck_gtest)
   target_compile_definitions(${name} PRIVATE
     GNOMON_SOURCE_DIR="${PROJECT_SOURCE_DIR}" GNOMON_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin/tests)
-  add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} ENVIRONMENT "${GNOMON_TEST_ENVIRONMENT}")
-  if(arg_LABELS)
-    set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}")
+  set(entries ${name})
+  if(arg_SHARDS)
+    set(entries)
+    foreach(shard RANGE 1 ${arg_SHARDS})
+      list(APPEND entries ${name}_${shard}_of_${arg_SHARDS})
+    endforeach()
   endif()
+  set(shard 0)
+  foreach(entry ${entries})
+    set(environment ${GNOMON_TEST_ENVIRONMENT})
+    if(arg_SHARDS)
+      list(APPEND environment GTEST_TOTAL_SHARDS=${arg_SHARDS} GTEST_SHARD_INDEX=${shard})
+    endif()
+    add_test(NAME ${entry} COMMAND ${name})
+    set_tests_properties(${entry} PROPERTIES TIMEOUT ${arg_TIMEOUT} ENVIRONMENT "${environment}")
+    if(arg_LABELS)
+      set_tests_properties(${entry} PROPERTIES LABELS "${arg_LABELS}")
+    endif()
+    math(EXPR shard "${shard} + 1")
+  endforeach()
 endfunction()

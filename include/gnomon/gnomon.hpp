@@ -1,6 +1,8 @@
 // The core of gnomon in one include.
 #pragma once
 
+#include "gnomon/version.hpp"  // first: it stops compilers that are set below C++20
+
 #include "gnomon/atlas.hpp"
 #include "gnomon/bias.hpp"
 #include "gnomon/body.hpp"
@@ -18,6 +20,7 @@
 #include "gnomon/plan.hpp"
 #include "gnomon/prune.hpp"
 #include "gnomon/reuse.hpp"
+#include "gnomon/shader_block.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/split.hpp"
 #include "gnomon/technique.hpp"

@@ -1,6 +1,8 @@
 // How an engine asks gnomon for its shadow maps: its own camera, light and object bounds in, matrices and
 // draw lists out. Links gnomon::core alone; nothing here knows a graphics API.
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -42,6 +44,20 @@ void draw_shadow_map(const gnomon::ShadowMap& map, const std::vector<gnomon::Box
   for (const std::uint32_t index : drawn) std::printf("  draw: %s\n", names[index]);
 }
 
+// What one plan costs: the median of many, microseconds.
+template <typename Plan>
+double cost_microseconds(const Plan& plan) {
+  using Clock = std::chrono::steady_clock;
+  std::array<double, 201> cost{};
+  for (double& each : cost) {
+    const Clock::time_point begin = Clock::now();
+    plan();
+    each = std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
+  }
+  std::nth_element(cost.begin(), cost.begin() + cost.size() / 2, cost.end());
+  return cost[cost.size() / 2];
+}
+
 }  // namespace
 
 int main() {
@@ -80,6 +96,9 @@ int main() {
   const gnomon::AliasingStats stats = gnomon::measure(plan, camera, {casters, receivers});
   std::printf("pixels per texel: %.2f at the median, %.2f at 95 %%, %.2f at worst\n", stats.p50, stats.p95,
               stats.max);
+  std::printf("one plan costs %.0f microseconds\n", cost_microseconds([&] {
+                (void)gnomon::make_plan(camera, sun, {casters, receivers}, options);
+              }));
   // Also where there is nothing to draw: then everything in view is lit.
   return std::isfinite(stats.p50) ? 0 : 1;
 }

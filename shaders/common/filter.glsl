@@ -1,4 +1,6 @@
 // The filter's settings, and the blur that stored texels go through.
+#ifndef GNOMON_COMMON_FILTER_GLSL
+#define GNOMON_COMMON_FILTER_GLSL
 #include "library/lookup.glsl"
 
 const int kTapVectors = 9;  // weights of the taps 0..35 to either side
@@ -25,3 +27,4 @@ ShadowOptions shadow_options(int map) {
 float tap_weight(int map, int distance_to_middle) {
   return filtering.weights[map * kTapVectors + distance_to_middle / 4][distance_to_middle & 3];
 }
+#endif

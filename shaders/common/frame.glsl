@@ -1,4 +1,6 @@
 // What every pass of a frame knows. All positions are relative to the camera position.
+#ifndef GNOMON_COMMON_FRAME_GLSL
+#define GNOMON_COMMON_FRAME_GLSL
 #include "library/shadow_map.glsl"
 
 const int kMaxMaps = GNOMON_MAX_MAPS;  // gnomon::kMaxMaps
@@ -19,3 +21,4 @@ layout(std140, binding = 0) uniform Frame {
 } frame;
 
 ShadowMap shadow_map(int index) { return frame.maps[index]; }
+#endif

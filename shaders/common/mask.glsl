@@ -1,5 +1,7 @@
 // How much of the light reaches each pixel's surface, and through which map that was found out. The includer supplies
 // visibility(): the filter's answer.
+#ifndef GNOMON_COMMON_MASK_GLSL
+#define GNOMON_COMMON_MASK_GLSL
 #include "common/frame.glsl"
 #include "common/filter.glsl"
 #include "common/surface.glsl"
@@ -59,3 +61,4 @@ void main() {
   if (next_share > 0.0) mask.x = mix(mask.x, visibility_through(map + 1, s, noise), next_share);
   if (next_share == 1.0) mask.y = float(map + 1);
 }
+#endif

@@ -1,4 +1,6 @@
 // Where the objects stand: affine matrices in rows, relative to the camera or to the origin that maps are drawn from.
+#ifndef GNOMON_COMMON_OBJECTS_GLSL
+#define GNOMON_COMMON_OBJECTS_GLSL
 struct Object {
   vec4 row[3];
 };
@@ -17,3 +19,4 @@ vec3 world_normal_from_object(uint index, vec3 normal) {
   vec3 n = vec3(dot(bc, normal), dot(cross(c, a), normal), dot(cross(a, b), normal));
   return dot(a, bc) < 0.0 ? -n : n;
 }
+#endif

@@ -1,4 +1,6 @@
 // Light from everywhere else: a clear sky above, the ground's reflection below. Linear colours, sun at noon about 3.
+#ifndef GNOMON_COMMON_SKY_GLSL
+#define GNOMON_COMMON_SKY_GLSL
 const vec3 kSunColor = vec3(3.1, 2.75, 2.25);
 const vec3 kZenith = vec3(0.16, 0.34, 0.70);
 const vec3 kHorizon = vec3(0.62, 0.74, 0.86);
@@ -25,3 +27,4 @@ vec3 display_from_scene(vec3 c) {
   c *= 0.62;
   return clamp((c * (2.51 * c + 0.03)) / (c * (2.43 * c + 0.59) + 0.14), 0.0, 1.0);
 }
+#endif

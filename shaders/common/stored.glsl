@@ -1,4 +1,6 @@
 // What a filter stores of the depth map, before any blur.
+#ifndef GNOMON_COMMON_STORED_GLSL
+#define GNOMON_COMMON_STORED_GLSL
 #include "common/filter.glsl"
 #include <filter>
 
@@ -33,3 +35,4 @@ ShadowTexel stored_at(ivec2 texel, ShadowOptions options) {
   return shadow_store(depth_at(texel), vec2(0.0), options);
 #endif
 }
+#endif

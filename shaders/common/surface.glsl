@@ -1,4 +1,6 @@
 // Reads back what the camera sees: one surface point per pixel.
+#ifndef GNOMON_COMMON_SURFACE_GLSL
+#define GNOMON_COMMON_SURFACE_GLSL
 #include "common/octahedral.glsl"
 
 layout(binding = 0) uniform sampler2D position_image;  // camera-relative, view depth
@@ -21,3 +23,4 @@ Surface surface_at(ivec2 pixel) {
   return Surface(albedo.a == 0.0, position.xyz, position.w, unit_from_octahedral(normals.xy),
                  unit_from_octahedral(normals.zw), albedo.rgb);
 }
+#endif

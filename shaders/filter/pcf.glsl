@@ -16,7 +16,7 @@ float compare_box(sampler2DArray depth_map, ShadowLookup at) {
     for (int x = first.x; x <= last.x; x += 2) {
       vec2 weight_x = clamp(min(vec2(high.x), vec2(x + 1, x + 2)) - max(vec2(low.x), vec2(x, x + 1)), 0.0, 1.0);
       vec2 corner = vec2(x + 1, y + 1);  // shared by the four texels
-      vec4 stored = textureGather(depth_map, vec3((own + corner) / at.layer_size, at.layer));
+      vec4 stored = depth_of_texel(textureGather(depth_map, vec3((own + corner) / at.layer_size, at.layer)));
       float middle = at.depth + dot(at.depth_gradient, corner - part);
       vec2 half_step = 0.5 * at.depth_gradient;
       // textureGather's order: (left, top), (right, top), (right, bottom), (left, bottom); top is the higher row.
@@ -39,7 +39,7 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
     // One depth for four texels, each up to a texel away: off the plane by as much, for the bias covers half a texel of
     // the surface's slope and none of the slant that a warp adds.
     float off_plane = abs(at.depth_gradient.x) + abs(at.depth_gradient.y);
-    return texture(compare_map, vec4(at.texel / at.layer_size, at.layer, min(at.depth - off_plane, 1.0)));
+    return texture(compare_map, vec4(at.texel / at.layer_size, at.layer, texel_of_depth(min(at.depth - off_plane, 1.0))));
   }
   float angle = options.value[2] > 0.5 ? at.rotation : 0.0;
   float sum = 0.0;

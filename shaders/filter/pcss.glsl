@@ -28,7 +28,7 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
   int blockers = 0;
   for (int i = 0; i < search_samples; ++i) {
     vec2 texel = floor(at.texel + search * vogel_point(i, search_samples, angle)) + 0.5;
-    float stored = textureLod(depth_map, vec3(texel / at.layer_size, at.layer), 0.0).r;
+    float stored = depth_of_texel(textureLod(depth_map, vec3(texel / at.layer_size, at.layer), 0.0).r);
     if (plane_depth(at, texel - at.texel) <= stored) continue;
     sum += max(distance_to_depth(at, stored), 0.0);
     ++blockers;

@@ -1,4 +1,6 @@
 // The largest depth within a box, from a pyramid whose level 0 has half the depth map's size. Never less than the truth.
+#ifndef GNOMON_LIBRARY_DEPTH_MAX_GLSL
+#define GNOMON_LIBRARY_DEPTH_MAX_GLSL
 #include "library/lookup.glsl"
 
 float depth_max_in(sampler2DArray pyramid, ShadowLookup at, vec2 half_sides) {
@@ -14,5 +16,6 @@ float depth_max_in(sampler2DArray pyramid, ShadowLookup at, vec2 half_sides) {
   float largest = max(max(textureLod(pyramid, vec3(low, at.layer), lod).r, textureLod(pyramid, vec3(high, at.layer), lod).r),
              max(textureLod(pyramid, vec3(low.x, high.y, at.layer), lod).r,
                  textureLod(pyramid, vec3(high.x, low.y, at.layer), lod).r));
-  return linear_depth(largest, at.depth_curve);
+  return linear_depth(largest, at.depth_curve);  // the pyramid holds depths as maps are read, never reversed
 }
+#endif

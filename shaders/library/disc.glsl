@@ -1,5 +1,6 @@
 // Points spread over the unit disc, turned by an angle: for kernels of few samples whose error should look like noise.
-
+#ifndef GNOMON_LIBRARY_DISC_GLSL
+#define GNOMON_LIBRARY_DISC_GLSL
 // A spiral of golden angles (Vogel 1979): even for every number of points.
 vec2 vogel_point(int i, int count, float angle) {
   const float kGoldenAngle = 2.3999632;
@@ -17,3 +18,4 @@ vec2 poisson_point(int i, int count, float angle) {
   float c = cos(angle), s = sin(angle);
   return vec2(c * p.x - s * p.y, s * p.x + c * p.y);
 }
+#endif

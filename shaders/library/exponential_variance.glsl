@@ -1,4 +1,6 @@
 // Depths warped by exponentials and the variance bound over them: shared by evsm2 and evsm4.
+#ifndef GNOMON_LIBRARY_EXPONENTIAL_VARIANCE_GLSL
+#define GNOMON_LIBRARY_EXPONENTIAL_VARIANCE_GLSL
 #include "library/variance.glsl"
 
 // exp(c u) of u = 2 depth - 1.
@@ -20,3 +22,4 @@ float warped_bound(vec2 moments, float depth, float c, float sign, float least, 
   float variance = max(moments.y - mean * mean, max(floor_at * floor_at, kRoundings * rounding * moments.y));
   return chebyshev(mean, variance, at);
 }
+#endif

@@ -1,4 +1,6 @@
 // Reads stored texels through the hardware's filters: bilinear, and over at.footprint where there are mip-maps.
+#ifndef GNOMON_LIBRARY_FETCH_FILTERED_GLSL
+#define GNOMON_LIBRARY_FETCH_FILTERED_GLSL
 #include "library/footprint.glsl"
 
 // `probes`: at most so many reads along a long footprint.
@@ -14,3 +16,4 @@ ShadowTexel fetch_filtered(sampler2DArray stored[GNOMON_SHADOW_VECTORS], ShadowL
   for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) texel.v[i] /= float(reads.count);
   return texel;
 }
+#endif

@@ -1,5 +1,7 @@
 // Reads stored texels that only the filter's own shadow_join may put together, bilinear and over at.footprint where there
 // are mip-maps. The filter's file is included before this one.
+#ifndef GNOMON_LIBRARY_FETCH_JOINED_GLSL
+#define GNOMON_LIBRARY_FETCH_JOINED_GLSL
 #include "library/footprint.glsl"
 
 // Texels are read at their centres, by place: software renderers take one level for four neighbouring pixels, and a texel
@@ -36,3 +38,4 @@ ShadowTexel fetch_joined(sampler2DArray stored[GNOMON_SHADOW_VECTORS], ShadowLoo
   }
   return sum;
 }
+#endif

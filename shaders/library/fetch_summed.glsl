@@ -1,5 +1,7 @@
 // Reads the mean over at.box out of a summed-area table of integers (Crow 1984; Lauritzen 2007, GPU Gems 3). Sums wrap
 // round at 2^32; differences over a box come out right all the same, as long as the box's own sum fits.
+#ifndef GNOMON_LIBRARY_FETCH_SUMMED_GLSL
+#define GNOMON_LIBRARY_FETCH_SUMMED_GLSL
 #include "library/lookup.glsl"
 
 // Two channels at most.
@@ -41,3 +43,4 @@ ShadowTexel fetch_summed(usampler2DArray sums, ShadowLookup at, float steps_per_
   texel.v[0] = total / (max(area, 1e-6) * steps_per_one);
   return texel;
 }
+#endif

@@ -1,5 +1,7 @@
 // Where mip-maps are read so that together the reads have the footprint's variance: a long footprint at several places
 // along it, for what drivers make of one differs, in width and at widths near zero.
+#ifndef GNOMON_LIBRARY_FOOTPRINT_GLSL
+#define GNOMON_LIBRARY_FOOTPRINT_GLSL
 #include "library/lookup.glsl"
 
 struct FootprintReads {
@@ -21,3 +23,4 @@ FootprintReads footprint_reads(ShadowLookup at, int probes) {
   float apart = sqrt(3.0 * (longest * longest - radius * radius) / float(count * count - 1));
   return FootprintReads(log2(radius), count, at.footprint[0] * (apart / longest));
 }
+#endif

@@ -1,5 +1,7 @@
 // What a filter is asked, what it is told and what it stores. The includer defines GNOMON_SHADOW_VECTORS, the number of
 // vec4 that a stored texel takes (1 for filters that store nothing).
+#ifndef GNOMON_LIBRARY_LOOKUP_GLSL
+#define GNOMON_LIBRARY_LOOKUP_GLSL
 struct ShadowTexel {
   vec4 v[GNOMON_SHADOW_VECTORS];
 };
@@ -28,6 +30,19 @@ struct ShadowOptions {
   bool unsigned_unit;  // only 0..1 can be stored
 };
 
+// Depths as maps are read, 0 near the light .. 1, from depths as a depth buffer holds them. The includer defines
+// GNOMON_REVERSED_Z where the maps were drawn with ClipSpace::reversed_z; its comparing sampler then takes GREATER_OR_EQUAL
+// in place of LESS_OR_EQUAL.
+#ifdef GNOMON_REVERSED_Z
+float depth_of_texel(float texel) { return 1.0 - texel; }
+vec4 depth_of_texel(vec4 texels) { return 1.0 - texels; }
+float texel_of_depth(float depth) { return 1.0 - depth; }
+#else
+float depth_of_texel(float texel) { return texel; }
+vec4 depth_of_texel(vec4 texels) { return texels; }
+float texel_of_depth(float depth) { return depth; }
+#endif
+
 // A lamp's map has its depths as perspective leaves them, nearly all at the far end. With curve = far / near - 1 this makes
 // them even in distance, 0 near .. 1 far again; 0, for parallel light, leaves them.
 float linear_depth(float depth, float curve) { return depth / (1.0 + (1.0 - depth) * curve); }
@@ -37,3 +52,4 @@ float distance_to_depth(ShadowLookup at, float z) {
   float slope = at.ray.z - z * at.ray.w;
   return slope == 0.0 ? 0.0 : (at.ray.x - z * at.ray.y) / slope;
 }
+#endif

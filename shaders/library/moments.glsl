@@ -1,6 +1,7 @@
 // How much of a distribution with four given moments must lie in front of a depth (Peters, Klein 2015). Depths are
 // u = 2 depth - 1: odd and even moments then part, and numbers stay small.
-
+#ifndef GNOMON_LIBRARY_MOMENTS_GLSL
+#define GNOMON_LIBRARY_MOMENTS_GLSL
 // Least share in front of u, for any support: Hamburger's problem. Also answers the other two depths, z, at which the
 // extreme distribution lies, for the bound below.
 float share_in_front(vec4 b, float u, out vec2 z) {
@@ -41,3 +42,4 @@ float share_in_front_bounded(vec4 b, float u) {
   float free_weight = (b.z - b.y * u - b.x + u) / ((free_at + 1.0) * (free_at - u) * (free_at - 1.0));
   return free_at < u ? first + free_weight : first;
 }
+#endif

@@ -1,5 +1,7 @@
 // From a surface point to the question that a filter is asked: the place in the map, the depth with the plan's bias taken
 // off, the plane that the surface makes in the map, and the kernel in texels.
+#ifndef GNOMON_LIBRARY_RECEIVER_GLSL
+#define GNOMON_LIBRARY_RECEIVER_GLSL
 #include "library/shadow_map.glsl"
 #include "library/lookup.glsl"
 
@@ -123,3 +125,4 @@ ShadowLookup shadow_lookup(ShadowMap map, float layer, vec2 layer_size, ShadowSu
   at.rotation = 0.0;
   return at;
 }
+#endif

@@ -1,5 +1,7 @@
 // Which shadow map serves a point: by its view depth, by what the maps hold, or the finest one; and how one map passes
 // into the next. -1: none does, and nothing can shadow the point.
+#ifndef GNOMON_LIBRARY_SELECT_MAP_GLSL
+#define GNOMON_LIBRARY_SELECT_MAP_GLSL
 #include "library/shadow_map.glsl"
 
 // The planes that part the maps, and the map's rectangle less `rim_texels` along each side. Of z nothing is asked.
@@ -82,3 +84,4 @@ float share_of_next_map(ShadowMap next, float view_depth) {
 // Even noise in 0..1 from pixel to pixel, whose neighbourhoods of 3 x 3 hold all values (Jimenez, "Next Generation Post
 // Processing in Call of Duty: Advanced Warfare", 2014). Dithers between maps, turns sample patterns.
 float pixel_noise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
+#endif

@@ -1,5 +1,7 @@
 // What a shader must know of a shadow map, and how the map lies on the world at a point. Points are in any frame that the
 // matrices are made for: relative to the camera where precision matters. The includer supplies shadow_map().
+#ifndef GNOMON_LIBRARY_SHADOW_MAP_GLSL
+#define GNOMON_LIBRARY_SHADOW_MAP_GLSL
 struct ShadowMap {
   mat4 clip_from_point;   // z 0 near the light .. w
   vec4 interval_size;     // depth_begin, depth_end: view depths served; width, height: texels
@@ -49,3 +51,4 @@ vec3 light_at(vec4 light, vec3 position) {
   float distance_to = length(away);
   return light.w == 0.0 ? light.xyz : distance_to > 0.0 ? away / distance_to : vec3(0.0, -1.0, 0.0);
 }
+#endif

@@ -1,5 +1,7 @@
 // Two moments of depths and the bound that they give: shared by the filters that store them. Moments are of
 // u = 2 depth - 1, whose numbers are the smallest for what they tell.
+#ifndef GNOMON_LIBRARY_VARIANCE_GLSL
+#define GNOMON_LIBRARY_VARIANCE_GLSL
 #include "library/lookup.glsl"
 
 // Options: bleed, floor, slope.
@@ -29,3 +31,4 @@ float variance_visibility(ShadowTexel texel, ShadowLookup at, ShadowOptions opti
   float variance = max(texel.v[0].y - mean * mean, least);
   return without_bleeding(chebyshev(mean, variance, 2.0 * min(at.depth, 1.0) - 1.0), options.value[0]);
 }
+#endif

@@ -17,3 +17,8 @@ list(TRANSFORM parts REPLACE "(.+)" "-DGNOMON_\\1=OFF" OUTPUT_VARIABLE off)
 set(packages TinyGLTF OpenImageIO glfw3 OpenGL embree nlohmann_json fmt CLI11 PkgConfig Threads)
 list(TRANSFORM packages REPLACE "(.+)" "-DCMAKE_DISABLE_FIND_PACKAGE_\\1=ON" OUTPUT_VARIABLE disabled)
 configure(core ${off} -DGNOMON_SAMPLES=OFF ${disabled})
+# Without a build type it is an optimized build.
+file(STRINGS ${WORK_DIR}/core/CMakeCache.txt type REGEX "^CMAKE_BUILD_TYPE:")
+if(NOT type MATCHES "=Release$")
+  message(FATAL_ERROR "a build without a type is '${type}', not Release")
+endif()

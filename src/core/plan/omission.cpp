@@ -1,10 +1,24 @@
 // What was left out, in words.
+#include <array>
 #include <cstdio>
 #include <iterator>
 
 #include "gnomon/plan.hpp"
 
 namespace gnomon {
+namespace {
+
+/// clang takes a format without values for one that a stranger wrote, so such a text is passed as a value.
+template <std::size_t N, typename... Values>
+void write(std::array<char, N>& text, const char* format, Values... values) noexcept {
+  if constexpr (sizeof...(values) == 0) {
+    std::snprintf(text.data(), N, "%s", format);
+  } else {
+    std::snprintf(text.data(), N, format, values...);
+  }
+}
+
+}  // namespace
 
 std::string_view to_string(PlanStatus status) noexcept {
   switch (status) {
@@ -44,12 +58,8 @@ void describe_ignored(const Omission& o, OmissionText& text) noexcept {
 
 OmissionText describe(const Omission& o) noexcept {
   OmissionText text{};
-  const auto what = [&](const char* format, auto... values) {
-    std::snprintf(text.what.data(), text.what.size(), format, values...);
-  };
-  const auto why = [&](const char* format, auto... values) {
-    std::snprintf(text.why.data(), text.why.size(), format, values...);
-  };
+  const auto what = [&](const char* format, auto... values) { write(text.what, format, values...); };
+  const auto why = [&](const char* format, auto... values) { write(text.why, format, values...); };
   switch (o.kind) {
     case OmissionKind::cascade_without_receiver:
       what("cascade %d", o.map);

@@ -34,7 +34,7 @@ Row row_from(const Json& json) {
     } else if constexpr (std::is_same_v<Value, int>) {
       // The library's own conversion would take 1e300 for an int.
       const auto whole = found.get_ref<const Json::number_integer_t&>();
-      if (!std::in_range<int>(whole)) throw ReportError(std::string(name) + \": wants a whole number\");
+      if (!std::in_range<int>(whole)) throw ReportError(std::string(name) + ": wants a whole number");
       value = static_cast<int>(whole);
     } else {
       found.get_to(value);
