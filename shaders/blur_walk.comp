@@ -2,8 +2,8 @@
 // The blur of stored texels along x or y. Each invocation walks along a part of a row or column: it fetches every texel
 // once, and keeps the kernel's texels in registers.
 #include "common/filter.glsl"
-#include "common/walk.glsl"
 #include <filter>
+#include "common/walk.glsl"
 
 layout(local_size_x = 32) in;
 layout(binding = 8) uniform sampler2DArray stored;
@@ -31,19 +31,6 @@ void main() {
   for (int at = begin; at < end; ++at) {
     for (int i = 0; i < kSide - 1; ++i) window[i] = window[i + 1];
     window[kSide - 1] = texel_at(across, at + kReach, size.y, outside);
-#if GNOMON_MEAN
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < kSide; ++i) sum += weights[abs(i - kReach)] * window[i];
-#else
-    // Texels that only the filter may join have one vector.
-    ShadowTexel joined = shadow_nothing(options);
-    for (int i = 0; i < kSide; ++i) {
-      ShadowTexel next;
-      next.v[0] = window[i];
-      shadow_join(joined, next, weights[abs(i - kReach)], options);
-    }
-    vec4 sum = joined.v[0];
-#endif
-    imageStore(texel_out, ivec3(place(across, at), walk.z), sum);
+    imageStore(texel_out, ivec3(place(across, at), walk.z), joined(window, weights, options));
   }
 }

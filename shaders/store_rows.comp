@@ -37,8 +37,12 @@ void main() {
   for (int x = begin; x < end; ++x) {
     for (int i = 0; i < kSide - 1; ++i) window[i] = window[i + 1];
     window[kSide - 1] = next_stored(ivec2(x + kReach, y), before, here, options);
-    ShadowTexel sum = shadow_nothing(options);
-    for (int i = 0; i < kSide; ++i) shadow_join(sum, window[i], weights[abs(i - kReach)], options);
-    for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) imageStore(texel_out[i], ivec3(x, y, walk.z), sum.v[i]);
+#if GNOMON_REACH == 0
+    for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) imageStore(texel_out[i], ivec3(x, y, walk.z), window[0].v[i]);
+#else
+    vec4 vectors[kSide];  // only texels of one vector are blurred here
+    for (int i = 0; i < kSide; ++i) vectors[i] = window[i].v[0];
+    imageStore(texel_out[0], ivec3(x, y, walk.z), joined(vectors, weights, options));
+#endif
   }
 }

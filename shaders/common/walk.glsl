@@ -5,9 +5,31 @@ const int kSide = 2 * GNOMON_REACH + 1;
 
 layout(location = 1) uniform ivec4 walk;  // texels along x and y to be filled, layer written, texels of one walk
 
+// Puts one vector of the kernel's texels together, where the window holds nothing else.
+vec4 joined(vec4 window[kSide], float weights[GNOMON_REACH + 1], ShadowOptions options) {
+#if GNOMON_MEAN
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < kSide; ++i) sum += weights[abs(i - kReach)] * window[i];
+  return sum;
+#elif defined(SHADOW_JOINS_BY_SUM)
+  vec4 largest = window[0], sum = vec4(0.0);
+  for (int i = 1; i < kSide; ++i) largest = max(largest, window[i]);
+  for (int i = 0; i < kSide; ++i) sum += weights[abs(i - kReach)] * shadow_term(window[i], largest, options);
+  return shadow_of_sum(sum, largest, options);
+#else
+  // Texels that only the filter may join have one vector.
+  ShadowTexel sum = shadow_nothing(options);
+  for (int i = 0; i < kSide; ++i) {
+    ShadowTexel next;
+    next.v[0] = window[i];
+    shadow_join(sum, next, weights[abs(i - kReach)], options);
+  }
+  return sum.v[0];
+#endif
+}
+
 float[GNOMON_REACH + 1] tap_weights_of(int map) {
   float weights[GNOMON_REACH + 1];
   for (int i = 0; i <= GNOMON_REACH; ++i) weights[i] = tap_weight(map, i);
-  if (GNOMON_REACH == 0) weights[0] = 1.0;  // stored to be blurred later, by the weights of the block
   return weights;
 }

@@ -18,9 +18,20 @@ ShadowTexel shadow_nothing(ShadowOptions options) {
 
 void shadow_join(inout ShadowTexel sum, ShadowTexel texel, float weight, ShadowOptions options) {
   float c = options.value[0];
-  float largest = max(sum.v[0].x, texel.v[0].x);
-  sum.v[0].x =
-      largest + log(exp(c * (sum.v[0].x - largest)) + weight * exp(c * (texel.v[0].x - largest))) / c;
+  // Relative to the larger of both, whose exponential is 1.
+  bool behind = texel.v[0].x > sum.v[0].x;
+  float other = exp(-c * abs(texel.v[0].x - sum.v[0].x));
+  sum.v[0].x = max(sum.v[0].x, texel.v[0].x) + log((behind ? other : 1.0) + weight * (behind ? 1.0 : other)) / c;
+}
+
+// The same join as one weighted sum over a kernel, relative to the largest of its texels: one exponential for each texel,
+// one logarithm for all.
+#define SHADOW_JOINS_BY_SUM 1
+vec4 shadow_term(vec4 texel, vec4 largest, ShadowOptions options) {
+  return vec4(exp(options.value[0] * (texel.x - largest.x)), 0.0, 0.0, 0.0);
+}
+vec4 shadow_of_sum(vec4 sum, vec4 largest, ShadowOptions options) {
+  return vec4(largest.x + log(sum.x) / options.value[0], 0.0, 0.0, 0.0);
 }
 
 // ln(sinh(s) / s) for s >= 0: how far a plane's exponentials' mean lies above its middle's.

@@ -290,11 +290,11 @@ TEST(Compare, measures_every_filter_of_the_registry_against_its_own_truth) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const render::Filter& filter = *render::all_filters()[i];
     const bool knows_lights = render::default_settings(filter).value("angle_deg") > 0.0;
-    EXPECT_EQ(rows[i].technique.filter, filter.name);
-    EXPECT_EQ(rows[i].truth, knows_lights ? "area" : "filtered") << filter.name;
+    EXPECT_EQ(rows[i].technique.filter, filter.info.name);
+    EXPECT_EQ(rows[i].truth, knows_lights ? "area" : "filtered") << filter.info.name;
     // 256 texels are coarse for a fence: a tenth of its pixels may be wrong, and no filter halves the light.
-    EXPECT_LT(rows[i].errors.false_lit + rows[i].errors.false_shadow, 0.1) << filter.name;
-    EXPECT_LT(rows[i].errors.darkening, 0.05) << filter.name;
+    EXPECT_LT(rows[i].errors.false_lit + rows[i].errors.false_shadow, 0.1) << filter.info.name;
+    EXPECT_LT(rows[i].errors.darkening, 0.05) << filter.info.name;
   }
 }
 
