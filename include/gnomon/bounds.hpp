@@ -1,9 +1,11 @@
 // Axis-aligned boxes: how casters and receivers are told to the core.
 #pragma once
 
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 namespace gnomon {
 
@@ -29,11 +31,41 @@ struct Box {
   }
 };
 
-/// What throws shadows and what shadows fall on, as boxes in world space. The two lists may be the same span;
-/// the memory stays the caller's and is only read during the call it is passed to.
+class CasterSet;
+
+/// Boxes as the core takes them: a list, or a CasterSet (caster_set.hpp) that holds them sorted. Both give
+/// the same answers to the last bit; the time that a list takes grows with its length, that of a set hardly
+/// does. Refers to either, so that the list or the set must live as long as the call it is passed to.
+class Boxes {
+ public:
+  Boxes() noexcept = default;
+  Boxes(const Box* first, std::size_t count) noexcept : list_(first, count), size_(count) {}
+  /// A span, vector or array.
+  template <typename List,
+            typename = std::enable_if_t<std::is_convertible_v<const List&, std::span<const Box>>>>
+  Boxes(const List& list) noexcept : list_(list), size_(list_.size()) {}
+  Boxes(const CasterSet& set) noexcept;
+  Boxes(const CasterSet&& set) = delete;
+
+  /// Empty boxes included.
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// Of a list; empty where a set holds the boxes.
+  [[nodiscard]] std::span<const Box> list() const noexcept { return list_; }
+  /// nullptr where a list holds the boxes.
+  [[nodiscard]] const CasterSet* set() const noexcept { return set_; }
+
+ private:
+  std::span<const Box> list_;
+  const CasterSet* set_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+/// What throws shadows and what shadows fall on, as boxes in world space, each a list or a CasterSet:
+/// `{boxes, boxes}`, `{set, set}`, `{set, list}`. Both may be the same; the memory stays the caller's and is
+/// only read during the call it is passed to.
 struct SceneBounds {
-  std::span<const Box> casters;
-  std::span<const Box> receivers;
+  Boxes casters;
+  Boxes receivers;
 };
 
 }  // namespace gnomon

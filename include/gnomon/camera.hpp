@@ -49,7 +49,7 @@ struct CameraAxes {
 /// (orthographic: of the image's height, counted from the near plane). Between such steps it stands still
 /// under a moving camera, and with it the grid of Fit::stable; a far plane of one's own never moves it. At
 /// least one step, where no box reaches beyond the near plane.
-[[nodiscard]] Camera with_finite_far(const Camera& camera, std::span<const Box> boxes) noexcept;
+[[nodiscard]] Camera with_finite_far(const Camera& camera, const Boxes& boxes) noexcept;
 
 /// OpenGL clip space (z in -1..1) from view space (x right, y up, z backward), and view from world. With an
 /// infinite far plane depth tends to 1 for a perspective camera (Upchurch, Desbrun 2012: no loss of

@@ -1,4 +1,4 @@
-// Which of very many casters does a map need? A tree of boxes that answers for all of them at once.
+// Which of very many boxes does a plan or a map need? A tree that answers for all of them at once.
 #pragma once
 
 #include <array>
@@ -20,12 +20,15 @@ struct CasterBlock {
   using Lanes = std::array<double, kLanes>;
   std::array<Lanes, 3> min{}, max{};  ///< per axis
   std::uint8_t occupied = 0;          ///< lanes that hold anything
-  std::uint8_t full = 0;  ///< lanes below which no place is empty: all of them can be listed as they lie
+  std::uint8_t full = 0;      ///< lanes below which no place is empty: all of them can be listed as they lie
+  std::uint8_t unusable = 0;  ///< lanes at or below which a box is none that make_plan takes, see usable()
 };
 
-/// Boxes sorted once into a flat tree, eight children to a node and no pointer, for culling many casters for
-/// many maps. Gives the same casters as cull_casters, bit for bit: bounds only grow towards the root and
-/// rounding is monotone, so that a node outside of a plane, or inside, tells the same of every box below it.
+/// Boxes sorted once into a flat tree, eight children to a node and no pointer: for plans of scenes with many
+/// boxes (SceneBounds takes sets in place of lists, of receivers as well), and for culling many casters for
+/// many maps. Gives the same plans as lists and the same casters as cull_casters, bit for bit: bounds only
+/// grow towards the root and rounding is monotone, so that a node outside of a plane, or inside, tells the
+/// same of every box below it.
 ///
 /// The memory is the caller's and must outlive the set; the boxes are copied into it. Building takes O(n log
 /// n), culling time grows with what lies across the planes, not with what lies inside or outside of them.
@@ -33,6 +36,7 @@ struct CasterBlock {
 ///     std::vector<gnomon::CasterBlock> blocks(gnomon::CasterSet::block_count(boxes.size()));
 ///     std::vector<std::uint32_t> indices(gnomon::CasterSet::index_count(boxes.size()));
 ///     gnomon::CasterSet set(boxes, blocks, indices);
+///     gnomon::ShadowPlan plan = gnomon::make_plan(camera, light, {set, set}, options);
 class CasterSet {
  public:
   /// How much memory a set of `boxes` boxes needs: about 64 bytes a box. At most 2^32 - 1 boxes.
@@ -48,6 +52,19 @@ class CasterSet {
 
   /// Boxes in the set, empty ones included.
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+  /// False where a box has a corner that is no number, or one beyond 1e30: make_plan refuses the set then, as
+  /// it refuses a list with such a box. O(1).
+  [[nodiscard]] bool usable() const noexcept { return size_ == 0 || blocks_.back().unusable == 0; }
+
+  /// The tree: level 0 has the boxes, eight to a block, the last level one block. Lane i of block b bounds
+  /// block 8 b + i of the level below.
+  [[nodiscard]] std::size_t level_count() const noexcept { return levels_; }
+  [[nodiscard]] const CasterBlock& block(std::size_t level, std::size_t at) const noexcept {
+    return blocks_[first_[level] + at];
+  }
+  /// Which box, in the order given, is in lane `place` % 8 of block `place` / 8 of level 0.
+  [[nodiscard]] std::uint32_t index(std::size_t place) const noexcept { return order_[place]; }
 
   /// Takes new bounds for all boxes, in their first order, and leaves the sorting as it is: right for any
   /// motion, fast while boxes that were near each other stay so. Needs as many boxes as the set has; else

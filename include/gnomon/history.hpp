@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <span>
 
 #include "gnomon/plan.hpp"
@@ -14,7 +15,7 @@ namespace gnomon {
 /// What the texels did that no care could avoid.
 enum class PlanEventKind : std::uint8_t {
   map_appeared,  ///< nothing was remembered of this cascade
-  map_relaid,    ///< Fit::warped_stable: the view left the map, and it was laid anew
+  map_refitted,  ///< Fit::warped_stable: the view left the map
   density_jump,  ///< some surface point's texels per area changed by more than kDensityStep
 };
 struct PlanEvent {
@@ -34,10 +35,12 @@ struct PlanHistory {
     glm::dmat4 gl_from_world{1.0};  ///< OpenGL clip space
     int width = 0, height = 0, filter_margin_texels = 0;
   };
-  std::array<Map, kMaxMaps> map;                                  ///< by cascade
-  std::int64_t frame = 0;                                         ///< of the next plan
-  glm::dvec3 eye_world{0.0}, forward{0.0}, light_direction{0.0};  ///< of the last frame
-  std::array<double, kMaxMaps + 1> edge{};                        ///< view depths between the cascades
+  std::array<Map, kMaxMaps> map;            ///< by cascade
+  std::int64_t frame = 0;                   ///< of the next plan
+  glm::dvec3 eye_world{0.0}, forward{0.0};  ///< of the last frame
+  /// The light of the last frame: its position with w = 1, or the direction towards it with w = 0.
+  glm::dvec4 light_world{0.0};
+  std::array<double, kMaxMaps + 1> edge{};  ///< view depths between the cascades
   int edge_count = 0;
 
   /// Of the last frame planned.
@@ -56,6 +59,7 @@ struct PlanHistory {
 /// events() says so. Fit::warped_stable: the map stands still until the view leaves it. Other fits, and
 /// lights with a position, are planned as without history.
 [[nodiscard]] ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                                   const PlanOptions& options, PlanHistory& history) noexcept;
+                                   const PlanOptions& options, PlanHistory& history,
+                                   const VisibleDepths* visible = nullptr) noexcept;
 
 }  // namespace gnomon

@@ -12,124 +12,23 @@
 #include <span>
 #include <string_view>
 
-#include "gnomon/bias.hpp"
 #include "gnomon/body.hpp"
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/clip_space.hpp"
-#include "gnomon/fit.hpp"
 #include "gnomon/light.hpp"
-#include "gnomon/partition.hpp"
-#include "gnomon/prune.hpp"
+#include "gnomon/plan_options.hpp"
 #include "gnomon/snap.hpp"
-#include "gnomon/split.hpp"
 #include "gnomon/visible_depths.hpp"
-#include "gnomon/warp.hpp"
 
 namespace gnomon {
 
-inline constexpr int kMaxMaps = 8;  ///< cascades of one plan; beyond 8 no published figure gains anything
 inline constexpr int kMaxOmissions =
     32;  ///< entries of ShadowPlan::omitted; later ones are counted, not listed
 
 /// Planes round a map's share of the receivers where not depth divides them: a face of the camera's frustum
 /// has four edges.
 inline constexpr int kMaxSelectPlanes = 4;
-
-/// Texels along a side of a map: fewer hold no filter's margin, more are beyond what drivers take.
-inline constexpr int kLeastMapSize = 4, kMostMapSize = 16384;
-
-/// Least PlanOptions::prune_m, screen pixels per texel: no map gets near it.
-inline constexpr double kLeastPruneM = 1e-9;
-
-/// What the caller may choose. Every default is right for most scenes.
-struct PlanOptions {
-  /// Texels along each side of each map, kLeastMapSize..kMostMapSize. Doubling it halves the error and costs
-  /// four times the memory. Under PruneRule::metric_resolution the most that a side gets; without that rule,
-  /// and without a budget, what each gets.
-  int map_size = 1024;
-  /// Maps along the view, 1..kMaxMaps. More maps lower the error far away and cost one pass each. For
-  /// directional lights only: a spot gets one map, a point light or a spot of 85 degrees and more half angle
-  /// up to six, the faces of a cube.
-  int cascades = 4;
-  /// What divides the receivers among the maps. Others than view_depth take neither cascades nor splits.
-  Partition partition = Partition::view_depth;
-  /// 0: as many maps as `cascades` says. Above: the fewest, up to `cascades`, whose m_s_max and m_t_max
-  /// (screen pixels per texel, bounds over everything in view) stay at or below it; where none do, those with
-  /// the least. Directional lights and Partition::view_depth only. Plans up to `cascades` times, and so
-  /// costs as much.
-  double target_m = 0.0;
-  /// 0: none; map_size says how large maps are. Above: the most texels that all maps together may have; each
-  /// gets as many as make the largest m_s_max and m_t_max of all maps equal, in steps of kBudgetStep, up to
-  /// kMostMapSize along a side, and PruneRule::metric_resolution takes none off. With Fit::tight and
-  /// Fit::rotated the sides may differ; Fit::stable, Fit::warped_stable, lights with a position and plans
-  /// with a history keep them equal. Directional lights get the number of maps, up to `cascades`, that brings
-  /// m lowest. At least least_budget_side() squared for each of `cascades` maps (of a cube: six). Plans as
-  /// often as target_m does, and once more. Of the partitions, view_depth only.
-  std::int64_t texel_budget = 0;
-  /// How the view depth is divided among them.
-  SplitScheme split = SplitScheme::automatic;
-  /// Blend of uniform (0) and logarithmic (1) splits for SplitScheme::practical.
-  double lambda = 0.9;
-  /// First split of SplitScheme::pseudo_near, and the depth from which error counts for the warps, in world
-  /// units. 0: the near plane itself. Larger values stop a very near plane from taking all the texels.
-  double near_hint = 0.0;
-  /// World-space box in which error counts `focus_weight` times for the choice of warp and of optimal splits:
-  /// a hero, a cockpit, a table top. Everything else keeps its map, with larger texels; by Objective::max the
-  /// worst texel inside shrinks most surely. Directional lights; an empty box, as by default, is none.
-  Box focus;
-  double focus_weight = 4.0;  ///< 1..1e6
-  /// Which depths are divided: those that hold receivers, or the camera's whole range. `automatic` takes the
-  /// receivers' for Fit::tight and the camera's for Fit::stable, whose grid must not depend on what is in
-  /// view.
-  SplitRange split_range = SplitRange::automatic;
-  /// For SplitScheme::given: the cascades - 1 view depths between neighbouring cascades, ascending, world
-  /// units. They are clamped to the depths that are divided; a cascade that this leaves nothing is left out.
-  std::span<const double> given_splits;
-  /// Share of each cascade's depths, at its far end, that the cascade behind it shows as well, with all of
-  /// their casters, 0..1: room to pass from one map into the next (render::SplitTransition). Wider passages
-  /// hide the step between their texels better, and take texels off the map behind. Directional lights and
-  /// Partition::view_depth only.
-  double split_overlap = 0.0;
-  /// View depths at which the camera sees a surface (visible_depths.hpp), from this frame or tracked over the
-  /// last ones; nullptr: unknown. Cascades then cover only the range between the nearest and the farthest of
-  /// them, with kDepthSafety on either side, and step over depths between that show nothing. What lies
-  /// elsewhere gets no shadow. Nothing visible counts as unknown. Directional lights and perspective cameras
-  /// only; not with SplitRange::camera.
-  const VisibleDepths* visible_depths = nullptr;
-  /// How a map's rectangle is laid round its slice.
-  Fit fit = Fit::tight;
-  /// Sizes that a map of Fit::stable may have per octave, 1..1024. Fewer keep the grid through a zoom or a
-  /// change of the splits, and cost up to 1 / steps of the texels' size.
-  int stable_size_steps = 1024;
-  /// The perspective warp; nullptr lets the plan choose by measured gain. Fit::stable takes no warp. Of
-  /// lights with a position only none, lispsm, lispsm04 and optimal; lispsm stands in for all others.
-  const Warp* warp = nullptr;
-  /// What a warp must lower to be used.
-  Objective objective = Objective::storage;
-  /// Reach of the widest filter kernel in texels, 0..map_size/4: so much of the map's rim stays free of
-  /// receivers, and casters that only a kernel reaches are drawn.
-  double filter_radius_texels = 1.0;
-  /// The same for kernels given across the light in world units, >= 0: the rim is as wide as the kernel gets
-  /// where the map's texels are smallest. The wider of the two counts; at most a quarter of the map.
-  double filter_radius_world = 0.0;
-  /// How far depths are moved off the surface, in texels (bias.hpp).
-  BiasOptions bias;
-  /// Clip space of the matrices given out.
-  ClipSpace clip_space;
-  /// What may be left out; the rules of prune_rules.def up to metric_resolution are the plan's to decide.
-  PruneRules prune;
-  /// PruneRule::metric_resolution makes maps smaller, in steps of kBudgetStep, while m_s_max and m_t_max
-  /// (screen pixels per texel, bounds over everything in view) stay at or below this; kLeastPruneM or more.
-  /// Larger: smaller maps with texels that show. Never makes a map larger than map_size. Not with
-  /// Fit::stable, Fit::warped_stable, a history or a texel budget.
-  double prune_m = 1.0;
-};
-
-/// Sides of maps under PlanOptions::texel_budget are multiples of this: a tile that rasterizers like.
-inline constexpr int kBudgetStep = 16;
-/// The shortest side that a texel budget gives: kBudgetStep, or what four filter radii take.
-[[nodiscard]] int least_budget_side(const PlanOptions& options) noexcept;
 
 enum class PlanStatus : std::uint8_t {
   ok,               ///< there are maps to draw
@@ -152,7 +51,18 @@ enum class OmissionKind : std::uint8_t {
   partition_in_stable_fit,  ///< another partition than view_depth was asked for, and Fit::stable takes none
   face_without_receiver,    ///< of a cube round the light: no visible receiver in it within range and cone
   face_without_caster,      ///< of a cube round the light: no caster between it and its receivers
-  resolution_without_gain,  ///< a smaller map meets PlanOptions::prune_m; a: bound of m before, b: with it
+  resolution_without_gain,  ///< a smaller map meets the bound of m asked for; a: bound at full size, b: now
+  depth_near_light,         ///< nearer than a to the light nothing casts shadows; b: casters that reach there
+  option_ignored,           ///< an option that this light or partition has no use for; a: IgnoredOption
+};
+/// What OmissionKind::option_ignored is about.
+enum class IgnoredOption : std::uint8_t {
+  partition,       ///< split.partition: a local light has a partition of its own
+  split_scheme,    ///< split.scheme: a local light has no cascades
+  split_overlap,   ///< split.overlap: only cascades blend
+  visible_depths,  ///< the visible depths: a local light has no cascades
+  texel_budget,    ///< resolution.texel_budget: maps of this partition keep their size
+  history,         ///< the history: parts that follow the view do not move steadily
 };
 struct Omission {
   OmissionKind kind{};
@@ -205,8 +115,11 @@ struct ShadowMap {
   std::array<glm::dvec4, kMaxSelectPlanes> select_planes{};
   int select_plane_count = 0;
   SnapKey snap_key;  ///< of Fit::stable: equal keys mean an identical grid
-  double m_s_max = 0.0,
-         m_t_max = 0.0;  ///< bounds of the perspective error over the body (simplified weights, A.4)
+  /// Perspective part of m along the map's x and y, largest over the body by the simplified weights of Lloyd
+  /// et al. 2006, which leave out that pixels beside the view axis are smaller.
+  double m_s_max = 0.0, m_t_max = 0.0;
+  /// Bound of the perspective part of m in any direction, over the body.
+  double m_max = 0.0;
   double storage = 0.0;  ///< texels per screen pixel for m <= 1 everywhere in this slice (vertex objective)
 };
 
@@ -223,6 +136,9 @@ struct ShadowPlan {
   /// with a position and for receivers parted by planes: the first map that holds it (map_holds), at any
   /// depth. A point that no map holds is lit.
   bool select_by_map = false;
+  /// True if map sizes depend on the view (metric_resolution, max_error or texel_budget), so that they may
+  /// differ from frame to frame. Renderers then keep images a little larger than the maps.
+  bool sizes_vary = false;
   std::array<ShadowMap, kMaxMaps> map;
   int map_count = 0;
   std::array<Omission, kMaxOmissions> omission;
@@ -239,8 +155,15 @@ struct ShadowPlan {
 
 /// Chooses the shadow maps. Pure: the same input gives the same bits. Allocates nothing, never throws; broken
 /// input comes back as PlanStatus::invalid_input.
+///
+/// `visible` (optional, read during the call only): view depths at which the camera sees a surface, from this
+/// frame or tracked over the last ones (visible_depths.hpp). Cascades then cover only the range from the
+/// nearest to the farthest of them, with kDepthSafety on either side, and skip depths between that show
+/// nothing. Receivers elsewhere get no shadow. Nothing visible counts as unknown. Used with directional
+/// lights, perspective cameras and SplitRange other than camera.
 [[nodiscard]] ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                                   const PlanOptions& options = {}) noexcept;
+                                   const PlanOptions& options = {},
+                                   const VisibleDepths* visible = nullptr) noexcept;
 
 /// True where the map shows the point off its filter margin and within its depths: its clip coordinates have
 /// w > 0, |x| and |y| <= (1 - 2 filter_margin_texels / size) w and z in the range of the clip space, and the

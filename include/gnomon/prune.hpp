@@ -1,5 +1,5 @@
-// What may be left out of a frame: every rule by its name, with what it takes for granted and why nothing
-// (or how little) is lost. All are on unless switched off.
+// What may be omitted from a frame: every rule by its name, with what it assumes and why nothing (or how
+// little) is lost. The exact rules are on unless switched off.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@
 namespace gnomon {
 
 enum class PruneRule : std::uint8_t {
-#define GNOMON_PRUNE_RULE(name, certainty, what, premise, proof) name,
+#define GNOMON_PRUNE_RULE(name, certainty, source, what, premise, proof) name,
 #include "gnomon/prune_rules.def"
 #undef GNOMON_PRUNE_RULE
 };
 inline constexpr std::size_t kPruneRuleCount = 0
-#define GNOMON_PRUNE_RULE(name, certainty, what, premise, proof) +1
+#define GNOMON_PRUNE_RULE(name, certainty, source, what, premise, proof) +1
 #include "gnomon/prune_rules.def"
 #undef GNOMON_PRUNE_RULE
     ;
@@ -25,10 +25,16 @@ enum class PruneCertainty : std::uint8_t {
   bounded,  ///< it may differ, by no more than PruneRuleInfo::proof says
 };
 
+enum class PruneSource : std::uint8_t {
+  this_frame,  ///< the rule prunes from what this frame alone knows
+  last_frame,  ///< the rule reuses what the last frame drew: a frame drawn alone has none of it
+};
+
 struct PruneRuleInfo {
   PruneRule rule{};
   std::string_view name;
   PruneCertainty certainty{};
+  PruneSource source{};
   std::string_view what;     ///< is left out
   std::string_view premise;  ///< where this does not hold, the rule does nothing
   std::string_view proof;    ///< that no pixel changes; of bounded rules: the bound
@@ -40,6 +46,8 @@ struct PruneRuleInfo {
 struct PruneRules {
   static constexpr std::uint32_t kAll = (std::uint32_t{1} << kPruneRuleCount) - 1;
   std::uint32_t bits = kAll;
+
+  [[nodiscard]] static constexpr PruneRules all() noexcept { return {kAll}; }
 
   [[nodiscard]] constexpr bool has(PruneRule rule) const noexcept {
     return (bits >> static_cast<unsigned>(rule) & 1u) != 0;
@@ -53,11 +61,26 @@ struct PruneRules {
   bool operator==(const PruneRules&) const = default;
 };
 inline constexpr PruneRules kPruneNothing{0};
-/// The rules that change no bit of the mask.
-[[nodiscard]] PruneRules exact_prune_rules() noexcept;
+/// The rules that change no bit of the shadow mask.
+[[nodiscard]] constexpr PruneRules exact_prune_rules() noexcept {
+  PruneRules rules = kPruneNothing;
+#define GNOMON_PRUNE_RULE(name, certainty, source, what, premise, proof) \
+  if (PruneCertainty::certainty == PruneCertainty::exact) rules = rules.with(PruneRule::name);
+#include "gnomon/prune_rules.def"
+#undef GNOMON_PRUNE_RULE
+  return rules;
+}
+/// The exact rules, and light_depths: depths fitted to what is there are only stored more finely.
+[[nodiscard]] constexpr PruneRules default_prune_rules() noexcept {
+  return exact_prune_rules().with(PruneRule::light_depths);
+}
+/// The rules that draw from this source.
+[[nodiscard]] PruneRules prune_rules_of(PruneSource source) noexcept;
+/// The rule of this name; nullptr where there is none.
+[[nodiscard]] const PruneRuleInfo* find_prune_rule(std::string_view name) noexcept;
 
-/// Reads "all", "none", "exact" or names divided by commas. False, and `rules` as they were, where a name is
-/// unknown.
+/// Reads "default", "all", "none", "exact" or names divided by commas. False, and `rules` unchanged, where a
+/// name is unknown.
 [[nodiscard]] bool parse_prune_rules(std::string_view text, PruneRules& rules) noexcept;
 
 /// What a rule left out of one frame.

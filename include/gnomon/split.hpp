@@ -1,11 +1,17 @@
 // Where along the view one shadow map ends and the next begins.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 
+#include "gnomon/partition.hpp"
+
 namespace gnomon {
+
+inline constexpr int kMaxMaps = 8;  ///< cascades of one plan; beyond 8 no published figure gains anything
 
 /// `optimal` needs the receivers and is made by the plan: it minimises the plan's objective over the actual
 /// body, and costs some hundred microseconds; with Fit::stable, whose edges must not follow what is in view,
@@ -28,13 +34,34 @@ enum class SplitRange : std::uint8_t { automatic, receivers, camera };
 /// given.
 [[nodiscard]] bool split_scheme_from_name(std::string_view name, SplitScheme& scheme) noexcept;
 
+/// Where one cascade ends and the next begins. Directional lights only.
 struct SplitOptions {
-  SplitScheme scheme = SplitScheme::practical;
-  double lambda = 0.9;       ///< practical: 0 uniform ... 1 logarithmic; clamped to [0,1], NaN counts as 0.5
-  double pseudo_near = 0.0;  ///< pseudo_near: depth of the first split; clamped to [near_depth, far_depth)
-  /// given: the inner borders, ascending, each clamped to [near_depth, far_depth]; missing ones count as
-  /// far_depth.
-  std::span<const double> given = {};
+  SplitScheme scheme = SplitScheme::automatic;
+  /// practical: blend of uniform (0) and logarithmic (1) splits; clamped to [0,1], NaN counts as 0.5.
+  double lambda = 0.9;
+  /// View depth, world units, from which error counts: nearer surfaces keep their shadow and do not draw
+  /// texels towards the eye. Also the first split of SplitScheme::pseudo_near. 0: the near plane itself.
+  double pseudo_near = 0.0;
+  /// Which depths are divided: those that hold receivers, or the camera's whole range. `automatic` takes the
+  /// receivers' for Fit::tight and the camera's for Fit::stable, whose grid must not depend on what is in
+  /// view.
+  SplitRange range = SplitRange::automatic;
+  /// given: the cascades - 1 view depths between neighbouring cascades, ascending, world units. They are
+  /// clamped to the depths that are divided; a cascade without any depth left is omitted. Missing ones count
+  /// as the far end.
+  std::array<double, kMaxMaps - 1> given = endless_splits();
+  /// Width of the blend band before a cascade, as a share of the previous cascade's depths, 0..1: the cascade
+  /// behind also covers it, with all casters. A wider band hides the step between their texels better and
+  /// takes texels from the map behind. Partition::view_depth only.
+  double overlap = 0.0;
+  /// What divides the receivers among the maps. Partitions other than view_depth ignore cascades and splits.
+  Partition partition = Partition::view_depth;
+
+  [[nodiscard]] static constexpr std::array<double, kMaxMaps - 1> endless_splits() noexcept {
+    std::array<double, kMaxMaps - 1> all{};
+    for (double& depth : all) depth = std::numeric_limits<double>::infinity();
+    return all;
+  }
 };
 
 /// Fills `edges` (N + 1 of them for N maps) with the borders, ascending; the first is exactly `near_depth`,

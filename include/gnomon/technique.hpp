@@ -56,6 +56,8 @@ struct SceneDetail {
   /// (trace::seen_points). Some thousand do. Empty: anywhere in the receivers' boxes, which misjudges warps
   /// and splits where the boxes are mostly air.
   std::span<const glm::dvec3> seen_world;
+  /// View depths at which the camera sees a surface, as make_plan takes them; nullptr: unknown.
+  const VisibleDepths* visible_depths = nullptr;
 };
 
 /// Limits; 0 is none. Without target_error the least error within them is taken, or what is alike; with it

@@ -1,5 +1,5 @@
-// The warp: where in the map the texels go. A warp looks at the body in the light's plane and answers with a
-// map of that plane; the plan measures it and falls back to none where it gains nothing.
+// The warp: where in the map the texels go. A warp reads the body in the light plane and returns a map of
+// that plane; the plan measures it and falls back to none where it gains nothing.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "gnomon/body.hpp"
+#include "gnomon/light_space.hpp"
 
 namespace gnomon {
 
@@ -22,49 +23,78 @@ enum class Objective : std::uint8_t {
 [[nodiscard]] std::string_view to_string(Objective objective) noexcept;
 [[nodiscard]] bool objective_from_name(std::string_view name, Objective& objective) noexcept;
 
-/// A perspective camera in the light frame: axes, edges of the image and size of a pixel per unit of depth.
+/// The camera along the light frame's axes: its own axes, edges of the image, and size of a pixel per unit of
+/// depth (orthographic: in world units).
 struct ViewInLight {
   glm::dvec3 right, up, forward;
   double image_left, image_right, image_bottom, image_top;
   double pixel_x, pixel_y;
 };
 
-/// The body as a warp sees it. Light frame: x, y span the plane across the light, y along the view
-/// direction's projection (away from the viewer), z towards the light; the origin is the camera position.
+/// A projective map of the light plane. With u the distance along `axis` from the body's near end and s the
+/// coordinate across it, w = 1 + kappa u, and the point lands at X = (s - centre) / w, Y = u (1 + kappa
+/// length) / w. The map's axes are A = dot(row_a, (X, Y)) and B = dot(row_b, (X, Y)); a rectangle in them
+/// round the body's image becomes the map. Every perspective of parallel light rays is of this form.
+struct WarpChoice {
+  double kappa = 0.0;          ///< 1 / unit of the light plane, >= 0; 0 is the map without a warp
+  glm::dvec2 axis{0.0, 1.0};   ///< unit, where texels grow to, in the light plane
+  double centre = 0.0;         ///< of the projection, across the axis
+  glm::dvec2 row_a{1.0, 0.0};  ///< with row_b: turns or slants the map; any two independent vectors
+  glm::dvec2 row_b{0.0, 1.0};
+  /// The objective over that of no warp, where the warp has measured it itself; 0: the plan measures it.
+  double gain_ratio = 0.0;
+};
+
+/// The body as a warp sees it. The light plane's x and y (light_space.hpp) span the map; y runs along the
+/// view direction as the light sees it, away from the viewer. Parallel light: the origin is the camera's
+/// position.
 struct WarpInput {
   struct Point {
-    double x, y, z;  ///< light frame, world units
-    double depth;    ///< view depth, world units; 1 for an orthographic camera
+    double x, y;   ///< light plane
+    double z;      ///< height towards the light: h of LightSpace
+    double depth;  ///< extent in the light plane of a unit slope of the image: view depth (orthographic: 1)
+                   ///< over distance from a local light
   };
-  std::span<const Point> body;  ///< vertices of the visible receivers' body, at least one
-  double y_min, y_max;          ///< of the body, along the view direction's projection
-  double sin_gamma,
-      cos_gamma;  ///< of the angle between view and light direction, from their cross and dot product
-  double depth_begin, depth_end;  ///< view depths of the slice, after near_hint
+  std::span<const Point> body;    ///< vertices of the visible receivers' body, at least one
+  double y_min, y_max;            ///< of the body
+  double sin_gamma, cos_gamma;    ///< of the angle between view and light ray
+  double depth_begin, depth_end;  ///< view depths of the slice, after pseudo_near, world units
   double tan_half_fov;            ///< effective half opening in the plane of view and light
-  bool orthographic;              ///< then there is no perspective to undo
+  bool orthographic;              ///< the camera is
   Objective objective;
-  const Polytope* polytope;  ///< the same body with its faces and edges, in the light frame
-  /// What of the body error counts `focus_weight` times in; nullptr or empty where there is none. `body` then
-  /// has its vertices, too, and all others are `focus_weight` times as deep as they are.
+  const Polytope* polytope;  ///< the same body with its faces and edges, along the light frame's axes
+  /// Sub-volume whose error is weighted by focus_weight; nullptr or empty: none. `body` then includes its
+  /// vertices, and all others count as focus_weight times as deep as they are.
   const Polytope* focus;
   double focus_weight;
   ViewInLight view;
+  LightSpace light;    ///< how points become light-plane coordinates
+  double centre;       ///< x of the line along y that warps along the view project from; 0 for parallel light
+  double scale_near;   ///< Point::depth at the body's point nearest to the viewer
+  double depth_per_y;  ///< growth of Point::depth along y at constant height
+  WarpChoice unwarped;  ///< the map without a warp, to be beaten
+
+  /// Neither camera nor light has a perspective to undo.
+  [[nodiscard]] bool flat() const noexcept { return orthographic && !light.perspective; }
+  /// A warp along y of this strength.
+  [[nodiscard]] WarpChoice along_view(double kappa) const noexcept {
+    WarpChoice choice;
+    choice.kappa = kappa;
+    choice.centre = centre;
+    return choice;
+  }
 };
 
-/// The answer: a projective map of the light plane. With u the distance along `axis` from the body's near end
-/// and s the coordinate across it, w = 1 + kappa u, and the point lands at X = (s - centre) / w, Y = u (1 +
-/// kappa length) / w. The map's axes are A = dot(row_a, (X, Y)) and B = dot(row_b, (X, Y)); a rectangle in
-/// them round the body's image becomes the map. Every perspective of parallel light rays is of this form.
-struct WarpChoice {
-  double kappa = 0.0;          ///< 1 / world units, >= 0; 0 is the orthographic map itself
-  glm::dvec2 axis{0.0, 1.0};   ///< unit, where texels grow to, in the light frame's x and y
-  double centre = 0.0;         ///< of the projection, across the axis, world units
-  glm::dvec2 row_a{1.0, 0.0};  ///< with row_b: turns or slants the map; any two independent vectors
-  glm::dvec2 row_b{0.0, 1.0};
-  /// The objective over that of no warp, where the warp has measured it by itself; 0: the plan measures it.
-  double gain_ratio = 0.0;
+/// A linear function of the light-space point (x, y, h).
+struct LightLinear {
+  glm::dvec3 slope;
+  double constant;
 };
+/// In light space, what is `offset` + dot(`slope`, p) for points along the light frame's axes; under a local
+/// light divided by the distance from the light, which keeps every zero and every ratio of two such
+/// functions.
+[[nodiscard]] LightLinear light_linear(const LightSpace& light, const glm::dvec3& slope,
+                                       double offset) noexcept;
 
 /// One entry of the registry warps.def.
 struct Warp {
@@ -89,7 +119,7 @@ namespace warps {
 
 /// Bounds of the perspective error over a body under w = 1 + kappa (y - y_min): exact at vertices, because
 /// each weight is linear-fractional or convex there (Lloyd's m with the simplified weights, Scherzer et al.
-/// 2011, section 3). For warps along y only; fast.
+/// 2011, section 3). For warps along y through input.centre only; fast.
 struct WarpError {
   double m_s, m_t;  ///< relative: multiply by pixels per unit slope over texels for the error itself
   [[nodiscard]] double value(Objective objective) const noexcept {

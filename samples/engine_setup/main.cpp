@@ -77,7 +77,7 @@ int main() {
 
   gnomon::PlanOptions options;
   options.cascades = 3;
-  options.map_size = 2048;
+  options.resolution.max_size = 2048;
   options.clip_space = gnomon::kVulkan;  // the default is OpenGL's
 
   const gnomon::ShadowPlan plan = gnomon::make_plan(camera, sun, {casters, receivers}, options);

@@ -29,6 +29,10 @@ vec2 slope_at(ivec2 texel) {
 }
 
 ShadowTexel stored_at(ivec2 texel, ShadowOptions options) {
+#if GNOMON_READS_SLOPE
   return shadow_store(depth_at(texel), slope_at(texel), options);
+#else
+  return shadow_store(depth_at(texel), vec2(0.0), options);
+#endif
 }
 #endif

@@ -1,15 +1,21 @@
 // The case format: which keys there are, and what they become.
 #include "gnomon/casefile/casefile.hpp"
 
+#include <algorithm>
+
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <numbers>
+#include <type_traits>
+#include <variant>
 
+#include "gnomon/casefile/plan_fields.hpp"
 #include "json_fields.hpp"
 #include "json_text.hpp"
+#include "nearest_name.hpp"
 
 namespace gnomon {
 namespace {
@@ -89,24 +95,6 @@ void read_name(const Fields& fields, std::string_view key, Value& out, const cha
   if (!set(name, out)) fields.refuse(key, "is \"" + one_line(name, 40) + "\", not one of " + names);
 }
 
-std::string warp_names() {
-  std::string names = "auto";
-  for (const Warp* warp : all_warps()) names += ", " + std::string(warp->name);
-  return names;
-}
-
-bool warp_from_name(std::string_view name, const Warp*& warp) {
-  warp = name == "auto" ? nullptr : find_warp(name);
-  return name == "auto" || warp != nullptr;
-}
-
-bool split_range_from_name(std::string_view name, SplitRange& range) {
-  if (name == "auto") range = SplitRange::automatic;
-  if (name == "receivers") range = SplitRange::receivers;
-  if (name == "camera") range = SplitRange::camera;
-  return name == "auto" || name == "receivers" || name == "camera";
-}
-
 bool ndc_depth_from_name(std::string_view name, NdcDepth& depth) {
   if (name == "minus_one_to_one") depth = NdcDepth::minus_one_to_one;
   if (name == "zero_to_one") depth = NdcDepth::zero_to_one;
@@ -146,86 +134,87 @@ BiasOptions bias_from(const json& value) {
   return bias;
 }
 
-/// The separating plane is counted among the warps, too: two maps, the first of them warped as the plan
-/// chooses.
-void read_warp(const Fields& fields, PlanOptions& options) {
-  if (!fields.has("warp") || fields.text("warp") != to_string(Partition::separating_plane)) {
-    read_name(fields, "warp", options.warp, warp_names().c_str(), warp_from_name);
-    return;
-  }
-  if (fields.has("partition")) fields.refuse("warp", "is a partition: give it as partition alone");
-  options.partition = Partition::separating_plane;
+/// Other names of a field, which must not stand beside it.
+constexpr std::array<std::array<std::string_view, 2>, 2> kOtherNames{
+    {{"pseudo_near", "near_hint"}, {"stable", "fit"}}};
+
+/// The list that files may name in a message: "a, b, c".
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
 }
 
-PlanOptions options_from(const json& value, std::vector<double>& given_splits) {
-  const Fields fields(value, "options",
-                      {"map_size",
-                       "cascades",
-                       "split",
-                       "given_splits",
-                       "lambda",
-                       "pseudo_near",
-                       "near_hint",
-                       "split_range",
-                       "split_overlap",
-                       "target_m",
-                       "focus",
-                       "focus_weight",
-                       "texel_budget",
-                       "partition",
-                       "warp",
-                       "objective",
-                       "stable",
-                       "fit",
-                       "stable_size_steps",
-                       "filter_radius_texels",
-                       "filter_radius_world",
-                       "prune",
-                       "prune_m",
-                       "bias",
-                       "clip_space"});
-  PlanOptions options;
-  fields.read("map_size", options.map_size);
-  fields.read("cascades", options.cascades);
-  read_name(fields, "split", options.split,
-            "auto, uniform, logarithmic, practical, pseudo_near, optimal, given", split_scheme_from_name);
+/// Reads the value under `key` into the field's place.
+void read_field(const Fields& fields, std::string_view key, const PlanField& field, PlanOptions& options) {
+  if (!fields.has(key)) return;
+  std::visit(
+      [&](const auto& place) {
+        using Place = std::remove_cvref_t<decltype(place)>;
+        if constexpr (std::is_same_v<Place, PlanChoice>) {
+          const std::string name = fields.text(key);
+          if (!place.set(name, options))
+            fields.refuse(key, "is \"" + one_line(name, 40) + "\", not one of " + listed(place.names()) +
+                                   meant(name, place.names()));
+        } else if constexpr (std::is_same_v<Place, PlanMember<Box>>) {
+          place(options) = box_from(fields.at(key), fields.path_of(key));
+        } else if constexpr (std::is_same_v<Place, PlanMember<BiasOptions>>) {
+          place(options) = bias_from(fields.at(key));
+        } else if constexpr (std::is_same_v<Place, PlanMember<ClipSpace>>) {
+          place(options) = clip_space_from(fields.at(key));
+        } else if constexpr (std::is_same_v<Place, PlanMember<SplitDepths>>) {
+          const std::vector<double> depths = fields.numbers(key);
+          if (depths.size() > place(options).size()) fields.refuse(key, "holds too many depths");
+          std::copy(depths.begin(), depths.end(), place(options).begin());
+        } else {
+          fields.read(key, place(options));
+        }
+      },
+      field.place);
+}
+
+void set_name(std::string_view key, std::string_view name, PlanOptions& options) {
+  std::get<PlanChoice>(plan_field(key).place).set(name, options);
+}
+
+/// What some keys mean for others.
+void apply_implications(const Fields& fields, PlanOptions& options) {
   if (fields.has("given_splits")) {
-    if (fields.has("split") && options.split != SplitScheme::given)
+    if (fields.has("split") && fields.text("split") != "given")
       fields.refuse("given_splits", "needs split to be given");
-    given_splits = fields.numbers("given_splits");
-    options.split = SplitScheme::given;
-    options.given_splits = given_splits;
+    set_name("split", "given", options);
+  } else if (fields.has("lambda") && !fields.has("split")) {
+    set_name("split", "practical", options);  // who gives a blend means the scheme that blends
   }
-  fields.read("split_overlap", options.split_overlap);
-  fields.read("target_m", options.target_m);
-  if (fields.has("focus")) options.focus = box_from(fields.at("focus"), "options.focus");
-  fields.read("focus_weight", options.focus_weight);
-  fields.read("texel_budget", options.texel_budget);
-  fields.read("lambda", options.lambda);
-  // Who gives a blend means the scheme that blends.
-  if (fields.has("lambda") && !fields.has("split") && !fields.has("given_splits"))
-    options.split = SplitScheme::practical;
-  if (fields.has("pseudo_near") && fields.has("near_hint"))
-    fields.refuse("pseudo_near", "is another name of near_hint: give one of them");
-  fields.read("pseudo_near", options.near_hint);
-  fields.read("near_hint", options.near_hint);
-  read_name(fields, "split_range", options.split_range, "auto, receivers, camera", split_range_from_name);
-  read_name(fields, "partition", options.partition, "view_depth, frustum_faces, separating_plane",
-            partition_from_name);
-  read_warp(fields, options);
-  read_name(fields, "objective", options.objective, "storage, max, p95", objective_from_name);
-  if (fields.has("stable") && fields.has("fit"))
-    fields.refuse("stable", "is another name of fit: give one of them");
-  if (fields.has("stable")) options.fit = fields.boolean("stable") ? Fit::stable : Fit::tight;
-  read_name(fields, "fit", options.fit, "tight, rotated, stable, warped_stable", fit_from_name);
-  fields.read("stable_size_steps", options.stable_size_steps);
-  fields.read("filter_radius_texels", options.filter_radius_texels);
-  fields.read("filter_radius_world", options.filter_radius_world);
-  read_name(fields, "prune", options.prune, "all, none, exact, or names of rules divided by commas",
-            parse_prune_rules);
-  fields.read("prune_m", options.prune_m);
-  if (fields.has("bias")) options.bias = bias_from(fields.at("bias"));
-  if (fields.has("clip_space")) options.clip_space = clip_space_from(fields.at("clip_space"));
+  if (fields.has("stable")) set_name("fit", fields.boolean("stable") ? "stable" : "tight", options);
+}
+
+/// The separating plane is counted among the warps, too: two maps, the first of them warped as the plan
+/// chooses.
+bool names_partition_as_warp(const Fields& fields) {
+  if (!fields.has("warp") || fields.text("warp") != to_string(Partition::separating_plane)) return false;
+  if (fields.has("partition")) fields.refuse("warp", "is a partition: give it as partition alone");
+  return true;
+}
+
+PlanOptions options_from(const json& value) {
+  std::vector<std::string_view> known;
+  for (const PlanField& field : plan_fields()) known.push_back(field.key);
+  for (const auto& [other, key] : kOtherNames) known.push_back(other);
+  const Fields fields(value, "options", known);
+  for (const auto& [other, key] : kOtherNames) {
+    if (fields.has(other) && fields.has(key))
+      fields.refuse(other, "is another name of " + std::string(key) + ": give one of them");
+  }
+  PlanOptions options;
+  const bool partition_as_warp = names_partition_as_warp(fields);
+  for (const PlanField& field : plan_fields()) {
+    if (field.key == "warp" && partition_as_warp) continue;
+    read_field(fields, field.key, field, options);
+  }
+  read_field(fields, "pseudo_near", plan_field("near_hint"), options);
+  apply_implications(fields, options);
+  if (partition_as_warp) set_name("partition", to_string(Partition::separating_plane), options);
   return options;
 }
 
@@ -245,18 +234,6 @@ std::string read_text(const std::filesystem::path& file) {
 
 }  // namespace
 
-Case& Case::operator=(const Case& other) {
-  camera = other.camera;
-  light = other.light;
-  receivers = other.receivers;
-  casters = other.casters;
-  given_splits = other.given_splits;
-  options = other.options;
-  // The copy's own list, where it was the case's.
-  if (options.given_splits.data() == other.given_splits.data()) options.given_splits = given_splits;
-  return *this;
-}
-
 Case read_case(std::string_view json_text) {
   const json value = parse_json(json_text);
   const Fields fields(value, "", {"camera", "light", "receivers", "casters", "options"});
@@ -265,7 +242,7 @@ Case read_case(std::string_view json_text) {
   result.light = light_from(fields.at("light"));
   result.receivers = fields.boxes("receivers");
   result.casters = fields.boxes("casters");
-  if (fields.has("options")) result.options = options_from(fields.at("options"), result.given_splits);
+  if (fields.has("options")) result.options = options_from(fields.at("options"));
   return result;
 }
 
@@ -294,26 +271,13 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"light.range", "light.range: must be above 0"},
       {"bounds.casters", "casters: a corner is beyond 1e30"},
       {"bounds.receivers", "receivers: a corner is beyond 1e30"},
-      {"options.map_size", "options.map_size: must lie in 4..16384"},
-      {"options.lambda", "options.lambda: must lie in 0..1"},
-      {"options.focus", "options.focus: must be a box of finite numbers"},
-      {"options.focus_weight", "options.focus_weight: must lie in 1..1e6"},
-      {"options.near_hint", "options.near_hint: must not be below 0"},
-      {"options.filter_radius_world", "options.filter_radius_world: must be 0 or more"},
-      {"options.stable_size_steps", "options.stable_size_steps: must lie in 1..1024"},
-      {"options.given_splits", "options.given_splits: needs cascades - 1 depths, ascending"},
-      {"options.split_overlap", "options.split_overlap: must lie in 0..1"},
-      {"options.target_m", "options.target_m: must not be below 0"},
-      {"options.prune_m", "options.prune_m: must be at least 1e-9"},
-      {"options.texel_budget",
-       "options.texel_budget: must be 0, or hold the least maps: 16 x 16, or four filter radii"},
-      {"options.filter_radius_texels", "options.filter_radius_texels: must lie in 0..map_size/4"},
-      {"options.bias", "options.bias: every value must be 0 or above"},
   });
-  if (invalid_field == "options.cascades")
-    return "options.cascades: must lie in 1.." + std::to_string(kMaxMaps);
   for (const Entry& entry : kTexts)
     if (entry.field == invalid_field) return std::string(entry.text);
+  for (const PlanField& field : plan_fields()) {
+    if (!field.invalid_field.empty() && field.invalid_field == invalid_field)
+      return "options." + std::string(field.key) + ": " + std::string(field.must);
+  }
   return std::string(invalid_field) + ": not usable";
 }
 

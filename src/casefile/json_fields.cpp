@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "gnomon/casefile/casefile.hpp"
+#include "nearest_name.hpp"
 
 namespace gnomon {
 namespace {
@@ -42,14 +43,15 @@ Box box_from(const json& value, const std::string& path) {
   return {fields.vector("min"), fields.vector("max")};
 }
 
-Fields::Fields(const json& value, std::string path, std::initializer_list<std::string_view> known)
+Fields::Fields(const json& value, std::string path, std::span<const std::string_view> known)
     : value_(value), path_(std::move(path)) {
   if (!value.is_object()) wrong_type(path_.empty() ? "case" : path_, "an object", value);
   for (const auto& [key, unused] : value.items()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     std::string list;
     for (const std::string_view name : known) list += (list.empty() ? "" : ", ") + std::string(name);
-    throw CaseError(joined(path_, one_line(key, 60)) + ": unknown key (known here: " + list + ")");
+    throw CaseError(joined(path_, one_line(key, 60)) + ": unknown key (known here: " + list + ")" +
+                    meant(key, known));
   }
 }
 

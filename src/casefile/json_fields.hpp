@@ -5,8 +5,10 @@
 #include <glm/vec3.hpp>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gnomon/bounds.hpp"
@@ -17,7 +19,9 @@ namespace gnomon {
 class Fields {
  public:
   /// Throws where `value` is no object or has a key outside `known`.
-  Fields(const nlohmann::json& value, std::string path, std::initializer_list<std::string_view> known);
+  Fields(const nlohmann::json& value, std::string path, std::span<const std::string_view> known);
+  Fields(const nlohmann::json& value, std::string path, std::initializer_list<std::string_view> known)
+      : Fields(value, std::move(path), std::span(known.begin(), known.size())) {}
 
   [[nodiscard]] bool has(std::string_view key) const { return value_.contains(key); }
   [[nodiscard]] const nlohmann::json& at(std::string_view key) const;

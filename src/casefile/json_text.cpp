@@ -8,6 +8,7 @@
 
 #include "gnomon/casefile/casefile.hpp"
 #include "json_scan.hpp"
+#include "json_words.hpp"
 
 namespace gnomon {
 namespace {
@@ -28,15 +29,6 @@ void check_nesting(std::string_view text) {
                     " levels");
 }
 
-// nlohmann's messages read "[json.exception.parse_error.101] parse error at line 1, column 2: what".
-std::string without_prefix(std::string_view what) {
-  const std::size_t column = what.find("column ");
-  const std::size_t colon = column == std::string_view::npos ? column : what.find(": ", column);
-  const std::size_t bracket = what.find("] ");
-  if (colon != std::string_view::npos) return one_line(what.substr(colon + 2));
-  return one_line(bracket == std::string_view::npos ? what : what.substr(bracket + 2));
-}
-
 }  // namespace
 
 nlohmann::json parse_json(std::string_view text) {
@@ -55,9 +47,9 @@ nlohmann::json parse_json(std::string_view text) {
     return nlohmann::json::parse(text, refuse_doubles);
   } catch (const nlohmann::json::parse_error& error) {
     const std::size_t offset = error.byte > 0 ? error.byte - 1 : 0;
-    throw CaseError(place_of(text, offset) + ": " + without_prefix(error.what()));
+    throw CaseError(place_of(text, offset) + ": " + one_line(json_words(error.what(), false)));
   } catch (const nlohmann::json::exception& error) {  // a number beyond the range of double
-    throw CaseError(without_prefix(error.what()));
+    throw CaseError(one_line(json_words(error.what(), false)));
   }
 }
 

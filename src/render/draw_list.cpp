@@ -46,22 +46,23 @@ bool wholly_outside(const Box& box, const glm::dvec3& origin, const ViewPlane& p
 }  // namespace
 
 DrawLists::DrawLists(const SceneBuffers& scene)
-    : scene_(scene), culling_(scene), visible_(scene.order().size()) {
+    : scene_(scene), culling_(scene), cache_(scene, culling_), visible_(scene.order().size()) {
   commands_.reserve(scene.order().size());
   objects_.reserve(scene.order().size() * 2);
 }
 
-void DrawLists::build(const CullingJob& job, const Camera& camera) {
+void DrawLists::build(const CullingJob& job, const DrawnMaps& drawn, const Camera& camera) {
   objects_.clear();
   commands_.clear();
   ranges_.clear();
-  culling_.begin(job);
+  PruneSavings saved;
+  culling_.count_omissions(job.plan, saved);
   for (std::size_t map = 0; map < kMaxMaps; ++map) {
     stats_[map] = {};
     part_count_[map] = 0;
-    if (map < job.plan.maps().size()) add_map(job, map);
+    if (map < job.plan.maps().size()) add_map(job, drawn, map, saved);
   }
-  saved_ = culling_.saved();
+  saved_ = saved.net();
   camera_begin_ = ranges_.size();
   MapStats& of_camera = stats_.back();
   of_camera = {};
@@ -74,15 +75,16 @@ void DrawLists::build(const CullingJob& job, const Camera& camera) {
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_.name());
 }
 
-void DrawLists::add_map(const CullingJob& job, std::size_t map) {
-  const MapWork work = culling_.choose(job, map);
+void DrawLists::add_map(const CullingJob& job, const DrawnMaps& drawn, std::size_t map, PruneSavings& saved) {
+  const std::span<const std::uint8_t> casters = culling_.casters_of(job, job.plan.map[map], saved);
+  const MapWork work = cache_.update({job, drawn, map, casters}, saved);
   MapStats& stats = stats_[map];
   move_[map] = work.move;
   for (const MapPart& part : work.parts()) {
-    DrawnPart& drawn = parts_[map][part_count_[map]++];
-    drawn = {part.rectangle, part.clear, ranges_.size(), 0};
+    DrawnPart& at = parts_[map][part_count_[map]++];
+    at = {part.rectangle, part.clear, ranges_.size(), 0};
     add_view(part.draws, stats);
-    drawn.end = ranges_.size();
+    at.end = ranges_.size();
   }
   stats.texels = work.texels;
   stats.held = work.parts().empty();

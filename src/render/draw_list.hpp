@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "caster_culling.hpp"
+#include "drawn_maps.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/renderer.hpp"
+#include "map_cache.hpp"
 #include "scene_buffers.hpp"
 
 namespace gnomon::render {
@@ -33,9 +35,9 @@ class DrawLists {
   explicit DrawLists(const SceneBuffers& scene);
 
   /// Rebuilds and uploads everything for this frame.
-  void build(const CullingJob& job, const Camera& camera);
-  /// What the maps hold is gone: the next build() draws them whole.
-  void forget_maps() noexcept { culling_.forget(); }
+  void build(const CullingJob& job, const DrawnMaps& drawn, const Camera& camera);
+  /// The maps hold nothing any more: the next build() draws them whole.
+  void forget_maps() noexcept { cache_.forget(); }
 
   /// What a map holds that is to be moved, before anything of it is drawn.
   [[nodiscard]] const MapMove& move(int index) const noexcept {
@@ -61,12 +63,13 @@ class DrawLists {
   void draw(std::uint32_t begin, std::uint32_t end) const noexcept;
 
  private:
-  void add_map(const CullingJob& job, std::size_t map);
+  void add_map(const CullingJob& job, const DrawnMaps& drawn, std::size_t map, PruneSavings& saved);
   void add_view(std::span<const std::uint8_t> draws, MapStats& stats);
   void mark_visible(const Camera& camera);
 
   const SceneBuffers& scene_;
   CasterCulling culling_;
+  MapCache cache_;
   std::array<PruneSaving, kPruneRuleCount> saved_{};
   std::array<MapMove, kMaxMaps> move_{};
   std::array<std::array<DrawnPart, MapWork::kMaxParts>, kMaxMaps> parts_{};

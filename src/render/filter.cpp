@@ -46,7 +46,7 @@ std::span<const Filter* const> all_filters() noexcept {
 
 const Filter* find_filter(std::string_view name) noexcept {
   for (const Filter* filter : kFilters) {
-    if (filter->name == name) return filter;
+    if (filter->info.name == name) return filter;
   }
   return nullptr;
 }
@@ -84,8 +84,8 @@ double rounded_to(TexelFormat format, double value) noexcept {
 }
 
 double FilterSettings::value(std::string_view name) const noexcept {
-  for (std::size_t i = 0; filter != nullptr && i < filter->options.size(); ++i) {
-    if (filter->options[i].name == name) return option[i];
+  for (std::size_t i = 0; filter != nullptr && i < filter->info.options.size(); ++i) {
+    if (filter->info.options[i].name == name) return option[i];
   }
   return 0.0;
 }
@@ -93,10 +93,11 @@ double FilterSettings::value(std::string_view name) const noexcept {
 FilterSettings default_settings(const Filter& filter) noexcept {
   FilterSettings settings;
   settings.filter = &filter;
-  settings.radius = filter.default_radius;
-  if (!filter.formats.empty()) settings.format = filter.formats[0];
-  for (std::size_t i = 0; i < filter.options.size(); ++i) settings.option[i] = filter.options[i].fallback;
-  if (filter.settle != nullptr) filter.settle(settings);
+  settings.radius = filter.info.default_radius;
+  if (!filter.info.formats.empty()) settings.format = filter.info.formats[0];
+  for (std::size_t i = 0; i < filter.info.options.size(); ++i)
+    settings.option[i] = filter.info.options[i].fallback;
+  if (filter.info.settle != nullptr) filter.info.settle(settings);
   return settings;
 }
 
@@ -104,12 +105,15 @@ double bytes_per_texel(const FilterSettings& settings) noexcept {
   const Filter& filter = *settings.filter;
   constexpr double kDepthBytes = 4.0, kMipChain = 4.0 / 3.0, kMaxPyramid = 4.0 / 3.0;
   double bytes = kDepthBytes;
-  if (filter.channels != nullptr) {
+  if (filter.info.channels != nullptr) {
     // Textures of three channels cannot be drawn into: they take four.
-    const int channels = filter.channels(settings), stored = channels > 2 ? (channels + 3) / 4 * 4 : channels;
+    const int channels = filter.info.channels(settings),
+              stored = channels > 2 ? (channels + 3) / 4 * 4 : channels;
     bytes += stored * bytes_per_channel(settings.format) * (settings.mipmap ? kMipChain : 1.0);
   }
-  return bytes + (filter.needs_depth_max != nullptr && filter.needs_depth_max(settings) ? kMaxPyramid : 0.0);
+  return bytes + (filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings)
+                      ? kMaxPyramid
+                      : 0.0);
 }
 
 void set_margin(const FilterSettings& settings, PlanOptions& options) noexcept {
@@ -117,11 +121,11 @@ void set_margin(const FilterSettings& settings, PlanOptions& options) noexcept {
   constexpr double kBilinear = 1.0;
   // A trilinear read over a footprint of r texels takes levels whose texels are up to 2 r wide, one and a
   // half of them to each side at most.
-  const double widest = filter.may_mipmap ? 3.0 : 1.0;
+  const double widest = filter.info.may_mipmap ? 3.0 : 1.0;
   const bool in_world = settings.unit == KernelUnit::world;
-  options.filter_radius_texels =
-      filter.lookup_reach_texels + (in_world ? 0.0 : settings.radius) + (filter.channels ? kBilinear : 0.0);
-  options.filter_radius_world = in_world ? settings.radius * widest : 0.0;
+  options.filter.texels = filter.info.lookup_reach_texels + (in_world ? 0.0 : settings.radius) +
+                                 (filter.info.channels ? kBilinear : 0.0);
+  options.filter.world = in_world ? settings.radius * widest : 0.0;
 }
 
 }  // namespace gnomon::render

@@ -12,7 +12,7 @@ namespace {
 constexpr double kBoxOfDisc = 0.86602540378443865;  ///< half side of the box with the variance of a unit disc
 
 bool is_blurred(const FilterSettings& settings) noexcept {
-  return settings.filter->reads == MapRead::filtered || settings.filter->reads == MapRead::joined;
+  return settings.filter->info.reads == MapRead::filtered || settings.filter->info.reads == MapRead::joined;
 }
 
 /// Steps of an integer per 1 such that no box of this half side overflows 32 bits, and floats hold every
@@ -40,7 +40,7 @@ BlurSides blur_sides(const FilterSettings& settings, const ShadowPlan& plan) noe
 }
 
 bool wants_mipmaps(const FilterSettings& settings, const ShadowPlan& plan) noexcept {
-  if (!settings.filter->may_mipmap) return false;
+  if (!settings.filter->info.may_mipmap) return false;
   if (settings.mipmap || settings.unit == KernelUnit::texels) return settings.mipmap;
   constexpr double kAlike = 1.01;  // texels that differ less make no difference that can be seen
   return std::any_of(plan.maps().begin(), plan.maps().end(), [](const ShadowMap& map) {
@@ -117,7 +117,7 @@ FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides)
 }
 
 int shadow_vectors(const FilterSettings& settings) noexcept {
-  return settings.filter->channels == nullptr ? 1 : (settings.filter->channels(settings) + 3) / 4;
+  return settings.filter->info.channels == nullptr ? 1 : (settings.filter->info.channels(settings) + 3) / 4;
 }
 
 }  // namespace gnomon::render

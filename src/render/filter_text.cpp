@@ -29,7 +29,7 @@ std::string read_number(std::string_view key, std::string_view text, double min,
 
 std::string formats_of(const Filter& filter) {
   std::string all;
-  for (const TexelFormat format : filter.formats) {
+  for (const TexelFormat format : filter.info.formats) {
     all += all.empty() ? "" : ", ";
     all += to_string(format);
   }
@@ -38,8 +38,8 @@ std::string formats_of(const Filter& filter) {
 
 std::string read_format(std::string_view text, FilterSettings& settings) {
   const Filter& filter = *settings.filter;
-  if (filter.formats.empty()) return "format: this filter stores nothing besides the depth map";
-  for (const TexelFormat format : filter.formats) {
+  if (filter.info.formats.empty()) return "format: this filter stores nothing besides the depth map";
+  for (const TexelFormat format : filter.info.formats) {
     if (to_string(format) != text) continue;
     settings.format = format;
     return "";
@@ -65,27 +65,27 @@ std::string read_pair(std::string_view key, std::string_view text, FilterSetting
     settings.unit = second ? KernelUnit::world : KernelUnit::texels;
     return error;
   }
-  if (key == "blur" && (filter.reads == MapRead::filtered || filter.reads == MapRead::joined)) {
+  if (key == "blur" && (filter.info.reads == MapRead::filtered || filter.info.reads == MapRead::joined)) {
     const std::string error = read_choice(key, text, "box", "gauss", second);
     settings.blur = second ? BlurShape::gauss : BlurShape::box;
     return error;
   }
-  if (key == "mipmap" && filter.may_mipmap) return read_choice(key, text, "0", "1", settings.mipmap);
-  if (key == "anisotropy" && filter.may_mipmap) {
+  if (key == "mipmap" && filter.info.may_mipmap) return read_choice(key, text, "0", "1", settings.mipmap);
+  if (key == "anisotropy" && filter.info.may_mipmap) {
     double probes = 1.0;
     const std::string error = read_number(key, text, 1.0, kMaxAnisotropy, probes);
     settings.anisotropy = static_cast<int>(probes);
     return error;
   }
-  for (std::size_t i = 0; i < filter.options.size(); ++i) {
-    const FilterOption& option = filter.options[i];
+  for (std::size_t i = 0; i < filter.info.options.size(); ++i) {
+    const FilterOption& option = filter.info.options[i];
     if (option.name == key) return read_number(key, text, option.min, option.max, settings.option[i]);
   }
   std::string known = "radius, unit";
-  if (!filter.formats.empty()) known += ", format, blur";
-  if (filter.may_mipmap) known += ", mipmap, anisotropy";
-  for (const FilterOption& option : filter.options) known += ", " + std::string(option.name);
-  return std::string(key) + ": " + std::string(filter.name) + " knows " + known;
+  if (!filter.info.formats.empty()) known += ", format, blur";
+  if (filter.info.may_mipmap) known += ", mipmap, anisotropy";
+  for (const FilterOption& option : filter.info.options) known += ", " + std::string(option.name);
+  return std::string(key) + ": " + std::string(filter.info.name) + " knows " + known;
 }
 
 }  // namespace
@@ -96,7 +96,8 @@ ParsedFilter parse_filter(std::string_view text) {
   const Filter* filter = find_filter(name);
   if (filter == nullptr) {
     std::string known;
-    for (const Filter* each : all_filters()) known += (known.empty() ? "" : ", ") + std::string(each->name);
+    for (const Filter* each : all_filters())
+      known += (known.empty() ? "" : ", ") + std::string(each->info.name);
     return {{}, "'" + std::string(name) + "': wants one of " + known};
   }
   ParsedFilter result{default_settings(*filter), ""};
@@ -115,7 +116,7 @@ ParsedFilter parse_filter(std::string_view text) {
     result.error = "radius=" + number_text(result.settings.radius) + ": at most " +
                    number_text(kMaxRadiusTexels) + " texels";
   }
-  if (filter->settle != nullptr) filter->settle(result.settings);
+  if (filter->info.settle != nullptr) filter->info.settle(result.settings);
   return result;
 }
 
@@ -133,22 +134,23 @@ std::string to_string(const FilterSettings& settings) {
   if (settings.format != usual.format) add("format", to_string(settings.format));
   if (settings.mipmap != usual.mipmap) add("mipmap", settings.mipmap ? "1" : "0");
   if (settings.anisotropy != usual.anisotropy) add("anisotropy", std::to_string(settings.anisotropy));
-  for (std::size_t i = 0; i < filter.options.size(); ++i) {
-    if (settings.option[i] != usual.option[i]) add(filter.options[i].name, number_text(settings.option[i]));
+  for (std::size_t i = 0; i < filter.info.options.size(); ++i) {
+    if (settings.option[i] != usual.option[i])
+      add(filter.info.options[i].name, number_text(settings.option[i]));
   }
-  return std::string(filter.name) + pairs;
+  return std::string(filter.info.name) + pairs;
 }
 
 std::string filter_help() {
   std::string text;
   for (const Filter* filter : all_filters()) {
-    text += std::string(filter->name) + ": " + std::string(filter->summary);
-    for (const FilterOption& option : filter->options) {
+    text += std::string(filter->info.name) + ": " + std::string(filter->info.summary);
+    for (const FilterOption& option : filter->info.options) {
       text += "; " + std::string(option.name) + " " + number_text(option.min) + ".." +
               number_text(option.max) + " (" + number_text(option.fallback) +
               "): " + std::string(option.summary);
     }
-    if (!filter->formats.empty()) text += "; format " + formats_of(*filter);
+    if (!filter->info.formats.empty()) text += "; format " + formats_of(*filter);
     text += "\n";
   }
   return text;

@@ -90,7 +90,7 @@ void Renderer::Impl::adapt_filter(const FilterSettings& settings, FilterBlock& b
   maps_read_back = 0;
   for (int i = 0; i < map_count; ++i)
     if (!lists.map_stats(i).held) adapted[static_cast<std::size_t>(i)].valid = false;
-  if (settings.filter->adapts == nullptr || !settings.filter->adapts(settings)) return;
+  if (settings.filter->hooks.adapts == nullptr || !settings.filter->hooks.adapts(settings)) return;
   std::vector<float> depths;
   for (int i = 0; i < map_count; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -104,7 +104,7 @@ void Renderer::Impl::adapt_filter(const FilterSettings& settings, FilterBlock& b
       if (curve > 0.0)
         for (float& depth : depths) depth = static_cast<float>(linear_depth(depth, curve));
       chosen = {true, settings, settings};
-      settings.filter->adapt(chosen.own, depths);
+      settings.filter->hooks.adapt(chosen.own, depths);
     }
     set_options(chosen.own, at, block);
   }

@@ -45,14 +45,14 @@ double hidden_texel_pixels(double radius_pixels) noexcept {
 }
 
 bool is_kernel_in_world(const FilterSettings& settings) noexcept {
-  return settings.filter != nullptr && settings.filter->has_kernel &&
-         (settings.unit == KernelUnit::world || settings.filter->penumbra_radius_world != nullptr);
+  return settings.filter != nullptr && settings.filter->info.has_kernel &&
+         (settings.unit == KernelUnit::world || settings.filter->info.penumbra_radius_world != nullptr);
 }
 
 double kernel_radius_world(const FilterSettings& settings, const ShadowDistances& distances) noexcept {
   if (!is_kernel_in_world(settings)) return 0.0;
   const bool in_world = settings.unit == KernelUnit::world;
-  const auto penumbra = settings.filter->penumbra_radius_world;
+  const auto penumbra = settings.filter->info.penumbra_radius_world;
   if (penumbra == nullptr) return at_least_zero(settings.radius);
   const double radius = at_least_zero(
       penumbra(settings, at_least_zero(distances.blocker_world), at_least_zero(distances.light_world)));
@@ -63,7 +63,7 @@ HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera, cons
                               const ShadowDistances& distances) noexcept {
   HidingMapSize result;
   if (plan.map_count == 0) return {.map_size = kLeastMapSize, .hides = true};
-  if (settings.filter == nullptr || !settings.filter->has_kernel) return result;
+  if (settings.filter == nullptr || !settings.filter->info.has_kernel) return result;
   if (is_kernel_in_world(settings)) {
     result.radius_world = kernel_radius_world(settings, distances);
     result.radius_pixels = result.radius_world * most_pixels_per_world(plan, camera);

@@ -25,8 +25,8 @@ void GLAD_API_PTR report_gl_error(GLenum, GLenum type, GLuint, GLenum, GLsizei, 
 bool reads_everywhere(const FilterSettings& settings, const ShadowPlan& plan) noexcept {
   const Filter& filter = *settings.filter;
   return wants_mipmaps(settings, plan) ||
-         (filter.needs_depth_max != nullptr && filter.needs_depth_max(settings)) ||
-         (filter.adapts != nullptr && filter.adapts(settings));
+         (filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings)) ||
+         (filter.hooks.adapts != nullptr && filter.hooks.adapts(settings));
 }
 
 }  // namespace
@@ -74,10 +74,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::Impl::fit_maps(const ShadowPlan& plan) {
   int width = 1, height = 1;
-  const auto omitted = plan.omitted();
-  bool alike = std::none_of(omitted.begin(), omitted.end(), [](const Omission& o) {
-    return o.kind == OmissionKind::resolution_without_gain;
-  });
+  bool alike = !plan.sizes_vary;
   map_count = plan.map_count;
   if (map_count == 0) return;  // what the maps hold stays for the next frame
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
@@ -97,9 +94,9 @@ void Renderer::Impl::fit_maps(const ShadowPlan& plan) {
 
 PreparedFilter Renderer::prepare(const FilterSettings& settings) {
   auto& known = impl_->filter_programs;
-  const auto found = std::find_if(known.begin(), known.end(), [&](const FilterPrograms& p) {
-    return p.filter == settings.filter && p.vectors == shadow_vectors(settings);
-  });
+  const FilterVariant variant = variant_of(settings);
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const FilterPrograms& p) { return p.variant == variant; });
   if (found != known.end()) return {settings, static_cast<std::size_t>(found - known.begin())};
   known.push_back(make_filter_programs(settings));
   return {settings, known.size() - 1};
@@ -135,7 +132,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     impl.scene.place(SceneBuffers::Placed::for_camera, camera.position);
     impl.scene.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
     impl.lists.build(
-        {plan, drawn, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan)},
+        {plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan)}, drawn,
         camera);
     impl.draw_shadow_maps(drawn, options.prune.has(PruneRule::alpha_test));
   });

@@ -52,6 +52,9 @@ class SceneBuffers {
   [[nodiscard]] const Primitive& primitive_of(std::uint32_t instance) const noexcept {
     return primitives_[primitive_of_[instance]];
   }
+  [[nodiscard]] std::uint64_t triangles_of(std::uint32_t instance) const noexcept {
+    return primitive_of(instance).index_count / 3;
+  }
   [[nodiscard]] std::uint32_t primitive_index(std::uint32_t instance) const noexcept {
     return primitive_of_[instance];
   }

@@ -36,8 +36,11 @@ class Composer {
     if (text.substr(0, kInclude.size()) != kInclude) {
       out_.text.append(text).push_back('\n');
       if (text.substr(0, kVersion.size()) == kVersion) {
-        out_.text += "#define GNOMON_MAX_MAPS " + std::to_string(kMaxMaps) + "\n";
-        out_.text += "#define GNOMON_SHADOW_VECTORS " + std::to_string(choice_.vectors) + "\n";
+        define("GNOMON_MAX_MAPS", static_cast<int>(kMaxMaps));
+        define("GNOMON_SHADOW_VECTORS", choice_.vectors);
+        define("GNOMON_READS_SLOPE", choice_.reads_slope ? 1 : 0);
+        define("GNOMON_MEAN", choice_.mean ? 1 : 0);
+        define("GNOMON_REACH", choice_.reach);
         mark_line(line + 1, number);
       }
       return;
@@ -56,6 +59,9 @@ class Composer {
     if (quoted.substr(0, 8) == "<filter>") return choice_.filter_path;
     const std::size_t end = quoted.find('"', 1);
     return end == std::string_view::npos ? std::string(quoted) : std::string(quoted.substr(1, end - 1));
+  }
+  void define(std::string_view macro, int value) {
+    out_.text.append("#define ").append(macro).append(" ").append(std::to_string(value)).push_back('\n');
   }
   void mark_line(std::size_t line, std::size_t number) {
     out_.text += "#line " + std::to_string(line) + " " + std::to_string(number) + "\n";

@@ -23,15 +23,18 @@ struct ComposedShader {
   std::vector<std::string> files;
 };
 
-/// Which filter's file a shader includes, and how many vectors its stored texels take.
+/// What a shader is compiled for: which filter's file it includes, and what is known of its settings.
 struct ShaderChoice {
   std::string filter_path = {};
-  int vectors = 1;
+  int vectors = 1;          ///< of a stored texel
+  bool reads_slope = true;  ///< FilterHooks::reads_slope
+  bool mean = true;         ///< texels are put together by their weighted mean: MapRead::filtered
+  int reach = 1;            ///< taps of the blur to either side of the middle one, for shaders made for one
 };
 
 /// Replaces `#include "path"` by that file (each once) and `#include <filter>` by the choice's, and defines
-/// GNOMON_MAX_MAPS and GNOMON_SHADOW_VECTORS after `#version`. Throws RenderError with file and line for a
-/// file that does not exist.
+/// GNOMON_MAX_MAPS and one macro for each field of the choice after `#version`. Throws RenderError with file
+/// and line for a file that does not exist.
 [[nodiscard]] ComposedShader compose_shader(std::string_view path, const ShaderChoice& choice = {});
 /// The same for text that stands in no file; `name` is used in messages.
 [[nodiscard]] ComposedShader compose_shader_text(std::string_view name, std::string_view text,

@@ -14,10 +14,23 @@ namespace {
 
 constexpr GLint kMapLocation = 0;
 constexpr GLuint kSumsImage = 0;
-constexpr GLuint kRowsPerGroup = 32;  ///< local_size_x of sum_rows.comp and sum_columns.comp
+constexpr int kRowsPerGroup = 32;  ///< local_size_x of all compute shaders
+constexpr GLint kTexelsPerWalk = 64;
+constexpr GLint kWalkLocation = 1, kBlurLocation = 2;
+/// Compilers unroll loops over 31 taps; wider kernels are rare.
+constexpr int kMostWalkReach = 15;
+
+/// True if one pass stores texels and blurs them along x; else they are stored first.
+bool fuses_store(const FilterVariant& variant) noexcept {
+  return variant.vectors == 1;
+}
+
+GLuint groups_of(int count, int each) noexcept {
+  return static_cast<GLuint>((count + each - 1) / each);
+}
 
 std::string filter_path(const Filter& filter) {
-  return "filter/" + std::string(filter.name) + ".glsl";
+  return "filter/" + std::string(filter.info.name) + ".glsl";
 }
 
 std::string_view mask_path(MapRead reads) noexcept {
@@ -102,21 +115,36 @@ void bind_images(const std::vector<Texture>& images, const Sampler& sampler) {
 }  // namespace
 
 std::vector<std::string_view> filter_shaders(const Filter& filter) {
-  std::vector<std::string_view> paths{mask_path(filter.reads)};
-  if (filter.reads == MapRead::filtered || filter.reads == MapRead::joined) {
-    paths.insert(paths.end(), {"store.frag", "blur.frag"});
+  std::vector<std::string_view> paths{mask_path(filter.info.reads)};
+  if (filter.info.reads == MapRead::filtered || filter.info.reads == MapRead::joined) {
+    paths.insert(paths.end(), {"store_rows.comp", "blur_walk.comp", "store.frag", "blur.frag"});
   }
-  if (filter.reads == MapRead::joined && filter.may_mipmap) paths.emplace_back("join_mip.frag");
-  if (filter.reads == MapRead::summed) paths.insert(paths.end(), {"sum_rows.comp", "sum_columns.comp"});
-  if (filter.needs_depth_max != nullptr) paths.emplace_back("depth_max.frag");
+  if (filter.info.reads == MapRead::joined && filter.info.may_mipmap) paths.emplace_back("join_mip.frag");
+  if (filter.info.reads == MapRead::summed) paths.insert(paths.end(), {"sum_rows.comp", "sum_columns.comp"});
+  if (filter.hooks.needs_depth_max != nullptr) paths.emplace_back("depth_max.frag");
   return paths;
+}
+
+FilterVariant variant_of(const FilterSettings& settings) noexcept {
+  const Filter& filter = *settings.filter;
+  FilterVariant variant{&filter, shadow_vectors(settings), false, 0};
+  if (filter.info.reads == MapRead::depth) return variant;
+  variant.reads_slope = filter.hooks.reads_slope != nullptr && filter.hooks.reads_slope(settings);
+  if (filter.info.reads == MapRead::summed) return variant;
+  variant.reach = FilterVariant::kAnyReach;
+  if (settings.unit == KernelUnit::world) return variant;
+  std::array<double, 4 * kTapVectors> weights{};
+  const int reach = settings.radius > 0.0 ? tap_weights(settings.blur, settings.radius + 0.5, weights) : 0;
+  if (reach <= kMostWalkReach) variant.reach = reach;
+  return variant;
 }
 
 FilterPrograms make_filter_programs(const FilterSettings& settings) {
   FilterPrograms programs;
-  programs.filter = settings.filter;
-  programs.vectors = shadow_vectors(settings);
-  const ShaderChoice choice{filter_path(*settings.filter), programs.vectors};
+  programs.variant = variant_of(settings);
+  const bool any_reach = programs.variant.reach == FilterVariant::kAnyReach;
+  ShaderChoice choice{filter_path(*settings.filter), programs.variant.vectors, programs.variant.reads_slope,
+                      settings.filter->info.reads == MapRead::filtered, std::max(programs.variant.reach, 0)};
   const std::vector<std::string_view> paths = filter_shaders(*settings.filter);
   programs.mask = make_program("fullscreen.vert", paths.front(), choice);
   const auto make = [&](Program& program, std::string_view path) {
@@ -124,8 +152,14 @@ FilterPrograms make_filter_programs(const FilterSettings& settings) {
     const bool compute = path.substr(path.size() - 5) == ".comp";
     program = compute ? make_compute_program(path, choice) : make_program("fullscreen.vert", path, choice);
   };
-  make(programs.store, "store.frag");
-  make(programs.blur, "blur.frag");
+  if (any_reach) {
+    make(programs.store, "store.frag");
+    make(programs.blur, "blur.frag");
+  } else {
+    make(programs.blur_walk, programs.variant.reach > 0 ? "blur_walk.comp" : "");
+    if (!fuses_store(programs.variant)) choice.reach = 0;
+    make(programs.store_rows, "store_rows.comp");
+  }
   make(programs.join_mip, "join_mip.frag");
   make(programs.sum_rows, "sum_rows.comp");
   make(programs.sum_columns, "sum_columns.comp");
@@ -142,16 +176,17 @@ StoredMaps::StoredMaps() {
 bool StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& settings, const StoreJob& job,
                      bool blurred) {
   const Filter& filter = *settings.filter;
-  const bool stores = filter.reads != MapRead::depth;
+  const bool stores = filter.info.reads != MapRead::depth;
   Shape wanted;
   wanted.width = job.layer_width;
   wanted.height = job.layer_height;
   wanted.layers = std::max(static_cast<int>(job.map_size.size()), 1);
   wanted.levels = job.mipmaps ? full_chain(job.layer_width, job.layer_height) : 1;
-  wanted.vectors = stores ? programs.vectors : 0;
-  wanted.format = stores ? internal_format(settings.format, filter.channels(settings)) : 0;
+  wanted.vectors = stores ? programs.variant.vectors : 0;
+  wanted.format = stores ? internal_format(settings.format, filter.info.channels(settings)) : 0;
   wanted.scratch = blurred;
-  wanted.depth_max = filter.needs_depth_max != nullptr && filter.needs_depth_max(settings);
+  wanted.walks = static_cast<bool>(programs.store_rows);
+  wanted.depth_max = filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings);
   Shape same_but_fewer = shape_;
   if (wanted.layers < shape_.layers) same_but_fewer.layers = wanted.layers;
   if (wanted == same_but_fewer) return false;
@@ -163,7 +198,7 @@ bool StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& setti
   for (int i = 0; i < wanted.vectors; ++i) {
     stored_.push_back(
         array_image(wanted.format, wanted.levels, wanted.width, wanted.height, wanted.layers, bytes_));
-    if (wanted.scratch)
+    if (wanted.scratch && (i == 0 || !wanted.walks))
       scratch_.push_back(array_image(wanted.format, 1, wanted.width, wanted.height, 1, bytes_));
   }
   if (wanted.depth_max) {
@@ -206,6 +241,58 @@ void StoredMaps::blur_map(const FilterPrograms& programs, GLint map, bool blurre
   draw(stored_fbo_.name(), viewport_);
 }
 
+void StoredMaps::walk_store(const FilterPrograms& programs, GLint map, const WalkTarget& into) {
+  for (std::size_t i = 0; i < into.images.size(); ++i) {
+    glBindImageTexture(static_cast<GLuint>(i), into.images[i].name(), 0, GL_TRUE, 0, GL_WRITE_ONLY,
+                       shape_.format);
+  }
+  glUseProgram(programs.store_rows.name());
+  glUniform1i(kMapLocation, map);
+  glUniform4i(kWalkLocation, viewport_.x, viewport_.y, into.layer, kTexelsPerWalk);
+  glDispatchCompute(groups_of(viewport_.y, kRowsPerGroup), groups_of(viewport_.x, kTexelsPerWalk), 1);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void StoredMaps::walk_blur(const FilterPrograms& programs, GLint map, const WalkBlur& blur) {
+  // Texels of 16 bytes in one column lie a power of two apart: long walks along y evict each other's lines
+  // from the cache (35 ms in place of 19 at 1024 x 1024 in llvmpipe).
+  const GLint length = !blur.along_x && bytes_of(shape_.format) >= 16 ? kTexelsPerWalk / 4 : kTexelsPerWalk;
+  const int across = blur.along_x ? viewport_.y : viewport_.x,
+            along = blur.along_x ? viewport_.x : viewport_.y;
+  glBindImageTexture(0, blur.to, 0, GL_TRUE, 0, GL_WRITE_ONLY, shape_.format);
+  glBindTextureUnit(kStoredUnit, blur.from);
+  glBindSampler(kStoredUnit, nearest_sampler_.name());
+  glUseProgram(programs.blur_walk.name());
+  glUniform1i(kMapLocation, map);
+  glUniform4i(kWalkLocation, viewport_.x, viewport_.y, blur.to_layer, length);
+  glUniform3i(kBlurLocation, blur.along_x ? 1 : 0, blur.from_layer, blur.vector);
+  glDispatchCompute(groups_of(across, kRowsPerGroup), groups_of(along, length), 1);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+void StoredMaps::walk_map(const FilterPrograms& programs, GLint map) {
+  if (programs.variant.reach == 0) {
+    walk_store(programs, map, {stored_, map});
+    ++passes_;
+    return;
+  }
+  passes_ += 2;
+  if (fuses_store(programs.variant)) {
+    walk_store(programs, map, {scratch_, 0});
+    walk_blur(programs, map, {scratch_[0].name(), 0, stored_[0].name(), map, 0, false});
+    return;
+  }
+  // Windows of many vectors do not fit into registers: each vector is blurred by itself.
+  walk_store(programs, map, {stored_, map});
+  for (std::size_t i = 0; i < stored_.size(); ++i) {
+    const GLuint kept = stored_[i].name(), scratch = scratch_[0].name();
+    const auto vector = static_cast<GLint>(i);
+    walk_blur(programs, map, {kept, map, scratch, 0, vector, true});
+    walk_blur(programs, map, {scratch, 0, kept, map, vector, false});
+  }
+  ++passes_;
+}
+
 void StoredMaps::join_mips(const FilterPrograms& programs, const StoreJob& job, const Held& held) {
   glUseProgram(programs.join_mip.name());
   bind_images(stored_, nearest_sampler_);
@@ -230,17 +317,14 @@ void StoredMaps::join_mips(const FilterPrograms& programs, const StoreJob& job, 
 }
 
 void StoredMaps::sum_map(const FilterPrograms& programs, GLint map, const StoreJob& job) {
-  const auto groups = [](int rows) {
-    return (static_cast<GLuint>(rows) + kRowsPerGroup - 1) / kRowsPerGroup;
-  };
   glBindImageTexture(kSumsImage, stored_[0].name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_RG32UI);
   glUseProgram(programs.sum_rows.name());
   glUniform1i(kMapLocation, map);
-  glDispatchCompute(groups(job.layer_height), 1, 1);
+  glDispatchCompute(groups_of(job.layer_height, kRowsPerGroup), 1, 1);
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   glUseProgram(programs.sum_columns.name());
   glUniform1i(kMapLocation, map);
-  glDispatchCompute(groups(job.layer_width), 1, 1);
+  glDispatchCompute(groups_of(job.layer_width, kRowsPerGroup), 1, 1);
   passes_ += 2;
 }
 
@@ -275,7 +359,7 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
       std::any_of(block.reach.begin(), block.reach.begin() + static_cast<std::ptrdiff_t>(maps),
                   [](const glm::ivec4& reach) { return reach.x > 0; });
   const bool alike = made_alike(settings, block);
-  const bool fresh = fit(programs, settings, job, any_blur && programs.blur);
+  const bool fresh = fit(programs, settings, job, any_blur && (programs.blur || programs.blur_walk));
   if (!alike || fresh) made_ = {};
   Held held{};
   for (std::size_t i = 0; i < maps; ++i) {
@@ -292,10 +376,14 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
     const auto map = static_cast<GLint>(i);
     // Beyond the map nothing is read but by mip-maps.
     viewport_ = job.mipmaps ? glm::ivec2(job.layer_width, job.layer_height) : job.map_size[i];
+    if (programs.store_rows) walk_map(programs, map);
     if (programs.store) blur_map(programs, map, block.reach[i].x > 0);
     if (programs.sum_rows) sum_map(programs, map, job);
   }
   if (programs.sum_rows) glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  if (programs.store_rows)
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
+                    GL_FRAMEBUFFER_BARRIER_BIT);
   if (shape_.depth_max) build_depth_max(programs, job, held);
   const bool mipmaps = job.mipmaps && shape_.levels > 1 && maps > 0;
   const bool any = std::find(held.begin(), held.begin() + static_cast<std::ptrdiff_t>(maps), false) !=
@@ -308,7 +396,7 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
     for (const Texture& image : stored_) glGenerateTextureMipmap(image.name());
     ++passes_;
   }
-  const bool smooth = settings.filter->reads == MapRead::filtered;
+  const bool smooth = settings.filter->info.reads == MapRead::filtered;
   const GLint shrinking = !smooth ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR;
   glSamplerParameteri(stored_sampler_.name(), GL_TEXTURE_MIN_FILTER,
                       mipmaps ? shrinking : (smooth ? GL_LINEAR : GL_NEAREST));

@@ -14,11 +14,22 @@
 
 namespace gnomon::render {
 
-/// The programs of one filter with one number of stored vectors; those that it has no use for are empty.
-struct FilterPrograms {
+/// What of a filter's settings its programs are compiled for.
+struct FilterVariant {
+  static constexpr int kAnyReach = -1;
   const Filter* filter = nullptr;
   int vectors = 1;
-  Program mask, store, blur, join_mip, depth_max, sum_rows, sum_columns;
+  bool reads_slope = false;
+  int reach = 0;  ///< of the blur that all maps have; kAnyReach: read from the block for each map
+  bool operator==(const FilterVariant&) const = default;
+};
+[[nodiscard]] FilterVariant variant_of(const FilterSettings& settings) noexcept;
+
+/// The programs of one variant of a filter; those that it has no use for are empty. Texels are stored and
+/// blurred by store_rows and blur_walk where all maps have one reach, else by store and blur.
+struct FilterPrograms {
+  FilterVariant variant;
+  Program mask, store_rows, blur_walk, store, blur, join_mip, depth_max, sum_rows, sum_columns;
 };
 /// Paths of the shaders that the filter takes part in, that of the mask first.
 [[nodiscard]] std::vector<std::string_view> filter_shaders(const Filter& filter);
@@ -66,6 +77,20 @@ class StoredMaps {
   /// Whether the last build() was told the same.
   [[nodiscard]] bool made_alike(const FilterSettings& settings, const FilterBlock& block) noexcept;
   void blur_map(const FilterPrograms& programs, GLint map, bool blurred);
+  void walk_map(const FilterPrograms& programs, GLint map);
+  struct WalkTarget {
+    const std::vector<Texture>& images;
+    GLint layer;
+  };
+  void walk_store(const FilterPrograms& programs, GLint map, const WalkTarget& into);
+  struct WalkBlur {
+    GLuint from;
+    GLint from_layer;
+    GLuint to;
+    GLint to_layer, vector;
+    bool along_x;
+  };
+  void walk_blur(const FilterPrograms& programs, GLint map, const WalkBlur& blur);
   void join_mips(const FilterPrograms& programs, const StoreJob& job, const Held& held);
   void sum_map(const FilterPrograms& programs, GLint map, const StoreJob& job);
   void build_depth_max(const FilterPrograms& programs, const StoreJob& job, const Held& held);
@@ -74,7 +99,7 @@ class StoredMaps {
   struct Shape {
     int width = 0, height = 0, layers = 0, levels = 0, vectors = 0;
     GLenum format = 0;
-    bool scratch = false, depth_max = false;
+    bool scratch = false, walks = false, depth_max = false;
     bool operator==(const Shape&) const = default;
   };
   Shape shape_;

@@ -8,6 +8,7 @@
 #include "glb.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
+#include "json_words.hpp"
 #include "load_memory.hpp"
 #include "refusal.hpp"
 #include "whole_file.hpp"
@@ -96,7 +97,7 @@ CameraPath camera_path_from_text(std::string_view text, const std::string& path_
   } catch (const Refusal& e) {
     throw SceneError(one_line(path_in_errors + ": " + e.what()));
   } catch (const std::exception& e) {
-    throw SceneError(one_line(path_in_errors + ": file: " + e.what()));
+    throw SceneError(one_line(path_in_errors + ": file: " + json_words(e.what())));
   }
 }
 

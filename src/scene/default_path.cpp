@@ -1,9 +1,12 @@
 // A flight worth watching for each scene: past near things, with far ones behind them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <string_view>
+#include <vector>
 
 #include "builtin/builtin.hpp"
 #include "gnomon/scene/camera_path.hpp"
@@ -93,66 +96,122 @@ glm::dvec3 towards_eye(double angle) {
   return {out * std::sin(angle), kRise, out * std::cos(angle)};
 }
 
-// How near an eye in this direction may come to the centre so that a square view of half angle atan(`slope`)
-// still holds a box of these half extents, and how much nearer than the centre its nearest corner is.
+void add_corners(const Box& box, const glm::dvec3& center, std::vector<glm::dvec3>& points) {
+  for (int corner = 0; corner < 8; ++corner)
+    points.push_back(glm::dvec3((corner & 1) != 0 ? box.max.x : box.min.x,
+                                (corner & 2) != 0 ? box.max.y : box.min.y,
+                                (corner & 4) != 0 ? box.max.z : box.min.z) -
+                     center);
+}
+
+// Points that a view of the whole must show, from `center`: the vertices where they are few, else the corners
+// of the instances' boxes.
+std::vector<glm::dvec3> content_of(const Scene& scene, const glm::dvec3& center) {
+  constexpr std::uint64_t kMostVertices = 200'000;  // some milliseconds for all directions
+  std::uint64_t vertices = 0;
+  for (const Instance& instance : scene.instances)
+    vertices += scene.primitives[instance.primitive].index_count;
+  std::vector<glm::dvec3> points;
+  for (const Instance& instance : scene.instances) {
+    if (vertices > kMostVertices) {
+      if (!instance.bounds_world.empty()) add_corners(instance.bounds_world, center, points);
+      continue;
+    }
+    const Primitive& primitive = scene.primitives[instance.primitive];
+    for (std::uint32_t k = 0; k < primitive.index_count; ++k) {
+      const glm::dvec3 at(scene.positions[scene.indices[primitive.first_index + k]]);
+      points.push_back(glm::dvec3(instance.world_from_object * glm::dvec4(at, 1.0)) - center);
+    }
+  }
+  if (points.empty() && !scene.bounds_world.empty()) add_corners(scene.bounds_world, center, points);
+  return points;
+}
+
+// Where a view in this direction, with these tangents of its half angles, must look and from how far to just
+// hold all points; and how far the nearest and the farthest of them are from there along the view.
 struct Standing {
-  double distance, nearest;
+  glm::dvec3 target{0.0};
+  double distance = 0.0, nearest = 0.0, farthest = 0.0;
 };
-Standing standing(const glm::dvec3& half, const glm::dvec3& to_eye, double slope) {
+Standing standing(const std::vector<glm::dvec3>& points, const glm::dvec3& to_eye, double slope_x,
+                  double slope_y) {
   const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), to_eye));
   const glm::dvec3 up = glm::cross(to_eye, right);
-  Standing result{0.0, 0.0};
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 at((corner & 1) != 0 ? half.x : -half.x, (corner & 2) != 0 ? half.y : -half.y,
-                        (corner & 4) != 0 ? half.z : -half.z);
-    const double aside = std::max(std::abs(glm::dot(right, at)), std::abs(glm::dot(up, at)));
-    const double nearer = glm::dot(to_eye, at);
-    result.distance = std::max(result.distance, aside / slope + nearer);
+  // Each edge of the view holds a point aside by x at a depth where x / slope + nearer <= distance. Looking
+  // aside lowers this for one edge and raises it for the other: at best both are equal.
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  double right_edge = kNone, left_edge = kNone, top_edge = kNone, bottom_edge = kNone;
+  Standing result;
+  for (const glm::dvec3& at : points) {
+    const double x = glm::dot(right, at) / slope_x, y = glm::dot(up, at) / slope_y,
+                 nearer = glm::dot(to_eye, at);
+    right_edge = std::max(right_edge, nearer + x);
+    left_edge = std::max(left_edge, nearer - x);
+    top_edge = std::max(top_edge, nearer + y);
+    bottom_edge = std::max(bottom_edge, nearer - y);
     result.nearest = std::max(result.nearest, nearer);
+    result.farthest = std::max(result.farthest, -nearer);
   }
+  result.target =
+      right * ((right_edge - left_edge) * 0.5 * slope_x) + up * ((top_edge - bottom_edge) * 0.5 * slope_y);
+  result.distance = std::max((right_edge + left_edge) * 0.5, (top_edge + bottom_edge) * 0.5);
   return result;
 }
 
-// Round about what can be seen, from a height that shows the tops of things and as near as holds all of it.
-CameraPath orbit(const Box& bounds) {
-  constexpr int kKeys = 8;
-  constexpr int kAngles = 64;     // looked at for the distance; the curve's own cut corners are within kRoom
-  constexpr double kRoom = 1.06;  // over what the view would just hold
+// Round about what can be seen, from a height that shows the tops of things and, at each place, as near as
+// holds all of it in a view of this aspect.
+CameraPath orbit(const Scene& scene, double aspect) {
+  constexpr int kKeys = 32, kPerKey = 2;  // keys, and angles looked at from each to the next
+  constexpr int kAngles = kKeys * kPerKey;
+  constexpr double kRoom = 1.06;  // over what the view would just hold: the curve cuts corners between keys
   constexpr double kLeastPart = 1e-4;  // of the coordinates: nearer is lost in their rounding
   constexpr double kNearest = 1e-3;    // near plane, of the distance: a corner may come that close
   CameraPath path;
   path.closed = true;
+  const Box& bounds = scene.bounds_world;
   const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : (bounds.min + bounds.max) * 0.5;
-  glm::dvec3 half = bounds.empty() ? glm::dvec3(0.0) : (bounds.max - bounds.min) * 0.5;
   const double farthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
-  if (!(glm::length(half) > farthest * kLeastPart))
-    half = glm::dvec3(farthest > 0.0 ? farthest * kLeastPart : 1.0);
-  double distance = 0.0, nearest = 0.0;
-  for (int i = 0; i < kAngles; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kAngles;
-    const Standing s = standing(half, towards_eye(angle), std::tan(path.fov_y_radians / 2.0));
-    distance = std::max(distance, s.distance);
-    nearest = std::max(nearest, s.nearest);
+  std::vector<glm::dvec3> points;
+  if (!bounds.empty() && glm::length(bounds.max - bounds.min) > 2.0 * farthest * kLeastPart)
+    points = content_of(scene, center);
+  const double least = farthest > 0.0 ? farthest * kLeastPart : 1.0;
+  if (points.empty()) add_corners({glm::dvec3(-least), glm::dvec3(least)}, glm::dvec3(0.0), points);
+  const double slope = std::tan(path.fov_y_radians / 2.0);
+  std::array<Standing, kAngles> around;
+  for (std::size_t i = 0; i < kAngles; ++i)
+    around[i] = standing(points, towards_eye(2.0 * std::numbers::pi * static_cast<double>(i) / kAngles),
+                         slope * aspect, slope);
+  double widest = 0.0, reach = 0.0, gap = std::numeric_limits<double>::infinity();
+  for (std::size_t key = 0; key < kKeys; ++key) {
+    // As far as any angle to the key before or after it needs.
+    Standing s = around[key * kPerKey];
+    for (std::size_t i = 0; i <= 2 * kPerKey; ++i) {
+      const Standing& one = around[(key * kPerKey + i + kAngles - kPerKey) % kAngles];
+      s.distance = std::max(s.distance, one.distance * kRoom);
+      s.nearest = std::max(s.nearest, one.nearest);
+      s.farthest = std::max(s.farthest, one.farthest);
+    }
+    const glm::dvec3 to_eye = towards_eye(2.0 * std::numbers::pi * static_cast<double>(key) / kKeys);
+    path.keys.push_back({center + s.target + to_eye * s.distance, center + s.target});
+    reach = std::max(reach, (s.distance + s.farthest) * 1.1);
+    gap = std::min(gap, s.distance - s.nearest);
+    widest = std::max(widest, s.distance);
   }
-  distance *= kRoom;
-  for (int i = 0; i < kKeys; ++i) {
-    path.keys.push_back({center + towards_eye(2.0 * std::numbers::pi * i / kKeys) * distance, center});
-  }
-  path.near_depth = std::max((distance - nearest) * 0.5, distance * kNearest);
-  path.far_depth = (distance + nearest) * 1.1;
+  path.near_depth = std::max(gap * 0.5, widest * kNearest);
+  path.far_depth = reach;
   return path;
 }
 
 }  // namespace
 
-CameraPath default_path(const Scene& scene) {
+CameraPath default_path(const Scene& scene, double aspect) {
   const std::string_view name = scene.name;
   if (name == "builtin:city") return city_flight();
   if (name == "builtin:fence") return fence_flight();
   if (name == "builtin:hangar") return hangar_flight();
   if (name == "builtin:terrain") return terrain_flight();
   if (name == "builtin:trees") return trees_flight();
-  return orbit(scene.bounds_world);
+  return orbit(scene, aspect);
 }
 
 }  // namespace gnomon

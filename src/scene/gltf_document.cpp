@@ -8,6 +8,7 @@
 
 #include "glb.hpp"
 #include "gltf_check.hpp"
+#include "json_words.hpp"
 #include "refusal.hpp"
 
 namespace gnomon::detail {
@@ -23,7 +24,7 @@ json parse_json(std::string_view text) {
   try {
     return json::parse(text);
   } catch (const json::exception& e) {
-    throw Refusal("JSON", one_line(e.what()));
+    throw Refusal("JSON", one_line(json_words(e.what())));
   }
 }
 

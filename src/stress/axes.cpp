@@ -161,11 +161,11 @@ void apply_cascades(double count, double, Input& input) {
   input.options.cascades = static_cast<int>(count);
 }
 void apply_map_size(double size, double, Input& input) {
-  input.options.map_size = static_cast<int>(size);
-  input.options.filter_radius_texels = std::min(1.0, 0.25 * size);
+  input.options.resolution.max_size = static_cast<int>(size);
+  input.options.filter.texels = std::min(1.0, 0.25 * size);
 }
 void apply_filter_radius(double radius, double, Input& input) {
-  input.options.filter_radius_texels = radius;
+  input.options.filter.texels = radius;
 }
 
 constexpr Axis kAxes[] = {
@@ -186,9 +186,9 @@ constexpr Axis kAxes[] = {
 };
 
 constexpr Variant kVariants[] = {
-    {"none", [](PlanOptions& o) { o.warp = &warps::none; }},
-    {"lispsm", [](PlanOptions& o) { o.warp = &warps::lispsm; }},
-    {"optimal", [](PlanOptions& o) { o.warp = &warps::optimal; }},
+    {"none", [](PlanOptions& o) { o.warp.warp = &warps::none; }},
+    {"lispsm", [](PlanOptions& o) { o.warp.warp = &warps::lispsm; }},
+    {"optimal", [](PlanOptions& o) { o.warp.warp = &warps::optimal; }},
     {"optimal x4", [](PlanOptions& o) { o.cascades = 4; }},
     {"stable x4",
      [](PlanOptions& o) {

@@ -31,18 +31,6 @@ struct Variant {
 };
 [[nodiscard]] std::span<const Variant> all_variants() noexcept;
 
-/// What happened at one value of an axis, the worst over its scenes.
-struct AxisRow {
-  std::string_view axis, variant;
-  double value = 0.0;
-  std::string status, used, left_out;  ///< each different one once, joined by " | "
-  int maps = 0;                        ///< most of any scene
-  Judgement worst;
-  /// Largest |change| of texels per area at a point of the world for a step of 1e-6 of the value; NaN where
-  /// there is no next value.
-  double jump = 0.0;
-};
-
 struct SweepOptions {
   int samples = 40;  ///< values per axis
   int scenes = 3;    ///< per value: a plain one and random ones

@@ -105,7 +105,12 @@ std::span<const ExtremeCase> all_cases() noexcept {
 CaseRow run_case(const ExtremeCase& extreme) {
   Check check;
   extreme.run(check);
-  CaseRow row{extreme.row, extreme.name, extreme.input, extreme.required, "holds", check.found()};
+  CaseRow row{extreme.row,
+              std::string(extreme.name),
+              std::string(extreme.input),
+              std::string(extreme.required),
+              "holds",
+              check.found()};
   if (!check.passed())
     row.verdict = "fails";
   else if (check.skipped())

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "stress_rows.hpp"
+
 namespace gnomon::stress {
 
 /// Collects what a case found. A case fails where anything does not hold, and says all that does not.
@@ -42,12 +44,6 @@ struct ExtremeCase {
 /// All of them, by row.
 [[nodiscard]] std::span<const ExtremeCase> all_cases() noexcept;
 
-struct CaseRow {
-  int row = 0;
-  std::string_view name, input, required;
-  std::string_view verdict;  ///< "holds", "fails", "skipped"
-  std::string found;
-};
 [[nodiscard]] CaseRow run_case(const ExtremeCase& extreme);
 
 }  // namespace gnomon::stress

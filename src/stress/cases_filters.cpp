@@ -19,7 +19,7 @@ void case_hostile_texels(Check& check) {
   std::mt19937 random(11);
   long answers = 0;
   for (const render::Filter* filter : render::all_filters()) {
-    if (filter->reads == render::MapRead::depth) continue;
+    if (filter->info.reads == render::MapRead::depth) continue;
     render::FilterSettings settings = render::default_settings(*filter);
     for (int i = 0; i < 2000; ++i) {
       StoredTexel texel{};
@@ -27,8 +27,8 @@ void case_hostile_texels(Check& check) {
       render::FilterLookup at;
       at.map_depth = [](int, int) { return 1.0; };
       at.depth = static_cast<double>(random() % 5) / 4.0;
-      const double answer = filter->visibility(texel, at, settings);
-      check.that(answer >= 0.0 && answer <= 1.0, std::string(filter->name) + " answers within [0, 1]");
+      const double answer = filter->reference.visibility(texel, at, settings);
+      check.that(answer >= 0.0 && answer <= 1.0, std::string(filter->info.name) + " answers within [0, 1]");
       ++answers;
       if (!check.passed()) return;
     }

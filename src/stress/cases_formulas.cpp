@@ -24,7 +24,7 @@ constexpr double kSampled = 1.0 + 1e-3;
 
 /// By the exact error at many points; the plan's own number is a bound from simplified weights.
 double measured_storage(Input input, const Warp& warp) {
-  input.options.warp = &warp;
+  input.options.warp.warp = &warp;
   return measure(input.plan(), input.camera, input.bounds(), {24, 24, 24}).storage;
 }
 
@@ -55,12 +55,12 @@ Input full_frustum(double near_depth, double far_depth, double fov_radians, doub
   const glm::dvec3 half(8.0 * far_depth);
   input.receivers = input.casters = {{-half, half}};
   input.options.cascades = 1;
-  input.options.filter_radius_texels = 0.0;
+  input.options.filter.texels = 0.0;
   return input;
 }
 
 ShadowMap one_map(Input input, const Warp& warp, Check& check) {
-  input.options.warp = &warp;
+  input.options.warp.warp = &warp;
   const ShadowPlan plan = input.plan();
   check.that(plan.status == PlanStatus::ok && plan.map_count == 1, "one map is planned");
   check.that(all_finite(plan), "every number is finite");
@@ -201,7 +201,7 @@ void case_pseudo_near(Check& check) {
   double ratio = 0.0;
   for (const double hint : {1.0, 10.0, 66.9, 67.1, 90.0, 99.9999}) {
     Input input = full_frustum(n, f, kFov, 0.5 * kPi);
-    input.options.near_hint = hint;
+    input.options.split.pseudo_near = hint;
     const ShadowMap none = one_map(input, warps::none, check);
     for (const Warp* warp : all_warps()) {
       if (!warp->drop_without_gain) continue;
@@ -213,7 +213,7 @@ void case_pseudo_near(Check& check) {
   }
   for (const double hint : {100.0, 150.0, 1e9}) {
     Input input = full_frustum(n, f, kFov, 0.5 * kPi);
-    input.options.near_hint = hint;
+    input.options.split.pseudo_near = hint;
     check.that(one_map(input, warps::lispsm_closed, check).kappa == 0.0, "no warp where no depths are left");
   }
   check.note("a warp is still worth it beyond two thirds: texels saved, times", ratio);

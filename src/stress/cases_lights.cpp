@@ -107,7 +107,7 @@ void case_point_in_view(Check& check) {
   const Input input = hall(PointLight{{0, 4, -15}, 60.0});
   for (const Warp* warp : all_warps()) {
     Input asked = input;
-    asked.options.warp = warp;
+    asked.options.warp.warp = warp;
     const ShadowPlan plan = asked.plan();
     check.that(plan.status == PlanStatus::ok && all_finite(plan), "planned, finite");
     check.that(plan.map_count >= 1 && plan.map_count < 6, "faces without receivers are skipped");
@@ -125,7 +125,7 @@ void case_point_behind(Check& check) {
   const glm::dvec3 position{1, 6, 12};
   for (const Warp* warp : all_warps()) {
     Input input = hall(PointLight{position, 100.0});
-    input.options.warp = warp;
+    input.options.warp.warp = warp;
     const ShadowPlan plan = input.plan();
     check.that(plan.status == PlanStatus::ok && all_finite(plan), "planned, finite");
     const Held held = held_points(input, plan);
@@ -145,7 +145,7 @@ void case_eye_behind_spot(Check& check) {
     const ShadowMap map = one_map(input, *warp, check);
     check.that(map.kappa >= 0.0, "the strength is not negative");
     Input asked = input;
-    asked.options.warp = warp;
+    asked.options.warp.warp = warp;
     const ShadowPlan plan = asked.plan();
     for (const glm::dvec3& p : points_of(asked, plan, 0, 8, 3)) {
       const PointAliasing at = measure_perspective(map, asked.camera, p);

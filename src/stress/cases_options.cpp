@@ -77,12 +77,12 @@ void case_off_axis(Check& check) {
 void case_tiny_maps(Check& check) {
   for (const int size : {-1, 0, 1, 2, kLeastMapSize - 1, kMostMapSize + 1}) {
     Input input = plain_input(0);
-    input.options.map_size = size;
-    expect_refused(input, "options.map_size", check);
+    input.options.resolution.max_size = size;
+    expect_refused(input, "options.resolution.max_size", check);
   }
   for (const int size : {kLeastMapSize, 5, kMostMapSize}) {
     Input input = plain_input(0);
-    input.options.map_size = size;
+    input.options.resolution.max_size = size;
     const ShadowPlan plan = input.plan();
     check.that(plan.status == PlanStatus::ok && all_finite(plan), "accepted from 4 to 16384, finite");
   }
@@ -96,24 +96,24 @@ void case_splits(Check& check) {
   }
   input.options.cascades = 4;
   for (const double lambda : {-0.1, 1.1, kNan, kInfinity}) {
-    input.options.lambda = lambda;
-    expect_refused(input, "options.lambda", check);
+    input.options.split.lambda = lambda;
+    expect_refused(input, "options.split.lambda", check);
   }
   std::array<double, 5> edges{};
   for (const double lambda : {-1.0, 0.0, 0.5, 1.0, 2.0, kNan}) {
-    split_depths(0.1, 1000.0, {SplitScheme::practical, lambda, 0.0, {}}, edges);
+    split_depths(0.1, 1000.0, {.scheme = SplitScheme::practical, .lambda = lambda}, edges);
     check.that(ascending(edges) && edges[0] == 0.1 && edges[4] == 1000.0, "clamped lambdas split in order");
   }
   for (const double hint : {-5.0, 0.0, 0.05, 999.0, 1000.0, 1e9, kInfinity, kNan}) {
-    split_depths(0.1, 1000.0, {SplitScheme::pseudo_near, 0.5, hint, {}}, edges);
+    split_depths(0.1, 1000.0, {.scheme = SplitScheme::pseudo_near, .pseudo_near = hint}, edges);
     check.that(ascending(edges) && edges[0] == 0.1 && edges[4] == 1000.0,
                "clamped pseudo-nears split in order");
   }
   for (const double hint : {0.05, 1000.0, 1e9}) {
     Input with_hint = plain_input(0);
     with_hint.options = {};
-    with_hint.options.split = SplitScheme::pseudo_near;
-    with_hint.options.near_hint = hint;
+    with_hint.options.split.scheme = SplitScheme::pseudo_near;
+    with_hint.options.split.pseudo_near = hint;
     const ShadowPlan plan = with_hint.plan();
     check.that(plan.status == PlanStatus::ok && all_finite(plan),
                "a pseudo-near outside the depths still plans");
@@ -131,14 +131,14 @@ void case_histograms(Check& check) {
   VisibleDepths sky;
   for (const double depth : {0.0, -1.0, kInfinity, kNan}) sky.add(depth);
   check.that(sky.empty(), "sky and what is no number do not count");
-  plain.options.visible_depths = &sky;
+  plain.visible = &sky;
   const ShadowPlan with_sky = plain.plan();
   check.that(with_sky.map_count == without.map_count &&
                  with_sky.map[0].clip_from_world == without.map[0].clip_from_world,
              "all sky counts as unknown");
   VisibleDepths one;
   one.add(20.0);
-  plain.options.visible_depths = &one;
+  plain.visible = &one;
   const ShadowPlan with_one = plain.plan();
   check.that(with_one.status == PlanStatus::ok && all_finite(with_one), "one pixel plans, finite");
   const CameraAxes axes = camera_axes(plain.camera);
@@ -147,7 +147,7 @@ void case_histograms(Check& check) {
   check.that(with_one.map_count == 1, "by one map");
   VisibleDepths wrong = one;
   wrong.min = kNan;
-  plain.options.visible_depths = &wrong;
+  plain.visible = &wrong;
   check.that(plain.plan().status == PlanStatus::invalid_input, "an edge that is no number is refused");
   wrong.min = 30.0;
   wrong.max = 10.0;
@@ -165,7 +165,7 @@ void case_zoom(Check& check) {
       input.camera =
           perspective_camera({0, 2, 0}, {0.3, -0.1, -1}, {0, 1, 0}, fov, 1.5, 0.1, 50.0, 1500, 1000);
       input.options.fit = Fit::stable;
-      input.options.stable_size_steps = steps;
+      input.options.resolution.stable_size_steps = steps;
       const ShadowPlan plan = input.plan();
       check.that(plan.status == PlanStatus::ok && plan.map[0].snap_key.valid, "a grid");
       const double texel = plan.map[0].snap_key.texel;

@@ -77,7 +77,7 @@ void case_behind_eye(Check& check) {
   const Box tower{{-4, 0, 38}, {4, 50, 42}};
   input.casters = {input.receivers[0], tower};
   for (const Warp* warp : all_warps()) {
-    input.options.warp = warp;
+    input.options.warp.warp = warp;
     const ShadowPlan plan = input.plan();
     check.that(plan.status == PlanStatus::ok && all_finite(plan), "planned, finite");
     if (plan.map_count == 0) continue;
@@ -109,7 +109,7 @@ void case_degenerate_body(Check& check) {
       input.light = DirectionalLight{travel};
       for (const Warp* warp : all_warps()) {
         const ShadowMap map = one_map(input, *warp, check);
-        input.options.warp = warp;
+        input.options.warp.warp = warp;
         const Judgement judged = judge(input, input.plan());
         check.that(judged.float_relative_texels < 0.5 * map.width, "floats land in the map");
         check.that(half != glm::dvec3(0.0) || map.kappa == 0.0, "no warp for a point");

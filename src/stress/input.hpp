@@ -15,8 +15,11 @@ struct Input {
   Light light;
   std::vector<Box> casters, receivers;
   PlanOptions options;
+  const VisibleDepths* visible = nullptr;
   [[nodiscard]] SceneBounds bounds() const noexcept { return {casters, receivers}; }
-  [[nodiscard]] ShadowPlan plan() const noexcept { return make_plan(camera, light, bounds(), options); }
+  [[nodiscard]] ShadowPlan plan() const noexcept {
+    return make_plan(camera, light, bounds(), options, visible);
+  }
 };
 
 /// A flat world of 1 km round a camera 2 m above its ground, some towers, a sun at 20 to 80 degrees: nothing

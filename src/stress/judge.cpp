@@ -202,6 +202,10 @@ const char* kind_name(OmissionKind kind) {
       return "face without caster";
     case OmissionKind::resolution_without_gain:
       return "texels finer than asked for";
+    case OmissionKind::depth_near_light:
+      return "depths near the light";
+    case OmissionKind::option_ignored:
+      return "option without use";
   }
   return "?";
 }

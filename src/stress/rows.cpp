@@ -12,51 +12,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const CaseRow& row) {
-  return {{"kind", "case"},
-          {"row", row.row},
-          {"name", std::string(row.name)},
-          {"input", std::string(row.input)},
-          {"required", std::string(row.required)},
-          {"verdict", std::string(row.verdict)},
-          {"found", row.found}};
-}
-
-Json to_json(const AxisRow& row) {
-  const Axis* axis = find_axis(row.axis);
-  const Judgement& j = row.worst;
-  return {{"kind", "axis"},
-          {"axis", std::string(row.axis)},
-          {"label", axis != nullptr ? std::string(axis->label) : std::string()},
-          {"log", axis != nullptr && axis->logarithmic},
-          {"variant", std::string(row.variant)},
-          {"value", row.value},
-          {"status", row.status},
-          {"finite", j.finite},
-          {"maps", row.maps},
-          {"used", row.used},
-          {"left_out", row.left_out},
-          {"error_texels", j.error_texels},
-          {"error_ulp", j.error_ulp},
-          {"drift_texels", j.drift_texels},
-          {"float_absolute_texels", j.float_absolute_texels},
-          {"float_relative_texels", j.float_relative_texels},
-          {"condition", j.condition},
-          {"condition_world", j.condition_world},
-          {"jump", row.jump}};
-}
-
-Json to_json(const FilterRow& row) {
-  return {{"kind", "filter"},     {"axis", row.axis},    {"label", row.label}, {"log", row.logarithmic},
-          {"filter", row.filter}, {"value", row.value},  {"error", row.error}, {"bound", row.bound},
-          {"beyond", row.beyond}, {"within", row.within}};
+template <class Row>
+Json to_json(const char* kind, const Row& row) {
+  Json json{{"kind", kind}};
+  for_each_field(row, [&](const char* name, const auto& value, double = 0.0) { json[name] = value; });
+  return json;
 }
 
 template <typename Take>
 void for_each_row(const Results& results, Take&& take) {
-  for (const CaseRow& row : results.cases) take(to_json(row));
-  for (const AxisRow& row : results.axes) take(to_json(row));
-  for (const FilterRow& row : results.filters) take(to_json(row));
+  for (const CaseRow& row : results.cases) take(to_json("case", row));
+  for (const AxisRow& row : results.axes) take(to_json("axis", row));
+  for (const FilterRow& row : results.filters) take(to_json("filter", row));
 }
 
 std::string field(const Json& value) {

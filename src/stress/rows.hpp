@@ -10,17 +10,6 @@
 
 namespace gnomon::stress {
 
-/// A filter at one value of something that strains it.
-struct FilterRow {
-  std::string axis, label, filter;
-  bool logarithmic = true;
-  double value = 0.0;
-  double error = 0.0;   ///< largest distance of the shader's answer from the reference in double
-  double bound = 0.0;   ///< largest change of the answer by what formats and hardware round, derived
-  double beyond = 0.0;  ///< share of the answers whose error is above their own bound
-  bool within = true;   ///< every answer is a number in [0, 1]
-};
-
 struct Results {
   std::vector<CaseRow> cases;
   std::vector<AxisRow> axes;

@@ -70,9 +70,10 @@ void take_worst(Judgement& all, const Judgement& one) {
 AxisRow row_at(const Axis& axis, const Variant& variant, double value, const SweepOptions& options) {
   AxisRow row;
   row.axis = axis.name;
+  row.label = axis.label;
+  row.logarithmic = axis.logarithmic;
   row.variant = variant.name;
   row.value = value;
-  row.jump = kNone;
   // Counts have no next value that is closer.
   const bool whole = axis.name == "cascades" || axis.name == "map_size";
   for (int scene = 0; scene < options.scenes; ++scene) {

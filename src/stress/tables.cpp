@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "rows.hpp"
-#include "stiff_axis.hpp"
 
 namespace gnomon::stress {
 namespace {
@@ -28,7 +27,7 @@ template <typename Get>
 std::string worst_text(const std::vector<AxisRow>& rows, Get get) {
   const AxisRow* row = worst_row(rows, get);
   if (row == nullptr) return "-";
-  return number(get(*row)) + " (" + std::string(row->variant) + " at " + number(row->value) + ")";
+  return number(get(*row)) + " (" + row->variant + " at " + number(row->value) + ")";
 }
 
 template <typename Get>
@@ -75,8 +74,8 @@ std::string tables(const Results& results) {
   if (!results.cases.empty()) {
     out += "| row | case | verdict | required | found |\n|--|--|--|--|--|\n";
     for (const CaseRow& row : results.cases)
-      out += "| " + std::to_string(row.row) + " | " + std::string(row.input) + " | " +
-             std::string(row.verdict) + " | " + std::string(row.required) + " | " + row.found + " |\n";
+      out += "| " + std::to_string(row.row) + " | " + row.input + " | " + row.verdict + " | " + row.required +
+             " | " + row.found + " |\n";
     out += "\n";
   }
   if (!results.axes.empty()) {

@@ -1,9 +1,10 @@
 // Which contexts may --context name in this program, which opens no window?
 #pragma once
 
-#include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "command.hpp"
 #include "gnomon/render/context.hpp"
 
 namespace gnomon::tool {
@@ -12,7 +13,7 @@ namespace gnomon::tool {
 [[nodiscard]] inline render::ContextKind offscreen_context(const std::string& name) {
   render::ContextKind kind{};
   if (!render::context_kind_from_name(name, kind) || kind == render::ContextKind::glfw)
-    throw std::runtime_error("--context " + name + ": wants auto, osmesa or egl");
+    refuse_name("--context", name, std::vector<std::string>{"auto", "osmesa", "egl"});
   return kind;
 }
 

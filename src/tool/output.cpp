@@ -2,6 +2,8 @@
 // success.
 #include "output.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -27,6 +29,18 @@ void print_line(std::string_view text) {
 
 void flush_output() {
   if (std::fflush(stdout) != 0) fail();
+}
+
+void check_folder(const std::string& option, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::path there = std::filesystem::absolute(folder, error).lexically_normal();
+  while (!std::filesystem::exists(there, error) && there.has_relative_path() && there != there.parent_path())
+    there = there.parent_path();
+  if (!std::filesystem::is_directory(there, error))
+    throw std::runtime_error(option + " " + folder.string() + ": cannot be made a folder: " + there.string() +
+                             " is no folder");
+  if (::access(there.c_str(), W_OK | X_OK) != 0)
+    throw std::runtime_error(option + " " + folder.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 void make_folder(const std::string& option, const std::filesystem::path& folder) {

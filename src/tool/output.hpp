@@ -13,6 +13,9 @@ void print_line(std::string_view text);
 /// Hands everything written so far to the system; throws like print_line().
 void flush_output();
 
+/// Throws std::runtime_error where the folder that `option` names is not there and cannot be made, or takes
+/// no files. Makes nothing.
+void check_folder(const std::string& option, const std::filesystem::path& folder);
 /// Makes the folder that `option` names, and those above it. Throws std::runtime_error.
 void make_folder(const std::string& option, const std::filesystem::path& folder);
 /// The file as a whole, or as it was before. Throws std::runtime_error.

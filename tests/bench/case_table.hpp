@@ -33,10 +33,10 @@ inline std::vector<NamedCase> load_cases() {
 inline AliasingStats unwarped_error(const Case& c, int cascades) {
   PlanOptions o;
   o.cascades = cascades;
-  o.warp = &warps::none;
-  o.split = SplitScheme::practical;
-  o.lambda = 0.9;
-  o.split_range = SplitRange::camera;
+  o.warp.warp = &warps::none;
+  o.split.scheme = SplitScheme::practical;
+  o.split.lambda = 0.9;
+  o.split.range = SplitRange::camera;
   return measure(make_plan(c.camera, c.light, c.bounds(), o), c.camera, c.bounds());
 }
 

@@ -154,7 +154,7 @@ void fly(const gnomon::Scene& scene, int frames, int cascades, std::vector<Tally
       options.prune = gnomon::kPruneNothing.with(gnomon::PruneRule::light_depths);  // maps of one size
       options.cascades = cascades;
       options.fit = kTechniques[t].fit;
-      options.warp = kTechniques[t].warp;
+      options.warp.warp = kTechniques[t].warp;
       f.before = f.now;
       f.now = kTechniques[t].history ? make_plan(camera, light, bounds, options, f.history)
                                      : make_plan(camera, light, bounds, options);

@@ -55,9 +55,9 @@ gnomon::PlanOptions options_of(const Row& row) {
   gnomon::PlanOptions o;
   o.prune = gnomon::kPruneNothing.with(gnomon::PruneRule::light_depths);  // maps of one size
   o.cascades = row.cascades;
-  o.warp = row.warp;
-  o.objective = row.objective;
-  o.split = row.split;
+  o.warp.warp = row.warp;
+  o.warp.objective = row.objective;
+  o.split.scheme = row.split;
   return o;
 }
 
@@ -154,7 +154,8 @@ std::vector<std::string> log_perspective_line(const std::vector<NamedCase>& case
     const auto* light = std::get_if<gnomon::DirectionalLight>(&c.light);
     if (light == nullptr) continue;
     const gnomon::AliasingStats base = gnomon::unwarped_error(c, 1);
-    const auto map = log_perspective_map(c.camera, *light, c.bounds(), gnomon::PlanOptions{}.map_size);
+    const auto map =
+        log_perspective_map(c.camera, *light, c.bounds(), gnomon::PlanOptions{}.resolution.max_size);
     const gnomon::AliasingStats error = measure(map, c.camera, c.bounds());
     p95.push_back(error.p95 / base.p95);
     max.push_back(error.max / base.max);

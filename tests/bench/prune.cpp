@@ -79,9 +79,9 @@ double sum(const std::vector<double>& values) {
 
 void draw(Side& side, const Camera& camera, const std::vector<Box>& boxes, const Layout& technique) {
   PlanOptions options;
-  options.map_size = technique.map_size;
+  options.resolution.max_size = technique.map_size;
   options.fit = technique.fit;
-  options.warp = technique.warp;
+  options.warp.warp = technique.warp;
   options.prune = side.rules;
   set_margin(side.filter.settings, options);
   const DirectionalLight sun{{0.5, -0.8, 0.4}};

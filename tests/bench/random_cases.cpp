@@ -42,9 +42,10 @@ void fail(Totals& totals, std::uint64_t seed, const SeededInput& in, const std::
   const PlanOptions& o = in.options;
   std::printf("seed %llu: %s (warp %s, objective %s, split %s, fit %s, partition %s, %d cascades)\n",
               static_cast<unsigned long long>(seed), what.c_str(),
-              o.warp != nullptr ? std::string(o.warp->name).c_str() : "auto",
-              std::string(to_string(o.objective)).c_str(), std::string(to_string(o.split)).c_str(),
-              std::string(to_string(o.fit)).c_str(), std::string(to_string(o.partition)).c_str(), o.cascades);
+              o.warp.warp != nullptr ? std::string(o.warp.warp->name).c_str() : "auto",
+              std::string(to_string(o.warp.objective)).c_str(),
+              std::string(to_string(o.split.scheme)).c_str(), std::string(to_string(o.fit)).c_str(),
+              std::string(to_string(o.split.partition)).c_str(), o.cascades);
 }
 
 bool finite_and_regular(const glm::dmat4& m) {
@@ -103,7 +104,7 @@ void check_points(const SeededInput& in, const ShadowPlan& plan, std::uint64_t s
     std::size_t count = 0;
     if (index >= 0) count = cull_casters(plan.map[static_cast<std::size_t>(index)], in.casters, list);
     // What depths the caller called unseen gets no shadow.
-    if (index < 0 && in.options.visible_depths != nullptr) continue;
+    if (index < 0 && in.visible != nullptr) continue;
     for (std::size_t k = 0; k < in.casters.size(); ++k) {
       // A caster that is only touched may be lost to rounding.
       if (!(crossed(in.casters[k], p, -plan.light_direction, 1e-6 * camera.far_depth) > 0.0)) continue;
@@ -127,10 +128,10 @@ void check_case(std::uint64_t seed, SeededInput& in, Totals& totals) {
   PlanOptions& o = in.options;
   // Warps that reproduce a paper as it stands promise nothing; nor do trials that trade maps for texels, or a
   // near plane that is not to count.
-  if (o.warp != nullptr && !o.warp->drop_without_gain) o.warp = nullptr;
-  o.target_m = 0.0;
-  o.texel_budget = 0;
-  o.near_hint = 0.0;
+  if (o.warp.warp != nullptr && !o.warp.warp->drop_without_gain) o.warp.warp = nullptr;
+  o.resolution.max_error = 0.0;
+  o.resolution.texel_budget = 0;
+  o.split.pseudo_near = 0.0;
   ++totals.cases;
   const ShadowPlan plan = in.plan();
   if (plan.status == PlanStatus::invalid_input)
@@ -151,19 +152,18 @@ void check_case(std::uint64_t seed, SeededInput& in, Totals& totals) {
   if (with.samples < kEnough) return;
   PlanOptions& uniform = in.options;
   const PlanOptions chosen = uniform;
-  uniform.warp = &warps::none;
-  uniform.partition = Partition::view_depth;
+  uniform.warp.warp = &warps::none;
+  uniform.split.partition = Partition::view_depth;
   // A stable fit keeps its cascades; else one map stands against the parts.
-  const bool parts = chosen.partition != Partition::view_depth && chosen.fit != Fit::stable;
+  const bool parts = chosen.split.partition != Partition::view_depth && chosen.fit != Fit::stable;
   if (parts) uniform.cascades = 1;
-  if (parts) uniform.given_splits = {};
   const AliasingStats without = measure(in.plan(), in.camera, in.bounds(), kGrid);
   uniform = chosen;
   // A cascade that only a warp's wider rim gives a caster is measured on one side alone.
   if (with.samples != without.samples) return;
   ++totals.compared;
-  const double ratio = measured(with, chosen.objective) / measured(without, chosen.objective);
-  const auto k = static_cast<std::size_t>(chosen.objective);
+  const double ratio = measured(with, chosen.warp.objective) / measured(without, chosen.warp.objective);
+  const auto k = static_cast<std::size_t>(chosen.warp.objective);
   if (!(ratio <= totals.worst[k])) {
     totals.worst[k] = ratio;
     totals.worst_seed[k] = seed;

@@ -2,11 +2,18 @@
 #include "gnomon/casefile/casefile.hpp"
 
 #include <gtest/gtest.h>
+
 #include <rapidcheck/gtest.h>
+#include <cmath>
 
 #include <fstream>
 #include <numbers>
 #include <sstream>
+#include <type_traits>
+#include <variant>
+
+#include "gnomon/casefile/plan_fields.hpp"
+#include "json_words.hpp"
 
 namespace gnomon {
 namespace {
@@ -49,7 +56,7 @@ TEST(CaseFile, reads_camera_and_boxes) {
   EXPECT_EQ(input.receivers.size(), 1u);
   ASSERT_EQ(input.casters.size(), 2u);
   EXPECT_EQ(input.casters[1].max, glm::dvec3(3, 3, 3));
-  EXPECT_EQ(input.bounds().casters.data(), input.casters.data());
+  EXPECT_EQ(input.bounds().casters.list().data(), input.casters.data());
 }
 
 TEST(CaseFile, reads_all_three_kinds_of_light) {
@@ -66,11 +73,11 @@ TEST(CaseFile, reads_all_three_kinds_of_light) {
 TEST(CaseFile, leaves_what_is_absent_at_its_default) {
   const PlanOptions defaults;
   const PlanOptions options = read_case(text_with(kSun, R"({"map_size": 512})")).options;
-  EXPECT_EQ(options.map_size, 512);
+  EXPECT_EQ(options.resolution.max_size, 512);
   EXPECT_EQ(options.cascades, defaults.cascades);
-  EXPECT_EQ(options.split, defaults.split);
-  EXPECT_EQ(options.lambda, defaults.lambda);
-  EXPECT_EQ(options.warp, defaults.warp);
+  EXPECT_EQ(options.split.scheme, defaults.split.scheme);
+  EXPECT_EQ(options.split.lambda, defaults.split.lambda);
+  EXPECT_EQ(options.warp.warp, defaults.warp.warp);
   EXPECT_EQ(options.fit, defaults.fit);
   EXPECT_EQ(options.clip_space, defaults.clip_space);
 }
@@ -78,7 +85,7 @@ TEST(CaseFile, leaves_what_is_absent_at_its_default) {
 TEST(CaseFile, finds_every_registered_warp_by_name) {
   for (const Warp* warp : all_warps()) {
     const std::string options = R"({"warp": ")" + std::string(warp->name) + R"("})";
-    EXPECT_EQ(read_case(text_with(kSun, options)).options.warp, warp);
+    EXPECT_EQ(read_case(text_with(kSun, options)).options.warp.warp, warp);
   }
 }
 
@@ -86,33 +93,27 @@ TEST(CaseFile, reads_partitions_and_takes_the_separating_plane_as_a_warp_too) {
   for (const Partition partition :
        {Partition::view_depth, Partition::frustum_faces, Partition::separating_plane}) {
     const std::string options = R"({"partition": ")" + std::string(to_string(partition)) + R"("})";
-    EXPECT_EQ(read_case(text_with(kSun, options)).options.partition, partition);
+    EXPECT_EQ(read_case(text_with(kSun, options)).options.split.partition, partition);
   }
   const PlanOptions as_warp = read_case(text_with(kSun, R"({"warp": "separating_plane"})")).options;
-  EXPECT_EQ(as_warp.partition, Partition::separating_plane);
-  EXPECT_EQ(as_warp.warp, nullptr);
+  EXPECT_EQ(as_warp.split.partition, Partition::separating_plane);
+  EXPECT_EQ(as_warp.warp.warp, nullptr);
   EXPECT_THROW(
       (void)read_case(text_with(kSun, R"({"warp": "separating_plane", "partition": "frustum_faces"})")),
       CaseError);
   EXPECT_THROW((void)read_case(text_with(kSun, R"({"partition": "faces"})")), CaseError);
 }
 
-TEST(CaseFile, given_splits_go_with_every_copy) {
-  const std::string options = R"({"cascades": 3, "given_splits": [4, 9.5]})";
-  Case copy;
-  {
-    const Case input = read_case(text_with(kSun, options));
-    EXPECT_EQ(input.options.split, SplitScheme::given);
-    copy = input;
-    EXPECT_NE(copy.options.given_splits.data(), input.options.given_splits.data());
-  }
-  Case moved = std::move(copy);
-  ASSERT_EQ(moved.options.given_splits.size(), 2u);
-  EXPECT_EQ(moved.options.given_splits[0], 4.0);
-  EXPECT_EQ(moved.options.given_splits[1], 9.5);
+TEST(CaseFile, reads_given_splits) {
+  const Case input = read_case(text_with(kSun, R"({"cascades": 3, "given_splits": [4, 9.5]})"));
+  EXPECT_EQ(input.options.split.scheme, SplitScheme::given);
+  EXPECT_EQ(input.options.split.given[0], 4.0);
+  EXPECT_EQ(input.options.split.given[1], 9.5);
+  EXPECT_TRUE(std::isinf(input.options.split.given[2]));
   EXPECT_THROW((void)read_case(text_with(kSun, R"({"split": "uniform", "given_splits": [4]})")), CaseError);
   EXPECT_THROW((void)read_case(text_with(kSun, R"({"given_splits": 4})")), CaseError);
   EXPECT_THROW((void)read_case(text_with(kSun, R"({"given_splits": ["4"]})")), CaseError);
+  EXPECT_THROW((void)read_case(text_with(kSun, R"({"given_splits": [1,2,3,4,5,6,7,8]})")), CaseError);
 }
 
 TEST(CaseFile, reads_a_target_a_budget_and_the_whole_clip_space) {
@@ -121,12 +122,12 @@ TEST(CaseFile, reads_a_target_a_budget_and_the_whole_clip_space) {
       "prune": "swept_casters,held_maps", "prune_m": 0.5,
       "clip_space": {"handedness": "left", "first_row": "y_plus_one"}})"))
           .options;
-  EXPECT_EQ(options.target_m, 1.5);
-  EXPECT_EQ(options.split_overlap, 0.1);
+  EXPECT_EQ(options.resolution.max_error, 1.5);
+  EXPECT_EQ(options.split.overlap, 0.1);
   EXPECT_EQ(options.prune, kPruneNothing.with(PruneRule::swept_casters).with(PruneRule::held_maps));
-  EXPECT_EQ(options.prune_m, 0.5);
+  EXPECT_EQ(options.resolution.prune_error, 0.5);
   EXPECT_THROW((void)read_case(text_with(kSun, R"({"prune": "everything"})")), CaseError);
-  EXPECT_EQ(options.texel_budget, std::int64_t{1} << 32);
+  EXPECT_EQ(options.resolution.texel_budget, std::int64_t{1} << 32);
   EXPECT_EQ(options.clip_space.handedness, Handedness::left);
   EXPECT_EQ(options.clip_space.first_row, FirstRow::y_plus_one);
   EXPECT_THROW((void)read_case(text_with(kSun, R"({"texel_budget": 0.5})")), CaseError);
@@ -183,6 +184,84 @@ TEST(CaseFile, every_beginning_of_a_case_is_refused) {
   ASSERT_TRUE(reads(text));
   for (std::size_t length = 0; length < text.size(); ++length)
     EXPECT_FALSE(reads(text.substr(0, length))) << length;
+}
+
+/// A value other than the default for each field that one word can say.
+std::string other_value(const PlanField& field) {
+  const PlanOptions defaults;
+  if (const auto* choice = std::get_if<PlanChoice>(&field.place)) {
+    for (const std::string& name : choice->names())
+      if (name != choice->get(defaults)) return "\"" + name + "\"";
+  }
+  return std::holds_alternative<PlanMember<bool>>(field.place) ? "true" : "7";
+}
+
+TEST(PlanFields, of_each_name_a_case_reads_into_the_same_place) {
+  std::size_t checked = 0;
+  for (const PlanField& field : plan_fields()) {
+    const std::string value = other_value(field), key(field.key);
+    std::visit(
+        [&](const auto& place) {
+          using Place = std::remove_cvref_t<decltype(place)>;
+          constexpr bool is_word =
+              std::is_same_v<Place, PlanChoice> || std::is_same_v<Place, PlanMember<int>> ||
+              std::is_same_v<Place, PlanMember<double>> || std::is_same_v<Place, PlanMember<std::int64_t>>;
+          if constexpr (is_word) {
+            Case read = read_case(text_with(kSun, "{\"" + key + "\": " + value + "}"));
+            if constexpr (std::is_same_v<Place, PlanChoice>) {
+              EXPECT_EQ("\"" + place.get(read.options) + "\"", value) << key;
+            } else {
+              EXPECT_EQ(static_cast<double>(place(read.options)), 7.0) << key;
+            }
+            ++checked;
+          }
+        },
+        field.place);
+  }
+  EXPECT_GE(checked, 17u);
+}
+
+TEST(PlanFields, have_a_text_for_what_a_plan_refuses) {
+  std::size_t texts = 0;
+  for (const PlanField& field : plan_fields()) {
+    EXPECT_EQ(field.invalid_field.empty(), field.must.empty()) << field.key;
+    if (field.invalid_field.empty()) continue;
+    ++texts;
+    EXPECT_EQ(invalid_input_text(field.invalid_field),
+              "options." + std::string(field.key) + ": " + std::string(field.must));
+  }
+  EXPECT_GE(texts, 14u);
+  EXPECT_EQ(invalid_input_text("options.map_size"), "options.map_size: must lie in 4..16384");
+}
+
+TEST(PlanFields, are_suggested_where_a_key_or_a_name_nearly_matches) {
+  const auto refusal = [](const std::string& options) {
+    try {
+      (void)read_case(text_with(kSun, options));
+    } catch (const CaseError& error) {
+      return std::string(error.what());
+    }
+    return std::string("read");
+  };
+  EXPECT_NE(refusal(R"({"lamda": 0.5})").find("did you mean 'lambda'?"), std::string::npos);
+  EXPECT_NE(refusal(R"({"warp": "lispms"})").find("did you mean 'lispsm'?"), std::string::npos);
+  EXPECT_EQ(refusal(R"({"elephants": 0.5})").find("did you mean"), std::string::npos);
+}
+
+TEST(JsonWords, are_ours) {
+  EXPECT_EQ(json_words("[json.exception.out_of_range.403] key 'near' not found"), "\"near\" is missing");
+  EXPECT_EQ(json_words("[json.exception.type_error.302] type must be string, but is number"),
+            "needs string, is number");
+  EXPECT_EQ(json_words("[json.exception.type_error.304] cannot use at() with null"),
+            "needs an object, is null");
+  const char* parse_error =
+      "[json.exception.parse_error.101] parse error at line 2, column 5: syntax error while parsing value - "
+      "invalid literal; last read: 'x'";
+  EXPECT_EQ(json_words(parse_error), "line 2, column 5: invalid literal; last read: 'x'");
+  EXPECT_EQ(json_words(parse_error, false), "invalid literal; last read: 'x'");
+  for (const char* cut :
+       {"", "[json.exception.", "[json.exception.x] ", "parse error", "parse error at", "key '"})
+    EXPECT_EQ(json_words(cut).find("json.exception."), std::string::npos) << cut;
 }
 
 RC_GTEST_PROP(CaseFile, any_bytes_are_read_or_refused, (const std::string& bytes)) {

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 
 #include "gnomon/gnomon.hpp"
-#include "light_map.hpp"
 #include "support/golden.hpp"
 #include "support/near.hpp"
+#include "warp/plane_map.hpp"
 
 namespace gnomon::test {
 namespace {

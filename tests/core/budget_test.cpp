@@ -36,29 +36,29 @@ double worst(const ShadowPlan& plan) {
 TEST(Budget, equal_maps_of_the_same_texels_have_a_worse_worst_map) {
   for (const Warp* warp : {&warps::none, &warps::optimal}) {
     Plain plain;
-    plain.options.warp = warp;
-    plain.options.split = SplitScheme::uniform;
+    plain.options.warp.warp = warp;
+    plain.options.split.scheme = SplitScheme::uniform;
     const ShadowPlan equal = plain.plan();
-    plain.options.texel_budget = texels(equal);
+    plain.options.resolution.texel_budget = texels(equal);
     const ShadowPlan budgeted = plain.plan();
-    EXPECT_LE(texels(budgeted), plain.options.texel_budget);
+    EXPECT_LE(texels(budgeted), plain.options.resolution.texel_budget);
     EXPECT_LT(worst(budgeted), 0.8 * worst(equal)) << warp->name;
   }
 }
 
 TEST(Budget, errors_are_equal_within_a_step_of_the_sides) {
   Plain plain;
-  plain.options.texel_budget = 4 << 20;
+  plain.options.resolution.texel_budget = 4 << 20;
   const ShadowPlan plan = plain.plan();
   ASSERT_GT(plan.map_count, 1);
   int shortest = plan.map[0].width;
   for (const ShadowMap& map : plan.maps()) shortest = std::min({shortest, map.width, map.height});
   // Sides are rounded down by less than a step, of which the shortest has the least.
   const double rounded = shortest - 2.0 * plan.map[0].filter_margin_texels;
-  const double least = worst(plan) / (1.0 + kBudgetStep / rounded);
+  const double least = worst(plan) / (1.0 + kSizeStep / rounded);
   for (const ShadowMap& map : plan.maps()) {
-    EXPECT_EQ(map.width % kBudgetStep, 0);
-    EXPECT_EQ(map.height % kBudgetStep, 0);
+    EXPECT_EQ(map.width % kSizeStep, 0);
+    EXPECT_EQ(map.height % kSizeStep, 0);
     EXPECT_GT(map.m_s_max, least) << map.cascade;
     EXPECT_GT(map.m_t_max, least) << map.cascade;
   }
@@ -66,7 +66,7 @@ TEST(Budget, errors_are_equal_within_a_step_of_the_sides) {
 
 TEST(Budget, a_stable_map_stays_square) {
   Plain plain;
-  plain.options.texel_budget = 1 << 20;
+  plain.options.resolution.texel_budget = 1 << 20;
   plain.options.fit = Fit::stable;
   const ShadowPlan plan = plain.plan();
   for (const ShadowMap& map : plan.maps()) EXPECT_EQ(map.width, map.height);
@@ -75,12 +75,12 @@ TEST(Budget, a_stable_map_stays_square) {
 TEST(Budget, faces_of_a_point_light_share_it_too) {
   Plain plain;
   plain.light = PointLight{{10, 8, -12}, 60};
-  plain.options.warp = &warps::none;
+  plain.options.warp.warp = &warps::none;
   const ShadowPlan equal = plain.plan();
   ASSERT_GT(equal.map_count, 1);
-  plain.options.texel_budget = texels(equal);
+  plain.options.resolution.texel_budget = texels(equal);
   const ShadowPlan budgeted = plain.plan();
-  EXPECT_LE(texels(budgeted), plain.options.texel_budget);
+  EXPECT_LE(texels(budgeted), plain.options.resolution.texel_budget);
   EXPECT_LT(worst(budgeted), worst(equal));
 }
 
@@ -89,12 +89,20 @@ TEST(Budget, any_budget_is_kept_and_spent) {
     Case c = draw_case();
     const int least = least_budget_side(c.options);
     const std::int64_t smallest = std::int64_t{least} * least * c.options.cascades;
-    c.options.texel_budget =
+    c.options.resolution.texel_budget =
         static_cast<std::int64_t>(static_cast<double>(smallest) * std::exp(6.0 * unit()));
     const ShadowPlan plan = c.plan();
     require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
-    require(texels(plan) <= c.options.texel_budget, texels(plan), "of", c.options.texel_budget);
+    require(texels(plan) <= c.options.resolution.texel_budget, texels(plan), "of",
+            c.options.resolution.texel_budget);
   });
+}
+
+/// The bound that max_error is about.
+double bound(const ShadowPlan& plan) {
+  double m = 0.0;
+  for (const ShadowMap& map : plan.maps()) m = std::max(m, map.m_max);
+  return m;
 }
 
 TEST(Target, the_fewest_maps_that_meet_it_are_taken) {
@@ -103,45 +111,45 @@ TEST(Target, the_fewest_maps_that_meet_it_are_taken) {
   for (int maps = 1; maps <= 5; ++maps) {
     Plain fixed;
     fixed.options.cascades = maps;
-    const double m = worst(fixed.plan());
-    plain.options.target_m = m * 1.001;
+    const double m = bound(fixed.plan());
+    plain.options.resolution.max_error = m * 1.001;
     const ShadowPlan plan = plain.plan();
     EXPECT_EQ(plan.map_count, maps);
-    EXPECT_LE(worst(plan), plain.options.target_m);
+    EXPECT_LE(bound(plan), plain.options.resolution.max_error);
   }
 }
 
 TEST(Target, maps_that_are_made_smaller_still_meet_it) {
   Plain plain;
-  plain.options.map_size = 8192;
-  plain.options.target_m = 0.25;  // below prune_m
+  plain.options.resolution.max_size = 8192;
+  plain.options.resolution.max_error = 0.25;  // below prune_m
   const ShadowPlan plan = plain.plan();
   ASSERT_GT(plan.map_count, 0);
   EXPECT_LT(texels(plan), std::int64_t{plan.map_count} * 8192 * 8192) << "some are made smaller";
-  EXPECT_LE(worst(plan), 0.25);
+  EXPECT_LE(bound(plan), 0.25);
 }
 
 TEST(Target, one_out_of_reach_gives_the_best_there_is) {
   Plain plain;
-  plain.options.target_m = 1e-9;
-  EXPECT_LE(worst(plain.plan()), worst(Plain{}.plan()) * 1.01);
+  plain.options.resolution.max_error = 1e-9;
+  EXPECT_LE(bound(plain.plan()), bound(Plain{}.plan()) * 1.01);
 }
 
 TEST(Target, with_a_budget_it_is_met_by_fewer_maps_of_more_texels) {
   Plain plain;
   plain.options.cascades = kMaxMaps;
-  plain.options.texel_budget = 8 << 20;
+  plain.options.resolution.texel_budget = 8 << 20;
   const ShadowPlan best = plain.plan();
-  plain.options.target_m = 2.0 * worst(best);
+  plain.options.resolution.max_error = 2.0 * bound(best);
   const ShadowPlan enough = plain.plan();
   EXPECT_LT(enough.map_count, best.map_count);
   // The rim's share changes with the size.
-  EXPECT_LE(worst(enough), plain.options.target_m * 1.01);
+  EXPECT_LE(bound(enough), plain.options.resolution.max_error * 1.01);
 }
 
 TEST(Budget, sizes_stand_still_under_a_slow_camera) {
   Plain plain;
-  plain.options.texel_budget = 1 << 20;
+  plain.options.resolution.texel_budget = 1 << 20;
   PlanHistory history;
   const SceneBounds bounds{plain.casters, plain.receivers};
   ShadowPlan last = make_plan(plain.camera, plain.light, bounds, plain.options, history);

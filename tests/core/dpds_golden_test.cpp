@@ -54,8 +54,8 @@ TEST(DpdsGolden, no_depth_range_has_no_error) {
 ShadowPlan overhead_plan(const Camera& camera, const Warp& warp, const Box& everything) {
   PlanOptions options;
   options.cascades = 1;
-  options.filter_radius_texels = 0.0;
-  options.warp = &warp;
+  options.filter.texels = 0.0;
+  options.warp.warp = &warp;
   return make_plan(camera, DirectionalLight{{0, -1, 0}}, {{&everything, 1}, {&everything, 1}}, options);
 }
 
@@ -102,6 +102,8 @@ TEST(DpdsGolden, the_published_strength_is_that_of_2004_at_every_angle) {
       in.depth_begin = n;
       in.depth_end = f;
       in.tan_half_fov = 1.0;
+      in.scale_near = n;
+      in.depth_per_y = in.sin_gamma;
       EXPECT_CLOSE(1.0 / warps::lispsm04.choose(in).kappa, number(expected), 1e-11) << f << ' ' << degrees;
     }
   }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <string_view>
+#include <utility>
 
 #include "support/near.hpp"
 #include "support/property.hpp"
@@ -31,8 +33,19 @@ TEST(Fit, a_long_narrow_slice_is_as_long_as_its_space_diagonal) {
 }
 
 TEST(Fit, names_are_told) {
-  EXPECT_EQ(to_string(Fit::tight), "tight");
-  EXPECT_EQ(to_string(Fit::stable), "stable");
+  constexpr std::pair<Fit, std::string_view> kNames[] = {{Fit::tight, "tight"},
+                                                         {Fit::rotated, "rotated"},
+                                                         {Fit::stable, "stable"},
+                                                         {Fit::warped_stable, "warped_stable"}};
+  for (const auto& [fit, name] : kNames) {
+    EXPECT_EQ(to_string(fit), name);
+    Fit found = fit == Fit::tight ? Fit::stable : Fit::tight;
+    EXPECT_TRUE(fit_from_name(name, found)) << name;
+    EXPECT_EQ(found, fit) << name;
+  }
+  Fit untouched = Fit::rotated;
+  EXPECT_FALSE(fit_from_name("loose", untouched));
+  EXPECT_EQ(untouched, Fit::rotated);
 }
 
 TEST(FitProperty, the_longest_chord_is_that_of_all_pairs_of_corners) {

@@ -19,7 +19,7 @@ Case plain_with_focus(double distance) {
   c.receivers = {{{-400, -1, -400}, {400, 0, 400}}};
   c.casters = {{{-400, -1, -400}, {400, 20, 400}}};
   c.options.cascades = 1;
-  c.options.focus = {{-4, -1, -distance - 4}, {4, 0, -distance + 4}};
+  c.options.warp.focus = {{-4, -1, -distance - 4}, {4, 0, -distance + 4}};
   return c;
 }
 
@@ -36,32 +36,32 @@ double error_in(const Case& c, const ShadowPlan& plan, const Box& where) {
 
 TEST(Focus, an_empty_box_or_one_out_of_view_changes_no_bit) {
   Case c = plain_with_focus(60.0);
-  c.options.focus = {};
+  c.options.warp.focus = {};
   const ShadowPlan without = c.plan();
-  c.options.focus_weight = 100.0;
+  c.options.warp.focus_weight = 100.0;
   EXPECT_EQ(c.plan().map[0].clip_from_world, without.map[0].clip_from_world);
-  c.options.focus = {{-4, -1, 100}, {4, 0, 108}};  // behind the viewer
+  c.options.warp.focus = {{-4, -1, 100}, {4, 0, 108}};  // behind the viewer
   EXPECT_EQ(c.plan().map[0].clip_from_world, without.map[0].clip_from_world);
 }
 
 TEST(Focus, broken_boxes_and_weights_are_refused_by_name) {
   Case c = plain_with_focus(60.0);
-  c.options.focus.min.x = std::nan("");
-  EXPECT_EQ(c.plan().invalid_field, "options.focus");
+  c.options.warp.focus.min.x = std::nan("");
+  EXPECT_EQ(c.plan().invalid_field, "options.warp.focus");
   c = plain_with_focus(60.0);
-  c.options.focus_weight = 0.5;
-  EXPECT_EQ(c.plan().invalid_field, "options.focus_weight");
+  c.options.warp.focus_weight = 0.5;
+  EXPECT_EQ(c.plan().invalid_field, "options.warp.focus_weight");
 }
 
 TEST(Focus, the_worst_texel_inside_shrinks_by_the_objective_that_minds_it) {
   // A perspective's texels only ever grow with distance: the nearer the focus, the less there is to win.
   for (const auto& [distance, share] : {std::pair{60.0, 0.97}, {100.0, 0.95}, {150.0, 0.9}}) {
     Case c = plain_with_focus(distance);
-    c.options.objective = Objective::max;
-    c.options.focus_weight = 16.0;
-    const Box focus = c.options.focus;
+    c.options.warp.objective = Objective::max;
+    c.options.warp.focus_weight = 16.0;
+    const Box focus = c.options.warp.focus;
     const double with = error_in(c, c.plan(), focus);
-    c.options.focus = {};
+    c.options.warp.focus = {};
     EXPECT_LT(with, share * error_in(c, c.plan(), focus)) << distance;
   }
 }
@@ -72,8 +72,8 @@ TEST(Focus, everything_in_view_keeps_its_map) {
     Case c = draw_case({.max_depth_ratio = 1e3, .max_boxes = 6});
     c.options.fit = chance(0.5) ? Fit::tight : Fit::rotated;
     const Box& near = c.receivers.front();
-    c.options.focus = {near.min, (near.min + near.max) * 0.5};
-    c.options.focus_weight = std::pow(10.0, between(0.0, 4.0));
+    c.options.warp.focus = {near.min, (near.min + near.max) * 0.5};
+    c.options.warp.focus_weight = std::pow(10.0, between(0.0, 4.0));
     RC_LOG() << c;
     const ShadowPlan plan = c.plan();
     Random random(3);

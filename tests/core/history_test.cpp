@@ -25,8 +25,8 @@ TEST(PlanHistory, lays_maps_of_a_size_within_the_budget_for_cascades_that_had_no
         ASSERT_TRUE(all_finite(map.clip_from_world)) << "case " << seed << ", frame " << frame;
         texels += std::int64_t{map.width} * map.height;
       }
-      if (in.options.texel_budget > 0 && in.options.partition == Partition::view_depth) {
-        ASSERT_LE(texels, in.options.texel_budget) << "case " << seed << ", frame " << frame;
+      if (in.options.resolution.texel_budget > 0 && in.options.split.partition == Partition::view_depth) {
+        ASSERT_LE(texels, in.options.resolution.texel_budget) << "case " << seed << ", frame " << frame;
         budgeted += texels > 0 ? 1 : 0;
       }
       for (const PlanEvent& event : history.events())

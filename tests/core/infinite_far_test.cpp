@@ -27,7 +27,7 @@ Case scene() {
   c.receivers = {{{-60, -1, -120}, {60, 0, 20}}, {{-10, 0, -40}, {4, 6, -20}}};
   c.casters = c.receivers;
   c.options.cascades = 1;
-  c.options.warp = &warps::lispsm;
+  c.options.warp.warp = &warps::lispsm;
   return c;
 }
 
@@ -82,7 +82,7 @@ TEST(InfiniteFar, a_plan_is_the_one_of_the_finite_camera_and_serves_all_receiver
   for_all(400, [&] {
     Case c = draw_case({.max_depth_ratio = 1e4, .max_boxes = 6});
     c.camera.far_depth = kInfinity;
-    c.options.near_hint = 0.0;
+    c.options.split.pseudo_near = 0.0;
     RC_LOG() << c;
     const ShadowPlan plan = c.plan();
     require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
@@ -145,7 +145,7 @@ TEST(InfiniteFar, a_stable_grid_holds_still_while_the_camera_walks) {
   Case c = scene();
   c.camera.far_depth = kInfinity;
   c.options.fit = Fit::stable;
-  c.options.warp = nullptr;
+  c.options.warp.warp = nullptr;
   int changes = 0;
   double texel = 0.0;
   for (int frame = 0; frame < 100; ++frame) {

@@ -65,7 +65,7 @@ TEST(PsmLightGolden, the_planned_map_has_the_published_w_and_depths_in_order_als
     if (light.w != 0.0) continue;
     PlanOptions options;
     options.cascades = 1;
-    options.warp = &warps::psm;
+    options.warp.warp = &warps::psm;
     const ShadowPlan plan =
         make_plan(golden_camera(), DirectionalLight{-glm::dvec3(light)}, {{&roof, 1}, {&scene, 1}}, options);
     ASSERT_EQ(plan.status, PlanStatus::ok);
@@ -112,7 +112,7 @@ TEST(PlaneOptimalGolden, on_the_golden_plane_the_planned_map_is_the_screen_scale
   const Box ground{{-40, -2, -60}, {40, -2, -5}}, roof{{-100, -2, -100}, {100, 5, 0}};
   PlanOptions options;
   options.cascades = 1;
-  options.warp = &warps::plane_optimal;
+  options.warp.warp = &warps::plane_optimal;
   const ShadowPlan plan = make_plan(golden_camera(), DirectionalLight{-glm::dvec3(vec4(data.at("L")))},
                                     {{&roof, 1}, {&ground, 1}}, options);
   ASSERT_EQ(plan.status, PlanStatus::ok);
@@ -166,7 +166,7 @@ TEST(CornerSufficiencyGolden,
     const Box all{{-1e4, -1e4, -1e4}, {1e4, 1e4, 1e4}};
     PlanOptions options;
     options.cascades = 1;
-    options.warp = &warps::lispsm_closed;
+    options.warp.warp = &warps::lispsm_closed;
     const ShadowPlan plan = make_plan(camera, DirectionalLight{light}, {{&all, 1}, {&all, 1}}, options);
     ASSERT_EQ(plan.status, PlanStatus::ok);
     const auto few = worst(plan.map[0], camera, 3, 2), dense = worst(plan.map[0], camera, 17, 17);

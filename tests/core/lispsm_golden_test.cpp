@@ -61,8 +61,8 @@ const Warp* warp_of(const std::string& mode) {
 ShadowPlan plan_of(const View& s, const Warp& warp) {
   PlanOptions options;
   options.cascades = 1;
-  options.filter_radius_texels = 0.0;
-  options.warp = &warp;
+  options.filter.texels = 0.0;
+  options.warp.warp = &warp;
   return make_plan(s.camera, DirectionalLight{s.light}, {s.boxes, s.boxes}, options);
 }
 

@@ -111,8 +111,8 @@ TEST(LogPerspective, measured_over_the_view_it_beats_the_best_drawn_map_overhead
   const SceneBounds bounds{{&ground, 1}, {&ground, 1}};
   PlanOptions options;
   options.cascades = 1;
-  options.map_size = kSize;
-  options.filter_radius_texels = 0.0;
+  options.resolution.max_size = kSize;
+  options.filter.texels = 0.0;
   const AliasingStats drawn =
       measure(make_plan(overhead_camera(), DirectionalLight{}, bounds, options), overhead_camera(), bounds);
   const AliasingStats ideal =

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <string>
 
 #include "gnomon/plan.hpp"
@@ -13,7 +14,17 @@ namespace {
 constexpr OmissionKind kKinds[] = {
     OmissionKind::cascade_without_receiver, OmissionKind::cascade_without_caster,
     OmissionKind::depth_without_receiver,   OmissionKind::depth_not_visible,
-    OmissionKind::warp_without_gain,        OmissionKind::warp_in_stable_fit};
+    OmissionKind::warp_without_gain,        OmissionKind::warp_in_stable_fit,
+    OmissionKind::part_without_caster,      OmissionKind::partition_without_gain,
+    OmissionKind::partition_in_stable_fit,  OmissionKind::face_without_receiver,
+    OmissionKind::face_without_caster,      OmissionKind::resolution_without_gain};
+
+TEST(Omission, the_list_above_holds_every_kind) {
+  for (std::size_t i = 0; i < std::size(kKinds); ++i) EXPECT_EQ(static_cast<std::size_t>(kKinds[i]), i);
+  // A kind beyond the last has no words: one that is added without a place in the list would have some.
+  const OmissionText beyond = describe({static_cast<OmissionKind>(std::size(kKinds)), 1, 2.0, 3.0, 0});
+  EXPECT_STREQ(beyond.what.data(), "");
+}
 
 TEST(Omission, every_kind_has_words_that_end_within_their_arrays) {
   for (const OmissionKind kind : kKinds) {

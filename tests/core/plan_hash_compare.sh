@@ -11,7 +11,7 @@ for compiler in g++ clang++; do
   for level in -O0 -O3; do
     out="$work/$compiler$level"
     mkdir -p "$out"
-    files=("$source_dir"/src/core/*.cpp "$source_dir"/src/core/warp/*.cpp "$source_dir"/tests/core/plan_hash.cpp
+    files=("$source_dir"/src/core/*/*.cpp "$source_dir"/tests/core/plan_hash.cpp
       "$source_dir"/tests/core/support/seeded_input.cpp)
     printf '%s\n' "${files[@]}" | CCACHE_BASEDIR="$source_dir" xargs -P 2 -I FILE sh -c '
       $1 $2 -std=c++20 $3 -ffp-contract=off -fno-exceptions -fno-math-errno -fno-trapping-math -w \

@@ -21,19 +21,21 @@ struct Input {
   Light light = DirectionalLight{{0.2, -1, 0.1}};
   std::vector<Box> casters = {{{-30, 0, -30}, {30, 5, -1}}}, receivers = {{{-30, -1, -30}, {30, 0, -1}}};
   PlanOptions options;
-  std::vector<double> splits;
   VisibleDepths depths;
-  void give_splits(std::vector<double> inner) {
-    splits = std::move(inner);
-    options.split = SplitScheme::given;
-    options.given_splits = splits;
+  const VisibleDepths* visible = nullptr;
+  void give_splits(const std::vector<double>& inner) {
+    options.split.scheme = SplitScheme::given;
+    options.split.given = SplitOptions::endless_splits();
+    std::copy(inner.begin(), inner.end(), options.split.given.begin());
   }
   void see(double min, double max) {
     depths.min = min;
     depths.max = max;
-    options.visible_depths = &depths;
+    visible = &depths;
   }
-  [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, light, {casters, receivers}, options); }
+  [[nodiscard]] ShadowPlan plan() const {
+    return make_plan(camera, light, {casters, receivers}, options, visible);
+  }
 };
 
 using Break = std::function<void(Input&)>;
@@ -98,40 +100,41 @@ TEST(PlanInput, every_broken_field_is_named) {
       {"bounds.casters", [](Input& i) { i.casters[0].min.x = kNan; }},
       {"bounds.casters", [](Input& i) { i.casters[0].max.y = kInfinity; }},
       {"bounds.receivers", [](Input& i) { i.receivers[0].max.z = kNan; }},
-      {"options.map_size", [](Input& i) { i.options.map_size = 3; }},
-      {"options.map_size", [](Input& i) { i.options.map_size = 16385; }},
+      {"options.resolution.max_size", [](Input& i) { i.options.resolution.max_size = 3; }},
+      {"options.resolution.max_size", [](Input& i) { i.options.resolution.max_size = 16385; }},
       {"options.cascades", [](Input& i) { i.options.cascades = 0; }},
       {"options.cascades", [](Input& i) { i.options.cascades = kMaxMaps + 1; }},
-      {"options.lambda", [](Input& i) { i.options.lambda = 1.5; }},
-      {"options.lambda", [](Input& i) { i.options.lambda = kNan; }},
-      {"options.near_hint", [](Input& i) { i.options.near_hint = -1.0; }},
-      {"options.target_m", [](Input& i) { i.options.target_m = -1.0; }},
-      {"options.target_m", [](Input& i) { i.options.target_m = kNan; }},
-      {"options.texel_budget", [](Input& i) { i.options.texel_budget = -1; }},
-      {"options.texel_budget", [](Input& i) { i.options.texel_budget = 4 * 16 * 16 - 1; }},
-      {"options.prune_m", [](Input& i) { i.options.prune_m = 0.0; }},
-      {"options.prune_m", [](Input& i) { i.options.prune_m = kNan; }},
-      {"options.prune_m", [](Input& i) { i.options.prune_m = 1e-320; }},
-      {"options.split_overlap", [](Input& i) { i.options.split_overlap = -0.1; }},
-      {"options.split_overlap", [](Input& i) { i.options.split_overlap = kNan; }},
-      {"options.given_splits", [](Input& i) { i.give_splits({}); }},
-      {"options.given_splits",
+      {"options.split.lambda", [](Input& i) { i.options.split.lambda = 1.5; }},
+      {"options.split.lambda", [](Input& i) { i.options.split.lambda = kNan; }},
+      {"options.split.pseudo_near", [](Input& i) { i.options.split.pseudo_near = -1.0; }},
+      {"options.resolution.max_error", [](Input& i) { i.options.resolution.max_error = -1.0; }},
+      {"options.resolution.max_error", [](Input& i) { i.options.resolution.max_error = kNan; }},
+      {"options.resolution.texel_budget", [](Input& i) { i.options.resolution.texel_budget = -1; }},
+      {"options.resolution.texel_budget",
+       [](Input& i) { i.options.resolution.texel_budget = 4 * 16 * 16 - 1; }},
+      {"options.resolution.prune_error", [](Input& i) { i.options.resolution.prune_error = 0.0; }},
+      {"options.resolution.prune_error", [](Input& i) { i.options.resolution.prune_error = kNan; }},
+      {"options.resolution.prune_error", [](Input& i) { i.options.resolution.prune_error = 1e-320; }},
+      {"options.split.overlap", [](Input& i) { i.options.split.overlap = -0.1; }},
+      {"options.split.overlap", [](Input& i) { i.options.split.overlap = kNan; }},
+      {"options.split.given", [](Input& i) { i.give_splits({}); }},
+      {"options.split.given",
        [](Input& i) {
-         i.give_splits({1, 2, 3, 4});
+         i.give_splits({1, 2});
        }},
-      {"options.given_splits",
+      {"options.split.given",
        [](Input& i) {
          i.give_splits({1, kNan, 3});
        }},
-      {"options.given_splits",
+      {"options.split.given",
        [](Input& i) {
          i.give_splits({1, 3, 2});
        }},
-      {"options.visible_depths", [](Input& i) { i.see(-1.0, 5.0); }},
-      {"options.visible_depths", [](Input& i) { i.see(kNan, 5.0); }},
-      {"options.visible_depths", [](Input& i) { i.see(1.0, kInfinity); }},
-      {"options.filter_radius_texels", [](Input& i) { i.options.filter_radius_texels = -0.5; }},
-      {"options.filter_radius_texels", [](Input& i) { i.options.filter_radius_texels = 257.0; }},
+      {"visible", [](Input& i) { i.see(-1.0, 5.0); }},
+      {"visible", [](Input& i) { i.see(kNan, 5.0); }},
+      {"visible", [](Input& i) { i.see(1.0, kInfinity); }},
+      {"options.filter.texels", [](Input& i) { i.options.filter.texels = -0.5; }},
+      {"options.filter.texels", [](Input& i) { i.options.filter.texels = 257.0; }},
       {"options.bias", [](Input& i) { i.options.bias.slope_texels = kNan; }},
       {"options.bias", [](Input& i) { i.options.bias.constant_texels = -1.0; }},
   };
@@ -155,18 +158,19 @@ TEST(PlanInput, legal_extremes_are_planned) {
       {"no up", [](Input& i) { i.camera.up = glm::dvec3(0.0); }},
       {"up along the view", [](Input& i) { i.camera.up = i.camera.forward; }},
       {"one pixel", [](Input& i) { i.camera.width = i.camera.height = 1; }},
-      {"the smallest map", [](Input& i) { i.options.map_size = 4, i.options.filter_radius_texels = 1; }},
-      {"the largest map", [](Input& i) { i.options.map_size = kMostMapSize; }},
-      {"the widest filter", [](Input& i) { i.options.filter_radius_texels = 256; }},
-      {"a hint beyond the far plane", [](Input& i) { i.options.near_hint = 1e6; }},
+      {"the smallest map", [](Input& i) { i.options.resolution.max_size = 4, i.options.filter.texels = 1; }},
+      {"the largest map", [](Input& i) { i.options.resolution.max_size = kMostMapSize; }},
+      {"the widest filter", [](Input& i) { i.options.filter.texels = 256; }},
+      {"a hint beyond the far plane", [](Input& i) { i.options.split.pseudo_near = 1e6; }},
       {"a tiny light direction",
        [](Input& i) {
          i.light = DirectionalLight{{1e-200, -1e-200, 0}};
        }},
       {"empty boxes among the others", [](Input& i) { i.casters.push_back({}), i.receivers.push_back({}); }},
-      {"the least budget", [](Input& i) { i.options.texel_budget = 4 * 16 * 16; }},
-      {"a budget beyond the largest maps", [](Input& i) { i.options.texel_budget = std::int64_t{1} << 62; }},
-      {"a target out of reach", [](Input& i) { i.options.target_m = 1e-300; }},
+      {"the least budget", [](Input& i) { i.options.resolution.texel_budget = 4 * 16 * 16; }},
+      {"a budget beyond the largest maps",
+       [](Input& i) { i.options.resolution.texel_budget = std::int64_t{1} << 62; }},
+      {"a target out of reach", [](Input& i) { i.options.resolution.max_error = 1e-300; }},
       {"the same split thrice",
        [](Input& i) {
          i.give_splits({7, 7, 7});

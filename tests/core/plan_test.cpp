@@ -82,12 +82,12 @@ TEST(Plan, depths_without_receivers_are_not_divided_unless_asked_for) {
   ASSERT_EQ(tight.map_count, 1);
   EXPECT_GT(tight.map[0].depth_begin, 30.0);
   EXPECT_LT(tight.map[0].depth_end, 50.0);
-  c.options.split_range = SplitRange::camera;
+  c.options.split.range = SplitRange::camera;
   const ShadowPlan whole = c.plan();
   ASSERT_EQ(whole.map_count, 1);
   EXPECT_EQ(whole.map[0].depth_begin, 0.5);
   EXPECT_EQ(whole.map[0].depth_end, 200.0);
-  c.options.split_range = SplitRange::automatic;
+  c.options.split.range = SplitRange::automatic;
   c.options.fit = Fit::stable;
   EXPECT_EQ(c.plan().map[0].depth_end, 200.0);
 }
@@ -97,7 +97,7 @@ TEST(Plan, light_exactly_along_or_against_the_view_gives_finite_maps) {
     for (const Warp* warp : all_warps()) {
       Case c = ground_case();
       c.light = c.camera.forward * sign;
-      c.options.warp = warp;
+      c.options.warp.warp = warp;
       const ShadowPlan plan = c.plan();
       ASSERT_EQ(plan.status, PlanStatus::ok) << warp->name;
       const AliasingStats stats = measure(plan, c.camera, c.bounds(), {16, 16, 32});
@@ -159,12 +159,12 @@ TEST(Plan, a_point_that_only_rounding_gives_an_extent_is_held_by_a_map_too) {
 
 TEST(Plan, doubling_the_map_halves_the_error) {
   Case c = ground_case();
-  c.options.filter_radius_texels = 0.0;
-  c.options.warp = &warps::none;
+  c.options.filter.texels = 0.0;
+  c.options.warp.warp = &warps::none;
   c.options.prune = kPruneNothing;
   const MeasureGrid grid{16, 16, 32};
   const AliasingStats coarse = measure(c.plan(), c.camera, c.bounds(), grid);
-  c.options.map_size = 2048;
+  c.options.resolution.max_size = 2048;
   const AliasingStats fine = measure(c.plan(), c.camera, c.bounds(), grid);
   EXPECT_CLOSE(fine.max * 2.0, coarse.max, 1e-9);
   EXPECT_CLOSE(fine.storage, coarse.storage, 1e-9);  // what is needed does not depend on what is there
@@ -175,7 +175,7 @@ TEST(Plan, more_cascades_lower_the_error_on_the_ground) {
   double last = 1e300;
   for (const int cascades : {1, 2, 4, 8}) {
     c.options.cascades = cascades;
-    c.options.warp = &warps::none;
+    c.options.warp.warp = &warps::none;
     const double p95 = measure(c.plan(), c.camera, c.bounds(), {24, 24, 64}).p95;
     EXPECT_LT(p95, last) << cascades;
     last = p95;
@@ -185,7 +185,7 @@ TEST(Plan, more_cascades_lower_the_error_on_the_ground) {
 TEST(Plan, the_filter_margin_is_whole_texels_that_hold_the_kernel) {
   Case c = ground_case();
   for (const auto& [radius, margin] : {std::pair{0.0, 0}, {0.5, 1}, {1.0, 1}, {3.2, 4}}) {
-    c.options.filter_radius_texels = radius;
+    c.options.filter.texels = radius;
     const ShadowPlan plan = c.plan();
     for (const ShadowMap& map : plan.maps()) EXPECT_EQ(map.filter_margin_texels, margin);
   }

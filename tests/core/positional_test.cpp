@@ -130,8 +130,8 @@ TEST(Positional, a_caster_round_the_light_pulls_the_near_plane_to_its_floor) {
 
 TEST(Positional, the_map_of_a_small_receiver_is_focused_on_it_and_its_depth_on_the_casters) {
   Room room;
-  room.options.warp = &warps::none;
-  room.options.filter_radius_texels = 0.0;
+  room.options.warp.warp = &warps::none;
+  room.options.filter.texels = 0.0;
   room.options.prune = room.options.prune.without(PruneRule::metric_resolution);
   room.camera.forward = {0, 0, -1};  // the map's axis is the view's as the light sees it
   room.receivers = {{{-0.5, 0, -0.5}, {0.5, 0, 0.5}}};
@@ -179,16 +179,16 @@ TEST(Positional, faces_without_receivers_are_left_out_and_say_what_they_save) {
 
 TEST(Positional, a_warp_lowers_the_error_of_a_spot_over_a_wide_floor) {
   Room room;
-  room.options.objective = Objective::p95;
-  room.options.warp = &warps::none;
+  room.options.warp.objective = Objective::p95;
+  room.options.warp.warp = &warps::none;
   const ShadowPlan plain = room.plan(room.spot);
-  room.options.warp = nullptr;
+  room.options.warp.warp = nullptr;
   const ShadowPlan warped = room.plan(room.spot);
   const double before = measure(plain, room.camera, room.bounds()).p95;
   const double after = measure(warped, room.camera, room.bounds()).p95;
   EXPECT_GT(warped.map[0].kappa, 0.0);
   EXPECT_LT(after, 0.9 * before);
-  room.options.warp = &warps::lispsm04;
+  room.options.warp.warp = &warps::lispsm04;
   EXPECT_EQ(room.plan(room.spot).map[0].warp, &warps::lispsm04);
 }
 

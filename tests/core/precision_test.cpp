@@ -51,7 +51,7 @@ TEST(Precision, camera_relative_floats_hold_their_texel_from_the_origin_to_ten_t
     for (const Fit fit : {Fit::tight, Fit::stable}) {
       Case c = scene_at(glm::dvec3(distance, 0.3 * distance, -0.7 * distance));
       c.options.fit = fit;
-      c.options.warp = &warps::none;
+      c.options.warp.warp = &warps::none;
       const ShadowPlan plan = c.plan();
       ASSERT_EQ(plan.status, PlanStatus::ok);
       const double worst = worst_texel(c, plan);
@@ -68,7 +68,7 @@ TEST(Precision, floats_hit_the_map_of_a_receiver_that_is_tiny_for_its_distance) 
       Case c = scene_at({});
       c.camera.far_depth = 2e4;
       c.options.cascades = 1;
-      c.options.warp = warp;
+      c.options.warp.warp = warp;
       const glm::dvec3 centre = point_at(c.camera, 0.1, -0.2, 1e4);
       c.receivers = {{centre - glm::dvec3(size, 0.3 * size, 2.0 * size), centre + glm::dvec3(size)}};
       c.casters = {{centre - glm::dvec3(5.0), centre + glm::dvec3(5.0)}};

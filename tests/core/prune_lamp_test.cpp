@@ -48,9 +48,9 @@ Lamp random_lamp(Random& random) {
     lamp.light = SpotLight{position, random.direction(), cone, random.between(3, 30)};
   }
   const int kernel = random.pick(3);
-  lamp.options.filter_radius_texels = kernel == 1 ? random.between(1, 8) : 1.0;
-  lamp.options.filter_radius_world = kernel == 2 ? random.between(0.001, 0.2) : 0.0;
-  lamp.options.map_size = 256 << random.pick(5);
+  lamp.options.filter.texels = kernel == 1 ? random.between(1, 8) : 1.0;
+  lamp.options.filter.world = kernel == 2 ? random.between(0.001, 0.2) : 0.0;
+  lamp.options.resolution.max_size = 256 << random.pick(5);
   return lamp;
 }
 
@@ -73,7 +73,8 @@ TEST(PruneLamp, random_lamps_get_maps_no_larger_than_the_metric_asks_for_and_the
   std::int64_t all = 0, left = 0;
   for (int i = 0; i < 600; ++i) {
     Lamp lamp = random_lamp(random);
-    lamp.options.prune_m = std::exp2(random.between(-2, 2));
+    lamp.options.prune = PruneRules::all();
+    lamp.options.resolution.prune_error = std::exp2(random.between(-2, 2));
     const ShadowPlan pruned = lamp.plan(), full = lamp.plan_without(PruneRule::metric_resolution);
     ASSERT_EQ(pruned.map_count, full.map_count) << i;
     std::int64_t listed = 0;
@@ -83,7 +84,7 @@ TEST(PruneLamp, random_lamps_get_maps_no_larger_than_the_metric_asks_for_and_the
     for (int k = 0; k < full.map_count; ++k) {
       const ShadowMap &a = full.map[static_cast<std::size_t>(k)],
                       &b = pruned.map[static_cast<std::size_t>(k)];
-      EXPECT_EQ(a.width, lamp.options.map_size);
+      EXPECT_EQ(a.width, lamp.options.resolution.max_size);
       EXPECT_EQ(b.width, b.height);
       EXPECT_LE(b.width, a.width);
       (b.width < a.width ? smaller : whole) += 1;
@@ -91,7 +92,7 @@ TEST(PruneLamp, random_lamps_get_maps_no_larger_than_the_metric_asks_for_and_the
         EXPECT_EQ(a.clip_from_world, b.clip_from_world) << i;
         continue;
       }
-      EXPECT_LE(std::max(b.m_s_max, b.m_t_max), lamp.options.prune_m) << i;
+      EXPECT_LE(b.m_max, lamp.options.resolution.prune_error) << i;
       EXPECT_EQ(a.kappa, b.kappa) << "what a map shows does not depend on its size";
       EXPECT_GE(4 * b.width, 16 * b.filter_margin_texels) << "no receiver in more than half of a side";
     }
@@ -108,7 +109,7 @@ TEST(PruneLamp, maps_of_a_stable_fit_a_history_or_a_budget_keep_their_size) {
   int maps = 0;
   for (int i = 0; i < 60; ++i) {
     Lamp lamp = random_lamp(random);
-    lamp.options.map_size = 4096;
+    lamp.options.resolution.max_size = 4096;
     Lamp stable = lamp;
     stable.options.fit = Fit::stable;
     PlanHistory history;
@@ -120,7 +121,7 @@ TEST(PruneLamp, maps_of_a_stable_fit_a_history_or_a_budget_keep_their_size) {
         ++maps;
       }
     }
-    lamp.options.texel_budget = 6 * 512 * 512;
+    lamp.options.resolution.texel_budget = 6 * 512 * 512;
     EXPECT_EQ(texels_of(lamp.plan()), texels_of(lamp.plan_without(PruneRule::metric_resolution)));
   }
   EXPECT_GT(maps, 60);
@@ -142,8 +143,8 @@ TEST(PruneLamp, random_lamps_meet_the_bound_that_made_their_maps_smaller_where_i
   double largest = 0.0;
   for (int i = 0; i < 400; ++i) {
     Lamp lamp = random_lamp(random);
-    lamp.options.map_size = 8192;
-    lamp.options.filter_radius_world = 0.0;
+    lamp.options.resolution.max_size = 8192;
+    lamp.options.filter.world = 0.0;
     const ShadowPlan plan = lamp.plan();
     bool met = plan.map_count > 0;
     for (const ShadowMap& map : plan.maps()) met = met && map.m_s_max <= 1.0 && map.m_t_max <= 1.0;

@@ -35,7 +35,7 @@ Case stable_case() {
   c.receivers = c.casters = {{{-500, -10, -500}, {500, 20, 500}}};
   c.options.fit = Fit::stable;
   c.options.cascades = 3;
-  c.options.map_size = 128;
+  c.options.resolution.max_size = 128;
   return c;
 }
 
@@ -99,13 +99,13 @@ TEST(Reuse, another_light_size_grid_depth_or_fit_is_drawn_whole) {
   other.light.x += 1e-6;
   refused(other.plan().map[0], "light");
   other = c;
-  other.options.map_size = 256;
+  other.options.resolution.max_size = 256;
   refused(other.plan().map[0], "size");
   other = c;
   other.options.fit = Fit::tight;
   refused(other.plan().map[0], "tight");
   other = c;
-  other.options.filter_radius_texels = 3.0;
+  other.options.filter.texels = 3.0;
   refused(other.plan().map[0], "margin");
   other = c;
   other.options.clip_space = kVulkan;
@@ -153,11 +153,11 @@ TEST(Reuse, a_world_points_old_texel_plus_the_shift_is_its_new_texel_in_every_cl
   for_all(600, [&] {
     Case c = draw_case({.max_depth_ratio = 1e3, .max_boxes = 2});
     c.options.fit = Fit::stable;
-    c.options.near_hint = 0.0;
-    c.options.split_range = SplitRange::camera;
+    c.options.split.pseudo_near = 0.0;
+    c.options.split.range = SplitRange::camera;
     c.options.cascades = 1 + pick(3);
-    c.options.map_size = 64;
-    c.options.filter_radius_texels = std::min(c.options.filter_radius_texels, 4.0);
+    c.options.resolution.max_size = 64;
+    c.options.filter.texels = std::min(c.options.filter.texels, 4.0);
     c.options.clip_space = draw_clip_space();
     const double f = 4.0 * c.camera.far_depth;
     c.receivers = c.casters = {{c.camera.position - glm::dvec3(f), c.camera.position + glm::dvec3(f)}};

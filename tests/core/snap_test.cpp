@@ -30,8 +30,17 @@ TEST(Snap, the_nearest_step_is_taken_on_both_sides_of_zero) {
 
 TEST(Snap, a_default_key_is_that_of_a_map_without_a_grid) {
   EXPECT_FALSE(SnapKey{}.valid);
-  EXPECT_EQ((SnapKey{1, 2, 3, 4, true}), (SnapKey{1, 2, 3, 4, true}));
-  EXPECT_NE((SnapKey{1, 2, 3, 4, true}), (SnapKey{1, 2, 3, 5, true}));
+}
+
+TEST(Snap, keys_are_equal_where_every_part_is) {
+  const SnapKey key{1, 2, 3, 4, 0.5, true};
+  EXPECT_EQ(key, (SnapKey{1, 2, 3, 4, 0.5, true}));
+  EXPECT_NE(key, (SnapKey{9, 2, 3, 4, 0.5, true}));
+  EXPECT_NE(key, (SnapKey{1, 9, 3, 4, 0.5, true}));
+  EXPECT_NE(key, (SnapKey{1, 2, 9, 4, 0.5, true}));
+  EXPECT_NE(key, (SnapKey{1, 2, 3, 9, 0.5, true}));
+  EXPECT_NE(key, (SnapKey{1, 2, 3, 4, 0.25, true}));
+  EXPECT_NE(key, (SnapKey{1, 2, 3, 4, 0.5, false}));
 }
 
 TEST(SnapProperty, the_index_is_within_half_a_step_and_moves_by_whole_steps) {

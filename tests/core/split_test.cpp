@@ -7,8 +7,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "gnomon/partition.hpp"
 #include "support/near.hpp"
 #include "support/property.hpp"
 
@@ -16,9 +19,9 @@ namespace gnomon::test {
 namespace {
 
 constexpr double kRounding = 1e-13;
-constexpr SplitScheme kSchemes[] = {SplitScheme::uniform,   SplitScheme::logarithmic,
-                                    SplitScheme::practical, SplitScheme::pseudo_near,
-                                    SplitScheme::optimal,   SplitScheme::given};
+constexpr SplitScheme kSchemes[] = {
+    SplitScheme::uniform, SplitScheme::logarithmic, SplitScheme::practical, SplitScheme::pseudo_near,
+    SplitScheme::optimal, SplitScheme::automatic,   SplitScheme::given};
 
 std::vector<double> edges_of(double n, double f, const SplitOptions& options, std::size_t maps) {
   std::vector<double> edges(maps + 1, -1.0);
@@ -40,11 +43,14 @@ TEST(Split, a_near_depth_of_zero_or_less_falls_back_to_even_shares) {
 }
 
 TEST(Split, given_borders_are_kept_inside_the_range) {
-  const std::array<double, 3> inner = {0.5, 20.0, 2000.0};
-  const auto edges = edges_of(1.0, 100.0, {SplitScheme::given, 0.0, 0.0, inner}, 4);
+  SplitOptions given{SplitScheme::given};
+  given.given = {0.5, 20.0, 2000.0};
+  const auto edges = edges_of(1.0, 100.0, given, 4);
   EXPECT_EQ(edges, (std::vector<double>{1.0, 1.0, 20.0, 100.0, 100.0}));
   // Missing ones leave the last maps nothing.
-  const auto few = edges_of(-2.0, 100.0, {SplitScheme::given, 0.0, 0.0, std::span(inner).first(1)}, 3);
+  given.given = SplitOptions::endless_splits();
+  given.given[0] = 0.5;
+  const auto few = edges_of(-2.0, 100.0, given, 3);
   EXPECT_EQ(few, (std::vector<double>{-2.0, 0.5, 100.0, 100.0}));
 }
 
@@ -71,6 +77,33 @@ TEST(Split, a_blend_that_is_no_number_counts_as_a_half_and_others_are_clamped) {
             edges_of(1, 100, {SplitScheme::logarithmic, 0, 0}, 4));
   EXPECT_EQ(edges_of(1, 100, {SplitScheme::practical, -1.0, 0}, 4),
             edges_of(1, 100, {SplitScheme::uniform, 0, 0}, 4));
+}
+
+TEST(Split, every_scheme_has_the_name_that_case_files_use) {
+  constexpr std::pair<SplitScheme, std::string_view> kNames[] = {
+      {SplitScheme::uniform, "uniform"},     {SplitScheme::logarithmic, "logarithmic"},
+      {SplitScheme::practical, "practical"}, {SplitScheme::pseudo_near, "pseudo_near"},
+      {SplitScheme::optimal, "optimal"},     {SplitScheme::automatic, "auto"},
+      {SplitScheme::given, "given"}};
+  for (const auto& [scheme, name] : kNames) {
+    EXPECT_EQ(to_string(scheme), name);
+    SplitScheme found = scheme == SplitScheme::uniform ? SplitScheme::given : SplitScheme::uniform;
+    EXPECT_TRUE(split_scheme_from_name(name, found)) << name;
+    EXPECT_EQ(found, scheme) << name;
+  }
+}
+
+TEST(Split, every_partition_has_the_name_that_case_files_use) {
+  constexpr std::pair<Partition, std::string_view> kNames[] = {
+      {Partition::view_depth, "view_depth"},
+      {Partition::frustum_faces, "frustum_faces"},
+      {Partition::separating_plane, "separating_plane"}};
+  for (const auto& [partition, name] : kNames) {
+    EXPECT_EQ(to_string(partition), name);
+    Partition found = partition == Partition::view_depth ? Partition::frustum_faces : Partition::view_depth;
+    EXPECT_TRUE(partition_from_name(name, found)) << name;
+    EXPECT_EQ(found, partition) << name;
+  }
 }
 
 TEST(Split, names_lead_back_to_their_schemes) {

@@ -91,6 +91,29 @@ TEST(StorageGolden, the_vertex_search_is_as_good_as_brute_force_over_light_angle
   EXPECT_GT(warped, 20);
 }
 
+TEST(StorageGolden, lloyds_fall_off_has_the_strengths_of_his_thesis) {
+  constexpr double kFormula = 1e-9;  // a few elementary functions, and the body's length by subtraction
+  int warped = 0, off = 0;
+  for (const Json& row : golden("falloff").at("rows")) {
+    const double theta = number(row.at("theta_deg")) * std::numbers::pi / 180.0;
+    const double gamma = number(row.at("gamma_deg")) * std::numbers::pi / 180.0;
+    const Profile profile(1.0, row.at("alpha"), std::tan(theta), gamma);
+    const double kappa = warps::lispsm_lloyd.choose(profile.in).kappa, n = number(row.at("n_lloyd_linear"));
+    if (std::isinf(n)) {
+      EXPECT_EQ(kappa, 0.0) << row.dump();
+      ++off;
+    } else {
+      EXPECT_CLOSE(1.0 / kappa, n, kFormula) << row.dump();
+      EXPECT_CLOSE(normalised(warp_error(profile.in, kappa).value(Objective::storage), theta),
+                   number(row.at("S_lloyd_linear")), kFormula)
+          << row.dump();
+      ++warped;
+    }
+  }
+  EXPECT_GT(warped, 20);
+  EXPECT_GT(off, 5);
+}
+
 TEST(StorageGolden, an_overhead_light_takes_the_weakest_of_the_strengths_that_are_equally_good) {
   // Storage is flat from PSM to LiSPSM there, while the worst texel is best at LiSPSM: the weakest is the
   // answer.
@@ -113,10 +136,10 @@ double planned_storage(double alpha, int k, const glm::dvec3& light, const Warp&
   const Box everything{glm::dvec3(-2 * alpha), glm::dvec3(2 * alpha)};
   PlanOptions options;
   options.cascades = k;
-  options.split = SplitScheme::logarithmic;
-  options.split_range = SplitRange::camera;
-  options.filter_radius_texels = 0.0;
-  options.warp = &warp;
+  options.split.scheme = SplitScheme::logarithmic;
+  options.split.range = SplitRange::camera;
+  options.filter.texels = 0.0;
+  options.warp.warp = &warp;
   const ShadowPlan plan =
       make_plan(camera, DirectionalLight{light}, {{&everything, 1}, {&everything, 1}}, options);
   double sum = 0.0;

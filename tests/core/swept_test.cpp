@@ -33,7 +33,7 @@ struct Sweep {
 
 Sweep sweep(const Polytope& body, const glm::dvec3& direction) {
   Sweep result;
-  result.count = swept_planes(body, direction, result.storage);
+  result.count = swept_planes(body, glm::dvec4(direction, 0.0), result.storage);
   return result;
 }
 

@@ -6,7 +6,7 @@
 #include "gnomon/gnomon.hpp"
 #include "support/golden.hpp"
 #include "support/near.hpp"
-#include "warp_formulas.hpp"
+#include "warp/formulas.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -33,6 +33,22 @@ TEST(TrapezoidGolden, the_focus_lands_on_the_80_percent_line) {
     // The paper counts from the far end.
     EXPECT_CLOSE(-y, number(row.at("row_of_focus")), kClosedForm);
   }
+}
+
+TEST(TrapezoidWarp, half_of_the_logarithmic_depths_get_80_percent_of_the_map) {
+  // Depths 1 to 100 seen from the side of an overhead light: the body is 99 long, depth 10 lies 9 from its
+  // near end and lands at 79.2 of 99.
+  WarpInput in{};
+  const WarpInput::Point body[] = {{-1, 1, 0, 1}, {1, 100, 0, 100}};
+  in.body = body;
+  in.y_min = 1.0;
+  in.y_max = 100.0;
+  in.sin_gamma = 1.0;
+  in.depth_begin = 1.0;
+  in.depth_end = 100.0;
+  in.view.forward = {0, 1, 0};
+  const double kappa = warps::tsm.choose(in).kappa;
+  EXPECT_CLOSE(9.0 * (1.0 + kappa * 99.0) / (1.0 + kappa * 9.0), 0.8 * 99.0, kClosedForm);
 }
 
 TEST(SeparatingPlaneGolden, texels_are_as_large_as_uniform_ones_at_the_plane) {

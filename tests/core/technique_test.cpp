@@ -98,6 +98,17 @@ TEST(Technique, least_error_within_a_budget_is_found_among_all) {
   }
 }
 
+TEST(Technique, a_budget_that_is_missed_by_a_twentieth_is_not_met) {
+  Plain plain;
+  plain.budget.milliseconds = 1e-6;
+  const TechniqueChoice cheapest = plain.choose();
+  EXPECT_FALSE(cheapest.met);
+  plain.budget.milliseconds = 0.95 * cheapest.chosen.milliseconds;
+  EXPECT_FALSE(plain.choose().met);
+  plain.budget.milliseconds = 1.05 * cheapest.chosen.milliseconds;
+  EXPECT_TRUE(plain.choose().met);
+}
+
 TEST(Technique, of_errors_that_are_alike_the_cheapest_is_taken) {
   Plain plain;
   const std::vector<Technique> all = plain.all();

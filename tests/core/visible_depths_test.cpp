@@ -34,8 +34,9 @@ struct Plain {
   std::vector<Box> casters = {{{-600, 0, -1000}, {600, 3, -1}}};
   std::vector<Box> receivers = {{{-600, -1, -1000}, {600, 2, -1}}};
   PlanOptions options;
+  const VisibleDepths* visible = nullptr;
   [[nodiscard]] ShadowPlan plan() const {
-    return make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {casters, receivers}, options);
+    return make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {casters, receivers}, options, visible);
   }
 };
 
@@ -85,7 +86,7 @@ TEST(VisibleDepths, bins_double_every_eighth_and_their_ends_hold_everything) {
 TEST(VisibleDepths, cascades_cover_the_visible_range_and_its_safety) {
   Plain plain;
   const VisibleDepths depths = visible_between(10.0, 100.0);
-  plain.options.visible_depths = &depths;
+  plain.visible = &depths;
   const ShadowPlan plan = plain.plan();
   ASSERT_EQ(plan.map_count, 4);
   // Ends of the range are exact.
@@ -100,7 +101,7 @@ TEST(VisibleDepths, cascades_cover_the_visible_range_and_its_safety) {
 TEST(VisibleDepths, without_gaps_slices_have_equal_ratios) {
   Plain plain;
   const VisibleDepths depths = visible_between(10.0, 160.0);
-  plain.options.visible_depths = &depths;
+  plain.visible = &depths;
   const ShadowPlan plan = plain.plan();
   ASSERT_EQ(plan.map_count, 4);
   const double ratio = plan.map[0].depth_end / plan.map[0].depth_begin;
@@ -112,7 +113,7 @@ TEST(VisibleDepths, without_gaps_slices_have_equal_ratios) {
 TEST(VisibleDepths, cascades_step_over_a_gap) {
   Plain plain;
   const VisibleDepths depths = near_and_far();
-  plain.options.visible_depths = &depths;
+  plain.visible = &depths;
   plain.options.cascades = 2;
   const ShadowPlan plan = plain.plan();
   ASSERT_EQ(plan.map_count, 2);
@@ -132,9 +133,9 @@ TEST(VisibleDepths, one_visible_pixel_gets_one_map_or_more_and_no_map_twice) {
   Plain plain;
   VisibleDepths depths;
   depths.add(20.0);
-  plain.options.visible_depths = &depths;
+  plain.visible = &depths;
   for (const SplitScheme scheme : {SplitScheme::automatic, SplitScheme::uniform, SplitScheme::optimal}) {
-    plain.options.split = scheme;
+    plain.options.split.scheme = scheme;
     const ShadowPlan plan = plain.plan();
     ASSERT_EQ(plan.status, PlanStatus::ok) << to_string(scheme);
     EXPECT_GE(map_serving(plan, {0, 2, -20}, 20.0), 0) << to_string(scheme);
@@ -151,8 +152,8 @@ TEST(VisibleDepths, a_single_visible_depth_gets_a_single_map) {
     VisibleDepths depths;
     depths.add(20.0);
     depths.add(20.0);
-    plain.options.visible_depths = &depths;
-    plain.options.split = scheme;
+    plain.visible = &depths;
+    plain.options.split.scheme = scheme;
     const ShadowPlan plan = plain.plan();
     ASSERT_EQ(plan.map_count, 1) << to_string(scheme);
     EXPECT_LT(plan.map[0].depth_begin, 20.0);
@@ -168,11 +169,11 @@ TEST(VisibleDepths, nothing_visible_or_a_whole_range_asked_for_changes_nothing) 
   Plain plain;
   const ShadowPlan before = plain.plan();
   const VisibleDepths none;
-  plain.options.visible_depths = &none;
+  plain.visible = &none;
   EXPECT_EQ(plain.plan().map[3].depth_end, before.map[3].depth_end);
   const VisibleDepths some = near_and_far();
-  plain.options.visible_depths = &some;
-  plain.options.split_range = SplitRange::camera;
+  plain.visible = &some;
+  plain.options.split.range = SplitRange::camera;
   EXPECT_EQ(plain.plan().map[3].depth_end, plain.camera.far_depth);
 }
 
@@ -185,14 +186,14 @@ TEST(VisibleDepths, every_visible_receiver_is_served_under_every_scheme) {
     limits.orthographic = false;
     limits.max_boxes = 8;
     Case c = draw_case(limits);
-    c.options.visible_depths = nullptr;
-    c.options.split_range = SplitRange::receivers;
-    c.options.split = kSchemes[static_cast<std::size_t>(pick(6))];
+    c.visible = nullptr;
+    c.options.split.range = SplitRange::receivers;
+    c.options.split.scheme = kSchemes[static_cast<std::size_t>(pick(6))];
     Random random(static_cast<std::uint64_t>(pick(1 << 20)));
     const std::vector<glm::dvec3> points = visible_points(c, random, 3, 2);
     VisibleDepths depths;
     for (const glm::dvec3& point : points) depths.add(depth_of(c.camera, point));
-    c.options.visible_depths = &depths;
+    c.visible = &depths;
     const ShadowPlan plan = c.plan();
     if (plan.status != PlanStatus::ok) return;
     for (const glm::dvec3& point : points) {
@@ -203,7 +204,7 @@ TEST(VisibleDepths, every_visible_receiver_is_served_under_every_scheme) {
       for (const Omission& o : plan.omitted()) {
         served = served || (o.kind == OmissionKind::cascade_without_caster && depth >= o.a && depth <= o.b);
       }
-      require(served, "depth", depth, "of", depths.min, depths.max, to_string(c.options.split));
+      require(served, "depth", depth, "of", depths.min, depths.max, to_string(c.options.split.scheme));
     }
   });
 }

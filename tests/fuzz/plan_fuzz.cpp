@@ -60,18 +60,18 @@ void add_light(Light& light, Fields& f) {
 }
 
 void add_options(PlanOptions& o, Fields& f) {
-  f.add(o.focus);
-  f.real.insert(f.real.end(),
-                {&o.target_m, &o.prune_m, &o.split_overlap, &o.lambda, &o.near_hint, &o.focus_weight,
-                 &o.filter_radius_texels, &o.filter_radius_world, &o.bias.constant_texels,
-                 &o.bias.slope_texels, &o.bias.normal_offset_texels, &o.bias.max_slope});
-  f.whole.insert(f.whole.end(), {&o.map_size, &o.cascades, &o.stable_size_steps});
+  f.add(o.warp.focus);
+  f.real.insert(f.real.end(), {&o.resolution.max_error, &o.resolution.prune_error, &o.split.overlap,
+                               &o.split.lambda, &o.split.pseudo_near, &o.warp.focus_weight, &o.filter.texels,
+                               &o.filter.world, &o.bias.constant_texels, &o.bias.slope_texels,
+                               &o.bias.normal_offset_texels, &o.bias.max_slope});
+  f.whole.insert(f.whole.end(), {&o.resolution.max_size, &o.cascades, &o.resolution.stable_size_steps});
   f.flag.insert(f.flag.end(), {&o.clip_space.reversed_z, &o.clip_space.y_down});
-  f.add_name(o.partition);
-  f.add_name(o.split);
-  f.add_name(o.split_range);
+  f.add_name(o.split.partition);
+  f.add_name(o.split.scheme);
+  f.add_name(o.split.range);
   f.add_name(o.fit);
-  f.add_name(o.objective);
+  f.add_name(o.warp.objective);
   f.add_name(o.clip_space.ndc_depth);
   f.add_name(o.clip_space.handedness);
 }
@@ -82,7 +82,7 @@ Fields fields_of(SeededInput& in) {
   add_light(in.light, f);
   for (Box& box : in.receivers) f.add(box);
   for (Box& box : in.casters) f.add(box);
-  for (double& split : in.splits) f.real.push_back(&split);
+  for (double& split : in.options.split.given) f.real.push_back(&split);
   f.real.insert(f.real.end(), {&in.depths.min, &in.depths.max});
   add_options(in.options, f);
   return f;
@@ -100,12 +100,10 @@ void start(Bytes& bytes, SeededInput& in) {
   if (kind % 3 == 2) in.light = PointLight{};
   in.receivers.resize(bytes.take<std::uint8_t>() % kMaxBoxes);
   in.casters.resize(bytes.take<std::uint8_t>() % kMaxBoxes);
-  in.splits.resize(bytes.take<std::uint8_t>() % kMaxMaps);
-  in.options.given_splits = in.splits;
   const auto warps = all_warps();
   const auto warp = bytes.take<std::uint8_t>();
-  in.options.warp = warp < warps.size() ? warps[warp] : nullptr;
-  if (bytes.take<std::uint8_t>() % 2 != 0) in.options.visible_depths = &in.depths;
+  in.options.warp.warp = warp < warps.size() ? warps[warp] : nullptr;
+  if (bytes.take<std::uint8_t>() % 2 != 0) in.visible = &in.depths;
   const Fields f = fields_of(in);
   for (double* value : f.real) *value = bytes.take<double>();
   for (int* value : f.whole) *value = bytes.take<std::int32_t>();
@@ -122,7 +120,7 @@ void change(Bytes& bytes, SeededInput& in) {
     if (what >= 0xa0 && what < 0xc0) *f.whole[which % f.whole.size()] = bytes.take<std::int32_t>();
     if (what >= 0xc0 && what < 0xd0) *f.flag[which % f.flag.size()] = (bytes.take<std::uint8_t>() & 1) != 0;
     if (what >= 0xd0 && what < 0xf0) *f.name[which % f.name.size()] = bytes.take<std::uint8_t>();
-    if (what >= 0xf0 && what < 0xf8) in.options.texel_budget = bytes.take<std::int64_t>();
+    if (what >= 0xf0 && what < 0xf8) in.options.resolution.texel_budget = bytes.take<std::int64_t>();
     if (what >= 0xf8) in.options.prune.bits = bytes.take<std::uint32_t>();
   }
 }
@@ -155,7 +153,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   use(plan, in);
   PlanHistory history;
   for (int frame = 0; frame < 2; ++frame) {
-    fuzz::check_plan(make_plan(in.camera, in.light, in.bounds(), in.options, history), in.options);
+    fuzz::check_plan(make_plan(in.camera, in.light, in.bounds(), in.options, history, in.visible),
+                     in.options);
     require(history.event_count >= 0 && history.event_count <= kMaxMaps, "room for events");
     in.camera.position += in.camera.forward * 0.01;
   }

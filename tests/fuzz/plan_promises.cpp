@@ -73,12 +73,13 @@ void check_plan(const ShadowPlan& plan, const PlanOptions& options) {
   std::int64_t texels = 0;
   for (const ShadowMap& map : plan.maps()) {
     check_map(map);
-    require(options.texel_budget > 0 || (map.width <= options.map_size && map.height <= options.map_size),
+    require(options.resolution.texel_budget > 0 ||
+                (map.width <= options.resolution.max_size && map.height <= options.resolution.max_size),
             "no side longer than asked for");
     texels += std::int64_t{map.width} * map.height;
   }
-  require(options.texel_budget == 0 || texels <= options.texel_budget ||
-              options.partition != Partition::view_depth,
+  require(options.resolution.texel_budget == 0 || texels <= options.resolution.texel_budget ||
+              options.split.partition != Partition::view_depth,
           "within the budget");
 }
 

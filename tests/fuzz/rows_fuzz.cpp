@@ -1,8 +1,7 @@
 // Does any text, taken for results of a sweep, become rows that are written as they were read, and a page
 // that none of their words can break out of, or a refusal of one line?
 #include "fuzz.hpp"
-#include "gnomon/report/row.hpp"
-#include "rows_text.hpp"
+#include "gnomon/report/rows_file.hpp"
 #include "sections.hpp"
 
 namespace {

@@ -113,7 +113,7 @@ Case draw() {
   c.options.clip_space = {static_cast<NdcDepth>(pick(2)), chance(0.5), chance(0.5),
                           static_cast<Handedness>(pick(2))};
   // The widest kernel asked about reads 5 texels away: it must find the map there.
-  c.options.filter_radius_texels = 6.0;
+  c.options.filter.texels = 6.0;
   return c;
 }
 

@@ -130,7 +130,7 @@ TEST(CastersLaw, a_caster_that_only_the_filter_kernel_reaches_is_drawn_too) {
   std::uint64_t shadows = 0;
   for_all(1000, [&] {
     Case c = draw_case();
-    if (c.options.filter_radius_texels < 1.0) c.options.filter_radius_texels = 1.0 + pick(4);
+    if (c.options.filter.texels < 1.0) c.options.filter.texels = 1.0 + pick(4);
     RC_LOG() << c;
     const ShadowPlan plan = c.plan();
     const auto lists = culled(c, plan);
@@ -139,7 +139,7 @@ TEST(CastersLaw, a_caster_that_only_the_filter_kernel_reaches_is_drawn_too) {
     for (const glm::dvec3& p : visible_points(c, random, 4, 4)) {
       const ShadowMap* map = map_for(plan, depth_of(c.camera, p));
       if (map == nullptr) continue;
-      const double radius = c.options.filter_radius_texels;
+      const double radius = c.options.filter.texels;
       const glm::dvec3 start =
           p +
           kernel_tap(*map, p, to_light, {random.between(-radius, radius), random.between(-radius, radius)});

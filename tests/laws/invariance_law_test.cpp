@@ -59,7 +59,7 @@ void scale(Case& c, double by) {
   c.camera.position *= by;
   c.camera.near_depth *= by;
   c.camera.far_depth *= by;
-  c.options.near_hint *= by;
+  c.options.split.pseudo_near *= by;
   if (c.camera.orthographic) {
     for (double* edge : {&c.camera.left, &c.camera.right, &c.camera.bottom, &c.camera.top}) *edge *= by;
   }
@@ -93,14 +93,14 @@ void turn(Case& c, const glm::dmat3& by) {
 
 /// True where the map's strength comes from a search, which rounding may lead along another path.
 bool searched(const Case& c) {
-  const Warp* warp = c.options.warp;
-  return c.options.fit == Fit::tight &&
+  const Warp* warp = c.options.warp.warp;
+  return c.options.fit != Fit::stable &&
          (warp == nullptr || warp == &warps::lispsm || warp->name == "optimal");
 }
 /// The same, with borders from formulas: searched ones have a flat best, and rounding picks its spot there.
 Case draw_with_formula_splits() {
   Case c = draw_case();
-  if (c.options.split == SplitScheme::optimal) c.options.split = SplitScheme::practical;
+  if (c.options.split.scheme == SplitScheme::optimal) c.options.split.scheme = SplitScheme::practical;
   make_coarse(c);
   return c;
 }
@@ -119,7 +119,7 @@ void require_same_quality(const ShadowPlan& a, const Case& ca, const ShadowPlan&
     require(deviation(m.depth_end * unit_of_b, n.depth_end) <= kSame, "depth_end", m.depth_end, n.depth_end);
     require(deviation(m.storage, n.storage) <= (searched(ca) ? kSearched : kSame), "storage", m.storage,
             n.storage, "cascade", m.cascade, "kappa", m.kappa, n.kappa,
-            ca.options.warp ? ca.options.warp->name : "auto");
+            ca.options.warp.warp ? ca.options.warp.warp->name : "auto");
     if (searched(ca)) continue;
     require(deviation(m.m_s_max, n.m_s_max) <= kSame, "m_s", m.m_s_max, n.m_s_max);
     require(deviation(m.m_t_max, n.m_t_max) <= kSame, "m_t", m.m_t_max, n.m_t_max);
@@ -210,7 +210,7 @@ TEST(InvarianceLaw, turning_and_moving_the_world_changes_nothing) {
   for_all(1000, [&] {
     Case c = draw_with_formula_splits();
     c.options.fit = Fit::tight;  // a stable grid is tied to the world's axes
-    if (searched(c)) c.options.warp = &warps::lispsm04;
+    if (searched(c)) c.options.warp.warp = &warps::lispsm04;
     // A caster that exactly touches the shaft of light may count either way; one round everything always
     // does.
     const double f = 8.0 * c.camera.far_depth;

@@ -40,8 +40,8 @@ TEST(MarginLaw, no_kernel_in_world_units_reads_outside_its_map) {
     Case c = draw_case({.max_depth_ratio = 1e4, .max_boxes = 6});
     const Fit fits[] = {Fit::tight, Fit::rotated, Fit::stable, Fit::warped_stable};
     c.options.fit = fits[pick(4)];
-    c.options.filter_radius_texels = 0.0;
-    c.options.filter_radius_world = c.camera.far_depth * std::pow(10.0, between(-5.0, -1.0));
+    c.options.filter.texels = 0.0;
+    c.options.filter.world = c.camera.far_depth * std::pow(10.0, between(-5.0, -1.0));
     const ShadowPlan plan = c.plan();
     Random random(3);
     for (const glm::dvec3& p : visible_points(c, random, 3, 6)) {
@@ -49,7 +49,7 @@ TEST(MarginLaw, no_kernel_in_world_units_reads_outside_its_map) {
       // A rim of a quarter is as wide as it gets: the kernel is too wide for the map.
       if (map == nullptr || 4 * map->filter_margin_texels >= map->width) continue;
       wide += map->filter_margin_texels > 2;
-      const double out = beyond_the_edge(*map, plan.light_direction, p, c.options.filter_radius_world);
+      const double out = beyond_the_edge(*map, plan.light_direction, p, c.options.filter.world);
       require(out <= kTexel, "texels beyond the edge", out, "margin", map->filter_margin_texels, "cascade",
               map->cascade, to_string(c.options.fit), map->warp->name);
       ++judged;

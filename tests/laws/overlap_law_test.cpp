@@ -18,7 +18,7 @@ constexpr double kRim = 1e-7, kGraze = 1e-9;
 Case draw_overlapping() {
   Case c = draw_case();
   c.options.cascades = 2 + pick(7);
-  c.options.split_overlap = chance(0.2) ? 1.0 : between(0.01, 0.5);
+  c.options.split.overlap = chance(0.2) ? 1.0 : between(0.01, 0.5);
   return c;
 }
 
@@ -37,8 +37,8 @@ TEST(OverlapLaw, a_visible_receiver_in_an_overlap_lies_inside_both_maps_and_off_
         const glm::dvec4 clip = map.clip_from_world * glm::dvec4(p, 1.0);
         require(clip.w > 0.0, "w", clip.w, "at depth", depth, "of cascade", map.cascade);
         const glm::dvec3 ndc = glm::dvec3(clip) / clip.w;
-        const double rim_x = 1.0 - 2.0 * c.options.filter_radius_texels / map.width;
-        const double rim_y = 1.0 - 2.0 * c.options.filter_radius_texels / map.height;
+        const double rim_x = 1.0 - 2.0 * c.options.filter.texels / map.width;
+        const double rim_y = 1.0 - 2.0 * c.options.filter.texels / map.height;
         require(std::abs(ndc.x) <= rim_x + kRim && std::abs(ndc.y) <= rim_y + kRim && std::abs(ndc.z) <= 1.0,
                 "ndc", ndc.x, ndc.y, ndc.z, "beyond", rim_x, rim_y, "at depth", depth, "of cascade",
                 map.cascade, map.warp->name);
@@ -91,10 +91,10 @@ TEST(OverlapLaw, an_overlap_is_the_asked_share_of_the_map_before_and_moves_no_sp
       const ShadowMap& map = plan.map[i];
       const bool touches = i > 0 && plan.map[i - 1].depth_end == map.depth_begin;
       const double length = touches ? map.depth_begin - plan.map[i - 1].depth_begin : 0.0;
-      require(map.overlap == c.options.split_overlap * length, "overlap", map.overlap, "of", length);
+      require(map.overlap == c.options.split.overlap * length, "overlap", map.overlap, "of", length);
       if (touches) ++overlaps;
     }
-    c.options.split_overlap = 0.0;
+    c.options.split.overlap = 0.0;
     const ShadowPlan cut = c.plan();
     for (const ShadowMap& map : cut.maps()) {
       require(map.overlap == 0.0, "an overlap that nobody asked for");

@@ -19,7 +19,7 @@ constexpr std::array kDivided = {Partition::frustum_faces, Partition::separating
 Case draw_divided() {
   Case c = draw_case();
   c.options.fit = chance(0.3) ? Fit::rotated : Fit::tight;
-  c.options.partition = kDivided[static_cast<std::size_t>(pick(2))];
+  c.options.split.partition = kDivided[static_cast<std::size_t>(pick(2))];
   return c;
 }
 
@@ -41,7 +41,7 @@ TEST(PartitionLaw, the_first_map_whose_planes_hold_a_visible_receiver_point_show
   int divided = 0;
   for_all(600, [&] {
     const Case c = draw_divided();
-    RC_LOG() << c << to_string(c.options.partition);
+    RC_LOG() << c << to_string(c.options.split.partition);
     const ShadowPlan plan = c.plan();
     if (plan.status != PlanStatus::ok || !plan.select_by_map) return;
     ++divided;
@@ -65,7 +65,7 @@ TEST(PartitionLaw, a_caster_between_a_receiver_and_the_light_is_in_the_list_of_t
   int shadowed = 0;
   for_all(400, [&] {
     const Case c = draw_divided();
-    RC_LOG() << c << to_string(c.options.partition);
+    RC_LOG() << c << to_string(c.options.split.partition);
     const ShadowPlan plan = c.plan();
     // What is not divided is held by the laws of cascades.
     if (!plan.select_by_map) return;
@@ -93,7 +93,7 @@ TEST(PartitionLaw, a_caster_between_a_receiver_and_the_light_is_in_the_list_of_t
 TEST(PartitionLaw, what_is_not_divided_is_told_and_a_stable_fit_keeps_its_cascades) {
   for_all(300, [&] {
     Case c = draw_divided();
-    RC_LOG() << c << to_string(c.options.partition);
+    RC_LOG() << c << to_string(c.options.split.partition);
     const ShadowPlan plan = c.plan();
     if (plan.status == PlanStatus::nothing_visible) return;
     require(plan.select_by_map != told(plan, OmissionKind::partition_without_gain), "divided without a word");
@@ -101,7 +101,7 @@ TEST(PartitionLaw, what_is_not_divided_is_told_and_a_stable_fit_keeps_its_cascad
     const ShadowPlan stable = c.plan();
     require(!stable.select_by_map && told(stable, OmissionKind::partition_in_stable_fit),
             "stable but divided");
-    c.options.partition = Partition::view_depth;
+    c.options.split.partition = Partition::view_depth;
     const ShadowPlan cascades = c.plan();
     require(cascades.map_count == stable.map_count, "maps", cascades.map_count, stable.map_count);
     for (int i = 0; i < cascades.map_count; ++i) {
@@ -133,22 +133,24 @@ TEST(PartitionLaw, no_partition_makes_its_objective_worse_than_one_uniform_map_w
     c.options.fit = Fit::tight;
     c.options.cascades = 1;
     c.options.prune = c.options.prune.without(PruneRule::metric_resolution);
-    c.options.near_hint = c.options.filter_radius_world = 0.0;
-    if (c.options.warp != nullptr && !c.options.warp->drop_without_gain) c.options.warp = nullptr;
+    c.options.split.pseudo_near = c.options.filter.world = 0.0;
+    if (c.options.warp.warp != nullptr && !c.options.warp.warp->drop_without_gain)
+      c.options.warp.warp = nullptr;
     Case single = c;
-    single.options.warp = &warps::none;
+    single.options.warp.warp = &warps::none;
     const AliasingStats without = measure(single.plan(), c.camera, c.bounds(), kGrid);
     if (without.samples < kEnough) return;
     for (const Partition partition : kDivided) {
-      c.options.partition = partition;
+      c.options.split.partition = partition;
       RC_LOG() << c << to_string(partition);
       const ShadowPlan plan = c.plan();
       if (!plan.select_by_map) continue;
       ++divided;
       const AliasingStats with = measure(plan, c.camera, c.bounds(), kGrid);
-      require(measured(with, c.options.objective) <= measured(without, c.options.objective) * kJudged,
-              to_string(partition), to_string(c.options.objective), measured(with, c.options.objective),
-              "with one map", measured(without, c.options.objective));
+      require(
+          measured(with, c.options.warp.objective) <= measured(without, c.options.warp.objective) * kJudged,
+          to_string(partition), to_string(c.options.warp.objective), measured(with, c.options.warp.objective),
+          "with one map", measured(without, c.options.warp.objective));
     }
   });
   EXPECT_GT(divided, 200);

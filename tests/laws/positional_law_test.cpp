@@ -67,7 +67,7 @@ LightCase draw_light_case() {
   CaseLimits limits;
   limits.max_boxes = 12;
   c.scene = draw_case(limits);
-  c.scene.options.map_size = std::max(c.scene.options.map_size, 128);
+  c.scene.options.resolution.max_size = std::max(c.scene.options.resolution.max_size, 128);
   Random random(static_cast<std::uint64_t>(pick(1 << 30)));
   c.position = draw_position(c.scene, random);
   const Box& target =
@@ -156,7 +156,7 @@ TEST(PositionalLaw, a_lit_receiver_in_view_is_held_by_a_map_or_nothing_stands_be
       ++held;
       const ShadowMap& map = plan.map[static_cast<std::size_t>(index)];
       const glm::dvec4 clip = map.clip_from_world * glm::dvec4(p, 1.0);
-      const double inner = 1.0 - 2.0 * c.scene.options.filter_radius_texels / map.width;
+      const double inner = 1.0 - 2.0 * c.scene.options.filter.texels / map.width;
       require(clip.w > 0.0 && std::abs(clip.x) <= (inner + 0.5 / map.width + kRim) * clip.w &&
                   std::abs(clip.y) <= (inner + 0.5 / map.width + kRim) * clip.w && std::abs(clip.z) <= clip.w,
               "outside its map");
@@ -225,7 +225,7 @@ TEST(PositionalLaw, a_caster_that_only_the_filter_kernel_reaches_is_drawn_too) {
   std::uint64_t shadows = 0;
   for_all(1500, [&] {
     LightCase c = draw_light_case();
-    if (c.scene.options.filter_radius_texels < 1.0) c.scene.options.filter_radius_texels = 1.0 + pick(4);
+    if (c.scene.options.filter.texels < 1.0) c.scene.options.filter.texels = 1.0 + pick(4);
     RC_LOG() << c;
     const ShadowPlan plan = c.plan();
     Random random(17);
@@ -234,7 +234,7 @@ TEST(PositionalLaw, a_caster_that_only_the_filter_kernel_reaches_is_drawn_too) {
       if (index < 0) continue;
       const ShadowMap& map = plan.map[static_cast<std::size_t>(index)];
       const glm::dvec4 clip = map.clip_from_world * glm::dvec4(p, 1.0);
-      const double reach = 2.0 * (c.scene.options.filter_radius_texels - 0.25) / map.width;
+      const double reach = 2.0 * (c.scene.options.filter.texels - 0.25) / map.width;
       const glm::dvec2 tap{clip.x / clip.w + random.between(-reach, reach),
                            clip.y / clip.w + random.between(-reach, reach)};
       // The ray through the tap, up to the depth that its texel is compared with. Farther off, though as far
@@ -251,6 +251,47 @@ TEST(PositionalLaw, a_caster_that_only_the_filter_kernel_reaches_is_drawn_too) {
     }
   });
   EXPECT_GT(shadows, 1000u);
+}
+
+TEST(PositionalLaw, no_kernel_in_world_units_reads_outside_its_map) {
+  // Rounding of a position in the map, in texels.
+  constexpr double kTexel = 1e-3;
+  std::uint64_t judged = 0, wide = 0;
+  for_all(1500, [&] {
+    LightCase c = draw_light_case();
+    c.scene.options.filter.texels = 0.0;
+    c.scene.options.filter.world = c.range * std::pow(10.0, between(-5.0, -1.0));
+    RC_LOG() << c;
+    const ShadowPlan plan = c.plan();
+    Random random(19);
+    for (const glm::dvec3& p : visible_points(c.scene, random, 4, 6)) {
+      const int index = lit(c, p) ? map_serving(plan, p, 0.0) : -1;
+      if (index < 0) continue;
+      const ShadowMap& map = plan.map[static_cast<std::size_t>(index)];
+      // A margin of a quarter is as wide as it gets: the kernel is too wide for the map.
+      if (4 * map.filter_margin_texels >= map.width) continue;
+      const glm::dvec4 clip = map.clip_from_world * glm::dvec4(p, 1.0);
+      const glm::dvec3 travel = glm::normalize(p - c.position);
+      for (int axis = 0; axis < 2; ++axis) {
+        const double ndc = clip[axis] / clip.w;
+        // In the quarter texel beyond the margin that map_holds leaves to rounding, a kernel may, too.
+        if (std::abs(ndc) > 1.0 - 2.0 * map.filter_margin_texels / map.width) continue;
+        glm::dvec3 gradient;
+        for (int column = 0; column < 3; ++column)
+          gradient[column] =
+              (map.clip_from_world[column][axis] - ndc * map.clip_from_world[column].w) / clip.w;
+        const glm::dvec3 across = gradient - travel * glm::dot(gradient, travel);
+        const double texels = 0.5 * map.width * glm::length(across) * c.scene.options.filter.world;
+        const double room = 0.5 * map.width * (1.0 - std::abs(ndc));
+        require(texels <= room + kTexel, "a kernel of", texels, "texels has room for", room, "margin",
+                map.filter_margin_texels, "face", map.cascade, map.warp->name);
+      }
+      wide += map.filter_margin_texels > 2;
+      ++judged;
+    }
+  });
+  EXPECT_GT(judged, 1000u);
+  EXPECT_GT(wide, 100u);
 }
 
 TEST(PositionalLaw, every_number_of_a_map_is_finite_and_of_its_sign) {
@@ -292,11 +333,11 @@ TEST(PositionalLaw, a_warp_never_makes_its_map_need_more_storage) {
     LightCase c = draw_light_case();
     c.scene.options.fit = Fit::tight;
     c.scene.options.prune = c.scene.options.prune.without(PruneRule::metric_resolution);
-    c.scene.options.objective = Objective::storage;
-    c.scene.options.warp = chance(0.5) ? nullptr : &warps::lispsm;
+    c.scene.options.warp.objective = Objective::storage;
+    c.scene.options.warp.warp = chance(0.5) ? nullptr : &warps::lispsm;
     RC_LOG() << c;
     const ShadowPlan with = c.plan();
-    c.scene.options.warp = &warps::none;
+    c.scene.options.warp.warp = &warps::none;
     const ShadowPlan without = c.plan();
     for (const ShadowMap& a : with.maps()) {
       if (a.kappa > 0.0) ++warped;
@@ -321,12 +362,12 @@ TEST(PositionalLaw, a_measured_warp_is_not_above_the_unwarped_map_by_more_than_s
     c.scene.receivers = {c.scene.receivers.back()};
     c.scene.options.fit = Fit::tight;
     c.scene.options.prune = c.scene.options.prune.without(PruneRule::metric_resolution);
-    c.scene.options.objective = Objective::max;
-    c.scene.options.near_hint = 0.0;
-    c.scene.options.warp = nullptr;
+    c.scene.options.warp.objective = Objective::max;
+    c.scene.options.split.pseudo_near = 0.0;
+    c.scene.options.warp.warp = nullptr;
     RC_LOG() << c;
     const ShadowPlan with = c.plan();
-    c.scene.options.warp = &warps::none;
+    c.scene.options.warp.warp = &warps::none;
     const ShadowPlan without = c.plan();
     for (int i = 0; i < with.map_count; ++i) {
       const MeasureGrid grid{16, 16, 32};

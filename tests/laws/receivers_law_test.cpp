@@ -32,8 +32,8 @@ TEST(ReceiversLaw, a_visible_receiver_lies_inside_its_map_and_off_the_filter_mar
       const glm::dvec4 clip = map->clip_from_world * glm::dvec4(p, 1.0);
       require(clip.w > 0.0, "w", clip.w, "at depth", depth, "of cascade", map->cascade, map->warp->name);
       const glm::dvec3 ndc = glm::dvec3(clip) / clip.w;
-      const double rim_x = 1.0 - 2.0 * c.options.filter_radius_texels / map->width;
-      const double rim_y = 1.0 - 2.0 * c.options.filter_radius_texels / map->height;
+      const double rim_x = 1.0 - 2.0 * c.options.filter.texels / map->width;
+      const double rim_y = 1.0 - 2.0 * c.options.filter.texels / map->height;
       require(std::abs(ndc.x) <= rim_x + kRim && std::abs(ndc.y) <= rim_y + kRim, "ndc", ndc.x, ndc.y,
               "beyond", rim_x, rim_y, "at depth", depth, "of cascade", map->cascade, map->warp->name);
       require(std::abs(ndc.z) <= 1.0, "ndc depth", ndc.z, "at depth", depth, "of cascade", map->cascade);
@@ -70,7 +70,7 @@ TEST(ReceiversLaw, every_number_of_a_map_is_finite_and_of_its_sign) {
               "largest texel", map.texel_world_max.x, map.texel_world_max.y, "centre", map.texel_world.x,
               map.texel_world.y);
       require(map.m_s_max >= 0.0 && map.m_t_max >= 0.0 && std::isfinite(map.storage), "storage", map.storage);
-      require(map.filter_margin_texels >= c.options.filter_radius_texels, "margin", map.filter_margin_texels);
+      require(map.filter_margin_texels >= c.options.filter.texels, "margin", map.filter_margin_texels);
       require(map.cull_plane_count >= 4 && map.cull_plane_count <= kMaxCullPlanes, "planes",
               map.cull_plane_count);
       for (int i = 0; i < map.cull_plane_count; ++i) {

@@ -31,11 +31,11 @@ void compare_with_logarithmic(int boxes, double allowed, std::uint64_t exception
     Case c = draw_case({.max_depth_ratio = 1e4, .max_boxes = boxes});
     if (boxes == 1) c.receivers.resize(1);
     c.options.fit = Fit::tight;
-    c.options.warp = &warps::none;
-    c.options.near_hint = 0.0;
+    c.options.warp.warp = &warps::none;
+    c.options.split.pseudo_near = 0.0;
     c.options.prune = kPruneNothing;  // maps of one size
-    c.options.filter_radius_texels = 0.0;
-    c.options.objective = chance(0.5) ? Objective::storage : Objective::max;
+    c.options.filter.texels = 0.0;
+    c.options.warp.objective = chance(0.5) ? Objective::storage : Objective::max;
     c.options.cascades = 2 + pick(6);
     // The objective weighs slopes alike across and down; so do the bounds where pixels are square.
     c.camera.width = c.camera.height = 512;
@@ -44,16 +44,16 @@ void compare_with_logarithmic(int boxes, double allowed, std::uint64_t exception
     const double f = 8.0 * c.camera.far_depth;
     c.casters = {{c.camera.position - glm::dvec3(f), c.camera.position + glm::dvec3(f)}};
     RC_LOG() << c;
-    c.options.split = SplitScheme::logarithmic;
-    const double before = measured(c, c.options.objective);
-    c.options.split = SplitScheme::optimal;
-    const double after = measured(c, c.options.objective);
+    c.options.split.scheme = SplitScheme::logarithmic;
+    const double before = measured(c, c.options.warp.objective);
+    c.options.split.scheme = SplitScheme::optimal;
+    const double after = measured(c, c.options.warp.objective);
     if (!(before > 0.0)) return;
     ++compared;
     if (after > before * allowed) ++worse;
     log_ratio += std::log(after / before);
-    require(exceptions > 0 || after <= before * allowed, to_string(c.options.objective), "searched", after,
-            "logarithmic", before);
+    require(exceptions > 0 || after <= before * allowed, to_string(c.options.warp.objective), "searched",
+            after, "logarithmic", before);
     if (after < 0.9 * before) ++better;
   });
   EXPECT_GT(compared, 100u);

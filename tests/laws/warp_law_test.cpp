@@ -1,8 +1,10 @@
 // What every warp in the registry must do: answer with a usable strength and never make its objective worse.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <set>
 #include <string>
@@ -41,7 +43,7 @@ Case draw_single_receiver() {
   c.receivers = c.casters = {{at - half, at + half}};
   c.options.fit = Fit::tight;
   c.options.cascades = 1;
-  c.options.near_hint = 0.0;
+  c.options.split.pseudo_near = 0.0;
   return c;
 }
 
@@ -58,31 +60,40 @@ TEST(WarpLaw, no_warp_that_may_be_dropped_makes_its_objective_worse_than_no_warp
   constexpr MeasureGrid kGrid{20, 20, 32};
   constexpr std::uint64_t kEnough = 400;
   std::uint64_t warped = 0;
+  std::array<double, 3> worst{};
   for_all(700, [&] {
     Case c = draw_single_receiver();
     RC_LOG() << c;
-    c.options.warp = &warps::none;
+    c.options.warp.warp = &warps::none;
     c.options.prune = kPruneNothing;  // maps of one size
     const ShadowPlan uniform = c.plan();
     const AliasingStats without = measure(uniform, c.camera, c.bounds(), kGrid);
     if (without.samples < kEnough) return;
     for (const Warp* warp : all_warps()) {
       if (!warp->drop_without_gain) continue;
-      c.options.warp = warp;
+      c.options.warp.warp = warp;
       const ShadowPlan plan = c.plan();
       if (plan.map_count == 0 || plan.map[0].kappa == 0.0) continue;
       ++warped;
       const AliasingStats with = measure(plan, c.camera, c.bounds(), kGrid);
-      const double after = measured(with, c.options.objective),
-                   before = measured(without, c.options.objective);
-      require(after <= before * kJudged, warp->name, to_string(c.options.objective), after, "without", before,
+      const double after = measured(with, c.options.warp.objective),
+                   before = measured(without, c.options.warp.objective);
+      double& so_far = worst[static_cast<std::size_t>(c.options.warp.objective)];
+      so_far = std::max(so_far, after / before);
+      require(after <= before * kJudged, warp->name, to_string(c.options.warp.objective), after, "without", before,
               "kappa", plan.map[0].kappa);
     }
   });
   EXPECT_GT(warped, 500u);
+  // What the suite's own cases show at worst; other seeds draw others.
+  constexpr double kWorstOfSuite = 1.04;
+  if (std::getenv("RC_PARAMS") == nullptr) {
+    for (const double ratio : worst) EXPECT_LE(ratio, kWorstOfSuite);
+  }
 }
 
 TEST(WarpLaw, a_map_names_the_warp_that_was_used_and_what_was_dropped_is_told) {
+  std::uint64_t kept = 0, dropped = 0;
   for_all(600, [&] {
     Case c = draw_case();
     c.options.fit = Fit::tight;
@@ -91,14 +102,18 @@ TEST(WarpLaw, a_map_names_the_warp_that_was_used_and_what_was_dropped_is_told) {
     for (const ShadowMap& map : plan.maps()) {
       // The other way round a warp may slant the map alone, with kappa 0.
       require(map.warp != &warps::none || map.kappa == 0.0, "none with kappa", map.kappa);
-      if (map.warp != &warps::none || c.options.warp == &warps::none) continue;
+      if (map.warp != &warps::none || c.options.warp.warp == &warps::none) continue;
       bool told = plan.omission_count > kMaxOmissions;
       for (const Omission& o : plan.omitted()) {
         told = told || (o.kind == OmissionKind::warp_without_gain && (o.map == map.cascade || o.map == -1));
       }
       require(told, "warp dropped from cascade", map.cascade, "without a word");
+      ++dropped;
     }
+    for (const ShadowMap& map : plan.maps()) kept += map.kappa > 0.0;
   });
+  EXPECT_GT(kept, 300u);
+  EXPECT_GT(dropped, 100u);
 }
 
 /// A frustum's profile in the light frame: four corners of the slice [n, f] in the plane of view and light,

@@ -54,9 +54,9 @@ Frame draw(const Scene& scene, const Camera& camera, const PlanOptions& options)
 
 PlanOptions options_for(const Warp* warp, int cascades) {
   PlanOptions options;
-  options.map_size = 256;
+  options.resolution.max_size = 256;
   options.cascades = cascades;
-  options.warp = warp;
+  options.warp.warp = warp;
   return options;
 }
 
@@ -135,7 +135,7 @@ TEST(AliasingPass, is_what_neighbouring_pixels_see_in_the_map) {
 
 TEST(AliasingPass, predicts_how_many_pixels_share_a_texel) {
   PlanOptions options = options_for(&warps::none, 1);
-  options.map_size = 32;  // so few that each texel is many pixels wide
+  options.resolution.max_size = 32;  // so few that each texel is many pixels wide
   const Frame frame = draw(box_on_ground(), camera_on_box(kSize, kSize), options);
   const ShadowMap& map = frame.plan.map[0];
   std::vector<double> pixels(static_cast<std::size_t>(map.width * map.height)), predicted(pixels.size());

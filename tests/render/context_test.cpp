@@ -105,7 +105,7 @@ std::optional<Hashes> drawn_by(ContextKind kind, std::string& renderer_name) {
   const Camera camera = camera_on_box(kSize, kSize);
   Renderer renderer(scene);
   PlanOptions options;
-  options.map_size = 256;
+  options.resolution.max_size = 256;
   options.cascades = 2;
   renderer.draw(plan_for(scene, camera, {0.4, -0.8, -0.3}, options), camera, renderer.prepare(filters::pcf));
   return Hashes{hash_of(renderer.depth_map(0).values), hash_of(renderer.mask().values),

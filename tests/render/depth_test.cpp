@@ -36,9 +36,9 @@ TEST(DepthMaps, hold_the_depth_of_the_ground_at_each_texels_centre) {
   Renderer renderer(scene);
   for (const Warp* warp : all_warps()) {
     PlanOptions options;
-    options.map_size = 128;
+    options.resolution.max_size = 128;
     options.cascades = 1;
-    options.warp = warp;
+    options.warp.warp = warp;
     options.prune = kPruneNothing;  // a square map
     const ShadowPlan plan = plan_for(scene, camera, {0.4, -0.8, -0.3}, options);
     ASSERT_EQ(plan.map_count, 1);
@@ -79,7 +79,7 @@ TEST(DepthMaps, are_drawn_for_plans_of_any_clip_space) {
   for (const ClipSpace space :
        {kOpenGl, kOpenGlZeroToOne, kVulkan, ClipSpace{NdcDepth::zero_to_one, true, false}}) {
     PlanOptions options;
-    options.map_size = 128;
+    options.resolution.max_size = 128;
     options.clip_space = space;
     const ShadowPlan plan = plan_for(scene, camera, {0.4, -0.8, -0.3}, options);
     renderer.draw(plan, camera, renderer.prepare(filters::pcf));
@@ -99,7 +99,7 @@ TEST(DepthMaps, of_different_sizes_share_one_array) {
   const Camera camera = camera_on_box(kSize, kSize);
   Renderer renderer(scene);
   PlanOptions options;
-  options.map_size = 128;
+  options.resolution.max_size = 128;
   options.cascades = 2;
   options.prune = kPruneNothing;
   ShadowPlan plan = plan_for(scene, camera, {0.4, -0.8, -0.3}, options);

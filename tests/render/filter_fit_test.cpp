@@ -43,13 +43,13 @@ TEST(FilterFit, maps_without_depths_and_filters_that_store_none_decide_nothing) 
     const FilterSettings full = default_settings(*filter);
     for (const std::vector<DrawnDepths>& maps : {std::vector<DrawnDepths>{}, std::vector{empty}}) {
       const FilterFit fit = fit_filter(full, maps);
-      EXPECT_EQ(fit.receivers, 0) << filter->name;
-      EXPECT_FALSE(fit.saves()) << filter->name;
+      EXPECT_EQ(fit.receivers, 0) << filter->info.name;
+      EXPECT_FALSE(fit.saves()) << filter->info.name;
       EXPECT_EQ(to_string(fit.settings), to_string(full));
       EXPECT_EQ(describe(fit, full), "");
     }
-    if (filter->formats.empty()) {
-      EXPECT_EQ(fit_filter(full, std::vector{street(1, 8)}).receivers, 0) << filter->name;
+    if (filter->info.formats.empty()) {
+      EXPECT_EQ(fit_filter(full, std::vector{street(1, 8)}).receivers, 0) << filter->info.name;
     }
   }
 }
@@ -73,8 +73,8 @@ TEST(FilterFit, answers_keep_within_the_bound_and_a_looser_bound_takes_no_more_b
       double bytes = 1e9;
       for (const double bound : {0.5 / 255, 4.0 / 255, 1.0}) {
         const FilterFit fit = fit_filter(full, maps, {.bound = bound});
-        EXPECT_LE(fit.error, bound) << filter->name << ' ' << seed;
-        EXPECT_LE(fit.bytes, bytes) << filter->name << ": a looser bound takes no more";
+        EXPECT_LE(fit.error, bound) << filter->info.name << ' ' << seed;
+        EXPECT_LE(fit.bytes, bytes) << filter->info.name << ": a looser bound takes no more";
         bytes = fit.bytes;
         (fit.saves() ? saving : kept) += 1;
       }
@@ -98,7 +98,7 @@ TEST(FilterFit, exceptions_let_so_many_receivers_differ_by_more) {
 TEST(FilterFit, a_simpler_filter_takes_over_the_options_that_it_shares) {
   const FilterSettings full = settings_of("evsm4:c=30,bleed=0.2,radius=2");
   const FilterFit fit = fit_filter(full, std::vector{street(1, 9)}, {.bound = 1.0});
-  EXPECT_EQ(fit.settings.filter->name, "evsm2");
+  EXPECT_EQ(fit.settings.filter->info.name, "evsm2");
   EXPECT_EQ(fit.settings.radius, 2.0);
   EXPECT_EQ(fit.settings.value("bleed"), 0.2);
 }

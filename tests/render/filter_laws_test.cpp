@@ -24,12 +24,12 @@ std::vector<FilterSettings> variants() {
     }
     settings.radius = 2.0;
     settings.blur = BlurShape::gauss;
-    if (!filter->formats.empty()) all.push_back(settings);
+    if (!filter->info.formats.empty()) all.push_back(settings);
     settings.blur = BlurShape::box;
-    for (const TexelFormat format : filter->formats) {
+    for (const TexelFormat format : filter->info.formats) {
       FilterSettings other = settings;
       other.format = format;
-      if (filter->settle != nullptr) filter->settle(other);
+      if (filter->info.settle != nullptr) filter->info.settle(other);
       if (format != settings.format) all.push_back(other);
     }
   }
@@ -56,14 +56,14 @@ TEST(FilterLaws, a_surface_as_deep_as_the_map_is_lit_and_one_behind_it_is_dark) 
     const Filter& filter = *settings.filter;
     for (const float stored : {0.0f, 0.125f, 0.5f, 0.875f, 1.0f}) {
       TestMap map{kSide, kSide, std::vector<float>(kSide * kSide, stored)};
-      const auto contact = static_cast<float>(std::max(filter.contact, 1e-5));
+      const auto contact = static_cast<float>(std::max(filter.reference.contact, 1e-5));
       std::vector<Question> lit = across(stored), dark = across(stored + contact);
       for (const float answer : ask_shader(settings, map, lit)) {
-        ASSERT_GE(answer, 1.0 - filter.tolerance) << to_string(settings) << " at " << stored;
+        ASSERT_GE(answer, 1.0 - filter.reference.tolerance) << to_string(settings) << " at " << stored;
       }
       if (stored + contact > 1.0f) continue;
       for (const float answer : ask_shader(settings, map, dark)) {
-        ASSERT_LE(answer, filter.tolerance) << to_string(settings) << " behind " << stored;
+        ASSERT_LE(answer, filter.reference.tolerance) << to_string(settings) << " behind " << stored;
       }
     }
   }
@@ -80,8 +80,8 @@ TEST(FilterLaws, the_answer_never_falls_on_the_way_out_of_a_shadow) {
       ASSERT_GE(answer, most - rounding) << to_string(settings);
       most = std::max(most, answer);
     }
-    EXPECT_LE(answers.front(), settings.filter->tolerance) << to_string(settings);
-    EXPECT_GE(answers.back(), 1.0 - settings.filter->tolerance) << to_string(settings);
+    EXPECT_LE(answers.front(), settings.filter->reference.tolerance) << to_string(settings);
+    EXPECT_GE(answers.back(), 1.0 - settings.filter->reference.tolerance) << to_string(settings);
   }
 }
 
@@ -119,12 +119,12 @@ TEST(FilterLaws, gpu_and_cpu_store_the_same_texels) {
     slopes.emplace_back(static_cast<float>(i % 7) / 64.0f, static_cast<float>(i % 5) / -128.0f);
   }
   for (const FilterSettings& settings : variants()) {
-    if (settings.filter->store == nullptr) continue;
+    if (settings.filter->reference.store == nullptr) continue;
     const std::vector<StoredTexel> gpu = stored_by_shader(settings, depths, slopes);
     for (std::size_t i = 0; i < depths.size(); ++i) {
-      const StoredTexel cpu = settings.filter->store(depths[i], slopes[i], settings);
+      const StoredTexel cpu = settings.filter->reference.store(depths[i], slopes[i], settings);
       // A few operations in float; exp and sin are good to 1e-5 on every driver.
-      for (int c = 0; c < settings.filter->channels(settings); ++c) {
+      for (int c = 0; c < settings.filter->info.channels(settings); ++c) {
         const auto channel = static_cast<std::size_t>(c);
         ASSERT_NEAR(gpu[i][channel], cpu[channel], 2e-5 * std::max(1.0, std::abs(cpu[channel])))
             << to_string(settings) << " depth " << depths[i] << " channel " << c;
@@ -148,14 +148,14 @@ TEST(FilterLaws, no_texel_makes_an_answer_that_is_not_between_0_and_1) {
     questions.push_back({{20.0f, 20.0f}, static_cast<float>(random() % 5) / 4.0f, {}, 0.0f});
   }
   for (const FilterSettings& settings : variants()) {
-    if (settings.filter->reads == MapRead::depth) continue;
+    if (settings.filter->info.reads == MapRead::depth) continue;
     for (const float answer : ask_shader(settings, texels, questions)) {
       ASSERT_TRUE(answer >= 0.0f && answer <= 1.0f) << to_string(settings) << ": " << answer;
     }
     const TestMap lit{1, 1, {1.0f}};
     for (std::size_t i = 0; i < texels.size(); ++i) {
       const double answer =
-          settings.filter->visibility(texels[i], lookup_of(settings, lit, questions[i]), settings);
+          settings.filter->reference.visibility(texels[i], lookup_of(settings, lit, questions[i]), settings);
       ASSERT_TRUE(answer >= 0.0 && answer <= 1.0) << to_string(settings) << ": " << answer;
     }
   }

@@ -21,9 +21,9 @@ std::vector<FilterSettings> variants() {
   (void)shared_context();
   std::vector<FilterSettings> all;
   for (const Filter* filter : all_filters()) {
-    const std::string name(filter->name);
+    const std::string name(filter->info.name);
     all.push_back(settings_from(name + ":radius=2"));
-    for (const TexelFormat format : filter->formats)
+    for (const TexelFormat format : filter->info.formats)
       all.push_back(settings_from(name + ":radius=2,format=" + std::string(to_string(format))));
   }
   for (const char* text :

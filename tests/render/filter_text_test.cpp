@@ -54,16 +54,16 @@ TEST(FilterText, reads_every_key) {
 TEST(FilterText, is_the_name_alone_by_default_and_reads_back_to_the_same_settings) {
   for (const Filter* filter : all_filters()) {
     const FilterSettings usual = default_settings(*filter);
-    EXPECT_EQ(to_string(usual), filter->name);
+    EXPECT_EQ(to_string(usual), filter->info.name);
     FilterSettings other = usual;
     other.radius = 1.75;
     other.unit = KernelUnit::world;
-    for (const TexelFormat format : filter->formats) other.format = format;
-    for (std::size_t i = 0; i < filter->options.size(); ++i) {
-      other.option[i] = std::floor(0.5 * (filter->options[i].min + filter->options[i].max));
-      other.option[i] = std::max(other.option[i], filter->options[i].min);
+    for (const TexelFormat format : filter->info.formats) other.format = format;
+    for (std::size_t i = 0; i < filter->info.options.size(); ++i) {
+      other.option[i] = std::floor(0.5 * (filter->info.options[i].min + filter->info.options[i].max));
+      other.option[i] = std::max(other.option[i], filter->info.options[i].min);
     }
-    if (filter->settle != nullptr) filter->settle(other);
+    if (filter->info.settle != nullptr) filter->info.settle(other);
     const ParsedFilter back = parse_filter(to_string(other));
     EXPECT_EQ(back.error, "") << to_string(other);
     EXPECT_EQ(to_string(back.settings), to_string(other));
@@ -73,15 +73,15 @@ TEST(FilterText, is_the_name_alone_by_default_and_reads_back_to_the_same_setting
 
 TEST(FilterText, documents_every_option_of_every_filter_within_its_range) {
   for (const Filter* filter : all_filters()) {
-    ASSERT_LE(filter->options.size(), kMaxFilterOptions);
-    EXPECT_FALSE(filter->summary.empty() || filter->source.empty()) << filter->name;
-    for (const FilterOption& option : filter->options) {
-      EXPECT_LE(option.min, option.fallback) << filter->name << " " << option.name;
-      EXPECT_GE(option.max, option.fallback) << filter->name << " " << option.name;
+    ASSERT_LE(filter->info.options.size(), kMaxFilterOptions);
+    EXPECT_FALSE(filter->info.summary.empty() || filter->info.source.empty()) << filter->info.name;
+    for (const FilterOption& option : filter->info.options) {
+      EXPECT_LE(option.min, option.fallback) << filter->info.name << " " << option.name;
+      EXPECT_GE(option.max, option.fallback) << filter->info.name << " " << option.name;
       EXPECT_FALSE(option.summary.empty());
       EXPECT_NE(filter_help().find(option.summary), std::string::npos);
     }
-    EXPECT_EQ(filter->reads == MapRead::depth, filter->formats.empty()) << filter->name;
+    EXPECT_EQ(filter->info.reads == MapRead::depth, filter->info.formats.empty()) << filter->info.name;
   }
 }
 
@@ -116,11 +116,11 @@ TEST(Filters, cost_what_their_images_take) {
 TEST(Filters, ask_the_plan_for_a_margin_in_the_kernels_own_unit) {
   PlanOptions options;
   set_margin(parse_filter("vsm:radius=3").settings, options);
-  EXPECT_GE(options.filter_radius_texels, 4.0);
-  EXPECT_EQ(options.filter_radius_world, 0.0);
+  EXPECT_GE(options.filter.texels, 4.0);
+  EXPECT_EQ(options.filter.world, 0.0);
   set_margin(parse_filter("vsm:radius=3,unit=world").settings, options);
-  EXPECT_LE(options.filter_radius_texels, 3.0);
-  EXPECT_GE(options.filter_radius_world, 3.0);
+  EXPECT_LE(options.filter.texels, 3.0);
+  EXPECT_GE(options.filter.world, 3.0);
 }
 
 }  // namespace

@@ -125,6 +125,29 @@ TEST_F(Flythrough, refuses_a_folder_that_cannot_be_written) {
   }
 }
 
+TEST_F(Flythrough, refuses_the_folder_before_it_loads_the_scene) {
+  const fs::path file = folder_ / "file";
+  std::ofstream(file) << "in the way";
+  const Outcome outcome = run("no_such_file.glb", "", file.string() + "/below");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.error.find("--out"), std::string::npos) << outcome.error;
+  EXPECT_EQ(outcome.error.find("no_such_file"), std::string::npos) << outcome.error;
+}
+
+TEST_F(Flythrough, suggests_names_that_nearly_match) {
+  const struct {
+    const char *arguments, *meant;
+  } kCases[] = {{"--warp lispms", "'lispsm'"},      {"--filter pfc:radius=2", "'pcf'"},
+                {"builtin:ctiy", "'builtin:city'"}, {"--compare-warps none,lispms", "'lispsm'"},
+                {"--fit tigt", "'tight'"},          {"--filer pcf", "'--filter'"}};
+  for (const auto& c : kCases) {
+    const Outcome outcome = run(c.arguments);
+    EXPECT_EQ(outcome.code, 2) << c.arguments;
+    EXPECT_NE(outcome.error.find(std::string("did you mean ") + c.meant), std::string::npos) << outcome.error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  }
+}
+
 TEST_F(Flythrough, ends_with_130_and_whole_files_when_interrupted) {
   const std::string command =
       "env -u DISPLAY " FLYTHROUGH " --out " + out().string() +
@@ -137,7 +160,12 @@ TEST_F(Flythrough, ends_with_130_and_whole_files_when_interrupted) {
   EXPECT_EQ(WEXITSTATUS(status), 130) << text_of(folder_ / "error");
   EXPECT_EQ(text_of(folder_ / "error"), "flythrough: interrupted\n");
   std::size_t files = 0;
+  // The rows of the frames that were drawn are not lost.
+  const std::string rows = text_of(out() / "frames.csv");
+  EXPECT_GE(std::count(rows.begin(), rows.end(), '\n'), 2) << "a head and a row at least";
+  EXPECT_EQ(rows.find("frame,"), 0u);
   for (const auto& entry : fs::directory_iterator(out())) {
+    if (entry.path().filename() == "frames.csv") continue;
     EXPECT_EQ(entry.path().extension(), ".png") << entry.path();
     const std::string bytes = text_of(entry.path());
     EXPECT_NE(bytes.find("IEND", bytes.size() - std::min<std::size_t>(bytes.size(), 12)), std::string::npos)

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -194,6 +195,24 @@ TEST_F(Flythrough, tells_of_each_map_what_was_drawn_how_old_it_is_and_its_error)
   for (std::size_t i = 1; i < 3; ++i)
     EXPECT_EQ(age[i], texels[i] < 128.0 * 128.0 ? age[i - 1] + 1.0 : 0.0) << i;
   for (const double m : column_of(csv, "map0_m_bound")) EXPECT_GT(m, 0.0);
+}
+
+TEST_F(Flythrough, prints_one_line_of_json_that_says_what_the_table_says) {
+  const Outcome outcome = run("builtin:fence --frames 2 --size 96x64 --map-size 128 --cascades 2 --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1) << outcome.out;
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["scene"], "builtin:fence");
+  EXPECT_EQ(json["options"]["map_size"], 128);
+  EXPECT_EQ(json["options"]["cascades"], 2);
+  ASSERT_EQ(json["frames"].size(), 2u);
+  const std::vector<double> texels = column_of(out() / "frames.csv", "texels");
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(json["frames"][i]["frame"], i);
+    EXPECT_EQ(json["frames"][i]["texels"].get<double>(), texels.at(i));
+    EXPECT_GT(json["frames"][i]["m"]["p50"].get<double>(), 0.0);
+  }
+  EXPECT_EQ(json["numbers"], (out() / "frames.csv").string());
 }
 
 TEST_F(Flythrough, draws_a_scene_without_triangles) {

@@ -35,7 +35,7 @@ MeanLight under(const Light& lamp, const Filter& filter) {
       perspective_camera({0, 9, 26}, {0, -0.4, -1}, {0, 1, 0}, 0.9, 1.0, 0.5, 80.0, kSize, kSize);
   const std::vector<Box> boxes = boxes_of(scene);
   PlanOptions options;
-  options.map_size = 256;
+  options.resolution.max_size = 256;
   set_margin(default_settings(filter), options);
   const ShadowPlan plan = make_plan(camera, lamp, {boxes, boxes}, options);
   EXPECT_EQ(plan.status, PlanStatus::ok);
@@ -58,16 +58,16 @@ MeanLight under(const Light& lamp, const Filter& filter) {
 TEST(LampDepth, every_filter_keeps_the_shadow_of_a_plate_under_a_spot) {
   for (const Filter* filter : all_filters()) {
     const MeanLight light = under(SpotLight{kLamp, {0, -1, 0}, 0.5, 60.0}, *filter);
-    EXPECT_LT(light.shadow, 0.05) << filter->name;
-    EXPECT_GT(light.open, 0.95) << filter->name;
+    EXPECT_LT(light.shadow, 0.05) << filter->info.name;
+    EXPECT_GT(light.open, 0.95) << filter->info.name;
   }
 }
 
 TEST(LampDepth, stored_depths_keep_it_under_a_point_light) {
   for (const Filter* filter : {&filters::vsm, &filters::esm}) {
     const MeanLight light = under(PointLight{kLamp, 60.0}, *filter);
-    EXPECT_LT(light.shadow, 0.05) << filter->name;
-    EXPECT_GT(light.open, 0.95) << filter->name;
+    EXPECT_LT(light.shadow, 0.05) << filter->info.name;
+    EXPECT_GT(light.open, 0.95) << filter->info.name;
   }
 }
 
@@ -79,7 +79,7 @@ TEST(LampDepth, is_even_in_distance_along_the_middle_of_a_spot) {
   for (const ClipSpace space : {kOpenGl, kOpenGlZeroToOne}) {
     PlanOptions options;
     options.clip_space = space;
-    options.warp = &warps::none;
+    options.warp.warp = &warps::none;
     const ShadowPlan plan = make_plan(camera, spot, {casters, receivers}, options);
     ASSERT_EQ(plan.status, PlanStatus::ok);
     const double curve = depth_curve(plan, plan.map[0]);

@@ -42,7 +42,7 @@ inline Frame draw(Renderer& renderer, const Camera& camera, const ShadowPlan& pl
 
 inline Frame draw_scene(const Scene& scene, const Camera& camera, const glm::dvec3& light,
                         const Filter& filter = filters::hard, PlanOptions options = {}) {
-  options.map_size = 512;
+  options.resolution.max_size = 512;
   set_margin(default_settings(filter), options);
   Renderer renderer(scene);
   return draw(renderer, camera, plan_for(scene, camera, light, options), filter);

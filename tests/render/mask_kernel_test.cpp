@@ -25,7 +25,7 @@ TEST(Mask, of_a_lit_plane_is_lit_under_any_footprint) {
   Renderer renderer(scene);
   const Camera camera = camera_along_ground(kSize, kSize);
   for (const Filter* filter : all_filters()) {
-    if (filter->reads != MapRead::filtered || !filter->may_mipmap) continue;
+    if (filter->info.reads != MapRead::filtered || !filter->info.may_mipmap) continue;
     for (const KernelUnit unit : {KernelUnit::texels, KernelUnit::world}) {
       for (const int anisotropy : {1, 4, 16}) {
         FilterSettings settings = default_settings(*filter);
@@ -34,12 +34,12 @@ TEST(Mask, of_a_lit_plane_is_lit_under_any_footprint) {
         settings.mipmap = true;
         settings.anisotropy = anisotropy;
         PlanOptions options;
-        options.map_size = 1024;
+        options.resolution.max_size = 1024;
         options.cascades = 1;
         set_margin(settings, options);
         const Frame frame = draw(renderer, camera, plan_for(scene, camera, kSlant, options), settings);
         std::size_t dark = 0, judged = 0;
-        const double tolerance = std::max(double{kWeightRounding}, filter->tolerance);
+        const double tolerance = std::max(double{kWeightRounding}, filter->reference.tolerance);
         for (std::size_t i = 0; i < frame.pixels(); ++i) {
           if (!frame.surface(i) || frame.map(i) < 0) continue;
           ++judged;
@@ -89,13 +89,13 @@ TEST(Mask, of_a_kernel_in_world_units_has_edges_as_wide_in_every_map_and_under_a
   const Camera camera = camera_along_ground(3 * kSize, 3 * kSize);
   for (const char* text : {"pcf:radius=0.4,unit=world", "vsm:radius=0.4,unit=world,bleed=0,anisotropy=8"}) {
     const FilterSettings settings = parse_filter(text).settings;
-    const double alike = settings.filter->reads == MapRead::depth ? kAlikeCompared : kAlikeBlurred;
+    const double alike = settings.filter->info.reads == MapRead::depth ? kAlikeCompared : kAlikeBlurred;
     double first = 0.0;
     for (const Warp* warp : {&warps::none, &warps::lispsm}) {
       PlanOptions options;
-      options.map_size = 192;  // the kernel stays below kMaxRadiusTexels, and above a texel
+      options.resolution.max_size = 192;  // the kernel stays below kMaxRadiusTexels, and above a texel
       options.cascades = 2;
-      options.warp = warp;
+      options.warp.warp = warp;
       set_margin(settings, options);
       const Frame frame =
           draw(renderer, camera, plan_for(scene, camera, {0.0, -1.0, 0.0}, options), settings);

@@ -151,7 +151,7 @@ double distance_out_of_box(const glm::dvec3& point, const glm::dvec3& to_light) 
 /// Judges every pixel that is further from a shadow's edge than the filter can reach.
 Verdict judge(const Frame& frame, double reach_texels, const Filter& filter = filters::hard) {
   Verdict verdict;
-  const double tolerance = std::max(double{kWeightRounding}, filter.tolerance);
+  const double tolerance = std::max(double{kWeightRounding}, filter.reference.tolerance);
   const glm::dvec3 light = frame.plan.light_direction;
   for (std::size_t i = 0; i < frame.pixels(); ++i) {
     if (!frame.surface(i) || frame.map(i) < 0) continue;
@@ -175,7 +175,8 @@ Verdict judge(const Frame& frame, double reach_texels, const Filter& filter = fi
     const float expected = in_box_shadow ? 0.0f : 1.0f;
     if (near_box && !in_box_shadow) continue;
     // Filters that compare averages promise darkness only so far behind what casts it.
-    if (in_box_shadow && distance_out_of_box(p, -light) < filter.contact * map.depth_range_world) continue;
+    if (in_box_shadow && distance_out_of_box(p, -light) < filter.reference.contact * map.depth_range_world)
+      continue;
     ++(in_box_shadow ? verdict.dark : verdict.lit);
     if (std::abs(frame.lit(i) - expected) <= tolerance) continue;
     if (verdict.acne + verdict.gap == 0) verdict.first_wrong = p;
@@ -195,7 +196,7 @@ void expect_clean(const Filter& filter, Fit fit) {
   std::size_t frames = 0;
   // Every elevation with every azimuth where all texels are compared; each of both once, in the other order
   // for every warp, where they are blurred first, which takes ten times as long.
-  const bool thorough = filter.reads == MapRead::depth;
+  const bool thorough = filter.info.reads == MapRead::depth;
   constexpr std::array kElevations{0.25, 0.5, 0.9, 1.3, 1.57}, kAzimuths{0.1, 1.3, 2.6, 3.7, 5.2};
   for (std::size_t w = 0; w < all_warps().size(); ++w) {
     const Warp* warp = all_warps()[w];
@@ -208,14 +209,15 @@ void expect_clean(const Filter& filter, Fit fit) {
         const glm::dvec3 light{std::cos(elevation) * std::cos(azimuth), -std::sin(elevation),
                                std::cos(elevation) * std::sin(azimuth)};
         PlanOptions options;
-        options.map_size = fit == Fit::stable ? 1024 : 256;  // a stable map is wider than its slice
+        options.resolution.max_size =
+            fit == Fit::stable ? 1024 : 256;  // a stable map is wider than its slice
         options.cascades = 2;
-        options.warp = warp;
+        options.warp.warp = warp;
         options.fit = fit;
         set_margin(settings, options);
         const ShadowPlan plan = plan_for(scene, camera, light, options);
         ASSERT_GT(plan.map_count, 0) << elevation << " " << azimuth;
-        const Verdict v = judge(draw(renderer, camera, plan, settings), options.filter_radius_texels, filter);
+        const Verdict v = judge(draw(renderer, camera, plan, settings), options.filter.texels, filter);
         EXPECT_EQ(v.acne, 0u) << warp->name << " elevation " << elevation << " azimuth " << azimuth << " at "
                               << v.first_wrong.x << " " << v.first_wrong.y << " " << v.first_wrong.z;
         EXPECT_EQ(v.gap, 0u) << warp->name << " elevation " << elevation << " azimuth " << azimuth << " at "
@@ -231,14 +233,14 @@ void expect_clean(const Filter& filter, Fit fit) {
 
 TEST(Mask, has_neither_acne_nor_gap_for_any_filter_under_any_warp_in_tight_fit) {
   for (const Filter* filter : all_filters()) {
-    SCOPED_TRACE(filter->name);
+    SCOPED_TRACE(filter->info.name);
     expect_clean(*filter, Fit::tight);
   }
 }
 
 TEST(Mask, has_neither_acne_nor_gap_for_any_filter_in_stable_fit) {
   for (const Filter* filter : all_filters()) {
-    SCOPED_TRACE(filter->name);
+    SCOPED_TRACE(filter->info.name);
     expect_clean(*filter, Fit::stable);
   }
 }
@@ -248,7 +250,7 @@ TEST(Mask, shows_acne_without_bias_and_gaps_with_far_too_much) {
   Renderer renderer(scene);
   const Camera camera = camera_on_box(kSize, kSize);
   PlanOptions options;
-  options.map_size = 256;
+  options.resolution.max_size = 256;
   options.cascades = 2;
   ShadowPlan none = plan_for(scene, camera, kSlant, options), much = none;
   none.bias = {-0.05, 0.0, 0.0, 0.0};
@@ -261,11 +263,11 @@ TEST(Mask, stands_still_in_stable_fit_while_the_camera_moves) {
   const Scene scene = box_on_ground();
   Renderer renderer(scene);
   PlanOptions options;
-  options.map_size = 512;
+  options.resolution.max_size = 512;
   options.cascades = 1;
   const auto edges_in = [&](Fit fit, double step) {
     options.fit = fit;
-    options.warp = &warps::none;
+    options.warp.warp = &warps::none;
     Camera camera = camera_on_box(kSize, kSize);
     // A parallel camera that moves along its own view sees the same picture: only the grid could move.
     camera =

@@ -174,12 +174,12 @@ TEST(Perceptual, holds_of_plans_of_the_size_it_answers) {
   PlanOptions options;
   set_margin(settings, options);
   options.prune = options.prune.without(PruneRule::metric_resolution);  // what hides may ask for more
-  options.map_size = 2048;
+  options.resolution.max_size = 2048;
   const glm::dvec3 light{0.4, -1.0, -0.3};
   const auto plan = [&] { return plan_for(scene, camera(), light, options); };
   const int size = hiding_map_size(plan(), camera(), settings).map_size;
   EXPECT_LT(size, 2048);
-  options.map_size = size;
+  options.resolution.max_size = size;
   constexpr double kRim = 1.1;  // a small map's rim is a larger share of it
   const ShadowPlan smaller = plan();
   ASSERT_GT(smaller.map_count, 0);

@@ -21,7 +21,7 @@ class Prefilter : public testing::Test {
  protected:
   FrameStats stats_of(const FilterSettings& filter, int map_size) {
     PlanOptions options;
-    options.map_size = map_size;
+    options.resolution.max_size = map_size;
     options.cascades = 1;
     options.prune = kPruneNothing;  // the sizes asked for
     set_margin(filter, options);
@@ -64,7 +64,7 @@ TEST(Mask, names_for_every_pixel_the_map_that_the_core_names) {
       perspective_camera({0.3, 4.0, 16.0}, {0.0, -0.3, -1.0}, {0, 1, 0}, 0.9, 1.0, 0.5, 60.0, kSize, kSize);
   for (const Fit fit : {Fit::tight, Fit::stable}) {
     PlanOptions options;
-    options.map_size = 128;
+    options.resolution.max_size = 128;
     options.fit = fit;
     set_margin(default_settings(filters::hard), options);
     const ShadowPlan plan = plan_for(scene, camera, kSlant, options);

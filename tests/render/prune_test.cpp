@@ -74,7 +74,7 @@ void fly(Pair& pair, std::uint64_t seed, int frames, Tally& tally) {
       parse_filter(kFilters[(seed + seed / kFilters.size()) % kFilters.size()]).settings;
   ASSERT_NE(filter.filter, nullptr);
   PlanOptions options;
-  options.map_size = kMapSize;
+  options.resolution.max_size = kMapSize;
   options.fit = fit;
   options.cascades = 1 + static_cast<int>(seed % 4);
   options.prune = exact_prune_rules();
@@ -168,7 +168,7 @@ TEST(Prune, a_view_that_stands_still_draws_no_map_and_filters_none) {
   const Camera camera = default_path(scene).at(0.3, kWidth, kHeight);
   for (const Filter* filter : {&filters::pcf, &filters::vsm, &filters::savsm, &filters::esm}) {
     PlanOptions options;
-    options.map_size = kMapSize;
+    options.resolution.max_size = kMapSize;
     set_margin(default_settings(*filter), options);
     const PreparedFilter prepared = renderer.prepare(*filter);
     const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options);
@@ -176,14 +176,14 @@ TEST(Prune, a_view_that_stands_still_draws_no_map_and_filters_none) {
     renderer.draw(plan, camera, prepared, mask_only({}));
     const FloatImage first = renderer.mask();
     const FrameStats still = renderer.draw(plan, camera, prepared, mask_only({}));
-    EXPECT_EQ(still.texels, 0u) << filter->name;
-    EXPECT_EQ(still.prefilter_passes, 0) << filter->name;
+    EXPECT_EQ(still.texels, 0u) << filter->info.name;
+    EXPECT_EQ(still.prefilter_passes, 0) << filter->info.name;
     for (int i = 0; i < still.map_count; ++i) EXPECT_TRUE(still.map[static_cast<std::size_t>(i)].held);
-    EXPECT_EQ(differing(renderer.mask(), first), 0u) << filter->name;
+    EXPECT_EQ(differing(renderer.mask(), first), 0u) << filter->info.name;
     const FrameStats redrawn =
         renderer.draw(plan, camera, prepared, mask_only(PruneRules{}.without(PruneRule::held_maps)));
-    EXPECT_GT(redrawn.texels, 0u) << filter->name;
-    EXPECT_EQ(differing(renderer.mask(), first), 0u) << filter->name;
+    EXPECT_GT(redrawn.texels, 0u) << filter->info.name;
+    EXPECT_EQ(differing(renderer.mask(), first), 0u) << filter->info.name;
   }
 }
 
@@ -196,7 +196,7 @@ View view_of(const Scene& scene, int cascades) {
   const std::vector<Box> boxes = boxes_of(scene);
   const Camera camera = default_path(scene).at(0.3, kWidth, kHeight);
   PlanOptions options;
-  options.map_size = kMapSize;
+  options.resolution.max_size = kMapSize;
   options.cascades = cascades;
   return {camera, make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options)};
 }
@@ -250,7 +250,7 @@ TEST(Prune, savings_and_what_is_drawn_add_up_to_the_frame_without_rules) {
   Renderer pruned(scene), full(scene);
   const PreparedFilter with = pruned.prepare(filters::pcf), without = full.prepare(filters::pcf);
   PlanOptions options;
-  options.map_size = kMapSize;
+  options.resolution.max_size = kMapSize;
   const CameraPath path = default_path(scene);
   PruneSaving sum;
   for (const double t : {0.1, 0.1, 0.4, 0.7}) {
@@ -288,7 +288,7 @@ TEST(Prune, depths_pulled_to_what_is_there_change_no_more_than_their_rounding) {
     Random random(seed);
     const FilterSettings filter = parse_filter(seed % 2 == 0 ? "hard" : "pcf:radius=2").settings;
     PlanOptions options;
-    options.map_size = kMapSize;
+    options.resolution.max_size = kMapSize;
     set_margin(filter, options);
     const Camera camera = default_path(pair.scene).at(random.unit(), kWidth, kHeight);
     const Light light = random_light(seed, random, camera, 60.0);
@@ -312,7 +312,7 @@ TEST(Prune, a_filter_that_chooses_from_depths_reads_back_only_maps_that_changed)
   const std::vector<Box> boxes = boxes_of(scene);
   Renderer renderer(scene);
   PlanOptions options;
-  options.map_size = kMapSize;
+  options.resolution.max_size = kMapSize;
   const PreparedFilter placed = renderer.prepare(parse_filter("lvsm:placement=1").settings);
   const PreparedFilter plain = renderer.prepare(filters::pcf);
   const auto draw = [&](double t, const PreparedFilter& filter) {
@@ -339,7 +339,7 @@ TEST(Prune, a_filter_that_stores_less_within_a_bound_draws_the_same_picture) {
   Renderer renderer(scene);
   const FilterSettings full = default_settings(filters::esm);
   PlanOptions options;
-  options.map_size = kMapSize;
+  options.resolution.max_size = kMapSize;
   set_margin(full, options);
   const Camera camera = default_path(scene).at(0.3, kWidth, kHeight);
   const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options);
@@ -377,7 +377,7 @@ TEST(Prune, small_casters_take_no_more_of_the_shadow_than_their_share) {
   Renderer pruned(scene), full(scene);
   const PreparedFilter with = pruned.prepare(filters::hard), without = full.prepare(filters::hard);
   PlanOptions options;
-  options.map_size = kMapSize;
+  options.resolution.max_size = kMapSize;
   options.cascades = 1;
   std::uint64_t dropped = 0;
   const PruneRules rule = exact_prune_rules().with(PruneRule::small_casters);

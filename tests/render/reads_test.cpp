@@ -45,7 +45,7 @@ Names maps_read(const Filter& filter) {
   if (&filter == &filters::pcf) return {"shadow_compare", "shadow_depth"};
   if (&filter == &filters::pcss) return {"shadow_depth"};
   if (&filter == &filters::esm) return {"shadow_stored", "shadow_depth", "shadow_depth_max"};
-  if (filter.reads == MapRead::summed) return {"shadow_sums"};
+  if (filter.info.reads == MapRead::summed) return {"shadow_sums"};
   return {"shadow_stored"};
 }
 
@@ -55,7 +55,7 @@ TEST(Reads, the_mask_of_a_filter_fetches_the_surface_and_what_its_equations_need
     Names wanted = maps_read(*filter);
     // Of the surface its place and its normals; its colour says what is sky.
     wanted.insert({"position_image", "normal_image", "albedo_image"});
-    EXPECT_EQ(active(programs.mask, GL_UNIFORM), wanted) << filter->name;
+    EXPECT_EQ(active(programs.mask, GL_UNIFORM), wanted) << filter->info.name;
   }
 }
 
@@ -71,14 +71,23 @@ TEST(Reads, opaque_casters_are_drawn_from_their_positions_alone) {
 TEST(Reads, a_filter_has_the_programs_of_its_passes_and_no_others) {
   for (const Filter* filter : all_filters()) {
     const FilterPrograms programs = make_filter_programs(default_settings(*filter));
-    const bool stores = filter->reads == MapRead::filtered || filter->reads == MapRead::joined;
+    const bool stores = filter->info.reads == MapRead::filtered || filter->info.reads == MapRead::joined;
     EXPECT_TRUE(programs.mask);
-    EXPECT_EQ(static_cast<bool>(programs.store), stores) << filter->name;
-    EXPECT_EQ(static_cast<bool>(programs.blur), stores) << filter->name;
-    EXPECT_EQ(static_cast<bool>(programs.sum_rows), filter->reads == MapRead::summed) << filter->name;
-    EXPECT_EQ(static_cast<bool>(programs.join_mip), filter->reads == MapRead::joined && filter->may_mipmap)
-        << filter->name;
-    EXPECT_EQ(static_cast<bool>(programs.depth_max), filter->needs_depth_max != nullptr) << filter->name;
+    EXPECT_EQ(static_cast<bool>(programs.store_rows), stores) << filter->info.name;
+    EXPECT_EQ(static_cast<bool>(programs.blur_walk), stores) << filter->info.name;
+    EXPECT_FALSE(programs.store || programs.blur) << filter->info.name << ": the kernel is known";
+    FilterSettings in_world = default_settings(*filter);
+    in_world.unit = KernelUnit::world;
+    const FilterPrograms any_reach = make_filter_programs(in_world);
+    EXPECT_EQ(any_reach.store && any_reach.blur, stores) << filter->info.name << ": each map has its own";
+    EXPECT_FALSE(any_reach.store_rows || any_reach.blur_walk) << filter->info.name;
+    EXPECT_EQ(static_cast<bool>(programs.sum_rows), filter->info.reads == MapRead::summed)
+        << filter->info.name;
+    EXPECT_EQ(static_cast<bool>(programs.join_mip),
+              filter->info.reads == MapRead::joined && filter->info.may_mipmap)
+        << filter->info.name;
+    EXPECT_EQ(static_cast<bool>(programs.depth_max), filter->hooks.needs_depth_max != nullptr)
+        << filter->info.name;
   }
 }
 
@@ -86,10 +95,12 @@ TEST(Reads, a_filter_has_the_programs_of_its_passes_and_no_others) {
 int passes_of(const FilterSettings& settings, int map_size) {
   const Filter& filter = *settings.filter;
   int passes = 0;
-  if (filter.reads == MapRead::summed) passes += 2;  // along rows, then along columns
-  if (filter.reads == MapRead::filtered || filter.reads == MapRead::joined)
-    passes += settings.radius > 0.0 ? 2 : 1;  // store and blur one way; blur the other
-  if (filter.needs_depth_max != nullptr && filter.needs_depth_max(settings))
+  if (filter.info.reads == MapRead::summed) passes += 2;  // along rows, then along columns
+  if (filter.info.reads == MapRead::filtered || filter.info.reads == MapRead::joined)
+    passes += settings.radius == 0.0         ? 1
+              : shadow_vectors(settings) > 1 ? 3
+                                             : 2;  // store, apart or with a blur
+  if (filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings))
     passes += static_cast<int>(std::bit_width(static_cast<unsigned>(map_size / 2)));  // a level each
   return passes;
 }
@@ -107,7 +118,7 @@ TEST(Reads, a_frame_takes_the_passes_that_its_filter_needs_for_each_map) {
       FilterSettings settings = default_settings(*filter);
       settings.radius = radius;
       PlanOptions options;
-      options.map_size = kMapSize;
+      options.resolution.max_size = kMapSize;
       options.cascades = 2;
       options.prune = kPruneNothing;
       set_margin(settings, options);
@@ -115,7 +126,7 @@ TEST(Reads, a_frame_takes_the_passes_that_its_filter_needs_for_each_map) {
       ASSERT_GT(plan.map_count, 0);
       const FrameStats stats = renderer.draw(plan, camera, renderer.prepare(settings), frame);
       EXPECT_EQ(stats.prefilter_passes, plan.map_count * passes_of(settings, kMapSize))
-          << filter->name << ", radius " << radius;
+          << filter->info.name << ", radius " << radius;
     }
   }
 }

@@ -28,7 +28,7 @@ const PruneRules kDrawnAgain = exact_prune_rules().without(PruneRule::held_maps)
 
 PlanOptions stable_options(const FilterSettings& filter) {
   PlanOptions options;
-  options.map_size = kMapSize;
+  options.resolution.max_size = kMapSize;
   options.fit = Fit::stable;
   options.prune = exact_prune_rules();
   set_margin(filter, options);
@@ -215,10 +215,10 @@ TEST(Scroll, another_light_size_origin_or_the_rule_switched_off_draws_maps_whole
   EXPECT_FALSE(whole(flight.draw(flight.plan()))) << "from maps that were drawn without the rule, too";
   EXPECT_TRUE(whole(flight.draw(flight.plan({0.5, -0.8, 0.4001}))));
   EXPECT_TRUE(whole(flight.draw(flight.plan()))) << "back again";
-  flight.options.map_size = kMapSize / 2;
+  flight.options.resolution.max_size = kMapSize / 2;
   const FrameStats smaller = flight.draw(flight.plan());
   EXPECT_EQ(smaller.texels, static_cast<std::uint64_t>(smaller.map_count) * kMapSize * kMapSize / 4);
-  flight.options.map_size = kMapSize;
+  flight.options.resolution.max_size = kMapSize;
   EXPECT_TRUE(whole(flight.draw(flight.plan())));
   // A matrix of float knows positions from one origin; where that moves on all is drawn anew.
   flight.camera.position.x +=

@@ -102,10 +102,10 @@ TEST(Shaders, pass_the_reference_validator_with_every_filter) {
   for (const Filter* filter : all_filters()) {
     for (const std::string_view path : filter_shaders(*filter)) {
       const std::string extension = std::filesystem::path(path).extension();
-      const ShaderChoice choice{"filter/" + std::string(filter->name) + ".glsl",
+      const ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",
                                 shadow_vectors(default_settings(*filter))};
       EXPECT_EQ(validated(compose_shader(path, choice), extension.substr(1)), "")
-          << filter->name << " " << path;
+          << filter->info.name << " " << path;
       ++checked;
     }
   }
@@ -130,18 +130,18 @@ layout(location = 1) in vec3 engine_normal;
 layout(location = 0) out vec4 color;
 ShadowMap shadow_map(int index) { return engine.engine_maps[index]; }
 )";
-  const std::string_view reads = filter.reads == MapRead::filtered ? "filtered"
-                                 : filter.reads == MapRead::joined ? "joined"
-                                                                   : "summed";
+  const std::string_view reads = filter.info.reads == MapRead::filtered ? "filtered"
+                                 : filter.info.reads == MapRead::joined ? "joined"
+                                                                        : "summed";
   std::string visible = "shadow_visibility(engine_compare, engine_depth, at, options)";
-  if (filter.reads != MapRead::depth) {
+  if (filter.info.reads != MapRead::depth) {
     text += "#include \"library/fetch_" + std::string(reads) + ".glsl\"\n";
-    text += filter.reads == MapRead::summed
+    text += filter.info.reads == MapRead::summed
                 ? "layout(binding = 24) uniform usampler2DArray engine_stored;\n"
                 : "layout(binding = 24) uniform sampler2DArray engine_stored[GNOMON_SHADOW_VECTORS];\n";
-    const std::string more = filter.reads == MapRead::joined   ? ", 16, options"
-                             : filter.reads == MapRead::summed ? ", 1048576.0"
-                                                               : ", 4";
+    const std::string more = filter.info.reads == MapRead::joined   ? ", 16, options"
+                             : filter.info.reads == MapRead::summed ? ", 1048576.0"
+                                                                    : ", 4";
     visible = "shadow_visibility(fetch_" + std::string(reads) + "(engine_stored, at" + more +
               "), engine_depth, engine_depth_max, at, options)";
   }
@@ -169,11 +169,11 @@ void main() {
 TEST(ShaderLibrary, compiles_in_an_engines_shader_for_opengl_and_for_vulkan) {
   if (std::string_view(GLSLANG_VALIDATOR).empty()) GTEST_SKIP() << "glslangValidator is not installed";
   for (const Filter* filter : all_filters()) {
-    const ShaderChoice choice{"filter/" + std::string(filter->name) + ".glsl",
+    const ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",
                               shadow_vectors(default_settings(*filter))};
     const ComposedShader shader = compose_shader_text("engine.frag", engine_shader(*filter), choice);
-    EXPECT_EQ(validated(shader, "frag", "--target-env opengl -G"), "") << filter->name;
-    EXPECT_EQ(validated(shader, "frag", "-V"), "") << filter->name;
+    EXPECT_EQ(validated(shader, "frag", "--target-env opengl -G"), "") << filter->info.name;
+    EXPECT_EQ(validated(shader, "frag", "-V"), "") << filter->info.name;
   }
 }
 

@@ -41,9 +41,9 @@ Camera along_the_rows() {
 
 PlanOptions two_maps(const Filter& filter, double overlap) {
   PlanOptions options;
-  options.map_size = 512;
+  options.resolution.max_size = 512;
   options.cascades = 2;
-  options.split_overlap = overlap;
+  options.split.overlap = overlap;
   set_margin(default_settings(filter), options);
   return options;
 }
@@ -130,12 +130,12 @@ TEST(Transition, a_blend_is_the_mean_of_both_maps_weighted_by_the_way_through_th
       const double near = passage.before.lit(i), far = passage.behind.lit(i);
       constexpr double kFloat = 1e-4;  // depths of 20 over an overlap of 2, in float
       ASSERT_NEAR(blend.lit(i), near + way * (far - near), kFloat)
-          << filter->name << " at " << depth_at(blend, i);
+          << filter->info.name << " at " << depth_at(blend, i);
       if (way > 0.0 && way < 1.0) ++within;
       if (way > 0.0 && way < 1.0 && std::abs(near - far) > 0.1) ++different;
     }
-    EXPECT_GT(within, 500) << filter->name;
-    EXPECT_GT(different, 10) << filter->name << ": both maps say the same, so nothing was mixed";
+    EXPECT_GT(within, 500) << filter->info.name;
+    EXPECT_GT(different, 10) << filter->info.name << ": both maps say the same, so nothing was mixed";
   }
 }
 

@@ -9,7 +9,6 @@
 
 #include "file.hpp"
 #include "gnomon/report/rows_file.hpp"
-#include "rows_text.hpp"
 #include "sample_rows.hpp"
 
 namespace gnomon::report {

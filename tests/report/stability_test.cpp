@@ -49,7 +49,7 @@ TEST(Stability, rows_are_gathered_by_axis_and_value) {
   ASSERT_EQ(stability.axes[0].rows.size(), 4u);
   EXPECT_EQ(stability.axes[0].rows[0].value, 10.0);
   EXPECT_EQ(stability.axes[0].rows[3].value, 1000.0);
-  EXPECT_TRUE(std::isinf(stability.axes[0].rows[3].float_absolute_texels));
+  EXPECT_TRUE(std::isinf(stability.axes[0].rows[3].worst.float_absolute_texels));
   EXPECT_TRUE(std::isnan(stability.axes[0].rows[0].jump));
   EXPECT_EQ(stability.cases.size(), 1u);
   EXPECT_EQ(stability.filters.size(), 1u);

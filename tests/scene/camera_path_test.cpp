@@ -208,6 +208,35 @@ TEST(DefaultPath, an_orbit_shows_all_of_any_bounds) {
   expect_orbit_holds({{-5, 0, -5}, {5, 0, 5}});
 }
 
+TEST(DefaultPath, an_orbit_comes_as_near_as_the_image_is_wide) {
+  // A long low box: what a square view must hold of it fills little of a wide one.
+  Scene scene;
+  scene.bounds_world = {{-5, 0, -1}, {5, 2, 1}};
+  constexpr double kAspect = 16.0 / 9.0;
+  for (const double aspect : {1.0, kAspect, 1.0 / kAspect}) {
+    const CameraPath path = default_path(scene, aspect);
+    double least = 1.0;  // of the picture's sides, the larger share that the box takes
+    for (int i = 0; i < 32; ++i) {
+      const Camera camera = path.at(i / 32.0, static_cast<int>(std::lround(900 * aspect)), 900);
+      const glm::dvec3 forward = glm::normalize(camera.forward);
+      const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up)),
+                       up = glm::cross(right, forward);
+      double share = 0.0;
+      for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 at =
+            glm::dvec3((corner & 1) != 0 ? 5 : -5, (corner & 2) != 0 ? 2 : 0, (corner & 4) != 0 ? 1 : -1) -
+            camera.position;
+        const double depth = glm::dot(forward, at);
+        share = std::max({share, std::abs(glm::dot(right, at)) / (depth * camera.right),
+                          std::abs(glm::dot(up, at)) / (depth * camera.top)});
+      }
+      EXPECT_LE(share, 1.0) << aspect << " at " << i;
+      least = std::min(least, share);
+    }
+    EXPECT_GT(least, 0.7) << aspect;
+  }
+}
+
 TEST(DefaultPath, an_orbit_about_a_point_or_nothing_is_still_a_flight) {
   expect_orbit_holds({});
   expect_orbit_holds({{0, 0, 0}, {0, 0, 0}});

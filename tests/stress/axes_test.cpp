@@ -95,7 +95,7 @@ TEST(Axes, fall_back_where_they_must) {
   EXPECT_EQ(used_at("cone", 169.0), "optimal");
   EXPECT_EQ(used_at("cone", 171.0).substr(0, 4), "cube");
   EXPECT_EQ(used_at("cone", 360.0), "refused: light.outer_radians");
-  EXPECT_EQ(used_at("map_size", 3.0), "refused: options.map_size");
+  EXPECT_EQ(used_at("map_size", 3.0), "refused: options.resolution.max_size");
   EXPECT_EQ(used_at("depth_ratio", 1e9), "optimal");
   EXPECT_EQ(find_axis("nonsense"), nullptr);
 }

@@ -60,11 +60,11 @@ Input random_input(std::uint64_t seed) {
                             random.unit() * std::numbers::pi, random.between(1.0, 200.0)};
   PlanOptions& o = input.options;
   o.cascades = 1 + random.pick(kMaxMaps);
-  o.map_size = std::max(4, static_cast<int>(std::exp2(random.between(0.0, 14.0))));
-  o.filter_radius_texels = 0.25 * o.map_size * random.unit() * random.unit();
+  o.resolution.max_size = std::max(4, static_cast<int>(std::exp2(random.between(0.0, 14.0))));
+  o.filter.texels = 0.25 * o.resolution.max_size * random.unit() * random.unit();
   o.fit = static_cast<Fit>(random.pick(4));
-  o.split = static_cast<SplitScheme>(random.pick(6));
-  o.partition = static_cast<Partition>(random.pick(3));
+  o.split.scheme = static_cast<SplitScheme>(random.pick(6));
+  o.split.partition = static_cast<Partition>(random.pick(3));
   return input;
 }
 

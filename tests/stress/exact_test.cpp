@@ -72,7 +72,7 @@ TEST(Judge, sees_what_is_no_number) {
 TEST(Judge, tells_texels_per_area) {
   Input input = plain_input(0);
   input.light = DirectionalLight{{0, -1, 0}};
-  input.options.warp = &warps::none;
+  input.options.warp.warp = &warps::none;
   const ShadowPlan plan = input.plan();
   const ShadowMap& map = plan.map[0];
   const double expected = 1.0 / (map.texel_world.x * map.texel_world.y);

@@ -54,6 +54,21 @@ TEST(CommandLine, refuses_what_it_does_not_know) {
   expect_usage_error({"stress", "--seed", "99999999999999999999"});
 }
 
+TEST(CommandLine, suggests_what_was_meant) {
+  const std::string file = case_files().front().string();
+  const auto error_of = [](const std::vector<std::string>& arguments) {
+    const Finished finished = run_gnomon(arguments);
+    EXPECT_EQ(finished.exit_code, 2);
+    return finished.err;
+  };
+  EXPECT_NE(error_of({"plna", file}).find("did you mean 'plan'?"), std::string::npos);
+  EXPECT_NE(error_of({"plan", file, "--prety"}).find("did you mean '--pretty'?"), std::string::npos);
+  EXPECT_NE(error_of({"stress", "--axis", "gpa"}).find("did you mean 'gap'?"), std::string::npos);
+  // What is like no name is no name's mistake.
+  EXPECT_EQ(error_of({"elephants"}).find("did you mean"), std::string::npos);
+  EXPECT_EQ(error_of({"plan", file, "--elephants"}).find("did you mean"), std::string::npos);
+}
+
 TEST(CommandLine, takes_json_where_json_is_all_there_is) {
   const std::string file = case_files().front().string();
   EXPECT_EQ(run_gnomon({"plan", file, "--json"}).out, run_gnomon({"plan", file}).out);

@@ -1,7 +1,7 @@
 // Do small pictures of the gallery order the filters as the filters' papers do?
 #include <gtest/gtest.h>
 
-#include "filter_figures.hpp"
+#include "figures.hpp"
 #include "render/shared_context.hpp"
 
 namespace gnomon::tool {

@@ -184,7 +184,7 @@ TEST(Plan, logpsm_adds_the_numbers_of_one_logarithmic_perspective_map_on_request
   const json printed = json::parse(finished.lines().at(0));
   const Case input = load_case(files.front());
   const LogPerspectiveMap map = log_perspective_map(input.camera, std::get<DirectionalLight>(input.light),
-                                                    input.bounds(), input.options.map_size);
+                                                    input.bounds(), input.options.resolution.max_size);
   const AliasingStats stats = measure(map, input.camera, input.bounds());
   EXPECT_EQ(printed["logpsm"]["storage"].get<double>(), stats.storage);
   EXPECT_EQ(printed["logpsm"]["p95"].get<double>(), stats.p95);

@@ -51,11 +51,42 @@ TEST(Stress, files_appear_whole_and_nothing_beside_them) {
   EXPECT_EQ(names, (std::vector<std::string>{"stability.csv", "stability.jsonl"}));
 }
 
+TEST(Stress, random_cases_are_the_same_for_a_seed_and_each_kind_that_fails_has_a_file) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "cases").string();
+  const std::vector<std::string> arguments{"stress", "--random", "60", "--seed", "4", "--out", out};
+  const Finished run = run_gnomon(arguments), again = run_gnomon(arguments);
+  ASSERT_EQ(run.err, "");
+  EXPECT_NE(run.out.find("60 random cases, seed 4: "), std::string::npos) << run.out;
+  // All but the times.
+  const auto fails = [](const Finished& finished) {
+    std::vector<std::string> kinds;
+    for (const std::string& line : finished.lines()) {
+      if (line.starts_with("fails: ")) kinds.push_back(line);
+    }
+    return kinds;
+  };
+  EXPECT_EQ(fails(run), fails(again));
+  EXPECT_EQ(run.exit_code, fails(run).empty() ? 0 : 1);
+  std::vector<std::string> replay{"stress", "--replay"};
+  if (std::filesystem::exists(out)) {
+    for (const auto& entry : std::filesystem::directory_iterator(out)) replay.push_back(entry.path());
+  }
+  ASSERT_EQ(replay.size() - 2, fails(run).size());
+  if (replay.size() == 2) return;
+  const Finished replayed = run_gnomon(replay);
+  EXPECT_EQ(replayed.exit_code, 1) << replayed.err;
+  EXPECT_EQ(replayed.out.find("keeps every promise"), std::string::npos) << replayed.out;
+}
+
 TEST(Stress, refuses_with_one_line) {
   const TemporaryFolder folder;
   const std::string file = folder.write("file", "");
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"stress", "--axis", "nonsense"},
                                                     {"stress", "--samples", "1"},
+                                                    {"stress", "--random", "0"},
+                                                    {"stress", "--replay", file},
+                                                    {"stress", "--replay", file + ".nowhere"},
                                                     {"stress", "--cases", "--out", file + "/x"},
                                                     {"stress", "--json", "--csv", "--cases"},
                                                     {"stress", "--filters", "--context", "nonsense"}}) {

@@ -186,7 +186,7 @@ TEST(Reference, texel_axes_are_the_sides_of_a_texel) {
   const Scene scene = render::box_on_ground();
   PlanOptions options;
   options.cascades = 1;
-  options.map_size = 256;
+  options.resolution.max_size = 256;
   const ShadowPlan plan = render::plan_for(scene, render::camera_on_box(96, 64), kSlant, options);
   ASSERT_EQ(plan.map_count, 1);
   const ShadowMap& map = plan.map[0];

@@ -20,15 +20,7 @@ struct Case {
   Camera camera;
   Light light;
   std::vector<Box> receivers, casters;
-  std::vector<double> given_splits;  ///< what options.given_splits looks at
   PlanOptions options;
-
-  Case() = default;
-  Case(const Case& other) { *this = other; }
-  Case(Case&&) noexcept = default;  // keeps the list where it is
-  Case& operator=(const Case& other);
-  Case& operator=(Case&&) noexcept = default;
-  ~Case() = default;
 
   /// Views into this case: valid while it lives and its lists are not resized.
   [[nodiscard]] SceneBounds bounds() const noexcept { return {casters, receivers}; }

@@ -1,4 +1,4 @@
-// How a shadow map is read: what a filter stores in a texel, how it answers "lit or not", and what it costs.
+// How a shadow map is read: what a filter stores in a texel, how it computes visibility, and what it costs.
 // One entry of the registry filters.def.
 #pragma once
 
@@ -63,7 +63,8 @@ struct FilterSettings {
   TexelFormat format = TexelFormat::fp32;
   bool mipmap = false;  ///< averages over the pixel's footprint where texels are smaller than pixels
   int anisotropy = 1;   ///< 1..16 probes along a long footprint; needs `mipmap`
-  std::array<double, kMaxFilterOptions> option{};  ///< in the order of Filter::options; then the filter's own
+  std::array<double, kMaxFilterOptions>
+      option{};  ///< in the order of FilterInfo::options; then the filter's own
 
   /// The option of this name; 0 where the filter has none of that name.
   [[nodiscard]] double value(std::string_view name) const noexcept;
@@ -99,10 +100,8 @@ enum class MapRead : std::uint8_t {
   summed,    ///< the summed-area table of stored texels, in integers: any box at a constant price
 };
 
-/// A filter is data and functions; the shader file of the same name holds the same formulas, and laws over
-/// the registry compare them (tests/render/filter_laws_test.cpp). See shaders/README.md for the shader's
-/// side.
-struct Filter {
+/// What a filter is: its names, what it reads and stores, and what it asks of a plan.
+struct FilterInfo {
   std::string_view name;
   std::string_view summary;  ///< one line
   std::string_view source;   ///< paper or book
@@ -113,45 +112,63 @@ struct Filter {
   bool may_mipmap = false;      ///< mip-maps and anisotropic reads, for MapRead::filtered and joined
   double default_radius = 1.0;  ///< texels
   bool has_kernel = true;       ///< false: the nearest texel alone, whatever the radius says
-  /// Within this of the right answer where all texels of the kernel agree, for a receiver at least `contact`
-  /// (of the map's depth range) in front of or behind them: what filter_laws asks for.
-  double tolerance = 1e-6, contact = 0.0;
+  /// How far from the point the lookup itself reads the depth map, in texels, beyond the kernel's box.
+  double lookup_reach_texels = 1.0;
   /// Which of `options` says how many terms or layers are stored, each in channels of its own; -1: none.
   int terms_option = -1;
-  /// A filter that answers alike from fewer channels where depths allow (filter_fit.hpp). nullptr: none.
+  /// A cheaper filter of the same family, usable where its results match (filter_fit.hpp). nullptr: none.
   const Filter* leaner = nullptr;
 
-  /// Whether the lookup reads the largest depth under the kernel. nullptr: never.
-  bool (*needs_depth_max)(const FilterSettings& settings) noexcept = nullptr;
+  /// Channels of a stored texel, 1..kMaxChannels. nullptr for MapRead::depth.
+  int (*channels)(const FilterSettings& settings) noexcept = nullptr;
+  /// Brings options into what the format can hold. nullptr: nothing to do.
+  void (*settle)(FilterSettings& settings) noexcept = nullptr;
   /// Radius across the light at the receiver, world units, of the kernel over the shadow of something this
   /// far from the receiver; light_distance 0: parallel light. FilterSettings::radius is then the widest that
   /// a kernel gets. nullptr: it is the kernel's own.
   double (*penumbra_radius_world)(const FilterSettings& settings, double blocker_distance_world,
                                   double light_distance_world) noexcept = nullptr;
-  /// Brings options into what the format can hold. nullptr: nothing to do.
-  void (*settle)(FilterSettings& settings) noexcept = nullptr;
-  /// Whether `adapt` has something to do for every map. nullptr: never.
-  bool (*adapts)(const FilterSettings& settings) noexcept = nullptr;
-  /// Sets the options behind those of `options` for one map from the depths that were drawn into it, 1 where
-  /// there is nothing. Costs a copy of them to the CPU in every frame that draws the map anew.
-  void (*adapt)(FilterSettings& settings, std::span<const float> depths) noexcept = nullptr;
-  /// Channels of a stored texel, 1..kMaxChannels. nullptr for MapRead::depth.
-  int (*channels)(const FilterSettings& settings) noexcept = nullptr;
-  /// How far from the point the lookup itself reads the depth map, in texels, beyond the kernel's box.
-  double lookup_reach_texels = 1.0;
-  /// Reference of shadow_store: the texel of a depth whose surface changes by `slope` per texel (at most half
-  /// of which is within the texel).
+};
+
+/// The filter's formulas on the CPU, in double. The shader file of the same name holds the same formulas, and
+/// laws over the registry compare them (tests/render/filter_laws_test.cpp).
+struct FilterReference {
+  /// Largest error where all texels of the kernel agree, for a receiver at least `contact` (of the map's
+  /// depth range) in front of or behind them: what filter_laws asks for.
+  double tolerance = 1e-6, contact = 0.0;
+  /// shadow_store: the texel of a depth whose surface changes by `slope` per texel (at most half of which is
+  /// within the texel). nullptr for MapRead::depth.
   StoredTexel (*store)(double depth, const glm::dvec2& slope,
                        const FilterSettings& settings) noexcept = nullptr;
-  /// Reference of shadow_join and shadow_nothing: adds a texel of weight > 0; weights sum up to 1. nullptr:
-  /// the weighted sum.
+  /// shadow_join and shadow_nothing: adds a texel of weight > 0; weights sum up to 1. nullptr: the weighted
+  /// sum.
   void (*join)(StoredTexel& sum, const StoredTexel& texel, double weight,
                const FilterSettings& settings) noexcept = nullptr;
   StoredTexel (*nothing)(const FilterSettings& settings) noexcept = nullptr;
-  /// Reference of shadow_visibility: 1 lit .. 0 in shadow. `texel`: what was stored, over the kernel; unused
-  /// by MapRead::depth.
+  /// shadow_visibility: 1 lit .. 0 in shadow. `texel`: what was stored, over the kernel; unused by
+  /// MapRead::depth.
   double (*visibility)(const StoredTexel& texel, const FilterLookup& lookup,
                        const FilterSettings& settings) = nullptr;
+};
+
+/// What the renderer does for a filter besides running its shaders.
+struct FilterHooks {
+  /// True if shadow_store uses its slope: two to four more depths are fetched per texel. nullptr: never.
+  bool (*reads_slope)(const FilterSettings& settings) noexcept = nullptr;
+  /// True if the lookup reads the largest depth under the kernel. nullptr: never.
+  bool (*needs_depth_max)(const FilterSettings& settings) noexcept = nullptr;
+  /// True if `adapt` has something to do for every map. nullptr: never.
+  bool (*adapts)(const FilterSettings& settings) noexcept = nullptr;
+  /// Sets the options behind those of FilterInfo::options for one map from the depths that were drawn into
+  /// it, 1 where there is nothing. Costs a copy of them to the CPU in every frame that redraws the map.
+  void (*adapt)(FilterSettings& settings, std::span<const float> depths) noexcept = nullptr;
+};
+
+/// One entry of the registry. See shaders/README.md for the shader's side.
+struct Filter {
+  FilterInfo info;
+  FilterReference reference;
+  FilterHooks hooks = {};
 };
 
 /// All filters, in the order of filters.def.

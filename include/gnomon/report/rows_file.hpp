@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gnomon/report/row.hpp"
@@ -34,6 +35,9 @@ class RowsFile {
 /// All rows of a file, or of `kRowsFile` in a folder. A last line without its end is left out. Throws
 /// ReportError with file and line.
 [[nodiscard]] std::vector<Row> read_rows(const std::filesystem::path& path);
+
+/// The same from text in memory; `name` stands in front of errors. Throws ReportError.
+[[nodiscard]] std::vector<Row> rows_from_text(std::string_view text, const std::string& name);
 
 /// Which files of scenes rows were measured with: one for each name.
 class SceneHashes {

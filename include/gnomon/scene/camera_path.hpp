@@ -34,7 +34,9 @@ struct CameraPath {
 /// Writes the same format.
 void save_camera_path(const CameraPath& path, const std::filesystem::path& file);
 
-/// The default flight of a builtin scene, by its name; for any other scene an orbit around its bounds.
-[[nodiscard]] CameraPath default_path(const Scene& scene);
+/// The default flight of a builtin scene, by its name; for any other scene an orbit that shows all of it, as
+/// near as an image of this width over height allows. The default holds it in a square image and in wider
+/// ones.
+[[nodiscard]] CameraPath default_path(const Scene& scene, double aspect = 1.0);
 
 }  // namespace gnomon

@@ -4,8 +4,8 @@
 // vertices is this project's.
 #include <cmath>
 
-#include "../elementary.hpp"
-#include "../vector.hpp"
+#include "geometry/elementary.hpp"
+#include "geometry/vector.hpp"
 #include "gnomon/warp.hpp"
 
 namespace gnomon::warps {
@@ -70,7 +70,7 @@ double weakest_as_good(const WarpInput& input, const Best& best) noexcept {
 
 WarpChoice choose(const WarpInput& input) noexcept {
   const double length = input.y_max - input.y_min;
-  if (input.orthographic || !(length > 0.0)) return {};
+  if (input.flat() || !(length > 0.0)) return input.unwarped;
   Best best{0.0, warp_error(input, 0.0).value(input.objective)};
   const double step = kCoarseFactor;
   double nearest = input.body.front().depth, farthest = nearest;
@@ -89,7 +89,8 @@ WarpChoice choose(const WarpInput& input) noexcept {
     }
   }
   const double around = best_grid > 0.0 ? best_grid : 0.5 * kWeakest / length;
-  return {weakest_as_good(input, refine(input, around / step, around * step, best_grid > 0.0 ? grid : best))};
+  return input.along_view(
+      weakest_as_good(input, refine(input, around / step, around * step, best_grid > 0.0 ? grid : best)));
 }
 
 }  // namespace

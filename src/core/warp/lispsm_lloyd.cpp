@@ -3,19 +3,25 @@
 // 2007, section 5.2. Kept as published.
 #include <cmath>
 
-#include "../elementary.hpp"
-#include "../warp_formulas.hpp"
+#include "geometry/elementary.hpp"
+#include "geometry/vector.hpp"
 #include "gnomon/warp.hpp"
+#include "warp/formulas.hpp"
 
 namespace gnomon::warps {
 namespace {
 
 WarpChoice choose(const WarpInput& input) noexcept {
   const double length = input.y_max - input.y_min;
-  if (input.orthographic || !(length > 0.0) || !(input.depth_end > input.depth_begin)) return {};
+  if (input.orthographic || !(length > 0.0) || !(input.depth_end > input.depth_begin) ||
+      !(input.scale_near > 0.0))
+    return input.unwarped;
   const double gamma = elementary::atan2(input.sin_gamma, std::abs(input.cos_gamma));
   const double eta = lloyd_eta(gamma, elementary::atan(input.tan_half_fov));
-  return {kappa_length_from_eta(eta, input.depth_end / input.depth_begin) / length};
+  const double alpha = input.light.perspective
+                           ? 1.0 + length * max_of(0.0, input.depth_per_y) / input.scale_near
+                           : input.depth_end / input.depth_begin;
+  return input.along_view(kappa_length_from_eta(eta, alpha) / length);
 }
 
 }  // namespace

@@ -4,6 +4,6 @@
 namespace gnomon::warps {
 
 const Warp none{"none", "orthographic map, evenly spaced texels",
-                [](const WarpInput&) noexcept { return WarpChoice{}; }, true};
+                [](const WarpInput& input) noexcept { return input.unwarped; }, true};
 
 }  // namespace gnomon::warps

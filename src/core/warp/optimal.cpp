@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "../elementary.hpp"
-#include "../light_plane_error.hpp"
-#include "../vector.hpp"
+#include "geometry/elementary.hpp"
+#include "geometry/vector.hpp"
+#include "warp/plane_error.hpp"
 
 namespace gnomon::warps {
 namespace {
@@ -25,24 +25,30 @@ constexpr double kLeastGain = 0.02;
 
 class Search {
  public:
-  explicit Search(const WarpInput& input) noexcept : error_(input), length_(input.y_max - input.y_min) {}
+  explicit Search(const WarpInput& input) noexcept
+      : error_(input),
+        length_(input.y_max - input.y_min),
+        pivot_(input.centre, input.light.perspective ? input.y_min : 0.0),
+        unwarped_(input.unwarped) {}
 
   [[nodiscard]] WarpChoice choice(const Position& p) const noexcept {
     const double strength = elementary::exp(clamp_to(p[1], kWeakest, kStrongest));
     const double cosine = elementary::cos(p[3]), sine = elementary::sin(p[3]);
     return {strength / length_,
             {elementary::sin(p[0]), elementary::cos(p[0])},
-            p[2] * length_,
+            pivot_.x * elementary::cos(p[0]) - pivot_.y * elementary::sin(p[0]) + p[2] * length_,
             {cosine, sine},
             {-sine, cosine}};
   }
   [[nodiscard]] double value(const Position& p) noexcept { return error_.value(choice(p)); }
-  [[nodiscard]] double without() noexcept { return error_.value({}); }
+  [[nodiscard]] double without() noexcept { return error_.value(unwarped_); }
 
  private:
   static constexpr double kWeakest = -7.0, kStrongest = 21.0;  // kappa times length from 0.001 to 1e9
-  LightPlaneError error_;
+  PlaneError error_;
   double length_;
+  glm::dvec2 pivot_;  // point of the light plane that the axis turns about: the eye, or the nearest point
+  WarpChoice unwarped_;
 };
 
 struct Corner {
@@ -116,7 +122,7 @@ Corner stronger(Search& search, Corner best) noexcept {
 
 WarpChoice choose(const WarpInput& input) noexcept {
   const double length = input.y_max - input.y_min;
-  if (input.orthographic || !(length > 0.0)) return {};
+  if (input.flat() || !(length > 0.0)) return input.unwarped;
   Search search(input);
   const double without = search.without();
   // Where LiSPSM's own search finds nothing, a warp as strong as the body is deep is a fair start.
@@ -127,7 +133,7 @@ WarpChoice choose(const WarpInput& input) noexcept {
   if (input.objective == Objective::p95) start = stronger(search, start);
   const Corner best = walk(search, start, kSimplexSteps);
   const bool gains = best.value < without * (1.0 - kLeastGain);
-  WarpChoice choice = gains ? search.choice(best.at) : WarpChoice{};
+  WarpChoice choice = gains ? search.choice(best.at) : input.unwarped;
   choice.gain_ratio = gains ? best.value / without : 1.0;
   return choice;
 }

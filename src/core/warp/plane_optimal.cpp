@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "../vector.hpp"
+#include "geometry/vector.hpp"
 #include "gnomon/warp.hpp"
 
 namespace gnomon::warps {
@@ -18,8 +18,9 @@ struct Linear2 {
   double at_origin;
 };
 
-/// Area of each face as the light sees it, from the edges of its polygon (twice, and signed by the winding).
-std::array<double, kMaxFaces> areas_across_light(const Polytope& body) noexcept {
+/// Area of each face in the light plane, from the edges of its polygon (twice, and signed by the winding).
+std::array<double, kMaxFaces> areas_across_light(const WarpInput& input) noexcept {
+  const Polytope& body = *input.polytope;
   std::array<double, kMaxFaces> area{};
   for (int f = 0; f < body.face_count; ++f) {
     int start = -1;
@@ -37,8 +38,8 @@ std::array<double, kMaxFaces> areas_across_light(const Polytope& body) noexcept 
         if (v.face[k] != f && v.neighbour[k] != from) next = v.neighbour[k];
       }
       if (next < 0) break;
-      const glm::dvec3& p = v.position;
-      const glm::dvec3& q = body.vertex[static_cast<std::size_t>(next)].position;
+      const glm::dvec3 p = input.light.project(v.position);
+      const glm::dvec3 q = input.light.project(body.vertex[static_cast<std::size_t>(next)].position);
       area[static_cast<std::size_t>(f)] += p.x * q.y - p.y * q.x;
       from = at;
       at = next;
@@ -50,15 +51,18 @@ std::array<double, kMaxFaces> areas_across_light(const Polytope& body) noexcept 
 
 /// The face that lies largest under the light, of those that the viewer sees from inside; nullptr where there
 /// is none.
-const Plane* receiver_plane(const Polytope& body) noexcept {
-  const std::array<double, kMaxFaces> area = areas_across_light(body);
+const Plane* receiver_plane(const WarpInput& input) noexcept {
+  const Polytope& body = *input.polytope;
+  const std::array<double, kMaxFaces> area = areas_across_light(input);
+  const glm::dvec4 light = input.light.light();
   const Plane* best = nullptr;
   double largest = 0.0;
   for (int f = 0; f < body.face_count; ++f) {
     const auto index = static_cast<std::size_t>(f);
     const Plane& plane = body.plane[index];
-    // Light comes from +z; the eye is the origin.
-    if (!(plane.normal.z > 0.0 && plane.offset > 0.0) || !(std::abs(area[index]) > largest)) continue;
+    // The light and the eye, which is the origin, both on the inner side.
+    const double towards_light = glm::dot(plane.normal, glm::dvec3(light)) + plane.offset * light.w;
+    if (!(towards_light > 0.0 && plane.offset > 0.0) || !(std::abs(area[index]) > largest)) continue;
     largest = std::abs(area[index]);
     best = &plane;
   }
@@ -66,17 +70,20 @@ const Plane* receiver_plane(const Polytope& body) noexcept {
 }
 
 WarpChoice choose(const WarpInput& input) noexcept {
-  const Plane* plane = input.orthographic ? nullptr : receiver_plane(*input.polytope);
-  if (plane == nullptr) return {};
-  const glm::dvec3 n = plane->normal;
-  // Along the light onto the plane: z = -(offset + n.x x + n.y y) / n.z. A direction's component becomes
+  const Plane* plane = input.orthographic ? nullptr : receiver_plane(input);
+  if (plane == nullptr) return input.unwarped;
+  const LightLinear face = light_linear(input.light, plane->normal, plane->offset);
+  const glm::dvec3 n = face.slope;
+  // Along the light onto the plane: h = -(constant + n.x x + n.y y) / n.z. A direction's component becomes
   // linear in x, y.
-  const auto on_plane = [&](const glm::dvec3& d) {
-    return Linear2{{d.x - d.z * n.x / n.z, d.y - d.z * n.y / n.z}, -d.z * plane->offset / n.z};
+  const auto on_plane = [&](const glm::dvec3& direction) {
+    const LightLinear d = light_linear(input.light, direction, 0.0);
+    return Linear2{{d.slope.x - d.slope.z * n.x / n.z, d.slope.y - d.slope.z * n.y / n.z},
+                   d.constant - d.slope.z * face.constant / n.z};
   };
   const Linear2 depth = on_plane(input.view.forward);
   const double steepness = glm::length(depth.slope);
-  if (!(steepness > 0.0)) return {};
+  if (!(steepness > 0.0)) return input.unwarped;
   WarpChoice choice;
   choice.axis = depth.slope / steepness;
   const auto along = [&choice](const WarpInput::Point& p) { return glm::dot(choice.axis, {p.x, p.y}); };
@@ -86,10 +93,10 @@ WarpChoice choose(const WarpInput& input) noexcept {
     u_max = max_of(u_max, along(p));
   }
   const double w_near = depth.at_origin + steepness * u_min;
-  if (!(w_near > 0.0)) return {};
+  if (!(w_near > 0.0)) return input.unwarped;
   // Where depth does not change over the plane, rounding would decide the axis: there is nothing to warp.
   constexpr double kLeastChange = 1e-6;
-  if (!(steepness * (u_max - u_min) > kLeastChange * w_near)) return {};
+  if (!(steepness * (u_max - u_min) > kLeastChange * w_near)) return input.unwarped;
   choice.kappa = steepness / w_near;
   const double stretch = 1.0 + choice.kappa * (u_max - u_min);
   // The screen's axes over (s, u): a row's part along u that w does not carry off, as a multiple of Y = u
@@ -103,7 +110,7 @@ WarpChoice choose(const WarpInput& input) noexcept {
   choice.row_a = row(input.view.right);
   choice.row_b = row(input.view.up);
   const double area = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
-  return std::abs(area) > 0.0 ? choice : WarpChoice{};
+  return std::abs(area) > 0.0 ? choice : input.unwarped;
 }
 
 }  // namespace

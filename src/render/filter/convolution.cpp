@@ -88,23 +88,30 @@ double fourier_lit(const StoredTexel& basis, double depth, const FourierStep& st
 }
 
 const Filter filters::convolution{
-    .name = "convolution",
-    .summary = "the comparison as a Fourier series: true averages of soft steps, no bleeding, much memory",
-    .source = "Annen, Mertens, Bekaert, Seidel, Kautz 2007, Convolution shadow maps",
-    .reads = MapRead::filtered,
-    .bias_class = FilterClass::prefiltered,
-    .options = kOptions,
-    .formats = kFormats,
-    .may_mipmap = true,
-    // The attenuated series of order 16 stays within 0.02 of its step beyond it; 8 bits may round by 0.0084,
-    // after each half of the blur.
-    .tolerance = 0.04,
-    .contact = 0.1,
-    .terms_option = 0,
-    .settle = settle,
-    .channels = channels,
-    .store = store,
-    .visibility = visibility,
+    .info =
+        {
+            .name = "convolution",
+            .summary =
+                "the comparison as a Fourier series: true averages of soft steps, no bleeding, much memory",
+            .source = "Annen, Mertens, Bekaert, Seidel, Kautz 2007, Convolution shadow maps",
+            .reads = MapRead::filtered,
+            .bias_class = FilterClass::prefiltered,
+            .options = kOptions,
+            .formats = kFormats,
+            .may_mipmap = true,
+            .terms_option = 0,
+            .channels = channels,
+            .settle = settle,
+        },
+    .reference =
+        {
+            // The attenuated series of order 16 stays within 0.02 of its step beyond it; 8 bits may round by
+            // 0.0084, after each half of the blur.
+            .tolerance = 0.04,
+            .contact = 0.1,
+            .store = store,
+            .visibility = visibility,
+        },
 };
 
 }  // namespace gnomon::render

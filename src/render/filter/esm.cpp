@@ -84,24 +84,33 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
 }  // namespace
 
 const Filter filters::esm{
-    .name = "esm",
-    .summary =
-        "exponential of the depth difference, blurred in the logarithm; one channel, leaks at contacts",
-    .source = "Annen et al. 2008, Exponential shadow maps",
-    .reads = MapRead::joined,
-    .bias_class = FilterClass::prefiltered,
-    .options = kOptions,
-    .formats = kFormats,
-    .may_mipmap = true,
-    .tolerance = 0.01,  // exp(-80 * 0.1) is below it by far
-    .contact = 0.1,
-    .needs_depth_max = needs_depth_max,
-    .settle = settle,
-    .channels = channels,
-    .store = store,
-    .join = join,
-    .nothing = nothing,
-    .visibility = visibility,
+    .info =
+        {
+            .name = "esm",
+            .summary = "exponential of the depth difference, blurred in the logarithm; one channel, leaks at "
+                       "contacts",
+            .source = "Annen et al. 2008, Exponential shadow maps",
+            .reads = MapRead::joined,
+            .bias_class = FilterClass::prefiltered,
+            .options = kOptions,
+            .formats = kFormats,
+            .may_mipmap = true,
+            .channels = channels,
+            .settle = settle,
+        },
+    .reference =
+        {
+            .tolerance = 0.01,  // exp(-80 * 0.1) is below it by far
+            .contact = 0.1,
+            .store = store,
+            .join = join,
+            .nothing = nothing,
+            .visibility = visibility,
+        },
+    .hooks =
+        {
+            .needs_depth_max = needs_depth_max,
+        },
 };
 
 }  // namespace gnomon::render

@@ -36,20 +36,27 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
 }  // namespace
 
 const Filter filters::evsm2{
-    .name = "evsm2",
-    .summary = "variance bound under an exponential: bleeds far less than vsm",
-    .source = "Lauritzen, McCool 2008, Layered variance shadow maps",
-    .reads = MapRead::filtered,
-    .bias_class = FilterClass::prefiltered,
-    .options = kOptions,
-    .formats = kFormats,
-    .may_mipmap = true,
-    .tolerance = 0.01,  // what rounding leaves under a contact of a tenth of the depth range, in half floats
-    .contact = 0.1,
-    .settle = settle,
-    .channels = channels,
-    .store = store,
-    .visibility = visibility,
+    .info =
+        {
+            .name = "evsm2",
+            .summary = "variance bound under an exponential: bleeds far less than vsm",
+            .source = "Lauritzen, McCool 2008, Layered variance shadow maps",
+            .reads = MapRead::filtered,
+            .bias_class = FilterClass::prefiltered,
+            .options = kOptions,
+            .formats = kFormats,
+            .may_mipmap = true,
+            .channels = channels,
+            .settle = settle,
+        },
+    .reference =
+        {
+            .tolerance =
+                0.01,  // what rounding leaves under a contact of a tenth of the depth range, in half floats
+            .contact = 0.1,
+            .store = store,
+            .visibility = visibility,
+        },
 };
 
 }  // namespace gnomon::render

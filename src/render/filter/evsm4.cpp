@@ -44,21 +44,28 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
 }  // namespace
 
 const Filter filters::evsm4{
-    .name = "evsm4",
-    .summary = "variance bound under a rising and a falling exponential: bleeds least of the kind",
-    .source = "Lauritzen, McCool 2008, Layered variance shadow maps",
-    .reads = MapRead::filtered,
-    .bias_class = FilterClass::prefiltered,
-    .options = kOptions,
-    .formats = kFormats,
-    .may_mipmap = true,
-    .tolerance = 0.01,  // what rounding leaves under a contact of a tenth of the depth range, in half floats
-    .contact = 0.1,
-    .leaner = &filters::evsm2,
-    .settle = settle,
-    .channels = channels,
-    .store = store,
-    .visibility = visibility,
+    .info =
+        {
+            .name = "evsm4",
+            .summary = "variance bound under a rising and a falling exponential: bleeds least of the kind",
+            .source = "Lauritzen, McCool 2008, Layered variance shadow maps",
+            .reads = MapRead::filtered,
+            .bias_class = FilterClass::prefiltered,
+            .options = kOptions,
+            .formats = kFormats,
+            .may_mipmap = true,
+            .leaner = &filters::evsm2,
+            .channels = channels,
+            .settle = settle,
+        },
+    .reference =
+        {
+            .tolerance =
+                0.01,  // what rounding leaves under a contact of a tenth of the depth range, in half floats
+            .contact = 0.1,
+            .store = store,
+            .visibility = visibility,
+        },
 };
 
 }  // namespace gnomon::render

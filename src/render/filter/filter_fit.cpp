@@ -45,8 +45,8 @@ struct Place {
 };
 
 void add(StoredTexel& sum, const StoredTexel& texel, double weight, const FilterSettings& s) noexcept {
-  if (s.filter->join != nullptr) {
-    s.filter->join(sum, texel, weight, s);
+  if (s.filter->reference.join != nullptr) {
+    s.filter->reference.join(sum, texel, weight, s);
     return;
   }
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * texel[i];
@@ -59,13 +59,14 @@ StoredTexel rounded(StoredTexel texel, const FilterSettings& s) noexcept {
 
 /// As the passes store it: blurred along x, rounded, blurred along y, rounded.
 StoredTexel stored_at(const Map& map, int x, int y, const FilterSettings& s) noexcept {
-  const StoredTexel none = s.filter->nothing != nullptr ? s.filter->nothing(s) : StoredTexel{};
+  const StoredTexel none =
+      s.filter->reference.nothing != nullptr ? s.filter->reference.nothing(s) : StoredTexel{};
   const auto weight = [&](int i) { return map.weights[static_cast<std::size_t>(std::abs(i))]; };
   StoredTexel sum = none;
   for (int j = -map.reach; j <= map.reach; ++j) {
     StoredTexel row = none;
     for (int i = -map.reach; i <= map.reach; ++i)
-      add(row, s.filter->store(map.depth(x + i, y + j), map.slope(x + i, y + j), s), weight(i), s);
+      add(row, s.filter->reference.store(map.depth(x + i, y + j), map.slope(x + i, y + j), s), weight(i), s);
     add(sum, rounded(row, s), weight(j), s);
   }
   return rounded(sum, s);
@@ -143,8 +144,8 @@ std::vector<Place> places_of(const std::vector<Map>& maps, const FilterFitOption
 std::vector<FilterSettings> per_map(const FilterSettings& settings, const std::vector<Map>& maps) {
   std::vector<FilterSettings> all(maps.size(), settings);
   const Filter& filter = *settings.filter;
-  if (filter.adapts == nullptr || !filter.adapts(settings)) return all;
-  for (std::size_t i = 0; i < maps.size(); ++i) filter.adapt(all[i], maps[i].drawn.depths);
+  if (filter.hooks.adapts == nullptr || !filter.hooks.adapts(settings)) return all;
+  for (std::size_t i = 0; i < maps.size(); ++i) filter.hooks.adapt(all[i], maps[i].drawn.depths);
   return all;
 }
 
@@ -163,7 +164,8 @@ Difference difference_of(const FilterSettings& settings, const std::vector<Map>&
     const FilterSettings& s = own[place.map];
     const StoredTexel texel = stored_at(maps[place.map], place.x, place.y, s);
     for (std::size_t i = 0; i < place.lookups.size(); ++i) {
-      const double apart = std::abs(s.filter->visibility(texel, place.lookups[i], s) - place.answers[i]);
+      const double apart =
+          std::abs(s.filter->reference.visibility(texel, place.lookups[i], s) - place.answers[i]);
       result.largest = std::max(result.largest, apart);
       result.above += apart <= bound ? 0 : 1;
       if (result.above > allowed) return result;
@@ -174,15 +176,16 @@ Difference difference_of(const FilterSettings& settings, const std::vector<Map>&
 
 /// The settings for the simpler filter: options of the same name, the kernel, and what it is read by.
 FilterSettings settings_of_leaner(const FilterSettings& full) {
-  FilterSettings lean = default_settings(*full.filter->leaner);
+  FilterSettings lean = default_settings(*full.filter->info.leaner);
   lean.radius = full.radius;
   lean.unit = full.unit;
   lean.blur = full.blur;
   lean.mipmap = full.mipmap;
   lean.anisotropy = full.anisotropy;
-  for (std::size_t i = 0; i < lean.filter->options.size(); ++i) {
-    for (std::size_t k = 0; k < full.filter->options.size(); ++k) {
-      if (full.filter->options[k].name == lean.filter->options[i].name) lean.option[i] = full.option[k];
+  for (std::size_t i = 0; i < lean.filter->info.options.size(); ++i) {
+    for (std::size_t k = 0; k < full.filter->info.options.size(); ++k) {
+      if (full.filter->info.options[k].name == lean.filter->info.options[i].name)
+        lean.option[i] = full.option[k];
     }
   }
   return lean;
@@ -193,25 +196,25 @@ std::vector<FilterSettings> candidates_of(const FilterSettings& full) {
   std::vector<FilterSettings> all;
   const auto add_all = [&](const FilterSettings& base) {
     const Filter& filter = *base.filter;
-    const int terms = filter.terms_option;
-    const double least = terms < 0 ? 0.0 : filter.options[static_cast<std::size_t>(terms)].min;
+    const int terms = filter.info.terms_option;
+    const double least = terms < 0 ? 0.0 : filter.info.options[static_cast<std::size_t>(terms)].min;
     const double most = terms < 0 ? 0.0 : base.option[static_cast<std::size_t>(terms)];
-    for (const TexelFormat format : filter.formats) {
+    for (const TexelFormat format : filter.info.formats) {
       for (double count = least; count <= most; count += 1.0) {
         FilterSettings candidate = base;
         candidate.format = format;
         if (terms >= 0) candidate.option[static_cast<std::size_t>(terms)] = count;
-        if (filter.settle != nullptr) filter.settle(candidate);
+        if (filter.info.settle != nullptr) filter.info.settle(candidate);
         if (bytes_per_texel(candidate) < bytes_per_texel(full)) all.push_back(candidate);
       }
     }
   };
   add_all(full);
-  if (full.filter->leaner != nullptr) add_all(settings_of_leaner(full));
+  if (full.filter->info.leaner != nullptr) add_all(settings_of_leaner(full));
   // Of equal bytes the one with fewer channels blurs and reads less; of those, more terms tell more.
   std::stable_sort(all.begin(), all.end(), [](const FilterSettings& a, const FilterSettings& b) {
     const double bytes_a = bytes_per_texel(a), bytes_b = bytes_per_texel(b);
-    return bytes_a != bytes_b ? bytes_a < bytes_b : a.filter->channels(a) < b.filter->channels(b);
+    return bytes_a != bytes_b ? bytes_a < bytes_b : a.filter->info.channels(a) < b.filter->info.channels(b);
   });
   return all;
 }
@@ -224,8 +227,8 @@ FilterFit fit_filter(const FilterSettings& full, std::span<const DrawnDepths> dr
   FilterFit fit;
   fit.settings = full;
   fit.bytes = fit.full_bytes = bytes_per_texel(full);
-  fit.channels = fit.full_channels = filter.channels != nullptr ? filter.channels(full) : 0;
-  if (filter.reads == MapRead::depth || filter.reads == MapRead::summed) return fit;
+  fit.channels = fit.full_channels = filter.info.channels != nullptr ? filter.info.channels(full) : 0;
+  if (filter.info.reads == MapRead::depth || filter.info.reads == MapRead::summed) return fit;
   std::vector<Map> maps;
   for (const DrawnDepths& d : drawn) {
     maps.push_back({d, {}, 0});
@@ -237,7 +240,7 @@ FilterFit fit_filter(const FilterSettings& full, std::span<const DrawnDepths> dr
     const FilterSettings& s = own[place.map];
     const StoredTexel texel = stored_at(maps[place.map], place.x, place.y, s);
     for (const FilterLookup& lookup : place.lookups) {
-      place.answers.push_back(filter.visibility(texel, lookup, s));
+      place.answers.push_back(filter.reference.visibility(texel, lookup, s));
       ++fit.receivers;
     }
   }
@@ -250,7 +253,7 @@ FilterFit fit_filter(const FilterSettings& full, std::span<const DrawnDepths> dr
     fit.error = difference.largest;
     fit.exceeding = static_cast<double>(difference.above) / fit.receivers;
     fit.bytes = bytes_per_texel(candidate);
-    fit.channels = candidate.filter->channels(candidate);
+    fit.channels = candidate.filter->info.channels(candidate);
     break;
   }
   return fit;

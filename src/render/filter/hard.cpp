@@ -17,15 +17,21 @@ double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSe
 }  // namespace
 
 const Filter filters::hard{
-    .name = "hard",
-    .summary = "nearest texel, one comparison",
-    .source = "Williams 1978, Casting curved shadows on curved surfaces",
-    .reads = MapRead::depth,
-    .bias_class = FilterClass::single_compare,
-    .default_radius = 0.0,
-    .has_kernel = false,
-    .lookup_reach_texels = 0.5,
-    .visibility = visibility,
+    .info =
+        {
+            .name = "hard",
+            .summary = "nearest texel, one comparison",
+            .source = "Williams 1978, Casting curved shadows on curved surfaces",
+            .reads = MapRead::depth,
+            .bias_class = FilterClass::single_compare,
+            .default_radius = 0.0,
+            .has_kernel = false,
+            .lookup_reach_texels = 0.5,
+        },
+    .reference =
+        {
+            .visibility = visibility,
+        },
 };
 
 }  // namespace gnomon::render

@@ -109,23 +109,34 @@ double beyond_layer(int i, const FilterSettings& settings, double deepest) noexc
 }
 
 const Filter filters::lvsm{
-    .name = "lvsm",
-    .summary = "bounds from mean and variance per layer of depth: bleeding stays within a layer",
-    .source = "Lauritzen, McCool 2008, Layered variance shadow maps",
-    .reads = MapRead::filtered,
-    .bias_class = FilterClass::prefiltered,
-    .options = kOptions,
-    .formats = kFormats,
-    .may_mipmap = true,
-    .tolerance = 0.01,  // the variance's floor in half floats, under a contact of a tenth of the depth range
-    .contact = 0.1,
-    .terms_option = 3,
-    .settle = settle,
-    .adapts = adapts,
-    .adapt = adapt,
-    .channels = channels,
-    .store = store,
-    .visibility = visibility,
+    .info =
+        {
+            .name = "lvsm",
+            .summary = "bounds from mean and variance per layer of depth: bleeding stays within a layer",
+            .source = "Lauritzen, McCool 2008, Layered variance shadow maps",
+            .reads = MapRead::filtered,
+            .bias_class = FilterClass::prefiltered,
+            .options = kOptions,
+            .formats = kFormats,
+            .may_mipmap = true,
+            .terms_option = 3,
+            .channels = channels,
+            .settle = settle,
+        },
+    .reference =
+        {
+            .tolerance =
+                0.01,  // the variance's floor in half floats, under a contact of a tenth of the depth range
+            .contact = 0.1,
+            .store = store,
+            .visibility = visibility,
+        },
+    .hooks =
+        {
+            .reads_slope = reads_slope,
+            .adapts = adapts,
+            .adapt = adapt,
+        },
 };
 
 }  // namespace gnomon::render

@@ -58,20 +58,26 @@ void settle(FilterSettings& settings) noexcept {
 }  // namespace
 
 const Filter filters::msm{
-    .name = "msm",
-    .summary = "sharpest bound from four moments; 16 bits a channel serve",
-    .source = "Peters, Klein 2015, Moment shadow mapping",
-    .reads = MapRead::filtered,
-    .bias_class = FilterClass::prefiltered,
-    .options = kOptions,
-    .formats = kFormats,
-    .may_mipmap = true,
-    .tolerance = 0.01,  // what the bias lets through under a contact of a tenth of the depth range
-    .contact = 0.1,
-    .settle = settle,
-    .channels = channels,
-    .store = store,
-    .visibility = visibility,
+    .info =
+        {
+            .name = "msm",
+            .summary = "sharpest bound from four moments; 16 bits a channel serve",
+            .source = "Peters, Klein 2015, Moment shadow mapping",
+            .reads = MapRead::filtered,
+            .bias_class = FilterClass::prefiltered,
+            .options = kOptions,
+            .formats = kFormats,
+            .may_mipmap = true,
+            .channels = channels,
+            .settle = settle,
+        },
+    .reference =
+        {
+            .tolerance = 0.01,  // what the bias lets through under a contact of a tenth of the depth range
+            .contact = 0.1,
+            .store = store,
+            .visibility = visibility,
+        },
 };
 
 }  // namespace gnomon::render

@@ -62,15 +62,21 @@ void settle(FilterSettings& settings) noexcept {
 }  // namespace
 
 const Filter filters::pcf{
-    .name = "pcf",
-    .summary = "average of comparisons over a box or a disc of texels",
-    .source = "Reeves, Salesin, Cook 1987, Rendering antialiased shadows with depth maps",
-    .reads = MapRead::depth,
-    .bias_class = FilterClass::wide_kernel,
-    .options = kOptions,
-    .settle = settle,
-    .lookup_reach_texels = 1.5,
-    .visibility = visibility,
+    .info =
+        {
+            .name = "pcf",
+            .summary = "average of comparisons over a box or a disc of texels",
+            .source = "Reeves, Salesin, Cook 1987, Rendering antialiased shadows with depth maps",
+            .reads = MapRead::depth,
+            .bias_class = FilterClass::wide_kernel,
+            .options = kOptions,
+            .lookup_reach_texels = 1.5,
+            .settle = settle,
+        },
+    .reference =
+        {
+            .visibility = visibility,
+        },
 };
 
 }  // namespace gnomon::render

@@ -69,17 +69,23 @@ void settle(FilterSettings& settings) noexcept {
 }  // namespace
 
 const Filter filters::pcss{
-    .name = "pcss",
-    .summary = "penumbras that widen with the distance of what blocks",
-    .source = "Fernando 2005, Percentage-closer soft shadows",
-    .reads = MapRead::depth,
-    .bias_class = FilterClass::blocker_search,
-    .options = kOptions,
-    .default_radius = 12.0,
-    .penumbra_radius_world = penumbra_radius,
-    .settle = settle,
-    .lookup_reach_texels = 1.5,
-    .visibility = visibility,
+    .info =
+        {
+            .name = "pcss",
+            .summary = "penumbras that widen with the distance of what blocks",
+            .source = "Fernando 2005, Percentage-closer soft shadows",
+            .reads = MapRead::depth,
+            .bias_class = FilterClass::blocker_search,
+            .options = kOptions,
+            .default_radius = 12.0,
+            .lookup_reach_texels = 1.5,
+            .settle = settle,
+            .penumbra_radius_world = penumbra_radius,
+        },
+    .reference =
+        {
+            .visibility = visibility,
+        },
 };
 
 }  // namespace gnomon::render

@@ -65,22 +65,29 @@ double power_lit(double least, double mean, double largest, double depth) noexce
 }
 
 const Filter filters::power_cdf{
-    .name = "power_cdf",
-    .summary = "a power law through least, mean and largest depth: little bleeding, soft contacts, no bound",
-    .source =
-        "Gumbau, Szirmay-Kalos, Sbert, Chover 2011, Improving shadow map filtering with statistical "
-        "analysis",
-    .reads = MapRead::joined,
-    .bias_class = FilterClass::prefiltered,
-    .options = kOptions,
-    .formats = kFormats,
-    .may_mipmap = true,
-    .contact = 0.01,  // four roundings of half floats are 0.001
-    .channels = channels,
-    .store = store,
-    .join = join,
-    .nothing = nothing,
-    .visibility = visibility,
+    .info =
+        {
+            .name = "power_cdf",
+            .summary =
+                "a power law through least, mean and largest depth: little bleeding, soft contacts, no bound",
+            .source =
+                "Gumbau, Szirmay-Kalos, Sbert, Chover 2011, Improving shadow map filtering with statistical "
+                "analysis",
+            .reads = MapRead::joined,
+            .bias_class = FilterClass::prefiltered,
+            .options = kOptions,
+            .formats = kFormats,
+            .may_mipmap = true,
+            .channels = channels,
+        },
+    .reference =
+        {
+            .contact = 0.01,  // four roundings of half floats are 0.001
+            .store = store,
+            .join = join,
+            .nothing = nothing,
+            .visibility = visibility,
+        },
 };
 
 }  // namespace gnomon::render

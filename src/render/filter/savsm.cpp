@@ -23,18 +23,26 @@ int channels(const FilterSettings&) noexcept {
 }  // namespace
 
 const Filter filters::savsm{
-    .name = "savsm",
-    .summary = "bound from mean and variance over a box of any size at one price; bleeds light",
-    .source = "Lauritzen 2007, Summed-area variance shadow maps",
-    .reads = MapRead::summed,
-    .bias_class = FilterClass::prefiltered,
-    .options = kOptions,
-    .formats = kFormats,
-    .tolerance = 0.001,  // the variance's floor, four times 1e-6, under a contact of a tenth of the range
-    .contact = 0.1,
-    .channels = channels,
-    .store = store_moments,
-    .visibility = variance_visibility,
+    .info =
+        {
+            .name = "savsm",
+            .summary = "bound from mean and variance over a box of any size at one price; bleeds light",
+            .source = "Lauritzen 2007, Summed-area variance shadow maps",
+            .reads = MapRead::summed,
+            .bias_class = FilterClass::prefiltered,
+            .options = kOptions,
+            .formats = kFormats,
+            .channels = channels,
+        },
+    .reference =
+        {
+            .tolerance =
+                0.001,  // the variance's floor, four times 1e-6, under a contact of a tenth of the range
+            .contact = 0.1,
+            .store = store_moments,
+            .visibility = variance_visibility,
+        },
+    .hooks = {.reads_slope = reads_slope},
 };
 
 }  // namespace gnomon::render

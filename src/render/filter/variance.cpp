@@ -16,6 +16,10 @@ StoredTexel store_moments(double depth, const glm::dvec2& slope, const FilterSet
   return texel;
 }
 
+bool reads_slope(const FilterSettings& settings) noexcept {
+  return settings.option[2] > 0.0;
+}
+
 double chebyshev(double mean, double variance, double u) noexcept {
   if (!(u > mean)) return 1.0;
   const double away = u - mean;

@@ -9,6 +9,8 @@ namespace gnomon::render {
 /// the place of u where only [0, 1] can be stored. Options: bleed, floor, slope.
 [[nodiscard]] StoredTexel store_moments(double depth, const glm::dvec2& slope,
                                         const FilterSettings& settings) noexcept;
+/// FilterHooks::reads_slope of the filters whose third option is `slope`.
+[[nodiscard]] bool reads_slope(const FilterSettings& settings) noexcept;
 [[nodiscard]] double variance_visibility(const StoredTexel& texel, const FilterLookup& lookup,
                                          const FilterSettings& settings);
 

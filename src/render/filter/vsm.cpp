@@ -22,19 +22,27 @@ int channels(const FilterSettings&) noexcept {
 }  // namespace
 
 const Filter filters::vsm{
-    .name = "vsm",
-    .summary = "bound from mean and variance; blurs, shrinks and stretches by mip-maps, bleeds light",
-    .source = "Donnelly, Lauritzen 2006, Variance shadow maps",
-    .reads = MapRead::filtered,
-    .bias_class = FilterClass::prefiltered,
-    .options = kOptions,
-    .formats = kFormats,
-    .may_mipmap = true,
-    .tolerance = 0.01,  // the variance's floor under a contact of a tenth of the depth range, in half floats
-    .contact = 0.1,
-    .channels = channels,
-    .store = store_moments,
-    .visibility = variance_visibility,
+    .info =
+        {
+            .name = "vsm",
+            .summary = "bound from mean and variance; blurs, shrinks and stretches by mip-maps, bleeds light",
+            .source = "Donnelly, Lauritzen 2006, Variance shadow maps",
+            .reads = MapRead::filtered,
+            .bias_class = FilterClass::prefiltered,
+            .options = kOptions,
+            .formats = kFormats,
+            .may_mipmap = true,
+            .channels = channels,
+        },
+    .reference =
+        {
+            .tolerance =
+                0.01,  // the variance's floor under a contact of a tenth of the depth range, in half floats
+            .contact = 0.1,
+            .store = store_moments,
+            .visibility = variance_visibility,
+        },
+    .hooks = {.reads_slope = reads_slope},
 };
 
 }  // namespace gnomon::render

@@ -117,10 +117,11 @@ Texture image_of(const Row& values, int height = 1) {
 class Asker {
  public:
   Asker(const FilterSettings& settings, const char* text, const std::vector<Question>& questions)
-      : program_(make_program(compose_shader("fullscreen.vert"),
-                              compose_shader_text("filter_test.frag", std::string(kHead) + text,
-                                                  {"filter/" + std::string(settings.filter->name) + ".glsl",
-                                                   shadow_vectors(settings)}))),
+      : program_(make_program(
+            compose_shader("fullscreen.vert"),
+            compose_shader_text(
+                "filter_test.frag", std::string(kHead) + text,
+                {"filter/" + std::string(settings.filter->info.name) + ".glsl", shadow_vectors(settings)}))),
         half_side_(static_cast<float>(settings.radius + 0.5)),
         width_(static_cast<GLsizei>(questions.size())) {
     Row points, gradients;
@@ -162,7 +163,7 @@ class Asker {
 BlurSides sides_of(const FilterSettings& settings) {
   BlurSides sides{};
   const bool blurred =
-      settings.filter->reads == MapRead::filtered || settings.filter->reads == MapRead::joined;
+      settings.filter->info.reads == MapRead::filtered || settings.filter->info.reads == MapRead::joined;
   for (double& side : sides) side = blurred ? settings.radius + 0.5 : 0.0;
   return sides;
 }
@@ -225,7 +226,7 @@ std::vector<float> ask_shader(const FilterSettings& settings, const TestMap& map
   StoredMaps stored;
   stored.build(programs, settings, block.block,
                {targets.depth.name(), map.width, map.height, sizes, settings.mipmap});
-  Asker asker(settings, text_for(settings.filter->reads), questions);
+  Asker asker(settings, text_for(settings.filter->info.reads), questions);
   for (const GLuint unit : {kCompareUnit, kDepthUnit}) glBindTextureUnit(unit, targets.depth.name());
   glBindSampler(kCompareUnit, targets.compare_sampler.name());
   glBindSampler(kDepthUnit, targets.plain_sampler.name());

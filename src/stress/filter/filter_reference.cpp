@@ -34,7 +34,7 @@ FilterLookup lookup_of(const FilterSettings& settings, const TestMap& map, const
   lookup.texels_per_world = glm::dmat2(kTestTexelsPerWorld);
   lookup.ray = {q.depth, 1.0, 1.0 / kTestDepthRange, 0.0};
   lookup.rotation = q.rotation;
-  if (settings.filter->needs_depth_max != nullptr && settings.filter->needs_depth_max(settings)) {
+  if (settings.filter->hooks.needs_depth_max != nullptr && settings.filter->hooks.needs_depth_max(settings)) {
     // The pyramid's texels, as depth_max_in takes them.
     const double side = 2.0 * lookup.box.x;
     const int span = 1 << static_cast<int>(std::ceil(std::log2(std::max(side, 2.0))));
@@ -53,14 +53,14 @@ FilterLookup lookup_of(const FilterSettings& settings, const TestMap& map, const
 
 Reference::Reference(const FilterSettings& settings, const TestMap& map, Storing storing)
     : settings_(settings), map_(map), exact_(storing == Storing::exact) {
-  const MapRead reads = settings.filter->reads;
+  const MapRead reads = settings.filter->info.reads;
   if (reads != MapRead::filtered && reads != MapRead::joined) return;
   std::array<double, 4 * kTapVectors> weights{};
   const int reach = tap_weights(settings.blur, settings.radius + 0.5, weights);
   const auto weight = [&weights](int tap) { return weights[static_cast<std::size_t>(std::abs(tap))]; };
   const auto index = [&map](int x, int y) { return static_cast<std::size_t>(y * map.width + x); };
   std::vector<StoredTexel> rows(map.depth.size());
-  const StoredTexel outside = settings.filter->store(1.0, glm::dvec2(0.0), settings);
+  const StoredTexel outside = settings.filter->reference.store(1.0, glm::dvec2(0.0), settings);
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       StoredTexel sum = nothing();
@@ -89,7 +89,7 @@ StoredTexel Reference::stored(int x, int y) const {
   const double here = map_.at(x, y);
   const glm::dvec2 slope{smaller_step(map_.at(x - 1, y), here, map_.at(x + 1, y)),
                          smaller_step(map_.at(x, y - 1), here, map_.at(x, y + 1))};
-  return settings_.filter->store(here, slope, settings_);
+  return settings_.filter->reference.store(here, slope, settings_);
 }
 
 StoredTexel Reference::rounded(StoredTexel texel) const noexcept {
@@ -99,12 +99,14 @@ StoredTexel Reference::rounded(StoredTexel texel) const noexcept {
 }
 
 void Reference::join(StoredTexel& sum, const StoredTexel& texel, double weight) const {
-  if (settings_.filter->join != nullptr) return settings_.filter->join(sum, texel, weight, settings_);
+  if (settings_.filter->reference.join != nullptr)
+    return settings_.filter->reference.join(sum, texel, weight, settings_);
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * texel[i];
 }
 
 StoredTexel Reference::nothing() const {
-  return settings_.filter->nothing != nullptr ? settings_.filter->nothing(settings_) : StoredTexel{};
+  return settings_.filter->reference.nothing != nullptr ? settings_.filter->reference.nothing(settings_)
+                                                        : StoredTexel{};
 }
 
 StoredTexel Reference::mean_of_box(const glm::dvec2& position) const {
@@ -132,8 +134,8 @@ StoredTexel Reference::mean_of_box(const glm::dvec2& position) const {
 }
 
 StoredTexel Reference::texel(const glm::dvec2& position) const {
-  if (settings_.filter->reads == MapRead::depth) return {};
-  if (settings_.filter->reads == MapRead::summed) return mean_of_box(position);
+  if (settings_.filter->info.reads == MapRead::depth) return {};
+  if (settings_.filter->info.reads == MapRead::summed) return mean_of_box(position);
   const glm::dvec2 first{std::floor(position.x - 0.5), std::floor(position.y - 0.5)};
   const glm::dvec2 part = position - 0.5 - first;
   StoredTexel sum = nothing();
@@ -149,7 +151,7 @@ StoredTexel Reference::texel(const glm::dvec2& position) const {
 }
 
 double Reference::value(const StoredTexel& texel, const Question& question) const {
-  return settings_.filter->visibility(texel, lookup_of(settings_, map_, question), settings_);
+  return settings_.filter->reference.visibility(texel, lookup_of(settings_, map_, question), settings_);
 }
 
 double Reference::answer(const Question& question) const {
@@ -166,7 +168,8 @@ double Reference::bound(const Question& question) const {
   const auto add = [&](const StoredTexel& changed, const Question& asked) {
     sum += std::abs(value(changed, asked) - known);
   };
-  const int channels = settings_.filter->channels == nullptr ? 0 : settings_.filter->channels(settings_);
+  const int channels =
+      settings_.filter->info.channels == nullptr ? 0 : settings_.filter->info.channels(settings_);
   const double weights = weights_are_floats() ? 0.0 : 1.0 / 512.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(channels); ++i) {
     double spread = 0.0;
@@ -176,8 +179,9 @@ double Reference::bound(const Question& question) const {
     }
     const double size = is_unsigned_unit(settings_.format) ? 1.0 : std::max(std::abs(here[i]), 0x1p-14);
     // Whole steps are what a sum of integers rounds texels to.
-    const double step =
-        exact_ && settings_.filter->reads == MapRead::summed ? 0.5 / filter_block(settings_, {}).sums.x : 0.0;
+    const double step = exact_ && settings_.filter->info.reads == MapRead::summed
+                            ? 0.5 / filter_block(settings_, {}).sums.x
+                            : 0.0;
     const double change =
         size * (2.0 * rounding_of(settings_.format) + kSumRounding) + spread * weights + step;
     for (const double sign : {-1.0, 1.0}) {

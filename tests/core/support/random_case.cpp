@@ -81,7 +81,7 @@ glm::dvec3 Random::direction() {
 }
 
 ShadowPlan Case::plan() const {
-  return make_plan(camera, DirectionalLight{light}, bounds(), options);
+  return make_plan(camera, DirectionalLight{light}, bounds(), options, visible);
 }
 
 std::ostream& operator<<(std::ostream& out, const Case& c) {
@@ -96,9 +96,10 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
       << c.camera.far_depth << " pixels " << c.camera.width << ' ' << c.camera.height << ' ';
   vector("light", c.light);
   out << c.casters.size() << " casters " << c.receivers.size() << " receivers, fit "
-      << to_string(c.options.fit) << " cascades " << c.options.cascades << " map " << c.options.map_size
-      << " filter " << c.options.filter_radius_texels << " split " << to_string(c.options.split) << " hint "
-      << c.options.near_hint << " warp " << (c.options.warp ? c.options.warp->name : "auto") << '\n';
+      << to_string(c.options.fit) << " cascades " << c.options.cascades << " map "
+      << c.options.resolution.max_size << " filter " << c.options.filter.texels << " split "
+      << to_string(c.options.split.scheme) << " hint " << c.options.split.pseudo_near << " warp "
+      << (c.options.warp.warp ? c.options.warp.warp->name : "auto") << '\n';
   for (const Box& box : c.receivers) {
     vector("  receiver", box.min);
     vector("..", box.max);
@@ -117,21 +118,22 @@ Case draw_case(const CaseLimits& limits) {
   c.camera = draw_camera(limits);
   c.light = draw_light(c.camera, limits);
   c.options.cascades = 1 + pick(8);
-  c.options.map_size = 64 << pick(6);
-  c.options.split = static_cast<SplitScheme>(pick(5));
-  c.options.lambda = unit();
+  c.options.resolution.max_size = 64 << pick(6);
+  c.options.split.scheme = static_cast<SplitScheme>(pick(5));
+  c.options.split.lambda = unit();
   if (chance(0.3))
-    c.options.near_hint = c.camera.near_depth * std::pow(c.camera.far_depth / c.camera.near_depth, unit());
+    c.options.split.pseudo_near =
+        c.camera.near_depth * std::pow(c.camera.far_depth / c.camera.near_depth, unit());
   const double fit = unit();
   c.options.fit = fit > 0.6   ? Fit::stable
                   : fit < 0.1 ? Fit::rotated
                   : fit < 0.2 ? Fit::warped_stable
                               : Fit::tight;
-  c.options.split_range = static_cast<SplitRange>(pick(3));
-  c.options.objective = static_cast<Objective>(pick(3));
+  c.options.split.range = static_cast<SplitRange>(pick(3));
+  c.options.warp.objective = static_cast<Objective>(pick(3));
   const int warp = pick(static_cast<int>(all_warps().size()) + 1);
-  c.options.warp = warp == 0 ? nullptr : all_warps()[static_cast<std::size_t>(warp - 1)];
-  c.options.filter_radius_texels = chance(0.5) ? between(0.0, 8.0) : 0.0;
+  c.options.warp.warp = warp == 0 ? nullptr : all_warps()[static_cast<std::size_t>(warp - 1)];
+  c.options.filter.texels = chance(0.5) ? between(0.0, 8.0) : 0.0;
 
   const int receivers = 1 + pick(limits.max_boxes), casters = 1 + pick(limits.max_boxes);
   Random random(static_cast<std::uint64_t>(pick(1 << 30)));

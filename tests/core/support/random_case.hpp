@@ -23,6 +23,7 @@ struct Case {
   glm::dvec3 light{0.0, -1.0, 0.0};
   std::vector<Box> casters, receivers;
   PlanOptions options;
+  const VisibleDepths* visible = nullptr;
   [[nodiscard]] SceneBounds bounds() const { return {casters, receivers}; }
   [[nodiscard]] ShadowPlan plan() const;
 };

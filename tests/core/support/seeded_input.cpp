@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "elementary.hpp"
+#include "geometry/elementary.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -97,38 +97,41 @@ Box seeded_box(SeededNumbers& random, const Camera& camera, double reach, bool s
 void seed_options(SeededNumbers& random, double reach, SeededInput& input) {
   PlanOptions& o = input.options;
   o = PlanOptions{};
-  o.map_size = random.chance(0.05) ? 4 : 64 << random.pick(8);
+  o.resolution.max_size = random.chance(0.05) ? 4 : 64 << random.pick(8);
   o.cascades = 1 + random.pick(kMaxMaps);
-  o.partition = random.chance(0.75) ? Partition::view_depth : static_cast<Partition>(1 + random.pick(2));
-  o.split = static_cast<SplitScheme>(random.pick(7));
-  o.lambda = random.unit();
-  o.split_range = static_cast<SplitRange>(random.pick(3));
+  o.split.partition =
+      random.chance(0.75) ? Partition::view_depth : static_cast<Partition>(1 + random.pick(2));
+  o.split.scheme = static_cast<SplitScheme>(random.pick(7));
+  o.split.lambda = random.unit();
+  o.split.range = static_cast<SplitRange>(random.pick(3));
   const double n = input.camera.near_depth;
   if (random.chance(0.2))
-    o.near_hint = n * elementary::pow(std::max(reach / std::max(n, reach * 1e-9), 1.0), random.unit());
+    o.split.pseudo_near =
+        n * elementary::pow(std::max(reach / std::max(n, reach * 1e-9), 1.0), random.unit());
   o.fit = random.chance(0.5) ? Fit::tight : static_cast<Fit>(1 + random.pick(3));
-  o.objective = static_cast<Objective>(random.pick(3));
+  o.warp.objective = static_cast<Objective>(random.pick(3));
   const int warp = random.pick(static_cast<int>(all_warps().size()) + 3);
   if (static_cast<std::size_t>(warp) < all_warps().size())
-    o.warp = all_warps()[static_cast<std::size_t>(warp)];
-  if (random.chance(0.5)) o.filter_radius_texels = random.between(0.0, std::min(8.0, 0.25 * o.map_size));
-  if (random.chance(0.1)) o.filter_radius_world = reach * random.power_of_two(-20, 0);
-  if (random.chance(0.1)) o.target_m = random.power_of_two(-3, 3);
+    o.warp.warp = all_warps()[static_cast<std::size_t>(warp)];
+  if (random.chance(0.5)) o.filter.texels = random.between(0.0, std::min(8.0, 0.25 * o.resolution.max_size));
+  if (random.chance(0.1)) o.filter.world = reach * random.power_of_two(-20, 0);
+  if (random.chance(0.1)) o.resolution.max_error = random.power_of_two(-3, 3);
   if (random.chance(0.1)) {
     const std::int64_t least = least_budget_side(o);
-    o.texel_budget = least * least * 8 + static_cast<std::int64_t>(random.power_of_two(0, 24));
+    o.resolution.texel_budget = least * least * 8 + static_cast<std::int64_t>(random.power_of_two(0, 24));
   }
-  input.splits.clear();
-  for (int i = 1; i < o.cascades; ++i) input.splits.push_back(n + (reach - n) * i / o.cascades);
-  o.given_splits = input.splits;
+  for (int i = 1; i < o.cascades; ++i)
+    o.split.given[static_cast<std::size_t>(i - 1)] = n + (reach - n) * i / o.cascades;
+  input.visible = nullptr;
   if (random.chance(0.1) && !input.camera.orthographic) {
     const double begin = std::max(n, 1e-9 * reach) * 1.5;
     input.depths = visible_between(begin, std::max(begin, reach * random.unit()));
-    o.visible_depths = &input.depths;
+    input.visible = &input.depths;
   }
-  if (random.chance(0.2)) o.split_overlap = random.unit();
+  if (random.chance(0.2)) o.split.overlap = random.unit();
+  if (random.chance(0.5)) o.prune = PruneRules::all();
   if (random.chance(0.3)) o.prune.bits = static_cast<std::uint32_t>(random.bits()) & PruneRules::kAll;
-  if (random.chance(0.3)) o.prune_m = random.power_of_two(random.chance(0.1) ? -29 : -3, 3);
+  if (random.chance(0.3)) o.resolution.prune_error = random.power_of_two(random.chance(0.1) ? -29 : -3, 3);
   o.clip_space.ndc_depth = static_cast<NdcDepth>(random.pick(2));
   o.clip_space.reversed_z = random.chance(0.3);
   o.clip_space.y_down = random.chance(0.3);

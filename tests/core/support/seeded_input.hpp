@@ -31,15 +31,15 @@ struct SeededInput {
   Camera camera;
   Light light;
   std::vector<Box> casters, receivers;
-  std::vector<double> splits;
   VisibleDepths depths;
+  const VisibleDepths* visible = nullptr;  // the depths, or none
   PlanOptions options;
 
   SeededInput() = default;
   SeededInput(const SeededInput&) = delete;
   SeededInput& operator=(const SeededInput&) = delete;
   [[nodiscard]] SceneBounds bounds() const { return {casters, receivers}; }
-  [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, light, bounds(), options); }
+  [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, light, bounds(), options, visible); }
 };
 
 /// How far a case may go.

@@ -25,7 +25,8 @@ double see(std::string_view text, double stored, double depth) {
   FilterLookup lookup;
   lookup.depth = depth;
   const Filter& filter = *settings.filter;
-  return filter.visibility(filter.store(stored, glm::dvec2(0.0), settings), lookup, settings);
+  return filter.reference.visibility(filter.reference.store(stored, glm::dvec2(0.0), settings), lookup,
+                                     settings);
 }
 
 TEST(ConvolutionFilter, sums_up_the_golden_series_for_every_order_and_attenuation) {
@@ -109,14 +110,14 @@ TEST(ConvolutionFilter, is_off_by_no_more_than_the_papers_bound_in_8_bits) {
   EXPECT_LE(bound, 8.5e-3);
   const FilterSettings settings = settings_from("convolution:format=unorm8,scale=1");
   for (double stored = 0.0; stored <= 1.0; stored += 1.0 / 97) {
-    const StoredTexel exact = filters::convolution.store(stored, {}, settings);
+    const StoredTexel exact = filters::convolution.reference.store(stored, {}, settings);
     StoredTexel rounded = exact;
     for (double& channel : rounded) channel = rounded_to(TexelFormat::unorm8, channel);
     for (double depth = 0.0; depth <= 1.0; depth += 1.0 / 61) {
       FilterLookup lookup;
       lookup.depth = depth;
-      EXPECT_NEAR(filters::convolution.visibility(rounded, lookup, settings),
-                  filters::convolution.visibility(exact, lookup, settings), bound);
+      EXPECT_NEAR(filters::convolution.reference.visibility(rounded, lookup, settings),
+                  filters::convolution.reference.visibility(exact, lookup, settings), bound);
     }
   }
 }
@@ -127,9 +128,10 @@ TEST(ConvolutionFilter, averages_without_bleeding_where_two_occluders_overlap) {
   const GoldenKernel kernel{"", {0.2, 0.6}, {0.5, 0.5}};
   FilterLookup lookup;
   lookup.depth = 0.8;
-  EXPECT_LE(filters::convolution.visibility(mean_over(kernel, settings), lookup, settings), 0.03);
+  EXPECT_LE(filters::convolution.reference.visibility(mean_over(kernel, settings), lookup, settings), 0.03);
   lookup.depth = 0.4;
-  EXPECT_NEAR(filters::convolution.visibility(mean_over(kernel, settings), lookup, settings), 0.5, 0.03);
+  EXPECT_NEAR(filters::convolution.reference.visibility(mean_over(kernel, settings), lookup, settings), 0.5,
+              0.03);
 }
 
 TEST(ConvolutionFilter, answers_the_same_on_gpu_and_cpu_for_every_order) {

@@ -16,7 +16,7 @@ TEST(EsmFilter, agrees_with_the_golden_rows_of_the_clamped_exponential) {
       FilterLookup lookup;
       // What the filter takes off for the format's rounding is given back.
       lookup.depth = row.depth + rounding_of(settings.format);
-      const double lit = filters::esm.visibility(mean_over(row.kernel, settings), lookup, settings);
+      const double lit = filters::esm.reference.visibility(mean_over(row.kernel, settings), lookup, settings);
       EXPECT_NEAR(lit, row.answer(settings.option[0] == 10.0 ? "esm10" : "esm80"), kGolden)
           << row.kernel.name << row.depth;
     }
@@ -39,8 +39,8 @@ TEST(EsmFilter, fades_by_the_exponential_of_the_distance) {
     settings.option[0] = row.at("c").get<double>();
     FilterLookup lookup;
     lookup.depth = -0.5 + row.at("t").get<double>() + rounding_of(settings.format);
-    EXPECT_NEAR(filters::esm.visibility({-0.5}, lookup, settings), std::min(row.at("f").get<double>(), 1.0),
-                1e-9);
+    EXPECT_NEAR(filters::esm.reference.visibility({-0.5}, lookup, settings),
+                std::min(row.at("f").get<double>(), 1.0), 1e-9);
   }
 }
 
@@ -53,11 +53,11 @@ TEST(EsmFilter, compares_four_texels_where_a_texel_of_the_kernel_lies_behind_the
   lookup.depth_max = 1.0;
   lookup.position = {6.5, 5.5};
   const StoredTexel mean{0.98};
-  EXPECT_EQ(filters::esm.visibility(mean, lookup, settings_from("esm:fallback=0")), 1.0);
-  EXPECT_EQ(filters::esm.visibility(mean, lookup, settings_from("esm:fallback=1")), 0.0);
-  EXPECT_EQ(filters::esm.visibility(mean, lookup, settings_from("esm:fallback=2")), 0.0);
+  EXPECT_EQ(filters::esm.reference.visibility(mean, lookup, settings_from("esm:fallback=0")), 1.0);
+  EXPECT_EQ(filters::esm.reference.visibility(mean, lookup, settings_from("esm:fallback=1")), 0.0);
+  EXPECT_EQ(filters::esm.reference.visibility(mean, lookup, settings_from("esm:fallback=2")), 0.0);
   lookup.position.x = 8.0;
-  EXPECT_NEAR(filters::esm.visibility(mean, lookup, settings_from("esm:fallback=1")), 0.5, 1e-12);
+  EXPECT_NEAR(filters::esm.reference.visibility(mean, lookup, settings_from("esm:fallback=1")), 0.5, 1e-12);
 }
 
 TEST(EsmFilter, lights_a_slanted_plane_by_its_own_mean_and_calls_it_no_failure) {
@@ -68,13 +68,13 @@ TEST(EsmFilter, lights_a_slanted_plane_by_its_own_mean_and_calls_it_no_failure) 
   lookup.depth_gradient = {0.002, 0.0};
   lookup.box = {4.5, 4.5};
   for (const double lit_columns : {9.0, 4.0}) {
-    StoredTexel sum = filters::esm.nothing(settings);
+    StoredTexel sum = filters::esm.reference.nothing(settings);
     for (int i = 0; i < 9; ++i) {
       const double depth = i < lit_columns ? 0.5 + 0.002 * (i - 4) : 0.1;
-      filters::esm.join(sum, {depth}, 1.0 / 9.0, settings);
+      filters::esm.reference.join(sum, {depth}, 1.0 / 9.0, settings);
     }
     lookup.depth = 0.5;
-    const double lit = filters::esm.visibility(sum, lookup, settings);
+    const double lit = filters::esm.reference.visibility(sum, lookup, settings);
     // Of the columns those in front count less, by the plane's fall.
     EXPECT_NEAR(lit, lit_columns / 9.0, lit_columns == 9.0 ? 0.01 : 0.2) << lit_columns;
   }

@@ -34,11 +34,11 @@ std::vector<GoldenRow> golden_rows() {
 
 StoredTexel mean_over(const GoldenKernel& kernel, const FilterSettings& settings) {
   const Filter& filter = *settings.filter;
-  StoredTexel sum = filter.nothing != nullptr ? filter.nothing(settings) : StoredTexel{};
+  StoredTexel sum = filter.reference.nothing != nullptr ? filter.reference.nothing(settings) : StoredTexel{};
   for (std::size_t i = 0; i < kernel.depth.size(); ++i) {
-    const StoredTexel texel = filter.store(kernel.depth[i], glm::dvec2(0.0), settings);
-    if (filter.join != nullptr) {
-      filter.join(sum, texel, kernel.weight[i], settings);
+    const StoredTexel texel = filter.reference.store(kernel.depth[i], glm::dvec2(0.0), settings);
+    if (filter.reference.join != nullptr) {
+      filter.reference.join(sum, texel, kernel.weight[i], settings);
     } else {
       for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += kernel.weight[i] * texel[c];
     }

@@ -17,7 +17,7 @@ FilterLookup lookup_in(float depth_of_map, glm::dvec2 position, double depth, gl
 
 TEST(HardFilter, is_lit_at_the_stored_depth_and_dark_behind_it) {
   const auto see = [](double depth) {
-    return filters::hard.visibility({}, lookup_in(0.5f, {3.5, 3.5}, depth, {}), {});
+    return filters::hard.reference.visibility({}, lookup_in(0.5f, {3.5, 3.5}, depth, {}), {});
   };
   EXPECT_EQ(see(0.25), 1.0);
   EXPECT_EQ(see(0.5), 1.0);
@@ -26,8 +26,8 @@ TEST(HardFilter, is_lit_at_the_stored_depth_and_dark_behind_it) {
 
 TEST(HardFilter, compares_the_receivers_plane_at_the_texels_centre) {
   // A quarter texel left of the centre, the plane rising by 0.4 a texel: 0.1 deeper at the centre.
-  EXPECT_EQ(filters::hard.visibility({}, lookup_in(0.59f, {3.25, 3.5}, 0.5, {0.4, 0.0}), {}), 0.0);
-  EXPECT_EQ(filters::hard.visibility({}, lookup_in(0.61f, {3.25, 3.5}, 0.5, {0.4, 0.0}), {}), 1.0);
+  EXPECT_EQ(filters::hard.reference.visibility({}, lookup_in(0.59f, {3.25, 3.5}, 0.5, {0.4, 0.0}), {}), 0.0);
+  EXPECT_EQ(filters::hard.reference.visibility({}, lookup_in(0.61f, {3.25, 3.5}, 0.5, {0.4, 0.0}), {}), 1.0);
 }
 
 TEST(HardFilter, answers_the_same_on_gpu_and_cpu) {

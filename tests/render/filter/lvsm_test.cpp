@@ -45,7 +45,7 @@ double see(std::string_view text, const GoldenKernel& kernel, double depth) {
   const FilterSettings settings = settings_from(text);
   FilterLookup lookup;
   lookup.depth = depth;
-  return filters::lvsm.visibility(mean_over(kernel, settings), lookup, settings);
+  return filters::lvsm.reference.visibility(mean_over(kernel, settings), lookup, settings);
 }
 
 TEST(LvsmFilter, agrees_with_the_golden_rows_of_single_layers) {
@@ -103,7 +103,8 @@ TEST(LvsmFilter, does_not_shadow_a_plane_with_itself_at_a_layers_end) {
     lookup.depth = middle;
     lookup.depth_gradient = {0.01, 0.0};
     lookup.box = glm::dvec2(3.5);
-    EXPECT_GE(filters::lvsm.visibility(mean_over(kernel, settings), lookup, settings), 0.999) << middle;
+    EXPECT_GE(filters::lvsm.reference.visibility(mean_over(kernel, settings), lookup, settings), 0.999)
+        << middle;
   }
 }
 
@@ -113,7 +114,7 @@ TEST(LvsmFilter, is_vsm_with_one_layer) {
     FilterLookup lookup;
     lookup.depth = row.depth;
     EXPECT_NEAR(see("lvsm:layers=1,bleed=0.1,format=fp32", row.kernel, row.depth),
-                filters::vsm.visibility(mean_over(row.kernel, vsm), lookup, vsm), 1e-12);
+                filters::vsm.reference.visibility(mean_over(row.kernel, vsm), lookup, vsm), 1e-12);
   }
 }
 
@@ -183,12 +184,12 @@ TEST(LvsmFilter, bleeds_less_where_layers_are_placed_between_the_depths_of_the_m
   for (int i = 0; i < 100; ++i)
     depths.insert(depths.end(), {0.55f, 0.65f, 0.8f + 0.001f * static_cast<float>(i)});
   FilterSettings settings = settings_from("lvsm:layers=2,bleed=0,format=fp32,overlap=0.1,placement=1");
-  ASSERT_TRUE(filters::lvsm.adapts(settings));
+  ASSERT_TRUE(filters::lvsm.hooks.adapts(settings));
   FilterLookup lookup;
   lookup.depth = 0.8;
-  const double even = filters::lvsm.visibility(mean_over(kernel, settings), lookup, settings);
-  filters::lvsm.adapt(settings, depths);
-  const double placed = filters::lvsm.visibility(mean_over(kernel, settings), lookup, settings);
+  const double even = filters::lvsm.reference.visibility(mean_over(kernel, settings), lookup, settings);
+  filters::lvsm.hooks.adapt(settings, depths);
+  const double placed = filters::lvsm.reference.visibility(mean_over(kernel, settings), lookup, settings);
   EXPECT_GT(even, 0.05);
   EXPECT_LT(placed, 0.1 * even);
 }
@@ -196,7 +197,7 @@ TEST(LvsmFilter, bleeds_less_where_layers_are_placed_between_the_depths_of_the_m
 TEST(LvsmFilter, gives_the_same_answers_on_the_gpu_where_layers_are_placed) {
   FilterSettings settings = settings_from("lvsm:placement=1,radius=2");
   const TestMap map = random_map(40, 40, 21);
-  filters::lvsm.adapt(settings, map.depth);
+  filters::lvsm.hooks.adapt(settings, map.depth);
   ASSERT_GT(settings.option[6], 0.0);
   const std::vector<Question> questions = random_questions(map, 256, 22, 4);
   const std::vector<float> gpu = ask_shader(settings, map, questions);

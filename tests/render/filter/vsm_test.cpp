@@ -29,15 +29,15 @@ TEST(VsmFilter, is_exact_for_two_depths_at_the_nearer_one_and_bleeds_just_behind
   const FilterSettings settings = settings_from("vsm:bleed=0,floor=0");
   StoredTexel mean{};
   for (const double depth : {0.25, 0.75}) {
-    const StoredTexel texel = filters::vsm.store(depth, {}, settings);
+    const StoredTexel texel = filters::vsm.reference.store(depth, {}, settings);
     mean[0] += 0.5 * texel[0];
     mean[1] += 0.5 * texel[1];
   }
   FilterLookup lookup;
   lookup.depth = 0.75;
-  EXPECT_NEAR(filters::vsm.visibility(mean, lookup, settings), 0.5, 1e-12);
+  EXPECT_NEAR(filters::vsm.reference.visibility(mean, lookup, settings), 0.5, 1e-12);
   lookup.depth = 0.8;  // behind both: the right answer is 0
-  EXPECT_NEAR(filters::vsm.visibility(mean, lookup, settings), 0.0625 / (0.0625 + 0.09), 1e-12);
+  EXPECT_NEAR(filters::vsm.reference.visibility(mean, lookup, settings), 0.0625 / (0.0625 + 0.09), 1e-12);
 }
 
 TEST(VsmFilter, never_answers_less_than_the_share_that_is_lit) {
@@ -45,17 +45,17 @@ TEST(VsmFilter, never_answers_less_than_the_share_that_is_lit) {
   for (const GoldenRow& row : golden_rows()) {
     FilterLookup lookup;
     lookup.depth = row.depth;
-    const double lit = filters::vsm.visibility(mean_over(row.kernel, settings), lookup, settings);
+    const double lit = filters::vsm.reference.visibility(mean_over(row.kernel, settings), lookup, settings);
     EXPECT_GE(lit, row.answer("pcf") - kGolden);
   }
 }
 
 TEST(VsmFilter, takes_the_slope_within_a_texel_as_variance_but_no_edge) {
   const FilterSettings settings = settings_from("vsm");
-  const StoredTexel flat = filters::vsm.store(0.25, {0.0, 0.0}, settings);
-  const StoredTexel slanted = filters::vsm.store(0.25, {0.04, 0.03}, settings);
+  const StoredTexel flat = filters::vsm.reference.store(0.25, {0.0, 0.0}, settings);
+  const StoredTexel slanted = filters::vsm.reference.store(0.25, {0.04, 0.03}, settings);
   EXPECT_NEAR(slanted[1] - flat[1], 0.0025, 1e-15);  // 4 times a quarter of the slope's square
-  EXPECT_LE(filters::vsm.store(0.25, {0.9, 0.9}, settings)[1] - flat[1], 0.01 + 1e-15);
+  EXPECT_LE(filters::vsm.reference.store(0.25, {0.9, 0.9}, settings)[1] - flat[1], 0.01 + 1e-15);
 }
 
 }  // namespace

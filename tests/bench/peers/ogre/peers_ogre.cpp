@@ -35,9 +35,9 @@ Row ogre_row(const char* name, OgreSetup setup) {
 Row gnomon_row(const char* name, int cascades, const Warp& warp, Objective objective, SplitScheme split) {
   PlanOptions o;
   o.cascades = cascades;
-  o.warp = &warp;
-  o.objective = objective;
-  o.split = split;
+  o.warp.warp = &warp;
+  o.warp.objective = objective;
+  o.split.scheme = split;
   return {name, cascades, std::nullopt, o, {}, {}, {}, {}, {}};
 }
 

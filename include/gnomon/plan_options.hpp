@@ -1,0 +1,100 @@
+// What the caller of make_plan may choose, grouped by the question each group answers.
+#pragma once
+
+#include <cstdint>
+
+#include "gnomon/bias.hpp"
+#include "gnomon/bounds.hpp"
+#include "gnomon/clip_space.hpp"
+#include "gnomon/fit.hpp"
+#include "gnomon/partition.hpp"
+#include "gnomon/prune.hpp"
+#include "gnomon/split.hpp"
+#include "gnomon/warp.hpp"
+
+namespace gnomon {
+
+/// Texels along a side of a map: fewer cannot hold a filter's border, more exceed what drivers accept.
+inline constexpr int kLeastMapSize = 4, kMostMapSize = 16384;
+
+/// Least bound of the aliasing error that maps can be sized for, screen pixels per texel.
+inline constexpr double kLeastError = 1e-9;
+
+/// Sides of maps that the plan sizes are multiples of this: a tile that rasterizers handle well.
+inline constexpr int kSizeStep = 16;
+
+/// How many texels each map gets.
+struct ResolutionOptions {
+  /// Texels along each side of each map, kLeastMapSize..kMostMapSize. Doubling it halves the error and costs
+  /// four times the memory. Maps are exactly this large unless max_error or texel_budget is set, or
+  /// PruneRule::metric_resolution is on; they are never larger unless texel_budget is set.
+  int max_size = 1024;
+  /// Aliasing error m (screen pixels per texel) that suffices; 0: none, all cascades are used. Above 0, the
+  /// plan takes the fewest cascades whose m_max bound is at or below it, or those with the least bound where
+  /// none are, and makes each map as small as the bound allows. Costs up to `cascades` times as much to plan.
+  double max_error = 0.0;
+  /// Most texels that all maps may have together; 0: no budget. Texels are distributed so that all maps have
+  /// the same worst-case error, up to kMostMapSize along a side. Sides may differ with Fit::tight and
+  /// Fit::rotated, and stay equal elsewhere and with a history. The number of cascades, up to `cascades`, is
+  /// the one with the least error. At least least_budget_side() squared for each cascade (local lights: for
+  /// each of six faces). Partitions other than view_depth ignore it, and the plan reports that.
+  std::int64_t texel_budget = 0;
+  /// Bound of m that PruneRule::metric_resolution shrinks maps to, at least kLeastError. A larger bound gives
+  /// smaller maps whose texels show.
+  double prune_error = 1.0;
+  /// Different world sizes per octave that a map of Fit::stable may have, 1..1024. Fewer keep the texel grid
+  /// unchanged through a zoom or a change of the splits, and enlarge texels by up to 1 / steps.
+  int stable_size_steps = 1024;
+};
+
+/// Which perspective warp a map gets, and what it is chosen by.
+struct WarpOptions {
+  /// The warp; nullptr lets the plan choose the one with the largest measured gain. Fit::stable has none.
+  const Warp* warp = nullptr;
+  /// The error that a warp must lower to be used.
+  Objective objective = Objective::storage;
+  /// World-space box whose error counts `focus_weight` times: a hero, a cockpit, a table top. Everything else
+  /// stays in the map, with larger texels. An empty box, the default, means none.
+  Box focus;
+  double focus_weight = 4.0;  ///< 1..1e6
+};
+
+/// How far the widest filter kernel reaches from a texel. A border this wide is reserved for filtering:
+/// receivers stay off it, casters in it are still drawn.
+struct FilterExtent {
+  /// Kernel radius in texels, 0..max_size/4.
+  double texels = 1.0;
+  /// Kernel radius in world units across the light, >= 0. The border is as wide as the kernel gets where the
+  /// map's texels are smallest, at most a quarter of the map. The wider of the two radii counts.
+  double world = 0.0;
+};
+
+/// What the caller may choose. Every default is right for most scenes.
+struct PlanOptions {
+  /// Maps along the view, 1..kMaxMaps. More maps lower the error far away and cost one pass each. Directional
+  /// lights only: a spot light has one map, a point light or a spot light of 85 degrees and more half angle
+  /// up to six, the faces of a cube.
+  int cascades = 4;
+  /// How many texels each map gets.
+  ResolutionOptions resolution;
+  /// How a map's rectangle is fitted to its slice: tight for the smallest texels, stable against shimmering.
+  Fit fit = Fit::tight;
+  /// Where one cascade ends and the next begins.
+  SplitOptions split;
+  /// The perspective warp, and the error that it must lower.
+  WarpOptions warp;
+  /// How far filter kernels reach.
+  FilterExtent filter;
+  /// How far depths are moved off the surface, in texels (bias.hpp).
+  BiasOptions bias;
+  /// Clip space of the matrices in the plan.
+  ClipSpace clip_space;
+  /// What may be omitted: by default what changes no pixel. PruneRules::all() adds the bounded rules of
+  /// prune_rules.def: among others, maps shrink to the size that their error bound needs.
+  PruneRules prune = default_prune_rules();
+};
+
+/// The shortest side that a texel budget gives: kSizeStep, or four filter radii.
+[[nodiscard]] int least_budget_side(const PlanOptions& options) noexcept;
+
+}  // namespace gnomon

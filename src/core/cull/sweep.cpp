@@ -1,0 +1,31 @@
+// Which casters can shadow a body: the body swept towards the light.
+#include "cull/sweep.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "geometry/vector.hpp"
+
+namespace gnomon {
+namespace {
+
+// Rounding of positions, relative to their distance from the origin of the world, and of the body's faces.
+constexpr double kPositionRounding = 4e-13;
+
+}  // namespace
+
+SweptBody sweep(const Polytope& body, const glm::dvec4& light, double margin_world,
+                const glm::dvec3& eye_world) noexcept {
+  SweptBody swept;
+  swept.plane_count = swept_planes(body, light, swept.plane);
+  double farthest = max_of(largest_component(eye_world), light.w * largest_component(glm::dvec3(light)));
+  for (const Polytope::Vertex& v : body.vertices())
+    farthest = max_of(farthest, largest_component(v.position));
+  // A caster that touches the body counts, whatever rounding makes of the touch.
+  const double slack = margin_world + kPositionRounding * farthest;
+  for (int i = 0; i < swept.plane_count; ++i) swept.plane[static_cast<std::size_t>(i)].offset += slack;
+  return swept;
+}
+
+}  // namespace gnomon

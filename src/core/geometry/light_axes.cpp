@@ -1,0 +1,39 @@
+// Axes across the light: along the view where a warp wants them, fixed where a grid must not move.
+#include "geometry/light_axes.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "geometry/vector.hpp"
+
+namespace gnomon {
+namespace {
+
+constexpr double kParallelSine = 1e-3;
+
+LightFrame frame_from(const glm::dvec3& light_direction, const glm::dvec3& along) noexcept {
+  LightFrame frame;
+  frame.z = -light_direction;
+  frame.y =
+      safe_normalize(along - light_direction * glm::dot(along, light_direction), least_aligned_axis(frame.z));
+  frame.x = safe_normalize(glm::cross(frame.y, frame.z), {1.0, 0.0, 0.0});
+  frame.y = glm::cross(frame.z, frame.x);
+  return frame;
+}
+
+}  // namespace
+
+LightFrame frame_along(const glm::dvec3& light_direction, const glm::dvec3& along) noexcept {
+  return frame_from(light_direction, along);
+}
+
+LightFrame view_aligned_frame(const glm::dvec3& light_direction, const CameraAxes& axes) noexcept {
+  const glm::dvec3 across = glm::cross(axes.forward, light_direction);
+  const bool parallel = glm::dot(across, across) < kParallelSine * kParallelSine;
+  return frame_from(light_direction, parallel ? axes.up : axes.forward);
+}
+
+LightFrame fixed_frame(const glm::dvec3& light_direction) noexcept {
+  return frame_from(light_direction, least_aligned_axis(light_direction));
+}
+
+}  // namespace gnomon

@@ -1,0 +1,21 @@
+// Axes across the light: along the view where a warp wants them, fixed where a grid must not move.
+#pragma once
+
+#include "gnomon/camera.hpp"
+#include "gnomon/light_space.hpp"
+
+namespace gnomon {
+
+/// y along the projection of `along` across the light; any axis where they are parallel.
+[[nodiscard]] LightFrame frame_along(const glm::dvec3& light_direction, const glm::dvec3& along) noexcept;
+
+/// y along the view direction's projection across the light, away from the viewer. Where view and light are
+/// parallel (sine below 1e-3, where rounding and mouse noise would spin the axis) y is the camera's up axis
+/// instead.
+[[nodiscard]] LightFrame view_aligned_frame(const glm::dvec3& light_direction,
+                                            const CameraAxes& axes) noexcept;
+
+/// Depends on the light alone, so that a snapped grid never turns with the camera.
+[[nodiscard]] LightFrame fixed_frame(const glm::dvec3& light_direction) noexcept;
+
+}  // namespace gnomon

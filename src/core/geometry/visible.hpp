@@ -1,0 +1,49 @@
+// Which part of the scene's boxes a convex region holds.
+#pragma once
+
+#include <span>
+
+#include "gnomon/body.hpp"
+#include "gnomon/bounds.hpp"
+
+namespace gnomon {
+
+[[nodiscard]] inline Box relative_to(const Box& box, const glm::dvec3& origin) noexcept {
+  return {box.min - origin, box.max - origin};
+}
+
+/// How a box lies to a plane.
+enum class Side : std::uint8_t { outside, across, inside };
+[[nodiscard]] Side side_of(const Plane& plane, const Box& box) noexcept;
+
+/// The smallest box round the parts of `boxes` (world space) inside `region`; `region` and the result are
+/// relative to `origin`. A single box is returned whole: the caller clips by it anyway.
+[[nodiscard]] Box visible_bounds(const Polytope& region, const Boxes& boxes,
+                                 const glm::dvec3& origin) noexcept;
+
+/// What of the casters reaches a region: the smallest box round those that do, and how far towards `up` they
+/// go.
+struct CasterReach {
+  Box bounds;  ///< relative to the origin
+  double top;  ///< largest dot(up, p) of any of them; -infinity where there are none
+  bool any;
+};
+/// At most 32 planes. Without planes, of all casters.
+[[nodiscard]] CasterReach casters_inside(std::span<const Plane> planes, const Boxes& casters,
+                                         const glm::dvec3& origin, const glm::dvec3& up) noexcept;
+
+/// Whether any box holds the point, both in world space.
+[[nodiscard]] bool in_some_box(const Boxes& boxes, const glm::dvec3& point_world) noexcept;
+
+/// How near to a local light boxes come.
+struct NearBoxes {
+  double nearest;    ///< distance along the light's axis; infinity where there is no box
+  int too_near = 0;  ///< boxes nearer than the least distance asked for, which do not count: the light is at them
+};
+/// Least dot(toward, apex - p) over the parts of the boxes inside the planes (at most 32) that is at least
+/// `least`. Exact but where more than 64 boxes have a corner nearer than that: then not more than it.
+[[nodiscard]] NearBoxes nearest_inside(std::span<const Plane> planes, const Boxes& boxes,
+                                       const glm::dvec3& origin, const glm::dvec3& toward,
+                                       const glm::dvec3& apex, double least) noexcept;
+
+}  // namespace gnomon

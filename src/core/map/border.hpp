@@ -1,0 +1,30 @@
+// The border of a map that filter kernels need: no receiver falls into it.
+#pragma once
+
+#include "map/light_body.hpp"
+
+namespace gnomon {
+
+/// Nearest distance from a local light that its maps show, over the farthest, where the scene's boxes leave
+/// it open: nearer, depth loses its precision to the first step away from the light. What is known to be
+/// nearer is still shown, down to kLeastNearShare.
+inline constexpr double kNearShare = 1e-4, kLeastNearShare = 1e-7;
+
+/// A float offset from the camera is rounded by up to 2^-24 of its length: a rectangle narrower than this
+/// much of it has texels, 1024 across, that no shader can tell apart, and one 2^10 times narrower still loses
+/// every point it was fitted to.
+inline constexpr double kLeastOfOffset = 0x1p-14;
+
+/// Texels along each side of a map of `size` that no receiver may fall into, with `share` of the map's side
+/// without them to a world unit.
+[[nodiscard]] int border_texels(const PlanOptions& options, int size, double share) noexcept;
+
+/// How far a kernel's step of one world unit moves a point in the map, at most, as a share of the rectangle's
+/// side. 0 where no kernel is given in world units.
+[[nodiscard]] double border_share(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                                  const PlaneMap& plane) noexcept;
+
+/// The border of a map of this size, whose sides may differ.
+[[nodiscard]] int border_of(const PlanOptions& options, int width, int height, double share) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,76 @@
+// What the stages that make maps read and return: const input, plain results.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "gnomon/history.hpp"
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+
+/// The input of make_plan with what all maps derive from it.
+struct PlanContext {
+  const Camera& camera;
+  const SceneBounds& bounds;
+  const PlanOptions& options;
+  CameraAxes axes;
+  bool stable = false;                  // Fit::stable
+  const VisibleDepths* seen = nullptr;  // where they are usable; nullptr: unknown
+  double error_bound = 0.0;             // maps shrink to this bound of m; 0: they keep their size
+  bool remembers = false;               // the caller keeps a PlanHistory
+  bool same_light = false;              // as in the last frame, to the last bit
+  // Of the last frame, where one is remembered.
+  glm::dvec3 last_eye{0.0}, last_forward{0.0};
+};
+
+/// What is decided of a map before it is fitted.
+struct MapSlot {
+  int cascade = 0, width = 0, height = 0;
+  double depth_begin = 0.0, depth_end = 0.0, overlap = 0.0;
+  std::array<Plane, kMaxSelectPlanes> select{};  // relative to the camera
+  int select_count = 0;
+};
+
+/// One map to be fitted round `body`: the visible receivers of one slice, face or cone, relative to the
+/// camera, not empty, and in front of a local light.
+struct MapRequest {
+  MapSlot slot;
+  const Polytope& body;
+  LightSpace space;
+  const Warp& warp;
+  double begin, end;             // view depths of the slice, blend band included
+  WarpChoice unwarped;           // the map to make without a warp
+  double centre = 0.0;           // as WarpInput::centre
+  double slope = 0.0;            // local light: the frustum is |x| <= slope, |y| <= slope
+  double range = 0.0;            // local light: beyond it nothing is lit
+  bool without_casters = false;  // make the map even where no caster can reach the body
+  PlanHistory::Map last;         // of the last frame and the same light; frame -1: none
+};
+
+/// One map, and what happened while it was fitted.
+struct MapResult {
+  bool drawn = false;  // false: no caster can reach the body
+  ShadowMap map;
+  glm::dmat4 gl_from_world{1.0};
+  std::array<Omission, 3> omission;
+  int omission_count = 0;
+  bool has_event = false;
+  PlanEvent event;
+
+  void omit(const Omission& o) noexcept {
+    if (omission_count < static_cast<int>(omission.size()))
+      omission[static_cast<std::size_t>(omission_count++)] = o;
+  }
+  void report(PlanEventKind kind, double ratio) noexcept {
+    has_event = true;
+    event = {kind, map.cascade, ratio};
+  }
+};
+
+/// The smallest map round the body, warped where that gains; with a history the steady way there.
+[[nodiscard]] MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept;
+/// Parallel light: a map whose texel grid does not move with the camera.
+[[nodiscard]] MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,171 @@
+// How deep a map is along the light: the receivers and every caster that can shadow them.
+#include "map/depths.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "geometry/vector.hpp"
+#include "map/border.hpp"
+
+namespace gnomon {
+namespace {
+
+// Room beyond the nearest and farthest depth, relative to the range: float rounding in the shader must not
+// push a surface out of the map.
+constexpr double kDepthPadding = 1.0 / 1024.0;
+// Least depth range of a map, relative to its extents across: a flat scene still needs one.
+constexpr double kFlattestDepth = 1e-3;
+// Faces of a box steeper than this to the light bound nothing: their height changes by more than the scene's
+// size.
+constexpr double kSteepestFace = 1e-6;
+// Near over far distance of a local light's map whose depths are not fitted: 2^10, as engines tend to ask
+// for.
+constexpr double kLooseNear = 0x1p-10;
+
+double lowest(const LightBody& body) noexcept {
+  double z = body.point[0].z;
+  for (const WarpInput::Point& p : body.points()) z = min_of(z, p.z);
+  return z;
+}
+
+/// Of every vertex: 1 / w at the near side of its border, how far the border reaches in the light plane.
+struct BorderedBody {
+  std::array<double, kMaxVertices> inverse_w, margin;
+  double height = 0.0;  ///< largest (z - bottom) / w of the body itself
+};
+
+BorderedBody bordered(const FittedPlane& f, double bottom) noexcept {
+  BorderedBody result;
+  const PlaneMap& map = f.plane;
+  const double margin_image = f.border * ((map.a_max - map.a_min) + (map.b_max - map.b_min));
+  const double kappa = map.choice.kappa;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(f.body.count); ++i) {
+    const WarpInput::Point& p = f.body.point[i];
+    const double w = map.w(p.x, p.y);
+    // A move by the border in the image is at most this one in the light plane: across, texels grow with w
+    // and lean with the distance from the centre; along, with its square.
+    const double across = std::abs(p.x * map.choice.axis.y - p.y * map.choice.axis.x - map.choice.centre);
+    const double margin_along = margin_image * w * w / map.stretch;
+    result.margin[i] = margin_image * w + margin_along * (1.0 + kappa * across / w);
+    // The border reaches towards smaller w, too; it never halves it for a border a filter can ask for.
+    result.inverse_w[i] = 1.0 / max_of(w - kappa * margin_along, 0.5 * w);
+    result.height = max_of(result.height, (p.z - bottom) * result.inverse_w[i]);
+  }
+  return result;
+}
+
+/// Largest (z - bottom) / w over the body of a face at height `at` + slope_x x + slope_y y.
+double highest_on(const FittedPlane& f, const BorderedBody& b, double bottom, double at, double slope_x,
+                  double slope_y) noexcept {
+  const double steepest = std::sqrt(slope_x * slope_x + slope_y * slope_y);
+  double highest = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(f.body.count); ++i) {
+    const WarpInput::Point& p = f.body.point[i];
+    const double z = at + slope_x * p.x + slope_y * p.y + steepest * b.margin[i];
+    highest = max_of(highest, (z - bottom) * b.inverse_w[i]);
+  }
+  return highest;
+}
+
+/// Upper bound of (z - bottom) / w over every caster point above the body: along parallel light, the casters'
+/// box ends at the lowest of its faces towards the light, and a face's height over the body is largest at one
+/// of the body's vertices, w being positive there.
+double caster_height(const CasterReach& reach, const LightFrame& frame, const FittedPlane& f,
+                     double bottom) noexcept {
+  const glm::dvec3 up = frame.z;
+  const glm::dvec3 corner{up.x > 0.0 ? reach.bounds.max.x : reach.bounds.min.x,
+                          up.y > 0.0 ? reach.bounds.max.y : reach.bounds.min.y,
+                          up.z > 0.0 ? reach.bounds.max.z : reach.bounds.min.z};
+  const BorderedBody b = bordered(f, bottom);
+  // The plane across the light through the highest caster.
+  double lowest_face = highest_on(f, b, bottom, reach.top, 0.0, 0.0);
+  for (int face = 0; face < 3; ++face) {
+    if (!(std::abs(up[face]) > kSteepestFace)) continue;
+    const double inverse = 1.0 / up[face];
+    lowest_face = min_of(lowest_face, highest_on(f, b, bottom, corner[face] * inverse,
+                                                 -frame.x[face] * inverse, -frame.y[face] * inverse));
+  }
+  return max_of(lowest_face, b.height);
+}
+
+HeightRange parallel_heights(const PlanContext& c, const MapRequest& request, const FittedPlane& f) noexcept {
+  const LightFrame& frame = request.space.frame;
+  HeightRange range;
+  CasterReach reach = casters_inside(f.swept.planes(), c.bounds.casters, c.camera.position, frame.z);
+  range.has_casters = reach.any;
+  if (!reach.any) {
+    // A map for no caster at all is as deep as its receivers.
+    reach = {bounds_of(request.body), -std::numeric_limits<double>::infinity(), false};
+    for (const WarpInput::Point& p : f.body.points()) reach.top = max_of(reach.top, p.z);
+  }
+  range.bottom = lowest(f.body);
+  if (!c.options.prune.has(PruneRule::light_depths)) {
+    const CasterReach all = casters_inside({}, c.bounds.casters, c.camera.position, frame.z);
+    if (all.any) reach = all;
+    range.bottom = min_of(
+        range.bottom, -casters_inside({}, c.bounds.receivers, c.camera.position, -frame.z).top);
+  }
+  range.height = caster_height(reach, frame, f, f.measured_from.value_or(range.bottom));
+  return range;
+}
+
+HeightRange perspective_heights(const PlanContext& c, const MapRequest& request,
+                                const FittedPlane& f) noexcept {
+  const LightFrame& frame = request.space.frame;
+  const glm::dvec3 apex =
+      frame.x * request.space.apex.x + frame.y * request.space.apex.y + frame.z * request.space.apex.z;
+  HeightRange range;
+  double far_distance = f.body.farthest * (1.0 + kDepthPadding);
+  const double least = kLeastNearShare * f.body.farthest, stand_in = kNearShare * f.body.farthest;
+  const NearBoxes casters =
+      nearest_inside(f.swept.planes(), c.bounds.casters, c.camera.position, frame.z, apex, least);
+  range.has_casters = casters.too_near > 0 || casters.nearest < std::numeric_limits<double>::infinity();
+  range.too_near = casters.too_near;
+  const double nearest = casters.too_near > 0 ? min_of(casters.nearest, stand_in) : casters.nearest;
+  // A single distance still needs a range: rounding of float over it.
+  double near_distance =
+      min_of(f.body.nearest * (1.0 - kDepthPadding), far_distance * (1.0 - kFlattestDepth));
+  near_distance = min_of(near_distance, max_of(nearest * (1.0 - kDepthPadding), least));
+  if (!c.options.prune.has(PruneRule::light_depths)) {
+    far_distance = max_of(far_distance, request.range * (1.0 + kDepthPadding));
+    near_distance = min_of(near_distance, kLooseNear * far_distance);
+  }
+  if (c.stable) {
+    // Whole powers of two, so that stored depths do not change while the nearest caster moves a little.
+    near_distance = std::ldexp(1.0, std::ilogb(near_distance));
+    far_distance = max_of(far_distance, request.range * (1.0 + kDepthPadding));
+  }
+  range.nearest = near_distance;
+  range.bottom = 1.0 / far_distance;
+  const double from = f.measured_from.value_or(range.bottom);
+  range.height = highest_on(f, bordered(f, from), from, 1.0 / near_distance, 0.0, 0.0);
+  return range;
+}
+
+}  // namespace
+
+HeightRange height_range(const PlanContext& c, const MapRequest& request,
+                         const FittedPlane& fitted) noexcept {
+  return request.space.perspective ? perspective_heights(c, request, fitted)
+                                   : parallel_heights(c, request, fitted);
+}
+
+LightDepths padded(double bottom, double height, double extent) noexcept {
+  const double range = max_of(height, kFlattestDepth * extent);
+  return {bottom - kDepthPadding * range, range * (1.0 + 2.0 * kDepthPadding)};
+}
+
+SweptBody swept_for(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                    const PlaneMap& plane, double border) noexcept {
+  // The border at the far end, where texels are largest: across they grow with w, along with w^2 / stretch =
+  // w there. Under a local light a step in slopes is that step times the distance, at most.
+  const double reach =
+      border * plane.stretch * ((plane.a_max - plane.a_min) + (plane.b_max - plane.b_min)) * body.farthest;
+  const glm::dvec4 light = request.space.light();
+  const LightFrame& frame = request.space.frame;
+  return sweep(request.body, glm::dvec4(frame.x * light.x + frame.y * light.y + frame.z * light.z, light.w),
+               reach, c.camera.position);
+}
+
+}  // namespace gnomon

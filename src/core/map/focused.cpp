@@ -1,0 +1,236 @@
+// The smallest map round a body, warped where that gains: of a slice of the view, of a face, of a spot's
+// cone. Based on: Wimmer, Scherzer, Purgathofer, "Light Space Perspective Shadow Maps", 2004; Wimmer,
+// Scherzer, "Robust Shadow Mapping with Light-Space Perspective Shadow Maps", ShaderX4, 2006 (local lights);
+// Brabec, Annen, Seidel, "Practical Shadow Mapping", 2002 (focusing).
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "geometry/least_rectangle.hpp"
+#include "geometry/vector.hpp"
+#include "map/border.hpp"
+#include "map/depths.hpp"
+#include "map/history.hpp"
+#include "map/record.hpp"
+#include "map/size.hpp"
+#include "warp/plane_error.hpp"
+
+namespace gnomon {
+namespace {
+
+// Room for the view to move in before a map of Fit::warped_stable must be refitted, on each side: of the
+// rectangle and of the depths.
+constexpr double kRoom = 0.1;
+// Narrowest rectangle under a local light, as a slope: below it positions are rounding.
+constexpr double kLeastSlope = 1e-8;
+
+/// A fitted plane with its depths, and the casters it needs.
+struct Fitted {
+  PlaneMap plane;
+  LightDepths depths;
+  SweptBody swept;
+  TexelsNeeded needed;
+  HeightRange heights;
+};
+
+/// The border as a share of the rectangle's side; the wider of both.
+double border_of_body(const ShadowMap& map) noexcept {
+  const double border = static_cast<double>(map.filter_margin_texels) / min_of(map.width, map.height);
+  return border / (1.0 - 2.0 * border);
+}
+
+/// The warp's answer, measured, and used only where it lowers the objective.
+WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
+                       MapResult& result) noexcept {
+  const WarpInput& in = question.in;
+  if (&request.warp == &warps::none || c.stable) return in.unwarped;
+  const WarpChoice choice = request.warp.choose(in);
+  const double ratio = gain_ratio(in, choice, most_stretch(c, request, question.points));
+  if (takes(request.warp, choice, ratio)) return choice;
+  result.omit({OmissionKind::warp_without_gain, request.slot.cascade, ratio, 0.0, 0});
+  result.map.warp = &warps::none;
+  return in.unwarped;
+}
+
+/// The choice with its rectangle turned to the least area, where that lowers the objective.
+WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) noexcept {
+  const PlaneMap map = plane_map(in.body, choice);
+  std::array<glm::dvec2, kMaxVertices> image;
+  std::size_t count = 0;
+  for (const WarpInput::Point& p : in.body) image[count++] = map.image(p.x, p.y);
+  const glm::dvec2 side = least_rectangle_side({image.data(), count});
+  WarpChoice turned = choice;
+  turned.row_a = side;
+  turned.row_b = {-side.y, side.x};
+  // Without perspective the area is the objective.
+  if (in.flat()) return turned;
+  PlaneError error(in);
+  return error.value(turned) < error.value(choice) * (1.0 - kLeastWarpGain) ? turned : choice;
+}
+
+/// The best map of the plane, or the steady way there.
+PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                      MapResult& result) noexcept {
+  const bool steady = c.remembers && !c.stable && c.options.fit != Fit::warped_stable;
+  const bool warped = &request.warp != &warps::none && !c.stable;
+  if (!warped && c.options.fit != Fit::rotated && !steady) return plane_map(body.points(), request.unwarped);
+  const WarpQuestion question(c, request);
+  WarpChoice choice = chosen_warp(c, request, question, result);
+  if (c.options.fit == Fit::rotated) choice = turned_to_least_area(question.in, choice);
+  return steady ? steady_plane(c, request, question, choice, result) : plane_map(question.in.body, choice);
+}
+
+/// Widens the rectangle to what shaders can aim at. Only bodies that are tiny for their distance, far below a
+/// pixel of any camera wider than a hundredth of a degree, or edge-on to the light are that narrow.
+void widen_for_floats(const MapRequest& request, const LightBody& body, PlaneMap& map) noexcept {
+  if (request.space.perspective) {
+    double offset = 0.0;
+    for (const Polytope::Vertex& v : request.body.vertices())
+      offset = max_of(offset, largest_component(v.position));
+    const double least = max_of(kLeastSlope, kLeastOfOffset * offset / body.farthest) / map.stretch;
+    widen(map.a_min, map.a_max, least);
+    widen(map.b_min, map.b_max, least);
+    return;
+  }
+  double across = 0.0, along = 0.0;  // of the image, per unit of relative rounding
+  for (const WarpInput::Point& p : body.points()) {
+    const double reach = largest_component({p.x, p.y, p.z}) / map.w(p.x, p.y);
+    across = max_of(across, reach);
+    along = max_of(along, reach * map.stretch / map.w(p.x, p.y));
+  }
+  const auto least = [&](const glm::dvec2& row) {
+    return kLeastOfOffset * (std::abs(row.x) * across + std::abs(row.y) * along);
+  };
+  widen(map.a_min, map.a_max, least(map.choice.row_a));
+  widen(map.b_min, map.b_max, least(map.choice.row_b));
+}
+
+/// All that a local light's frustum shows, for a grid that does not follow the view.
+LightBody whole_frustum(const MapRequest& request, const LightBody& body) noexcept {
+  LightBody whole;
+  whole.nearest = body.nearest;
+  whole.farthest = body.farthest;
+  double depth = 0.0, height = body.point[0].z;
+  for (const WarpInput::Point& p : body.points()) {
+    depth = max_of(depth, p.depth);
+    height = min_of(height, p.z);
+  }
+  for (int i = 0; i < 4; ++i) {
+    whole.point[static_cast<std::size_t>(whole.count++)] = {
+        (i & 1) ? request.slope : -request.slope, (i & 2) ? request.slope : -request.slope, height, depth};
+  }
+  return whole;
+}
+
+/// The last frame's map where it still serves: view inside, casters inside.
+std::optional<Fitted> kept_from_before(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                                       ShadowMap& map) noexcept {
+  if (c.options.fit != Fit::warped_stable || !c.same_light || !remembered(request)) return {};
+  const PlanHistory::Map& last = request.last;
+  const HeldMap held = held_map(c, request, body);
+  if (!held.holds || border_of(c.options, map.width, map.height, border_share(c, request, body, held.plane)) >
+                         last.filter_margin_texels)
+    return {};
+  map.filter_margin_texels = last.filter_margin_texels;
+  Fitted fitted{held.plane,
+                held.depths,
+                swept_for(c, request, body, held.plane, border_of_body(map)),
+                texels_needed(body.points(), held.plane, pixels_per_slope(c.camera)),
+                {}};
+  fitted.heights =
+      height_range(c, request, {body, fitted.plane, fitted.swept, border_of_body(map), held.depths.bottom});
+  if (!(fitted.heights.bottom >= held.depths.bottom && fitted.heights.height <= held.depths.height))
+    return {};
+  return fitted;
+}
+
+Fitted fitted_anew(const PlanContext& c, const MapRequest& request, const LightBody& body, double obliquity,
+                   MapResult& result) noexcept {
+  const bool keeps = c.options.fit == Fit::warped_stable;
+  ShadowMap& map = result.map;
+  Fitted fitted;
+  fitted.plane = chosen_plane(c, request, body, result);
+  widen_for_floats(request, body, fitted.plane);
+  if (keeps) grow(fitted.plane, kRoom);
+  if (c.remembers && !c.stable) {
+    map.warp = fitted.plane.choice.kappa > 0.0 ? &request.warp : &warps::none;
+    if (keeps)
+      result.report(remembered(request) ? PlanEventKind::map_refitted : PlanEventKind::map_appeared, 1.0);
+  }
+  const double share = border_share(c, request, body, fitted.plane);
+  fitted.needed = texels_needed(body.points(), fitted.plane, pixels_per_slope(c.camera));
+  const MapSize size = map_size(c, request, fitted.plane, fitted.needed, obliquity, share);
+  map.width = size.width;
+  map.height = size.height;
+  map.filter_margin_texels = size.border;
+  const std::int64_t saved =
+      std::int64_t{request.slot.width} * request.slot.height - std::int64_t{size.width} * size.height;
+  if (saved > 0) {
+    const glm::dvec2 inside = glm::dvec2(size.width, size.height) - 2.0 * size.border;
+    result.omit({OmissionKind::resolution_without_gain, request.slot.cascade, size.full_error,
+                 fitted.needed.bound(inside, obliquity), saved});
+  }
+  fitted.swept = swept_for(c, request, body, fitted.plane, border_of_body(map));
+  fitted.heights = height_range(c, request, {body, fitted.plane, fitted.swept, border_of_body(map)});
+  const double extent =
+      max_of(fitted.plane.a_max - fitted.plane.a_min, fitted.plane.b_max - fitted.plane.b_min);
+  fitted.depths = request.space.perspective ? LightDepths{fitted.heights.bottom, fitted.heights.height}
+                                            : padded(fitted.heights.bottom, fitted.heights.height, extent);
+  if (keeps) {
+    fitted.depths.bottom -= kRoom * fitted.depths.height;
+    fitted.depths.height *= 1.0 + 2.0 * kRoom;
+  }
+  return fitted;
+}
+
+/// Distance along the light from the map's near to its far plane.
+double depth_range(const MapRequest& request, const Fitted& fitted) noexcept {
+  if (!request.space.perspective) return fitted.depths.height;
+  // Seen from the far end of the body, where w is what the depths were fitted with.
+  const double bottom = max_of(fitted.depths.bottom, fitted.heights.bottom);
+  return 1.0 / bottom - fitted.heights.nearest;
+}
+
+/// A spot's grid that depends on the light alone.
+void write_snap_key(const MapRequest& request, const Fitted& fitted, ShadowMap& map) noexcept {
+  map.snap_key.depth_near = std::ilogb(fitted.heights.nearest);
+  // A texel one world unit from the light.
+  map.snap_key.texel = (fitted.plane.a_max - fitted.plane.a_min) / (map.width - 2 * map.filter_margin_texels);
+  map.snap_key.valid = request.space.perspective;
+}
+
+}  // namespace
+
+MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept {
+  MapResult result;
+  ShadowMap& map = result.map;
+  begin_record(c, request, map);
+  if (c.stable) map.warp = &warps::none;
+  LightBody body = in_light_space(c, request);
+  if (c.stable) body = whole_frustum(request, body);
+  const double obliquity = pixel_obliquity(c, request.body);
+  const std::optional<Fitted> kept = kept_from_before(c, request, body, map);
+  const Fitted fitted = kept ? *kept : fitted_anew(c, request, body, obliquity, result);
+  if (!fitted.heights.has_casters && !request.without_casters) return result;
+  result.drawn = true;
+  if (fitted.heights.too_near > 0)
+    result.omit({OmissionKind::depth_near_light, request.slot.cascade, fitted.heights.nearest,
+                 static_cast<double>(fitted.heights.too_near), 0});
+  map.depth_range_world = depth_range(request, fitted);
+  const glm::dvec2 border = static_cast<double>(map.filter_margin_texels) / glm::dvec2(map.width, map.height);
+  const glm::dmat4 gl_from_relative =
+      clip_from_light(fitted.plane, fitted.depths, border) * request.space.light_from_relative();
+  complete_record(c, request, {body, fitted.plane, fitted.swept, fitted.needed, obliquity, gl_from_relative},
+                  map);
+  if (c.stable) write_snap_key(request, fitted, map);
+  result.gl_from_world = world_matrix(gl_from_relative, c.camera.position);
+  if (kept) {
+    map.warp = map.kappa > 0.0 ? &request.warp : &warps::none;
+    // The very bits of the last frame: what is drawn stays as it is.
+    result.gl_from_world = request.last.gl_from_world;
+    map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * result.gl_from_world;
+  }
+  return result;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,337 @@
+// How far a map may go, in one frame, from where the last frame's was towards where it is best.
+//
+// Two projective maps of the light plane with weights w0 and w1 have texel densities whose ratio is a
+// constant times (w0 / w1)^3: a linear-fractional function to the third power, extreme at the body's
+// vertices. So the change at every surface point is bounded exactly by a look at the vertices.
+#include "map/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "geometry/elementary.hpp"
+#include "geometry/vector.hpp"
+#include "map/border.hpp"
+#include "warp/plane_error.hpp"
+
+namespace gnomon {
+namespace {
+
+// Of the logarithm of the density: what is aimed at stays a tenth below what is promised.
+constexpr double kLimit = 0.9 * 0.04879016416943205;  // ln(1 + kDensityStep)
+// A warp that changes texels by less than this over the whole body has no direction worth keeping.
+constexpr double kFlat = 1e-3;
+// Best warps that are better by less than this are not followed.
+constexpr double kWorthFollowing = 0.02;
+// A change beyond this factor is a cut: nothing is gained by going slowly.
+constexpr double kCut = 0.4054651081081644;  // ln 1.5
+constexpr double kPi = 3.141592653589793;
+// Steps of the search for the farthest way that is still smooth.
+constexpr int kBisections = 6;
+// Largest change of an edge between cascades from frame to frame, of its logarithm.
+constexpr double kEdgeStep = 0.01;
+// Share of a held map that the view must use: less wastes more texels than a still grid is worth.
+constexpr double kLeastUse = 0.4;
+
+/// A map of the light plane as a matrix over (x, y, 1) of the light frame.
+struct Homography {
+  glm::dvec3 a, b, w;  // rows
+  [[nodiscard]] double weight(const WarpInput::Point& p) const noexcept {
+    return w.x * p.x + w.y * p.y + w.z;
+  }
+  [[nodiscard]] double determinant() const noexcept { return glm::dot(a, glm::cross(b, w)); }
+};
+
+/// OpenGL clip space from homogeneous light space.
+glm::dmat4 gl_from_light(const PlanContext& c, const LightSpace& space,
+                         const glm::dmat4& gl_from_world) noexcept {
+  glm::dmat4 relative_from_world = gl_from_world;
+  relative_from_world[3] = gl_from_world * glm::dvec4(c.camera.position, 1.0);
+  return relative_from_world * space.relative_from_light();
+}
+
+Homography homography(const glm::dmat4& m) noexcept {
+  const auto row = [&](int i) { return glm::dvec3(m[0][i], m[1][i], m[3][i]); };
+  return {row(0), row(1), row(3)};
+}
+
+Homography of_plane(const PlaneMap& plane) noexcept {
+  return homography(clip_from_light(plane, {0.0, 1.0}, 0.0));
+}
+
+/// The homography over the body in the terms of a WarpChoice with centre 0: rows over the image, not yet of
+/// unit length, and the constant that goes with each.
+struct Decomposed {
+  bool valid;
+  WarpChoice choice;
+  double u_min, length;
+  double const_a, const_b;
+};
+
+struct Span {
+  double low, high;
+};
+Span along(std::span<const WarpInput::Point> body, const glm::dvec2& axis) noexcept {
+  Span s{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const WarpInput::Point& p : body) {
+    const double u = p.x * axis.x + p.y * axis.y;
+    s.low = min_of(s.low, u);
+    s.high = max_of(s.high, u);
+  }
+  return s;
+}
+
+/// `flat_axis` serves where the map has no fall-off that could tell an axis.
+Decomposed decompose(const Homography& h, std::span<const WarpInput::Point> body,
+                     const glm::dvec2& flat_axis) noexcept {
+  Decomposed d{};
+  const double steepness = std::sqrt(h.w.x * h.w.x + h.w.y * h.w.y);
+  glm::dvec2 axis = steepness > 0.0 ? glm::dvec2(h.w.x, h.w.y) / steepness : flat_axis;
+  Span u = along(body, axis);
+  double w_near = h.w.z + steepness * u.low;
+  if (!(w_near > 0.0)) return d;
+  double kappa = steepness / w_near;
+  if (kappa * (u.high - u.low) < kFlat) {
+    axis = flat_axis;
+    u = along(body, axis);
+    w_near = h.w.z + h.w.x * axis.x * u.low + h.w.y * axis.y * u.low;
+    kappa = 0.0;
+    if (!(w_near > 0.0)) return d;
+  }
+  d.u_min = u.low;
+  d.length = u.high - u.low;
+  const double stretch = 1.0 + kappa * d.length;
+  // Over (s, u - u_min, 1), divided by the weight at the near end.
+  const auto terms = [&](const glm::dvec3& row, double& constant) {
+    const double per_s = (row.x * axis.y - row.y * axis.x) / w_near;
+    const double per_u = (row.x * axis.x + row.y * axis.y) / w_near;
+    constant = row.z / w_near + per_u * u.low;
+    return glm::dvec2(per_s, (per_u - constant * kappa) / stretch);
+  };
+  d.choice.kappa = kappa;
+  d.choice.axis = axis;
+  d.choice.row_a = terms(h.a, d.const_a);
+  d.choice.row_b = terms(h.b, d.const_b);
+  d.valid = std::isfinite(stretch);
+  return d;
+}
+
+/// What a warp looks like, in quantities whose even steps look even.
+struct Shape {
+  double axis;          // angle
+  double stretch;       // logarithm
+  double row_a, row_b;  // angles
+};
+
+Shape shape_of(const Decomposed& d) noexcept {
+  const auto angle = [](const glm::dvec2& v) { return elementary::atan2(v.y, v.x); };
+  return {angle(d.choice.axis), elementary::log1p(d.choice.kappa * d.length), angle(d.choice.row_a),
+          angle(d.choice.row_b)};
+}
+
+/// `to` plus as many `period`s as bring it nearest to `from`.
+double nearest_turn(double from, double to, double period) noexcept {
+  return to + period * std::round((from - to) / period);
+}
+
+/// From the last frame's shape to the best, by the shortest turns.
+struct Way {
+  Shape from, to;
+  [[nodiscard]] WarpChoice at(double t, std::span<const WarpInput::Point> body) const noexcept {
+    const auto mix = [&](double a, double b) { return a + (b - a) * t; };
+    const double axis = mix(from.axis, to.axis), a = mix(from.row_a, to.row_a), b = mix(from.row_b, to.row_b);
+    WarpChoice choice;
+    choice.axis = {elementary::cos(axis), elementary::sin(axis)};
+    const Span u = along(body, choice.axis);
+    const double length = u.high - u.low;
+    choice.kappa = length > 0.0 ? elementary::expm1(mix(from.stretch, to.stretch)) / length : 0.0;
+    choice.row_a = {elementary::cos(a), elementary::sin(a)};
+    choice.row_b = {elementary::cos(b), elementary::sin(b)};
+    return choice;
+  }
+};
+
+Way way_between(const Decomposed& from, const Decomposed& to) noexcept {
+  Way way{shape_of(from), shape_of(to)};
+  way.to.axis = nearest_turn(way.from.axis, way.to.axis, 2.0 * kPi);
+  // A rectangle turned by a right angle is the same rectangle, its sides swapped.
+  const double straight = std::abs(way.from.row_a - nearest_turn(way.from.row_a, way.to.row_a, kPi));
+  const double swapped = std::abs(way.from.row_a - nearest_turn(way.from.row_a, way.to.row_b, kPi));
+  if (swapped < straight) std::swap(way.to.row_a, way.to.row_b);
+  way.to.row_a = nearest_turn(way.from.row_a, way.to.row_a, kPi);
+  way.to.row_b = nearest_turn(way.from.row_b, way.to.row_b, kPi);
+  return way;
+}
+
+/// Bounds over the body of the logarithm of texels per area, now over before.
+struct Change {
+  double low, high;
+  [[nodiscard]] double largest() const noexcept { return max_of(-low, high); }
+};
+
+Change change_between(const Homography& before, const Homography& now,
+                      std::span<const WarpInput::Point> body) noexcept {
+  Change change{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const double area = elementary::log(std::abs(now.determinant() / before.determinant()));
+  for (const WarpInput::Point& p : body) {
+    const double w = before.weight(p);
+    // Where the last frame had nothing, nothing changes.
+    if (!(w > 0.0)) continue;
+    const double value = area + 3.0 * elementary::log(w / now.weight(p));
+    change.low = min_of(change.low, value);
+    change.high = max_of(change.high, value);
+  }
+  return change;
+}
+
+/// The strongest fall-off whose texels keep up with the camera: texels of a warp that moves along with the
+/// viewer change with the third power of w.
+double strongest_in_motion(const PlanContext& c, const WarpQuestion& question, double length) noexcept {
+  const LightSpace& space = question.in.light;
+  const glm::dvec3 move = space.frame.turned(c.camera.position - c.last_eye);
+  const double step = std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest;
+  const glm::dvec3 turn = glm::cross(c.last_forward, c.axes.forward);
+  const double per_kappa = step + 0.5 * length * std::sqrt(glm::dot(turn, turn));
+  constexpr double kShare = 0.7;  // of the limit; the rest is left to the rectangle
+  return per_kappa > 0.0 ? kShare * kLimit / (3.0 * per_kappa) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+bool remembered(const MapRequest& request) noexcept {
+  return request.last.frame >= 0 && request.last.width == request.slot.width &&
+         request.last.height == request.slot.height;
+}
+
+namespace {
+
+/// A walk from the last frame's map to the best one.
+class SteadyWay {
+ public:
+  SteadyWay(const PlanContext& c, const MapRequest& request, const WarpQuestion& question) noexcept
+      : c_(c),
+        request_(request),
+        question_(question),
+        before_(homography(gl_from_light(c, request.space, request.last.gl_from_world))) {}
+
+  [[nodiscard]] const Homography& before() const noexcept { return before_; }
+  [[nodiscard]] Change changed(const PlaneMap& plane) const noexcept {
+    const int width = request_.slot.width;
+    const int border = border_texels(c_.options, width, border_share(c_, request_, question_.points, plane));
+    const double borders = 2.0 * elementary::log(1.0 - 2.0 * border / width);
+    Change change = change_between(before_, of_plane(plane), question_.in.body);
+    change.low += borders;
+    change.high += borders;
+    return change;
+  }
+  /// The farthest share of the way whose change is still smooth.
+  [[nodiscard]] double farthest_smooth(const Way& way) const noexcept {
+    const auto smooth = [&](double t) {
+      const Change change = changed(at(way, t));
+      return -change.low <= kLimit && change.high - change.low <= 2.0 * kLimit;
+    };
+    if (smooth(1.0)) return 1.0;
+    double share = 0.0, bad = 1.0;
+    for (int i = 0; i < kBisections; ++i) {
+      const double middle = 0.5 * (share + bad);
+      (smooth(middle) ? share : bad) = middle;
+    }
+    return share;
+  }
+  [[nodiscard]] PlaneMap at(const Way& way, double t) const noexcept {
+    return plane_map(question_.in.body, way.at(t, question_.in.body));
+  }
+
+ private:
+  const PlanContext& c_;
+  const MapRequest& request_;
+  const WarpQuestion& question_;
+  Homography before_;
+};
+
+}  // namespace
+
+PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
+                      const WarpChoice& best, MapResult& result) noexcept {
+  const WarpInput& in = question.in;
+  const PlaneMap target = plane_map(in.body, best);
+  if (!remembered(request)) {
+    result.report(PlanEventKind::map_appeared, 1.0);
+    return target;
+  }
+  const SteadyWay walk(c, request, question);
+  const auto reported = [&](const PlaneMap& plane, const Change& change) {
+    const double ratio = -change.low > change.high ? change.low : change.high;
+    if (change.largest() > elementary::log1p(kDensityStep))
+      result.report(PlanEventKind::density_jump, elementary::exp(ratio));
+    return plane;
+  };
+  const Decomposed from = decompose(walk.before(), in.body, best.axis);
+  if (!from.valid || !usable(in.body, from.choice, most_stretch(c, request, question.points)))
+    return reported(target, walk.changed(target));
+  WarpChoice goal = best;
+  goal.kappa = min_of(goal.kappa, strongest_in_motion(c, question, target.length));
+  const Way way = way_between(from, decompose(of_plane(plane_map(in.body, goal)), in.body, from.choice.axis));
+  PlaneError error(in);
+  const bool stays =
+      !in.orthographic && error.value(way.at(0.0, in.body)) <= error.value(goal) * (1.0 + kWorthFollowing);
+  PlaneMap plane = walk.at(way, stays ? 0.0 : walk.farthest_smooth(way));
+  Change change = walk.changed(plane);
+  if (change.largest() > kCut) return reported(target, walk.changed(target));
+  if (change.high > kLimit) {
+    const double less = change.high - kLimit;
+    // Fewer texels per area, everywhere by the same factor.
+    grow(plane, 0.5 * (elementary::exp(0.5 * less) - 1.0));
+    change.low -= less;
+    change.high -= less;
+  }
+  return reported(plane, change);
+}
+
+HeldMap held_map(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
+  HeldMap held{};
+  const glm::dmat4 m = gl_from_light(c, request.space, request.last.gl_from_world);
+  const Homography h = homography(m);
+  const Decomposed d = decompose(h, body.points(), {0.0, 1.0});
+  if (!d.valid) return held;
+  const double fill = 1.0 - 2.0 * request.last.filter_margin_texels / request.last.width;
+  PlaneMap& plane = held.plane;
+  plane.choice = d.choice;
+  plane.u_min = d.u_min;
+  plane.length = d.length;
+  plane.stretch = 1.0 + d.choice.kappa * d.length;
+  // What the rows give is -fill .. fill at the rectangle's edges, less their constants.
+  plane.a_min = -fill - d.const_a;
+  plane.a_max = fill - d.const_a;
+  plane.b_min = -fill - d.const_b;
+  plane.b_max = fill - d.const_b;
+  const PlaneMap tight = plane_map(body.points(), d.choice);
+  const bool inside = tight.a_min >= plane.a_min && tight.a_max <= plane.a_max &&
+                      tight.b_min >= plane.b_min && tight.b_max <= plane.b_max;
+  const double used = (tight.a_max - tight.a_min) * (tight.b_max - tight.b_min) /
+                      ((plane.a_max - plane.a_min) * (plane.b_max - plane.b_min));
+  if (!inside || !(used >= kLeastUse)) return held;
+  // Depth over the weight of the near end is w + 2 (bottom - h) / height.
+  const double w_near = plane.w(0.0, 0.0) / h.weight({0.0, 0.0, 0.0, 1.0});
+  const double per_height = m[2][2] * w_near, at_origin = m[3][2] * w_near;
+  if (!(per_height < 0.0)) return held;
+  held.depths.height = -2.0 / per_height;
+  held.depths.bottom = 0.5 * held.depths.height * (at_origin - plane.w(0.0, 0.0));
+  held.holds = true;
+  return held;
+}
+
+void steady_edges(std::span<const double> last, std::span<double> edges) noexcept {
+  const auto count = edges.size();
+  if (last.size() != count) return;
+  const double slower = elementary::exp(-kEdgeStep), faster = elementary::exp(kEdgeStep);
+  const auto near = [&](double to, double from) { return clamp_to(to, from * slower, from * faster); };
+  // What comes into view is covered at once.
+  edges[0] = min_of(edges[0], near(edges[0], last[0]));
+  edges[count - 1] = max_of(edges[count - 1], near(edges[count - 1], last[count - 1]));
+  for (std::size_t i = 1; i + 1 < count; ++i)
+    edges[i] = clamp_to(near(edges[i], last[i]), edges[i - 1], edges[count - 1]);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,230 @@
+// A body's vertices in light space, and the body as warps see it.
+#include "map/light_body.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "geometry/vector.hpp"
+#include "geometry/visible.hpp"
+#include "map/border.hpp"
+#include "warp/plane_error.hpp"
+
+namespace gnomon {
+namespace {
+
+// Ratio of the far to the near end's texels beyond which float matrices no longer hold the map together.
+constexpr double kStrongest = 1e9;
+// Under a local light the border may reach no farther than where the far end's texels are twice as long
+// again.
+constexpr double kBorderGrowth = 0.5;
+
+/// Half opening of the frustum in the plane of view and light: the largest slope of a corner along it.
+double tan_half_fov(const PlanContext& c, const LightFrame& frame) noexcept {
+  const glm::dvec3 across = frame.y - c.axes.forward * glm::dot(frame.y, c.axes.forward);
+  const glm::dvec3 w = safe_normalize(across, c.axes.up);
+  const double x = std::abs(glm::dot(w, c.axes.right)), y = std::abs(glm::dot(w, c.axes.up));
+  return x * max_of(std::abs(c.camera.left), std::abs(c.camera.right)) +
+         y * max_of(std::abs(c.camera.bottom), std::abs(c.camera.top));
+}
+
+ViewInLight view_in_light(const PlanContext& c, const LightFrame& frame) noexcept {
+  const Camera& camera = c.camera;
+  return {frame.turned(c.axes.right),
+          frame.turned(c.axes.up),
+          frame.turned(c.axes.forward),
+          camera.left,
+          camera.right,
+          camera.bottom,
+          camera.top,
+          (camera.right - camera.left) / camera.width,
+          (camera.top - camera.bottom) / camera.height};
+}
+
+/// The body with vertices and faces along the frame's axes.
+void turn(const Polytope& body, const LightFrame& frame, Polytope& out) noexcept {
+  out = body;
+  for (int i = 0; i < body.vertex_count; ++i) {
+    out.vertex[static_cast<std::size_t>(i)].position =
+        frame.turned(body.vertex[static_cast<std::size_t>(i)].position);
+  }
+  for (int f = 0; f < body.face_count; ++f) {
+    out.plane[static_cast<std::size_t>(f)].normal =
+        frame.turned(body.plane[static_cast<std::size_t>(f)].normal);
+  }
+}
+
+/// A vertex of a body in light space. `least`: view depth from which error counts; `nearest`: distance from a
+/// local light below which there is only rounding.
+WarpInput::Point light_point(const PlanContext& c, const LightSpace& space, const glm::dvec3& position,
+                             double least, double nearest) noexcept {
+  const glm::dvec3 p = space.frame.turned(position);
+  const double depth = c.camera.orthographic ? 1.0 : max_of(least, glm::dot(c.axes.forward, position));
+  if (!space.perspective) return {p.x, p.y, p.z, depth};
+  const double h = 1.0 / max_of(space.distance(p), nearest);
+  return {(p.x - space.apex.x) * h, (p.y - space.apex.y) * h, h, depth * h};
+}
+
+void add_vertices(const PlanContext& c, const MapRequest& request, const Polytope& body, double nearest,
+                  LightBody& out) noexcept {
+  const double least = max_of(c.camera.near_depth, c.options.split.pseudo_near);
+  for (const Polytope::Vertex& v : body.vertices()) {
+    if (out.count < kMaxVertices)
+      out.point[static_cast<std::size_t>(out.count++)] =
+          light_point(c, request.space, v.position, least, nearest);
+  }
+}
+
+/// Rounding may take vertices near a local light out of its frustum: then the whole frustum is the body.
+void hold_to_frustum(const MapRequest& request, LightBody& body) noexcept {
+  constexpr double kRounding = 1.0 + 1e-3;
+  bool usable = true;
+  double depth = 0.0;
+  for (WarpInput::Point& p : body.point) {
+    if (&p == body.point.data() + body.count) break;
+    usable = usable && max_of(std::abs(p.x), std::abs(p.y)) <= request.slope * kRounding;
+    p.x = clamp_to(p.x, -request.slope * kRounding, request.slope * kRounding);
+    p.y = clamp_to(p.y, -request.slope * kRounding, request.slope * kRounding);
+    depth = max_of(depth, p.depth);
+  }
+  if (usable) return;
+  body.count = body.count < kMaxVertices - 4 ? body.count : kMaxVertices - 4;
+  for (int i = 0; i < 4; ++i) {
+    body.point[static_cast<std::size_t>(body.count++)] = {(i & 1) ? request.slope : -request.slope,
+                                                          (i & 2) ? request.slope : -request.slope,
+                                                          1.0 / body.farthest, depth};
+  }
+}
+
+}  // namespace
+
+LightBody in_light_space(const PlanContext& c, const MapRequest& request) noexcept {
+  LightBody body;
+  const LightSpace& space = request.space;
+  if (!space.perspective) {
+    add_vertices(c, request, request.body, 0.0, body);
+    return body;
+  }
+  body.nearest = std::numeric_limits<double>::infinity();
+  body.farthest = 0.0;
+  for (const Polytope::Vertex& v : request.body.vertices()) {
+    const double distance = space.distance(space.frame.turned(v.position));
+    body.farthest = max_of(body.farthest, distance);
+    body.nearest = min_of(body.nearest, distance);
+  }
+  body.nearest = max_of(body.nearest, kLeastNearShare * body.farthest);
+  add_vertices(c, request, request.body, body.nearest, body);
+  hold_to_frustum(request, body);
+  return body;
+}
+
+LightBody judged_body(const PlanContext& c, const MapRequest& request, Polytope& focus) noexcept {
+  LightBody points = in_light_space(c, request);
+  focus.vertex_count = 0;
+  if (c.options.warp.focus.empty()) return points;
+  focus = request.body;
+  clip(focus, relative_to(c.options.warp.focus, c.camera.position));
+  if (focus.empty()) return points;
+  for (int i = 0; i < points.count; ++i)
+    points.point[static_cast<std::size_t>(i)].depth *= c.options.warp.focus_weight;
+  add_vertices(c, request, focus, points.nearest, points);
+  return points;
+}
+
+WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request) noexcept
+    : points(judged_body(c, request, focus)), in{} {
+  const LightFrame& frame = request.space.frame;
+  turn(request.body, frame, body_light);
+  if (!focus.empty()) turn(Polytope(focus), frame, focus);
+  in.body = points.points();
+  in.y_min = in.y_max = points.point[0].y;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const WarpInput::Point& p : in.body) {
+    in.y_min = min_of(in.y_min, p.y);
+    in.y_max = max_of(in.y_max, p.y);
+  }
+  const Polytope::Vertex* first = &request.body.vertex[0];
+  for (const Polytope::Vertex& v : request.body.vertices()) {
+    const double depth = glm::dot(c.axes.forward, v.position);
+    if (!(depth < nearest)) continue;
+    nearest = depth;
+    first = &v;
+  }
+  const LightSpace& space = request.space;
+  in.view = view_in_light(c, frame);
+  const glm::dvec3 light_way =
+      space.perspective ? safe_normalize(space.ray(frame.turned(first->position)), {0.0, 0.0, -1.0})
+                        : glm::dvec3(0.0, 0.0, -1.0);
+  const glm::dvec3 across = glm::cross(in.view.forward, light_way);
+  in.sin_gamma = std::sqrt(glm::dot(across, across));
+  in.cos_gamma = glm::dot(in.view.forward, light_way);
+  in.depth_begin = max_of(request.begin, c.options.split.pseudo_near);
+  in.depth_end = max_of(request.end, in.depth_begin);
+  in.tan_half_fov = tan_half_fov(c, frame);
+  in.orthographic = c.camera.orthographic;
+  in.objective = c.options.warp.objective;
+  in.polytope = &body_light;
+  in.focus = &focus;
+  in.focus_weight = c.options.warp.focus_weight;
+  in.light = space;
+  in.centre = request.centre;
+  in.unwarped = request.unwarped;
+  in.scale_near = space.perspective
+                      ? light_point(c, space, first->position, in.depth_begin, points.nearest).depth
+                      : in.depth_begin;
+  in.depth_per_y = space.perspective ? in.view.forward.y : in.sin_gamma;
+}
+
+double most_stretch(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
+  if (!request.space.perspective) return kStrongest;
+  const PlaneMap plane = plane_map(body.points(), request.unwarped);
+  const double share = border_share(c, request, body, plane);
+  const double border =
+      static_cast<double>(border_texels(c.options, request.slot.width, share)) / request.slot.width;
+  return 1.0 + kBorderGrowth / max_of(border / (1.0 - 2.0 * border), 1e-4);
+}
+
+double gain_ratio(const WarpInput& in, const WarpChoice& choice, double most_stretch) noexcept {
+  if (!usable(in.body, choice, most_stretch)) return std::numeric_limits<double>::infinity();
+  if (choice.gain_ratio > 0.0) return choice.gain_ratio;
+  const bool along_y = !in.light.perspective && choice.axis.x == 0.0 && choice.centre == 0.0 &&
+                       choice.row_a.y == 0.0 && choice.row_b.x == 0.0;
+  if (choice.kappa == 0.0 && choice.axis == in.unwarped.axis && choice.row_a == in.unwarped.row_a) return 1.0;
+  if (along_y && in.objective == Objective::storage) {
+    // A gain by the simplified weights above this factor is one by the exact error, too: they differ by the
+    // obliquity of the view rays alone.
+    constexpr double kCertainRatio = 0.25;
+    const double ratio =
+        warp_error(in, choice.kappa).value(in.objective) / warp_error(in, 0.0).value(in.objective);
+    if (ratio < kCertainRatio) return ratio;
+  }
+  PlaneError error(in);
+  const double without = error.value(in.unwarped);
+  return without > 0.0 ? error.value(choice) / without : std::numeric_limits<double>::infinity();
+}
+
+bool takes(const Warp& warp, const WarpChoice& choice, double ratio) noexcept {
+  return std::isfinite(ratio) &&
+         (ratio < 1.0 - kLeastWarpGain || (!warp.drop_without_gain && choice.kappa > 0.0));
+}
+
+double focused_objective(const PlanContext& c, const MapRequest& request) noexcept {
+  const WarpQuestion question(c, request);
+  const WarpInput& in = question.in;
+  const WarpChoice choice = request.warp.choose(in);
+  PlaneError error(in);
+  const double without = error.value(in.unwarped);
+  if (!usable(in.body, choice, most_stretch(c, request, question.points))) return without;
+  const double with = error.value(choice);
+  return with < without || !request.warp.drop_without_gain ? with : without;
+}
+
+PlaneMap focused_plane(const PlanContext& c, const MapRequest& request) noexcept {
+  const WarpQuestion question(c, request);
+  const WarpInput& in = question.in;
+  const WarpChoice choice = request.warp.choose(in);
+  const double ratio = gain_ratio(in, choice, most_stretch(c, request, question.points));
+  return plane_map(in.body, takes(request.warp, choice, ratio) ? choice : in.unwarped);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,56 @@
+// A body's vertices in light space, and the body as warps see it.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "map/context.hpp"
+#include "warp/plane_map.hpp"
+
+namespace gnomon {
+
+/// The body's vertices in light space, with the extent of a unit of image slope there.
+struct LightBody {
+  std::array<WarpInput::Point, kMaxVertices> point;
+  int count = 0;
+  double nearest = 1.0, farthest = 1.0;  // distances along a local light's axis
+  [[nodiscard]] std::span<const WarpInput::Point> points() const noexcept {
+    return {point.data(), static_cast<std::size_t>(count)};
+  }
+};
+[[nodiscard]] LightBody in_light_space(const PlanContext& c, const MapRequest& request) noexcept;
+
+/// How a warp is asked about a body, with everything that the question refers to.
+struct WarpQuestion {
+  Polytope focus, body_light;
+  LightBody points;
+  WarpInput in;
+  WarpQuestion(const PlanContext& c, const MapRequest& request) noexcept;
+  WarpQuestion(const WarpQuestion&) = delete;
+  WarpQuestion& operator=(const WarpQuestion&) = delete;
+};
+/// The body's points as warps judge them: with the focus's own, all others as much deeper as they count less.
+/// `focus`: the part of the body in the focus, relative to the camera; empty where there is none.
+[[nodiscard]] LightBody judged_body(const PlanContext& c, const MapRequest& request,
+                                    Polytope& focus) noexcept;
+
+/// The strongest warp that a map of this light can take: the ratio of its texels' lengths at both ends.
+[[nodiscard]] double most_stretch(const PlanContext& c, const MapRequest& request,
+                                  const LightBody& body) noexcept;
+
+/// The objective with the choice over the objective without; infinite for a choice that no map can be made
+/// with.
+[[nodiscard]] double gain_ratio(const WarpInput& in, const WarpChoice& choice, double most_stretch) noexcept;
+
+// A warp that gains less than this is dropped: it would come and go with the last bits of the input.
+inline constexpr double kLeastWarpGain = 1e-3;
+/// Whether a warp with this ratio is used.
+[[nodiscard]] bool takes(const Warp& warp, const WarpChoice& choice, double ratio) noexcept;
+
+/// The plan's objective over the body under the warp that focused_map would use, up to a factor that is the
+/// same for all bodies.
+[[nodiscard]] double focused_objective(const PlanContext& c, const MapRequest& request) noexcept;
+/// The light plane under that warp.
+[[nodiscard]] PlaneMap focused_plane(const PlanContext& c, const MapRequest& request) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,29 @@
+// Everything of a map's record that follows from its plane, its matrix and its swept body.
+#pragma once
+
+#include "cull/sweep.hpp"
+#include "map/light_body.hpp"
+
+namespace gnomon {
+
+/// What a map's record is made from.
+struct MapParts {
+  const LightBody& body;
+  const PlaneMap& plane;
+  const SweptBody& swept;
+  const TexelsNeeded& needed;
+  double obliquity;
+  const glm::dmat4& gl_from_relative;
+};
+
+/// Fills in `map`, whose size and border are set.
+void complete_record(const PlanContext& c, const MapRequest& request, const MapParts& parts,
+                     ShadowMap& map) noexcept;
+
+/// A record with what was decided before fitting.
+void begin_record(const PlanContext& c, const MapRequest& request, ShadowMap& map) noexcept;
+
+/// World space from what is relative to the camera.
+[[nodiscard]] glm::dmat4 world_matrix(const glm::dmat4& from_relative, const glm::dvec3& eye_world) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,109 @@
+// A map whose texel grid stands still while the camera moves.
+// Based on: Valient, "Stable Rendering of Cascaded Shadow Maps", ShaderX6, 2008; the size from the longest
+// chord instead of the enclosing sphere, and centres as whole numbers of texels in double, are this
+// project's.
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "geometry/elementary.hpp"
+#include "geometry/vector.hpp"
+#include "map/border.hpp"
+#include "map/depths.hpp"
+#include "map/record.hpp"
+#include "map/size.hpp"
+
+namespace gnomon {
+
+namespace {
+
+/// The grid: a square whose size depends on the slice alone, its centre at a whole texel.
+struct Grid {
+  double side, texel, half;
+  glm::dvec3 eye;     // of the light frame
+  glm::dvec2 centre;  // absolute
+};
+
+Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) noexcept {
+  const LightFrame& frame = request.space.frame;
+  Grid grid{};
+  // Rounded up so that its own rounding can never change the grid; one texel is the room that snapping moves
+  // within.
+  const double chord = longest_chord(c.camera.left, c.camera.right, c.camera.bottom, c.camera.top,
+                                     c.camera.orthographic, request.begin, request.end);
+  const double unit = elementary::power_of_two_below(chord) / c.options.resolution.stable_size_steps;
+  grid.side = std::ceil(chord / unit) * unit;
+  map.filter_margin_texels = border_texels(c.options, map.width - 1, 1.0 / grid.side);
+  grid.texel = grid.side / (map.width - 1 - 2 * map.filter_margin_texels);
+  grid.half = 0.5 * grid.texel * map.width;
+  // Centre of the whole slice, in absolute light coordinates, to the nearest texel.
+  const Polytope slice = frustum_slice(c.camera, c.axes, request.begin, request.end);
+  Box box;
+  for (const Polytope::Vertex& v : slice.vertices()) box.extend(frame.turned(v.position));
+  grid.eye = frame.turned(c.camera.position);
+  map.snap_key.texel = grid.texel;
+  map.snap_key.x = snap_index(grid.eye.x + 0.5 * (box.min.x + box.max.x), grid.texel);
+  map.snap_key.y = snap_index(grid.eye.y + 0.5 * (box.min.y + box.max.y), grid.texel);
+  grid.centre = glm::dvec2(map.snap_key.x, map.snap_key.y) * grid.texel;
+  return grid;
+}
+
+/// Depths in whole steps of a sixteenth of the side, so that stored depths do not change either. Steps double
+/// until the range is told apart from rounding and whole numbers hold it.
+LightDepths snapped_depths(const Grid& grid, const HeightRange& heights, SnapKey& key) noexcept {
+  const LightDepths wanted = padded(heights.bottom, heights.height, grid.side);
+  const double low = grid.eye.z + wanted.bottom, high = low + wanted.height;
+  constexpr double kMostSteps = 0x1p52;
+  double step = grid.side / 16.0;
+  const double farthest = max_of(std::abs(low), std::abs(high));
+  while (farthest / step > kMostSteps) step *= 2.0;
+  key.depth_far = snap_index(std::floor(low / step), 1.0);
+  key.depth_near = snap_index(std::ceil(high / step), 1.0);
+  if (key.depth_near <= key.depth_far) key.depth_near = key.depth_far + 1;
+  key.valid = true;
+  return {static_cast<double>(key.depth_far) * step,
+          static_cast<double>(key.depth_near - key.depth_far) * step};
+}
+
+}  // namespace
+
+MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
+  MapResult result;
+  ShadowMap& map = result.map;
+  begin_record(c, request, map);
+  map.warp = &warps::none;
+  const Grid grid = grid_of(c, request, map);
+  const LightBody body = in_light_space(c, request);
+  // Of the key alone: the same key, the same bits, and what was drawn stays as it is.
+  PlaneMap still = plane_map(body.points(), {});
+  PlaneMap plane = still;
+  still.u_min = 0.0;
+  still.a_min = grid.centre.x - grid.half;
+  still.a_max = grid.centre.x + grid.half;
+  still.b_min = grid.centre.y - grid.half;
+  still.b_max = grid.centre.y + grid.half;
+  plane.a_min = still.a_min - grid.eye.x;
+  plane.a_max = still.a_max - grid.eye.x;
+  plane.b_min = still.b_min - grid.eye.y - plane.u_min;
+  plane.b_max = still.b_max - grid.eye.y - plane.u_min;
+
+  const double border = static_cast<double>(map.filter_margin_texels) / map.width;
+  const glm::dvec4 light(request.space.frame.z, 0.0);
+  const SweptBody swept =
+      sweep(request.body, light, grid.texel * map.filter_margin_texels, c.camera.position);
+  const HeightRange heights = height_range(c, request, {body, plane, swept, border});
+  if (!heights.has_casters && !request.without_casters) return result;
+  result.drawn = true;
+  const LightDepths still_depths = snapped_depths(grid, heights, map.snap_key);
+  const LightDepths depths{still_depths.bottom - grid.eye.z, still_depths.height};
+  map.depth_range_world = depths.height;
+  const TexelsNeeded needed = texels_needed(body.points(), plane, pixels_per_slope(c.camera));
+  const glm::dmat4 turn = request.space.light_from_relative();
+  const glm::dmat4 gl_from_relative = clip_from_light(plane, depths, 0.0) * turn;
+  complete_record(c, request,
+                  {body, plane, swept, needed, pixel_obliquity(c, request.body), gl_from_relative}, map);
+  result.gl_from_world = clip_from_light(still, still_depths, 0.0) * turn;
+  map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * result.gl_from_world;
+  return result;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,127 @@
+// The error over everything the camera sees: percentiles, share of undersampled points, storage.
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "geometry/vector.hpp"
+#include "gnomon/metric.hpp"
+#include "measure/log_histogram.hpp"
+#include "measure/measure_grid.hpp"
+#include "measure/metric_lanes.hpp"
+
+namespace gnomon {
+namespace {
+
+/// Points on their way to their maps' blocks, and what came out so far.
+class Tally {
+ public:
+  Tally(const ShadowPlan& plan, const Camera& camera, const CameraAxes& axes) noexcept
+      : plan_(plan), camera_(camera), axes_(axes) {}
+
+  void add(int map, const glm::dvec3& point) noexcept {
+    const auto index = static_cast<std::size_t>(map);
+    waiting_[index].point.set(waiting_[index].count++, point);
+    if (waiting_[index].count == kMetricLanes) judge(index);
+  }
+  void add_outside() noexcept { ++outside_; }
+  [[nodiscard]] AliasingStats stats() noexcept;
+
+ private:
+  struct Waiting {
+    VectorLanes point;
+    std::size_t count = 0;
+  };
+  void judge(std::size_t index) noexcept;
+
+  const ShadowPlan& plan_;
+  const Camera& camera_;
+  const CameraAxes& axes_;
+  std::array<Waiting, kMaxMaps> waiting_;
+  MetricBlock block_;
+  LogHistogram<10> histogram_;
+  double sum_ = 0.0;
+  std::array<double, kMaxMaps> s_max_{}, t_max_{};
+  std::uint64_t undersampled_ = 0, outside_ = 0;
+};
+
+void Tally::judge(std::size_t index) noexcept {
+  Waiting& waiting = waiting_[index];
+  block_.point = waiting.point;
+  judge_perspective(MetricFrame(plan_.map[index], camera_, axes_), block_, waiting.count);
+  const ExtentLanes& e = block_.perspective;
+  for (std::size_t i = 0; i < waiting.count; ++i) {
+    if (!(block_.inside[i] > 0.0)) {
+      ++outside_;
+      continue;
+    }
+    histogram_.add(e.longest[i]);
+    sum_ += e.longest[i];
+    if (e.longest[i] > 1.0) ++undersampled_;
+    s_max_[index] = max_of(s_max_[index], e.s[i]);
+    t_max_[index] = max_of(t_max_[index], e.t[i]);
+  }
+  waiting.count = 0;
+}
+
+AliasingStats Tally::stats() noexcept {
+  AliasingStats stats;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plan_.map_count); ++i) {
+    judge(i);
+    const double texels = static_cast<double>(plan_.map[i].width) * plan_.map[i].height;
+    stats.storage += s_max_[i] * t_max_[i] * texels / (static_cast<double>(camera_.width) * camera_.height);
+  }
+  stats.outside = outside_;
+  stats.samples = histogram_.count();
+  if (stats.samples > 0) {
+    stats.p50 = histogram_.percentile(0.50);
+    stats.p95 = histogram_.percentile(0.95);
+    stats.max = histogram_.largest();
+    stats.mean = sum_ / static_cast<double>(stats.samples);
+    stats.share_undersampled = static_cast<double>(undersampled_) / static_cast<double>(stats.samples);
+  }
+  return stats;
+}
+
+AliasingStats measure_maps(const ShadowPlan& plan, int only, const Camera& camera, const SceneBounds& bounds,
+                           const MeasureGrid& grid) noexcept {
+  if (plan.map_count == 0) return {};
+  if (std::isinf(camera.far_depth)) {
+    return measure_maps(plan, only, with_finite_far(camera, bounds.receivers), bounds, grid);
+  }
+  const CameraAxes axes = camera_axes(camera);
+  Tally tally(plan, camera, axes);
+  const auto sample = [&](const glm::dvec3& point, double depth) {
+    const int map = map_serving(plan, point, depth);
+    if (map < 0) tally.add_outside();
+    if (map >= 0 && (only < 0 || map == only)) tally.add(map, point);
+  };
+  for_each_visible(camera, axes, bounds.receivers, grid, sample);
+  return tally.stats();
+}
+
+}  // namespace
+
+AliasingStats measure(const ShadowPlan& plan, const Camera& camera, const SceneBounds& bounds,
+                      const MeasureGrid& grid) noexcept {
+  return measure_maps(plan, -1, camera, bounds, grid);
+}
+
+AliasingStats measure_seen(const ShadowPlan& plan, const Camera& camera,
+                           std::span<const glm::dvec3> points_world) noexcept {
+  if (plan.map_count == 0) return {};
+  const CameraAxes axes = camera_axes(camera);
+  Tally tally(plan, camera, axes);
+  for (const glm::dvec3& point : points_world) {
+    const int map = map_serving(plan, point, glm::dot(point - camera.position, axes.forward));
+    if (map < 0) tally.add_outside();
+    if (map >= 0) tally.add(map, point);
+  }
+  return tally.stats();
+}
+
+AliasingStats measure_map(const ShadowPlan& plan, int map, const Camera& camera, const SceneBounds& bounds,
+                          const MeasureGrid& grid) noexcept {
+  return measure_maps(plan, map, camera, bounds, grid);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,35 @@
+// How large each map is to be.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+
+/// Texels along both sides of each map, by ShadowMap::cascade.
+struct MapSizes {
+  struct Size {
+    int width, height;
+  };
+  std::array<Size, kMaxMaps> of;
+};
+
+[[nodiscard]] MapSizes equal_sizes(int size) noexcept;
+
+/// Sizes in whole steps of kSizeStep whose texels come to no more than the texel budget and that make the
+/// largest error of all maps least. `fitted` are the maps at the size asked for, of `count`; `square` ones
+/// have one bound for both axes.
+[[nodiscard]] MapSizes budgeted_sizes(const ShadowPlan& fitted, const PlanOptions& options, int count,
+                                      bool square) noexcept;
+
+/// The largest bound of m that these maps would have at these sizes.
+[[nodiscard]] double largest_error(const ShadowPlan& fitted, const PlanOptions& options,
+                                   const MapSizes& sizes) noexcept;
+
+/// The bound that maps shrink to: max_error, or prune_error where PruneRule::metric_resolution is on; 0 where
+/// neither applies: a grid that must not change, a history, a texel budget.
+[[nodiscard]] double error_bound(const PlanOptions& options, bool has_history) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,171 @@
+// The maps of parallel light along the view.
+#include "plan/cascades.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "geometry/vector.hpp"
+#include "geometry/visible.hpp"
+
+namespace gnomon {
+namespace {
+
+/// The part of `body` between two depths that holds receivers.
+Polytope receivers_between(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
+  Polytope part = body;
+  clip(part, Plane{c.axes.forward, -begin});
+  clip(part, Plane{-c.axes.forward, end});
+  if (c.bounds.receivers.size() > 1 && !part.empty())
+    clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
+  return part;
+}
+
+/// The receivers of one cascade, and the depths that its map serves.
+struct Slice {
+  Polytope body;
+  double begin = 0.0, end = 0.0;  // without the blend band
+  double overlap = 0.0;
+  bool wanted = false;
+};
+
+/// Depths in front of `begin` that a cascade shows besides its own: none where the one before it ends sooner.
+double overlap_before(const PlanContext& c, const ShadowPlan& plan, double begin) noexcept {
+  if (plan.map_count == 0) return 0.0;
+  const ShadowMap& before = plan.map[static_cast<std::size_t>(plan.map_count - 1)];
+  return before.depth_end == begin ? c.options.split.overlap * (begin - before.depth_begin) : 0.0;
+}
+
+/// [from, to]: the depths between the neighbouring cascades.
+void slice_between(const PlanContext& c, const ParallelScene& scene, const ShadowPlan& plan, double from,
+                   double to, Slice& slice) noexcept {
+  const DepthRange seen = c.seen == nullptr ? DepthRange{from, to} : seen_between(*c.seen, from, to);
+  // A single depth is a slice only where it is all there is.
+  const bool covered = from == to && plan.map_count > 0;
+  if (!seen.empty() && !covered) slice.body = receivers_between(c, scene.body, seen.begin, seen.end);
+  const bool holds_nothing = slice.body.empty();
+  slice.wanted = !holds_nothing || (!c.options.prune.has(PruneRule::empty_cascades) && from < to);
+  if (!slice.wanted) return;
+  slice.begin = holds_nothing ? from : seen.begin;
+  slice.end = holds_nothing ? to : seen.end;
+  slice.overlap = overlap_before(c, plan, slice.begin);
+  if (holds_nothing) {
+    slice.body = frustum_slice(c.camera, c.axes, slice.begin - slice.overlap, slice.end);
+  } else if (slice.overlap > 0.0) {
+    slice.body = receivers_between(c, scene.body, slice.begin - slice.overlap, slice.end);
+  }
+}
+
+void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade, DepthRange between,
+                  MapSizes::Size size, PlanHistory* history, ShadowPlan& plan) noexcept {
+  Slice slice;
+  slice_between(c, scene, plan, between.begin, between.end, slice);
+  if (!slice.wanted) {
+    omit(plan, {OmissionKind::cascade_without_receiver, cascade, between.begin, between.end,
+                texels_asked(c.options)});
+    return;
+  }
+  MapRequest request = request_for(scene, slice.body, slice.begin - slice.overlap, slice.end);
+  request.slot.cascade = cascade;
+  request.slot.width = size.width;
+  request.slot.height = size.height;
+  request.slot.depth_begin = slice.begin;
+  request.slot.depth_end = slice.end;
+  request.slot.overlap = slice.overlap;
+  request.without_casters = !c.options.prune.has(PruneRule::casterless_cascades);
+  request.last = last_map(history, cascade);
+  merge(c.stable ? stable_map(c, request) : focused_map(c, request),
+        {OmissionKind::cascade_without_caster, cascade, slice.begin, slice.end, texels_asked(c.options)},
+        history, plan);
+}
+
+/// The sizes of the last frame's maps, and how many there were.
+MapSizes last_sizes(const PlanHistory& history, const PlanOptions& options) noexcept {
+  const int least = least_budget_side(options);
+  // Of a cascade that had no map: under steady edges it may get one that the trial did not.
+  MapSizes sizes = equal_sizes(options.resolution.texel_budget > 0 ? least : options.resolution.max_size);
+  for (std::size_t i = 0; i < history.map.size(); ++i) {
+    if (history.map[i].width >= least) sizes.of[i] = {history.map[i].width, history.map[i].height};
+  }
+  return sizes;
+}
+bool last_sizes_serve(const PlanHistory& history, const ShadowPlan& fitted,
+                      const PlanOptions& options) noexcept {
+  for (const ShadowMap& map : fitted.maps()) {
+    const PlanHistory::Map& last = history.map[static_cast<std::size_t>(map.cascade)];
+    if (last.frame + 1 != history.frame || last.width < least_budget_side(options)) return false;
+  }
+  if (options.resolution.texel_budget == 0) return true;
+  const MapSizes sizes = last_sizes(history, options);
+  std::int64_t texels = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(history.edge_count - 1); ++i)
+    texels += std::int64_t{sizes.of[i].width} * sizes.of[i].height;
+  return texels <= options.resolution.texel_budget;
+}
+
+}  // namespace
+
+MapRequest request_for(const ParallelScene& scene, const Polytope& body, double begin, double end) noexcept {
+  return {{}, body, scene.space, scene.warp, begin, end, {}, 0.0, 0.0, 0.0, false, {}};
+}
+
+void plan_cascades(const PlanContext& c, const ParallelScene& scene, int cascades, const MapSizes& sizes,
+                   PlanHistory* history, ShadowPlan& plan) noexcept {
+  plan.map_count = plan.omission_count = 0;
+  const bool steady = history != nullptr && history->frame > 0;
+  const CascadeEdges edges = cascade_edges(
+      c, scene, cascades,
+      steady ? std::span<const double>(history->edge.data(), static_cast<std::size_t>(history->edge_count))
+             : std::span<const double>());
+  for (int i = 0; i < edges.omission_count; ++i) omit(plan, edges.omission[static_cast<std::size_t>(i)]);
+  if (history != nullptr && !c.stable) {
+    history->edge = edges.depth;
+    history->edge_count = edges.count;
+  }
+  for (int i = 0; i < cascades; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    plan_cascade(c, scene, i, {edges.depth[at], edges.depth[at + 1]}, sizes.of[at], history, plan);
+  }
+}
+
+// Errors go by 1 / size, so that maps of any other size tell: one trial for each number of cascades, and the
+// plan itself.
+void plan_within(const PlanContext& c, const ParallelScene& scene, PlanHistory* history,
+                 ShadowPlan& plan) noexcept {
+  const PlanOptions& options = c.options;
+  // Trials keep their size, and leave nothing to remember.
+  PlanContext trial_context = c;
+  trial_context.error_bound = 0.0;
+  trial_context.remembers = false;
+  const bool square = c.stable || options.fit == Fit::warped_stable || history != nullptr;
+  // Errors closer than this are the same: the map more gains nothing.
+  constexpr double kWorthAMap = 0.99;
+  int best = options.cascades;
+  double least = std::numeric_limits<double>::infinity(), before = least;
+  const MapSizes equal = equal_sizes(options.resolution.max_size);
+  MapSizes sizes = equal;
+  // Given splits are of one number of cascades.
+  for (int n = options.split.scheme == SplitScheme::given ? options.cascades : 1; n <= options.cascades;
+       ++n) {
+    plan_cascades(trial_context, scene, n, equal, nullptr, plan);
+    const MapSizes trial =
+        options.resolution.texel_budget > 0 ? budgeted_sizes(plan, options, n, square) : equal;
+    const double m = largest_error(plan, options, trial);
+    if (m < least * kWorthAMap) {
+      best = n;
+      least = m;
+      sizes = trial;
+    }
+    if (history != nullptr && n == history->edge_count - 1 && last_sizes_serve(*history, plan, options))
+      before = largest_error(plan, options, last_sizes(*history, options));
+    if (m <= options.resolution.max_error) break;
+  }
+  // Another size moves every texel: worth it only for errors this much smaller.
+  constexpr double kWorthResizing = 0.8;
+  if (std::isfinite(before) && least >= before * kWorthResizing) {
+    best = history->edge_count - 1;
+    sizes = last_sizes(*history, options);
+  }
+  plan_cascades(c, scene, best, sizes, history, plan);
+}
+
+}  // namespace gnomon

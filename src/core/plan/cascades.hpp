@@ -1,0 +1,50 @@
+// The maps of parallel light along the view: edges, bodies, requests.
+#pragma once
+
+#include <span>
+
+#include "map/context.hpp"
+#include "plan/budget.hpp"
+#include "plan/merge.hpp"
+#include "split/seen_depths.hpp"
+
+namespace gnomon {
+
+/// Parallel light and the receivers in view.
+struct ParallelScene {
+  const Polytope& body;  // everything in view that receives, relative to the camera
+  LightSpace space;
+  const Warp& warp;  // the one asked for, or the default
+};
+
+/// The edges between the cascades, with the depths that no cascade covers.
+struct CascadeEdges {
+  std::array<double, kMaxMaps + 1> depth{};
+  int count = 0;  // of edges: one more than cascades
+  std::array<Omission, 4> omission;
+  int omission_count = 0;
+  [[nodiscard]] std::span<const double> edges() const noexcept {
+    return {depth.data(), static_cast<std::size_t>(count)};
+  }
+};
+/// `last`: the edges of the last frame; empty where there are none.
+[[nodiscard]] CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int cascades,
+                                         std::span<const double> last) noexcept;
+
+/// The visible depths, where they say something about this camera and these receivers; nullptr: unknown.
+[[nodiscard]] const VisibleDepths* usable_depths(const PlanContext& c, const Polytope& body,
+                                                 const VisibleDepths* visible) noexcept;
+
+/// Replaces the plan's maps by so many cascades.
+void plan_cascades(const PlanContext& c, const ParallelScene& scene, int cascades, const MapSizes& sizes,
+                   PlanHistory* history, ShadowPlan& plan) noexcept;
+
+/// As many cascades, as large, as resolution.max_error or the texel budget asks for.
+void plan_within(const PlanContext& c, const ParallelScene& scene, PlanHistory* history,
+                 ShadowPlan& plan) noexcept;
+
+/// A request without a map of the last frame, for comparing warps and partitions.
+[[nodiscard]] MapRequest request_for(const ParallelScene& scene, const Polytope& body, double begin,
+                                     double end) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,152 @@
+// Which view depths a plan covers, and where it divides them.
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "geometry/vector.hpp"
+#include "geometry/visible.hpp"
+#include "map/history.hpp"
+#include "plan/cascades.hpp"
+#include "split/optimal.hpp"
+
+namespace gnomon {
+namespace {
+
+bool covers_camera(const PlanContext& c) noexcept {
+  const SplitRange range = c.options.split.range;
+  return range == SplitRange::camera || (range == SplitRange::automatic && c.stable);
+}
+
+/// Depths that hold receivers, or all of the camera's.
+DepthRange received_depths(const PlanContext& c, const Polytope& body) noexcept {
+  const double n = c.camera.near_depth, f = c.camera.far_depth;
+  if (covers_camera(c)) return {n, f};
+  double low = f, high = n;
+  for (const Polytope::Vertex& v : body.vertices()) {
+    const double depth = glm::dot(c.axes.forward, v.position);
+    low = min_of(low, depth);
+    high = max_of(high, depth);
+  }
+  // A flat scene's depth must not fall outside its own range by rounding.
+  constexpr double kRounding = 1e-12;
+  const double begin = clamp_to(low - kRounding * std::abs(low), n, f);
+  return {begin, clamp_to(high + kRounding * std::abs(high), begin, f)};
+}
+
+void report_depths(CascadeEdges& edges, OmissionKind kind, double begin, double end) noexcept {
+  // Saving less than this share of the depths is not worth a line.
+  constexpr double kWorthReporting = 0.01;
+  if (end > begin * (1.0 + kWorthReporting))
+    edges.omission[static_cast<std::size_t>(edges.omission_count++)] = {kind, -1, begin, end, 0};
+}
+
+/// The body between two depths, less what is not visible at the ends.
+Polytope between(const PlanContext& c, const Polytope& body, double from, double to) noexcept {
+  const DepthRange range = c.seen == nullptr ? DepthRange{from, to} : seen_between(*c.seen, from, to);
+  Polytope part = body;
+  if (range.empty()) {
+    part.vertex_count = 0;
+    return part;
+  }
+  clip(part, Plane{c.axes.forward, -range.begin});
+  clip(part, Plane{-c.axes.forward, range.end});
+  return part;
+}
+
+/// Of two maps side by side.
+double joined(Objective objective, double a, double b) noexcept {
+  return objective == Objective::storage ? a + b : max_of(a, b);
+}
+
+/// Error of one map over the part of the body between two depths, with LiSPSM at its best strength as the
+/// measure: every warp of this toolkit comes near it or betters it by about the same factor everywhere.
+double simple_error(const PlanContext& c, const ParallelScene& scene, double begin, double end) noexcept {
+  const Polytope part = between(c, scene.body, begin, end);
+  if (part.empty()) return 0.0;
+  Polytope focus;
+  const LightBody points = judged_body(c, request_for(scene, part, begin, end), focus);
+  WarpInput in{};
+  in.body = points.points();
+  in.y_min = in.y_max = points.point[0].y;
+  for (const WarpInput::Point& p : in.body) {
+    in.y_min = min_of(in.y_min, p.y);
+    in.y_max = max_of(in.y_max, p.y);
+  }
+  in.orthographic = c.camera.orthographic;
+  in.objective = c.options.warp.objective;
+  const bool warped = &scene.warp != &warps::none;
+  return warp_error(in, warped ? warps::lispsm.choose(in).kappa : 0.0).value(in.objective);
+}
+
+/// The objective of all maps together, exactly as the plan will fit them.
+double exact_objective(const PlanContext& c, const ParallelScene& scene,
+                       std::span<const double> edges) noexcept {
+  double total = 0.0;
+  for (std::size_t m = 0; m + 1 < edges.size(); ++m) {
+    Polytope part = between(c, scene.body, edges[m], edges[m + 1]);
+    if (c.bounds.receivers.size() > 1 && !part.empty())
+      clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
+    if (part.empty()) continue;
+    total = joined(c.options.warp.objective, total,
+                   focused_objective(c, request_for(scene, part, edges[m], edges[m + 1])));
+  }
+  return total;
+}
+
+void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double> edges) noexcept {
+  std::array<double, kMaxMaps + 1> given;
+  std::copy(edges.begin(), edges.end(), given.begin());
+  const auto cost = [&](double begin, double end) { return simple_error(c, scene, begin, end); };
+  const auto both = [&](double a, double b) { return joined(c.options.warp.objective, a, b); };
+  if (edges.size() < 3 || !(edges.front() > 0.0 && edges.back() > edges.front())) return;
+  search_splits(edges, cost, both);
+  refine_splits(edges, cost, both);
+  // The search goes by a simplified error; what counts is the exact one.
+  const std::span<const double> before{given.data(), edges.size()};
+  if (!(exact_objective(c, scene, edges) < exact_objective(c, scene, before)))
+    std::copy(before.begin(), before.end(), edges.begin());
+}
+
+}  // namespace
+
+const VisibleDepths* usable_depths(const PlanContext& c, const Polytope& body,
+                                   const VisibleDepths* visible) noexcept {
+  if (visible == nullptr || visible->empty() || c.camera.orthographic) return nullptr;
+  if (c.options.split.range == SplitRange::camera) return nullptr;
+  // Surfaces that are all no receivers, or a histogram of another scene, are as good as unknown.
+  const DepthRange received = received_depths(c, body);
+  return seen_between(*visible, received.begin, received.end).empty() ? nullptr : visible;
+}
+
+CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int cascades,
+                           std::span<const double> last) noexcept {
+  const PlanOptions& options = c.options;
+  CascadeEdges result;
+  result.count = cascades + 1;
+  const std::span<double> edges{result.depth.data(), static_cast<std::size_t>(result.count)};
+  const DepthRange received = received_depths(c, scene.body);
+  if (!covers_camera(c)) {
+    report_depths(result, OmissionKind::depth_without_receiver, c.camera.near_depth, received.begin);
+    report_depths(result, OmissionKind::depth_without_receiver, received.end, c.camera.far_depth);
+  }
+  const DepthRange cover = c.seen == nullptr ? received : seen_between(*c.seen, received.begin, received.end);
+  report_depths(result, OmissionKind::depth_not_visible, received.begin, cover.begin);
+  report_depths(result, OmissionKind::depth_not_visible, cover.end, received.end);
+  SplitOptions split = options.split;
+  if (split.scheme == SplitScheme::automatic && c.stable) split.scheme = SplitScheme::practical;
+  split_depths(cover.begin, cover.end, split, edges);
+  const bool logarithmic = split.scheme == SplitScheme::logarithmic ||
+                           split.scheme == SplitScheme::automatic || split.scheme == SplitScheme::optimal;
+  if (logarithmic && c.seen != nullptr) split_seen(*c.seen, cover, edges);
+  // What is in view would move the edges of a stable plan, and with them its grids.
+  if (split.scheme == SplitScheme::optimal && !c.stable) optimise(c, scene, edges);
+  // One visible depth is one slice: more of them would divide the safety round it. Over frames the number of
+  // maps must not come and go with one pixel.
+  const bool single = c.seen != nullptr && c.seen->min == c.seen->max && !c.remembers;
+  if (single && split.scheme != SplitScheme::given) {
+    for (double& edge : edges.subspan(1)) edge = cover.end;
+  }
+  if (!c.stable) steady_edges(last, edges);
+  return result;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,127 @@
+// What make_plan refuses: the contract at the API's edge.
+#include "plan/input.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "geometry/vector.hpp"
+#include "geometry/usable.hpp"
+#include "gnomon/caster_set.hpp"
+
+namespace gnomon {
+namespace {
+
+// Smallest near plane relative to the far plane: beyond it 1 / depth weights lose all meaning.
+constexpr double kNearestRatio = 1e-12;
+
+constexpr int kCubeFaces = 6;
+
+bool is_direction(const glm::dvec3& v) noexcept {
+  return usable(v) && largest_component(v) > 0.0;
+}
+
+bool any_unusable(const Boxes& boxes) noexcept {
+  if (boxes.set() != nullptr) return !boxes.set()->usable();
+  for (const Box& box : boxes.list()) {
+    if (!usable(box)) return true;
+  }
+  return false;
+}
+
+std::string_view invalid_camera(const Camera& c) noexcept {
+  if (!usable(c.position)) return "camera.position";
+  if (!is_direction(c.forward)) return "camera.forward";
+  if (!usable(c.up)) return "camera.up";
+  if (!usable(c.left) || !usable(c.right) || !(c.left < c.right)) return "camera.left, camera.right";
+  if (!usable(c.bottom) || !usable(c.top) || !(c.bottom < c.top)) return "camera.bottom, camera.top";
+  if (!usable(c.near_depth)) return "camera.near_depth";
+  const bool endless = c.far_depth == std::numeric_limits<double>::infinity();
+  if (!endless && (!usable(c.far_depth) || !(c.near_depth < c.far_depth))) return "camera.far_depth";
+  const double nearest = endless ? 0.0 : kNearestRatio * c.far_depth;
+  if (!c.orthographic && !(c.near_depth > 0.0 && c.near_depth >= nearest)) return "camera.near_depth";
+  if (c.width < 1 || c.height < 1 || c.width > 1 << 20 || c.height > 1 << 20)
+    return "camera.width, camera.height";
+  return {};
+}
+
+struct InvalidLight {
+  std::string_view operator()(const DirectionalLight& l) const noexcept {
+    return is_direction(l.direction) ? std::string_view{} : "light.direction";
+  }
+  std::string_view operator()(const SpotLight& l) const noexcept {
+    if (!usable(l.position)) return "light.position";
+    if (!is_direction(l.direction)) return "light.direction";
+    if (!(l.outer_radians > 0.0 && l.outer_radians < 3.141592653589793)) return "light.outer_radians";
+    return usable(l.range) && l.range > 0.0 ? std::string_view{} : "light.range";
+  }
+  std::string_view operator()(const PointLight& l) const noexcept {
+    if (!usable(l.position)) return "light.position";
+    return usable(l.range) && l.range > 0.0 ? std::string_view{} : "light.range";
+  }
+};
+
+bool usable_splits(const PlanOptions& o) noexcept {
+  if (o.split.scheme != SplitScheme::given) return true;
+  for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(o.cascades); ++i) {
+    if (!usable(o.split.given[i]) || (i > 0 && !(o.split.given[i] >= o.split.given[i - 1]))) return false;
+  }
+  return true;
+}
+
+bool usable_budget(const PlanOptions& o, const Light& light) noexcept {
+  if (o.resolution.texel_budget == 0) return true;
+  const std::int64_t least = std::int64_t{least_budget_side(o)} * least_budget_side(o);
+  const int maps = std::holds_alternative<DirectionalLight>(light) ? o.cascades : kCubeFaces;
+  return o.resolution.texel_budget >= least * maps;
+}
+
+bool usable(const VisibleDepths& depths) noexcept {
+  return depths.empty() ? !std::isnan(depths.min + depths.max) : depths.min > 0.0 && depths.max <= kLargest;
+}
+
+std::string_view invalid_options(const PlanOptions& o) noexcept {
+  if (o.resolution.max_size < kLeastMapSize || o.resolution.max_size > kMostMapSize)
+    return "options.resolution.max_size";
+  if (o.cascades < 1 || o.cascades > kMaxMaps) return "options.cascades";
+  if (!(o.split.lambda >= 0.0 && o.split.lambda <= 1.0)) return "options.split.lambda";
+  if (!(o.split.overlap >= 0.0 && o.split.overlap <= 1.0)) return "options.split.overlap";
+  if (!(o.resolution.max_error >= 0.0 && o.resolution.max_error <= kLargest))
+    return "options.resolution.max_error";
+  if (!(o.resolution.prune_error >= kLeastError && o.resolution.prune_error <= kLargest))
+    return "options.resolution.prune_error";
+  if (!usable_splits(o)) return "options.split.given";
+  if (!(o.split.pseudo_near >= 0.0 && o.split.pseudo_near <= kLargest)) return "options.split.pseudo_near";
+  if (!(o.filter.texels >= 0.0 && o.filter.texels <= 0.25 * o.resolution.max_size)) {
+    return "options.filter.texels";
+  }
+  if (!(o.filter.world >= 0.0 && o.filter.world <= kLargest)) return "options.filter.world";
+  if (!usable(o.warp.focus)) return "options.warp.focus";
+  if (!(o.warp.focus_weight >= 1.0 && o.warp.focus_weight <= 1e6)) return "options.warp.focus_weight";
+  if (o.resolution.stable_size_steps < 1 || o.resolution.stable_size_steps > 1024)
+    return "options.resolution.stable_size_steps";
+  const BiasOptions& b = o.bias;
+  for (const double v : {b.constant_texels, b.slope_texels, b.normal_offset_texels, b.max_slope}) {
+    if (!(v >= 0.0 && v <= kLargest)) return "options.bias";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string_view first_invalid_field(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                                     const PlanOptions& options, const VisibleDepths* visible) noexcept {
+  if (const auto field = invalid_camera(camera); !field.empty()) return field;
+  if (light.valueless_by_exception()) return "light";
+  const auto light_field =
+      std::holds_alternative<DirectionalLight>(light) ? InvalidLight{}(*std::get_if<DirectionalLight>(&light))
+      : std::holds_alternative<SpotLight>(light)      ? InvalidLight{}(*std::get_if<SpotLight>(&light))
+                                                      : InvalidLight{}(*std::get_if<PointLight>(&light));
+  if (!light_field.empty()) return light_field;
+  if (any_unusable(bounds.casters)) return "bounds.casters";
+  if (any_unusable(bounds.receivers)) return "bounds.receivers";
+  if (const auto field = invalid_options(options); !field.empty()) return field;
+  if (visible != nullptr && !usable(*visible)) return "visible";
+  return usable_budget(options, light) ? std::string_view{} : "options.resolution.texel_budget";
+}
+
+}  // namespace gnomon

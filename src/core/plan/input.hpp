@@ -1,0 +1,15 @@
+// The contract at the API's edge.
+#pragma once
+
+#include <string_view>
+
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+
+/// Name of the first input that breaks the contract of make_plan; empty where all is well.
+[[nodiscard]] std::string_view first_invalid_field(const Camera& camera, const Light& light,
+                                                   const SceneBounds& bounds, const PlanOptions& options,
+                                                   const VisibleDepths* visible) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,315 @@
+// Which frusta a spot or point light is divided into, and which of the visible receivers each of them holds.
+#include "plan/local.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "cull/sweep.hpp"
+#include "geometry/elementary.hpp"
+#include "geometry/light_axes.hpp"
+#include "geometry/vector.hpp"
+#include "geometry/visible.hpp"
+#include "map/border.hpp"
+#include "plan/budget.hpp"
+#include "plan/merge.hpp"
+
+namespace gnomon {
+namespace {
+
+// Half angle up to which one perspective map serves a spot, 85 degrees: at 90 its image plane is at infinity.
+constexpr double kWidestSingle = 1.4835298641951802;
+// Half angle below which a cone leaves the face behind it dark: 180 degrees less the face's corner, at slope
+// sqrt(2), less the faces' overlap.
+constexpr double kLeavesBackDark = 2.184;
+// Neighbouring faces of a cube share this much, as a slope: rounding in a shader must not open a seam.
+constexpr double kFaceOverlap = 1.0 / 512.0;
+// Slope of the narrowest cone: narrower ones get a map this wide.
+constexpr double kNarrowest = 1e-6;
+
+/// One frustum of a local light: a whole spot or one face of a cube.
+struct LocalFrustum {
+  glm::dvec3 apex;   // relative to the camera
+  LightFrame frame;  // z against the frustum's axis
+  double slope;      // the frustum is |x| <= slope * distance, |y| <= slope * distance
+  [[nodiscard]] double distance(const glm::dvec3& point) const noexcept {
+    return glm::dot(frame.z, apex - point);
+  }
+};
+
+/// The light and the receivers that it can light and the camera sees, relative to the camera.
+struct LocalScene {
+  const PlanContext& c;
+  const Warp& warp;
+  glm::dvec3 apex;
+  double range;
+  Polytope lit;  // before any frustum of the light cuts them
+  MapSizes sizes;
+  PlanHistory* history;
+};
+
+/// Keeps what is `slope` or less along `side` per unit of distance along the axis.
+Plane slope_plane(const LocalFrustum& frustum, const glm::dvec3& side, double slope) noexcept {
+  const glm::dvec3 normal = safe_normalize(-frustum.frame.z * slope - side, -frustum.frame.z);
+  return {normal, -glm::dot(normal, frustum.apex)};
+}
+/// Keeps what is at least `distance` along the axis.
+Plane distance_plane(const LocalFrustum& frustum, double distance) noexcept {
+  return {-frustum.frame.z, glm::dot(frustum.frame.z, frustum.apex) - distance};
+}
+
+void clip_to_sides(Polytope& body, const LocalFrustum& frustum) noexcept {
+  for (const glm::dvec3& side : {frustum.frame.x, -frustum.frame.x, frustum.frame.y, -frustum.frame.y}) {
+    clip(body, slope_plane(frustum, side, frustum.slope));
+  }
+}
+
+/// Distance in front of which the frustum shows nothing: where boxes leave it open, a share of the farthest
+/// lit distance; where receivers are known to be nearer, theirs.
+double nearest_shown(const LocalScene& scene, const LocalFrustum& frustum, const Polytope& body,
+                     double farthest) noexcept {
+  const double stand_in = kNearShare * farthest;
+  const NearBoxes boxes = nearest_inside(
+      {body.plane.data(), static_cast<std::size_t>(body.face_count)}, scene.c.bounds.receivers,
+      scene.c.camera.position, frustum.frame.z, frustum.apex, kLeastNearShare * farthest);
+  constexpr double kRoom = 1.0 - 1.0 / 1024.0;
+  return min_of(stand_in, max_of(boxes.nearest * kRoom, kLeastNearShare * farthest));
+}
+
+/// Cuts off the apex, which has no slope, and everything farther than the range or too near to tell depths
+/// apart.
+void clip_to_distances(const LocalScene& scene, Polytope& body, const LocalFrustum& frustum) noexcept {
+  const Plane far_plane = distance_plane(frustum, scene.range);
+  clip(body, {-far_plane.normal, -far_plane.offset});
+  double farthest = 0.0, offset = largest_component(frustum.apex);
+  for (const Polytope::Vertex& v : body.vertices()) {
+    farthest = max_of(farthest, frustum.distance(v.position));
+    offset = max_of(offset, largest_component(v.position));
+  }
+  // In the light's own plane, all but the rounding of positions: nothing there has a slope.
+  constexpr double kRounding = 1e-13;
+  if (!(farthest > kRounding * offset)) {
+    body.vertex_count = 0;
+    return;
+  }
+  clip(body, distance_plane(frustum, nearest_shown(scene, frustum, body, farthest)));
+}
+
+/// The receivers among what is left, where there are several: their common box is smaller here.
+void clip_to_receivers(const LocalScene& scene, Polytope& body) noexcept {
+  if (body.empty() || scene.c.bounds.receivers.size() < 2) return;
+  clip(body, visible_bounds(body, scene.c.bounds.receivers, scene.c.camera.position));
+}
+
+/// The cone that a cube is clipped by; without one everything is lit.
+struct Cone {
+  glm::dvec3 direction;
+  double outer;
+};
+
+/// Clips a face that looks sideways from the cone's direction: along it, the cone's edge is at a slope of
+/// cot(outer) where it is nearest to the direction (up to 90 degrees) or farthest from it (beyond).
+void clip_to_cone(Polytope& body, const LocalFrustum& face, const Cone& cone) noexcept {
+  const double cotangent = elementary::cos(cone.outer) / elementary::sin(cone.outer);
+  const double slope = cotangent > 0.0 ? cotangent : cotangent * (std::sqrt(2.0) + kFaceOverlap);
+  if (slope <= -face.slope) return;
+  clip(body, slope_plane(face, -cone.direction, -slope));
+}
+
+/// All that a face shows, for a map that no receiver asks for.
+Polytope whole_face(const LocalScene& scene, const LocalFrustum& face) noexcept {
+  Polytope body = box_polytope({scene.apex - glm::dvec3(scene.range), scene.apex + glm::dvec3(scene.range)});
+  clip_to_sides(body, face);
+  if (!body.empty()) clip_to_distances(scene, body, face);
+  return body;
+}
+
+/// Light space turned so that y runs along the view as the light sees it at the body's point nearest to the
+/// viewer, with x of that point.
+struct TurnedSpace {
+  LightSpace space;
+  double centre = 0.0;
+};
+
+TurnedSpace along_view(const PlanContext& c, const LocalFrustum& frustum, const Polytope& body) noexcept {
+  double depth = std::numeric_limits<double>::infinity();
+  glm::dvec3 nearest(0.0);
+  for (const Polytope::Vertex& v : body.vertices()) {
+    const double at = glm::dot(c.axes.forward, v.position);
+    if (!(at < depth)) continue;
+    depth = at;
+    nearest = v.position;
+  }
+  const LightFrame& frame = frustum.frame;
+  TurnedSpace turned{{frame, true, frame.turned(frustum.apex)}, 0.0};
+  const glm::dvec3 at = frame.turned(nearest);
+  if (!(turned.space.distance(at) > 0.0)) return turned;
+  const glm::dvec3 slopes = turned.space.project(at), forward = frame.turned(c.axes.forward);
+  const glm::dvec2 move{forward.x + forward.z * slopes.x, forward.y + forward.z * slopes.y};
+  const double length = std::sqrt(glm::dot(move, move));
+  // Looking along the light's own ray: below this the axis is noise.
+  constexpr double kParallelSine = 1e-3;
+  const glm::dvec2 axis = length > kParallelSine ? move / length : glm::dvec2(0.0, 1.0);
+  turned.space.frame = {frame.x * axis.y - frame.y * axis.x, frame.x * axis.x + frame.y * axis.y, frame.z};
+  turned.space.apex = turned.space.frame.turned(frustum.apex);
+  turned.centre = slopes.x * axis.y - slopes.y * axis.x;
+  return turned;
+}
+
+MapRequest request_for(const LocalScene& scene, const LocalFrustum& frustum, const Polytope& body, int face,
+                       bool in_cube) noexcept {
+  const PlanContext& c = scene.c;
+  const TurnedSpace turned = c.stable
+                                 ? TurnedSpace{{frustum.frame, true, frustum.frame.turned(frustum.apex)}, 0.0}
+                                 : along_view(c, frustum, body);
+  MapRequest request{{}, body,          turned.space, scene.warp,  0.0,   0.0,
+                     {}, turned.centre, 0.0,          scene.range, false, {}};
+  // A turned square is wider by its diagonal.
+  request.slope = c.stable ? frustum.slope : frustum.slope * std::sqrt(2.0);
+  // Without a warp a face keeps its square: turned, the whole face would need twice the texels.
+  if (in_cube && !c.stable)
+    request.unwarped.axis = {glm::dot(frustum.frame.y, turned.space.frame.x),
+                             glm::dot(frustum.frame.y, turned.space.frame.y)};
+  double begin = std::numeric_limits<double>::infinity(), end = -begin;
+  for (const Polytope::Vertex& v : body.vertices()) {
+    const double depth = glm::dot(c.axes.forward, v.position);
+    begin = min_of(begin, depth);
+    end = max_of(end, depth);
+  }
+  MapSlot& slot = request.slot;
+  slot.cascade = face;
+  slot.width = scene.sizes.of[static_cast<std::size_t>(face)].width;
+  slot.height = scene.sizes.of[static_cast<std::size_t>(face)].height;
+  slot.depth_begin = request.begin = clamp_to(begin, c.camera.near_depth, c.camera.far_depth);
+  slot.depth_end = request.end = clamp_to(end, slot.depth_begin, c.camera.far_depth);
+  request.last = last_map(scene.history, face);
+  if (!in_cube) return request;
+  request.without_casters = !c.options.prune.has(PruneRule::casterless_faces);
+  // A face serves what lies in it: its map has the casters of that, and may show more.
+  const LightFrame& f = frustum.frame;
+  for (const glm::dvec3& side : {f.x, -f.x, f.y, -f.y})
+    slot.select[static_cast<std::size_t>(slot.select_count++)] = slope_plane(frustum, side, frustum.slope);
+  return request;
+}
+
+void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double outer,
+               ShadowPlan& plan) noexcept {
+  const LocalFrustum frustum{scene.apex, fixed_frame(direction), max_of(elementary::tan(outer), kNarrowest)};
+  Polytope body = scene.lit;
+  clip_to_sides(body, frustum);
+  // Four more planes round the cone cut the square's corners off.
+  const glm::dvec3 a = (frustum.frame.x + frustum.frame.y) * std::sqrt(0.5);
+  const glm::dvec3 b = (frustum.frame.x - frustum.frame.y) * std::sqrt(0.5);
+  for (const glm::dvec3& side : {a, -a, b, -b}) clip(body, slope_plane(frustum, side, frustum.slope));
+  if (!body.empty()) clip_to_distances(scene, body, frustum);
+  clip_to_receivers(scene, body);
+  if (body.empty()) {
+    plan.status = PlanStatus::nothing_visible;
+    return;
+  }
+  const MapRequest request = request_for(scene, frustum, body, 0, false);
+  const MapResult result = focused_map(scene.c, request);
+  if (result.drawn) merge(result, {}, scene.history, plan);
+  plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
+}
+
+/// Six faces in the order +x -x +y -y +z -z of `base`.
+void plan_cube(const LocalScene& scene, const LightFrame& base, const Cone* cone, ShadowPlan& plan) noexcept {
+  const glm::dvec3 axis[3] = {base.x, base.y, base.z};
+  const PruneRules& prune = scene.c.options.prune;
+  bool any_receiver = false;
+  for (int face = 0; face < 6; ++face) {
+    const auto k = static_cast<std::size_t>(face / 2);
+    const double sign = face % 2 == 0 ? 1.0 : -1.0;
+    const glm::dvec3 z = axis[k] * -sign, y = axis[(k + 2) % 3];
+    const LocalFrustum frustum{scene.apex, {glm::cross(y, z), y, z}, 1.0 + kFaceOverlap};
+    // Face 5 looks along the cone's direction, face 4 away from it.
+    const bool dark = cone != nullptr && face == 4 && cone->outer < kLeavesBackDark;
+    Polytope body = scene.lit;
+    if (dark) body.vertex_count = 0;
+    clip_to_sides(body, frustum);
+    if (cone != nullptr && face < 4) clip_to_cone(body, frustum, *cone);
+    if (!body.empty()) clip_to_distances(scene, body, frustum);
+    clip_to_receivers(scene, body);
+    if (body.empty() && !dark && !prune.has(PruneRule::empty_faces)) body = whole_face(scene, frustum);
+    if (body.empty()) {
+      omit(plan, {OmissionKind::face_without_receiver, face, 0.0, 0.0, texels_asked(scene.c.options)});
+      continue;
+    }
+    any_receiver = true;
+    merge(focused_map(scene.c, request_for(scene, frustum, body, face, true)),
+          {OmissionKind::face_without_caster, face, 0.0, 0.0, texels_asked(scene.c.options)}, scene.history,
+          plan);
+  }
+  plan.status = plan.map_count > 0 ? PlanStatus::ok
+                : any_receiver     ? PlanStatus::no_caster
+                                   : PlanStatus::nothing_visible;
+}
+
+/// Lists what was asked for and a local light has no use for.
+void report_ignored(const PlanContext& c, bool has_visible_depths, ShadowPlan& plan) noexcept {
+  const PlanOptions& o = c.options;
+  if (o.split.partition != Partition::view_depth) omit(plan, IgnoredOption::partition);
+  const bool splits = o.split.scheme != SplitScheme::automatic && o.split.scheme != SplitScheme::practical;
+  if (splits) omit(plan, IgnoredOption::split_scheme);
+  if (o.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
+  if (has_visible_depths) omit(plan, IgnoredOption::visible_depths);
+}
+
+/// Replaces the plan's maps.
+void plan_frusta(const LocalScene& scene, const Light& light, ShadowPlan& plan) noexcept {
+  plan.map_count = plan.omission_count = 0;
+  const PlanOptions& options = scene.c.options;
+  report_ignored(scene.c, scene.c.seen != nullptr, plan);
+  if (scene.c.stable && options.warp.warp != nullptr && options.warp.warp != &warps::none)
+    omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
+  const auto* spot = std::get_if<SpotLight>(&light);
+  if (spot == nullptr) {
+    plan_cube(scene, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, nullptr, plan);
+  } else if (spot->outer_radians < kWidestSingle) {
+    plan_cone(scene, plan.light_direction, spot->outer_radians, plan);
+  } else {
+    const Cone cone{plan.light_direction, spot->outer_radians};
+    plan_cube(scene, fixed_frame(plan.light_direction), &cone, plan);
+  }
+}
+
+}  // namespace
+
+void plan_local(const PlanContext& c, const Light& light, PlanHistory* history, ShadowPlan& plan) noexcept {
+  const auto* spot = std::get_if<SpotLight>(&light);
+  const auto* point = std::get_if<PointLight>(&light);
+  if (spot == nullptr && point == nullptr) return;
+  const Camera& camera = c.camera;
+  const PlanOptions& options = c.options;
+  LocalScene scene{c,
+                   options.warp.warp != nullptr ? *options.warp.warp : warps::optimal,
+                   (spot != nullptr ? spot->position : point->position) - camera.position,
+                   spot != nullptr ? spot->range : point->range,
+                   frustum_slice(camera, c.axes, camera.near_depth, camera.far_depth),
+                   equal_sizes(options.resolution.max_size),
+                   history};
+  plan.select_by_map = true;
+  // A light whose whole range is rounding of its position reaches no pixel.
+  constexpr double kLeastRange = 1e-12;
+  if (scene.range <= kLeastRange * largest_component(scene.apex)) scene.lit.vertex_count = 0;
+  clip(scene.lit, Box{scene.apex - glm::dvec3(scene.range), scene.apex + glm::dvec3(scene.range)});
+  if (!scene.lit.empty()) clip(scene.lit, visible_bounds(scene.lit, c.bounds.receivers, camera.position));
+  plan.light_direction = spot != nullptr ? safe_normalize(spot->direction, {0.0, -1.0, 0.0})
+                                         : safe_normalize(-scene.apex, c.axes.forward);
+  if (scene.lit.empty()) {
+    plan.status = PlanStatus::nothing_visible;
+    return;
+  }
+  if (options.resolution.texel_budget > 0) {
+    // A trial that leaves nothing to remember tells the sizes.
+    PlanContext trial = c;
+    trial.remembers = false;
+    const LocalScene equal{trial, scene.warp, scene.apex, scene.range, scene.lit, scene.sizes, nullptr};
+    plan_frusta(equal, light, plan);
+    scene.sizes = budgeted_sizes(plan, options, 6, true);
+  }
+  plan_frusta(scene, light, plan);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,42 @@
+// How results of stages become parts of the plan.
+#include "plan/merge.hpp"
+
+namespace gnomon {
+
+void omit(ShadowPlan& plan, const Omission& omission) noexcept {
+  if (plan.omission_count < kMaxOmissions)
+    plan.omission[static_cast<std::size_t>(plan.omission_count)] = omission;
+  ++plan.omission_count;
+}
+
+void omit(ShadowPlan& plan, IgnoredOption option) noexcept {
+  omit(plan, {OmissionKind::option_ignored, -1, static_cast<double>(option), 0.0, 0});
+}
+
+PlanHistory::Map last_map(const PlanHistory* history, int cascade) noexcept {
+  if (history == nullptr) return {};
+  const PlanHistory::Map& last = history->map[static_cast<std::size_t>(cascade)];
+  return last.frame == history->frame - 1 ? last : PlanHistory::Map{};
+}
+
+void merge(const MapResult& result, const Omission& missing, PlanHistory* history,
+           ShadowPlan& plan) noexcept {
+  if (!result.drawn) {
+    omit(plan, missing);
+    return;
+  }
+  const ShadowMap& map = result.map;
+  plan.map[static_cast<std::size_t>(plan.map_count++)] = map;
+  for (int i = 0; i < result.omission_count; ++i) omit(plan, result.omission[static_cast<std::size_t>(i)]);
+  if (history == nullptr) return;
+  if (result.has_event && history->event_count < kMaxMaps)
+    history->event[static_cast<std::size_t>(history->event_count++)] = result.event;
+  history->map[static_cast<std::size_t>(map.cascade)] = {history->frame, result.gl_from_world, map.width,
+                                                         map.height, map.filter_margin_texels};
+}
+
+std::int64_t texels_asked(const PlanOptions& options) noexcept {
+  return std::int64_t{options.resolution.max_size} * options.resolution.max_size;
+}
+
+}  // namespace gnomon

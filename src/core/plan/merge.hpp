@@ -1,0 +1,21 @@
+// How results of stages become parts of the plan.
+#pragma once
+
+#include "map/context.hpp"
+
+namespace gnomon {
+
+void omit(ShadowPlan& plan, const Omission& omission) noexcept;
+/// Lists an option that this light or fit cannot honour.
+void omit(ShadowPlan& plan, IgnoredOption option) noexcept;
+
+/// The last frame's map of this cascade or face for a request; frame -1 where none is remembered.
+[[nodiscard]] PlanHistory::Map last_map(const PlanHistory* history, int cascade) noexcept;
+
+/// Adds a drawn map with what happened to it; one that is not drawn leaves `missing` in the list.
+void merge(const MapResult& result, const Omission& missing, PlanHistory* history, ShadowPlan& plan) noexcept;
+
+/// Texels of a map at the size asked for.
+[[nodiscard]] std::int64_t texels_asked(const PlanOptions& options) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,123 @@
+// What was left out, in words.
+#include <array>
+#include <cstdio>
+#include <iterator>
+
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+namespace {
+
+/// clang takes a format without values for one that a stranger wrote, so such a text is passed as a value.
+template <std::size_t N, typename... Values>
+void write(std::array<char, N>& text, const char* format, Values... values) noexcept {
+  if constexpr (sizeof...(values) == 0) {
+    std::snprintf(text.data(), N, "%s", format);
+  } else {
+    std::snprintf(text.data(), N, format, values...);
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(PlanStatus status) noexcept {
+  switch (status) {
+    case PlanStatus::ok:
+      return "ok";
+    case PlanStatus::nothing_visible:
+      return "nothing_visible";
+    case PlanStatus::no_caster:
+      return "no_caster";
+    case PlanStatus::invalid_input:
+      break;
+  }
+  return "invalid_input";
+}
+
+namespace {
+
+void describe_ignored(const Omission& o, OmissionText& text) noexcept {
+  struct Entry {
+    const char *what, *why;
+  };
+  constexpr Entry kEntries[] = {
+      {"option split.partition",
+       "a local light has a partition of its own: one cone, or the faces of a cube"},
+      {"option split.scheme", "a local light has no cascades to divide the view among"},
+      {"option split.overlap", "only cascades along the view blend into each other"},
+      {"visible depths", "a local light has no cascades to divide the view among"},
+      {"option resolution.texel_budget", "maps of this partition keep their size"},
+      {"history", "parts that follow the view do not move steadily"}};
+  const auto at = static_cast<std::size_t>(o.a);
+  if (at >= std::size(kEntries)) return;
+  std::snprintf(text.what.data(), text.what.size(), "%s", kEntries[at].what);
+  std::snprintf(text.why.data(), text.why.size(), "%s", kEntries[at].why);
+}
+
+}  // namespace
+
+OmissionText describe(const Omission& o) noexcept {
+  OmissionText text{};
+  const auto what = [&](const char* format, auto... values) { write(text.what, format, values...); };
+  const auto why = [&](const char* format, auto... values) { write(text.why, format, values...); };
+  switch (o.kind) {
+    case OmissionKind::cascade_without_receiver:
+      what("cascade %d", o.map);
+      why("no receiver between depths %g and %g", o.a, o.b);
+      break;
+    case OmissionKind::cascade_without_caster:
+      what("cascade %d", o.map);
+      why("no caster can reach the receivers between depths %g and %g", o.a, o.b);
+      break;
+    case OmissionKind::depth_without_receiver:
+      what("depths %g to %g", o.a, o.b);
+      why("no receiver in view there, so no cascade covers them");
+      break;
+    case OmissionKind::depth_not_visible:
+      what("depths %g to %g", o.a, o.b);
+      why("the visible depths given show no surface there, so no cascade covers them");
+      break;
+    case OmissionKind::warp_without_gain:
+      what("warp of cascade %d", o.map);
+      why("the objective with it is %.4g of the objective without", o.a);
+      break;
+    case OmissionKind::warp_in_stable_fit:
+      what("warp");
+      why("a stable fit keeps its texel grid still, which a warp that follows the view cannot");
+      break;
+    case OmissionKind::part_without_caster:
+      what("part %d", o.map);
+      why("no caster can reach its receivers, at depths from %g to %g", o.a, o.b);
+      break;
+    case OmissionKind::partition_without_gain:
+      what("partition");
+      why("the objective of its parts is %.4g of the objective of one map", o.a);
+      break;
+    case OmissionKind::partition_in_stable_fit:
+      what("partition");
+      why("a stable fit keeps its texel grid still, which parts that follow the view cannot");
+      break;
+    case OmissionKind::face_without_receiver:
+      what("face %d", o.map);
+      why("no visible receiver lies in it within the light's range and cone");
+      break;
+    case OmissionKind::face_without_caster:
+      what("face %d", o.map);
+      why("no caster lies between the light and the receivers in it");
+      break;
+    case OmissionKind::resolution_without_gain:
+      what("texels of map %d", o.map);
+      why("a texel covers at most %.3g pixels at full size and %.3g at this one", o.a, o.b);
+      break;
+    case OmissionKind::depth_near_light:
+      what("depths near the light, map %d", o.map);
+      why("%.0f casters reach nearer than %g to the light; what is nearer casts no shadow", o.b, o.a);
+      break;
+    case OmissionKind::option_ignored:
+      describe_ignored(o, text);
+      break;
+  }
+  return text;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,206 @@
+// Divides the receivers by the faces of the camera's frustum, or by a plane where warping ends.
+// Based on: Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006 (frustum faces);
+// Mikkelsen, "Separating-plane perspective shadow mapping", 2007.
+#include "plan/parts.hpp"
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "geometry/light_axes.hpp"
+#include "geometry/vector.hpp"
+#include "geometry/visible.hpp"
+#include "map/light_body.hpp"
+
+namespace gnomon {
+namespace {
+
+// A convex body with six faces shows at most five of them from any side.
+constexpr int kMaxParts = 5;
+constexpr int kFrustumFaces = 6;
+// Sine below which a face lies along the light: nothing enters by it.
+constexpr double kAlongLight = 1e-9;
+// Parts overlap by this much of the body's distance, and of the camera's from the origin of the world: a
+// point must not fall between three of them by rounding.
+constexpr double kOverlap = 1e-12, kPositionRounding = 1e-14;
+// Dividing must gain this much, or it would come and go with the last bits of the input.
+constexpr double kLeastGain = 1e-3;
+
+struct Part {
+  Polytope body;
+  std::array<Plane, kMaxSelectPlanes> plane;  // relative to the camera
+  int plane_count = 0;
+  int index = 0;
+  LightFrame frame;
+  const Warp* warp;
+  double begin, end;  // view depths
+};
+
+struct Parts {
+  std::array<Part, kMaxParts> part;
+  int count = 0;
+  double objective = 0.0;
+};
+
+MapRequest request_of(const Part& part) noexcept {
+  LightSpace space;
+  space.frame = part.frame;
+  return {{}, part.body, space, *part.warp, part.begin, part.end, {}, 0.0, 0.0, 0.0, false, {}};
+}
+
+/// Cuts the part's depths to its body's.
+void narrow_depths(const PlanContext& c, Part& part) noexcept {
+  double low = part.end, high = part.begin;
+  for (const Polytope::Vertex& v : part.body.vertices()) {
+    const double depth = glm::dot(c.axes.forward, v.position);
+    low = min_of(low, depth);
+    high = max_of(high, depth);
+  }
+  part.begin = max_of(part.begin, low);
+  part.end = clamp_to(high, part.begin, part.end);
+}
+
+/// Adds what of `body` is inside the part's planes, where anything is.
+void add_part(const PlanContext& c, const Polytope& body, Part part, Parts& parts) noexcept {
+  double farthest = 0.0;
+  for (const Polytope::Vertex& v : body.vertices())
+    farthest = max_of(farthest, largest_component(v.position));
+  const double overlap = kOverlap * farthest + kPositionRounding * largest_component(c.camera.position);
+  part.body = body;
+  for (int i = 0; i < part.plane_count; ++i) {
+    Plane& plane = part.plane[static_cast<std::size_t>(i)];
+    plane.offset += overlap;
+    clip(part.body, plane);
+  }
+  if (part.plane_count > 0 && c.bounds.receivers.size() > 1 && !part.body.empty())
+    clip(part.body, visible_bounds(part.body, c.bounds.receivers, c.camera.position));
+  if (part.body.empty()) return;
+  if (part.plane_count > 0) narrow_depths(c, part);
+  const double objective = focused_objective(c, request_of(part));
+  parts.objective = c.options.warp.objective == Objective::storage ? parts.objective + objective
+                                                                   : max_of(parts.objective, objective);
+  parts.part[static_cast<std::size_t>(parts.count++)] = part;
+}
+
+/// Across the light, towards where a face gets deeper: there its texels may grow.
+LightFrame frame_of_face(const PlanContext& c, const ParallelScene& scene, const Plane& face) noexcept {
+  const glm::dvec3 light_direction = -scene.space.frame.z;
+  const double facing = glm::dot(face.normal, light_direction);
+  const glm::dvec3 deeper =
+      c.axes.forward - face.normal * (glm::dot(c.axes.forward, light_direction) / facing);
+  // Faces across the view have one depth, and what is left is rounding.
+  constexpr double kLevel = 1e-6;
+  return largest_component(deeper) > kLevel ? frame_along(light_direction, deeper) : scene.space.frame;
+}
+
+/// One part for each face that the light enters the frustum by (sign 1) or leaves it by (sign -1). A point is
+/// the part of the face that a ray of light through it meets last on its way in, first on its way out: of two
+/// faces that is decided by a plane through their common edge, parallel to the light.
+Parts face_parts(const PlanContext& c, const ParallelScene& scene, const Polytope& body, double begin,
+                 double end, double sign) noexcept {
+  Parts parts;
+  const Polytope frustum = frustum_slice(c.camera, c.axes, begin, end);
+  std::array<double, kFrustumFaces> facing;
+  for (std::size_t f = 0; f < facing.size(); ++f)
+    facing[f] = -sign * glm::dot(frustum.plane[f].normal, scene.space.frame.z);
+  for (int f = 0; f < kFrustumFaces; ++f) {
+    const auto face = static_cast<std::size_t>(f);
+    if (!(facing[face] > kAlongLight)) continue;
+    Part part;
+    part.begin = begin;
+    part.end = end;
+    part.index = f;
+    part.frame = frame_of_face(c, scene, frustum.plane[face]);
+    part.warp = &scene.warp;
+    for (std::size_t other = 0; other < facing.size(); ++other) {
+      // Opposite faces, which come in pairs, share no edge.
+      if (other / 2 == face / 2 || !(facing[other] > kAlongLight)) continue;
+      const glm::dvec3 normal =
+          frustum.plane[other].normal * facing[face] - frustum.plane[face].normal * facing[other];
+      const double offset =
+          frustum.plane[other].offset * facing[face] - frustum.plane[face].offset * facing[other];
+      const double length = glm::length(normal);
+      part.plane[static_cast<std::size_t>(part.plane_count++)] = {normal / length, offset / length};
+    }
+    add_part(c, body, part, parts);
+  }
+  return parts;
+}
+
+/// The part before the plane where warping ends, and the one behind; none where nothing is warped.
+Parts separated_parts(const PlanContext& c, const ParallelScene& scene, const Polytope& body, double begin,
+                      double end) noexcept {
+  Parts parts;
+  const PlaneMap map = focused_plane(c, request_for(scene, body, begin, end));
+  if (!(map.choice.kappa > 0.0)) return parts;
+  const LightFrame& frame = scene.space.frame;
+  const glm::dvec3 axis = frame.x * map.choice.axis.x + frame.y * map.choice.axis.y;
+  const double border = map.u_min + map.length * separating_share(map.choice.kappa, map.length);
+  for (int side = 0; side < 2; ++side) {
+    Part part;
+    part.begin = begin;
+    part.end = end;
+    part.index = side;
+    part.frame = frame;
+    part.warp = side == 0 ? &scene.warp : &warps::none;
+    part.plane[0] = side == 0 ? Plane{-axis, border} : Plane{axis, -border};
+    part.plane_count = 1;
+    add_part(c, body, part, parts);
+  }
+  return parts;
+}
+
+Parts divided(const PlanContext& c, const ParallelScene& scene, const Polytope& body, double begin,
+              double end) noexcept {
+  // Without perspective one map's texels are right everywhere.
+  if (c.camera.orthographic) return {};
+  if (c.options.split.partition == Partition::separating_plane)
+    return separated_parts(c, scene, body, begin, end);
+  Parts entered = face_parts(c, scene, body, begin, end, 1.0);
+  const Parts left = face_parts(c, scene, body, begin, end, -1.0);
+  const bool leaves_better = left.count > 0 && (entered.count == 0 || left.objective < entered.objective);
+  return leaves_better ? left : entered;
+}
+
+void plan_part(const PlanContext& c, const Part& part, ShadowPlan& plan) noexcept {
+  MapRequest request = request_of(part);
+  request.slot.cascade = part.index;
+  request.slot.depth_begin = part.begin;
+  request.slot.depth_end = part.end;
+  request.slot.width = request.slot.height = c.options.resolution.max_size;
+  request.slot.select = part.plane;
+  request.slot.select_count = part.plane_count;
+  request.without_casters = !c.options.prune.has(PruneRule::casterless_cascades);
+  merge(focused_map(c, request),
+        {OmissionKind::part_without_caster, part.index, part.begin, part.end, texels_asked(c.options)},
+        nullptr, plan);
+}
+
+}  // namespace
+
+void plan_parts(const PlanContext& c, const ParallelScene& scene, ShadowPlan& plan) noexcept {
+  const CascadeEdges range = cascade_edges(c, scene, 1, {});
+  for (int i = 0; i < range.omission_count; ++i) omit(plan, range.omission[static_cast<std::size_t>(i)]);
+  const double begin = range.depth[0], end = range.depth[1];
+  Polytope body = scene.body;
+  clip(body, Plane{c.axes.forward, -begin});
+  clip(body, Plane{-c.axes.forward, end});
+  Parts whole;
+  Part all;
+  all.begin = begin;
+  all.end = end;
+  all.frame = scene.space.frame;
+  all.warp = &scene.warp;
+  add_part(c, body, all, whole);
+  const Parts parts = divided(c, scene, body, begin, end);
+  const bool gains = parts.count > 1 && parts.objective < whole.objective * (1.0 - kLeastGain);
+  if (!gains) {
+    const double ratio = parts.count > 1 ? parts.objective / whole.objective : 1.0;
+    omit(plan, {OmissionKind::partition_without_gain, -1, ratio, 0.0, 0});
+  }
+  plan.select_by_map = gains;
+  const Parts& chosen = gains ? parts : whole;
+  for (int i = 0; i < chosen.count; ++i) plan_part(c, chosen.part[static_cast<std::size_t>(i)], plan);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,121 @@
+// From a camera, a light and bounds to the shadow maps worth drawing: the pipeline, stage by stage.
+#include "gnomon/plan.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "geometry/light_axes.hpp"
+#include "geometry/vector.hpp"
+#include "geometry/visible.hpp"
+#include "plan/cascades.hpp"
+#include "plan/input.hpp"
+#include "plan/local.hpp"
+#include "plan/parts.hpp"
+
+namespace gnomon {
+namespace {
+
+/// Lists what was asked for and a partition other than by depth has no use for.
+void report_ignored_by_parts(const PlanContext& c, const PlanHistory* history, ShadowPlan& plan) noexcept {
+  const ResolutionOptions& r = c.options.resolution;
+  if (r.texel_budget > 0) omit(plan, IgnoredOption::texel_budget);
+  if (c.options.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
+  if (history != nullptr) omit(plan, IgnoredOption::history);
+}
+
+void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleDepths* visible,
+                   PlanHistory* history, ShadowPlan& plan) noexcept {
+  const PlanOptions& options = c.options;
+  plan.light_direction = safe_normalize(light.direction, {0.0, -1.0, 0.0});
+  Polytope body = frustum_slice(c.camera, c.axes, c.camera.near_depth, c.camera.far_depth);
+  clip(body, visible_bounds(body, c.bounds.receivers, c.camera.position));
+  if (body.empty()) {
+    plan.status = PlanStatus::nothing_visible;
+    return;
+  }
+  ParallelScene scene{body, {}, options.warp.warp != nullptr ? *options.warp.warp : warps::optimal};
+  scene.space.frame =
+      c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
+  c.seen = usable_depths(c, body, visible);
+  const bool parts = options.split.partition != Partition::view_depth;
+  if (parts && !c.stable) {
+    // Parts follow the view in no steady way.
+    c.remembers = false;
+    plan_parts(c, scene, plan);
+    report_ignored_by_parts(c, history, plan);
+  } else if (options.resolution.max_error > 0.0 || options.resolution.texel_budget > 0) {
+    plan_within(c, scene, history, plan);
+  } else {
+    plan_cascades(c, scene, options.cascades, equal_sizes(options.resolution.max_size), history, plan);
+  }
+  if (c.stable && parts) omit(plan, {OmissionKind::partition_in_stable_fit, -1, 0.0, 0.0, 0});
+  if (c.stable && options.warp.warp != nullptr && options.warp.warp != &warps::none)
+    omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
+  plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
+}
+
+glm::dvec4 light_of(const Light& light) noexcept {
+  if (const auto* sun = std::get_if<DirectionalLight>(&light))
+    return glm::dvec4(-safe_normalize(sun->direction, {0.0, -1.0, 0.0}), 0.0);
+  if (const auto* spot = std::get_if<SpotLight>(&light)) return glm::dvec4(spot->position, 1.0);
+  const auto* point = std::get_if<PointLight>(&light);
+  return point != nullptr ? glm::dvec4(point->position, 1.0) : glm::dvec4(0.0);
+}
+
+/// A plan of one frame; `history` may be nullptr.
+ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                      const PlanOptions& options, PlanHistory* history,
+                      const VisibleDepths* visible) noexcept {
+  ShadowPlan plan;
+  plan.invalid_field = first_invalid_field(camera, light, bounds, options, visible);
+  if (!plan.invalid_field.empty()) return plan;
+  if (std::isinf(camera.far_depth))
+    return plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible);
+  plan.origin_world = camera.position;
+  plan.clip_space = options.clip_space;
+  plan.bias = options.bias;
+  PlanContext context{camera, bounds, options, camera_axes(camera)};
+  context.stable = options.fit == Fit::stable;
+  context.error_bound = error_bound(options, history != nullptr);
+  context.remembers = history != nullptr;
+  plan.sizes_vary = context.error_bound > 0.0 || options.resolution.texel_budget > 0;
+  if (history != nullptr) {
+    context.last_eye = history->eye_world;
+    context.last_forward = history->forward;
+    // Maps of another place are no start, and no reason to go slowly; a turning sun's are.
+    const glm::dvec4 now = light_of(light), before = history->light_world;
+    context.same_light = now == before;
+    if (now.w != before.w || (now.w != 0.0 && now != before)) {
+      for (PlanHistory::Map& map : history->map) map.frame = -1;
+    }
+  }
+  if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
+    plan_parallel(context, *sun, visible, history, plan);
+  } else {
+    context.seen = visible;
+    plan_local(context, light, history, plan);
+  }
+  return plan;
+}
+
+}  // namespace
+
+ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                     const PlanOptions& options, const VisibleDepths* visible) noexcept {
+  return plan_frame(camera, light, bounds, options, nullptr, visible);
+}
+
+ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                     const PlanOptions& options, PlanHistory& history,
+                     const VisibleDepths* visible) noexcept {
+  history.event_count = 0;
+  ShadowPlan plan = plan_frame(camera, light, bounds, options, &history, visible);
+  if (plan.status == PlanStatus::invalid_input) return plan;
+  history.eye_world = camera.position;
+  history.forward = camera_axes(camera).forward;
+  history.light_world = light_of(light);
+  ++history.frame;
+  return plan;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,49 @@
+// Which map serves a point.
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "geometry/vector.hpp"
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+
+bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& point) noexcept {
+  for (int i = 0; i < map.select_plane_count; ++i) {
+    const glm::dvec4& plane = map.select_planes[static_cast<std::size_t>(i)];
+    if (!(glm::dot(glm::dvec3(plane), point) + plane.w >= 0.0)) return false;
+  }
+  const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
+  // A quarter texel of the border is left to rounding; no kernel tells it apart.
+  constexpr double kRounding = 0.5;
+  const double inner_x = 1.0 - (2.0 * map.filter_margin_texels - kRounding) / map.width;
+  const double inner_y = 1.0 - (2.0 * map.filter_margin_texels - kRounding) / map.height;
+  const double lowest = plan.clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0 : -1.0;
+  return clip.w > 0.0 && std::abs(clip.x) <= inner_x * clip.w && std::abs(clip.y) <= inner_y * clip.w &&
+         clip.z >= lowest * clip.w && clip.z <= clip.w;
+}
+
+int map_serving(const ShadowPlan& plan, const glm::dvec3& point, double depth) noexcept {
+  if (plan.select_by_map) {
+    for (int i = 0; i < plan.map_count; ++i) {
+      if (map_holds(plan, plan.map[static_cast<std::size_t>(i)], point)) return i;
+    }
+    return -1;
+  }
+  for (int i = 0; i < plan.map_count; ++i) {
+    const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
+    if (depth >= map.depth_begin && depth <= map.depth_end) return i;
+  }
+  // Who computes the depth of a corner on the last map's end gets there but for rounding: of the depth
+  // itself, and of the position it was computed from.
+  constexpr double kDepthRounding = 1e-12, kPositionRounding = 4e-13;
+  const double slack =
+      kDepthRounding * std::abs(depth) +
+      kPositionRounding * max_of(largest_component(point), largest_component(plan.origin_world));
+  for (int i = 0; i < plan.map_count; ++i) {
+    const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
+    if (depth >= map.depth_begin - slack && depth <= map.depth_end + slack) return i;
+  }
+  return -1;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,308 @@
+// Which technique to take: the cheapest that meets an error, or the one with the least error within a budget.
+#include "gnomon/technique.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/elementary.hpp"
+#include "geometry/caster_lanes.hpp"
+#include "gnomon/metric.hpp"
+
+namespace gnomon {
+namespace {
+
+constexpr double kMega = 1e6, kKilo = 1e3;
+constexpr int kReferenceSize = 1024;
+/// Pixels and depths that stand for what is seen where nobody knows: it is the order of plans that counts.
+constexpr MeasureGrid kGrid{24, 16, 24};
+/// How much less counts as a trade.
+constexpr double kTrade = 0.8;
+
+/// One parametrization at the reference size.
+struct Parametrization {
+  const Warp* warp = nullptr;
+  SplitScheme split = SplitScheme::automatic;
+  int cascades = 0;
+  double m = 0.0;
+  double margin_share = 0.0;  ///< of the map's side that is rim
+  PlanWork work;
+};
+
+const Warp* const kWarps[] = {&warps::none, &warps::lispsm, &warps::optimal};
+constexpr SplitScheme kSplits[] = {SplitScheme::automatic};
+constexpr int kCascades[] = {1, 2, 3, 4};
+constexpr int kSizes[] = {256, 512, 1024, 2048, 4096};
+
+template <class T, std::size_t N>
+std::span<const T> given_or(std::span<const T> given, const T (&otherwise)[N]) noexcept {
+  return given.empty() ? std::span<const T>(otherwise) : given;
+}
+
+/// Beyond it sums of products would overflow, and nothing costs so much.
+constexpr double kLargest = 1e12;
+/// Of a texel: a map's bytes must be a whole number of 64 bits.
+constexpr double kMostBytes = 1e6;
+constexpr double kMostPower = 100.0;
+
+bool is_limit(double value) noexcept {
+  return value >= 0.0 && value <= kLargest;
+}
+
+std::array<double, 6> all_of(const DrawingCosts& costs) noexcept {
+  return {costs.per_frame,    costs.per_map,          costs.per_megatexel,
+          costs.per_kilodraw, costs.per_megatriangle, costs.per_megatexel_tested};
+}
+
+std::string_view broken(const Budget& budget, const CostModel& costs, const TechniqueSet& among) noexcept {
+  if (budget.texels < 0 || budget.bytes < 0 || !is_limit(budget.milliseconds) ||
+      !is_limit(budget.target_error) || !is_limit(budget.alike))
+    return "budget";
+  for (const double cost : all_of(costs.drawing))
+    if (!is_limit(cost)) return "cost_model";
+  if (costs.filters.empty()) return "cost_model.filters";
+  for (const FilterCost& f : costs.filters) {
+    const bool fine = is_limit(f.prefilter_ms_per_map) && is_limit(f.prefilter_ms_per_megatexel) &&
+                      is_limit(f.lookup_ms_per_megapixel) && is_limit(f.bytes_per_texel) &&
+                      f.bytes_per_texel <= kMostBytes && is_limit(f.error_ratio) && f.error_ratio > 0.0 &&
+                      f.error_power >= 0.0 && f.error_power <= kMostPower;
+    if (!fine) return "cost_model.filters";
+  }
+  const bool sizes = std::all_of(among.map_sizes.begin(), among.map_sizes.end(),
+                                 [](int size) { return size >= kLeastMapSize && size <= kMostMapSize; });
+  return sizes ? std::string_view() : "map_sizes";
+}
+
+double drawing_ms(const DrawingCosts& costs, const PlanWork& work) noexcept {
+  return costs.per_frame + costs.per_map * work.maps + costs.per_megatexel * work.megatexels +
+         costs.per_kilodraw * work.kilodraws + costs.per_megatriangle * work.megatriangles +
+         costs.per_megatexel_tested * work.megatexels_tested;
+}
+
+class Choosing {
+ public:
+  Choosing(const Camera& camera, const CostModel& costs, std::span<const int> sizes) noexcept
+      : costs_(costs), sizes_(sizes), megapixels_(static_cast<double>(camera.width) * camera.height / kMega) {
+    for (const double cost : all_of(costs.drawing)) any_time_ = any_time_ || cost > 0.0;
+    for (const FilterCost& f : costs.filters)
+      any_time_ = any_time_ || f.prefilter_ms_per_map > 0.0 || f.prefilter_ms_per_megatexel > 0.0 ||
+                  f.lookup_ms_per_megapixel > 0.0;
+  }
+
+  [[nodiscard]] bool full() const noexcept { return count_ == all_.size(); }
+  void add(const Parametrization& p) noexcept { all_[count_++] = p; }
+  [[nodiscard]] int tried() const noexcept {
+    return static_cast<int>(count_ * sizes_.size() * costs_.filters.size());
+  }
+
+  [[nodiscard]] double cost(const Technique& t) const noexcept {
+    return any_time_ ? t.milliseconds : static_cast<double>(t.texels);
+  }
+
+  /// How far a technique is beyond the limits: 0 within all of them, else the largest share of excess.
+  [[nodiscard]] static double excess(const Technique& t, const Budget& budget) noexcept {
+    double most = 1.0;
+    const auto limit = [&](double value, double allowed) {
+      if (allowed > 0.0) most = std::max(most, value / allowed);
+    };
+    limit(static_cast<double>(t.texels), static_cast<double>(budget.texels));
+    limit(static_cast<double>(t.bytes), static_cast<double>(budget.bytes));
+    limit(t.milliseconds, budget.milliseconds);
+    limit(t.error, budget.target_error);
+    return most - 1.0;
+  }
+
+  [[nodiscard]] Technique best(const Budget& budget, bool& met) const noexcept {
+    Technique best;
+    double least_excess = std::numeric_limits<double>::infinity();
+    each([&](const Technique& t) {
+      const double over = excess(t, budget);
+      const bool better = budget.target_error > 0.0 ? less(cost(t), t.error, cost(best), best.error)
+                                                    : less(t.error, cost(t), best.error, cost(best));
+      if (best.map_size != 0 && (over > least_excess || (over == least_excess && !better))) return;
+      best = t;
+      least_excess = over;
+    });
+    met = least_excess == 0.0;
+    if (budget.target_error > 0.0 || !met) return best;
+    const double enough = best.error * (1.0 + budget.alike);
+    each([&](const Technique& t) {
+      if (t.error <= enough && excess(t, budget) == 0.0 && less(cost(t), t.error, cost(best), best.error))
+        best = t;
+    });
+    return best;
+  }
+
+  /// The least error for a fifth less cost.
+  [[nodiscard]] Technique cheaper_than(const Technique& chosen) const noexcept {
+    Technique found;
+    each([&](const Technique& t) {
+      if (cost(t) > kTrade * cost(chosen)) return;
+      if (found.map_size == 0 || less(t.error, cost(t), found.error, cost(found))) found = t;
+    });
+    return found;
+  }
+  /// The least cost for a fifth less error.
+  [[nodiscard]] Technique better_than(const Technique& chosen) const noexcept {
+    Technique found;
+    each([&](const Technique& t) {
+      if (t.error > kTrade * chosen.error) return;
+      if (found.map_size == 0 || less(cost(t), t.error, cost(found), found.error)) found = t;
+    });
+    return found;
+  }
+
+ private:
+  static bool less(double a, double tie_a, double b, double tie_b) noexcept {
+    return a < b || (a == b && tie_a < tie_b);
+  }
+
+  [[nodiscard]] Technique priced(const Parametrization& p, int size, std::size_t filter) const noexcept {
+    const FilterCost& f = costs_.filters[filter];
+    // The rim is as many texels at any size.
+    const double margin = 2.0 * p.margin_share * kReferenceSize;
+    const double usable = std::max(size - margin, 1.0);
+    Technique t{p.warp, p.split, p.cascades, size, static_cast<int>(filter)};
+    const double m = p.m * (kReferenceSize - margin) / usable;
+    // Neither nothing nor what has no end has a logarithm.
+    const bool has_power = f.error_power != 1.0 && m > 0.0 && std::isfinite(m);
+    t.error = f.error_ratio * (has_power ? elementary::pow(m, f.error_power) : m);
+    PlanWork work = p.work;
+    const double growth = static_cast<double>(size) * size / (kReferenceSize * kReferenceSize);
+    work.megatexels *= growth;
+    work.megatexels_tested *= growth;
+    t.texels = static_cast<std::int64_t>(p.work.maps) * size * size;
+    t.bytes = static_cast<std::int64_t>(std::llround(static_cast<double>(t.texels) * f.bytes_per_texel));
+    t.milliseconds = drawing_ms(costs_.drawing, work) + f.prefilter_ms_per_map * work.maps +
+                     f.prefilter_ms_per_megatexel * work.megatexels + f.lookup_ms_per_megapixel * megapixels_;
+    return t;
+  }
+
+  template <class Visit>
+  void each(Visit&& visit) const noexcept {
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (const int size : sizes_) {
+        for (std::size_t filter = 0; filter < costs_.filters.size(); ++filter)
+          visit(priced(all_[i], size, filter));
+      }
+    }
+  }
+
+  const CostModel& costs_;
+  std::span<const int> sizes_;
+  double megapixels_;
+  bool any_time_ = false;
+  std::array<Parametrization, TechniqueSet::kMost> all_;
+  std::size_t count_ = 0;
+};
+
+PlanOptions options_of(const PlanOptions& base, const Technique& t) noexcept {
+  PlanOptions options = base;
+  options.warp.warp = t.warp;
+  options.split.scheme = t.split;
+  options.cascades = t.cascades;
+  options.resolution.max_size = t.map_size;
+  options.resolution.texel_budget = 0;
+  options.resolution.max_error = 0.0;
+  // Sizes are what is chosen among.
+  options.prune = base.prune.without(PruneRule::metric_resolution);
+  // What a small map cannot spare.
+  options.filter.texels = std::min(base.filter.texels, 0.25 * t.map_size);
+  return options;
+}
+
+/// Calls `use` with the index of each caster that the map needs.
+template <typename Use>
+void for_each_caster(const ShadowMap& map, const Boxes& casters, Use&& use) noexcept {
+  if (const CasterSet* set = casters.set(); set != nullptr && set->size() > 0) {
+    for (std::size_t begin = 0; begin < set->size(); begin += kLanes) {
+      const CasterBlock& block = set->block(0, begin / kLanes);
+      std::uint32_t kept = block.occupied;
+      for (int k = 0; k < map.cull_plane_count && kept != 0; ++k)
+        kept &= ~lanes<Ask::outside>(map.cull_planes[static_cast<std::size_t>(k)], block);
+      for_each_bit(kept, [&](std::size_t lane) { use(set->index(begin + lane)); });
+    }
+  }
+  constexpr std::size_t kBlock = 256;
+  std::array<std::uint32_t, kBlock> kept;
+  const std::span<const Box> list = casters.list();
+  for (std::size_t begin = 0; begin < list.size(); begin += kBlock) {
+    const std::size_t size = std::min(kBlock, list.size() - begin);
+    const std::size_t count = cull_casters(map, list.subspan(begin, size), kept);
+    for (std::size_t i = 0; i < count; ++i) use(begin + kept[i]);
+  }
+}
+
+}  // namespace
+
+double planned_error(const ShadowPlan& plan, const Camera& camera, const SceneBounds& bounds,
+                     const SceneDetail& detail) noexcept {
+  const AliasingStats seen = measure_seen(plan, camera, detail.seen_world);
+  return seen.samples > 0 ? seen.mean : measure(plan, camera, bounds, kGrid).mean;
+}
+
+PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds, const SceneDetail& detail) noexcept {
+  PlanWork work;
+  std::size_t draws = 0;
+  for (const ShadowMap& map : plan.maps()) {
+    const double megatexels = static_cast<double>(map.width) * map.height / kMega;
+    double triangles = 0.0, tested = 0.0;
+    for_each_caster(map, bounds.casters, [&](std::size_t caster) {
+      ++draws;
+      if (caster >= detail.work.size()) return;
+      triangles += detail.work[caster].triangles;
+      tested += detail.work[caster].alpha_tested ? detail.work[caster].triangles : 0.0;
+    });
+    work.maps += 1.0;
+    work.megatexels += megatexels;
+    work.megatriangles += triangles / kMega;
+    work.megatexels_tested += triangles > 0.0 ? tested / triangles * megatexels : 0.0;
+  }
+  work.kilodraws = static_cast<double>(draws) / kKilo;
+  return work;
+}
+
+TechniqueChoice choose_technique(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                                 const SceneDetail& detail, const TechniqueSet& among, const Budget& budget,
+                                 const CostModel& costs, const PlanOptions& base) noexcept {
+  TechniqueChoice choice;
+  choice.invalid_field = broken(budget, costs, among);
+  if (!choice.invalid_field.empty()) return choice;
+  Choosing choosing(camera, costs, given_or(among.map_sizes, kSizes));
+  const bool positional = !std::holds_alternative<DirectionalLight>(light);
+  const std::span<const int> cascades = given_or(among.cascades, kCascades);
+  for (const Warp* warp : given_or(among.warps, kWarps)) {
+    for (const SplitScheme split : given_or(among.splits, kSplits)) {
+      for (const int count : positional ? cascades.first(1) : cascades) {
+        if (choosing.full()) break;
+        Technique t{warp, split, count, kReferenceSize};
+        const PlanOptions options = options_of(base, t);
+        const ShadowPlan plan = make_plan(camera, light, bounds, options, detail.visible_depths);
+        if (plan.status != PlanStatus::ok) {
+          choice.status = plan.status;
+          choice.invalid_field = plan.invalid_field;
+          choice.plan = plan;
+          return choice;
+        }
+        Parametrization p{warp,  split,
+                          count, planned_error(plan, camera, bounds, detail),
+                          0.0,   planned_work(plan, bounds, detail)};
+        for (const ShadowMap& map : plan.maps())
+          p.margin_share =
+              std::max(p.margin_share, static_cast<double>(map.filter_margin_texels) / kReferenceSize);
+        choosing.add(p);
+      }
+    }
+  }
+  choice.chosen = choosing.best(budget, choice.met);
+  choice.cheaper = choosing.cheaper_than(choice.chosen);
+  choice.better = choosing.better_than(choice.chosen);
+  choice.tried = choosing.tried();
+  choice.options = options_of(base, choice.chosen);
+  choice.plan = make_plan(camera, light, bounds, choice.options, detail.visible_depths);
+  choice.status = choice.plan.status;
+  choice.invalid_field = choice.plan.invalid_field;
+  return choice;
+}
+
+}  // namespace gnomon

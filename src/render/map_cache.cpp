@@ -1,0 +1,132 @@
+// Three ways to bring a map up to date: draw it whole, add what it lacks, or scroll it and draw the strips.
+#include "map_cache.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frame_block.hpp"
+
+namespace gnomon::render {
+namespace {
+
+/// Cost of setting up a triangle, in texels filled: 0.25 us to 5 ns in software.
+constexpr std::uint64_t kTexelsPerTriangle = 50;
+
+}  // namespace
+
+MapCache::MapCache(const SceneBuffers& scene, CasterCulling& culling)
+    : scene_(scene), culling_(culling), draws_(scene.boxes().size()) {
+  for (Cached& cached : cached_) cached.holds.resize(scene.boxes().size());
+  for (std::vector<std::uint8_t>& draws : strip_draws_) draws.resize(scene.boxes().size());
+}
+
+void MapCache::forget() noexcept {
+  for (Cached& cached : cached_) cached.valid = false;
+}
+
+bool MapCache::draws_any() const noexcept {
+  return std::any_of(draws_.begin(), draws_.end(), [](std::uint8_t d) { return d != 0; });
+}
+
+std::uint64_t MapCache::skip_held(const ShadowMap& map, Cached& cached, PruneSaving& saved) {
+  double texels = 0.0;
+  for (std::uint32_t i = 0; i < draws_.size(); ++i) {
+    if (draws_[i] == 0) continue;
+    if (cached.holds[i] != 0) {
+      draws_[i] = 0;
+      ++saved.instances;
+      saved.triangles += scene_.triangles_of(i);
+      continue;
+    }
+    cached.holds[i] = 1;
+    const std::optional<TexelExtent> extent = extent_in_map(map, scene_.boxes()[i]);
+    texels += extent ? extent->area() : static_cast<double>(texels_of(map));
+  }
+  return std::min(static_cast<std::uint64_t>(std::ceil(texels)), texels_of(map));
+}
+
+MapWork MapCache::draw_whole(const ShadowMap& map, Cached& cached) {
+  cached.holds = draws_;
+  cached.age = -1;
+  MapWork work;
+  work.add({{0, 0, map.width, map.height}, true, draws_});
+  work.texels = texels_of(map);
+  return work;
+}
+
+MapWork MapCache::hold(const ShadowMap& map, Cached& cached, PruneSavings& saved) {
+  MapWork work;
+  PruneSaving& saving = saved.of(PruneRule::held_maps);
+  work.texels = skip_held(map, cached, saving);
+  saving.texels += texels_of(map) - work.texels;
+  if (draws_any())
+    work.add({{0, 0, map.width, map.height}, false, draws_});
+  else
+    ++saving.maps;
+  return work;
+}
+
+MapWork MapCache::scroll(const CullingJob& job, const ShadowMap& map, const MapReuse& moved, Cached& cached,
+                         PruneSavings& saved) {
+  MapWork work;
+  work.move = {moved.shift_x, moved.shift_y, moved.kept};
+  PruneSaving drawn;
+  std::uint64_t held_triangles = 0;
+  for (std::uint32_t i = 0; i < draws_.size(); ++i) {
+    if (job.reads_everywhere && draws_[i] == 0) cached.holds[i] = 0;
+    if (draws_[i] != 0 && cached.holds[i] != 0) held_triangles += scene_.triangles_of(i);
+  }
+  for (std::size_t s = 0; s < static_cast<std::size_t>(moved.strip_count); ++s) {
+    const TexelRect& strip = moved.strip[s];
+    std::vector<std::uint8_t>& draws = strip_draws_[s];
+    std::fill(draws.begin(), draws.end(), std::uint8_t{0});
+    for (const std::uint32_t instance :
+         culling_.instances_within(rectangle_planes(map, strip, kOpenGlZeroToOne))) {
+      if (draws_[instance] == 0) {
+        cached.holds[instance] = 0;  // in the rest of the map, but not here
+      } else if (cached.holds[instance] != 0) {
+        draws[instance] = 1;
+        ++drawn.instances;
+        drawn.triangles += scene_.triangles_of(instance);
+      }
+    }
+    work.add({strip, true, draws});
+    work.texels += static_cast<std::uint64_t>(strip.width) * static_cast<std::uint64_t>(strip.height);
+  }
+  // Large casters are drawn into either strip: not worth it where that takes more than the texels give.
+  const std::uint64_t spared = texels_of(map) - std::min(work.texels, texels_of(map));
+  if (drawn.triangles > held_triangles + spared / kTexelsPerTriangle) return draw_whole(map, cached);
+  PruneSaving& saving = saved.of(PruneRule::scrolled_maps);
+  work.texels = std::min(work.texels + skip_held(map, cached, saving), texels_of(map));
+  if (draws_any()) work.add({{0, 0, map.width, map.height}, false, draws_});
+  saving.texels += texels_of(map) - work.texels;
+  saved.spent_by(PruneRule::scrolled_maps).instances += drawn.instances;
+  saved.spent_by(PruneRule::scrolled_maps).triangles += drawn.triangles;
+  return work;
+}
+
+MapWork MapCache::update(const CachedDraw& draw, PruneSavings& saved) {
+  const CullingJob& job = draw.job;
+  draws_.assign(draw.casters.begin(), draw.casters.end());
+  Cached& cached = cached_[draw.index];
+  const DrawnMap& drawn = draw.drawn.map[draw.index];
+  ShadowMap map = job.plan.map[draw.index];
+  map.clip_from_world = drawn_from_plan_clip(job.plan.clip_space) * map.clip_from_world;
+  const bool usable = cached.valid && cached.origin_world == draw.drawn.origin_world;
+  const bool holds = usable && job.prune.has(PruneRule::held_maps) && cached.drawn == drawn &&
+                     (!job.reads_everywhere || cached.holds == draws_);
+  const MapReuse moved = usable && !holds && job.prune.has(PruneRule::scrolled_maps)
+                             ? reuse(cached.map, map, kOpenGlZeroToOne)
+                             : MapReuse{};
+  MapWork work = holds                               ? hold(map, cached, saved)
+                 : moved.kind == ReuseKind::scrolled ? scroll(job, map, moved, cached, saved)
+                                                     : draw_whole(map, cached);
+  cached.valid = true;
+  cached.origin_world = draw.drawn.origin_world;
+  cached.drawn = drawn;
+  cached.map = map;
+  work.age = ++cached.age;
+  return work;
+}
+
+}  // namespace gnomon::render

@@ -1,0 +1,87 @@
+// What does a map still hold from earlier frames, and what is left to draw into it?
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "caster_culling.hpp"
+#include "drawn_maps.hpp"
+#include "gnomon/reuse.hpp"
+
+namespace gnomon::render {
+
+/// Casters to be drawn into a rectangle of a map, by instance: 1 or 0.
+struct MapPart {
+  TexelRect rectangle;
+  bool clear = true;  ///< false: what the rectangle holds stays right
+  std::span<const std::uint8_t> draws;
+};
+/// What of a map is somewhere else in it now: `kept`, where it is to go.
+struct MapMove {
+  int shift_x = 0, shift_y = 0;  ///< texels
+  TexelRect kept;
+  [[nodiscard]] bool any() const noexcept { return shift_x != 0 || shift_y != 0; }
+};
+/// What is to be done with a map: first what it holds is moved, then the parts are drawn. Neither: the map is
+/// as it was.
+struct MapWork {
+  static constexpr std::size_t kMaxParts = 3;  ///< two strips, and what came into reach anywhere
+  MapMove move;
+  std::array<MapPart, kMaxParts> part;
+  std::size_t part_count = 0;
+  std::uint64_t texels = 0;  ///< that drawing touches, at most
+  int age = 0;               ///< frames since all of it was drawn
+
+  [[nodiscard]] std::span<const MapPart> parts() const noexcept { return {part.data(), part_count}; }
+  void add(const MapPart& of) noexcept { part[part_count++] = of; }
+};
+
+/// A frame's map, and what culling left of its casters.
+struct CachedDraw {
+  const CullingJob& job;
+  const DrawnMaps& drawn;
+  std::size_t index = 0;
+  std::span<const std::uint8_t> casters;
+};
+
+class MapCache {
+ public:
+  /// `culling` finds the casters of a strip; it must outlive the cache.
+  MapCache(const SceneBuffers& scene, CasterCulling& culling);
+
+  /// The maps hold nothing any more.
+  void forget() noexcept;
+  /// What to draw so that the map is as if drawn whole. Records what the map holds after that. Valid until
+  /// the next call.
+  [[nodiscard]] MapWork update(const CachedDraw& draw, PruneSavings& saved);
+
+ private:
+  struct Cached {
+    bool valid = false;
+    int age = 0;  ///< frames since it was drawn whole
+    glm::dvec3 origin_world{0.0};
+    DrawnMap drawn;
+    ShadowMap map;                    ///< in the clip space that it was drawn in
+    std::vector<std::uint8_t> holds;  ///< by instance
+  };
+  // `map`: in the clip space that it is drawn in.
+  [[nodiscard]] MapWork draw_whole(const ShadowMap& map, Cached& cached);
+  /// For an unchanged map: the casters that it does not hold yet.
+  [[nodiscard]] MapWork hold(const ShadowMap& map, Cached& cached, PruneSavings& saved);
+  /// The strips that came into the map, and casters that the rest of it does not hold yet.
+  [[nodiscard]] MapWork scroll(const CullingJob& job, const ShadowMap& map, const MapReuse& moved,
+                               Cached& cached, PruneSavings& saved);
+  /// Removes the casters that `cached` holds from draws_. Returns how many texels the others touch at most.
+  [[nodiscard]] std::uint64_t skip_held(const ShadowMap& map, Cached& cached, PruneSaving& saved);
+  [[nodiscard]] bool draws_any() const noexcept;
+
+  const SceneBuffers& scene_;
+  CasterCulling& culling_;
+  std::vector<std::uint8_t> draws_;  ///< of the map at hand, by instance
+  std::array<std::vector<std::uint8_t>, 2> strip_draws_;
+  std::array<Cached, kMaxMaps> cached_;
+};
+
+}  // namespace gnomon::render

@@ -1,0 +1,283 @@
+// Rows to JSON and back.
+#include "gnomon/report/row.hpp"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "json_words.hpp"
+#include "text.hpp"
+
+namespace gnomon::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "gnomon.compare.1";
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json to_json(const Estimate& e) {
+  return {{"median", e.median}, {"low", e.low}, {"high", e.high}};
+}
+
+Json to_json(const Technique& t) {
+  return {{"warp", t.warp}, {"split", t.split},       {"cascades", t.cascades},
+          {"fit", t.fit},   {"map_size", t.map_size}, {"filter", t.filter}};
+}
+
+Json errors_json(const Row& row) {
+  const MaskErrors& e = row.errors;
+  return {{"pixels", e.pixels},       {"undecided_pixels", row.undecided_pixels},
+          {"false_lit", e.false_lit}, {"false_shadow", e.false_shadow},
+          {"truth", row.truth},       {"mean_error", e.mean_error},
+          {"leaking", e.leaking},     {"deep_pixels", e.deep_pixels},
+          {"darkening", e.darkening}, {"open_pixels", e.open_pixels},
+          {"flips", row.flips}};
+}
+
+Json aliasing_json(const PixelAliasing& a) {
+  return {{"p50", number(a.p50)},
+          {"p95", number(a.p95)},
+          {"max", number(a.max)},
+          {"share_undersampled", a.share_undersampled},
+          {"pixels", a.pixels}};
+}
+
+Json costs_json(const Costs& c) {
+  return {{"maps", c.maps},
+          {"draws", c.draws},
+          {"triangles", c.triangles},
+          {"texels", c.texels},
+          {"map_bytes", c.map_bytes}};
+}
+
+Json times_json(const Times& t) {
+  return {{"plan_ns", to_json(t.plan_ns)},
+          {"depth_ms", to_json(t.depth_ms)},
+          {"prefilter_ms", to_json(t.prefilter_ms)},
+          {"shade_ms", to_json(t.shade_ms)},
+          {"total_ms", to_json(t.total_ms)},
+          {"baseline_ms", t.baseline_ms},
+          {"rounds", t.rounds}};
+}
+
+Json left_out_json(const std::vector<LeftOut>& list) {
+  Json array = Json::array();
+  for (const LeftOut& l : list)
+    array.push_back({{"what", l.what},
+                     {"why", l.why},
+                     {"saves_texels", l.saves_texels},
+                     {"rule", l.rule},
+                     {"saves_triangles", l.saves_triangles}});
+  return array;
+}
+
+Json pictures_json(const Pictures& p) {
+  return {{"image", p.image},
+          {"truth", p.truth},
+          {"mask", p.mask},
+          {"difference", p.difference},
+          {"heat", p.heat}};
+}
+
+Json machine_json(const Machine& m) {
+  return {{"renderer", m.renderer}, {"context", m.context}, {"software", m.software}, {"cpu", m.cpu},
+          {"cores", m.cores},       {"load", m.load},       {"version", m.version},   {"rays", m.rays}};
+}
+
+/// What was measured, without what came out.
+Json settings_json(const Row& row) {
+  return {{"scene", row.scene},
+          {"frame", row.frame},
+          {"frames", row.frames},
+          {"width", row.width},
+          {"height", row.height},
+          {"light", row.light},
+          {"light_elevation_deg", row.light_elevation_deg},
+          {"light_azimuth_deg", row.light_azimuth_deg},
+          {"technique", to_json(row.technique)}};
+}
+
+/// All but times and machine.
+Json lasting_json(const Row& row) {
+  Json json{{"schema", kSchema}, {"index", row.index}};
+  json.update(settings_json(row));
+  json["scene_hash"] = row.scene_hash;
+  json["plan_status"] = row.plan_status;
+  json["errors"] = errors_json(row);
+  json["m"] = aliasing_json(row.aliasing);
+  json["costs"] = costs_json(row.costs);
+  json["left_out"] = left_out_json(row.left_out);
+  json["pictures"] = pictures_json(row.pictures);
+  return json;
+}
+
+/// A whole number that fits. The library's own conversion would take 1e300 for an int.
+template <class Whole>
+void get_whole(const Json& json, Whole& out) {
+  const bool is_natural = json.is_number_unsigned();
+  const auto natural = is_natural ? json.get<std::uint64_t>() : 0;
+  const auto integer = json.is_number_integer() && !is_natural ? json.get<std::int64_t>() : 0;
+  if (!json.is_number_integer() ||
+      (is_natural ? !std::in_range<Whole>(natural) : !std::in_range<Whole>(integer)))
+    throw ReportError("a whole number is wanted, not " +
+                      json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  out = is_natural ? static_cast<Whole>(natural) : static_cast<Whole>(integer);
+}
+
+template <class Whole>
+Whole whole_from(const Json& json) {
+  Whole out{};
+  get_whole(json, out);
+  return out;
+}
+
+/// A number whose sums and products stay finite: nothing that was measured is larger.
+double real_from(const Json& json) {
+  constexpr double kLargest = 1e30;
+  const double value = json.get<double>();
+  if (!(std::abs(value) <= kLargest)) throw ReportError("a number is beyond 1e30");
+  return value;
+}
+
+double number_from(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::infinity() : real_from(json);
+}
+
+Estimate estimate_from(const Json& json) {
+  return {real_from(json.at("median")), real_from(json.at("low")), real_from(json.at("high"))};
+}
+
+Technique technique_from(const Json& json) {
+  Technique t;
+  json.at("warp").get_to(t.warp);
+  json.at("split").get_to(t.split);
+  get_whole(json.at("cascades"), t.cascades);
+  json.at("fit").get_to(t.fit);
+  get_whole(json.at("map_size"), t.map_size);
+  json.at("filter").get_to(t.filter);
+  return t;
+}
+
+void errors_from(const Json& json, Row& row) {
+  MaskErrors& e = row.errors;
+  get_whole(json.at("pixels"), e.pixels);
+  get_whole(json.at("undecided_pixels"), row.undecided_pixels);
+  e.false_lit = real_from(json.at("false_lit"));
+  e.false_shadow = real_from(json.at("false_shadow"));
+  json.at("truth").get_to(row.truth);
+  e.mean_error = real_from(json.at("mean_error"));
+  e.leaking = real_from(json.at("leaking"));
+  get_whole(json.at("deep_pixels"), e.deep_pixels);
+  e.darkening = real_from(json.at("darkening"));
+  get_whole(json.at("open_pixels"), e.open_pixels);
+  row.flips = real_from(json.at("flips"));
+}
+
+void results_from(const Json& json, Row& row) {
+  errors_from(json.at("errors"), row);
+  const Json& m = json.at("m");
+  row.aliasing = {number_from(m.at("p50")), number_from(m.at("p95")), number_from(m.at("max")),
+                  real_from(m.at("share_undersampled")), whole_from<std::uint64_t>(m.at("pixels"))};
+  const Json& c = json.at("costs");
+  row.costs = {whole_from<int>(c.at("maps")), whole_from<std::uint64_t>(c.at("draws")),
+               whole_from<std::uint64_t>(c.at("triangles")), whole_from<std::uint64_t>(c.at("texels")),
+               whole_from<std::uint64_t>(c.at("map_bytes"))};
+  for (const Json& l : json.at("left_out")) {
+    LeftOut left{l.at("what").get<std::string>(), l.at("why").get<std::string>(),
+                 whole_from<std::int64_t>(l.at("saves_texels"))};
+    // Rows of an earlier version have none.
+    if (l.contains("rule")) {
+      l.at("rule").get_to(left.rule);
+      left.saves_triangles = whole_from<std::int64_t>(l.at("saves_triangles"));
+    }
+    row.left_out.push_back(std::move(left));
+  }
+  const Json& p = json.at("pictures");
+  p.at("image").get_to(row.pictures.image);
+  p.at("truth").get_to(row.pictures.truth);
+  p.at("mask").get_to(row.pictures.mask);
+  p.at("difference").get_to(row.pictures.difference);
+  p.at("heat").get_to(row.pictures.heat);
+}
+
+void measurement_from(const Json& json, Row& row) {
+  const Json& t = json.at("times");
+  Times& times = row.times;
+  times.plan_ns = estimate_from(t.at("plan_ns"));
+  times.depth_ms = estimate_from(t.at("depth_ms"));
+  times.prefilter_ms = estimate_from(t.at("prefilter_ms"));
+  times.shade_ms = estimate_from(t.at("shade_ms"));
+  times.total_ms = estimate_from(t.at("total_ms"));
+  times.baseline_ms = real_from(t.at("baseline_ms"));
+  get_whole(t.at("rounds"), times.rounds);
+  const Json& m = json.at("machine");
+  Machine& machine = row.machine;
+  m.at("renderer").get_to(machine.renderer);
+  m.at("context").get_to(machine.context);
+  m.at("software").get_to(machine.software);
+  m.at("cpu").get_to(machine.cpu);
+  get_whole(m.at("cores"), machine.cores);
+  machine.load = real_from(m.at("load"));
+  m.at("version").get_to(machine.version);
+  m.at("rays").get_to(machine.rays);
+}
+
+}  // namespace
+
+std::string Technique::name() const {
+  std::string maps = std::to_string(cascades) + " x " + std::to_string(map_size);
+  return warp + " / " + split + (fit == "stable" ? " stable" : "") + " / " + maps + " / " + filter;
+}
+
+std::string Row::key() const {
+  return settings_json(*this).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string to_json_line(const Row& row) {
+  Json json = lasting_json(row);
+  json["times"] = times_json(row.times);
+  json["machine"] = machine_json(row.machine);
+  // Names of scenes and drivers may be in any encoding: what is not UTF-8 is replaced, not thrown at.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string without_times(const Row& row) {
+  return lasting_json(row).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Row row_from_json(const std::string& line, const std::string& where) {
+  try {
+    check_nesting(line);
+    const Json json = Json::parse(line);
+    const std::string schema = json.at("schema").get<std::string>();
+    if (schema != kSchema) throw ReportError("schema '" + schema + "', wanted '" + kSchema + "'");
+    Row row;
+    get_whole(json.at("index"), row.index);
+    json.at("scene").get_to(row.scene);
+    get_whole(json.at("frame"), row.frame);
+    get_whole(json.at("frames"), row.frames);
+    get_whole(json.at("width"), row.width);
+    get_whole(json.at("height"), row.height);
+    json.at("light").get_to(row.light);
+    row.light_elevation_deg = real_from(json.at("light_elevation_deg"));
+    row.light_azimuth_deg = real_from(json.at("light_azimuth_deg"));
+    // Rows of an earlier version have none.
+    if (json.contains("scene_hash")) json.at("scene_hash").get_to(row.scene_hash);
+    row.technique = technique_from(json.at("technique"));
+    json.at("plan_status").get_to(row.plan_status);
+    results_from(json, row);
+    measurement_from(json, row);
+    return row;
+  } catch (const Json::exception& error) {
+    throw ReportError(one_line(where + ": " + json_words(error.what())));
+  } catch (const ReportError& error) {
+    throw ReportError(one_line(where + ": " + error.what()));
+  }
+}
+
+}  // namespace gnomon::report

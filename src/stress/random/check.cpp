@@ -1,0 +1,181 @@
+// What a plan owes its caller, checked in long double against nothing but the case and the plan.
+#include "check.hpp"
+
+#include <algorithm>
+#include <cfenv>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <sstream>
+
+#include "judge.hpp"
+
+namespace gnomon::stress {
+
+const std::vector<Kind>& all_kinds() {
+  static const std::vector<Kind> kKinds{
+      {"refused", "legal input is planned"},
+      {"not_finite", "every number of a plan is finite"},
+      {"floating_point_exception", "no step on the way divides by zero, overflows or is no number"},
+      {"wrong_sign", "sizes, depths and errors have their sign and order"},
+      {"depth_range_not_positive", "depth_range_world is above 0"},
+      {"over_budget", "all maps together have no more texels than texel_budget"},
+      {"error_above_prune_m", "a map is made smaller only as far as its error stays at or below prune_m"},
+      {"nothing_visible_with_receiver", "nothing_visible means that no receiver is in view and lit"},
+      {"no_caster_with_caster", "no_caster means that nothing can shadow a receiver in view"},
+      {"no_map_with_caster", "a receiver that no map holds has no caster before it"},
+      {"receiver_behind_map", "w is above 0 at every receiver that the map serves"},
+      {"receiver_outside_map", "a visible receiver lies inside its map, off the filter margin"},
+      {"receiver_outside_depths", "a visible receiver lies between the map's near and far plane"},
+      {"caster_culled", "cull planes keep every caster between a visible receiver and the light"},
+      {"caster_behind_map", "w is above 0 at every caster between a visible receiver and the light"},
+      {"caster_before_near_plane", "such a caster lies behind the map's near plane"},
+      {"caster_beyond_far_plane", "such a caster lies before the map's far plane"},
+      {"local_nothing_visible_with_receiver", "the same under a spot or point light"},
+      {"local_no_caster_with_caster", "the same under a spot or point light"},
+      {"local_no_map_with_caster", "the same under a spot or point light"},
+      {"local_caster_culled", "the same under a spot or point light"},
+      {"local_caster_before_near_plane", "the same under a spot or point light"},
+      {"matrices_disagree", "clip_from_world and clip_from_camera_relative show a point at one place"},
+      {"metric_wrong", "measure_perspective is the metric's definition, to rounding"},
+      {"texel_larger_than_largest", "no texel of a map's receivers is larger than texel_world_max"},
+      {"empty_box_counts", "a box with min above max takes no part in anything"},
+      {"measure_wrong", "measure() is the metric at the points of its grid"},
+      {"warp_worse_than_none", "a warp that may be dropped is not worse than none by the plan's objective"},
+  };
+  return kKinds;
+}
+
+void Counts::add(const Counts& other) {
+  plans += other.plans;
+  maps += other.maps;
+  receivers += other.receivers;
+  casters += other.casters;
+  unmapped += other.unmapped;
+  measured += other.measured;
+  warps += other.warps;
+}
+
+void Report::add(std::string_view kind, double amount, const std::string& text) {
+  for (Finding& f : verdict_.findings) {
+    if (f.kind != kind) continue;
+    if (amount > f.amount) f = {kind, amount, text};
+    return;
+  }
+  verdict_.findings.push_back({kind, amount, text});
+}
+
+namespace {
+
+std::string map_name(const ShadowMap& map) {
+  return "map " + std::to_string(map.cascade) + " (" + std::string(map.warp->name) + ", " +
+         std::to_string(map.width) + " x " + std::to_string(map.height) + ")";
+}
+
+std::string shown_number(double value) {
+  std::ostringstream text;
+  text.precision(6);
+  text << value;
+  return text.str();
+}
+
+void check_signs(const ShadowMap& map, Report& report) {
+  const auto owe = [&](bool holds, const char* what, double value) {
+    if (!holds)
+      report.add("wrong_sign", std::abs(value), map_name(map) + ": " + what + " " + shown_number(value));
+  };
+  owe(map.width >= 1 && map.height >= 1, "width or height", map.width);
+  owe(map.depth_begin <= map.depth_end, "depth_begin above depth_end", map.depth_begin);
+  owe(map.texel_world.x > 0.0 && map.texel_world.y > 0.0, "texel_world", map.texel_world.x);
+  // The centre is one of the places that the largest is taken over, but for rounding.
+  constexpr double kRounding = 1e-9;
+  owe(map.texel_world_max.x >= map.texel_world.x * (1.0 - kRounding), "texel_world_max.x",
+      map.texel_world_max.x);
+  owe(map.texel_world_max.y >= map.texel_world.y * (1.0 - kRounding), "texel_world_max.y",
+      map.texel_world_max.y);
+  owe(map.kappa >= 0.0, "kappa", map.kappa);
+  owe(map.m_s_max > 0.0 && map.m_t_max > 0.0, "m_s_max", map.m_s_max);
+  owe(map.filter_margin_texels >= 0 && 2 * map.filter_margin_texels < std::min(map.width, map.height),
+      "filter_margin_texels", map.filter_margin_texels);
+  owe(map.cull_plane_count >= 1 && map.cull_plane_count <= kMaxCullPlanes, "cull_plane_count",
+      map.cull_plane_count);
+}
+
+}  // namespace
+
+void check_numbers(const Case&, const ShadowPlan& plan, Report& report) {
+  if (!all_finite(plan)) {
+    report.add("not_finite", 1.0, "a plan of " + std::to_string(plan.map_count) + " maps");
+    return;
+  }
+  for (const ShadowMap& map : plan.maps()) {
+    check_signs(map, report);
+    if (!(map.depth_range_world > 0.0))
+      report.add("depth_range_not_positive", std::abs(map.depth_range_world),
+                 map_name(map) + ": depth_range_world is " + shown_number(map.depth_range_world));
+  }
+}
+
+namespace {
+
+/// What the options say of sizes, read from the text: their names there are a contract.
+void check_sizes(const nlohmann::ordered_json& value, const ShadowPlan& plan, Report& report) {
+  const auto options = value.find("options");
+  if (options == value.end()) return;
+  long long texels = 0;
+  for (const ShadowMap& map : plan.maps()) texels += static_cast<long long>(map.width) * map.height;
+  const long long budget = options->value("texel_budget", 0LL);
+  // Other partitions than by depth do not heed a budget (PlanOptions::texel_budget).
+  if (budget > 0 && texels > budget && !options->contains("partition"))
+    report.add("over_budget", static_cast<double>(texels) / static_cast<double>(budget),
+               std::to_string(texels) + " texels of " + std::to_string(budget));
+  const int size = options->value("map_size", 1024);
+  const double most = options->value("prune_m", 1.0);
+  for (const ShadowMap& map : plan.maps()) {
+    // Each side is shrunk for its own axis; a side that is as large as it may be bounds nothing.
+    const double s = map.width < size ? map.m_s_max : 0.0, t = map.height < size ? map.m_t_max : 0.0;
+    constexpr double kRounding = 1e-9;
+    const bool shortest = std::min(map.width, map.height) <= 16;
+    if (budget == 0 && !shortest && std::max(s, t) > most * (1.0 + kRounding))
+      report.add("error_above_prune_m", std::max(s, t) / most,
+                 map_name(map) + ": m is " + shown_number(std::max(s, t)) + ", not " + shown_number(most));
+  }
+}
+
+}  // namespace
+
+Verdict check_case(const nlohmann::ordered_json& value) {
+  Verdict verdict;
+  Report report(verdict);
+  const Case input = read_case(value.dump());
+  using Clock = std::chrono::steady_clock;
+  constexpr int kExceptions = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+  std::feclearexcept(kExceptions);
+  const auto begin = Clock::now();
+  const ShadowPlan plan = make_plan(input.camera, input.light, input.bounds(), input.options);
+  verdict.plan_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  const int raised = std::fetestexcept(kExceptions);
+  std::feclearexcept(kExceptions);
+  ++verdict.counts.plans;
+  verdict.counts.maps += plan.map_count;
+  if (plan.status == PlanStatus::invalid_input) {
+    report.add("refused", 1.0, std::string(plan.invalid_field));
+    return verdict;
+  }
+  if (raised != 0)
+    report.add("floating_point_exception", 1.0,
+               "make_plan raises" + std::string((raised & FE_INVALID) ? " invalid" : "") +
+                   ((raised & FE_DIVBYZERO) ? " division by zero" : "") +
+                   ((raised & FE_OVERFLOW) ? " overflow" : ""));
+  check_numbers(input, plan, report);
+  check_sizes(value, plan, report);
+  const bool numbers = std::none_of(verdict.findings.begin(), verdict.findings.end(),
+                                    [](const Finding& f) { return f.kind == "not_finite"; });
+  if (!numbers) return verdict;
+  check_points(input, plan, report);
+  check_metric(input, plan, report);
+  check_warp(value, report);
+  return verdict;
+}
+
+}  // namespace gnomon::stress

@@ -1,0 +1,61 @@
+// What a plan owes its caller, checked in long double against nothing but the case and the plan.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gnomon/casefile/casefile.hpp"
+
+namespace gnomon::stress {
+
+/// A promise that a plan breaks.
+struct Finding {
+  std::string_view kind;  ///< in snake_case; every promise has its own, the list is in all_kinds()
+  double amount = 0.0;    ///< how badly, in the unit that `text` names; larger is worse
+  std::string text;       ///< what happened where, on one line
+};
+
+/// A kind of finding, with the promise that it breaks.
+struct Kind {
+  std::string_view name, promise;
+};
+[[nodiscard]] const std::vector<Kind>& all_kinds();
+
+/// What was looked at, so that nothing passes for lack of checks.
+struct Counts {
+  long long plans = 0, maps = 0, receivers = 0, casters = 0, unmapped = 0, measured = 0, warps = 0;
+  void add(const Counts& other);
+};
+
+struct Verdict {
+  std::vector<Finding> findings;  ///< at most one of each kind: the worst
+  Counts counts;
+  double plan_ms = 0.0;  ///< time of make_plan
+};
+
+/// Checks the case of this JSON text; throws CaseError where it is no case.
+[[nodiscard]] Verdict check_case(const nlohmann::ordered_json& value);
+
+// The parts of check_case.
+class Report {
+ public:
+  explicit Report(Verdict& verdict) : verdict_(verdict) {}
+  /// Keeps the worst of each kind.
+  void add(std::string_view kind, double amount, const std::string& text);
+  [[nodiscard]] Counts& counts() { return verdict_.counts; }
+
+ private:
+  Verdict& verdict_;
+};
+/// The numbers of each map and of the plan as a whole.
+void check_numbers(const Case& input, const ShadowPlan& plan, Report& report);
+/// Receivers in their maps, casters kept and within the depths, world and camera-relative matrices alike.
+void check_points(const Case& input, const ShadowPlan& plan, Report& report);
+/// The metric against its definition.
+void check_metric(const Case& input, const ShadowPlan& plan, Report& report);
+/// That a warp which may be dropped lowers the objective.
+void check_warp(const nlohmann::ordered_json& value, Report& report);
+
+}  // namespace gnomon::stress

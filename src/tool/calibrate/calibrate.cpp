@@ -1,0 +1,139 @@
+// `gnomon calibrate`: what shadows cost on this machine, fitted to a sweep, and held against others.
+#include <fmt/core.h>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "compare/compare.hpp"
+#include "gnomon/report/cost_model.hpp"
+#include "gnomon/report/rows_file.hpp"
+#include "output.hpp"
+#include "planner_check.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+struct CalibrateRequest {
+  std::vector<std::string> folders;  ///< with results.jsonl; empty: a sweep is measured first
+  std::string model = "out/cost_model.json";
+  bool check = false;  ///< the model is read and held against the folders, else fitted to them and written
+  std::string out = "out/calibrate";  ///< of the sweep that is measured
+  std::string context = "auto";
+  bool json = false;
+};
+
+/// What every frame of a folder's rows is measured with first where there is none: small, but with all that
+/// costs may depend on.
+CompareRequest own_sweep(const CalibrateRequest& request) {
+  CompareRequest sweep;
+  sweep.scenes = {"builtin:city", "builtin:fence", "builtin:hangar", "builtin:terrain", "builtin:trees"};
+  sweep.warps = {"none", "optimal"};
+  sweep.filters = {"hard", "pcf", "pcss", "vsm", "evsm4", "msm"};
+  sweep.cascades = {"1", "3"};
+  sweep.map_sizes = {"512", "1024"};
+  sweep.frames = 1;
+  sweep.rounds = 3;
+  sweep.size = "320x180";
+  sweep.out = request.out;
+  sweep.context = request.context;
+  return sweep;
+}
+
+void print_model(const report::StoredCostModel& m, const std::string& file) {
+  const DrawingCosts& d = m.drawing;
+  print_line(fmt::format(
+      "# {}\nms = {:.3f} + {:.3f} per map + {:.3f} per million texels + {:.3f} per thousand draws + "
+      "{:.3f} per million triangles + {:.3f} per million texels of alpha-tested casters",
+      m.machine, d.per_frame, d.per_map, d.per_megatexel, d.per_kilodraw, d.per_megatriangle,
+      d.per_megatexel_tested));
+  print_line(
+      "\n| filter | prefilter ms per map | per million texels | look-up ms per million pixels | "
+      "bytes per texel | error at m = 1 | power of m |\n|--|--:|--:|--:|--:|--:|--:|");
+  for (const auto& [name, c] : m.filters) {
+    print_line(fmt::format("| {} | {:.3f} | {:.3f} | {:.2f} | {:.0f} | {:.3f} | {:.3f} |", name,
+                           c.prefilter_ms_per_map, c.prefilter_ms_per_megatexel, c.lookup_ms_per_megapixel,
+                           c.bytes_per_texel, c.error_ratio, c.error_power));
+  }
+  print_line(
+      fmt::format("\nmean relative error of the fit: depth {:.0f} %, prefilter {:.0f} %, look-up {:.0f} %",
+                  100.0 * m.depth_error, 100.0 * m.prefilter_error, 100.0 * m.lookup_error));
+  print_line("model: " + file);
+}
+
+int fit(const CalibrateRequest& request, const std::vector<report::Row>& rows, bool json) {
+  std::vector<report::Observation> observations;
+  for (const View& view : views_of(rows)) {
+    const Replanned replanned(view);
+    for (const report::Row& row : view.rows) observations.push_back(replanned.observe(row));
+  }
+  const report::Machine& machine = rows.front().machine;
+  const report::StoredCostModel model =
+      report::fit_costs(observations, machine.renderer + "; " + machine.cpu);
+  const std::filesystem::path folder = std::filesystem::path(request.model).parent_path();
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  report::save_cost_model(model, request.model);
+  if (json) {
+    print_line(nlohmann::json{{"model", request.model}, {"rows", rows.size()}}.dump());
+  } else {
+    print_model(model, request.model);
+  }
+  return 0;
+}
+
+/// Prints what was fitted, or the planner's picks beside the measured front. Throws std::runtime_error.
+int run_calibrate(const CalibrateRequest& request, bool json) {
+  std::vector<std::string> folders = request.folders;
+  if (folders.empty()) {
+    if (request.check) throw std::runtime_error("--check: wants folders with results to be held against");
+    if (std::filesystem::exists(std::filesystem::path(request.out) / report::kRowsFile))
+      throw std::runtime_error(request.out + ": was measured already: gnomon calibrate " + request.out +
+                               " fits to that; another --out measures anew");
+    (void)compare(own_sweep(request));
+    folders.push_back(request.out);
+  }
+  std::vector<report::Row> rows;
+  for (const std::string& folder : folders) {
+    const std::vector<report::Row> more = report::read_rows(folder);
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
+  if (rows.empty()) throw std::runtime_error("no results to calibrate with");
+  const int code = request.check ? check_planner(report::load_cost_model(request.model), rows, json)
+                                 : fit(request, rows, json);
+  flush_output();
+  return code;
+}
+
+}  // namespace
+
+std::function<int()> declare_calibrate(Arguments& arguments) {
+  const auto request = std::make_shared<CalibrateRequest>();
+  arguments.options = {
+      {.name = "DIR",
+       .target = &request->folders,
+       .help = "folders with results.jsonl; none: a sweep is measured first",
+       .completion = Completion::folders},
+      {.name = "--model",
+       .target = &request->model,
+       .help = "the cost model, written, or read by --check",
+       .completion = Completion::files},
+      {.name = "--check",
+       .target = &request->check,
+       .help = "hold the model's picks against what the folders measured"},
+      {.name = "--out",
+       .target = &request->out,
+       .help = "folder of the sweep that is measured first",
+       .completion = Completion::folders},
+      {.name = "--context",
+       .target = &request->context,
+       .help = "of that sweep: auto, osmesa or egl",
+       .names = {"auto", "osmesa", "egl"}},
+      {.name = "--json", .target = &request->json, .help = "print what was done as one line of JSON"}};
+  return [request] { return run_calibrate(*request, request->json); };
+}
+
+}  // namespace gnomon::tool

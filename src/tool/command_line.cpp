@@ -1,0 +1,257 @@
+// Reads the command line by a program's tables. CLI11, slow to compile, is seen by this file alone.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+
+#include "command.hpp"
+#include "gnomon/casefile/casefile.hpp"
+#include "interrupt.hpp"
+#include "output.hpp"
+#include "shell_texts.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+constexpr int kBadInput = 2;
+constexpr int kInternalFault = 1;
+
+std::string_view g_program = "gnomon";
+
+int complain(const std::string& what, int code) {
+  std::fprintf(stderr, "%.*s: %s\n", static_cast<int>(g_program.size()), g_program.data(), what.c_str());
+  return code;
+}
+
+template <class Number>
+CLI::Validator range_check(const std::array<double, 2>& range) {
+  return CLI::Range(static_cast<Number>(range[0]), static_cast<Number>(range[1]));
+}
+
+CLI::Option* bind_parsed(CLI::App& app, const Option& option, const ParsedWord& parsed) {
+  const auto set = [option, parsed](const std::string& text) {
+    if (!parsed.set(text)) refuse_name(option.name, text, option.names);
+  };
+  return app.add_option_function<std::string>(option.name, set, option.help)->default_str(parsed.shown);
+}
+
+/// Declares the option's target, with the checks that its type has.
+CLI::Option* bind(CLI::App& app, const Option& option) {
+  const auto to = [&]<class Value>(Value* value) -> CLI::Option* {
+    if constexpr (std::is_same_v<Value, bool>) {
+      return app.add_flag(option.name, *value, option.help);
+    } else {
+      CLI::Option* bound = app.add_option(option.name, *value, option.help);
+      bool has_default = true;
+      if constexpr (requires { value->empty(); }) has_default = !value->empty();
+      if (has_default) bound->capture_default_str();
+      if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, std::vector<int>>) {
+        if (option.range) bound->check(range_check<int>(*option.range));
+      } else if constexpr (std::is_same_v<Value, std::uint64_t>) {
+        if (option.range) bound->check(range_check<std::uint64_t>(*option.range));
+      } else if constexpr (std::is_same_v<Value, double>) {
+        if (option.range) bound->check(range_check<double>(*option.range));
+        // CLI::Range lets not-a-number through.
+        bound->check([name = option.name](const std::string& text) {
+          double number = 0.0;
+          if (CLI::detail::lexical_cast(text, number) && std::isnan(number))
+            throw std::runtime_error(name + " nan: wants a number");
+          return std::string();
+        });
+      }
+      return bound;
+    }
+  };
+  return std::visit(
+      [&](const auto& target) -> CLI::Option* {
+        if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(target)>>) {
+          return to(target);
+        } else {
+          return bind_parsed(app, option, target);
+        }
+      },
+      option.target);
+}
+
+void declare_option(CLI::App& app, const Option& option) {
+  CLI::Option* bound = bind(app, option);
+  if (!option.word.empty()) bound->type_name(option.word);
+  if (option.required) bound->required();
+  if (option.delimiter != '\0') bound->delimiter(option.delimiter);
+  if (option.words > 0) bound->expected(option.words);
+  const bool checked = !option.names.empty() && option.only_names;
+  if (checked && !std::holds_alternative<ParsedWord>(option.target)) {
+    bound->check([option](const std::string& text) {
+      if (std::find(option.names.begin(), option.names.end(), text) == option.names.end())
+        refuse_name(option.name, text, option.names);
+      return std::string();
+    });
+  }
+}
+
+void declare_options(CLI::App& app, const Arguments& arguments) {
+  for (const Option& option : arguments.options) declare_option(app, option);
+  for (const Option& option : arguments.options) {
+    if (!option.needs.empty()) app.get_option(option.name)->needs(app.get_option(option.needs));
+    if (!option.excludes.empty()) app.get_option(option.name)->excludes(app.get_option(option.excludes));
+  }
+  app.footer(arguments.footer);
+}
+
+void note_given(const CLI::App& app, const Arguments& arguments) {
+  for (const Option& option : arguments.options) {
+    if (option.given != nullptr) *option.given = app.count(option.name) > 0;
+  }
+}
+
+std::vector<std::string> option_names(const Arguments& arguments) {
+  std::vector<std::string> names{"--help", "--version"};
+  for (const Option& option : arguments.options) {
+    if (option.name.starts_with('-')) names.push_back(option.name);
+  }
+  return names;
+}
+
+std::string bad_usage(const CLI::App& app, const Arguments& arguments, const CLI::ParseError& error) {
+  for (const std::string& extra : app.remaining(true)) {
+    const std::string word = extra.substr(0, extra.find('='));
+    const std::string near = word.starts_with("--") ? nearest_name(word, option_names(arguments)) : "";
+    if (!near.empty())
+      return "there is no option '" + one_line(word, 80) + "'; did you mean '" + near + "'? (see --help)";
+  }
+  std::string what = error.what();
+  return one_line(what.substr(0, what.find('\n')), 400) + " (see --help)";
+}
+
+/// Nothing where the command line asked for help or the version, which is printed.
+bool parse(CLI::App& app, const CLI::App& command, const Arguments& arguments, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success))
+      throw std::runtime_error(bad_usage(command, arguments, error));
+    app.exit(error);
+    std::cout.flush();
+    if (!std::cout) throw std::runtime_error("standard output cannot be written");
+    return false;
+  }
+  note_given(command, arguments);
+  return true;
+}
+
+std::string version_of(const Program& program) {
+  return std::string(program.name) + " " + GNOMON_VERSION;
+}
+
+void declare_texts(CLI::App& app) {
+  // Read before the parser sees them; declared for --help.
+  app.add_option("--completion")
+      ->description("print a completion script for bash, zsh or fish")
+      ->type_name("SHELL");
+  app.add_option("--manual")
+      ->description("print the manual page, of a command where one is named")
+      ->type_name("[COMMAND]");
+}
+
+int run_single(const Program& program, int argc, char** argv) {
+  CLI::App app(std::string(program.summary), std::string(program.name));
+  app.set_version_flag("--version", version_of(program));
+  Arguments arguments;
+  const std::function<int()> run = program.commands.front().declare(arguments);
+  declare_options(app, arguments);
+  declare_texts(app);
+  return parse(app, app, arguments, argc, argv) ? run() : 0;
+}
+
+const Command* find_command(const Program& program, std::string_view name) {
+  const auto at = std::find_if(program.commands.begin(), program.commands.end(),
+                               [&](const Command& command) { return command.name == name; });
+  return at == program.commands.end() ? nullptr : &*at;
+}
+
+[[noreturn]] void refuse_command(const Program& program, const std::string& word) {
+  std::vector<std::string> names;
+  for (const Command& command : program.commands) names.emplace_back(command.name);
+  // CLI11 would only say that a command is missing.
+  throw std::runtime_error("there is no command '" + one_line(word, 80) + "'" + meant(word, names) +
+                           " (see --help)");
+}
+
+int run_command(const Program& program, int argc, char** argv) {
+  CLI::App app(std::string(program.summary), std::string(program.name));
+  app.set_version_flag("--version", version_of(program));
+  declare_texts(app);
+  app.require_subcommand(1);
+  const std::string word = argc > 1 ? argv[1] : "";
+  const Command* chosen = find_command(program, word);
+  if (chosen == nullptr && !word.empty() && !word.starts_with('-')) refuse_command(program, word);
+  if (chosen != nullptr && chosen->declare == nullptr)
+    throw std::runtime_error(word + ": this program was built without " + std::string(chosen->missing));
+  Arguments arguments;
+  std::function<int()> run;
+  CLI::App* parsed = &app;
+  for (const Command& command : program.commands) {
+    const std::string lacks =
+        command.declare == nullptr ? " (not in this build: " + std::string(command.missing) + ")" : "";
+    CLI::App* added = app.add_subcommand(std::string(command.name), std::string(command.summary) + lacks);
+    if (&command != chosen) continue;
+    added->set_version_flag("--version", version_of(program));
+    run = command.declare(arguments);
+    declare_options(*added, arguments);
+    parsed = added;
+  }
+  return parse(app, *parsed, arguments, argc, argv) ? run() : 0;
+}
+
+/// True where the command line asks for a text that the tables become, which is then printed.
+bool print_text(const Program& program, int argc, char** argv) {
+  const std::string what = argc > 1 ? argv[1] : "", of = argc > 2 ? argv[2] : "";
+  std::string text;
+  if (what == "--completion") {
+    text = completion_script(program, of);
+  } else if (what == "--manual") {
+    const Command* command = of.empty() ? nullptr : find_command(program, of);
+    if (!of.empty() && (command == nullptr || command->declare == nullptr)) refuse_command(program, of);
+    text = manual_page(program, command);
+  } else {
+    return false;
+  }
+  text.pop_back();  // the end of the last line, which print_line() adds
+  print_line(text);
+  flush_output();
+  return true;
+}
+
+}  // namespace
+
+std::string_view program_name() noexcept {
+  return g_program;
+}
+
+void warn(const std::string& what) {
+  std::fprintf(stderr, "%.*s: warning: %s\n", static_cast<int>(g_program.size()), g_program.data(),
+               what.c_str());
+}
+
+int run_program(const Program& program, int argc, char** argv) {
+  g_program = program.name;
+  // A reader that leaves early, and a file that may not grow, are errors to report, not signals to die of.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    if (print_text(program, argc, argv)) return 0;
+    return program.single ? run_single(program, argc, argv) : run_command(program, argc, argv);
+  } catch (const Interrupted&) {
+    return complain("interrupted", kInterrupted);
+  } catch (const std::runtime_error& error) {  // the world outside: files, cases, pipes
+    return complain(error.what(), kBadInput);
+  } catch (const std::exception& error) {
+    return complain(std::string("internal fault: ") + error.what(), kInternalFault);
+  }
+}
+
+}  // namespace gnomon::tool

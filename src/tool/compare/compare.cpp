@@ -1,0 +1,298 @@
+// `gnomon compare`: every technique of a sweep on every frame of every scene, a row of results each.
+#include "compare.hpp"
+
+#include <array>
+#include <cinttypes>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "command.hpp"
+#include "frame_pictures.hpp"
+#include "gnomon/report/page.hpp"
+#include "gnomon/report/rows_file.hpp"
+#include "gnomon/scene/load.hpp"
+#include "interrupt.hpp"
+#include "machine.hpp"
+#include "measure.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "scene_words.hpp"
+#include "stage.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A row of the sweep that is still to be measured.
+struct Task {
+  std::size_t entry = 0;
+  report::Row row;
+};
+
+report::Row empty_row(const Sweep& sweep, std::size_t scene, int frame, std::size_t entry) {
+  report::Row row;
+  row.index = sweep.index(scene, frame, entry);
+  row.scene = sweep.scenes[scene];
+  row.frame = frame;
+  row.frames = sweep.frames;
+  row.width = sweep.width;
+  row.height = sweep.height;
+  row.light = to_string(sweep.light.kind);
+  row.light_elevation_deg = sweep.light.elevation_deg;
+  row.light_azimuth_deg = sweep.light.azimuth_deg;
+  row.technique = sweep.entries[entry].technique;
+  return row;
+}
+
+/// Rows of a frame that are this shard's and not yet in the file.
+std::vector<Task> tasks_of(const Sweep& sweep, std::size_t scene, int frame,
+                           const std::set<std::string>& known) {
+  std::vector<Task> tasks;
+  std::set<std::string> asked;  // maps made smaller may be those of another entry
+  for (std::size_t entry = 0; entry < sweep.entries.size(); ++entry) {
+    report::Row row = empty_row(sweep, scene, frame, entry);
+    if (!sweep.is_mine(row.index) || known.contains(row.key()) || !asked.insert(row.key()).second) continue;
+    tasks.push_back({entry, std::move(row)});
+  }
+  return tasks;
+}
+
+/// What each scene's files hold. A scene that cannot be loaded is found now and not after an hour.
+std::vector<std::string> hashes_of(const Sweep& sweep) {
+  std::vector<std::string> hashes;
+  for (const std::string& scene : sweep.scenes) {
+    const std::uint64_t hash = scene_files_hash(scene, limits_of_triangles(sweep.max_triangles));
+    std::array<char, 17> text{};
+    if (hash != 0) std::snprintf(text.data(), text.size(), "%016" PRIx64, hash);
+    hashes.emplace_back(text.data());
+  }
+  return hashes;
+}
+
+std::set<std::string> known_keys(const Sweep& sweep, const std::vector<std::string>& hashes) {
+  const fs::path file = fs::path(sweep.out) / report::kRowsFile;
+  std::set<std::string> keys;
+  if (!fs::exists(file)) return keys;
+  if (!sweep.resume)
+    throw std::runtime_error(file.string() +
+                             ": there already; --resume goes on with it, another --out starts anew");
+  report::SceneHashes now;
+  for (std::size_t i = 0; i < hashes.size(); ++i) (void)now.agree(sweep.scenes[i], hashes[i]);
+  for (const report::Row& row : report::read_rows(file)) {
+    if (!now.agree(row.scene, row.scene_hash))
+      throw std::runtime_error(file.string() + ": " + row.scene +
+                               " is no longer what was measured; another --out starts anew");
+    keys.insert(row.key());
+  }
+  return keys;
+}
+
+/// One sweep under way.
+class Run {
+ public:
+  Run(const Sweep& sweep, std::vector<std::string> hashes, const report::Machine& machine,
+      std::set<std::string> known)
+      : sweep_(sweep),
+        hashes_(std::move(hashes)),
+        machine_(machine),
+        known_(std::move(known)),
+        file_(fs::path(sweep.out) / report::kRowsFile),
+        progress_("gnomon compare", steps_in_all()) {}
+
+  void all() {
+    for (std::size_t scene = 0; scene < sweep_.scenes.size(); ++scene) {
+      std::unique_ptr<Stage> stage;
+      for (int frame = 0; frame < sweep_.frames; ++frame) {
+        std::vector<Task> tasks = tasks_of(sweep_, scene, frame, known_);
+        if (tasks.empty()) continue;
+        if (!stage) stage = std::make_unique<Stage>(sweep_, sweep_.scenes[scene]);
+        one_frame(*stage, scene, frame, tasks);
+      }
+    }
+  }
+
+ private:
+  /// Errors of a row weigh as much as its rounds.
+  [[nodiscard]] int steps_of_errors() const { return sweep_.rounds + 1; }
+
+  [[nodiscard]] long long steps_in_all() const {
+    long long steps = 0;
+    for (std::size_t scene = 0; scene < sweep_.scenes.size(); ++scene) {
+      for (int frame = 0; frame < sweep_.frames; ++frame) {
+        const auto tasks = static_cast<long long>(tasks_of(sweep_, scene, frame, known_).size());
+        if (tasks > 0) steps += (2 * tasks + 1) * steps_of_errors();
+      }
+    }
+    return steps;
+  }
+
+  void step(long long count) {
+    check_interrupt();
+    progress_.set(steps_ += count);
+  }
+
+  void one_frame(Stage& stage, std::size_t scene, int frame, std::vector<Task>& tasks) {
+    const FrameTruth truth = frame_truth(stage, frame, sweep_.baseline);
+    const bool pictures = frame == sweep_.frames / 2;
+    std::vector<const SweepEntry*> entries;
+    for (Task& task : tasks) {
+      const SweepEntry& entry = sweep_.entries[task.entry];
+      entries.push_back(&entry);
+      Seen seen;
+      measure_errors(stage, truth, entry, task.row, pictures ? &seen : nullptr);
+      if (pictures) task.row.pictures = write_pictures(sweep_.out, scene, task.entry, truth, seen);
+      step(steps_of_errors());
+    }
+    const std::vector<report::Times> times =
+        measure_times(stage, truth.camera, entries, sweep_.baseline, sweep_.rounds, [this] { step(1); });
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      tasks[i].row.scene_hash = hashes_[scene];
+      tasks[i].row.times = times[i];
+      tasks[i].row.machine = machine_;
+      tasks[i].row.machine.load = current_load();
+      file_.append(tasks[i].row);
+    }
+  }
+
+  const Sweep& sweep_;
+  std::vector<std::string> hashes_;  ///< of the scenes
+  report::Machine machine_;
+  std::set<std::string> known_;
+  report::RowsFile file_;
+  Progress progress_;
+  long long steps_ = 0;
+};
+
+}  // namespace
+
+Compared compare(const CompareRequest& request) {
+  for (const std::string& scene : request.scenes) check_scene_word("SCENE", scene);
+  Sweep sweep = make_sweep(request);
+  check_folder("--out", sweep.out);
+  const std::vector<std::string> hashes = hashes_of(sweep);
+  const std::set<std::string> known = known_keys(sweep, hashes);
+  const std::unique_ptr<render::Context> context = render::create_context(sweep.context);
+  for (const std::string& line : fit_to_memory(sweep)) warn(line);
+  make_folder("--out", sweep.out);
+  watch_interrupts();
+  Run(sweep, hashes, machine(context->info()), known).all();
+  // A shard's report would show a part as if it were the whole.
+  return {(fs::path(sweep.out) / report::kRowsFile).string(),
+          sweep.shards == 1 ? report::write_report(sweep.out).string() : std::string()};
+}
+
+namespace {
+
+int run_compare(const CompareRequest& request) {
+  const auto [rows, page] = compare(request);
+  if (request.json) {
+    print_line(nlohmann::json{{"rows", rows}, {"report", page}}.dump());
+  } else {
+    print_line("rows:   " + rows);
+    if (!page.empty()) print_line("report: " + page);
+  }
+  flush_output();
+  return 0;
+}
+
+/// The product that is gone through.
+std::vector<Option> technique_options(CompareRequest& request) {
+  return {{.name = "--warps",
+           .target = &request.warps,
+           .help = "names, or all; auto lets the plan choose",
+           .names = names_in(all_warps(), {"all", "auto"}),
+           .only_names = false},
+          {.name = "--splits",
+           .target = &request.splits,
+           .help = "how receivers are divided: schemes of view depth, or partitions",
+           .names = split_names(),
+           .only_names = false},
+          {.name = "--fits",
+           .target = &request.fits,
+           .help = "tight, stable",
+           .names = {"tight", "stable"},
+           .only_names = false},
+          {.name = "--cascades", .target = &request.cascades, .help = "maps along the view"},
+          {.name = "--filters",
+           .target = &request.filters,
+           .help = "names, with their options where they have any, or all",
+           .names = names_in(render::all_filters(), {"all"}),
+           .only_names = false},
+          {.name = "--map-sizes", .target = &request.map_sizes, .help = "texels along each side of a map"}};
+}
+
+/// What it is measured on.
+std::vector<Option> measuring_options(CompareRequest& request) {
+  return {{.name = "--frames",
+           .target = &request.frames,
+           .help = "along the scene's flight",
+           .range = {{1, 100'000}}},
+          {.name = "--rounds",
+           .target = &request.rounds,
+           .help = "timings of each technique and frame",
+           .range = {{1, 10'000}}},
+          {.name = "--size", .target = &request.size, .help = "of a frame, WIDTHxHEIGHT"},
+          {.name = "--out",
+           .target = &request.out,
+           .help = "folder that results and report go to",
+           .completion = Completion::folders},
+          {.name = "--shard",
+           .target = &request.shard,
+           .help = "I/N: only every N-th row from the I-th on; join with gnomon merge"},
+          {.name = "--context",
+           .target = &request.context,
+           .help = "auto, osmesa or egl",
+           .names = {"auto", "osmesa", "egl"}}};
+}
+
+/// The light, and what the machine may give.
+std::vector<Option> setting_options(CompareRequest& request) {
+  return {{.name = "--light",
+           .target = &request.light,
+           .help = "sun, or a spot or point light in the middle of the scene",
+           .names = {"sun", "spot", "point"}},
+          {.name = "--light-elevation-deg",
+           .target = &request.light_elevation_deg,
+           .help = "of the sun above the horizon",
+           .range = {{0.1, 90.0}}},
+          {.name = "--light-azimuth-deg",
+           .target = &request.light_azimuth_deg,
+           .help = "where the sun stands: 0 over -Z, 90 over +X",
+           .range = {{-360.0, 360.0}}},
+          {.name = "--map-memory-mib",
+           .target = &request.map_memory_mib,
+           .help = "MiB that a technique's maps may take together; larger ones are halved until they fit; "
+                   "0: what there is",
+           .range = {{0.0, 1e9}}},
+          {.name = "--max-triangles",
+           .target = &request.max_triangles,
+           .help = "scenes of more, over all instances, are refused; one takes up to 100 bytes",
+           .range = {{1, 1e9}}},
+          {.name = "--resume", .target = &request.resume, .help = "go on with the results in --out"},
+          {.name = "--json", .target = &request.json, .help = "print what was done as one line of JSON"}};
+}
+
+}  // namespace
+
+std::function<int()> declare_compare(Arguments& arguments) {
+  const auto request = std::make_shared<CompareRequest>();
+  arguments.options = {{.name = "SCENE",
+                        .target = &request->scenes,
+                        .help = "builtin:NAME or glTF files",
+                        .required = true,
+                        .names = builtin_scene_words(),
+                        .only_names = false,
+                        .completion = Completion::files}};
+  for (const auto& part : {technique_options, measuring_options, setting_options}) {
+    for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
+  }
+  arguments.footer = compare_footer();
+  return [request] { return run_compare(*request); };
+}
+
+}  // namespace gnomon::tool

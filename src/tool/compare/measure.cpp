@@ -1,0 +1,240 @@
+// What one technique does on one frame: its errors against the truth, what it costs, and how long it takes.
+#include "measure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include "seen_from.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+using render::Pass;
+
+render::FrameOptions frame_options(bool pictures) {
+  render::FrameOptions options;
+  // Each round measures the whole frame: none may live on the one before.
+  options.prune = prune_rules_of(PruneSource::this_frame);
+  options.aliasing = options.heat_map = pictures;
+  options.cascade_tint = false;
+  return options;
+}
+
+/// Every `stride`-th value from `first` on.
+std::vector<float> channel(const FloatImage& image, std::size_t first) {
+  const auto stride = static_cast<std::size_t>(image.channels);
+  std::vector<float> values;
+  values.reserve(image.values.size() / stride);
+  for (std::size_t i = first; i < image.values.size(); i += stride) values.push_back(image.values[i]);
+  return values;
+}
+
+/// The kernel of a filter as the box that weighs alike. Texels: half its side; world: the same in world
+/// units.
+double kernel_half_side(const render::FilterSettings& filter) {
+  constexpr double kHalfTexel = 0.5, kBoxOfDisc = 0.86602540378443865;  // of the variance of a unit disc
+  return filter.unit == render::KernelUnit::world ? kBoxOfDisc * filter.radius : filter.radius + kHalfTexel;
+}
+
+/// Radius of the light that the filter softens its shadows for, as trace::area_reference wants it; 0 where it
+/// knows of none.
+double light_radius(const render::FilterSettings& filter, const Light& light) noexcept {
+  const auto penumbra = filter.filter->info.penumbra_radius_world;
+  if (penumbra == nullptr) return 0.0;
+  // Half way to a lamp the penumbra is as wide as the lamp.
+  return std::holds_alternative<DirectionalLight>(light) ? penumbra(filter, 1.0, 0.0)
+                                                         : penumbra(filter, 0.5, 1.0);
+}
+
+std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const ShadowPlan& plan,
+                              const SweepEntry& entry, const std::vector<float>& maps) {
+  const double light = light_radius(entry.filter, stage.light());
+  if (light > 0.0) return trace::area_reference(stage.tracer(), truth.points, stage.light(), light).pixels;
+  // Stored texels are blurred by a Gauss that is cut at two deviations, the box's half side: 0.88 of a
+  // deviation is what is left of it.
+  constexpr double kDeviationOfSide = 0.44;
+  const bool gauss = entry.filter.filter->info.reads != render::MapRead::depth &&
+                     entry.filter.blur == render::BlurShape::gauss;
+  const double side = kernel_half_side(entry.filter) * (gauss ? kDeviationOfSide : 1.0);
+  const auto axes = [&](std::size_t pixel) {
+    const glm::dvec3& point = truth.points.pixels[pixel].position;
+    if (entry.filter.unit == render::KernelUnit::world) return trace::world_axes(stage.light(), point, side);
+    const int map = static_cast<int>(maps[pixel]);
+    if (map < 0 || map >= plan.map_count) return trace::KernelAxes{};
+    return trace::texel_axes(plan.map[static_cast<std::size_t>(map)], point, side);
+  };
+  return trace::filtered_reference(stage.tracer(), truth.points, stage.light(),
+                                   gauss ? trace::KernelShape::gauss : trace::KernelShape::box, axes)
+      .pixels;
+}
+
+void count_costs(const render::FrameStats& stats, const SweepEntry& entry, report::Row& row) {
+  row.costs.maps = stats.map_count;
+  for (int i = 0; i < stats.map_count; ++i) {
+    const render::MapStats& map = stats.map[static_cast<std::size_t>(i)];
+    row.costs.draws += map.draws;
+    row.costs.triangles += map.triangles;
+  }
+  row.costs.texels = stats.texels;
+  // Of this technique alone: the renderer's own images may be those of a larger one before it.
+  row.costs.map_bytes =
+      static_cast<std::uint64_t>(static_cast<double>(stats.texels) * render::bytes_per_texel(entry.filter));
+}
+
+/// What the rules of one source saved, in their order.
+void count_savings(const render::FrameStats& stats, PruneSource source, report::Row& row) {
+  for (const PruneRuleInfo& rule : prune_rules()) {
+    if (rule.source != source) continue;
+    const PruneSaving& saved = stats.saved[static_cast<std::size_t>(rule.rule)];
+    if (saved.texels == 0 && saved.triangles == 0) continue;
+    row.left_out.push_back({std::string(rule.what), std::string(rule.proof),
+                            static_cast<std::int64_t>(saved.texels), std::string(rule.name),
+                            static_cast<std::int64_t>(saved.triangles)});
+  }
+}
+
+double milliseconds(const render::FrameStats& stats, Pass pass) {
+  return stats.milliseconds[static_cast<std::size_t>(pass)];
+}
+
+/// Samples of one technique over the rounds.
+struct Samples {
+  std::vector<double> plan_ns, depth_ms, prefilter_ms, shade_ms, total_ms;
+};
+
+/// One visit to a technique: drawn once to have its images made and the caches full of it, as they are in a
+/// program that uses nothing else; then as often as counts. Nowhere to put samples: a visit that warms up.
+void time_visit(Stage& stage, const Camera& camera, const SweepEntry& entry, Samples* samples) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::size_t kPlans = 5;  // a plan takes microseconds: the median of a few is steadier
+  constexpr int kDraws = 2;
+  std::array<double, kPlans> plan_ns{};
+  ShadowPlan plan;
+  for (double& ns : plan_ns) {
+    const Clock::time_point begin = Clock::now();
+    plan = stage.plan(entry, camera);
+    ns = std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
+  }
+  const render::PreparedFilter filter = stage.filter(entry);
+  const render::FrameOptions options = frame_options(false);
+  stage.renderer().draw(plan, camera, filter, options);
+  if (samples == nullptr) return;
+  constexpr double kMillisecondsPerNanosecond = 1e-6;
+  const double plan_time = report::median(plan_ns);
+  samples->plan_ns.push_back(plan_time);
+  for (int i = 0; i < kDraws; ++i) {
+    const render::FrameStats stats = stage.renderer().draw(plan, camera, filter, options);
+    const double depth = milliseconds(stats, Pass::shadow_maps),
+                 prefilter = milliseconds(stats, Pass::prefilter), shade = milliseconds(stats, Pass::mask);
+    samples->depth_ms.push_back(depth);
+    samples->prefilter_ms.push_back(prefilter);
+    samples->shade_ms.push_back(shade);
+    samples->total_ms.push_back(plan_time * kMillisecondsPerNanosecond + depth + prefilter + shade);
+  }
+}
+
+}  // namespace
+
+FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry) {
+  FrameTruth truth;
+  truth.camera = stage.camera(frame);
+  truth.before = stage.camera_before(frame);
+  render::Renderer& renderer = stage.renderer();
+  renderer.draw(stage.plan(entry, truth.camera), truth.camera, stage.filter(entry), frame_options(false));
+  truth.points = trace::surface_points(stage.tracer(), truth.camera, stage.light(), renderer.positions(),
+                                       renderer.normals());
+  truth.hard = trace::hard_reference(stage.tracer(), truth.points, stage.light());
+  truth.judged.reserve(truth.hard.pixels.size());
+  for (const trace::Verdict verdict : truth.hard.pixels) {
+    truth.undecided += verdict == trace::Verdict::undecided ? 1 : 0;
+    truth.judged.push_back(verdict == trace::Verdict::lit      ? 1.0f
+                           : verdict == trace::Verdict::shadow ? 0.0f
+                                                               : -1.0f);
+  }
+  return truth;
+}
+
+void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, report::Row& row,
+                    Seen* seen) {
+  render::Renderer& renderer = stage.renderer();
+  const render::PreparedFilter filter = stage.filter(entry);
+  const ShadowPlan before = seen_from(stage.plan(entry, truth.before), truth.before, truth.camera);
+  renderer.draw(before, truth.camera, filter, frame_options(false));
+  const std::vector<float> mask_before = channel(renderer.mask(), 0);
+
+  const ShadowPlan plan = stage.plan(entry, truth.camera);
+  if (plan.status == PlanStatus::invalid_input)
+    throw std::runtime_error(row.scene + ", " + row.technique.name() + ": the plan refuses " +
+                             std::string(plan.invalid_field));
+  const render::FrameStats stats = renderer.draw(plan, truth.camera, filter, frame_options(true));
+  const FloatImage mask_image = renderer.mask();
+  const std::vector<float> mask = channel(mask_image, 0), maps = channel(mask_image, 1);
+  row.truth = light_radius(entry.filter, stage.light()) > 0.0 ? "area" : "filtered";
+  const std::vector<float> soft = soft_truth(stage, truth, plan, entry, maps);
+  row.errors = report::mask_errors(mask, truth.judged, soft);
+  row.undecided_pixels = truth.undecided;
+  // Scene and light stand still, so the truth at a world point does, too.
+  row.flips = report::excess_flips(mask_before, mask, truth.judged, truth.judged);
+  const FloatImage aliasing = renderer.aliasing();
+  std::vector<float> m = channel(aliasing, 0);
+  const std::vector<float> served = channel(aliasing, 3);
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    if (served[i] < 0.0f) m[i] = 0.0f;
+  }
+  row.aliasing = report::pixel_aliasing(m);
+  count_costs(stats, entry, row);
+  row.plan_status = to_string(plan.status);
+  for (const Omission& omission : plan.omitted()) {
+    const OmissionText text = describe(omission);
+    row.left_out.push_back({text.what.data(), text.why.data(), omission.saves_texels});
+  }
+  count_savings(stats, PruneSource::this_frame, row);
+  if (seen != nullptr) *seen = {renderer.image(), renderer.heat_map(), mask};
+  // Tight maps are others in every frame.
+  if (entry.plan.fit == Fit::tight) return;
+  render::FrameOptions all_rules = frame_options(false);
+  all_rules.prune = {};
+  renderer.draw(before, truth.camera, filter, all_rules);
+  count_savings(renderer.draw(plan, truth.camera, filter, all_rules), PruneSource::last_frame, row);
+}
+
+std::vector<report::Times> measure_times(Stage& stage, const Camera& camera,
+                                         const std::vector<const SweepEntry*>& entries,
+                                         const SweepEntry& baseline, int rounds,
+                                         const std::function<void()>& done) {
+  std::vector<const SweepEntry*> all = entries;
+  all.push_back(&baseline);
+  std::vector<Samples> samples(all.size());
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::mt19937 random(1);
+  for (int round = -1; round < rounds; ++round) {
+    for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[random() % (i + 1)]);
+    for (const std::size_t i : order) {
+      time_visit(stage, camera, *all[i], round < 0 ? nullptr : &samples[i]);
+      done();
+    }
+  }
+  const double baseline_ms = report::median(samples.back().total_ms);
+  std::vector<report::Times> times(entries.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Samples& s = samples[i];
+    times[i] = {report::estimate(s.plan_ns),
+                report::estimate(s.depth_ms),
+                report::estimate(s.prefilter_ms),
+                report::estimate(s.shade_ms),
+                report::estimate(s.total_ms),
+                baseline_ms,
+                rounds};
+  }
+  return times;
+}
+
+}  // namespace gnomon::tool

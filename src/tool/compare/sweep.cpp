@@ -1,0 +1,273 @@
+// The product of techniques that `gnomon compare` goes through.
+#include "sweep.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "command.hpp"
+#include "filter_words.hpp"
+#include "gnomon/render/probe.hpp"
+#include "offscreen_context.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+constexpr int kMinMapSize = 4, kMaxMapSize = 16'384, kMinSide = 16, kMaxSide = 16'384, kMaxShards = 1'000'000;
+
+[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& wants) {
+  throw std::runtime_error(option + " " + value + ": wants " + wants);
+}
+
+bool parse_int(std::string_view text, int& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+/// "A<separator>B" as two numbers in [low, high].
+bool parse_pair(const std::string& text, char separator, int low, int high, int& a, int& b) {
+  const std::size_t at = text.find(separator);
+  if (at == std::string::npos) return false;
+  const std::string_view view = text;
+  return parse_int(view.substr(0, at), a) && parse_int(view.substr(at + 1), b) && a >= low && b >= low &&
+         a <= high && b <= high;
+}
+
+std::vector<int> parse_numbers(const std::string& option, const std::vector<std::string>& texts, int low,
+                               int high) {
+  std::vector<int> numbers;
+  for (const std::string& text : split_lists(texts)) {
+    int number = 0;
+    if (!parse_int(text, number) || number < low || number > high)
+      refuse(option, text, "whole numbers from " + std::to_string(low) + " to " + std::to_string(high));
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+std::string_view name_of(const Warp& warp) noexcept {
+  return warp.name;
+}
+std::string_view name_of(const render::Filter& filter) noexcept {
+  return filter.info.name;
+}
+
+/// The list with "all" replaced by every entry of a registry.
+template <class Entries>
+std::vector<std::string> expanded(const std::vector<std::string>& texts, const Entries& entries) {
+  std::vector<std::string> names;
+  for (const std::string& text : split_lists(texts)) {
+    if (text != "all") {
+      names.push_back(text);
+      continue;
+    }
+    for (const auto* entry : entries) names.emplace_back(name_of(*entry));
+  }
+  return names;
+}
+
+void set_filter(const std::string& text, SweepEntry& entry) {
+  entry.filter = filter_word("--filters", text);
+  entry.technique.filter = render::to_string(entry.filter);
+  render::set_margin(entry.filter, entry.plan);
+}
+
+void set_warp(const std::string& text, SweepEntry& entry) {
+  entry.technique.warp = text;
+  entry.plan.warp = find_warp(text);
+  if (entry.plan.warp == nullptr && text != "auto")
+    refuse_name("--warps", text, names_in(all_warps(), {"all", "auto"}));
+}
+
+void set_split(const std::string& text, SweepEntry& entry) {
+  entry.technique.split = text;
+  const bool is_partition = partition_from_name(text, entry.plan.partition);
+  if (!split_scheme_from_name(text, entry.plan.split) && (!is_partition || text == "view_depth"))
+    refuse_name("--splits", text, split_names());
+}
+
+void set_fit(const std::string& text, SweepEntry& entry) {
+  entry.technique.fit = text;
+  if (text != "tight" && text != "stable")
+    refuse_name("--fits", text, std::vector<std::string>{"tight", "stable"});
+  entry.plan.fit = text == "stable" ? Fit::stable : Fit::tight;
+}
+
+void set_size(int size, SweepEntry& entry) {
+  entry.technique.map_size = entry.plan.map_size = size;
+  // Techniques are compared at the sizes asked for.
+  entry.plan.prune = entry.plan.prune.without(PruneRule::metric_resolution);
+}
+
+void set_cascades(int cascades, SweepEntry& entry) {
+  entry.technique.cascades = entry.plan.cascades = cascades;
+}
+
+/// Each entry once for each of the values.
+template <class Values, class Set>
+void multiply(std::vector<SweepEntry>& entries, const Values& values, Set&& set) {
+  std::vector<SweepEntry> product;
+  for (const SweepEntry& entry : entries) {
+    for (const auto& value : values) {
+      product.push_back(entry);
+      set(value, product.back());
+    }
+  }
+  entries = std::move(product);
+}
+
+/// The first of each list: what stands for all of it where it makes no difference.
+struct Firsts {
+  std::string split, warp, fit;
+  int cascades = 1;
+};
+
+/// True where another entry of the product says the same.
+bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
+  const report::Technique& t = entry.technique;
+  // The maps of a lamp follow from its cone and what it lights.
+  if (light != LightKind::sun)
+    return t.split != first.split || t.cascades != first.cascades || t.fit != first.fit;
+  const bool by_depth = entry.plan.partition == Partition::view_depth;
+  if (by_depth && t.cascades == 1 && t.split != first.split) return true;
+  if (!by_depth && t.cascades != first.cascades) return true;
+  return t.fit == "stable" && (!by_depth || (t.warp != "none" && t.warp != first.warp));
+}
+
+std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind light) {
+  std::vector<SweepEntry> entries(1);
+  const std::vector<std::string> splits = split_lists(request.splits);
+  const std::vector<std::string> warps = expanded(request.warps, all_warps());
+  multiply(entries, expanded(request.filters, render::all_filters()), set_filter);
+  multiply(entries, split_lists(request.fits), set_fit);
+  multiply(entries, warps, set_warp);
+  multiply(entries, splits, set_split);
+  multiply(entries, parse_numbers("--cascades", request.cascades, 1, kMaxMaps), set_cascades);
+  multiply(entries, parse_numbers("--map-sizes", request.map_sizes, kMinMapSize, kMaxMapSize), set_size);
+  Firsts first{splits.front(), warps.front(), entries.front().technique.fit,
+               entries.front().technique.cascades};
+  if (std::find(warps.begin(), warps.end(), "none") != warps.end()) first.warp = "none";
+  std::erase_if(entries, [&](const SweepEntry& entry) { return is_double(entry, first, light); });
+  // A list that names something twice.
+  std::vector<SweepEntry> once;
+  for (SweepEntry& entry : entries) {
+    const bool known = std::any_of(once.begin(), once.end(), [&](const SweepEntry& other) {
+      return other.technique == entry.technique;
+    });
+    if (!known) once.push_back(std::move(entry));
+  }
+  return once;
+}
+
+/// Of the maps that its plans may have.
+int most_maps(const SweepEntry& entry, LightKind light) noexcept {
+  constexpr int kCubeFaces = 6;
+  if (light != LightKind::sun) return kCubeFaces;
+  return entry.plan.partition == Partition::view_depth ? entry.plan.cascades : kMaxMaps;
+}
+
+std::string fit_to_memory(SweepEntry& entry, const Sweep& sweep) {
+  const int wanted = entry.plan.map_size;
+  const std::string name = entry.technique.name();
+  const render::FittingMaps fitting =
+      render::largest_maps(wanted, most_maps(entry, sweep.light.kind), render::bytes_per_texel(entry.filter),
+                           sweep.map_memory_mib);
+  if (fitting.size == 0) throw std::runtime_error(name + ": no map fits (" + fitting.why + ")");
+  if (fitting.size == wanted) return {};
+  set_size(fitting.size, entry);
+  return name + ": maps of " + std::to_string(wanted) + " do not fit (" + fitting.why + "): maps of " +
+         std::to_string(fitting.size);
+}
+
+}  // namespace
+
+std::vector<std::string> fit_to_memory(Sweep& sweep) {
+  std::vector<std::string> lines;
+  for (SweepEntry& entry : sweep.entries) {
+    if (std::string line = fit_to_memory(entry, sweep); !line.empty()) lines.push_back(std::move(line));
+  }
+  if (std::string line = fit_to_memory(sweep.baseline, sweep); !line.empty())
+    lines.push_back("baseline " + line);
+  return lines;
+}
+
+std::string compare_footer() {
+  return "Lists take commas or spaces. The sweep is the product of all lists, combinations that are the "
+         "same\n"
+         "technique taken once. Each row is on the disk before the next frame begins: a run that was killed "
+         "goes\n"
+         "on with --resume. Errors are those of the shadow mask against exact rays.\n"
+         "Warps: " +
+         any_of_text(names_in(all_warps(), {"auto"})) + "\nSplits: " + any_of_text(split_names()) +
+         "\nFilters, with their options:\n" + render::filter_help();
+}
+
+std::vector<std::string> split_names() {
+  return {"auto",    "uniform",    "logarithmic",   "practical",       "pseudo_near",
+          "optimal", "view_depth", "frustum_faces", "separating_plane"};
+}
+
+std::vector<std::string> split_lists(const std::vector<std::string>& lists) {
+  std::vector<std::string> elements;
+  for (const std::string& list : lists) {
+    bool first_of_list = true;
+    for (std::size_t begin = 0; begin <= list.size();) {
+      const std::size_t end = std::min(list.find(',', begin), list.size());
+      const std::string element = list.substr(begin, end - begin);
+      const bool continues =
+          !first_of_list && element.find('=') != std::string::npos && element.find(':') == std::string::npos;
+      if (continues) {
+        elements.back() += "," + element;
+      } else {
+        elements.push_back(element);
+      }
+      first_of_list = false;
+      begin = end + 1;
+    }
+  }
+  return elements;
+}
+
+SweepEntry sweep_entry(const report::Technique& technique) {
+  SweepEntry entry;
+  set_filter(technique.filter, entry);
+  set_fit(technique.fit, entry);
+  set_warp(technique.warp, entry);
+  set_split(technique.split, entry);
+  set_cascades(technique.cascades, entry);
+  set_size(technique.map_size, entry);
+  return entry;
+}
+
+Sweep make_sweep(const CompareRequest& request) {
+  Sweep sweep;
+  for (const std::string& scene : request.scenes) {
+    if (std::find(sweep.scenes.begin(), sweep.scenes.end(), scene) == sweep.scenes.end())
+      sweep.scenes.push_back(scene);
+  }
+  sweep.frames = request.frames;
+  sweep.rounds = request.rounds;
+  sweep.light = {LightKind::sun, request.light_elevation_deg, request.light_azimuth_deg};
+  if (!light_kind_from_name(request.light, sweep.light.kind))
+    refuse("--light", request.light, "sun, spot or point");
+  sweep.out = request.out;
+  sweep.resume = request.resume;
+  sweep.map_memory_mib = request.map_memory_mib;
+  sweep.max_triangles = request.max_triangles;
+  if (!parse_pair(request.size, 'x', kMinSide, kMaxSide, sweep.width, sweep.height))
+    refuse("--size", request.size, "WIDTHxHEIGHT, each 16 to 16384, as in 480x270");
+  int shard = 0, shards = 0;
+  if (!parse_pair(request.shard, '/', 1, kMaxShards, shard, shards) || shard > shards)
+    refuse("--shard", request.shard, "I/N with 1 <= I <= N, as in 2/8");
+  sweep.shard = static_cast<std::size_t>(shard - 1);
+  sweep.shards = static_cast<std::size_t>(shards);
+  sweep.context = offscreen_context(request.context);
+  sweep.entries = product_of(request, sweep.light.kind);
+  sweep.baseline =
+      sweep_entry({"none", "uniform", "tight", "hard", 1, sweep.entries.front().technique.map_size});
+  return sweep;
+}
+
+}  // namespace gnomon::tool

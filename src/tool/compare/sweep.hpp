@@ -1,0 +1,81 @@
+// The product of techniques that `gnomon compare` goes through.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gnomon/plan.hpp"
+#include "gnomon/render/context.hpp"
+#include "gnomon/render/renderer.hpp"
+#include "gnomon/report/row.hpp"
+#include "gnomon/scene/default_light.hpp"
+#include "gnomon/scene/load.hpp"
+
+namespace gnomon::tool {
+
+/// What the command line says, before it is understood.
+struct CompareRequest {
+  std::vector<std::string> scenes;
+  std::vector<std::string> warps{"none", "lispsm", "optimal"}, splits{"auto"}, fits{"tight"}, filters{"all"};
+  std::vector<std::string> cascades{"1", "4"}, map_sizes{"1024"};
+  int frames = 4, rounds = 5;
+  std::string size = "480x270", shard = "1/1", context = "auto", out = "out/compare";
+  std::string light = "sun";
+  double light_elevation_deg = 38.0, light_azimuth_deg = 140.0;
+  double map_memory_mib = 0.0;  ///< that a technique's maps may take; 0: what there is
+  std::uint64_t max_triangles = LoadLimits{}.triangles;
+  bool resume = false, json = false;
+};
+
+/// One point of the product, with what the names stand for.
+struct SweepEntry {
+  report::Technique technique;
+  PlanOptions plan;
+  render::FilterSettings filter;
+};
+
+struct Sweep {
+  std::vector<std::string> scenes;
+  std::vector<SweepEntry> entries;
+  SweepEntry baseline;  ///< hard x no warp x one map, of the first map size
+  int frames = 1, rounds = 1, width = 0, height = 0;
+  std::size_t shard = 0, shards = 1;
+  render::ContextKind context = render::ContextKind::automatic;
+  LightPlacement light;
+  std::string out;
+  double map_memory_mib = 0.0;
+  std::uint64_t max_triangles = 0;
+  bool resume = false;
+
+  /// Place of a row in the whole sweep.
+  [[nodiscard]] std::uint64_t index(std::size_t scene, int frame, std::size_t entry) const noexcept {
+    const auto row = static_cast<std::uint64_t>(scene) * static_cast<std::uint64_t>(frames) +
+                     static_cast<std::uint64_t>(frame);
+    return row * entries.size() + entry;
+  }
+  [[nodiscard]] bool is_mine(std::uint64_t row) const noexcept { return row % shards == shard; }
+};
+
+/// Throws std::runtime_error with what is wrong and where. Combinations that are the same technique under two
+/// names are taken once: with one map or under a lamp the split does not matter, and a stable fit takes no
+/// warp.
+[[nodiscard]] Sweep make_sweep(const CompareRequest& request);
+
+/// Makes maps smaller that memory does not take, in the context that is current: a technique goes by the size
+/// it is measured with. Returns a line for each. Throws std::runtime_error where not even the least fit.
+std::vector<std::string> fit_to_memory(Sweep& sweep);
+
+/// What a technique's names stand for. Throws std::runtime_error where one of them means nothing.
+[[nodiscard]] SweepEntry sweep_entry(const report::Technique& technique);
+
+/// What the lists take, for the end of the help.
+[[nodiscard]] std::string compare_footer();
+
+/// Schemes and partitions that --splits takes.
+[[nodiscard]] std::vector<std::string> split_names();
+
+/// Elements of lists with commas; an element of the form `key=value` without a colon belongs to the one
+/// before it, as in `esm:c=40,radius=3,pcf`.
+[[nodiscard]] std::vector<std::string> split_lists(const std::vector<std::string>& lists);
+
+}  // namespace gnomon::tool

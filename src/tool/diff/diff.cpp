@@ -1,0 +1,174 @@
+// `gnomon diff`: do two pictures show the same?
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "gnomon/scene/image.hpp"
+#include "output.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+// As other comparers of images grade them, with 2 left for bad input as in every command.
+constexpr int kSame = 0, kWithinAllowance = 1, kDifferent = 3, kOtherSize = 4;
+constexpr std::size_t kColors = 3;  // alpha is not compared: pictures of this program have none
+
+struct DiffRequest {
+  std::string first, second;
+  int tolerance = 0;     ///< steps of 8 bits by which a colour may differ
+  double allowed = 0.0;  ///< percent of the pixels that may differ by more
+  std::string out;       ///< picture of the differences; empty: none
+  bool json = false;
+};
+
+Image load_picture(const std::string& file) {
+  constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;  // bytes
+  constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw std::runtime_error(file + ": there is no such file");
+  if (!std::filesystem::is_regular_file(file, error)) throw std::runtime_error(file + ": is no file");
+  if (std::filesystem::file_size(file, error) > kLargestFile || error)
+    throw std::runtime_error(file + ": larger than 256 MiB");
+  std::ifstream in(file, std::ios::binary);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+  if (in.bad() || !in.is_open()) throw std::runtime_error(file + ": cannot be read");
+  return decode_image({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, file, kMostPixels);
+}
+
+struct Difference {
+  std::size_t pixels = 0, differing = 0;  ///< by more than the tolerance
+  int largest = 0;                        ///< steps of 8 bits, over all colours
+  double rms = 0.0;                       ///< the same, over all colours of all pixels
+  int x = 0, y = 0;                       ///< of the pixel with the largest
+  Image picture;                          ///< grey: alike; from yellow to red: the larger the difference
+};
+
+/// Steps by which the pixel's colours differ at most.
+int largest_step(const std::uint8_t* a, const std::uint8_t* b) {
+  int largest = 0;
+  for (std::size_t c = 0; c < kColors; ++c) largest = std::max(largest, std::abs(int{a[c]} - int{b[c]}));
+  return largest;
+}
+
+std::array<std::uint8_t, 4> shown(const std::uint8_t* a, int step, int tolerance) {
+  if (step <= tolerance) {
+    const auto grey = static_cast<std::uint8_t>((int{a[0]} + int{a[1]} + int{a[2]}) / 12);
+    return {grey, grey, grey, 255};
+  }
+  // Square root: small differences are to be seen as well.
+  const double share = std::sqrt(step / 255.0);
+  return {255, static_cast<std::uint8_t>(std::lround(220.0 * (1.0 - share))), 0, 255};
+}
+
+Difference difference_of(const Image& a, const Image& b, int tolerance) {
+  Difference d;
+  d.pixels = a.rgba.size() / 4;
+  d.picture = a;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < d.pixels; ++i) {
+    const std::uint8_t *p = &a.rgba[4 * i], *q = &b.rgba[4 * i];
+    const int step = largest_step(p, q);
+    for (std::size_t c = 0; c < kColors; ++c) {
+      const double off = static_cast<double>(p[c]) - static_cast<double>(q[c]);
+      sum += off * off;
+    }
+    if (step > d.largest) {
+      d.largest = step;
+      d.x = static_cast<int>(i % static_cast<std::size_t>(a.width));
+      d.y = static_cast<int>(i / static_cast<std::size_t>(a.width));
+    }
+    if (step > tolerance) ++d.differing;
+    const std::array<std::uint8_t, 4> color = shown(p, step, tolerance);
+    std::copy(color.begin(), color.end(), d.picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
+  }
+  d.rms = d.pixels > 0 ? std::sqrt(sum / static_cast<double>(kColors * d.pixels)) : 0.0;
+  return d;
+}
+
+int run_diff(const DiffRequest& request) {
+  const Image a = load_picture(request.first), b = load_picture(request.second);
+  if (a.width != b.width || a.height != b.height) {
+    const std::string sizes = std::to_string(a.width) + "x" + std::to_string(a.height) + " and " +
+                              std::to_string(b.width) + "x" + std::to_string(b.height);
+    print_line(request.json ? nlohmann::ordered_json{{"verdict", "other size"},
+                                                     {"sizes", {{a.width, a.height}, {b.width, b.height}}}}
+                                  .dump()
+                            : "other size: " + sizes);
+    flush_output();
+    return kOtherSize;
+  }
+  const Difference d = difference_of(a, b, request.tolerance);
+  const double percent =
+      100.0 * static_cast<double>(d.differing) / static_cast<double>(std::max<std::size_t>(d.pixels, 1));
+  const int code = d.differing == 0 ? kSame : percent <= request.allowed ? kWithinAllowance : kDifferent;
+  const char* verdict = code == kSame              ? "same"
+                        : code == kWithinAllowance ? "within what is allowed"
+                                                   : "different";
+  if (request.json) {
+    print_line(nlohmann::ordered_json{
+        {"verdict", verdict},
+        {"pixels", d.pixels},
+        {"differing", d.differing},
+        {"percent", percent},
+        {"largest", d.largest},
+        {"largest_at", {d.x, d.y}},
+        {"rms",
+         d.rms}}.dump());
+  } else {
+    char text[256];
+    std::snprintf(
+        text, sizeof text,
+        "%s: %zu of %zu pixels (%.3g %%) differ by more than %d of 255; largest %d at %d,%d; RMS %.3g",
+        verdict, d.differing, d.pixels, percent, request.tolerance, d.largest, d.x, d.y, d.rms);
+    print_line(text);
+  }
+  flush_output();
+  if (!request.out.empty()) write_png(d.picture, request.out);
+  return code;
+}
+
+}  // namespace
+
+std::function<int()> declare_diff(Arguments& arguments) {
+  const auto request = std::make_shared<DiffRequest>();
+  arguments.options = {
+      {.name = "A",
+       .target = &request->first,
+       .help = "a picture, PNG or JPEG",
+       .required = true,
+       .completion = Completion::files},
+      {.name = "B",
+       .target = &request->second,
+       .help = "the picture that it is compared with",
+       .required = true,
+       .completion = Completion::files},
+      {.name = "--tolerance",
+       .target = &request->tolerance,
+       .help = "steps of 255 by which a colour may differ",
+       .range = {{0, 255}}},
+      {.name = "--allow-percent",
+       .target = &request->allowed,
+       .help = "percent of the pixels that may differ by more than that",
+       .range = {{0.0, 100.0}}},
+      {.name = "--out",
+       .target = &request->out,
+       .help = "write a picture of the differences to this PNG file",
+       .completion = Completion::files},
+      {.name = "--json", .target = &request->json, .help = "print the result as one line of JSON"}};
+  arguments.footer =
+      "Exit: 0 no pixel differs by more than the tolerance; 1 some do, no more than --allow-percent;\n"
+      "2 bad input; 3 more do; 4 the sizes differ.";
+  return [request] { return run_diff(*request); };
+}
+
+}  // namespace gnomon::tool

@@ -1,0 +1,378 @@
+// The figures of the filters' papers: orders, bleeding, minification, contacts, bits, and where exponential
+// maps fail.
+#include "figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+#include "gnomon/bias.hpp"
+#include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/load.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+constexpr double kSunElevation = 38.0, kSunOverScenes = 140.0, kSunBehindBars = 250.0;  // degrees
+
+const std::vector<std::string> kLeakColumns{"filter", "RMS to the truth",
+                                            "light beyond that of pcf where the truth is dark"};
+
+FilterStage scene_stage(const std::string& scene) {
+  return {load_scene(scene), kSunElevation, kSunOverScenes};
+}
+
+CameraOf along_path(const FilterStage& stage, double at) {
+  return
+      [path = default_path(stage.scene()), at](int width, int height) { return path.at(at, width, height); };
+}
+
+/// Draws every filter, adds its picture, and answers what each pixel sees of the light.
+std::vector<float> draw_panel(Figure& figure, FilterStage& stage, const std::string& filter,
+                              const CameraOf& camera, const FigureSize& size, int map_size) {
+  stage.draw(filter_from(filter), camera(size.width, size.height), map_size);
+  figure.panels.push_back({filter, stage.renderer().image()});
+  return stage.visibility();
+}
+
+/// Mean of the light beyond that of `compared`, over the pixels that are wholly dark in truth.
+double leaked(const std::vector<float>& lit, const std::vector<float>& compared,
+              const std::vector<float>& exact) {
+  double sum = 0.0, dark = 0.0;
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    if (lit[i] < 0.0f || exact[i] != 0.0f) continue;
+    sum += std::max(lit[i] - compared[i], 0.0f);
+    dark += 1.0;
+  }
+  return sum / std::max(dark, 1.0);
+}
+
+/// Error, and light that leaks, of filters against the first of them, whose kernel is the same.
+void compare(Figure& figure, FilterStage& stage, const std::vector<std::string>& filters,
+             const CameraOf& camera, const FigureSize& size, int map_size) {
+  const std::vector<float> exact = true_visibility(stage, camera, size);
+  std::vector<float> compared;
+  for (const std::string& filter : filters) {
+    const std::vector<float> lit = draw_panel(figure, stage, filter, camera, size, map_size);
+    if (compared.empty()) compared = lit;
+    figure.rows.push_back({filter, {rms(lit, exact), leaked(lit, compared, exact)}});
+  }
+}
+
+std::vector<std::string> bleeding_filters() {
+  return {"pcf:radius=2",
+          "vsm:radius=2,bleed=0",
+          "lvsm:radius=2,bleed=0,format=fp32",
+          "lvsm:radius=2,bleed=0,format=fp32,placement=1",
+          "lvsm:radius=2,bleed=0,format=fp32,layers=8,placement=1",
+          "convolution:radius=2",
+          "power_cdf:radius=2,offset=0",
+          "power_cdf:radius=2",
+          "vsm:radius=2",
+          "savsm:radius=2",
+          "lvsm:radius=2",
+          "evsm4:radius=2",
+          "msm:radius=2"};
+}
+std::vector<std::string> power_law_filters() {
+  return {"pcf:radius=2", "power_cdf:radius=2,offset=0", "power_cdf:radius=2",
+          "vsm:radius=2", "vsm:radius=2,bleed=0",        "esm:radius=2"};
+}
+
+/// `factor` times as large about the middle, texel by texel.
+Image enlarged(const Image& image, int factor) {
+  Image result = image;
+  const int left = image.width / 2 - image.width / (2 * factor),
+            top = image.height / 2 - image.height / (2 * factor);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const auto to = static_cast<std::ptrdiff_t>(4) * (y * image.width + x);
+      const auto from =
+          static_cast<std::ptrdiff_t>(4) * ((top + y / factor) * image.width + left + x / factor);
+      std::copy_n(image.rgba.begin() + from, 4, result.rgba.begin() + to);
+    }
+  }
+  return result;
+}
+
+/// What of a kernel a classification looks at, in depths of the map.
+struct Kernel {
+  double mean = 0.0;     ///< of exp(c (depth - receiver's))
+  double largest = 0.0;  ///< depth
+};
+Kernel kernel_at(const FloatImage& depth, const glm::dvec3& at, int radius, double c) {
+  const int side = 2 * radius + 1, column = static_cast<int>(std::floor(at.x)),
+            row = static_cast<int>(std::floor(at.y));
+  Kernel kernel;
+  for (int k = 0; k < side * side; ++k) {
+    const int x = std::clamp(column - radius + k % side, 0, depth.width - 1);
+    const int y = std::clamp(row - radius + k / side, 0, depth.height - 1);
+    const double z = depth.values[static_cast<std::size_t>(y * depth.width + x)];
+    kernel.mean += std::exp(c * (z - at.z)) / (side * side);
+    kernel.largest = std::max(kernel.largest, z);
+  }
+  return kernel;
+}
+
+/// Shares of the pixels that face the light, where a texel of the kernel lies behind the receiver by enough:
+/// by the mean of the exponentials or by the largest depth; and by the bare inequality, that any texel does.
+struct Failures {
+  double threshold = 0.0, depth_max = 0.0, bare = 0.0;
+};
+Failures failures_of(const FilterStage& stage, const Camera& camera, int radius, double c) {
+  constexpr double kEpsilon = 0.02;  // of the answer above 1: the filter's own default
+  const FloatImage depth = stage.renderer().depth_map(0), points = stage.renderer().positions();
+  const FloatImage normals = stage.renderer().normals();
+  const std::vector<float> lit = stage.visibility();
+  const ShadowPlan& plan = stage.plan();
+  Receiver receiver{plan.map[0].clip_from_world, depth.width, depth.height, plan.light_direction, {}, {}};
+  Failures failures;
+  double count = 0.0;
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    const float *n = &normals.values[4 * i], *p = &points.values[4 * i];
+    receiver.normal = {n[0], n[1], n[2]};
+    receiver.point = camera.position + glm::dvec3(p[0], p[1], p[2]);
+    if (lit[i] < 0.0f || glm::dot(receiver.light_direction, receiver.normal) >= 0.0) continue;
+    const glm::dvec4 h = receiver.clip_from_world * glm::dvec4(receiver.point, 1.0);
+    const glm::dvec3 at{(h.x / h.w * 0.5 + 0.5) * depth.width, (h.y / h.w * 0.5 + 0.5) * depth.height,
+                        h.z / h.w};
+    const Kernel kernel = kernel_at(depth, at, radius, c);
+    // As the filter does: the rise of the receiver's own plane is no failure, nor are a texel's worth of
+    // bias.
+    const glm::dvec2 rise = glm::abs(receiver_plane(receiver).gradient), s = c * (radius + 0.5) * rise;
+    const auto mean_over = [](double half) { return half > 1e-3 ? std::sinh(half) / half : 1.0; };
+    const double allowed = std::log(1.0 + kEpsilon) + c * (rise.x + rise.y);
+    const double plane = mean_over(std::min(s.x, 300.0)) * mean_over(std::min(s.y, 300.0));
+    failures.threshold += std::log(kernel.mean / plane) > allowed ? 1.0 : 0.0;
+    failures.depth_max += at.z + (allowed + s.x + s.y) / c < kernel.largest ? 1.0 : 0.0;
+    failures.bare += at.z + std::log(1.0 + kEpsilon) / c < kernel.largest ? 1.0 : 0.0;
+    count += 1.0;
+  }
+  count = std::max(count, 1.0);
+  return {100.0 * failures.threshold / count, 100.0 * failures.depth_max / count,
+          100.0 * failures.bare / count};
+}
+
+}  // namespace
+
+double Figure::value(const std::string& label, std::size_t column) const {
+  for (const Row& row : rows) {
+    if (row.label == label) return row.values.at(column);
+  }
+  throw std::out_of_range(name + " has no row " + label);
+}
+
+double rms(const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] < 0.0f || b[i] < 0.0f) continue;
+    sum += (a[i] - b[i]) * (a[i] - b[i]);
+    count += 1.0;
+  }
+  return std::sqrt(sum / std::max(count, 1.0));
+}
+
+std::vector<float> true_visibility(FilterStage& stage, const CameraOf& camera, const FigureSize& size) {
+  constexpr int kSamples = 4;
+  stage.draw(filter_from("hard"), camera(kSamples * size.width, kSamples * size.height), size.true_map);
+  const std::vector<float> fine = stage.visibility();
+  std::vector<float> coarse;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      float sum = 0.0f;
+      bool served = true;
+      for (int i = 0; i < kSamples * kSamples; ++i) {
+        const int row = kSamples * y + i / kSamples, column = kSamples * x + i % kSamples;
+        const float lit = fine[static_cast<std::size_t>(row * kSamples * size.width + column)];
+        served = served && lit >= 0.0f;
+        sum += lit;
+      }
+      coarse.push_back(served ? sum / (kSamples * kSamples) : -1.0f);
+    }
+  }
+  return coarse;
+}
+
+Figure convolution_orders(const FigureSize& size) {
+  Figure figure{"convolution_orders",
+                "Convolution: orders 1 to 16 at a contact and on a slanted plane",
+                {"filter", "RMS to the truth", "bytes a texel"},
+                {},
+                {}};
+  FilterStage stage(contact_scene(false), kSunElevation, kSunBehindBars);
+  const std::vector<float> exact = true_visibility(stage, contact_camera, size);
+  const auto add = [&](const std::string& filter) {
+    const std::vector<float> lit = draw_panel(figure, stage, filter, contact_camera, size, size.narrow_map);
+    figure.rows.push_back({filter, {rms(lit, exact), render::bytes_per_texel(filter_from(filter))}});
+  };
+  add("pcf:radius=2");
+  // Lit surfaces kept lit by the paper's two ways: an offset of half a step of the series, and twice the
+  // answer.
+  for (const char* way : {"attenuation=0", "attenuation=0,offset=0,scale=2"}) {
+    for (const int order : {1, 2, 4, 8, 16})
+      add("convolution:radius=2,order=" + std::to_string(order) + "," + way);
+  }
+  add("convolution:radius=2");
+  return figure;
+}
+
+Figure bleeding_bars(const FigureSize& size) {
+  Figure figure{"bleeding_bars", "Light bleeding behind bars", kLeakColumns, {}, {}};
+  FilterStage bars(contact_scene(true), kSunElevation, kSunBehindBars);
+  compare(figure, bars, bleeding_filters(), contact_camera, size, size.narrow_map);
+  return figure;
+}
+
+Figure bleeding_fence(const FigureSize& size) {
+  Figure figure{"bleeding_fence", "Light bleeding behind a fence", kLeakColumns, {}, {}};
+  FilterStage fence = scene_stage("builtin:fence");
+  compare(figure, fence, bleeding_filters(), along_path(fence, 0.5), size, size.wide_map);
+  return figure;
+}
+
+Figure minification(const FigureSize& size) {
+  Figure figure{"minification",
+                "Minification as the scene recedes (pictures: the middle, enlarged as many times)",
+                {"filter", "RMS at 1 time the distance", "2", "4", "8"},
+                {},
+                {}};
+  FilterStage grating(grating_scene(), kSunElevation, kSunBehindBars);
+  for (const char* filter :
+       {"hard", "pcf:radius=1", "vsm:radius=1,mipmap=1,anisotropy=16",
+        "convolution:radius=1,mipmap=1,anisotropy=16", "esm:radius=1,mipmap=1,anisotropy=16,fallback=0",
+        "esm:radius=1,mipmap=1,anisotropy=16"}) {
+    Figure::Row row{filter, {}};
+    for (const int at : {1, 2, 4, 8}) {
+      const CameraOf camera = [at](int width, int height) { return grating_camera(at, width, height); };
+      const std::vector<float> exact = true_visibility(grating, camera, size);
+      row.values.push_back(rms(draw_panel(figure, grating, filter, camera, size, size.wide_map), exact));
+      Panel& panel = figure.panels.back();
+      panel.caption += " x" + std::to_string(at);
+      panel.image = enlarged(panel.image, at);
+    }
+    figure.rows.push_back(row);
+  }
+  return figure;
+}
+
+Figure contacts(const FigureSize& size) {
+  Figure figure{"contacts", "Power law against VSM and ESM at contacts", kLeakColumns, {}, {}};
+  FilterStage contact(contact_scene(false), kSunElevation, kSunBehindBars);
+  compare(figure, contact, power_law_filters(), contact_camera, size, size.narrow_map);
+  return figure;
+}
+
+Figure overlaps(const FigureSize& size) {
+  Figure figure{"overlaps", "Power law against VSM and ESM under overlapping shadows", kLeakColumns, {}, {}};
+  FilterStage trees = scene_stage("builtin:trees");
+  compare(figure, trees, power_law_filters(), along_path(trees, 0.3), size, size.wide_map);
+  return figure;
+}
+
+Figure bits(const FigureSize& size) {
+  Figure figure{"bits", "16 bits a channel against 32", {"filter", "RMS to 32 bits"}, {}, {}};
+  FilterStage trees = scene_stage("builtin:trees");
+  const CameraOf camera = along_path(trees, 0.3);
+  for (const char* name : {"power_cdf", "vsm", "esm", "lvsm", "evsm4", "msm"}) {
+    const render::Filter& filter = *render::find_filter(name);
+    const std::string text = std::string(name) + ":radius=2";
+    const std::vector<float> full =
+        draw_panel(figure, trees, text + ",format=fp32", camera, size, size.wide_map);
+    for (const render::TexelFormat format : filter.info.formats) {
+      if (render::bytes_per_channel(format) != 2) continue;
+      const std::string shorter = text + ",format=" + std::string(to_string(format));
+      figure.rows.push_back(
+          {shorter, {rms(draw_panel(figure, trees, shorter, camera, size, size.wide_map), full)}});
+    }
+  }
+  return figure;
+}
+
+Figure one_scene(const std::string& scene, const FigureSize& size) {
+  Figure figure{"one_scene", "All filters on " + scene, kLeakColumns, {}, {}};
+  std::vector<std::string> filters{"pcf:radius=2"};
+  for (const render::Filter* filter : render::all_filters()) {
+    const std::string name(filter->info.name);
+    if (name != "pcf")
+      filters.push_back(filter->info.has_kernel && name != "pcss" ? name + ":radius=2" : name);
+  }
+  FilterStage stage = scene_stage(scene);
+  // The flight goes round all of a scene; half its width shows the shadows.
+  const CameraOf closer = [path = along_path(stage, 0.3)](int width, int height) {
+    Camera camera = path(width, height);
+    for (double* edge : {&camera.left, &camera.right, &camera.bottom, &camera.top}) *edge *= 0.5;
+    return camera;
+  };
+  compare(figure, stage, filters, closer, size, size.wide_map);
+  return figure;
+}
+
+Figure exponential_failures(const FigureSize& size) {
+  constexpr double kExponent = 80.0;  // the paper's
+  Figure figure{"exponential_failures",
+                "ESM: percentage of pixels whose kernel holds a texel behind the receiver (c = 80)",
+                {"scene, blur", "by threshold", "by largest depth",
+                 "by largest depth, slant and bias counted as failure"},
+                {},
+                {}};
+  for (const char* name : {"builtin:fence", "builtin:trees"}) {
+    FilterStage stage(load_scene(name), 38.0, 140.0);
+    const Camera camera = default_path(stage.scene()).at(0.25, size.width, size.height);
+    stage.draw(filter_from("hard"), camera, size.wide_map / 2);
+    for (int radius = 0; radius <= 3; ++radius) {
+      const Failures f = failures_of(stage, camera, radius, kExponent);
+      const std::string side = std::to_string(2 * radius + 1);
+      figure.rows.push_back(
+          {std::string(name) + ", " + side + "x" + side, {f.threshold, f.depth_max, f.bare}});
+    }
+  }
+  return figure;
+}
+
+Figure matching_samples(const FigureSize& size) {
+  Figure figure{"matching_samples",
+                "Samples that PCF takes to match a trilinear read of ESM, scene 4 times as far",
+                {"filter", "RMS to the truth, sun at 80 degrees", "at 38 degrees"},
+                {},
+                {}};
+  std::vector<std::string> filters{"esm:radius=1,mipmap=1,fallback=0",
+                                   "esm:radius=1,mipmap=1,fallback=0,anisotropy=16",
+                                   "esm:radius=1,mipmap=1,anisotropy=16"};
+  for (int count = 1; count <= 64; count *= 2)
+    filters.push_back("pcf:pattern=1,radius=4,samples=" + std::to_string(count));
+  for (const std::string& filter : filters) figure.rows.push_back({filter, {}});
+  for (const double elevation_deg : {80.0, 38.0}) {
+    FilterStage stage(grating_scene(), elevation_deg, 250.0);
+    const CameraOf camera = [](int width, int height) { return grating_camera(4.0, width, height); };
+    const std::vector<float> exact = true_visibility(stage, camera, size);
+    for (Figure::Row& row : figure.rows) {
+      stage.draw(filter_from(row.label), camera(size.width, size.height), size.wide_map);
+      row.values.push_back(rms(stage.visibility(), exact));
+    }
+  }
+  return figure;
+}
+
+Figure memory_of_filters() {
+  Figure figure{"memory",
+                "Memory besides the depth map's four bytes a texel",
+                {"filter, format", "bytes a texel", "of convolution, order 16, 8 bits"},
+                {},
+                {}};
+  constexpr double kDepthBytes = 4.0;
+  const double convolution = render::bytes_per_texel(filter_from("convolution")) - kDepthBytes;
+  for (const render::Filter* filter : render::all_filters()) {
+    render::FilterSettings settings = render::default_settings(*filter);
+    for (const render::TexelFormat format : filter->formats) {
+      settings.format = format;
+      const double bytes = render::bytes_per_texel(settings) - kDepthBytes;
+      figure.rows.push_back(
+          {std::string(filter->name) + ", " + std::string(to_string(format)), {bytes, bytes / convolution}});
+    }
+  }
+  return figure;
+}
+
+}  // namespace gnomon::tool

@@ -1,0 +1,235 @@
+// The list of filters and the table of their cost.
+#include "filters.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "gnomon/report/statistics.hpp"
+#include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/load.hpp"
+#include "offscreen_context.hpp"
+#include "output.hpp"
+#include "scene_words.hpp"
+#include "stage.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+using render::FilterSettings;
+using report::median;
+
+constexpr int kWidth = 480, kHeight = 270;        // a small frame: maps are to dominate
+constexpr double kBlurRadii[] = {0.0, 1.0, 3.0};  // none, 3 x 3, 7 x 7
+
+struct Measured {
+  FilterSettings settings;
+  std::vector<double> milliseconds;
+  render::FrameStats stats;
+};
+
+/// What a filter answers for: maps drawn, stored and blurred, and read at every pixel.
+double shadow_milliseconds(const render::FrameStats& stats) {
+  double sum = 0.0;
+  for (const render::Pass pass : {render::Pass::shadow_maps, render::Pass::prefilter, render::Pass::mask})
+    sum += stats.milliseconds[static_cast<std::size_t>(pass)];
+  return sum;
+}
+
+/// Every filter with every blur; `hard`, which has none, comes first.
+std::vector<Measured> runs_of(const std::vector<FilterSettings>& filters) {
+  std::vector<Measured> runs{{filter_from("hard"), {}, {}}};
+  for (const FilterSettings& settings : filters) {
+    if (settings.filter == runs[0].settings.filter) continue;
+    for (const double radius : kBlurRadii) {
+      Measured& run = runs.emplace_back();
+      run.settings = settings;
+      run.settings.radius = radius;
+    }
+  }
+  return runs;
+}
+
+std::string cost_row(int map_size, const Measured& run, const Measured& hard, bool json) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < run.milliseconds.size(); ++i)
+    ratios.push_back(run.milliseconds[i] / hard.milliseconds[i]);
+  const auto bytes = static_cast<double>(run.stats.map_bytes);
+  const double bytes_ratio = bytes / static_cast<double>(hard.stats.map_bytes);
+  const int blur = static_cast<int>(2.0 * run.settings.radius + 1.0);
+  if (json) {
+    return nlohmann::ordered_json{{"map_size", map_size},
+                                  {"filter", to_string(run.settings)},
+                                  {"blur", blur},
+                                  {"ms", median(run.milliseconds)},
+                                  {"ms_ratio", median(ratios)},
+                                  {"prefilter_passes", run.stats.prefilter_passes},
+                                  {"bytes", run.stats.map_bytes},
+                                  {"bytes_ratio", bytes_ratio}}
+        .dump();
+  }
+  constexpr double kMebi = 1024.0 * 1024.0;
+  const std::string box = blur == 1 ? "none" : std::to_string(blur) + "x" + std::to_string(blur);
+  char text[256];
+  std::snprintf(text, sizeof text, "| %d | %s | %s | %.1f | %.2f | %d | %.1f | %.2f |", map_size,
+                std::string(run.settings.filter->info.name).c_str(), box.c_str(), median(run.milliseconds),
+                median(ratios), run.stats.prefilter_passes, bytes / kMebi, bytes_ratio);
+  return text;
+}
+
+std::string list_as_json() {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const render::Filter* filter : render::all_filters()) {
+    nlohmann::ordered_json options = nlohmann::ordered_json::array(), formats = options;
+    for (const render::FilterOption& option : filter->info.options) {
+      options.push_back({{"name", option.name},
+                         {"default", option.fallback},
+                         {"min", option.min},
+                         {"max", option.max},
+                         {"summary", option.summary}});
+    }
+    for (const render::TexelFormat format : filter->info.formats) formats.push_back(to_string(format));
+    list.push_back({{"name", filter->info.name},
+                    {"summary", filter->info.summary},
+                    {"source", filter->info.source},
+                    {"options", options},
+                    {"formats", formats}});
+  }
+  return list.dump();
+}
+
+}  // namespace
+
+std::vector<FilterSettings> filters_asked_for(const std::vector<std::string>& texts) {
+  std::vector<FilterSettings> all;
+  for (const std::string& text : texts) {
+    if (text != "all") {
+      all.push_back(filter_from(text));
+      continue;
+    }
+    for (const render::Filter* filter : render::all_filters())
+      all.push_back(render::default_settings(*filter));
+  }
+  return all;
+}
+
+void print_filter_cost(const FiltersRequest& request) {
+  const std::vector<FilterSettings> filters = filters_asked_for(request.filters);
+  FilterStage stage(load_scene(request.scene), 38.0, 140.0);
+  const Camera camera = default_path(stage.scene()).at(0.5, kWidth, kHeight);
+  if (!request.json) {
+    print_line("| map | filter | blur | ms | ratio to hard | prefilter passes | MiB | ratio |");
+    print_line("|---|---|---|---|---|---|---|---|");
+  }
+  for (const int map_size : request.map_sizes) {
+    std::vector<Measured> runs = runs_of(filters);
+    for (int round = 0; round < request.rounds; ++round) {
+      for (Measured& run : runs) {
+        // Images are made anew where the filter before had others: the first of two draws pays for that.
+        (void)stage.draw(run.settings, camera, map_size);
+        run.stats = stage.draw(run.settings, camera, map_size);
+        run.milliseconds.push_back(shadow_milliseconds(run.stats));
+      }
+    }
+    for (const Measured& run : runs) print_line(cost_row(map_size, run, runs[0], request.json));
+    flush_output();
+  }
+}
+
+namespace {
+
+/// Prints the list, or the cost table in Markdown, or writes the gallery. Throws std::runtime_error.
+int run_filters(const FiltersRequest& request) {
+  check_scene_word("--scene", request.scene);
+  check_scene_word("--fit", request.fit);
+  if (!request.gallery.empty()) check_folder("--gallery", request.gallery);
+  if (!request.cost && request.fit.empty() && request.filters != FiltersRequest{}.filters)
+    throw std::runtime_error("--filters requires --cost or --fit");
+  if (!request.cost && request.fit.empty() && request.gallery.empty()) {
+    std::string text = request.json ? list_as_json() : render::filter_help();
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    print_line(text);
+    flush_output();
+    return 0;
+  }
+  const auto context = render::create_context(offscreen_context(request.context));
+  if (request.cost) {
+    if (!request.json) {
+      print_line(context->info().renderer +
+                 ": wall clock with glFinish after each pass, median of interleaved rounds\n");
+    }
+    print_filter_cost(request);
+  }
+  if (!request.fit.empty()) print_filter_needs(request);
+  if (!request.gallery.empty()) write_filter_gallery(request.gallery, request.scene);
+  return 0;
+}
+
+/// What --fit takes.
+std::vector<Option> fit_options(FiltersRequest& request) {
+  return {{.name = "--fit",
+           .target = &request.fit,
+           .help = "what each filter could do without on the maps of this scene: builtin:NAME or a glTF file",
+           .names = builtin_scene_words(),
+           .only_names = false,
+           .completion = Completion::files},
+          {.name = "--fit-bound",
+           .target = &request.fit_bound,
+           .help = "by how much its answers may then differ, in steps of 8 bits",
+           .range = {{0.0, 255.0}},
+           .needs = "--fit"},
+          {.name = "--fit-exceptions",
+           .target = &request.fit_exceptions,
+           .help = "percent of the receivers tried that may differ by more",
+           .range = {{0.0, 100.0}},
+           .needs = "--fit"}};
+}
+
+/// What the cost table takes.
+std::vector<Option> cost_options(FiltersRequest& request) {
+  return {{.name = "--filters",
+           .target = &request.filters,
+           .help = "of the cost table and --fit: names with their options, or all",
+           .names = names_in(render::all_filters(), {"all"}),
+           .only_names = false},
+          {.name = "--map-sizes",
+           .target = &request.map_sizes,
+           .help = "of the cost table: texels along each side of a map",
+           .range = {{kLeastMapSize, kMostMapSize}},
+           .needs = "--cost"},
+          {.name = "--rounds",
+           .target = &request.rounds,
+           .help = "of the cost table",
+           .range = {{1, 1000}},
+           .needs = "--cost"},
+          {.name = "--scene",
+           .target = &request.scene,
+           .help = "of the cost table and the last strip: builtin:NAME or a glTF file",
+           .names = builtin_scene_words(),
+           .only_names = false,
+           .completion = Completion::files}};
+}
+
+}  // namespace
+
+std::function<int()> declare_filters(Arguments& arguments) {
+  const auto request = std::make_shared<FiltersRequest>();
+  std::vector<Option>& options = arguments.options;
+  options = {
+      {.name = "--cost", .target = &request->cost, .help = "time and memory against `hard`, as a table"},
+      {.name = "--gallery",
+       .target = &request->gallery,
+       .help = "write the papers' comparisons as pictures to this folder",
+       .completion = Completion::folders}};
+  for (Option& option : fit_options(*request)) options.push_back(std::move(option));
+  for (Option& option : cost_options(*request)) options.push_back(std::move(option));
+  options.push_back({.name = "--json", .target = &request->json, .help = "list and cost table as JSON"});
+  options.push_back({.name = "--context",
+                     .target = &request->context,
+                     .help = "auto, osmesa or egl",
+                     .names = {"auto", "osmesa", "egl"}});
+  return [request] { return run_filters(*request); };
+}
+
+}  // namespace gnomon::tool

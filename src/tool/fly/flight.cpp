@@ -1,0 +1,340 @@
+// The headless flight: plan, draw, measure, write.
+#include "flight.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "command.hpp"
+#include "frame_plan.hpp"
+#include "gnomon/render/filter.hpp"
+#include "gnomon/render/picture.hpp"
+#include "gnomon/render/probe.hpp"
+#include "gnomon/scene/image.hpp"
+#include "gnomon/scene/load.hpp"
+#include "interrupt.hpp"
+#include "output.hpp"
+#include "plan_option.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+
+namespace gnomon::tool::fly {
+namespace {
+
+constexpr int kPlanRepeats = 5;  ///< the time of a plan is the median over these
+
+struct TimedPlan {
+  ShadowPlan plan;
+  std::int64_t nanoseconds = 0;
+};
+
+/// `history` is taken one frame further, where the options ask for one.
+TimedPlan timed_plan(const Options& options, const Flight& flight, const Light& light, const Camera& camera,
+                     const PlanOptions& plan, PlanHistory& history) {
+  TimedPlan result;
+  std::array<std::int64_t, kPlanRepeats> taken{};
+  PlanHistory next;
+  for (std::int64_t& ns : taken) {
+    next = history;
+    const auto begin = std::chrono::steady_clock::now();
+    result.plan = plan_frame(options, flight, light, camera, plan, next);
+    ns = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin)
+             .count();
+  }
+  std::nth_element(taken.begin(), taken.begin() + kPlanRepeats / 2, taken.end());
+  result.nanoseconds = taken[kPlanRepeats / 2];
+  history = next;
+  return result;
+}
+
+void label_cascades(Image& image, const ShadowPlan& plan) {
+  std::array<std::string, kMaxMaps> text;
+  std::array<render::LegendEntry, kMaxMaps> entries{};
+  for (std::size_t i = 0; i < plan.maps().size(); ++i) {
+    const ShadowMap& map = plan.map[i];
+    text[i] = fmt::format("map {}: depth {:.4g} to {:.4g}, {}x{}, {}", i, map.depth_begin, map.depth_end,
+                          map.width, map.height, map.warp->name);
+    entries[i] = {render::cascade_color(static_cast<int>(i)), text[i]};
+  }
+  const std::string title =
+      plan.map_count > 0 ? "shadow maps" : fmt::format("no map: {}", to_string(plan.status));
+  render::draw_legend(image, title, {entries.data(), plan.maps().size()});
+}
+
+/// Everything a frame needs over the whole flight.
+struct Studio {
+  const Options& options;
+  const Flight& flight;
+  render::Renderer renderer;
+  render::PreparedFilter filter;
+  ContactSheet sheet;
+  PlanHistory history;
+};
+
+/// The frame once more under each warp that is compared, side by side.
+void draw_comparison(Studio& studio, const Camera& camera, int frame) {
+  const Options& options = studio.options;
+  PlanOptions plan_options = options.plan;
+  WarpStrip strip;
+  for (const Warp* warp : options.compared_warps) {
+    plan_options.warp.warp = warp;
+    const ShadowPlan plan = make_plan(camera, default_light(options.light, studio.flight.scene.bounds_world),
+                                      studio.flight.bounds(), plan_options);
+    studio.renderer.draw(plan, camera, studio.filter, {});
+    const PixelAliasing m = pixel_aliasing(studio.renderer.aliasing());
+    strip.add(fmt::format("{}: m p95 {:.3g}, median {:.3g}, {:.0f} % undersampled",
+                          warp == nullptr ? "auto" : warp->name, m.p95, m.p50, 100.0 * m.share_undersampled),
+              studio.renderer.image(), studio.renderer.heat_map());
+  }
+  const std::string title = fmt::format("{}, {} map{} of {}", options.scene, plan_options.cascades,
+                                        plan_options.cascades == 1 ? "" : "s", plan_options.resolution.max_size);
+  write_png(strip.strip(title), options.out / fmt::format("frame_{:04}_warps.png", frame));
+}
+
+/// Asks the maps just drawn what the filter can do without, and takes that for the frames to come: where maps
+/// are new, which is after the first frame, and now and then. Reading maps back takes longer than a frame of
+/// a GPU.
+void save_filter_precision(Studio& studio, const ShadowPlan& plan, int frame, FrameRow& row) {
+  constexpr int kFramesBetween = 60;
+  const Options& options = studio.options;
+  if (!(options.filter_precision > 0.0) || frame % kFramesBetween != 0) return;
+  const render::FilterFit fit =
+      render::fit_filter(options.filter, studio.renderer.drawn_depths(options.filter, plan),
+                         {.bound = options.filter_precision / 255.0});
+  studio.filter = studio.renderer.prepare(fit.settings);
+  const std::string left_out = describe(fit, options.filter);
+  if (!left_out.empty())
+    row.omitted +=
+        fmt::format("{}filter, from the next frame on: {}", row.omitted.empty() ? "" : "; ", left_out);
+}
+
+FrameRow draw_frame(Studio& studio, int frame) {
+  const Options& options = studio.options;
+  const Camera camera = camera_of(options, studio.flight, frame);
+  const Light light = default_light(options.light, studio.flight.scene.bounds_world);
+  VisibleDepths depths;
+  const PlanOptions plan_options = frame_options(options, studio.renderer, studio.filter, camera, depths);
+  const TimedPlan timed = timed_plan(options, studio.flight, light, camera, plan_options, studio.history);
+  FrameRow row;
+  row.frame = frame;
+  row.status = timed.plan.status;
+  row.plan_ns = timed.nanoseconds;
+  render::FrameOptions drawn;
+  drawn.transition = options.transition;
+  drawn.light = &light;
+  drawn.prune = options.prune;
+  row.stats = studio.renderer.draw(timed.plan, camera, studio.filter, drawn);
+  row.aliasing = pixel_aliasing(studio.renderer.aliasing());
+  for (std::size_t i = 0; i < timed.plan.maps().size(); ++i)
+    row.m_bound[i] = std::max(timed.plan.map[i].m_s_max, timed.plan.map[i].m_t_max);
+  row.warps = warps_text(timed.plan);
+  row.omitted = omitted_text(timed.plan, row.stats);
+  save_filter_precision(studio, timed.plan, frame, row);
+
+  const Image lit = studio.renderer.image();
+  Image heat = studio.renderer.heat_map(), tint = studio.renderer.cascade_tint();
+  if (studio.sheet.wants(frame)) studio.sheet.add(frame, lit, heat, tint);
+  render::draw_heat_legend(heat);
+  label_cascades(tint, timed.plan);
+  const auto file = [&](const char* kind) {
+    return options.out / fmt::format("frame_{:04}_{}.png", frame, kind);
+  };
+  write_png(lit, file("image"));
+  check_interrupt();
+  write_png(heat, file("heat"));
+  write_png(tint, file("cascades"));
+  if (!options.compared_warps.empty()) draw_comparison(studio, camera, frame);
+  return row;
+}
+
+/// Every frame's plan once, before anything is written: a flight is refused as a whole.
+void check_plans(const Options& options, const Flight& flight) {
+  for (int frame = 0; frame < options.frames; ++frame) {
+    const Camera camera = camera_of(options, flight, frame);
+    const ShadowPlan plan = make_plan(camera, default_light(options.light, flight.scene.bounds_world),
+                                      flight.bounds(), options.plan);
+    if (plan.status == PlanStatus::invalid_input) {
+      throw std::runtime_error(
+          fmt::format("{}: frame {}: the plan refuses {}", options.scene, frame, plan.invalid_field));
+    }
+  }
+}
+
+/// Mean and worst over the frames.
+struct Summary {
+  double milliseconds = 0.0, worst_p95 = 0.0, undersampled = 0.0;
+  std::int64_t slowest_plan_ns = 0;
+};
+
+Summary summary_of(const std::vector<FrameRow>& rows) {
+  Summary summary;
+  for (const FrameRow& row : rows) {
+    summary.worst_p95 = std::max(summary.worst_p95, row.aliasing.p95);
+    summary.undersampled += row.aliasing.share_undersampled / static_cast<double>(rows.size());
+    summary.slowest_plan_ns = std::max(summary.slowest_plan_ns, row.plan_ns);
+    for (const double ms : row.stats.milliseconds)
+      summary.milliseconds += ms / static_cast<double>(rows.size());
+  }
+  return summary;
+}
+
+void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
+  const Summary s = summary_of(rows);
+  fmt::print(
+      "{} frames: {:.1f} ms a frame, slowest plan {:.1f} us, worst m p95 {:.3g}, {:.1f} % of pixels "
+      "undersampled\n",
+      rows.size(), s.milliseconds, static_cast<double>(s.slowest_plan_ns) * 1e-3, s.worst_p95,
+      s.undersampled * 100.0);
+  fmt::print("pictures: {}\nsheet:    {}\nnumbers:  {}\n", (options.out / "frame_0000_image.png").string(),
+             (options.out / "contact_sheet.png").string(), (options.out / "frames.csv").string());
+}
+
+void print_json(const Options& options, const Flight& flight, const render::ContextInfo& context,
+                const std::vector<FrameRow>& rows) {
+  using Json = nlohmann::ordered_json;
+  const Summary s = summary_of(rows);
+  const Json json{{"scene", flight.scene.name},
+                  {"instances", flight.scene.instances.size()},
+                  {"triangles", flight.scene.triangle_count()},
+                  {"context", context.description()},
+                  {"software", context.software},
+                  {"filter", render::to_string(options.filter)},
+                  {"options", plan_options_json(options.plan)},
+                  {"summary",
+                   {{"frames", rows.size()},
+                    {"ms", s.milliseconds},
+                    {"slowest_plan_ns", s.slowest_plan_ns},
+                    {"worst_m_p95", s.worst_p95},
+                    {"share_undersampled", s.undersampled}}},
+                  {"sheet", (options.out / "contact_sheet.png").string()},
+                  {"numbers", (options.out / "frames.csv").string()},
+                  {"frames", frames_json(rows)}};
+  print_line(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace
+
+Flight load_flight(const Options& options) {
+  try {
+    Flight flight;
+    flight.scene = load_scene(options.scene, limits_of_triangles(options.max_triangles));
+    for (const std::string& warning : flight.scene.warnings) warn(warning);
+    flight.path = options.path ? load_camera_path(*options.path)
+                               : default_path(flight.scene, 1.0 * options.width / options.height);
+    flight.boxes.reserve(flight.scene.instances.size());
+    for (const Instance& instance : flight.scene.instances) flight.boxes.push_back(instance.bounds_world);
+    return flight;
+  } catch (const SceneError& error) {
+    throw std::runtime_error(error.what());
+  }
+}
+
+Camera camera_of(const Options& options, const Flight& flight, int frame) {
+  // The end of a closed path is its beginning: the last frame stands one step before it.
+  const int steps = flight.path.closed ? options.frames : options.frames - 1;
+  const double t = options.frames == 1 ? 0.5 : 1.0 * frame / steps;
+  return flight.path.at(t, options.width, options.height);
+}
+
+void fit_maps_to_memory(Options& options) {
+  const int wanted = options.plan.resolution.max_size;
+  const render::FittingMaps fitting = render::largest_maps(
+      wanted, options.plan.cascades, render::bytes_per_texel(options.filter), options.map_memory_mib);
+  if (fitting.size == 0)
+    throw std::runtime_error(fmt::format("--map-size {}: no map fits ({})", wanted, fitting.why));
+  if (fitting.size < wanted)
+    warn(fmt::format("maps of {} do not fit ({}): maps of {}, {:.4g} MiB", wanted, fitting.why, fitting.size,
+                     fitting.mebibytes));
+  options.plan.resolution.max_size = fitting.size;
+}
+
+namespace {
+
+/// Draws the frames, and keeps the rows of those that were drawn whatever ends the flight.
+std::vector<FrameRow> draw_frames(Studio& studio, bool software) {
+  const Options& options = studio.options;
+  const auto write_rows = [&](const std::vector<FrameRow>& rows) {
+    write_csv(rows, options.plan.cascades, software, options.out / "frames.csv");
+  };
+  std::vector<FrameRow> rows;
+  try {
+    Progress progress(fmt::format("{} frames", program_name()), options.frames);
+    for (int frame = 0; frame < options.frames; ++frame) {
+      check_interrupt();
+      progress.set(frame);
+      rows.push_back(draw_frame(studio, frame));
+    }
+  } catch (const Interrupted&) {
+    if (!rows.empty()) write_rows(rows);
+    throw;
+  }
+  write_rows(rows);
+  return rows;
+}
+
+std::string sheet_title(const Options& options) {
+  return fmt::format("{}: {} maps of {}, {}{}", options.scene, options.plan.cascades, options.plan.resolution.max_size,
+                     render::to_string(options.filter),
+                     options.plan.fit == Fit::tight ? "" : fmt::format(", {}", to_string(options.plan.fit)));
+}
+
+void print_scene(const Flight& flight, const render::ContextInfo& context) {
+  constexpr double kMebi = 1024.0 * 1024.0;
+  fmt::print("context:  {}\n", context.description());
+  fmt::print("scene:    {}, {} instances, {} triangles, {:.4g} MiB\n", flight.scene.name,
+             flight.scene.instances.size(), flight.scene.triangle_count(),
+             static_cast<double>(flight.scene.bytes()) / kMebi);
+}
+
+}  // namespace
+
+int fly_to_files(const Options& asked, const Flight& flight) {
+  Options options = asked;
+  const auto context = [&options] {
+    try {
+      return render::create_context(options.context);
+    } catch (const render::RenderError& error) {
+      throw std::runtime_error(fmt::format("--context {}: {}", to_string(options.context), error.what()));
+    }
+  }();
+  if (!options.json) print_scene(flight, context->info());
+  fit_maps_to_memory(options);
+  check_plans(options, flight);
+  make_folder("--out", options.out);
+  watch_interrupts();
+  Studio studio{options,
+                flight,
+                render::Renderer(flight.scene),
+                {},
+                ContactSheet(options.frames, options.width, options.height),
+                {}};
+  studio.filter = studio.renderer.prepare(options.filter);
+  const std::vector<FrameRow> rows = draw_frames(studio, context->info().software);
+  write_png(studio.sheet.sheet(sheet_title(options)), options.out / "contact_sheet.png");
+  if (options.json) {
+    print_json(options, flight, context->info(), rows);
+  } else {
+    print_summary(options, rows);
+  }
+  return 0;
+}
+
+int run(Options options) {
+  // A folder that cannot be written is found before a scene is loaded for minutes.
+  check_folder("--out", options.out);
+  const Flight flight = load_flight(options);
+  if (options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0)
+    choose_technique_of(options, flight);
+  if (options.perceptual_resolution) options.plan.resolution.max_size = perceptual_map_size(options, flight);
+  const int code = options.context == render::ContextKind::glfw ? fly_in_window(options, flight)
+                                                                : fly_to_files(options, flight);
+  if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
+  return code;
+}
+
+}  // namespace gnomon::tool::fly

@@ -1,0 +1,47 @@
+// The flight itself: scene, camera path and maps for each frame, drawn to files or to a window.
+#pragma once
+
+#include <vector>
+
+#include "gnomon/bounds.hpp"
+#include "gnomon/camera.hpp"
+#include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/scene.hpp"
+#include "options.hpp"
+
+namespace gnomon::tool::fly {
+
+/// What flies where.
+struct Flight {
+  Scene scene;
+  CameraPath path;
+  std::vector<Box> boxes;  ///< of the instances: they cast and receive
+  [[nodiscard]] SceneBounds bounds() const noexcept { return {boxes, boxes}; }
+};
+
+/// Loads scene and path. Throws std::runtime_error with what is wrong and where.
+[[nodiscard]] Flight load_flight(const Options& options);
+
+/// Of a frame of the flight.
+[[nodiscard]] Camera camera_of(const Options& options, const Flight& flight, int frame);
+
+/// Halves the maps until memory takes them, and says so. A context must be current. Throws std::runtime_error
+/// where not even the least fit.
+void fit_maps_to_memory(Options& options);
+
+/// The smallest map size whose texels the filter hides in all frames; prints it. Throws std::runtime_error
+/// where none does.
+[[nodiscard]] int perceptual_map_size(const Options& options, const Flight& flight);
+
+/// Takes maps and filter that meet Options::budget in the frame that is hardest to serve, and prints them
+/// with what less cost and what less error would have taken. Throws std::runtime_error.
+void choose_technique_of(Options& options, const Flight& flight);
+
+/// Draws the frames off-screen and writes them. Returns the exit code.
+int fly_to_files(const Options& options, const Flight& flight);
+
+/// Opens a window. With --frames, flies the path once, writes what the window showed last and closes; else
+/// the user flies. Returns the exit code.
+int fly_in_window(const Options& options, const Flight& flight);
+
+}  // namespace gnomon::tool::fly

@@ -1,0 +1,38 @@
+// The plan of one frame of a flight, with what the options look at besides the camera.
+#include "frame_plan.hpp"
+
+namespace gnomon::tool::fly {
+namespace {
+
+/// The view depths of the frame last drawn.
+VisibleDepths depths_shown(const render::Renderer& renderer) {
+  const FloatImage positions = renderer.positions();
+  const auto channels = static_cast<std::size_t>(positions.channels);
+  VisibleDepths depths;
+  // The last of the channels x, y, z, depth; 0 for the sky.
+  for (std::size_t i = channels - 1; i < positions.values.size(); i += channels)
+    depths.add(static_cast<double>(positions.values[i]));
+  return depths;
+}
+
+}  // namespace
+
+PlanOptions frame_options(const Options& options, render::Renderer& renderer,
+                          const render::PreparedFilter& filter, const Camera& camera, VisibleDepths& depths) {
+  PlanOptions plan = options.plan;
+  if (!options.visible_depths) return plan;
+  render::FrameOptions surfaces;
+  surfaces.aliasing = surfaces.heat_map = surfaces.cascade_tint = surfaces.time_passes = false;
+  renderer.draw(ShadowPlan{}, camera, filter, surfaces);
+  depths = depths_shown(renderer);
+  plan.visible_depths = &depths;
+  return plan;
+}
+
+ShadowPlan plan_frame(const Options& options, const Flight& flight, const Light& light, const Camera& camera,
+                      const PlanOptions& plan, PlanHistory& history) {
+  return options.history ? make_plan(camera, light, flight.bounds(), plan, history)
+                         : make_plan(camera, light, flight.bounds(), plan);
+}
+
+}  // namespace gnomon::tool::fly

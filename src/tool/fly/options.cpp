@@ -1,0 +1,266 @@
+// The words of `flythrough` and `gnomon fly`, and what they become.
+#include "options.hpp"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <memory>
+#include <stdexcept>
+
+#include "command.hpp"
+#include "filter_words.hpp"
+#include "gnomon/render/perceptual.hpp"
+#include "gnomon/scene/load.hpp"
+#include "plan_option.hpp"
+#include "scene_words.hpp"
+
+namespace gnomon::tool::fly {
+namespace {
+
+constexpr int kMaxFrames = 100'000, kMaxSide = 16'384;
+
+/// What the command line says, before it is understood.
+struct Request {
+  Options options;
+  std::string size = "960x540", context = "auto", filter = "pcf", path, light = "sun", cost_model,
+              out = "out/flythrough", resolution = "given", transition = "cut";
+  bool stable = false, split_given = false, lambda_given = false;
+  std::vector<std::string> compared_warps;
+};
+
+void parse_size(const std::string& text, Options& options) {
+  const std::size_t x = text.find('x');
+  const auto number = [&text](std::size_t begin, std::size_t end, int& value) {
+    const auto [last, error] = std::from_chars(text.data() + begin, text.data() + end, value);
+    return error == std::errc{} && last == text.data() + end && value >= 16 && value <= kMaxSide;
+  };
+  if (x == std::string::npos || !number(0, x, options.width) || !number(x + 1, text.size(), options.height)) {
+    throw std::runtime_error(
+        fmt::format("--size {}: wants WIDTHxHEIGHT, each 16 to {}, as in 960x540", text, kMaxSide));
+  }
+}
+
+void resolve_resolution(const Request& request, Options& options) {
+  options.perceptual_resolution = request.resolution == "perceptual";
+  if (!options.perceptual_resolution) return;
+  // Whoever asks for texels that the filter hides may want more of them than the metric.
+  options.plan.prune = options.plan.prune.without(PruneRule::metric_resolution);
+  if (!render::is_kernel_in_world(options.filter)) {
+    throw std::runtime_error(
+        fmt::format("--resolution perceptual: {} has no size in the world; give it radius and unit=world, or "
+                    "take pcss",
+                    render::to_string(options.filter)));
+  }
+}
+
+void resolve_budget(const Request& request, Options& options) {
+  if (!request.cost_model.empty()) options.cost_model = request.cost_model;
+  if (options.budget.milliseconds > 0.0 && !options.cost_model)
+    throw std::runtime_error("--budget-ms: wants --cost-model FILE, which gnomon calibrate writes");
+  const bool chosen = options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0;
+  if (chosen && options.perceptual_resolution)
+    throw std::runtime_error(
+        "--resolution perceptual: --budget-ms and --target-error choose the maps already");
+}
+
+void resolve_transition(const Request& request, Options& options) {
+  using render::SplitTransition;
+  if (request.transition == "cut") return;
+  options.transition = request.transition == "blend" ? SplitTransition::blend : SplitTransition::dither;
+  options.plan.split.overlap = kTransitionShare;
+}
+
+Options resolved(const Request& request) {
+  Options options = request.options;
+  check_scene_word("scene", options.scene);
+  parse_size(request.size, options);
+  options.out = request.out;
+  (void)render::context_kind_from_name(request.context, options.context);
+  if (request.lambda_given && !request.split_given) (void)set_plan_choice("split", "practical", options.plan);
+  (void)light_kind_from_name(request.light, options.light.kind);
+  const std::vector<std::string> warps = plan_choice_names("warp");
+  for (const std::string& name : request.compared_warps) {
+    PlanOptions one;
+    if (!set_plan_choice("warp", name, one)) refuse_name("--compare-warps", name, warps);
+    options.compared_warps.push_back(one.warp);
+  }
+  options.filter = filter_word("--filter", request.filter);
+  if (request.stable) (void)set_plan_choice("fit", "stable", options.plan);
+  // A warped grid is only stable from frame to frame.
+  if (options.plan.fit == Fit::warped_stable) options.history = true;
+  render::set_margin(options.filter, options.plan);
+  options.prune = options.plan.prune;
+  resolve_resolution(request, options);
+  resolve_transition(request, options);
+  resolve_budget(request, options);
+  if (!request.path.empty()) options.path = request.path;
+  return options;
+}
+
+std::string scene_help() {
+  std::string text = "glTF file (.gltf, .glb) or one of";
+  for (const BuiltinScene& scene : builtin_scenes()) text += fmt::format(" builtin:{}", scene.name);
+  return text;
+}
+
+Option prune_option(PlanOptions& plan) {
+  std::string rules;
+  std::vector<std::string> names{"all", "exact", "none"};
+  for (const PruneRuleInfo& rule : prune_rules()) {
+    rules += fmt::format("{}{}: {}", rules.empty() ? "" : "; ", rule.name, rule.what);
+    names.emplace_back(rule.name);
+  }
+  Option option =
+      plan_option("prune", plan, "what may be left out: all, exact, none, or RULE,.. of " + rules);
+  option.names = names;
+  return option;
+}
+
+/// Where to fly, and what becomes of it.
+std::vector<Option> flight_options(Request& request) {
+  Options& options = request.options;
+  return {{.name = "scene",
+           .target = &options.scene,
+           .help = scene_help(),
+           .names = builtin_scene_words(),
+           .only_names = false,
+           .completion = Completion::files},
+          {.name = "--frames",
+           .target = &options.frames,
+           .help = "pictures along the flight",
+           .range = {{1, kMaxFrames}},
+           .given = &options.frames_given},
+          {.name = "--size", .target = &request.size, .help = "of a picture, WIDTHxHEIGHT"},
+          {.name = "--path",
+           .target = &request.path,
+           .help = "camera flight, a JSON file; else the scene's own",
+           .completion = Completion::files},
+          {.name = "--out",
+           .target = &request.out,
+           .help = "folder that the files go to",
+           .completion = Completion::folders},
+          {.name = "--json",
+           .target = &options.json,
+           .help = "print files, options, and what each frame measured as one line of JSON"},
+          {.name = "--context",
+           .target = &request.context,
+           .help = "auto, osmesa, egl, or glfw for a window",
+           .names = {"auto", "osmesa", "egl", "glfw"}}};
+}
+
+/// What a plan may choose.
+std::vector<Option> map_options(Request& request) {
+  PlanOptions& plan = request.options.plan;
+  Option split = plan_option("split", plan, "auto, uniform, logarithmic, practical, pseudo_near or optimal");
+  std::erase(split.names, "given");  // a command line has no list of splits
+  split.given = &request.split_given;
+  Option lambda = plan_option("lambda", plan);
+  lambda.given = &request.lambda_given;
+  return {plan_option("cascades", plan),
+          split,
+          lambda,
+          plan_option("warp", plan, any_of_text(plan_choice_names("warp"))),
+          {.name = "--compare-warps",
+           .target = &request.compared_warps,
+           .help = "draw every frame with each of these side by side as well, as in none,lispsm,auto",
+           .names = plan_choice_names("warp"),
+           .only_names = false,
+           .delimiter = ','},
+          plan_option("objective", plan, "what the warp lowers: storage, max or p95"),
+          plan_option("map_size", plan),
+          plan_option("fit", plan, "how maps are fitted: tight, rotated, stable or warped_stable"),
+          {.name = "--stable",
+           .target = &request.stable,
+           .help = "the same as --fit stable: texel grids that do not move with the camera"},
+          {.name = "--transition",
+           .target = &request.transition,
+           .help = "from map to map: cut at the split; blend or dither over the tenth of the map before it",
+           .names = {"cut", "blend", "dither"}},
+          {.name = "--history",
+           .target = &request.options.history,
+           .help = "let texels change smoothly from frame to frame; for flights of many frames"},
+          {.name = "--visible-depths",
+           .target = &request.options.visible_depths,
+           .help = "draw each frame twice and plan the second for the depths that the first one shows"},
+          prune_option(plan)};
+}
+
+/// How large maps are, and what is chosen by itself.
+std::vector<Option> budget_options(Request& request) {
+  Options& options = request.options;
+  return {{.name = "--map-memory-mib",
+           .target = &options.map_memory_mib,
+           .help = "MiB that all maps may take together; larger ones are halved until they fit; 0: what "
+                   "there is",
+           .range = {{0.0, 1e9}}},
+          {.name = "--max-triangles",
+           .target = &options.max_triangles,
+           .help = "scenes of more, over all instances, are refused; one takes up to 100 bytes",
+           .range = {{1, 1e9}}},
+          {.name = "--resolution",
+           .target = &request.resolution,
+           .help = "given by --map-size, or perceptual: the smallest maps whose texels the filter hides",
+           .names = {"given", "perceptual"}},
+          {.name = "--budget-ms",
+           .target = &options.budget.milliseconds,
+           .help = "choose warp, maps and filter for the least error within these milliseconds; 0: no budget",
+           .range = {{0.0, 1e9}}},
+          {.name = "--target-error",
+           .target = &options.budget.target_error,
+           .help = "choose the cheapest that brings m, in the mean over what is seen, to this; 0: none",
+           .range = {{0.0, 1e9}}},
+          {.name = "--cost-model",
+           .target = &request.cost_model,
+           .help = "what gnomon calibrate wrote; without it texels are the cost",
+           .completion = Completion::files}};
+}
+
+std::vector<Option> filter_options(Request& request) {
+  Options& options = request.options;
+  return {{.name = "--filter",
+           .target = &request.filter,
+           .help = "NAME or NAME:OPTION=VALUE,.. as in pcf:radius=2,unit=texels; gnomon filters lists them",
+           .names = names_in(render::all_filters()),
+           .only_names = false},
+          {.name = "--filter-precision",
+           .target = &options.filter_precision,
+           .help = "let the filter store less where its answers on the maps just drawn differ by no more "
+                   "than this, in steps of 8 bits; asked after the first frame and every 60th; 0: never",
+           .range = {{0.0, 255.0}}},
+          {.name = "--blocker-distance",
+           .target = &options.blocker_distance,
+           .help = "world units from a shadow to what casts it, for pcss; 0: half the scene's height",
+           .range = {{0.0, 1e12}}}};
+}
+
+std::vector<Option> light_options(Request& request) {
+  LightPlacement& light = request.options.light;
+  return {{.name = "--light",
+           .target = &request.light,
+           .help = "sun, or a spot or point light in the middle of the scene",
+           .names = {"sun", "spot", "point"}},
+          {.name = "--light-elevation-deg",
+           .target = &light.elevation_deg,
+           .help = "of the sun above the horizon",
+           .range = {{0.1, 90.0}}},
+          {.name = "--light-azimuth-deg",
+           .target = &light.azimuth_deg,
+           .help = "where the sun stands: 0 over -Z, 90 over +X",
+           .range = {{-360.0, 360.0}}}};
+}
+
+}  // namespace
+}  // namespace gnomon::tool::fly
+
+namespace gnomon::tool {
+
+std::function<int()> declare_fly(Arguments& arguments) {
+  const auto request = std::make_shared<fly::Request>();
+  for (const auto& part : {fly::flight_options, fly::map_options, fly::budget_options, fly::filter_options,
+                           fly::light_options}) {
+    for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
+  }
+  return [request] { return fly::run(fly::resolved(*request)); };
+}
+
+}  // namespace gnomon::tool

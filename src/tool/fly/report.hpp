@@ -1,0 +1,80 @@
+// What a flight leaves behind: one row of numbers per frame, and one sheet of all pictures.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "gnomon/plan.hpp"
+#include "gnomon/render/renderer.hpp"
+
+namespace gnomon::tool::fly {
+
+/// The aliasing error over the pixels of a frame whose surface faces the light and lies in a map.
+struct PixelAliasing {
+  double p50 = 0.0, p95 = 0.0, max = 0.0;
+  double share_undersampled = 0.0;  ///< of those pixels, m > 1
+  std::size_t pixels = 0;
+};
+[[nodiscard]] PixelAliasing pixel_aliasing(const FloatImage& aliasing);
+
+struct FrameRow {
+  int frame = 0;
+  PlanStatus status{};
+  std::int64_t plan_ns = 0;
+  render::FrameStats stats;
+  PixelAliasing aliasing;
+  std::array<double, kMaxMaps> m_bound{};  ///< of each map, over all that is in view
+  std::string warps;                       ///< of each map, with its kappa
+  std::string omitted;                     ///< what the plan left out, and why
+};
+
+/// Names and strengths of the maps' warps, and the plan's omissions, as text for a row.
+[[nodiscard]] std::string warps_text(const ShadowPlan& plan);
+[[nodiscard]] std::string omitted_text(const ShadowPlan& plan, const render::FrameStats& stats);
+
+/// Writes the table with columns for `cascades` maps: beside the target first, then renamed. Throws
+/// std::runtime_error.
+void write_csv(const std::vector<FrameRow>& rows, int cascades, bool software,
+               const std::filesystem::path& file);
+
+/// A list of objects, one per frame, with what the table has.
+[[nodiscard]] nlohmann::ordered_json frames_json(const std::vector<FrameRow>& rows);
+
+/// Small versions of some frames' pictures, evenly chosen: a column per frame, a row per kind of picture.
+class ContactSheet {
+ public:
+  ContactSheet(int frames, int width, int height);
+  /// True where this frame has a column.
+  [[nodiscard]] bool wants(int frame) const;
+  void add(int frame, const Image& lit, const Image& heat, const Image& tint);
+  [[nodiscard]] Image sheet(const std::string& title) const;
+
+ private:
+  static constexpr int kMaxColumns = 8, kColumnWidth = 320;
+  struct Column {
+    int frame;
+    Image picture[3];
+  };
+  int frames_, thumb_width_, thumb_height_;
+  std::vector<Column> columns_;
+};
+
+/// One frame under several warps side by side: a column per warp, the picture above the aliasing error.
+class WarpStrip {
+ public:
+  void add(const std::string& label, const Image& lit, const Image& heat);
+  [[nodiscard]] Image strip(const std::string& title) const;
+
+ private:
+  static constexpr int kMaxColumnWidth = 420;
+  struct Column {
+    std::string label;
+    Image lit, heat;
+  };
+  std::vector<Column> columns_;
+};
+
+}  // namespace gnomon::tool::fly

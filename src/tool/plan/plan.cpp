@@ -1,0 +1,97 @@
+// `gnomon plan`: cases in, one shadow plan per line out.
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "case_source.hpp"
+#include "command.hpp"
+#include "output.hpp"
+#include "plan_json.hpp"
+#include "progress.hpp"
+#include "timing.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+struct PlanRequest {
+  std::vector<std::string> files;  ///< "-" is standard input, one case per line
+  int repeats = 0;                 ///< 0: no timing
+  bool pretty = false;             ///< several lines per plan
+  bool log_perspective = false;    ///< add what a logarithmic perspective map would come to
+  bool json = true;                ///< every command takes --json; a plan is nothing else
+};
+
+long long steps_in_all(const PlanRequest& request) {
+  const bool reads_lines = std::find(request.files.begin(), request.files.end(), "-") != request.files.end();
+  if (reads_lines) return 0;
+  return static_cast<long long>(request.files.size()) * std::max(request.repeats, 1);
+}
+
+Json timing_json(const PlanTiming& timing) {
+  return {{"min", timing.min_ns},
+          {"median", timing.median_ns},
+          {"p99", timing.p99_ns},
+          {"allocations", timing.allocations}};
+}
+
+/// Prints the plans in the order of the files and lines. Stops at the first bad case, by std::runtime_error
+/// that names it; the plans before it are printed by then.
+int run_plan(const PlanRequest& request) {
+  Progress progress("gnomon plan", steps_in_all(request));
+  long long steps = 0;
+  const auto plan_one = [&](const Case& input, const std::string& name) {
+    const ShadowPlan plan = make_plan(input.camera, input.light, input.bounds(), input.options);
+    if (plan.status == PlanStatus::invalid_input)
+      throw CaseError(name + ": " + invalid_input_text(plan.invalid_field));
+    Json result = plan_json(plan, input);
+    if (request.log_perspective) result["logpsm"] = log_perspective_json(input);
+    if (request.repeats > 0)
+      result["plan_ns"] = timing_json(time_plan(input, request.repeats, progress, steps));
+    steps += std::max(request.repeats, 1);
+    progress.clear();
+    print_line(request.pretty ? pretty_text(result) : result.dump());
+    progress.set(steps);
+  };
+  for (const std::string& file : request.files) {
+    for_each_case(file, [&](const Case& input, const std::string& name) {
+      plan_one(input, name);
+      // Whoever feeds cases through a pipe may wait for each answer before sending the next.
+      if (file == "-") flush_output();
+    });
+  }
+  flush_output();
+  return 0;
+}
+
+}  // namespace
+
+std::function<int()> declare_plan(Arguments& arguments) {
+  const auto request = std::make_shared<PlanRequest>();
+  arguments.options = {
+      {.name = "CASE",
+       .target = &request->files,
+       .help = "case files in JSON; - reads one case per line from standard input",
+       .required = true,
+       .completion = Completion::files},
+      {.name = "--repeat",
+       .target = &request->repeats,
+       .help = "add \"plan_ns\": what N plans of each case took",
+       .word = "N",
+       .range = {{1, kMaxRepeats}}},
+      {.name = "--logpsm",
+       .target = &request->log_perspective,
+       .help = "add \"logpsm\": the error of one logarithmic perspective map, in numbers only"},
+      {.name = "--pretty", .target = &request->pretty, .help = "indent, several lines per plan"},
+      {.name = "--json", .target = &request->json, .help = "print JSON (always so here)"}};
+  arguments.footer =
+      "Plans come in the order of the files and lines. The first bad case stops the run; the plans before\n"
+      "it are printed. An infinite error (a visible point that no map holds) is printed as null.\n"
+      "--repeat times each plan alone, in nanoseconds of the steady clock, the reading of the clock\n"
+      "included, after a warm-up that is dropped; \"allocations\" is the largest count of heap requests in\n"
+      "one plan. Exit: 0 done, also where a case needs no map; 2 bad input, with one line that names what\n"
+      "is wrong and where.";
+  return [request] { return run_plan(*request); };
+}
+
+}  // namespace gnomon::tool

@@ -1,0 +1,26 @@
+// A field of a case file's "options" as an option of a command line.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+#include "command.hpp"
+#include "gnomon/casefile/plan_fields.hpp"
+
+namespace gnomon::tool {
+
+/// The field `key` as --key, with dashes; its value goes into `options`, which must outlive the parsing.
+/// `help` stands in for the field's own summary. Numbers and choices only: throws std::logic_error for
+/// others.
+[[nodiscard]] Option plan_option(std::string_view key, PlanOptions& options, std::string help = {});
+
+/// Numbers and choices of a plan as "options" of a case file has them.
+[[nodiscard]] nlohmann::ordered_json plan_options_json(PlanOptions options);
+
+/// Sets the choice `key` by its name; false where the name is unknown.
+[[nodiscard]] bool set_plan_choice(std::string_view key, std::string_view name, PlanOptions& options);
+/// The names that a choice takes.
+[[nodiscard]] std::vector<std::string> plan_choice_names(std::string_view key);
+
+}  // namespace gnomon::tool

@@ -1,0 +1,79 @@
+// `gnomon merge` and `gnomon report`: results of many runs into one folder, and the page again.
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "gnomon/report/page.hpp"
+#include "gnomon/report/rows_file.hpp"
+#include "output.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+/// Joins the folders' rows and pictures in `out` and writes the report there.
+int run_merge(const std::vector<std::string>& folders, const std::string& out, bool json) {
+  const std::vector<std::filesystem::path> paths(folders.begin(), folders.end());
+  const std::size_t rows = report::merge_rows(paths, out);
+  const std::string file = (std::filesystem::path(out) / report::kRowsFile).string();
+  const std::string page = report::write_report(out).string();
+  if (json) {
+    print_line(nlohmann::json{{"count", rows}, {"rows", file}, {"report", page}}.dump());
+  } else {
+    print_line("rows:   " + std::to_string(rows) + " in " + file);
+    print_line("report: " + page);
+  }
+  flush_output();
+  return 0;
+}
+
+/// Writes the report of each folder again.
+int run_report(const std::vector<std::string>& folders, bool json) {
+  nlohmann::json pages = nlohmann::json::array();
+  for (const std::string& folder : folders) {
+    pages.push_back(report::write_report(folder).string());
+    if (!json) print_line(pages.back().get<std::string>());
+  }
+  if (json) print_line(nlohmann::json{{"reports", pages}}.dump());
+  flush_output();
+  return 0;
+}
+
+struct FoldersRequest {
+  std::vector<std::string> folders;
+  std::string out = "out/merged";
+  bool json = false;
+};
+
+Option folders_option(FoldersRequest& request) {
+  return {.name = "DIR",
+          .target = &request.folders,
+          .help = "folders with results.jsonl",
+          .required = true,
+          .completion = Completion::folders};
+}
+
+Option json_option(FoldersRequest& request) {
+  return {.name = "--json", .target = &request.json, .help = "print what was done as one line of JSON"};
+}
+
+}  // namespace
+
+std::function<int()> declare_merge(Arguments& arguments) {
+  const auto request = std::make_shared<FoldersRequest>();
+  arguments.options = {folders_option(*request),
+                       {.name = "--out",
+                        .target = &request->out,
+                        .help = "folder that the whole goes to",
+                        .completion = Completion::folders},
+                       json_option(*request)};
+  return [request] { return run_merge(request->folders, request->out, request->json); };
+}
+
+std::function<int()> declare_report(Arguments& arguments) {
+  const auto request = std::make_shared<FoldersRequest>();
+  arguments.options = {folders_option(*request), json_option(*request)};
+  return [request] { return run_report(request->folders, request->json); };
+}
+
+}  // namespace gnomon::tool

@@ -1,0 +1,61 @@
+// `gnomon stress --random`: random cases, checked, and the smallest that fails of each kind as a file.
+#include "stress/random.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "output.hpp"
+#include "progress.hpp"
+#include "run.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+stress::Verdict check_file(const fs::path& file) {
+  (void)load_case(file);  // says what is wrong with it, and where
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return stress::check_case(nlohmann::ordered_json::parse(text));
+}
+
+int replay(const RandomStressRequest& request) {
+  int failed = 0;
+  for (const std::string& file : request.replay) {
+    const stress::Verdict verdict = check_file(file);
+    for (const stress::Finding& f : verdict.findings)
+      print_line(shown_name(file) + ": " + std::string(f.kind) + ": " + f.text);
+    if (verdict.findings.empty()) print_line(shown_name(file) + ": keeps every promise");
+    failed += verdict.findings.empty() ? 0 : 1;
+  }
+  flush_output();
+  return failed == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int run_random_stress(const RandomStressRequest& request) {
+  if (!request.replay.empty()) return replay(request);
+  const fs::path folder = request.out.empty() ? fs::path("stress_random") : fs::path(request.out);
+  const stress::RandomOptions options{request.random, request.seed, true};
+  Progress progress("gnomon stress --random", request.random);
+  long long done = 0;
+  const stress::RandomResult result = stress::run_random(options, [&] { progress.set(++done); });
+  progress.clear();
+  std::string text = stress::summary(options, result);
+  if (!result.kinds.empty()) make_folder("--out", folder);
+  for (const stress::KindFound& found : result.kinds) {
+    const fs::path file = folder / (std::string(found.kind) + ".json");
+    write_file(file, found.case_file);
+    text += "wrote " + shown_name(file) + "\n";
+  }
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  print_line(text);
+  flush_output();
+  return result.kinds.empty() ? 0 : 1;
+}
+
+}  // namespace gnomon::tool

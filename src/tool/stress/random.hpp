@@ -1,0 +1,22 @@
+// `gnomon stress --random`: random cases, checked, and the smallest that fails of each kind as a file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gnomon::tool {
+
+struct RandomStressRequest {
+  long long random = 0;  ///< random cases
+  std::uint64_t seed = 1;
+  std::string out;                  ///< folder for cases that fail; empty: stress_random
+  std::vector<std::string> replay;  ///< case files that are checked as random cases are, in their place
+};
+
+/// Prints counts, times of plans, and a line for each kind of failure. Writes a case file for each kind into
+/// the folder `out`. Throws std::runtime_error for files that cannot be read or written. Returns 1 where a
+/// case fails, else 0.
+int run_random_stress(const RandomStressRequest& request);
+
+}  // namespace gnomon::tool

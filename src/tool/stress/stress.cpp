@@ -1,0 +1,169 @@
+// `gnomon stress`: extreme cases and stiff axes, judged.
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "rows.hpp"
+#include "stress/random.hpp"
+#ifdef GNOMON_STRESS_HAS_FILTERS
+#include "filter_limits.hpp"
+#include "offscreen_context.hpp"
+#endif
+
+namespace gnomon::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StressRequest {
+  std::vector<std::string> axes;  ///< names, or all; none, no cases, no filters: all axes and cases
+  bool cases = false;
+  bool filters = false;  ///< filters at their limits, drawn
+  std::string context = "auto";
+  int samples = 80;  ///< values per axis
+  int scenes = 4;    ///< per value
+  std::uint64_t seed = 1;
+  std::string out;  ///< folder for stability.jsonl and stability.csv; empty: none
+  bool json = false, csv = false;
+  long long random = 0;  ///< random cases; above 0: these alone, `out` is the folder for cases that fail
+  std::vector<std::string> replay;  ///< case files that are checked as random cases are, alone
+};
+
+std::vector<std::string> axis_names() {
+  std::vector<std::string> names{"all"};
+  for (const stress::Axis& axis : stress::all_axes()) names.emplace_back(axis.name);
+  return names;
+}
+
+std::vector<const stress::Axis*> axes_of(const StressRequest& request) {
+  std::vector<const stress::Axis*> axes;
+  const bool everything = request.axes.empty() && !request.cases && !request.filters;
+  const bool all = everything || (request.axes.size() == 1 && request.axes[0] == "all");
+  if (all) {
+    for (const stress::Axis& axis : stress::all_axes()) axes.push_back(&axis);
+    return axes;
+  }
+  for (const std::string& name : request.axes) {
+    const stress::Axis* axis = stress::find_axis(name);
+    if (axis == nullptr) refuse_name("--axis", name, axis_names());
+    axes.push_back(axis);
+  }
+  return axes;
+}
+
+#ifdef GNOMON_STRESS_HAS_FILTERS
+std::vector<stress::FilterRow> run_filter_limits(const StressRequest& request) {
+  const std::unique_ptr<render::Context> context = render::create_context(offscreen_context(request.context));
+  long long steps = 0, done = 0;
+  for (const stress::FilterStrain& strain : stress::filter_strains())
+    steps += static_cast<long long>(strain.filters.size());
+  Progress progress("gnomon stress --filters", steps);
+  std::vector<stress::FilterRow> all;
+  for (const stress::FilterStrain& strain : stress::filter_strains()) {
+    const std::vector<stress::FilterRow> rows = stress::sweep_filters(strain, [&] { progress.set(++done); });
+    all.insert(all.end(), rows.begin(), rows.end());
+  }
+  return all;
+}
+#else
+std::vector<stress::FilterRow> run_filter_limits(const StressRequest&) {
+  throw std::runtime_error("--filters: this program was built without the renderer (GNOMON_RENDER=OFF)");
+}
+#endif
+
+stress::Results run_all(const StressRequest& request, const std::vector<const stress::Axis*>& axes) {
+  stress::Results results;
+  long long steps = 0, done = 0;
+  for (const stress::Axis* axis : axes) steps += static_cast<long long>(axis->values(request.samples).size());
+  Progress progress("gnomon stress", steps);
+  if (request.cases || (request.axes.empty() && !request.filters)) {
+    for (const stress::ExtremeCase& extreme : stress::all_cases())
+      results.cases.push_back(stress::run_case(extreme));
+  }
+  for (const stress::Axis* axis : axes) {
+    const std::vector<stress::AxisRow> rows =
+        stress::sweep(*axis, {request.samples, request.scenes, request.seed}, [&] { progress.set(++done); });
+    results.axes.insert(results.axes.end(), rows.begin(), rows.end());
+  }
+  progress.clear();
+  if (request.filters) results.filters = run_filter_limits(request);
+  return results;
+}
+
+/// Returns 1 where a case fails or a number is not finite, else 0.
+int run_stress(const StressRequest& request) {
+  if (request.random > 0 || !request.replay.empty()) 
+    return run_random_stress({request.random, request.seed, request.out, request.replay});
+  const std::vector<const stress::Axis*> axes = axes_of(request);
+  if (!request.out.empty()) make_folder("--out", request.out);
+  const stress::Results results = run_all(request, axes);
+  if (!request.out.empty()) {
+    write_file(fs::path(request.out) / "stability.jsonl", stress::json_lines(results));
+    write_file(fs::path(request.out) / "stability.csv", stress::csv(results));
+  }
+  std::string text = request.json  ? stress::json_lines(results)
+                     : request.csv ? stress::csv(results)
+                                   : stress::tables(results);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  print_line(text);
+  flush_output();
+  return results.all_hold() ? 0 : 1;
+}
+
+}  // namespace
+
+std::function<int()> declare_stress(Arguments& arguments) {
+  const auto request = std::make_shared<StressRequest>();
+  arguments.options = {
+      {.name = "--axis",
+       .target = &request->axes,
+       .help = "names of axes, or all; alone, without the cases",
+       .names = axis_names(),
+       .only_names = false},
+      {.name = "--cases", .target = &request->cases, .help = "the extreme cases; alone, without the axes"},
+      {.name = "--filters",
+       .target = &request->filters,
+       .help = "filters where formats run out, shader against double; alone, only these"},
+      {.name = "--context",
+       .target = &request->context,
+       .help = "of --filters: auto, osmesa or egl",
+       .names = {"auto", "osmesa", "egl"}},
+      {.name = "--samples",
+       .target = &request->samples,
+       .help = "values per axis, about",
+       .range = {{2, 100'000}}},
+      {.name = "--scenes",
+       .target = &request->scenes,
+       .help = "per value: a plain one and random ones",
+       .range = {{1, 100'000}}},
+      // Below the largest that fits: CLI11 takes what does not fit, and what is negative, for that one.
+      {.name = "--seed",
+       .target = &request->seed,
+       .help = "of the random scenes",
+       .range = {{0, static_cast<double>(std::uint64_t{1} << 62)}}},
+      {.name = "--out",
+       .target = &request->out,
+       .help = "folder for stability.jsonl, which gnomon report shows, and stability.csv; of --random for cases "
+               "that fail",
+       .completion = Completion::folders},
+      {.name = "--random",
+       .target = &request->random,
+       .help = "random cases over all legal input; alone, only these",
+       .range = {{1, 1e12}}},
+      {.name = "--replay",
+       .target = &request->replay,
+       .help = "case files, checked as random cases are; alone, only these",
+       .completion = Completion::files},
+      {.name = "--json", .target = &request->json, .help = "print a JSON object per row"},
+      {.name = "--csv", .target = &request->csv, .help = "print CSV", .excludes = "--json"}};
+  arguments.footer =
+      "Exit: 0 all cases hold; 1 one does not, or a plan holds what is no number; 2 bad input.";
+  return [request] { return run_stress(*request); };
+}
+
+}  // namespace gnomon::tool
