@@ -85,7 +85,13 @@ void warn(const std::string& what);
 template <class Entries>
 [[nodiscard]] std::vector<std::string> names_in(const Entries& entries,
                                                 std::vector<std::string> before = {}) {
-  for (const auto* entry : entries) before.emplace_back(entry->name);
+  for (const auto* entry : entries) {
+    if constexpr (requires { entry->info; }) {
+      before.emplace_back(entry->info.name);
+    } else {
+      before.emplace_back(entry->name);
+    }
+  }
   return before;
 }
 

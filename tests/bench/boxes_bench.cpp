@@ -73,7 +73,7 @@ void plan_city(benchmark::State& state, const Run& run, bool as_set) {
   const City& c = city(state.range(0));
   PlanOptions options;
   options.cascades = run.cascades;
-  options.warp = run.warp;
+  options.warp.warp = run.warp;
   ShadowPlan plan;
   for (auto _ : state) {
     plan = make_plan(c.camera, *run.light, c.bounds(as_set), options);

@@ -231,7 +231,7 @@ TEST(PlanFields, have_a_text_for_what_a_plan_refuses) {
               "options." + std::string(field.key) + ": " + std::string(field.must));
   }
   EXPECT_GE(texts, 14u);
-  EXPECT_EQ(invalid_input_text("options.map_size"), "options.map_size: must lie in 4..16384");
+  EXPECT_EQ(invalid_input_text("options.resolution.max_size"), "options.map_size: must lie in 4..16384");
 }
 
 TEST(PlanFields, are_suggested_where_a_key_or_a_name_nearly_matches) {

@@ -4,7 +4,7 @@ list(APPEND sources ${SOURCE_DIR}/include/gnomon/gnomon.hpp)
 set(banned "/(GL|GLES[0-9]*|EGL|KHR|GLFW|glad|vulkan|X11|embree[0-9]*|OpenImageIO|nlohmann|CLI|fmt)/|osmesa|tiny_gltf|/gnomon/(scene|render|trace|report|casefile)/")
 
 function(headers_reached_by out source)
-  execute_process(COMMAND ${CXX} -std=c++20 -M -x c++ -I${SOURCE_DIR}/include ${source}
+  execute_process(COMMAND ${CXX} -std=c++20 -M -x c++ -I${SOURCE_DIR}/include -I${SOURCE_DIR}/src/core ${source}
     RESULT_VARIABLE code OUTPUT_VARIABLE rule ERROR_VARIABLE error)
   if(NOT code EQUAL 0)
     message(FATAL_ERROR "${source}: ${error}")

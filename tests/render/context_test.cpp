@@ -231,7 +231,7 @@ TEST(Renderer, gives_no_picture_of_a_lost_context) {
   const Camera camera = camera_on_box(kSize, kSize);
   Renderer renderer(scene);
   PlanOptions options;
-  options.map_size = 64;
+  options.resolution.max_size = 64;
   const PreparedFilter filter = renderer.prepare(filters::pcf);
   const ShadowPlan plan = plan_for(scene, camera, {0.4, -0.8, -0.3}, options);
   renderer.draw(plan, camera, filter);
@@ -269,7 +269,7 @@ TEST(Renderer, leaves_no_memory_behind) {
   const auto draw_once = [&] {
     Renderer renderer(scene);
     PlanOptions options;
-    options.map_size = 512;
+    options.resolution.max_size = 512;
     options.cascades = 4;
     renderer.draw(plan_for(scene, camera, {0.4, -0.8, -0.3}, options), camera,
                   renderer.prepare(filters::vsm));

@@ -21,7 +21,7 @@ class Steps {
       : scene_(load_builtin(scene)), tracer_(scene_), renderer_(scene_), filter_(renderer_.prepare(filter)) {
     for (const Instance& instance : scene_.instances) boxes_.push_back(instance.bounds_world);
     options_.cascades = 1;
-    options_.map_size = 512;
+    options_.resolution.max_size = 512;
     render::set_margin(render::default_settings(filter), options_);
     before_ = default_path(scene_).at(0.4, 160, 90);
   }

@@ -260,7 +260,7 @@ void report_ignored(const PlanContext& c, bool has_visible_depths, ShadowPlan& p
 void plan_frusta(const LocalScene& scene, const Light& light, ShadowPlan& plan) noexcept {
   plan.map_count = plan.omission_count = 0;
   const PlanOptions& options = scene.c.options;
-  report_ignored(scene.c, scene.c.seen != nullptr, plan);
+  report_ignored(scene.c, scene.c.seen != nullptr && !scene.c.seen->empty(), plan);
   if (scene.c.stable && options.warp.warp != nullptr && options.warp.warp != &warps::none)
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
   const auto* spot = std::get_if<SpotLight>(&light);

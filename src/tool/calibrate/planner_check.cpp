@@ -173,14 +173,14 @@ TechniqueChoice Replanned::choose(const View& view, const Budget& budget, const 
   };
   for (const report::Row& row : view.rows) {
     const SweepEntry entry = sweep_entry(row.technique);
-    if (entry.plan.fit != Fit::tight || entry.plan.partition != Partition::view_depth ||
-        entry.plan.warp == nullptr)
+    if (entry.plan.fit != Fit::tight || entry.plan.split.partition != Partition::view_depth ||
+        entry.plan.warp.warp == nullptr)
       throw std::runtime_error(row.technique.name() +
                                ": the planner chooses among named warps, split by depth");
-    once(warps, entry.plan.warp);
-    once(splits, entry.plan.split);
+    once(warps, entry.plan.warp.warp);
+    once(splits, entry.plan.split.scheme);
     once(cascades, entry.plan.cascades);
-    once(sizes, entry.plan.map_size);
+    once(sizes, entry.plan.resolution.max_size);
   }
   if (splits.size() > 1) throw std::runtime_error(view.name + ": more than one kind of split");
   return choose_technique(camera_, scene_.light(), scene_.bounds(), detail(),

@@ -76,15 +76,15 @@ void set_filter(const std::string& text, SweepEntry& entry) {
 
 void set_warp(const std::string& text, SweepEntry& entry) {
   entry.technique.warp = text;
-  entry.plan.warp = find_warp(text);
-  if (entry.plan.warp == nullptr && text != "auto")
+  entry.plan.warp.warp = find_warp(text);
+  if (entry.plan.warp.warp == nullptr && text != "auto")
     refuse_name("--warps", text, names_in(all_warps(), {"all", "auto"}));
 }
 
 void set_split(const std::string& text, SweepEntry& entry) {
   entry.technique.split = text;
-  const bool is_partition = partition_from_name(text, entry.plan.partition);
-  if (!split_scheme_from_name(text, entry.plan.split) && (!is_partition || text == "view_depth"))
+  const bool is_partition = partition_from_name(text, entry.plan.split.partition);
+  if (!split_scheme_from_name(text, entry.plan.split.scheme) && (!is_partition || text == "view_depth"))
     refuse_name("--splits", text, split_names());
 }
 
@@ -96,7 +96,7 @@ void set_fit(const std::string& text, SweepEntry& entry) {
 }
 
 void set_size(int size, SweepEntry& entry) {
-  entry.technique.map_size = entry.plan.map_size = size;
+  entry.technique.map_size = entry.plan.resolution.max_size = size;
   // Techniques are compared at the sizes asked for.
   entry.plan.prune = entry.plan.prune.without(PruneRule::metric_resolution);
 }
@@ -130,7 +130,7 @@ bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
   // The maps of a lamp follow from its cone and what it lights.
   if (light != LightKind::sun)
     return t.split != first.split || t.cascades != first.cascades || t.fit != first.fit;
-  const bool by_depth = entry.plan.partition == Partition::view_depth;
+  const bool by_depth = entry.plan.split.partition == Partition::view_depth;
   if (by_depth && t.cascades == 1 && t.split != first.split) return true;
   if (!by_depth && t.cascades != first.cascades) return true;
   return t.fit == "stable" && (!by_depth || (t.warp != "none" && t.warp != first.warp));
@@ -165,11 +165,11 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
 int most_maps(const SweepEntry& entry, LightKind light) noexcept {
   constexpr int kCubeFaces = 6;
   if (light != LightKind::sun) return kCubeFaces;
-  return entry.plan.partition == Partition::view_depth ? entry.plan.cascades : kMaxMaps;
+  return entry.plan.split.partition == Partition::view_depth ? entry.plan.cascades : kMaxMaps;
 }
 
 std::string fit_to_memory(SweepEntry& entry, const Sweep& sweep) {
-  const int wanted = entry.plan.map_size;
+  const int wanted = entry.plan.resolution.max_size;
   const std::string name = entry.technique.name();
   const render::FittingMaps fitting =
       render::largest_maps(wanted, most_maps(entry, sweep.light.kind), render::bytes_per_texel(entry.filter),

@@ -365,11 +365,11 @@ Figure memory_of_filters() {
   const double convolution = render::bytes_per_texel(filter_from("convolution")) - kDepthBytes;
   for (const render::Filter* filter : render::all_filters()) {
     render::FilterSettings settings = render::default_settings(*filter);
-    for (const render::TexelFormat format : filter->formats) {
+    for (const render::TexelFormat format : filter->info.formats) {
       settings.format = format;
       const double bytes = render::bytes_per_texel(settings) - kDepthBytes;
       figure.rows.push_back(
-          {std::string(filter->name) + ", " + std::string(to_string(format)), {bytes, bytes / convolution}});
+          {std::string(filter->info.name) + ", " + std::string(to_string(format)), {bytes, bytes / convolution}});
     }
   }
   return figure;

@@ -35,14 +35,14 @@ struct TimedPlan {
 
 /// `history` is taken one frame further, where the options ask for one.
 TimedPlan timed_plan(const Options& options, const Flight& flight, const Light& light, const Camera& camera,
-                     const PlanOptions& plan, PlanHistory& history) {
+                     const VisibleDepths& depths, PlanHistory& history) {
   TimedPlan result;
   std::array<std::int64_t, kPlanRepeats> taken{};
   PlanHistory next;
   for (std::int64_t& ns : taken) {
     next = history;
     const auto begin = std::chrono::steady_clock::now();
-    result.plan = plan_frame(options, flight, light, camera, plan, next);
+    result.plan = plan_frame(options, flight, light, camera, depths, next);
     ns = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin)
              .count();
   }
@@ -117,9 +117,8 @@ FrameRow draw_frame(Studio& studio, int frame) {
   const Options& options = studio.options;
   const Camera camera = camera_of(options, studio.flight, frame);
   const Light light = default_light(options.light, studio.flight.scene.bounds_world);
-  VisibleDepths depths;
-  const PlanOptions plan_options = frame_options(options, studio.renderer, studio.filter, camera, depths);
-  const TimedPlan timed = timed_plan(options, studio.flight, light, camera, plan_options, studio.history);
+  const VisibleDepths depths = frame_depths(options, studio.renderer, studio.filter, camera);
+  const TimedPlan timed = timed_plan(options, studio.flight, light, camera, depths, studio.history);
   FrameRow row;
   row.frame = frame;
   row.status = timed.plan.status;

@@ -17,22 +17,19 @@ VisibleDepths depths_shown(const render::Renderer& renderer) {
 
 }  // namespace
 
-PlanOptions frame_options(const Options& options, render::Renderer& renderer,
-                          const render::PreparedFilter& filter, const Camera& camera, VisibleDepths& depths) {
-  PlanOptions plan = options.plan;
-  if (!options.visible_depths) return plan;
+VisibleDepths frame_depths(const Options& options, render::Renderer& renderer,
+                           const render::PreparedFilter& filter, const Camera& camera) {
+  if (!options.visible_depths) return {};
   render::FrameOptions surfaces;
   surfaces.aliasing = surfaces.heat_map = surfaces.cascade_tint = surfaces.time_passes = false;
   renderer.draw(ShadowPlan{}, camera, filter, surfaces);
-  depths = depths_shown(renderer);
-  plan.visible_depths = &depths;
-  return plan;
+  return depths_shown(renderer);
 }
 
 ShadowPlan plan_frame(const Options& options, const Flight& flight, const Light& light, const Camera& camera,
-                      const PlanOptions& plan, PlanHistory& history) {
-  return options.history ? make_plan(camera, light, flight.bounds(), plan, history)
-                         : make_plan(camera, light, flight.bounds(), plan);
+                      const VisibleDepths& depths, PlanHistory& history) {
+  return options.history ? make_plan(camera, light, flight.bounds(), options.plan, history, &depths)
+                         : make_plan(camera, light, flight.bounds(), options.plan, &depths);
 }
 
 }  // namespace gnomon::tool::fly

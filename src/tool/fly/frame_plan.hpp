@@ -9,14 +9,13 @@
 
 namespace gnomon::tool::fly {
 
-/// PlanOptions of this frame: where the options ask for visible depths, those that the camera sees, found by
-/// drawing its surfaces and no map. `depths` must outlive what is answered.
-[[nodiscard]] PlanOptions frame_options(const Options& options, render::Renderer& renderer,
-                                        const render::PreparedFilter& filter, const Camera& camera,
-                                        VisibleDepths& depths);
+/// The view depths that the camera sees, found by drawing its surfaces and no map; empty where the options do
+/// not ask for them, which plans take for unknown.
+[[nodiscard]] VisibleDepths frame_depths(const Options& options, render::Renderer& renderer,
+                                         const render::PreparedFilter& filter, const Camera& camera);
 
 /// By the history where the options ask for one, which is taken one frame further.
 [[nodiscard]] ShadowPlan plan_frame(const Options& options, const Flight& flight, const Light& light,
-                                    const Camera& camera, const PlanOptions& plan, PlanHistory& history);
+                                    const Camera& camera, const VisibleDepths& depths, PlanHistory& history);
 
 }  // namespace gnomon::tool::fly

@@ -82,7 +82,7 @@ Options resolved(const Request& request) {
   for (const std::string& name : request.compared_warps) {
     PlanOptions one;
     if (!set_plan_choice("warp", name, one)) refuse_name("--compare-warps", name, warps);
-    options.compared_warps.push_back(one.warp);
+    options.compared_warps.push_back(one.warp.warp);
   }
   options.filter = filter_word("--filter", request.filter);
   if (request.stable) (void)set_plan_choice("fit", "stable", options.plan);

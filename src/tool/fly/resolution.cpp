@@ -47,12 +47,12 @@ int perceptual_map_size(const Options& options, const Flight& flight) {
     HidingMapSize asked;
     for (plan_options.resolution.max_size = size; (asked = needed(frame)).map_size > size;
          plan_options.resolution.max_size = size)
-      size = asked.resolution.max_size;
+      size = asked.map_size;
     if (!asked.hides) {
       throw std::runtime_error(fmt::format(
           "--resolution perceptual: frame {}: no map of up to {} texels has texels that a kernel of {:.3g} "
           "world units hides; widen the kernel, or take more cascades",
-          frame, asked.resolution.max_size, asked.radius_world));
+          frame, asked.map_size, asked.radius_world));
     }
     if (asked.radius_pixels > widest.radius_pixels) widest = asked;
   }

@@ -176,10 +176,9 @@ void draw(Viewer& viewer, double seconds) {
   const Camera camera = next_camera(viewer, width, height, seconds);
   const Light light = default_light(viewer.options.light, viewer.flight.scene.bounds_world);
   const render::PreparedFilter filter = viewer.renderer.prepare(viewer.options.filter);
-  VisibleDepths depths;
-  const PlanOptions plan_options = frame_options(viewer.options, viewer.renderer, filter, camera, depths);
+  const VisibleDepths depths = frame_depths(viewer.options, viewer.renderer, filter, camera);
   const ShadowPlan plan =
-      plan_frame(viewer.options, viewer.flight, light, camera, plan_options, viewer.history);
+      plan_frame(viewer.options, viewer.flight, light, camera, depths, viewer.history);
   render::FrameOptions frame;
   frame.transition = viewer.options.transition;
   frame.time_passes = false;
