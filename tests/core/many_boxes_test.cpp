@@ -8,9 +8,9 @@
 #include <numeric>
 #include <vector>
 
+#include "geometry/visible.hpp"
 #include "support/plan_hash.hpp"
 #include "support/seeded_input.hpp"
-#include "geometry/visible.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -202,7 +202,8 @@ TEST(ManyBoxes, the_nearest_part_is_that_of_cutting_every_box) {
     }
     cut_deeper += expected > corner + 1e-9 ? 1 : 0;
     for (const Boxes& boxes : {Boxes(plain.boxes), Boxes(owned.set)}) {
-      const double found = nearest_inside(planes, boxes, light.position, -axes.forward, glm::dvec3(0.0), -kInfinity).nearest;
+      const double found =
+          nearest_inside(planes, boxes, light.position, -axes.forward, glm::dvec3(0.0), -kInfinity).nearest;
       if (expected < kInfinity) {
         EXPECT_NEAR(found, expected, 1e-9) << seed;
       } else {
@@ -223,7 +224,8 @@ TEST(ManyBoxes, more_boxes_in_the_way_than_are_cut_leave_a_bound_below_the_neare
   const Owned owned(slabs);
   for (const std::size_t few : {60u, 200u}) {
     const double found =
-        nearest_inside(planes, std::span(slabs).first(few), eye.position, {0, 0, 1}, glm::dvec3(0.0), 0.0).nearest;
+        nearest_inside(planes, std::span(slabs).first(few), eye.position, {0, 0, 1}, glm::dvec3(0.0), 0.0)
+            .nearest;
     // x >= 2 is seen from z = 2 / tan(0.25) on.
     const double exact = 2.0 / std::tan(0.25);
     if (few == 60) {

@@ -46,12 +46,18 @@ TEST(Prune, only_cached_and_scrolled_maps_draw_from_the_last_frame) {
 
 TEST(Prune, a_plan_says_whether_its_map_sizes_follow_the_view) {
   Valley valley;
+  EXPECT_FALSE(valley.plan().sizes_vary) << "bounded rules are off by default";
+  valley.options.prune = PruneRules::all();
   EXPECT_TRUE(valley.plan().sizes_vary);
   valley.options.prune = exact_prune_rules();
   EXPECT_FALSE(valley.plan().sizes_vary);
+  valley.options.resolution.max_error = 0.5;
+  EXPECT_TRUE(valley.plan().sizes_vary);
+  valley.options.resolution.max_error = 0.0;
   valley.options.resolution.texel_budget = 1 << 20;
   EXPECT_TRUE(valley.plan().sizes_vary);
   valley.options = {};
+  valley.options.prune = PruneRules::all();
   valley.options.fit = Fit::stable;
   EXPECT_FALSE(valley.plan().sizes_vary) << "a stable grid is never pruned by the metric";
 }

@@ -80,8 +80,8 @@ TEST(WarpLaw, no_warp_that_may_be_dropped_makes_its_objective_worse_than_no_warp
                    before = measured(without, c.options.warp.objective);
       double& so_far = worst[static_cast<std::size_t>(c.options.warp.objective)];
       so_far = std::max(so_far, after / before);
-      require(after <= before * kJudged, warp->name, to_string(c.options.warp.objective), after, "without", before,
-              "kappa", plan.map[0].kappa);
+      require(after <= before * kJudged, warp->name, to_string(c.options.warp.objective), after, "without",
+              before, "kappa", plan.map[0].kappa);
     }
   });
   EXPECT_GT(warped, 500u);

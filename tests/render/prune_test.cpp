@@ -340,6 +340,7 @@ TEST(Prune, a_filter_that_stores_less_within_a_bound_draws_the_same_picture) {
   const FilterSettings full = default_settings(filters::esm);
   PlanOptions options;
   options.resolution.max_size = kMapSize;
+  options.prune = PruneRules::all();
   set_margin(full, options);
   const Camera camera = default_path(scene).at(0.3, kWidth, kHeight);
   const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options);

@@ -84,6 +84,7 @@ TEST(RandomNet, cases_that_failed_once_keep_every_promise) {
   int files = 0;
   for (const fs::directory_entry& entry :
        fs::directory_iterator(fs::path(GNOMON_TEST_DATA) / "stress_random")) {
+    if (!entry.is_regular_file()) continue;
     std::ifstream stream(entry.path());
     const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
     for (const Finding& f : check_case(Json::parse(text)).findings)

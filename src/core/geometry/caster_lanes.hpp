@@ -4,8 +4,8 @@
 #include <bit>
 #include <glm/vec4.hpp>
 
-#include "gnomon/caster_set.hpp"
 #include "geometry/usable.hpp"
+#include "gnomon/caster_set.hpp"
 
 #if defined(__SSE2__)
 #include <immintrin.h>

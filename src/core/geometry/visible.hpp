@@ -37,8 +37,9 @@ struct CasterReach {
 
 /// How near to a local light boxes come.
 struct NearBoxes {
-  double nearest;    ///< distance along the light's axis; infinity where there is no box
-  int too_near = 0;  ///< boxes nearer than the least distance asked for, which do not count: the light is at them
+  double nearest;  ///< distance along the light's axis; infinity where there is no box
+  int too_near =
+      0;  ///< boxes nearer than the least distance asked for, which do not count: the light is at them
 };
 /// Least dot(toward, apex - p) over the parts of the boxes inside the planes (at most 32) that is at least
 /// `least`. Exact but where more than 64 boxes have a corner nearer than that: then not more than it.

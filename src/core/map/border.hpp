@@ -8,7 +8,7 @@ namespace gnomon {
 /// Nearest distance from a local light that its maps show, over the farthest, where the scene's boxes leave
 /// it open: nearer, depth loses its precision to the first step away from the light. What is known to be
 /// nearer is still shown, down to kLeastNearShare.
-inline constexpr double kNearShare = 1e-4, kLeastNearShare = 1e-7;
+inline constexpr double kNearShare = 1.0 / 8192, kLeastNearShare = 1e-7;
 
 /// A float offset from the camera is rounded by up to 2^-24 of its length: a rectangle narrower than this
 /// much of it has texels, 1024 across, that no shader can tell apart, and one 2^10 times narrower still loses

@@ -103,8 +103,8 @@ HeightRange parallel_heights(const PlanContext& c, const MapRequest& request, co
   if (!c.options.prune.has(PruneRule::light_depths)) {
     const CasterReach all = casters_inside({}, c.bounds.casters, c.camera.position, frame.z);
     if (all.any) reach = all;
-    range.bottom = min_of(
-        range.bottom, -casters_inside({}, c.bounds.receivers, c.camera.position, -frame.z).top);
+    range.bottom =
+        min_of(range.bottom, -casters_inside({}, c.bounds.receivers, c.camera.position, -frame.z).top);
   }
   range.height = caster_height(reach, frame, f, f.measured_from.value_or(range.bottom));
   return range;
@@ -159,9 +159,12 @@ LightDepths padded(double bottom, double height, double extent) noexcept {
 SweptBody swept_for(const PlanContext& c, const MapRequest& request, const LightBody& body,
                     const PlaneMap& plane, double border) noexcept {
   // The border at the far end, where texels are largest: across they grow with w, along with w^2 / stretch =
-  // w there. Under a local light a step in slopes is that step times the distance, at most.
+  // w there, and w itself grows over the border. Under a local light a step in slopes is that step times the
+  // distance, at most.
+  constexpr double kNearestHorizon = 0.1;
+  const double growth = plane.stretch / max_of(1.0 - border * (plane.stretch - 1.0), kNearestHorizon);
   const double reach =
-      border * plane.stretch * ((plane.a_max - plane.a_min) + (plane.b_max - plane.b_min)) * body.farthest;
+      border * growth * ((plane.a_max - plane.a_min) + (plane.b_max - plane.b_min)) * body.farthest;
   const glm::dvec4 light = request.space.light();
   const LightFrame& frame = request.space.frame;
   return sweep(request.body, glm::dvec4(frame.x * light.x + frame.y * light.y + frame.z * light.z, light.w),

@@ -21,8 +21,8 @@ struct FittedPlane {
 struct HeightRange {
   double bottom = 0.0, height = 0.0;
   bool has_casters = false;  ///< any that reaches the body
-  int too_near = 0;      ///< casters nearer to a local light than its maps show
-  double nearest = 0.0;  ///< local light: distance from which on the map shows casters
+  int too_near = 0;          ///< casters nearer to a local light than its maps show
+  double nearest = 0.0;      ///< local light: distance from which on the map shows casters
 };
 
 /// Distances at least kNearShare of the farthest, unless boxes are known to be nearer.

@@ -194,13 +194,14 @@ double gain_ratio(const WarpInput& in, const WarpChoice& choice, double most_str
     // A gain by the simplified weights above this factor is one by the exact error, too: they differ by the
     // obliquity of the view rays alone.
     constexpr double kCertainRatio = 0.25;
-    const double ratio =
-        warp_error(in, choice.kappa).value(in.objective) / warp_error(in, 0.0).value(in.objective);
-    if (ratio < kCertainRatio) return ratio;
+    const double with = warp_error(in, choice.kappa).value(in.objective);
+    const double plain = warp_error(in, 0.0).value(in.objective);
+    if (with < kCertainRatio * plain) return with / plain;
   }
   PlaneError error(in);
   const double without = error.value(in.unwarped);
-  return without > 0.0 ? error.value(choice) / without : std::numeric_limits<double>::infinity();
+  const bool known = without > 0.0 && std::isfinite(without);
+  return known ? error.value(choice) / without : std::numeric_limits<double>::infinity();
 }
 
 bool takes(const Warp& warp, const WarpChoice& choice, double ratio) noexcept {

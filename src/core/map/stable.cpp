@@ -33,13 +33,18 @@ Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) no
   const double unit = elementary::power_of_two_below(chord) / c.options.resolution.stable_size_steps;
   grid.side = std::ceil(chord / unit) * unit;
   map.filter_margin_texels = border_texels(c.options, map.width - 1, 1.0 / grid.side);
-  grid.texel = grid.side / (map.width - 1 - 2 * map.filter_margin_texels);
+  const int inside = map.width - 1 - 2 * map.filter_margin_texels;
+  grid.texel = grid.side / inside;
+  grid.eye = frame.turned(c.camera.position);
+  // Texels finer than doubles are this far out have no place of their own.
+  constexpr double kMostTexels = 0x1p50;
+  while (max_of(std::abs(grid.eye.x), std::abs(grid.eye.y)) > kMostTexels * grid.texel) grid.texel *= 2.0;
+  grid.side = grid.texel * inside;
   grid.half = 0.5 * grid.texel * map.width;
   // Centre of the whole slice, in absolute light coordinates, to the nearest texel.
   const Polytope slice = frustum_slice(c.camera, c.axes, request.begin, request.end);
   Box box;
   for (const Polytope::Vertex& v : slice.vertices()) box.extend(frame.turned(v.position));
-  grid.eye = frame.turned(c.camera.position);
   map.snap_key.texel = grid.texel;
   map.snap_key.x = snap_index(grid.eye.x + 0.5 * (box.min.x + box.max.x), grid.texel);
   map.snap_key.y = snap_index(grid.eye.y + 0.5 * (box.min.y + box.max.y), grid.texel);
@@ -64,6 +69,16 @@ LightDepths snapped_depths(const Grid& grid, const HeightRange& heights, SnapKey
           static_cast<double>(key.depth_near - key.depth_far) * step};
 }
 
+/// OpenGL clip space of a square round `centre`. Sizes are given, not differences of edges: far from the
+/// origin those would be rounding.
+glm::dmat4 clip_from_grid(const glm::dvec2& centre, double half, const LightDepths& depths) noexcept {
+  glm::dmat4 m(1.0);
+  m[0][0] = m[1][1] = 1.0 / half;
+  m[2][2] = -2.0 / depths.height;
+  m[3] = {-centre.x / half, -centre.y / half, 1.0 + 2.0 * depths.bottom / depths.height, 1.0};
+  return m;
+}
+
 }  // namespace
 
 MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
@@ -73,18 +88,12 @@ MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
   map.warp = &warps::none;
   const Grid grid = grid_of(c, request, map);
   const LightBody body = in_light_space(c, request);
-  // Of the key alone: the same key, the same bits, and what was drawn stays as it is.
-  PlaneMap still = plane_map(body.points(), {});
-  PlaneMap plane = still;
-  still.u_min = 0.0;
-  still.a_min = grid.centre.x - grid.half;
-  still.a_max = grid.centre.x + grid.half;
-  still.b_min = grid.centre.y - grid.half;
-  still.b_max = grid.centre.y + grid.half;
-  plane.a_min = still.a_min - grid.eye.x;
-  plane.a_max = still.a_max - grid.eye.x;
-  plane.b_min = still.b_min - grid.eye.y - plane.u_min;
-  plane.b_max = still.b_max - grid.eye.y - plane.u_min;
+  const glm::dvec2 centre = grid.centre - glm::dvec2(grid.eye);  // relative to the camera
+  PlaneMap plane = plane_map(body.points(), {});
+  plane.a_min = centre.x - grid.half;
+  plane.a_max = centre.x + grid.half;
+  plane.b_min = centre.y - plane.u_min - grid.half;
+  plane.b_max = centre.y - plane.u_min + grid.half;
 
   const double border = static_cast<double>(map.filter_margin_texels) / map.width;
   const glm::dvec4 light(request.space.frame.z, 0.0);
@@ -98,10 +107,11 @@ MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
   map.depth_range_world = depths.height;
   const TexelsNeeded needed = texels_needed(body.points(), plane, pixels_per_slope(c.camera));
   const glm::dmat4 turn = request.space.light_from_relative();
-  const glm::dmat4 gl_from_relative = clip_from_light(plane, depths, 0.0) * turn;
+  const glm::dmat4 gl_from_relative = clip_from_grid(centre, grid.half, depths) * turn;
   complete_record(c, request,
                   {body, plane, swept, needed, pixel_obliquity(c, request.body), gl_from_relative}, map);
-  result.gl_from_world = clip_from_light(still, still_depths, 0.0) * turn;
+  // Of the key alone: the same key, the same bits, and what was drawn stays as it is.
+  result.gl_from_world = clip_from_grid(grid.centre, grid.half, still_depths) * turn;
   map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * result.gl_from_world;
   return result;
 }

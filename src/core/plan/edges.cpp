@@ -26,10 +26,12 @@ DepthRange received_depths(const PlanContext& c, const Polytope& body) noexcept 
     low = min_of(low, depth);
     high = max_of(high, depth);
   }
-  // A flat scene's depth must not fall outside its own range by rounding.
-  constexpr double kRounding = 1e-12;
-  const double begin = clamp_to(low - kRounding * std::abs(low), n, f);
-  return {begin, clamp_to(high + kRounding * std::abs(high), begin, f)};
+  // A flat scene's depth must not fall outside its own range by rounding: of the depth itself, and of the
+  // frustum's far corners that it was cut from.
+  constexpr double kRounding = 1e-12, kCutting = 4e-16;
+  const double cutting = kCutting * std::abs(f);
+  const double begin = clamp_to(low - kRounding * std::abs(low) - cutting, n, f);
+  return {begin, clamp_to(high + kRounding * std::abs(high) + cutting, begin, f)};
 }
 
 void report_depths(CascadeEdges& edges, OmissionKind kind, double begin, double end) noexcept {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/vector.hpp"
 #include "geometry/usable.hpp"
+#include "geometry/vector.hpp"
 #include "gnomon/caster_set.hpp"
 
 namespace gnomon {

@@ -5,8 +5,8 @@
 
 #include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
-#include "gnomon/omni.hpp"
 #include "geometry/visible.hpp"
+#include "gnomon/omni.hpp"
 #include "measure/log_histogram.hpp"
 
 namespace gnomon {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/elementary.hpp"
 #include "geometry/caster_lanes.hpp"
+#include "geometry/elementary.hpp"
 #include "gnomon/metric.hpp"
 
 namespace gnomon {

@@ -14,7 +14,7 @@ namespace {
 WarpChoice choose(const WarpInput& input) noexcept {
   const double length = input.y_max - input.y_min;
   if (input.orthographic || !(length > 0.0) || !(input.depth_end > input.depth_begin) ||
-      !(input.scale_near > 0.0))
+      (input.light.perspective && !(input.scale_near > 0.0)))
     return input.unwarped;
   const double gamma = elementary::atan2(input.sin_gamma, std::abs(input.cos_gamma));
   const double eta = lloyd_eta(gamma, elementary::atan(input.tan_half_fov));

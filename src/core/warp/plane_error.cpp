@@ -69,12 +69,16 @@ PlaneError::PlaneError(const WarpInput& input) noexcept : input_(input) {
   const double outside = focused ? input.focus_weight : 1.0;
   if (focused) add_vertices_and_edges(*input.focus, 1.0);
   add_vertices_and_edges(*input.polytope, outside);
-  if (input.light.perspective) add_faces(*input.polytope, outside);
+  if (!input.light.perspective) return;
+  // The worst texel may lie inside a face or the body: the light's rays fan out, and with them the warp.
+  add_faces(*input.polytope, outside);
+  if (!input.orthographic) add_visible_points();
 }
 
-void PlaneError::add(const glm::dvec3& p, double pixels) noexcept {
+bool PlaneError::add(const glm::dvec3& p, double pixels) noexcept {
   const double distance = input_.light.distance(p);
-  if (count_ == kMaxSamples || !(distance > 0.0)) return;
+  if (count_ == kMaxSamples) return true;
+  if (!(distance > 0.0)) return false;
   const ViewInLight& view = input_.view;
   const double depth = glm::dot(view.forward, p);
   const glm::dvec3 eye_ray =
@@ -100,12 +104,13 @@ void PlaneError::add(const glm::dvec3& p, double pixels) noexcept {
   // nothing is known.
   constexpr double kLeastArea = 1e-30;
   const double unit = scale / distance;
-  if (!(std::abs(determinant) > kLeastArea * (view.pixel_x * unit) * (view.pixel_y * unit))) return;
+  if (!(std::abs(determinant) > kLeastArea * (view.pixel_x * unit) * (view.pixel_y * unit))) return false;
   ++count_;
   inverse_determinant_[index] = 1.0 / determinant;
   const glm::dvec3 at = input_.light.project(p);
   x_[index] = at.x;
   y_[index] = at.y;
+  return true;
 }
 
 void PlaneError::add_faces(const Polytope& body, double pixels) noexcept {
@@ -125,7 +130,7 @@ void PlaneError::add_faces(const Polytope& body, double pixels) noexcept {
 void PlaneError::add_vertices_and_edges(const Polytope& body, double pixels) noexcept {
   for (std::size_t i = 0; i < body.vertices().size(); ++i) {
     const Polytope::Vertex& v = body.vertex[i];
-    add(v.position, pixels);
+    complete_ = add(v.position, pixels) && complete_;
     for (const std::uint8_t other : v.neighbour) {
       if (other > i) add((v.position + body.vertex[other].position) * 0.5, pixels);
     }
@@ -192,6 +197,8 @@ void PlaneError::add_visible_points() noexcept {
 }
 
 GNOMON_WIDE double PlaneError::value(const WarpChoice& choice) noexcept {
+  // A body with corners of which nothing is known is no ground to choose a warp on.
+  if (!complete_ && choice.kappa > 0.0) return std::numeric_limits<double>::infinity();
   const PlaneMap map = plane_map(input_.body, choice);
   const auto n = static_cast<std::size_t>(count_);
   const double axis_x = choice.axis.x, axis_y = choice.axis.y;

@@ -25,7 +25,7 @@ class PlaneError {
 
  private:
   /// A pixel counts as `pixels` times as wide as it is there.
-  void add(const glm::dvec3& point, double pixels) noexcept;
+  bool add(const glm::dvec3& point, double pixels) noexcept;
   void add_vertices_and_edges(const Polytope& body, double pixels) noexcept;
   void add_faces(const Polytope& body, double pixels) noexcept;
   void add_visible_points() noexcept;
@@ -34,7 +34,8 @@ class PlaneError {
 
   const WarpInput& input_;
   int count_ = 0;
-  double share_ = 1.0;  // of the samples that may exceed the value asked for: 0.05 for p95
+  bool complete_ = true;  // no vertex was refused
+  double share_ = 1.0;    // of the samples that may exceed the value asked for: 0.05 for p95
   // Where, and d(light plane)/d(pixel).
   alignas(32) std::array<double, kMaxSamples> x_, y_, xx_, xy_, yx_, yy_, inverse_determinant_;
   // Of d(texel)/d(pixel) under the choice last asked for: squared lengths of its rows, inverse of its

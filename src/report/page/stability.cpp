@@ -33,9 +33,11 @@ Row row_from(const Json& json) {
       value = found.is_null() ? for_null : found.get<double>();
     } else if constexpr (std::is_same_v<Value, int>) {
       // The library's own conversion would take 1e300 for an int.
-      const auto whole = found.get_ref<const Json::number_integer_t&>();
-      if (!std::in_range<int>(whole)) throw ReportError(std::string(name) + ": wants a whole number");
-      value = static_cast<int>(whole);
+      const bool whole = found.is_number_unsigned()
+                             ? std::in_range<int>(found.get<std::uint64_t>())
+                             : found.is_number_integer() && std::in_range<int>(found.get<std::int64_t>());
+      if (!whole) throw ReportError(std::string(name) + ": wants a whole number");
+      found.get_to(value);
     } else {
       found.get_to(value);
     }

@@ -119,7 +119,8 @@ void check_numbers(const Case&, const ShadowPlan& plan, Report& report) {
 namespace {
 
 /// What the options say of sizes, read from the text: their names there are a contract.
-void check_sizes(const nlohmann::ordered_json& value, const ShadowPlan& plan, Report& report) {
+void check_sizes(const nlohmann::ordered_json& value, const PlanOptions& read, const ShadowPlan& plan,
+                 Report& report) {
   const auto options = value.find("options");
   if (options == value.end()) return;
   long long texels = 0;
@@ -130,15 +131,17 @@ void check_sizes(const nlohmann::ordered_json& value, const ShadowPlan& plan, Re
     report.add("over_budget", static_cast<double>(texels) / static_cast<double>(budget),
                std::to_string(texels) + " texels of " + std::to_string(budget));
   const int size = options->value("map_size", 1024);
-  const double most = options->value("prune_m", 1.0);
+  const double target = options->value("target_m", 0.0), prunes = options->value("prune_m", 1.0);
+  const bool rule = read.prune.has(PruneRule::metric_resolution);
+  const double most = !(target > 0.0) ? prunes : rule ? std::min(target, prunes) : target;
   for (const ShadowMap& map : plan.maps()) {
-    // Each side is shrunk for its own axis; a side that is as large as it may be bounds nothing.
-    const double s = map.width < size ? map.m_s_max : 0.0, t = map.height < size ? map.m_t_max : 0.0;
+    // A map that is as large as it may be bounds nothing.
+    const bool smaller = map.width < size || map.height < size;
     constexpr double kRounding = 1e-9;
     const bool shortest = std::min(map.width, map.height) <= 16;
-    if (budget == 0 && !shortest && std::max(s, t) > most * (1.0 + kRounding))
-      report.add("error_above_prune_m", std::max(s, t) / most,
-                 map_name(map) + ": m is " + shown_number(std::max(s, t)) + ", not " + shown_number(most));
+    if (budget == 0 && smaller && !shortest && map.m_max > most * (1.0 + kRounding))
+      report.add("error_above_prune_m", map.m_max / most,
+                 map_name(map) + ": m is " + shown_number(map.m_max) + ", not " + shown_number(most));
   }
 }
 
@@ -168,7 +171,7 @@ Verdict check_case(const nlohmann::ordered_json& value) {
                    ((raised & FE_DIVBYZERO) ? " division by zero" : "") +
                    ((raised & FE_OVERFLOW) ? " overflow" : ""));
   check_numbers(input, plan, report);
-  check_sizes(value, plan, report);
+  check_sizes(value, input.options, plan, report);
   const bool numbers = std::none_of(verdict.findings.begin(), verdict.findings.end(),
                                     [](const Finding& f) { return f.kind == "not_finite"; });
   if (!numbers) return verdict;

@@ -298,18 +298,17 @@ void compare_maps(const Case& input, const ShadowPlan& with, int a, const Shadow
   const ShadowMap& warped = with.map[ia];
   const View view(input.camera);
   const LightAt light(input.light, view);
-  Real ratio = 0.0L, allowed = kSampled;
-  if (!light.parallel() && objective == "storage") {
-    // The plan's own figure, of the very body that the warp was chosen by.
-    ratio = Real(warped.storage) / without.map[ib].storage;
-    allowed = 1.0L + 1e-9L;  // both were computed in the same way
-  } else if (objective == "p95" || !light.parallel()) {
+  Real ratio = 0.0L;
+  const Real allowed = kSampled;
+  if (objective == "p95" || !light.parallel()) {
     constexpr MeasureGrid kGrid{24, 24, 48};
     constexpr std::uint64_t kEnough = 400;
     const AliasingStats m = measure_map(with, a, input.camera, input.bounds(), kGrid);
     const AliasingStats m0 = measure_map(without, b, input.camera, input.bounds(), kGrid);
     if (m.samples < kEnough || m.samples != m0.samples || m.outside != m0.outside) return;
-    ratio = objective == "p95" ? Real(m.p95) / m0.p95 : Real(m.max) / m0.max;
+    ratio = objective == "p95"   ? Real(m.p95) / m0.p95
+            : objective == "max" ? Real(m.max) / m0.max
+                                 : Real(m.storage) / m0.storage;
   } else {
     Random random(3);
     const std::vector<Real3> points =

@@ -368,8 +368,8 @@ Figure memory_of_filters() {
     for (const render::TexelFormat format : filter->info.formats) {
       settings.format = format;
       const double bytes = render::bytes_per_texel(settings) - kDepthBytes;
-      figure.rows.push_back(
-          {std::string(filter->info.name) + ", " + std::string(to_string(format)), {bytes, bytes / convolution}});
+      figure.rows.push_back({std::string(filter->info.name) + ", " + std::string(to_string(format)),
+                             {bytes, bytes / convolution}});
     }
   }
   return figure;

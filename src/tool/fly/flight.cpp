@@ -91,8 +91,9 @@ void draw_comparison(Studio& studio, const Camera& camera, int frame) {
                           warp == nullptr ? "auto" : warp->name, m.p95, m.p50, 100.0 * m.share_undersampled),
               studio.renderer.image(), studio.renderer.heat_map());
   }
-  const std::string title = fmt::format("{}, {} map{} of {}", options.scene, plan_options.cascades,
-                                        plan_options.cascades == 1 ? "" : "s", plan_options.resolution.max_size);
+  const std::string title =
+      fmt::format("{}, {} map{} of {}", options.scene, plan_options.cascades,
+                  plan_options.cascades == 1 ? "" : "s", plan_options.resolution.max_size);
   write_png(strip.strip(title), options.out / fmt::format("frame_{:04}_warps.png", frame));
 }
 
@@ -281,8 +282,8 @@ std::vector<FrameRow> draw_frames(Studio& studio, bool software) {
 }
 
 std::string sheet_title(const Options& options) {
-  return fmt::format("{}: {} maps of {}, {}{}", options.scene, options.plan.cascades, options.plan.resolution.max_size,
-                     render::to_string(options.filter),
+  return fmt::format("{}: {} maps of {}, {}{}", options.scene, options.plan.cascades,
+                     options.plan.resolution.max_size, render::to_string(options.filter),
                      options.plan.fit == Fit::tight ? "" : fmt::format(", {}", to_string(options.plan.fit)));
 }
 

@@ -177,8 +177,7 @@ void draw(Viewer& viewer, double seconds) {
   const Light light = default_light(viewer.options.light, viewer.flight.scene.bounds_world);
   const render::PreparedFilter filter = viewer.renderer.prepare(viewer.options.filter);
   const VisibleDepths depths = frame_depths(viewer.options, viewer.renderer, filter, camera);
-  const ShadowPlan plan =
-      plan_frame(viewer.options, viewer.flight, light, camera, depths, viewer.history);
+  const ShadowPlan plan = plan_frame(viewer.options, viewer.flight, light, camera, depths, viewer.history);
   render::FrameOptions frame;
   frame.transition = viewer.options.transition;
   frame.time_passes = false;

@@ -97,7 +97,7 @@ stress::Results run_all(const StressRequest& request, const std::vector<const st
 
 /// Returns 1 where a case fails or a number is not finite, else 0.
 int run_stress(const StressRequest& request) {
-  if (request.random > 0 || !request.replay.empty()) 
+  if (request.random > 0 || !request.replay.empty())
     return run_random_stress({request.random, request.seed, request.out, request.replay});
   const std::vector<const stress::Axis*> axes = axes_of(request);
   if (!request.out.empty()) make_folder("--out", request.out);
@@ -148,8 +148,9 @@ std::function<int()> declare_stress(Arguments& arguments) {
        .range = {{0, static_cast<double>(std::uint64_t{1} << 62)}}},
       {.name = "--out",
        .target = &request->out,
-       .help = "folder for stability.jsonl, which gnomon report shows, and stability.csv; of --random for cases "
-               "that fail",
+       .help =
+           "folder for stability.jsonl, which gnomon report shows, and stability.csv; of --random for cases "
+           "that fail",
        .completion = Completion::folders},
       {.name = "--random",
        .target = &request->random,
