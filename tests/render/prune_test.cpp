@@ -342,7 +342,7 @@ TEST(Prune, a_filter_that_stores_less_within_a_bound_draws_the_same_picture) {
   options.resolution.max_size = kMapSize;
   options.prune = PruneRules::all();
   set_margin(full, options);
-  const Camera camera = default_path(scene).at(0.3, kWidth, kHeight);
+  const Camera camera = default_path(scene).at(0.6, kWidth, kHeight);
   const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.4, -1, 0.3}}, {boxes, boxes}, options);
   renderer.draw(plan, camera, renderer.prepare(full), mask_only({}));
   const FloatImage wanted = renderer.mask();
