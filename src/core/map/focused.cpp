@@ -4,7 +4,6 @@
 // Brabec, Annen, Seidel, "Practical Shadow Mapping", 2002 (focusing).
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <optional>
 
 #include "geometry/least_rectangle.hpp"
 #include "geometry/vector.hpp"
@@ -123,32 +122,30 @@ LightBody whole_frustum(const MapRequest& request, const LightBody& body) noexce
 }
 
 /// The last frame's map where it still serves: view inside, casters inside.
-std::optional<Fitted> kept_from_before(const PlanContext& c, const MapRequest& request, const LightBody& body,
-                                       ShadowMap& map) noexcept {
-  if (c.options.fit != Fit::warped_stable || !c.same_light || !remembered(request)) return {};
+bool kept_from_before(const PlanContext& c, const MapRequest& request, const LightBody& body, ShadowMap& map,
+                      Fitted& fitted) noexcept {
+  if (c.options.fit != Fit::warped_stable || !c.same_light || !remembered(request)) return false;
   const PlanHistory::Map& last = request.last;
   const HeldMap held = held_map(c, request, body);
   if (!held.holds || border_of(c.options, map.width, map.height, border_share(c, request, body, held.plane)) >
                          last.filter_margin_texels)
-    return {};
+    return false;
   map.filter_margin_texels = last.filter_margin_texels;
-  Fitted fitted{held.plane,
-                held.depths,
-                swept_for(c, request, body, held.plane, border_of_body(map)),
-                texels_needed(body.points(), held.plane, pixels_per_slope(c.camera)),
-                {}};
+  fitted.plane = held.plane;
+  fitted.depths = held.depths;
+  fitted.swept = swept_for(c, request, body, held.plane, border_of_body(map));
+  fitted.needed = texels_needed(body.points(), held.plane, pixels_per_slope(c.camera));
   fitted.heights =
       height_range(c, request, {body, fitted.plane, fitted.swept, border_of_body(map), held.depths.bottom});
   if (!(fitted.heights.bottom >= held.depths.bottom && fitted.heights.height <= held.depths.height))
-    return {};
-  return fitted;
+    return false;
+  return true;
 }
 
-Fitted fitted_anew(const PlanContext& c, const MapRequest& request, const LightBody& body, double obliquity,
-                   MapResult& result) noexcept {
+void fit(const PlanContext& c, const MapRequest& request, const LightBody& body, double obliquity,
+         MapResult& result, Fitted& fitted) noexcept {
   const bool keeps = c.options.fit == Fit::warped_stable;
   ShadowMap& map = result.map;
-  Fitted fitted;
   fitted.plane = chosen_plane(c, request, body, result);
   widen_for_floats(request, body, fitted.plane);
   if (keeps) grow(fitted.plane, kRoom);
@@ -180,7 +177,6 @@ Fitted fitted_anew(const PlanContext& c, const MapRequest& request, const LightB
     fitted.depths.bottom -= kRoom * fitted.depths.height;
     fitted.depths.height *= 1.0 + 2.0 * kRoom;
   }
-  return fitted;
 }
 
 /// Distance along the light from the map's near to its far plane.
@@ -209,8 +205,9 @@ MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept 
   LightBody body = in_light_space(c, request);
   if (c.stable) body = whole_frustum(request, body);
   const double obliquity = pixel_obliquity(c, request.body);
-  const std::optional<Fitted> kept = kept_from_before(c, request, body, map);
-  const Fitted fitted = kept ? *kept : fitted_anew(c, request, body, obliquity, result);
+  Fitted fitted;
+  const bool kept = kept_from_before(c, request, body, map, fitted);
+  if (!kept) fit(c, request, body, obliquity, result, fitted);
   if (!fitted.heights.has_casters && !request.without_casters) return result;
   result.drawn = true;
   if (fitted.heights.too_near > 0)

@@ -32,13 +32,13 @@ double pixel_obliquity(const PlanContext& c, const Polytope& body) noexcept {
   double most = 1.0;
   for (const Polytope::Vertex& v : body.vertices()) {
     const double depth = max_of(glm::dot(c.axes.forward, v.position), c.camera.near_depth);
-    most = max_of(most, std::sqrt(glm::dot(v.position, v.position)) / depth);
+    most = max_of(most, glm::dot(v.position, v.position) / (depth * depth));
   }
   // Rounding beside the eye may tilt a ray beyond the image's corners.
   const Camera& k = c.camera;
   const double x = max_of(std::abs(k.left), std::abs(k.right)),
                y = max_of(std::abs(k.bottom), std::abs(k.top));
-  return min_of(most, std::sqrt(1.0 + x * x + y * y));
+  return std::sqrt(min_of(most, 1.0 + x * x + y * y));
 }
 
 double pixels_per_slope(const Camera& camera) noexcept {
