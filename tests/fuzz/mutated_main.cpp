@@ -35,8 +35,15 @@ constexpr const char* kUsage =
     "  --first: number of the first input; the same number is the same input\n"
     "  in arguments, {} is the input, {in} its folder (with the files of --beside), {out} a new folder\n";
 
+// Seconds that one input may take. Programs under the sanitizers take several times as long to start.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr std::uint64_t kPatience = 120;
+#else
+constexpr std::uint64_t kPatience = 20;
+#endif
+
 struct Request {
-  std::uint64_t count = 100, first = 0, seconds = 20;
+  std::uint64_t count = 100, first = 0, seconds = kPatience;
   fs::path keep = "out/fuzz", name, beside;
   std::vector<fs::path> seeds;
   std::vector<std::string> program;

@@ -30,8 +30,11 @@ void pixels_between(Range image, double low, double high, int count, int (&out)[
   const double scale = count / (high - low);
   const double first = std::floor((image.low - low) * scale - 0.5);
   const double last = std::ceil((image.high - low) * scale - 0.5);
-  out[0] = first > 0.0 ? static_cast<int>(min_of(first, count)) : 0;
-  out[1] = last < count - 1 ? static_cast<int>(max_of(last, -1.0)) : count - 1;
+  // Chosen before they are turned into whole numbers: numbers beyond an int raise an exception.
+  const double from = first > 0.0 ? min_of(first, count) : 0.0;
+  const double to = last < count - 1 ? max_of(last, -1.0) : count - 1;
+  out[0] = static_cast<int>(from);
+  out[1] = static_cast<int>(to);
 }
 
 /// x / depth over both ranges, with depth > 0.
