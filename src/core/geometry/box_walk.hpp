@@ -36,7 +36,7 @@ struct LaneSides {
   std::uint32_t outside, across;
 };
 
-/// Without `across`, what is across is told as inside, in half the time.
+/// Without `across`, boxes across a plane count as inside, in half the time.
 /// Monotone, as every rounded step of it is: a node that is outside has only boxes that are, one that is
 /// inside likewise.
 template <bool across>

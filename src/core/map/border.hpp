@@ -10,6 +10,10 @@ namespace gnomon {
 /// nearer is still shown, down to kLeastNearShare.
 inline constexpr double kNearShare = 1.0 / 8192, kLeastNearShare = 1e-7;
 
+/// Under a local light the border of a warped map may reach no farther than where the far end's texels are
+/// this much longer again: beyond lies the warp's horizon.
+inline constexpr double kBorderGrowth = 0.5;
+
 /// A float offset from the camera is rounded by up to 2^-24 of its length: a rectangle narrower than this
 /// much of it has texels, 1024 across, that no shader can tell apart, and one 2^10 times narrower still loses
 /// every point it was fitted to.

@@ -188,11 +188,11 @@ double depth_range(const MapRequest& request, const Fitted& fitted) noexcept {
 }
 
 /// A spot's grid that depends on the light alone.
-void write_snap_key(const MapRequest& request, const Fitted& fitted, ShadowMap& map) noexcept {
+void write_snap_key(const Fitted& fitted, ShadowMap& map) noexcept {
   map.snap_key.depth_near = std::ilogb(fitted.heights.nearest);
   // A texel one world unit from the light.
   map.snap_key.texel = (fitted.plane.a_max - fitted.plane.a_min) / (map.width - 2 * map.filter_margin_texels);
-  map.snap_key.valid = request.space.perspective;
+  map.snap_key.valid = true;
 }
 
 }  // namespace
@@ -219,7 +219,7 @@ MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept 
       clip_from_light(fitted.plane, fitted.depths, border) * request.space.light_from_relative();
   complete_record(c, request, {body, fitted.plane, fitted.swept, fitted.needed, obliquity, gl_from_relative},
                   map);
-  if (c.stable) write_snap_key(request, fitted, map);
+  if (c.stable) write_snap_key(fitted, map);
   result.gl_from_world = world_matrix(gl_from_relative, c.camera.position);
   if (kept) {
     map.warp = map.kappa > 0.0 ? &request.warp : &warps::none;

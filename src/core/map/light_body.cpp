@@ -15,9 +15,6 @@ namespace {
 
 // Ratio of the far to the near end's texels beyond which float matrices no longer hold the map together.
 constexpr double kStrongest = 1e9;
-// Under a local light the border may reach no farther than where the far end's texels are twice as long
-// again.
-constexpr double kBorderGrowth = 0.5;
 
 /// Half opening of the frustum in the plane of view and light: the largest slope of a corner along it.
 double tan_half_fov(const PlanContext& c, const LightFrame& frame) noexcept {
@@ -80,8 +77,8 @@ void hold_to_frustum(const MapRequest& request, LightBody& body) noexcept {
   constexpr double kRounding = 1.0 + 1e-3;
   bool usable = true;
   double depth = 0.0;
-  for (WarpInput::Point& p : body.point) {
-    if (&p == body.point.data() + body.count) break;
+  for (int i = 0; i < body.count; ++i) {
+    WarpInput::Point& p = body.point[static_cast<std::size_t>(i)];
     usable = usable && max_of(std::abs(p.x), std::abs(p.y)) <= request.slope * kRounding;
     p.x = clamp_to(p.x, -request.slope * kRounding, request.slope * kRounding);
     p.y = clamp_to(p.y, -request.slope * kRounding, request.slope * kRounding);

@@ -16,8 +16,6 @@ namespace {
 
 // Sizes come and go with the view, and images are reallocated for them: less is not worth another size.
 constexpr double kWorthASize = 0.95;
-// As in light_body.cpp: under a local light the border stays off the warp's horizon.
-constexpr double kBorderGrowth = 0.5;
 
 int in_steps(double side, int least, int full) noexcept {
   const double steps = std::ceil(side / kSizeStep) * kSizeStep;

@@ -1,4 +1,4 @@
-// A map whose texel grid stands still while the camera moves.
+// A map whose texel grid does not move with the camera.
 // Based on: Valient, "Stable Rendering of Cascaded Shadow Maps", ShaderX6, 2008; the size from the longest
 // chord instead of the enclosing sphere, and centres as whole numbers of texels in double, are this
 // project's.
@@ -53,7 +53,7 @@ Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) no
 }
 
 /// Depths in whole steps of a sixteenth of the side, so that stored depths do not change either. Steps double
-/// until the range is told apart from rounding and whole numbers hold it.
+/// until whole numbers hold both ends.
 LightDepths snapped_depths(const Grid& grid, const HeightRange& heights, SnapKey& key) noexcept {
   const LightDepths wanted = padded(heights.bottom, heights.height, grid.side);
   const double low = grid.eye.z + wanted.bottom, high = low + wanted.height;

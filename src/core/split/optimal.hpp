@@ -37,8 +37,6 @@ void search_splits(std::span<double> edges, const Cost& cost, const Joined& join
   for (int i = 0; i < kSplitSteps; ++i) {
     for (int j = i + 1; j <= kSplitSteps; ++j) {
       const auto to = static_cast<std::size_t>(j);
-      // The last cascade ends at the far end, and the first begins at the near one.
-      if (i > 0 && maps == 1) continue;
       const double one = cost(depth[static_cast<std::size_t>(i)], depth[to]);
       if (i == 0) best[0][to] = one;
       for (std::size_t m = 1; m < static_cast<std::size_t>(maps); ++m) {
