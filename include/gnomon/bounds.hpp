@@ -49,7 +49,7 @@ class Boxes {
 
   /// Empty boxes included.
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  /// Of a list; empty where a set holds the boxes.
+  /// The boxes of a list; empty where a set holds them.
   [[nodiscard]] std::span<const Box> list() const noexcept { return list_; }
   /// nullptr where a list holds the boxes.
   [[nodiscard]] const CasterSet* set() const noexcept { return set_; }

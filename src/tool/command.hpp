@@ -71,7 +71,7 @@ struct Program {
 /// the program's name. Returns the exit code: 2 for bad input, 130 where interrupted, 1 for a fault of ours.
 int run_program(const Program& program, int argc, char** argv);
 
-/// Of the program that runs, for messages.
+/// Name of the running program, for messages.
 [[nodiscard]] std::string_view program_name() noexcept;
 /// Prints "NAME: warning: ..." on standard error.
 void warn(const std::string& what);

@@ -97,7 +97,7 @@ Image enlarged(const Image& image, int factor) {
   return result;
 }
 
-/// What of a kernel a classification looks at, in depths of the map.
+/// Depths of the map in a kernel, as a classification reads them.
 struct Kernel {
   double mean = 0.0;     ///< of exp(c (depth - receiver's))
   double largest = 0.0;  ///< depth

@@ -22,7 +22,7 @@ struct Flight {
 /// Loads scene and path. Throws std::runtime_error with what is wrong and where.
 [[nodiscard]] Flight load_flight(const Options& options);
 
-/// Of a frame of the flight.
+/// The camera of a frame of the flight.
 [[nodiscard]] Camera camera_of(const Options& options, const Flight& flight, int frame);
 
 /// Halves the maps until memory takes them, and says so. A context must be current. Throws std::runtime_error

@@ -141,7 +141,7 @@ std::string omitted_text(const ShadowPlan& plan, const render::FrameStats& stats
   }
   for (const PruneRuleInfo& rule : prune_rules()) {
     const PruneSaving& saved = stats.saved[static_cast<std::size_t>(rule.rule)];
-    // What the plan left out is told above, map by map.
+    // The plan's own omissions are listed above, map by map.
     const bool of_plan = rule.rule == PruneRule::empty_cascades ||
                          rule.rule == PruneRule::casterless_cascades || rule.rule == PruneRule::empty_faces ||
                          rule.rule == PruneRule::casterless_faces ||

@@ -19,7 +19,7 @@ ShadowDistances distances_of(const Options& options, const Flight& flight, const
   ShadowDistances distances;
   distances.blocker_world =
       options.blocker_distance > 0.0 ? options.blocker_distance : 0.5 * (scene.max.y - scene.min.y);
-  // A lamp's penumbras are narrowest where its light ends.
+  // Penumbras of a local light are narrowest at the end of its range.
   if (const auto* spot = std::get_if<SpotLight>(&light)) distances.light_world = spot->range;
   if (const auto* point = std::get_if<PointLight>(&light)) distances.light_world = point->range;
   return distances;
@@ -31,7 +31,7 @@ int perceptual_map_size(const Options& options, const Flight& flight) {
   const Light light = default_light(options.light, flight.scene.bounds_world);
   const ShadowDistances distances = distances_of(options, flight, light);
   PlanOptions plan_options = options.plan;
-  // Smaller maps are all rim.
+  // Smaller maps are all border.
   const int least = static_cast<int>(std::ceil(4.0 * plan_options.filter.texels));
   const auto needed = [&](int frame) {
     const Camera camera = camera_of(options, flight, frame);
@@ -42,7 +42,7 @@ int perceptual_map_size(const Options& options, const Flight& flight) {
   for (int frame = 0; frame < options.frames; ++frame) size = std::max(size, needed(frame).map_size);
   HidingMapSize widest;
   for (int frame = 0; frame < options.frames; ++frame) {
-    // Plans of another size have another rim, and may have another warp: asked until they agree. Each turn
+    // Plans of another size have another border, and may have another warp: asked until they agree. Each turn
     // grows the maps, so that this ends.
     HidingMapSize asked;
     for (plan_options.resolution.max_size = size; (asked = needed(frame)).map_size > size;

@@ -95,7 +95,7 @@ void choose_technique_of(Options& options, const Flight& flight) {
   TechniqueChoice hardest;
   const int frames = std::min(options.frames, kMostFrames);
   for (int i = 0; i < frames; ++i) {
-    // Of `frames` equal parts the middle.
+    // The middle of each of `frames` equal parts.
     const int frame = static_cast<int>((i + 0.5) * options.frames / frames);
     const Camera camera = camera_of(options, flight, frame);
     const std::vector<glm::dvec3> seen = seen_by(camera, light);
