@@ -7,8 +7,12 @@
 // The planes that part the maps, and the map's rectangle less `rim_texels` along each side. Of z nothing is asked.
 bool map_spans(ShadowMap map, vec3 position, float rim_texels) {
   vec4 h = map.clip_from_point * vec4(position, 1.0);
-  vec2 free = 1.0 - 2.0 * rim_texels / map.interval_size.zw;
-  bool held = h.w > 0.0 && abs(h.x) <= free.x * h.w && abs(h.y) <= free.y * h.w;
+  // Less than nothing is kept free where rounding is forgiven: a little beyond the square then counts as well.
+  vec2 square = vec2(1.0 + 2.0 * max(-rim_texels, 0.0) / map.interval_size.zw);
+  bool held = h.w > 0.0 && all(lessThanEqual(abs(h.xy), square * h.w));
+  vec2 texel = held ? shaped_point(map.shape, map.interval_size.zw, h.xy / h.w).texel : vec2(0.0);
+  held = held && all(greaterThanEqual(texel, vec2(rim_texels))) &&
+         all(lessThanEqual(texel, map.interval_size.zw - rim_texels));
   for (int i = 0; i < 4; ++i) held = held && dot(map.select_planes[i].xyz, position) + map.select_planes[i].w >= 0.0;
   return held;
 }
