@@ -135,7 +135,7 @@ TEST(Filters, cost_what_their_images_take) {
   EXPECT_NEAR(bytes_per_texel(parse_filter("vsm:mipmap=1").settings), 4.0 + 8.0 * 4.0 / 3.0, 1e-12);
 }
 
-TEST(Filters, ask_the_plan_for_a_margin_in_the_kernels_own_unit) {
+TEST(Filters, request_a_border_in_the_kernels_own_unit) {
   PlanOptions options;
   set_margin(parse_filter("vsm:radius=3").settings, options);
   EXPECT_GE(options.filter.texels, 4.0);

@@ -40,7 +40,7 @@ TEST(Compare, measures_every_technique_on_every_frame) {
     EXPECT_TRUE(fs::exists(whole() / file)) << file;
 }
 
-TEST(Compare, measures_lamps_against_their_own_shadows) {
+TEST(Compare, measures_local_lights_against_their_own_shadows) {
   for (const char* light : {"spot", "point"}) {
     const TemporaryFolder folder;
     // Splits and cascades mean nothing under a lamp: no row twice.
