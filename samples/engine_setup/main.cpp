@@ -88,7 +88,7 @@ int main() {
   }
   for (const gnomon::ShadowMap& map : plan.maps()) draw_shadow_map(map, casters, caster_names);
 
-  std::puts("left out:");
+  std::puts("omitted:");
   for (const gnomon::Omission& omission : plan.omitted()) {
     const gnomon::OmissionText text = gnomon::describe(omission);
     std::printf("  %s: %s\n", text.what.data(), text.why.data());

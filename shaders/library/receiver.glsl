@@ -82,7 +82,7 @@ ShadowLookup stored_lookup(ShadowLookup at, ShadowMap map) {
 }
 
 // `bias`: gnomon::BiasOptions, constant, slope, normal offset in texels of this map at this point, largest slope. The
-// kernel's reach needs none: filters follow the receiver's plane by its gradient. The plane's slope is capped, so that a
+// kernel's radius needs none: filters follow the receiver's plane by its gradient. The plane's slope is capped, so that a
 // surface nearly along the light does not lose its shadows.
 ShadowLookup shadow_lookup(ShadowMap map, float layer, vec2 layer_size, ShadowSurface s, vec4 bias) {
   const float kDepthRounding = 4.0 / 16777216.0;  // the rasterizer's depth is good to a few units of 2^-24

@@ -21,7 +21,7 @@ TEST_F(Flythrough, lets_the_filter_store_less_within_a_bound_and_says_so) {
     EXPECT_EQ(outcome.code, 0) << outcome.error;
     std::ifstream csv(out() / "frames.csv");
     const std::string text{std::istreambuf_iterator<char>(csv), {}};
-    return text.find("esm:format=unorm16 does for esm") != std::string::npos;
+    return text.find("esm:format=unorm16 suffices for esm") != std::string::npos;
   };
   EXPECT_TRUE(told("--filter-precision 0.5"));
   EXPECT_FALSE(told("--filter-precision 0"));

@@ -8,6 +8,8 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BEGINNINGS = re.compile(r"(Of|What|So far|Such)\b")
+# Libraries whose strings become errors, tables and pages.
+MESSAGES = ("casefile", "render", "report", "scene", "stress", "tool", "trace")
 CODE_SUFFIXES = (".hpp", ".h", ".cpp", ".glsl", ".vert", ".frag", ".def", ".inc")
 
 
@@ -50,6 +52,17 @@ def text_of_registry(text):
     return text_of_code(re.sub(r"\"((?:\\.|[^\"\\\n])*)\"", r"//\1", text))
 
 
+def text_of_messages(text):
+    """Strings with a space in them, which people may read; comments and names of files and keys are not among them."""
+    out = []
+    for part in re.split(r"(//[^\n]*|\"(?:\\.|[^\"\\\n])*\")", text):
+        if part.startswith('"') and " " in part:
+            out.append(" " + part[1:-1].replace("\\n", ". ") + " ")
+        else:
+            out.append(re.sub(r"[^\n]", " ", part))
+    return "".join(out)
+
+
 def test_names(text):
     """The names of tests and of their suites as words, each on its line."""
     lines = []
@@ -79,6 +92,8 @@ def texts_of_tree(source):
     for folder in ("shaders", "samples"):
         readers += [(name, text_of_code) for name in files_below(source, folder, CODE_SUFFIXES)]
     readers += [(name, test_names) for name in files_below(source, "tests", (".cpp",))]
+    for library in MESSAGES:
+        readers += [(name, text_of_messages) for name in files_below(source, os.path.join("src", library), (".cpp", ".js"))]
     for name, reader in readers:
         with open(os.path.join(source, name), encoding="utf-8") as file:
             yield name, reader(file.read())
@@ -136,10 +151,10 @@ def check_itself(words):
                "include/a.hpp": "int rim;\n/// Border.\nint lamp();  ///< of a lamp\n",
                "include/w.def": "// Fine.\nWORD(rim, \"keeps maps\\n\"\n  \"laid before\")\n",
                "shaders/library/l.glsl": "float rim; // lookup\n// stands\n//  still\n",
-               "tests/t.cpp": "// A rim.\nTEST(MapRim, border)\nTEST(Map, is_laid_once) {\n", "samples/s/README.md": "Is this right? Such maps.\n"}
+               "src/tool/t.cpp": "// A rim.\nf(\"rim\");\nfail(\"the rim\\n\");\n", "tests/t.cpp": "// A rim.\nTEST(MapRim, border)\nTEST(Map, is_laid_once) {\n", "samples/s/README.md": "Is this right? Such maps.\n"}
     expected = {("README.md", 3, "lamp"), ("docs/page.md", 5, "rim"), ("include/a.hpp", 3, "lamp"),
                 ("include/w.def", 3, "laid"), ("tests/t.cpp", 2, "Rim"), ("tests/t.cpp", 3, "laid"), ("shaders/library/l.glsl", 2, "stands still"),
-                ("samples/s/README.md", 1, "Such")}
+                ("samples/s/README.md", 1, "Such"), ("src/tool/t.cpp", 3, "rim")}
     with tempfile.TemporaryDirectory() as folder:
         for name, text in planted.items():
             path = os.path.join(folder, name)

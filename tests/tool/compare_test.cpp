@@ -169,7 +169,7 @@ TEST(Compare, does_not_go_on_with_a_scene_whose_files_have_changed) {
     return arguments;
   }());
   EXPECT_EQ(changed.exit_code, 2);
-  EXPECT_NE(changed.err.find("triangle.gltf is no longer what was measured"), std::string::npos)
+  EXPECT_NE(changed.err.find("triangle.gltf has changed since it was measured"), std::string::npos)
       << changed.err;
   EXPECT_EQ(std::count(changed.err.begin(), changed.err.end(), '\n'), 1) << changed.err;
   const fs::path merged = folder.path() / "merged";

@@ -93,7 +93,7 @@ int run_calibrate(const CalibrateRequest& request, bool json) {
     if (request.check) throw std::runtime_error("--check: wants folders with results to be held against");
     if (std::filesystem::exists(std::filesystem::path(request.out) / report::kRowsFile))
       throw std::runtime_error(request.out + ": was measured already: gnomon calibrate " + request.out +
-                               " fits to that; another --out measures anew");
+                               " fits to that; another --out measures again");
     (void)compare(own_sweep(request));
     folders.push_back(request.out);
   }

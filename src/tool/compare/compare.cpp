@@ -80,8 +80,8 @@ std::set<std::string> known_keys(const Sweep& sweep, const std::vector<std::stri
   std::set<std::string> keys;
   if (!fs::exists(file)) return keys;
   if (!sweep.resume)
-    throw std::runtime_error(file.string() +
-                             ": there already; --resume goes on with it, another --out starts anew");
+    throw std::runtime_error(
+        file.string() + " already exists; --resume continues it, another --out starts from the beginning");
   report::SceneHashes now;
   for (std::size_t i = 0; i < hashes.size(); ++i) (void)now.agree(sweep.scenes[i], hashes[i]);
   std::vector<std::string> warnings;
@@ -91,7 +91,7 @@ std::set<std::string> known_keys(const Sweep& sweep, const std::vector<std::stri
   for (const report::Row& row : rows) {
     if (!now.agree(row.scene, row.scene_hash))
       throw std::runtime_error(file.string() + ": " + row.scene +
-                               " is no longer what was measured; another --out starts anew");
+                               " has changed since it was measured; another --out starts from the beginning");
     keys.insert(row.key());
   }
   return keys;
