@@ -1,5 +1,5 @@
-// What a shader must know of a shadow map, and how the map lies on the world at a point. Points are in any frame that the
-// matrices are made for: relative to the camera where precision matters. The includer supplies shadow_map().
+// A shadow map as a shader reads it, and its derivatives at a point. Points are in the space that the matrices expect: relative
+// to the camera for precision. The includer supplies shadow_map().
 #ifndef GNOMON_LIBRARY_SHADOW_MAP_GLSL
 #define GNOMON_LIBRARY_SHADOW_MAP_GLSL
 #include "library/shape.glsl"

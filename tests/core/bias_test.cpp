@@ -69,7 +69,7 @@ TEST(Bias, a_map_carries_its_options_times_its_texel) {
   }
 }
 
-TEST(BiasProperty, a_move_along_the_light_changes_depth_as_told_and_nothing_across) {
+TEST(BiasProperty, a_move_along_the_light_changes_depth_by_the_stated_amount_and_nothing_across) {
   std::uint64_t moves = 0;
   for_all(500, [&] {
     const Case c = draw_case({.max_depth_ratio = 1e3, .max_boxes = 8});

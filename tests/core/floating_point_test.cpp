@@ -86,7 +86,7 @@ TEST(FloatingPoint, no_ordinary_input_traps) {
   expect_quiet(Extremes::ordinary, 1500);
 }
 
-TEST(FloatingPoint, no_stiff_input_traps) {
+TEST(FloatingPoint, no_extreme_input_traps) {
   expect_quiet(Extremes::stiff, 3500);
 }
 

@@ -259,7 +259,7 @@ TEST(Mask, shows_acne_without_bias_and_gaps_with_far_too_much) {
   EXPECT_GT(judge(draw(renderer, camera, much, filters::hard), 0.5).gap, 100u);
 }
 
-TEST(Mask, stands_still_in_stable_fit_while_the_camera_moves) {
+TEST(Mask, is_unchanged_in_stable_fit_while_the_camera_moves) {
   const Scene scene = box_on_ground();
   Renderer renderer(scene);
   PlanOptions options;
