@@ -3,6 +3,7 @@
 // so that kappa = 0 is the orthographic map and nothing tends to infinity.
 #include "warp/plane_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -105,8 +106,8 @@ bool usable(std::span<const WarpInput::Point> body, const WarpChoice& choice, do
          map.stretch <= most_stretch;
 }
 
-TexelsNeeded texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane,
-                           double pixels_per_slope) noexcept {
+void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane, double pixels_per_slope,
+                   TexelsNeeded& needed) noexcept {
   const WarpChoice& choice = plane.choice;
   const glm::dvec2 axis = choice.axis;
   // The image's X and Y per unit of A and B.
@@ -115,7 +116,10 @@ TexelsNeeded texels_needed(std::span<const WarpInput::Point> body, const PlaneMa
   const glm::dvec2 per_b = glm::dvec2(-choice.row_a.y, choice.row_a.x) / area;
   const glm::dvec2 side{(plane.a_max - plane.a_min) * pixels_per_slope,
                         (plane.b_max - plane.b_min) * pixels_per_slope};
-  TexelsNeeded needed;
+  // Without a warp all texels are alike, and pixels smallest at the nearest vertex.
+  const auto nearer = [](const WarpInput::Point& p, const WarpInput::Point& q) { return p.depth < q.depth; };
+  if (choice.kappa == 0.0) body = {std::min_element(body.begin(), body.end(), nearer), 1};
+  needed.count = 0;
   double a_max = 0.0, b_max = 0.0;
   for (const WarpInput::Point& p : body) {
     const double w = plane.w(p.x, p.y);
@@ -132,7 +136,6 @@ TexelsNeeded texels_needed(std::span<const WarpInput::Point> body, const PlaneMa
       needed.vertex[static_cast<std::size_t>(needed.count++)] = {a * side.x, b * side.y};
   }
   needed.sides = {std::sqrt(a_max) * side.x, std::sqrt(b_max) * side.y};
-  return needed;
 }
 
 double TexelsNeeded::bound(const glm::dvec2& inside, double obliquity) const noexcept {

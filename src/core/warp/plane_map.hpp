@@ -73,8 +73,8 @@ struct TexelsNeeded {
   [[nodiscard]] double bound(const glm::dvec2& inside, double obliquity) const noexcept;
 };
 /// `pixels_per_slope`: pixels per unit of the image's finer axis.
-[[nodiscard]] TexelsNeeded texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane,
-                                         double pixels_per_slope) noexcept;
+void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane, double pixels_per_slope,
+                   TexelsNeeded& needed) noexcept;
 
 /// How far a step of one unit of the light plane moves a point in the map, at most over the body, as a share
 /// of the rectangle's side.
