@@ -63,16 +63,16 @@ class Cutter {
       return plane.normal.x * p.x + plane.normal.y * p.y + plane.normal.z * p.z + plane.offset;
     });
   }
-  /// Keeps what is at `bound` or above of an axis.
-  void above(int axis, double bound) noexcept {
-    Plane plane{glm::dvec3(0.0), -bound};
+  template <int axis>
+  void by(const Box& box, const Box& own) noexcept {
+    Plane plane{glm::dvec3(0.0), -box.min[axis]};
     plane.normal[axis] = 1.0;
-    by(plane, [&](const glm::dvec3& p) { return p[axis] - bound; });
-  }
-  void below(int axis, double bound) noexcept {
-    Plane plane{glm::dvec3(0.0), bound};
+    if (own.min[axis] < box.min[axis])
+      by(plane, [&](const glm::dvec3& p) { return p[axis] - box.min[axis]; });
     plane.normal[axis] = -1.0;
-    by(plane, [&](const glm::dvec3& p) { return bound - p[axis]; });
+    plane.offset = box.max[axis];
+    if (own.max[axis] > box.max[axis])
+      by(plane, [&](const glm::dvec3& p) { return box.max[axis] - p[axis]; });
   }
 
  private:
@@ -134,27 +134,30 @@ void Cutter::divide(const Plane& plane, const double* distance, VertexSet cut_of
 /// no room.
 std::size_t Cutter::add_vertices(const double* distance, VertexSet cut_off,
                                  CrossingEdges& crossing) noexcept {
+  // Held here: a byte that is written might be part of anything else.
+  Polytope::Vertex* const vertex = body_.vertex.data();
+  const std::size_t places = places_;
+  const auto cap = static_cast<std::uint8_t>(body_.face_count);
   VertexSet beside = 0;
   for_each_vertex(cut_off, [&](std::size_t i) {
-    for (const std::uint8_t other : body_.vertex[i].neighbour) beside |= VertexSet{1} << other;
+    for (const std::uint8_t other : vertex[i].neighbour) beside |= VertexSet{1} << other;
   });
   std::size_t added = 0;
   for_each_vertex(beside & ~cut_off, [&](std::size_t i) {
-    const Polytope::Vertex& v = body_.vertex[i];
+    const Polytope::Vertex& v = vertex[i];
     for (std::uint8_t k = 0; k < 3; ++k) {
       const std::uint8_t other = v.neighbour[k];
-      if ((cut_off >> other & 1) == 0 || places_ + added++ >= kMaxVertices) continue;
+      if ((cut_off >> other & 1) == 0 || places + added++ >= kMaxVertices) continue;
       const double from = max_of(distance[i], 0.0);
       const double t = from / (from - distance[other]);
-      Polytope::Vertex& on_plane = body_.vertex[places_ + added - 1];
-      on_plane.position = v.position + (body_.vertex[other].position - v.position) * t;
-      on_plane.face = {static_cast<std::uint8_t>(body_.face_count), v.face[(k + 1u) % 3],
-                       v.face[(k + 2u) % 3]};
+      Polytope::Vertex& on_plane = vertex[places + added - 1];
+      on_plane.position = v.position + (vertex[other].position - v.position) * t;
+      on_plane.face = {cap, v.face[(k + 1u) % 3], v.face[(k + 2u) % 3]};
       on_plane.neighbour[0] = static_cast<std::uint8_t>(i);
       crossing[added - 1] = {static_cast<std::uint8_t>(i), k};
     }
   });
-  return places_ + added <= kMaxVertices ? added : 0;
+  return places + added <= kMaxVertices ? added : 0;
 }
 
 /// Joins the new vertices along the faces they lie on into a new face. A convex face is crossed twice or not
@@ -163,8 +166,9 @@ bool Cutter::join(std::size_t added) noexcept {
   std::uint32_t once = 0, twice = 0;  // bit f: face f
   static_assert(kMaxFaces <= 32);
   std::array<std::uint8_t, kMaxFaces> first;
-  for (std::size_t i = places_; i < places_ + added; ++i) {
-    Polytope::Vertex& v = body_.vertex[i];
+  const std::span<Polytope::Vertex> vertex = body_.vertex;
+  for (std::size_t i = places_, end = places_ + added; i < end; ++i) {
+    Polytope::Vertex& v = vertex[i];
     for (std::size_t side = 1; side < 3; ++side) {
       const std::uint8_t face = v.face[side];
       const std::uint32_t bit = std::uint32_t{1} << face;
@@ -175,7 +179,7 @@ bool Cutter::join(std::size_t added) noexcept {
       }
       if ((twice & bit) != 0) return false;
       twice |= bit;
-      Polytope::Vertex& other = body_.vertex[first[face]];
+      Polytope::Vertex& other = vertex[first[face]];
       v.neighbour[3 - side] = first[face];
       other.neighbour[other.face[1] == face ? 2 : 1] = static_cast<std::uint8_t>(i);
     }
@@ -189,9 +193,10 @@ void Cutter::close_gaps() noexcept {
   for_each_vertex(kept_, [&](std::size_t i) { renamed[i] = count++; });
   body_.vertex_count = count;
   if (count == places_) return;
+  const std::span<Polytope::Vertex> vertex = body_.vertex;
   for_each_vertex(kept_, [&](std::size_t i) {
-    const Polytope::Vertex& from = body_.vertex[i];
-    Polytope::Vertex& to = body_.vertex[renamed[i]];
+    const Polytope::Vertex& from = vertex[i];
+    Polytope::Vertex& to = vertex[renamed[i]];
     to.position = from.position;
     for (std::size_t k = 0; k < 3; ++k) {
       to.face[k] = from.face[k];
@@ -268,10 +273,9 @@ void clip(Polytope& body, const Box& box) noexcept {
   // Planes that miss the body are told from its own box, six comparisons in place of six rounds of distances.
   const Box own = bounds_of(body);
   Cutter cutter(body);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (own.min[axis] < box.min[axis]) cutter.above(axis, box.min[axis]);
-    if (own.max[axis] > box.max[axis]) cutter.below(axis, box.max[axis]);
-  }
+  cutter.by<0>(box, own);
+  cutter.by<1>(box, own);
+  cutter.by<2>(box, own);
 }
 
 int swept_planes(const Polytope& body, const glm::dvec4& light,

@@ -132,7 +132,7 @@ LightBody whole_frustum(const MapRequest& request, const LightBody& body) noexce
 bool kept_from_before(const PlanContext& c, const MapRequest& request, const LightBody& body, ShadowMap& map,
                       Fitted& fitted) noexcept {
   if (c.options.fit != Fit::warped_stable || !c.same_light || !remembered(request)) return false;
-  const PlanHistory::Map& last = request.last;
+  const PlanHistory::Map& last = *request.last;
   const HeldMap held = held_map(c, request, body);
   if (!held.holds || border_of(c.options, map.width, map.height, border_share(c, request, body, held.plane)) >
                          last.filter_margin_texels)
@@ -231,7 +231,7 @@ MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept 
   if (kept) {
     map.warp = map.kappa > 0.0 ? &request.warp : &warps::none;
     // The very bits of the last frame: what is drawn stays as it is.
-    result.gl_from_world = request.last.gl_from_world;
+    result.gl_from_world = request.last->gl_from_world;
     map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * result.gl_from_world;
   }
   return result;

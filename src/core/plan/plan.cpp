@@ -33,10 +33,13 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
     plan.status = PlanStatus::nothing_visible;
     return;
   }
-  ParallelScene scene{body, {}, options.warp.warp != nullptr ? *options.warp.warp : warps::optimal};
+  ParallelScene scene{body,
+                      depths_of(body, c.axes.forward),
+                      {},
+                      options.warp.warp != nullptr ? *options.warp.warp : warps::optimal};
   scene.space.frame =
       c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
-  c.seen = usable_depths(c, body, visible);
+  c.seen = usable_depths(c, scene.depths, visible);
   const bool parts = options.split.partition != Partition::view_depth;
   if (parts && !c.stable) {
     // Parts follow the view in no steady way.
