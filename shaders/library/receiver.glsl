@@ -106,7 +106,7 @@ ShadowLookup shadow_lookup(ShadowMap map, float layer, vec2 layer_size, ShadowSu
   float bias_world = bias.x * texel_world + bias.y * (abs(rise.x) + abs(rise.y));
 
   ShadowLookup at;
-  at.texel = (p.ndc.xy * 0.5 + 0.5) * map.interval_size.zw;
+  at.texel = p.texel;
   at.layer = layer;
   at.depth_curve = 0.0;
   at.layer_size = layer_size;

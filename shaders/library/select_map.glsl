@@ -7,8 +7,12 @@
 // True inside the planes that part the maps, and inside the map's rectangle less `border_texels` along each side. Any z.
 bool map_spans(ShadowMap map, vec3 position, float border_texels) {
   vec4 h = map.clip_from_point * vec4(position, 1.0);
-  vec2 free = 1.0 - 2.0 * border_texels / map.interval_size.zw;
-  bool held = h.w > 0.0 && abs(h.x) <= free.x * h.w && abs(h.y) <= free.y * h.w;
+  // Less than nothing is kept free where rounding is forgiven: a little beyond the square then counts as well.
+  vec2 square = vec2(1.0 + 2.0 * max(-border_texels, 0.0) / map.interval_size.zw);
+  bool held = h.w > 0.0 && all(lessThanEqual(abs(h.xy), square * h.w));
+  vec2 texel = held ? shaped_point(map.shape, map.interval_size.zw, h.xy / h.w).texel : vec2(0.0);
+  held = held && all(greaterThanEqual(texel, vec2(border_texels))) &&
+         all(lessThanEqual(texel, map.interval_size.zw - border_texels));
   for (int i = 0; i < 4; ++i) held = held && dot(map.select_planes[i].xyz, position) + map.select_planes[i].w >= 0.0;
   return held;
 }

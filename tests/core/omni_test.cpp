@@ -1,5 +1,5 @@
 // Do the maps of all directions cover the sphere, undo themselves, and have the texels that they claim?
-#include "gnomon/omni.hpp"
+#include "gnomon/study/omni.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Is the technique that is chosen the right one, and is what it is said to cost and to err true?
-#include "gnomon/technique.hpp"
+#include "gnomon/study/technique.hpp"
 
 #include <gtest/gtest.h>
 

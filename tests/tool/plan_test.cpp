@@ -7,6 +7,7 @@
 #include "cases.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "gnomon/gnomon.hpp"
+#include "gnomon/study/log_perspective.hpp"
 #include "process.hpp"
 
 namespace gnomon::test {

@@ -1,5 +1,5 @@
 // Which maps and which filter meet the budget, or the error, that was asked for?
-#include "gnomon/technique.hpp"
+#include "gnomon/study/technique.hpp"
 
 #include <fmt/core.h>
 
