@@ -6,6 +6,8 @@
 #include <glm/matrix.hpp>
 #include <variant>
 
+#include "gnomon/reuse.hpp"
+
 namespace gnomon::render {
 namespace {
 
@@ -42,9 +44,11 @@ void set_lamp(const Light* light, FrameBlock& block) noexcept {
   if (const auto* point = std::get_if<PointLight>(light)) block.layer.z = static_cast<float>(point->range);
 }
 
-MapBlock map_block(const ShadowMap& map, const glm::dmat4& drawn_from_plan, const glm::dvec3& eye,
-                   double blur, double curve) noexcept {
+MapBlock map_block(const ShadowMap& planned, const glm::dmat4& drawn_from_plan, const glm::dvec3& origin,
+                   const glm::dvec3& eye, double blur, double curve) noexcept {
   MapBlock block{};
+  // A plan of several views, or of an earlier frame, is relative to another place.
+  const ShadowMap map = origin == eye ? planned : rebased(planned, eye);
   block.clip_from_camera_relative = glm::mat4(drawn_from_plan * glm::dmat4(map.clip_from_camera_relative));
   block.interval_size = glm::vec4(glm::dvec4(map.depth_begin, map.depth_end, map.width, map.height));
   for (int i = 0; i < kMaxSelectPlanes; ++i) {
@@ -85,7 +89,8 @@ FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const Frame
       glm::dvec4(plan.select_by_map ? 1.0 : 0.0, static_cast<double>(options.transition), 0.0, 0.0));
   const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
-    block.maps[i] = map_block(plan.map[i], drawn_from_plan, camera.position, blur[i], curves[i]);
+    block.maps[i] =
+        map_block(plan.map[i], drawn_from_plan, plan.origin_world, camera.position, blur[i], curves[i]);
   }
   return block;
 }
