@@ -24,5 +24,6 @@
 #include "gnomon/snap.hpp"
 #include "gnomon/split.hpp"
 #include "gnomon/technique.hpp"
+#include "gnomon/views.hpp"
 #include "gnomon/visible_depths.hpp"
 #include "gnomon/warp.hpp"

@@ -15,11 +15,12 @@ struct PlanContext {
   const SceneBounds& bounds;
   const PlanOptions& options;
   CameraAxes axes;
-  bool stable = false;                  // Fit::stable
-  const VisibleDepths* seen = nullptr;  // where they are usable; nullptr: unknown
-  double error_bound = 0.0;             // maps shrink to this bound of m; 0: they keep their size
-  bool remembers = false;               // the caller keeps a PlanHistory
-  bool same_light = false;              // as in the last frame, to the last bit
+  bool stable = false;                           // Fit::stable
+  const VisibleDepths* seen = nullptr;           // where they are usable; nullptr: unknown
+  std::span<const glm::dvec3> seen_points = {};  // world space; empty: unknown
+  double error_bound = 0.0;                      // maps shrink to this bound of m; 0: they keep their size
+  bool remembers = false;                        // the caller keeps a PlanHistory
+  bool same_light = false;                       // as in the last frame, to the last bit
   // Of the last frame, where one is remembered.
   glm::dvec3 last_eye{0.0}, last_forward{0.0};
 };
@@ -46,6 +47,9 @@ struct MapRequest {
   double range = 0.0;            // local light: beyond it nothing is lit
   bool without_casters = false;  // make the map even where no caster can reach the body
   PlanHistory::Map last;         // of the last frame and the same light; frame -1: none
+  // Receivers of all maps, of which this one serves what it holds (MapSelection::finest); nullptr: `body`
+  // alone.
+  const Polytope* all_receivers = nullptr;
 };
 
 /// One map, and what happened while it was fitted.

@@ -11,6 +11,7 @@
 #include "map/depths.hpp"
 #include "map/history.hpp"
 #include "map/record.hpp"
+#include "map/served.hpp"
 #include "map/size.hpp"
 #include "warp/plane_error.hpp"
 
@@ -133,10 +134,12 @@ bool kept_from_before(const PlanContext& c, const MapRequest& request, const Lig
   map.filter_margin_texels = last.filter_margin_texels;
   fitted.plane = held.plane;
   fitted.depths = held.depths;
-  fitted.swept = swept_for(c, request, body, held.plane, border_of_body(map));
+  const ServedBody served(c, request, body, held.plane);
+  fitted.swept = swept_for(c, served.request(), served.points(), held.plane, border_of_body(map));
   fitted.needed = texels_needed(body.points(), held.plane, pixels_per_slope(c.camera));
   fitted.heights =
-      height_range(c, request, {body, fitted.plane, fitted.swept, border_of_body(map), held.depths.bottom});
+      height_range(c, served.request(),
+                   {served.points(), fitted.plane, fitted.swept, border_of_body(map), held.depths.bottom});
   if (!(fitted.heights.bottom >= held.depths.bottom && fitted.heights.height <= held.depths.height))
     return false;
   return true;
@@ -167,8 +170,10 @@ void fit(const PlanContext& c, const MapRequest& request, const LightBody& body,
     result.omit({OmissionKind::resolution_without_gain, request.slot.cascade, size.full_error,
                  fitted.needed.bound(inside, obliquity), saved});
   }
-  fitted.swept = swept_for(c, request, body, fitted.plane, border_of_body(map));
-  fitted.heights = height_range(c, request, {body, fitted.plane, fitted.swept, border_of_body(map)});
+  const ServedBody served(c, request, body, fitted.plane);
+  fitted.swept = swept_for(c, served.request(), served.points(), fitted.plane, border_of_body(map));
+  fitted.heights =
+      height_range(c, served.request(), {served.points(), fitted.plane, fitted.swept, border_of_body(map)});
   const double extent =
       max_of(fitted.plane.a_max - fitted.plane.a_min, fitted.plane.b_max - fitted.plane.b_min);
   fitted.depths = request.space.perspective ? LightDepths{fitted.heights.bottom, fitted.heights.height}

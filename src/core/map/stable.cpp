@@ -10,6 +10,7 @@
 #include "map/border.hpp"
 #include "map/depths.hpp"
 #include "map/record.hpp"
+#include "map/served.hpp"
 #include "map/size.hpp"
 
 namespace gnomon {
@@ -97,9 +98,10 @@ MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
 
   const double border = static_cast<double>(map.filter_margin_texels) / map.width;
   const glm::dvec4 light(request.space.frame.z, 0.0);
+  const ServedBody served(c, request, body, plane);
   const SweptBody swept =
-      sweep(request.body, light, grid.texel * map.filter_margin_texels, c.camera.position);
-  const HeightRange heights = height_range(c, request, {body, plane, swept, border});
+      sweep(served.request().body, light, grid.texel * map.filter_margin_texels, c.camera.position);
+  const HeightRange heights = height_range(c, served.request(), {served.points(), plane, swept, border});
   if (!heights.has_casters && !request.without_casters) return result;
   result.drawn = true;
   const LightDepths still_depths = snapped_depths(grid, heights, map.snap_key);

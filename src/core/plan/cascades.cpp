@@ -6,6 +6,7 @@
 
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "plan/points.hpp"
 
 namespace gnomon {
 namespace {
@@ -30,7 +31,8 @@ struct Slice {
 
 /// Depths in front of `begin` that a cascade shows besides its own: none where the one before it ends sooner.
 double overlap_before(const PlanContext& c, const ShadowPlan& plan, double begin) noexcept {
-  if (plan.map_count == 0) return 0.0;
+  // A point takes the finest map, not two.
+  if (plan.map_count == 0 || c.options.split.selection == MapSelection::finest) return 0.0;
   const ShadowMap& before = plan.map[static_cast<std::size_t>(plan.map_count - 1)];
   return before.depth_end == begin ? c.options.split.overlap * (begin - before.depth_begin) : 0.0;
 }
@@ -53,6 +55,8 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   } else if (slice.overlap > 0.0) {
     slice.body = receivers_between(c, scene.body, slice.begin - slice.overlap, slice.end);
   }
+  if (!c.seen_points.empty())
+    clip_to_points(c, scene.space.frame, slice.begin - slice.overlap, slice.end, slice.body);
 }
 
 void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade, DepthRange between,
@@ -73,6 +77,7 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
   request.slot.overlap = slice.overlap;
   request.without_casters = !c.options.prune.has(PruneRule::casterless_cascades);
   request.last = last_map(history, cascade);
+  if (plan.select_finest) request.all_receivers = &scene.body;
   merge(c.stable ? stable_map(c, request) : focused_map(c, request),
         {OmissionKind::cascade_without_caster, cascade, slice.begin, slice.end, texels_asked(c.options)},
         history, plan);

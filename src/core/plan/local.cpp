@@ -253,7 +253,9 @@ void report_ignored(const PlanContext& c, bool has_visible_depths, ShadowPlan& p
   const bool splits = o.split.scheme != SplitScheme::automatic && o.split.scheme != SplitScheme::practical;
   if (splits) omit(plan, IgnoredOption::split_scheme);
   if (o.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
+  if (o.split.selection == MapSelection::finest) omit(plan, IgnoredOption::selection);
   if (has_visible_depths) omit(plan, IgnoredOption::visible_depths);
+  if (!c.seen_points.empty()) omit(plan, IgnoredOption::visible_points);
 }
 
 /// Replaces the plan's maps.

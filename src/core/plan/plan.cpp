@@ -19,8 +19,19 @@ namespace {
 void report_ignored_by_parts(const PlanContext& c, const PlanHistory* history, ShadowPlan& plan) noexcept {
   const ResolutionOptions& r = c.options.resolution;
   if (r.texel_budget > 0) omit(plan, IgnoredOption::texel_budget);
+  if (c.options.split.selection == MapSelection::finest) omit(plan, IgnoredOption::selection);
   if (c.options.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
   if (history != nullptr) omit(plan, IgnoredOption::history);
+}
+
+/// What a stable fit does without, and the status.
+void finish_parallel(const PlanContext& c, ShadowPlan& plan) noexcept {
+  const PlanOptions& options = c.options;
+  if (c.stable && options.split.partition != Partition::view_depth)
+    omit(plan, {OmissionKind::partition_in_stable_fit, -1, 0.0, 0.0, 0});
+  if (c.stable && options.warp.warp != nullptr && options.warp.warp != &warps::none)
+    omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
+  plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
 
 void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleDepths* visible,
@@ -38,20 +49,26 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
       c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
   c.seen = usable_depths(c, body, visible);
   const bool parts = options.split.partition != Partition::view_depth;
+  const bool follows_points = !c.stable && !parts && options.fit != Fit::warped_stable;
+  const bool ignores_points = !c.seen_points.empty() && !follows_points;
+  if (ignores_points) c.seen_points = {};
   if (parts && !c.stable) {
     // Parts follow the view in no steady way.
     c.remembers = false;
     plan_parts(c, scene, plan);
     report_ignored_by_parts(c, history, plan);
-  } else if (options.resolution.max_error > 0.0 || options.resolution.texel_budget > 0) {
+    if (ignores_points) omit(plan, IgnoredOption::visible_points);
+    return finish_parallel(c, plan);
+  }
+  plan.select_by_map = plan.select_finest = options.split.selection == MapSelection::finest;
+  if (options.resolution.max_error > 0.0 || options.resolution.texel_budget > 0) {
     plan_within(c, scene, history, plan);
   } else {
     plan_cascades(c, scene, options.cascades, equal_sizes(options.resolution.max_size), history, plan);
   }
-  if (c.stable && parts) omit(plan, {OmissionKind::partition_in_stable_fit, -1, 0.0, 0.0, 0});
-  if (c.stable && options.warp.warp != nullptr && options.warp.warp != &warps::none)
-    omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
-  plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
+  if (ignores_points) omit(plan, IgnoredOption::visible_points);
+  if (plan.select_finest && options.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
+  finish_parallel(c, plan);
 }
 
 glm::dvec4 light_of(const Light& light) noexcept {
@@ -62,12 +79,18 @@ glm::dvec4 light_of(const Light& light) noexcept {
   return point != nullptr ? glm::dvec4(point->position, 1.0) : glm::dvec4(0.0);
 }
 
+/// What the caller knows to be visible; nullptr and no points: nothing.
+struct Visible {
+  const VisibleDepths* depths;
+  std::span<const glm::dvec3> points_world;
+};
+
 /// A plan of one frame; `history` may be nullptr.
 ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                      const PlanOptions& options, PlanHistory* history,
-                      const VisibleDepths* visible) noexcept {
+                      const PlanOptions& options, PlanHistory* history, const Visible& visible) noexcept {
   ShadowPlan plan;
-  plan.invalid_field = first_invalid_field(camera, light, bounds, options, visible);
+  plan.invalid_field =
+      first_invalid_field(camera, light, bounds, options, visible.depths, visible.points_world);
   if (!plan.invalid_field.empty()) return plan;
   if (std::isinf(camera.far_depth))
     return plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible);
@@ -78,6 +101,7 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
   context.stable = options.fit == Fit::stable;
   context.error_bound = error_bound(options, history != nullptr);
   context.remembers = history != nullptr;
+  context.seen_points = visible.points_world;
   plan.sizes_vary = context.error_bound > 0.0 || options.resolution.texel_budget > 0;
   if (history != nullptr) {
     context.last_eye = history->eye_world;
@@ -90,9 +114,9 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
     }
   }
   if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
-    plan_parallel(context, *sun, visible, history, plan);
+    plan_parallel(context, *sun, visible.depths, history, plan);
   } else {
-    context.seen = visible;
+    context.seen = visible.depths;
     plan_local(context, light, history, plan);
   }
   return plan;
@@ -101,15 +125,16 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
 }  // namespace
 
 ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                     const PlanOptions& options, const VisibleDepths* visible) noexcept {
-  return plan_frame(camera, light, bounds, options, nullptr, visible);
+                     const PlanOptions& options, const VisibleDepths* visible,
+                     std::span<const glm::dvec3> visible_points_world) noexcept {
+  return plan_frame(camera, light, bounds, options, nullptr, {visible, visible_points_world});
 }
 
 ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                     const PlanOptions& options, PlanHistory& history,
-                     const VisibleDepths* visible) noexcept {
+                     const PlanOptions& options, PlanHistory& history, const VisibleDepths* visible,
+                     std::span<const glm::dvec3> visible_points_world) noexcept {
   history.event_count = 0;
-  ShadowPlan plan = plan_frame(camera, light, bounds, options, &history, visible);
+  ShadowPlan plan = plan_frame(camera, light, bounds, options, &history, {visible, visible_points_world});
   if (plan.status == PlanStatus::invalid_input) return plan;
   history.eye_world = camera.position;
   history.forward = camera_axes(camera).forward;
