@@ -31,7 +31,7 @@ double lowest(const LightBody& body) noexcept {
 
 /// Of every vertex: 1 / w at the near side of its border, how far the border reaches in the light plane.
 struct BorderedBody {
-  std::array<double, kMaxVertices> inverse_w, margin;
+  std::array<double, kMaxBodyPoints> inverse_w, margin;
   double height = 0.0;  ///< largest (z - bottom) / w of the body itself
 };
 

@@ -55,7 +55,7 @@ WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const Wa
 /// The choice with its rectangle turned to the least area, where that lowers the objective.
 WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) noexcept {
   const PlaneMap map = plane_map(in.body, choice);
-  std::array<glm::dvec2, kMaxVertices> image;
+  std::array<glm::dvec2, kMaxBodyPoints> image;
   std::size_t count = 0;
   for (const WarpInput::Point& p : in.body) image[count++] = map.image(p.x, p.y);
   const glm::dvec2 side = least_rectangle_side({image.data(), count});

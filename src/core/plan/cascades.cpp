@@ -6,6 +6,7 @@
 
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "map/shared_views.hpp"
 #include "plan/points.hpp"
 
 namespace gnomon {
@@ -27,7 +28,30 @@ struct Slice {
   double begin = 0.0, end = 0.0;  // without the blend band
   double overlap = 0.0;
   bool wanted = false;
+  ViewedBody viewed;  // of several cameras
 };
+
+/// The receivers between two depths, of all cameras.
+void fill_body(const PlanContext& c, const ParallelScene& scene, double begin, double end,
+               Slice& slice) noexcept {
+  if (c.views.empty()) {
+    slice.body = receivers_between(c, scene.body, begin, end);
+    return;
+  }
+  slice.viewed = viewed_between(c, begin, end);
+  slice.body = slice.viewed.hull;
+}
+
+/// All that the cameras' frusta hold between two depths, where no receiver is.
+void fill_with_frusta(const PlanContext& c, double begin, double end, Slice& slice) noexcept {
+  if (c.views.empty()) {
+    slice.body = frustum_slice(c.camera, c.axes, begin, end);
+    return;
+  }
+  std::array<Polytope, kMaxViews> frusta;
+  for (std::size_t i = 0; i < c.views.size(); ++i) frusta[i] = view_slice(c.views[i], begin, end);
+  slice.body = hull_of({frusta.data(), c.views.size()});
+}
 
 /// Depths in front of `begin` that a cascade shows besides its own: none where the one before it ends sooner.
 double overlap_before(const PlanContext& c, const ShadowPlan& plan, double begin) noexcept {
@@ -43,7 +67,7 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   const DepthRange seen = c.seen == nullptr ? DepthRange{from, to} : seen_between(*c.seen, from, to);
   // A single depth is a slice only where it is all there is.
   const bool covered = from == to && plan.map_count > 0;
-  if (!seen.empty() && !covered) slice.body = receivers_between(c, scene.body, seen.begin, seen.end);
+  if (!seen.empty() && !covered) fill_body(c, scene, seen.begin, seen.end, slice);
   const bool holds_nothing = slice.body.empty();
   slice.wanted = !holds_nothing || (!c.options.prune.has(PruneRule::empty_cascades) && from < to);
   if (!slice.wanted) return;
@@ -51,9 +75,9 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   slice.end = holds_nothing ? to : seen.end;
   slice.overlap = overlap_before(c, plan, slice.begin);
   if (holds_nothing) {
-    slice.body = frustum_slice(c.camera, c.axes, slice.begin - slice.overlap, slice.end);
+    fill_with_frusta(c, slice.begin - slice.overlap, slice.end, slice);
   } else if (slice.overlap > 0.0) {
-    slice.body = receivers_between(c, scene.body, slice.begin - slice.overlap, slice.end);
+    fill_body(c, scene, slice.begin - slice.overlap, slice.end, slice);
   }
   if (!c.seen_points.empty())
     clip_to_points(c, scene.space.frame, slice.begin - slice.overlap, slice.end, slice.body);
@@ -78,6 +102,7 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
   request.without_casters = !c.options.prune.has(PruneRule::casterless_cascades);
   request.last = last_map(history, cascade);
   if (plan.select_finest) request.all_receivers = &scene.body;
+  request.viewed = slice.viewed.points();
   merge(c.stable ? stable_map(c, request) : focused_map(c, request),
         {OmissionKind::cascade_without_caster, cascade, slice.begin, slice.end, texels_asked(c.options)},
         history, plan);

@@ -5,6 +5,7 @@
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "map/history.hpp"
+#include "map/shared_views.hpp"
 #include "plan/cascades.hpp"
 #include "split/optimal.hpp"
 
@@ -21,10 +22,15 @@ DepthRange received_depths(const PlanContext& c, const Polytope& body) noexcept 
   const double n = c.camera.near_depth, f = c.camera.far_depth;
   if (covers_camera(c)) return {n, f};
   double low = f, high = n;
-  for (const Polytope::Vertex& v : body.vertices()) {
-    const double depth = glm::dot(c.axes.forward, v.position);
+  const auto add = [&](double depth) {
     low = min_of(low, depth);
     high = max_of(high, depth);
+  };
+  for (const SharedView& view : c.views) {
+    for (const Polytope::Vertex& v : view.body.vertices()) add(view.depth(v.position));
+  }
+  if (c.views.empty()) {
+    for (const Polytope::Vertex& v : body.vertices()) add(glm::dot(c.axes.forward, v.position));
   }
   // A flat scene's depth must not fall outside its own range by rounding: of the depth itself, and of the
   // frustum's far corners that it was cut from.

@@ -8,6 +8,7 @@
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "plan/cascades.hpp"
+#include "plan/frame.hpp"
 #include "plan/input.hpp"
 #include "plan/local.hpp"
 #include "plan/parts.hpp"
@@ -38,7 +39,7 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
                    PlanHistory* history, ShadowPlan& plan) noexcept {
   const PlanOptions& options = c.options;
   plan.light_direction = safe_normalize(light.direction, {0.0, -1.0, 0.0});
-  Polytope body = frustum_slice(c.camera, c.axes, c.camera.near_depth, c.camera.far_depth);
+  Polytope body = view_body(c);
   clip(body, visible_bounds(body, c.bounds.receivers, c.camera.position));
   if (body.empty()) {
     plan.status = PlanStatus::nothing_visible;
@@ -85,6 +86,20 @@ struct Visible {
   std::span<const glm::dvec3> points_world;
 };
 
+/// The context that input and options give, and the plan's fields that need no map.
+PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const PlanOptions& options,
+                       bool remembers, ShadowPlan& plan) noexcept {
+  plan.origin_world = camera.position;
+  plan.clip_space = options.clip_space;
+  plan.bias = options.bias;
+  PlanContext context{camera, bounds, options, camera_axes(camera)};
+  context.stable = options.fit == Fit::stable;
+  context.error_bound = error_bound(options, remembers);
+  context.remembers = remembers;
+  plan.sizes_vary = context.error_bound > 0.0 || options.resolution.texel_budget > 0;
+  return context;
+}
+
 /// A plan of one frame; `history` may be nullptr.
 ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
                       const PlanOptions& options, PlanHistory* history, const Visible& visible) noexcept {
@@ -94,15 +109,8 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
   if (!plan.invalid_field.empty()) return plan;
   if (std::isinf(camera.far_depth))
     return plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible);
-  plan.origin_world = camera.position;
-  plan.clip_space = options.clip_space;
-  plan.bias = options.bias;
-  PlanContext context{camera, bounds, options, camera_axes(camera)};
-  context.stable = options.fit == Fit::stable;
-  context.error_bound = error_bound(options, history != nullptr);
-  context.remembers = history != nullptr;
+  PlanContext context = begin_plan(camera, bounds, options, history != nullptr, plan);
   context.seen_points = visible.points_world;
-  plan.sizes_vary = context.error_bound > 0.0 || options.resolution.texel_budget > 0;
   if (history != nullptr) {
     context.last_eye = history->eye_world;
     context.last_forward = history->forward;
@@ -123,6 +131,19 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
 }
 
 }  // namespace
+
+ShadowPlan plan_shared(std::span<const SharedView> views, const Camera& mean, const Light& light,
+                       const SceneBounds& bounds, const PlanOptions& options) noexcept {
+  ShadowPlan plan;
+  PlanContext context = begin_plan(mean, bounds, options, false, plan);
+  context.views = views;
+  if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
+    plan_parallel(context, *sun, nullptr, nullptr, plan);
+  } else {
+    plan_local(context, light, nullptr, plan);
+  }
+  return plan;
+}
 
 ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
                      const PlanOptions& options, const VisibleDepths* visible,

@@ -128,7 +128,7 @@ TexelsNeeded texels_needed(std::span<const WarpInput::Point> body, const PlaneMa
     const glm::dvec2 a = extent(per_a), b = extent(per_b);
     a_max = max_of(a_max, glm::dot(a, a));
     b_max = max_of(b_max, glm::dot(b, b));
-    if (needed.count < kMaxVertices)
+    if (needed.count < kMaxBodyPoints)
       needed.vertex[static_cast<std::size_t>(needed.count++)] = {a * side.x, b * side.y};
   }
   needed.sides = {std::sqrt(a_max) * side.x, std::sqrt(b_max) * side.y};
