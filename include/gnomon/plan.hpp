@@ -18,6 +18,7 @@
 #include "gnomon/clip_space.hpp"
 #include "gnomon/light.hpp"
 #include "gnomon/plan_options.hpp"
+#include "gnomon/shape.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/visible_depths.hpp"
 
@@ -99,7 +100,9 @@ struct ShadowMap {
   /// wide spot's face 5 looks along it). Of Partition::frustum_faces the face: left, right, bottom, top,
   /// near, far; of separating_plane 0 before the plane, 1 behind.
   int cascade = 0;
-  int width = 0, height = 0;   ///< texels; may differ, and from map to map (metric_resolution, texel_budget)
+  int width = 0, height = 0;  ///< texels; may differ, and from map to map (metric_resolution, texel_budget)
+  const Shape* shape = &shapes::linear;  ///< how the texels lie on the projected square; never nullptr
+  ShapeParameters shape_parameters{};
   const Warp* warp = nullptr;  ///< never nullptr in a plan's maps; the one that was used
   /// Strength of the warp, 1 / world units; 0: none. Of a light with a position: 1 / slope, as the warp works
   /// on offsets across the light per unit of distance along it.
@@ -125,6 +128,8 @@ struct ShadowMap {
   /// Bound of the perspective part of m in any direction, over the body.
   double m_max = 0.0;
   double storage = 0.0;  ///< texels per screen pixel for m <= 1 everywhere in this slice (vertex objective)
+
+  [[nodiscard]] TexelGrid texels() const noexcept { return {width, height, shape, shape_parameters}; }
 };
 
 struct ShadowPlan {
@@ -182,8 +187,8 @@ struct ShadowPlan {
 inline constexpr double kPointSafety = 1.0 / 64.0;
 
 /// True where the map shows the point off its filter margin and within its depths: its clip coordinates have
-/// w > 0, |x| and |y| <= (1 - 2 filter_margin_texels / size) w and z in the range of the clip space, and the
-/// point is inside all select_planes.
+/// w > 0, its texel lies filter_margin_texels or more inside the map (a quarter texel is left to rounding), z
+/// is in the range of the clip space, and the point is inside all select_planes.
 [[nodiscard]] bool map_holds(const ShadowPlan& plan, const ShadowMap& map,
                              const glm::dvec3& point_world) noexcept;
 /// Index of the map that serves a point at this view depth, or -1; see ShadowPlan::select_by_map. Depths

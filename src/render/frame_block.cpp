@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "gnomon/reuse.hpp"
+#include "gnomon/shader_block.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -58,6 +59,7 @@ MapBlock map_block(const ShadowMap& planned, const glm::dmat4& drawn_from_plan, 
     block.select_planes[at] =
         glm::vec4(glm::vec3(plane), static_cast<float>(plane.w + glm::dot(glm::dvec3(plane), eye)));
   }
+  block.shape = shader_shape(map);
   block.kernel = glm::vec4(glm::dvec4(map.filter_margin_texels, blur, map.overlap, curve));
   return block;
 }

@@ -103,7 +103,7 @@ TEST(GltfMaterial, a_quarter_turn_of_a_texture_turns_as_the_specification_says) 
   EXPECT_NEAR(scene.texcoords[scene.indices[2]].x, 1.0f, 1e-6f);
 }
 
-TEST(GltfMaterial, specular_glossiness_is_told_as_base_colour) {
+TEST(GltfMaterial, specular_glossiness_is_read_as_base_colour) {
   const Scene scene =
       with_material(
           {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseFactor", {1, 0, 0, 1}}}}}}})

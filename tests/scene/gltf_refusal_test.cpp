@@ -211,7 +211,7 @@ TEST(GltfRefusal, strips_and_fans_count_as_the_triangles_they_stand_for) {
   }
 }
 
-TEST(GltfRefusal, the_memory_that_is_told_of_counts_a_mesh_once_but_for_each_node_that_bends_it) {
+TEST(GltfRefusal, the_stated_memory_counts_a_mesh_once_but_for_each_node_that_bends_it) {
   constexpr std::size_t kTriangles = 10'000;  // 108 bytes each: a little above 1 MiB
   TestGltf gltf;
   const int corners = gltf.positions(std::vector<float>(kTriangles * 9));
@@ -288,7 +288,7 @@ TEST(GltfRefusal, any_one_byte_changed_loads_or_is_refused) {
   EXPECT_GT(refused, whole.size());
 }
 
-TEST(GltfRefusal, compressed_data_with_nothing_in_its_place_is_left_out_when_not_required) {
+TEST(GltfRefusal, compressed_data_without_a_fallback_is_skipped_when_not_required) {
   TestGltf gltf = one_triangle();
   gltf.show(
       {{"attributes",

@@ -95,7 +95,7 @@ TEST(Image, a_damaged_png_is_refused_wherever_it_is_cut) {
   }
 }
 
-TEST(Image, a_jpeg_is_told_by_its_frame_header_and_decoded) {
+TEST(Image, a_jpeg_is_recognised_by_its_frame_header_and_decoded) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "a.jpg").string();
   auto out = OIIO::ImageOutput::create("jpeg");

@@ -29,7 +29,7 @@ void write_texels(const PlanContext& c, const MapRequest& request, const MapPart
   const auto texel_at = [&](const glm::dvec3& p) {
     const glm::dvec3 way = space.ray(space.frame.turned(p));
     const glm::dvec3 world = space.frame.x * way.x + space.frame.y * way.y + space.frame.z * way.z;
-    return texel_extent_world(parts.gl_from_relative, map.width, map.height,
+    return texel_extent_world(parts.gl_from_relative, map.texels(),
                               space.perspective ? safe_normalize(world, -space.frame.z) : -space.frame.z, p);
   };
   glm::dvec3 centre(0.0);

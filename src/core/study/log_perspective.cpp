@@ -1,7 +1,7 @@
 // How good would a logarithmic perspective map be?
 // Based on: Lloyd, Govindaraju, Quammen, Molnar, Manocha, "Logarithmic Perspective Shadow Maps", 2008: PSM
 // across the axis, ln(w) along it, so that errors along the view are the same at all depths.
-#include "gnomon/log_perspective.hpp"
+#include "gnomon/study/log_perspective.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>
