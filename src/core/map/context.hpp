@@ -39,6 +39,7 @@ struct PlanContext {
   std::span<const glm::dvec3> seen_points = {};  // world space; empty: unknown
   double error_bound = 0.0;                      // maps shrink to this bound of m; 0: they keep their size
   bool remembers = false;                        // the caller keeps a PlanHistory
+  bool keeps = false;                            // cascades behind the first, over frames
   bool same_light = false;                       // as in the last frame, to the last bit
   std::span<const SharedView> views = {};        // cameras that share the maps; empty: `camera` alone
   // Of the last frame, where one is remembered.
@@ -70,8 +71,8 @@ struct MapRequest {
   // Receivers of all maps, of which this one serves what it holds (MapSelection::finest); nullptr: `body`
   // alone.
   const Polytope* all_receivers = nullptr;
-  std::span<const ViewedPoint> viewed =
-      {};  // of several views, in place of the body's vertices; empty: one view
+  double room = 0.0;  // of the body round the slice's frustum, world units: the map is kept over frames
+  std::span<const ViewedPoint> viewed = {};  // of several views, for the body's vertices; empty: one view
 };
 
 /// One map, and what happened while it was fitted.

@@ -64,7 +64,9 @@ WarpInput::Point light_point(const PlanContext& c, const LightSpace& space, cons
 
 void add_vertices(const PlanContext& c, const MapRequest& request, const Polytope& body, double nearest,
                   LightBody& out) noexcept {
-  const double least = max_of(c.camera.near_depth, c.options.split.pseudo_near);
+  // Receivers in the room for motion are served from the slice's begin on.
+  const double begin = request.room > 0.0 ? request.begin : 0.0;
+  const double least = max_of(max_of(c.camera.near_depth, c.options.split.pseudo_near), begin);
   for (const Polytope::Vertex& v : body.vertices()) {
     if (out.count < kMaxBodyPoints)
       out.point[static_cast<std::size_t>(out.count++)] =

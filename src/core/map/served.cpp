@@ -44,7 +44,7 @@ Polytope held_by(const MapRequest& request, const PlaneMap& plane) noexcept {
 
 MapRequest with_body(const MapRequest& r, const Polytope& body) noexcept {
   return {r.slot,  body,    r.space,           r.warp, r.begin, r.end, r.unwarped, r.centre,
-          r.slope, r.range, r.without_casters, r.last, nullptr, {}};
+          r.slope, r.range, r.without_casters, r.last, nullptr, r.room, {}};
 }
 
 }  // namespace

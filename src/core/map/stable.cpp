@@ -65,7 +65,7 @@ Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) no
   // Rounded up so that its own rounding can never change the grid; one texel is the room that snapping moves
   // within.
   const Slices slices = slices_of(c, request);
-  const double chord = longest_distance(c, request, slices);
+  const double chord = longest_distance(c, request, slices) + 2.0 * request.room;
   const double unit = elementary::power_of_two_below(chord) / c.options.resolution.stable_size_steps;
   grid.side = std::ceil(chord / unit) * unit;
   map.filter_margin_texels = border_texels(c.options, map.width - 1, 1.0 / grid.side);

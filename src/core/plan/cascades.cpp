@@ -6,7 +6,9 @@
 
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "gnomon/reuse.hpp"
 #include "map/shared_views.hpp"
+#include "plan/cadence.hpp"
 #include "plan/points.hpp"
 
 namespace gnomon {
@@ -27,6 +29,7 @@ struct Slice {
   Polytope body;
   double begin = 0.0, end = 0.0;  // without the blend band
   double overlap = 0.0;
+  double room = 0.0;  // for motion, world units
   bool wanted = false;
   ViewedBody viewed;  // of several cameras
 };
@@ -34,6 +37,10 @@ struct Slice {
 /// The receivers between two depths, of all cameras.
 void fill_body(const PlanContext& c, const ParallelScene& scene, double begin, double end,
                Slice& slice) noexcept {
+  if (slice.room > 0.0) {
+    slice.body = receivers_with_room(c, begin, end, slice.room);
+    return;
+  }
   if (c.views.empty()) {
     slice.body = receivers_between(c, scene.body, begin, end);
     return;
@@ -83,9 +90,33 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
     clip_to_points(c, scene.space.frame, slice.begin - slice.overlap, slice.end, slice.body);
 }
 
+/// Adds a map of an earlier frame, for this frame's eye.
+void keep(const PlanContext& c, const KeptMap& kept, PlanHistory& history, ShadowPlan& plan) noexcept {
+  if (!kept.drawn) {
+    omit(plan, {OmissionKind::cascade_without_caster, kept.map.cascade, kept.map.depth_begin,
+                kept.map.depth_end, texels_asked(c.options)});
+    return;
+  }
+  const ShadowMap& map = plan.map[static_cast<std::size_t>(plan.map_count++)] =
+      rebased(kept.map, c.camera.position);
+  history.map[static_cast<std::size_t>(map.cascade)] = {history.frame, kept.gl_from_world, map.width,
+                                                        map.height, map.filter_margin_texels};
+}
+
+/// What later frames may keep.
+KeptMap kept_from(const PlanContext& c, const MapResult& result, std::int64_t frame) noexcept {
+  return {frame, result.drawn, result.map, result.gl_from_world, c.camera};
+}
+
 void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade, DepthRange between,
                   MapSizes::Size size, PlanHistory* history, ShadowPlan& plan) noexcept {
+  const bool keeps = c.keeps && cascade > 0;
+  if (keeps) {
+    const KeptMap* const kept = kept_map(c, *history, {cascade, between.begin, between.end});
+    if (kept != nullptr) return keep(c, *kept, *history, plan);
+  }
   Slice slice;
+  if (keeps) slice.room = room_for_motion(c, between.end);
   slice_between(c, scene, plan, between.begin, between.end, slice);
   if (!slice.wanted) {
     omit(plan, {OmissionKind::cascade_without_receiver, cascade, between.begin, between.end,
@@ -101,9 +132,15 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
   request.slot.overlap = slice.overlap;
   request.without_casters = !c.options.prune.has(PruneRule::casterless_cascades);
   request.last = last_map(history, cascade);
-  if (plan.select_finest) request.all_receivers = &scene.body;
+  const Polytope moving = slice.room > 0.0 && plan.select_finest
+                              ? receivers_with_room(c, c.camera.near_depth, c.camera.far_depth, slice.room)
+                              : Polytope{};
+  if (plan.select_finest) request.all_receivers = moving.empty() ? &scene.body : &moving;
   request.viewed = slice.viewed.points();
-  merge(c.stable ? stable_map(c, request) : focused_map(c, request),
+  request.room = slice.room;
+  const MapResult result = c.stable ? stable_map(c, request) : focused_map(c, request);
+  if (keeps) history->kept[static_cast<std::size_t>(cascade)] = kept_from(c, result, history->frame);
+  merge(result,
         {OmissionKind::cascade_without_caster, cascade, slice.begin, slice.end, texels_asked(c.options)},
         history, plan);
 }

@@ -7,6 +7,7 @@
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "plan/cadence.hpp"
 #include "plan/cascades.hpp"
 #include "plan/frame.hpp"
 #include "plan/input.hpp"
@@ -50,7 +51,7 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
       c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
   c.seen = usable_depths(c, body, visible);
   const bool parts = options.split.partition != Partition::view_depth;
-  const bool follows_points = !c.stable && !parts && options.fit != Fit::warped_stable;
+  const bool follows_points = !c.stable && !parts && !c.keeps && options.fit != Fit::warped_stable;
   const bool ignores_points = !c.seen_points.empty() && !follows_points;
   if (ignores_points) c.seen_points = {};
   if (parts && !c.stable) {
@@ -110,6 +111,7 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
   if (std::isinf(camera.far_depth))
     return plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible);
   PlanContext context = begin_plan(camera, bounds, options, history != nullptr, plan);
+  context.keeps = keeps_cascades(light, options, history != nullptr);
   context.seen_points = visible.points_world;
   if (history != nullptr) {
     context.last_eye = history->eye_world;
@@ -127,6 +129,7 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
     context.seen = visible.depths;
     plan_local(context, light, history, plan);
   }
+  if (options.cadence.frames > 1 && !context.keeps) omit(plan, IgnoredOption::cadence);
   return plan;
 }
 
@@ -155,7 +158,10 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
                      const PlanOptions& options, PlanHistory& history, const VisibleDepths* visible,
                      std::span<const glm::dvec3> visible_points_world) noexcept {
   history.event_count = 0;
-  ShadowPlan plan = plan_frame(camera, light, bounds, options, &history, {visible, visible_points_world});
+  const Visible seen{visible, visible_points_world};
+  ShadowPlan plan = keeps_cascades(light, options, true)
+                        ? plan_frame(camera, light, bounds, with_fixed_splits(options), &history, seen)
+                        : plan_frame(camera, light, bounds, options, &history, seen);
   if (plan.status == PlanStatus::invalid_input) return plan;
   history.eye_world = camera.position;
   history.forward = camera_axes(camera).forward;

@@ -86,6 +86,7 @@ ShadowPlan plan_views(std::span<const Camera> cameras, const Light& light, const
   for (std::size_t i = 0; i < blind_count; ++i)
     omit(plan, {OmissionKind::view_without_receiver, -1, static_cast<double>(blind[i]), 0.0, 0});
   if (options.split.partition != Partition::view_depth) omit(plan, IgnoredOption::partition);
+  if (options.cadence.frames > 1) omit(plan, IgnoredOption::cadence);
   return plan;
 }
 
