@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 #include "gnomon/body.hpp"
 #include "gnomon/bounds.hpp"
@@ -132,6 +133,24 @@ struct ShadowMap {
   [[nodiscard]] TexelGrid texels() const noexcept { return {width, height, shape, shape_parameters}; }
 };
 
+/// Room for so many records. Unset until they are written: setting all of a plan's would take a tenth of the
+/// time that planning takes.
+template <typename Record, std::size_t room>
+class Records {
+ public:
+  Records() noexcept {}
+  [[nodiscard]] Record* data() noexcept { return all_.data(); }
+  [[nodiscard]] const Record* data() const noexcept { return all_.data(); }
+  [[nodiscard]] Record& operator[](std::size_t i) noexcept { return all_[i]; }
+  [[nodiscard]] const Record& operator[](std::size_t i) const noexcept { return all_[i]; }
+
+ private:
+  static_assert(std::is_trivially_copyable_v<Record>);
+  union {
+    std::array<Record, room> all_;
+  };
+};
+
 struct ShadowPlan {
   PlanStatus status = PlanStatus::invalid_input;
   std::string_view invalid_field;  ///< for invalid_input: which, e.g. "camera.far_depth"
@@ -151,9 +170,9 @@ struct ShadowPlan {
   /// True if map sizes depend on the view (metric_resolution, max_error or texel_budget), so that they may
   /// differ from frame to frame. Renderers then keep images a little larger than the maps.
   bool sizes_vary = false;
-  std::array<ShadowMap, kMaxMaps> map;
+  Records<ShadowMap, kMaxMaps> map;
   int map_count = 0;
-  std::array<Omission, kMaxOmissions> omission;
+  Records<Omission, kMaxOmissions> omission;
   int omission_count = 0;  ///< may exceed kMaxOmissions
 
   [[nodiscard]] std::span<const ShadowMap> maps() const noexcept {

@@ -33,6 +33,7 @@ ShadowPlan plan_of(int side, double texel_world, double depth_begin = 2.0) {
   ShadowPlan plan;
   plan.status = PlanStatus::ok;
   plan.map_count = 1;
+  plan.map[0] = {};
   plan.map[0].width = plan.map[0].height = side;
   plan.map[0].texel_world = {0.5 * texel_world, 0.25 * texel_world};
   plan.map[0].texel_world_max = {0.5 * texel_world, texel_world};

@@ -24,11 +24,8 @@ Plane edge_plane(const LightFrame& frame, const PlaneMap& plane, const glm::dvec
   return {(frame.x * slope.x + frame.y * slope.y) * scale, constant * scale};
 }
 
-/// Empty where the request names no other receivers.
 Polytope held_by(const MapRequest& request, const PlaneMap& plane) noexcept {
-  Polytope held;
-  if (request.all_receivers == nullptr) return held;
-  held = *request.all_receivers;
+  Polytope held = *request.all_receivers;
   const LightFrame& frame = request.space.frame;
   // A look-up leaves a quarter texel of the border to rounding.
   const double room =
@@ -43,7 +40,7 @@ Polytope held_by(const MapRequest& request, const PlaneMap& plane) noexcept {
 }
 
 MapRequest with_body(const MapRequest& r, const Polytope& body) noexcept {
-  return {r.slot,  body,    r.space,           r.warp, r.begin, r.end, r.unwarped, r.centre,
+  return {r.slot,  body,    r.space,           r.warp, r.begin, r.end,  r.unwarped, r.centre,
           r.slope, r.range, r.without_casters, r.last, nullptr, r.room, {}};
 }
 
@@ -51,11 +48,13 @@ MapRequest with_body(const MapRequest& r, const Polytope& body) noexcept {
 
 ServedBody::ServedBody(const PlanContext& c, const MapRequest& request, const LightBody& body,
                        const PlaneMap& plane) noexcept
-    : held_(held_by(request, plane)),
-      request_(with_body(request, held_.empty() ? request.body : held_)),
-      points_(&body) {
+    : own_(request), points_(&body) {
+  if (request.all_receivers == nullptr) return;
+  held_ = held_by(request, plane);
+  // Rounding may leave nothing of a map that is all border: its own body is all that it serves.
   if (held_.empty()) return;
-  held_points_ = in_light_space(c, request_);
+  held_request_.emplace(with_body(request, held_));
+  held_points_ = in_light_space(c, *held_request_);
   points_ = &held_points_;
 }
 

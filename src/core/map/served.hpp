@@ -1,6 +1,8 @@
 // All receivers that a map may serve: those it was fitted to, or all of the plan's that it holds.
 #pragma once
 
+#include <optional>
+
 #include "map/light_body.hpp"
 
 namespace gnomon {
@@ -14,13 +16,14 @@ class ServedBody {
   ServedBody(const ServedBody&) = delete;
   ServedBody& operator=(const ServedBody&) = delete;
 
-  [[nodiscard]] const MapRequest& request() const noexcept { return request_; }
+  [[nodiscard]] const MapRequest& request() const noexcept { return held_request_ ? *held_request_ : own_; }
   [[nodiscard]] const LightBody& points() const noexcept { return *points_; }
 
  private:
   Polytope held_;
   LightBody held_points_;
-  MapRequest request_;
+  const MapRequest& own_;
+  std::optional<MapRequest> held_request_;  // none: the request's own
   const LightBody* points_;
 };
 

@@ -77,6 +77,14 @@ Polytope view_slice(const SharedView& view, double begin, double end) noexcept {
   return slice;
 }
 
+DepthRange depths_seen(std::span<const SharedView> views) noexcept {
+  Interval depths;
+  for (const SharedView& view : views) {
+    for (const Polytope::Vertex& v : view.body.vertices()) depths.extend(view.depth(v.position));
+  }
+  return {depths.low, depths.high};
+}
+
 Polytope receivers_between(const SharedView& view, double begin, double end) noexcept {
   Polytope part = view.body;
   const double at_eye = glm::dot(view.axes.forward, view.eye);

@@ -6,6 +6,7 @@
 
 #include "gnomon/views.hpp"
 #include "map/context.hpp"
+#include "split/seen_depths.hpp"
 #include "warp/plane_map.hpp"
 
 namespace gnomon {
@@ -15,6 +16,9 @@ namespace gnomon {
 
 /// The camera's frustum, or a body round the receivers that several cameras see; relative to the camera.
 [[nodiscard]] Polytope view_body(const PlanContext& c) noexcept;
+
+/// The view depths at which any camera sees receivers.
+[[nodiscard]] DepthRange depths_seen(std::span<const SharedView> views) noexcept;
 
 /// The part of the view's receivers between two of its depths.
 [[nodiscard]] Polytope receivers_between(const SharedView& view, double begin, double end) noexcept;

@@ -14,14 +14,14 @@
 namespace gnomon {
 namespace {
 
-/// The part of `body` between two depths that holds receivers.
-Polytope receivers_between(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
-  Polytope part = body;
-  clip(part, Plane{c.axes.forward, -begin});
-  clip(part, Plane{-c.axes.forward, end});
+/// The part of the scene's body between two depths that holds receivers.
+void receivers_between(const PlanContext& c, const ParallelScene& scene, double begin, double end,
+                       Polytope& part) noexcept {
+  part = scene.body;
+  if (begin > scene.depths.begin) clip(part, Plane{c.axes.forward, -begin});
+  if (end < scene.depths.end) clip(part, Plane{-c.axes.forward, end});
   if (c.bounds.receivers.size() > 1 && !part.empty())
     clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
-  return part;
 }
 
 /// The receivers of one cascade, and the depths that its map serves.
@@ -42,7 +42,7 @@ void fill_body(const PlanContext& c, const ParallelScene& scene, double begin, d
     return;
   }
   if (c.views.empty()) {
-    slice.body = receivers_between(c, scene.body, begin, end);
+    receivers_between(c, scene, begin, end, slice.body);
     return;
   }
   slice.viewed = viewed_between(c, begin, end);
@@ -132,9 +132,9 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
   request.slot.overlap = slice.overlap;
   request.without_casters = !c.options.prune.has(PruneRule::casterless_cascades);
   request.last = last_map(history, cascade);
-  const Polytope moving = slice.room > 0.0 && plan.select_finest
-                              ? receivers_with_room(c, c.camera.near_depth, c.camera.far_depth, slice.room)
-                              : Polytope{};
+  Polytope moving;
+  if (slice.room > 0.0 && plan.select_finest)
+    moving = receivers_with_room(c, c.camera.near_depth, c.camera.far_depth, slice.room);
   if (plan.select_finest) request.all_receivers = moving.empty() ? &scene.body : &moving;
   request.viewed = slice.viewed.points();
   request.room = slice.room;

@@ -195,7 +195,9 @@ MapRequest request_for(const LocalScene& scene, const LocalFrustum& frustum, con
 
 /// What of the body each of several cameras sees.
 ViewedBody viewed_body(const PlanContext& c, const Polytope& body) noexcept {
-  return c.views.empty() ? ViewedBody{} : viewed_within(c, body);
+  ViewedBody viewed;
+  if (!c.views.empty()) viewed = viewed_within(c, body);
+  return viewed;
 }
 
 void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double outer,

@@ -50,14 +50,9 @@ MapRequest request_of(const Part& part) noexcept {
 
 /// Cuts the part's depths to its body's.
 void narrow_depths(const PlanContext& c, Part& part) noexcept {
-  double low = part.end, high = part.begin;
-  for (const Polytope::Vertex& v : part.body.vertices()) {
-    const double depth = glm::dot(c.axes.forward, v.position);
-    low = min_of(low, depth);
-    high = max_of(high, depth);
-  }
-  part.begin = max_of(part.begin, low);
-  part.end = clamp_to(high, part.begin, part.end);
+  const DepthRange depths = depths_of(part.body, c.axes.forward);
+  part.begin = max_of(part.begin, min_of(depths.begin, part.end));
+  part.end = clamp_to(depths.end, part.begin, part.end);
 }
 
 /// Adds what of `body` is inside the part's planes, where anything is.

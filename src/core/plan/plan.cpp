@@ -46,10 +46,13 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
     plan.status = PlanStatus::nothing_visible;
     return;
   }
-  ParallelScene scene{body, {}, options.warp.warp != nullptr ? *options.warp.warp : warps::optimal};
+  ParallelScene scene{body,
+                      c.views.empty() ? depths_of(body, c.axes.forward) : depths_seen(c.views),
+                      {},
+                      options.warp.warp != nullptr ? *options.warp.warp : warps::optimal};
   scene.space.frame =
       c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
-  c.seen = usable_depths(c, body, visible);
+  c.seen = usable_depths(c, scene.depths, visible);
   const bool parts = options.split.partition != Partition::view_depth;
   const bool follows_points = !c.stable && !parts && !c.keeps && options.fit != Fit::warped_stable;
   const bool ignores_points = !c.seen_points.empty() && !follows_points;
@@ -101,15 +104,17 @@ PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const Pl
   return context;
 }
 
-/// A plan of one frame; `history` may be nullptr.
-ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                      const PlanOptions& options, PlanHistory* history, const Visible& visible) noexcept {
-  ShadowPlan plan;
+/// Fills in the plan of one frame; `history` may be nullptr.
+void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                const PlanOptions& options, PlanHistory* history, const Visible& visible,
+                ShadowPlan& plan) noexcept {
   plan.invalid_field =
       first_invalid_field(camera, light, bounds, options, visible.depths, visible.points_world);
-  if (!plan.invalid_field.empty()) return plan;
-  if (std::isinf(camera.far_depth))
-    return plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible);
+  if (!plan.invalid_field.empty()) return;
+  if (std::isinf(camera.far_depth)) {
+    plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible, plan);
+    return;
+  }
   PlanContext context = begin_plan(camera, bounds, options, history != nullptr, plan);
   context.keeps = keeps_cascades(light, options, history != nullptr);
   context.seen_points = visible.points_world;
@@ -130,7 +135,6 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
     plan_local(context, light, history, plan);
   }
   if (options.cadence.frames > 1 && !context.keeps) omit(plan, IgnoredOption::cadence);
-  return plan;
 }
 
 }  // namespace
@@ -151,7 +155,9 @@ ShadowPlan plan_shared(std::span<const SharedView> views, const Camera& mean, co
 ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
                      const PlanOptions& options, const VisibleDepths* visible,
                      std::span<const glm::dvec3> visible_points_world) noexcept {
-  return plan_frame(camera, light, bounds, options, nullptr, {visible, visible_points_world});
+  ShadowPlan plan;
+  plan_frame(camera, light, bounds, options, nullptr, {visible, visible_points_world}, plan);
+  return plan;
 }
 
 ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
@@ -159,9 +165,12 @@ ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds
                      std::span<const glm::dvec3> visible_points_world) noexcept {
   history.event_count = 0;
   const Visible seen{visible, visible_points_world};
-  ShadowPlan plan = keeps_cascades(light, options, true)
-                        ? plan_frame(camera, light, bounds, with_fixed_splits(options), &history, seen)
-                        : plan_frame(camera, light, bounds, options, &history, seen);
+  ShadowPlan plan;
+  if (keeps_cascades(light, options, true)) {
+    plan_frame(camera, light, bounds, with_fixed_splits(options), &history, seen, plan);
+  } else {
+    plan_frame(camera, light, bounds, options, &history, seen, plan);
+  }
   if (plan.status == PlanStatus::invalid_input) return plan;
   history.eye_world = camera.position;
   history.forward = camera_axes(camera).forward;
