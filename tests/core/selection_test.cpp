@@ -26,7 +26,7 @@ ShadowPlan plan_of(std::vector<ShadowMap> maps) {
   plan.status = PlanStatus::ok;
   plan.select_by_map = plan.select_finest = true;
   plan.map_count = static_cast<int>(maps.size());
-  std::copy(maps.begin(), maps.end(), plan.map.begin());
+  for (std::size_t i = 0; i < maps.size(); ++i) plan.map[i] = maps[i];
   return plan;
 }
 

@@ -61,6 +61,20 @@ TEST(Views, none_too_many_or_broken_ones_are_refused_by_name) {
             "light.direction");
 }
 
+TEST(Views, no_boxes_show_nothing_and_a_broken_one_in_a_set_is_named) {
+  const Street street;
+  const std::array eyes{street.camera(-1), street.camera(1)};
+  EXPECT_EQ(plan_views(eyes, street.light, {}).status, PlanStatus::nothing_visible);
+  EXPECT_EQ(plan_views(eyes, street.light, {{}, street.boxes}).status, PlanStatus::no_caster);
+  std::vector<Box> boxes(100, street.boxes[0]);
+  boxes[77].min.x = std::numeric_limits<double>::quiet_NaN();
+  std::vector<CasterBlock> blocks(CasterSet::block_count(boxes.size()));
+  std::vector<std::uint32_t> indices(CasterSet::index_count(boxes.size()));
+  const CasterSet set(boxes, blocks, indices);
+  EXPECT_EQ(plan_views(eyes, street.light, {street.boxes, set}).invalid_field, "bounds.receivers");
+  EXPECT_EQ(plan_views(eyes, street.light, {set, street.boxes}).invalid_field, "bounds.casters");
+}
+
 TEST(Views, cameras_that_see_nothing_are_left_out_and_listed) {
   const Street street;
   Camera away = street.camera(0);

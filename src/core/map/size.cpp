@@ -24,11 +24,11 @@ int in_steps(double side, int least, int full) noexcept {
   return static_cast<int>(max_of(steps, least < full ? least : full));
 }
 
-/// Squared slope of the ray to the image's farthest corner.
-double steepest_ray(const Camera& k) noexcept {
+/// Squared length of the ray to the image's farthest corner, per unit of depth.
+double longest_ray(const Camera& k) noexcept {
   const double x = max_of(std::abs(k.left), std::abs(k.right)),
                y = max_of(std::abs(k.bottom), std::abs(k.top));
-  return x * x + y * y;
+  return 1.0 + x * x + y * y;
 }
 
 }  // namespace
@@ -36,9 +36,9 @@ double steepest_ray(const Camera& k) noexcept {
 double pixel_obliquity(const PlanContext& c, const Polytope& body) noexcept {
   if (c.camera.orthographic) return 1.0;
   if (!c.views.empty()) {
-    double steepest = 0.0;
-    for (const SharedView& view : c.views) steepest = max_of(steepest, steepest_ray(view.camera));
-    return std::sqrt(1.0 + steepest);
+    double longest = 1.0;
+    for (const SharedView& view : c.views) longest = max_of(longest, longest_ray(view.camera));
+    return std::sqrt(longest);
   }
   double most = 1.0;
   for (const Polytope::Vertex& v : body.vertices()) {
@@ -46,7 +46,7 @@ double pixel_obliquity(const PlanContext& c, const Polytope& body) noexcept {
     most = max_of(most, glm::dot(v.position, v.position) / (depth * depth));
   }
   // Rounding beside the eye may tilt a ray beyond the image's corners.
-  return std::sqrt(min_of(most, 1.0 + steepest_ray(c.camera)));
+  return std::sqrt(min_of(most, longest_ray(c.camera)));
 }
 
 double pixels_per_slope(const Camera& camera) noexcept {
