@@ -347,8 +347,6 @@ void draw_split(Dice& dice, const Stage& s, Json& o) {
   }
   static constexpr std::string_view kRanges[] = {"auto", "receivers", "camera"};
   if (dice.chance(0.4)) o["split_range"] = dice.name(kRanges);
-  static constexpr std::string_view kSelections[] = {"view_depth", "finest"};
-  if (dice.chance(0.2)) o["selection"] = dice.name(kSelections);
   if (dice.chance(0.2)) o["split_overlap"] = dice.chance(0.2) ? 1.0 : dice.unit();
   static constexpr std::string_view kPartitions[] = {"frustum_faces", "separating_plane"};
   if (dice.chance(0.2)) o["partition"] = dice.name(kPartitions);
@@ -417,6 +415,8 @@ void draw_rest(Dice& dice, Json& o) {
     if (dice.chance(0.5)) space["first_row"] = "y_plus_one";
     o["clip_space"] = space;
   }
+  static constexpr std::string_view kSelections[] = {"view_depth", "finest"};
+  if (dice.chance(0.2)) o["selection"] = dice.name(kSelections);
 }
 
 }  // namespace
