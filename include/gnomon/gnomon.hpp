@@ -23,5 +23,6 @@
 #include "gnomon/shape.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/split.hpp"
+#include "gnomon/views.hpp"
 #include "gnomon/visible_depths.hpp"
 #include "gnomon/warp.hpp"

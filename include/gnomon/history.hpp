@@ -28,6 +28,15 @@ struct PlanEvent {
 /// Largest change of texels per world area, from frame to frame at any surface point, that passes for smooth.
 inline constexpr double kDensityStep = 0.05;
 
+/// A map of CadenceOptions as it was planned, and the camera it was planned for.
+struct KeptMap {
+  std::int64_t frame = -1;  ///< in which it was planned; -1: never
+  bool drawn = false;       ///< false: no caster could reach its receivers
+  ShadowMap map;
+  glm::dmat4 gl_from_world{1.0};  ///< OpenGL clip space
+  Camera camera;
+};
+
 /// State that make_plan carries from frame to frame. Start with an empty one; keep one per camera and light;
 /// clear it at a cut. Plain data: copy it to try a frame twice.
 struct PlanHistory {
@@ -44,6 +53,7 @@ struct PlanHistory {
   glm::dvec4 light_world{0.0};
   std::array<double, kMaxMaps + 1> edge{};  ///< view depths between the cascades
   int edge_count = 0;                       ///< entries of `edge` that are used; 0 before the first plan
+  std::array<KeptMap, kMaxMaps> kept;       ///< by cascade
 
   /// Events of the last plan; event_count of them are used.
   std::array<PlanEvent, kMaxMaps> event;
@@ -64,6 +74,7 @@ struct PlanHistory {
 /// are planned without history.
 [[nodiscard]] ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
                                    const PlanOptions& options, PlanHistory& history,
-                                   const VisibleDepths* visible = nullptr) noexcept;
+                                   const VisibleDepths* visible = nullptr,
+                                   std::span<const glm::dvec3> visible_points_world = {}) noexcept;
 
 }  // namespace gnomon

@@ -37,8 +37,10 @@ struct PointAliasing {
 };
 
 /// Aliasing at `point_world` on a surface with `normal` (unit) seen by `camera` through `map`. Works for
-/// every projective map (the local light ray comes from the matrix itself). Based on: Lloyd et al., "Warping
-/// and Partitioning for Low Error Shadow Maps", 2006, in the form of a Jacobian.
+/// every projective map. The light ray comes from the matrix: `map.light_world` is read only where it is the
+/// light of that matrix, so that hand-made maps may leave it out; their depth then grows away from the light.
+/// Based on: Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006, in the form of a
+/// Jacobian.
 [[nodiscard]] PointAliasing measure_point(const ShadowMap& map, const Camera& camera,
                                           const glm::dvec3& point_world, const glm::dvec3& normal) noexcept;
 

@@ -55,6 +55,7 @@ enum class OmissionKind : std::uint8_t {
   resolution_without_gain,  ///< a smaller map meets the requested bound of m; a: bound at full size, b: now
   depth_near_light,         ///< nearer than a to the light nothing casts shadows; b: number of casters there
   option_ignored,           ///< an option that this light or partition has no use for; a: IgnoredOption
+  view_without_receiver,    ///< of plan_views: no receiver in view; a: index of the camera
 };
 /// The option that OmissionKind::option_ignored names.
 enum class IgnoredOption : std::uint8_t {
@@ -64,6 +65,9 @@ enum class IgnoredOption : std::uint8_t {
   visible_depths,  ///< the visible depths: a local light has no cascades
   texel_budget,    ///< resolution.texel_budget: maps of this partition keep their size
   history,         ///< the history: parts that follow the view do not move steadily
+  selection,       ///< split.selection: only cascades are chosen among by view depth
+  cadence,         ///< cadence: needs a history and cascades of a fixed number and size
+  visible_points,  ///< the visible points: a local light's maps, kept or stable maps do not follow them
 };
 /// One entry of ShadowPlan::omitted.
 struct Omission {
@@ -167,6 +171,9 @@ struct ShadowPlan {
   /// lights and for receivers parted by planes: the first map that holds it (map_holds), at any depth. A
   /// point that no map holds is lit.
   bool select_by_map = false;
+  /// With select_by_map: of the maps that hold a point not the first serves it, but the one with the most
+  /// texels per area across the light there (SplitOptions::selection). Equal ones: the first.
+  bool select_finest = false;
   /// True if map sizes depend on the view (metric_resolution, max_error or texel_budget), so that they may
   /// differ from frame to frame. Renderers then keep images a little larger than the maps.
   bool sizes_vary = false;
@@ -194,9 +201,18 @@ struct ShadowPlan {
 /// nearest to the farthest of them, with kDepthSafety on either side, and skip depths between that show
 /// nothing. Receivers elsewhere get no shadow. Nothing visible counts as unknown. Used with directional
 /// lights, perspective cameras and SplitRange other than camera.
+///
+/// `visible_points_world` (optional, read during the call only): points of surfaces that the camera sees, of
+/// a depth buffer of this frame or the last read at every tenth pixel, say. Each cascade then covers across
+/// the light only the bounds of those in its depths, with kPointSafety of the bounds on every side; receivers
+/// elsewhere get no shadow. A cascade without any is fitted to its receivers. Directional lights, and fits
+/// other than stable and warped_stable. Takes time in proportion to the points.
+/// Based on: Lauritzen, Salvi, Lefohn, "Sample Distribution Shadow Maps", 2010.
 [[nodiscard]] ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                                   const PlanOptions& options = {},
-                                   const VisibleDepths* visible = nullptr) noexcept;
+                                   const PlanOptions& options = {}, const VisibleDepths* visible = nullptr,
+                                   std::span<const glm::dvec3> visible_points_world = {}) noexcept;
+/// Share of the visible points' bounds that a map covers beyond them on each side.
+inline constexpr double kPointSafety = 1.0 / 64.0;
 
 /// True where the map shows the point off its filter margin and within its depths: its clip coordinates have
 /// w > 0, its texel lies filter_margin_texels or more inside the map (a quarter texel is left to rounding), z

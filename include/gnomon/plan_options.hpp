@@ -23,6 +23,9 @@ inline constexpr double kLeastError = 1e-9;
 /// Sides of maps that the plan sizes are multiples of this: a tile that rasterizers handle well.
 inline constexpr int kSizeStep = 16;
 
+/// Most frames between two plans of a cascade: in more, a map outlives what it was planned for.
+inline constexpr int kMostCadenceFrames = 64;
+
 /// How many texels each map gets.
 struct ResolutionOptions {
   /// Texels along each side of each map, kLeastMapSize..kMostMapSize. Doubling it halves the error and costs
@@ -69,6 +72,24 @@ struct FilterExtent {
   double world = 0.0;
 };
 
+/// How often the cascades behind the first are planned. Between two plans of a cascade its map keeps its
+/// matrix, with room for the motion in between, and needs no drawing: reuse() returns `identical`.
+/// Needs a PlanHistory, a directional light and unmoved bounds. A cascade is planned at once where the camera
+/// moved farther than promised, or its lens, its splits or the light changed.
+/// With more than one frame, cascades divide the camera's whole depths, by `practical` in place of
+/// `automatic` and `optimal`, and visible depths and points are ignored.
+struct CadenceOptions {
+  /// Frames from one plan of a cascade to its next, 1..kMostCadenceFrames. 1, the default: every frame.
+  /// Cascades take turns.
+  int frames = 1;
+  /// Largest step of the eye from one frame to the next, world units, >= 0; default 0. A larger one enlarges
+  /// the kept maps by frames - 1 steps on each side.
+  double largest_step = 0.0;
+  /// Largest turn of the camera from one frame to the next, radians, 0..pi; default 0. Room is a turn's arc
+  /// at the cascade's far end.
+  double largest_turn = 0.0;
+};
+
 /// Options of make_plan. Every default suits most scenes.
 struct PlanOptions {
   /// Maps along the view, 1..kMaxMaps. More maps lower the error far away and cost one pass each. Directional
@@ -83,6 +104,8 @@ struct PlanOptions {
   SplitOptions split;
   /// The perspective warp, and the error that it must lower.
   WarpOptions warp;
+  /// How often the cascades behind the first are planned.
+  CadenceOptions cadence;
   /// How far filter kernels reach.
   FilterExtent filter;
   /// How far depths are moved off the surface, in texels (bias.hpp).

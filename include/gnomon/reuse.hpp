@@ -50,6 +50,12 @@ struct MapReuse {
 [[nodiscard]] MapReuse reuse(const ShadowMap& previous, const ShadowMap& current,
                              const ClipSpace& clip_space = {}) noexcept;
 
+/// The map with clip_from_camera_relative for an eye at `new_origin`, world space; everything else unchanged.
+/// For a map kept from an earlier frame: its matrix then takes points relative to the new eye. Computed from
+/// clip_from_world, so that any number of moves lose nothing: within 1e-3 texel of it a thousand kilometres
+/// from the origin.
+[[nodiscard]] ShadowMap rebased(const ShadowMap& map, const glm::dvec3& new_origin) noexcept;
+
 /// Planes round everything that can throw a shadow into a rectangle of the map: its four sides and the map's
 /// far plane, open towards the light (draw with depth clamp). To be given to CasterSet::cull. As
 /// ShadowMap::cull_planes: dot(xyz, p_world) + w >= 0 inside, unit normals. `clip_space` is the plan's.

@@ -28,7 +28,9 @@ struct ShaderMap {
 struct ShaderBlock {
   glm::vec4 light;  ///< direction of parallel light with w = 0, or position relative to the origin with w = 1
   glm::vec4 bias;   ///< BiasOptions: constant, slope, normal offset, largest slope
-  glm::vec4 layer;  ///< width and height of the texture's layers in texels, number of maps, select_by_map
+  /// Width and height of the texture's layers in texels; number of maps; how a point finds its map: 0 by view
+  /// depth, 1 select_by_map, 2 select_finest.
+  glm::vec4 layer;
   std::array<ShaderMap, kMaxMaps> maps;  ///< in the order of ShadowPlan::maps; those beyond are zero
 };
 

@@ -34,6 +34,15 @@ enum class SplitRange : std::uint8_t { automatic, receivers, camera };
 /// given.
 [[nodiscard]] bool split_scheme_from_name(std::string_view name, SplitScheme& scheme) noexcept;
 
+/// How a point finds its map among the cascades of a directional light.
+enum class MapSelection : std::uint8_t {
+  view_depth,  ///< the cascade whose view depths hold the point
+  finest,      ///< of the maps that hold the point, the one with the smallest texels there
+};
+[[nodiscard]] std::string_view to_string(MapSelection selection) noexcept;
+/// True and `selection` set where `name` is one of view_depth, finest.
+[[nodiscard]] bool map_selection_from_name(std::string_view name, MapSelection& selection) noexcept;
+
 /// Where one cascade ends and the next begins. Directional lights only.
 struct SplitOptions {
   SplitScheme scheme = SplitScheme::automatic;  ///< how depths are divided
@@ -54,6 +63,11 @@ struct SplitOptions {
   /// behind also covers it, with all casters. A wider band hides the step between their texels better and
   /// takes texels from the map behind. Partition::view_depth only.
   double overlap = 0.0;
+  /// How a point finds its map; view_depth, the default, is the cheaper look-up. `finest` lowers the error
+  /// where nearer maps reach behind their depths, most under a light along the view: their casters and light
+  /// depths are widened to all receivers in the map, and a look-up evaluates every map. There is no blend
+  /// band. Based on: Zhang, Zaprjagaev, Bentham, "Practical Cascaded Shadow Maps", ShaderX7, 2009.
+  MapSelection selection = MapSelection::view_depth;
   /// Division of the receivers among the maps. Partitions other than view_depth ignore cascades and splits.
   Partition partition = Partition::view_depth;
 

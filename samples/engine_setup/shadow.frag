@@ -21,9 +21,9 @@ ShadowMap shadow_map(int index) { return shadows.maps[index]; }
 
 float lit_share() {
   vec3 n = normalize(normal);
-  if (dot(n, light_at(shadows.light, point)) >= 0.0) return 0.0;  // turned away from the light
-  int count = int(shadows.layer.z);
-  int index = shadows.layer.w > 0.5 ? map_by_hold(point, count) : map_by_depth(point, view_depth, count);
+  vec3 light = light_at(shadows.light, point);
+  if (dot(n, light) >= 0.0) return 0.0;  // turned away from the light
+  int index = map_serving(point, view_depth, light, shadows.layer.w, int(shadows.layer.z));
   if (index < 0) return 1.0;  // no map holds the point: nothing can shadow it
   ShadowMap map = shadow_map(index);
   ShadowLookup at = shadow_lookup(map, float(index), shadows.layer.xy, ShadowSurface(point, n, shadows.light), shadows.bias);

@@ -47,8 +47,9 @@ void main() {
   if (s.sky) return;
   int count = int(frame.light.w);
   bool by_hold = frame.selection.x > 0.5;
-  int map = by_hold ? map_by_hold(s.position, count) : map_by_depth(s.position, s.depth, count);
-  bool faces_light = dot(s.normal, light_at(frame.light_place, s.position)) < 0.0;
+  vec3 light = light_at(frame.light_place, s.position);
+  int map = map_serving(s.position, s.depth, light, frame.selection.x, count);
+  bool faces_light = dot(s.normal, light) < 0.0;
   mask = vec2(faces_light || count == 0 ? 1.0 : 0.0, float(map));
   if (map < 0 || !faces_light) return;
   float noise = pixel_noise(gl_FragCoord.xy);

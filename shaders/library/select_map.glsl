@@ -58,7 +58,8 @@ int map_by_hold(vec3 position, int count) {
   return -1;
 }
 
-// Among the maps that hold the point with a kernel of `radius_world` round it, the one with the smallest texels there.
+// Among the maps that hold the point with a kernel of `radius_world` round it, the one with the smallest texels there; of
+// equal ones the first. With a radius of 0: gnomon::map_serving of a plan with select_finest.
 // `light`: the way it travels at the point.
 int map_of_finest_texel(vec3 position, float radius_world, vec3 light, int count) {
   int best = -1;
@@ -70,12 +71,19 @@ int map_of_finest_texel(vec3 position, float radius_world, vec3 light, int count
     float reach = radius_world * sqrt(max(dot(p.d_texel_x, p.d_texel_x), dot(p.d_texel_y, p.d_texel_y)));
     if (!map_spans(map, position, reach)) continue;
     float density = abs(dot(cross(p.d_texel_x, p.d_texel_y), light));  // texels per area across the light
-    if (density > best_area) {
+    if (best < 0 || density > best_area) {
       best = i;
       best_area = density;
     }
   }
   return best;
+}
+
+// The map that serves a point, as gnomon::map_serving finds it. `selection`: 0 by view depth, 1 by what the maps hold, 2 the
+// finest of those: ShadowBlock::layer.w.
+int map_serving(vec3 position, float view_depth, vec3 light, float selection, int count) {
+  if (selection > 1.5) return map_of_finest_texel(position, 0.0, light, count);
+  return selection > 0.5 ? map_by_hold(position, count) : map_by_depth(position, view_depth, count);
 }
 
 // Share of the next map in the result at a depth that the one before it serves: 0 up to where the next map begins to show

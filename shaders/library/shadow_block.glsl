@@ -11,7 +11,7 @@
 struct ShadowBlock {
   vec4 light;  // as light_at takes it
   vec4 bias;   // constant, slope, normal offset in texels, largest slope: as shadow_lookup takes it
-  vec4 layer;  // texels of a layer along x and y; number of maps; 1: maps are found by what they hold, 0: by view depth
+  vec4 layer;  // texels of a layer along x and y; number of maps; selection, as map_serving takes it
   ShadowMap maps[GNOMON_MAX_MAPS];
 };
 #endif

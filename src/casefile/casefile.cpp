@@ -168,6 +168,9 @@ void read_field(const Fields& fields, std::string_view key, const PlanField& fie
           std::copy(depths.begin(), depths.end(), place(options).begin());
         } else {
           fields.read(key, place(options));
+          if constexpr (std::is_same_v<Place, PlanMember<double>>) {
+            if (field.unit != 1.0) place(options) *= field.unit;
+          }
         }
       },
       field.place);

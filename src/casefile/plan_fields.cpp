@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <stdexcept>
 
 namespace gnomon {
@@ -89,6 +90,15 @@ std::vector<PlanField> make_fields() {
        "options.split.given", "needs cascades - 1 depths, ascending"},
       {"split_overlap", "share of a cascade that the next one covers as well",
        GNOMON_AT(double, split.overlap), "options.split.overlap", "must lie in 0..1", 0.0, 1.0},
+      {"selection", "which cascade serves a point",
+       GNOMON_CHOICE(split.selection, map_selection_from_name, "view_depth", "finest")},
+      {"cadence_frames", "frames from one plan of a far cascade to its next", GNOMON_AT(int, cadence.frames),
+       "options.cadence.frames", "must lie in 1..64", 1, kMostCadenceFrames},
+      {"cadence_step", "largest step of the eye from frame to frame, world units",
+       GNOMON_AT(double, cadence.largest_step), "options.cadence.largest_step", "must not be below 0"},
+      {"cadence_turn_deg", "largest turn of the camera from frame to frame, degrees",
+       GNOMON_AT(double, cadence.largest_turn), "options.cadence.largest_turn", "must lie in 0..180", 0.0,
+       180.0, std::numbers::pi / 180.0},
       {"target_m",
        "the fewest cascades whose aliasing error m stays below this; 0: always `cascades` of them",
        GNOMON_AT(double, resolution.max_error), "options.resolution.max_error", "must not be below 0"},

@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 #include <variant>
 
+#include "gnomon/reuse.hpp"
 #include "gnomon/shader_block.hpp"
 
 namespace gnomon::render {
@@ -44,9 +45,11 @@ void set_lamp(const Light* light, FrameBlock& block) noexcept {
   if (const auto* point = std::get_if<PointLight>(light)) block.layer.z = static_cast<float>(point->range);
 }
 
-MapBlock map_block(const ShadowMap& map, const glm::dmat4& drawn_from_plan, const glm::dvec3& eye,
-                   double blur, double curve) noexcept {
+MapBlock map_block(const ShadowMap& planned, const glm::dmat4& drawn_from_plan, const glm::dvec3& origin,
+                   const glm::dvec3& eye, double blur, double curve) noexcept {
   MapBlock block{};
+  // A plan of several views, or of an earlier frame, is relative to another place.
+  const ShadowMap map = origin == eye ? planned : rebased(planned, eye);
   block.clip_from_camera_relative = glm::mat4(drawn_from_plan * glm::dmat4(map.clip_from_camera_relative));
   block.interval_size = glm::vec4(glm::dvec4(map.depth_begin, map.depth_end, map.width, map.height));
   for (int i = 0; i < kMaxSelectPlanes; ++i) {
@@ -84,11 +87,12 @@ FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const Frame
   block.light_place = light_place(plan, camera);
   block.layer = glm::vec4(glm::dvec4(layer_width, layer_height, 0.0, camera.far_depth));
   set_lamp(options.light, block);
-  block.selection = glm::vec4(
-      glm::dvec4(plan.select_by_map ? 1.0 : 0.0, static_cast<double>(options.transition), 0.0, 0.0));
+  const double selection = plan.select_finest ? 2.0 : plan.select_by_map ? 1.0 : 0.0;
+  block.selection = glm::vec4(glm::dvec4(selection, static_cast<double>(options.transition), 0.0, 0.0));
   const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
-    block.maps[i] = map_block(plan.map[i], drawn_from_plan, camera.position, blur[i], curves[i]);
+    block.maps[i] =
+        map_block(plan.map[i], drawn_from_plan, plan.origin_world, camera.position, blur[i], curves[i]);
   }
   return block;
 }

@@ -25,6 +25,7 @@ Option plan_option(std::string_view key, PlanOptions& options, std::string help)
         } else if constexpr (std::is_same_v<Place, PlanMember<int>> ||
                              std::is_same_v<Place, PlanMember<double>> ||
                              std::is_same_v<Place, PlanMember<bool>>) {
+          if (field.unit != 1.0) throw std::logic_error(std::string(key) + " has a unit of its own");
           option.target = &place(options);
           if (field.least < field.most) option.range = {{field.least, field.most}};
         } else {
@@ -43,6 +44,8 @@ nlohmann::ordered_json plan_options_json(PlanOptions options) {
           using Place = std::remove_cvref_t<decltype(place)>;
           if constexpr (std::is_same_v<Place, PlanChoice>) {
             json[std::string(field.key)] = place.get(options);
+          } else if constexpr (std::is_same_v<Place, PlanMember<double>>) {
+            json[std::string(field.key)] = place(options) / field.unit;
           } else if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(place(options))>>) {
             json[std::string(field.key)] = place(options);
           }

@@ -211,7 +211,7 @@ TEST(PlanFields, of_each_name_a_case_reads_into_the_same_place) {
             if constexpr (std::is_same_v<Place, PlanChoice>) {
               EXPECT_EQ("\"" + place.get(read.options) + "\"", value) << key;
             } else {
-              EXPECT_EQ(static_cast<double>(place(read.options)), 7.0) << key;
+              EXPECT_DOUBLE_EQ(static_cast<double>(place(read.options)), 7.0 * field.unit) << key;
             }
             ++checked;
           }

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "support/near.hpp"
+#include "support/property.hpp"
+#include "support/random_case.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -23,6 +25,16 @@ ShadowMap map_from_above(int size) {
   map.width = map.height = size;
   map.clip_from_world = glm::dmat4(1, 0, 0, 0, 0, 0, -0.1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
   map.light_world = {0, 1, 0, 0};
+  return map;
+}
+
+/// A perspective map straight down from (0.5, 3, 0), onto [-1, 1]^2 round (0.5, 0, 0).
+ShadowMap lamp_map(int size) {
+  ShadowMap map;
+  map.width = map.height = size;
+  // w = 3 - y, x = 3 (x - 0.5), y = -3 z, depth from 1 to 4 away from the light.
+  map.clip_from_world = glm::dmat4(3, 0, 0, 0, 0, 0, -5.0 / 3.0, -1, 0, -3, 0, 0, -1.5, 0, 7.0 / 3.0, 3);
+  map.light_world = {0.5, 3, 0, 1};
   return map;
 }
 
@@ -79,6 +91,65 @@ TEST(Metric, light_across_the_eye_ray_projects_by_the_ratio_of_cosines) {
   EXPECT_CLOSE(m.m_max, 4.0, kRounding);
   EXPECT_CLOSE(m.m_min, 2.0, kRounding);
   EXPECT_CLOSE(m.m_area * m.m_area, 8.0, kRounding);
+}
+
+TEST(Metric, a_hand_made_map_gets_its_light_from_its_matrix) {
+  // Light along (-0.6, -0.8, 0): a floor has it at a cosine of 0.8, a camera from above at 1.
+  ShadowMap tilted = map_from_above(50);
+  tilted.clip_from_world = glm::dmat4(0.8, 0, -0.06, 0, -0.6, 0, -0.08, 0, 0, -1, 0, 0, 0, 0, 0, 1);
+  const PointAliasing floor = measure_point(tilted, camera_from_above(4.0), {0, 0, 0}, {0, 1, 0});
+  EXPECT_CLOSE(floor.projection, 1.0 / 0.8, kRounding);
+  EXPECT_CLOSE(floor.m_area * floor.m_area, 4.0 / 0.8, kRounding);
+  EXPECT_CLOSE(floor.perspective_max, 2.0, kRounding);
+  // A local light at (0.5, 3, 0): at (-3.5, 0, 0) its rays come in at a cosine of 3 / 5.
+  for (const glm::dvec4& light : {glm::dvec4(0, 1, 0, 0), glm::dvec4(0.5, 3, 0, 1), glm::dvec4(0)}) {
+    ShadowMap lamp = lamp_map(50);
+    lamp.light_world = light;
+    const PointAliasing beside = measure_point(lamp, camera_from_above(4.0), {-0.4, 0, 0}, {0, 1, 0});
+    EXPECT_CLOSE(beside.projection, (4.0 / std::sqrt(16.16)) / (3.0 / std::sqrt(9.81)), kRounding);
+  }
+  // From below: depth tells where the light comes from.
+  ShadowMap below = map_from_above(50);
+  below.clip_from_world[1][2] = 0.1;
+  EXPECT_EQ(measure_point(below, camera_from_above(4.0), {0, 0, 0}, {0, 1, 0}).status, Status::ok)
+      << "a light of the plan's own stands, whatever depth says";
+  below.light_world = {0, 0, 1, 0};
+  EXPECT_EQ(measure_point(below, camera_from_above(4.0), {0, 0, 0}, {0, 1, 0}).status, Status::faces_away);
+}
+
+TEST(Metric, a_matrix_that_shows_nothing_gives_no_number_that_is_none) {
+  ShadowMap nothing = map_from_above(50);
+  nothing.clip_from_world = glm::dmat4(0.0);
+  EXPECT_EQ(measure_point(nothing, camera_from_above(4.0), {0, 0, 0}, {0, 1, 0}).status, Status::outside);
+  nothing.clip_from_world[3][3] = 1.0;
+  const PointAliasing m = measure_point(nothing, camera_from_above(4.0), {0, 0, 0}, {0, 1, 0});
+  EXPECT_FALSE(std::isnan(m.m_max) || std::isnan(m.projection));
+}
+
+TEST(Metric, the_light_of_a_plans_matrix_is_the_plans_light) {
+  int checked = 0;
+  for_all(300, [&] {
+    const Case c = draw_case();
+    const ShadowPlan plan = c.plan();
+    Random random(7);
+    for (const glm::dvec3& point : visible_points(c, random, 2, 4)) {
+      const int map = map_serving(plan, point, depth_of(c.camera, point));
+      if (map < 0) continue;
+      const ShadowMap& planned = plan.map[static_cast<std::size_t>(map)];
+      ShadowMap hand_made = planned;
+      hand_made.light_world = {};
+      const glm::dvec3 normal = random.direction();
+      const PointAliasing a = measure_point(planned, c.camera, point, normal);
+      const PointAliasing b = measure_point(hand_made, c.camera, point, normal);
+      const double grazing = std::abs(glm::dot(normal, glm::dvec3(planned.light_world)));
+      if (a.status != Status::ok || grazing < 1e-3) continue;
+      ++checked;
+      // The light's direction from the matrix; gradients of a flat body's map are mostly rounding.
+      require(std::abs(a.projection - b.projection) <= 1e-6 * a.projection, "planned", a.projection, "matrix",
+              b.projection, c);
+    }
+  });
+  EXPECT_GT(checked, 100);
 }
 
 TEST(Metric, outside_the_map_or_behind_it_the_error_is_infinite) {
@@ -148,9 +219,9 @@ TEST(Metric, many_points_at_once_are_to_the_bit_what_each_is_alone) {
   const Camera perspective = camera_from_above(4.0);
   const Camera parallel =
       orthographic_camera({0, 4, 0}, {0.2, -1, 0}, {0, 0, -1}, 2.0, 1.0, 0.1, 10, 100, 100);
-  ShadowMap sun = map_from_above(50), lamp = map_from_above(50);
-  sun.light_world = {0.6, 0.8, 0, 0};
-  lamp.light_world = {0.5, 3, 0, 1};
+  ShadowMap sun = map_from_above(50), lamp = lamp_map(50), hand_made = lamp_map(50);
+  sun.light_world = {0.6, 0.8, 0, 0};  // not that of the matrix
+  hand_made.light_world = {0, 1, 0, 0};
   std::vector<glm::dvec3> points, normals;
   for (std::size_t i = 0; i < kPoints; ++i) {
     const double t = static_cast<double>(i);
@@ -161,7 +232,7 @@ TEST(Metric, many_points_at_once_are_to_the_bit_what_each_is_alone) {
   points[8] = {0, 0, 0};             // lit along the view
   normals[9] = {1, 0, 0};
   for (const Camera& camera : {perspective, parallel}) {
-    for (const ShadowMap& map : {sun, lamp, map_from_above(50)}) {
+    for (const ShadowMap& map : {sun, lamp, hand_made, map_from_above(50)}) {
       std::vector<PointAliasing> surface(kPoints), plain(kPoints);
       measure_points(map, camera, points, normals, surface);
       measure_perspectives(map, camera, points, plain);

@@ -247,6 +247,65 @@ TEST(Reuse, the_planes_of_a_rectangle_hold_what_can_shadow_it_and_nothing_else) 
   EXPECT_GT(above, 200);
 }
 
+TEST(Rebased, an_eye_at_the_origin_gets_the_matrix_from_world_and_all_else_stays) {
+  const ShadowMap map = stable_case().plan().map[0];
+  const ShadowMap moved = rebased(map, glm::dvec3(0.0));
+  EXPECT_EQ(moved.clip_from_camera_relative, glm::mat4(map.clip_from_world));
+  EXPECT_EQ(moved.clip_from_world, map.clip_from_world);
+  EXPECT_EQ(moved.cull_planes, map.cull_planes);
+  EXPECT_EQ(reuse(map, moved).kind, ReuseKind::identical);
+}
+
+TEST(Rebased, by_hand_a_step_moves_the_last_column_alone) {
+  ShadowMap map;
+  map.clip_from_world = glm::dmat4(0.5, 0, 0, 0, 0, 0.25, 0, 0, 0, 0, -0.1, 0.2, 1, 2, 3, 4);
+  const glm::mat4 moved = rebased(map, {2.0, 4.0, 10.0}).clip_from_camera_relative;
+  EXPECT_EQ(moved[3], glm::vec4(2.0f, 3.0f, 2.0f, 6.0f));
+  EXPECT_EQ(moved[2], glm::vec4(0.0f, 0.0f, -0.1f, 0.2f));
+}
+
+TEST(Rebased, points_keep_their_texel_to_a_thousandth_under_any_steps_of_the_eye_far_from_the_origin) {
+  int checked = 0;
+  for_all(300, [&] {
+    Case c = draw_case({.max_depth_ratio = 1e3});
+    const glm::dvec3 far_away = glm::dvec3(between(-1, 1), between(-1, 1), between(-1, 1)) * 1e6;
+    c.camera.position += far_away;
+    for (std::vector<Box>* boxes : {&c.casters, &c.receivers}) {
+      for (Box& box : *boxes) box = {box.min + far_away, box.max + far_away};
+    }
+    const ShadowPlan plan = c.plan();
+    Random random(static_cast<std::uint64_t>(pick(1 << 20)));
+    for (const ShadowMap& map : plan.maps()) {
+      ShadowMap kept = map;
+      glm::dvec3 eye = c.camera.position;
+      for (int step = 0; step < 20; ++step) {
+        eye += random.direction() * (0.02 * map.depth_end);
+        kept = rebased(kept, eye);
+      }
+      for (const glm::dvec3& point : visible_points(c, random, 2, 4)) {
+        const glm::dvec4 exact = map.clip_from_world * glm::dvec4(point, 1.0);
+        if (!(exact.w > 0.0) || std::abs(exact.x) > exact.w || std::abs(exact.y) > exact.w) continue;
+        // Floats hold the offset itself to 2^-24: what they make of it is no fault of the matrix.
+        const glm::dvec3 offset(glm::vec3(point - eye));
+        const glm::dvec4 ideal = map.clip_from_world * glm::dvec4(eye + offset, 1.0);
+        const glm::dvec4 got = glm::dmat4(kept.clip_from_camera_relative) * glm::dvec4(offset, 1.0);
+        const glm::dvec2 size(map.width, map.height);
+        const glm::dvec2 off = 0.5 * size * (glm::dvec2(got) / got.w - glm::dvec2(ideal) / ideal.w);
+        // As good as the plan's own matrix at its own eye, which is a float too.
+        const glm::dvec3 own(glm::vec3(point - c.camera.position));
+        const glm::dvec4 planned = glm::dmat4(map.clip_from_camera_relative) * glm::dvec4(own, 1.0);
+        const glm::dvec4 planned_ideal = map.clip_from_world * glm::dvec4(c.camera.position + own, 1.0);
+        const glm::dvec2 own_off =
+            0.5 * size * (glm::dvec2(planned) / planned.w - glm::dvec2(planned_ideal) / planned_ideal.w);
+        ++checked;
+        require(glm::length(off) <= 1e-3 + 4.0 * glm::length(own_off), "off by", glm::length(off),
+                "planned by", glm::length(own_off), c);
+      }
+    }
+  });
+  EXPECT_GT(checked, 1000);
+}
+
 TEST(Reuse, a_set_lists_the_casters_of_a_strip) {
   Case c = stable_case();
   c.light = {0, -1, 0};

@@ -101,6 +101,34 @@ TEST(CastersLaw, every_caster_between_a_visible_receiver_and_the_light_is_drawn_
   EXPECT_GT(shadows, 10000u);
 }
 
+TEST(CastersLaw, the_finest_map_that_holds_a_receiver_has_every_caster_of_it_within_its_depth_range) {
+  std::uint64_t shadows = 0, elsewhere = 0;
+  for_all(1500, [&] {
+    Case c = draw_case();
+    c.options.split.selection = MapSelection::finest;
+    RC_LOG() << c;
+    const ShadowPlan plan = c.plan();
+    const auto lists = culled(c, plan);
+    const glm::dvec3 to_light = -glm::normalize(c.light);
+    Random random(11);
+    for (const glm::dvec3& p : visible_points(c, random, 6, 6)) {
+      const double depth = depth_of(c.camera, p);
+      const int serving = map_serving(plan, p, depth);
+      const ShadowMap* const own = map_for(plan, depth);
+      require(serving >= 0 || own == nullptr, "no map holds a receiver of cascade", own ? own->cascade : -1);
+      for (const Blocker& blocker : blockers(c, p, to_light)) {
+        require(serving >= 0, "no map for a receiver in the shadow of caster", blocker.index);
+        const auto at = static_cast<std::size_t>(serving);
+        ++shadows;
+        elsewhere += &plan.map[at] != own ? 1 : 0;
+        require_drawn(plan.map[at], lists[at], p, to_light, blocker);
+      }
+    }
+  });
+  EXPECT_GT(shadows, 10000u);
+  EXPECT_GT(elsewhere, 1000u);
+}
+
 TEST(CastersLaw, a_visible_receiver_without_a_map_has_no_caster_between_it_and_the_light) {
   std::uint64_t unmapped = 0;
   for_all(2000, [&] {

@@ -58,6 +58,28 @@ TEST(Mask, is_dark_on_faces_turned_from_the_light) {
   EXPECT_GT(away, 500u);
 }
 
+TEST(Mask, a_pixel_takes_the_finest_map_that_holds_its_point) {
+  PlanOptions options;
+  options.split.selection = MapSelection::finest;
+  for (const Warp* const warp : {&warps::none, &warps::optimal}) {
+    options.warp.warp = warp;
+    const Frame frame =
+        draw_scene(box_on_ground(), camera_on_box(kSize, kSize), {0.2, -0.4, -1.0}, filters::hard, options);
+    std::size_t same = 0, other = 0, nearer = 0;
+    for (std::size_t i = 0; i < frame.pixels(); ++i) {
+      if (!frame.surface(i)) continue;
+      const glm::dvec3 point = frame.point(i);
+      const double depth = glm::dot(point - frame.camera.position, camera_axes(frame.camera).forward);
+      const int expected = map_serving(frame.plan, point, depth);
+      ++(frame.map(i) == expected ? same : other);
+      if (expected >= 0 && depth > frame.plan.map[static_cast<std::size_t>(expected)].depth_end) ++nearer;
+    }
+    // At a map's border rounding decides.
+    EXPECT_LT(other, same / 200) << warp->name;
+    if (warp == &warps::none) EXPECT_GT(nearer, same / 20);
+  }
+}
+
 TEST(Mask, lets_light_through_what_the_alpha_mask_cuts_out) {
   Scene scene = box_on_ground();
   Image leaf{"leaf", 2, 2, std::vector<std::uint8_t>(16, 255)};

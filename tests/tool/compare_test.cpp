@@ -70,6 +70,47 @@ TEST(Compare, measures_local_lights_against_their_own_shadows) {
   }
 }
 
+TEST(Compare, plans_with_the_finest_map_and_with_what_the_frame_shows) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",
+                                        "builtin:hangar",
+                                        "--warps",
+                                        "none",
+                                        "--splits",
+                                        "auto,auto:finest",
+                                        "--cascades",
+                                        "4",
+                                        "--filters",
+                                        "hard",
+                                        "--frames",
+                                        "1",
+                                        "--size",
+                                        "96x54",
+                                        "--map-sizes",
+                                        "512",
+                                        "--rounds",
+                                        "1",
+                                        "--visible-depths",
+                                        "--visible-points",
+                                        "--context",
+                                        "osmesa",
+                                        "--out",
+                                        folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].technique.split, "auto:visible_depths:visible_points");
+  EXPECT_EQ(rows[1].technique.split, "auto:finest:visible_depths:visible_points");
+  for (const report::Row& row : rows) {
+    EXPECT_EQ(row.plan_status, "ok");
+    EXPECT_LT(row.errors.false_lit + row.errors.false_shadow, 0.1) << row.technique.name();
+  }
+  EXPECT_LE(rows[1].aliasing.p95, rows[0].aliasing.p95);
+  const Finished refused = run_gnomon({"compare", "builtin:hangar", "--splits", "auto:best"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("auto:best"), std::string::npos) << refused.err;
+}
+
 TEST(Compare, says_the_same_in_every_run_but_for_times) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_gnomon(small_sweep(folder.path())).exit_code, 0);

@@ -42,6 +42,7 @@ struct PlanField {
   /// Its name in ShadowPlan::invalid_field, and the values that it may have; empty where no value is refused.
   std::string_view invalid_field = {}, must = {};
   double least = 0.0, most = 0.0;  ///< of numbers that a command line may check by itself; equal: not there
+  double unit = 1.0;  ///< of numbers: the option's value is the file's times this, as angles are in degrees
 };
 
 /// All of them, in the order in which they are applied.

@@ -3,11 +3,30 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/geometric.hpp>
 
 #include "gnomon/history.hpp"
 #include "gnomon/plan.hpp"
 
 namespace gnomon {
+
+/// One of several cameras that share the maps.
+struct SharedView {
+  Camera camera;
+  CameraAxes axes;
+  glm::dvec3 eye;  // relative to the plan's origin, as the body
+  Polytope body;   // the receivers in its view
+
+  [[nodiscard]] double depth(const glm::dvec3& point) const noexcept {
+    return glm::dot(axes.forward, point - eye);
+  }
+};
+
+/// A point of a body and its view depth, for the camera that sees it.
+struct ViewedPoint {
+  glm::dvec3 position;
+  double depth;
+};
 
 /// The input of make_plan with what all maps derive from it.
 struct PlanContext {
@@ -15,11 +34,14 @@ struct PlanContext {
   const SceneBounds& bounds;
   const PlanOptions& options;
   CameraAxes axes;
-  bool stable = false;                  // Fit::stable
-  const VisibleDepths* seen = nullptr;  // where they are usable; nullptr: unknown
-  double error_bound = 0.0;             // maps shrink to this bound of m; 0: they keep their size
-  bool remembers = false;               // the caller keeps a PlanHistory
-  bool same_light = false;              // as in the last frame, to the last bit
+  bool stable = false;                           // Fit::stable
+  const VisibleDepths* seen = nullptr;           // where they are usable; nullptr: unknown
+  std::span<const glm::dvec3> seen_points = {};  // world space; empty: unknown
+  double error_bound = 0.0;                      // maps shrink to this bound of m; 0: they keep their size
+  bool remembers = false;                        // the caller keeps a PlanHistory
+  bool keeps = false;                            // cascades behind the first, over frames
+  bool same_light = false;                       // as in the last frame, to the last bit
+  std::span<const SharedView> views = {};        // cameras that share the maps; empty: `camera` alone
   // Of the last frame, where one is remembered.
   glm::dvec3 last_eye{0.0}, last_forward{0.0};
 };
@@ -46,6 +68,11 @@ struct MapRequest {
   double range = 0.0;                      // local light: beyond it nothing is lit
   bool without_casters = false;            // make the map even where no caster can reach the body
   const PlanHistory::Map* last = nullptr;  // of the last frame and the same light
+  // Receivers of all maps, of which this one serves what it holds (MapSelection::finest); nullptr: `body`
+  // alone.
+  const Polytope* all_receivers = nullptr;
+  double room = 0.0;  // of the body round the slice's frustum, world units: the map is kept over frames
+  std::span<const ViewedPoint> viewed = {};  // of several views, for the body's vertices; empty: one view
 };
 
 /// One map, and what happened while it was fitted.

@@ -11,6 +11,7 @@
 #include "map/depths.hpp"
 #include "map/history.hpp"
 #include "map/record.hpp"
+#include "map/served.hpp"
 #include "map/size.hpp"
 #include "warp/plane_error.hpp"
 
@@ -54,7 +55,7 @@ WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const Wa
 /// The choice with its rectangle turned to the least area, where that lowers the objective.
 WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) noexcept {
   const PlaneMap map = plane_map(in.body, choice);
-  std::array<glm::dvec2, kMaxVertices> image;
+  std::array<glm::dvec2, kMaxBodyPoints> image;
   std::size_t count = 0;
   for (const WarpInput::Point& p : in.body) image[count++] = map.image(p.x, p.y);
   const glm::dvec2 side = least_rectangle_side({image.data(), count});
@@ -140,10 +141,12 @@ bool kept_from_before(const PlanContext& c, const MapRequest& request, const Lig
   map.filter_margin_texels = last.filter_margin_texels;
   fitted.plane = held.plane;
   fitted.depths = held.depths;
-  sweep_for(c, request, body, held.plane, border_of_body(map), fitted.swept);
+  const ServedBody served(c, request, body, held.plane);
+  sweep_for(c, served.request(), served.points(), held.plane, border_of_body(map), fitted.swept);
   texels_needed(body.points(), held.plane, pixels_per_slope(c.camera), fitted.needed);
   fitted.heights =
-      height_range(c, request, {body, fitted.plane, fitted.swept, border_of_body(map), held.depths.bottom});
+      height_range(c, served.request(),
+                   {served.points(), fitted.plane, fitted.swept, border_of_body(map), held.depths.bottom});
   if (!(fitted.heights.bottom >= held.depths.bottom && fitted.heights.height <= held.depths.height))
     return false;
   return true;
@@ -174,8 +177,10 @@ void fit(const PlanContext& c, const MapRequest& request, const LightBody& body,
     result.omit({OmissionKind::resolution_without_gain, request.slot.cascade, size.full_error,
                  fitted.needed.bound(inside, obliquity), saved});
   }
-  sweep_for(c, request, body, fitted.plane, border_of_body(map), fitted.swept);
-  fitted.heights = height_range(c, request, {body, fitted.plane, fitted.swept, border_of_body(map)});
+  const ServedBody served(c, request, body, fitted.plane);
+  sweep_for(c, served.request(), served.points(), fitted.plane, border_of_body(map), fitted.swept);
+  fitted.heights =
+      height_range(c, served.request(), {served.points(), fitted.plane, fitted.swept, border_of_body(map)});
   const double extent =
       max_of(fitted.plane.a_max - fitted.plane.a_min, fitted.plane.b_max - fitted.plane.b_min);
   fitted.depths = request.space.perspective ? LightDepths{fitted.heights.bottom, fitted.heights.height}

@@ -53,10 +53,10 @@ void turn(const Polytope& body, const LightFrame& frame, Polytope& out) noexcept
 
 /// A vertex of a body in light space. `least`: view depth from which error counts; `nearest`: distance from a
 /// local light below which there is only rounding.
-WarpInput::Point light_point(const PlanContext& c, const LightSpace& space, const glm::dvec3& position,
+WarpInput::Point light_point(const PlanContext& c, const LightSpace& space, const ViewedPoint& point,
                              double least, double nearest) noexcept {
-  const glm::dvec3 p = space.frame.turned(position);
-  const double depth = c.camera.orthographic ? 1.0 : max_of(least, glm::dot(c.axes.forward, position));
+  const glm::dvec3 p = space.frame.turned(point.position);
+  const double depth = c.camera.orthographic ? 1.0 : max_of(least, point.depth);
   if (!space.perspective) return {p.x, p.y, p.z, depth};
   const double h = 1.0 / max_of(space.distance(p), nearest);
   return {(p.x - space.apex.x) * h, (p.y - space.apex.y) * h, h, depth * h};
@@ -64,12 +64,22 @@ WarpInput::Point light_point(const PlanContext& c, const LightSpace& space, cons
 
 void add_vertices(const PlanContext& c, const MapRequest& request, const Polytope& body, double nearest,
                   LightBody& out) noexcept {
-  const double least = max_of(c.camera.near_depth, c.options.split.pseudo_near);
+  // Receivers in the room for motion are served from the slice's begin on.
+  const double begin = request.room > 0.0 ? request.begin : 0.0;
+  const double least = max_of(max_of(c.camera.near_depth, c.options.split.pseudo_near), begin);
   for (const Polytope::Vertex& v : body.vertices()) {
-    if (out.count < kMaxVertices)
+    if (out.count < kMaxBodyPoints)
       out.point[static_cast<std::size_t>(out.count++)] =
-          light_point(c, request.space, v.position, least, nearest);
+          light_point(c, request.space, {v.position, glm::dot(c.axes.forward, v.position)}, least, nearest);
   }
+}
+
+/// The points that stand for the request's body: those of several views, or its vertices.
+void add_body(const PlanContext& c, const MapRequest& request, double nearest, LightBody& out) noexcept {
+  if (request.viewed.empty()) return add_vertices(c, request, request.body, nearest, out);
+  const double least = max_of(c.camera.near_depth, c.options.split.pseudo_near);
+  for (const ViewedPoint& point : request.viewed)
+    out.point[static_cast<std::size_t>(out.count++)] = light_point(c, request.space, point, least, nearest);
 }
 
 /// Rounding may take vertices near a local light out of its frustum: then the whole frustum is the body.
@@ -85,7 +95,7 @@ void hold_to_frustum(const MapRequest& request, LightBody& body) noexcept {
     depth = max_of(depth, p.depth);
   }
   if (usable) return;
-  body.count = body.count < kMaxVertices - 4 ? body.count : kMaxVertices - 4;
+  body.count = body.count < kMaxBodyPoints - 4 ? body.count : kMaxBodyPoints - 4;
   for (int i = 0; i < 4; ++i) {
     body.point[static_cast<std::size_t>(body.count++)] = {(i & 1) ? request.slope : -request.slope,
                                                           (i & 2) ? request.slope : -request.slope,
@@ -99,7 +109,7 @@ LightBody in_light_space(const PlanContext& c, const MapRequest& request) noexce
   LightBody body;
   const LightSpace& space = request.space;
   if (!space.perspective) {
-    add_vertices(c, request, request.body, 0.0, body);
+    add_body(c, request, 0.0, body);
     return body;
   }
   body.nearest = std::numeric_limits<double>::infinity();
@@ -110,7 +120,7 @@ LightBody in_light_space(const PlanContext& c, const MapRequest& request) noexce
     body.nearest = min_of(body.nearest, distance);
   }
   body.nearest = max_of(body.nearest, kLeastNearShare * body.farthest);
-  add_vertices(c, request, request.body, body.nearest, body);
+  add_body(c, request, body.nearest, body);
   hold_to_frustum(request, body);
   return body;
 }
@@ -166,9 +176,10 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, cons
   in.light = space;
   in.centre = request.centre;
   in.unwarped = request.unwarped;
-  in.scale_near = space.perspective
-                      ? light_point(c, space, first->position, in.depth_begin, points.nearest).depth
-                      : in.depth_begin;
+  in.scale_near =
+      space.perspective
+          ? light_point(c, space, {first->position, nearest}, in.depth_begin, points.nearest).depth
+          : in.depth_begin;
   in.depth_per_y = space.perspective ? in.view.forward.y : in.sin_gamma;
 }
 

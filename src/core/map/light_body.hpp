@@ -11,7 +11,7 @@ namespace gnomon {
 
 /// The body's vertices in light space, with the extent of a unit of image slope there.
 struct LightBody {
-  std::array<WarpInput::Point, kMaxVertices> point;
+  std::array<WarpInput::Point, kMaxBodyPoints> point;
   int count = 0;
   double nearest = 1.0, farthest = 1.0;  // distances along a local light's axis
   [[nodiscard]] std::span<const WarpInput::Point> points() const noexcept {

@@ -10,6 +10,7 @@
 
 #include "geometry/vector.hpp"
 #include "map/border.hpp"
+#include "map/shared_views.hpp"
 
 namespace gnomon {
 namespace {
@@ -23,20 +24,29 @@ int in_steps(double side, int least, int full) noexcept {
   return static_cast<int>(max_of(steps, least < full ? least : full));
 }
 
+/// Squared length of the ray to the image's farthest corner, per unit of depth.
+double longest_ray(const Camera& k) noexcept {
+  const double x = max_of(std::abs(k.left), std::abs(k.right)),
+               y = max_of(std::abs(k.bottom), std::abs(k.top));
+  return 1.0 + x * x + y * y;
+}
+
 }  // namespace
 
 double pixel_obliquity(const PlanContext& c, const Polytope& body) noexcept {
   if (c.camera.orthographic) return 1.0;
+  if (!c.views.empty()) {
+    double longest = 1.0;
+    for (const SharedView& view : c.views) longest = max_of(longest, longest_ray(view.camera));
+    return std::sqrt(longest);
+  }
   double most = 1.0;
   for (const Polytope::Vertex& v : body.vertices()) {
     const double depth = max_of(glm::dot(c.axes.forward, v.position), c.camera.near_depth);
     most = max_of(most, glm::dot(v.position, v.position) / (depth * depth));
   }
   // Rounding beside the eye may tilt a ray beyond the image's corners.
-  const Camera& k = c.camera;
-  const double x = max_of(std::abs(k.left), std::abs(k.right)),
-               y = max_of(std::abs(k.bottom), std::abs(k.top));
-  return std::sqrt(min_of(most, 1.0 + x * x + y * y));
+  return std::sqrt(min_of(most, longest_ray(c.camera)));
 }
 
 double pixels_per_slope(const Camera& camera) noexcept {

@@ -10,6 +10,8 @@
 #include "map/border.hpp"
 #include "map/depths.hpp"
 #include "map/record.hpp"
+#include "map/served.hpp"
+#include "map/shared_views.hpp"
 #include "map/size.hpp"
 
 namespace gnomon {
@@ -23,13 +25,47 @@ struct Grid {
   glm::dvec2 centre;  // absolute
 };
 
+/// The slice of every camera that the map serves, relative to the plan's origin.
+struct Slices {
+  std::array<Polytope, kMaxViews> slice;
+  std::size_t count = 0;
+  [[nodiscard]] std::span<const Polytope> all() const noexcept { return {slice.data(), count}; }
+};
+Slices slices_of(const PlanContext& c, const MapRequest& request) noexcept {
+  Slices slices;
+  if (c.views.empty())
+    slices.slice[slices.count++] = frustum_slice(c.camera, c.axes, request.begin, request.end);
+  for (const SharedView& view : c.views)
+    slices.slice[slices.count++] = view_slice(view, request.begin, request.end);
+  return slices;
+}
+
+/// The longest distance between two corners of any slices. For one view from its image's edges, so that it is
+/// the same bits every frame.
+double longest_distance(const PlanContext& c, const MapRequest& request, const Slices& slices) noexcept {
+  if (c.views.empty()) {
+    return longest_chord(c.camera.left, c.camera.right, c.camera.bottom, c.camera.top, c.camera.orthographic,
+                         request.begin, request.end);
+  }
+  double longest = 0.0;
+  for (const Polytope& a : slices.all()) {
+    for (const Polytope& b : slices.all()) {
+      for (const Polytope::Vertex& v : a.vertices()) {
+        for (const Polytope::Vertex& w : b.vertices())
+          longest = max_of(longest, glm::length(v.position - w.position));
+      }
+    }
+  }
+  return longest;
+}
+
 Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) noexcept {
   const LightFrame& frame = request.space.frame;
   Grid grid{};
   // Rounded up so that its own rounding can never change the grid; one texel is the room that snapping moves
   // within.
-  const double chord = longest_chord(c.camera.left, c.camera.right, c.camera.bottom, c.camera.top,
-                                     c.camera.orthographic, request.begin, request.end);
+  const Slices slices = slices_of(c, request);
+  const double chord = longest_distance(c, request, slices) + 2.0 * request.room;
   const double unit = elementary::power_of_two_below(chord) / c.options.resolution.stable_size_steps;
   grid.side = std::ceil(chord / unit) * unit;
   map.filter_margin_texels = border_texels(c.options, map.width - 1, 1.0 / grid.side);
@@ -42,9 +78,10 @@ Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) no
   grid.side = grid.texel * inside;
   grid.half = 0.5 * grid.texel * map.width;
   // Centre of the whole slice, in absolute light coordinates, to the nearest texel.
-  const Polytope slice = frustum_slice(c.camera, c.axes, request.begin, request.end);
   Box box;
-  for (const Polytope::Vertex& v : slice.vertices()) box.extend(frame.turned(v.position));
+  for (const Polytope& slice : slices.all()) {
+    for (const Polytope::Vertex& v : slice.vertices()) box.extend(frame.turned(v.position));
+  }
   map.snap_key.texel = grid.texel;
   map.snap_key.x = snap_index(grid.eye.x + 0.5 * (box.min.x + box.max.x), grid.texel);
   map.snap_key.y = snap_index(grid.eye.y + 0.5 * (box.min.y + box.max.y), grid.texel);
@@ -97,9 +134,10 @@ MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
 
   const double border = static_cast<double>(map.filter_margin_texels) / map.width;
   const glm::dvec4 light(request.space.frame.z, 0.0);
+  const ServedBody served(c, request, body, plane);
   SweptBody swept;
-  sweep(request.body, light, grid.texel * map.filter_margin_texels, c.camera.position, swept);
-  const HeightRange heights = height_range(c, request, {body, plane, swept, border});
+  sweep(served.request().body, light, grid.texel * map.filter_margin_texels, c.camera.position, swept);
+  const HeightRange heights = height_range(c, served.request(), {served.points(), plane, swept, border});
   if (!heights.has_casters && !request.without_casters) return result;
   result.drawn = true;
   const LightDepths still_depths = snapped_depths(grid, heights, map.snap_key);

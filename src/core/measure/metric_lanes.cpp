@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 
 #include "geometry/wide.hpp"
@@ -44,6 +45,13 @@ GNOMON_WIDE void find_light_rays(const MetricFrame& f, MetricBlock& b, std::size
   const double w = f.light_world.w;
   for (std::size_t i = 0; i < count; ++i)
     b.light_ray.set(i, direction(b.point[i] * w - light, {0.0, -1.0, 0.0}));
+}
+
+/// All points of a light ray have one place in the map: the ray lies across both gradients.
+GNOMON_WIDE void find_light_rays_of_matrix(const MetricFrame& f, MetricBlock& b, std::size_t count) noexcept {
+  const double sense = f.light_sense;
+  for (std::size_t i = 0; i < count; ++i)
+    b.light_ray.set(i, direction(glm::cross(b.texel_x[i], b.texel_y[i]) * sense, {0.0, -1.0, 0.0}));
 }
 
 GNOMON_WIDE void find_places(const MetricFrame& f, MetricBlock& b, std::size_t count) noexcept {
@@ -140,6 +148,23 @@ GNOMON_WIDE void find_surface(const MetricFrame& f, MetricBlock& b, std::size_t 
   }
 }
 
+/// Whether the matrix sends the light to no place of its image: x, y and w of a parallel light's direction,
+/// or of a local light's position, are zero but for rounding.
+bool is_light_of(const glm::dmat4& clip_from_world, const glm::dvec4& light) noexcept {
+  // Far above the rounding of a matrix, far below an angle that changes a cosine.
+  constexpr double kRounding = 1e-7;
+  const double length = glm::length(glm::dvec3(light));
+  double across = 0.0;  // of what the matrix makes of a step, which rounding of w is to be compared with
+  for (const int row : {0, 1, 3}) {
+    const glm::dvec4 r{clip_from_world[0][row], clip_from_world[1][row], clip_from_world[2][row],
+                       clip_from_world[3][row]};
+    across = max_of(across, glm::length(glm::dvec3(r)));
+    if (!(std::abs(glm::dot(r, light)) <= kRounding * (across * length + std::abs(r.w * light.w))))
+      return false;
+  }
+  return length > 0.0 || light.w != 0.0;
+}
+
 }  // namespace
 
 MetricFrame::MetricFrame(const ShadowMap& map, const Camera& camera, const CameraAxes& axes) noexcept
@@ -150,6 +175,12 @@ MetricFrame::MetricFrame(const ShadowMap& map, const Camera& camera, const Camer
       pixel_x(axes.right * ((camera.right - camera.left) / camera.width)),
       pixel_y(axes.up * ((camera.top - camera.bottom) / camera.height)),
       light_world(map.light_world),
+      light_from_matrix(!is_light_of(map.clip_from_world, map.light_world)),
+      light_sense(glm::determinant(map.clip_from_world) *
+                              glm::determinant(map.texels().place(glm::dvec2(0.0)).texel_from_ndc) <
+                          0.0
+                      ? -1.0
+                      : 1.0),
       orthographic(camera.orthographic) {}
 
 void judge_perspective(const MetricFrame& f, MetricBlock& b, std::size_t count) noexcept {
@@ -159,14 +190,16 @@ void judge_perspective(const MetricFrame& f, MetricBlock& b, std::size_t count) 
   } else {
     find_eye_rays(f, b, count);
   }
-  if (f.light_world.w == 0.0) {
+  find_places(f, b, count);
+  find_shape(f, b, count);
+  find_texels(f, b, count);
+  if (f.light_from_matrix) {
+    find_light_rays_of_matrix(f, b, count);
+  } else if (f.light_world.w == 0.0) {
     for (std::size_t i = 0; i < count; ++i) b.light_ray.set(i, -glm::dvec3(f.light_world));
   } else {
     find_light_rays(f, b, count);
   }
-  find_places(f, b, count);
-  find_shape(f, b, count);
-  find_texels(f, b, count);
   find_perspective(f, b, count);
   // Where both rays oppose each other any mirror across them serves, and it takes branches to find one.
   for (std::size_t i = 0; i < count; ++i) {

@@ -34,6 +34,8 @@ struct MetricFrame {
   glm::dvec3 eye, forward;
   glm::dvec3 pixel_x, pixel_y;  ///< d(world)/d(pixel) per unit of depth; orthographic: as it stands
   glm::dvec4 light_world;
+  bool light_from_matrix;  ///< light_world is not the light of the matrix
+  double light_sense;      ///< for light_from_matrix: 1 or -1, of the gradients' cross product
   bool orthographic;
 };
 

@@ -6,6 +6,10 @@
 
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "gnomon/reuse.hpp"
+#include "map/shared_views.hpp"
+#include "plan/cadence.hpp"
+#include "plan/points.hpp"
 
 namespace gnomon {
 namespace {
@@ -25,12 +29,41 @@ struct Slice {
   Polytope body;
   double begin = 0.0, end = 0.0;  // without the blend band
   double overlap = 0.0;
+  double room = 0.0;  // for motion, world units
   bool wanted = false;
+  ViewedBody viewed;  // of several cameras
 };
+
+/// The receivers between two depths, of all cameras.
+void fill_body(const PlanContext& c, const ParallelScene& scene, double begin, double end,
+               Slice& slice) noexcept {
+  if (slice.room > 0.0) {
+    slice.body = receivers_with_room(c, begin, end, slice.room);
+    return;
+  }
+  if (c.views.empty()) {
+    receivers_between(c, scene, begin, end, slice.body);
+    return;
+  }
+  slice.viewed = viewed_between(c, begin, end);
+  slice.body = slice.viewed.hull;
+}
+
+/// All that the cameras' frusta hold between two depths, where no receiver is.
+void fill_with_frusta(const PlanContext& c, double begin, double end, Slice& slice) noexcept {
+  if (c.views.empty()) {
+    slice.body = frustum_slice(c.camera, c.axes, begin, end);
+    return;
+  }
+  std::array<Polytope, kMaxViews> frusta;
+  for (std::size_t i = 0; i < c.views.size(); ++i) frusta[i] = view_slice(c.views[i], begin, end);
+  slice.body = hull_of({frusta.data(), c.views.size()});
+}
 
 /// Depths in front of `begin` that a cascade shows besides its own: none where the one before it ends sooner.
 double overlap_before(const PlanContext& c, const ShadowPlan& plan, double begin) noexcept {
-  if (plan.map_count == 0) return 0.0;
+  // A point takes the finest map, not two.
+  if (plan.map_count == 0 || c.options.split.selection == MapSelection::finest) return 0.0;
   const ShadowMap& before = plan.map[static_cast<std::size_t>(plan.map_count - 1)];
   return before.depth_end == begin ? c.options.split.overlap * (begin - before.depth_begin) : 0.0;
 }
@@ -41,7 +74,7 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   const DepthRange seen = c.seen == nullptr ? DepthRange{from, to} : seen_between(*c.seen, from, to);
   // A single depth is a slice only where it is all there is.
   const bool covered = from == to && plan.map_count > 0;
-  if (!seen.empty() && !covered) receivers_between(c, scene, seen.begin, seen.end, slice.body);
+  if (!seen.empty() && !covered) fill_body(c, scene, seen.begin, seen.end, slice);
   const bool holds_nothing = slice.body.empty();
   slice.wanted = !holds_nothing || (!c.options.prune.has(PruneRule::empty_cascades) && from < to);
   if (!slice.wanted) return;
@@ -49,15 +82,41 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   slice.end = holds_nothing ? to : seen.end;
   slice.overlap = overlap_before(c, plan, slice.begin);
   if (holds_nothing) {
-    slice.body = frustum_slice(c.camera, c.axes, slice.begin - slice.overlap, slice.end);
+    fill_with_frusta(c, slice.begin - slice.overlap, slice.end, slice);
   } else if (slice.overlap > 0.0) {
-    receivers_between(c, scene, slice.begin - slice.overlap, slice.end, slice.body);
+    fill_body(c, scene, slice.begin - slice.overlap, slice.end, slice);
   }
+  if (!c.seen_points.empty())
+    clip_to_points(c, scene.space.frame, slice.begin - slice.overlap, slice.end, slice.body);
+}
+
+/// Adds a map of an earlier frame, for this frame's eye.
+void keep(const PlanContext& c, const KeptMap& kept, PlanHistory& history, ShadowPlan& plan) noexcept {
+  if (!kept.drawn) {
+    omit(plan, {OmissionKind::cascade_without_caster, kept.map.cascade, kept.map.depth_begin,
+                kept.map.depth_end, texels_asked(c.options)});
+    return;
+  }
+  const ShadowMap& map = plan.map[static_cast<std::size_t>(plan.map_count++)] =
+      rebased(kept.map, c.camera.position);
+  history.map[static_cast<std::size_t>(map.cascade)] = {history.frame, kept.gl_from_world, map.width,
+                                                        map.height, map.filter_margin_texels};
+}
+
+/// What later frames may keep.
+KeptMap kept_from(const PlanContext& c, const MapResult& result, std::int64_t frame) noexcept {
+  return {frame, result.drawn, result.map, result.gl_from_world, c.camera};
 }
 
 void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade, DepthRange between,
                   MapSizes::Size size, PlanHistory* history, ShadowPlan& plan) noexcept {
+  const bool keeps = c.keeps && cascade > 0;
+  if (keeps) {
+    const KeptMap* const kept = kept_map(c, *history, {cascade, between.begin, between.end});
+    if (kept != nullptr) return keep(c, *kept, *history, plan);
+  }
   Slice slice;
+  if (keeps) slice.room = room_for_motion(c, between.end);
   slice_between(c, scene, plan, between.begin, between.end, slice);
   if (!slice.wanted) {
     omit(plan, {OmissionKind::cascade_without_receiver, cascade, between.begin, between.end,
@@ -73,7 +132,15 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
   request.slot.overlap = slice.overlap;
   request.without_casters = !c.options.prune.has(PruneRule::casterless_cascades);
   request.last = last_map(history, cascade);
-  merge(c.stable ? stable_map(c, request) : focused_map(c, request),
+  Polytope moving;
+  if (slice.room > 0.0 && plan.select_finest)
+    moving = receivers_with_room(c, c.camera.near_depth, c.camera.far_depth, slice.room);
+  if (plan.select_finest) request.all_receivers = moving.empty() ? &scene.body : &moving;
+  request.viewed = slice.viewed.points();
+  request.room = slice.room;
+  const MapResult result = c.stable ? stable_map(c, request) : focused_map(c, request);
+  if (keeps) history->kept[static_cast<std::size_t>(cascade)] = kept_from(c, result, history->frame);
+  merge(result,
         {OmissionKind::cascade_without_caster, cascade, slice.begin, slice.end, texels_asked(c.options)},
         history, plan);
 }

@@ -15,6 +15,7 @@ namespace {
 constexpr double kNearestRatio = 1e-12;
 
 constexpr int kCubeFaces = 6;
+constexpr double kPi = 3.141592653589793;
 
 bool is_direction(const glm::dvec3& v) noexcept {
   return usable(v) && largest_component(v) > 0.0;
@@ -51,7 +52,7 @@ struct InvalidLight {
   std::string_view operator()(const SpotLight& l) const noexcept {
     if (!usable(l.position)) return "light.position";
     if (!is_direction(l.direction)) return "light.direction";
-    if (!(l.outer_radians > 0.0 && l.outer_radians < 3.141592653589793)) return "light.outer_radians";
+    if (!(l.outer_radians > 0.0 && l.outer_radians < kPi)) return "light.outer_radians";
     return usable(l.range) && l.range > 0.0 ? std::string_view{} : "light.range";
   }
   std::string_view operator()(const PointLight& l) const noexcept {
@@ -99,6 +100,11 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
   if (!(o.warp.focus_weight >= 1.0 && o.warp.focus_weight <= 1e6)) return "options.warp.focus_weight";
   if (o.resolution.stable_size_steps < 1 || o.resolution.stable_size_steps > 1024)
     return "options.resolution.stable_size_steps";
+  const CadenceOptions& cadence = o.cadence;
+  if (cadence.frames < 1 || cadence.frames > kMostCadenceFrames) return "options.cadence.frames";
+  if (!(cadence.largest_step >= 0.0 && cadence.largest_step <= kLargest))
+    return "options.cadence.largest_step";
+  if (!(cadence.largest_turn >= 0.0 && cadence.largest_turn <= kPi)) return "options.cadence.largest_turn";
   const BiasOptions& b = o.bias;
   for (const double v : {b.constant_texels, b.slope_texels, b.normal_offset_texels, b.max_slope}) {
     if (!(v >= 0.0 && v <= kLargest)) return "options.bias";
@@ -109,7 +115,8 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
 }  // namespace
 
 std::string_view first_invalid_field(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                                     const PlanOptions& options, const VisibleDepths* visible) noexcept {
+                                     const PlanOptions& options, const VisibleDepths* visible,
+                                     std::span<const glm::dvec3> points) noexcept {
   if (const auto field = invalid_camera(camera); !field.empty()) return field;
   if (light.valueless_by_exception()) return "light";
   const auto light_field =
@@ -121,6 +128,9 @@ std::string_view first_invalid_field(const Camera& camera, const Light& light, c
   if (any_unusable(bounds.receivers)) return "bounds.receivers";
   if (const auto field = invalid_options(options); !field.empty()) return field;
   if (visible != nullptr && !usable(*visible)) return "visible";
+  for (const glm::dvec3& point : points) {
+    if (!usable(point)) return "visible_points";
+  }
   return usable_budget(options, light) ? std::string_view{} : "options.resolution.texel_budget";
 }
 

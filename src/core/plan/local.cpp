@@ -11,6 +11,7 @@
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "map/border.hpp"
+#include "map/shared_views.hpp"
 #include "plan/budget.hpp"
 #include "plan/merge.hpp"
 
@@ -192,6 +193,13 @@ MapRequest request_for(const LocalScene& scene, const LocalFrustum& frustum, con
   return request;
 }
 
+/// What of the body each of several cameras sees.
+ViewedBody viewed_body(const PlanContext& c, const Polytope& body) noexcept {
+  ViewedBody viewed;
+  if (!c.views.empty()) viewed = viewed_within(c, body);
+  return viewed;
+}
+
 void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double outer,
                ShadowPlan& plan) noexcept {
   const LocalFrustum frustum{scene.apex, fixed_frame(direction), max_of(elementary::tan(outer), kNarrowest)};
@@ -207,7 +215,9 @@ void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double oute
     plan.status = PlanStatus::nothing_visible;
     return;
   }
-  const MapRequest request = request_for(scene, frustum, body, 0, false);
+  MapRequest request = request_for(scene, frustum, body, 0, false);
+  const ViewedBody viewed = viewed_body(scene.c, body);
+  request.viewed = viewed.points();
   const MapResult result = focused_map(scene.c, request);
   if (result.drawn) merge(result, {}, scene.history, plan);
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
@@ -237,7 +247,10 @@ void plan_cube(const LocalScene& scene, const LightFrame& base, const Cone* cone
       continue;
     }
     any_receiver = true;
-    merge(focused_map(scene.c, request_for(scene, frustum, body, face, true)),
+    MapRequest request = request_for(scene, frustum, body, face, true);
+    const ViewedBody viewed = viewed_body(scene.c, body);
+    request.viewed = viewed.points();
+    merge(focused_map(scene.c, request),
           {OmissionKind::face_without_caster, face, 0.0, 0.0, texels_asked(scene.c.options)}, scene.history,
           plan);
   }
@@ -253,7 +266,9 @@ void report_ignored(const PlanContext& c, bool has_visible_depths, ShadowPlan& p
   const bool splits = o.split.scheme != SplitScheme::automatic && o.split.scheme != SplitScheme::practical;
   if (splits) omit(plan, IgnoredOption::split_scheme);
   if (o.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
+  if (o.split.selection == MapSelection::finest) omit(plan, IgnoredOption::selection);
   if (has_visible_depths) omit(plan, IgnoredOption::visible_depths);
+  if (!c.seen_points.empty()) omit(plan, IgnoredOption::visible_points);
 }
 
 /// Replaces the plan's maps.
@@ -286,7 +301,7 @@ void plan_local(const PlanContext& c, const Light& light, PlanHistory* history, 
                    options.warp.warp != nullptr ? *options.warp.warp : warps::optimal,
                    (spot != nullptr ? spot->position : point->position) - camera.position,
                    spot != nullptr ? spot->range : point->range,
-                   frustum_slice(camera, c.axes, camera.near_depth, camera.far_depth),
+                   view_body(c),
                    equal_sizes(options.resolution.max_size),
                    history};
   plan.select_by_map = true;

@@ -47,7 +47,10 @@ void describe_ignored(const Omission& o, OmissionText& text) noexcept {
       {"option split.overlap", "only cascades along the view blend into each other"},
       {"visible depths", "a local light has no cascades to divide the view among"},
       {"option resolution.texel_budget", "maps of this partition keep their size"},
-      {"history", "parts that follow the view do not move steadily"}};
+      {"history", "parts that follow the view do not move steadily"},
+      {"option split.selection", "only cascades can be chosen among by view depth"},
+      {"option cadence", "it needs a history, a directional light, and cascades of a fixed number and size"},
+      {"visible points", "local lights, stable fits, parts and kept maps do not follow them"}};
   const auto at = static_cast<std::size_t>(o.a);
   if (at >= std::size(kEntries)) return;
   std::snprintf(text.what.data(), text.what.size(), "%s", kEntries[at].what);
@@ -112,6 +115,10 @@ OmissionText describe(const Omission& o) noexcept {
     case OmissionKind::depth_near_light:
       what("depths near the light, map %d", o.map);
       why("%.0f casters reach nearer than %g to the light; what is nearer casts no shadow", o.b, o.a);
+      break;
+    case OmissionKind::view_without_receiver:
+      what("camera %.0f", o.a);
+      why("no receiver in its view");
       break;
     case OmissionKind::option_ignored:
       describe_ignored(o, text);

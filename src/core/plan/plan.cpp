@@ -7,7 +7,9 @@
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "plan/cadence.hpp"
 #include "plan/cascades.hpp"
+#include "plan/frame.hpp"
 #include "plan/input.hpp"
 #include "plan/local.hpp"
 #include "plan/parts.hpp"
@@ -19,42 +21,59 @@ namespace {
 void report_ignored_by_parts(const PlanContext& c, const PlanHistory* history, ShadowPlan& plan) noexcept {
   const ResolutionOptions& r = c.options.resolution;
   if (r.texel_budget > 0) omit(plan, IgnoredOption::texel_budget);
+  if (c.options.split.selection == MapSelection::finest) omit(plan, IgnoredOption::selection);
   if (c.options.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
   if (history != nullptr) omit(plan, IgnoredOption::history);
+}
+
+/// What a stable fit does without, and the status.
+void finish_parallel(const PlanContext& c, ShadowPlan& plan) noexcept {
+  const PlanOptions& options = c.options;
+  if (c.stable && options.split.partition != Partition::view_depth)
+    omit(plan, {OmissionKind::partition_in_stable_fit, -1, 0.0, 0.0, 0});
+  if (c.stable && options.warp.warp != nullptr && options.warp.warp != &warps::none)
+    omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
+  plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
 
 void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleDepths* visible,
                    PlanHistory* history, ShadowPlan& plan) noexcept {
   const PlanOptions& options = c.options;
   plan.light_direction = safe_normalize(light.direction, {0.0, -1.0, 0.0});
-  Polytope body = frustum_slice(c.camera, c.axes, c.camera.near_depth, c.camera.far_depth);
+  Polytope body = view_body(c);
   clip(body, visible_bounds(body, c.bounds.receivers, c.camera.position));
   if (body.empty()) {
     plan.status = PlanStatus::nothing_visible;
     return;
   }
   ParallelScene scene{body,
-                      depths_of(body, c.axes.forward),
+                      c.views.empty() ? depths_of(body, c.axes.forward) : depths_seen(c.views),
                       {},
                       options.warp.warp != nullptr ? *options.warp.warp : warps::optimal};
   scene.space.frame =
       c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
   c.seen = usable_depths(c, scene.depths, visible);
   const bool parts = options.split.partition != Partition::view_depth;
+  const bool follows_points = !c.stable && !parts && !c.keeps && options.fit != Fit::warped_stable;
+  const bool ignores_points = !c.seen_points.empty() && !follows_points;
+  if (ignores_points) c.seen_points = {};
   if (parts && !c.stable) {
     // Parts follow the view in no steady way.
     c.remembers = false;
     plan_parts(c, scene, plan);
     report_ignored_by_parts(c, history, plan);
-  } else if (options.resolution.max_error > 0.0 || options.resolution.texel_budget > 0) {
+    if (ignores_points) omit(plan, IgnoredOption::visible_points);
+    return finish_parallel(c, plan);
+  }
+  plan.select_by_map = plan.select_finest = options.split.selection == MapSelection::finest;
+  if (options.resolution.max_error > 0.0 || options.resolution.texel_budget > 0) {
     plan_within(c, scene, history, plan);
   } else {
     plan_cascades(c, scene, options.cascades, equal_sizes(options.resolution.max_size), history, plan);
   }
-  if (c.stable && parts) omit(plan, {OmissionKind::partition_in_stable_fit, -1, 0.0, 0.0, 0});
-  if (c.stable && options.warp.warp != nullptr && options.warp.warp != &warps::none)
-    omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
-  plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
+  if (ignores_points) omit(plan, IgnoredOption::visible_points);
+  if (plan.select_finest && options.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
+  finish_parallel(c, plan);
 }
 
 glm::dvec4 light_of(const Light& light) noexcept {
@@ -65,24 +84,40 @@ glm::dvec4 light_of(const Light& light) noexcept {
   return point != nullptr ? glm::dvec4(point->position, 1.0) : glm::dvec4(0.0);
 }
 
-/// Fills in the plan of one frame; `history` may be nullptr.
-void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                const PlanOptions& options, PlanHistory* history, const VisibleDepths* visible,
-                ShadowPlan& plan) noexcept {
-  plan.invalid_field = first_invalid_field(camera, light, bounds, options, visible);
-  if (!plan.invalid_field.empty()) return;
-  if (std::isinf(camera.far_depth)) {
-    plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible, plan);
-    return;
-  }
+/// What the caller knows to be visible; nullptr and no points: nothing.
+struct Visible {
+  const VisibleDepths* depths;
+  std::span<const glm::dvec3> points_world;
+};
+
+/// The context that input and options give, and the plan's fields that need no map.
+PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const PlanOptions& options,
+                       bool remembers, ShadowPlan& plan) noexcept {
   plan.origin_world = camera.position;
   plan.clip_space = options.clip_space;
   plan.bias = options.bias;
   PlanContext context{camera, bounds, options, camera_axes(camera)};
   context.stable = options.fit == Fit::stable;
-  context.error_bound = error_bound(options, history != nullptr);
-  context.remembers = history != nullptr;
+  context.error_bound = error_bound(options, remembers);
+  context.remembers = remembers;
   plan.sizes_vary = context.error_bound > 0.0 || options.resolution.texel_budget > 0;
+  return context;
+}
+
+/// Fills in the plan of one frame; `history` may be nullptr.
+void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                const PlanOptions& options, PlanHistory* history, const Visible& visible,
+                ShadowPlan& plan) noexcept {
+  plan.invalid_field =
+      first_invalid_field(camera, light, bounds, options, visible.depths, visible.points_world);
+  if (!plan.invalid_field.empty()) return;
+  if (std::isinf(camera.far_depth)) {
+    plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible, plan);
+    return;
+  }
+  PlanContext context = begin_plan(camera, bounds, options, history != nullptr, plan);
+  context.keeps = keeps_cascades(light, options, history != nullptr);
+  context.seen_points = visible.points_world;
   if (history != nullptr) {
     context.last_eye = history->eye_world;
     context.last_forward = history->forward;
@@ -94,28 +129,48 @@ void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bou
     }
   }
   if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
-    plan_parallel(context, *sun, visible, history, plan);
+    plan_parallel(context, *sun, visible.depths, history, plan);
   } else {
-    context.seen = visible;
+    context.seen = visible.depths;
     plan_local(context, light, history, plan);
   }
+  if (options.cadence.frames > 1 && !context.keeps) omit(plan, IgnoredOption::cadence);
 }
 
 }  // namespace
 
-ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                     const PlanOptions& options, const VisibleDepths* visible) noexcept {
+ShadowPlan plan_shared(std::span<const SharedView> views, const Camera& mean, const Light& light,
+                       const SceneBounds& bounds, const PlanOptions& options) noexcept {
   ShadowPlan plan;
-  plan_frame(camera, light, bounds, options, nullptr, visible, plan);
+  PlanContext context = begin_plan(mean, bounds, options, false, plan);
+  context.views = views;
+  if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
+    plan_parallel(context, *sun, nullptr, nullptr, plan);
+  } else {
+    plan_local(context, light, nullptr, plan);
+  }
   return plan;
 }
 
 ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                     const PlanOptions& options, PlanHistory& history,
-                     const VisibleDepths* visible) noexcept {
-  history.event_count = 0;
+                     const PlanOptions& options, const VisibleDepths* visible,
+                     std::span<const glm::dvec3> visible_points_world) noexcept {
   ShadowPlan plan;
-  plan_frame(camera, light, bounds, options, &history, visible, plan);
+  plan_frame(camera, light, bounds, options, nullptr, {visible, visible_points_world}, plan);
+  return plan;
+}
+
+ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                     const PlanOptions& options, PlanHistory& history, const VisibleDepths* visible,
+                     std::span<const glm::dvec3> visible_points_world) noexcept {
+  history.event_count = 0;
+  const Visible seen{visible, visible_points_world};
+  ShadowPlan plan;
+  if (keeps_cascades(light, options, true)) {
+    plan_frame(camera, light, bounds, with_fixed_splits(options), &history, seen, plan);
+  } else {
+    plan_frame(camera, light, bounds, options, &history, seen, plan);
+  }
   if (plan.status == PlanStatus::invalid_input) return plan;
   history.eye_world = camera.position;
   history.forward = camera_axes(camera).forward;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "geometry/jacobian.hpp"
 #include "geometry/vector.hpp"
 #include "gnomon/plan.hpp"
 
@@ -26,7 +27,29 @@ bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& p
          texel.y <= map.height - border;
 }
 
+namespace {
+
+/// Of the maps that hold the point, the one with the most texels per area across the light.
+int finest_map(const ShadowPlan& plan, const glm::dvec3& point) noexcept {
+  int finest = -1;
+  double most = 0.0;
+  for (int i = 0; i < plan.map_count; ++i) {
+    const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
+    if (!map_holds(plan, map, point)) continue;
+    const TexelJacobian texel = texel_jacobian(map.clip_from_world, map.texels(), point);
+    // Both gradients lie across the light's ray, so that this has its direction.
+    const double density = glm::length(glm::cross(texel.x, texel.y));
+    if (finest >= 0 && !(density > most)) continue;
+    finest = i;
+    most = density;
+  }
+  return finest;
+}
+
+}  // namespace
+
 int map_serving(const ShadowPlan& plan, const glm::dvec3& point, double depth) noexcept {
+  if (plan.select_finest) return finest_map(plan, point);
   if (plan.select_by_map) {
     for (int i = 0; i < plan.map_count; ++i) {
       if (map_holds(plan, plan.map[static_cast<std::size_t>(i)], point)) return i;

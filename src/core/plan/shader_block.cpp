@@ -79,7 +79,9 @@ ShaderBlock shader_block(const ShadowPlan& plan, const ShaderLayers& layers) noe
   }
   block.bias = glm::vec4(glm::dvec4(plan.bias.constant_texels, plan.bias.slope_texels,
                                     plan.bias.normal_offset_texels, plan.bias.max_slope));
-  block.layer = glm::vec4(glm::dvec4(width, height, plan.map_count, plan.select_by_map ? 1.0 : 0.0));
+  // As map_serving of shaders/library/select_map.glsl takes it.
+  const double selection = plan.select_finest ? 2.0 : plan.select_by_map ? 1.0 : 0.0;
+  block.layer = glm::vec4(glm::dvec4(width, height, plan.map_count, selection));
   const glm::dmat4 lookup_from_map = lookup_from_clip(plan.clip_space);
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
     block.maps[i] = shader_map(plan.map[i], lookup_from_map, plan.origin_world, layers.blur_texels);

@@ -15,6 +15,8 @@ namespace {
 constexpr std::array<std::string_view, 7> kSchemeNames = {
     "uniform", "logarithmic", "practical", "pseudo_near", "optimal", "auto", "given"};
 
+constexpr std::array<std::string_view, 2> kSelectionNames = {"view_depth", "finest"};
+
 double logarithmic_edge(double n, double f, double t) noexcept {
   return n * elementary::pow(f / n, t);
 }
@@ -29,6 +31,19 @@ bool split_scheme_from_name(std::string_view name, SplitScheme& scheme) noexcept
   for (std::size_t i = 0; i < kSchemeNames.size(); ++i) {
     if (kSchemeNames[i] != name) continue;
     scheme = static_cast<SplitScheme>(i);
+    return true;
+  }
+  return false;
+}
+
+std::string_view to_string(MapSelection selection) noexcept {
+  return kSelectionNames[static_cast<std::size_t>(selection)];
+}
+
+bool map_selection_from_name(std::string_view name, MapSelection& selection) noexcept {
+  for (std::size_t i = 0; i < kSelectionNames.size(); ++i) {
+    if (kSelectionNames[i] != name) continue;
+    selection = static_cast<MapSelection>(i);
     return true;
   }
   return false;

@@ -133,7 +133,7 @@ void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane
     const glm::dvec2 a = a_plane / p.depth, b = b_plane / p.depth;
     a_max = max_of(a_max, glm::dot(a, a));
     b_max = max_of(b_max, glm::dot(b, b));
-    if (needed.count < kMaxVertices)
+    if (needed.count < kMaxBodyPoints)
       needed.vertex[static_cast<std::size_t>(needed.count++)] = {a * side.x, b * side.y};
   }
   needed.sides = {std::sqrt(a_max) * side.x, std::sqrt(b_max) * side.y};

@@ -10,6 +10,10 @@
 
 namespace gnomon {
 
+/// Points of a body as warps see it: its vertices, or eight corners of each of eight views.
+inline constexpr int kMaxBodyPoints = 64;
+static_assert(kMaxBodyPoints >= kMaxVertices);
+
 /// A warp's map of the light plane with the rectangle round the body's image, before the border that filters
 /// need.
 struct PlaneMap {
@@ -68,7 +72,7 @@ struct TexelsNeeded {
   struct Vertex {
     glm::dvec2 a, b;  ///< extents of the rectangle's sides at the vertex, as multiples of a pixel there
   };
-  std::array<Vertex, kMaxVertices> vertex;
+  std::array<Vertex, kMaxBodyPoints> vertex;
   int count = 0;
   /// Bound of the perspective part of m over the body, in any direction, for a map with so many texels inside
   /// its border. `obliquity`: as of pixel_obliquity.

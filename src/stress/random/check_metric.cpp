@@ -278,8 +278,8 @@ bool for_warps(const nlohmann::ordered_json& value, nlohmann::ordered_json& out,
   if (warp == nullptr || warp == &warps::none || !warp->drop_without_gain) return false;
   if (options.value("stable", false) || options.value("fit", "tight") != "tight") return false;
   if (options.contains("filter_radius_world")) return false;
-  for (const char* key :
-       {"target_m", "texel_budget", "partition", "focus", "focus_weight", "near_hint", "pseudo_near"})
+  for (const char* key : {"target_m", "texel_budget", "partition", "selection", "focus", "focus_weight",
+                          "near_hint", "pseudo_near"})
     options.erase(key);
   if (options.value("split", "auto") == "optimal") options["split"] = "logarithmic";
   options["prune"] = "exact";

@@ -415,6 +415,8 @@ void draw_rest(Dice& dice, Json& o) {
     if (dice.chance(0.5)) space["first_row"] = "y_plus_one";
     o["clip_space"] = space;
   }
+  static constexpr std::string_view kSelections[] = {"view_depth", "finest"};
+  if (dice.chance(0.2)) o["selection"] = dice.name(kSelections);
 }
 
 }  // namespace

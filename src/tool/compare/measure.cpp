@@ -147,6 +147,7 @@ FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry) {
   FrameTruth truth;
   truth.camera = stage.camera(frame);
   truth.before = stage.camera_before(frame);
+  stage.see(truth.camera, truth.before);
   render::Renderer& renderer = stage.renderer();
   renderer.draw(stage.plan(entry, truth.camera), truth.camera, stage.filter(entry), frame_options(false));
   truth.points = trace::surface_points(stage.tracer(), truth.camera, stage.light(), renderer.positions(),

@@ -2,7 +2,8 @@
 #include "seen_from.hpp"
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
+
+#include "gnomon/reuse.hpp"
 
 namespace gnomon::tool {
 
@@ -11,7 +12,7 @@ ShadowPlan seen_from(ShadowPlan plan, const Camera& before, const Camera& after)
   plan.origin_world = after.position;
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
     ShadowMap& map = plan.map[i];
-    map.clip_from_camera_relative = glm::mat4(glm::translate(map.clip_from_world, after.position));
+    map = rebased(map, after.position);
     map.depth_begin -= moved;
     map.depth_end -= moved;
   }

@@ -1,6 +1,10 @@
 // One scene made ready to be measured: on the GPU, for rays, and with its cameras.
 #include "stage.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <span>
+
 namespace gnomon::tool {
 
 Stage::Stage(const Sweep& sweep, const std::string& scene)
@@ -10,7 +14,41 @@ Stage::Stage(const Sweep& sweep, const std::string& scene)
 }
 
 ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const noexcept {
-  return make_plan(camera, view_.light(), view_.bounds(), entry.plan);
+  const auto view = std::find_if(views_.begin(), views_.end(), [&](const View& v) {
+    return v.camera.position == camera.position && v.camera.forward == camera.forward;
+  });
+  if (view == views_.end()) return make_plan(camera, view_.light(), view_.bounds(), entry.plan);
+  return make_plan(
+      camera, view_.light(), view_.bounds(), entry.plan, entry.visible_depths ? &view->depths : nullptr,
+      entry.visible_points ? std::span<const glm::dvec3>(view->points) : std::span<const glm::dvec3>());
+}
+
+void Stage::see(const Camera& camera, const Camera& before) {
+  views_.clear();
+  const bool asked = std::any_of(sweep_.entries.begin(), sweep_.entries.end(), [](const SweepEntry& entry) {
+    return entry.visible_depths || entry.visible_points;
+  });
+  if (!asked) return;
+  views_.push_back(seen_by(camera));
+  views_.push_back(seen_by(before));
+}
+
+Stage::View Stage::seen_by(const Camera& camera) {
+  render::FrameOptions surfaces;
+  surfaces.aliasing = surfaces.heat_map = surfaces.cascade_tint = surfaces.time_passes = false;
+  renderer_->draw(ShadowPlan{}, camera, filter(sweep_.baseline), surfaces);
+  const FloatImage positions = renderer_->positions();
+  const auto channels = static_cast<std::size_t>(positions.channels);
+  View view{camera, {}, {}};
+  // Channels x, y, z relative to the camera, and depth: 0 for the sky.
+  for (std::size_t i = 0; i + channels <= positions.values.size(); i += channels) {
+    const float* const at = positions.values.data() + i;
+    const double depth = at[channels - 1];
+    view.depths.add(depth);
+    if (depth > 0.0 && std::isfinite(depth))
+      view.points.push_back(camera.position + glm::dvec3(at[0], at[1], at[2]));
+  }
+  return view;
 }
 
 Camera Stage::camera(int frame) const noexcept {

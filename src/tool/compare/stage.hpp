@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/trace/reference.hpp"
@@ -16,7 +17,10 @@ class Stage {
   /// Throws SceneError, RenderError, TraceError.
   Stage(const Sweep& sweep, const std::string& scene);
 
+  /// With what `camera` shows, where the entry asks for it: see() must have been called for it.
   [[nodiscard]] ShadowPlan plan(const SweepEntry& entry, const Camera& camera) const noexcept;
+  /// Draws what both cameras of a frame show, for plans that are given it. Forgets earlier frames.
+  void see(const Camera& camera, const Camera& before);
   [[nodiscard]] Camera camera(int frame) const noexcept;
   [[nodiscard]] Camera camera_before(int frame) const noexcept;
   [[nodiscard]] const Light& light() const noexcept { return view_.light(); }
@@ -28,7 +32,16 @@ class Stage {
   [[nodiscard]] const Scene& scene() const noexcept { return view_.scene(); }
 
  private:
+  /// What a camera shows.
+  struct View {
+    Camera camera;
+    VisibleDepths depths;
+    std::vector<glm::dvec3> points;
+  };
+  [[nodiscard]] View seen_by(const Camera& camera);
+
   const Sweep& sweep_;
+  std::vector<View> views_;
   SceneView view_;
   std::unique_ptr<trace::Tracer> tracer_;
   std::unique_ptr<render::Renderer> renderer_;

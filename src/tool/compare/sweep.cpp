@@ -83,8 +83,18 @@ void set_warp(const std::string& text, SweepEntry& entry) {
 
 void set_split(const std::string& text, SweepEntry& entry) {
   entry.technique.split = text;
-  const bool is_partition = partition_from_name(text, entry.plan.split.partition);
-  if (!split_scheme_from_name(text, entry.plan.split.scheme) && (!is_partition || text == "view_depth"))
+  std::string name = text;
+  const auto has_suffix = [&](std::string_view suffix) {
+    const std::size_t at = name.find(suffix);
+    if (at == std::string::npos) return false;
+    name.erase(at, suffix.size());
+    return true;
+  };
+  if (has_suffix(":finest")) entry.plan.split.selection = MapSelection::finest;
+  entry.visible_depths = has_suffix(":visible_depths");
+  entry.visible_points = has_suffix(":visible_points");
+  const bool is_partition = partition_from_name(name, entry.plan.split.partition);
+  if (!split_scheme_from_name(name, entry.plan.split.scheme) && (!is_partition || name == "view_depth"))
     refuse_name("--splits", text, split_names());
 }
 
@@ -131,14 +141,20 @@ bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
   if (light != LightKind::sun)
     return t.split != first.split || t.cascades != first.cascades || t.fit != first.fit;
   const bool by_depth = entry.plan.split.partition == Partition::view_depth;
-  if (by_depth && t.cascades == 1 && t.split != first.split) return true;
+  // What is seen bounds one map, too.
+  const bool follows_view = entry.visible_depths || entry.visible_points;
+  if (by_depth && t.cascades == 1 && t.split != first.split && !follows_view) return true;
   if (!by_depth && t.cascades != first.cascades) return true;
   return t.fit == "stable" && (!by_depth || (t.warp != "none" && t.warp != first.warp));
 }
 
 std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind light) {
   std::vector<SweepEntry> entries(1);
-  const std::vector<std::string> splits = split_lists(request.splits);
+  std::vector<std::string> splits = split_lists(request.splits);
+  for (std::string& split : splits) {
+    if (request.visible_depths) split += ":visible_depths";
+    if (request.visible_points) split += ":visible_points";
+  }
   const std::vector<std::string> warps = expanded(request.warps, all_warps());
   multiply(entries, expanded(request.filters, render::all_filters()), set_filter);
   multiply(entries, split_lists(request.fits), set_fit);
@@ -201,6 +217,7 @@ std::string compare_footer() {
          "with exact rays.\n\n"
          "Warps: " +
          any_of_text(names_in(all_warps(), {"auto"})) + ".\nSplits: " + any_of_text(split_names()) +
+         ", each with :finest, :visible_depths or :visible_points behind it" +
          ".\nFilters: " + any_of_text(names_in(render::all_filters())) +
          ". gnomon filters NAME prints the options of one.\n";
 }

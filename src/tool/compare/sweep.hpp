@@ -25,6 +25,7 @@ struct CompareRequest {
   double map_memory_mib = 0.0;  ///< that a technique's maps may take; 0: what there is
   std::uint64_t max_triangles = LoadLimits{}.triangles;
   bool resume = false, json = false;
+  bool visible_depths = false, visible_points = false;  ///< plan with what a frame shows
 };
 
 /// One point of the product, with what the names stand for.
@@ -32,6 +33,7 @@ struct SweepEntry {
   report::Technique technique;
   PlanOptions plan;
   render::FilterSettings filter;
+  bool visible_depths = false, visible_points = false;  ///< of the frame, given to the plan
 };
 
 struct Sweep {
@@ -71,7 +73,8 @@ std::vector<std::string> fit_to_memory(Sweep& sweep);
 /// What the lists take, for the end of the help.
 [[nodiscard]] std::string compare_footer();
 
-/// Schemes and partitions that --splits takes.
+/// Schemes and partitions that --splits takes. Behind each may follow `:finest` (MapSelection),
+/// `:visible_depths` and `:visible_points` (what the frame shows is given to the plan).
 [[nodiscard]] std::vector<std::string> split_names();
 
 /// Elements of lists with commas; an element of the form `key=value` without a colon belongs to the one

@@ -1,0 +1,191 @@
+// Several cameras that share a plan's maps: the union of what they see, and each point with its own view
+// depth.
+#include "map/shared_views.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "geometry/vector.hpp"
+#include "geometry/visible.hpp"
+#include "map/size.hpp"
+
+namespace gnomon {
+namespace {
+
+constexpr int kCorners = 8;  // of a part of a frustum
+
+void translate(Polytope& body, const glm::dvec3& by) noexcept {
+  for (int i = 0; i < body.vertex_count; ++i) body.vertex[static_cast<std::size_t>(i)].position += by;
+  for (int f = 0; f < body.face_count; ++f) {
+    Plane& plane = body.plane[static_cast<std::size_t>(f)];
+    plane.offset -= glm::dot(plane.normal, by);
+  }
+}
+
+/// Corners of the smallest part of the view's frustum that holds `body`: fewer points than a body may have.
+void add_corners(const SharedView& view, const Polytope& body, ViewedBody& out) noexcept {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  glm::dvec3 low(kInfinity), high(-kInfinity);
+  for (const Polytope::Vertex& v : body.vertices()) {
+    const glm::dvec3 p = v.position - view.eye;
+    const double depth = max_of(view.depth(v.position), view.camera.near_depth);
+    const double scale = view.camera.orthographic ? 1.0 : 1.0 / depth;
+    const glm::dvec3 at{glm::dot(view.axes.right, p) * scale, glm::dot(view.axes.up, p) * scale, depth};
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  for (int corner = 0; corner < kCorners; ++corner) {
+    const double depth = (corner & 4) != 0 ? high.z : low.z;
+    const double scale = view.camera.orthographic ? 1.0 : depth;
+    const glm::dvec3 position = view.eye + view.axes.forward * depth +
+                                view.axes.right * (((corner & 1) != 0 ? high.x : low.x) * scale) +
+                                view.axes.up * (((corner & 2) != 0 ? high.y : low.y) * scale);
+    out.point[static_cast<std::size_t>(out.count++)] = {position, depth};
+  }
+}
+
+/// `part` by view; those that see nothing are empty.
+void add_points(std::span<const SharedView> views, std::span<const Polytope> part, ViewedBody& out) noexcept {
+  int vertices = 0;
+  for (const Polytope& body : part) vertices += body.vertex_count;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    if (part[i].empty()) continue;
+    if (vertices > kMaxBodyPoints) {
+      add_corners(views[i], part[i], out);
+      continue;
+    }
+    for (const Polytope::Vertex& v : part[i].vertices())
+      out.point[static_cast<std::size_t>(out.count++)] = {v.position, views[i].depth(v.position)};
+  }
+}
+static_assert(kMaxBodyPoints >= kMaxViews * kCorners);
+
+struct Interval {
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+  void extend(double v) noexcept {
+    low = min_of(low, v);
+    high = max_of(high, v);
+  }
+};
+
+}  // namespace
+
+Polytope view_slice(const SharedView& view, double begin, double end) noexcept {
+  Polytope slice = frustum_slice(view.camera, view.axes, begin, end);
+  translate(slice, view.eye);
+  return slice;
+}
+
+DepthRange depths_seen(std::span<const SharedView> views) noexcept {
+  Interval depths;
+  for (const SharedView& view : views) {
+    for (const Polytope::Vertex& v : view.body.vertices()) depths.extend(view.depth(v.position));
+  }
+  return {depths.low, depths.high};
+}
+
+Polytope receivers_between(const SharedView& view, double begin, double end) noexcept {
+  Polytope part = view.body;
+  const double at_eye = glm::dot(view.axes.forward, view.eye);
+  clip(part, Plane{view.axes.forward, -(begin + at_eye)});
+  clip(part, Plane{-view.axes.forward, end + at_eye});
+  return part;
+}
+
+Polytope hull_of(std::span<const Polytope> parts) noexcept {
+  Box box;
+  for (const Polytope& part : parts) box.extend(bounds_of(part));
+  Polytope hull;
+  if (box.empty()) return hull;
+  hull = box_polytope(box);
+  for (const Polytope& part : parts) {
+    if (part.empty()) continue;
+    for (int f = 0; f < part.face_count; ++f) {
+      Plane plane = part.plane[static_cast<std::size_t>(f)];
+      plane.offset = -std::numeric_limits<double>::infinity();
+      for (const Polytope& other : parts) {
+        for (const Polytope::Vertex& v : other.vertices())
+          plane.offset = max_of(plane.offset, -glm::dot(plane.normal, v.position));
+      }
+      clip(hull, plane);
+    }
+  }
+  return hull;
+}
+
+Polytope view_body(const PlanContext& c) noexcept {
+  if (c.views.empty()) return frustum_slice(c.camera, c.axes, c.camera.near_depth, c.camera.far_depth);
+  std::array<Polytope, kMaxViews> part;
+  for (std::size_t i = 0; i < c.views.size(); ++i) part[i] = c.views[i].body;
+  return hull_of({part.data(), c.views.size()});
+}
+
+ViewedBody viewed_between(const PlanContext& c, double begin, double end) noexcept {
+  std::array<Polytope, kMaxViews> part;
+  const std::span<Polytope> parts{part.data(), c.views.size()};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i] = receivers_between(c.views[i], begin, end);
+    if (c.bounds.receivers.size() > 1 && !parts[i].empty())
+      clip(parts[i], visible_bounds(parts[i], c.bounds.receivers, c.camera.position));
+  }
+  ViewedBody viewed;
+  viewed.hull = hull_of(parts);
+  add_points(c.views, parts, viewed);
+  return viewed;
+}
+
+ViewedBody viewed_within(const PlanContext& c, const Polytope& body) noexcept {
+  std::array<Polytope, kMaxViews> part;
+  const std::span<Polytope> parts{part.data(), c.views.size()};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i] = c.views[i].body;
+    for (int f = 0; f < body.face_count; ++f) clip(parts[i], body.plane[static_cast<std::size_t>(f)]);
+  }
+  ViewedBody viewed;
+  add_points(c.views, parts, viewed);
+  return viewed;
+}
+
+Camera mean_camera(std::span<const SharedView> views, const glm::dvec3& origin) noexcept {
+  // Views that look apart have no mean way: the first stands in.
+  constexpr double kApart = 0.1;
+  // Steeper rays than this lie beside the image, or behind it.
+  constexpr double kSteepest = 20.0;
+  Camera mean = views[0].camera;
+  mean.position = origin;
+  glm::dvec3 forward(0.0);
+  for (const SharedView& view : views) forward += view.axes.forward;
+  if (largest_component(forward) > kApart * static_cast<double>(views.size())) mean.forward = forward;
+  const CameraAxes axes = camera_axes(mean);
+  Interval x, y;
+  double finest = 0.0;
+  for (const SharedView& view : views) {
+    const Camera& camera = view.camera;
+    mean.near_depth = min_of(mean.near_depth, camera.near_depth);
+    mean.far_depth = max_of(mean.far_depth, camera.far_depth);
+    finest = max_of(finest, pixels_per_slope(camera));
+    for (int corner = 0; corner < 4; ++corner) {
+      const glm::dvec3 across = view.axes.right * ((corner & 1) != 0 ? camera.right : camera.left) +
+                                view.axes.up * ((corner & 2) != 0 ? camera.top : camera.bottom);
+      const glm::dvec3 ray = camera.orthographic ? across + view.eye : across + view.axes.forward;
+      const double along = camera.orthographic ? 1.0 : glm::dot(axes.forward, ray);
+      const double at_x = glm::dot(axes.right, ray), at_y = glm::dot(axes.up, ray);
+      const double least = camera.orthographic ? 1.0 : max_of(std::abs(at_x), std::abs(at_y)) / kSteepest;
+      x.extend(at_x / max_of(along, least));
+      y.extend(at_y / max_of(along, least));
+    }
+  }
+  mean.left = x.low;
+  mean.right = x.high;
+  mean.bottom = y.low;
+  mean.top = y.high;
+  // The image of equal cameras is as many pixels wide as theirs.
+  constexpr double kMostPixels = 1 << 20, kRounding = 1e-6;
+  mean.width = static_cast<int>(clamp_to(std::ceil(finest * (x.high - x.low) - kRounding), 1.0, kMostPixels));
+  mean.height =
+      static_cast<int>(clamp_to(std::ceil(finest * (y.high - y.low) - kRounding), 1.0, kMostPixels));
+  return mean;
+}
+
+}  // namespace gnomon

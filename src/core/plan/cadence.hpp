@@ -1,0 +1,32 @@
+// Far cascades that are planned every few frames: which maps are kept, and the room that lets them serve.
+#pragma once
+
+#include "map/context.hpp"
+
+namespace gnomon {
+
+/// Whether cascades behind the first are kept over frames: a directional light with a history, by view depth,
+/// with maps of a fixed number and size.
+[[nodiscard]] bool keeps_cascades(const Light& light, const PlanOptions& options, bool has_history) noexcept;
+
+/// The options with splits that no motion of the camera moves.
+[[nodiscard]] PlanOptions with_fixed_splits(PlanOptions options) noexcept;
+
+/// How far, in world units, a point of the slice up to the view depth `end` may move against the camera while
+/// its map is kept.
+[[nodiscard]] double room_for_motion(const PlanContext& c, double end) noexcept;
+
+/// The receivers within `room` of the camera's frustum between two view depths.
+[[nodiscard]] Polytope receivers_with_room(const PlanContext& c, double begin, double end,
+                                           double room) noexcept;
+
+/// A cascade and the depths that it is to serve.
+struct CascadeSlot {
+  int cascade;
+  double begin, end;
+};
+/// The map of an earlier frame that still serves the slot; nullptr: it is to be planned.
+[[nodiscard]] const KeptMap* kept_map(const PlanContext& c, const PlanHistory& history,
+                                      const CascadeSlot& slot) noexcept;
+
+}  // namespace gnomon

@@ -1,0 +1,127 @@
+// Are far cascades planned every n-th frame, and at once where the camera did what nobody promised?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "gnomon/gnomon.hpp"
+#include "support/random_case.hpp"
+
+namespace gnomon::test {
+namespace {
+
+/// A plain seen from above its middle, with boxes all over it.
+struct Plain {
+  Camera camera = perspective_camera({0, 10, 0}, {0, -0.2, -1}, {0, 1, 0}, 1.0, 1.5, 1, 400, 960, 640);
+  std::vector<Box> boxes;
+  PlanOptions options;
+  PlanHistory history;
+  glm::dvec3 light{0.3, -1, 0.2};
+  Plain() {
+    for (int x = -400; x <= 400; x += 50) {
+      for (int z = -400; z <= 400; z += 50) boxes.push_back({{x - 5, 0, z - 5}, {x + 5, 8, z + 5}});
+    }
+    boxes.push_back({{-400, -1, -400}, {400, 0, 400}});
+    options.cadence = {3, 0.5, 0.02};
+  }
+  ShadowPlan plan() { return make_plan(camera, DirectionalLight{light}, {boxes, boxes}, options, history); }
+};
+
+/// By cascade: whether its map is another than before.
+std::vector<bool> changed(const ShadowPlan& before, const ShadowPlan& now) {
+  std::vector<bool> result;
+  for (std::size_t i = 0; i < now.maps().size(); ++i)
+    result.push_back(reuse(before.map[i], now.map[i]).kind != ReuseKind::identical);
+  return result;
+}
+
+TEST(Cadence, cascades_behind_the_first_take_turns) {
+  Plain plain;
+  ShadowPlan before = plain.plan();
+  ASSERT_EQ(before.map_count, 4);
+  for (int frame = 1; frame < 10; ++frame) {
+    plain.camera.position.x += 0.4;
+    const ShadowPlan now = plain.plan();
+    ASSERT_EQ(now.map_count, 4);
+    const std::vector<bool> moved = changed(before, now);
+    EXPECT_TRUE(moved[0]);
+    for (int i = 1; i < 4; ++i)
+      EXPECT_EQ(moved[static_cast<std::size_t>(i)], (frame + i) % 3 == 0) << frame << i;
+    before = now;
+  }
+}
+
+TEST(Cadence, a_kept_map_is_relative_to_this_frames_eye) {
+  Plain plain;
+  ShadowPlan before = plain.plan();
+  plain.camera.position.x += 0.4;
+  const ShadowPlan now = plain.plan();
+  const ShadowMap& kept = now.map[1];
+  ASSERT_EQ(reuse(before.map[1], kept).kind, ReuseKind::identical);
+  EXPECT_EQ(kept.clip_from_camera_relative,
+            rebased(before.map[1], plain.camera.position).clip_from_camera_relative);
+  EXPECT_NE(kept.clip_from_camera_relative, before.map[1].clip_from_camera_relative);
+}
+
+TEST(Cadence, a_broken_promise_another_lens_or_light_plans_every_cascade) {
+  const auto all_change = [](auto&& act) {
+    Plain plain;
+    const ShadowPlan before = plain.plan();
+    act(plain);
+    const std::vector<bool> moved = changed(before, plain.plan());
+    return std::ranges::all_of(moved, [](bool m) { return m; });
+  };
+  EXPECT_FALSE(all_change([](Plain&) {}));
+  EXPECT_FALSE(all_change([](Plain& p) { p.camera.position.x += 0.5; }));
+  EXPECT_TRUE(all_change([](Plain& p) { p.camera.position.x += 50.0; }));
+  EXPECT_TRUE(all_change([](Plain& p) { p.camera.forward.x += 1.0; }));
+  EXPECT_TRUE(all_change([](Plain& p) { p.camera.left *= 1.01; }));
+  EXPECT_TRUE(all_change([](Plain& p) { p.light.x += 0.01; }));
+  EXPECT_TRUE(all_change([](Plain& p) { p.options.resolution.max_size = 512; }));
+}
+
+TEST(Cadence, room_is_what_the_promise_asks_for) {
+  Plain still, moving;
+  still.options.cadence = {3, 0.0, 0.0};
+  const ShadowPlan a = still.plan(), b = moving.plan();
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_GT(b.map[i].texel_world.x, a.map[i].texel_world.x) << i;
+  EXPECT_EQ(a.map[0].clip_from_world, b.map[0].clip_from_world) << "the first cascade needs none";
+}
+
+TEST(Cadence, where_it_cannot_be_it_is_reported) {
+  Plain plain;
+  const auto ignored = [](const ShadowPlan& plan) {
+    return std::ranges::any_of(plan.omitted(), [](const Omission& o) {
+      return o.kind == OmissionKind::option_ignored && o.a == static_cast<double>(IgnoredOption::cadence);
+    });
+  };
+  EXPECT_FALSE(ignored(plain.plan()));
+  const SceneBounds bounds{plain.boxes, plain.boxes};
+  EXPECT_TRUE(ignored(make_plan(plain.camera, DirectionalLight{plain.light}, bounds, plain.options)));
+  EXPECT_TRUE(
+      ignored(make_plan(plain.camera, PointLight{{0, 30, -50}, 100}, bounds, plain.options, plain.history)));
+  plain.options.resolution.max_error = 1.0;
+  EXPECT_TRUE(ignored(plain.plan()));
+}
+
+TEST(Cadence, broken_values_are_named) {
+  Plain plain;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [&](const CadenceOptions& cadence) {
+    plain.options.cadence = cadence;
+    return std::string(plain.plan().invalid_field);
+  };
+  EXPECT_EQ(refused({0, 0.0, 0.0}), "options.cadence.frames");
+  EXPECT_EQ(refused({kMostCadenceFrames + 1, 0.0, 0.0}), "options.cadence.frames");
+  EXPECT_EQ(refused({2, -1.0, 0.0}), "options.cadence.largest_step");
+  EXPECT_EQ(refused({2, nan, 0.0}), "options.cadence.largest_step");
+  EXPECT_EQ(refused({2, 1.0, 4.0}), "options.cadence.largest_turn");
+  EXPECT_EQ(refused({kMostCadenceFrames, 1e30, 3.0}), "")
+      << "no visible receiver is ever outside of all the world";
+}
+
+}  // namespace
+}  // namespace gnomon::test

@@ -1,0 +1,229 @@
+// Does one plan serve several cameras: every receiver that any of them sees, at the error of the worst?
+#include "gnomon/views.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "gnomon/gnomon.hpp"
+#include "support/finite.hpp"
+#include "support/near.hpp"
+#include "support/property.hpp"
+#include "support/random_case.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// A street of 200 seen from its end.
+struct Street {
+  std::vector<Box> boxes = {{{-30, -1, -200}, {30, 20, 10}}};
+  DirectionalLight light{{0.3, -1, 0.2}};
+  PlanOptions options;
+  [[nodiscard]] Camera camera(double x, double yaw = 0.0) const {
+    return perspective_camera({x, 1.7, 0}, {std::sin(yaw), -0.05, -std::cos(yaw)}, {0, 1, 0}, 90 * kDegree,
+                              1.0, 0.1, 200, 1000, 1000);
+  }
+  [[nodiscard]] SceneBounds bounds() const { return {boxes, boxes}; }
+  [[nodiscard]] ShadowPlan plan(std::span<const Camera> cameras) const {
+    return plan_views(cameras, light, bounds(), options);
+  }
+};
+
+int blind(const ShadowPlan& plan, double index) {
+  return static_cast<int>(std::ranges::count_if(plan.omitted(), [&](const Omission& o) {
+    return o.kind == OmissionKind::view_without_receiver && o.a == index;
+  }));
+}
+
+TEST(Views, none_too_many_or_broken_ones_are_refused_by_name) {
+  const Street street;
+  std::vector<Camera> cameras;
+  EXPECT_EQ(street.plan(cameras).invalid_field, "cameras");
+  cameras.assign(kMaxViews + 1, street.camera(0));
+  EXPECT_EQ(street.plan(cameras).status, PlanStatus::invalid_input);
+  EXPECT_EQ(street.plan(cameras).invalid_field, "cameras");
+  cameras = {street.camera(0), street.camera(1)};
+  cameras[1].orthographic = true;
+  EXPECT_EQ(street.plan(cameras).invalid_field, "cameras");
+  cameras[1] = street.camera(1);
+  cameras[1].position.y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(street.plan(cameras).invalid_field, "camera.position");
+  cameras[1] = street.camera(1);
+  EXPECT_EQ(plan_views(cameras, DirectionalLight{{0, 0, 0}}, street.bounds()).invalid_field,
+            "light.direction");
+}
+
+TEST(Views, no_boxes_show_nothing_and_a_broken_one_in_a_set_is_named) {
+  const Street street;
+  const std::array eyes{street.camera(-1), street.camera(1)};
+  EXPECT_EQ(plan_views(eyes, street.light, {}).status, PlanStatus::nothing_visible);
+  EXPECT_EQ(plan_views(eyes, street.light, {{}, street.boxes}).status, PlanStatus::no_caster);
+  std::vector<Box> boxes(100, street.boxes[0]);
+  boxes[77].min.x = std::numeric_limits<double>::quiet_NaN();
+  std::vector<CasterBlock> blocks(CasterSet::block_count(boxes.size()));
+  std::vector<std::uint32_t> indices(CasterSet::index_count(boxes.size()));
+  const CasterSet set(boxes, blocks, indices);
+  EXPECT_EQ(plan_views(eyes, street.light, {street.boxes, set}).invalid_field, "bounds.receivers");
+  EXPECT_EQ(plan_views(eyes, street.light, {set, street.boxes}).invalid_field, "bounds.casters");
+}
+
+TEST(Views, cameras_that_see_nothing_are_left_out_and_listed) {
+  const Street street;
+  Camera away = street.camera(0);
+  away.position = {0, 500, 0};
+  away.forward = {0, 1, 0};
+  const ShadowPlan none = street.plan(std::array{away, away});
+  EXPECT_EQ(none.status, PlanStatus::nothing_visible);
+  EXPECT_EQ(blind(none, 0.0) + blind(none, 1.0), 2);
+  const ShadowPlan one = street.plan(std::array{away, street.camera(2)});
+  EXPECT_EQ(one.status, PlanStatus::ok);
+  EXPECT_EQ(blind(one, 0.0), 1);
+  EXPECT_EQ(blind(one, 1.0), 0);
+}
+
+TEST(Views, one_camera_is_the_plan_with_the_finest_map_to_the_bit) {
+  Street street;
+  const ShadowPlan shared = street.plan(std::array{street.camera(0)});
+  street.options.split.selection = MapSelection::finest;
+  const ShadowPlan alone = make_plan(street.camera(0), street.light, street.bounds(), street.options);
+  ASSERT_EQ(shared.map_count, alone.map_count);
+  for (std::size_t i = 0; i < alone.maps().size(); ++i)
+    EXPECT_EQ(shared.map[i].clip_from_world, alone.map[i].clip_from_world);
+}
+
+TEST(Views, the_same_camera_twice_is_as_good_as_once) {
+  const Street street;
+  const ShadowPlan once = street.plan(std::array{street.camera(0)});
+  const ShadowPlan twice = street.plan(std::array{street.camera(0), street.camera(0)});
+  ASSERT_EQ(once.map_count, twice.map_count);
+  for (std::size_t i = 0; i < once.maps().size(); ++i) {
+    EXPECT_CLOSE(twice.map[i].m_t_max, once.map[i].m_t_max, 1e-6);
+    EXPECT_CLOSE(twice.map[i].m_s_max, once.map[i].m_s_max, 1e-6);
+    EXPECT_EQ(twice.map[i].depth_end, once.map[i].depth_end);
+  }
+}
+
+TEST(Views, both_eyes_get_the_error_of_one_eye_for_as_many_texels) {
+  // Eyes 64 mm apart that look the same way.
+  Street street;
+  for (const std::vector<Box>& boxes :
+       {street.boxes, std::vector<Box>{{{-100, -1, -200}, {100, 0.2, 10}}, {{8, 0, -90}, {12, 8, -60}}},
+        std::vector<Box>{{{-5, 0, -5}, {5, 3, 5}}}}) {
+    street.boxes = boxes;
+    const std::array eyes{street.camera(-0.032), street.camera(0.032)};
+    const ShadowPlan both = street.plan(eyes);
+    ASSERT_EQ(both.map_count, 4);
+    for (const Camera& eye : eyes) {
+      const ShadowPlan own = make_plan(eye, street.light, street.bounds(), street.options);
+      const double alone = measure(own, eye, street.bounds()).p95;
+      const AliasingStats shared = measure(both, eye, street.bounds());
+      EXPECT_EQ(shared.outside, 0u);
+      // Texels go by the square of the error.
+      EXPECT_LE(shared.p95 * shared.p95, 1.05 * alone * alone);
+    }
+  }
+}
+
+TEST(Views, a_point_has_one_map_for_every_camera) {
+  const Street street;
+  const std::array eyes{street.camera(-2.0, 0.4), street.camera(2.0, -0.3)};
+  const ShadowPlan plan = street.plan(eyes);
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const glm::dvec3 point =
+        point_at(eyes[0], random.between(-1, 1), random.between(-1, 1), random.between(1, 150));
+    EXPECT_EQ(map_serving(plan, point, depth_of(eyes[0], point)),
+              map_serving(plan, point, depth_of(eyes[1], point)));
+  }
+  EXPECT_EQ(plan.origin_world, (eyes[0].position + eyes[1].position) * 0.5);
+}
+
+TEST(Views, six_faces_of_a_probe_get_maps_round_their_eye) {
+  const Street street;
+  std::vector<Camera> faces;
+  for (const glm::dvec3& forward : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0),
+                                    glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1)})
+    faces.push_back(
+        perspective_camera({0, 5, -100}, forward, {0.1, 1, 0}, 90 * kDegree, 1.0, 0.5, 60, 256, 256));
+  const ShadowPlan plan = street.plan(faces);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  for (const Camera& face : faces) EXPECT_EQ(measure(plan, face, street.bounds()).outside, 0u);
+}
+
+TEST(Views, options_for_one_view_alone_are_reported) {
+  Street street;
+  street.options.split.partition = Partition::frustum_faces;
+  const ShadowPlan plan = street.plan(std::array{street.camera(0), street.camera(1)});
+  EXPECT_TRUE(std::ranges::any_of(plan.omitted(), [](const Omission& o) {
+    return o.kind == OmissionKind::option_ignored && o.a == static_cast<double>(IgnoredOption::partition);
+  }));
+}
+
+/// One to seven more cameras beside, behind or far from the case's own.
+std::vector<Camera> draw_views(const Case& c) {
+  std::vector<Camera> cameras{c.camera};
+  const int more = 1 + pick(kMaxViews - 1);
+  const bool near_by = chance(0.5);
+  for (int i = 0; i < more; ++i) {
+    Camera other = c.camera;
+    const double reach = c.camera.far_depth * (near_by ? 0.002 : 0.5);
+    other.position += glm::dvec3(between(-1, 1), between(-1, 1), between(-1, 1)) * reach;
+    if (!near_by)
+      other.forward = glm::dvec3(between(-1, 1), between(-1, 1), between(-1, 1)) + glm::dvec3(0, 0, 1e-3);
+    cameras.push_back(other);
+  }
+  return cameras;
+}
+
+TEST(Views, every_receiver_that_any_camera_sees_is_in_a_map_within_its_error) {
+  int held = 0, lit = 0, own = 0;
+  for_all(400, [&] {
+    Case c = draw_case({.max_depth_ratio = 1e3, .max_boxes = 12});
+    const std::vector<Camera> cameras = draw_views(c);
+    const Light light = chance(0.7) ? Light{DirectionalLight{c.light}}
+                                    : Light{PointLight{point_at(c.camera, 0.3, 0.8, 0.5 * c.camera.far_depth),
+                                                       2.0 * c.camera.far_depth}};
+    const bool sun = std::holds_alternative<DirectionalLight>(light);
+    const ShadowPlan plan = plan_views(cameras, light, c.bounds(), c.options);
+    require(plan.status != PlanStatus::invalid_input, plan.invalid_field, c);
+    for (const ShadowMap& map : plan.maps())
+      require(all_finite(map.clip_from_world) && std::isfinite(map.m_max), "not finite", c);
+    Random random(9);
+    for (const Camera& camera : cameras) {
+      Case seen = c;
+      seen.camera = camera;
+      for (const glm::dvec3& point : visible_points(seen, random, 2, 4)) {
+        const double depth = depth_of(camera, point);
+        const int map = map_serving(plan, point, depth);
+        if (map < 0) {
+          ++lit;
+          continue;
+        }
+        ++held;
+        if (!sun || camera.orthographic || depth < c.options.split.pseudo_near) continue;
+        // In the map of its own depths the plan's bound holds.
+        for (const ShadowMap& cascade : plan.maps()) {
+          if (!(depth >= cascade.depth_begin * 1.000001 && depth <= cascade.depth_end * 0.999999)) continue;
+          const PointAliasing m = measure_perspective(cascade, camera, point);
+          require(m.status == PointAliasing::Status::ok, "not in the map of its depth", cascade.cascade, c);
+          require(m.m_max <= cascade.m_max * (1.0 + 1e-6), "m", m.m_max, "bound", cascade.m_max, c);
+          ++own;
+        }
+      }
+    }
+  });
+  EXPECT_GT(held, 3000);
+  EXPECT_GT(own, 1000);
+  EXPECT_GT(lit, 0);
+}
+
+}  // namespace
+}  // namespace gnomon::test

@@ -1,0 +1,142 @@
+// Do visible points shrink the maps across the light to what is seen, and to nothing less?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "gnomon/gnomon.hpp"
+#include "support/near.hpp"
+#include "support/property.hpp"
+#include "support/random_case.hpp"
+
+namespace gnomon::test {
+namespace {
+
+/// A plain of 400 by 400 seen from above its edge; the light comes straight down.
+struct Plain {
+  Camera camera = perspective_camera({0, 10, 200}, {0, -0.2, -1}, {0, 1, 0}, 1.0, 1.5, 1, 400, 960, 640);
+  std::vector<Box> boxes = {{{-200, 0, -200}, {200, 4, 200}}};
+  PlanOptions options;
+  glm::dvec3 light{0, -1, 0};
+  Plain() {
+    options.cascades = 1;
+    options.warp.warp = &warps::none;
+  }
+  [[nodiscard]] ShadowPlan plan(std::span<const glm::dvec3> points) const {
+    return make_plan(camera, DirectionalLight{light}, {boxes, boxes}, options, nullptr, points);
+  }
+};
+
+bool same(const ShadowPlan& a, const ShadowPlan& b) {
+  if (a.status != b.status || a.map_count != b.map_count) return false;
+  for (std::size_t i = 0; i < a.maps().size(); ++i) {
+    if (a.map[i].clip_from_world != b.map[i].clip_from_world) return false;
+  }
+  return true;
+}
+
+bool ignored(const ShadowPlan& plan, IgnoredOption option) {
+  return std::ranges::any_of(plan.omitted(), [&](const Omission& o) {
+    return o.kind == OmissionKind::option_ignored && o.a == static_cast<double>(option);
+  });
+}
+
+TEST(VisiblePoints, by_hand_the_map_is_as_wide_as_their_bounds_and_the_room_round_them) {
+  const Plain plain;
+  // Seen between x = -10 and 10, at depths round 100.
+  const std::vector<glm::dvec3> points = {{-10, 2, 100}, {10, 2, 90}, {0, 1, 95}};
+  const ShadowPlan plan = plain.plan(points);
+  ASSERT_EQ(plan.map_count, 1);
+  const ShadowMap& map = plan.map[0];
+  const double texels = map.width - 2 * map.filter_margin_texels;
+  const double depth = depth_of(plain.camera, points[1]);
+  const double pixel = (plain.camera.top - plain.camera.bottom) / 640;
+  const double room = kPointSafety * 20.0 + 16.0 * pixel * depth;
+  EXPECT_NEAR(map.texel_world.x * texels, 20.0 + 2.0 * room, 0.01 * room);
+  for (const glm::dvec3& point : points) EXPECT_TRUE(map_holds(plan, map, point));
+  EXPECT_LT(map.texel_world.x, 0.25 * plain.plan({}).map[0].texel_world.x);
+}
+
+TEST(VisiblePoints, none_or_none_in_view_or_beside_all_receivers_change_nothing) {
+  const Plain plain;
+  const ShadowPlan without = plain.plan({});
+  const std::vector<glm::dvec3> behind = {{0, 2, 500}}, beyond = {{0, 2, -900}}, beside = {{900, 2, -100}};
+  EXPECT_TRUE(same(plain.plan(behind), without));
+  EXPECT_TRUE(same(plain.plan(beyond), without));
+  EXPECT_TRUE(same(plain.plan(beside), without));
+}
+
+TEST(VisiblePoints, one_point_gets_a_map_of_its_own_size) {
+  const Plain plain;
+  const std::vector<glm::dvec3> one = {{3, 2, 150}};
+  const ShadowPlan plan = plain.plan(one);
+  ASSERT_EQ(plan.map_count, 1);
+  EXPECT_TRUE(map_holds(plan, plan.map[0], one[0]));
+  EXPECT_TRUE(std::isfinite(plan.map[0].m_max));
+}
+
+TEST(VisiblePoints, a_broken_point_is_named) {
+  const Plain plain;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<glm::dvec3> broken = {{0, 2, 100}, {0, nan, 0}};
+  const ShadowPlan plan = plain.plan(broken);
+  EXPECT_EQ(plan.status, PlanStatus::invalid_input);
+  EXPECT_EQ(plan.invalid_field, "visible_points");
+}
+
+TEST(VisiblePoints, fits_and_lights_that_do_not_follow_them_say_so) {
+  Plain plain;
+  const std::vector<glm::dvec3> points = {{-10, 2, 100}, {10, 2, 90}};
+  EXPECT_FALSE(ignored(plain.plan(points), IgnoredOption::visible_points));
+  for (const Fit fit : {Fit::stable, Fit::warped_stable}) {
+    plain.options.fit = fit;
+    EXPECT_TRUE(ignored(plain.plan(points), IgnoredOption::visible_points));
+    EXPECT_TRUE(same(plain.plan(points), plain.plan({})));
+  }
+  plain.options = {};
+  const SceneBounds bounds{plain.boxes, plain.boxes};
+  EXPECT_TRUE(ignored(make_plan(plain.camera, PointLight{{0, 50, 100}, 200.0}, bounds, {}, nullptr, points),
+                      IgnoredOption::visible_points));
+  plain.options.split.partition = Partition::separating_plane;
+  EXPECT_TRUE(ignored(plain.plan(points), IgnoredOption::visible_points));
+}
+
+TEST(VisiblePoints, every_point_that_had_a_map_keeps_one_and_maps_grow_no_wider) {
+  int held = 0, narrower = 0;
+  for_all(600, [&] {
+    Case c = draw_case();
+    c.options.warp.warp = &warps::none;
+    c.options.fit = Fit::tight;
+    c.options.split.scheme = SplitScheme::logarithmic;
+    const ShadowPlan without = c.plan();
+    Random random(3);
+    const std::vector<glm::dvec3> points = visible_points(c, random, 2, 3);
+    const ShadowPlan plan =
+        make_plan(c.camera, DirectionalLight{c.light}, c.bounds(), c.options, nullptr, points);
+    require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
+    for (const glm::dvec3& point : points) {
+      const double depth = depth_of(c.camera, point);
+      const int map = map_serving(plan, point, depth);
+      if (map < 0) continue;
+      ++held;
+      require(map_holds(plan, plan.map[static_cast<std::size_t>(map)], point), "out of map", map, c);
+    }
+    for (const ShadowMap& map : plan.maps()) {
+      for (const ShadowMap& other : without.maps()) {
+        if (other.cascade != map.cascade) continue;
+        require(
+            map.texel_world.x * map.texel_world.y <= other.texel_world.x * other.texel_world.y * (1.0 + 1e-6),
+            "wider", c);
+        narrower += map.texel_world.x * map.texel_world.y < 0.5 * other.texel_world.x * other.texel_world.y;
+      }
+    }
+  });
+  EXPECT_GT(held, 500);
+  EXPECT_GT(narrower, 50);
+}
+
+}  // namespace
+}  // namespace gnomon::test
