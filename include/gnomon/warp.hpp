@@ -73,6 +73,8 @@ struct WarpInput {
   double scale_near;   ///< Point::depth at the body's point nearest to the viewer
   double depth_per_y;  ///< growth of Point::depth along y at constant height
   WarpChoice unwarped;  ///< the map without a warp, to be beaten
+  /// 1 + kappa length of the strongest warp that a map can take: beyond it the plan drops the warp.
+  double most_stretch = 1e9;
 
   /// Neither camera nor light has a perspective to undo.
   [[nodiscard]] bool flat() const noexcept { return orthographic && !light.perspective; }

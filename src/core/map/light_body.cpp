@@ -166,6 +166,7 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request) noex
   in.light = space;
   in.centre = request.centre;
   in.unwarped = request.unwarped;
+  in.most_stretch = most_stretch(c, request, points);
   in.scale_near = space.perspective
                       ? light_point(c, space, first->position, in.depth_begin, points.nearest).depth
                       : in.depth_begin;

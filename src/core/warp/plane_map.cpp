@@ -18,6 +18,10 @@ constexpr double kPointSize = 1e-9;
 
 }  // namespace
 
+double least_extent(double extent, double distance) noexcept {
+  return max_of(kFlattest * extent, distance > 0.0 ? kPointSize * distance : kPointSize);
+}
+
 void widen(double& low, double& high, double least) noexcept {
   if (high - low >= least) return;
   const double middle = 0.5 * (low + high);
@@ -65,7 +69,7 @@ PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& cho
     distance = max_of(distance, largest_component({p.x, p.y, p.z}));
   }
   const double extent = max_of(max_of(map.a_max - map.a_min, map.b_max - map.b_min), z_high - z_low);
-  const double least = max_of(kFlattest * extent, distance > 0.0 ? kPointSize * distance : kPointSize);
+  const double least = least_extent(extent, distance);
   widen(map.a_min, map.a_max, least);
   widen(map.b_min, map.b_max, least);
   return map;
