@@ -18,6 +18,13 @@ namespace {
 // A warp that gains less is not worth its sampling noise.
 constexpr double kLeastGain = 0.02;
 
+/// By more than rounding: of two that mirror each other the first is taken, wherever the world stands and
+/// whatever its unit.
+constexpr bool less(double a, double b) noexcept {
+  constexpr double kTie = 1.0 - 1e-9;
+  return a < b * kTie;
+}
+
 /// What a simplex walks on: `Count` numbers, and the value there.
 template <std::size_t Count, typename What>
 struct Corner {
@@ -38,7 +45,7 @@ void walk(std::array<Corner<Count, What>, Count + 1>& simplex, int evaluations, 
   };
   const auto sort = [&] {
     for (std::size_t i = 1; i <= Count; ++i) {
-      for (std::size_t k = i; k > 0 && simplex[k].value() < simplex[k - 1].value(); --k)
+      for (std::size_t k = i; k > 0 && less(simplex[k].value(), simplex[k - 1].value()); --k)
         std::swap(simplex[k], simplex[k - 1]);
     }
   };
@@ -53,14 +60,14 @@ void walk(std::array<Corner<Count, What>, Count + 1>& simplex, int evaluations, 
       return Corner<Count, What>{p, look(p, simplex[0].what)};
     };
     const auto reflected = tried(1.0);
-    if (reflected.value() < simplex[0].value()) {
+    if (less(reflected.value(), simplex[0].value())) {
       const auto expanded = tried(2.0);
-      worst = expanded.value() < reflected.value() ? expanded : reflected;
-    } else if (reflected.value() < simplex[Count - 1].value()) {
+      worst = less(expanded.value(), reflected.value()) ? expanded : reflected;
+    } else if (less(reflected.value(), simplex[Count - 1].value())) {
       worst = reflected;
     } else {
-      const auto contracted = tried(reflected.value() < worst.value() ? 0.5 : -0.5);
-      if (contracted.value() < worst.value()) {
+      const auto contracted = tried(less(reflected.value(), worst.value()) ? 0.5 : -0.5);
+      if (less(contracted.value(), worst.value())) {
         worst = contracted;
       } else {
         for (std::size_t i = 1; i <= Count; ++i) {
@@ -111,7 +118,7 @@ RowChoice by_corners(RowSearch& search, const WarpInput& input) noexcept {
   RowChoice best = search.round({});
   for (const FallOff& start : starts) {
     const RowChoice rows = search.round(start);
-    if (rows.value < best.value) best = rows;
+    if (less(rows.value, best.value)) best = rows;
   }
   const double length = length_of(best.fall_off);
   constexpr int kWideSteps = 6, kNarrowSteps = 8;
@@ -170,25 +177,20 @@ WarpChoice choose(const WarpInput& input) noexcept {
   if (error.corners().count == 0) return input.unwarped;
   RowSearch search(input, error);
   const double without = error.value(input.unwarped);
-  const WarpChoice found = search.choice(by_corners(search, input));
-  Judged best{found, error.value(found)};
-  double formulas = without;
-  const auto try_rival = [&](const Warp& warp) {
-    const WarpChoice choice = warp.choose(input);
-    if (!(choice.kappa > 0.0) || !usable(input.body, choice, input.most_stretch)) return;
-    const double value = error.value(choice);
-    formulas = min_of(formulas, value);
-    if (value < best.value) best = {choice, value};
-  };
-  for (const Warp* warp : all_warps()) {
-    if (warp->choose != choose && warp->choose != lispsm.choose) try_rival(*warp);
+  Judged best{input.unwarped, without};
+  if (!search.line()) {
+    best.choice = search.choice(by_corners(search, input));
+    best.value = error.value(best.choice);
   }
-  // LiSPSM's own search costs as much as a third of this one, and has never come to less than half of what
-  // the best formula comes to.
-  constexpr double kLeastOfFormulas = 0.5;
-  if (best.value > kLeastOfFormulas * formulas) try_rival(lispsm);
+  for (const Warp* other : all_warps()) {
+    if (other->choose == choose) continue;
+    const WarpChoice choice = other->choose(input);
+    if (!usable(input.body, choice, input.most_stretch)) continue;
+    const double value = error.value(choice);
+    if (less(value, best.value)) best = {choice, value};
+  }
   constexpr int kPolish = 16;
-  best = polished(search, error, best, kPolish);
+  if (!search.line()) best = polished(search, error, best, kPolish);
   const bool gains = best.value < without * (1.0 - kLeastGain);
   WarpChoice choice = gains ? best.choice : input.unwarped;
   choice.gain_ratio = gains ? best.value / without : 1.0;

@@ -93,8 +93,12 @@ PlaneError::PlaneError(const WarpInput& input) noexcept : input_(input), lanes_(
     sample_.count = 0;
     if (focused) add_edges(*input.focus, 1.0);
     add_edges(*input.polytope, outside);
-    if (input.light.perspective) {
-      // The worst texel may lie inside a face or the body: the light's rays fan out, and with them the warp.
+    // The worst texel may lie inside a face or the body where rays fan out: the eye's in a wide image, or the
+    // light's, and with them the warp.
+    constexpr double kWide = 2.0;  // of the slope: 90 degrees
+    const ViewInLight& view = input.view;
+    const double wider = max_of(view.image_right - view.image_left, view.image_top - view.image_bottom);
+    if (input.light.perspective || wider > kWide) {
       add_faces(*input.polytope, outside);
       if (!input.orthographic) add_visible_points();
     }
@@ -250,7 +254,8 @@ void PlaneError::add_visible_points() noexcept {
 
 double PlaneError::value(const WarpChoice& choice) noexcept {
   // A body with corners of which nothing is known is no ground to choose a warp on.
-  if ((!complete_ && choice.kappa > 0.0) || sample_.count == 0 || body_.count == 0)
+  const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
+  if ((!complete_ && choice.kappa > 0.0) || sample_.count == 0 || body_.count == 0 || rows == 0.0)
     return std::numeric_limits<double>::infinity();
   find_rows(choice);
   const double squared = input_.objective == Objective::storage ? storage_squared() : worst_squared();
@@ -279,11 +284,12 @@ GNOMON_WIDE void PlaneError::find_rows(const WarpChoice& choice) noexcept {
                   range_b = lane_range(b.data(), corners, lanes_);
   const double least = least_extent(
       max_of(max_of(range_a.high - range_a.low, range_b.high - range_b.low), height_range_), distance_);
-  const double scale_a = 1.0 / max_of(range_a.high - range_a.low, least);
-  const double scale_b = 1.0 / max_of(range_b.high - range_b.low, least);
+  const double side_a = max_of(range_a.high - range_a.low, least);
+  const double side_b = max_of(range_b.high - range_b.low, least);
+  const double scale_a = 1.0 / side_a, scale_b = 1.0 / side_b;
   // The determinant of the map's Jacobian is scale_a scale_b stretch / w^3 times that of its rows; the
   // samples' own are known.
-  const double inverse_area = 1.0 / (scale_a * scale_b * map_stretch * (a_x * b_y - a_y * b_x));
+  const double inverse_area = side_a * side_b / (map_stretch * (a_x * b_y - a_y * b_x));
   const std::size_t n = whole_lanes(sample_.count);
   for (std::size_t i = 0; i < n; ++i) {
     const double s = sample_.x[i] * axis_y - sample_.y[i] * axis_x - centre;

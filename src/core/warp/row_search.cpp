@@ -20,6 +20,10 @@ namespace {
 constexpr std::size_t kFan = 8, kBoth = 2 * kFan;
 // Square of the sine at which rows lean too close together for a useful map.
 constexpr double kLeastSine2 = 0.01;
+// Gains below this are rounding: the first of two rows that mirror each other is taken.
+constexpr double kTie = 1.0 - 1e-9;
+// Keeps a square away from zero, and changes no bit of one above 1e-14.
+constexpr double kNothing = 1e-30;
 
 /// Cosines and sines of multiples of an angle, from -(Count - 1) / 2 of it upwards.
 template <std::size_t Count>
@@ -79,8 +83,8 @@ struct RowSearch::Fan {
     const double cosine_ab = ax * bx + ay * by, sine_ab = ax * by - ay * bx;
     for (std::size_t i = 0; i < per_sine2.size(); ++i) {
       const double sine = sine_ab * steps.between.cosine[i] + cosine_ab * steps.between.sine[i];
-      const double square = sine * sine;
-      per_sine2[i] = 1.0 / (square > kLeastSine2 ? square : kLeastSine2);
+      // A sum, not a choice: compilers divide first and choose then.
+      per_sine2[i] = min_of(1.0 / (sine * sine + kNothing), 1.0 / kLeastSine2);
       per_sine4[i] = per_sine2[i] * per_sine2[i];
     }
   }
@@ -103,6 +107,16 @@ RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
   const double longer = max_of(x.high - x.low, y.high - y.low);
   const double least = longer > 0.0 ? kFlattest * longer : 1.0;
   extent_ = {max_of(x.high - x.low, least), max_of(y.high - y.low, least)};
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (std::size_t i = 0; i < body_.count; ++i) {
+    const double px = body_.x[i] - middle_.x, py = body_.y[i] - middle_.y;
+    xx += px * px;
+    xy += px * py;
+    yy += py * py;
+  }
+  // Squared: narrower than a millionth of its length.
+  constexpr double kLine = 1e-12;
+  line_ = !(xx * yy - xy * xy > kLine * (xx + yy) * (xx + yy));
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
   for (const WarpInput::Point& p : input.body) {
     nearest = min_of(nearest, p.depth);
@@ -226,12 +240,13 @@ GNOMON_WIDE void RowSearch::best_by_storage(const Fan& fan, RowChoice& rows) noe
     const double* const per_sine = fan.per_sine4.data() + kFan - 1 - a;
     for (std::size_t b = 0; b < half; ++b) {
       const double v = first * most[kFan + b] * per_sine[b];
-      at[b] = v < least[b] ? index : at[b];
-      least[b] = v < least[b] ? v : least[b];
+      const double enough = least[b] * kTie;
+      at[b] = v < enough ? index : at[b];
+      least[b] = v < enough ? v : least[b];
     }
   }
   std::size_t b = 0;
-  for (std::size_t l = 1; l < kFan; ++l) b = least[l] < least[b] ? l : b;
+  for (std::size_t l = 1; l < kFan; ++l) b = least[l] < least[b] * kTie ? l : b;
   write_rows(fan, static_cast<std::size_t>(at[b]), b, least[b], rows);
 }
 
@@ -294,7 +309,7 @@ GNOMON_WIDE void RowSearch::best_by_worst(const Fan& fan, RowChoice& rows) noexc
       }
     }
     for (std::size_t b = 0; b < kFan; ++b) {
-      if (!(most[b] < best)) continue;
+      if (!(most[b] < best * kTie)) continue;
       best = most[b];
       best_a = a;
       best_b = b;
@@ -403,8 +418,8 @@ FallOff RowSearch::fitted() const noexcept {
     }
   }
   // Flat bodies leave a row undetermined.
-  constexpr double kRidge = 1.0 + 1e-6;
-  for (std::size_t j = 0; j < 3; ++j) m[j][j] *= kRidge;
+  constexpr double kRidge = 1e-6;
+  for (std::size_t j = 1; j < 3; ++j) m[j][j] += kRidge * m[0][0];
   const double ab = m[0][1] / m[0][0], ac = m[0][2] / m[0][0];
   const double bb = m[1][1] - ab * m[0][1], bc = m[1][2] - ab * m[0][2], b = m[1][3] - ab * m[0][3];
   const double cc = m[2][2] - ac * m[0][2], c = m[2][3] - ac * m[0][3];

@@ -30,6 +30,9 @@ class RowSearch {
   [[nodiscard]] RowChoice round(const FallOff& fall_off) noexcept;
   /// The best of the rows near these.
   [[nodiscard]] RowChoice near(const FallOff& fall_off, const RowChoice& rows) noexcept;
+  /// The body is a line or a point in the light plane: the width of its image is rounding, and no row is
+  /// better than another.
+  [[nodiscard]] bool line() const noexcept { return line_; }
   [[nodiscard]] WarpChoice choice(const RowChoice& rows) noexcept;
   /// The choice's own fall-off and rows.
   [[nodiscard]] RowChoice rows_of(const WarpChoice& choice) noexcept;
@@ -62,7 +65,8 @@ class RowSearch {
   double most_reach_;           // kappa times length
   glm::dvec2 middle_, extent_;  // of the body
   glm::dvec2 pivot_;            // that the axis turns about
-  double depth_range_;          // logarithm of the ratio of the farthest to the nearest depth
+  bool line_;
+  double depth_range_;  // logarithm of the ratio of the farthest to the nearest depth
   // Squared lengths of the rectangle's sides, for each direction of both fans.
   alignas(64) std::array<double, 2 * kWarpLanes> side_;
   // Of the body's image, scaled to a unit square.
