@@ -1,6 +1,7 @@
 // A body's vertices in light space, and the body as warps see it.
 #include "map/light_body.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -64,12 +65,30 @@ WarpInput::Point light_point(const PlanContext& c, const LightSpace& space, cons
 
 void add_vertices(const PlanContext& c, const MapRequest& request, const Polytope& body, double nearest,
                   LightBody& out) noexcept {
-  const double least = max_of(c.camera.near_depth, c.options.split.pseudo_near);
-  for (const Polytope::Vertex& v : body.vertices()) {
-    if (out.count < kMaxVertices)
-      out.point[static_cast<std::size_t>(out.count++)] =
-          light_point(c, request.space, v.position, least, nearest);
+  const double pseudo_near = c.options.split.pseudo_near, least = max_of(c.camera.near_depth, pseudo_near);
+  const auto add = [&](const glm::dvec3& position, bool counts) {
+    if (out.count == kMaxVertices) return;
+    WarpInput::Point& p = out.point[static_cast<std::size_t>(out.count++)];
+    p = light_point(c, request.space, position, least, nearest);
+    if (!counts) p.depth = std::numeric_limits<double>::infinity();
+  };
+  const auto nearer = [&](const Polytope::Vertex& v) {
+    return glm::dot(c.axes.forward, v.position) < pseudo_near;
+  };
+  const auto vertices = body.vertices();
+  const bool cut = !c.camera.orthographic && std::any_of(vertices.begin(), vertices.end(), nearer);
+  Polytope counted;
+  if (cut) {
+    counted = body;
+    clip(counted, Plane{c.axes.forward, -pseudo_near});
   }
+  // The map holds the whole body; the error counts where the cut leaves something, and there is room to say
+  // so.
+  const bool from_cut =
+      cut && !counted.empty() && out.count + body.vertex_count + counted.vertex_count <= kMaxVertices;
+  for (const Polytope::Vertex& v : vertices) add(v.position, !from_cut);
+  if (!from_cut) return;
+  for (const Polytope::Vertex& v : counted.vertices()) add(v.position, true);
 }
 
 /// Rounding may take vertices near a local light out of its frustum: then the whole frustum is the body.
@@ -82,7 +101,7 @@ void hold_to_frustum(const MapRequest& request, LightBody& body) noexcept {
     usable = usable && max_of(std::abs(p.x), std::abs(p.y)) <= request.slope * kRounding;
     p.x = clamp_to(p.x, -request.slope * kRounding, request.slope * kRounding);
     p.y = clamp_to(p.y, -request.slope * kRounding, request.slope * kRounding);
-    depth = max_of(depth, p.depth);
+    if (std::isfinite(p.depth)) depth = max_of(depth, p.depth);
   }
   if (usable) return;
   body.count = body.count < kMaxVertices - 4 ? body.count : kMaxVertices - 4;
@@ -155,6 +174,7 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request) noex
   const glm::dvec3 across = glm::cross(in.view.forward, light_way);
   in.sin_gamma = std::sqrt(glm::dot(across, across));
   in.cos_gamma = glm::dot(in.view.forward, light_way);
+  in.pseudo_near = c.camera.orthographic ? 0.0 : c.options.split.pseudo_near;
   in.depth_begin = max_of(request.begin, c.options.split.pseudo_near);
   in.depth_end = max_of(request.end, in.depth_begin);
   in.tan_half_fov = tan_half_fov(c, frame);

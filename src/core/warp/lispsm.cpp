@@ -4,6 +4,7 @@
 // vertices is this project's.
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
@@ -117,8 +118,9 @@ WarpChoice choose(const WarpInput& input) noexcept {
   AlongView error(input);
   Best best{0.0, error(0.0)};
   const double step = kCoarseFactor;
-  double nearest = input.body.front().depth, farthest = nearest;
+  double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
   for (const WarpInput::Point& p : input.body) {
+    if (!std::isfinite(p.depth)) continue;
     nearest = min_of(nearest, p.depth);
     farthest = max_of(farthest, p.depth);
   }

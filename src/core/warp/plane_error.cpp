@@ -78,11 +78,14 @@ PlaneError::PlaneError(const WarpInput& input) noexcept : input_(input), lanes_(
     distance_ = max_of(distance_, largest_component({p.x, p.y, p.z}));
   }
   height_range_ = high - low;
+  Polytope counted, counted_focus;
+  const Polytope &body = from_pseudo_near(*input.polytope, counted), *focus = input.focus;
+  if (focus != nullptr) focus = &from_pseudo_near(*focus, counted_focus);
   // First, as there may be no room for all.
-  const bool focused = input.focus != nullptr && !input.focus->empty();
+  const bool focused = focus != nullptr && !focus->empty();
   const double outside = focused ? input.focus_weight : 1.0;
-  if (focused) add_corners(*input.focus, 1.0);
-  add_corners(*input.polytope, outside);
+  if (focused) add_corners(*focus, 1.0);
+  add_corners(body, outside);
   corners_.fill_lanes();
   // Fewer samples make no percentile: the body shows in a few pixels only.
   constexpr std::size_t kTooFew = 20;
@@ -91,19 +94,27 @@ PlaneError::PlaneError(const WarpInput& input) noexcept : input_(input), lanes_(
   if (sample_.count < kTooFew) {
     share_ = 0.0;
     sample_.count = 0;
-    if (focused) add_edges(*input.focus, 1.0);
-    add_edges(*input.polytope, outside);
+    if (focused) add_edges(*focus, 1.0);
+    add_edges(body, outside);
     // The worst texel may lie inside a face or the body where rays fan out: the eye's in a wide image, or the
     // light's, and with them the warp.
     constexpr double kWide = 2.0;  // of the slope: 90 degrees
     const ViewInLight& view = input.view;
     const double wider = max_of(view.image_right - view.image_left, view.image_top - view.image_bottom);
     if (input.light.perspective || wider > kWide) {
-      add_faces(*input.polytope, outside);
+      add_faces(body, outside);
       if (!input.orthographic) add_visible_points();
     }
   }
   sample_.fill_lanes();
+}
+
+/// The part of the body whose error counts: all of it where nothing would be left.
+const Polytope& PlaneError::from_pseudo_near(const Polytope& body, Polytope& counted) const noexcept {
+  if (!(input_.pseudo_near > 0.0)) return body;
+  counted = body;
+  clip(counted, Plane{input_.view.forward, -input_.pseudo_near});
+  return counted.empty() ? body : counted;
 }
 
 bool PlaneError::pixel_at(const glm::dvec3& p, double pixels, Pixel& pixel) const noexcept {

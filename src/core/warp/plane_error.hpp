@@ -55,6 +55,7 @@ class PlaneError {
   };
   /// A pixel counts as `pixels` times as wide as it is there. False where nothing is known of it.
   bool pixel_at(const glm::dvec3& point, double pixels, Pixel& pixel) const noexcept;
+  [[nodiscard]] const Polytope& from_pseudo_near(const Polytope& body, Polytope& counted) const noexcept;
   bool add(const glm::dvec3& point, double pixels) noexcept;
   void add_corners(const Polytope& body, double pixels) noexcept;
   void add_edges(const Polytope& body, double pixels) noexcept;

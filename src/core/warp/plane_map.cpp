@@ -103,7 +103,9 @@ bool usable(std::span<const WarpInput::Point> body, const WarpChoice& choice, do
   constexpr double kShortest = 1e-6, kShortestOfDistance = 1e-9;
   const PlaneMap map = plane_map(body, choice);
   double farthest = 0.0;
-  for (const WarpInput::Point& p : body) farthest = max_of(farthest, p.depth);
+  for (const WarpInput::Point& p : body) {
+    if (std::isfinite(p.depth)) farthest = max_of(farthest, p.depth);
+  }
   const double extent = max_of(map.a_max - map.a_min, map.b_max - map.b_min);
   return map.length > kShortest * extent && map.length > kShortestOfDistance * farthest &&
          map.stretch <= most_stretch;

@@ -119,6 +119,7 @@ RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
   line_ = !(xx * yy - xy * xy > kLine * (xx + yy) * (xx + yy));
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
   for (const WarpInput::Point& p : input.body) {
+    if (!std::isfinite(p.depth)) continue;
     nearest = min_of(nearest, p.depth);
     farthest = max_of(farthest, p.depth);
   }
