@@ -56,7 +56,7 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
   "libgnomon-core${gnomon_abi_version} (= ${PROJECT_VERSION}), libglm-dev")
-set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "gnomon-doc, libtinygltf-dev, libopenimageio-dev, libembree-dev, libglfw3-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "gnomon-doc, libtinygltf-dev, libopenimageio-dev, libdraco-dev, libmeshoptimizer-dev, libembree-dev, libglfw3-dev")
 
 include(CPackComponent)
 include(CPack)

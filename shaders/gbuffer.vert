@@ -1,5 +1,5 @@
 #version 450 core
-// What the camera sees.
+// The surfaces that the camera sees.
 #include "common/frame.glsl"
 #include "common/objects.glsl"
 

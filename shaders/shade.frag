@@ -13,8 +13,8 @@ vec3 view_ray(vec2 pixel) {
   return normalize(frame.forward.xyz + at.x * frame.right.xyz + at.y * frame.up.xyz);
 }
 
-// Of a lamp's light, by its cone and range; both end softly.
-float reach_of_lamp(vec3 ray, float away) {
+// Falloff of a local light by its cone and range; both end softly.
+float local_light_falloff(vec3 ray, float away) {
   float range = frame.layer.z;
   float fade = range > 0.0 ? clamp(1.0 - away / range, 0.0, 1.0) : 1.0;
   float cone = smoothstep(frame.light_cone.w, mix(frame.light_cone.w, 1.0, 0.1), dot(ray, frame.light_cone.xyz));
@@ -34,11 +34,11 @@ void main() {
   float cosine = max(-dot(s.shading_normal, ray_of_light), 0.0);
   // Faded where smooth normals still see the sun and their flat triangles no longer do: else triangles show.
   const float kTerminator = 0.2;
-  bool lamp = frame.light_place.w > 0.5;
+  bool local = frame.light_place.w > 0.5;
   float sun = cosine * smoothstep(0.0, kTerminator, cosine) * texelFetch(mask_image, pixel, 0).r;
-  if (lamp) sun *= reach_of_lamp(ray_of_light, length(s.position - frame.light_place.xyz));
-  const float kDusk = 0.3;  // share of the sky's light that is left where a lamp is to be seen
-  vec3 color = s.albedo * (kSunColor * sun + (lamp ? kDusk : 1.0) * sky_ambient(s.shading_normal));
+  if (local) sun *= local_light_falloff(ray_of_light, length(s.position - frame.light_place.xyz));
+  const float kDusk = 0.3;  // share of the sky's light that is left under a local light
+  vec3 color = s.albedo * (kSunColor * sun + (local ? kDusk : 1.0) * sky_ambient(s.shading_normal));
   const float kHazeAtFar = 0.35;  // share of the horizon's colour at the camera's far plane
   float haze = kHazeAtFar * smoothstep(0.2, 1.0, s.depth / frame.layer.w);
   vec3 horizon = sky_color(normalize(vec3(ray.x, 0.02, ray.z)), light);

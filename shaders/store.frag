@@ -9,7 +9,7 @@ void main() {
   ShadowOptions options = shadow_options(map);
   ShadowTexel sum = shadow_nothing(options);
   int reach = filtering.reach[map].x;
-  // Each depth along x is fetched once, though three taps ask for it.
+  // Each depth along x is fetched once, though three taps use it.
   float before = depth_at(texel - ivec2(reach + 1, 0)), here = depth_at(texel - ivec2(reach, 0));
   for (int i = -reach; i <= reach; ++i) {
     ivec2 at = texel + ivec2(i, 0);

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "gnomon/clip_space.hpp"
+#include "gnomon/shape.hpp"
 
 namespace gnomon {
 
@@ -46,7 +47,7 @@ struct BiasWorld {
 /// Extent of one texel at `point_world`, in world units across the light, along the map's x and y: the
 /// lengths of the columns of d(world across the light) / d(texel). Infinite where the map is singular or the
 /// point behind it.
-[[nodiscard]] glm::dvec2 texel_extent_world(const glm::dmat4& clip_from_world, int width, int height,
+[[nodiscard]] glm::dvec2 texel_extent_world(const glm::dmat4& clip_from_world, const TexelGrid& texels,
                                             const glm::dvec3& light_direction,
                                             const glm::dvec3& point_world) noexcept;
 
@@ -58,17 +59,18 @@ struct BiasWorld {
                                       double kernel_radius_texels, const glm::dvec3& normal,
                                       const glm::dvec3& light_direction) noexcept;
 
-// ---- For any projective map: warped, cascaded, spot ----
+// ---- For any map: warped, cascaded, spot ----
 //
 // tan(angle) times a texel is the change of depth per texel only where w is constant. A plane of the world is
-// a plane of ndc, too, so its depth there is linear in the texel over the whole map, exactly: all that
-// follows rests on that. What is called an ndc change is to be *added* to a fragment's ndc depth and has the
-// sign that moves it towards the light in the clip space of `clip_from_world`.
+// a plane of ndc, too, so its depth there is linear in ndc over the whole map, and in the texel where the
+// shape is affine: all that follows is exact there, and first order at the point under another shape. What is
+// called an ndc change is to be *added* to a fragment's ndc depth and has the sign that moves it towards the
+// light in the clip space of `clip_from_world`.
 
 /// A fragment on a surface, as one map sees it.
 struct Receiver {
   glm::dmat4 clip_from_world{1.0};  ///< of the map, in any clip space
-  int width = 0, height = 0;        ///< of the map, texels
+  TexelGrid texels;                 ///< of the map
   glm::dvec3 light_direction{0.0};  ///< unit, the way the light travels at the point
   glm::dvec3 point{0.0};            ///< world
   glm::dvec3 normal{0.0};           ///< unit, world, towards the side that is seen

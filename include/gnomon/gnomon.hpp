@@ -1,4 +1,5 @@
-// The core of gnomon in one include.
+// What an engine needs of the core, in one include. Curves, omni-directional comparison, logarithmic
+// perspective in numbers and the choice of a technique lie in gnomon/study/.
 #pragma once
 
 #include "gnomon/version.hpp"  // first: it stops compilers that are set below C++20
@@ -13,16 +14,14 @@
 #include "gnomon/fit.hpp"
 #include "gnomon/history.hpp"
 #include "gnomon/light.hpp"
-#include "gnomon/log_perspective.hpp"
 #include "gnomon/metric.hpp"
-#include "gnomon/omni.hpp"
 #include "gnomon/partition.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/prune.hpp"
 #include "gnomon/reuse.hpp"
 #include "gnomon/shader_block.hpp"
+#include "gnomon/shape.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/split.hpp"
-#include "gnomon/technique.hpp"
 #include "gnomon/visible_depths.hpp"
 #include "gnomon/warp.hpp"

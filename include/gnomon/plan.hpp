@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 #include "gnomon/body.hpp"
 #include "gnomon/bounds.hpp"
@@ -18,6 +19,7 @@
 #include "gnomon/clip_space.hpp"
 #include "gnomon/light.hpp"
 #include "gnomon/plan_options.hpp"
+#include "gnomon/shape.hpp"
 #include "gnomon/snap.hpp"
 #include "gnomon/visible_depths.hpp"
 
@@ -95,7 +97,9 @@ struct ShadowMap {
   /// wide spot's face 5 looks along it). Of Partition::frustum_faces the face: left, right, bottom, top,
   /// near, far; of separating_plane 0 before the plane, 1 behind.
   int cascade = 0;
-  int width = 0, height = 0;   ///< texels; may differ, and from map to map (metric_resolution, texel_budget)
+  int width = 0, height = 0;  ///< texels; may differ, and from map to map (metric_resolution, texel_budget)
+  const Shape* shape = &shapes::linear;  ///< how the texels lie on the projected square; never nullptr
+  ShapeParameters shape_parameters{};
   const Warp* warp = nullptr;  ///< never nullptr in a plan's maps; the one that was used
   /// Strength of the warp, 1 / world units; 0: none. Of a light with a position: 1 / slope, as the warp works
   /// on offsets across the light per unit of distance along it.
@@ -121,6 +125,26 @@ struct ShadowMap {
   /// Bound of the perspective part of m in any direction, over the body.
   double m_max = 0.0;
   double storage = 0.0;  ///< texels per screen pixel for m <= 1 everywhere in this slice (vertex objective)
+
+  [[nodiscard]] TexelGrid texels() const noexcept { return {width, height, shape, shape_parameters}; }
+};
+
+/// Room for so many records. Unset until they are written: setting all of a plan's would take a tenth of the
+/// time that planning takes.
+template <typename Record, std::size_t room>
+class Records {
+ public:
+  Records() noexcept {}
+  [[nodiscard]] Record* data() noexcept { return all_.data(); }
+  [[nodiscard]] const Record* data() const noexcept { return all_.data(); }
+  [[nodiscard]] Record& operator[](std::size_t i) noexcept { return all_[i]; }
+  [[nodiscard]] const Record& operator[](std::size_t i) const noexcept { return all_[i]; }
+
+ private:
+  static_assert(std::is_trivially_copyable_v<Record>);
+  union {
+    std::array<Record, room> all_;
+  };
 };
 
 struct ShadowPlan {
@@ -139,9 +163,9 @@ struct ShadowPlan {
   /// True if map sizes depend on the view (metric_resolution, max_error or texel_budget), so that they may
   /// differ from frame to frame. Renderers then keep images a little larger than the maps.
   bool sizes_vary = false;
-  std::array<ShadowMap, kMaxMaps> map;
+  Records<ShadowMap, kMaxMaps> map;
   int map_count = 0;
-  std::array<Omission, kMaxOmissions> omission;
+  Records<Omission, kMaxOmissions> omission;
   int omission_count = 0;  ///< may exceed kMaxOmissions
 
   [[nodiscard]] std::span<const ShadowMap> maps() const noexcept {
@@ -166,8 +190,8 @@ struct ShadowPlan {
                                    const VisibleDepths* visible = nullptr) noexcept;
 
 /// True where the map shows the point off its filter margin and within its depths: its clip coordinates have
-/// w > 0, |x| and |y| <= (1 - 2 filter_margin_texels / size) w and z in the range of the clip space, and the
-/// point is inside all select_planes.
+/// w > 0, its texel lies filter_margin_texels or more inside the map (a quarter texel is left to rounding), z
+/// is in the range of the clip space, and the point is inside all select_planes.
 [[nodiscard]] bool map_holds(const ShadowPlan& plan, const ShadowMap& map,
                              const glm::dvec3& point_world) noexcept;
 /// Index of the map that serves a point at this view depth, or -1; see ShadowPlan::select_by_map. Depths

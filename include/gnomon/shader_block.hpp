@@ -19,6 +19,7 @@ struct ShaderMap {
   glm::mat4 clip_from_point;
   glm::vec4 interval_size;  ///< view depths served (begin, end), width and height in texels
   std::array<glm::vec4, kMaxSelectPlanes> select_planes;  ///< relative to the origin; (0, 0, 0, 1): unused
+  glm::vec4 shape;   ///< place of ShadowMap::shape in shapes.def, then its parameters
   glm::vec4 kernel;  ///< filter margin in texels, half blur in texels, width of the blend band, depth curve
 };
 
@@ -38,13 +39,14 @@ struct ShaderField {
 };
 
 /// The layout that the GLSL is checked against.
-inline constexpr std::array<ShaderField, 7> kShaderFields{{
+inline constexpr std::array<ShaderField, 8> kShaderFields{{
     {"light", offsetof(ShaderBlock, light)},
     {"bias", offsetof(ShaderBlock, bias)},
     {"layer", offsetof(ShaderBlock, layer)},
     {"maps.clip_from_point", offsetof(ShaderBlock, maps) + offsetof(ShaderMap, clip_from_point)},
     {"maps.interval_size", offsetof(ShaderBlock, maps) + offsetof(ShaderMap, interval_size)},
     {"maps.select_planes", offsetof(ShaderBlock, maps) + offsetof(ShaderMap, select_planes)},
+    {"maps.shape", offsetof(ShaderBlock, maps) + offsetof(ShaderMap, shape)},
     {"maps.kernel", offsetof(ShaderBlock, maps) + offsetof(ShaderMap, kernel)},
 }};
 
@@ -55,6 +57,8 @@ struct ShaderLayers {
   double blur_texels = 0.0;  ///< half side of the box that stored texels were blurred with; 0: not blurred
 };
 
+/// A map's shape as shaders read it: its place in shapes.def, then its parameters.
+[[nodiscard]] glm::vec4 shader_shape(const ShadowMap& map) noexcept;
 /// Fills the block for the plan's clip space. The shader defines GNOMON_REVERSED_Z where that has
 /// reversed_z. A plan without maps gives a block with none.
 [[nodiscard]] ShaderBlock shader_block(const ShadowPlan& plan, const ShaderLayers& layers = {}) noexcept;

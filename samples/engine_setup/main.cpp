@@ -1,5 +1,5 @@
-// How an engine asks gnomon for its shadow maps: its own camera, light and object bounds in, matrices and
-// draw lists out. Links gnomon::core alone; nothing here knows a graphics API.
+// How does an engine get its shadow maps from gnomon? Its own camera, light and object bounds in, matrices
+// and draw lists out. Links gnomon::core alone; nothing here knows a graphics API.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -11,7 +11,7 @@
 
 namespace {
 
-// What the engine holds of each object in its scene.
+// An object of the engine's scene.
 struct Object {
   const char* name;
   gnomon::Box bounds;
@@ -44,7 +44,7 @@ void draw_shadow_map(const gnomon::ShadowMap& map, const std::vector<gnomon::Box
   for (const std::uint32_t index : drawn) std::printf("  draw: %s\n", names[index]);
 }
 
-// What one plan costs: the median of many, microseconds.
+// Time of one plan: the median of many, microseconds.
 template <typename Plan>
 double cost_microseconds(const Plan& plan) {
   using Clock = std::chrono::steady_clock;
@@ -88,7 +88,7 @@ int main() {
   }
   for (const gnomon::ShadowMap& map : plan.maps()) draw_shadow_map(map, casters, caster_names);
 
-  std::puts("left out:");
+  std::puts("omitted:");
   for (const gnomon::Omission& omission : plan.omitted()) {
     const gnomon::OmissionText text = gnomon::describe(omission);
     std::printf("  %s: %s\n", text.what.data(), text.why.data());

@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr int kFrames = 4, kWidth = 640, kHeight = 360;
 
-/// What is planned for: the light, and a box around each thing that is drawn. Here everything casts and
-/// receives; an engine leaves out what does not.
+/// Input of the plan: the light, and a box around each drawn object. Here every object casts and receives; an
+/// engine lists only those that do.
 struct World {
   gnomon::Scene scene;
   gnomon::Light light;
@@ -68,7 +68,7 @@ void describe_plan(int frame, const gnomon::ShadowPlan& plan) {
     std::printf("  map %d: %d x %d texels for view depths %.1f to %.1f, warp %s\n", map.cascade, map.width,
                 map.height, map.depth_begin, map.depth_end, std::string(map.warp->name).c_str());
   }
-  // What the scene did not need is part of the plan, with the reason.
+  // The plan lists what it omitted, with the reason.
   for (const gnomon::Omission& omission : plan.omitted()) {
     const gnomon::OmissionText text = gnomon::describe(omission);
     std::printf("  omitted %s: %s\n", text.what.data(), text.why.data());

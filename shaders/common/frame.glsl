@@ -1,4 +1,4 @@
-// What every pass of a frame knows. All positions are relative to the camera position.
+// The uniform block that every pass of a frame reads. All positions are relative to the camera position.
 #ifndef GNOMON_COMMON_FRAME_GLSL
 #define GNOMON_COMMON_FRAME_GLSL
 #include "library/shadow_map.glsl"
@@ -11,7 +11,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 up;                         // the same
   vec4 forward;                    // xyz, and 1 for an orthographic camera
   vec4 image_edges;                // left, right, bottom, top
-  vec4 light;                      // xyz: the way it travels, of a light with a position along its axis; number of maps
+  vec4 light;                      // xyz: direction of travel, for local lights along the axis; w: number of maps
   vec4 light_place;                // as light_at takes it
   vec4 light_cone;                 // way of its axis; cosine of its half angle, -1: none
   vec4 bias;                       // BiasOptions: constant, slope, normal offset, largest slope

@@ -1,5 +1,5 @@
-// How much of the light reaches each pixel's surface, and through which map that was found out. The includer supplies
-// visibility(): the filter's answer.
+// How much of the light reaches each pixel's surface, and which map that comes from. The includer supplies
+// visibility(), the filter's result.
 #ifndef GNOMON_COMMON_MASK_GLSL
 #define GNOMON_COMMON_MASK_GLSL
 #include "common/frame.glsl"

@@ -1,4 +1,4 @@
-// What a filter stores of the depth map, before any blur.
+// The texels that a filter stores for the depth map, before any blur.
 #ifndef GNOMON_COMMON_STORED_GLSL
 #define GNOMON_COMMON_STORED_GLSL
 #include "common/filter.glsl"

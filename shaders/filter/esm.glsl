@@ -1,5 +1,5 @@
-// Exponential shadow maps (Annen, Mertens, Seidel, Flerackers, Kautz 2008): exp(-c d) times the mean of exp(c z). What is
-// stored is ln(mean of exp(c z)) / c, a soft maximum of depths, which never overflows.
+// Exponential shadow maps (Annen, Mertens, Seidel, Flerackers, Kautz 2008): exp(-c d) times the mean of exp(c z). A texel
+// stores ln(mean of exp(c z)) / c, a soft maximum of depths, which never overflows.
 #include "library/compare.glsl"
 #include "library/depth_max.glsl"
 

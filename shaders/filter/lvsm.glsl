@@ -1,5 +1,5 @@
 // Layered variance shadow maps (Lauritzen, McCool 2008): two moments per layer of depth, and the least of the layers'
-// bounds. What stands in front of a layer counts as one depth there, and bleeds no light into it.
+// bounds. Depths in front of a layer count as one depth there, and bleed no light into it.
 #include "library/mean.glsl"
 #include "library/variance.glsl"
 
@@ -23,7 +23,7 @@ vec2 layer_ends(int i, ShadowOptions options) {
               end + overlap * (end_before(i + 2, options) - end));
 }
 
-// At its end a slanted surface's depths pile up and shadow it: there a layer says nothing, 1, and the one behind answers.
+// At its end a slanted surface's depths pile up and shadow it: there a layer returns 1, and the next one decides.
 float beyond_layer(int i, float deepest, ShadowOptions options) {
   float end = end_before(i + 1, options);
   return clamp((min(deepest, 1.0) - end) / max(layer_ends(i, options).y - end, 1e-6), 0.0, 1.0);

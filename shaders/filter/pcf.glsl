@@ -4,7 +4,7 @@
 #include "library/compare.glsl"
 #include "library/disc.glsl"
 
-// Box of texels, four depths at a time, those at its rim by the share that is inside.
+// Box of texels, four depths at a time, those at its border weighted by the share that is inside.
 float compare_box(sampler2DArray depth_map, ShadowLookup at) {
   // Counted from the point's own texel: small numbers, so that the weights add up to 1.
   vec2 own = floor(at.texel), part = at.texel - own;

@@ -4,7 +4,7 @@
 #include "library/disc.glsl"
 
 // Radius of the light's disc as the kernel sees it, across the light at the receiver, when what blocks is `away` from it.
-// Options: angle in degrees of a parallel light; radius of a light with a position.
+// Options: angle in degrees of a directional light; radius of a local light.
 float penumbra_radius(ShadowLookup at, ShadowOptions options, float away) {
   if (at.light_distance == 0.0) return tan(0.5 * radians(options.value[0])) * away;
   return options.value[1] * away / max(at.light_distance - away, 0.01 * at.light_distance);

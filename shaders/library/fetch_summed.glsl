@@ -6,7 +6,7 @@
 
 // Two channels at most.
 ShadowTexel fetch_summed(usampler2DArray sums, ShadowLookup at, float steps_per_one) {
-  // The box's sides, cut by whole texels: sums of the inner box, and of its rims by their share.
+  // The box is cut at whole texels: the sum of the inner box, plus its edge texels weighted by their share.
   ivec2 last = textureSize(sums, 0).xy - 1;
   // Counted from the point's own texel: small numbers, so that the weights are good.
   ivec2 own = ivec2(floor(at.texel));

@@ -10,8 +10,8 @@ struct FootprintReads {
   vec2 apart;  // texels from each read to the next, along the longer axis
 };
 
-// `probes`: at most so many reads along at.footprint[0], the longer axis. Of a trilinear read over r texels the variance
-// is r^2 / 4.
+// `probes`: at most so many reads along at.footprint[0], the longer axis. The variance of a trilinear read
+// over r texels is r^2 / 4.
 FootprintReads footprint_reads(ShadowLookup at, int probes) {
   const float kApart = 1.7320508;  // steps between probes in reads' radii: many in a row then have the right variance
   float longest = length(at.footprint[0]);

@@ -1,4 +1,4 @@
-// What a filter is asked, what it is told and what it stores. The includer defines GNOMON_SHADOW_VECTORS, the number of
+// Input, options and stored texel of a filter. The includer defines GNOMON_SHADOW_VECTORS, the number of
 // vec4 that a stored texel takes (1 for filters that store nothing).
 #ifndef GNOMON_LIBRARY_LOOKUP_GLSL
 #define GNOMON_LIBRARY_LOOKUP_GLSL
@@ -43,8 +43,8 @@ vec4 depth_of_texel(vec4 texels) { return texels; }
 float texel_of_depth(float depth) { return depth; }
 #endif
 
-// A lamp's map has its depths as perspective leaves them, nearly all at the far end. With curve = far / near - 1 this makes
-// them even in distance, 0 near .. 1 far again; 0, for parallel light, leaves them.
+// Perspective crowds the depths of a local light's map at the far end. With curve = far / near - 1 this makes them linear in
+// distance, 0 near .. 1 far; curve 0, for directional lights, changes nothing.
 float linear_depth(float depth, float curve) { return depth / (1.0 + (1.0 - depth) * curve); }
 
 // From the receiver towards the light to where the map's depth is z, world units; negative behind the receiver.

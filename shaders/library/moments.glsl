@@ -2,8 +2,8 @@
 // u = 2 depth - 1: odd and even moments then part, and numbers stay small.
 #ifndef GNOMON_LIBRARY_MOMENTS_GLSL
 #define GNOMON_LIBRARY_MOMENTS_GLSL
-// Least share in front of u, for any support: Hamburger's problem. Also answers the other two depths, z, at which the
-// extreme distribution lies, for the bound below.
+// Least share in front of u, for any support: Hamburger's problem. Also returns the other two depths, z, of the
+// extreme distribution, for the bound below.
 float share_in_front(vec4 b, float u, out vec2 z) {
   // Cholesky factors of the Hankel matrix (1 b1 b2; b1 b2 b3; b2 b3 b4).
   float d22 = b.y - b.x * b.x;

@@ -1,18 +1,18 @@
-// From a surface point to the question that a filter is asked: the place in the map, the depth with the plan's bias taken
-// off, the plane that the surface makes in the map, and the kernel in texels.
+// From a surface point to a filter's input: the position in the map, the depth less the plan's bias, the receiver plane in
+// the map, and the kernel in texels.
 #ifndef GNOMON_LIBRARY_RECEIVER_GLSL
 #define GNOMON_LIBRARY_RECEIVER_GLSL
 #include "library/shadow_map.glsl"
 #include "library/lookup.glsl"
 
-// What the surface is and how it is lit.
+// A surface point and its light.
 struct ShadowSurface {
   vec3 position;
   vec3 normal;  // unit, of the triangle, towards the viewer
   vec4 light;   // as light_at takes it
 };
 
-// The kernel as it was asked for.
+// The kernel as the options request it.
 struct ShadowKernel {
   float radius;    // half width, see gnomon::render::FilterSettings::radius
   bool in_world;   // radius in world units across the light, else in texels
@@ -70,7 +70,7 @@ void set_kernel(inout ShadowLookup at, ShadowMap map, ShadowKernel kernel, mat2 
                                 kernel.in_world ? stored * stored / 3.0 : 0.0);
 }
 
-// The same question with depths as stored texels have them, even in distance along a lamp's rays.
+// The same lookup with depths as stored texels have them, linear in distance under local lights.
 ShadowLookup stored_lookup(ShadowLookup at, ShadowMap map) {
   float curve = map.kernel.w;
   float depth = min(at.depth, 1.0);  // what lies beyond the far plane would pass the curve's pole
@@ -82,7 +82,7 @@ ShadowLookup stored_lookup(ShadowLookup at, ShadowMap map) {
 }
 
 // `bias`: gnomon::BiasOptions, constant, slope, normal offset in texels of this map at this point, largest slope. The
-// kernel's reach needs none: filters follow the receiver's plane by its gradient. The plane's slope is capped, so that a
+// kernel's radius needs none: filters follow the receiver's plane by its gradient. The plane's slope is capped, so that a
 // surface nearly along the light does not lose its shadows.
 ShadowLookup shadow_lookup(ShadowMap map, float layer, vec2 layer_size, ShadowSurface s, vec4 bias) {
   const float kDepthRounding = 4.0 / 16777216.0;  // the rasterizer's depth is good to a few units of 2^-24
@@ -106,7 +106,7 @@ ShadowLookup shadow_lookup(ShadowMap map, float layer, vec2 layer_size, ShadowSu
   float bias_world = bias.x * texel_world + bias.y * (abs(rise.x) + abs(rise.y));
 
   ShadowLookup at;
-  at.texel = (p.ndc.xy * 0.5 + 0.5) * map.interval_size.zw;
+  at.texel = p.texel;
   at.layer = layer;
   at.depth_curve = 0.0;
   at.layer_size = layer_size;

@@ -4,17 +4,21 @@
 #define GNOMON_LIBRARY_SELECT_MAP_GLSL
 #include "library/shadow_map.glsl"
 
-// The planes that part the maps, and the map's rectangle less `rim_texels` along each side. Of z nothing is asked.
-bool map_spans(ShadowMap map, vec3 position, float rim_texels) {
+// True inside the planes that part the maps, and inside the map's rectangle less `border_texels` along each side. Any z.
+bool map_spans(ShadowMap map, vec3 position, float border_texels) {
   vec4 h = map.clip_from_point * vec4(position, 1.0);
-  vec2 free = 1.0 - 2.0 * rim_texels / map.interval_size.zw;
-  bool held = h.w > 0.0 && abs(h.x) <= free.x * h.w && abs(h.y) <= free.y * h.w;
+  // Less than nothing is kept free where rounding is forgiven: a little beyond the square then counts as well.
+  vec2 square = vec2(1.0 + 2.0 * max(-border_texels, 0.0) / map.interval_size.zw);
+  bool held = h.w > 0.0 && all(lessThanEqual(abs(h.xy), square * h.w));
+  vec2 texel = held ? shaped_point(map.shape, map.interval_size.zw, h.xy / h.w).texel : vec2(0.0);
+  held = held && all(greaterThanEqual(texel, vec2(border_texels))) &&
+         all(lessThanEqual(texel, map.interval_size.zw - border_texels));
   for (int i = 0; i < 4; ++i) held = held && dot(map.select_planes[i].xyz, position) + map.select_planes[i].w >= 0.0;
   return held;
 }
 
-// With the rim that the plan kept free for filters, and between the map's near and far plane: what gnomon::map_holds
-// asks for, a quarter texel of the rim left to rounding.
+// Inside the border that the plan reserves for filters, and between the map's near and far plane: gnomon::map_holds, with a
+// quarter texel of the border for rounding.
 bool map_holds(ShadowMap map, vec3 position) {
   const float kRim = 0.25, kSlack = 1e-5;
   float z = dot(matrix_row(map.clip_from_point, 2), position) + map.clip_from_point[3][2];
@@ -32,9 +36,9 @@ int map_at_depth(float view_depth, float slack, int count) {
   return -1;
 }
 
-// Maps that follow each other in view depth, as gnomon::map_serving tells them apart: what no map holds belongs to one
-// that ends there but for rounding. A gap between the depths of two maps is one that the plan left out because no caster
-// reaches it. A point that its own map does not hold goes to the next.
+// Maps that follow each other in view depth, as in gnomon::map_serving: a point that no map holds belongs to the map
+// whose end it misses by rounding. Depths between two maps that belong to neither hold no shadow: the plan pruned them, since
+// no caster reaches them. A point that its own map does not hold goes to the next.
 int map_by_depth(vec3 position, float view_depth, int count) {
   const float kSlack = 1e-5;  // view depths are rounded to float on their way here
   int own = map_at_depth(view_depth, 0.0, count);
@@ -74,7 +78,7 @@ int map_of_finest_texel(vec3 position, float radius_world, vec3 light, int count
   return best;
 }
 
-// Share of the next map in the answer at a depth that the one before it serves: 0 up to where the next map begins to show
+// Share of the next map in the result at a depth that the one before it serves: 0 up to where the next map begins to show
 // receivers, 1 from where they are its own.
 float share_of_next_map(ShadowMap next, float view_depth) {
   float overlap = next.kernel.z;

@@ -1,11 +1,14 @@
-// What a shader must know of a shadow map, and how the map lies on the world at a point. Points are in any frame that the
-// matrices are made for: relative to the camera where precision matters. The includer supplies shadow_map().
+// A shadow map as a shader reads it, and its derivatives at a point. Points are in the space that the matrices expect: relative
+// to the camera for precision. The includer supplies shadow_map().
 #ifndef GNOMON_LIBRARY_SHADOW_MAP_GLSL
 #define GNOMON_LIBRARY_SHADOW_MAP_GLSL
+#include "library/shape.glsl"
+
 struct ShadowMap {
   mat4 clip_from_point;   // z 0 near the light .. w
   vec4 interval_size;     // depth_begin, depth_end: view depths served; width, height: texels
   vec4 select_planes[4];  // serves points with dot(xyz, point) + w >= 0 for all; (0, 0, 0, 1) where unused
+  vec4 shape;             // as shaped_point takes it
   vec4 kernel;            // filter margin in texels; blur that the stored texels went through, as half a box, texels; overlap; depth curve
 };
 
@@ -13,6 +16,7 @@ ShadowMap shadow_map(int index);
 
 struct MapPoint {
   vec3 ndc;        // x, y in -1..1, z in 0..1
+  vec2 texel;
   float w;
   vec3 d_texel_x;  // gradients over the position: of the texel coordinates ...
   vec3 d_texel_y;
@@ -27,10 +31,13 @@ MapPoint map_point(ShadowMap map, vec3 position) {
   MapPoint p;
   p.w = h.w;
   p.ndc = h.xyz / h.w;
-  vec2 half_size = 0.5 * map.interval_size.zw;
+  ShapedPoint at = shaped_point(map.shape, map.interval_size.zw, p.ndc.xy);
+  p.texel = at.texel;
+  mat2 d = at.texel_from_ndc / h.w;
   vec3 w_row = matrix_row(m, 3);
-  p.d_texel_x = (matrix_row(m, 0) - p.ndc.x * w_row) * (half_size.x / h.w);
-  p.d_texel_y = (matrix_row(m, 1) - p.ndc.y * w_row) * (half_size.y / h.w);
+  vec3 over_x = matrix_row(m, 0) - p.ndc.x * w_row, over_y = matrix_row(m, 1) - p.ndc.y * w_row;
+  p.d_texel_x = over_x * d[0].x + over_y * d[1].x;
+  p.d_texel_y = over_x * d[0].y + over_y * d[1].y;
   p.d_depth = (matrix_row(m, 2) - p.ndc.z * w_row) / h.w;
   return p;
 }

@@ -1,12 +1,12 @@
 // Two moments of depths and the bound that they give: shared by the filters that store them. Moments are of
-// u = 2 depth - 1, whose numbers are the smallest for what they tell.
+// u = 2 depth - 1, which keeps the numbers smallest.
 #ifndef GNOMON_LIBRARY_VARIANCE_GLSL
 #define GNOMON_LIBRARY_VARIANCE_GLSL
 #include "library/lookup.glsl"
 
 // Options: bleed, floor, slope.
 ShadowTexel store_moments(float depth, vec2 slope, ShadowOptions options) {
-  const float kSteepest = 0.1;  // at an edge the difference of depths tells nothing of a surface
+  const float kSteepest = 0.1;  // at an edge the difference of depths is no slope
   float u = 2.0 * depth - 1.0;
   float within = options.value[2] * min(dot(slope, slope), kSteepest * kSteepest);
   ShadowTexel texel;

@@ -72,7 +72,9 @@ std::optional<TexelExtent> extent_in_map(const ShadowMap& map, const Box& box) n
   }
   low = glm::clamp(low, -1.0, 1.0);
   high = glm::clamp(high, -1.0, 1.0);
-  return TexelExtent{0.5 * map.width * (high.x - low.x), 0.5 * map.height * (high.y - low.y)};
+  const TexelGrid texels = map.texels();
+  const ShapeRectangle covered = map.shape->texel_bounds(texels.parameters, texels.size(), {low, high});
+  return TexelExtent{covered.high.x - covered.low.x, covered.high.y - covered.low.y};
 }
 
 std::array<PruneSaving, kPruneRuleCount> PruneSavings::net() const noexcept {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <vector>
 
 #include "gnomon/render/filter.hpp"
 
@@ -88,6 +89,69 @@ std::string read_pair(std::string_view key, std::string_view text, FilterSetting
   return std::string(key) + ": " + std::string(filter.info.name) + " knows " + known;
 }
 
+/// A key that parse_filter reads for a filter, as help shows it.
+struct KeyLine {
+  std::string name, range, fallback, summary;
+};
+
+std::string range_text(double min, double max) {
+  return number_text(min) + " to " + number_text(max);
+}
+
+std::vector<KeyLine> keys_of(const Filter& filter) {
+  const FilterInfo& info = filter.info;
+  std::vector<KeyLine> keys;
+  if (info.has_kernel) {
+    keys.push_back({"radius", range_text(0.0, kMaxRadiusTexels), number_text(info.default_radius),
+                    "half width of the kernel, texels; world units up to " + number_text(kMaxRadiusWorld) +
+                        " with unit=world"});
+    keys.push_back({"unit", "texels, world", "texels",
+                    "unit of the radius; world gives every cascade the same blur on the ground"});
+  }
+  for (const FilterOption& option : info.options) {
+    keys.push_back({std::string(option.name), range_text(option.min, option.max),
+                    number_text(option.fallback), std::string(option.summary)});
+  }
+  if (!info.formats.empty()) {
+    keys.push_back({"format", formats_of(filter), std::string(to_string(info.formats.front())),
+                    "format of each stored channel"});
+  }
+  if (info.reads == MapRead::filtered || info.reads == MapRead::joined)
+    keys.push_back({"blur", "box, gauss", "box", "shape of the blur of stored texels"});
+  if (info.may_mipmap) {
+    keys.push_back({"mipmap", "0, 1", "0", "1 averages over the pixel's footprint in far, dense texels"});
+    keys.push_back(
+        {"anisotropy", range_text(1.0, kMaxAnisotropy), "1", "reads along a long footprint; needs mipmap=1"});
+  }
+  return keys;
+}
+
+std::string stored_text(const Filter& filter) {
+  const FilterSettings settings = default_settings(filter);
+  const std::string bytes = number_text(bytes_per_texel(settings)) + " bytes a texel";
+  if (filter.info.channels == nullptr) return "Stores the depth map alone: " + bytes + ".\n";
+  const int channels = filter.info.channels(settings);
+  return "Stores " + std::to_string(channels) + (channels == 1 ? " channel of " : " channels of ") +
+         std::string(to_string(settings.format)) + " beside the depth map: " + bytes + ".\n";
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(width - text.size(), ' ');
+}
+
+/// Breaks lines between words, so that none is longer than a terminal when `indent` columns stand before it.
+std::string wrapped(std::string_view text, std::size_t indent) {
+  constexpr std::size_t kColumns = 100;
+  std::string out;
+  while (indent + text.size() > kColumns) {
+    const std::size_t end = text.rfind(' ', kColumns - indent);
+    if (end == std::string_view::npos) break;
+    out += std::string(text.substr(0, end)) + "\n" + std::string(indent, ' ');
+    text.remove_prefix(end + 1);
+  }
+  return out + std::string(text);
+}
+
 }  // namespace
 
 ParsedFilter parse_filter(std::string_view text) {
@@ -141,18 +205,27 @@ std::string to_string(const FilterSettings& settings) {
   return std::string(filter.info.name) + pairs;
 }
 
-std::string filter_help() {
-  std::string text;
-  for (const Filter* filter : all_filters()) {
-    text += std::string(filter->info.name) + ": " + std::string(filter->info.summary);
-    for (const FilterOption& option : filter->info.options) {
-      text += "; " + std::string(option.name) + " " + number_text(option.min) + ".." +
-              number_text(option.max) + " (" + number_text(option.fallback) +
-              "): " + std::string(option.summary);
-    }
-    if (!filter->info.formats.empty()) text += "; format " + formats_of(*filter);
-    text += "\n";
+std::string filter_help(const Filter& filter) {
+  const FilterInfo& info = filter.info;
+  std::string text = wrapped(std::string(info.name) + ": " + std::string(info.summary) + ".", 0) + "\n" +
+                     wrapped("Source: " + std::string(info.source) + ".", 0) + "\n" + stored_text(filter);
+  const std::vector<KeyLine> keys = keys_of(filter);
+  if (keys.empty()) return text + "It has no options.\n";
+  std::size_t name = 0, range = 0, fallback = 0;
+  for (const KeyLine& key : keys) {
+    name = std::max(name, key.name.size() + 2);
+    range = std::max(range, key.range.size() + 2);
+    fallback = std::max(fallback, key.fallback.size() + 2);
   }
+  const auto row = [&](const KeyLine& key) {
+    const std::string left =
+        "  " + padded(key.name, name) + padded(key.range, range) + padded(key.fallback, fallback);
+    text += left + wrapped(key.summary, left.size()) + "\n";
+  };
+  text += "\nOptions, as in " + std::string(info.name) + ":" + keys.front().name + "=" +
+          keys.front().fallback + "\n";
+  row({"name", "range", "default", "meaning"});
+  for (const KeyLine& key : keys) row(key);
   return text;
 }
 

@@ -6,6 +6,8 @@
 #include <glm/matrix.hpp>
 #include <variant>
 
+#include "gnomon/shader_block.hpp"
+
 namespace gnomon::render {
 namespace {
 
@@ -54,6 +56,7 @@ MapBlock map_block(const ShadowMap& map, const glm::dmat4& drawn_from_plan, cons
     block.select_planes[at] =
         glm::vec4(glm::vec3(plane), static_cast<float>(plane.w + glm::dot(glm::dvec3(plane), eye)));
   }
+  block.shape = shader_shape(map);
   block.kernel = glm::vec4(glm::dvec4(map.filter_margin_texels, blur, map.overlap, curve));
   return block;
 }

@@ -132,6 +132,19 @@ std::string short_number(double value) {
   return text.data();
 }
 
+std::string counted(std::size_t count, std::string_view noun) {
+  return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
+}
+
+std::string percent(double share) {
+  return short_number(100.0 * share) + " %";
+}
+
+std::string scroll_box(std::string_view label, bool tall) {
+  return "<div class=\"wide" + std::string(tall ? " tall" : "") +
+         "\" tabindex=\"0\" role=\"region\" aria-label=\"" + escaped(label) + "\">";
+}
+
 std::string exact_number(double value) {
   if (!std::isfinite(value)) return {};
   std::array<char, 32> text;

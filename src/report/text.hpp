@@ -18,6 +18,14 @@ void check_nesting(std::string_view json);
 [[nodiscard]] std::string short_number(double value);
 /// All digits that it takes to read the value back; empty where it is not finite.
 [[nodiscard]] std::string exact_number(double value);
+/// "1 scene", "2 scenes".
+[[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
+/// A share as people read it: 0.0123 becomes "1.23 %".
+[[nodiscard]] std::string percent(double share);
+/// Opens and ends a box that scrolls sideways where its content is too wide; keyboards can enter it. Tall
+/// boxes scroll up and down as well.
+[[nodiscard]] std::string scroll_box(std::string_view label, bool tall = false);
+inline constexpr std::string_view kScrollBoxEnd = "</div>\n";
 [[nodiscard]] std::string base64(std::string_view bytes);
 /// The hash of a content security policy: "sha256-" and its base64. Based on: NIST, FIPS 180-4, 2015.
 [[nodiscard]] std::string policy_hash(std::string_view text);

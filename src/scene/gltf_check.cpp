@@ -10,6 +10,8 @@
 #include <span>
 #include <string_view>
 
+#include "gltf_compression.hpp"
+#include "image_formats.hpp"
 #include "refusal.hpp"
 
 namespace gnomon::detail {
@@ -22,6 +24,7 @@ enum class Kind {
   index,       // into the array named by `target`
   index_list,  // the same, many
   index_map,   // an object whose values are indices
+  count_map,   // an object whose values are integers in [0, limit]
   count,       // an integer in [0, limit]
   numbers,     // exactly `limit` finite numbers
   number,
@@ -92,6 +95,16 @@ constexpr Rule kNode[] = {{"name", Kind::string},
 constexpr Rule kSkin[] = {{"joints", Kind::index_list, "nodes", 0, {}, true},
                           {"inverseBindMatrices", Kind::index, "accessors"}};
 constexpr Rule kScene[] = {{"name", Kind::string}, {"nodes", Kind::index_list, "nodes"}};
+
+constexpr Rule kMeshopt[] = {{"buffer", Kind::index, "buffers", 0, {}, true},
+                             {"byteOffset", Kind::count, "", kMaxBytes},
+                             {"byteLength", Kind::count, "", kMaxBytes, {}, true},
+                             {"byteStride", Kind::count, "", kMaxInt, {}, true},
+                             {"count", Kind::count, "", kMaxInt, {}, true},
+                             {"mode", Kind::string, "", 0, {}, true},
+                             {"filter", Kind::string}};
+constexpr Rule kDraco[] = {{"bufferView", Kind::index, "bufferViews", 0, {}, true},
+                           {"attributes", Kind::count_map, "", kMaxInt, {}, true}};
 
 struct ArrayRule {
   const char* name;
@@ -206,6 +219,13 @@ json checked_value(const json& document, const json& value, const std::string& w
       }
       return out;
     }
+    case Kind::count_map: {
+      expect(value.is_object(), value, where, "an object");
+      json out = json::object();
+      for (const auto& [key, v] : value.items())
+        out[key] = checked_count(v, where + "." + one_line(key), rule.limit);
+      return out;
+    }
     case Kind::numbers:
     case Kind::index_list:
     case Kind::objects:
@@ -268,6 +288,25 @@ json checked_array(const json& source, const char* name) {
   return array == kArrays.end() ? json::array() : checked_array(source, *array);
 }
 
+namespace {
+
+json checked_extension(const json& source, const json& owner, const char* name, std::span<const Rule> rules,
+                       const std::string& where) {
+  const json* extensions = find_object(owner, "extensions");
+  const json* found = extensions == nullptr ? nullptr : find_object(*extensions, name);
+  return found == nullptr ? json() : checked_object(source, *found, where, rules);
+}
+
+}  // namespace
+
+json checked_meshopt(const json& source, const json& view, const std::string& where) {
+  return checked_extension(source, view, "EXT_meshopt_compression", kMeshopt, where);
+}
+
+json checked_draco(const json& source, const json& primitive, const std::string& where) {
+  return checked_extension(source, primitive, "KHR_draco_mesh_compression", kDraco, where);
+}
+
 json checked_document(const json& source) {
   expect(source.is_object(), source, "JSON", "an object");
   json out = json::object();
@@ -281,6 +320,12 @@ json checked_document(const json& source) {
   return out;
 }
 
+bool decodes(std::string_view extension) noexcept {
+  return (extension == "KHR_draco_mesh_compression" && decodes_draco()) ||
+         (extension == "EXT_meshopt_compression" && decodes_meshopt()) ||
+         (extension == "EXT_texture_webp" && reads_webp());
+}
+
 void check_extensions(const json& source) {
   if (!source.is_object()) return;
   const auto required = source.find("extensionsRequired");
@@ -290,7 +335,7 @@ void check_extensions(const json& source) {
     expect(name.is_string(), name, "extensionsRequired", "a list of strings");
     const auto text = name.get<std::string>();
     if (text.starts_with("KHR_materials_")) continue;
-    if (std::find(kSupported.begin(), kSupported.end(), text) == kSupported.end()) {
+    if (std::find(kSupported.begin(), kSupported.end(), text) == kSupported.end() && !decodes(text)) {
       throw Refusal("extensionsRequired", "'" + text + "' is not supported");
     }
   }

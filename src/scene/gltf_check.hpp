@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 namespace gnomon::detail {
 
@@ -13,6 +14,16 @@ namespace gnomon::detail {
 
 /// The same for one array of `source`, such as "buffers" or "images".
 [[nodiscard]] nlohmann::json checked_array(const nlohmann::json& source, const char* name);
+
+/// The extension of a buffer view or a primitive, checked like the document; null where it has none. Throws
+/// Refusal.
+[[nodiscard]] nlohmann::json checked_meshopt(const nlohmann::json& source, const nlohmann::json& view,
+                                             const std::string& where);
+[[nodiscard]] nlohmann::json checked_draco(const nlohmann::json& source, const nlohmann::json& primitive,
+                                           const std::string& where);
+
+/// Whether this build decodes the data of this extension.
+[[nodiscard]] bool decodes(std::string_view extension) noexcept;
 
 /// Stops with the name of the first extension in extensionsRequired that is not supported.
 void check_extensions(const nlohmann::json& source);

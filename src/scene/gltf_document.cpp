@@ -8,6 +8,7 @@
 
 #include "glb.hpp"
 #include "gltf_check.hpp"
+#include "gltf_compression.hpp"
 #include "json_words.hpp"
 #include "refusal.hpp"
 
@@ -35,14 +36,14 @@ void warn_of_extensions(const json& source, std::vector<std::string>& warnings) 
   for (const char* name : {"EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
                            "EXT_texture_webp", "KHR_texture_basisu"}) {
     for (const json& entry : *used) {
-      if (entry == name)
+      if (entry == name && !decodes(name))
         warn(warnings, "extensionsUsed", std::string(name) + " is not supported, fallbacks are used");
     }
   }
 }
 
-std::vector<Bytes> load_buffers(const json& buffers, const Container& container, SceneFolder& folder,
-                                std::vector<std::string>& warnings) {
+std::vector<Bytes> load_buffers(const json& source, const json& buffers, const Container& container,
+                                SceneFolder& folder, std::vector<std::string>& warnings) {
   std::vector<Bytes> out;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const json& buffer = buffers[i];
@@ -57,7 +58,10 @@ std::vector<Bytes> load_buffers(const json& buffers, const Container& container,
     } else if (i == 0 && container.has_bin) {
       bytes.assign(container.bin.begin(), container.bin.end());
     } else {
-      warn(warnings, element("buffers", i), "has no data");
+      // A buffer that only stands in for compressed views holds nothing to miss.
+      const json* extensions = find_object(source["buffers"][i], "extensions");
+      const bool stand_in = extensions != nullptr && extensions->contains("EXT_meshopt_compression");
+      if (!stand_in || !decodes_meshopt()) warn(warnings, element("buffers", i), "has no data");
       out.emplace_back();
       continue;
     }
@@ -125,7 +129,7 @@ std::optional<TextureTransform> texture_transform(const json& texture_info) {
   return out;
 }
 
-// A specular-glossiness material says its colour in an extension only; it is told as the usual kind.
+// A specular-glossiness material has its colour in an extension only; it is read as the usual kind.
 void adopt_specular_glossiness(json& source) {
   const auto materials = source.find("materials");
   if (materials == source.end() || !materials->is_array()) return;
@@ -138,6 +142,19 @@ void adopt_specular_glossiness(json& source) {
     if (found->contains("diffuseFactor")) told["baseColorFactor"] = found->at("diffuseFactor");
     if (found->contains("diffuseTexture")) told["baseColorTexture"] = found->at("diffuseTexture");
     material["pbrMetallicRoughness"] = std::move(told);
+  }
+}
+
+// A texture may name a picture in WebP beside one in PNG or JPEG.
+void adopt_webp(json& source) {
+  const auto textures = source.find("textures");
+  if (textures == source.end() || !textures->is_array()) return;
+  for (json& texture : *textures) {
+    const json* extensions = find_object(texture, "extensions");
+    const json* found = extensions == nullptr ? nullptr : find_object(*extensions, "EXT_texture_webp");
+    if (found == nullptr || !found->contains("source")) continue;
+    json picture = found->at("source");
+    texture["source"] = std::move(picture);
   }
 }
 
@@ -173,7 +190,8 @@ void take_indices(json& document, const json& source, Document& out) {
       const json* extensions = find_object(source["meshes"][m]["primitives"][p], "extensions");
       const bool draco = extensions != nullptr && extensions->contains("KHR_draco_mesh_compression");
       const auto position = primitive["attributes"].find("POSITION");
-      out.compressed.back().push_back(draco && position != primitive["attributes"].end() &&
+      out.compressed.back().push_back(draco && !decodes_draco() &&
+                                      position != primitive["attributes"].end() &&
                                       !has_data(document["accessors"][position->get<std::size_t>()]));
     }
   }
@@ -218,6 +236,7 @@ Document open_document(std::span<const std::uint8_t> bytes, SceneFolder& folder,
   json source = parse_json(container.json);
   check_extensions(source);
   if (source.is_object()) adopt_specular_glossiness(source);
+  if (source.is_object() && decodes("EXT_texture_webp")) adopt_webp(source);
   json document = checked_document(source);
   if (document.contains("nodes") && document["nodes"].size() > limits.nodes) {
     throw Refusal("nodes", "there are more than " + std::to_string(limits.nodes));
@@ -227,7 +246,10 @@ Document open_document(std::span<const std::uint8_t> bytes, SceneFolder& folder,
   Document out;
   const json buffers = checked_array(source, "buffers");
   check_views(document, buffers);
-  std::vector<Bytes> data = load_buffers(buffers, container, folder, warnings);
+  std::vector<Bytes> data = load_buffers(source, buffers, container, folder, warnings);
+  Compressed compressed{source, document, data, limits, limits.total_bytes};
+  decode_meshopt_views(compressed);
+  decode_draco_primitives(compressed);
   out.images = list_images(source);
   out.transforms = list_transforms(source);
   take_indices(document, source, out);

@@ -80,7 +80,8 @@ Material to_material(const Document& document, std::size_t index, ImageReader& i
   const auto t = static_cast<std::size_t>(base.baseColorTexture.index);
   const tinygltf::Texture& texture = document.model.textures[t];
   if (texture.source < 0) {
-    warn(scene.warnings, element("textures", t), "has no picture in PNG or JPEG; shown white");
+    warn(scene.warnings, element("textures", t),
+         "has no picture in a format that this build reads; shown white");
     return out;
   }
   out.base_color_image = images.image(texture.source);

@@ -131,9 +131,9 @@ std::optional<std::uint32_t> MeshReader::build(int mesh, std::size_t primitive,
   const std::string where = element("meshes", m) + "." + element("primitives", primitive);
   const tinygltf::Primitive& source = document_.model.meshes[m].primitives[primitive];
   const char* why = nullptr;
-  if (source.mode < kFirstTriangleMode) why = "points and lines cast no shadow, left out";
-  if (attribute(source, "POSITION") < 0) why = "has no POSITION, left out";
-  if (document_.compressed[m][primitive]) why = "is compressed with Draco, left out";
+  if (source.mode < kFirstTriangleMode) why = "points and lines cast no shadow, skipped";
+  if (attribute(source, "POSITION") < 0) why = "has no POSITION, skipped";
+  if (document_.compressed[m][primitive]) why = "is compressed with Draco, skipped";
   if (why != nullptr) {
     warn(scene_.warnings, where, why);
     return std::nullopt;
@@ -142,7 +142,7 @@ std::optional<std::uint32_t> MeshReader::build(int mesh, std::size_t primitive,
   try {
     return build_triangles(mesh, primitive, where, nullptr);
   } catch (const LeftOut& e) {
-    warn(scene_.warnings, where, std::string(e.what()) + ", left out");
+    warn(scene_.warnings, where, std::string(e.what()) + ", skipped");
     return std::nullopt;
   }
 }
@@ -261,7 +261,7 @@ std::vector<std::uint32_t> MeshReader::read_triangles(int mesh, std::size_t prim
   corners_left_ -= spent;
   if (triangles.empty()) throw LeftOut("has no triangle");
   if (source.mode == kFirstTriangleMode && given % 3 != 0) {
-    warn(scene_.warnings, where, "its last triangle is not whole, left out");
+    warn(scene_.warnings, where, "its last triangle is not whole, skipped");
   }
   return triangles;
 }

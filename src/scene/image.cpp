@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "gnomon/scene/load.hpp"
+#include "image_formats.hpp"
 #include "refusal.hpp"
 #include "whole_file.hpp"
 
@@ -72,10 +73,41 @@ std::optional<Header> jpeg_header(Span bytes) {
   return std::nullopt;
 }
 
+std::uint64_t little_endian(Span bytes, std::size_t at, std::size_t size) {
+  std::uint64_t value = 0;
+  for (std::size_t i = size; i-- > 0;) value = value << 8 | bytes[at + i];
+  return value;
+}
+
+// RIFF with one of three first chunks. Google, "WebP Container Specification", 2012; RFC 6386, section 9.1.
+std::optional<Header> webp_header(Span bytes) {
+  constexpr std::size_t kEnd = 30, kChunk = 12, kData = 20;
+  const auto is = [&](std::size_t at, const char* tag) {
+    return std::equal(tag, tag + 4, bytes.begin() + static_cast<std::ptrdiff_t>(at));
+  };
+  if (bytes.size() < kEnd || !is(0, "RIFF") || !is(8, "WEBP")) return std::nullopt;
+  if (is(kChunk, "VP8 "))
+    return Header{"webp", little_endian(bytes, kData + 6, 2) & 0x3fff,
+                  little_endian(bytes, kData + 8, 2) & 0x3fff};
+  if (is(kChunk, "VP8L")) {
+    const std::uint64_t bits = little_endian(bytes, kData + 1, 4);
+    return Header{"webp", (bits & 0x3fff) + 1, (bits >> 14 & 0x3fff) + 1};
+  }
+  constexpr std::uint8_t kAnimation = 2;
+  if (!is(kChunk, "VP8X") || (bytes[kData] & kAnimation) != 0) return std::nullopt;
+  return Header{"webp", little_endian(bytes, kData + 4, 3) + 1, little_endian(bytes, kData + 7, 3) + 1};
+}
+
+// Whether the file is as long as its header says.
+bool webp_is_whole(Span bytes) {
+  return little_endian(bytes, 4, 4) + 8 <= bytes.size();
+}
+
 Header checked_header(Span bytes, const std::string& name, std::uint64_t max_pixels) {
   auto header = png_header(bytes);
   if (!header) header = jpeg_header(bytes);
-  if (!header) throw SceneError(detail::one_line(name + ": picture: is neither PNG nor JPEG"));
+  if (!header) header = webp_header(bytes);
+  if (!header) throw SceneError(detail::one_line(name + ": picture: is neither PNG, JPEG nor a single WebP"));
   const bool sane =
       header->width > 0 && header->height > 0 && header->width <= kMaxSide && header->height <= kMaxSide;
   if (!sane || header->width * header->height > max_pixels) {
@@ -135,13 +167,19 @@ OIIO::ImageSpec rgb_spec(const Image& image, int channels, const std::string& wh
 
 }  // namespace
 
+bool detail::reads_webp() noexcept {
+  static const bool reads = OIIO::ImageInput::create("webp") != nullptr;
+  return reads;
+}
+
 Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
   const Header header = checked_header(bytes, name, max_pixels);
   const auto fail = [&](const std::string& why) {
     throw SceneError(detail::one_line(name + ": picture: damaged " + header.format + ": " + why));
   };
   if (header.format == std::string_view("png") && !png_is_whole(bytes)) fail("it is cut off");
-  // The reader is asked for by name: OpenImageIO would otherwise try every format it knows on bytes it does
+  if (header.format == std::string_view("webp") && !webp_is_whole(bytes)) fail("it is cut off");
+  // The reader is chosen by name: OpenImageIO would otherwise try every format it knows on bytes it does
   // not.
   auto in = OIIO::ImageInput::create(header.format);
   if (!in) fail(OIIO::geterror());

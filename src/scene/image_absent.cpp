@@ -1,9 +1,14 @@
 // What stands in for pictures where OpenImageIO was not there at build time: scenes load without theirs.
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
+#include "image_formats.hpp"
 #include "refusal.hpp"
 
 namespace gnomon {
+
+bool detail::reads_webp() noexcept {
+  return false;
+}
 
 namespace {
 

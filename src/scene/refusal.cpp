@@ -28,7 +28,7 @@ void warn(std::vector<std::string>& warnings, const std::string& element, const 
   if (warnings.size() < kWarningCount) {
     warnings.push_back(one_line(element + ": " + what));
   } else if (warnings.size() == kWarningCount) {
-    warnings.push_back("more warnings were left out");
+    warnings.push_back("more warnings are not shown");
   }
 }
 

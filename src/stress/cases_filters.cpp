@@ -28,7 +28,7 @@ void case_hostile_texels(Check& check) {
       at.map_depth = [](int, int) { return 1.0; };
       at.depth = static_cast<double>(random() % 5) / 4.0;
       const double answer = filter->reference.visibility(texel, at, settings);
-      check.that(answer >= 0.0 && answer <= 1.0, std::string(filter->info.name) + " answers within [0, 1]");
+      check.that(answer >= 0.0 && answer <= 1.0, std::string(filter->info.name) + " stays within [0, 1]");
       ++answers;
       if (!check.passed()) return;
     }

@@ -116,7 +116,8 @@ void case_point_in_view(Check& check) {
       skipped = skipped || o.kind == OmissionKind::face_without_receiver;
     check.that(skipped, "and listed");
     const Held held = held_points(asked, plan);
-    check.that(held.points > 50 && held.held == held.points && held.behind == 0, "what is seen is held");
+    check.that(held.points > 50 && held.held == held.points && held.behind == 0,
+               "visible points lie in a map");
     if (warp == &warps::none) check.note("faces", plan.map_count);
   }
 }
@@ -129,7 +130,8 @@ void case_point_behind(Check& check) {
     const ShadowPlan plan = input.plan();
     check.that(plan.status == PlanStatus::ok && all_finite(plan), "planned, finite");
     const Held held = held_points(input, plan);
-    check.that(held.points > 50 && held.held == held.points && held.behind == 0, "what is seen is held");
+    check.that(held.points > 50 && held.held == held.points && held.behind == 0,
+               "visible points lie in a map");
     for (int i = 0; i < plan.map_count; ++i) {
       for (const glm::dvec3& p : points_of(input, plan, i, 8, 3))
         check.that(depth_grows(plan.map[static_cast<std::size_t>(i)], position, p),

@@ -201,7 +201,7 @@ const char* kind_name(OmissionKind kind) {
     case OmissionKind::face_without_caster:
       return "face without caster";
     case OmissionKind::resolution_without_gain:
-      return "texels finer than asked for";
+      return "texels finer than requested";
     case OmissionKind::depth_near_light:
       return "depths near the light";
     case OmissionKind::option_ignored:

@@ -80,7 +80,8 @@ std::string tables(const Results& results) {
   }
   if (!results.axes.empty()) {
     out +=
-        "| axis | double against long double, texels | ulp | float relative to the camera, texels | over "
+        "| parameter | double against long double, texels | ulp | float relative to the camera, texels | "
+        "over "
         "half a "
         "texel at | absolute float over half a texel at | condition | texels per area, change for a step of "
         "1e-6 | "
@@ -92,7 +93,8 @@ std::string tables(const Results& results) {
   }
   if (!results.filters.empty()) {
     out +=
-        "| strain | filter | largest error | at | bound there | share beyond their bound | answers in [0, 1] "
+        "| parameter | filter | largest error | at | bound there | results beyond their bound | results in "
+        "[0, 1] "
         "|\n"
         "|--|--|--|--|--|--|--|\n";
     for (auto row = results.filters.begin(); row != results.filters.end();) {

@@ -99,7 +99,6 @@ void declare_options(CLI::App& app, const Arguments& arguments) {
     if (!option.needs.empty()) app.get_option(option.name)->needs(app.get_option(option.needs));
     if (!option.excludes.empty()) app.get_option(option.name)->excludes(app.get_option(option.excludes));
   }
-  app.footer(arguments.footer);
 }
 
 void note_given(const CLI::App& app, const Arguments& arguments) {
@@ -127,10 +126,20 @@ std::string bad_usage(const CLI::App& app, const Arguments& arguments, const CLI
   return one_line(what.substr(0, what.find('\n')), 400) + " (see --help)";
 }
 
-/// Nothing where the command line asked for help or the version, which is printed.
-bool parse(CLI::App& app, const CLI::App& command, const Arguments& arguments, int argc, char** argv) {
+void print_text(std::string text) {
+  if (text.ends_with('\n')) text.pop_back();  // print_line() adds it
+  print_line(text);
+  flush_output();
+}
+
+/// False where the command line asked for help or the version, which is printed.
+bool parse(CLI::App& app, const CLI::App& command, const Arguments& arguments, const std::string& help,
+           int argc, char** argv) {
   try {
     app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    print_text(help);
+    return false;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success))
       throw std::runtime_error(bad_usage(command, arguments, error));
@@ -147,14 +156,10 @@ std::string version_of(const Program& program) {
   return std::string(program.name) + " " + GNOMON_VERSION;
 }
 
+/// Read before the parser sees them; declared for its list of what there is.
 void declare_texts(CLI::App& app) {
-  // Read before the parser sees them; declared for --help.
-  app.add_option("--completion")
-      ->description("print a completion script for bash, zsh or fish")
-      ->type_name("SHELL");
-  app.add_option("--manual")
-      ->description("print the manual page, of a command where one is named")
-      ->type_name("[COMMAND]");
+  app.add_option("--completion");
+  app.add_option("--manual");
 }
 
 int run_single(const Program& program, int argc, char** argv) {
@@ -164,7 +169,7 @@ int run_single(const Program& program, int argc, char** argv) {
   const std::function<int()> run = program.commands.front().declare(arguments);
   declare_options(app, arguments);
   declare_texts(app);
-  return parse(app, app, arguments, argc, argv) ? run() : 0;
+  return parse(app, app, arguments, help_page(program, nullptr), argc, argv) ? run() : 0;
 }
 
 const Command* find_command(const Program& program, std::string_view name) {
@@ -195,20 +200,18 @@ int run_command(const Program& program, int argc, char** argv) {
   std::function<int()> run;
   CLI::App* parsed = &app;
   for (const Command& command : program.commands) {
-    const std::string lacks =
-        command.declare == nullptr ? " (not in this build: " + std::string(command.missing) + ")" : "";
-    CLI::App* added = app.add_subcommand(std::string(command.name), std::string(command.summary) + lacks);
+    CLI::App* added = app.add_subcommand(std::string(command.name));
     if (&command != chosen) continue;
     added->set_version_flag("--version", version_of(program));
     run = command.declare(arguments);
     declare_options(*added, arguments);
     parsed = added;
   }
-  return parse(app, *parsed, arguments, argc, argv) ? run() : 0;
+  return parse(app, *parsed, arguments, help_page(program, chosen), argc, argv) ? run() : 0;
 }
 
-/// True where the command line asks for a text that the tables become, which is then printed.
-bool print_text(const Program& program, int argc, char** argv) {
+/// True where the command line asks for completion or a manual page, which is then printed.
+bool prints_text(const Program& program, int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "", of = argc > 2 ? argv[2] : "";
   std::string text;
   if (what == "--completion") {
@@ -220,9 +223,7 @@ bool print_text(const Program& program, int argc, char** argv) {
   } else {
     return false;
   }
-  text.pop_back();  // the end of the last line, which print_line() adds
-  print_line(text);
-  flush_output();
+  print_text(text);
   return true;
 }
 
@@ -243,7 +244,7 @@ int run_program(const Program& program, int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   try {
-    if (print_text(program, argc, argv)) return 0;
+    if (prints_text(program, argc, argv)) return 0;
     return program.single ? run_single(program, argc, argv) : run_command(program, argc, argv);
   } catch (const Interrupted&) {
     return complain("interrupted", kInterrupted);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "option_words.hpp"
 #include "shell_texts.hpp"
 
 namespace gnomon::tool {
@@ -32,10 +33,6 @@ std::vector<Declared> declared_by(const Program& program) {
 
 bool is_flag(const Option& option) {
   return std::holds_alternative<bool*>(option.target);
-}
-
-bool is_positional(const Option& option) {
-  return !option.name.starts_with('-');
 }
 
 const Option* positional_of(const Arguments& arguments) {

@@ -1,8 +1,8 @@
 // Manual pages, written from a program's tables.
 #include <algorithm>
 #include <cctype>
-#include <type_traits>
 
+#include "option_words.hpp"
 #include "shell_texts.hpp"
 
 namespace gnomon::tool {
@@ -32,72 +32,23 @@ std::string upper(std::string text) {
   return text;
 }
 
-std::string number(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
-}
-
-/// What the option is without being given; empty where that is nothing.
-std::string default_of(const Option& option) {
-  return std::visit(
-      [](const auto& target) -> std::string {
-        using Type = std::remove_cvref_t<decltype(target)>;
-        if constexpr (std::is_same_v<Type, bool*>) {
-          return {};
-        } else if constexpr (std::is_same_v<Type, ParsedWord>) {
-          return target.shown;
-        } else if constexpr (std::is_same_v<Type, std::string*>) {
-          return *target;
-        } else if constexpr (std::is_same_v<Type, std::vector<std::string>*>) {
-          std::string all;
-          for (const std::string& word : *target) all += (all.empty() ? "" : ",") + word;
-          return all;
-        } else if constexpr (std::is_same_v<Type, std::vector<int>*>) {
-          std::string all;
-          for (const int word : *target) all += (all.empty() ? "" : ",") + std::to_string(word);
-          return all;
-        } else {
-          return number(static_cast<double>(*target));
-        }
-      },
-      option.target);
-}
-
-std::string value_word(const Option& option) {
-  if (std::holds_alternative<bool*>(option.target)) return {};
-  if (!option.word.empty()) return option.word;
-  if (!option.names.empty()) return "NAME";
-  switch (option.completion) {
-    case Completion::files:
-      return "FILE";
-    case Completion::folders:
-      return "DIR";
-    case Completion::names:
-      break;
-  }
-  const bool text = std::holds_alternative<std::string*>(option.target);
-  return text ? "TEXT" : "NUMBER";
-}
-
 std::string option_entry(const Option& option) {
   std::string out = ".TP\n.B " + roff(option.name);
   if (const std::string word = value_word(option); !word.empty() && option.name.starts_with('-'))
     out += " \\fI" + roff(word) + "\\fR";
   out += "\n" + roff(option.help) + ".";
   if (option.range)
-    out += " From " + roff(number((*option.range)[0])) + " to " + roff(number((*option.range)[1])) + ".";
-  if (const std::string value = default_of(option); !value.empty()) out += " Default: " + roff(value) + ".";
+    out += " From " + roff(number_word((*option.range)[0])) + " to " + roff(number_word((*option.range)[1])) +
+           ".";
+  if (const std::string value = default_word(option); !value.empty()) out += " Default: " + roff(value) + ".";
   return out + "\n";
 }
 
 std::string synopsis_of(const Arguments& arguments) {
   std::string out = " [\\fIOPTION\\fR]...";
   for (const Option& option : arguments.options) {
-    if (option.name.starts_with('-')) continue;
-    const bool list = std::holds_alternative<std::vector<std::string>*>(option.target);
-    const std::string word = "\\fI" + roff(upper(option.name)) + "\\fR" + (list ? "..." : "");
+    if (!is_positional(option)) continue;
+    const std::string word = "\\fI" + roff(upper(option.name)) + "\\fR" + (takes_list(option) ? "..." : "");
     out += option.required ? " " + word : " [" + word + "]";
   }
   return out;

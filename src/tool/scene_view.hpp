@@ -9,7 +9,7 @@
 #include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/scene/scene.hpp"
-#include "gnomon/technique.hpp"
+#include "gnomon/study/technique.hpp"
 
 namespace gnomon::tool {
 

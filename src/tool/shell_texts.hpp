@@ -1,4 +1,4 @@
-// What a program's tables become besides --help: completion for shells, and manual pages.
+// What a program's tables become: help, completion for shells, and manual pages.
 #pragma once
 
 #include <string>
@@ -13,5 +13,9 @@ namespace gnomon::tool {
 
 /// A page in man's format: of the program, or of one of its commands where `command` is not nullptr.
 [[nodiscard]] std::string manual_page(const Program& program, const Command* command);
+
+/// What --help prints: of the program, or of one of its commands where `command` is not nullptr. Lines have
+/// at most 100 columns.
+[[nodiscard]] std::string help_page(const Program& program, const Command* command);
 
 }  // namespace gnomon::tool

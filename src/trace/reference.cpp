@@ -110,9 +110,12 @@ HardReference hard_reference(const Tracer& tracer, const SurfacePoints& points, 
 KernelAxes texel_axes(const ShadowMap& map, const glm::dvec3& point, double radius_texels) noexcept {
   const glm::dmat4& m = map.clip_from_world;
   const glm::dvec4 clip = m * glm::dvec4(point, 1.0);
+  const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;
   const auto row = [&m](int i) { return glm::dvec3(m[0][i], m[1][i], m[2][i]); };
-  const glm::dvec3 texel_x = (row(0) - clip.x / clip.w * row(3)) * (0.5 * map.width / clip.w);
-  const glm::dvec3 texel_y = (row(1) - clip.y / clip.w * row(3)) * (0.5 * map.height / clip.w);
+  const glm::dvec3 over_x = row(0) - ndc.x * row(3), over_y = row(1) - ndc.y * row(3);
+  const glm::dmat2 d = map.texels().place(ndc).texel_from_ndc / clip.w;
+  const glm::dvec3 texel_x = over_x * d[0][0] + over_y * d[1][0];
+  const glm::dvec3 texel_y = over_x * d[0][1] + over_y * d[1][1];
   const glm::dvec3 light = glm::normalize(glm::dvec3(map.light_world) - map.light_world.w * point);
   // Vectors across the light whose change of one texel coordinate is 1 and of the other 0.
   const glm::dvec3 x = glm::cross(texel_y, light), y = glm::cross(light, texel_x);

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "case_table.hpp"
+#include "gnomon/study/log_perspective.hpp"
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include <new>
 #include <vector>
 
+#include "gnomon/study/technique.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 

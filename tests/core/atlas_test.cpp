@@ -19,6 +19,7 @@ ShadowPlan plan_of(const std::vector<std::pair<int, int>>& sizes) {
   ShadowPlan plan;
   for (const auto& [width, height] : sizes) {
     ShadowMap& map = plan.map[static_cast<std::size_t>(plan.map_count++)];
+    map = {};
     map.width = width;
     map.height = height;
   }

@@ -23,7 +23,7 @@ Receiver overhead(const glm::dvec3& normal) {
   // x right, y away, depth down.
   r.clip_from_world = glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0, -1, 0, 0),
                                  glm::dvec4(0, 0, 0, 1));
-  r.width = r.height = 4;
+  r.texels.width = r.texels.height = 4;
   r.light_direction = {0, -1, 0};
   r.normal = glm::normalize(normal);
   return r;
@@ -68,8 +68,8 @@ TEST(ReceiverPlane, equals_the_plane_taken_through_the_inverse_matrix) {
   r.clip_from_world[2] = {-0.1, -1.2, 0.1, -0.03};
   r.clip_from_world[3] = {0.2, 0.1, 0.3, 1.5};
   r.point = {0.2, 0.4, -0.3};
-  r.width = 64;
-  r.height = 32;
+  r.texels.width = 64;
+  r.texels.height = 32;
   const glm::dvec4 pi =
       glm::inverse(glm::transpose(r.clip_from_world)) * glm::dvec4(r.normal, -glm::dot(r.normal, r.point));
   const ReceiverPlane plane = receiver_plane(r);
@@ -141,7 +141,7 @@ TEST(NormalOffset, matches_the_golden_rows_where_there_is_no_warp) {
   for (const Json& row : golden("extra").at("slope_bias")) {
     const double cosine = row.at("cos_l"), texel = row.at("texel");
     Receiver r = overhead({std::sqrt((1.0 - cosine) * (1.0 + cosine)), cosine, 0.0});
-    r.width = r.height = static_cast<int>(std::lround(2.0 / texel));
+    r.texels.width = r.texels.height = static_cast<int>(std::lround(2.0 / texel));
     const BiasOptions uncapped{0.0, 0.5, 0.5, 1e9};
     const glm::dvec3 half = normal_offset_world(uncapped, r, 0.0),
                      whole = normal_offset_world(uncapped, r, 0.5);
@@ -177,7 +177,7 @@ TEST(AdaptiveBias, epsilon_is_worth_what_hyperbolic_depth_makes_of_it) {
     Receiver r;
     r.clip_from_world =
         clip_from_view(perspective_camera({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.0, 1.0, n, f, 1, 1));
-    r.width = r.height = 3;  // a centre on the axis
+    r.texels.width = r.texels.height = 3;  // a centre on the axis
     r.light_direction = {0, 0, -1};
     r.normal = {0, 0, 1};
     r.point = {0, 0, -z};
@@ -193,7 +193,7 @@ TEST(WarpBias, follows_the_golden_rows_along_the_warp) {
   for (const Json& row : data.at("rows")) {
     Receiver r;
     r.clip_from_world = mat4(data.at("M"));
-    r.width = r.height = 1024;
+    r.texels.width = r.texels.height = 1024;
     r.light_direction = vec3(data.at("light"));
     r.normal = -r.light_direction;
     r.point = vec3(row.at("world"));
@@ -201,7 +201,7 @@ TEST(WarpBias, follows_the_golden_rows_along_the_warp) {
     // slant.
     const double with = plane_bias_ndc({1.0, 0.5, 0.0, 8.0}, r, 0.0);
     const double without = plane_bias_ndc({0.0, 0.5, 0.0, 8.0}, r, 0.0);
-    const glm::dvec2 texel = texel_extent_world(r.clip_from_world, 1024, 1024, r.light_direction, r.point);
+    const glm::dvec2 texel = texel_extent_world(r.clip_from_world, r.texels, r.light_direction, r.point);
     EXPECT_CLOSE(std::abs(with - without), std::abs(number(row.at("predicted"))) * std::max(texel.x, texel.y),
                  1e-9);
   }

@@ -24,7 +24,7 @@ bool too_fine(const ShadowMap& map, const glm::dvec3& p) {
 }
 
 TEST(Bias, a_map_of_two_units_over_two_texels_has_texels_of_one_unit) {
-  const glm::dvec2 texel = texel_extent_world(glm::dmat4(1.0), 2, 4, {0, 0, -1}, {0, 0, 0});
+  const glm::dvec2 texel = texel_extent_world(glm::dmat4(1.0), {2, 4}, {0, 0, -1}, {0, 0, 0});
   EXPECT_CLOSE(texel.x, 1.0, kRounding);
   EXPECT_CLOSE(texel.y, 0.5, kRounding);
 }
@@ -32,10 +32,10 @@ TEST(Bias, a_map_of_two_units_over_two_texels_has_texels_of_one_unit) {
 TEST(Bias, a_singular_map_and_a_point_behind_it_have_no_texel) {
   glm::dmat4 flat(1.0);
   flat[0][0] = 0.0;
-  EXPECT_TRUE(std::isinf(texel_extent_world(flat, 8, 8, {0, 0, -1}, {0, 0, 0}).x));
+  EXPECT_TRUE(std::isinf(texel_extent_world(flat, {8, 8}, {0, 0, -1}, {0, 0, 0}).x));
   glm::dmat4 behind(1.0);
   behind[3][3] = -1.0;
-  EXPECT_TRUE(std::isinf(texel_extent_world(behind, 8, 8, {0, 0, -1}, {0, 0, 0}).y));
+  EXPECT_TRUE(std::isinf(texel_extent_world(behind, {8, 8}, {0, 0, -1}, {0, 0, 0}).y));
 }
 
 TEST(Bias, a_surface_that_faces_the_light_needs_only_the_constant_part) {
@@ -69,7 +69,7 @@ TEST(Bias, a_map_carries_its_options_times_its_texel) {
   }
 }
 
-TEST(BiasProperty, a_move_along_the_light_changes_depth_as_told_and_nothing_across) {
+TEST(BiasProperty, a_move_along_the_light_changes_depth_by_the_stated_amount_and_nothing_across) {
   std::uint64_t moves = 0;
   for_all(500, [&] {
     const Case c = draw_case({.max_depth_ratio = 1e3, .max_boxes = 8});
@@ -105,7 +105,7 @@ TEST(BiasProperty, a_step_of_one_texel_in_the_map_is_as_long_as_the_extent_says)
       if (map == nullptr || too_fine(*map, p)) continue;
       ++steps;
       const glm::dvec2 extent =
-          texel_extent_world(map->clip_from_world, map->width, map->height, plan.light_direction, p);
+          texel_extent_world(map->clip_from_world, map->texels(), plan.light_direction, p);
       // Inverse of d(texel) / d(across), by differences across the light.
       const glm::dvec3 u = any_across(plan.light_direction), v = glm::cross(plan.light_direction, u);
       const double h = 1e-4 * std::min(extent.x, extent.y);

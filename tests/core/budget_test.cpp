@@ -129,7 +129,7 @@ TEST(Target, maps_that_are_made_smaller_still_meet_it) {
   EXPECT_LE(bound(plan), 0.25);
 }
 
-TEST(Target, one_out_of_reach_gives_the_best_there_is) {
+TEST(Target, an_unattainable_target_gives_the_best_there_is) {
   Plain plain;
   plain.options.resolution.max_error = 1e-9;
   EXPECT_LE(bound(plain.plan()), bound(Plain{}.plan()) * 1.01);
@@ -147,7 +147,7 @@ TEST(Target, with_a_budget_it_is_met_by_fewer_maps_of_more_texels) {
   EXPECT_LE(bound(enough), plain.options.resolution.max_error * 1.01);
 }
 
-TEST(Budget, sizes_stand_still_under_a_slow_camera) {
+TEST(Budget, sizes_are_stable_under_a_slow_camera) {
   Plain plain;
   plain.options.resolution.texel_budget = 1 << 20;
   PlanHistory history;

@@ -193,7 +193,7 @@ TEST(CasterSet, lists_what_the_definition_and_the_linear_search_list_for_any_pla
   EXPECT_GT(culled, 500'000u);
 }
 
-TEST(CasterSet, planes_that_run_through_corners_are_told_apart_to_the_last_bit) {
+TEST(CasterSet, planes_through_corners_are_distinguished_to_the_last_bit) {
   // Offsets that are the negative of some box's own rounded sum: on the plane, and one bit beside it.
   std::size_t kept = 0, culled = 0;
   for_all(200, [&] {

@@ -32,7 +32,7 @@ TEST(Fit, a_long_narrow_slice_is_as_long_as_its_space_diagonal) {
   EXPECT_CLOSE(longest_chord(-0.5, 0.5, -0.5, 0.5, true, 0, 10), std::sqrt(102.0), kRounding);
 }
 
-TEST(Fit, names_are_told) {
+TEST(Fit, names_are_printed_and_read_back) {
   constexpr std::pair<Fit, std::string_view> kNames[] = {{Fit::tight, "tight"},
                                                          {Fit::rotated, "rotated"},
                                                          {Fit::stable, "stable"},

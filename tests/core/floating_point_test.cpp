@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "gnomon/study/log_perspective.hpp"
 #include "support/float_traps.hpp"
 #include "support/seeded_input.hpp"
 
@@ -36,7 +37,7 @@ struct Frame {
         const glm::dvec3 away = p * map.light_world.w - glm::dvec3(map.light_world);
         const double distance = std::sqrt(glm::dot(away, away));
         if (!(distance > 0.0)) continue;
-        const Receiver receiver{map.clip_from_world, map.width, map.height, away / distance, p, normal};
+        const Receiver receiver{map.clip_from_world, map.texels(), away / distance, p, normal};
         const glm::dvec4 clip = map.clip_from_world * glm::dvec4(p, 1.0);
         // What the map holds is what shaders ask about.
         if (!map_holds(plan, map, p) || !(clip.w > 0.0)) continue;
@@ -85,7 +86,7 @@ TEST(FloatingPoint, no_ordinary_input_traps) {
   expect_quiet(Extremes::ordinary, 1500);
 }
 
-TEST(FloatingPoint, no_stiff_input_traps) {
+TEST(FloatingPoint, no_extreme_input_traps) {
   expect_quiet(Extremes::stiff, 3500);
 }
 

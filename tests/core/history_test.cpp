@@ -10,7 +10,7 @@ namespace gnomon::test {
 namespace {
 
 // A cascade without a map in one frame may have one in the next: its size is not remembered.
-TEST(PlanHistory, lays_maps_of_a_size_within_the_budget_for_cascades_that_had_none) {
+TEST(PlanHistory, fits_maps_within_the_budget_for_cascades_that_had_none) {
   SeededInput in;
   int appeared = 0, budgeted = 0;
   for (std::uint64_t seed = 1; seed <= 1500; ++seed) {

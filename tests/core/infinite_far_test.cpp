@@ -103,7 +103,7 @@ TEST(InfiniteFar, a_plan_is_the_one_of_the_finite_camera_and_serves_all_receiver
   EXPECT_GT(planned, 100);
 }
 
-TEST(InfiniteFar, a_tight_plan_does_not_tell_the_endless_camera_from_one_that_sees_as_far) {
+TEST(InfiniteFar, a_tight_plan_is_equal_for_an_infinite_camera_and_one_that_sees_as_far) {
   Case c = scene();
   c.options.cascades = 4;
   const ShadowPlan before = c.plan();
@@ -129,7 +129,7 @@ TEST(InfiniteFar, nothing_ahead_is_nothing_visible_and_a_near_plane_of_zero_is_r
   EXPECT_EQ(c.plan().invalid_field, "camera.near_depth");
 }
 
-TEST(InfiniteFar, a_near_plane_whose_ratio_to_what_is_seen_overflows_is_refused) {
+TEST(InfiniteFar, a_near_plane_whose_ratio_to_the_visible_depths_overflows_is_refused) {
   Case c = scene();
   c.camera.far_depth = kInfinity;
   for (const double n : {5e-324, 1e-310, 1e-300}) {

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
+#include "gnomon/study/dpds.hpp"
+#include "gnomon/study/log_perspective.hpp"
 #include "support/golden.hpp"
 #include "support/near.hpp"
 

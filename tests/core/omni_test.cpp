@@ -1,5 +1,5 @@
 // Do the maps of all directions cover the sphere, undo themselves, and have the texels that they claim?
-#include "gnomon/omni.hpp"
+#include "gnomon/study/omni.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ Camera room_camera() {
   return perspective_camera({0, 2, 9}, {0, -0.1, -1}, {0, 1, 0}, 1.0, 1.5, 0.5, 40, 640, 480);
 }
 
-TEST(Omni, a_direction_of_no_length_and_a_point_on_the_light_are_answered_in_finite_or_infinite_numbers) {
+TEST(Omni, a_zero_direction_and_a_point_on_the_light_give_finite_or_infinite_numbers) {
   for (const OmniMapping mapping : kMappings) {
     const OmniPoint at = omni_from_direction(mapping, glm::dvec3(0.0));
     EXPECT_TRUE(std::isfinite(at.uv.x) && std::isfinite(at.uv.y));
@@ -64,7 +64,7 @@ TEST(Omni, the_centre_of_each_map_looks_along_its_axis) {
   EXPECT_EQ(direction_from_omni(OmniMapping::dual_paraboloid, {1, {0, 0}}), glm::dvec3(0, 0, -1));
 }
 
-TEST(Omni, a_paraboloid_has_the_equator_on_its_rim_and_sixty_degrees_at_the_tangent_of_thirty) {
+TEST(Omni, a_paraboloid_has_the_equator_on_its_edge_and_sixty_degrees_at_the_tangent_of_thirty) {
   const OmniPoint rim = omni_from_direction(OmniMapping::dual_paraboloid, {0.6, 0.8, 0.0});
   EXPECT_NEAR(rim.uv.x, 0.6, kRounding);
   EXPECT_NEAR(rim.uv.y, 0.8, kRounding);
@@ -92,7 +92,7 @@ TEST(Omni, a_triangle_of_the_tetrahedron_ends_at_the_corners_of_its_rectangle) {
   }
 }
 
-TEST(Omni, the_maps_have_the_texels_asked_for) {
+TEST(Omni, the_maps_have_the_requested_texels) {
   const glm::dvec2 cube = omni_size(OmniMapping::cube, 6e6);
   EXPECT_NEAR(cube.x, 1000.0, 1e-9);
   EXPECT_EQ(cube.x, cube.y);

@@ -73,7 +73,7 @@ TEST(Plan, spaces_between_receivers_get_no_cascade_and_say_so) {
   }
 }
 
-TEST(Plan, depths_without_receivers_are_not_divided_unless_asked_for) {
+TEST(Plan, depths_without_receivers_are_not_divided_unless_requested) {
   Case c = ground_case();
   c.receivers = {{{-2, 0, -42}, {2, 4, -38}}};
   c.casters = c.receivers;
@@ -205,7 +205,7 @@ TEST(Plan, off_axis_and_orthographic_cameras_are_planned_without_excuse) {
   for (const ShadowMap& map : plan.maps()) EXPECT_EQ(map.kappa, 0.0);  // no perspective to undo
 }
 
-TEST(Plan, the_light_is_told_as_a_direction_and_the_origin_is_the_camera) {
+TEST(Plan, the_light_is_a_direction_and_the_origin_is_the_camera) {
   Case c = ground_case();
   c.light = {0, -3, 4};
   const ShadowPlan plan = c.plan();

@@ -162,7 +162,7 @@ TEST(Positional, a_room_seen_whole_gets_six_faces_that_cover_every_direction) {
   }
 }
 
-TEST(Positional, faces_without_receivers_are_left_out_and_say_what_they_save) {
+TEST(Positional, faces_without_receivers_are_omitted_with_what_they_save) {
   Room room;
   room.receivers = {{{-10, -0.1, -10}, {10, 0, 10}}};
   room.point.position = {0, 4, 0};

@@ -67,7 +67,8 @@ const ShadowMap* map_of(const ShadowPlan& plan, int face) {
   return found == maps.end() ? nullptr : &*found;
 }
 
-TEST(PruneLamp, random_lamps_get_maps_no_larger_than_the_metric_asks_for_and_the_plan_says_what_that_saves) {
+TEST(PruneLocalLight,
+     random_local_lights_get_maps_no_larger_than_the_metric_requires_and_the_plan_states_what_that_saves) {
   Random random(1);
   int smaller = 0, whole = 0, more_maps = 0;
   std::int64_t all = 0, left = 0;
@@ -108,7 +109,7 @@ TEST(PruneLamp, random_lamps_get_maps_no_larger_than_the_metric_asks_for_and_the
   RecordProperty("percent_of_texels_left", static_cast<int>(100 * left / all));
 }
 
-TEST(PruneLamp, maps_of_a_stable_fit_a_history_or_a_budget_keep_their_size) {
+TEST(PruneLocalLight, maps_of_a_stable_fit_a_history_or_a_budget_keep_their_size) {
   Random random(2);
   int maps = 0;
   for (int i = 0; i < 60; ++i) {
@@ -141,7 +142,7 @@ bool reaches(const Light& light, const glm::dvec3& p) {
   return glm::length(way) < spot.range && cosine > std::cos(spot.outer_radians);
 }
 
-TEST(PruneLamp, random_lamps_meet_the_bound_that_made_their_maps_smaller_where_it_is_measured) {
+TEST(PruneLocalLight, random_local_lights_meet_the_bound_that_made_their_maps_smaller_where_it_is_measured) {
   Random random(3);
   int points = 0, above = 0;
   double largest = 0.0;
@@ -175,7 +176,7 @@ TEST(PruneLamp, random_lamps_meet_the_bound_that_made_their_maps_smaller_where_i
   EXPECT_GT(largest, 0.5) << "maps are far larger than the metric needs";
 }
 
-TEST(PruneLamp, faces_without_receivers_or_casters_are_laid_only_where_the_rules_are_off) {
+TEST(PruneLocalLight, faces_without_receivers_or_casters_get_maps_only_where_the_rules_are_off) {
   Random random(4);
   int more[2] = {};
   for (int i = 0; i < 200; ++i) {
@@ -208,7 +209,7 @@ TEST(PruneLamp, faces_without_receivers_or_casters_are_laid_only_where_the_rules
   EXPECT_GT(more[1], 20);
 }
 
-TEST(PruneLamp, depths_are_pulled_to_what_is_there_only_where_the_rule_is_on) {
+TEST(PruneLocalLight, depths_are_pulled_to_what_is_there_only_where_the_rule_is_on) {
   Random random(5);
   int looser = 0, maps = 0;
   for (int i = 0; i < 300; ++i) {

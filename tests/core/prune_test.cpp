@@ -75,7 +75,7 @@ TEST(Prune, every_rule_says_what_it_takes_for_granted_and_why_nothing_is_lost) {
   }
 }
 
-TEST(Prune, a_cascade_without_receivers_is_laid_only_where_the_rule_is_off) {
+TEST(Prune, a_cascade_without_receivers_gets_a_map_only_where_the_rule_is_off) {
   Valley valley;
   valley.options.split.scheme = SplitScheme::given;
   const std::array splits{14.0, 70.0};
@@ -96,7 +96,7 @@ TEST(Prune, a_cascade_without_receivers_is_laid_only_where_the_rule_is_off) {
   }
 }
 
-TEST(Prune, a_cascade_without_casters_is_laid_only_where_the_rule_is_off) {
+TEST(Prune, a_cascade_without_casters_gets_a_map_only_where_the_rule_is_off) {
   Valley valley;
   const std::array<Box, 1> wall{valley.boxes[2]};
   valley.options.cascades = 2;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
+#include "gnomon/study/dpds.hpp"
 #include "support/golden.hpp"
 #include "support/near.hpp"
 

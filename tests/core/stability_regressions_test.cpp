@@ -149,7 +149,7 @@ TEST(StabilityRegressions, the_largest_texel_counts_how_far_texels_lean_off_the_
   clip(body, Box{boxes[0].min - camera.position, boxes[0].max - camera.position});
   for (const Polytope::Vertex& v : body.vertices()) {
     const glm::dvec2 texel =
-        texel_extent_world(map.clip_from_world, map.width, map.height, travel, v.position + camera.position);
+        texel_extent_world(map.clip_from_world, map.texels(), travel, v.position + camera.position);
     EXPECT_LE(texel.x, map.texel_world_max.x * (1.0 + 1e-6));
     EXPECT_LE(texel.y, map.texel_world_max.y * (1.0 + 1e-6));
   }

@@ -1,5 +1,5 @@
 // Is the technique that is chosen the right one, and is what it is said to cost and to err true?
-#include "gnomon/technique.hpp"
+#include "gnomon/study/technique.hpp"
 
 #include <gtest/gtest.h>
 
@@ -159,7 +159,7 @@ TEST(Technique, says_what_less_cost_and_what_less_error_would_have_taken) {
   EXPECT_EQ(choice.tried, 3 * 4 * 5 * 2);
 }
 
-TEST(Technique, what_is_seen_decides_where_it_is_known) {
+TEST(Technique, visible_points_decide_where_they_are_known) {
   Plain plain;
   const int one_map[] = {1};
   plain.among.cascades = one_map;
@@ -216,7 +216,7 @@ TEST(Technique, work_is_what_culling_leaves_for_each_map) {
   EXPECT_NEAR(work.megatexels_tested, tested / 1e6, 1e-9);
 }
 
-TEST(Technique, nearest_is_taken_and_told_where_nothing_fits) {
+TEST(Technique, the_nearest_is_taken_and_reported_where_nothing_fits) {
   Plain plain;
   plain.budget.milliseconds = 0.1;
   const TechniqueChoice choice = plain.choose();
@@ -236,7 +236,7 @@ TEST(Technique, alpha_tested_casters_cost_what_their_texels_cost) {
   EXPECT_NEAR(plain.choose().chosen.milliseconds - opaque, 3.0 * 1024 * 1024 / 1e6, 1e-9);
 }
 
-TEST(Technique, is_judged_by_texels_where_no_time_is_known) {
+TEST(Technique, is_chosen_by_texels_where_no_time_is_known) {
   Plain plain;
   constexpr FilterCost kFree[] = {{"free"}};
   plain.costs = {};
@@ -267,7 +267,7 @@ TEST(Technique, what_is_beyond_the_most_is_not_tried) {
   EXPECT_EQ(plain.choose().tried, static_cast<int>(TechniqueSet::kMost));
 }
 
-TEST(Technique, lamps_have_the_maps_they_have) {
+TEST(Technique, local_lights_have_the_maps_they_have) {
   Plain plain;
   plain.light = PointLight{{0, 6, -10}, 80};
   const TechniqueChoice choice = plain.choose();

@@ -165,7 +165,7 @@ TEST(VisibleDepths, a_single_visible_depth_gets_a_single_map) {
   }
 }
 
-TEST(VisibleDepths, nothing_visible_or_a_whole_range_asked_for_changes_nothing) {
+TEST(VisibleDepths, nothing_visible_or_a_requested_whole_range_changes_nothing) {
   Plain plain;
   const ShadowPlan before = plain.plan();
   const VisibleDepths none;

@@ -36,7 +36,7 @@ glm::dvec3 ndc(const glm::dmat4& m, const glm::dvec3& p) {
 /// Depth that the texel with its centre at these texel coordinates stores of the receiver's plane.
 double stored(const Scene& s, const glm::dvec2& centre) {
   const Receiver& r = s.receiver;
-  const glm::dvec2 at{2.0 * centre.x / r.width - 1.0, 2.0 * centre.y / r.height - 1.0};
+  const glm::dvec2 at{2.0 * centre.x / r.texels.width - 1.0, 2.0 * centre.y / r.texels.height - 1.0};
   const glm::dvec3 a = ndc(s.world_from_clip, {at, 0.2}), b = ndc(s.world_from_clip, {at, 0.8});
   const double t = glm::dot(r.normal, r.point - a) / glm::dot(r.normal, b - a);
   return ndc(r.clip_from_world, a + (b - a) * t).z;
@@ -44,7 +44,7 @@ double stored(const Scene& s, const glm::dvec2& centre) {
 
 glm::dvec2 texel_of(const Receiver& r, const glm::dvec3& p) {
   const glm::dvec3 at = ndc(r.clip_from_world, p);
-  return {(0.5 * at.x + 0.5) * r.width, (0.5 * at.y + 0.5) * r.height};
+  return {(0.5 * at.x + 0.5) * r.texels.width, (0.5 * at.y + 0.5) * r.texels.height};
 }
 
 /// By how much some texel of the kernel shadows the fragment at all, in ndc depth; `bias(offset)` is the ndc
@@ -57,7 +57,8 @@ double shadowing(const Scene& s, const glm::dvec3& at, int radius, Bias&& bias) 
   for (int j = -radius; j <= radius; ++j) {
     for (int i = -radius; i <= radius; ++i) {
       const glm::dvec2 centre{std::floor(texel.x) + 0.5 + i, std::floor(texel.y) + 0.5 + j};
-      if (centre.x < 0 || centre.y < 0 || centre.x > s.receiver.width || centre.y > s.receiver.height)
+      if (centre.x < 0 || centre.y < 0 || centre.x > s.receiver.texels.width ||
+          centre.y > s.receiver.texels.height)
         continue;
       worst = std::max(worst, s.towards_light * (stored(s, centre) - depth - bias(centre - texel)));
     }
@@ -101,7 +102,7 @@ bool evenly_spaced(const Scene& s, int radius) {
     const double turn = 0.7853981633974483 * i;
     const glm::dvec3 p =
         r.point + (a * std::cos(turn) + b * std::sin(turn)) * (s.texel * (radius + 1) * (1.0 + s.tangent));
-    const glm::dvec2 texel = texel_extent_world(r.clip_from_world, r.width, r.height, r.light_direction, p);
+    const glm::dvec2 texel = texel_extent_world(r.clip_from_world, r.texels, r.light_direction, p);
     const double there = std::max(texel.x, texel.y);
     if (!(there <= s.texel * kAbout && there * kAbout >= s.texel)) return false;
   }
@@ -131,16 +132,15 @@ void for_planes(Use&& use) {
     Receiver& r = s.receiver;
     r.clip_from_world = map->clip_from_world;
     r.clip_from_world[3] = map->clip_from_world * glm::dvec4(c.camera.position, 1.0);
-    r.width = map->width;
-    r.height = map->height;
+    r.texels.width = map->width;
+    r.texels.height = map->height;
     r.light_direction = plan.light_direction;
     r.point = p - c.camera.position;
     s.tangent = random.unit() < 0.2 ? 0.0 : kLeast.max_slope * random.unit();
     const double turn = random.between(0.0, 6.3);
     const glm::dvec3 a = any_across(r.light_direction), b = glm::cross(a, r.light_direction);
     r.normal = glm::normalize(s.tangent * (a * std::cos(turn) + b * std::sin(turn)) - r.light_direction);
-    const glm::dvec2 texel =
-        texel_extent_world(r.clip_from_world, r.width, r.height, r.light_direction, r.point);
+    const glm::dvec2 texel = texel_extent_world(r.clip_from_world, r.texels, r.light_direction, r.point);
     s.texel = std::max(texel.x, texel.y);
     const double place = glm::length(c.camera.position) + glm::length(r.point) + c.camera.far_depth;
     if (!(std::min(texel.x, texel.y) > kFinest * std::max(place, map->depth_range_world))) continue;
@@ -195,8 +195,8 @@ TEST(BiasLaw, the_slope_bias_is_the_least_that_serves_all_fragments) {
       };
       const glm::dvec2 to{corner(texel.x, plane.gradient.x), corner(texel.y, plane.gradient.y)};
       const double depth = stored(s, to);
-      s.receiver.point = ndc(s.world_from_clip, {2.0 * to.x / s.receiver.width - 1.0,
-                                                 2.0 * to.y / s.receiver.height - 1.0, depth});
+      s.receiver.point = ndc(s.world_from_clip, {2.0 * to.x / s.receiver.texels.width - 1.0,
+                                                 2.0 * to.y / s.receiver.texels.height - 1.0, depth});
       const double bias = plane_bias_ndc(kLeast, s.receiver, 0.0);
       ++planes;
       shadowed += shadowing(s, s.receiver.point, 0, [&](const glm::dvec2&) { return 0.99 * bias; }) > 0.0;

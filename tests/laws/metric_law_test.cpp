@@ -164,7 +164,7 @@ TEST(MetricLaw, the_extents_agree_with_finite_differences_of_both_projections) {
   EXPECT_GT(count, 2000u);
 }
 
-TEST(MetricLaw, a_surface_turned_from_the_eye_or_the_light_is_told_apart) {
+TEST(MetricLaw, a_surface_turned_from_the_eye_or_the_light_is_distinguished) {
   for_all(300, [&] {
     const Case c = draw_metric_case();
     const ShadowPlan plan = c.plan();

@@ -81,7 +81,7 @@ TEST(OverlapLaw, every_caster_over_a_receiver_in_an_overlap_is_drawn_into_the_ma
   EXPECT_GT(shadows, 2000u);
 }
 
-TEST(OverlapLaw, an_overlap_is_the_asked_share_of_the_map_before_and_moves_no_split) {
+TEST(OverlapLaw, an_overlap_is_the_requested_share_of_the_map_before_and_moves_no_split) {
   std::uint64_t overlaps = 0;
   for_all(1000, [&] {
     Case c = draw_overlapping();

@@ -90,7 +90,7 @@ TEST(PartitionLaw, a_caster_between_a_receiver_and_the_light_is_in_the_list_of_t
   EXPECT_GT(shadowed, 1000);
 }
 
-TEST(PartitionLaw, what_is_not_divided_is_told_and_a_stable_fit_keeps_its_cascades) {
+TEST(PartitionLaw, undivided_receivers_are_reported_and_a_stable_fit_keeps_its_cascades) {
   for_all(300, [&] {
     Case c = draw_divided();
     RC_LOG() << c << to_string(c.options.split.partition);

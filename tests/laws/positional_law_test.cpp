@@ -237,10 +237,18 @@ TEST(PositionalLaw, a_caster_that_only_the_filter_kernel_reaches_is_drawn_too) {
       const double reach = 2.0 * (c.scene.options.filter.texels - 0.25) / map.width;
       const glm::dvec2 tap{clip.x / clip.w + random.between(-reach, reach),
                            clip.y / clip.w + random.between(-reach, reach)};
-      // The ray through the tap, up to the depth that its texel is compared with. Farther off, though as far
-      // from the light as the receiver, it may be beyond the map's far plane.
-      const glm::dvec4 at = glm::inverse(map.clip_from_world) * glm::dvec4(tap, clip.z / clip.w, 1.0);
-      const glm::dvec3 way = (glm::dvec3(at) / at.w - c.position) * (1.0 - 1e-6);
+      // The ray through the tap, up to the depth that its texel is compared with: farther off it may be
+      // beyond the map's far plane. But no farther from the light than the receiver: equal depths of a warped
+      // map slant, at times to infinity and beyond, and what lies behind all receivers shadows none.
+      const glm::dmat4 world_from_clip = glm::inverse(map.clip_from_world);
+      const auto away = [&](double depth) {
+        const glm::dvec4 at = world_from_clip * glm::dvec4(tap, depth, 1.0);
+        return glm::dvec3(at) / at.w - c.position;
+      };
+      const glm::dvec3 ray = glm::normalize(away(-1.0));
+      const double compared = glm::dot(away(clip.z / clip.w), ray), receiver = glm::length(p - c.position);
+      const glm::dvec3 way =
+          ray * ((compared > 0.0 ? std::min(compared, receiver) : receiver) * (1.0 - 1e-6));
       std::vector<std::uint32_t> list(c.scene.casters.size());
       list.resize(cull_casters(map, c.scene.casters, list));
       for (const Blocker& blocker : blockers(c, c.position + way)) {

@@ -81,7 +81,7 @@ TEST(StableLaw, snap_keeps_the_texel_grid_under_sub_texel_motion) {
   EXPECT_GT(compared, 2000u);
 }
 
-TEST(StableLaw, the_grid_stands_still_under_any_motion_and_turn_of_the_camera) {
+TEST(StableLaw, the_grid_is_stable_under_any_motion_and_turn_of_the_camera) {
   std::uint64_t compared = 0;
   for_all(1000, [&] {
     Case c = draw_stable_case();
@@ -118,7 +118,7 @@ TEST(StableLaw, equal_snap_keys_mean_the_same_matrix_to_the_last_bit) {
   EXPECT_GT(equal, 300u);
 }
 
-TEST(StableLaw, a_stable_map_is_never_warped_and_says_so_when_one_was_asked_for) {
+TEST(StableLaw, a_stable_map_is_never_warped_and_reports_an_ignored_warp) {
   std::uint64_t maps = 0, asked = 0;
   for_all(200, [&] {
     Case c = draw_stable_case();

@@ -99,7 +99,7 @@ TEST(WarpLaw, no_warp_that_may_be_dropped_makes_its_objective_worse_than_no_warp
   }
 }
 
-TEST(WarpLaw, a_map_names_the_warp_that_was_used_and_what_was_dropped_is_told) {
+TEST(WarpLaw, a_map_names_the_warp_that_was_used_and_dropped_warps_are_reported) {
   std::uint64_t kept = 0, dropped = 0;
   for_all(600, [&] {
     Case c = draw_case();
@@ -138,7 +138,7 @@ std::vector<WarpInput::Point> profile(double n, double f, double tan_half, doubl
   return points;
 }
 
-TEST(WarpLaw, every_warp_answers_any_body_with_a_finite_strength_that_is_not_negative) {
+TEST(WarpLaw, every_warp_returns_a_finite_strength_that_is_not_negative_for_any_body) {
   for_all(3000, [&] {
     std::vector<WarpInput::Point> body;
     const double scale = std::exp2(between(-60.0, 60.0));

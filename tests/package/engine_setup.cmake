@@ -22,7 +22,7 @@ step("configuring engine_setup" ${CMAKE_COMMAND} -S ${SAMPLE_DIR} -B ${WORK_DIR}
   -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${flags} ${disabled})
 step("building engine_setup" ${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 step("running engine_setup" ${WORK_DIR}/build/engine_setup)
-foreach(part "map 0" "draw: house" "draw: tree behind the viewer" "left out:" "pixels per texel" "one plan costs")
+foreach(part "map 0" "draw: house" "draw: tree behind the viewer" "omitted:" "pixels per texel" "one plan costs")
   string(FIND "${step_output}" "${part}" found)
   if(found EQUAL -1)
     message(FATAL_ERROR "engine_setup did not print '${part}':\n${step_output}")

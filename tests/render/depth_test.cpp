@@ -58,7 +58,7 @@ TEST(DepthMaps, hold_the_depth_of_the_ground_at_each_texels_centre) {
         if (expected + std::abs(step_x) + std::abs(step_y) > 1.0) continue;
         const double stored = depth.values[static_cast<std::size_t>(y * depth.width + x)];
         const double bound = (std::abs(step_x) + std::abs(step_y)) * kSnapTexels + kDepthRounding;
-        const glm::dvec2 texel = texel_extent_world(plan.map[0].clip_from_world, depth.width, depth.height,
+        const glm::dvec2 texel = texel_extent_world(plan.map[0].clip_from_world, {depth.width, depth.height},
                                                     plan.light_direction, p);
         const glm::dvec3 rim(2.0 * std::max(texel.x, texel.y));
         const glm::dvec3 low = glm::dvec3(kBoxMin) - rim, high = glm::dvec3(kBoxMax) + rim;

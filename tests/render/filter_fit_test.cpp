@@ -64,7 +64,7 @@ TEST(FilterFit, one_flat_depth_needs_one_layer) {
   EXPECT_NE(describe(fit, settings_of("lvsm:layers=8")).find("lvsm:layers=1"), std::string::npos);
 }
 
-TEST(FilterFit, answers_keep_within_the_bound_and_a_looser_bound_takes_no_more_bytes) {
+TEST(FilterFit, results_stay_within_the_bound_and_a_looser_bound_takes_no_more_bytes) {
   int saving = 0, kept = 0;
   for (const Filter* filter : all_filters()) {
     const FilterSettings full = default_settings(*filter);

@@ -69,7 +69,7 @@ TEST(FilterLaws, a_surface_as_deep_as_the_map_is_lit_and_one_behind_it_is_dark) 
   }
 }
 
-TEST(FilterLaws, the_answer_never_falls_on_the_way_out_of_a_shadow) {
+TEST(FilterLaws, visibility_never_falls_on_the_way_out_of_a_shadow) {
   const TestMap edge = map_of([](int x, int) { return x < 20 ? 0.25 : 0.75; });
   for (const FilterSettings& settings : variants()) {
     const std::vector<float> answers = ask_shader(settings, edge, across(0.5f));
@@ -85,7 +85,7 @@ TEST(FilterLaws, the_answer_never_falls_on_the_way_out_of_a_shadow) {
   }
 }
 
-TEST(FilterLaws, gpu_and_cpu_give_the_same_answers_and_those_lie_between_0_and_1) {
+TEST(FilterLaws, gpu_and_cpu_return_the_same_visibility_between_0_and_1) {
   for (const FilterSettings& settings : variants()) {
     const TestMap map = random_map(kSide, kSide + 3, 7);
     const std::vector<Question> questions = random_questions(map, 512, 8, 1);
@@ -133,7 +133,7 @@ TEST(FilterLaws, gpu_and_cpu_store_the_same_texels) {
   }
 }
 
-TEST(FilterLaws, no_texel_makes_an_answer_that_is_not_between_0_and_1) {
+TEST(FilterLaws, no_texel_makes_a_visibility_that_is_not_between_0_and_1) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> kHard{0.0,   1.0,   -1.0, 0.5,      kInf, -kInf, kNan, 65504.0,  3e38,
@@ -161,7 +161,7 @@ TEST(FilterLaws, no_texel_makes_an_answer_that_is_not_between_0_and_1) {
   }
 }
 
-TEST(FilterLaws, moving_the_map_by_whole_texels_moves_the_answers_along) {
+TEST(FilterLaws, moving_the_map_by_whole_texels_moves_the_results_along) {
   const TestMap map = random_map(kSide, kSide, 13);
   TestMap moved = map;
   constexpr int kRight = 3, kUp = 2;

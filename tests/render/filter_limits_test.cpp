@@ -58,7 +58,7 @@ void expect_answers_within(const FilterSettings& settings, const TestMap& map,
         << ": " << answers[i];
 }
 
-TEST(FilterLimits, depths_of_exactly_0_and_1_and_beyond_make_answers_from_0_to_1) {
+TEST(FilterLimits, depths_of_exactly_0_and_1_and_beyond_make_visibilities_from_0_to_1) {
   for (const FilterSettings& settings : variants()) {
     for (const float stored : {0.0f, 1.0f}) {
       expect_answers_within(settings, constant_map(stored), questions_at({0.0f, 1.0f, -0.5f, 1.5f, 0.5f}));
@@ -68,7 +68,7 @@ TEST(FilterLimits, depths_of_exactly_0_and_1_and_beyond_make_answers_from_0_to_1
 
 // Mesa lets no depth in but those from 0 to 1: what is no number arrives as 0. Other drivers may keep it.
 // Texels that are no number reach every filter in filter_laws_test.
-TEST(FilterLimits, depths_that_are_no_number_make_answers_from_0_to_1) {
+TEST(FilterLimits, depths_that_are_no_number_make_visibilities_from_0_to_1) {
   TestMap map = random_map(kSide, kSide, 3);
   for (std::size_t i = 0; i < map.depth.size(); i += 3)
     map.depth[i] = i % 2 == 0 ? kNan : (i % 4 == 1 ? kInfinity : -kInfinity);
@@ -79,7 +79,7 @@ TEST(FilterLimits, depths_that_are_no_number_make_answers_from_0_to_1) {
   }
 }
 
-TEST(FilterLimits, a_receiver_that_is_no_number_makes_answers_from_0_to_1) {
+TEST(FilterLimits, a_receiver_that_is_no_number_makes_visibilities_from_0_to_1) {
   for (const FilterSettings& settings : variants()) {
     std::vector<Question> questions = questions_at({kNan, kInfinity, -kInfinity});
     questions.push_back({{kNan, kNan}, 0.5f, {}, 0.0f});
@@ -89,7 +89,7 @@ TEST(FilterLimits, a_receiver_that_is_no_number_makes_answers_from_0_to_1) {
   }
 }
 
-TEST(FilterLimits, receivers_outside_of_the_map_get_answers_from_0_to_1) {
+TEST(FilterLimits, receivers_outside_of_the_map_get_visibilities_from_0_to_1) {
   for (const FilterSettings& settings : variants()) {
     if (settings.radius > 8.0) continue;  // such a kernel reaches from outside into the map
     std::vector<Question> outside;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <regex>
 
 #include "gnomon/render/filter.hpp"
 
@@ -71,6 +72,27 @@ TEST(FilterText, is_the_name_alone_by_default_and_reads_back_to_the_same_setting
   }
 }
 
+/// The text without its line breaks and columns.
+std::string in_one_line(const std::string& text) {
+  return std::regex_replace(text, std::regex("[ \n]+"), " ");
+}
+
+TEST(FilterText, help_names_exactly_the_keys_that_are_read) {
+  for (const Filter* filter : all_filters()) {
+    const std::string help = filter_help(*filter);
+    for (const char* key : {"radius", "unit", "blur", "format", "mipmap", "anisotropy"}) {
+      const bool shown = help.find("\n  " + std::string(key) + " ") != std::string::npos;
+      const std::string error = parse_filter(std::string(filter->info.name) + ":" + key + "=?").error;
+      const bool read =
+          error.find("knows") == std::string::npos && error.find("stores nothing") == std::string::npos;
+      const bool has_kernel =
+          filter->info.has_kernel || (key != std::string("radius") && key != std::string("unit"));
+      EXPECT_EQ(shown, read && has_kernel) << filter->info.name << " " << key;
+    }
+    EXPECT_NE(in_one_line(help).find(filter->info.source), std::string::npos) << filter->info.name;
+  }
+}
+
 TEST(FilterText, documents_every_option_of_every_filter_within_its_range) {
   for (const Filter* filter : all_filters()) {
     ASSERT_LE(filter->info.options.size(), kMaxFilterOptions);
@@ -79,7 +101,7 @@ TEST(FilterText, documents_every_option_of_every_filter_within_its_range) {
       EXPECT_LE(option.min, option.fallback) << filter->info.name << " " << option.name;
       EXPECT_GE(option.max, option.fallback) << filter->info.name << " " << option.name;
       EXPECT_FALSE(option.summary.empty());
-      EXPECT_NE(filter_help().find(option.summary), std::string::npos);
+      EXPECT_NE(in_one_line(filter_help(*filter)).find(option.summary), std::string::npos) << option.name;
     }
     EXPECT_EQ(filter->info.reads == MapRead::depth, filter->info.formats.empty()) << filter->info.name;
   }
@@ -113,7 +135,7 @@ TEST(Filters, cost_what_their_images_take) {
   EXPECT_NEAR(bytes_per_texel(parse_filter("vsm:mipmap=1").settings), 4.0 + 8.0 * 4.0 / 3.0, 1e-12);
 }
 
-TEST(Filters, ask_the_plan_for_a_margin_in_the_kernels_own_unit) {
+TEST(Filters, request_a_border_in_the_kernels_own_unit) {
   PlanOptions options;
   set_margin(parse_filter("vsm:radius=3").settings, options);
   EXPECT_GE(options.filter.texels, 4.0);

@@ -192,7 +192,7 @@ TEST_F(Flythrough, ends_with_one_line_and_what_it_has_where_the_driver_is_reset)
 }
 #endif
 
-TEST_F(Flythrough, refuses_more_triangles_than_asked_for_before_it_makes_them) {
+TEST_F(Flythrough, refuses_more_triangles_than_allowed_before_it_makes_them) {
   const Outcome refused = run("builtin:fence --frames 1 --max-triangles 10");
   EXPECT_EQ(refused.code, 0) << "scenes of our own have no limit";
   // One triangle, four times over.

@@ -21,13 +21,13 @@ TEST_F(Flythrough, lets_the_filter_store_less_within_a_bound_and_says_so) {
     EXPECT_EQ(outcome.code, 0) << outcome.error;
     std::ifstream csv(out() / "frames.csv");
     const std::string text{std::istreambuf_iterator<char>(csv), {}};
-    return text.find("esm:format=unorm16 does for esm") != std::string::npos;
+    return text.find("esm:format=unorm16 suffices for esm") != std::string::npos;
   };
   EXPECT_TRUE(told("--filter-precision 0.5"));
   EXPECT_FALSE(told("--filter-precision 0"));
 }
 
-TEST_F(Flythrough, tells_its_version_and_its_options) {
+TEST_F(Flythrough, prints_its_version_and_its_options) {
   const Outcome version = run("--version");
   EXPECT_EQ(version.code, 0);
   EXPECT_NE(version.out.find("flythrough"), std::string::npos);
@@ -103,7 +103,7 @@ TEST_F(Flythrough, chooses_maps_that_keep_to_an_error) {
   EXPECT_LT(few, many);
 }
 
-TEST_F(Flythrough, passes_from_map_to_map_as_asked_and_refuses_what_it_does_not_know) {
+TEST_F(Flythrough, takes_transitions_between_maps_by_name_and_refuses_unknown_ones) {
   const char* scene = "builtin:fence --frames 1 --size 96x64 --map-size 128 --cascades 3 --transition ";
   std::vector<std::string> pictures;
   for (const char* transition : {"cut", "blend", "dither"}) {
@@ -179,7 +179,7 @@ std::vector<double> column_of(const fs::path& file, const std::string& name) {
   return values;
 }
 
-TEST_F(Flythrough, tells_of_each_map_what_was_drawn_how_old_it_is_and_its_error) {
+TEST_F(Flythrough, reports_for_each_map_what_was_drawn_its_age_and_its_error) {
   // A stable fit plans alike with and without: looking for the depths must not draw the maps that count.
   const Outcome outcome =
       run("builtin:fence --frames 3 --size 96x64 --map-size 128 --cascades 1 --fit stable --visible-depths");

@@ -55,7 +55,7 @@ MeanLight under(const Light& lamp, const Filter& filter) {
   return {light.shadow / dark, light.open / lit};
 }
 
-TEST(LampDepth, every_filter_keeps_the_shadow_of_a_plate_under_a_spot) {
+TEST(LocalLightDepth, every_filter_keeps_the_shadow_of_a_plate_under_a_spot) {
   for (const Filter* filter : all_filters()) {
     const MeanLight light = under(SpotLight{kLamp, {0, -1, 0}, 0.5, 60.0}, *filter);
     EXPECT_LT(light.shadow, 0.05) << filter->info.name;
@@ -63,7 +63,7 @@ TEST(LampDepth, every_filter_keeps_the_shadow_of_a_plate_under_a_spot) {
   }
 }
 
-TEST(LampDepth, stored_depths_keep_it_under_a_point_light) {
+TEST(LocalLightDepth, stored_depths_keep_it_under_a_point_light) {
   for (const Filter* filter : {&filters::vsm, &filters::esm}) {
     const MeanLight light = under(PointLight{kLamp, 60.0}, *filter);
     EXPECT_LT(light.shadow, 0.05) << filter->info.name;
@@ -71,7 +71,7 @@ TEST(LampDepth, stored_depths_keep_it_under_a_point_light) {
   }
 }
 
-TEST(LampDepth, is_even_in_distance_along_the_middle_of_a_spot) {
+TEST(LocalLightDepth, is_even_in_distance_along_the_middle_of_a_spot) {
   const SpotLight spot{{0, 10, 0}, {0, -1, 0}, 0.4, 20.0};
   const std::vector<Box> receivers{{{-2, -0.1, -2}, {2, 0, 2}}}, casters{{{-0.2, 2, -0.2}, {0.2, 9.5, 0.2}}};
   const Camera camera =
@@ -95,7 +95,7 @@ TEST(LampDepth, is_even_in_distance_along_the_middle_of_a_spot) {
   }
 }
 
-TEST(LampDepth, parallel_light_has_no_curve) {
+TEST(LocalLightDepth, parallel_light_has_no_curve) {
   const Scene scene = box_on_ground();
   const Camera camera = camera_on_box(kSize, kSize);
   const ShadowPlan plan = plan_for(scene, camera, kSlant, {});

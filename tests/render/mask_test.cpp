@@ -160,7 +160,7 @@ Verdict judge(const Frame& frame, double reach_texels, const Filter& filter = fi
     // Beyond BiasOptions::max_slope the bias is capped, and acne is the lesser evil.
     if (cosine < 1.0 / std::sqrt(1.0 + 8.0 * 8.0)) continue;
     const ShadowMap& map = frame.plan.map[static_cast<std::size_t>(frame.map(i))];
-    const glm::dvec2 texel = texel_extent_world(map.clip_from_world, map.width, map.height, light, p);
+    const glm::dvec2 texel = texel_extent_world(map.clip_from_world, map.texels(), light, p);
     // The kernel, half a texel of sampling and the normal offset, all stretched along the surface.
     const double margin = std::max(texel.x, texel.y) * (reach_texels + 1.5) / cosine;
     const bool on_ground = n.y > 0.99 && p.y < 0.01;
@@ -259,7 +259,7 @@ TEST(Mask, shows_acne_without_bias_and_gaps_with_far_too_much) {
   EXPECT_GT(judge(draw(renderer, camera, much, filters::hard), 0.5).gap, 100u);
 }
 
-TEST(Mask, stands_still_in_stable_fit_while_the_camera_moves) {
+TEST(Mask, is_unchanged_in_stable_fit_while_the_camera_moves) {
   const Scene scene = box_on_ground();
   Renderer renderer(scene);
   PlanOptions options;

@@ -33,6 +33,7 @@ ShadowPlan plan_of(int side, double texel_world, double depth_begin = 2.0) {
   ShadowPlan plan;
   plan.status = PlanStatus::ok;
   plan.map_count = 1;
+  plan.map[0] = {};
   plan.map[0].width = plan.map[0].height = side;
   plan.map[0].texel_world = {0.5 * texel_world, 0.25 * texel_world};
   plan.map[0].texel_world_max = {0.5 * texel_world, texel_world};
@@ -116,7 +117,7 @@ TEST(Perceptual, sizes_all_maps_for_the_worst_of_them) {
   EXPECT_EQ(hiding_map_size(plan, camera(), filter("pcf:radius=0.347,unit=world")).map_size, 1500);
 }
 
-TEST(Perceptual, asks_kernels_in_texels_only_whether_they_span_enough_of_them) {
+TEST(Perceptual, requires_of_kernels_in_texels_only_that_they_span_enough_of_them) {
   const ShadowPlan plan = plan_of(1000, 0.1);
   const HidingMapSize wide = hiding_map_size(plan, camera(), filter("vsm:radius=3"));
   EXPECT_EQ(wide.map_size, kLeastMapSize);
@@ -168,7 +169,7 @@ TEST(Perceptual,
   });
 }
 
-TEST(Perceptual, holds_of_plans_of_the_size_it_answers) {
+TEST(Perceptual, holds_for_plans_of_the_size_it_returns) {
   const Scene scene = box_on_ground();
   const FilterSettings settings = filter("pcf:radius=0.5,unit=world");
   PlanOptions options;

@@ -32,7 +32,7 @@ TEST(HeatColor, is_neutral_at_one_warm_above_and_cold_below) {
   for (double m = 0.8; m >= 1.0 / 16.0; m /= 1.3) EXPECT_LT(warmth(heat_color(m)), -15) << m;
 }
 
-TEST(Pictures, leave_out_what_lies_beyond_their_edges) {
+TEST(Pictures, clip_drawing_at_their_edges) {
   Image image = blank_image(4, 3, {10, 20, 30});
   fill_rectangle(image, -5, -5, 6, 6, {1, 2, 3});
   EXPECT_EQ(pixel(image, 0, 0), Color(1, 2, 3));

@@ -161,7 +161,7 @@ TEST(Prune, exact_rules_change_no_bit_of_the_mask_in_real_scenes) {
   EXPECT_GT(tally.views, 0u);
 }
 
-TEST(Prune, a_view_that_stands_still_draws_no_map_and_filters_none) {
+TEST(Prune, an_unchanged_view_draws_no_map_and_filters_none) {
   const Scene scene = load_builtin("hangar");
   const std::vector<Box> boxes = boxes_of(scene);
   Renderer renderer(scene);
@@ -222,7 +222,7 @@ TEST(Prune, what_a_filter_stored_under_other_settings_is_not_taken_for_its_own) 
   EXPECT_EQ(differing(draw(renderer, all, "savsm:floor=1e-6"), wanted), 0u);
 }
 
-TEST(Prune, casters_that_come_into_reach_are_added_to_a_map_that_stands_still) {
+TEST(Prune, newly_relevant_casters_are_added_to_a_cached_map) {
   const Scene scene = load_builtin("hangar");
   const View view = view_of(scene, 1);
   const Camera& camera = view.camera;

@@ -36,7 +36,8 @@ TEST(ShaderText, names_file_and_line_of_an_include_that_is_missing) {
 TEST(ShaderText, includes_a_file_once) {
   const ComposedShader shader = compose_shader_text(
       "twice.frag", "#version 450 core\n#include \"common/frame.glsl\"\n#include \"common/frame.glsl\"\n");
-  EXPECT_EQ(shader.files.size(), 3u);  // frame.glsl includes another
+  // Its own, frame.glsl, the map's record, and the shapes with theirs.
+  EXPECT_EQ(shader.files.size(), 6u);
 
   EXPECT_EQ(shader.text.find("uniform Frame"), shader.text.rfind("uniform Frame"));
 }

@@ -1,4 +1,4 @@
-# A headless Chromium at the end of a pipe: opens a page and tells what it loaded, said and shows.
+# A headless Chromium at the end of a pipe: opens a page and reports requests, messages and values.
 import base64
 import json
 import os
@@ -83,6 +83,20 @@ class Browser:
             if "method" in answer:
                 self.events.append((answer["method"], answer["params"]))
 
+    def press(self, key):
+        """A key by its DOM name: Tab, Enter, ArrowRight."""
+        codes = {"Tab": 9, "Enter": 13, " ": 32, "ArrowLeft": 37, "ArrowUp": 38, "ArrowRight": 39, "ArrowDown": 40}
+        text = {"Enter": "\r", " ": " "}.get(key)
+        for kind in ("keyDown", "keyUp"):
+            params = {"key": key, "code": "Space" if key == " " else key, "windowsVirtualKeyCode": codes[key]}
+            if text and kind == "keyDown":
+                params["text"] = text
+            self.call("Input.dispatchKeyEvent", type=kind, **params)
+
+    def colors(self, scheme):
+        """Makes the page see "light" or "dark" as what the reader prefers."""
+        self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+
     def open(self, path, width=1200, height=900):
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
         self.events = []
@@ -103,7 +117,7 @@ class Browser:
             self.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="left", clickCount=1)
 
     def complaints(self):
-        """What the page wrote to the console, threw, or was refused."""
+        """Console messages, exceptions and refusals of the page."""
         said = []
         for name, params in self.events:
             if name == "Runtime.exceptionThrown":
@@ -115,7 +129,7 @@ class Browser:
         return said
 
     def requests(self):
-        """All that was asked for but the page itself and what stands in it."""
+        """Requests other than for the page itself and its data URLs."""
         urls = [params["request"]["url"] for name, params in self.events if name == "Network.requestWillBeSent"]
         return [url for url in urls if not url.startswith("data:")][1:]
 

@@ -20,13 +20,13 @@ TEST(Errors, of_nothing_are_zero) {
   EXPECT_EQ(pixel_aliasing({}).pixels, 0u);
 }
 
-TEST(Errors, pixels_that_are_not_judged_do_not_count) {
+TEST(Errors, pixels_that_are_not_evaluated_do_not_count) {
   const Mask mask{1, 0, 1}, none{-1, -1, -1};
   EXPECT_EQ(mask_errors(mask, none, none).pixels, 0u);
   EXPECT_EQ(mask_errors(mask, none, none).mean_error, 0.0);
 }
 
-TEST(Errors, false_light_and_false_shadow_are_told_apart) {
+TEST(Errors, false_light_and_false_shadow_are_distinguished) {
   const Mask hard{0, 0, 0, 0, 1, 1, 1, -1}, mask{0, 0.5f, 0.75f, 1, 1, 0.5f, 0, 1};
   const MaskErrors errors = mask_errors(mask, hard, Mask(8, -1.0f));
   EXPECT_EQ(errors.pixels, 7u);

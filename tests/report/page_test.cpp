@@ -163,6 +163,37 @@ TEST(Page, of_no_rows_says_so_and_stands) {
   EXPECT_EQ(count(reported.page, "<section"), 7u);
 }
 
+TEST(Page, counts_in_singular_and_plural) {
+  EXPECT_NE(Reported(sample_rows(1, 1)).page.find("1 technique on 1 scene, "), std::string::npos);
+  EXPECT_NE(Reported({sample_row()}).page.find(", 1 measurement;"), std::string::npos);
+  EXPECT_NE(Reported(sample_rows(2, 3)).page.find("3 techniques on 2 scenes, "), std::string::npos);
+}
+
+TEST(Page, names_rows_and_techniques_that_it_dropped) {
+  const std::string whole = Reported(sample_rows(2, 3)).page;
+  EXPECT_EQ(count(whole, "Rows were dropped") + count(whole, "Dropped from"), 0u);
+  TemporaryFolder folder;
+  RowsFile(folder.path() / kRowsFile).append(sample_row());
+  std::ofstream(folder.path() / kRowsFile, std::ios::app) << "{\"scene\":\"cut";
+  std::vector<std::string> warnings;
+  EXPECT_NE(text_of(write_report(folder.path(), &warnings)).find("Rows were dropped: "), std::string::npos);
+  EXPECT_EQ(warnings.size(), 1u);
+  std::vector<Row> rows = sample_rows(2, 3);
+  const Technique first = rows.front().technique;
+  std::erase_if(rows, [&](const Row& row) { return row.scene == "scene0" && row.technique == first; });
+  EXPECT_NE(Reported(rows).page.find("Dropped from \"all scenes\": 1 technique that"), std::string::npos);
+}
+
+TEST(Page, shows_shares_as_percent_and_writes_them_as_shares) {
+  std::vector<Row> rows{sample_row()};
+  rows[0].errors.false_lit = 0.0123;
+  rows[0].errors.false_shadow = 0.0;
+  const Reported reported(rows);
+  EXPECT_NE(reported.page.find("data-v=\"0.0123\">1.23 %<"), std::string::npos);
+  EXPECT_NE(text_of(reported.folder.path() / "charts/wrong_scene0.svg").find(": 1.23 %<"), std::string::npos);
+  EXPECT_NE(text_of(reported.folder.path() / "summary.csv").find(",0.0123,"), std::string::npos);
+}
+
 TEST(Page, holds_every_technique_of_every_scene_and_of_all_together) {
   const Reported reported(sample_rows(2, 5));
   EXPECT_EQ(count(reported.page, "<tr class=\"row"), 15u);

@@ -235,7 +235,7 @@ TEST(RowsFile, a_device_is_no_file_of_rows) {
   EXPECT_THROW((void)read_rows("/dev/zero"), ReportError);
 }
 
-TEST(Rows, keys_tell_measurements_apart_and_times_do_not_matter) {
+TEST(Rows, keys_distinguish_measurements_and_times_do_not_matter) {
   Row a = sample_row(), b = sample_row();
   b.times.total_ms.median = 99.0;
   b.machine.load = 7.0;
@@ -246,7 +246,7 @@ TEST(Rows, keys_tell_measurements_apart_and_times_do_not_matter) {
   EXPECT_NE(without_times(a), without_times(b));
 }
 
-TEST(RowsFile, a_line_cut_short_by_a_kill_is_dropped_and_written_anew) {
+TEST(RowsFile, a_line_cut_short_by_a_kill_is_dropped_and_written_again) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / kRowsFile;
   {

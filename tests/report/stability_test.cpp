@@ -113,7 +113,7 @@ TEST(StabilitySection, of_a_folder_that_has_none_says_so) {
   const TemporaryFolder folder;
   RowsFile(folder.path() / kRowsFile).append(sample_row());
   const std::string page = text_of(write_report(folder.path()));
-  EXPECT_NE(page.find("Not measured here: this folder holds no stability.jsonl."), std::string::npos);
+  EXPECT_NE(page.find("Not measured: this folder has no stability.jsonl"), std::string::npos);
 }
 
 TEST(StabilitySection, shows_lines_from_elsewhere_as_they_are) {

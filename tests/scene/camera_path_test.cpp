@@ -120,7 +120,7 @@ TEST(CameraPath, has_no_jump_in_place_or_speed) {
             fastest / 20);  // speed changes by little from step to step; a kink would change it by as much
 }
 
-TEST(CameraPath, makes_a_perspective_camera_of_the_image_asked_for) {
+TEST(CameraPath, makes_a_perspective_camera_of_the_requested_image) {
   CameraPath path = path_of({{{0, 0, 0}, {0, 0, -5}}});
   path.fov_y_radians = std::numbers::pi / 2.0;
   path.near_depth = 0.5;

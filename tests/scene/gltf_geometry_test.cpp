@@ -27,7 +27,7 @@ Scene square_as(int mode, const std::vector<std::uint16_t>& order) {
   return gltf.load();
 }
 
-TEST(GltfGeometry, a_mode_without_a_whole_triangle_is_left_out_with_a_warning) {
+TEST(GltfGeometry, a_mode_without_a_whole_triangle_is_skipped_with_a_warning) {
   for (const int mode : {4, 5, 6}) {
     const Scene scene = square_as(mode, {0, 1});
     EXPECT_TRUE(scene.instances.empty());
@@ -36,7 +36,7 @@ TEST(GltfGeometry, a_mode_without_a_whole_triangle_is_left_out_with_a_warning) {
   }
 }
 
-TEST(GltfGeometry, points_and_lines_are_left_out_with_a_warning) {
+TEST(GltfGeometry, points_and_lines_are_skipped_with_a_warning) {
   for (const int mode : {0, 1, 2, 3}) {
     const Scene scene = square_as(mode, {0, 1, 2, 3});
     EXPECT_TRUE(scene.instances.empty());

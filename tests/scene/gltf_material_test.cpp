@@ -1,6 +1,7 @@
 // Base colour, alpha and pictures of glTF materials.
 #include "gltf_text.hpp"
 #include "gnomon/scene/image.hpp"
+#include "image_formats.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -103,7 +104,7 @@ TEST(GltfMaterial, a_quarter_turn_of_a_texture_turns_as_the_specification_says) 
   EXPECT_NEAR(scene.texcoords[scene.indices[2]].x, 1.0f, 1e-6f);
 }
 
-TEST(GltfMaterial, specular_glossiness_is_told_as_base_colour) {
+TEST(GltfMaterial, specular_glossiness_is_read_as_base_colour) {
   const Scene scene =
       with_material(
           {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseFactor", {1, 0, 0, 1}}}}}}})
@@ -111,13 +112,23 @@ TEST(GltfMaterial, specular_glossiness_is_told_as_base_colour) {
   EXPECT_EQ(scene.materials[0].base_color, glm::vec4(1, 0, 0, 1));
 }
 
-TEST(GltfMaterial, a_texture_without_a_png_or_jpeg_source_is_a_warning_and_white) {
+TEST(GltfMaterial, a_texture_with_a_webp_source_takes_it_where_the_build_reads_it) {
   TestGltf gltf = with_picture(small_png());
   gltf.document["textures"][0] = {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}};
   gltf.document["extensionsUsed"] = {"EXT_texture_webp"};
   const Scene scene = gltf.load();
+  // The picture is a PNG under that name, which the reader goes by.
+  EXPECT_EQ(scene.materials[0].base_color_image, detail::reads_webp() ? 0 : -1);
+  EXPECT_EQ(scene.warnings.size(), detail::reads_webp() ? 0u : 2u);
+}
+
+TEST(GltfMaterial, a_texture_without_any_source_is_a_warning_and_white) {
+  TestGltf gltf = with_picture(small_png());
+  gltf.document["textures"][0] = json::object();
+  const Scene scene = gltf.load();
   EXPECT_EQ(scene.materials[0].base_color_image, -1);
-  EXPECT_EQ(scene.warnings.size(), 2u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("textures[0]"), std::string::npos);
 }
 
 }  // namespace

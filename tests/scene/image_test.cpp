@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include "gltf_text.hpp"
+#include "image_formats.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -38,11 +39,11 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-TEST(Image, nothing_and_other_formats_are_neither_png_nor_jpeg) {
+TEST(Image, nothing_and_other_formats_are_refused) {
   for (const std::string& text :
        {std::string(), std::string("\x89PNG"), std::string("GIF89a and so on, for long enough"),
         std::string("II*\0 a TIFF file, which OpenImageIO would read", 40)}) {
-    EXPECT_NE(refusal({text.begin(), text.end()}).find("neither PNG nor JPEG"), std::string::npos);
+    EXPECT_NE(refusal({text.begin(), text.end()}).find("neither PNG, JPEG nor"), std::string::npos);
   }
 }
 
@@ -95,7 +96,7 @@ TEST(Image, a_damaged_png_is_refused_wherever_it_is_cut) {
   }
 }
 
-TEST(Image, a_jpeg_is_told_by_its_frame_header_and_decoded) {
+TEST(Image, a_jpeg_is_recognised_by_its_frame_header_and_decoded) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "a.jpg").string();
   auto out = OIIO::ImageOutput::create("jpeg");
@@ -111,6 +112,52 @@ TEST(Image, a_jpeg_is_told_by_its_frame_header_and_decoded) {
   EXPECT_NE(refusal(bytes, 127).find("16 x 8"), std::string::npos);
   for (std::size_t size = 0; size < 160; ++size) {
     EXPECT_NE(refusal({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}), "") << size;
+  }
+}
+
+std::vector<std::uint8_t> webp(const char* compression, int channels, const TemporaryFolder& folder) {
+  const std::string file = (folder.path() / "a.webp").string();
+  OIIO::ImageSpec spec(16, 8, channels, OIIO::TypeDesc::UINT8);
+  spec.attribute("compression", compression);
+  auto out = OIIO::ImageOutput::create("webp");
+  const std::vector<std::uint8_t> grey(16u * 8u * 4u, 100);
+  EXPECT_TRUE(out && out->open(file, spec) && out->write_image(OIIO::TypeDesc::UINT8, grey.data()) &&
+              out->close());
+  return read_bytes(file);
+}
+
+TEST(Image, a_webp_of_each_kind_is_recognised_by_its_header_and_decoded) {
+  if (!detail::reads_webp()) GTEST_SKIP() << "this OpenImageIO has no reader of WebP";
+  const TemporaryFolder folder;
+  for (const auto& [compression, channels] :
+       std::vector<std::pair<const char*, int>>{{"webp:80", 3}, {"lossless:100", 3}, {"webp:80", 4}}) {
+    const std::vector<std::uint8_t> bytes = webp(compression, channels, folder);
+    const Image image = decode_image(bytes, "a", 128);
+    EXPECT_EQ(image.width, 16);
+    EXPECT_EQ(image.height, 8);
+    EXPECT_NEAR(image.rgba[3], channels == 4 ? 100 : 255, 2);
+    EXPECT_NE(refusal(bytes, 127).find("16 x 8"), std::string::npos) << compression;
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+      EXPECT_NE(refusal({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}), "") << size;
+  }
+}
+
+TEST(Image, a_webp_that_is_animated_or_damaged_is_refused_or_decoded_to_its_size) {
+  if (!detail::reads_webp()) GTEST_SKIP() << "this OpenImageIO has no reader of WebP";
+  const TemporaryFolder folder;
+  std::vector<std::uint8_t> bytes = webp("webp:80", 4, folder);
+  ASSERT_EQ(std::string(bytes.begin() + 12, bytes.begin() + 16), "VP8X");
+  const std::uint8_t flags = bytes[20];
+  bytes[20] |= 2;
+  EXPECT_NE(refusal(bytes).find("nor a single WebP"), std::string::npos);
+  bytes[20] = flags;
+  bytes[24] = 200;  // 201 pixels wide: not what the frame says
+  EXPECT_NE(refusal(bytes), "");
+  bytes[24] = 15;
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
+    std::vector<std::uint8_t> damaged = bytes;
+    damaged[at] ^= 0xff;
+    (void)refusal(damaged);
   }
 }
 

@@ -107,7 +107,7 @@ TEST(AssetGenerator, interleaved_buffers_all_hold_the_same_square) {
   }
 }
 
-TEST(AssetGenerator, double_sided_materials_are_told_apart) {
+TEST(AssetGenerator, double_sided_materials_are_distinguished) {
   if (is_absent("gltf-robustness/asset-generator")) GTEST_SKIP() << "no shared/gltf-robustness";
   for (int i = 0; i < 4; ++i) {
     const Scene scene = load_generated("Material_DoubleSided", i);

@@ -30,9 +30,9 @@ double most_float_texels(std::string_view axis) {
 // Of texels per area for a step of 1e-6: what a search's own steps and a stable map's sizes amount to.
 constexpr double kJump = 3e-3;
 
-class StiffAxes : public testing::TestWithParam<Axis> {};
+class StressParameters : public testing::TestWithParam<Axis> {};
 
-TEST_P(StiffAxes, stay_finite_exact_and_smooth) {
+TEST_P(StressParameters, stay_finite_exact_and_smooth) {
   const Axis& axis = GetParam();
   int planned = 0;
   for (const AxisRow& row : sweep(axis, kSmall)) {
@@ -50,7 +50,7 @@ TEST_P(StiffAxes, stay_finite_exact_and_smooth) {
   EXPECT_GT(planned, 10);
 }
 
-TEST_P(StiffAxes, raise_no_floating_point_exception) {
+TEST_P(StressParameters, raise_no_floating_point_exception) {
   const Axis& axis = GetParam();
   for (const double value : axis.values(24)) {
     for (const Variant& variant : all_variants()) {
@@ -67,7 +67,7 @@ TEST_P(StiffAxes, raise_no_floating_point_exception) {
   }
 }
 
-TEST_P(StiffAxes, have_ascending_values) {
+TEST_P(StressParameters, have_ascending_values) {
   const std::vector<double> values = GetParam().values(20);
   ASSERT_GE(values.size(), 10u);
   for (std::size_t i = 1; i < values.size(); ++i) EXPECT_LT(values[i - 1], values[i]);
@@ -76,7 +76,8 @@ TEST_P(StiffAxes, have_ascending_values) {
 std::string name_of(const testing::TestParamInfo<Axis>& axis) {
   return std::string(axis.param.name);
 }
-INSTANTIATE_TEST_SUITE_P(All, StiffAxes, testing::ValuesIn(all_axes().begin(), all_axes().end()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, StressParameters, testing::ValuesIn(all_axes().begin(), all_axes().end()),
+                         name_of);
 
 TEST(Axes, are_held_against_arithmetic_finer_than_double) {
   if (!kRealIsFiner)

@@ -38,7 +38,7 @@ TEST(Exact, condition_numbers_of_diagonal_and_turned_matrices) {
   EXPECT_GT(condition_number(m), 1e15);
 }
 
-TEST(Judge, sees_a_map_that_is_off_by_two_thousandths_of_a_texel) {
+TEST(PlanCheck, sees_a_map_that_is_off_by_two_thousandths_of_a_texel) {
   for (const Fit fit : {Fit::tight, Fit::stable}) {
     Input input = plain_input(0);
     input.options.fit = fit;
@@ -51,7 +51,7 @@ TEST(Judge, sees_a_map_that_is_off_by_two_thousandths_of_a_texel) {
   }
 }
 
-TEST(Judge, sees_a_map_that_does_not_look_along_the_light) {
+TEST(PlanCheck, sees_a_map_that_does_not_look_along_the_light) {
   Input input = plain_input(0);
   const ShadowPlan plan = input.plan();
   const auto& light = std::get<DirectionalLight>(input.light);
@@ -61,7 +61,7 @@ TEST(Judge, sees_a_map_that_does_not_look_along_the_light) {
   EXPECT_GE(turned.error_texels, turned.drift_texels);
 }
 
-TEST(Judge, sees_what_is_no_number) {
+TEST(PlanCheck, sees_what_is_no_number) {
   const Input input = plain_input(0);
   ShadowPlan plan = input.plan();
   EXPECT_TRUE(all_finite(plan));
@@ -69,7 +69,7 @@ TEST(Judge, sees_what_is_no_number) {
   EXPECT_FALSE(all_finite(plan));
 }
 
-TEST(Judge, tells_texels_per_area) {
+TEST(PlanCheck, computes_texels_per_area) {
   Input input = plain_input(0);
   input.light = DirectionalLight{{0, -1, 0}};
   input.options.warp.warp = &warps::none;

@@ -40,7 +40,7 @@ TEST(Compare, measures_every_technique_on_every_frame) {
     EXPECT_TRUE(fs::exists(whole() / file)) << file;
 }
 
-TEST(Compare, measures_lamps_against_their_own_shadows) {
+TEST(Compare, measures_local_lights_against_their_own_shadows) {
   for (const char* light : {"spot", "point"}) {
     const TemporaryFolder folder;
     // Splits and cascades mean nothing under a lamp: no row twice.
@@ -169,7 +169,7 @@ TEST(Compare, does_not_go_on_with_a_scene_whose_files_have_changed) {
     return arguments;
   }());
   EXPECT_EQ(changed.exit_code, 2);
-  EXPECT_NE(changed.err.find("triangle.gltf is no longer what was measured"), std::string::npos)
+  EXPECT_NE(changed.err.find("triangle.gltf has changed since it was measured"), std::string::npos)
       << changed.err;
   EXPECT_EQ(std::count(changed.err.begin(), changed.err.end(), '\n'), 1) << changed.err;
   const fs::path merged = folder.path() / "merged";

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 
 #include "process.hpp"
@@ -27,6 +28,37 @@ TEST(Filters, lists_every_filter_with_its_source_and_options) {
   EXPECT_TRUE(names.contains("convolution"));
   const std::string text = run_gnomon({"filters"}).out;
   for (const std::string& name : names) EXPECT_NE(text.find(name + ": "), std::string::npos) << name;
+}
+
+TEST(Filters, prints_the_options_of_one_filter_with_range_default_unit_and_source) {
+  const json list = json::parse(run_gnomon({"filters", "--json"}).out);
+  ASSERT_GE(list.size(), 12u);
+  for (const json& filter : list) {
+    const auto name = filter.at("name").get<std::string>();
+    const Finished finished = run_gnomon({"filters", name});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    const std::string text = std::regex_replace(finished.out, std::regex("[ \n]+"), " ");
+    EXPECT_NE(text.find("Source: " + filter.at("source").get<std::string>()), std::string::npos) << text;
+    for (const json& option : filter.at("options")) {
+      EXPECT_NE(text.find(option.at("summary").get<std::string>()), std::string::npos) << text;
+      EXPECT_NE(finished.out.find("\n  " + option.at("name").get<std::string>() + " "), std::string::npos);
+    }
+    EXPECT_EQ(json::parse(run_gnomon({"filters", name, "--json"}).out), filter);
+  }
+  const std::string pcss = run_gnomon({"filters", "pcss"}).out;
+  EXPECT_TRUE(
+      std::regex_search(pcss, std::regex("\n  angle_deg +0.01 to 60 +2 +apparent diameter .* degrees")))
+      << pcss;
+}
+
+TEST(Filters, refuses_a_filter_that_does_not_exist_and_suggests_one_that_does) {
+  const Finished finished = run_gnomon({"filters", "vmsm"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_EQ(finished.out, "");
+  EXPECT_NE(finished.err.find("there is no filter 'vmsm'; did you mean 'vsm'?"), std::string::npos)
+      << finished.err;
+  EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+  EXPECT_EQ(run_gnomon({"filters", "vsm", "--cost"}).exit_code, 2);
 }
 
 TEST(Filters, counts_passes_and_bytes_of_each_blur_against_hard) {

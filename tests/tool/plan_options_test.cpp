@@ -107,7 +107,7 @@ TEST(PlanOptions, filter_radius_widens_the_margin) {
             narrow["maps"][0]["filter_margin_texels"].get<int>());
 }
 
-TEST(PlanOptions, bias_scales_with_what_is_asked) {
+TEST(PlanOptions, bias_scales_with_its_options) {
   const json none = plan_with_options(
       {{"bias", {{"constant_texels", 0}, {"slope_texels", 0}, {"normal_offset_texels", 0}}}});
   for (const char* key : {"constant", "slope", "normal_offset"})

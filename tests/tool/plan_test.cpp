@@ -7,6 +7,7 @@
 #include "cases.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "gnomon/gnomon.hpp"
+#include "gnomon/study/log_perspective.hpp"
 #include "process.hpp"
 
 namespace gnomon::test {
@@ -32,7 +33,7 @@ void expect_same_matrix(const json& rows, const glm::dmat4& matrix) {
   }
 }
 
-TEST(Plan, every_case_is_answered_in_order_with_matrices_that_read_back_exactly) {
+TEST(Plan, every_case_is_planned_in_order_with_matrices_that_read_back_exactly) {
   const auto files = case_files();
   ASSERT_GE(files.size(), 9u);
   const Finished finished = run_gnomon(plan_arguments_for_all_cases());
@@ -131,7 +132,7 @@ TEST(Plan, is_the_same_text_every_time) {
   EXPECT_EQ(run_gnomon(arguments).out, run_gnomon(arguments).out);
 }
 
-TEST(Plan, repeat_tells_time_and_that_no_plan_asked_for_memory) {
+TEST(Plan, repeat_prints_times_and_that_no_plan_allocated_memory) {
   auto arguments = plan_arguments_for_all_cases();
   arguments.insert(arguments.end(), {"--repeat", "50"});
   const Finished finished = run_gnomon(arguments);

@@ -34,8 +34,9 @@ std::set<std::string> commands() {
   for (const std::string& line : run_gnomon({"--help"}).lines()) {
     std::istringstream words(line);
     std::string name;
-    if (among_commands && words >> name) names.insert(name);
-    among_commands = among_commands || line.starts_with("Subcommands:");
+    if (among_commands && line.empty()) break;
+    if (among_commands && !line.starts_with("   ") && words >> name) names.insert(name);
+    among_commands = among_commands || line.starts_with("Commands:");
   }
   return names;
 }
@@ -70,6 +71,29 @@ TEST(ShellTexts, name_every_command_and_option_of_help) {
     }
   }
   EXPECT_GE(options, 30u);
+}
+
+TEST(ShellTexts, keep_help_to_a_hundred_columns) {
+  std::vector<std::vector<std::string>> texts{{"--help"}, {"filters"}};
+  for (const std::string& command : commands()) texts.push_back({command, "--help"});
+  if (commands().contains("filters")) {
+    for (const std::string& line : run_gnomon({"filters"}).lines()) {
+      const std::size_t colon = line.find(": ");
+      if (colon != std::string::npos) texts.push_back({"filters", line.substr(0, colon)});
+    }
+  }
+  for (const std::vector<std::string>& text : texts) {
+    const std::vector<std::string> lines = run_gnomon(text).lines();
+    EXPECT_GE(lines.size(), 2u) << text.back();
+    for (const std::string& line : lines) EXPECT_LE(line.size(), 100u) << text.front() << ": " << line;
+  }
+}
+
+TEST(ShellTexts, name_where_the_options_of_filters_are_printed) {
+  if (!commands().contains("fly")) return;
+  const std::string help = run_gnomon({"fly", "--help"}).out;
+  EXPECT_NE(help.find("gnomon filters NAME"), std::string::npos);
+  EXPECT_EQ(help.find("light_radius"), std::string::npos) << "an option of pcss";
 }
 
 TEST(ShellTexts, are_refused_for_what_there_is_not) {

@@ -39,7 +39,7 @@ TEST(Calibrate, refuses_what_it_cannot_use) {
   EXPECT_FALSE(fs::exists(model));
 }
 
-TEST(Report, is_written_anew_without_measuring) {
+TEST(Report, is_written_again_without_measuring) {
   fs::remove(whole() / "report.html");
   const Finished finished = run_gnomon({"report", whole().string()});
   EXPECT_EQ(finished.exit_code, 0) << finished.err;

@@ -34,7 +34,7 @@ Scene half_covered() {
   return scene;
 }
 
-TEST(Reference, nothing_is_judged_where_nothing_is_seen) {
+TEST(Reference, nothing_is_evaluated_where_nothing_is_visible) {
   const Tracer tracer(empty_scene());
   const Camera camera = overhead(4);
   const Picture picture = picture_of(tracer, camera);
@@ -44,7 +44,7 @@ TEST(Reference, nothing_is_judged_where_nothing_is_seen) {
   for (const float v : area_reference(tracer, points, sun, 0.1).pixels) EXPECT_EQ(v, -1.0f);
 }
 
-TEST(Reference, surfaces_turned_from_the_light_and_beyond_its_reach_are_not_judged) {
+TEST(Reference, surfaces_turned_from_the_light_and_beyond_its_range_are_not_evaluated) {
   const Scene scene = half_covered();
   const Tracer tracer(scene);
   const Camera camera = overhead(8);

@@ -59,7 +59,7 @@ TEST(SeenPoints, sky_and_what_lies_beyond_the_cameras_depths_are_not_seen) {
   for (const glm::dvec3& point : near_ones) EXPECT_GE(point.z, 80.0);
 }
 
-TEST(SeenPoints, what_the_light_cannot_reach_is_left_out) {
+TEST(SeenPoints, points_that_the_light_cannot_reach_are_omitted) {
   const Camera down = perspective_camera({0, 10, 0}, {0, -1, 0}, {0, 0, -1}, 1.0, 1.0, 0.1, 100, 400, 400);
   const Tracer tracer(ground());
   EXPECT_TRUE(seen_points(tracer, down, DirectionalLight{{0, 1, 0}}, 8, 8).empty()) << "from below";

@@ -166,7 +166,7 @@ TEST(Tracer, wraps_are_those_of_the_image) {
   EXPECT_TRUE(there(TextureWrap::mirrored_repeat, 1.25f));
 }
 
-TEST(Tracer, a_million_units_from_the_origin_answers_are_the_same) {
+TEST(Tracer, a_million_units_from_the_origin_results_are_the_same) {
   const glm::dvec3 far(1e6, -2e6, 3e6);
   for (const Engine engine : engines()) {
     const Tracer tracer(one_square(far), engine);

@@ -189,8 +189,9 @@ struct ParsedFilter {
 [[nodiscard]] ParsedFilter parse_filter(std::string_view text);
 /// The text that parse_filter reads back to the same settings; what is as by default is left out.
 [[nodiscard]] std::string to_string(const FilterSettings& settings);
-/// Every filter with its keys, one line each: for help texts.
-[[nodiscard]] std::string filter_help();
+/// Help text of one filter: its use, its source, and a table of the keys that parse_filter reads. Lines have
+/// at most 100 columns.
+[[nodiscard]] std::string filter_help(const Filter& filter);
 
 /// Bytes of one texel of everything that is kept: the depth map, stored channels with mip-maps, depth
 /// pyramid.

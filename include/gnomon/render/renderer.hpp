@@ -60,7 +60,7 @@ struct FrameOptions {
   bool time_passes = true;
   /// What may be left out of drawing; those that the plan decides say nothing here. Maps are held for the
   /// next frame whether it asks for them or not.
-  PruneRules prune;
+  PruneRules prune = default_prune_rules();
   /// PruneRule::small_casters: the most texels of a map, as a share of all, that casters left out may cover,
   /// 0..1. Larger: fewer draws, and shadows of small things gone.
   double lost_shadow_share = 1e-4;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/technique.hpp"
+#include "gnomon/study/technique.hpp"
 
 namespace gnomon::report {
 

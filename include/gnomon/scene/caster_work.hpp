@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gnomon/scene/scene.hpp"
-#include "gnomon/technique.hpp"
+#include "gnomon/study/technique.hpp"
 
 namespace gnomon {
 

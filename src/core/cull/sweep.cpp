@@ -15,9 +15,8 @@ constexpr double kPositionRounding = 4e-13;
 
 }  // namespace
 
-SweptBody sweep(const Polytope& body, const glm::dvec4& light, double margin_world,
-                const glm::dvec3& eye_world) noexcept {
-  SweptBody swept;
+void sweep(const Polytope& body, const glm::dvec4& light, double margin_world, const glm::dvec3& eye_world,
+           SweptBody& swept) noexcept {
   swept.plane_count = swept_planes(body, light, swept.plane);
   double farthest = max_of(largest_component(eye_world), light.w * largest_component(glm::dvec3(light)));
   for (const Polytope::Vertex& v : body.vertices())
@@ -25,7 +24,6 @@ SweptBody sweep(const Polytope& body, const glm::dvec4& light, double margin_wor
   // A caster that touches the body counts, whatever rounding makes of the touch.
   const double slack = margin_world + kPositionRounding * farthest;
   for (int i = 0; i < swept.plane_count; ++i) swept.plane[static_cast<std::size_t>(i)].offset += slack;
-  return swept;
 }
 
 }  // namespace gnomon

@@ -19,7 +19,7 @@ struct SweptBody {
 /// `light`: relative to the camera, w = 0 for the direction towards parallel light. All planes are moved out
 /// by `margin_world`, so that casters which only a filter's kernel reaches are kept, and by the rounding of
 /// positions this far from the world's origin.
-[[nodiscard]] SweptBody sweep(const Polytope& body, const glm::dvec4& light, double margin_world,
-                              const glm::dvec3& eye_world) noexcept;
+void sweep(const Polytope& body, const glm::dvec4& light, double margin_world, const glm::dvec3& eye_world,
+           SweptBody& swept) noexcept;
 
 }  // namespace gnomon

@@ -35,66 +35,176 @@ void set_cuboid(Polytope& body, const glm::dvec3 (&corner)[8]) noexcept {
 }
 
 using VertexSet = std::uint64_t;  // bit i: vertex i
-static_assert(kMaxVertices <= 64);
+static_assert(kMaxVertices < 64);
 
-/// New vertices on one face while a plane cuts it: a convex face is crossed twice or not at all.
-struct FaceCuts {
-  std::uint8_t vertex[2];
-  std::uint8_t count;
+VertexSet first_vertices(int count) noexcept {
+  return (VertexSet{1} << count) - 1;
+}
+
+template <typename Use>
+void for_each_vertex(VertexSet set, Use&& use) noexcept {
+  for (; set != 0; set &= set - 1) use(static_cast<std::size_t>(std::countr_zero(set)));
+}
+
+/// Cuts a body by one plane after another. Vertices keep their places, new ones follow behind, and the gaps
+/// are closed once, at the end.
+class Cutter {
+ public:
+  explicit Cutter(Polytope& body) noexcept
+      : body_(body),
+        kept_(first_vertices(body.vertex_count)),
+        places_(static_cast<std::size_t>(body.vertex_count)) {}
+  Cutter(const Cutter&) = delete;
+  Cutter& operator=(const Cutter&) = delete;
+  ~Cutter() { close_gaps(); }
+
+  void by(const Plane& plane) noexcept {
+    by(plane, [&](const glm::dvec3& p) {
+      return plane.normal.x * p.x + plane.normal.y * p.y + plane.normal.z * p.z + plane.offset;
+    });
+  }
+  template <int axis>
+  void by(const Box& box, const Box& own) noexcept {
+    Plane plane{glm::dvec3(0.0), -box.min[axis]};
+    plane.normal[axis] = 1.0;
+    if (own.min[axis] < box.min[axis])
+      by(plane, [&](const glm::dvec3& p) { return p[axis] - box.min[axis]; });
+    plane.normal[axis] = -1.0;
+    plane.offset = box.max[axis];
+    if (own.max[axis] > box.max[axis])
+      by(plane, [&](const glm::dvec3& p) { return box.max[axis] - p[axis]; });
+  }
+
+ private:
+  /// From a kept vertex to its neighbour `slot`, which is cut off.
+  struct CrossingEdge {
+    std::uint8_t from, slot;
+  };
+  using CrossingEdges = std::array<CrossingEdge, kMaxVertices>;
+  // More places than these are sorted out first: a cut takes one for each edge that it crosses.
+  static constexpr std::size_t kManyPlaces = 40;
+
+  template <typename Distance>
+  void by(const Plane& plane, const Distance& distance_of) noexcept;
+  void divide(const Plane& plane, const double* distance, VertexSet cut_off) noexcept;
+  [[nodiscard]] std::size_t add_vertices(const double* distance, VertexSet cut_off,
+                                         CrossingEdges& crossing) noexcept;
+  [[nodiscard]] bool join(std::size_t added) noexcept;
+  void close_gaps() noexcept;
+
+  Polytope& body_;
+  VertexSet kept_;
+  std::size_t places_;  ///< in use so far, gaps included
 };
 
-/// An edge from a kept vertex to its neighbour `slot`, which is cut off.
-struct CrossingEdge {
-  std::uint8_t vertex, slot;
-};
+template <typename Distance>
+void Cutter::by(const Plane& plane, const Distance& distance_of) noexcept {
+  double distance[kMaxVertices];
+  double lowest = 0.0, highest = std::abs(plane.offset);
+  for_each_vertex(kept_, [&](std::size_t i) {
+    distance[i] = distance_of(body_.vertex[i].position);
+    lowest = min_of(lowest, distance[i]);
+    highest = max_of(highest, distance[i]);
+  });
+  const double limit = -kClipTolerance * max_of(highest, -lowest);
+  if (lowest >= limit) return;
+  VertexSet cut_off = 0;
+  for_each_vertex(kept_, [&](std::size_t i) { cut_off |= VertexSet{distance[i] < limit} << i; });
+  divide(plane, distance, cut_off);
+  if (places_ > kManyPlaces) close_gaps();
+}
 
-/// Puts a vertex on every crossing edge, joins them along the faces they lie on into a new face, and closes
-/// the gaps that the lost vertices leave.
-void cut(Polytope& body, const Plane& plane, const double* distance, VertexSet kept,
-         std::span<const CrossingEdge> crossing, FaceCuts* cuts) noexcept {
-  const auto cap = static_cast<std::uint8_t>(body.face_count);
-  body.plane[cap] = plane;
-  Polytope::Vertex made[kMaxVertices];
-  // Kept vertices move down to the first places; new ones follow.
-  std::uint8_t renamed[64];
-  std::uint8_t next = 0;
-  for (VertexSet left = kept; left != 0; left &= left - 1) renamed[std::countr_zero(left)] = next++;
-  const std::uint8_t first_new = next;
-  for (std::size_t e = 0; e < crossing.size(); ++e) {
-    const Polytope::Vertex& v = body.vertex[crossing[e].vertex];
-    const std::size_t slot = crossing[e].slot;
-    const Polytope::Vertex& lost = body.vertex[v.neighbour[slot]];
-    const double from = max_of(distance[crossing[e].vertex], 0.0);
-    const double t = from / (from - distance[v.neighbour[slot]]);
-    Polytope::Vertex& m = made[e];
-    m.position = v.position + (lost.position - v.position) * t;
-    m.face = {cap, v.face[(slot + 1) % 3], v.face[(slot + 2) % 3]};
-    m.neighbour[0] = renamed[crossing[e].vertex];
+void Cutter::divide(const Plane& plane, const double* distance, VertexSet cut_off) noexcept {
+  const VertexSet kept = kept_ & ~cut_off;
+  if (kept == 0) {
+    kept_ = 0;
+    return;
+  }
+  CrossingEdges crossing;
+  const std::size_t added = body_.face_count < kMaxFaces ? add_vertices(distance, cut_off, crossing) : 0;
+  if (added == 0 || !join(added)) return;
+  for (std::size_t e = 0; e < added; ++e)
+    body_.vertex[crossing[e].from].neighbour[crossing[e].slot] = static_cast<std::uint8_t>(places_ + e);
+  kept_ = kept | first_vertices(static_cast<int>(added)) << places_;
+  places_ += added;
+  body_.plane[static_cast<std::size_t>(body_.face_count++)] = plane;
+}
+
+/// Puts a vertex on every edge that crosses the plane behind all others; returns how many, 0 where there is
+/// no room.
+std::size_t Cutter::add_vertices(const double* distance, VertexSet cut_off,
+                                 CrossingEdges& crossing) noexcept {
+  // Held here: a byte that is written might be part of anything else.
+  Polytope::Vertex* const vertex = body_.vertex.data();
+  const std::size_t places = places_;
+  const auto cap = static_cast<std::uint8_t>(body_.face_count);
+  VertexSet beside = 0;
+  for_each_vertex(cut_off, [&](std::size_t i) {
+    for (const std::uint8_t other : vertex[i].neighbour) beside |= VertexSet{1} << other;
+  });
+  std::size_t added = 0;
+  for_each_vertex(beside & ~cut_off, [&](std::size_t i) {
+    const Polytope::Vertex& v = vertex[i];
+    for (std::uint8_t k = 0; k < 3; ++k) {
+      const std::uint8_t other = v.neighbour[k];
+      if ((cut_off >> other & 1) == 0 || places + added++ >= kMaxVertices) continue;
+      const double from = max_of(distance[i], 0.0);
+      const double t = from / (from - distance[other]);
+      Polytope::Vertex& on_plane = vertex[places + added - 1];
+      on_plane.position = v.position + (vertex[other].position - v.position) * t;
+      on_plane.face = {cap, v.face[(k + 1u) % 3], v.face[(k + 2u) % 3]};
+      on_plane.neighbour[0] = static_cast<std::uint8_t>(i);
+      crossing[added - 1] = {static_cast<std::uint8_t>(i), k};
+    }
+  });
+  return places + added <= kMaxVertices ? added : 0;
+}
+
+/// Joins the new vertices along the faces they lie on into a new face. A convex face is crossed twice or not
+/// at all: false where rounding gives another cut.
+bool Cutter::join(std::size_t added) noexcept {
+  std::uint32_t once = 0, twice = 0;  // bit f: face f
+  static_assert(kMaxFaces <= 32);
+  std::array<std::uint8_t, kMaxFaces> first;
+  const std::span<Polytope::Vertex> vertex = body_.vertex;
+  for (std::size_t i = places_, end = places_ + added; i < end; ++i) {
+    Polytope::Vertex& v = vertex[i];
     for (std::size_t side = 1; side < 3; ++side) {
-      FaceCuts& on_face = cuts[m.face[side]];
-      if (on_face.count++ == 0) {
-        on_face.vertex[0] = static_cast<std::uint8_t>(e);
+      const std::uint8_t face = v.face[side];
+      const std::uint32_t bit = std::uint32_t{1} << face;
+      if ((once & bit) == 0) {
+        once |= bit;
+        first[face] = static_cast<std::uint8_t>(i);
         continue;
       }
-      // The other new vertex of this face: both are joined by the face's edge with the cap.
-      Polytope::Vertex& other = made[on_face.vertex[0]];
-      m.neighbour[3 - side] = static_cast<std::uint8_t>(first_new + on_face.vertex[0]);
-      other.neighbour[other.face[1] == m.face[side] ? 2 : 1] = static_cast<std::uint8_t>(first_new + e);
+      if ((twice & bit) != 0) return false;
+      twice |= bit;
+      Polytope::Vertex& other = vertex[first[face]];
+      v.neighbour[3 - side] = first[face];
+      other.neighbour[other.face[1] == face ? 2 : 1] = static_cast<std::uint8_t>(i);
     }
   }
-  std::size_t e = 0;
-  for (VertexSet left = kept; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    Polytope::Vertex v = body.vertex[static_cast<std::size_t>(i)];
+  return once == twice;
+}
+
+void Cutter::close_gaps() noexcept {
+  std::array<std::uint8_t, kMaxVertices> renamed;
+  std::uint8_t count = 0;
+  for_each_vertex(kept_, [&](std::size_t i) { renamed[i] = count++; });
+  body_.vertex_count = count;
+  if (count == places_) return;
+  const std::span<Polytope::Vertex> vertex = body_.vertex;
+  for_each_vertex(kept_, [&](std::size_t i) {
+    const Polytope::Vertex& from = vertex[i];
+    Polytope::Vertex& to = vertex[renamed[i]];
+    to.position = from.position;
     for (std::size_t k = 0; k < 3; ++k) {
-      const bool crosses = e < crossing.size() && crossing[e].vertex == i && crossing[e].slot == k;
-      v.neighbour[k] = crosses ? static_cast<std::uint8_t>(first_new + e++) : renamed[v.neighbour[k]];
+      to.face[k] = from.face[k];
+      to.neighbour[k] = renamed[from.neighbour[k]];
     }
-    body.vertex[renamed[i]] = v;
-  }
-  for (std::size_t i = 0; i < crossing.size(); ++i) body.vertex[first_new + i] = made[i];
-  body.vertex_count = static_cast<int>(first_new + crossing.size());
-  ++body.face_count;
+  });
+  kept_ = first_vertices(count);
+  places_ = count;
 }
 
 }  // namespace
@@ -152,49 +262,7 @@ Polytope frustum_slice(const Camera& camera, const CameraAxes& axes, double begi
 }
 
 void clip(Polytope& body, const Plane& plane) noexcept {
-  const int count = body.vertex_count;
-  if (count == 0) return;
-  double distance[kMaxVertices];
-  double lowest = 0.0, largest = std::abs(plane.offset);
-  for (int i = 0; i < count; ++i) {
-    const glm::dvec3& p = body.vertex[static_cast<std::size_t>(i)].position;
-    const double d = plane.normal.x * p.x + plane.normal.y * p.y + plane.normal.z * p.z + plane.offset;
-    distance[i] = d;
-    lowest = min_of(lowest, d);
-    largest = max_of(largest, std::abs(d));
-  }
-  const double limit = -kClipTolerance * largest;
-  if (lowest >= limit) return;
-  VertexSet cut_off = 0;
-  for (int i = 0; i < count; ++i) cut_off |= VertexSet{distance[i] < limit} << i;
-  const VertexSet kept = ~cut_off & (~VertexSet{0} >> (64 - count));
-  if (kept == 0) {
-    body.vertex_count = 0;
-    return;
-  }
-
-  // The edges that cross the plane, found first so that an inconsistent cut leaves the body as it was.
-  CrossingEdge crossing[kMaxVertices];
-  int crossings = 0, kept_count = 0;
-  FaceCuts cuts[kMaxFaces] = {};
-  for (VertexSet left = kept; left != 0; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    ++kept_count;
-    const Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(i)];
-    for (std::uint8_t k = 0; k < 3; ++k) {
-      if (((cut_off >> v.neighbour[k]) & 1) == 0) continue;
-      if (crossings == kMaxVertices) return;
-      crossing[crossings++] = {static_cast<std::uint8_t>(i), k};
-      ++cuts[v.face[(k + 1u) % 3]].count;
-      ++cuts[v.face[(k + 2u) % 3]].count;
-    }
-  }
-  if (body.face_count >= kMaxFaces || kept_count + crossings > kMaxVertices) return;
-  for (int f = 0; f < body.face_count; ++f) {
-    if (cuts[f].count != 0 && cuts[f].count != 2) return;
-    cuts[f].count = 0;
-  }
-  cut(body, plane, distance, kept, {crossing, static_cast<std::size_t>(crossings)}, cuts);
+  Cutter(body).by(plane);
 }
 
 void clip(Polytope& body, const Box& box) noexcept {
@@ -204,12 +272,10 @@ void clip(Polytope& body, const Box& box) noexcept {
   }
   // Planes that miss the body are told from its own box, six comparisons in place of six rounds of distances.
   const Box own = bounds_of(body);
-  if (own.min.x < box.min.x) clip(body, Plane{{1, 0, 0}, -box.min.x});
-  if (own.max.x > box.max.x) clip(body, Plane{{-1, 0, 0}, box.max.x});
-  if (own.min.y < box.min.y) clip(body, Plane{{0, 1, 0}, -box.min.y});
-  if (own.max.y > box.max.y) clip(body, Plane{{0, -1, 0}, box.max.y});
-  if (own.min.z < box.min.z) clip(body, Plane{{0, 0, 1}, -box.min.z});
-  if (own.max.z > box.max.z) clip(body, Plane{{0, 0, -1}, box.max.z});
+  Cutter cutter(body);
+  cutter.by<0>(box, own);
+  cutter.by<1>(box, own);
+  cutter.by<2>(box, own);
 }
 
 int swept_planes(const Polytope& body, const glm::dvec4& light,
@@ -221,15 +287,17 @@ int swept_planes(const Polytope& body, const glm::dvec4& light,
   };
   if (body.empty()) return 0;
   double along[kMaxFaces], lowest[kMaxFaces];
+  std::uint32_t facing = 0;  // bit f: face f has the light on its inner side
   for (int f = 0; f < body.face_count; ++f) {
     const Plane& plane = body.plane[static_cast<std::size_t>(f)];
     along[f] = glm::dot(plane.normal, glm::dvec3(light));
     if (light.w != 0.0) along[f] += plane.offset * light.w;
+    facing |= std::uint32_t{along[f] >= 0.0} << f;
     lowest[f] = std::numeric_limits<double>::infinity();  // a face without vertices is none
   }
   for (const Polytope::Vertex& v : body.vertices()) {
     for (const std::uint8_t f : v.face) {
-      if (along[f] >= 0.0) lowest[f] = min_of(lowest[f], glm::dot(body.plane[f].normal, v.position));
+      if ((facing >> f & 1) != 0) lowest[f] = min_of(lowest[f], glm::dot(body.plane[f].normal, v.position));
     }
   }
   for (int f = 0; f < body.face_count; ++f) {
@@ -238,16 +306,19 @@ int swept_planes(const Polytope& body, const glm::dvec4& light,
   }
   for (int i = 0; i < body.vertex_count; ++i) {
     const Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(i)];
+    const std::uint32_t sides =
+        (facing >> v.face[0] & 1) + (facing >> v.face[1] & 1) + (facing >> v.face[2] & 1);
+    if (sides == 0 || sides == 3) continue;
     for (std::size_t k = 0; k < 3; ++k) {
-      if (v.neighbour[k] < i) continue;
       const std::uint8_t a = v.face[(k + 1) % 3], b = v.face[(k + 2) % 3];
-      if ((along[a] >= 0.0) == (along[b] >= 0.0)) continue;
+      if (v.neighbour[k] < i || (facing >> a & 1) == (facing >> b & 1)) continue;
       // The positive combination of both inward planes that goes through the light: it holds the edge, points
       // inward, and needs no length of the edge.
       const glm::dvec3 both =
           body.plane[a].normal * std::abs(along[b]) + body.plane[b].normal * std::abs(along[a]);
-      if (!(largest_component(both) > 0.0)) continue;
-      const glm::dvec3 normal = safe_normalize(both, both);
+      const double square = glm::dot(both, both);
+      if (!(square > 0.0)) continue;
+      const glm::dvec3 normal = both / std::sqrt(square);
       add(normal,
           min_of(glm::dot(normal, v.position), glm::dot(normal, body.vertex[v.neighbour[k]].position)));
     }

@@ -36,11 +36,12 @@ struct LaneSides {
   std::uint32_t outside, across;
 };
 
-/// Without `across`, boxes across a plane count as inside, in half the time.
+/// Of the first `used` lanes. Without `across`, boxes across a plane count as inside, in half the time.
 /// Monotone, as every rounded step of it is: a node that is outside has only boxes that are, one that is
 /// inside likewise.
 template <bool across>
-[[nodiscard]] inline LaneSides sides_of(const Plane& plane, const CasterBlock& block) noexcept {
+[[nodiscard]] inline LaneSides sides_of(const Plane& plane, const CasterBlock& block,
+                                        std::size_t used) noexcept {
   const glm::dvec3& n = plane.normal;
   const auto inner = [&](int axis) -> const CasterBlock::Lanes& {
     return (n[axis] > 0.0 ? block.max : block.min)[static_cast<std::size_t>(axis)];
@@ -50,7 +51,6 @@ template <bool across>
   };
   const CasterBlock::Lanes &ix = inner(0), &iy = inner(1), &iz = inner(2);
   const CasterBlock::Lanes &ox = outer(0), &oy = outer(1), &oz = outer(2);
-  const std::size_t used = used_lanes(block);
   std::uint32_t outside = 0, inside = 0;
 #if defined(__SSE2__)
   const __m128d nx = _mm_set1_pd(n.x), ny = _mm_set1_pd(n.y), nz = _mm_set1_pd(n.z);
@@ -208,12 +208,14 @@ class BoxWalk {
     std::uint32_t kept = block.occupied;
     if (kept != 0) kept &= query_.wanted(block);
     std::uint32_t across = 0;
+    const std::size_t used = used_lanes(block);
+    const bool apart = Query::kCuts || !leaf;
     // What eight boxes were outside of, the next often are, too.
     std::uint32_t rest = asked;
     std::size_t k = (asked >> last_ & 1) != 0 ? last_ : static_cast<std::size_t>(std::countr_zero(rest));
     while (rest != 0 && kept != 0) {
-      const bool apart = Query::kCuts || !leaf;
-      const LaneSides sides = apart ? sides_of<true>(planes_[k], block) : sides_of<false>(planes_[k], block);
+      const LaneSides sides =
+          apart ? sides_of<true>(planes_[k], block, used) : sides_of<false>(planes_[k], block, used);
       kept &= ~sides.outside;
       open[k] = static_cast<std::uint8_t>(sides.across);
       across |= sides.across;

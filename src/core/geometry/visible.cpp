@@ -114,6 +114,7 @@ class ReachQuery {
   explicit ReachQuery(const glm::dvec3& up) noexcept : up_(up) {}
 
   [[nodiscard]] std::uint32_t wanted(const CasterBlock& block) const noexcept {
+    if (top_ == -kInfinity) return 0xff;
     return lanes_beyond(all_.min, all_.max, block) | lanes_above(reaches(block, up_), top_);
   }
   [[nodiscard]] std::uint32_t inside(const CasterBlock& block, std::uint32_t lanes, bool leaf) noexcept {

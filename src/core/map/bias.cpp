@@ -60,8 +60,7 @@ Receiver capped(const BiasOptions& options, const Receiver& r) noexcept {
 double lift_ndc(const BiasOptions& options, double texels, const Receiver& r) noexcept {
   const ReceiverPlane plane = receiver_plane(r);
   if (!plane.valid) return 0.0;
-  const glm::dvec2 extent =
-      texel_extent_world(r.clip_from_world, r.width, r.height, r.light_direction, r.point);
+  const glm::dvec2 extent = texel_extent_world(r.clip_from_world, r.texels, r.light_direction, r.point);
   const double per_world = ndc_depth_per_world_unit(r.clip_from_world, r.light_direction, r.point);
   return texels * (std::abs(plane.gradient.x) + std::abs(plane.gradient.y)) +
          options.constant_texels * max_of(extent.x, extent.y) * std::abs(per_world);
@@ -74,10 +73,10 @@ double ndc_depth_per_world_unit(const glm::dmat4& m, const glm::dvec3& light_dir
   return -glm::dot(ndc_jacobian(m, point).z, light_direction);
 }
 
-glm::dvec2 texel_extent_world(const glm::dmat4& clip_from_world, int width, int height,
+glm::dvec2 texel_extent_world(const glm::dmat4& clip_from_world, const TexelGrid& texels,
                               const glm::dvec3& light_direction, const glm::dvec3& point) noexcept {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  const TexelJacobian b = texel_jacobian(clip_from_world, width, height, point);
+  const TexelJacobian b = texel_jacobian(clip_from_world, texels, point);
   if (!(b.w > 0.0)) return {kInfinite, kInfinite};
   // Rows across the light; the inverse of the 2x2 map they span gives a texel's two edges.
   const glm::dvec3 x = b.x - light_direction * glm::dot(b.x, light_direction);
@@ -111,7 +110,11 @@ ReceiverPlane receiver_plane(const Receiver& r) noexcept {
   if (!(std::abs(det) > kEdgeOn * std::sqrt(glm::dot(ray, ray) * glm::dot(r.normal, r.normal)))) return {};
   const double x = glm::dot(glm::cross(b.z, b.y), r.normal) / det;
   const double y = glm::dot(glm::cross(b.x, b.z), r.normal) / det;
-  return {{x * 2.0 / r.width, y * 2.0 / r.height}, true};
+  // Per texel: through the inverse of the shape's derivative.
+  const glm::dmat2 d = r.texels.place(b.ndc).texel_from_ndc;
+  const double area = d[0][0] * d[1][1] - d[0][1] * d[1][0];
+  if (!(area != 0.0)) return {};
+  return {{(x * d[1][1] - y * d[0][1]) / area, (y * d[0][0] - x * d[1][0]) / area}, true};
 }
 
 ReceiverPlane receiver_plane_from_derivatives(const glm::dvec3& d_dx, const glm::dvec3& d_dy) noexcept {
@@ -163,12 +166,9 @@ double adaptive_bias_ndc(const BiasOptions& options, const Receiver& receiver,
   const ReceiverPlane plane = receiver_plane(r);
   if (!plane.valid) return 0.0;
   const NdcJacobian b = ndc_jacobian(r.clip_from_world, r.point);
-  const auto to_centre = [](double ndc, int size) {
-    const double texel = (0.5 * ndc + 0.5) * size;
-    return std::floor(texel) + 0.5 - texel;
-  };
-  return plane.gradient.x * to_centre(b.ndc.x, r.width) + plane.gradient.y * to_centre(b.ndc.y, r.height) -
-         epsilon_world * glm::dot(b.z, r.light_direction);
+  const glm::dvec2 texel = r.texels.place(b.ndc).texel;
+  const glm::dvec2 to_centre = glm::floor(texel) + 0.5 - texel;
+  return glm::dot(plane.gradient, to_centre) - epsilon_world * glm::dot(b.z, r.light_direction);
 }
 
 double depth_rounding(DepthFormat format, double depth) noexcept {

@@ -39,13 +39,13 @@ struct MapRequest {
   const Polytope& body;
   LightSpace space;
   const Warp& warp;
-  double begin, end;             // view depths of the slice, blend band included
-  WarpChoice unwarped;           // the map to make without a warp
-  double centre = 0.0;           // as WarpInput::centre
-  double slope = 0.0;            // local light: the frustum is |x| <= slope, |y| <= slope
-  double range = 0.0;            // local light: beyond it nothing is lit
-  bool without_casters = false;  // make the map even where no caster can reach the body
-  PlanHistory::Map last;         // of the last frame and the same light; frame -1: none
+  double begin, end;                       // view depths of the slice, blend band included
+  WarpChoice unwarped;                     // the map to make without a warp
+  double centre = 0.0;                     // as WarpInput::centre
+  double slope = 0.0;                      // local light: the frustum is |x| <= slope, |y| <= slope
+  double range = 0.0;                      // local light: beyond it nothing is lit
+  bool without_casters = false;            // make the map even where no caster can reach the body
+  const PlanHistory::Map* last = nullptr;  // of the last frame and the same light
 };
 
 /// One map, and what happened while it was fitted.

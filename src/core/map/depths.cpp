@@ -1,6 +1,7 @@
 // How deep a map is along the light: the receivers and every caster that can shadow them.
 #include "map/depths.hpp"
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -29,43 +30,50 @@ double lowest(const LightBody& body) noexcept {
   return z;
 }
 
-/// Of every vertex: 1 / w at the near side of its border, how far the border reaches in the light plane.
-struct BorderedBody {
-  std::array<double, kMaxVertices> inverse_w, margin;
-  double height = 0.0;  ///< largest (z - bottom) / w of the body itself
+/// The height of a face over the light plane: `at` + slope_x x + slope_y y.
+struct Face {
+  double at, slope_x, slope_y;
 };
 
-BorderedBody bordered(const FittedPlane& f, double bottom) noexcept {
-  BorderedBody result;
-  const PlaneMap& map = f.plane;
-  const double margin_image = f.border * ((map.a_max - map.a_min) + (map.b_max - map.b_min));
+/// Of a point of the body: 1 / w at the near side of its border, how far the border reaches in the light
+/// plane.
+struct Bordered {
+  double inverse_w, margin;
+};
+
+Bordered bordered(const PlaneMap& map, double margin_image, const WarpInput::Point& p) noexcept {
   const double kappa = map.choice.kappa;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(f.body.count); ++i) {
-    const WarpInput::Point& p = f.body.point[i];
-    const double w = map.w(p.x, p.y);
-    // A move by the border in the image is at most this one in the light plane: across, texels grow with w
-    // and lean with the distance from the centre; along, with its square.
-    const double across = std::abs(p.x * map.choice.axis.y - p.y * map.choice.axis.x - map.choice.centre);
-    const double margin_along = margin_image * w * w / map.stretch;
-    result.margin[i] = margin_image * w + margin_along * (1.0 + kappa * across / w);
-    // The border reaches towards smaller w, too; it never halves it for a border a filter can ask for.
-    result.inverse_w[i] = 1.0 / max_of(w - kappa * margin_along, 0.5 * w);
-    result.height = max_of(result.height, (p.z - bottom) * result.inverse_w[i]);
-  }
-  return result;
+  if (kappa == 0.0) return {1.0, 2.0 * margin_image};
+  const double w = map.w(p.x, p.y);
+  // A move by the border in the image is at most this one in the light plane: across, texels grow with w
+  // and lean with the distance from the centre; along, with its square.
+  const double across = std::abs(p.x * map.choice.axis.y - p.y * map.choice.axis.x - map.choice.centre);
+  const double margin_along = margin_image * w * w / map.stretch;
+  // The border reaches towards smaller w, too; it never halves it for a border a filter can ask for.
+  return {1.0 / max_of(w - kappa * margin_along, 0.5 * w),
+          margin_image * w + margin_along * (1.0 + kappa * across / w)};
 }
 
-/// Largest (z - bottom) / w over the body of a face at height `at` + slope_x x + slope_y y.
-double highest_on(const FittedPlane& f, const BorderedBody& b, double bottom, double at, double slope_x,
-                  double slope_y) noexcept {
-  const double steepest = std::sqrt(slope_x * slope_x + slope_y * slope_y);
-  double highest = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(f.body.count); ++i) {
-    const WarpInput::Point& p = f.body.point[i];
-    const double z = at + slope_x * p.x + slope_y * p.y + steepest * b.margin[i];
-    highest = max_of(highest, (z - bottom) * b.inverse_w[i]);
+/// Largest (z - bottom) / w over the body and its border, of the body itself or, where that is more, of the
+/// face on which it is least.
+template <std::size_t count>
+double highest_over(const FittedPlane& f, double bottom, const std::array<Face, count>& faces) noexcept {
+  const double margin_image = f.border * ((f.plane.a_max - f.plane.a_min) + (f.plane.b_max - f.plane.b_min));
+  std::array<double, count> steepest, highest{};
+  for (std::size_t k = 0; k < count; ++k)
+    steepest[k] = std::sqrt(faces[k].slope_x * faces[k].slope_x + faces[k].slope_y * faces[k].slope_y);
+  double of_body = 0.0;
+  for (const WarpInput::Point& p : f.body.points()) {
+    const Bordered b = bordered(f.plane, margin_image, p);
+    of_body = max_of(of_body, (p.z - bottom) * b.inverse_w);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double z = faces[k].at + faces[k].slope_x * p.x + faces[k].slope_y * p.y + steepest[k] * b.margin;
+      highest[k] = max_of(highest[k], (z - bottom) * b.inverse_w);
+    }
   }
-  return highest;
+  double least = highest[0];
+  for (const double h : highest) least = min_of(least, h);
+  return max_of(least, of_body);
 }
 
 /// Upper bound of (z - bottom) / w over every caster point above the body: along parallel light, the casters'
@@ -77,16 +85,16 @@ double caster_height(const CasterReach& reach, const LightFrame& frame, const Fi
   const glm::dvec3 corner{up.x > 0.0 ? reach.bounds.max.x : reach.bounds.min.x,
                           up.y > 0.0 ? reach.bounds.max.y : reach.bounds.min.y,
                           up.z > 0.0 ? reach.bounds.max.z : reach.bounds.min.z};
-  const BorderedBody b = bordered(f, bottom);
-  // The plane across the light through the highest caster.
-  double lowest_face = highest_on(f, b, bottom, reach.top, 0.0, 0.0);
-  for (int face = 0; face < 3; ++face) {
-    if (!(std::abs(up[face]) > kSteepestFace)) continue;
-    const double inverse = 1.0 / up[face];
-    lowest_face = min_of(lowest_face, highest_on(f, b, bottom, corner[face] * inverse,
-                                                 -frame.x[face] * inverse, -frame.y[face] * inverse));
+  // First the plane across the light through the highest caster, also in the place of faces along the light.
+  std::array<Face, 4> faces;
+  faces.fill({reach.top, 0.0, 0.0});
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(up[axis]) > kSteepestFace)) continue;
+    const double inverse = 1.0 / up[axis];
+    faces[static_cast<std::size_t>(axis) + 1] = {corner[axis] * inverse, -frame.x[axis] * inverse,
+                                                 -frame.y[axis] * inverse};
   }
-  return max_of(lowest_face, b.height);
+  return highest_over(f, bottom, faces);
 }
 
 HeightRange parallel_heights(const PlanContext& c, const MapRequest& request, const FittedPlane& f) noexcept {
@@ -139,7 +147,7 @@ HeightRange perspective_heights(const PlanContext& c, const MapRequest& request,
   range.nearest = near_distance;
   range.bottom = 1.0 / far_distance;
   const double from = f.measured_from.value_or(range.bottom);
-  range.height = highest_on(f, bordered(f, from), from, 1.0 / near_distance, 0.0, 0.0);
+  range.height = highest_over(f, from, std::array{Face{1.0 / near_distance, 0.0, 0.0}});
   return range;
 }
 
@@ -156,8 +164,8 @@ LightDepths padded(double bottom, double height, double extent) noexcept {
   return {bottom - kDepthPadding * range, range * (1.0 + 2.0 * kDepthPadding)};
 }
 
-SweptBody swept_for(const PlanContext& c, const MapRequest& request, const LightBody& body,
-                    const PlaneMap& plane, double border) noexcept {
+void sweep_for(const PlanContext& c, const MapRequest& request, const LightBody& body, const PlaneMap& plane,
+               double border, SweptBody& swept) noexcept {
   // The border at the far end, where texels are largest: across they grow with w, along with w^2 / stretch =
   // w there, and w itself grows over the border. Under a local light a step in slopes is that step times the
   // distance, at most.
@@ -167,8 +175,8 @@ SweptBody swept_for(const PlanContext& c, const MapRequest& request, const Light
       border * growth * ((plane.a_max - plane.a_min) + (plane.b_max - plane.b_min)) * body.farthest;
   const glm::dvec4 light = request.space.light();
   const LightFrame& frame = request.space.frame;
-  return sweep(request.body, glm::dvec4(frame.x * light.x + frame.y * light.y + frame.z * light.z, light.w),
-               reach, c.camera.position);
+  sweep(request.body, glm::dvec4(frame.x * light.x + frame.y * light.y + frame.z * light.z, light.w), reach,
+        c.camera.position, swept);
 }
 
 }  // namespace gnomon

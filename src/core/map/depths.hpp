@@ -33,7 +33,7 @@ struct HeightRange {
 [[nodiscard]] LightDepths padded(double bottom, double height, double extent) noexcept;
 
 /// Planes round everything that can shadow the body or fall into the kernels round it.
-[[nodiscard]] SweptBody swept_for(const PlanContext& c, const MapRequest& request, const LightBody& body,
-                                  const PlaneMap& plane, double border) noexcept;
+void sweep_for(const PlanContext& c, const MapRequest& request, const LightBody& body, const PlaneMap& plane,
+               double border, SweptBody& swept) noexcept;
 
 }  // namespace gnomon

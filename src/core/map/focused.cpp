@@ -91,17 +91,24 @@ void widen_for_floats(const MapRequest& request, const LightBody& body, PlaneMap
     widen(map.b_min, map.b_max, least);
     return;
   }
-  double across = 0.0, along = 0.0;  // of the image, per unit of relative rounding
-  for (const WarpInput::Point& p : body.points()) {
-    const double reach = largest_component({p.x, p.y, p.z}) / map.w(p.x, p.y);
-    across = max_of(across, reach);
-    along = max_of(along, reach * map.stretch / map.w(p.x, p.y));
-  }
+  // Of the image, per unit of relative rounding. At most these, w being 1 at least, which hardly any
+  // rectangle is too narrow for.
+  double across = 0.0;
+  for (const WarpInput::Point& p : body.points()) across = max_of(across, largest_component({p.x, p.y, p.z}));
+  double along = across * map.stretch;
   const auto least = [&](const glm::dvec2& row) {
     return kLeastOfOffset * (std::abs(row.x) * across + std::abs(row.y) * along);
   };
-  widen(map.a_min, map.a_max, least(map.choice.row_a));
-  widen(map.b_min, map.b_max, least(map.choice.row_b));
+  const glm::dvec2 row_a = map.choice.row_a, row_b = map.choice.row_b;
+  if (map.a_max - map.a_min >= least(row_a) && map.b_max - map.b_min >= least(row_b)) return;
+  across = along = 0.0;
+  for (const WarpInput::Point& p : body.points()) {
+    const double w = map.w(p.x, p.y), reach = largest_component({p.x, p.y, p.z}) / w;
+    across = max_of(across, reach);
+    along = max_of(along, reach * map.stretch / w);
+  }
+  widen(map.a_min, map.a_max, least(row_a));
+  widen(map.b_min, map.b_max, least(row_b));
 }
 
 /// All that a local light's frustum shows, for a grid that does not follow the view.
@@ -125,7 +132,7 @@ LightBody whole_frustum(const MapRequest& request, const LightBody& body) noexce
 bool kept_from_before(const PlanContext& c, const MapRequest& request, const LightBody& body, ShadowMap& map,
                       Fitted& fitted) noexcept {
   if (c.options.fit != Fit::warped_stable || !c.same_light || !remembered(request)) return false;
-  const PlanHistory::Map& last = request.last;
+  const PlanHistory::Map& last = *request.last;
   const HeldMap held = held_map(c, request, body);
   if (!held.holds || border_of(c.options, map.width, map.height, border_share(c, request, body, held.plane)) >
                          last.filter_margin_texels)
@@ -133,8 +140,8 @@ bool kept_from_before(const PlanContext& c, const MapRequest& request, const Lig
   map.filter_margin_texels = last.filter_margin_texels;
   fitted.plane = held.plane;
   fitted.depths = held.depths;
-  fitted.swept = swept_for(c, request, body, held.plane, border_of_body(map));
-  fitted.needed = texels_needed(body.points(), held.plane, pixels_per_slope(c.camera));
+  sweep_for(c, request, body, held.plane, border_of_body(map), fitted.swept);
+  texels_needed(body.points(), held.plane, pixels_per_slope(c.camera), fitted.needed);
   fitted.heights =
       height_range(c, request, {body, fitted.plane, fitted.swept, border_of_body(map), held.depths.bottom});
   if (!(fitted.heights.bottom >= held.depths.bottom && fitted.heights.height <= held.depths.height))
@@ -155,7 +162,7 @@ void fit(const PlanContext& c, const MapRequest& request, const LightBody& body,
       result.report(remembered(request) ? PlanEventKind::map_refitted : PlanEventKind::map_appeared, 1.0);
   }
   const double share = border_share(c, request, body, fitted.plane);
-  fitted.needed = texels_needed(body.points(), fitted.plane, pixels_per_slope(c.camera));
+  texels_needed(body.points(), fitted.plane, pixels_per_slope(c.camera), fitted.needed);
   const MapSize size = map_size(c, request, fitted.plane, fitted.needed, obliquity, share);
   map.width = size.width;
   map.height = size.height;
@@ -167,7 +174,7 @@ void fit(const PlanContext& c, const MapRequest& request, const LightBody& body,
     result.omit({OmissionKind::resolution_without_gain, request.slot.cascade, size.full_error,
                  fitted.needed.bound(inside, obliquity), saved});
   }
-  fitted.swept = swept_for(c, request, body, fitted.plane, border_of_body(map));
+  sweep_for(c, request, body, fitted.plane, border_of_body(map), fitted.swept);
   fitted.heights = height_range(c, request, {body, fitted.plane, fitted.swept, border_of_body(map)});
   const double extent =
       max_of(fitted.plane.a_max - fitted.plane.a_min, fitted.plane.b_max - fitted.plane.b_min);
@@ -224,7 +231,7 @@ MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept 
   if (kept) {
     map.warp = map.kappa > 0.0 ? &request.warp : &warps::none;
     // The very bits of the last frame: what is drawn stays as it is.
-    result.gl_from_world = request.last.gl_from_world;
+    result.gl_from_world = request.last->gl_from_world;
     map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * result.gl_from_world;
   }
   return result;

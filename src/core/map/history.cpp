@@ -200,8 +200,8 @@ double strongest_in_motion(const PlanContext& c, const WarpQuestion& question, d
 }  // namespace
 
 bool remembered(const MapRequest& request) noexcept {
-  return request.last.frame >= 0 && request.last.width == request.slot.width &&
-         request.last.height == request.slot.height;
+  return request.last != nullptr && request.last->width == request.slot.width &&
+         request.last->height == request.slot.height;
 }
 
 namespace {
@@ -213,7 +213,7 @@ class SteadyWay {
       : c_(c),
         request_(request),
         question_(question),
-        before_(homography(gl_from_light(c, request.space, request.last.gl_from_world))) {}
+        before_(homography(gl_from_light(c, request.space, request.last->gl_from_world))) {}
 
   [[nodiscard]] const Homography& before() const noexcept { return before_; }
   [[nodiscard]] Change changed(const PlaneMap& plane) const noexcept {
@@ -291,11 +291,11 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
 
 HeldMap held_map(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
   HeldMap held{};
-  const glm::dmat4 m = gl_from_light(c, request.space, request.last.gl_from_world);
+  const glm::dmat4 m = gl_from_light(c, request.space, request.last->gl_from_world);
   const Homography h = homography(m);
   const Decomposed d = decompose(h, body.points(), {0.0, 1.0});
   if (!d.valid) return held;
-  const double fill = 1.0 - 2.0 * request.last.filter_margin_texels / request.last.width;
+  const double fill = 1.0 - 2.0 * request.last->filter_margin_texels / request.last->width;
   PlaneMap& plane = held.plane;
   plane.choice = d.choice;
   plane.u_min = d.u_min;

@@ -29,19 +29,25 @@ void write_texels(const PlanContext& c, const MapRequest& request, const MapPart
   const auto texel_at = [&](const glm::dvec3& p) {
     const glm::dvec3 way = space.ray(space.frame.turned(p));
     const glm::dvec3 world = space.frame.x * way.x + space.frame.y * way.y + space.frame.z * way.z;
-    return texel_extent_world(parts.gl_from_relative, map.width, map.height,
+    return texel_extent_world(parts.gl_from_relative, map.texels(),
                               space.perspective ? safe_normalize(world, -space.frame.z) : -space.frame.z, p);
   };
   glm::dvec3 centre(0.0);
   for (const Polytope::Vertex& v : request.body.vertices()) centre += v.position;
   centre /= static_cast<double>(request.body.vertex_count);
   map.texel_world = map.texel_world_max = texel_at(centre);
-  if (space.perspective || parts.plane.choice.kappa != 0.0) {
+  const auto grow = [&](const glm::dvec2& texel) {
+    map.texel_world_max = {max_of(map.texel_world_max.x, texel.x), max_of(map.texel_world_max.y, texel.y)};
+  };
+  if (!space.perspective) {
+    if (parts.plane.choice.kappa != 0.0)
+      grow(parts.needed.in_light_plane /
+           (glm::dvec2(map.width, map.height) - 2.0 * map.filter_margin_texels));
+  } else {
     for (const Polytope::Vertex& v : request.body.vertices()) {
       // Nearer than the map's nearest distance is only rounding.
       if (space.distance(space.frame.turned(v.position)) < parts.body.nearest) continue;
-      const glm::dvec2 texel = texel_at(v.position);
-      map.texel_world_max = {max_of(map.texel_world_max.x, texel.x), max_of(map.texel_world_max.y, texel.y)};
+      grow(texel_at(v.position));
     }
   }
   const double texel = max_of(map.texel_world.x, map.texel_world.y);

@@ -14,6 +14,11 @@
 namespace gnomon {
 namespace {
 
+bool same_texels(const ShadowMap& a, const ShadowMap& b) noexcept {
+  return a.width == b.width && a.height == b.height && a.shape == b.shape &&
+         a.shape_parameters == b.shape_parameters;
+}
+
 using Row = glm::dvec4;
 
 Row row_of(const glm::dmat4& m, int row) noexcept {
@@ -29,7 +34,7 @@ bool same_grid(const ShadowMap& a, const ShadowMap& b) noexcept {
     if (key <= -kTrusted || key >= kTrusted) return false;
   }
   if (p.depth_near != c.depth_near || p.depth_far != c.depth_far) return false;
-  if (a.width != b.width || a.height != b.height || a.filter_margin_texels != b.filter_margin_texels)
+  if (!same_texels(a, b) || !a.shape->affine || a.filter_margin_texels != b.filter_margin_texels)
     return false;
   if (a.light_world != b.light_world || a.light_world.w != 0.0 || a.kappa != 0.0 || b.kappa != 0.0)
     return false;
@@ -55,8 +60,8 @@ Span new_span(int shift, int size) noexcept {
 
 /// To the last bit: what was drawn is what would be drawn.
 bool same_map(const ShadowMap& a, const ShadowMap& b) noexcept {
-  return a.clip_from_world == b.clip_from_world && a.width == b.width && a.height == b.height &&
-         a.light_world == b.light_world && a.snap_key == b.snap_key;
+  return a.clip_from_world == b.clip_from_world && same_texels(a, b) && a.light_world == b.light_world &&
+         a.snap_key == b.snap_key;
 }
 
 MapReuse whole(const ShadowMap& map) noexcept {
@@ -103,13 +108,18 @@ MapReuse reuse(const ShadowMap& previous, const ShadowMap& current, const ClipSp
 
 std::array<glm::dvec4, 5> rectangle_planes(const ShadowMap& map, const TexelRect& rectangle,
                                            const ClipSpace& clip_space) noexcept {
-  const glm::dmat4 m = texture_from_clip(clip_space) * map.clip_from_world;
-  const Row x = row_of(m, 0), y = row_of(m, 1), z = row_of(m, 2), w = row_of(m, 3);
-  const auto at = [](int texel, int size) { return static_cast<double>(texel) / size; };
-  std::array<glm::dvec4, 5> planes = {
-      x - w * at(rectangle.x, map.width), w * at(rectangle.x + rectangle.width, map.width) - x,
-      y - w * at(rectangle.y, map.height), w * at(rectangle.y + rectangle.height, map.height) - y,
-      clip_space.reversed_z ? z : w - z};
+  const glm::dmat4& m = map.clip_from_world;
+  const Row x = row_of(m, 0), y = row_of(m, 1), w = row_of(m, 3);
+  const Row z = row_of(texture_from_clip(clip_space) * m, 2);
+  // Texels are counted from ndc (-1, -1), rows of memory from where the clip space says.
+  const bool downwards = clip_space.first_row == FirstRow::y_plus_one;
+  const int row = downwards ? map.height - rectangle.y - rectangle.height : rectangle.y;
+  const TexelGrid texels = map.texels();
+  const ShapeRectangle ndc =
+      map.shape->ndc_bounds(texels.parameters, texels.size(),
+                            {{rectangle.x, row}, {rectangle.x + rectangle.width, row + rectangle.height}});
+  std::array<glm::dvec4, 5> planes = {x - w * ndc.low.x, w * ndc.high.x - x, y - w * ndc.low.y,
+                                      w * ndc.high.y - y, clip_space.reversed_z ? z : w - z};
   for (glm::dvec4& plane : planes) plane /= glm::length(glm::dvec3(plane));
   return planes;
 }

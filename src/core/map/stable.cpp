@@ -97,15 +97,16 @@ MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
 
   const double border = static_cast<double>(map.filter_margin_texels) / map.width;
   const glm::dvec4 light(request.space.frame.z, 0.0);
-  const SweptBody swept =
-      sweep(request.body, light, grid.texel * map.filter_margin_texels, c.camera.position);
+  SweptBody swept;
+  sweep(request.body, light, grid.texel * map.filter_margin_texels, c.camera.position, swept);
   const HeightRange heights = height_range(c, request, {body, plane, swept, border});
   if (!heights.has_casters && !request.without_casters) return result;
   result.drawn = true;
   const LightDepths still_depths = snapped_depths(grid, heights, map.snap_key);
   const LightDepths depths{still_depths.bottom - grid.eye.z, still_depths.height};
   map.depth_range_world = depths.height;
-  const TexelsNeeded needed = texels_needed(body.points(), plane, pixels_per_slope(c.camera));
+  TexelsNeeded needed;
+  texels_needed(body.points(), plane, pixels_per_slope(c.camera), needed);
   const glm::dmat4 turn = request.space.light_from_relative();
   const glm::dmat4 gl_from_relative = clip_from_grid(centre, grid.half, depths) * turn;
   complete_record(c, request,

@@ -46,9 +46,8 @@ GNOMON_WIDE void find_light_rays(const MetricFrame& f, MetricBlock& b, std::size
     b.light_ray.set(i, direction(b.point[i] * w - light, {0.0, -1.0, 0.0}));
 }
 
-GNOMON_WIDE void find_texels(const MetricFrame& f, MetricBlock& b, std::size_t count) noexcept {
+GNOMON_WIDE void find_places(const MetricFrame& f, MetricBlock& b, std::size_t count) noexcept {
   const glm::dmat4 m = f.clip_from_world;
-  const double half_width = 0.5 * f.width, half_height = 0.5 * f.height;
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 p = b.point[i];
     const double w = m[0][3] * p.x + m[1][3] * p.y + m[2][3] * p.z + m[3][3];
@@ -56,13 +55,37 @@ GNOMON_WIDE void find_texels(const MetricFrame& f, MetricBlock& b, std::size_t c
     const double inverse = 1.0 / (w + kLeastW);
     const double x = (m[0][0] * p.x + m[1][0] * p.y + m[2][0] * p.z + m[3][0]) * inverse;
     const double y = (m[0][1] * p.x + m[1][1] * p.y + m[2][1] * p.z + m[3][1]) * inverse;
-    const double sx = half_width * inverse, sy = half_height * inverse;
-    b.texel_x.set(i,
-                  {(m[0][0] - x * m[0][3]) * sx, (m[1][0] - x * m[1][3]) * sx, (m[2][0] - x * m[2][3]) * sx});
-    b.texel_y.set(i,
-                  {(m[0][1] - y * m[0][3]) * sy, (m[1][1] - y * m[1][3]) * sy, (m[2][1] - y * m[2][3]) * sy});
+    b.inverse_w[i] = inverse;
+    b.ndc_x[i] = x;
+    b.ndc_y[i] = y;
     const double in_x = std::abs(x) <= kRim ? 1.0 : 0.0, in_y = std::abs(y) <= kRim ? in_x : 0.0;
     b.inside[i] = w > 0.0 ? in_y : 0.0;
+  }
+}
+
+void find_shape(const MetricFrame& f, MetricBlock& b, std::size_t count) noexcept {
+  const auto set = [&b](std::size_t i, const glm::dmat2& d) {
+    b.shape[0][i] = d[0][0];
+    b.shape[1][i] = d[1][0];
+    b.shape[2][i] = d[0][1];
+    b.shape[3][i] = d[1][1];
+  };
+  if (f.texels.shape->affine) {
+    const glm::dmat2 everywhere = f.texels.place(glm::dvec2(0.0)).texel_from_ndc;
+    for (std::size_t i = 0; i < count; ++i) set(i, everywhere);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) set(i, f.texels.place({b.ndc_x[i], b.ndc_y[i]}).texel_from_ndc);
+}
+
+GNOMON_WIDE void find_texels(const MetricFrame& f, MetricBlock& b, std::size_t count) noexcept {
+  const glm::dmat4 m = f.clip_from_world;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = b.ndc_x[i], y = b.ndc_y[i], inverse = b.inverse_w[i];
+    const glm::dvec3 over_x{m[0][0] - x * m[0][3], m[1][0] - x * m[1][3], m[2][0] - x * m[2][3]};
+    const glm::dvec3 over_y{m[0][1] - y * m[0][3], m[1][1] - y * m[1][3], m[2][1] - y * m[2][3]};
+    b.texel_x.set(i, over_x * (b.shape[0][i] * inverse) + over_y * (b.shape[1][i] * inverse));
+    b.texel_y.set(i, over_x * (b.shape[2][i] * inverse) + over_y * (b.shape[3][i] * inverse));
   }
 }
 
@@ -121,8 +144,7 @@ GNOMON_WIDE void find_surface(const MetricFrame& f, MetricBlock& b, std::size_t 
 
 MetricFrame::MetricFrame(const ShadowMap& map, const Camera& camera, const CameraAxes& axes) noexcept
     : clip_from_world(map.clip_from_world),
-      width(map.width),
-      height(map.height),
+      texels(map.texels()),
       eye(camera.position),
       forward(axes.forward),
       pixel_x(axes.right * ((camera.right - camera.left) / camera.width)),
@@ -142,6 +164,8 @@ void judge_perspective(const MetricFrame& f, MetricBlock& b, std::size_t count) 
   } else {
     find_light_rays(f, b, count);
   }
+  find_places(f, b, count);
+  find_shape(f, b, count);
   find_texels(f, b, count);
   find_perspective(f, b, count);
   // Where both rays oppose each other any mirror across them serves, and it takes branches to find one.

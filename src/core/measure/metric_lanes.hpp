@@ -30,7 +30,7 @@ struct MetricFrame {
   MetricFrame(const ShadowMap& map, const Camera& camera, const CameraAxes& axes) noexcept;
 
   glm::dmat4 clip_from_world;
-  double width, height;  ///< texels
+  TexelGrid texels;
   glm::dvec3 eye, forward;
   glm::dvec3 pixel_x, pixel_y;  ///< d(world)/d(pixel) per unit of depth; orthographic: as it stands
   glm::dvec4 light_world;
@@ -47,9 +47,12 @@ struct MetricBlock {
   VectorLanes point, normal;
   VectorLanes eye_ray, light_ray;  ///< unit, away from the eye and from the light
   Lanes depth;                     ///< that pixel_x and pixel_y grow by; 1 for an orthographic camera
-  VectorLanes texel_x, texel_y;    ///< d(texel)/d(world)
-  Lanes inside;                    ///< > 0 where the map holds the point
-  Lanes sum2;                      ///< squared length of the sum of both rays
+  Lanes ndc_x, ndc_y;              ///< where the map shows the point
+  Lanes inverse_w;
+  std::array<Lanes, 4> shape;    ///< d(texel)/d(ndc): x by x, x by y, y by x, y by y
+  VectorLanes texel_x, texel_y;  ///< d(texel)/d(world)
+  Lanes inside;                  ///< > 0 where the map holds the point
+  Lanes sum2;                    ///< squared length of the sum of both rays
   ExtentLanes perspective;
   Lanes cos_eye, cos_light;  ///< of the normal with the ways back to the eye and to the light
   ExtentLanes surface;

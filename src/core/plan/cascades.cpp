@@ -10,14 +10,14 @@
 namespace gnomon {
 namespace {
 
-/// The part of `body` between two depths that holds receivers.
-Polytope receivers_between(const PlanContext& c, const Polytope& body, double begin, double end) noexcept {
-  Polytope part = body;
-  clip(part, Plane{c.axes.forward, -begin});
-  clip(part, Plane{-c.axes.forward, end});
+/// The part of the scene's body between two depths that holds receivers.
+void receivers_between(const PlanContext& c, const ParallelScene& scene, double begin, double end,
+                       Polytope& part) noexcept {
+  part = scene.body;
+  if (begin > scene.depths.begin) clip(part, Plane{c.axes.forward, -begin});
+  if (end < scene.depths.end) clip(part, Plane{-c.axes.forward, end});
   if (c.bounds.receivers.size() > 1 && !part.empty())
     clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
-  return part;
 }
 
 /// The receivers of one cascade, and the depths that its map serves.
@@ -41,7 +41,7 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   const DepthRange seen = c.seen == nullptr ? DepthRange{from, to} : seen_between(*c.seen, from, to);
   // A single depth is a slice only where it is all there is.
   const bool covered = from == to && plan.map_count > 0;
-  if (!seen.empty() && !covered) slice.body = receivers_between(c, scene.body, seen.begin, seen.end);
+  if (!seen.empty() && !covered) receivers_between(c, scene, seen.begin, seen.end, slice.body);
   const bool holds_nothing = slice.body.empty();
   slice.wanted = !holds_nothing || (!c.options.prune.has(PruneRule::empty_cascades) && from < to);
   if (!slice.wanted) return;
@@ -51,7 +51,7 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   if (holds_nothing) {
     slice.body = frustum_slice(c.camera, c.axes, slice.begin - slice.overlap, slice.end);
   } else if (slice.overlap > 0.0) {
-    slice.body = receivers_between(c, scene.body, slice.begin - slice.overlap, slice.end);
+    receivers_between(c, scene, slice.begin - slice.overlap, slice.end, slice.body);
   }
 }
 

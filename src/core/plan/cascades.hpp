@@ -13,9 +13,13 @@ namespace gnomon {
 /// Parallel light and the receivers in view.
 struct ParallelScene {
   const Polytope& body;  // everything in view that receives, relative to the camera
+  DepthRange depths;     // of the body
   LightSpace space;
   const Warp& warp;  // the one asked for, or the default
 };
+
+/// The view depths of a body.
+[[nodiscard]] DepthRange depths_of(const Polytope& body, const glm::dvec3& forward) noexcept;
 
 /// The edges between the cascades, with the depths that no cascade covers.
 struct CascadeEdges {
@@ -32,7 +36,7 @@ struct CascadeEdges {
                                          std::span<const double> last) noexcept;
 
 /// The visible depths, where they say something about this camera and these receivers; nullptr: unknown.
-[[nodiscard]] const VisibleDepths* usable_depths(const PlanContext& c, const Polytope& body,
+[[nodiscard]] const VisibleDepths* usable_depths(const PlanContext& c, const DepthRange& body,
                                                  const VisibleDepths* visible) noexcept;
 
 /// Replaces the plan's maps by so many cascades.

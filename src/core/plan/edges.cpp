@@ -1,6 +1,7 @@
 // Which view depths a plan covers, and where it divides them.
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
@@ -16,16 +17,11 @@ bool covers_camera(const PlanContext& c) noexcept {
   return range == SplitRange::camera || (range == SplitRange::automatic && c.stable);
 }
 
-/// Depths that hold receivers, or all of the camera's.
-DepthRange received_depths(const PlanContext& c, const Polytope& body) noexcept {
+/// Depths that hold receivers, or all of the camera's. `body`: of the receivers in view.
+DepthRange received_depths(const PlanContext& c, const DepthRange& body) noexcept {
   const double n = c.camera.near_depth, f = c.camera.far_depth;
   if (covers_camera(c)) return {n, f};
-  double low = f, high = n;
-  for (const Polytope::Vertex& v : body.vertices()) {
-    const double depth = glm::dot(c.axes.forward, v.position);
-    low = min_of(low, depth);
-    high = max_of(high, depth);
-  }
+  const double low = min_of(body.begin, f), high = max_of(body.end, n);
   // A flat scene's depth must not fall outside its own range by rounding: of the depth itself, and of the
   // frustum's far corners that it was cut from.
   constexpr double kRounding = 1e-12, kCutting = 4e-16;
@@ -110,7 +106,16 @@ void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double
 
 }  // namespace
 
-const VisibleDepths* usable_depths(const PlanContext& c, const Polytope& body,
+DepthRange depths_of(const Polytope& body, const glm::dvec3& forward) noexcept {
+  DepthRange depths{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const Polytope::Vertex& v : body.vertices()) {
+    const double depth = glm::dot(forward, v.position);
+    depths = {min_of(depths.begin, depth), max_of(depths.end, depth)};
+  }
+  return depths;
+}
+
+const VisibleDepths* usable_depths(const PlanContext& c, const DepthRange& body,
                                    const VisibleDepths* visible) noexcept {
   if (visible == nullptr || visible->empty() || c.camera.orthographic) return nullptr;
   if (c.options.split.range == SplitRange::camera) return nullptr;
@@ -125,7 +130,7 @@ CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int
   CascadeEdges result;
   result.count = cascades + 1;
   const std::span<double> edges{result.depth.data(), static_cast<std::size_t>(result.count)};
-  const DepthRange received = received_depths(c, scene.body);
+  const DepthRange received = received_depths(c, scene.depths);
   if (!covers_camera(c)) {
     report_depths(result, OmissionKind::depth_without_receiver, c.camera.near_depth, received.begin);
     report_depths(result, OmissionKind::depth_without_receiver, received.end, c.camera.far_depth);

@@ -13,10 +13,10 @@ void omit(ShadowPlan& plan, IgnoredOption option) noexcept {
   omit(plan, {OmissionKind::option_ignored, -1, static_cast<double>(option), 0.0, 0});
 }
 
-PlanHistory::Map last_map(const PlanHistory* history, int cascade) noexcept {
-  if (history == nullptr) return {};
+const PlanHistory::Map* last_map(const PlanHistory* history, int cascade) noexcept {
+  if (history == nullptr) return nullptr;
   const PlanHistory::Map& last = history->map[static_cast<std::size_t>(cascade)];
-  return last.frame == history->frame - 1 ? last : PlanHistory::Map{};
+  return last.frame >= 0 && last.frame == history->frame - 1 ? &last : nullptr;
 }
 
 void merge(const MapResult& result, const Omission& missing, PlanHistory* history,

@@ -9,8 +9,8 @@ void omit(ShadowPlan& plan, const Omission& omission) noexcept;
 /// Lists an option that this light or fit cannot honour.
 void omit(ShadowPlan& plan, IgnoredOption option) noexcept;
 
-/// The last frame's map of this cascade or face for a request; frame -1 where none is remembered.
-[[nodiscard]] PlanHistory::Map last_map(const PlanHistory* history, int cascade) noexcept;
+/// The last frame's map of this cascade or face for a request; nullptr where none is remembered.
+[[nodiscard]] const PlanHistory::Map* last_map(const PlanHistory* history, int cascade) noexcept;
 
 /// Adds a drawn map with what happened to it; one that is not drawn leaves `missing` in the list.
 void merge(const MapResult& result, const Omission& missing, PlanHistory* history, ShadowPlan& plan) noexcept;

@@ -33,10 +33,13 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
     plan.status = PlanStatus::nothing_visible;
     return;
   }
-  ParallelScene scene{body, {}, options.warp.warp != nullptr ? *options.warp.warp : warps::optimal};
+  ParallelScene scene{body,
+                      depths_of(body, c.axes.forward),
+                      {},
+                      options.warp.warp != nullptr ? *options.warp.warp : warps::optimal};
   scene.space.frame =
       c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
-  c.seen = usable_depths(c, body, visible);
+  c.seen = usable_depths(c, scene.depths, visible);
   const bool parts = options.split.partition != Partition::view_depth;
   if (parts && !c.stable) {
     // Parts follow the view in no steady way.
@@ -62,15 +65,16 @@ glm::dvec4 light_of(const Light& light) noexcept {
   return point != nullptr ? glm::dvec4(point->position, 1.0) : glm::dvec4(0.0);
 }
 
-/// A plan of one frame; `history` may be nullptr.
-ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                      const PlanOptions& options, PlanHistory* history,
-                      const VisibleDepths* visible) noexcept {
-  ShadowPlan plan;
+/// Fills in the plan of one frame; `history` may be nullptr.
+void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                const PlanOptions& options, PlanHistory* history, const VisibleDepths* visible,
+                ShadowPlan& plan) noexcept {
   plan.invalid_field = first_invalid_field(camera, light, bounds, options, visible);
-  if (!plan.invalid_field.empty()) return plan;
-  if (std::isinf(camera.far_depth))
-    return plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible);
+  if (!plan.invalid_field.empty()) return;
+  if (std::isinf(camera.far_depth)) {
+    plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible, plan);
+    return;
+  }
   plan.origin_world = camera.position;
   plan.clip_space = options.clip_space;
   plan.bias = options.bias;
@@ -95,21 +99,23 @@ ShadowPlan plan_frame(const Camera& camera, const Light& light, const SceneBound
     context.seen = visible;
     plan_local(context, light, history, plan);
   }
-  return plan;
 }
 
 }  // namespace
 
 ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
                      const PlanOptions& options, const VisibleDepths* visible) noexcept {
-  return plan_frame(camera, light, bounds, options, nullptr, visible);
+  ShadowPlan plan;
+  plan_frame(camera, light, bounds, options, nullptr, visible, plan);
+  return plan;
 }
 
 ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
                      const PlanOptions& options, PlanHistory& history,
                      const VisibleDepths* visible) noexcept {
   history.event_count = 0;
-  ShadowPlan plan = plan_frame(camera, light, bounds, options, &history, visible);
+  ShadowPlan plan;
+  plan_frame(camera, light, bounds, options, &history, visible, plan);
   if (plan.status == PlanStatus::invalid_input) return plan;
   history.eye_world = camera.position;
   history.forward = camera_axes(camera).forward;

@@ -13,13 +13,17 @@ bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& p
     if (!(glm::dot(glm::dvec3(plane), point) + plane.w >= 0.0)) return false;
   }
   const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
-  // A quarter texel of the border is left to rounding; no kernel tells it apart.
-  constexpr double kRounding = 0.5;
-  const double inner_x = 1.0 - (2.0 * map.filter_margin_texels - kRounding) / map.width;
-  const double inner_y = 1.0 - (2.0 * map.filter_margin_texels - kRounding) / map.height;
   const double lowest = plan.clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0 : -1.0;
-  return clip.w > 0.0 && std::abs(clip.x) <= inner_x * clip.w && std::abs(clip.y) <= inner_y * clip.w &&
-         clip.z >= lowest * clip.w && clip.z <= clip.w;
+  // Far outside is outside of every shape, and a quotient might overflow there.
+  if (!(clip.w > 0.0 && clip.z >= lowest * clip.w && clip.z <= clip.w) || std::abs(clip.x) > 2.0 * clip.w ||
+      std::abs(clip.y) > 2.0 * clip.w)
+    return false;
+  // A quarter texel of the border is left to rounding; no kernel tells it apart.
+  constexpr double kRounding = 0.25;
+  const double border = map.filter_margin_texels - kRounding;
+  const glm::dvec2 texel = map.texels().place(glm::dvec2(clip) / clip.w).texel;
+  return texel.x >= border && texel.y >= border && texel.x <= map.width - border &&
+         texel.y <= map.height - border;
 }
 
 int map_serving(const ShadowPlan& plan, const glm::dvec3& point, double depth) noexcept {

@@ -9,7 +9,7 @@
 namespace gnomon {
 namespace {
 
-static_assert(sizeof(ShaderMap) == 96 + 16 * kMaxSelectPlanes && sizeof(ShaderBlock) % 16 == 0,
+static_assert(sizeof(ShaderMap) == 112 + 16 * kMaxSelectPlanes && sizeof(ShaderBlock) % 16 == 0,
               "matrices and vectors of four have no padding under std140 and std430");
 
 /// The plan's clip space to the one for look-ups: -1..1 along the texture's columns and rows, z 0 near the
@@ -50,12 +50,21 @@ ShaderMap shader_map(const ShadowMap& map, const glm::dmat4& lookup_from_map, co
     out.select_planes[at] =
         glm::vec4(glm::vec3(plane), static_cast<float>(plane.w + glm::dot(glm::dvec3(plane), origin)));
   }
+  out.shape = shader_shape(map);
   out.kernel =
       glm::vec4(glm::dvec4(map.filter_margin_texels, blur, map.overlap, depth_curve(map, lookup_from_map)));
   return out;
 }
 
 }  // namespace
+
+glm::vec4 shader_shape(const ShadowMap& map) noexcept {
+  const std::span<const Shape* const> all = all_shapes();
+  const auto place = std::find(all.begin(), all.end(), map.shape) - all.begin();
+  const ShapeParameters& p = map.shape_parameters;
+  return {static_cast<float>(place), static_cast<float>(p[0]), static_cast<float>(p[1]),
+          static_cast<float>(p[2])};
+}
 
 ShaderBlock shader_block(const ShadowPlan& plan, const ShaderLayers& layers) noexcept {
   ShaderBlock block{};

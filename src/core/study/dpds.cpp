@@ -1,9 +1,9 @@
 // The textbook curves dp/ds(z) under an overhead light: oracles for the metric.
 // Based on: Scherzer, Wimmer, Purgathofer, "A Survey of Real-Time Hard Shadow Mapping Methods", 2011,
 // section 3.
-#include <cmath>
+#include "gnomon/study/dpds.hpp"
 
-#include "gnomon/metric.hpp"
+#include <cmath>
 
 #include "geometry/elementary.hpp"
 

@@ -1,7 +1,7 @@
 // How good would a logarithmic perspective map be?
 // Based on: Lloyd, Govindaraju, Quammen, Molnar, Manocha, "Logarithmic Perspective Shadow Maps", 2008: PSM
 // across the axis, ln(w) along it, so that errors along the view are the same at all depths.
-#include "gnomon/log_perspective.hpp"
+#include "gnomon/study/log_perspective.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -20,16 +20,6 @@
 
 namespace gnomon {
 namespace {
-
-/// Depths of the body.
-DepthInterval depths_of(const Polytope& body, const glm::dvec3& forward) noexcept {
-  DepthInterval d{std::numeric_limits<double>::infinity(), 0.0};
-  for (const Polytope::Vertex& v : body.vertices()) {
-    const double depth = glm::dot(forward, v.position);
-    d = {min_of(d.begin, depth), max_of(d.end, depth)};
-  }
-  return d;
-}
 
 /// A point on the map's own axes.
 struct OnAxes {
@@ -74,9 +64,9 @@ LogPerspectiveMap log_perspective_map(const Camera& any_camera, const Directiona
   const PlanContext context{camera, bounds, options, axes};
   LightSpace space;
   space.frame = view_aligned_frame(direction, axes);
-  const DepthInterval depths = depths_of(body, axes.forward);
+  const DepthRange depths = depths_of(body, axes.forward);
   const PlaneMap plane = focused_plane(
-      context, request_for({body, space, warps::psm}, body, max_of(depths.begin, camera.near_depth),
+      context, request_for({body, depths, space, warps::psm}, body, max_of(depths.begin, camera.near_depth),
                            max_of(depths.end, camera.near_depth)));
   const LightFrame& frame = space.frame;
   const glm::dvec2 axis = plane.choice.axis;

@@ -1,7 +1,7 @@
 // All directions round a point light on a few flat maps: where a direction lands, and how large a texel is.
 // Based on: Brabec, Annen, Seidel, "Shadow Mapping for Hemispherical and Omnidirectional Light Sources", 2002
 // (paraboloids); Liao, "Shadow Mapping for Omnidirectional Light Using Tetrahedron Mapping", GPU Pro, 2010.
-#include "gnomon/omni.hpp"
+#include "gnomon/study/omni.hpp"
 
 #include <array>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
-#include "gnomon/omni.hpp"
+#include "gnomon/study/omni.hpp"
 #include "measure/log_histogram.hpp"
 
 namespace gnomon {

@@ -1,5 +1,5 @@
 // Which technique to take: the cheapest that meets an error, or the one with the least error within a budget.
-#include "gnomon/technique.hpp"
+#include "gnomon/study/technique.hpp"
 
 #include <algorithm>
 #include <cmath>

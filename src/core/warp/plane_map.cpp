@@ -3,8 +3,10 @@
 // so that kappa = 0 is the orthographic map and nothing tends to infinity.
 #include "warp/plane_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "geometry/vector.hpp"
 
@@ -41,34 +43,31 @@ PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& cho
   PlaneMap map{};
   map.choice = choice;
   const glm::dvec2 axis = choice.axis;
-  const auto along = [&](const WarpInput::Point& p) { return p.x * axis.x + p.y * axis.y; };
-  double u_max = along(body.front());
-  map.u_min = u_max;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double u_min = kInfinity, u_max = -kInfinity, z_min = kInfinity, z_max = -kInfinity, distance = 0.0;
   for (const WarpInput::Point& p : body) {
-    map.u_min = min_of(map.u_min, along(p));
-    u_max = max_of(u_max, along(p));
-  }
-  map.length = u_max - map.u_min;
-  map.stretch = 1.0 + choice.kappa * map.length;
-  bool first = true;
-  for (const WarpInput::Point& p : body) {
-    const double u = along(p) - map.u_min, s = p.x * axis.y - p.y * axis.x - choice.centre;
-    const double inverse = 1.0 / (1.0 + choice.kappa * u);
-    const double x = s * inverse, y = u * map.stretch * inverse;
-    const double a = choice.row_a.x * x + choice.row_a.y * y, b = choice.row_b.x * x + choice.row_b.y * y;
-    map.a_min = first ? a : min_of(map.a_min, a);
-    map.a_max = first ? a : max_of(map.a_max, a);
-    map.b_min = first ? b : min_of(map.b_min, b);
-    map.b_max = first ? b : max_of(map.b_max, b);
-    first = false;
-  }
-  double z_low = body.front().z, z_high = z_low, distance = 0.0;
-  for (const WarpInput::Point& p : body) {
-    z_low = min_of(z_low, p.z);
-    z_high = max_of(z_high, p.z);
+    const double u = p.x * axis.x + p.y * axis.y;
+    u_min = min_of(u_min, u);
+    u_max = max_of(u_max, u);
+    z_min = min_of(z_min, p.z);
+    z_max = max_of(z_max, p.z);
     distance = max_of(distance, largest_component({p.x, p.y, p.z}));
   }
-  const double extent = max_of(max_of(map.a_max - map.a_min, map.b_max - map.b_min), z_high - z_low);
+  map.u_min = u_min;
+  map.length = u_max - u_min;
+  map.stretch = 1.0 + choice.kappa * map.length;
+  map.a_min = map.b_min = kInfinity;
+  map.a_max = map.b_max = -kInfinity;
+  for (const WarpInput::Point& p : body) {
+    const glm::dvec2 image = map.image(p.x, p.y);
+    const double a = choice.row_a.x * image.x + choice.row_a.y * image.y;
+    const double b = choice.row_b.x * image.x + choice.row_b.y * image.y;
+    map.a_min = min_of(map.a_min, a);
+    map.a_max = max_of(map.a_max, a);
+    map.b_min = min_of(map.b_min, b);
+    map.b_max = max_of(map.b_max, b);
+  }
+  const double extent = max_of(max_of(map.a_max - map.a_min, map.b_max - map.b_min), z_max - z_min);
   const double least = least_extent(extent, distance);
   widen(map.a_min, map.a_max, least);
   widen(map.b_min, map.b_max, least);
@@ -111,8 +110,8 @@ bool usable(std::span<const WarpInput::Point> body, const WarpChoice& choice, do
          map.stretch <= most_stretch;
 }
 
-TexelsNeeded texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane,
-                           double pixels_per_slope) noexcept {
+void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane, double pixels_per_slope,
+                   TexelsNeeded& needed) noexcept {
   const WarpChoice& choice = plane.choice;
   const glm::dvec2 axis = choice.axis;
   // The image's X and Y per unit of A and B.
@@ -121,24 +120,31 @@ TexelsNeeded texels_needed(std::span<const WarpInput::Point> body, const PlaneMa
   const glm::dvec2 per_b = glm::dvec2(-choice.row_a.y, choice.row_a.x) / area;
   const glm::dvec2 side{(plane.a_max - plane.a_min) * pixels_per_slope,
                         (plane.b_max - plane.b_min) * pixels_per_slope};
-  TexelsNeeded needed;
-  double a_max = 0.0, b_max = 0.0;
+  // Without a warp all texels are alike, and pixels smallest at the nearest vertex.
+  const auto nearer = [](const WarpInput::Point& p, const WarpInput::Point& q) { return p.depth < q.depth; };
+  if (choice.kappa == 0.0) body = {std::min_element(body.begin(), body.end(), nearer), 1};
+  needed.count = 0;
+  double a_max = 0.0, b_max = 0.0, a_longest = 0.0, b_longest = 0.0;
   for (const WarpInput::Point& p : body) {
     const double w = plane.w(p.x, p.y);
     const double lean = choice.kappa * (p.x * axis.y - p.y * axis.x - choice.centre) / w;
     const double along = w * w / plane.stretch;  // of one unit of the image's Y
     const auto extent = [&](const glm::dvec2& image) {
-      const double u = along * image.y, s = w * image.x + lean * u;
-      return glm::dvec2(s, u) / p.depth;
+      const double u = along * image.y;
+      return glm::dvec2(w * image.x + lean * u, u);
     };
-    const glm::dvec2 a = extent(per_a), b = extent(per_b);
+    const glm::dvec2 a_plane = extent(per_a), b_plane = extent(per_b);
+    a_longest = max_of(a_longest, glm::dot(a_plane, a_plane));
+    b_longest = max_of(b_longest, glm::dot(b_plane, b_plane));
+    const glm::dvec2 a = a_plane / p.depth, b = b_plane / p.depth;
     a_max = max_of(a_max, glm::dot(a, a));
     b_max = max_of(b_max, glm::dot(b, b));
     if (needed.count < kMaxVertices)
       needed.vertex[static_cast<std::size_t>(needed.count++)] = {a * side.x, b * side.y};
   }
   needed.sides = {std::sqrt(a_max) * side.x, std::sqrt(b_max) * side.y};
-  return needed;
+  needed.in_light_plane = {std::sqrt(a_longest) * (plane.a_max - plane.a_min),
+                           std::sqrt(b_longest) * (plane.b_max - plane.b_min)};
 }
 
 double TexelsNeeded::bound(const glm::dvec2& inside, double obliquity) const noexcept {

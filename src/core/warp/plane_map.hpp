@@ -66,6 +66,8 @@ struct LightDepths {
 /// the longest extent that any texel has in any direction, in units where the rectangle is one texel.
 struct TexelsNeeded {
   glm::dvec2 sides{0.0};
+  glm::dvec2 in_light_plane{
+      0.0};  ///< largest extent at any vertex that either side of the rectangle would have
   struct Vertex {
     glm::dvec2 a, b;  ///< extents of the rectangle's sides at the vertex, as multiples of a pixel there
   };
@@ -76,8 +78,8 @@ struct TexelsNeeded {
   [[nodiscard]] double bound(const glm::dvec2& inside, double obliquity) const noexcept;
 };
 /// `pixels_per_slope`: pixels per unit of the image's finer axis.
-[[nodiscard]] TexelsNeeded texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane,
-                                         double pixels_per_slope) noexcept;
+void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane, double pixels_per_slope,
+                   TexelsNeeded& needed) noexcept;
 
 /// How far a step of one unit of the light plane moves a point in the map, at most over the body, as a share
 /// of the rectangle's side.

@@ -11,10 +11,13 @@ namespace {
 
 constexpr int kMostTerms = 16;
 constexpr FilterOption kOptions[] = {
-    {"order", 16, 1, kMostTerms, "terms M of the series, two channels each: more of them, sharper contacts"},
-    {"attenuation", 1.0, 0.0, 4.0, "term k counts exp(-attenuation (k/M)^2): less ringing, softer contacts"},
-    {"offset", 1.0, 0.0, 1.0, "moves receivers towards the light, in half steps 1/(2M) of the series"},
-    {"scale", 1.02, 1.0, 4.0, "the answer's factor before it is cut at 1: lifts lit surfaces, hardens edges"},
+    {"order", 16, 1, kMostTerms, "terms of the series, two channels each: more terms make sharper contacts"},
+    {"attenuation", 1.0, 0.0, 4.0,
+     "damping: term k is weighted by exp(-attenuation (k/order)^2); larger rings less, softens contacts"},
+    {"offset", 1.0, 0.0, 1.0,
+     "receiver offset towards the light, in half steps of the series: 1/(2 order) of the depth range"},
+    {"scale", 1.02, 1.0, 4.0,
+     "factor of the result before it is clamped to 1: larger brightens lit surfaces, hardens edges"},
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::unorm8, TexelFormat::fp16, TexelFormat::unorm16,
                                     TexelFormat::fp32};
@@ -91,8 +94,7 @@ const Filter filters::convolution{
     .info =
         {
             .name = "convolution",
-            .summary =
-                "the comparison as a Fourier series: true averages of soft steps, no bleeding, much memory",
+            .summary = "blurs without light bleeding: a Fourier series of the comparison; needs much memory",
             .source = "Annen, Mertens, Bekaert, Seidel, Kautz 2007, Convolution shadow maps",
             .reads = MapRead::filtered,
             .bias_class = FilterClass::prefiltered,

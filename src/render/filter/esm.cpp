@@ -20,10 +20,11 @@ namespace {
 
 constexpr FilterOption kOptions[] = {
     {"c", 80.0, 1.0, 10000.0,
-     "steepness over the depth range: higher leaks less at contacts; at most 80 in 16 bits"},
+     "exponent over the depth range: larger leaks less at contacts; at most 80 in 16 bits"},
     {"fallback", 1.0, 0.0, 2.0,
      "2x2 comparisons where the mean fails: 0 never, 1 by threshold, 2 by largest depth"},
-    {"epsilon", 0.02, 0.0, 1.0, "by how much the answer may exceed 1 before it counts as failed"},
+    {"epsilon", 0.02, 0.0, 1.0,
+     "visibility above 1 that still counts as valid; beyond it the fallback is used"},
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
 
@@ -87,8 +88,7 @@ const Filter filters::esm{
     .info =
         {
             .name = "esm",
-            .summary = "exponential of the depth difference, blurred in the logarithm; one channel, leaks at "
-                       "contacts",
+            .summary = "wide blurs in one channel: an exponential of depth; light leaks at contacts",
             .source = "Annen et al. 2008, Exponential shadow maps",
             .reads = MapRead::joined,
             .bias_class = FilterClass::prefiltered,

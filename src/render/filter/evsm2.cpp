@@ -7,10 +7,11 @@ namespace {
 
 constexpr FilterOption kOptions[] = {
     {"c", 40.0, 0.5, 42.0,
-     "exponent over half the depth range: higher bleeds less; at most 5.54 in half floats"},
-    {"bleed", 0.1, 0.0, 0.95, "answers below it count as dark, the rest is stretched"},
+     "exponent over half the depth range: larger bleeds less; at most 5.54 in half floats"},
+    {"bleed", 0.1, 0.0, 0.95,
+     "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
     {"floor", 1e-4, 0.0, 0.1,
-     "least standard deviation, of the depth range; never below the format's rounding"},
+     "least standard deviation, as a share of the depth range; never below the format's rounding"},
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16};
 
@@ -39,7 +40,7 @@ const Filter filters::evsm2{
     .info =
         {
             .name = "evsm2",
-            .summary = "variance bound under an exponential: bleeds far less than vsm",
+            .summary = "wide blurs that bleed far less light than vsm: variance of an exponential of depth",
             .source = "Lauritzen, McCool 2008, Layered variance shadow maps",
             .reads = MapRead::filtered,
             .bias_class = FilterClass::prefiltered,

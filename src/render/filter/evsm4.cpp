@@ -7,12 +7,13 @@ namespace {
 
 constexpr FilterOption kOptions[] = {
     {"c", 40.0, 0.5, 42.0,
-     "exponent over half the depth range: higher bleeds less; at most 5.54 in half floats"},
+     "exponent over half the depth range: larger bleeds less; at most 5.54 in half floats"},
     {"c_negative", 5.0, 0.5, 42.0,
-     "exponent of the falling warp: higher bleeds less where occluders overlap, leaks sooner"},
-    {"bleed", 0.1, 0.0, 0.95, "answers below it count as dark, the rest is stretched"},
+     "exponent of the falling warp: larger bleeds less where occluders overlap, leaks sooner"},
+    {"bleed", 0.1, 0.0, 0.95,
+     "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
     {"floor", 1e-4, 0.0, 0.1,
-     "least standard deviation, of the depth range; never below the format's rounding"},
+     "least standard deviation, as a share of the depth range; never below the format's rounding"},
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16};
 
@@ -47,7 +48,7 @@ const Filter filters::evsm4{
     .info =
         {
             .name = "evsm4",
-            .summary = "variance bound under a rising and a falling exponential: bleeds least of the kind",
+            .summary = "least light bleeding of the variance filters: a rising and a falling exponential",
             .source = "Lauritzen, McCool 2008, Layered variance shadow maps",
             .reads = MapRead::filtered,
             .bias_class = FilterClass::prefiltered,

@@ -264,7 +264,7 @@ std::string describe(const FilterFit& fit, const FilterSettings& full) {
   char text[256];
   std::snprintf(
       text, sizeof text,
-      "%s does for %s: at %d receivers of these maps the answers differ by at most %.2g of a step of "
+      "%s suffices for %s: at %d receivers of these maps visibility differs by at most %.2g of a step of "
       "8 bits; %.1f in place of %.1f bytes a texel",
       to_string(fit.settings).c_str(), to_string(full).c_str(), fit.receivers, 255.0 * fit.error, fit.bytes,
       fit.full_bytes);

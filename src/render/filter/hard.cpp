@@ -20,7 +20,7 @@ const Filter filters::hard{
     .info =
         {
             .name = "hard",
-            .summary = "nearest texel, one comparison",
+            .summary = "unfiltered shadow edges: one comparison with the nearest texel; the cheapest filter",
             .source = "Williams 1978, Casting curved shadows on curved surfaces",
             .reads = MapRead::depth,
             .bias_class = FilterClass::single_compare,

@@ -20,14 +20,14 @@ namespace {
 constexpr int kMostLayers = 8;
 constexpr FilterOption kOptions[] = {
     {"bleed", 0.15, 0.0, 0.95,
-     "answers below it count as dark, the rest is stretched: less light through, harder"},
+     "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
     {"floor", 1e-6, 0.0, 0.1,
-     "least variance, of a layer's depth squared; never below the format's rounding"},
-    {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment takes in"},
-    {"layers", 4, 1, kMostLayers, "two channels each: more of them, less bleeding"},
-    {"overlap", 0.5, 0.0, 1.0, "how far a layer reaches into the ones before and behind it, in layers"},
+     "least variance, as a share of a layer's depth squared; never below the format's rounding"},
+    {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment includes"},
+    {"layers", 4, 1, kMostLayers, "layers of depth, two channels each: more layers bleed less"},
+    {"overlap", 0.5, 0.0, 1.0, "part of the neighbouring layers that a layer also covers, in layers"},
     {"placement", 0, 0, 1,
-     "1 puts the layers' ends between the depths that each map holds, read back to the CPU; 0: even layers"},
+     "0 even layers; 1 layers fitted to the depths of each map, which are read back to the CPU"},
 };
 /// Where the first option of the filter's own is: the ends of all layers but the last; 0: even layers.
 constexpr std::size_t kFirstEnd = 6;
@@ -112,7 +112,7 @@ const Filter filters::lvsm{
     .info =
         {
             .name = "lvsm",
-            .summary = "bounds from mean and variance per layer of depth: bleeding stays within a layer",
+            .summary = "variances in layers of depth: light bleeds within a layer only; needs much memory",
             .source = "Lauritzen, McCool 2008, Layered variance shadow maps",
             .reads = MapRead::filtered,
             .bias_class = FilterClass::prefiltered,

@@ -12,10 +12,11 @@ namespace {
 
 constexpr FilterOption kOptions[] = {
     {"bounded", 0.0, 0.0, 1.0,
-     "0 Hamburger: no bound on depths; 1 Hausdorff: depths in the map's range, darker"},
-    {"bleed", 0.1, 0.0, 0.95, "answers below it count as dark, the rest is stretched"},
+     "0 Hamburger bound, over all depths; 1 Hausdorff bound, over the map's depth range: darker"},
+    {"bleed", 0.1, 0.0, 0.95,
+     "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
     {"bias", 0.0, 0.0, 0.1,
-     "share of spread-out depths mixed in; never below what the format's rounding needs"},
+     "share of the widest distribution blended in; never below what the format's rounding needs"},
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::unorm16};
 
@@ -61,7 +62,7 @@ const Filter filters::msm{
     .info =
         {
             .name = "msm",
-            .summary = "sharpest bound from four moments; 16 bits a channel serve",
+            .summary = "wide blurs with little light bleeding: the sharpest bound from four moments of depth",
             .source = "Peters, Klein 2015, Moment shadow mapping",
             .reads = MapRead::filtered,
             .bias_class = FilterClass::prefiltered,

@@ -8,9 +8,9 @@ namespace gnomon::render {
 namespace {
 
 constexpr FilterOption kOptions[] = {
-    {"pattern", 0, 0, 2, "0 box of texels, 1 Vogel disc, 2 Poisson disc"},
-    {"samples", 16, 1, 64, "of a disc, four comparisons each"},
-    {"rotate", 1, 0, 1, "1 turns the disc from pixel to pixel: noise in the place of bands"},
+    {"pattern", 0, 0, 2, "kernel: 0 box of texels, 1 Vogel disc, 2 Poisson disc"},
+    {"samples", 16, 1, 64, "samples of a disc, four comparisons each"},
+    {"rotate", 1, 0, 1, "1 rotates the disc per pixel: noise instead of banding; 0 does not"},
 };
 
 /// Share of texel i that lies in [low, high].
@@ -65,7 +65,8 @@ const Filter filters::pcf{
     .info =
         {
             .name = "pcf",
-            .summary = "average of comparisons over a box or a disc of texels",
+            .summary =
+                "soft edges of constant width: the average of comparisons over a box or disc of texels",
             .source = "Reeves, Salesin, Cook 1987, Rendering antialiased shadows with depth maps",
             .reads = MapRead::depth,
             .bias_class = FilterClass::wide_kernel,

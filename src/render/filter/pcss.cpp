@@ -12,11 +12,11 @@ namespace gnomon::render {
 namespace {
 
 constexpr FilterOption kOptions[] = {
-    {"angle_deg", 2.0, 0.01, 60.0, "apparent diameter of a parallel light, degrees; the sun has 0.53"},
-    {"light_radius", 0.25, 1e-6, 1e6, "radius of a light with a position, world units"},
-    {"search_samples", 16, 1, 64, "depths looked at for blockers"},
-    {"samples", 32, 1, 64, "of the kernel, four comparisons each"},
-    {"rotate", 1, 0, 1, "1 turns the samples from pixel to pixel: noise in the place of bands"},
+    {"angle_deg", 2.0, 0.01, 60.0, "apparent diameter of a directional light, degrees; the sun has 0.53"},
+    {"light_radius", 0.25, 1e-6, 1e6, "radius of a local light, world units"},
+    {"search_samples", 16, 1, 64, "depths read by the blocker search"},
+    {"samples", 32, 1, 64, "samples of the kernel, four comparisons each"},
+    {"rotate", 1, 0, 1, "1 rotates the samples per pixel: noise instead of banding; 0 does not"},
 };
 
 double penumbra_radius(const FilterSettings& settings, double away, double light_distance) noexcept {
@@ -72,7 +72,7 @@ const Filter filters::pcss{
     .info =
         {
             .name = "pcss",
-            .summary = "penumbras that widen with the distance of what blocks",
+            .summary = "contact-hardening soft shadows: penumbras widen with the blocker's distance",
             .source = "Fernando 2005, Percentage-closer soft shadows",
             .reads = MapRead::depth,
             .bias_class = FilterClass::blocker_search,

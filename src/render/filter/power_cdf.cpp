@@ -12,7 +12,8 @@ namespace gnomon::render {
 namespace {
 
 constexpr FilterOption kOptions[] = {
-    {"offset", 0.2, 0.0, 0.5, "moves receivers towards the light, in shares of the kernel's range of depths"},
+    {"offset", 0.2, 0.0, 0.5,
+     "receiver offset towards the light, as a share of the kernel's range of depths"},
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
 /// A texel that counts less is in the kernel by the rounding of its place alone.
@@ -68,8 +69,7 @@ const Filter filters::power_cdf{
     .info =
         {
             .name = "power_cdf",
-            .summary =
-                "a power law through least, mean and largest depth: little bleeding, soft contacts, no bound",
+            .summary = "wide blurs with little light bleeding: least, mean and largest depth; soft contacts",
             .source =
                 "Gumbau, Szirmay-Kalos, Sbert, Chover 2011, Improving shadow map filtering with statistical "
                 "analysis",

@@ -9,10 +9,10 @@ namespace {
 
 constexpr FilterOption kOptions[] = {
     {"bleed", 0.15, 0.0, 0.95,
-     "answers below it count as dark, the rest is stretched: less light through, harder"},
+     "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
     // Half a step of the sums, where kernels are 32 texels wide to each side, makes 3e-6 of variance.
-    {"floor", 1e-6, 0.0, 0.1, "least variance, of the depth range squared"},
-    {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment takes in"},
+    {"floor", 1e-6, 0.0, 0.1, "least variance, as a share of the depth range squared"},
+    {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment includes"},
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::uint32};
 
@@ -26,7 +26,7 @@ const Filter filters::savsm{
     .info =
         {
             .name = "savsm",
-            .summary = "bound from mean and variance over a box of any size at one price; bleeds light",
+            .summary = "blurs of any width at constant cost: variances in a summed-area table; light bleeds",
             .source = "Lauritzen 2007, Summed-area variance shadow maps",
             .reads = MapRead::summed,
             .bias_class = FilterClass::prefiltered,

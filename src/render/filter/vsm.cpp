@@ -8,10 +8,10 @@ namespace {
 
 constexpr FilterOption kOptions[] = {
     {"bleed", 0.15, 0.0, 0.95,
-     "answers below it count as dark, the rest is stretched: less light through, harder"},
+     "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
     {"floor", 1e-6, 0.0, 0.1,
-     "least variance, of the depth range squared; never below the format's rounding"},
-    {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment takes in"},
+     "least variance, as a share of the depth range squared; never below the format's rounding"},
+    {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment includes"},
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
 
@@ -25,7 +25,8 @@ const Filter filters::vsm{
     .info =
         {
             .name = "vsm",
-            .summary = "bound from mean and variance; blurs, shrinks and stretches by mip-maps, bleeds light",
+            .summary =
+                "wide blurs at low cost: a bound from mean and variance; light bleeds between occluders",
             .source = "Donnelly, Lauritzen 2006, Variance shadow maps",
             .reads = MapRead::filtered,
             .bias_class = FilterClass::prefiltered,

@@ -210,8 +210,9 @@ std::string Chart::body() const {
 }
 
 std::string Chart::embedded(std::string_view id) const {
-  return "<svg id=\"" + escaped(id) + "\" class=\"chart\" role=\"img\" aria-label=\"" + escaped(title_) +
-         "\" viewBox=\"0 0 " + coordinate(kWidth) + " " + coordinate(kHeight) + "\">\n" + body() + "</svg>\n";
+  return scroll_box(title_) + "<svg id=\"" + escaped(id) + "\" class=\"chart\" role=\"img\" aria-label=\"" +
+         escaped(title_) + "\" viewBox=\"0 0 " + coordinate(kWidth) + " " + coordinate(kHeight) + "\">\n" +
+         body() + "</svg>\n" + std::string(kScrollBoxEnd);
 }
 
 std::string Chart::standalone() const {

@@ -15,7 +15,7 @@ std::size_t place_in(const std::vector<std::string>& names, const std::string& n
 std::vector<double> values_of(const Summary& summary, std::size_t scene, std::size_t measure) {
   std::vector<double> values;
   for (const Cell& cell : summary.cells[scene]) {
-    if (cell.measured) values.push_back(cell.values[measure]);
+    if (cell.measured) values.push_back(measures()[measure].shown(cell.values[measure]));
   }
   return values;
 }
@@ -37,7 +37,7 @@ std::string tip_of(const Summary& summary, std::size_t scene, std::size_t techni
   std::string tip = summary.techniques[technique].name();
   for (const std::string_view key : {kDefaultError, std::string_view("mean_error"), kDefaultCost}) {
     const std::size_t m = measure_index(key);
-    tip += "; " + std::string(measures()[m].column) + " " + short_number(cell.values[m]);
+    tip += "; " + std::string(measures()[m].column) + " " + measures()[m].text(cell.values[m]);
   }
   return tip;
 }
@@ -58,13 +58,13 @@ Chart error_time_chart(const Summary& summary, std::size_t scene) {
   std::vector<Point> front;
   for (const std::size_t t : summary.front(scene, error, cost)) {
     const std::vector<double>& values = summary.cells[scene][t].values;
-    front.push_back({values[cost], values[error]});
+    front.push_back({values[cost], measures()[error].shown(values[error])});
   }
-  chart.steps(front, 0, "front", "what no other technique beats in both");
+  chart.steps(front, 0, "front", "front: no other technique is better in both");
   for (std::size_t t = 0; t < summary.techniques.size(); ++t) {
     const Cell& cell = summary.cells[scene][t];
     if (!cell.measured) continue;
-    chart.mark({cell.values[cost], cell.values[error]},
+    chart.mark({cell.values[cost], measures()[error].shown(cell.values[error])},
                place_in(summary.filters, summary.techniques[t].filter),
                place_in(summary.warps, summary.techniques[t].warp), tip_of(summary, scene, t), t);
   }
@@ -82,7 +82,7 @@ Chart time_to_error_chart(const Summary& summary, std::size_t scene) {
     for (std::size_t t = 0; t < summary.techniques.size(); ++t) {
       const Cell& cell = summary.cells[scene][t];
       if (cell.measured && summary.techniques[t].filter == summary.filters[f])
-        choices.push_back({cell.values[cost], cell.values[error]});
+        choices.push_back({cell.values[cost], measures()[error].shown(cell.values[error])});
     }
     double largest = 0.0;
     for (const Choice& choice : choices) largest = std::max(largest, choice.error);
@@ -108,7 +108,7 @@ Chart flight_chart(const Summary& summary, const std::vector<Row>& rows, std::si
     const Row& row = rows[i];
     for (std::size_t k = 0; k < techniques.size(); ++k) {
       if (!(row.technique == summary.techniques[techniques[k]])) continue;
-      const double value = measures()[measure].of(row);
+      const double value = measures()[measure].shown(measures()[measure].of(row));
       lines[k].push_back({static_cast<double>(row.frame), value});
       frame_numbers.push_back(row.frame);
       all_values.push_back(value);
@@ -116,13 +116,15 @@ Chart flight_chart(const Summary& summary, const std::vector<Row>& rows, std::si
   }
   frames.fit(frame_numbers);
   values.fit(all_values);
-  Chart chart(std::string(measures()[measure].name) + " along the flight: " + summary.scenes[scene], frames,
-              values);
+  Chart chart(std::string(measures()[measure].name) + " along the camera path: " + summary.scenes[scene],
+              frames, values);
   for (std::size_t k = 0; k < techniques.size(); ++k) {
     const std::string name = summary.techniques[techniques[k]].name();
     chart.line(lines[k], k, "line", name);
     for (const Point& point : lines[k])
-      chart.mark(point, k, 0, name + ": " + short_number(point.y), techniques[k]);
+      chart.mark(point, k, 0,
+                 name + ": " + short_number(point.y) + (measures()[measure].unit == "%" ? " %" : ""),
+                 techniques[k]);
     chart.legend_color(name, k);
   }
   return chart;

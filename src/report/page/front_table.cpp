@@ -15,10 +15,6 @@ std::string cell(std::string text) {
   return one_line(text);
 }
 
-std::string percent(double share) {
-  return short_number(100.0 * share) + " %";
-}
-
 std::string line(const Summary& summary, std::size_t scene, std::size_t technique, bool on_front) {
   const std::vector<double>& values = summary.cells[scene][technique].values;
   const auto value = [&](std::string_view key) { return values[measure_index(key)]; };
@@ -28,7 +24,7 @@ std::string line(const Summary& summary, std::size_t scene, std::size_t techniqu
          short_number(value("ratio")) + " |\n";
 }
 
-/// Of the filters that have no technique on the front, the one with the fewest wrong pixels.
+/// Of the filters that have no technique on the front, the one with the fewest misclassified pixels.
 std::vector<std::size_t> best_behind(const Summary& summary, std::size_t scene,
                                      const std::vector<std::size_t>& front) {
   const std::size_t error = measure_index(kDefaultError);
@@ -54,7 +50,7 @@ std::string front_tables(const Summary& summary) {
         summary.front(scene, measure_index(kDefaultError), measure_index(kDefaultCost));
     if (front.empty()) continue;
     out += "## " + cell(summary.scenes[scene]) +
-           "\n\n| technique | front | wrong pixels | mean error | flicker | m p95 | ms | to baseline |\n"
+           "\n\n| technique | front | misclassified | mean error | flicker | m p95 | ms | to baseline |\n"
            "|--|--|--:|--:|--:|--:|--:|--:|\n";
     for (const std::size_t t : front) out += line(summary, scene, t, true);
     for (const std::size_t t : best_behind(summary, scene, front)) out += line(summary, scene, t, false);

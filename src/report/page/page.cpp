@@ -33,16 +33,18 @@ std::string head() {
 
 std::string opening(const PageInput& input) {
   std::string out = "<header>\n<h1>Shadow error against run time</h1>\n<p class=\"sub\">";
-  out += std::to_string(input.summary.techniques.size()) + " techniques on " +
-         std::to_string(input.summary.scenes.size() - 1) + " scenes, " + std::to_string(input.rows.size()) +
-         " measurements";
+  out += counted(input.summary.techniques.size(), "technique") + " on " +
+         counted(input.summary.scenes.size() - 1, "scene") + ", " + counted(input.rows.size(), "measurement");
   if (!input.rows.empty()) {
     const Machine& m = input.rows.front().machine;
     out += "; " + escaped(m.renderer) + " on " + escaped(m.cpu) + "; gnomon " + escaped(m.version);
   }
+  out += "</p>\n";
+  for (const std::string& warning : input.warnings)
+    out += "<p class=\"note dropped\">Rows were dropped: " + escaped(warning) + "</p>\n";
   out +=
-      "</p>\n<nav><a href=\"#s1\">Error and time</a><a href=\"#s2\">Table</a><a href=\"#s3\">Pictures</a>"
-      "<a href=\"#s4\">Along the flight</a><a href=\"#s5\">Stability</a><a href=\"#s6\">Left out</a>"
+      "<nav><a href=\"#s1\">Error and time</a><a href=\"#s2\">Table</a><a href=\"#s3\">Pictures</a>"
+      "<a href=\"#s4\">Camera path</a><a href=\"#s5\">Stability</a><a href=\"#s6\">Omitted work</a>"
       "<a href=\"#s7\">Method</a></nav>\n</header>\n";
   return out;
 }
@@ -134,7 +136,10 @@ std::filesystem::path write_report(const std::filesystem::path& folder, std::vec
   // A folder of gnomon stress alone has a report, too.
   const bool alone = std::filesystem::exists(folder / kStabilityFile, ignored) &&
                      !std::filesystem::exists(folder / kRowsFile, ignored);
-  const PageInput input = page_input(folder, alone ? std::vector<Row>() : read_rows(folder, warnings));
+  std::vector<std::string> dropped;
+  PageInput input = page_input(folder, alone ? std::vector<Row>() : read_rows(folder, &dropped));
+  if (warnings != nullptr) warnings->insert(warnings->end(), dropped.begin(), dropped.end());
+  input.warnings = std::move(dropped);
   write_charts(input);
   write_text(folder / "summary.csv", summary_csv(input.summary));
   write_text(folder / "fronts.md", front_tables(input.summary));

@@ -57,7 +57,7 @@ std::string viewer(const PageInput& input, const PagePictures& pictures, std::si
       "class=\"right\"></select></label>"
       "</div>\n<div class=\"stage\"><img class=\"under\" alt=\"\"><img class=\"over\" alt=\"\"><div "
       "class=\"edge\"></div></div>\n<input class=\"wipe\" type=\"range\" min=\"0\" max=\"100\" value=\"50\" "
-      "aria-label=\"where left ends and right begins\"></div>\n<div class=\"pair plainly\">\n";
+      "aria-label=\"border between the left and the right picture\"></div>\n<div class=\"pair plainly\">\n";
   out += figure(pictures, of.truth, "exact shadow") + figure(pictures, first.mask, name) +
          figure(pictures, first.difference, "difference: " + name) +
          figure(pictures, first.heat, "aliasing error m: " + name);
@@ -131,13 +131,12 @@ PagePictures page_pictures(const PageInput& input) {
 
 std::string section_viewers(const PageInput& input, const PagePictures& pictures) {
   std::string out =
-      "<section id=\"s3\">\n<h2>3. Pictures</h2>\n<p>The exact shadow, the technique's, where they differ, "
-      "and how many "
-      "pixels a texel covers. Move the slider to wipe from one to the other.</p>\n<p class=\"key "
+      "<section id=\"s3\">\n<h2>3. Pictures</h2>\n<p>The exact shadow, the technique's shadow, their "
+      "difference, and the aliasing error m. The slider moves the border between the left and the right "
+      "picture.</p>\n<p class=\"key "
       "note\"><span "
       "class=\"lit\"></span>false light<span class=\"dark\"></span>false shadow<span "
-      "class=\"open\"></span>not "
-      "judged<span class=\"turned\"></span>turned from the light</p>\n";
+      "class=\"open\"></span>not evaluated<span class=\"turned\"></span>facing away from the light</p>\n";
   bool any = false;
   for (std::size_t scene = 1; scene < pictures.scenes.size(); ++scene) {
     if (!pictures.scenes[scene].any) continue;
@@ -146,8 +145,8 @@ std::string section_viewers(const PageInput& input, const PagePictures& pictures
   }
   if (!any) out += "<p class=\"note\">No pictures were written.</p>\n";
   if (pictures.left_out > 0) {
-    out += "<p class=\"note\">" + std::to_string(pictures.left_out) +
-           " more techniques: their pictures lie beside this page in the folder pictures.</p>\n";
+    out += "<p class=\"note\">Not in this page: the pictures of " + counted(pictures.left_out, "technique") +
+           ". The folder pictures beside it has them.</p>\n";
   }
   return out + "</section>\n";
 }
@@ -174,7 +173,8 @@ std::string page_data(const PageInput& input, const PagePictures& pictures) {
     Json of_scene = Json::array();
     for (const Cell& cell : cells) {
       Json values = Json::array();
-      for (const double value : cell.values) values.push_back(number(value));
+      for (std::size_t m = 0; m < cell.values.size(); ++m)
+        values.push_back(number(measures()[m].shown(cell.values[m])));
       of_scene.push_back(cell.measured ? values : Json(nullptr));
     }
     data["cells"].push_back(of_scene);

@@ -18,6 +18,7 @@
     const a = Math.abs(v);
     return a >= 999.5 && a < 1e6 ? v.toFixed(0) : String(Number(v.toPrecision(3)));
   };
+  const text = (m, v) => short(v) + (m.unit === "%" && v !== null && isFinite(v) ? " %" : "");
   const fill = (select, names, chosen) => {
     names.forEach(([value, name]) => {
       const option = document.createElement("option");
@@ -93,20 +94,36 @@
       path += (i ? `H${px(p.x)}V${py(p.y)}` : `M${px(p.x)},${py(p.y)}`);
     });
     if (path) plot.append(element("path", { class: "front", d: path }));
+    points.sort((a, b) => a.x - b.x);  // arrow keys go from left to right
     for (const p of points) {
       const t = data.techniques[p.t];
       const mark = element("path", { class: "mark c" + t.color, d: data.marks[t.mark], "data-id": p.t,
-        transform: `translate(${px(p.x)},${py(p.y)})`, tabindex: 0 });
+        transform: `translate(${px(p.x)},${py(p.y)})`, role: "button", "aria-label": tip(p.t) });
       mark.append(element("title", {}, tip(p.t)));
       plot.append(mark);
     }
+    oneStop([...plot.querySelectorAll(".mark")]);
     showPicked(false);
+  }
+
+  // Of many elements, Tab enters one; arrow keys go on from there.
+  function oneStop(elements) {
+    const first = elements.find((e) => e.classList.contains("picked")) || elements[0];
+    elements.forEach((e) => e.setAttribute("tabindex", e === first ? 0 : -1));
+  }
+
+  function stepFrom(element, elements, step) {
+    const next = elements[elements.indexOf(element) + step];
+    if (!next) return;
+    elements.forEach((e) => e.setAttribute("tabindex", e === next ? 0 : -1));
+    next.focus();
   }
 
   const tip = (t) => {
     const values = data.cells[state.scene][t];
-    return data.techniques[t].name + "; " + data.measures[state.error].column + " " + short(values[state.error]) +
-      "; " + data.measures[state.cost].column + " " + short(values[state.cost]);
+    const error = data.measures[state.error], cost = data.measures[state.cost];
+    return data.techniques[t].name + "; " + error.column + " " + text(error, values[state.error]) +
+      "; " + cost.column + " " + text(cost, values[state.cost]);
   };
 
   function showPicked(scroll) {
@@ -117,7 +134,7 @@
     const values = data.cells[state.scene][picked];
     if (values) {
       $("details").textContent = data.techniques[picked].name + ": " +
-        data.measures.map((m, i) => m.column + " " + short(values[i])).join(" \u00B7 ");
+        data.measures.map((m, i) => m.column + " " + text(m, values[i])).join(" \u00B7 ");
     }
     const row = document.querySelector(`#summary tbody[data-scene="${state.scene}"] tr[data-id="${picked}"]`);
     // The page stays where it is: only the table's own window moves.
@@ -135,12 +152,15 @@
       b.hidden = Number(b.dataset.scene) !== state.scene;
     });
     markDominated();
+    oneStop(rows());
     drawChart();
   }
 
+  const rows = () => [...document.querySelectorAll(`#summary tbody[data-scene="${state.scene}"] tr.row`)];
+
   function markDominated() {
     const best = new Set(front(points_of()).map((p) => p.t));
-    document.querySelectorAll(`#summary tbody[data-scene="${state.scene}"] tr.row`).forEach((row) => {
+    rows().forEach((row) => {
       const is_best = best.has(Number(row.dataset.id));
       row.classList.toggle("dominated", !is_best);
       row.cells[1].textContent = is_best ? "front" : "";
@@ -217,13 +237,39 @@
     else if (row) pick(Number(row.dataset.id), false);
   });
   document.addEventListener("keydown", (e) => {
-    const mark = e.target.closest && e.target.closest("svg [data-id]");
-    if (mark && e.key === "Enter") pick(Number(mark.dataset.id), true);
+    const mark = e.target.closest && e.target.closest("#error-time [data-id]");
+    const row = e.target.closest && e.target.closest("#summary tr.row");
+    const at = mark || row;
+    if (!at) return;
+    const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[e.key];
+    if (e.key === "Enter" || e.key === " ") pick(Number(at.dataset.id), Boolean(mark));
+    else if (step) stepFrom(at, mark ? [...document.querySelectorAll("#error-time .mark")] : rows(), step);
+    else return;
+    e.preventDefault();  // the page would scroll
+  });
+  $("error-time").setAttribute("role", "group");
+  $("error-time").addEventListener("focusin", (e) => {
+    const mark = e.target.closest("[data-id]");
+    if (mark) $("details").textContent = tip(Number(mark.dataset.id));
   });
   $("error-time").addEventListener("pointerover", (e) => {
     const mark = e.target.closest("[data-id]");
     if (mark && picked < 0) $("details").textContent = tip(Number(mark.dataset.id));
   });
   document.querySelectorAll(".viewer").forEach(makeViewer);
+
+  // A word above each box that holds more than it shows.
+  document.querySelectorAll(".wide").forEach((box) => {
+    const hint = document.createElement("p");
+    hint.className = "note hint";
+    box.before(hint);
+    const update = () => {
+      const sideways = box.scrollWidth > box.clientWidth + 1, down = box.scrollHeight > box.clientHeight + 1;
+      hint.textContent = sideways ? (down ? "Scrolls sideways and down." : "Scrolls sideways.") : "Scrolls down.";
+      hint.hidden = !sideways && !down;
+    };
+    new ResizeObserver(update).observe(box);
+    update();
+  });
   showScene();
 })();

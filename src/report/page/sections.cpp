@@ -29,7 +29,8 @@ std::string summary_row(const Summary& summary, std::size_t scene, std::size_t t
                     "\"><td>" + escaped(summary.techniques[technique].name()) + "</td><td class=\"best\">" +
                     (best ? "front" : "") + "</td>";
   const Cell& values = summary.cells[scene][technique];
-  for (const double value : values.values) out += cell(short_number(value), exact_number(value));
+  for (std::size_t m = 0; m < values.values.size(); ++m)
+    out += cell(measures()[m].text(values.values[m]), exact_number(values.values[m]));
   return out + "</tr>\n";
 }
 
@@ -51,12 +52,13 @@ std::string matched_error_table(const Summary& summary, std::size_t scene) {
   const std::size_t error = measure_index(kDefaultError), cost = measure_index(kDefaultCost);
   const std::vector<std::size_t> front = summary.front(scene, error, cost);
   std::string out =
-      "<div class=\"wide\"><table><thead><tr><th>to reach wrong pixels below</th><th>takes, ms</th>"
-      "<th>with</th></tr></thead><tbody>\n";
+      scroll_box("Least time for an error") +
+      "<table><thead><tr><th>misclassified pixels</th><th>least time, ms</th><th>technique</th></tr></thead>"
+      "<tbody>\n";
   for (const std::size_t t : front) {
     const std::vector<double>& values = summary.cells[scene][t].values;
-    out += "<tr><td>" + short_number(100.0 * values[error]) + " %</td><td>" + short_number(values[cost]) +
-           "</td><td>" + escaped(summary.techniques[t].name()) + "</td></tr>\n";
+    out += "<tr><td>" + percent(values[error]) + "</td><td>" + short_number(values[cost]) + "</td><td>" +
+           escaped(summary.techniques[t].name()) + "</td></tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }
@@ -79,7 +81,7 @@ std::string table_of_lines(const std::string& text, const std::string& where) {
     const Json json = Json::parse(text.substr(begin, end - begin), nullptr, false);
     if (!json.is_object()) throw ReportError(where + ":" + std::to_string(number) + ": not a JSON object");
     if (columns.empty()) {
-      out += "<div class=\"wide tall\"><table class=\"words\"><thead><tr>";
+      out += scroll_box(where, true) + "<table class=\"words\"><thead><tr>";
       for (const auto& [key, value] : json.items()) {
         columns.push_back(key);
         out += "<th>" + escaped(key) + "</th>";
@@ -136,6 +138,17 @@ std::vector<LeftOutKind> left_out_kinds(const std::vector<Row>& rows) {
   return kinds;
 }
 
+/// Says how many techniques the table of all scenes together lacks.
+std::string missing_note(const Summary& summary) {
+  if (summary.scenes.size() <= 2) return {};
+  const auto missing = std::count_if(summary.cells[0].begin(), summary.cells[0].end(),
+                                     [](const Cell& all) { return !all.measured; });
+  if (missing == 0) return {};
+  return "<p class=\"note\">Dropped from \"all scenes\": " +
+         counted(static_cast<std::size_t>(missing), "technique") +
+         " that some scene was not measured with.</p>\n";
+}
+
 }  // namespace
 
 std::string section_error_time(const PageInput& input) {
@@ -143,19 +156,17 @@ std::string section_error_time(const PageInput& input) {
   std::string out =
       "<section id=\"s1\">\n<h2>1. Error against run time</h2>\n<p>Each mark is a technique: colour by "
       "filter, shape by "
-      "warp. Down and to the left is better; the dashed line joins those that nothing beats in both. Of all "
-      "scenes "
-      "together, errors are means and times geometric means.</p>\n<div class=\"bar script\"><label>scene "
+      "warp. Lower left is better. The dashed line is the front: no other technique is better in both. For "
+      "all scenes together, errors are means and times geometric means.</p>\n<div class=\"bar "
+      "script\"><label>scene "
       "<select "
       "id=\"scene\"></select></label><label>error <select id=\"error\"></select></label><label>cost <select "
       "id=\"cost\"></select></label></div>\n";
   out += error_time_chart(summary, input.start_scene).embedded("error-time");
   out +=
-      "<div id=\"details\" class=\"script note\" aria-live=\"polite\"></div>\n<h3>At matched error: time to "
-      "reach "
-      "it</h3>\n<p class=\"note\">For each filter, with the best warp, split and size that was tried: the "
-      "time per "
-      "frame that an error costs.</p>\n";
+      "<div id=\"details\" class=\"script note\" aria-live=\"polite\"></div>\n<h3>Time at equal "
+      "error</h3>\n<p class=\"note\">The least time per frame at which each filter stays below an error, "
+      "with the best warp, split and map size of this sweep.</p>\n";
   for (std::size_t scene = input.start_scene; scene < summary.scenes.size(); ++scene) {
     const std::string number = std::to_string(scene);
     out += "<div class=\"by-scene\" data-scene=\"" + number + "\">\n" +
@@ -168,11 +179,11 @@ std::string section_error_time(const PageInput& input) {
 std::string section_summary(const PageInput& input) {
   const Summary& summary = input.summary;
   std::string out =
-      "<section id=\"s2\">\n<h2>2. Summary</h2>\n<p>Errors are shares of the judged pixels. <b>front</b>: no "
-      "other "
-      "technique is at once cheaper and more exact; the others are dominated and pale.</p>\n<div "
-      "class=\"wide "
-      "tall\"><table id=\"summary\"><thead><tr><th>warp / split / maps / filter</th><th>Pareto</th>";
+      "<section id=\"s2\">\n<h2>2. Summary</h2>\n<p>Errors are shares of the evaluated pixels. <b>front</b>: "
+      "no other technique is both cheaper and more exact. Other techniques are grey. A click on a column "
+      "head sorts.</p>\n" +
+      missing_note(input.summary) + scroll_box("Summary", true) +
+      "<table id=\"summary\"><thead><tr><th>warp / split / maps / filter</th><th>Pareto</th>";
   for (const Measure& measure : measures()) out += "<th>" + escaped(measure.column) + "</th>";
   out += "</tr></thead>\n";
   const std::size_t error = measure_index(kDefaultError), cost = measure_index(kDefaultCost);
@@ -190,14 +201,17 @@ std::string section_summary(const PageInput& input) {
 
 std::string section_flight(const PageInput& input) {
   std::string out =
-      "<section id=\"s4\">\n<h2>4. Along the flight</h2>\n<p>Wrong pixels frame by frame, and flicker: "
-      "pixels whose "
-      "answer changes from one frame of a 60 Hz viewer to the next although the shadow at that place does "
-      "not. "
-      "Shown are the techniques of each scene's front.</p>\n";
+      "<section id=\"s4\">\n<h2>4. Along the camera path</h2>\n<p>Misclassified pixels per frame, and "
+      "flicker: pixels whose shadow changes from one frame of a 60 Hz viewer to the next although the exact "
+      "shadow does not. The charts show the techniques of each scene's front.</p>\n";
   for (std::size_t scene = 1; scene < input.summary.scenes.size(); ++scene) {
     const std::vector<std::size_t> shown = notable(input.summary, scene, kFlightLines);
     out += "<h3>" + escaped(input.summary.scenes[scene]) + "</h3>\n";
+    const std::size_t all = notable(input.summary, scene, input.summary.techniques.size()).size();
+    if (all > shown.size()) {
+      out += "<p class=\"note\">The " + std::to_string(shown.size()) + " most exact of " +
+             counted(all, "technique") + " on the front; the others are in frames.csv.</p>\n";
+    }
     for (const std::string_view key : {kDefaultError, std::string_view("flips")}) {
       const std::string id = std::string(key) + "-" + std::to_string(scene);
       out += flight_chart(input.summary, input.rows, scene, measure_index(key), shown).embedded(id);
@@ -212,18 +226,20 @@ std::string section_stability(const PageInput& input) {
   std::string content = input.stability.empty() ? table_of_lines(optional_text(where), where)
                                                 : stability_section(input.stability);
   if (content.empty())
-    content = "<p class=\"note\">Not measured here: this folder holds no stability.jsonl.</p>\n";
+    content =
+        "<p class=\"note\">Not measured: this folder has no stability.jsonl, which <code>gnomon stress "
+        "--out</code> writes.</p>\n";
   return "<section id=\"s5\">\n<h2>5. Numerical stability</h2>\n" + content + "</section>\n";
 }
 
 std::string section_left_out(const PageInput& input) {
   std::string out =
-      "<section id=\"s6\">\n<h2>6. What was left out</h2>\n<p>What the plans found that a scene did not "
-      "need, and the "
-      "texels that this saved.</p>\n<div class=\"wide tall\"><table "
-      "class=\"words\"><thead><tr><th>scene</th><th>parametrization</th><th>what (for "
-      "example)</th><th>why</th>"
-      "<th>times</th><th>saves Mi texels a time</th></tr></thead><tbody>\n";
+      "<section id=\"s6\">\n<h2>6. Omitted work</h2>\n<p>Maps, depths and casters that the plans omitted, "
+      "with the reason and the texels saved.</p>\n" +
+      scroll_box("Omitted work", true) +
+      "<table class=\"words\"><thead><tr><th>scene</th><th>parametrization</th><th>omitted (an "
+      "example)</th><th>reason</th>"
+      "<th>times</th><th>Mi texels saved each time</th></tr></thead><tbody>\n";
   const std::vector<LeftOutKind> kinds = left_out_kinds(input.rows);
   for (const LeftOutKind& k : kinds) {
     out += "<tr><td>" + escaped(k.scene) + "</td><td>" + escaped(k.parametrization) + "</td><td>" +
@@ -250,29 +266,23 @@ std::string section_method(const PageInput& input) {
     low = std::min(low, m.load);
     high = std::max(high, m.load);
   }
-  std::string out = "<section id=\"s7\">\n<h2>7. How it was measured</h2>\n<ul>\n";
+  std::string out = "<section id=\"s7\">\n<h2>7. Method</h2>\n<ul>\n";
   for (const std::string& m : machines) out += "<li>" + escaped(m) + "</li>\n";
   for (const std::string& s : settings) out += "<li>" + escaped(s) + "</li>\n";
-  out += "<li>load of the machine while measuring: " + short_number(low) + " to " + short_number(high) +
-         "</li>\n</ul>\n";
+  out += "<li>load average of the machine while measuring: " + short_number(low) + " to " +
+         short_number(high) + "</li>\n</ul>\n";
   out +=
-      "<p><b>Truth.</b> Rays from the world point of every pixel to the light, past its own triangle. Pixels "
-      "where an "
-      "edge passes closer than the rays' certified error are not judged. <b>False light</b> and <b>false "
-      "shadow</b> "
-      "are shares of the judged pixels on the wrong side of one half. <b>Mean error</b> is against the exact "
-      "shadow "
-      "averaged over the filter's own kernel (for filters of lights with an extent: against the true "
-      "penumbra). "
-      "<b>Leaking</b> is the mean light where no part of the kernel is lit, <b>darkening</b> the mean shadow "
-      "where all "
-      "of it is. <b>m</b> is pixels per shadow map texel, above 1 undersampled.</p>\n<p><b>Time.</b> Wall "
-      "clock after "
-      "the driver has finished, of planning, drawing depths, prefilter and look-up; the picture itself is "
-      "not in it. "
-      "Techniques run one after the other in a new random order each round, after a round that is dropped; "
-      "medians "
-      "with 95 % bootstrap intervals stand in results.jsonl.</p>\n";
+      "<p><b>Truth.</b> Rays run from the world point of every pixel to the light, past its own triangle. "
+      "Pixels where an edge is closer than the rays' certified error are not evaluated. <b>False light</b> "
+      "and <b>false shadow</b> are the shares of evaluated pixels on the wrong side of one half; together "
+      "they are the <b>misclassified</b> pixels. <b>Mean error</b> compares with the exact shadow averaged "
+      "over the filter's own kernel (for area-light filters: with the true penumbra). <b>Leaking</b> is the "
+      "mean light where no part of the kernel is lit, <b>darkening</b> the mean shadow where all of it is. "
+      "<b>m</b> is the aliasing error, screen pixels per shadow map texel; above 1 the map is "
+      "undersampled.</p>\n<p><b>Time.</b> Times are wall clock after the driver has finished: planning, "
+      "drawing depths, prefilter and look-up, without shading. Techniques run one after the other, in a new "
+      "random order each round, after a warm-up round. results.jsonl has the medians with 95 % bootstrap "
+      "intervals.</p>\n";
   return out + "</section>\n";
 }
 

@@ -20,7 +20,8 @@ struct PageInput {
   std::vector<Row> rows;
   Summary summary;
   Stability stability;
-  std::size_t start_scene = 0;  ///< which the page shows first
+  std::size_t start_scene = 0;        ///< which the page shows first
+  std::vector<std::string> warnings;  ///< rows that could not be read
 };
 
 [[nodiscard]] PageInput page_input(const std::filesystem::path& folder, std::vector<Row> rows);

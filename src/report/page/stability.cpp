@@ -161,12 +161,13 @@ std::string fallback_cell(const StabilityAxis& axis) {
 
 std::string axes_table(const Stability& stability) {
   std::string out =
-      "<div class=\"wide\"><table class=\"words\"><thead><tr><th>axis</th><th>double against long double, "
+      scroll_box("Stress parameters") +
+      "<table class=\"words\"><thead><tr><th>parameter</th><th>double against long double, "
       "texels</th><th>in units of the last place</th><th>float relative to the camera, texels</th><th>over "
       "half "
       "a texel at</th><th>absolute float over half a texel at</th><th>condition number</th><th>texels per "
       "area, "
-      "change for a step of 1e-6</th><th>one map that may warp uses</th><th>left out there</th></tr></thead>"
+      "change for a step of 1e-6</th><th>warp of one map</th><th>omitted there</th></tr></thead>"
       "<tbody>\n";
   const auto relative = [](const AxisRow& r) { return r.worst.float_relative_texels; };
   const auto error = [](const AxisRow& r) { return r.worst.error_texels; };
@@ -184,9 +185,9 @@ std::string axes_table(const Stability& stability) {
 }
 
 std::string cases_table(const Stability& stability) {
-  std::string out =
-      "<div class=\"wide tall\"><table class=\"words\"><thead><tr><th>row</th><th>input</th><th>verdict</th>"
-      "<th>required</th><th>found</th></tr></thead><tbody>\n";
+  std::string out = scroll_box("Extreme cases", true) +
+                    "<table class=\"words\"><thead><tr><th>row</th><th>input</th><th>verdict</th>"
+                    "<th>required</th><th>found</th></tr></thead><tbody>\n";
   for (const CaseRow& c : stability.cases) {
     out += "<tr><td>" + std::to_string(c.row) + "</td><td>" + escaped(c.input) + "</td><td>" +
            (c.verdict == "holds" ? escaped(c.verdict) : "<b>" + escaped(c.verdict) + "</b>") + "</td><td>" +
@@ -196,16 +197,16 @@ std::string cases_table(const Stability& stability) {
 }
 
 std::string filters_table(const Stability& stability) {
-  std::string out =
-      "<div class=\"wide tall\"><table class=\"words\"><thead><tr><th>strain</th><th>filter</th><th>largest "
-      "error</th><th>at</th><th>bound there</th><th>share beyond their bound</th><th>every answer in [0, "
-      "1]</th></tr>"
-      "</thead><tbody>\n";
+  std::string out = scroll_box("Filters at their limits", true) +
+                    "<table class=\"words\"><thead><tr><th>parameter</th><th>filter</th><th>largest "
+                    "error</th><th>at</th><th>bound there</th><th>results beyond their bound</th><th>all "
+                    "results in [0, 1]</th></tr>"
+                    "</thead><tbody>\n";
   for (const StabilityFilter& filter : stability.filters) {
     const FilterRow worst = worst_of_filter(filter.rows);
     out += "<tr><td>" + escaped(filter.axis) + "</td><td>" + escaped(filter.filter) + "</td><td>" +
            short_number(worst.error) + "</td><td>" + short_number(worst.value) + "</td><td>" +
-           short_number(worst.bound) + "</td><td>" + short_number(worst.beyond) + "</td><td>" +
+           short_number(worst.bound) + "</td><td>" + percent(worst.beyond) + "</td><td>" +
            (worst.within ? "yes" : "<b>no</b>") + "</td></tr>\n";
   }
   return out + "</tbody></table></div>\n";
@@ -263,12 +264,12 @@ Chart stability_chart(const StabilityAxis& axis) {
   }
   mark_fallbacks(chart, axis);
   chart.legend_mark("more than half a texel", kHalfMark);
-  chart.legend_mark("something else is used", kFallbackMark);
+  chart.legend_mark("warp or fit changes", kFallbackMark);
   return chart;
 }
 
 Chart filter_chart(const StabilityFilter& filter) {
-  Axis x{filter.label, filter.logarithmic}, y{"error of the answer"};
+  Axis x{filter.label, filter.logarithmic}, y{"error of visibility"};
   std::vector<double> values, errors;
   std::vector<Point> error, bound;
   for (const FilterRow& row : filter.rows) {
@@ -301,13 +302,10 @@ std::string stability_section(const Stability& stability) {
   std::string out;
   if (!stability.axes.empty()) {
     out +=
-        "<p>One quantity at a time is driven to its limits. Errors are distances in the map, in texels, at "
-        "the "
-        "corners of what it shows and at points between, the worst over warps, fits and scenes. <b>Double "
-        "against "
-        "long double</b>: the plan against exact arithmetic with the same parameters. <b>Float</b>: what a "
-        "shader "
-        "makes of it, from absolute coordinates and from offsets to the camera.</p>\n";
+        "<p>Each chart varies one stress parameter up to its limits. Errors are distances in the map, in "
+        "texels, at the corners of its body and at points between: the worst over warps, fits and scenes. "
+        "<b>Double against long double</b>: the plan against exact arithmetic with the same parameters. "
+        "<b>Float</b>: a shader's result, from absolute coordinates and from offsets to the camera.</p>\n";
     out += axes_table(stability);
     for (std::size_t i = 0; i < stability.axes.size(); ++i)
       out += stability_chart(stability.axes[i]).embedded("stability-" + std::to_string(i));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "text.hpp"
+
 namespace gnomon::report {
 namespace {
 
@@ -59,26 +61,27 @@ Cell all_scenes(const std::vector<std::vector<Cell>>& cells, std::size_t techniq
 const std::vector<Measure>& measures() {
   using Gather = Measure::Gather;
   static const std::vector<Measure> all{
-      {"wrong", "wrong pixels (false light + false shadow)", "", "wrong", false,
+      {"wrong", "misclassified pixels (false light + false shadow)", "%", "misclassified", false,
        [](const Row& r) { return r.errors.false_lit + r.errors.false_shadow; }},
-      {"false_lit", "false light", "", "false light", false, [](const Row& r) { return r.errors.false_lit; }},
-      {"false_shadow", "false shadow", "", "false shadow", false,
+      {"false_lit", "false light", "%", "false light", false,
+       [](const Row& r) { return r.errors.false_lit; }},
+      {"false_shadow", "false shadow", "%", "false shadow", false,
        [](const Row& r) { return r.errors.false_shadow; }},
-      {"mean_error", "mean error against the ideal filter", "", "mean error", false,
+      {"mean_error", "mean error against the ideal filter", "%", "mean error", false,
        [](const Row& r) { return r.errors.mean_error; }},
-      {"leaking", "light leaking deep in shadow", "", "leaking", false,
+      {"leaking", "light leaking deep in shadow", "%", "leaking", false,
        [](const Row& r) { return r.errors.leaking; }},
-      {"darkening", "darkening of lit surfaces", "", "darkening", false,
+      {"darkening", "darkening of lit surfaces", "%", "darkening", false,
        [](const Row& r) { return r.errors.darkening; }},
-      {"flips", "flicker (excess flips per pixel and frame)", "", "flicker", false,
+      {"flips", "flicker (excess flips per pixel and frame)", "%", "flicker", false,
        [](const Row& r) { return r.flips; }},
       {"m_p95", "aliasing error m, 95th percentile", "pixels per texel", "m p95", false,
        [](const Row& r) { return r.aliasing.p95; }, Gather::largest},
-      {"share_undersampled", "share of pixels with m > 1", "", "m > 1", false,
+      {"share_undersampled", "share of pixels with m > 1", "%", "m > 1", false,
        [](const Row& r) { return r.aliasing.share_undersampled; }},
       {"total_ms", "shadow time per frame", "ms", "time, ms", true,
        [](const Row& r) { return r.times.total_ms.median; }},
-      {"ratio", "time over hard x no warp x one map", "", "x base", true,
+      {"ratio", "time relative to one unwarped map with hard shadows", "", "x baseline", true,
        [](const Row& r) { return r.times.ratio(); }},
       {"plan_us", "planning", "\xC2\xB5s", "plan, \xC2\xB5s", true,
        [](const Row& r) { return r.times.plan_ns.median * kMicrosecondsPerNanosecond; }},
@@ -86,7 +89,7 @@ const std::vector<Measure>& measures() {
        [](const Row& r) { return r.times.depth_ms.median; }},
       {"prefilter_ms", "prefilter", "ms", "prefilter, ms", true,
        [](const Row& r) { return r.times.prefilter_ms.median; }},
-      {"shade_ms", "looking up", "ms", "look-up, ms", true,
+      {"shade_ms", "look-up", "ms", "look-up, ms", true,
        [](const Row& r) { return r.times.shade_ms.median; }},
       {"draws", "draw calls", "", "draws", true,
        [](const Row& r) { return static_cast<double>(r.costs.draws); }},
@@ -96,6 +99,10 @@ const std::vector<Measure>& measures() {
        [](const Row& r) { return static_cast<double>(r.costs.map_bytes) * kMebibytesPerByte; },
        Gather::largest}};
   return all;
+}
+
+std::string Measure::text(double value) const {
+  return short_number(shown(value)) + (unit == "%" && std::isfinite(value) ? " %" : "");
 }
 
 std::size_t measure_index(std::string_view key) {

@@ -15,12 +15,17 @@ namespace gnomon::report {
 struct Measure {
   std::string_view key;     ///< in CSV and in the page's data
   std::string_view name;    ///< for people
-  std::string_view unit;    ///< "" for shares and ratios
+  std::string_view unit;    ///< "%" for shares, which files hold as 0..1; "" for ratios
   std::string_view column;  ///< short, for the table's head
   bool is_cost = false;     ///< else it is an error
   double (*of)(const Row& row) = nullptr;
   /// How frames are gathered, and then scenes.
   enum class Gather : std::uint8_t { mean, largest } frames = Gather::mean;
+
+  /// The value in `unit`.
+  [[nodiscard]] double shown(double value) const noexcept { return unit == "%" ? 100.0 * value : value; }
+  /// The value as text, with its percent sign where it is a share.
+  [[nodiscard]] std::string text(double value) const;
 };
 [[nodiscard]] const std::vector<Measure>& measures();
 /// Index into measures(). The key must be one of them.

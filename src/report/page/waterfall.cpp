@@ -76,13 +76,14 @@ std::string table(const Waterfall& fall) {
     triangles += step.triangles;
   }
   const double all_texels = texels, all_triangles = triangles;
-  std::string out = "<h3>" + escaped(fall.scene) + "</h3>\n<p class=\"note\">Without rules " +
-                    short_number(texels / fall.frames / 1e6) + " million texels and " +
-                    short_number(triangles / fall.frames / 1e3) +
-                    " thousand triangles a frame, mean over all parametrizations and frames.</p>\n<div "
-                    "class=\"wide tall\"><table class=\"words\"><thead><tr><th>rule</th><th>leaves "
-                    "out</th><th colspan=\"2\">texels left</th><th colspan=\"2\">triangles left</th><th>what "
-                    "makes it right</th></tr></thead><tbody>\n";
+  std::string out =
+      "<h3>" + escaped(fall.scene) + "</h3>\n<p class=\"note\">Without rules " +
+      short_number(texels / fall.frames / 1e6) + " million texels and " +
+      short_number(triangles / fall.frames / 1e3) +
+      " thousand triangles a frame, mean over all parametrizations and frames.</p>\n" +
+      scroll_box("Savings of each rule: " + fall.scene, true) +
+      "<table class=\"words\"><thead><tr><th>rule</th><th>omits</th><th colspan=\"2\">texels left</th><th "
+      "colspan=\"2\">triangles left</th><th>proof or bound</th></tr></thead><tbody>\n";
   for (const Step& step : fall.steps) {
     texels -= step.texels;
     triangles -= step.triangles;
@@ -99,10 +100,9 @@ std::string waterfalls(const std::vector<Row>& rows) {
   std::string out;
   for (const Waterfall& fall : waterfalls_of(rows)) out += table(fall);
   if (out.empty()) return out;
-  return "<h3>What each rule saved</h3>\n<p>One after the other, in the order in which a frame applies them. "
-         "Frames of a sweep are measured alone, as if none had been drawn before; what stable fits save "
-         "where one "
-         "was, a viewer's frame earlier, is taken off last.</p>\n" +
+  return "<h3>Savings of each prune rule</h3>\n<p>The rules are listed in the order in which a frame applies "
+         "them. A sweep measures each frame alone. The savings of stable fits over a previous frame are "
+         "subtracted last.</p>\n" +
          out;
 }
 

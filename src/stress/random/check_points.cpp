@@ -208,7 +208,7 @@ void check_texel(const Scene& s, int index, const Real3& p, Report& report) {
   if (!(std::max(shown.ndc_error(0), shown.ndc_error(1)) * side < kFine)) return;
   const glm::dvec3 world(p + s.view.eye);
   const glm::dvec2 texel =
-      texel_extent_world(map.clip_from_world, map.width, map.height, glm::dvec3(s.light.travel(p)), world);
+      texel_extent_world(map.clip_from_world, map.texels(), glm::dvec3(s.light.travel(p)), world);
   for (int axis = 0; axis < 2; ++axis) {
     const Real ratio = Real(texel[axis]) / map.texel_world_max[axis];
     if (!(ratio <= 1.0L + kLoose))

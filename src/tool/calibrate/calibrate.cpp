@@ -93,7 +93,7 @@ int run_calibrate(const CalibrateRequest& request, bool json) {
     if (request.check) throw std::runtime_error("--check: wants folders with results to be held against");
     if (std::filesystem::exists(std::filesystem::path(request.out) / report::kRowsFile))
       throw std::runtime_error(request.out + ": was measured already: gnomon calibrate " + request.out +
-                               " fits to that; another --out measures anew");
+                               " fits to that; another --out measures again");
     (void)compare(own_sweep(request));
     folders.push_back(request.out);
   }
@@ -118,24 +118,24 @@ std::function<int()> declare_calibrate(Arguments& arguments) {
   arguments.options = {
       {.name = "DIR",
        .target = &request->folders,
-       .help = "folders with results.jsonl; none: a sweep is measured first",
+       .help = "folders with results.jsonl of gnomon compare; without any, a sweep is measured first",
        .completion = Completion::folders},
       {.name = "--model",
        .target = &request->model,
-       .help = "the cost model, written, or read by --check",
+       .help = "the cost model: written, or read with --check",
        .completion = Completion::files},
       {.name = "--check",
        .target = &request->check,
-       .help = "hold the model's picks against what the folders measured"},
+       .help = "compare the model's choices with the measured results"},
       {.name = "--out",
        .target = &request->out,
-       .help = "folder of the sweep that is measured first",
+       .help = "folder for the sweep that is measured first",
        .completion = Completion::folders},
       {.name = "--context",
        .target = &request->context,
-       .help = "of that sweep: auto, osmesa or egl",
+       .help = "OpenGL context of that sweep: auto, osmesa or egl",
        .names = {"auto", "osmesa", "egl"}},
-      {.name = "--json", .target = &request->json, .help = "print what was done as one line of JSON"}};
+      {.name = "--json", .target = &request->json, .help = "print a summary as one line of JSON"}};
   return [request] { return run_calibrate(*request, request->json); };
 }
 

@@ -193,7 +193,8 @@ int check_planner(const report::StoredCostModel& model, const std::vector<report
   nlohmann::json list = nlohmann::json::array();
   if (!json)
     print_line(
-        "| view | asked for | pick | ms, predicted | ms | wrong pixels | beyond the front of wrong pixels | "
+        "| view | request | pick | ms, predicted | ms | misclassified pixels | beyond the front of "
+        "misclassified pixels | "
         "m p95 | "
         "beyond the front of m |\n|--|--|--|--:|--:|--:|--:|--:|--:|");
   for (const View& view : views_of(rows)) {
@@ -229,10 +230,11 @@ int check_planner(const report::StoredCostModel& model, const std::vector<report
   if (json) {
     print_line(nlohmann::json{{"picks", list}}.dump());
   } else {
-    print_line(fmt::format(
-        "\nwithin 10 % of the measured front, by wrong pixels: {} of {} picks, {} of {} views with all; "
-        "by m: {} of {} picks, {} of {} views",
-        hits_wrong, picks, whole_wrong, views, hits_m, picks, whole_m, views));
+    print_line(
+        fmt::format("\nwithin 10 % of the measured front, by misclassified pixels: {} of {} picks, {} of {} "
+                    "views with all; "
+                    "by m: {} of {} picks, {} of {} views",
+                    hits_wrong, picks, whole_wrong, views, hits_m, picks, whole_m, views));
   }
   return 0;
 }

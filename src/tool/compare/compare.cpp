@@ -80,8 +80,8 @@ std::set<std::string> known_keys(const Sweep& sweep, const std::vector<std::stri
   std::set<std::string> keys;
   if (!fs::exists(file)) return keys;
   if (!sweep.resume)
-    throw std::runtime_error(file.string() +
-                             ": there already; --resume goes on with it, another --out starts anew");
+    throw std::runtime_error(
+        file.string() + " already exists; --resume continues it, another --out starts from the beginning");
   report::SceneHashes now;
   for (std::size_t i = 0; i < hashes.size(); ++i) (void)now.agree(sweep.scenes[i], hashes[i]);
   std::vector<std::string> warnings;
@@ -91,7 +91,7 @@ std::set<std::string> known_keys(const Sweep& sweep, const std::vector<std::stri
   for (const report::Row& row : rows) {
     if (!now.agree(row.scene, row.scene_hash))
       throw std::runtime_error(file.string() + ": " + row.scene +
-                               " is no longer what was measured; another --out starts anew");
+                               " has changed since it was measured; another --out starts from the beginning");
     keys.insert(row.key());
   }
   return keys;
@@ -213,51 +213,54 @@ int run_compare(const CompareRequest& request) {
 
 /// The product that is gone through.
 std::vector<Option> technique_options(CompareRequest& request) {
-  return {{.name = "--warps",
-           .target = &request.warps,
-           .help = "names, or all; auto lets the plan choose",
-           .names = names_in(all_warps(), {"all", "auto"}),
-           .only_names = false},
-          {.name = "--splits",
-           .target = &request.splits,
-           .help = "how receivers are divided: schemes of view depth, or partitions",
-           .names = split_names(),
-           .only_names = false},
-          {.name = "--fits",
-           .target = &request.fits,
-           .help = "tight, stable",
-           .names = {"tight", "stable"},
-           .only_names = false},
-          {.name = "--cascades", .target = &request.cascades, .help = "maps along the view"},
-          {.name = "--filters",
-           .target = &request.filters,
-           .help = "names, with their options where they have any, or all",
-           .names = names_in(render::all_filters(), {"all"}),
-           .only_names = false},
-          {.name = "--map-sizes", .target = &request.map_sizes, .help = "texels along each side of a map"}};
+  return {
+      {.name = "--warps",
+       .target = &request.warps,
+       .help = "perspective warps, or all; auto lets the plan choose",
+       .names = names_in(all_warps(), {"all", "auto"}),
+       .only_names = false},
+      {.name = "--splits",
+       .target = &request.splits,
+       .help = "how receivers are divided among maps; listed below",
+       .names = split_names(),
+       .only_names = false},
+      {.name = "--fits",
+       .target = &request.fits,
+       .help = "fits of a map: tight, stable",
+       .names = {"tight", "stable"},
+       .only_names = false},
+      {.name = "--cascades", .target = &request.cascades, .help = "numbers of shadow maps along the view"},
+      {.name = "--filters",
+       .target = &request.filters,
+       .help = "filters, with options as in vsm:radius=3; or all",
+       .names = names_in(render::all_filters(), {"all"}),
+       .only_names = false},
+      {.name = "--map-sizes",
+       .target = &request.map_sizes,
+       .help = "sizes of a map, texels along each side"}};
 }
 
 /// What it is measured on.
 std::vector<Option> measuring_options(CompareRequest& request) {
   return {{.name = "--frames",
            .target = &request.frames,
-           .help = "along the scene's flight",
+           .help = "frames along the scene's camera path",
            .range = {{1, 100'000}}},
           {.name = "--rounds",
            .target = &request.rounds,
-           .help = "timings of each technique and frame",
+           .help = "timings of each technique per frame",
            .range = {{1, 10'000}}},
-          {.name = "--size", .target = &request.size, .help = "of a frame, WIDTHxHEIGHT"},
+          {.name = "--size", .target = &request.size, .help = "size of a frame in pixels, WIDTHxHEIGHT"},
           {.name = "--out",
            .target = &request.out,
-           .help = "folder that results and report go to",
+           .help = "folder for results and report",
            .completion = Completion::folders},
           {.name = "--shard",
            .target = &request.shard,
-           .help = "I/N: only every N-th row from the I-th on; join with gnomon merge"},
+           .help = "I/N: measure only part I of N; gnomon merge joins the parts"},
           {.name = "--context",
            .target = &request.context,
-           .help = "auto, osmesa or egl",
+           .help = "OpenGL context: auto, osmesa or egl",
            .names = {"auto", "osmesa", "egl"}}};
 }
 
@@ -269,23 +272,22 @@ std::vector<Option> setting_options(CompareRequest& request) {
            .names = {"sun", "spot", "point"}},
           {.name = "--light-elevation-deg",
            .target = &request.light_elevation_deg,
-           .help = "of the sun above the horizon",
+           .help = "elevation of the sun above the horizon, degrees",
            .range = {{0.1, 90.0}}},
           {.name = "--light-azimuth-deg",
            .target = &request.light_azimuth_deg,
-           .help = "where the sun stands: 0 over -Z, 90 over +X",
+           .help = "azimuth of the sun, degrees: 0 is -Z, 90 is +X",
            .range = {{-360.0, 360.0}}},
           {.name = "--map-memory-mib",
            .target = &request.map_memory_mib,
-           .help = "MiB that a technique's maps may take together; larger ones are halved until they fit; "
-                   "0: what there is",
+           .help = "memory for a technique's maps, MiB; larger maps are halved until they fit; 0: no limit",
            .range = {{0.0, 1e9}}},
           {.name = "--max-triangles",
            .target = &request.max_triangles,
-           .help = "scenes of more, over all instances, are refused; one takes up to 100 bytes",
+           .help = "refuse scenes with more triangles, over all instances; each takes up to 100 bytes",
            .range = {{1, 1e9}}},
-          {.name = "--resume", .target = &request.resume, .help = "go on with the results in --out"},
-          {.name = "--json", .target = &request.json, .help = "print what was done as one line of JSON"}};
+          {.name = "--resume", .target = &request.resume, .help = "continue with the results in --out"},
+          {.name = "--json", .target = &request.json, .help = "print a summary as one line of JSON"}};
 }
 
 }  // namespace

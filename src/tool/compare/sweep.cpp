@@ -194,14 +194,15 @@ std::vector<std::string> fit_to_memory(Sweep& sweep) {
 }
 
 std::string compare_footer() {
-  return "Lists take commas or spaces. The sweep is the product of all lists, combinations that are the "
-         "same\n"
-         "technique taken once. Each row is on the disk before the next frame begins: a run that was killed "
-         "goes\n"
-         "on with --resume. Errors are those of the shadow mask against exact rays.\n"
+  return "Lists take commas or spaces. Every combination of the lists is measured once. Each result is on "
+         "the "
+         "disk before the next frame begins: after a crash, --resume continues. Errors compare the shadow "
+         "mask "
+         "with exact rays.\n\n"
          "Warps: " +
-         any_of_text(names_in(all_warps(), {"auto"})) + "\nSplits: " + any_of_text(split_names()) +
-         "\nFilters, with their options:\n" + render::filter_help();
+         any_of_text(names_in(all_warps(), {"auto"})) + ".\nSplits: " + any_of_text(split_names()) +
+         ".\nFilters: " + any_of_text(names_in(render::all_filters())) +
+         ". gnomon filters NAME prints the options of one.\n";
 }
 
 std::vector<std::string> split_names() {

@@ -149,25 +149,26 @@ std::function<int()> declare_diff(Arguments& arguments) {
        .completion = Completion::files},
       {.name = "B",
        .target = &request->second,
-       .help = "the picture that it is compared with",
+       .help = "the picture to compare with, PNG or JPEG",
        .required = true,
        .completion = Completion::files},
       {.name = "--tolerance",
        .target = &request->tolerance,
-       .help = "steps of 255 by which a colour may differ",
+       .help = "largest difference of a colour channel that is ignored, steps of 1/255",
        .range = {{0, 255}}},
       {.name = "--allow-percent",
        .target = &request->allowed,
-       .help = "percent of the pixels that may differ by more than that",
+       .help = "percent of pixels that may differ by more than the tolerance",
        .range = {{0.0, 100.0}}},
       {.name = "--out",
        .target = &request->out,
-       .help = "write a picture of the differences to this PNG file",
+       .help = "write the differences as a PNG picture",
        .completion = Completion::files},
       {.name = "--json", .target = &request->json, .help = "print the result as one line of JSON"}};
   arguments.footer =
-      "Exit: 0 no pixel differs by more than the tolerance; 1 some do, no more than --allow-percent;\n"
-      "2 bad input; 3 more do; 4 the sizes differ.";
+      "Exit: 0 no pixel differs by more than the tolerance; 1 at most --allow-percent of the pixels do; 2 "
+      "bad "
+      "input; 3 more pixels do; 4 the sizes differ.";
   return [request] { return run_diff(*request); };
 }
 

@@ -125,7 +125,7 @@ int run_doctor(bool json) {
 std::function<int()> declare_doctor(Arguments& arguments) {
   const auto json = std::make_shared<bool>(false);
   arguments.options = {
-      {.name = "--json", .target = json.get(), .help = "print what was found as one line of JSON"}};
+      {.name = "--json", .target = json.get(), .help = "print the findings as one line of JSON"}};
   return [json] { return run_doctor(*json); };
 }
 

@@ -127,7 +127,7 @@ Failures failures_of(const FilterStage& stage, const Camera& camera, int radius,
   const FloatImage normals = stage.renderer().normals();
   const std::vector<float> lit = stage.visibility();
   const ShadowPlan& plan = stage.plan();
-  Receiver receiver{plan.map[0].clip_from_world, depth.width, depth.height, plan.light_direction, {}, {}};
+  Receiver receiver{plan.map[0].clip_from_world, {depth.width, depth.height}, plan.light_direction, {}, {}};
   Failures failures;
   double count = 0.0;
   for (std::size_t i = 0; i < lit.size(); ++i) {

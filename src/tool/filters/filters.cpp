@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "gnomon/casefile/casefile.hpp"
 #include "gnomon/report/statistics.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
@@ -78,25 +79,49 @@ std::string cost_row(int map_size, const Measured& run, const Measured& hard, bo
   return text;
 }
 
-std::string list_as_json() {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const render::Filter* filter : render::all_filters()) {
-    nlohmann::ordered_json options = nlohmann::ordered_json::array(), formats = options;
-    for (const render::FilterOption& option : filter->info.options) {
-      options.push_back({{"name", option.name},
-                         {"default", option.fallback},
-                         {"min", option.min},
-                         {"max", option.max},
-                         {"summary", option.summary}});
-    }
-    for (const render::TexelFormat format : filter->info.formats) formats.push_back(to_string(format));
-    list.push_back({{"name", filter->info.name},
-                    {"summary", filter->info.summary},
-                    {"source", filter->info.source},
-                    {"options", options},
-                    {"formats", formats}});
+nlohmann::ordered_json filter_as_json(const render::Filter& filter) {
+  nlohmann::ordered_json options = nlohmann::ordered_json::array(), formats = options;
+  for (const render::FilterOption& option : filter.info.options) {
+    options.push_back({{"name", option.name},
+                       {"default", option.fallback},
+                       {"min", option.min},
+                       {"max", option.max},
+                       {"summary", option.summary}});
   }
-  return list.dump();
+  for (const render::TexelFormat format : filter.info.formats) formats.push_back(to_string(format));
+  return {{"name", filter.info.name},
+          {"summary", filter.info.summary},
+          {"source", filter.info.source},
+          {"options", options},
+          {"formats", formats}};
+}
+
+std::string filter_list(bool json) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  std::string text;
+  for (const render::Filter* filter : render::all_filters()) {
+    list.push_back(filter_as_json(*filter));
+    const std::string name = std::string(filter->info.name) + ": ";
+    text += name + std::string(13 - std::min<std::size_t>(13, name.size()), ' ') +
+            std::string(filter->info.summary) + "\n";
+  }
+  return json ? list.dump() : text + "\ngnomon filters NAME prints the options of one filter.";
+}
+
+/// The filter called `name`. Throws std::runtime_error with the name that may have been meant.
+const render::Filter& filter_called(const std::string& name) {
+  const render::Filter* filter = render::find_filter(name);
+  if (filter != nullptr) return *filter;
+  throw std::runtime_error("there is no filter '" + one_line(name, 80) + "'" +
+                           meant(name, names_in(render::all_filters())) + " (gnomon filters lists all)");
+}
+
+void print_one_filter(const FiltersRequest& request) {
+  const render::Filter& filter = filter_called(request.name);
+  std::string text = request.json ? filter_as_json(filter).dump() : render::filter_help(filter);
+  if (text.ends_with('\n')) text.pop_back();
+  print_line(text);
+  flush_output();
 }
 
 }  // namespace
@@ -139,17 +164,21 @@ void print_filter_cost(const FiltersRequest& request) {
 
 namespace {
 
-/// Prints the list, or the cost table in Markdown, or writes the gallery. Throws std::runtime_error.
+/// Prints the list, one filter or the cost table, or writes the gallery. Throws std::runtime_error.
 int run_filters(const FiltersRequest& request) {
+  if (!request.name.empty()) {
+    if (request.cost || !request.fit.empty() || !request.gallery.empty())
+      throw std::runtime_error(one_line(request.name, 80) + ": --cost and --fit take filters by --filters");
+    print_one_filter(request);
+    return 0;
+  }
   check_scene_word("--scene", request.scene);
   check_scene_word("--fit", request.fit);
   if (!request.gallery.empty()) check_folder("--gallery", request.gallery);
   if (!request.cost && request.fit.empty() && request.filters != FiltersRequest{}.filters)
     throw std::runtime_error("--filters requires --cost or --fit");
   if (!request.cost && request.fit.empty() && request.gallery.empty()) {
-    std::string text = request.json ? list_as_json() : render::filter_help();
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    print_line(text);
+    print_line(filter_list(request.json));
     flush_output();
     return 0;
   }
@@ -168,44 +197,46 @@ int run_filters(const FiltersRequest& request) {
 
 /// What --fit takes.
 std::vector<Option> fit_options(FiltersRequest& request) {
-  return {{.name = "--fit",
-           .target = &request.fit,
-           .help = "what each filter could do without on the maps of this scene: builtin:NAME or a glTF file",
-           .names = builtin_scene_words(),
-           .only_names = false,
-           .completion = Completion::files},
-          {.name = "--fit-bound",
-           .target = &request.fit_bound,
-           .help = "by how much its answers may then differ, in steps of 8 bits",
-           .range = {{0.0, 255.0}},
-           .needs = "--fit"},
-          {.name = "--fit-exceptions",
-           .target = &request.fit_exceptions,
-           .help = "percent of the receivers tried that may differ by more",
-           .range = {{0.0, 100.0}},
-           .needs = "--fit"}};
+  return {
+      {.name = "--fit",
+       .target = &request.fit,
+       .help =
+           "find the cheapest settings of each filter on the maps of this scene: builtin:NAME or a glTF file",
+       .names = builtin_scene_words(),
+       .only_names = false,
+       .completion = Completion::files},
+      {.name = "--fit-bound",
+       .target = &request.fit_bound,
+       .help = "largest difference in visibility that is accepted, steps of 1/255",
+       .range = {{0.0, 255.0}},
+       .needs = "--fit"},
+      {.name = "--fit-exceptions",
+       .target = &request.fit_exceptions,
+       .help = "percent of the tested receivers that may differ by more",
+       .range = {{0.0, 100.0}},
+       .needs = "--fit"}};
 }
 
 /// What the cost table takes.
 std::vector<Option> cost_options(FiltersRequest& request) {
   return {{.name = "--filters",
            .target = &request.filters,
-           .help = "of the cost table and --fit: names with their options, or all",
+           .help = "filters of --cost and --fit, with options as in vsm:radius=3; or all",
            .names = names_in(render::all_filters(), {"all"}),
            .only_names = false},
           {.name = "--map-sizes",
            .target = &request.map_sizes,
-           .help = "of the cost table: texels along each side of a map",
+           .help = "map sizes of --cost, texels along each side",
            .range = {{kLeastMapSize, kMostMapSize}},
            .needs = "--cost"},
           {.name = "--rounds",
            .target = &request.rounds,
-           .help = "of the cost table",
+           .help = "measuring rounds of --cost",
            .range = {{1, 1000}},
            .needs = "--cost"},
           {.name = "--scene",
            .target = &request.scene,
-           .help = "of the cost table and the last strip: builtin:NAME or a glTF file",
+           .help = "scene of --cost and --gallery: builtin:NAME or a glTF file",
            .names = builtin_scene_words(),
            .only_names = false,
            .completion = Completion::files}};
@@ -216,18 +247,26 @@ std::vector<Option> cost_options(FiltersRequest& request) {
 std::function<int()> declare_filters(Arguments& arguments) {
   const auto request = std::make_shared<FiltersRequest>();
   std::vector<Option>& options = arguments.options;
-  options = {
-      {.name = "--cost", .target = &request->cost, .help = "time and memory against `hard`, as a table"},
-      {.name = "--gallery",
-       .target = &request->gallery,
-       .help = "write the papers' comparisons as pictures to this folder",
-       .completion = Completion::folders}};
+  options = {{.name = "NAME",
+              .target = &request->name,
+              .help = "print the options of this filter: range, default, unit, use and source",
+              .names = names_in(render::all_filters()),
+              .only_names = false},
+             {.name = "--cost",
+              .target = &request->cost,
+              .help = "measure time and memory of each filter against hard, as a table"},
+             {.name = "--gallery",
+              .target = &request->gallery,
+              .help = "write the comparisons of the filters' papers as pictures into this folder",
+              .completion = Completion::folders}};
   for (Option& option : fit_options(*request)) options.push_back(std::move(option));
   for (Option& option : cost_options(*request)) options.push_back(std::move(option));
-  options.push_back({.name = "--json", .target = &request->json, .help = "list and cost table as JSON"});
+  options.push_back({.name = "--json",
+                     .target = &request->json,
+                     .help = "print the list, one filter or the table as JSON"});
   options.push_back({.name = "--context",
                      .target = &request->context,
-                     .help = "auto, osmesa or egl",
+                     .help = "OpenGL context: auto, osmesa or egl",
                      .names = {"auto", "osmesa", "egl"}});
   return [request] { return run_filters(*request); };
 }

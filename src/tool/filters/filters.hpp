@@ -9,6 +9,7 @@
 namespace gnomon::tool {
 
 struct FiltersRequest {
+  std::string name;  ///< the one filter to describe; empty: all are listed
   bool cost = false;
   bool json = false;
   std::string fit;                              ///< scene whose maps say what each filter needs; empty: none

@@ -103,16 +103,17 @@ std::string scene_help() {
   return text;
 }
 
+std::string prune_footer() {
+  std::string text = "Rules of --prune (docs/pruning.md):\n";
+  for (const PruneRuleInfo& rule : prune_rules()) text += fmt::format("  {:<20} {}\n", rule.name, rule.what);
+  return text;
+}
+
 Option prune_option(PlanOptions& plan) {
-  std::string rules;
-  std::vector<std::string> names{"all", "exact", "none"};
-  for (const PruneRuleInfo& rule : prune_rules()) {
-    rules += fmt::format("{}{}: {}", rules.empty() ? "" : "; ", rule.name, rule.what);
-    names.emplace_back(rule.name);
-  }
-  Option option =
-      plan_option("prune", plan, "what may be left out: all, exact, none, or RULE,.. of " + rules);
-  option.names = names;
+  Option option = plan_option(
+      "prune", plan, "work that may be omitted: default, all, exact, none, or rules joined by commas");
+  option.names = {"default", "all", "exact", "none"};
+  for (const PruneRuleInfo& rule : prune_rules()) option.names.emplace_back(rule.name);
   return option;
 }
 
@@ -127,62 +128,63 @@ std::vector<Option> flight_options(Request& request) {
            .completion = Completion::files},
           {.name = "--frames",
            .target = &options.frames,
-           .help = "pictures along the flight",
+           .help = "frames along the camera path",
            .range = {{1, kMaxFrames}},
            .given = &options.frames_given},
-          {.name = "--size", .target = &request.size, .help = "of a picture, WIDTHxHEIGHT"},
+          {.name = "--size", .target = &request.size, .help = "size of a frame in pixels, WIDTHxHEIGHT"},
           {.name = "--path",
            .target = &request.path,
-           .help = "camera flight, a JSON file; else the scene's own",
+           .help = "camera path, a JSON file; without it the scene's own",
            .completion = Completion::files},
           {.name = "--out",
            .target = &request.out,
-           .help = "folder that the files go to",
+           .help = "folder for the files",
            .completion = Completion::folders},
           {.name = "--json",
            .target = &options.json,
-           .help = "print files, options, and what each frame measured as one line of JSON"},
+           .help = "print files, options and the figures of each frame as one line of JSON"},
           {.name = "--context",
            .target = &request.context,
-           .help = "auto, osmesa, egl, or glfw for a window",
+           .help = "OpenGL context: auto, osmesa, egl, or glfw for a window",
            .names = {"auto", "osmesa", "egl", "glfw"}}};
 }
 
 /// What a plan may choose.
 std::vector<Option> map_options(Request& request) {
   PlanOptions& plan = request.options.plan;
-  Option split = plan_option("split", plan, "auto, uniform, logarithmic, practical, pseudo_near or optimal");
+  Option split = plan_option(
+      "split", plan,
+      "how view depths are divided: auto, uniform, logarithmic, practical, pseudo_near or optimal");
   std::erase(split.names, "given");  // a command line has no list of splits
   split.given = &request.split_given;
   Option lambda = plan_option("lambda", plan);
   lambda.given = &request.lambda_given;
-  return {plan_option("cascades", plan),
-          split,
-          lambda,
-          plan_option("warp", plan, any_of_text(plan_choice_names("warp"))),
-          {.name = "--compare-warps",
-           .target = &request.compared_warps,
-           .help = "draw every frame with each of these side by side as well, as in none,lispsm,auto",
-           .names = plan_choice_names("warp"),
-           .only_names = false,
-           .delimiter = ','},
-          plan_option("objective", plan, "what the warp lowers: storage, max or p95"),
-          plan_option("map_size", plan),
-          plan_option("fit", plan, "how maps are fitted: tight, rotated, stable or warped_stable"),
-          {.name = "--stable",
-           .target = &request.stable,
-           .help = "the same as --fit stable: texel grids that do not move with the camera"},
-          {.name = "--transition",
-           .target = &request.transition,
-           .help = "from map to map: cut at the split; blend or dither over the tenth of the map before it",
-           .names = {"cut", "blend", "dither"}},
-          {.name = "--history",
-           .target = &request.options.history,
-           .help = "let texels change smoothly from frame to frame; for flights of many frames"},
-          {.name = "--visible-depths",
-           .target = &request.options.visible_depths,
-           .help = "draw each frame twice and plan the second for the depths that the first one shows"},
-          prune_option(plan)};
+  return {
+      plan_option("cascades", plan),
+      split,
+      lambda,
+      plan_option("warp", plan, "perspective warp of the maps: " + any_of_text(plan_choice_names("warp"))),
+      {.name = "--compare-warps",
+       .target = &request.compared_warps,
+       .help = "also draw every frame with these warps side by side, as in none,lispsm,auto",
+       .names = plan_choice_names("warp"),
+       .only_names = false,
+       .delimiter = ','},
+      plan_option("objective", plan, "error that the warp minimises: storage, max or p95"),
+      plan_option("map_size", plan),
+      plan_option("fit", plan, "how maps are fitted: tight, rotated, stable or warped_stable"),
+      {.name = "--stable", .target = &request.stable, .help = "the same as --fit stable: texel-snapped maps"},
+      {.name = "--transition",
+       .target = &request.transition,
+       .help = "transition between cascades: cut; blend or dither over the last tenth of each",
+       .names = {"cut", "blend", "dither"}},
+      {.name = "--history",
+       .target = &request.options.history,
+       .help = "change texel density smoothly from frame to frame; for paths of many frames"},
+      {.name = "--visible-depths",
+       .target = &request.options.visible_depths,
+       .help = "draw each frame twice, and plan the second for the depths that the first shows"},
+      prune_option(plan)};
 }
 
 /// How large maps are, and what is chosen by itself.
@@ -190,47 +192,49 @@ std::vector<Option> budget_options(Request& request) {
   Options& options = request.options;
   return {{.name = "--map-memory-mib",
            .target = &options.map_memory_mib,
-           .help = "MiB that all maps may take together; larger ones are halved until they fit; 0: what "
-                   "there is",
+           .help = "memory for all maps, MiB; larger maps are halved until they fit; 0: no limit",
            .range = {{0.0, 1e9}}},
           {.name = "--max-triangles",
            .target = &options.max_triangles,
-           .help = "scenes of more, over all instances, are refused; one takes up to 100 bytes",
+           .help = "refuse scenes with more triangles, over all instances; each takes up to 100 bytes",
            .range = {{1, 1e9}}},
           {.name = "--resolution",
            .target = &request.resolution,
-           .help = "given by --map-size, or perceptual: the smallest maps whose texels the filter hides",
+           .help = "given: by --map-size; perceptual: the smallest maps whose texels the filter hides",
            .names = {"given", "perceptual"}},
           {.name = "--budget-ms",
            .target = &options.budget.milliseconds,
-           .help = "choose warp, maps and filter for the least error within these milliseconds; 0: no budget",
+           .help = "choose warp, maps and filter for the least error within this time, milliseconds; 0: off",
            .range = {{0.0, 1e9}}},
           {.name = "--target-error",
            .target = &options.budget.target_error,
-           .help = "choose the cheapest that brings m, in the mean over what is seen, to this; 0: none",
+           .help = "choose the cheapest technique whose mean aliasing error m is at most this; 0: off",
            .range = {{0.0, 1e9}}},
           {.name = "--cost-model",
            .target = &request.cost_model,
-           .help = "what gnomon calibrate wrote; without it texels are the cost",
+           .help = "cost model written by gnomon calibrate; without it cost is counted in texels",
            .completion = Completion::files}};
 }
 
 std::vector<Option> filter_options(Request& request) {
   Options& options = request.options;
-  return {{.name = "--filter",
-           .target = &request.filter,
-           .help = "NAME or NAME:OPTION=VALUE,.. as in pcf:radius=2,unit=texels; gnomon filters lists them",
-           .names = names_in(render::all_filters()),
-           .only_names = false},
-          {.name = "--filter-precision",
-           .target = &options.filter_precision,
-           .help = "let the filter store less where its answers on the maps just drawn differ by no more "
-                   "than this, in steps of 8 bits; asked after the first frame and every 60th; 0: never",
-           .range = {{0.0, 255.0}}},
-          {.name = "--blocker-distance",
-           .target = &options.blocker_distance,
-           .help = "world units from a shadow to what casts it, for pcss; 0: half the scene's height",
-           .range = {{0.0, 1e12}}}};
+  return {
+      {.name = "--filter",
+       .target = &request.filter,
+       .help = "shadow filter, with options as in pcf:radius=2,unit=texels; gnomon filters lists all, gnomon "
+               "filters NAME the options of one",
+       .names = names_in(render::all_filters()),
+       .only_names = false},
+      {.name = "--filter-precision",
+       .target = &options.filter_precision,
+       .help = "let the filter store less if visibility then changes by at most this, steps of 1/255; "
+               "checked at the first frame and every 60th; 0: off",
+       .range = {{0.0, 255.0}}},
+      {.name = "--blocker-distance",
+       .target = &options.blocker_distance,
+       .help =
+           "distance from receiver to caster that pcss is sized for, world units; 0: half the scene's height",
+       .range = {{0.0, 1e12}}}};
 }
 
 std::vector<Option> light_options(Request& request) {
@@ -241,11 +245,11 @@ std::vector<Option> light_options(Request& request) {
            .names = {"sun", "spot", "point"}},
           {.name = "--light-elevation-deg",
            .target = &light.elevation_deg,
-           .help = "of the sun above the horizon",
+           .help = "elevation of the sun above the horizon, degrees",
            .range = {{0.1, 90.0}}},
           {.name = "--light-azimuth-deg",
            .target = &light.azimuth_deg,
-           .help = "where the sun stands: 0 over -Z, 90 over +X",
+           .help = "azimuth of the sun, degrees: 0 is -Z, 90 is +X",
            .range = {{-360.0, 360.0}}}};
 }
 
@@ -260,6 +264,7 @@ std::function<int()> declare_fly(Arguments& arguments) {
                            fly::light_options}) {
     for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
   }
+  arguments.footer = fly::prune_footer();
   return [request] { return fly::run(fly::resolved(*request)); };
 }
 

@@ -12,7 +12,7 @@
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/load.hpp"
-#include "gnomon/technique.hpp"
+#include "gnomon/study/technique.hpp"
 
 namespace gnomon::tool::fly {
 

@@ -1,5 +1,5 @@
 // Which maps and which filter meet the budget, or the error, that was asked for?
-#include "gnomon/technique.hpp"
+#include "gnomon/study/technique.hpp"
 
 #include <fmt/core.h>
 
@@ -69,7 +69,7 @@ std::string text_of(const Technique& t, const Known& known) {
 
 void print_choice(const TechniqueChoice& choice, const Known& known) {
   fmt::print("technique: {}{}\n", text_of(choice.chosen, known),
-             choice.met ? "" : " (beyond what was asked for: nothing meets it)");
+             choice.met ? "" : " (no technique meets the request; this one is nearest)");
   if (choice.cheaper.map_size > 0) fmt::print("  a fifth cheaper: {}\n", text_of(choice.cheaper, known));
   if (choice.better.map_size > 0) fmt::print("  a fifth better:  {}\n", text_of(choice.better, known));
 }

@@ -71,26 +71,25 @@ std::function<int()> declare_plan(Arguments& arguments) {
   arguments.options = {
       {.name = "CASE",
        .target = &request->files,
-       .help = "case files in JSON; - reads one case per line from standard input",
+       .help = "JSON case files; - reads one case per line from standard input",
        .required = true,
        .completion = Completion::files},
       {.name = "--repeat",
        .target = &request->repeats,
-       .help = "add \"plan_ns\": what N plans of each case took",
+       .help = "time N plans of each case: adds \"plan_ns\"",
        .word = "N",
        .range = {{1, kMaxRepeats}}},
       {.name = "--logpsm",
        .target = &request->log_perspective,
-       .help = "add \"logpsm\": the error of one logarithmic perspective map, in numbers only"},
-      {.name = "--pretty", .target = &request->pretty, .help = "indent, several lines per plan"},
-      {.name = "--json", .target = &request->json, .help = "print JSON (always so here)"}};
+       .help = "add \"logpsm\": the aliasing error of one logarithmic perspective map"},
+      {.name = "--pretty", .target = &request->pretty, .help = "indent the JSON"},
+      {.name = "--json", .target = &request->json, .help = "print JSON; this is always the case"}};
   arguments.footer =
-      "Plans come in the order of the files and lines. The first bad case stops the run; the plans before\n"
-      "it are printed. An infinite error (a visible point that no map holds) is printed as null.\n"
-      "--repeat times each plan alone, in nanoseconds of the steady clock, the reading of the clock\n"
-      "included, after a warm-up that is dropped; \"allocations\" is the largest count of heap requests in\n"
-      "one plan. Exit: 0 done, also where a case needs no map; 2 bad input, with one line that names what\n"
-      "is wrong and where.";
+      "Plans are printed in the order of files and lines. The first bad case stops the run; the plans before "
+      "it are printed. An infinite error (a visible point that no map covers) is printed as null.\n\n"
+      "--repeat times each plan separately after a warm-up, in nanoseconds, including the reading of the "
+      "clock. \"allocations\" is the largest number of heap allocations in one plan.\n\n"
+      "Exit: 0 success, even if a case needs no map; 2 bad input, with one line that names the file and key.";
   return [request] { return run_plan(*request); };
 }
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/log_perspective.hpp"
 #include "gnomon/metric.hpp"
+#include "gnomon/study/log_perspective.hpp"
 
 namespace gnomon::tool {
 namespace {

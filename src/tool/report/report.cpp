@@ -62,7 +62,7 @@ Option folders_option(FoldersRequest& request) {
 }
 
 Option json_option(FoldersRequest& request) {
-  return {.name = "--json", .target = &request.json, .help = "print what was done as one line of JSON"};
+  return {.name = "--json", .target = &request.json, .help = "print a summary as one line of JSON"};
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ std::function<int()> declare_merge(Arguments& arguments) {
   arguments.options = {folders_option(*request),
                        {.name = "--out",
                         .target = &request->out,
-                        .help = "folder that the whole goes to",
+                        .help = "folder for the joined results and the report",
                         .completion = Completion::folders},
                        json_option(*request)};
   return [request] { return run_merge(request->folders, request->out, request->json); };

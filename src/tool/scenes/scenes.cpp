@@ -78,7 +78,7 @@ std::function<int()> declare_scenes(Arguments& arguments) {
                         .names = scene_names(),
                         .only_names = false,
                         .words = 2},
-                       {.name = "--json", .target = &request->json, .help = "list as JSON"}};
+                       {.name = "--json", .target = &request->json, .help = "print the list as JSON"}};
   return [request] {
     return request->write.empty() ? list_scenes(request->json)
                                   : write_scene(request->write[0], request->write[1]);

@@ -122,48 +122,48 @@ std::function<int()> declare_stress(Arguments& arguments) {
   arguments.options = {
       {.name = "--axis",
        .target = &request->axes,
-       .help = "names of axes, or all; alone, without the cases",
+       .help = "stress parameters to run, or all; without --cases only these",
        .names = axis_names(),
        .only_names = false},
-      {.name = "--cases", .target = &request->cases, .help = "the extreme cases; alone, without the axes"},
+      {.name = "--cases",
+       .target = &request->cases,
+       .help = "run the extreme cases; without --axis only these"},
       {.name = "--filters",
        .target = &request->filters,
-       .help = "filters where formats run out, shader against double; alone, only these"},
+       .help = "compare filters at the limits of their formats, shader against double"},
       {.name = "--context",
        .target = &request->context,
-       .help = "of --filters: auto, osmesa or egl",
+       .help = "OpenGL context of --filters: auto, osmesa or egl",
        .names = {"auto", "osmesa", "egl"}},
       {.name = "--samples",
        .target = &request->samples,
-       .help = "values per axis, about",
+       .help = "approximate number of values per stress parameter",
        .range = {{2, 100'000}}},
       {.name = "--scenes",
        .target = &request->scenes,
-       .help = "per value: a plain one and random ones",
+       .help = "scenes per value: one plain scene and random ones",
        .range = {{1, 100'000}}},
       // Below the largest that fits: CLI11 takes what does not fit, and what is negative, for that one.
       {.name = "--seed",
        .target = &request->seed,
-       .help = "of the random scenes",
+       .help = "seed of the random scenes",
        .range = {{0, static_cast<double>(std::uint64_t{1} << 62)}}},
       {.name = "--out",
        .target = &request->out,
-       .help =
-           "folder for stability.jsonl, which gnomon report shows, and stability.csv; of --random for cases "
-           "that fail",
+       .help = "folder for stability.jsonl and stability.csv, or with --random for failing cases",
        .completion = Completion::folders},
       {.name = "--random",
        .target = &request->random,
-       .help = "random cases over all legal input; alone, only these",
+       .help = "check N random cases over all legal input, and nothing else",
        .range = {{1, 1e12}}},
       {.name = "--replay",
        .target = &request->replay,
-       .help = "case files, checked as random cases are; alone, only these",
+       .help = "check these case files as --random does, and nothing else",
        .completion = Completion::files},
       {.name = "--json", .target = &request->json, .help = "print a JSON object per row"},
       {.name = "--csv", .target = &request->csv, .help = "print CSV", .excludes = "--json"}};
   arguments.footer =
-      "Exit: 0 all cases hold; 1 one does not, or a plan holds what is no number; 2 bad input.";
+      "Exit: 0 all cases hold; 1 a case fails, or a plan contains a value that is not finite; 2 bad input.";
   return [request] { return run_stress(*request); };
 }
 

@@ -134,7 +134,7 @@ TEST(ConvolutionFilter, averages_without_bleeding_where_two_occluders_overlap) {
               0.03);
 }
 
-TEST(ConvolutionFilter, answers_the_same_on_gpu_and_cpu_for_every_order) {
+TEST(ConvolutionFilter, returns_the_same_on_gpu_and_cpu_for_every_order) {
   const TestMap map = random_map(24, 19, 21);
   const std::vector<Question> questions = random_questions(map, 256, 22, 4);
   for (const int order : {1, 2, 3, 5, 8, 16}) {

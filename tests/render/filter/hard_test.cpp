@@ -30,7 +30,7 @@ TEST(HardFilter, compares_the_receivers_plane_at_the_texels_centre) {
   EXPECT_EQ(filters::hard.reference.visibility({}, lookup_in(0.61f, {3.25, 3.5}, 0.5, {0.4, 0.0}), {}), 1.0);
 }
 
-TEST(HardFilter, answers_the_same_on_gpu_and_cpu) {
+TEST(HardFilter, returns_the_same_on_gpu_and_cpu) {
   // Sides that are no powers of two too: texel centres over the side are then rounded.
   for (const auto& [width, height] : {std::pair{64, 64}, std::pair{48, 83}}) {
     const TestMap map = random_map(width, height, 1);

@@ -74,7 +74,7 @@ TEST(LvsmFilter, is_a_bound_in_every_layer_so_that_the_least_of_them_is_one) {
   }
 }
 
-TEST(LvsmFilter, covers_all_depths_with_layers_that_overlap_by_what_is_asked) {
+TEST(LvsmFilter, covers_all_depths_with_layers_that_overlap_as_requested) {
   EXPECT_EQ(even_layer(0, 1, 0.5).begin, 0.0);
   EXPECT_EQ(even_layer(0, 1, 0.5).end, 1.0);
   for (int i = 1; i < 4; ++i) {
@@ -194,7 +194,7 @@ TEST(LvsmFilter, bleeds_less_where_layers_are_placed_between_the_depths_of_the_m
   EXPECT_LT(placed, 0.1 * even);
 }
 
-TEST(LvsmFilter, gives_the_same_answers_on_the_gpu_where_layers_are_placed) {
+TEST(LvsmFilter, returns_the_same_on_the_gpu_where_layers_are_placed) {
   FilterSettings settings = settings_from("lvsm:placement=1,radius=2");
   const TestMap map = random_map(40, 40, 21);
   filters::lvsm.hooks.adapt(settings, map.depth);

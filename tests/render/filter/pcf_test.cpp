@@ -94,7 +94,7 @@ TEST(PcfFilter, is_lit_where_the_receivers_plane_goes_on_behind_the_far_plane) {
   for (const double radius : kRadii) EXPECT_NEAR(see(lookup, radius), 1.0, kWeights);
 }
 
-TEST(PcfFilter, answers_the_same_on_gpu_and_cpu_for_every_width) {
+TEST(PcfFilter, returns_the_same_on_gpu_and_cpu_for_every_width) {
   for (const auto& [width, height] : {std::pair{64, 64}, std::pair{48, 83}}) {
     const TestMap map = random_map(width, height, 3);
     const std::vector<Question> questions = random_questions(map, 2048, 4);
@@ -131,7 +131,7 @@ TEST(PcfFilter, reads_no_further_than_it_says) {
   }
 }
 
-TEST(PcfFilter, answers_the_same_on_gpu_and_cpu_for_discs_of_samples) {
+TEST(PcfFilter, returns_the_same_on_gpu_and_cpu_for_discs_of_samples) {
   const TestMap map = random_map(48, 83, 5);
   const std::vector<Question> questions = random_questions(map, 2048, 6);
   for (const char* text : {"pcf:pattern=1,radius=3", "pcf:pattern=2,radius=4,samples=32",

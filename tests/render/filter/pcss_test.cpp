@@ -54,7 +54,7 @@ TEST(PcssFilter, has_penumbras_as_wide_as_the_lights_angle_times_the_distance) {
   EXPECT_LT(penumbra_texels(0.1, settings), 3.0);
 }
 
-TEST(PcssFilter, widens_as_the_papers_formula_says_for_lights_with_a_position) {
+TEST(PcssFilter, widens_by_the_papers_formula_for_local_lights) {
   // The golden rows give the penumbra's full width for a light of that width, by distances from the light.
   int checked = 0;
   for (const nlohmann::json& row : golden_filters().at("pcss")) {
@@ -82,7 +82,7 @@ TEST(PcssFilter, widens_as_the_papers_formula_says_for_lights_with_a_position) {
   EXPECT_GE(checked, 2);
 }
 
-TEST(PcssFilter, answers_nearly_always_the_same_on_gpu_and_cpu) {
+TEST(PcssFilter, returns_nearly_always_the_same_on_gpu_and_cpu) {
   const TestMap map = random_map(48, 47, 5);
   const std::vector<Question> questions = random_questions(map, 1024, 6, 2);
   const FilterSettings settings = settings_from("pcss:radius=4,angle_deg=8");

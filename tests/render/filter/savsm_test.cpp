@@ -40,7 +40,7 @@ TEST(SavsmFilter, keeps_more_bits_than_sums_over_the_whole_map_could) {
   }
 }
 
-TEST(SavsmFilter, answers_the_same_in_all_corners_of_a_map_of_2048_texels) {
+TEST(SavsmFilter, returns_the_same_in_all_corners_of_a_map_of_2048_texels) {
   // The same 32 x 32 depths in every corner, everything else in between: sums wrap round many times.
   constexpr int kSide = 2048, kPatch = 32;
   const TestMap patch = random_map(kPatch, kPatch, 31);

@@ -40,7 +40,7 @@ TEST(VsmFilter, is_exact_for_two_depths_at_the_nearer_one_and_bleeds_just_behind
   EXPECT_NEAR(filters::vsm.reference.visibility(mean, lookup, settings), 0.0625 / (0.0625 + 0.09), 1e-12);
 }
 
-TEST(VsmFilter, never_answers_less_than_the_share_that_is_lit) {
+TEST(VsmFilter, never_returns_less_than_the_share_that_is_lit) {
   const FilterSettings settings = settings_from("vsm:bleed=0,floor=0,slope=0");
   for (const GoldenRow& row : golden_rows()) {
     FilterLookup lookup;

@@ -1,0 +1,69 @@
+// The shape: how texels lie on the square that a map's matrix projects to. Metric, bias, culling and look-up
+// ask it, so that nothing else knows shapes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/mat2x2.hpp>
+#include <glm/vec2.hpp>
+#include <span>
+#include <string_view>
+
+namespace gnomon {
+
+/// Numbers that a shape is set by; what they mean is the shape's own. At most three, so that shaders get them
+/// in one vector.
+using ShapeParameters = std::array<double, 3>;
+
+/// A place in a map, and how it moves with the point in normalized device coordinates.
+struct ShapedPoint {
+  glm::dvec2 texel;           ///< texels, from the corner at ndc (-1, -1)
+  glm::dmat2 texel_from_ndc;  ///< derivative: column 0 along ndc x, column 1 along ndc y
+};
+
+/// A rectangle along the axes, of ndc or of texels.
+struct ShapeRectangle {
+  glm::dvec2 low, high;
+};
+
+/// One entry of the registry shapes.def. `size`: width and height of the map in texels. Every function takes
+/// any finite place; off the square -1..1 the shape goes on as its formula does.
+struct Shape {
+  std::string_view name;
+  std::string_view summary;
+  /// True where the derivative is the same everywhere: straight lines stay straight, so that triangles are
+  /// drawn as they are, and a map may be scrolled.
+  bool affine;
+  ShapedPoint (*place)(const ShapeParameters& parameters, const glm::dvec2& size,
+                       const glm::dvec2& ndc) noexcept;
+  /// The smallest rectangle of texels round what a rectangle of ndc becomes, and the reverse.
+  ShapeRectangle (*texel_bounds)(const ShapeParameters& parameters, const glm::dvec2& size,
+                                 const ShapeRectangle& ndc) noexcept;
+  ShapeRectangle (*ndc_bounds)(const ShapeParameters& parameters, const glm::dvec2& size,
+                               const ShapeRectangle& texels) noexcept;
+};
+
+/// All shapes, in the order of shapes.def.
+[[nodiscard]] std::span<const Shape* const> all_shapes() noexcept;
+/// nullptr where there is none of that name.
+[[nodiscard]] const Shape* find_shape(std::string_view name) noexcept;
+
+namespace shapes {
+#define GNOMON_SHAPE(name) extern const Shape name;
+#include "gnomon/shapes.def"
+#undef GNOMON_SHAPE
+}  // namespace shapes
+
+/// The texels of one map: how many there are and how they lie.
+struct TexelGrid {
+  int width = 0, height = 0;             ///< texels
+  const Shape* shape = &shapes::linear;  ///< never nullptr
+  ShapeParameters parameters{};          ///< of the shape
+
+  [[nodiscard]] glm::dvec2 size() const noexcept { return {width, height}; }
+  [[nodiscard]] ShapedPoint place(const glm::dvec2& ndc) const noexcept {
+    return shape->place(parameters, size(), ndc);
+  }
+};
+
+}  // namespace gnomon

@@ -1,0 +1,9 @@
+// gnomon::shapes::linear: texels of one size over the whole square.
+#ifndef GNOMON_LIBRARY_SHAPE_LINEAR_GLSL
+#define GNOMON_LIBRARY_SHAPE_LINEAR_GLSL
+#include "library/shaped_point.glsl"
+
+ShapedPoint place_linear(vec3 parameters, vec2 size, vec2 ndc) {
+  return ShapedPoint((ndc * 0.5 + 0.5) * size, mat2(0.5 * size.x, 0.0, 0.0, 0.5 * size.y));
+}
+#endif

@@ -1,0 +1,88 @@
+// The words for an option's value, shared by --help and manual pages.
+#include "option_words.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <type_traits>
+
+namespace gnomon::tool {
+namespace {
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+template <class Words>
+std::string joined(const Words& words) {
+  std::string all;
+  for (const auto& word : words) {
+    all += all.empty() ? "" : ",";
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(word)>, int>) {
+      all += std::to_string(word);
+    } else {
+      all += word;
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string number_word(double value) {
+  std::string text = std::to_string(value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+bool takes_list(const Option& option) {
+  return std::holds_alternative<std::vector<int>*>(option.target) ||
+         std::holds_alternative<std::vector<std::string>*>(option.target);
+}
+
+bool is_positional(const Option& option) {
+  return !option.name.starts_with('-');
+}
+
+std::string value_word(const Option& option) {
+  if (std::holds_alternative<bool*>(option.target)) return {};
+  if (!option.word.empty()) return option.word;
+  if (!option.names.empty()) return "NAME";
+  if (option.completion == Completion::files) return "FILE";
+  if (option.completion == Completion::folders) return "DIR";
+  const bool text = std::holds_alternative<std::string*>(option.target) ||
+                    std::holds_alternative<std::vector<std::string>*>(option.target);
+  return text ? "TEXT" : "N";
+}
+
+std::string default_word(const Option& option) {
+  return std::visit(
+      [&option](const auto& target) -> std::string {
+        using Type = std::remove_cvref_t<decltype(target)>;
+        if constexpr (std::is_same_v<Type, bool*>) {
+          return {};
+        } else if constexpr (std::is_same_v<Type, ParsedWord>) {
+          return target.shown;
+        } else if constexpr (std::is_same_v<Type, std::string*>) {
+          return *target;
+        } else if constexpr (std::is_same_v<Type, std::vector<std::string>*> ||
+                             std::is_same_v<Type, std::vector<int>*>) {
+          return joined(*target);
+        } else {
+          const auto value = static_cast<double>(*target);
+          // A value outside of the range marks an option that is not given.
+          const bool legal = !option.range || (value >= (*option.range)[0] && value <= (*option.range)[1]);
+          return legal ? number_word(value) : std::string();
+        }
+      },
+      option.target);
+}
+
+std::string positional_word(const Option& option) {
+  const std::string word = upper(option.name) + (takes_list(option) ? "..." : "");
+  return option.required ? word : "[" + word + "]";
+}
+
+}  // namespace gnomon::tool

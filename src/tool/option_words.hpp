@@ -1,0 +1,22 @@
+// How an option appears in texts: the word that stands for its value, its range and its default.
+#pragma once
+
+#include <string>
+
+#include "command.hpp"
+
+namespace gnomon::tool {
+
+/// The shortest decimal form, without trailing zeros.
+[[nodiscard]] std::string number_word(double value);
+/// "NAME", "FILE", "DIR", "N" or "TEXT"; empty for a flag.
+[[nodiscard]] std::string value_word(const Option& option);
+/// The value that an option has when it is not given; empty where there is none.
+[[nodiscard]] std::string default_word(const Option& option);
+/// True where the option takes several words.
+[[nodiscard]] bool takes_list(const Option& option);
+[[nodiscard]] bool is_positional(const Option& option);
+/// The positional's word in a synopsis: "[SCENE]", "CASE...".
+[[nodiscard]] std::string positional_word(const Option& option);
+
+}  // namespace gnomon::tool

@@ -1,0 +1,256 @@
+// Do shapes keep their word, and do metric, bias, selection and culling go through them? A bent shape that no
+// plan makes shows the second.
+#include "gnomon/shape.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <iterator>
+#include <string>
+
+#include "gnomon/bias.hpp"
+#include "gnomon/metric.hpp"
+#include "gnomon/plan.hpp"
+#include "gnomon/reuse.hpp"
+#include "gnomon/shader_block.hpp"
+#include "support/near.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr double kStep = 1e-5;      // of finite differences
+constexpr double kRounding = 1e-8;  // of central differences with that step, of a texel count of hundreds
+
+/// Texels crowd towards ndc x = -1, and rows lean: parameter 0 says how much, below 1/2.
+ShapedPoint bend(const ShapeParameters& p, const glm::dvec2& size, const glm::dvec2& ndc) noexcept {
+  const double u = ndc.x - p[0] * (ndc.x * ndc.x - 1.0),
+               v = ndc.y + p[0] * (ndc.x + 1.0) * (1.0 - ndc.y * ndc.y);
+  return {(glm::dvec2(u, v) * 0.5 + 0.5) * size,
+          {0.5 * size.x * (1.0 - 2.0 * p[0] * ndc.x), 0.5 * size.y * p[0] * (1.0 - ndc.y * ndc.y), 0.0,
+           0.5 * size.y * (1.0 - 2.0 * p[0] * (ndc.x + 1.0) * ndc.y)}};
+}
+/// Of all texels that are shown, which is right for any rectangle.
+ShapeRectangle whole_texels(const ShapeParameters&, const glm::dvec2& size, const ShapeRectangle&) noexcept {
+  return {{0.0, 0.0}, size};
+}
+ShapeRectangle whole_ndc(const ShapeParameters&, const glm::dvec2&, const ShapeRectangle&) noexcept {
+  return {{-1.0, -1.0}, {1.0, 1.0}};
+}
+const Shape kBent{"bent", "for this test", false, bend, whole_texels, whole_ndc};
+
+/// Every registered shape, and the bent one, as grids to look at.
+std::vector<TexelGrid> grids() {
+  std::vector<TexelGrid> all;
+  for (const Shape* shape : all_shapes()) all.push_back({640, 384, shape, {}});
+  all.push_back({640, 384, &kBent, {0.2, 0.0, 0.0}});
+  return all;
+}
+
+/// A warped map of a plan, its texels bent.
+struct Bent {
+  Camera camera = perspective_camera({0, 5, 10}, {0.1, -0.3, -1}, {0, 1, 0}, 1.0, 1.5, 0.5, 60.0, 600, 400);
+  std::array<Box, 2> boxes{{{{-20, 0, -60}, {20, 1, 8}}, {{-2, 1, -20}, {2, 6, -10}}}};
+  ShadowPlan plan;
+  ShadowMap map;
+
+  Bent() {
+    PlanOptions options;
+    options.cascades = 1;
+    options.resolution.max_size = 512;
+    options.filter.texels = 2;
+    plan = make_plan(camera, DirectionalLight{{0.3, -1.0, 0.2}}, {boxes, boxes}, options);
+    map = plan.map[0];
+    map.shape = &kBent;
+    map.shape_parameters = {0.2, 0.0, 0.0};
+  }
+  [[nodiscard]] glm::dvec2 texel(const glm::dvec3& p) const {
+    const glm::dvec4 clip = map.clip_from_world * glm::dvec4(p, 1.0);
+    return map.texels().place(glm::dvec2(clip) / clip.w).texel;
+  }
+  /// d(texel)/d(world) along `way`, by differences.
+  [[nodiscard]] glm::dvec2 slope(const glm::dvec3& p, const glm::dvec3& way) const {
+    return (texel(p + kStep * way) - texel(p - kStep * way)) / (2.0 * kStep);
+  }
+};
+const std::array<glm::dvec3, 4> kPoints{{{0, 1, 0}, {-3, 0.5, -8}, {2, 1, -25}, {1, 3, -10}}};
+
+TEST(Shape, the_registry_finds_each_by_its_name) {
+  ASSERT_FALSE(all_shapes().empty());
+  for (const Shape* shape : all_shapes()) {
+    EXPECT_EQ(find_shape(shape->name), shape);
+    EXPECT_FALSE(shape->summary.empty());
+  }
+  EXPECT_EQ(find_shape("bent"), nullptr);
+  EXPECT_EQ(ShadowMap{}.shape, &shapes::linear);
+}
+
+TEST(Shape, linear_texels_by_hand) {
+  const ShapedPoint p = TexelGrid{8, 4}.place({0.5, -0.5});
+  EXPECT_EQ(p.texel, glm::dvec2(6, 1));
+  EXPECT_EQ(p.texel_from_ndc, glm::dmat2(4, 0, 0, 2));
+  EXPECT_TRUE(shapes::linear.affine);
+}
+
+TEST(Shape, derivatives_are_those_of_finite_differences) {
+  for (const TexelGrid& grid : grids()) {
+    for (double x = -0.9; x < 1.0; x += 0.3) {
+      for (double y = -0.9; y < 1.0; y += 0.3) {
+        const glm::dmat2 d = grid.place({x, y}).texel_from_ndc;
+        for (int axis = 0; axis < 2; ++axis) {
+          glm::dvec2 step(0.0);
+          step[axis] = kStep;
+          const glm::dvec2 slope =
+              (grid.place(glm::dvec2(x, y) + step).texel - grid.place(glm::dvec2(x, y) - step).texel) /
+              (2 * kStep);
+          EXPECT_NEAR(d[axis].x, slope.x, kRounding * grid.width) << grid.shape->name;
+          EXPECT_NEAR(d[axis].y, slope.y, kRounding * grid.width) << grid.shape->name;
+        }
+      }
+    }
+  }
+}
+
+TEST(Shape, the_square_fills_the_map_and_rectangles_hold_what_they_bound) {
+  for (const TexelGrid& grid : grids()) {
+    const ShapeRectangle ndc{{-0.6, -0.2}, {0.1, 0.7}};
+    const ShapeRectangle texels = grid.shape->texel_bounds(grid.parameters, grid.size(), ndc);
+    const ShapeRectangle back = grid.shape->ndc_bounds(grid.parameters, grid.size(), texels);
+    for (double s = 0.0; s <= 1.0; s += 0.125) {
+      for (double t = 0.0; t <= 1.0; t += 0.125) {
+        const glm::dvec2 all = grid.place({2.0 * s - 1.0, 2.0 * t - 1.0}).texel;
+        EXPECT_TRUE(all.x >= -1e-9 && all.y >= -1e-9 && all.x <= grid.width + 1e-9 &&
+                    all.y <= grid.height + 1e-9);
+        const glm::dvec2 at = glm::mix(ndc.low, ndc.high, glm::dvec2(s, t));
+        const glm::dvec2 texel = grid.place(at).texel;
+        for (int axis = 0; axis < 2; ++axis) {
+          EXPECT_GE(texel[axis], texels.low[axis] - 1e-9) << grid.shape->name;
+          EXPECT_LE(texel[axis], texels.high[axis] + 1e-9) << grid.shape->name;
+          EXPECT_GE(at[axis], back.low[axis] - 1e-12) << grid.shape->name;
+          EXPECT_LE(at[axis], back.high[axis] + 1e-12) << grid.shape->name;
+        }
+      }
+    }
+  }
+}
+
+TEST(Shape, the_metric_measures_the_bent_texels) {
+  const Bent b;
+  for (const glm::dvec3& p : kPoints) {
+    const PointAliasing m = measure_point(b.map, b.camera, p, {0, 1, 0});
+    ASSERT_EQ(m.status, PointAliasing::Status::ok);
+    // On the ground: how far the ray through the next pixel moves on it, in texels.
+    const glm::dvec3 ray = p - b.camera.position;
+    const CameraAxes axes = camera_axes(b.camera);
+    const double depth = glm::dot(ray, axes.forward);
+    glm::dmat2 texels_per_pixel;
+    const std::array<glm::dvec3, 2> pixel{
+        axes.right * ((b.camera.right - b.camera.left) / b.camera.width * depth),
+        axes.up * ((b.camera.top - b.camera.bottom) / b.camera.height * depth)};
+    for (int i = 0; i < 2; ++i) {
+      const glm::dvec3 way = pixel[static_cast<std::size_t>(i)];
+      texels_per_pixel[i] = b.slope(p, way - ray * (way.y / ray.y));
+    }
+    const glm::dmat2 pixels_per_texel = glm::inverse(texels_per_pixel);
+    EXPECT_NEAR(m.m_s / glm::length(pixels_per_texel[0]), 1.0, 1e-5);
+    EXPECT_NEAR(m.m_t / glm::length(pixels_per_texel[1]), 1.0, 1e-5);
+  }
+}
+
+TEST(Shape, biases_see_the_bent_texels) {
+  const Bent b;
+  const glm::dvec3 light = b.plan.light_direction;
+  for (const glm::dvec3& p : kPoints) {
+    const glm::dvec2 extent = texel_extent_world(b.map.clip_from_world, b.map.texels(), light, p);
+    const glm::dvec3 x = glm::normalize(glm::cross(light, {0, 1, 0})), y = glm::cross(light, x);
+    const glm::dvec2 along_x = b.slope(p, x), along_y = b.slope(p, y);
+    const glm::dmat2 world = glm::inverse(glm::dmat2(along_x, along_y));
+    EXPECT_NEAR(extent.x / glm::length(world[0]), 1.0, 1e-5);
+    EXPECT_NEAR(extent.y / glm::length(world[1]), 1.0, 1e-5);
+    // Along the plane, the depth changes by the gradient times the way in texels.
+    const ReceiverPlane plane =
+        receiver_plane({b.map.clip_from_world, b.map.texels(), light, p, glm::dvec3(0, 1, 0)});
+    ASSERT_TRUE(plane.valid);
+    for (const glm::dvec3 way : {glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1)}) {
+      const auto depth = [&](double s) {
+        const glm::dvec4 clip = b.map.clip_from_world * glm::dvec4(p + s * way, 1.0);
+        return clip.z / clip.w;
+      };
+      const double rise = (depth(kStep) - depth(-kStep)) / (2.0 * kStep);
+      EXPECT_NEAR(glm::dot(plane.gradient, b.slope(p, way)), rise, 1e-6 * (1.0 + std::abs(rise)));
+    }
+  }
+}
+
+TEST(Shape, a_point_is_held_where_its_texel_is_off_the_border) {
+  const Bent b;
+  // Along a line through the map: held exactly where the bent texel keeps the margin.
+  int held = 0, outside = 0;
+  for (double s = -1.2; s <= 1.2; s += 0.01) {
+    const glm::dvec4 h = glm::inverse(b.map.clip_from_world) * glm::dvec4(s, 0.3, 0.0, 1.0);
+    const glm::dvec3 p = glm::dvec3(h) / h.w;
+    const glm::dvec2 texel = b.texel(p);
+    const double margin = b.map.filter_margin_texels;
+    const double inside =
+        std::min({texel.x, texel.y, b.map.width - texel.x, b.map.height - texel.y}) - margin;
+    if (std::abs(inside) < 0.5) continue;             // left to rounding
+    if (std::abs(s) > 1.0 && inside > 0.0) continue;  // the formula goes on beyond the square
+    EXPECT_EQ(map_holds(b.plan, b.map, p), inside > 0.0) << s;
+    ++(inside > 0.0 ? held : outside);
+  }
+  EXPECT_GT(held, 100);
+  EXPECT_GT(outside, 10);
+}
+
+TEST(Shape, a_bent_map_is_never_scrolled_and_its_rectangles_hold_all_they_show) {
+  const Bent b;
+  PlanOptions options;
+  options.cascades = 1;
+  options.fit = Fit::stable;
+  ShadowMap map = make_plan(b.camera, DirectionalLight{{0.3, -1.0, 0.2}}, {b.boxes, b.boxes}, options).map[0];
+  ASSERT_TRUE(map.snap_key.valid);
+  ShadowMap moved = map;
+  moved.snap_key.x += 3;
+  ASSERT_EQ(reuse(map, moved).kind, ReuseKind::scrolled);
+  map.shape = moved.shape = &kBent;
+  EXPECT_EQ(reuse(map, moved).kind, ReuseKind::none);
+  EXPECT_EQ(reuse(map, map).kind, ReuseKind::identical);
+  ShadowMap other = map;
+  other.shape_parameters[0] = 0.1;
+  EXPECT_EQ(reuse(map, other).kind, ReuseKind::none);
+  for (const glm::dvec4& plane : rectangle_planes(b.map, {100, 200, 50, 60})) {
+    for (const glm::dvec3& p : kPoints) {
+      const glm::dvec2 texel = b.texel(p);
+      if (texel.x < 100 || texel.y < 200 || texel.x > 150 || texel.y > 260) continue;
+      EXPECT_GE(glm::dot(glm::dvec3(plane), p) + plane.w, 0.0);
+    }
+  }
+}
+
+TEST(Shape, shaders_get_the_place_in_the_list_and_the_parameters) {
+  ShadowMap map;
+  map.shape_parameters = {1.0, 2.0, 3.0};
+  for (std::size_t i = 0; i < all_shapes().size(); ++i) {
+    map.shape = all_shapes()[i];
+    EXPECT_EQ(shader_shape(map), glm::vec4(static_cast<float>(i), 1.0f, 2.0f, 3.0f));
+  }
+}
+
+TEST(Shape, the_shader_library_calls_each_by_its_place) {
+  std::ifstream in(GNOMON_SOURCE_DIR "/shaders/library/shape.glsl");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  for (const Shape* shape : all_shapes()) {
+    const std::string name(shape->name);
+    std::string include = "#include \"library/shape/", call = "place_";
+    include.append(name).append(".glsl\"");
+    call.append(name).append("(");
+    EXPECT_NE(text.find(include), std::string::npos) << name;
+    EXPECT_NE(text.find(call), std::string::npos) << name;
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::test
