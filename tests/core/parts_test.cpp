@@ -43,7 +43,8 @@ double density(const ShadowMap& map, const glm::dvec3& light, const glm::dvec3& 
     return glm::dvec2(clip.x * map.width, clip.y * map.height) * (0.5 / clip.w);
   };
   const double step = 1e-4 * glm::length(p);
-  const glm::dvec2 a = texel(p + x * step) - texel(p - x * step), b = texel(p + y * step) - texel(p - y * step);
+  const glm::dvec2 a = texel(p + x * step) - texel(p - x * step),
+                   b = texel(p + y * step) - texel(p - y * step);
   return std::abs(a.x * b.y - a.y * b.x) / (4.0 * step * step);
 }
 
