@@ -43,6 +43,7 @@ struct Parts {
   std::array<Part, kMaxParts> part;
   int count = 0;
   double objective = 0.0;
+  bool no_place = false;  // a plane was looked for, and none has both maps equally dense
 };
 
 MapRequest request_of(const Part& part) noexcept {
@@ -195,7 +196,7 @@ double density_step(const PlanContext& c, const ParallelScene& scene, const Poly
 }
 
 /// Where along the length both maps' texels are as dense as each other: the nearer the plane, the denser the
-/// first map's and the sparser the second's.
+/// first map's and the sparser the second's. Below 0: nowhere, as the first map's best warp changes at once.
 double separating_place(const PlanContext& c, const ParallelScene& scene, const Polytope& body,
                         const Separation& s, double begin, double end, double first) noexcept {
   constexpr int kSteps = 24;
@@ -211,7 +212,7 @@ double separating_place(const PlanContext& c, const ParallelScene& scene, const 
     at = low > 0.0 ? std::sqrt(low * high) : 0.5 * high;
     if (high < 4.0 * low) at = 0.5 * (low + high);
   }
-  return at;
+  return -1.0;
 }
 
 /// The part before the plane where warping ends, and the one behind; none where nothing is warped.
@@ -224,6 +225,8 @@ Parts separated_parts(const PlanContext& c, const ParallelScene& scene, const Po
   const Separation s{frame.x * map.choice.axis.x + frame.y * map.choice.axis.y, map.u_min, map.length};
   const double at =
       separating_place(c, scene, body, s, begin, end, separating_share(map.choice.kappa, map.length));
+  parts.no_place = at < 0.0;
+  if (parts.no_place) return parts;
   for (int side = 0; side < 2; ++side) add_part(c, body, side_part(scene, s, begin, end, side, at), parts);
   return parts;
 }
@@ -291,12 +294,13 @@ void plan_parts(const PlanContext& c, const ParallelScene& scene, ShadowPlan& pl
   add_part(c, body, all, whole);
   const Parts parts = divided(c, scene, body, begin, end);
   const bool gains = parts.count > 1 && parts.objective < whole.objective * (1.0 - kLeastGain);
-  if (gains && c.options.split.partition == Partition::separating_plane) {
+  if ((gains || parts.no_place) && c.options.split.partition == Partition::separating_plane) {
     const double cascades = two_cascades(c, scene, body, begin, end);
-    if (cascades < parts.objective) {
+    const double beaten = gains ? parts.objective : whole.objective * (1.0 - kLeastGain);
+    if (cascades < beaten) {
       // As many maps, and better ones.
       plan_cascades(c, scene, 2, equal_sizes(c.options.resolution.max_size), nullptr, plan);
-      omit(plan, {OmissionKind::partition_without_gain, -1, parts.objective / cascades, 0.0, 0});
+      omit(plan, {OmissionKind::partition_without_gain, -1, beaten / cascades, 0.0, 0});
       return;
     }
   }
