@@ -54,7 +54,8 @@ struct WarpInput {
     double x, y;   ///< light plane
     double z;      ///< height towards the light: h of LightSpace
     double depth;  ///< extent in the light plane of a unit slope of the image: view depth (orthographic: 1)
-                   ///< over distance from a local light
+                   ///< over distance from a local light. Infinite where the map must hold the point and its
+                   ///< error does not count: nearer than pseudo_near
   };
   std::span<const Point> body;    ///< vertices of the visible receivers' body, at least one
   double y_min, y_max;            ///< of the body
@@ -73,7 +74,10 @@ struct WarpInput {
   double centre;       ///< x of the line along y that warps along the view project from; 0 for parallel light
   double scale_near;   ///< Point::depth at the body's point nearest to the viewer
   double depth_per_y;  ///< growth of Point::depth along y at constant height
-  WarpChoice unwarped;  ///< the map without a warp, to be beaten
+  WarpChoice unwarped;       ///< the map without a warp, to be beaten
+  double pseudo_near = 0.0;  ///< view depth from which error counts; 0: everywhere
+  /// 1 + kappa length of the strongest warp that a map can take: beyond it the plan drops the warp.
+  double most_stretch = 1e9;
 
   /// Neither camera nor light has a perspective to undo.
   [[nodiscard]] bool flat() const noexcept { return orthographic && !light.perspective; }

@@ -31,10 +31,10 @@ namespace gnomon {
   return y <= z ? glm::dvec3{0.0, 1.0, 0.0} : glm::dvec3{0.0, 0.0, 1.0};
 }
 
-[[nodiscard]] inline double min_of(double a, double b) noexcept {
+[[nodiscard]] inline constexpr double min_of(double a, double b) noexcept {
   return a < b ? a : b;
 }
-[[nodiscard]] inline double max_of(double a, double b) noexcept {
+[[nodiscard]] inline constexpr double max_of(double a, double b) noexcept {
   return a > b ? a : b;
 }
 [[nodiscard]] inline double clamp_to(double v, double lo, double hi) noexcept {

@@ -119,7 +119,7 @@ LightBody whole_frustum(const MapRequest& request, const LightBody& body) noexce
   whole.farthest = body.farthest;
   double depth = 0.0, height = body.point[0].z;
   for (const WarpInput::Point& p : body.points()) {
-    depth = max_of(depth, p.depth);
+    if (std::isfinite(p.depth)) depth = max_of(depth, p.depth);
     height = min_of(height, p.z);
   }
   for (int i = 0; i < 4; ++i) {

@@ -1,6 +1,7 @@
 // A body's vertices in light space, and the body as warps see it.
 #include "map/light_body.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -64,14 +65,33 @@ WarpInput::Point light_point(const PlanContext& c, const LightSpace& space, cons
 
 void add_vertices(const PlanContext& c, const MapRequest& request, const Polytope& body, double nearest,
                   LightBody& out) noexcept {
+  const double pseudo_near = c.options.split.pseudo_near;
   // Receivers in the room for motion are served from the slice's begin on.
   const double begin = request.room > 0.0 ? request.begin : 0.0;
-  const double least = max_of(max_of(c.camera.near_depth, c.options.split.pseudo_near), begin);
-  for (const Polytope::Vertex& v : body.vertices()) {
-    if (out.count < kMaxBodyPoints)
-      out.point[static_cast<std::size_t>(out.count++)] =
-          light_point(c, request.space, {v.position, glm::dot(c.axes.forward, v.position)}, least, nearest);
+  const double least = max_of(max_of(c.camera.near_depth, pseudo_near), begin);
+  const auto add = [&](const glm::dvec3& position, bool counts) {
+    if (out.count == kMaxBodyPoints) return;
+    WarpInput::Point& p = out.point[static_cast<std::size_t>(out.count++)];
+    p = light_point(c, request.space, {position, glm::dot(c.axes.forward, position)}, least, nearest);
+    if (!counts) p.depth = std::numeric_limits<double>::infinity();
+  };
+  const auto nearer = [&](const Polytope::Vertex& v) {
+    return glm::dot(c.axes.forward, v.position) < pseudo_near;
+  };
+  const auto vertices = body.vertices();
+  const bool cut = !c.camera.orthographic && std::any_of(vertices.begin(), vertices.end(), nearer);
+  Polytope counted;
+  if (cut) {
+    counted = body;
+    clip(counted, Plane{c.axes.forward, -pseudo_near});
   }
+  // The map holds the whole body; the error counts where the cut leaves something, and there is room to say
+  // so.
+  const bool from_cut =
+      cut && !counted.empty() && out.count + body.vertex_count + counted.vertex_count <= kMaxBodyPoints;
+  for (const Polytope::Vertex& v : vertices) add(v.position, !from_cut);
+  if (!from_cut) return;
+  for (const Polytope::Vertex& v : counted.vertices()) add(v.position, true);
 }
 
 /// The points that stand for the request's body: those of several views, or its vertices.
@@ -92,7 +112,7 @@ void hold_to_frustum(const MapRequest& request, LightBody& body) noexcept {
     usable = usable && max_of(std::abs(p.x), std::abs(p.y)) <= request.slope * kRounding;
     p.x = clamp_to(p.x, -request.slope * kRounding, request.slope * kRounding);
     p.y = clamp_to(p.y, -request.slope * kRounding, request.slope * kRounding);
-    depth = max_of(depth, p.depth);
+    if (std::isfinite(p.depth)) depth = max_of(depth, p.depth);
   }
   if (usable) return;
   body.count = body.count < kMaxBodyPoints - 4 ? body.count : kMaxBodyPoints - 4;
@@ -165,6 +185,7 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, cons
   const glm::dvec3 across = glm::cross(in.view.forward, light_way);
   in.sin_gamma = std::sqrt(glm::dot(across, across));
   in.cos_gamma = glm::dot(in.view.forward, light_way);
+  in.pseudo_near = c.camera.orthographic ? 0.0 : c.options.split.pseudo_near;
   in.depth_begin = max_of(request.begin, c.options.split.pseudo_near);
   in.depth_end = max_of(request.end, in.depth_begin);
   in.tan_half_fov = tan_half_fov(c, frame);
@@ -176,6 +197,7 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, cons
   in.light = space;
   in.centre = request.centre;
   in.unwarped = request.unwarped;
+  in.most_stretch = most_stretch(c, request, points);
   in.scale_near =
       space.perspective
           ? light_point(c, space, {first->position, nearest}, in.depth_begin, points.nearest).depth

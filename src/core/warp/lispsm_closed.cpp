@@ -1,6 +1,9 @@
 // LiSPSM with the strength that is best for the whole frustum, in closed form: for plans that must cost next
 // to nothing. Based on: Wimmer, Scherzer, Purgathofer, "Light Space Perspective Shadow Maps", 2004; Lloyd et
 // al. 2006 (the error measure). The closed form is derived for this project.
+#include <cmath>
+#include <limits>
+
 #include "geometry/vector.hpp"
 #include "gnomon/warp.hpp"
 #include "warp/formulas.hpp"
@@ -16,8 +19,10 @@ WarpChoice choose(const WarpInput& input) noexcept {
   const double eye_y = light.perspective ? -light.apex.y / light.apex.z : 0.0;
   FrustumProfile profile{input.depth_begin, input.depth_end, 0.0, 0.0};
   if (light.perspective) {
-    profile.near_depth = profile.far_depth = input.body.front().depth;
+    profile.near_depth = std::numeric_limits<double>::infinity();
+    profile.far_depth = 0.0;
     for (const WarpInput::Point& p : input.body) {
+      if (!std::isfinite(p.depth)) continue;
       profile.near_depth = min_of(profile.near_depth, p.depth);
       profile.far_depth = max_of(profile.far_depth, p.depth);
     }

@@ -56,28 +56,69 @@ InverseDepthBounds inverse_depth_bounds(const Polytope& body, const ViewInLight&
 
 }  // namespace
 
-PlaneError::PlaneError(const WarpInput& input) noexcept : input_(input) {
-  // Fewer samples make no percentile: the body shows in a few pixels only.
-  constexpr int kTooFew = 20;
-  if (input.objective == Objective::p95 && !input.orthographic) add_visible_points();
-  share_ = kShareAbove95;
-  if (count_ >= kTooFew) return;
-  count_ = 0;
-  share_ = 0.0;
-  // First, as there may be no room for all.
-  const bool focused = input.focus != nullptr && !input.focus->empty();
-  const double outside = focused ? input.focus_weight : 1.0;
-  if (focused) add_vertices_and_edges(*input.focus, 1.0);
-  add_vertices_and_edges(*input.polytope, outside);
-  if (!input.light.perspective) return;
-  // The worst texel may lie inside a face or the body: the light's rays fan out, and with them the warp.
-  add_faces(*input.polytope, outside);
-  if (!input.orthographic) add_visible_points();
+BodyLanes::BodyLanes(const WarpInput& input) noexcept {
+  for (const WarpInput::Point& p : input.body) {
+    if (count == x.size()) break;
+    x[count] = p.x;
+    y[count++] = p.y;
+  }
+  const std::size_t filled = count;
+  count = whole_lanes(filled);
+  for (std::size_t i = filled; i < count; ++i) {
+    x[i] = x[0];
+    y[i] = y[0];
+  }
 }
 
-bool PlaneError::add(const glm::dvec3& p, double pixels) noexcept {
+PlaneError::PlaneError(const WarpInput& input) noexcept : input_(input), lanes_(kWarpLanes), body_(input) {
+  double low = input.body.front().z, high = low;
+  for (const WarpInput::Point& p : input.body) {
+    low = min_of(low, p.z);
+    high = max_of(high, p.z);
+    distance_ = max_of(distance_, largest_component({p.x, p.y, p.z}));
+  }
+  height_range_ = high - low;
+  Polytope counted, counted_focus;
+  const Polytope &body = from_pseudo_near(*input.polytope, counted), *focus = input.focus;
+  if (focus != nullptr) focus = &from_pseudo_near(*focus, counted_focus);
+  // First, as there may be no room for all.
+  const bool focused = focus != nullptr && !focus->empty();
+  const double outside = focused ? input.focus_weight : 1.0;
+  if (focused) add_corners(*focus, 1.0);
+  add_corners(body, outside);
+  corners_.fill_lanes();
+  // Fewer samples make no percentile: the body shows in a few pixels only.
+  constexpr std::size_t kTooFew = 20;
+  if (input.objective == Objective::p95 && !input.orthographic) add_visible_points();
+  share_ = kShareAbove95;
+  if (sample_.count < kTooFew) {
+    share_ = 0.0;
+    sample_.count = 0;
+    if (focused) add_edges(*focus, 1.0);
+    add_edges(body, outside);
+    // The worst texel may lie inside a face or the body where rays fan out: the eye's in a wide image, or the
+    // light's, and with them the warp.
+    constexpr double kWide = 2.0;  // of the slope: 90 degrees
+    const ViewInLight& view = input.view;
+    const double wider = max_of(view.image_right - view.image_left, view.image_top - view.image_bottom);
+    if (input.light.perspective || wider > kWide) {
+      add_faces(body, outside);
+      if (!input.orthographic) add_visible_points();
+    }
+  }
+  sample_.fill_lanes();
+}
+
+/// The part of the body whose error counts: all of it where nothing would be left.
+const Polytope& PlaneError::from_pseudo_near(const Polytope& body, Polytope& counted) const noexcept {
+  if (!(input_.pseudo_near > 0.0)) return body;
+  counted = body;
+  clip(counted, Plane{input_.view.forward, -input_.pseudo_near});
+  return counted.empty() ? body : counted;
+}
+
+bool PlaneError::pixel_at(const glm::dvec3& p, double pixels, Pixel& pixel) const noexcept {
   const double distance = input_.light.distance(p);
-  if (count_ == kMaxSamples) return true;
   if (!(distance > 0.0)) return false;
   const ViewInLight& view = input_.view;
   const double depth = glm::dot(view.forward, p);
@@ -90,27 +131,52 @@ bool PlaneError::add(const glm::dvec3& p, double pixels) noexcept {
   const glm::dvec3 sum = eye_ray + light;
   const double twice = 2.0 / max_of(glm::dot(sum, sum), std::numeric_limits<double>::min());
   const double scale = (input_.orthographic ? 1.0 : max_of(depth, input_.depth_begin)) * pixels;
-  const auto index = static_cast<std::size_t>(count_);
-  const auto turned = [&](const glm::dvec3& pixel, double& x, double& y) {
-    const glm::dvec3 across = pixel - eye_ray * glm::dot(eye_ray, pixel);
-    const glm::dvec2 move = input_.light.jacobian(p, across - sum * (twice * glm::dot(sum, across)));
-    x = move.x;
-    y = move.y;
+  const auto turned = [&](const glm::dvec3& step) {
+    const glm::dvec3 across = step - eye_ray * glm::dot(eye_ray, step);
+    return input_.light.jacobian(p, across - sum * (twice * glm::dot(sum, across)));
   };
-  turned(view.right * (view.pixel_x * scale), xx_[index], yx_[index]);
-  turned(view.up * (view.pixel_y * scale), xy_[index], yy_[index]);
-  const double determinant = xx_[index] * yy_[index] - xy_[index] * yx_[index];
+  const glm::dvec2 right = turned(view.right * (view.pixel_x * scale));
+  const glm::dvec2 up = turned(view.up * (view.pixel_y * scale));
+  const double determinant = right.x * up.y - up.x * right.y;
   // Of a pixel that rounding leaves no area, beside the eye or at the edge of a field of view near pi,
   // nothing is known.
   constexpr double kLeastArea = 1e-30;
   const double unit = scale / distance;
   if (!(std::abs(determinant) > kLeastArea * (view.pixel_x * unit) * (view.pixel_y * unit))) return false;
-  ++count_;
-  inverse_determinant_[index] = 1.0 / determinant;
   const glm::dvec3 at = input_.light.project(p);
-  x_[index] = at.x;
-  y_[index] = at.y;
+  pixel = {at.x, at.y, right.x, up.x, right.y, up.y, determinant};
   return true;
+}
+
+namespace {
+
+template <std::size_t Most, typename Pixel>
+void append(PixelLanes<Most>& lanes, const Pixel& p) noexcept {
+  if (lanes.count == Most) return;
+  const std::size_t i = lanes.count++;
+  lanes.x[i] = p.x;
+  lanes.y[i] = p.y;
+  lanes.xx[i] = p.xx;
+  lanes.xy[i] = p.xy;
+  lanes.yx[i] = p.yx;
+  lanes.yy[i] = p.yy;
+  lanes.inverse_determinant[i] = 1.0 / p.determinant;
+}
+
+}  // namespace
+
+bool PlaneError::add(const glm::dvec3& p, double pixels) noexcept {
+  Pixel pixel;
+  if (!pixel_at(p, pixels, pixel)) return false;
+  append(sample_, pixel);
+  return true;
+}
+
+void PlaneError::add_corners(const Polytope& body, double pixels) noexcept {
+  for (const Polytope::Vertex& v : body.vertices()) {
+    Pixel pixel;
+    if (pixel_at(v.position, pixels, pixel)) append(corners_, pixel);
+  }
 }
 
 void PlaneError::add_faces(const Polytope& body, double pixels) noexcept {
@@ -127,7 +193,8 @@ void PlaneError::add_faces(const Polytope& body, double pixels) noexcept {
   }
 }
 
-void PlaneError::add_vertices_and_edges(const Polytope& body, double pixels) noexcept {
+/// Vertices and the middles of edges.
+void PlaneError::add_edges(const Polytope& body, double pixels) noexcept {
   for (std::size_t i = 0; i < body.vertices().size(); ++i) {
     const Polytope::Vertex& v = body.vertex[i];
     complete_ = add(v.position, pixels) && complete_;
@@ -196,21 +263,48 @@ void PlaneError::add_visible_points() noexcept {
   }
 }
 
-GNOMON_WIDE double PlaneError::value(const WarpChoice& choice) noexcept {
+double PlaneError::value(const WarpChoice& choice) noexcept {
   // A body with corners of which nothing is known is no ground to choose a warp on.
-  if (!complete_ && choice.kappa > 0.0) return std::numeric_limits<double>::infinity();
-  const PlaneMap map = plane_map(input_.body, choice);
-  const auto n = static_cast<std::size_t>(count_);
+  const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
+  if ((!complete_ && choice.kappa > 0.0) || sample_.count == 0 || body_.count == 0 || rows == 0.0)
+    return std::numeric_limits<double>::infinity();
+  find_rows(choice);
+  const double squared = input_.objective == Objective::storage ? storage_squared() : worst_squared();
+  return squared < std::numeric_limits<double>::infinity() ? std::sqrt(squared)
+                                                           : std::numeric_limits<double>::infinity();
+}
+
+GNOMON_WIDE void PlaneError::find_rows(const WarpChoice& choice) noexcept {
   const double axis_x = choice.axis.x, axis_y = choice.axis.y;
   const double a_x = choice.row_a.x, a_y = choice.row_a.y, b_x = choice.row_b.x, b_y = choice.row_b.y;
-  const double kappa = choice.kappa, centre = choice.centre, u_min = map.u_min, map_stretch = map.stretch;
-  const double scale_a = 1.0 / (map.a_max - map.a_min), scale_b = 1.0 / (map.b_max - map.b_min);
+  const double kappa = choice.kappa, centre = choice.centre;
+  // The body's image, as plane_map has it.
+  std::array<double, kMaxSamples>&along = row_x_, &a = row_y_, &b = inverse_;
+  const std::size_t corners = body_.count;
+  for (std::size_t i = 0; i < corners; ++i) along[i] = body_.x[i] * axis_x + body_.y[i] * axis_y;
+  const LaneRange u_range = lane_range(along.data(), corners, lanes_);
+  const double u_min = u_range.low, map_stretch = 1.0 + kappa * (u_range.high - u_min);
+  for (std::size_t i = 0; i < corners; ++i) {
+    const double u = along[i] - u_min, s = body_.x[i] * axis_y - body_.y[i] * axis_x - centre;
+    const double inverse = 1.0 / (1.0 + kappa * u);
+    const double x = s * inverse, y = u * map_stretch * inverse;
+    a[i] = a_x * x + a_y * y;
+    b[i] = b_x * x + b_y * y;
+  }
+  const LaneRange range_a = lane_range(a.data(), corners, lanes_),
+                  range_b = lane_range(b.data(), corners, lanes_);
+  const double least = least_extent(
+      max_of(max_of(range_a.high - range_a.low, range_b.high - range_b.low), height_range_), distance_);
+  const double side_a = max_of(range_a.high - range_a.low, least);
+  const double side_b = max_of(range_b.high - range_b.low, least);
+  const double scale_a = 1.0 / side_a, scale_b = 1.0 / side_b;
   // The determinant of the map's Jacobian is scale_a scale_b stretch / w^3 times that of its rows; the
   // samples' own are known.
-  const double inverse_area = 1.0 / (scale_a * scale_b * map_stretch * (a_x * b_y - a_y * b_x));
+  const double inverse_area = side_a * side_b / (map_stretch * (a_x * b_y - a_y * b_x));
+  const std::size_t n = whole_lanes(sample_.count);
   for (std::size_t i = 0; i < n; ++i) {
-    const double s = x_[i] * axis_y - y_[i] * axis_x - centre;
-    const double u = x_[i] * axis_x + y_[i] * axis_y - u_min;
+    const double s = sample_.x[i] * axis_y - sample_.y[i] * axis_x - centre;
+    const double u = sample_.x[i] * axis_x + sample_.y[i] * axis_y - u_min;
     const double w = 1.0 + kappa * u, inverse = 1.0 / w;
     const double shear = s * kappa * inverse, stretch = map_stretch * inverse;
     // Gradients over the light plane of the projected coordinates, turned to the map's axes, along s and u.
@@ -218,34 +312,30 @@ GNOMON_WIDE double PlaneError::value(const WarpChoice& choice) noexcept {
     const double b_s = b_x * inverse, b_u = (b_y * stretch - b_x * shear) * inverse;
     const double ax = (a_s * axis_y + a_u * axis_x) * scale_a, ay = (a_u * axis_y - a_s * axis_x) * scale_a;
     const double bx = (b_s * axis_y + b_u * axis_x) * scale_b, by = (b_u * axis_y - b_s * axis_x) * scale_b;
-    const double jxx = ax * xx_[i] + ay * yx_[i], jxy = ax * xy_[i] + ay * yy_[i];
-    const double jyx = bx * xx_[i] + by * yx_[i], jyy = bx * xy_[i] + by * yy_[i];
-    row_x_[i] = jxx * jxx + jxy * jxy;
-    row_y_[i] = jyx * jyx + jyy * jyy;
-    inverse_[i] = w * w * w * inverse_area * inverse_determinant_[i];
+    const double jxx = ax * sample_.xx[i] + ay * sample_.yx[i], jxy = ax * sample_.xy[i] + ay * sample_.yy[i];
+    const double jyx = bx * sample_.xx[i] + by * sample_.yx[i], jyy = bx * sample_.xy[i] + by * sample_.yy[i];
+    const double inverse_determinant = w * w * w * inverse_area * sample_.inverse_determinant[i];
+    const double square = inverse_determinant * inverse_determinant;
+    row_x_[i] = (jxx * jxx + jxy * jxy) * square;
+    row_y_[i] = (jyx * jyx + jyy * jyy) * square;
+    inverse_[i] = std::abs(inverse_determinant);
   }
-  const double squared = input_.objective == Objective::storage ? storage_squared() : worst_squared();
-  return squared < std::numeric_limits<double>::infinity() ? std::sqrt(squared)
-                                                           : std::numeric_limits<double>::infinity();
 }
 
 double PlaneError::storage_squared() const noexcept {
-  double s = 0.0, t = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
-    const double inverse_square = inverse_[i] * inverse_[i];
-    s = max_of(s, row_y_[i] * inverse_square);
-    t = max_of(t, row_x_[i] * inverse_square);
-  }
-  return s * t;
+  const std::size_t n = whole_lanes(sample_.count);
+  return lane_range(row_x_.data(), n, lanes_).high * lane_range(row_y_.data(), n, lanes_).high;
 }
 
 GNOMON_WIDE double PlaneError::worst_squared() noexcept {
-  const auto n = static_cast<std::size_t>(count_);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double half = 0.5 * (row_x_[i] + row_y_[i]), determinant = 1.0 / std::abs(inverse_[i]);
-    const double spread = (half - determinant) * (half + determinant);
-    row_x_[i] = (half + std::sqrt(spread > 0.0 ? spread : 0.0)) * inverse_[i] * inverse_[i];
+  const std::size_t n = sample_.count, whole = whole_lanes(n);
+  // Half the sum of both squared extents, and their product's root: the larger of the two squares.
+  for (std::size_t i = 0; i < whole; ++i) {
+    const double half = 0.5 * (row_x_[i] + row_y_[i]), area = inverse_[i];
+    const double spread = (half - area) * (half + area);
+    row_x_[i] = half + std::sqrt(spread > 0.0 ? spread : 0.0);
   }
+  if (share_ == 0.0) return lane_range(row_x_.data(), whole, lanes_).high;
   // The largest few, smallest of them first: as many as may exceed the value, and the value itself.
   constexpr std::size_t kMost = kMaxSamples / 16;
   const auto wanted = static_cast<std::size_t>(share_ * static_cast<double>(n)) + 1;

@@ -20,6 +20,10 @@ constexpr double kPointSize = 1e-9;
 
 }  // namespace
 
+double least_extent(double extent, double distance) noexcept {
+  return max_of(kFlattest * extent, distance > 0.0 ? kPointSize * distance : kPointSize);
+}
+
 void widen(double& low, double& high, double least) noexcept {
   if (high - low >= least) return;
   const double middle = 0.5 * (low + high);
@@ -64,7 +68,7 @@ PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& cho
     map.b_max = max_of(map.b_max, b);
   }
   const double extent = max_of(max_of(map.a_max - map.a_min, map.b_max - map.b_min), z_max - z_min);
-  const double least = max_of(kFlattest * extent, distance > 0.0 ? kPointSize * distance : kPointSize);
+  const double least = least_extent(extent, distance);
   widen(map.a_min, map.a_max, least);
   widen(map.b_min, map.b_max, least);
   return map;
@@ -98,7 +102,9 @@ bool usable(std::span<const WarpInput::Point> body, const WarpChoice& choice, do
   constexpr double kShortest = 1e-6, kShortestOfDistance = 1e-9;
   const PlaneMap map = plane_map(body, choice);
   double farthest = 0.0;
-  for (const WarpInput::Point& p : body) farthest = max_of(farthest, p.depth);
+  for (const WarpInput::Point& p : body) {
+    if (std::isfinite(p.depth)) farthest = max_of(farthest, p.depth);
+  }
   const double extent = max_of(map.a_max - map.a_min, map.b_max - map.b_min);
   return map.length > kShortest * extent && map.length > kShortestOfDistance * farthest &&
          map.stretch <= most_stretch;

@@ -33,6 +33,9 @@ struct PlaneMap {
   }
 };
 
+/// What a side of the rectangle is widened to where it is shorter. `extent`: the largest of the body's in its
+/// image and in height; `distance`: the largest of its coordinates.
+[[nodiscard]] double least_extent(double extent, double distance) noexcept;
 /// Moves both ends apart to `least` where they are nearer.
 void widen(double& low, double& high, double least) noexcept;
 /// Moves each side of the rectangle out by this share of the rectangle.

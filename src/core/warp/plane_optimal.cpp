@@ -55,6 +55,13 @@ const Plane* receiver_plane(const WarpInput& input) noexcept {
   const Polytope& body = *input.polytope;
   const std::array<double, kMaxFaces> area = areas_across_light(input);
   const glm::dvec4 light = input.light.light();
+  // Less of the largest face is a face that was cut away to a line, and rounding.
+  constexpr double kLeastShare = 1e-9;
+  double any_face = 0.0;
+  for (const double a : area) any_face = max_of(any_face, std::abs(a));
+  // Of faces whose areas differ by rounding alone the one nearest to the eye is taken, on any machine and
+  // however the world is turned.
+  constexpr double kSame = 1e-6;
   const Plane* best = nullptr;
   double largest = 0.0;
   for (int f = 0; f < body.face_count; ++f) {
@@ -62,8 +69,12 @@ const Plane* receiver_plane(const WarpInput& input) noexcept {
     const Plane& plane = body.plane[index];
     // The light and the eye, which is the origin, both on the inner side.
     const double towards_light = glm::dot(plane.normal, glm::dvec3(light)) + plane.offset * light.w;
-    if (!(towards_light > 0.0 && plane.offset > 0.0) || !(std::abs(area[index]) > largest)) continue;
-    largest = std::abs(area[index]);
+    if (!(towards_light > 0.0 && plane.offset > 0.0)) continue;
+    const double size = std::abs(area[index]);
+    if (!(size > kLeastShare * any_face)) continue;
+    const bool same = best != nullptr && std::abs(size - largest) <= kSame * largest;
+    if (same ? !(plane.offset < best->offset * (1.0 - kSame)) : !(size > largest)) continue;
+    largest = size;
     best = &plane;
   }
   return best;

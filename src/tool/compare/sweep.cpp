@@ -160,6 +160,9 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
   multiply(entries, split_lists(request.fits), set_fit);
   multiply(entries, warps, set_warp);
   multiply(entries, splits, set_split);
+  for (SweepEntry& entry : entries) {
+    if (entry.plan.split.scheme == SplitScheme::pseudo_near) entry.plan.split.pseudo_near = request.near_hint;
+  }
   multiply(entries, parse_numbers("--cascades", request.cascades, 1, kMaxMaps), set_cascades);
   multiply(entries, parse_numbers("--map-sizes", request.map_sizes, kMinMapSize, kMaxMapSize), set_size);
   Firsts first{splits.front(), warps.front(), entries.front().technique.fit,

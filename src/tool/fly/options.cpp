@@ -163,6 +163,7 @@ std::vector<Option> map_options(Request& request) {
       plan_option("cascades", plan),
       split,
       lambda,
+      plan_option("near_hint", plan),
       plan_option("warp", plan, "perspective warp of the maps: " + any_of_text(plan_choice_names("warp"))),
       {.name = "--compare-warps",
        .target = &request.compared_warps,
