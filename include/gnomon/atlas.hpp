@@ -9,8 +9,7 @@
 
 namespace gnomon {
 
-/// Where a plan's maps lie in one texture. Filters keep to their map: its own rim holds what their kernels
-/// reach.
+/// Where a plan's maps lie in one texture. Filters stay inside their map: its border holds their kernels.
 struct Atlas {
   int width = 0, height = 0;              ///< texels; 0: the plan has no map, or the maps do not fit
   std::array<TexelRect, kMaxMaps> place;  ///< by index of the map in the plan; no two share a texel
@@ -22,8 +21,8 @@ struct Atlas {
 /// Packs the maps into the smallest texture whose sides are powers of two, the squarest of equal ones. Any
 /// plan fits. The same sizes give the same places.
 [[nodiscard]] Atlas pack_atlas(const ShadowPlan& plan) noexcept;
-/// The same into a texture of this size; count is 0 where they were not placed. Shelves are laid from the
-/// tallest map to the flattest, so that what would fit in a cleverer order may be refused.
+/// The same into a texture of this size; count is 0 where they were not placed. Maps are placed on shelves
+/// from the tallest to the flattest; another order might fit where this one does not.
 [[nodiscard]] Atlas pack_atlas(const ShadowPlan& plan, int width, int height) noexcept;
 
 /// Share of the texels used where every map has a layer of its own, as large as the largest: what an array

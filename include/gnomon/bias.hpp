@@ -38,7 +38,7 @@ struct BiasWorld {
 
 /// Change of normalized device depth for a move of one world unit towards the light at `point_world`, where
 /// the light travels along `light_direction` (unit). Exact for every matrix whose rays are the light's; under
-/// a warp it varies as 1 / w, and for a light with a position it is the derivative at the point. Negative
+/// a warp it varies as 1 / w, and for a local light it is the derivative at the point. Negative
 /// unless ClipSpace::reversed_z. (equation: constant bias in world units, (M_z . l) / w)
 [[nodiscard]] double ndc_depth_per_world_unit(const glm::dmat4& clip_from_world,
                                               const glm::dvec3& light_direction,
@@ -63,9 +63,9 @@ struct BiasWorld {
 //
 // tan(angle) times a texel is the change of depth per texel only where w is constant. A plane of the world is
 // a plane of ndc, too, so its depth there is linear in ndc over the whole map, and in the texel where the
-// shape is affine: all that follows is exact there, and first order at the point under another shape. What is
-// called an ndc change is to be *added* to a fragment's ndc depth and has the sign that moves it towards the
-// light in the clip space of `clip_from_world`.
+// shape is affine: all that follows is exact there, and first order at the point under another shape. *Add*
+// an ndc change to a fragment's ndc depth: its sign moves the fragment towards the light in the clip space of
+// `clip_from_world`.
 
 /// A fragment on a surface, as one map sees it.
 struct Receiver {
@@ -104,12 +104,12 @@ struct ReceiverPlane {
 /// the second term of the sum is the warp's own slant, zero without one. 0 where the map is singular.
 [[nodiscard]] double plane_bias_ndc(const BiasOptions& options, const Receiver& receiver,
                                     double kernel_radius_texels) noexcept;
-/// The same in world units towards the light, to first order for a light with a position.
+/// The same in world units towards the light, to first order for a local light.
 [[nodiscard]] double plane_bias_world(const BiasOptions& options, const Receiver& receiver,
                                       double kernel_radius_texels) noexcept;
 
 /// Where to look the fragment up instead: an offset along its normal, world units, that lifts it off its
-/// plane by what plane_bias_ndc asks for with slope_texels = normal_offset_texels. Without a warp that is
+/// plane by plane_bias_ndc with slope_texels = normal_offset_texels. Without a warp that is
 /// (normal_offset_texels + radius) texels times sin(angle), along each of the texel's sides. Exact for
 /// directional lights under every warp: it accounts for w at the place it moves to. Thin shadows move a
 /// little at concave edges. (Holbert, "Saying Goodbye to Shadow Acne", GDC 2011)
@@ -144,17 +144,17 @@ enum class BiasKind : std::uint8_t {
 };
 enum class FilterClass : std::uint8_t {
   single_compare,  ///< the one texel that the fragment falls into is compared
-  wide_kernel,  ///< many texels are compared with the fragment, and the answers averaged (percentage closer)
+  wide_kernel,  ///< many texels are compared with the fragment, and the results averaged (percentage closer)
   blocker_search,  ///< depths of many texels are compared and then averaged (soft shadows by distance)
   prefiltered,  ///< texels are averaged before the comparison (variance, moments, exponential, convolution)
 };
 /// Whether this bias alone keeps every plane up to BiasOptions::max_slope from shadowing itself under such a
-/// filter, given the radius that the filter reaches, and why.
+/// filter, given the kernel's radius, and why.
 struct BiasAdvice {
-  BiasKind bias;
-  FilterClass filter;
+  BiasKind bias;       ///< the bias in question
+  FilterClass filter;  ///< the class of filter in question
   bool safe;  ///< normal_offset: where texels differ little over the kernel; the strongest warps need another
-  std::string_view reason;
+  std::string_view reason;  ///< one sentence
 };
 /// All pairs, by bias, then filter.
 [[nodiscard]] std::span<const BiasAdvice> bias_advice() noexcept;

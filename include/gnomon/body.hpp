@@ -23,30 +23,34 @@ inline constexpr int kMaxCullPlanes = 32;
 
 /// dot(normal, p) + offset >= 0 inside; unit normal pointing inward.
 struct Plane {
-  glm::dvec3 normal;
-  double offset;
+  glm::dvec3 normal;  ///< unit, pointing inward
+  double offset;      ///< distance of the origin inside of the plane, world units
 };
 
 /// A bounded convex polytope in which every vertex belongs to exactly three faces ("simple"). Degenerate
 /// bodies (flat, a line, a point) are kept as simple polytopes with coinciding vertices, so nothing
 /// special-cases them.
 struct Polytope {
+  /// A corner, where three faces and three edges meet.
   struct Vertex {
-    glm::dvec3 position;
+    glm::dvec3 position;  ///< in the space of the body
     /// neighbour[k] is joined by the edge that lies on the two faces other than face[k].
     std::array<std::uint8_t, 3> neighbour, face;
   };
-  std::array<Vertex, kMaxVertices> vertex;
-  std::array<Plane, kMaxFaces> plane;  ///< of face f; a face may have lost all its vertices
-  int vertex_count = 0;
-  int face_count = 0;
+  std::array<Vertex, kMaxVertices> vertex;  ///< the first vertex_count are used
+  std::array<Plane, kMaxFaces> plane;       ///< of face f; a face may have lost all its vertices
+  int vertex_count = 0;                     ///< 0 for an empty body
+  int face_count = 0;                       ///< entries of `plane` that are used
 
   Polytope() noexcept = default;
-  // Copies what is used: a tenth of the storage, for most bodies.
+  /// Copies the used part only: a tenth of the storage, for most bodies.
   Polytope(const Polytope& other) noexcept { *this = other; }
+  /// The same.
   Polytope& operator=(const Polytope& other) noexcept;
 
+  /// True where cuts left nothing.
   [[nodiscard]] bool empty() const noexcept { return vertex_count == 0; }
+  /// The vertices that are used.
   [[nodiscard]] std::span<const Vertex> vertices() const noexcept {
     return {vertex.data(), static_cast<std::size_t>(vertex_count)};
   }

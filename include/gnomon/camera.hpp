@@ -15,7 +15,7 @@ struct Camera {
   glm::dvec3 position{0.0};            ///< eye, world units
   glm::dvec3 forward{0.0, 0.0, -1.0};  ///< view direction, any non-zero length
   glm::dvec3 up{0.0, 1.0, 0.0};  ///< any vector not along forward; along forward, a fixed axis stands in
-  bool orthographic = false;
+  bool orthographic = false;     ///< parallel projection instead of perspective
   /// Edges of the image: slopes (offset per unit of depth) for a perspective camera, world units for an
   /// orthographic one. An off-axis camera is one whose left != -right or bottom != -top.
   double left = -1.0, right = 1.0, bottom = -1.0, top = 1.0;
@@ -40,20 +40,20 @@ struct Camera {
 /// The camera's orthonormal axes in world space: right x up = -forward. Well defined for every non-zero
 /// forward, also where `up` is zero or along it.
 struct CameraAxes {
-  glm::dvec3 right, up, forward;
+  glm::dvec3 right, up, forward;  ///< unit vectors, world space
 };
 [[nodiscard]] CameraAxes camera_axes(const Camera& camera) noexcept;
 
 /// The camera itself where its far plane is finite. Else one that sees as much of `boxes`: its far plane lies
 /// at the depth of their farthest corner, rounded up to the next quarter octave of the near plane's depth
-/// (orthographic: of the image's height, counted from the near plane). Between such steps it stands still
-/// under a moving camera, and with it the grid of Fit::stable; a far plane of one's own never moves it. At
-/// least one step, where no box reaches beyond the near plane.
+/// (orthographic: of the image's height, counted from the near plane). Between such steps it does not change
+/// under a moving camera, and neither does the grid of Fit::stable; a far plane of one's own never moves it.
+/// At least one step, where no box reaches beyond the near plane.
 [[nodiscard]] Camera with_finite_far(const Camera& camera, const Boxes& boxes) noexcept;
 
 /// OpenGL clip space (z in -1..1) from view space (x right, y up, z backward), and view from world. With an
 /// infinite far plane depth tends to 1 for a perspective camera (Upchurch, Desbrun 2012: no loss of
-/// precision) and is -1 everywhere for an orthographic one, which cannot tell infinite depths apart.
+/// precision) and is -1 everywhere for an orthographic one, which cannot distinguish infinite depths.
 [[nodiscard]] glm::dmat4 clip_from_view(const Camera& camera) noexcept;
 [[nodiscard]] glm::dmat4 view_from_world(const Camera& camera) noexcept;
 

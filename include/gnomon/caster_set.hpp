@@ -1,4 +1,4 @@
-// Which of very many boxes does a plan or a map need? A tree that answers for all of them at once.
+// Which of very many boxes does a plan or a map need? A hierarchy that tests many at once.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@ namespace gnomon {
 /// Eight boxes side by side, so that one plane is tested against all of them in a few instructions: the unit
 /// of a CasterSet's memory. Plain data without a meaning of its own.
 struct CasterBlock {
-  static constexpr std::size_t kLanes = 8;
-  using Lanes = std::array<double, kLanes>;
-  std::array<Lanes, 3> min{}, max{};  ///< per axis
-  std::uint8_t occupied = 0;          ///< lanes that hold anything
+  static constexpr std::size_t kLanes = 8;   ///< boxes of a block
+  using Lanes = std::array<double, kLanes>;  ///< one number for each box
+  std::array<Lanes, 3> min{}, max{};         ///< per axis
+  std::uint8_t occupied = 0;                 ///< lanes that hold anything
   std::uint8_t full = 0;      ///< lanes below which no place is empty: all of them can be listed as they lie
   std::uint8_t unusable = 0;  ///< lanes at or below which a box is none that make_plan takes, see usable()
 };
@@ -27,8 +27,8 @@ struct CasterBlock {
 /// Boxes sorted once into a flat tree, eight children to a node and no pointer: for plans of scenes with many
 /// boxes (SceneBounds takes sets in place of lists, of receivers as well), and for culling many casters for
 /// many maps. Gives the same plans as lists and the same casters as cull_casters, bit for bit: bounds only
-/// grow towards the root and rounding is monotone, so that a node outside of a plane, or inside, tells the
-/// same of every box below it.
+/// grow towards the root and rounding is monotone, so that a node outside of a plane, or inside, stands for
+/// every box below it.
 ///
 /// The memory is the caller's and must outlive the set; the boxes are copied into it. Building takes O(n log
 /// n), culling time grows with what lies across the planes, not with what lies inside or outside of them.
@@ -41,6 +41,7 @@ class CasterSet {
  public:
   /// How much memory a set of `boxes` boxes needs: about 64 bytes a box. At most 2^32 - 1 boxes.
   [[nodiscard]] static std::size_t block_count(std::size_t boxes) noexcept;
+  /// Indices that a set of `boxes` boxes needs.
   [[nodiscard]] static std::size_t index_count(std::size_t boxes) noexcept { return 2 * boxes; }
 
   /// A set of nothing.
@@ -60,6 +61,7 @@ class CasterSet {
   /// The tree: level 0 has the boxes, eight to a block, the last level one block. Lane i of block b bounds
   /// block 8 b + i of the level below.
   [[nodiscard]] std::size_t level_count() const noexcept { return levels_; }
+  /// Block `at` of a level below level_count().
   [[nodiscard]] const CasterBlock& block(std::size_t level, std::size_t at) const noexcept {
     return blocks_[first_[level] + at];
   }

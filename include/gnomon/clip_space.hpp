@@ -1,4 +1,4 @@
-// What the graphics API expects of clip space. The core computes in OpenGL's and converts once, last.
+// Which clip space does the graphics API expect? The core computes in OpenGL's and converts once, last.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 namespace gnomon {
 
 enum class NdcDepth : std::uint8_t { minus_one_to_one, zero_to_one };
-/// Of the world's coordinates: with x to the right and y up, z points towards the viewer (right) or away
-/// (left).
+/// Handedness of the world's coordinates: with x to the right and y up, z points towards the viewer (right)
+/// or away (left).
 enum class Handedness : std::uint8_t { right, left };
 /// Where the first row in memory of what was drawn lies, and with it v = 0 of a texture.
 enum class FirstRow : std::uint8_t {
@@ -31,11 +31,12 @@ enum class FirstRow : std::uint8_t {
 ///   {-right,
 ///     -left}. A symmetric camera needs nothing.
 struct ClipSpace {
-  NdcDepth ndc_depth = NdcDepth::minus_one_to_one;
-  bool reversed_z = false;  ///< depth grows towards the light instead
-  bool y_down = false;      ///< y grows downwards in clip space (Vulkan)
-  Handedness handedness = Handedness::right;
+  NdcDepth ndc_depth = NdcDepth::minus_one_to_one;  ///< range of depths after the division by w
+  bool reversed_z = false;                          ///< depth grows towards the light instead
+  bool y_down = false;                              ///< y grows downwards in clip space (Vulkan)
+  Handedness handedness = Handedness::right;        ///< of the caller's world
   FirstRow first_row = FirstRow::y_minus_one;  ///< no part of clip space, but of reading what was drawn there
+  /// Equal in all members.
   bool operator==(const ClipSpace&) const = default;
 };
 

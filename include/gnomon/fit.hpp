@@ -1,4 +1,4 @@
-// How the rectangle of a map is laid round what it must show.
+// How is a map fitted to the receivers it serves?
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,9 @@ enum class Fit : std::uint8_t {
   tight,          ///< the smallest rectangle round the slice's receivers: best texels, a grid that moves with
                   ///< the camera
   rotated,        ///< as tight, and the rectangle may turn: the least area where that lowers the objective
-  stable,         ///< a square whose size depends on the slice alone, snapped to whole texels: a grid that
-                  ///< stands still
+  stable,         ///< a square whose size depends on the slice alone, snapped to whole texels: a stable grid
   warped_stable,  ///< as tight with room to spare, and kept as it is while the view stays inside: with a
-                  ///< PlanHistory (history.hpp) a warped grid that stands still most of the time
+                  ///< PlanHistory (history.hpp) a warped grid that rarely changes
 };
 [[nodiscard]] std::string_view to_string(Fit fit) noexcept;
 /// True and `fit` set where `name` is one of tight, rotated, stable, warped_stable.
@@ -30,7 +29,7 @@ enum class Fit : std::uint8_t {
 /// on the view axis, and its radius. `tan_x`, `tan_y`: half image edges at unit depth. (equation: zc = min(b,
 /// (a+b)(1+K^2)/2))
 struct BoundingSphere {
-  double centre_depth, radius;
+  double centre_depth, radius;  ///< world units
 };
 [[nodiscard]] BoundingSphere slice_sphere(double begin, double end, double tan_x, double tan_y) noexcept;
 

@@ -1,4 +1,4 @@
-// What a plan remembers of the frame before it, so that texels do not jump under a moving camera.
+// Which state do plans carry from frame to frame, so that texels do not jump under a moving camera?
 #pragma once
 
 #include <array>
@@ -12,14 +12,15 @@
 
 namespace gnomon {
 
-/// What the texels did that no care could avoid.
+/// Unavoidable discontinuities in texel density.
 enum class PlanEventKind : std::uint8_t {
   map_appeared,  ///< nothing was remembered of this cascade
   map_refitted,  ///< Fit::warped_stable: the view left the map
   density_jump,  ///< some surface point's texels per area changed by more than kDensityStep
 };
+/// A discontinuity of one map, from the last frame to this one.
 struct PlanEvent {
-  PlanEventKind kind{};
+  PlanEventKind kind{};        ///< the kind of discontinuity
   int map = 0;                 ///< ShadowMap::cascade
   double density_ratio = 1.0;  ///< density_jump: of now over before, where it is farthest from 1
 };
@@ -39,10 +40,11 @@ struct KeptMap {
 /// State that make_plan carries from frame to frame. Start with an empty one; keep one per camera and light;
 /// clear it at a cut. Plain data: copy it to try a frame twice.
 struct PlanHistory {
+  /// The last map of one cascade.
   struct Map {
-    std::int64_t frame = -1;        ///< in which it was laid; -1: never
-    glm::dmat4 gl_from_world{1.0};  ///< OpenGL clip space
-    int width = 0, height = 0, filter_margin_texels = 0;
+    std::int64_t frame = -1;                              ///< in which it was fitted; -1: never
+    glm::dmat4 gl_from_world{1.0};                        ///< OpenGL clip space
+    int width = 0, height = 0, filter_margin_texels = 0;  ///< texels
   };
   std::array<Map, kMaxMaps> map;            ///< by cascade
   std::int64_t frame = 0;                   ///< of the next plan
@@ -50,24 +52,26 @@ struct PlanHistory {
   /// The light of the last frame: its position with w = 1, or the direction towards it with w = 0.
   glm::dvec4 light_world{0.0};
   std::array<double, kMaxMaps + 1> edge{};  ///< view depths between the cascades
-  int edge_count = 0;
-  std::array<KeptMap, kMaxMaps> kept;  ///< by cascade
+  int edge_count = 0;                       ///< entries of `edge` that are used; 0 before the first plan
+  std::array<KeptMap, kMaxMaps> kept;       ///< by cascade
 
-  /// Of the last frame planned.
+  /// Events of the last plan; event_count of them are used.
   std::array<PlanEvent, kMaxMaps> event;
-  int event_count = 0;
+  int event_count = 0;  ///< entries of `event` that are used
+  /// Events of the last plan.
   [[nodiscard]] std::span<const PlanEvent> events() const noexcept {
     return {event.data(), static_cast<std::size_t>(event_count)};
   }
+  /// Forgets all frames: call it at a cut.
   void clear() noexcept { *this = {}; }
 };
 
 /// As make_plan, for the next frame of a moving camera. Directional lights with Fit::tight: warp and splits
-/// go towards the best ones in steps that keep the change of texels per area, at every surface point that
-/// stays in its map, below kDensityStep; the warp is the weaker the faster the camera moves; small gains are
-/// not followed at all. Where that cannot be (a receiver came into view, the camera was moved by a lot),
-/// events() says so. Fit::warped_stable: the map stands still until the view leaves it. Other fits, and
-/// lights with a position, are planned as without history.
+/// move towards the best ones in steps. Texels per area then change by less than kDensityStep at every
+/// surface point that stays in its map. Faster camera motion weakens the warp, which limits shimmering. Small
+/// gains are ignored. Unavoidable jumps (a receiver came into view, the camera was moved far) are listed in
+/// events(). Fit::warped_stable: the map is unchanged until the view leaves it. Other fits, and local lights,
+/// are planned without history.
 [[nodiscard]] ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
                                    const PlanOptions& options, PlanHistory& history,
                                    const VisibleDepths* visible = nullptr,

@@ -10,7 +10,7 @@ namespace gnomon {
 /// Orthonormal, right-handed axes in world space. z points against the light: against the direction of
 /// travel of parallel light, against the axis of a local light's map.
 struct LightFrame {
-  glm::dvec3 x{1.0, 0.0, 0.0}, y{0.0, 1.0, 0.0}, z{0.0, 0.0, 1.0};
+  glm::dvec3 x{1.0, 0.0, 0.0}, y{0.0, 1.0, 0.0}, z{0.0, 0.0, 1.0};  ///< unit, world space
   /// A world-space direction, or a point relative to the camera, along the frame's axes.
   [[nodiscard]] glm::dvec3 turned(const glm::dvec3& v) const noexcept {
     return {v.x * x.x + v.y * x.y + v.z * x.z, v.x * y.x + v.y * y.y + v.z * y.z,
@@ -27,14 +27,15 @@ struct LightFrame {
 /// Based on: Wimmer, Scherzer, "Robust Shadow Mapping with Light-Space Perspective Shadow Maps", ShaderX4,
 /// 2006: warps work on parallel light, and in post-perspective light space every light is parallel.
 struct LightSpace {
-  LightFrame frame;
-  bool perspective = false;
-  glm::dvec3 apex{0.0};  ///< perspective: the light's position
+  LightFrame frame;          ///< axes of all points
+  bool perspective = false;  ///< true for spot and point lights
+  glm::dvec3 apex{0.0};      ///< perspective: the light's position
 
   /// Distance along the light's axis; 1 for parallel light.
   [[nodiscard]] double distance(const glm::dvec3& p) const noexcept {
     return perspective ? apex.z - p.z : 1.0;
   }
+  /// Light-plane coordinates and height (x, y, h) of a point.
   [[nodiscard]] glm::dvec3 project(const glm::dvec3& p) const noexcept {
     if (!perspective) return p;
     const double h = 1.0 / (apex.z - p.z);
@@ -57,6 +58,7 @@ struct LightSpace {
   /// Homogeneous light space (x, y, h, 1 times the distance) from points relative to the camera along the
   /// world's axes, and back.
   [[nodiscard]] glm::dmat4 light_from_relative() const noexcept;
+  /// The inverse of light_from_relative().
   [[nodiscard]] glm::dmat4 relative_from_light() const noexcept;
 };
 

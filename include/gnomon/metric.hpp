@@ -15,18 +15,19 @@ namespace gnomon {
 /// The aliasing error at one point of a surface. m counts screen pixels per shadow-map texel: above 1 the map
 /// is undersampled there. J is d(texel) / d(pixel) on the surface.
 struct PointAliasing {
+  /// Whether the other members hold a value.
   enum class Status : std::uint8_t {
-    ok,
+    ok,            ///< the error is known
     outside,       ///< the map does not hold the point (clip w <= 0 or |ndc| > 1): m is infinite
     faces_away,    ///< the surface is turned from the light or from the eye: nothing to sample
     undetermined,  ///< edge-on to both the light and the eye: no value
-  } status = Status::undetermined;
-  double m_max = 0.0;       ///< longest extent of a texel in pixels, 1 / smallest singular value of J
-  double m_min = 0.0;       ///< shortest extent
-  double m_s = 0.0;         ///< extent along the map's x
-  double m_t = 0.0;         ///< extent along the map's y
-  double m_area = 0.0;      ///< square root of a texel's area in pixels
-  double anisotropy = 1.0;  ///< m_max / m_min
+  } status = Status::undetermined;  ///< decides which members hold a value
+  double m_max = 0.0;               ///< longest extent of a texel in pixels, 1 / smallest singular value of J
+  double m_min = 0.0;               ///< shortest extent
+  double m_s = 0.0;                 ///< extent along the map's x
+  double m_t = 0.0;                 ///< extent along the map's y
+  double m_area = 0.0;              ///< square root of a texel's area in pixels
+  double anisotropy = 1.0;          ///< m_max / m_min
   /// The perspective part: the same on a surface that faces the half vector of eye and light, which only the
   /// parametrization decides.
   double perspective_max = 0.0, perspective_s = 0.0, perspective_t = 0.0;
@@ -47,8 +48,8 @@ struct PointAliasing {
 [[nodiscard]] PointAliasing measure_perspective(const ShadowMap& map, const Camera& camera,
                                                 const glm::dvec3& point_world) noexcept;
 
-/// Both at many points: out[i] is what the function above says of points[i], to the bit, in less than half
-/// the time. As many as the shortest of the spans holds.
+/// The same at many points: out[i] equals the result for points[i] bit by bit, in less than half the time.
+/// The shortest span decides how many.
 void measure_points(const ShadowMap& map, const Camera& camera, std::span<const glm::dvec3> points_world,
                     std::span<const glm::dvec3> normals, std::span<PointAliasing> out) noexcept;
 void measure_perspectives(const ShadowMap& map, const Camera& camera,
@@ -57,8 +58,8 @@ void measure_perspectives(const ShadowMap& map, const Camera& camera,
 /// The error over many points.
 struct AliasingStats {
   double p50 = 0.0, p95 = 0.0, max = 0.0;  ///< of m_max
-  /// Of m_max. What is wrong at shadows' edges grows with it: it puts techniques into the order of their
-  /// wrong pixels better than any percentile does.
+  /// Mean of m_max. Errors at shadow edges grow with it: it orders techniques by their misclassified pixels
+  /// better than any percentile does.
   double mean = 0.0;
   double share_undersampled = 0.0;  ///< of the points with m_max > 1, in [0,1]
   /// Texels per screen pixel that would bring m_s and m_t to 1 everywhere: the sum over the maps of
@@ -70,7 +71,7 @@ struct AliasingStats {
 
 /// How densely measure() samples: pixels across and down, and depths along each pixel's ray.
 struct MeasureGrid {
-  int columns = 64, rows = 64, depths = 64;
+  int columns = 64, rows = 64, depths = 64;  ///< each at least 1
 };
 
 /// Perspective error over the visible part of the receivers: a grid of pixels, and along each pixel's ray

@@ -1,4 +1,4 @@
-// What divides the receivers in view among the maps of a directional light.
+// How are the visible receivers of a directional light divided among its maps?
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ enum class Partition : std::uint8_t {
                      ///< beyond those of a uniform one: warped before it, uniform behind
 };
 // frustum_faces and separating_plane divide only where that lowers the objective, else one map takes all, and
-// the plan tells. Fit::stable, whose grid must not follow the view, keeps view_depth, and a PlanHistory does
-// not steady the parts. Lights with a position have a partition of their own.
+// the plan lists an omission. Fit::stable, whose grid must not follow the view, keeps view_depth, and a
+// PlanHistory does not steady the parts. Local lights have a partition of their own.
 
 [[nodiscard]] std::string_view to_string(Partition partition) noexcept;
 /// True and `partition` set where `name` is one of view_depth, frustum_faces, separating_plane.

@@ -1,5 +1,4 @@
-// The answer: which shadow maps are worth drawing for this camera, light and scene. Plain data, one record
-// per map.
+// Which shadow maps are worth drawing for this camera, light and scene? Plain data, one record per map.
 #pragma once
 
 #include <array>
@@ -47,18 +46,18 @@ enum class OmissionKind : std::uint8_t {
   depth_without_receiver,    ///< the camera's range was cut to the receivers': a: depth_begin, b: depth_end
   depth_not_visible,        ///< PlanOptions::visible_depths shows nothing there: a: depth_begin, b: depth_end
   warp_without_gain,        ///< a: objective with the warp over the objective without
-  warp_in_stable_fit,       ///< a warp was asked for, and Fit::stable takes none
+  warp_in_stable_fit,       ///< a warp was requested, and Fit::stable takes none
   part_without_caster,      ///< of a partition other than by depth; a: depth_begin, b: depth_end
   partition_without_gain,   ///< one map takes all; a: objective of the parts over that of one map
-  partition_in_stable_fit,  ///< another partition than view_depth was asked for, and Fit::stable takes none
+  partition_in_stable_fit,  ///< another partition than view_depth was requested, and Fit::stable takes none
   face_without_receiver,    ///< of a cube round the light: no visible receiver in it within range and cone
   face_without_caster,      ///< of a cube round the light: no caster between it and its receivers
-  resolution_without_gain,  ///< a smaller map meets the bound of m asked for; a: bound at full size, b: now
-  depth_near_light,         ///< nearer than a to the light nothing casts shadows; b: casters that reach there
+  resolution_without_gain,  ///< a smaller map meets the requested bound of m; a: bound at full size, b: now
+  depth_near_light,         ///< nearer than a to the light nothing casts shadows; b: number of casters there
   option_ignored,           ///< an option that this light or partition has no use for; a: IgnoredOption
   view_without_receiver,    ///< of plan_views: no receiver in view; a: index of the camera
 };
-/// What OmissionKind::option_ignored is about.
+/// The option that OmissionKind::option_ignored names.
 enum class IgnoredOption : std::uint8_t {
   partition,       ///< split.partition: a local light has a partition of its own
   split_scheme,    ///< split.scheme: a local light has no cascades
@@ -70,66 +69,68 @@ enum class IgnoredOption : std::uint8_t {
   cadence,         ///< cadence: needs a history and cascades of a fixed number and size
   visible_points,  ///< the visible points: a local light's maps, kept or stable maps do not follow them
 };
+/// One entry of ShadowPlan::omitted.
 struct Omission {
-  OmissionKind kind{};
-  int map = -1;  ///< the cascade or face it is about, as ShadowMap::cascade; -1: the whole plan
-  double a = 0.0, b = 0.0;
-  std::int64_t saves_texels = 0;
+  OmissionKind kind{};      ///< decides what `a` and `b` hold
+  int map = -1;             ///< the cascade or face it is about, as ShadowMap::cascade; -1: the whole plan
+  double a = 0.0, b = 0.0;  ///< as OmissionKind states
+  std::int64_t saves_texels = 0;  ///< texels that are not drawn
 };
 /// Writes "what" and "why" as two lines of English, each cut to `size - 1` characters; no heap.
 struct OmissionText {
-  std::array<char, 48> what;
-  std::array<char, 144> why;
+  std::array<char, 48> what;  ///< zero-terminated
+  std::array<char, 144> why;  ///< zero-terminated
 };
 [[nodiscard]] OmissionText describe(const Omission& omission) noexcept;
 
-/// One shadow map: everything that drawing it, reading it, culling for it and judging it needs.
+/// One shadow map: everything that drawing, reading, culling and measuring it needs.
 struct ShadowMap {
   /// Clip space of the map from world space, in double, and from points relative to the camera position, in
   /// float. Shaders take the second: it keeps its precision a thousand kilometres from the origin.
   glm::dmat4 clip_from_world{1.0};
-  glm::mat4 clip_from_camera_relative{1.0f};
+  glm::mat4 clip_from_camera_relative{1.0f};  ///< for points relative to ShadowPlan::origin_world
   double depth_begin = 0.0, depth_end = 0.0;  ///< view depths served, world units
-  /// So far in front of depth_begin the map shows receivers as well, with all their casters
-  /// (PlanOptions::split_overlap), in world units of view depth. 0 where no other map ends at depth_begin.
+  /// Width of the blend band before depth_begin that this map also covers, with all casters
+  /// (SplitOptions::overlap), world units of view depth. 0 where no other map ends at depth_begin.
   double overlap = 0.0;
   /// The light in homogeneous world coordinates: its position with w = 1, or the unit direction towards it
   /// with w = 0.
   glm::dvec4 light_world{0.0, 1.0, 0.0, 0.0};
-  /// Which of the cascades asked for this is. A light with a position has none: 0 for a spot's single map,
-  /// and for the faces of a cube 0 to 5 in the order +x -x +y -y +z -z (of the world for a point light; a
-  /// wide spot's face 5 looks along it). Of Partition::frustum_faces the face: left, right, bottom, top,
-  /// near, far; of separating_plane 0 before the plane, 1 behind.
+  /// Index of the requested cascade. Local lights have none: 0 for a spot's single map, and for the faces of
+  /// a cube 0 to 5 in the order +x -x +y -y +z -z (of the world for a point light; a wide spot's face 5 looks
+  /// along it). Partition::frustum_faces: the face, in the order left, right, bottom, top, near, far.
+  /// separating_plane: 0 before the plane, 1 behind.
   int cascade = 0;
   int width = 0, height = 0;  ///< texels; may differ, and from map to map (metric_resolution, texel_budget)
   const Shape* shape = &shapes::linear;  ///< how the texels lie on the projected square; never nullptr
-  ShapeParameters shape_parameters{};
-  const Warp* warp = nullptr;  ///< never nullptr in a plan's maps; the one that was used
-  /// Strength of the warp, 1 / world units; 0: none. Of a light with a position: 1 / slope, as the warp works
-  /// on offsets across the light per unit of distance along it.
+  ShapeParameters shape_parameters{};    ///< of `shape`
+  const Warp* warp = nullptr;            ///< never nullptr in a plan's maps; the one that was used
+  /// Strength of the warp, 1 / world units; 0: none. Local lights: 1 / slope, as the warp works on offsets
+  /// across the light per unit of distance along it.
   double kappa = 0.0;
   glm::dvec2 texel_world{0.0};      ///< extent of a texel across the light at the body's centre, world units
   glm::dvec2 texel_world_max{0.0};  ///< the same where it is largest on the body
   double depth_range_world = 0.0;   ///< distance along the light from the map's near to its far plane
   int filter_margin_texels = 0;     ///< texels along each side that no receiver falls into
-  BiasWorld bias_world;
-  /// Planes round everything that can shadow a receiver of this map: a caster is needed only if it reaches
-  /// the side where dot(xyz, p_world) + w >= 0 of all of them. World space, unit normals.
+  BiasWorld bias_world;             ///< bias at the body's centre, world units
+  /// Planes round everything that can shadow a receiver of this map: a caster is needed only if a part of it
+  /// lies where dot(xyz, p_world) + w >= 0 of all of them. World space, unit normals.
   std::array<glm::dvec4, kMaxCullPlanes> cull_planes;
-  int cull_plane_count = 0;
+  int cull_plane_count = 0;  ///< entries of cull_planes that are used
   /// Planes parallel to the light that part this map's receivers from the other maps': the map serves a point
-  /// only where dot(xyz, p_world) + w >= 0 for all of them. World space, unit normals; none where maps are
-  /// told apart by depth or by their own extent.
+  /// only where dot(xyz, p_world) + w >= 0 for all of them. World space, unit normals; none where depth or
+  /// their own extent separates the maps.
   std::array<glm::dvec4, kMaxSelectPlanes> select_planes{};
-  int select_plane_count = 0;
-  SnapKey snap_key;  ///< of Fit::stable: equal keys mean an identical grid
+  int select_plane_count = 0;  ///< entries of select_planes that are used
+  SnapKey snap_key;            ///< of Fit::stable: equal keys mean an identical grid
   /// Perspective part of m along the map's x and y, largest over the body by the simplified weights of Lloyd
-  /// et al. 2006, which leave out that pixels beside the view axis are smaller.
+  /// et al. 2006, which ignore that pixels beside the view axis are smaller.
   double m_s_max = 0.0, m_t_max = 0.0;
   /// Bound of the perspective part of m in any direction, over the body.
   double m_max = 0.0;
   double storage = 0.0;  ///< texels per screen pixel for m <= 1 everywhere in this slice (vertex objective)
 
+  /// The texels and how they lie, for look-ups.
   [[nodiscard]] TexelGrid texels() const noexcept { return {width, height, shape, shape_parameters}; }
 };
 
@@ -138,10 +139,15 @@ struct ShadowMap {
 template <typename Record, std::size_t room>
 class Records {
  public:
+  /// Unset.
   Records() noexcept {}
+  /// The first of them.
   [[nodiscard]] Record* data() noexcept { return all_.data(); }
+  /// The same, to be read.
   [[nodiscard]] const Record* data() const noexcept { return all_.data(); }
+  /// One of them; `i` below `room`.
   [[nodiscard]] Record& operator[](std::size_t i) noexcept { return all_[i]; }
+  /// The same, to be read.
   [[nodiscard]] const Record& operator[](std::size_t i) const noexcept { return all_[i]; }
 
  private:
@@ -151,18 +157,19 @@ class Records {
   };
 };
 
+/// The result of make_plan: maps, omissions, and how points find their map.
 struct ShadowPlan {
-  PlanStatus status = PlanStatus::invalid_input;
-  std::string_view invalid_field;  ///< for invalid_input: which, e.g. "camera.far_depth"
-  glm::dvec3 origin_world{0.0};    ///< what clip_from_camera_relative is relative to: the camera position
+  PlanStatus status = PlanStatus::invalid_input;  ///< whether there are maps, and why not
+  std::string_view invalid_field;                 ///< for invalid_input: which, e.g. "camera.far_depth"
+  glm::dvec3 origin_world{0.0};  ///< what clip_from_camera_relative is relative to: the camera position
   /// Unit, the way the light travels; of a spot along its axis, of a point light towards the camera.
   glm::dvec3 light_direction{0.0, -1.0, 0.0};
-  ClipSpace clip_space;
+  ClipSpace clip_space;  ///< of all matrices of the plan
   /// Of the options: in texels of the map at each point, for those who compute it per point.
   BiasOptions bias;
-  /// How a point finds its map: false, by its view depth (maps do not overlap in depth); true, for lights
-  /// with a position and for receivers parted by planes: the first map that holds it (map_holds), at any
-  /// depth. A point that no map holds is lit.
+  /// How a point finds its map: false, by its view depth (maps do not overlap in depth); true, for local
+  /// lights and for receivers parted by planes: the first map that holds it (map_holds), at any depth. A
+  /// point that no map holds is lit.
   bool select_by_map = false;
   /// With select_by_map: of the maps that hold a point not the first serves it, but the one with the most
   /// texels per area across the light there (SplitOptions::selection). Equal ones: the first.
@@ -170,14 +177,16 @@ struct ShadowPlan {
   /// True if map sizes depend on the view (metric_resolution, max_error or texel_budget), so that they may
   /// differ from frame to frame. Renderers then keep images a little larger than the maps.
   bool sizes_vary = false;
-  Records<ShadowMap, kMaxMaps> map;
-  int map_count = 0;
-  Records<Omission, kMaxOmissions> omission;
-  int omission_count = 0;  ///< may exceed kMaxOmissions
+  Records<ShadowMap, kMaxMaps> map;           ///< the first map_count are used, the others unset
+  int map_count = 0;                          ///< maps to draw
+  Records<Omission, kMaxOmissions> omission;  ///< the first omission_count are used, the others unset
+  int omission_count = 0;                     ///< may exceed kMaxOmissions
 
+  /// The maps to draw, by cascade.
   [[nodiscard]] std::span<const ShadowMap> maps() const noexcept {
     return {map.data(), static_cast<std::size_t>(map_count)};
   }
+  /// The omissions, at most kMaxOmissions.
   [[nodiscard]] std::span<const Omission> omitted() const noexcept {
     return {omission.data(),
             static_cast<std::size_t>(omission_count < kMaxOmissions ? omission_count : kMaxOmissions)};

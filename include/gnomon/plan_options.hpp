@@ -1,4 +1,4 @@
-// What the caller of make_plan may choose, grouped by the question each group answers.
+// Which options does make_plan take? Grouped by the question that each group decides.
 #pragma once
 
 #include <cstdint>
@@ -90,7 +90,7 @@ struct CadenceOptions {
   double largest_turn = 0.0;
 };
 
-/// What the caller may choose. Every default is right for most scenes.
+/// Options of make_plan. Every default suits most scenes.
 struct PlanOptions {
   /// Maps along the view, 1..kMaxMaps. More maps lower the error far away and cost one pass each. Directional
   /// lights only: a spot light has one map, a point light or a spot light of 85 degrees and more half angle
@@ -112,8 +112,8 @@ struct PlanOptions {
   BiasOptions bias;
   /// Clip space of the matrices in the plan.
   ClipSpace clip_space;
-  /// What may be omitted: by default what changes no pixel. PruneRules::all() adds the bounded rules of
-  /// prune_rules.def: among others, maps shrink to the size that their error bound needs.
+  /// Work that may be omitted: by default such that no pixel changes. PruneRules::all() adds the bounded
+  /// rules of prune_rules.def: among others, maps shrink to the size that their error bound needs.
   PruneRules prune = default_prune_rules();
 };
 

@@ -1,4 +1,4 @@
-// What may be omitted from a frame: every rule by its name, with what it assumes and why nothing (or how
+// Which work can a frame omit? Every rule by its name, with its premise and why nothing (or how
 // little) is lost. The exact rules are on unless switched off.
 #pragma once
 
@@ -30,34 +30,41 @@ enum class PruneSource : std::uint8_t {
   last_frame,  ///< the rule reuses what the last frame drew: a frame drawn alone has none of it
 };
 
+/// One entry of the registry prune_rules.def.
 struct PruneRuleInfo {
-  PruneRule rule{};
-  std::string_view name;
-  PruneCertainty certainty{};
-  PruneSource source{};
-  std::string_view what;     ///< is left out
-  std::string_view premise;  ///< where this does not hold, the rule does nothing
-  std::string_view proof;    ///< that no pixel changes; of bounded rules: the bound
+  PruneRule rule{};            ///< the rule
+  std::string_view name;       ///< as in files and on command lines
+  PruneCertainty certainty{};  ///< exact or bounded
+  PruneSource source{};        ///< the frame that the rule draws from
+  std::string_view what;       ///< the rule omits
+  std::string_view premise;    ///< where this does not hold, the rule does nothing
+  std::string_view proof;      ///< that no pixel changes; of bounded rules: the bound
 };
 /// All rules, in the order in which a frame applies them.
 [[nodiscard]] std::span<const PruneRuleInfo, kPruneRuleCount> prune_rules() noexcept;
 
 /// Which of them are on.
 struct PruneRules {
-  static constexpr std::uint32_t kAll = (std::uint32_t{1} << kPruneRuleCount) - 1;
-  std::uint32_t bits = kAll;
+  static constexpr std::uint32_t kAll =
+      (std::uint32_t{1} << kPruneRuleCount) - 1;  ///< every bit that a rule has
+  std::uint32_t bits = kAll;                      ///< bit i stands for the rule of value i
 
+  /// Exact and bounded rules.
   [[nodiscard]] static constexpr PruneRules all() noexcept { return {kAll}; }
 
+  /// True where the rule is on.
   [[nodiscard]] constexpr bool has(PruneRule rule) const noexcept {
     return (bits >> static_cast<unsigned>(rule) & 1u) != 0;
   }
+  /// These rules and `rule`.
   [[nodiscard]] constexpr PruneRules with(PruneRule rule) const noexcept {
     return {bits | (std::uint32_t{1} << static_cast<unsigned>(rule))};
   }
+  /// These rules except `rule`.
   [[nodiscard]] constexpr PruneRules without(PruneRule rule) const noexcept {
     return {bits & ~(std::uint32_t{1} << static_cast<unsigned>(rule))};
   }
+  /// The same rules are on.
   bool operator==(const PruneRules&) const = default;
 };
 inline constexpr PruneRules kPruneNothing{0};
@@ -83,12 +90,12 @@ inline constexpr PruneRules kPruneNothing{0};
 /// name is unknown.
 [[nodiscard]] bool parse_prune_rules(std::string_view text, PruneRules& rules) noexcept;
 
-/// What a rule left out of one frame.
+/// Work that a rule saved in one frame.
 struct PruneSaving {
   std::uint64_t texels = 0;     ///< of shadow maps, not drawn
   std::uint64_t triangles = 0;  ///< not drawn into maps
   std::uint64_t instances = 0;  ///< the same
-  std::uint64_t maps = 0;       ///< cascades left out, or maps that were not drawn at all
+  std::uint64_t maps = 0;       ///< cascades that were omitted, or maps that were not drawn at all
 };
 
 }  // namespace gnomon

@@ -1,4 +1,4 @@
-// What of the last frame's stable map still holds, and what little is left to draw.
+// Which region of last frame's map can be reused, and which strips must be redrawn?
 #pragma once
 
 #include <array>
@@ -14,8 +14,10 @@ namespace gnomon {
 /// rows from ClipSpace::first_row. The rectangle for glScissor, vkCmdSetScissor, RSSetScissorRects or
 /// setScissorRect.
 struct TexelRect {
-  int x = 0, y = 0, width = 0, height = 0;
+  int x = 0, y = 0, width = 0, height = 0;  ///< texels
+  /// True where it holds no texel.
   [[nodiscard]] bool empty() const noexcept { return width <= 0 || height <= 0; }
+  /// Equal in all members.
   bool operator==(const TexelRect&) const = default;
 };
 
@@ -30,20 +32,20 @@ enum class ReuseKind : std::uint8_t {
 /// shift_y) of the new one wherever that lies in `kept` (or address the texture modulo its size and copy
 /// nothing), then draw the strips. `kept` and the strips cover the map without overlap, whatever the kind.
 struct MapReuse {
-  ReuseKind kind = ReuseKind::none;
-  int shift_x = 0, shift_y = 0;  ///< texels
-  TexelRect kept;                ///< in the current map; empty for none
-  std::array<TexelRect, 2> strip;
-  int strip_count = 0;  ///< none: 1, the whole map; identical: 0; scrolled: 1 or 2
+  ReuseKind kind = ReuseKind::none;  ///< how much of the old map holds
+  int shift_x = 0, shift_y = 0;      ///< texels
+  TexelRect kept;                    ///< in the current map; empty for none
+  std::array<TexelRect, 2> strip;    ///< to be drawn; the first strip_count are used
+  int strip_count = 0;               ///< none: 1, the whole map; identical: 0; scrolled: 1 or 2
 };
 
 /// Compares two maps planned with the same clip space, `clip_space`. Maps of Fit::stable scroll; any others,
-/// those of lights with a position among them, hold only while their matrix is the same to the last bit:
-/// while nothing moves, or Fit::warped_stable holds them.
+/// those of local lights among them, are reusable only while their matrix is equal bit by bit: while nothing
+/// moves, or while Fit::warped_stable keeps it.
 ///
-/// Says that the texels are the same places, at the same depths. Whether they hold the same casters is the
-/// caller's to know: casters must not have moved, and both frames must have drawn all casters over the map's
-/// rectangle (rectangle_planes) with depth clamp. cull_planes leaves out what the old frame's view did not
+/// Guarantees the texel-to-world mapping only; unchanged casters are the caller's responsibility. Casters
+/// must not have moved, and both frames must have drawn all casters over the map's rectangle
+/// (rectangle_planes) with depth clamp. cull_planes is not enough: it omits casters that the old view did not
 /// need, and the new one may.
 [[nodiscard]] MapReuse reuse(const ShadowMap& previous, const ShadowMap& current,
                              const ClipSpace& clip_space = {}) noexcept;

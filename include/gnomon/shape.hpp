@@ -1,5 +1,5 @@
 // The shape: how texels lie on the square that a map's matrix projects to. Metric, bias, culling and look-up
-// ask it, so that nothing else knows shapes.
+// call it, so that nothing else knows shapes.
 #pragma once
 
 #include <array>
@@ -23,22 +23,24 @@ struct ShapedPoint {
 
 /// A rectangle along the axes, of ndc or of texels.
 struct ShapeRectangle {
-  glm::dvec2 low, high;
+  glm::dvec2 low, high;  ///< corners
 };
 
 /// One entry of the registry shapes.def. `size`: width and height of the map in texels. Every function takes
 /// any finite place; off the square -1..1 the shape goes on as its formula does.
 struct Shape {
-  std::string_view name;
-  std::string_view summary;
+  std::string_view name;     ///< as in files
+  std::string_view summary;  ///< one line
   /// True where the derivative is the same everywhere: straight lines stay straight, so that triangles are
   /// drawn as they are, and a map may be scrolled.
   bool affine;
+  /// Where a place in ndc lies in the map.
   ShapedPoint (*place)(const ShapeParameters& parameters, const glm::dvec2& size,
                        const glm::dvec2& ndc) noexcept;
-  /// The smallest rectangle of texels round what a rectangle of ndc becomes, and the reverse.
+  /// The smallest rectangle of texels round the image of a rectangle of ndc.
   ShapeRectangle (*texel_bounds)(const ShapeParameters& parameters, const glm::dvec2& size,
                                  const ShapeRectangle& ndc) noexcept;
+  /// The smallest rectangle of ndc whose image holds a rectangle of texels.
   ShapeRectangle (*ndc_bounds)(const ShapeParameters& parameters, const glm::dvec2& size,
                                const ShapeRectangle& texels) noexcept;
 };
@@ -60,7 +62,9 @@ struct TexelGrid {
   const Shape* shape = &shapes::linear;  ///< never nullptr
   ShapeParameters parameters{};          ///< of the shape
 
+  /// Width and height, texels.
   [[nodiscard]] glm::dvec2 size() const noexcept { return {width, height}; }
+  /// Where a place in ndc lies in the map.
   [[nodiscard]] ShapedPoint place(const glm::dvec2& ndc) const noexcept {
     return shape->place(parameters, size(), ndc);
   }

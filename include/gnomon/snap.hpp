@@ -1,4 +1,4 @@
-// Holding the texel grid still: centres in whole texels.
+// How does a texel grid stay stable? Centres are snapped to whole texels.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,16 @@ namespace gnomon {
 /// Two maps of the same light, slice and size with equal keys have the same texel grid and depths: their
 /// clip_from_world are equal to the last bit.
 struct SnapKey {
-  std::int64_t x = 0, y = 0;
-  std::int64_t depth_near = 0, depth_far = 0;
-  double texel = 0.0;  ///< side of the grid's squares, world units
-  bool valid = false;  ///< false for Fit::tight
+  std::int64_t x = 0, y = 0;                   ///< texels
+  std::int64_t depth_near = 0, depth_far = 0;  ///< depth steps
+  double texel = 0.0;                          ///< side of the grid's squares, world units
+  bool valid = false;                          ///< false for Fit::tight
+  /// Equal in all members: the same grid.
   bool operator==(const SnapKey&) const = default;
 };
 
 /// The nearest whole number of `step`s to `value`. Needs step > 0; |value / step| beyond 2^53 is returned
-/// clamped there, where double no longer tells whole numbers apart.
+/// clamped there, where double no longer represents every whole number.
 [[nodiscard]] std::int64_t snap_index(double value, double step) noexcept;
 
 }  // namespace gnomon

@@ -45,7 +45,7 @@ enum class MapSelection : std::uint8_t {
 
 /// Where one cascade ends and the next begins. Directional lights only.
 struct SplitOptions {
-  SplitScheme scheme = SplitScheme::automatic;
+  SplitScheme scheme = SplitScheme::automatic;  ///< how depths are divided
   /// practical: blend of uniform (0) and logarithmic (1) splits; clamped to [0,1], NaN counts as 0.5.
   double lambda = 0.9;
   /// View depth, world units, from which error counts: nearer surfaces keep their shadow and do not draw
@@ -68,9 +68,10 @@ struct SplitOptions {
   /// depths are widened to all receivers in the map, and a look-up evaluates every map. There is no blend
   /// band. Based on: Zhang, Zaprjagaev, Bentham, "Practical Cascaded Shadow Maps", ShaderX7, 2009.
   MapSelection selection = MapSelection::view_depth;
-  /// What divides the receivers among the maps. Partitions other than view_depth ignore cascades and splits.
+  /// Division of the receivers among the maps. Partitions other than view_depth ignore cascades and splits.
   Partition partition = Partition::view_depth;
 
+  /// The value of `given` where none is given: infinities.
   [[nodiscard]] static constexpr std::array<double, kMaxMaps - 1> endless_splits() noexcept {
     std::array<double, kMaxMaps - 1> all{};
     for (double& depth : all) depth = std::numeric_limits<double>::infinity();

@@ -12,7 +12,7 @@
 namespace gnomon {
 
 /// Bins are evenly spaced in the logarithm of depth, the same for every camera: eight per doubling (9 %),
-/// from 2^-20 to 2^24 world units. What is nearer or farther counts in the first or last one.
+/// from 2^-20 to 2^24 world units. Nearer and farther depths count in the first or last one.
 inline constexpr int kDepthBinsPerDoubling = 8;
 inline constexpr int kLowestDepthExponent = -20, kHighestDepthExponent = 24;
 inline constexpr int kDepthBins = (kHighestDepthExponent - kLowestDepthExponent) * kDepthBinsPerDoubling;
@@ -22,10 +22,12 @@ inline constexpr double kDepthSafety = 1.0 / 64.0;
 /// The visible view depths of a frame: how many pixels fall into each bin, and the nearest and farthest of
 /// them.
 struct VisibleDepths {
-  std::array<std::uint32_t, kDepthBins> count{};
-  double min = std::numeric_limits<double>::infinity(),
-         max = 0.0;  ///< world units; min > max: nothing visible
+  std::array<std::uint32_t, kDepthBins> count{};  ///< pixels of each bin (depth_bin)
+  /// Nearest visible depth, world units. min > max: nothing is visible.
+  double min = std::numeric_limits<double>::infinity();
+  double max = 0.0;  ///< farthest visible depth, world units
 
+  /// True where nothing is visible.
   [[nodiscard]] bool empty() const noexcept { return !(min <= max); }
   /// Counts one pixel. No surface, and not counted: 0, below, infinite, not a number.
   void add(double view_depth) noexcept;
@@ -55,8 +57,9 @@ class DepthTracker {
   /// Takes the next frame. One that shows nothing changes nothing. Each depth counts with a bin's room on
   /// either side: 9 %, for the camera's own motion until the frame is drawn.
   void update(const VisibleDepths& frame) noexcept;
-  /// What to plan with; empty before the first surface.
+  /// The depths to plan with; empty before the first surface.
   [[nodiscard]] const VisibleDepths& depths() const noexcept { return depths_; }
+  /// Forgets all frames: call it at a cut.
   void clear() noexcept { *this = {}; }
 
  private:

@@ -14,11 +14,11 @@
 
 namespace gnomon {
 
-/// What a parametrization is judged by. All are to be made small.
+/// Error that a parametrization minimises.
 enum class Objective : std::uint8_t {
   storage,  ///< max m_s times max m_t: texels needed per pixel for m <= 1 along both axes everywhere
   max,      ///< the worst texel
-  p95,      ///< the error that 95 % of what is seen stay below: pixels evenly, depths by their logarithm
+  p95,  ///< the error that 95 % of the visible points stay below: pixels evenly, depths by their logarithm
 };
 [[nodiscard]] std::string_view to_string(Objective objective) noexcept;
 [[nodiscard]] bool objective_from_name(std::string_view name, Objective& objective) noexcept;
@@ -26,9 +26,9 @@ enum class Objective : std::uint8_t {
 /// The camera along the light frame's axes: its own axes, edges of the image, and size of a pixel per unit of
 /// depth (orthographic: in world units).
 struct ViewInLight {
-  glm::dvec3 right, up, forward;
-  double image_left, image_right, image_bottom, image_top;
-  double pixel_x, pixel_y;
+  glm::dvec3 right, up, forward;                            ///< unit
+  double image_left, image_right, image_bottom, image_top;  ///< as Camera::left and so on
+  double pixel_x, pixel_y;                                  ///< slopes, or world units where orthographic
 };
 
 /// A projective map of the light plane. With u the distance along `axis` from the body's near end and s the
@@ -40,7 +40,7 @@ struct WarpChoice {
   glm::dvec2 axis{0.0, 1.0};   ///< unit, where texels grow to, in the light plane
   double centre = 0.0;         ///< of the projection, across the axis
   glm::dvec2 row_a{1.0, 0.0};  ///< with row_b: turns or slants the map; any two independent vectors
-  glm::dvec2 row_b{0.0, 1.0};
+  glm::dvec2 row_b{0.0, 1.0};  ///< with row_a
   /// The objective over that of no warp, where the warp has measured it itself; 0: the plan measures it.
   double gain_ratio = 0.0;
 };
@@ -49,6 +49,7 @@ struct WarpChoice {
 /// view direction as the light sees it, away from the viewer. Parallel light: the origin is the camera's
 /// position.
 struct WarpInput {
+  /// A vertex of the body, in light space.
   struct Point {
     double x, y;   ///< light plane
     double z;      ///< height towards the light: h of LightSpace
@@ -61,14 +62,14 @@ struct WarpInput {
   double depth_begin, depth_end;  ///< view depths of the slice, after pseudo_near, world units
   double tan_half_fov;            ///< effective half opening in the plane of view and light
   bool orthographic;              ///< the camera is
-  Objective objective;
-  const Polytope* polytope;  ///< the same body with its faces and edges, along the light frame's axes
+  Objective objective;            ///< error to minimise
+  const Polytope* polytope;       ///< the same body with its faces and edges, along the light frame's axes
   /// Sub-volume whose error is weighted by focus_weight; nullptr or empty: none. `body` then includes its
   /// vertices, and all others count as focus_weight times as deep as they are.
   const Polytope* focus;
-  double focus_weight;
-  ViewInLight view;
-  LightSpace light;    ///< how points become light-plane coordinates
+  double focus_weight;  ///< 1 or more
+  ViewInLight view;     ///< the camera
+  LightSpace light;     ///< how points become light-plane coordinates
   double centre;       ///< x of the line along y that warps along the view project from; 0 for parallel light
   double scale_near;   ///< Point::depth at the body's point nearest to the viewer
   double depth_per_y;  ///< growth of Point::depth along y at constant height
@@ -87,8 +88,8 @@ struct WarpInput {
 
 /// A linear function of the light-space point (x, y, h).
 struct LightLinear {
-  glm::dvec3 slope;
-  double constant;
+  glm::dvec3 slope;  ///< per unit of x, y and h
+  double constant;   ///< value at the origin
 };
 /// In light space, what is `offset` + dot(`slope`, p) for points along the light frame's axes; under a local
 /// light divided by the distance from the light, which keeps every zero and every ratio of two such
@@ -98,8 +99,9 @@ struct LightLinear {
 
 /// One entry of the registry warps.def.
 struct Warp {
-  std::string_view name;
-  std::string_view summary;
+  std::string_view name;     ///< as in files and on command lines
+  std::string_view summary;  ///< one line
+  /// Finds axis, strength and centre for a body.
   WarpChoice (*choose)(const WarpInput& input) noexcept;
   /// True where the plan may drop the warp because it does not lower the objective. False only for warps kept
   /// to reproduce a paper as it stands.
@@ -122,6 +124,7 @@ namespace warps {
 /// 2011, section 3). For warps along y through input.centre only; fast.
 struct WarpError {
   double m_s, m_t;  ///< relative: multiply by pixels per unit slope over texels for the error itself
+  /// The bound of this objective.
   [[nodiscard]] double value(Objective objective) const noexcept {
     return objective == Objective::storage ? m_s * m_t : (m_s > m_t ? m_s : m_t);
   }

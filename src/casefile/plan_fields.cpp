@@ -109,7 +109,7 @@ std::vector<PlanField> make_fields() {
       {"texel_budget", "texels that all maps share; 0: map_size decides",
        GNOMON_AT(std::int64_t, resolution.texel_budget), "options.resolution.texel_budget",
        "must be 0, or hold the least maps: 16 x 16, or four filter radii"},
-      {"lambda", "practical split (taken for it): 0 uniform .. 1 logarithmic",
+      {"lambda", "blend of the practical split, which it selects: 0 uniform, 1 logarithmic",
        GNOMON_AT(double, split.lambda), "options.split.lambda", "must lie in 0..1", 0.0, 1.0},
       {"near_hint", "view depth from which error counts; 0: the near plane",
        GNOMON_AT(double, split.pseudo_near), "options.split.pseudo_near", "must not be below 0"},

@@ -29,8 +29,8 @@ TEST(StressReport, shows_filters_at_their_limits_as_the_program_does) {
   const Finished run = run_gnomon({"stress", "--filters", "--out", folder.path().string()});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const std::vector<std::string> lines = run.lines();
-  ASSERT_GT(lines.size(), 12u) << "a head, a rule, and a line for each strain of each filter";
-  EXPECT_TRUE(lines[0].starts_with("| strain | filter |")) << lines[0];
+  ASSERT_GT(lines.size(), 12u) << "a head, a rule, and a line for each parameter of each filter";
+  EXPECT_TRUE(lines[0].starts_with("| parameter | filter |")) << lines[0];
   for (std::size_t i = 2; i < lines.size(); ++i) EXPECT_TRUE(lines[i].ends_with("| yes |")) << lines[i];
   ASSERT_EQ(run_gnomon({"report", folder.path().string()}).exit_code, 0);
   std::ifstream in(folder.path() / "report.html", std::ios::binary);

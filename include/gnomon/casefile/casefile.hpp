@@ -15,18 +15,18 @@
 
 namespace gnomon {
 
-/// Everything make_plan() takes. What the file leaves out of "options" has the default of PlanOptions.
+/// The input of make_plan(). Options that the file does not name have the default of PlanOptions.
 struct Case {
-  Camera camera;
-  Light light;
-  std::vector<Box> receivers, casters;
-  PlanOptions options;
+  Camera camera;                        ///< the viewer
+  Light light;                          ///< directional, spot or point
+  std::vector<Box> receivers, casters;  ///< world space
+  PlanOptions options;                  ///< as the file has them
 
   /// Views into this case: valid while it lives and its lists are not resized.
   [[nodiscard]] SceneBounds bounds() const noexcept { return {casters, receivers}; }
 };
 
-/// What is wrong with a case, on one line: the key's path first where it is about a key
+/// A case that is wrong. what() is one line: the key's path first where it is about a key
 /// ("options.lamda: unknown key ..."), and the file's name before that where it came from a file.
 class CaseError : public std::runtime_error {
  public:
@@ -46,7 +46,7 @@ inline constexpr int kMaxCaseNesting = 32;
 /// The same from a file; messages begin with its name.
 [[nodiscard]] Case load_case(const std::filesystem::path& file);
 
-/// What ShadowPlan::invalid_field means for the one who wrote the case: its key and what it must be
+/// ShadowPlan::invalid_field in words of a case file: the key and the values that it may have
 /// ("camera.far: must lie above near"). A field that has no text of its own comes back as "FIELD: not
 /// usable".
 [[nodiscard]] std::string invalid_input_text(std::string_view invalid_field);

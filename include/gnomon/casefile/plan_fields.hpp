@@ -20,9 +20,11 @@ using PlanMember = Value& (*)(PlanOptions& options);
 
 /// A field whose value is one of several names.
 struct PlanChoice {
+  /// All names, in the order in which help lists them.
   std::vector<std::string> (*names)();
   /// False, and the options as they were, for a name that is unknown.
   bool (*set)(std::string_view name, PlanOptions& options);
+  /// The name of the present value.
   std::string (*get)(const PlanOptions& options);
 };
 
@@ -35,10 +37,9 @@ struct PlanField {
   std::string_view summary;  ///< half a line for help
   /// Place, and by it the type of the value. SplitDepths reads a list of numbers.
   std::variant<PlanMember<bool>, PlanMember<int>, PlanMember<std::int64_t>, PlanMember<double>, PlanChoice,
-               PlanMember<Box>, PlanMember<BiasOptions>, PlanMember<ClipSpace>,
-               PlanMember<SplitDepths>>
+               PlanMember<Box>, PlanMember<BiasOptions>, PlanMember<ClipSpace>, PlanMember<SplitDepths>>
       place;
-  /// What ShadowPlan::invalid_field calls it, and what its value must be; empty where no value is refused.
+  /// Its name in ShadowPlan::invalid_field, and the values that it may have; empty where no value is refused.
   std::string_view invalid_field = {}, must = {};
   double least = 0.0, most = 0.0;  ///< of numbers that a command line may check by itself; equal: not there
   double unit = 1.0;  ///< of numbers: the option's value is the file's times this, as angles are in degrees

@@ -45,11 +45,12 @@ class Context {
   Context& operator=(const Context&) = delete;
   /// Throws RenderError where the driver refuses.
   virtual void make_current() = 0;
+  /// Which context this is.
   [[nodiscard]] const ContextInfo& info() const noexcept { return info_; }
 
  protected:
   Context() = default;
-  ContextInfo info_;
+  ContextInfo info_;  ///< set by the one that makes the context
 };
 
 /// Makes an off-screen context and makes it current. Throws RenderError with the reason of every candidate

@@ -1,4 +1,4 @@
-// What goes wrong outside of our code: drivers, shader compilers, missing libraries.
+// How do faults outside of our code appear? Drivers, shader compilers, missing libraries.
 #pragma once
 
 #include <stdexcept>

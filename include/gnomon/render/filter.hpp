@@ -1,4 +1,4 @@
-// How a shadow map is read: what a filter stores in a texel, how it computes visibility, and what it costs.
+// How is a shadow map read? A filter's stored texels, its visibility and its cost.
 // One entry of the registry filters.def.
 #pragma once
 
@@ -27,20 +27,20 @@ inline constexpr int kMaxAnisotropy = 16;
 
 /// A number that one filter alone understands. An integer or a switch is a number, too.
 struct FilterOption {
-  std::string_view name;
-  double fallback = 0.0;  ///< where nothing is said
-  double min = 0.0, max = 1.0;
-  std::string_view summary;  ///< one line, with the unit
+  std::string_view name;        ///< as on command lines
+  double fallback = 0.0;        ///< the default
+  double min = 0.0, max = 1.0;  ///< both ends included
+  std::string_view summary;     ///< one line, with the unit
 };
 
-/// What a channel of a stored texel is made of.
+/// Number format of a channel of a stored texel.
 enum class TexelFormat : std::uint8_t { fp32, fp16, unorm16, unorm8, uint32 };
 [[nodiscard]] std::string_view to_string(TexelFormat format) noexcept;
 [[nodiscard]] int bytes_per_channel(TexelFormat format) noexcept;
 /// True where only numbers in [0, 1] can be stored.
 [[nodiscard]] bool is_unsigned_unit(TexelFormat format) noexcept;
-/// Largest error of storing a number in [-1, 1] (unorm: [0, 1]): half a step at 1. Of uint32: as fp32, which
-/// the sums are turned into.
+/// Largest error of storing a number in [-1, 1] (unorm: [0, 1]): half a step at 1. uint32 counts as fp32,
+/// which the sums are converted to.
 [[nodiscard]] double rounding_of(TexelFormat format) noexcept;
 /// The number as it comes back out of a texel. Floats overflow to infinity, unorm is clamped to [0, 1].
 [[nodiscard]] double rounded_to(TexelFormat format, double value) noexcept;
@@ -52,15 +52,15 @@ enum class KernelUnit : std::uint8_t {
 };
 enum class BlurShape : std::uint8_t { box, gauss };
 
-/// A filter and everything it is told. Made by default_settings or parse_filter.
+/// A filter with its settings. Made by default_settings or parse_filter.
 struct FilterSettings {
-  const Filter* filter = nullptr;
+  const Filter* filter = nullptr;  ///< never nullptr in settings that parse_filter made
   /// Half width of the kernel. In texels, the kernel is a box of 2 radius + 1 texels (0: the single texel, or
   /// the hardware's 2 x 2); in world units, it has the variance of a disc of this radius.
   double radius = 1.0;
-  KernelUnit unit = KernelUnit::texels;
-  BlurShape blur = BlurShape::box;  ///< of stored texels; filters that read the depth map have their own
-  TexelFormat format = TexelFormat::fp32;
+  KernelUnit unit = KernelUnit::texels;  ///< of `radius`
+  BlurShape blur = BlurShape::box;       ///< of stored texels; filters that read the depth map have their own
+  TexelFormat format = TexelFormat::fp32;  ///< of stored channels
   bool mipmap = false;  ///< averages over the pixel's footprint where texels are smaller than pixels
   int anisotropy = 1;   ///< 1..16 probes along a long footprint; needs `mipmap`
   std::array<double, kMaxFilterOptions>
@@ -77,7 +77,7 @@ using StoredTexel = std::array<double, kMaxChannels>;
 struct FilterLookup {
   /// Depth of the texel at column x, row y; 1 outside of the map, where everything is lit.
   std::function<double(int x, int y)> map_depth;
-  /// Largest depth within the kernel of the stored texels, for filters that ask for it.
+  /// Largest depth within the kernel of the stored texels, for filters that need it.
   double depth_max = 1.0;
   glm::dvec2 position{0.0};          ///< in texels: the centre of texel i is at i + 0.5
   double depth = 0.0;                ///< of the receiver, 0 near the light .. 1, bias already taken off
@@ -92,7 +92,7 @@ struct FilterLookup {
   double rotation = 0.0;        ///< radians: turns sample patterns, random from pixel to pixel
 };
 
-/// What a filter reads.
+/// Kind of texels that a filter reads.
 enum class MapRead : std::uint8_t {
   depth,     ///< the depth map as it was rasterized; nothing is stored besides
   filtered,  ///< stored texels, blurred, whose weighted means the hardware takes (bilinear, mip-maps)
@@ -100,14 +100,14 @@ enum class MapRead : std::uint8_t {
   summed,    ///< the summed-area table of stored texels, in integers: any box at a constant price
 };
 
-/// What a filter is: its names, what it reads and stores, and what it asks of a plan.
+/// Description of a filter: names, texels that it reads and stores, needs of its plan.
 struct FilterInfo {
-  std::string_view name;
-  std::string_view summary;  ///< one line
-  std::string_view source;   ///< paper or book
-  MapRead reads = MapRead::depth;
-  FilterClass bias_class = FilterClass::single_compare;
-  std::span<const FilterOption> options = {};
+  std::string_view name;                                 ///< as on command lines
+  std::string_view summary;                              ///< one line
+  std::string_view source;                               ///< paper or book
+  MapRead reads = MapRead::depth;                        ///< what the lookup reads
+  FilterClass bias_class = FilterClass::single_compare;  ///< which bias fits (bias.hpp)
+  std::span<const FilterOption> options = {};            ///< of this filter alone
   std::span<const TexelFormat> formats = {};  ///< the first is the default; none for MapRead::depth
   bool may_mipmap = false;      ///< mip-maps and anisotropic reads, for MapRead::filtered and joined
   double default_radius = 1.0;  ///< texels
@@ -134,7 +134,7 @@ struct FilterInfo {
 /// laws over the registry compare them (tests/render/filter_laws_test.cpp).
 struct FilterReference {
   /// Largest error where all texels of the kernel agree, for a receiver at least `contact` (of the map's
-  /// depth range) in front of or behind them: what filter_laws asks for.
+  /// depth range) in front of or behind them, as filter_laws tests it.
   double tolerance = 1e-6, contact = 0.0;
   /// shadow_store: the texel of a depth whose surface changes by `slope` per texel (at most half of which is
   /// within the texel). nullptr for MapRead::depth.
@@ -144,6 +144,7 @@ struct FilterReference {
   /// sum.
   void (*join)(StoredTexel& sum, const StoredTexel& texel, double weight,
                const FilterSettings& settings) noexcept = nullptr;
+  /// The sum of no texels, to which join() adds.
   StoredTexel (*nothing)(const FilterSettings& settings) noexcept = nullptr;
   /// shadow_visibility: 1 lit .. 0 in shadow. `texel`: what was stored, over the kernel; unused by
   /// MapRead::depth.
@@ -151,7 +152,7 @@ struct FilterReference {
                        const FilterSettings& settings) = nullptr;
 };
 
-/// What the renderer does for a filter besides running its shaders.
+/// Work of the renderer for a filter besides running its shaders.
 struct FilterHooks {
   /// True if shadow_store uses its slope: two to four more depths are fetched per texel. nullptr: never.
   bool (*reads_slope)(const FilterSettings& settings) noexcept = nullptr;
@@ -166,9 +167,9 @@ struct FilterHooks {
 
 /// One entry of the registry. See shaders/README.md for the shader's side.
 struct Filter {
-  FilterInfo info;
-  FilterReference reference;
-  FilterHooks hooks = {};
+  FilterInfo info;            ///< names, options, formats
+  FilterReference reference;  ///< the formulas on the CPU
+  FilterHooks hooks = {};     ///< what the renderer does besides
 };
 
 /// All filters, in the order of filters.def.
@@ -180,14 +181,14 @@ struct Filter {
 
 /// Settings, or one line that says what is wrong with the text.
 struct ParsedFilter {
-  FilterSettings settings;
-  std::string error;  ///< empty where the text was understood
+  FilterSettings settings;  ///< the default where the text is wrong
+  std::string error;        ///< empty where the text was understood
 };
 /// Reads "NAME" or "NAME:KEY=VALUE,KEY=VALUE": keys are radius, unit (texels, world), blur (box, gauss),
 /// format (fp32, fp16, unorm16, unorm8, uint32), mipmap (0, 1), anisotropy, and the filter's own options.
 /// Example: "esm:c=40,radius=3,format=fp32".
 [[nodiscard]] ParsedFilter parse_filter(std::string_view text);
-/// The text that parse_filter reads back to the same settings; what is as by default is left out.
+/// The text that parse_filter reads back to the same settings; defaults are not written.
 [[nodiscard]] std::string to_string(const FilterSettings& settings);
 /// Help text of one filter: its use, its source, and a table of the keys that parse_filter reads. Lines have
 /// at most 100 columns.

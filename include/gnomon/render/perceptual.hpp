@@ -1,4 +1,4 @@
-// How wide a filter must be for its map's texels not to be seen, and how small a map may be under a filter.
+// How wide must a filter be to hide its map's texels, and how small may a map be under a filter?
 // Based on: a viewers' study of the filter sizes that hide shadow-map artifacts (radius 3.47 times their
 // size).
 #pragma once
@@ -21,7 +21,7 @@ inline constexpr double kHidingRadius = 3.47;
 /// negative ones and not-a-number count as 0, which hides nothing.
 [[nodiscard]] double hidden_texel_pixels(double radius_pixels) noexcept;
 
-/// The shadow whose kernel is asked about. Only filters with penumbras look at it.
+/// Distances that decide the kernel of a penumbra. Other filters ignore them.
 struct ShadowDistances {
   double blocker_world = 0.0;  ///< from the receiver to what shadows it, world units, >= 0
   double light_world = 0.0;    ///< from the receiver to the light, world units; 0: parallel light
@@ -35,12 +35,13 @@ struct ShadowDistances {
 [[nodiscard]] double kernel_radius_world(const FilterSettings& settings,
                                          const ShadowDistances& distances) noexcept;
 
+/// The result of hiding_map_size.
 struct HidingMapSize {
   int map_size = kMostMapSize;  ///< PlanOptions::map_size, texels along a side
   bool hides = false;           ///< false: not even the largest map does, and map_size is that
   double radius_world = 0.0;    ///< of the kernel, world units; 0: it has no size in the world
   /// The same in pixels where it is largest on the screen: at the least view depth of any map, on a surface
-  /// that faces camera and light. Tells how far from the study's range one is.
+  /// that faces camera and light. Compare it with the study's range.
   double radius_pixels = 0.0;
 };
 
@@ -48,8 +49,8 @@ struct HidingMapSize {
 /// from the same place: what counts is that the longest side of any texel (ShadowMap::texel_world_max) is at
 /// most the kernel's radius over 3.47, both across the light.
 ///
-/// The plan's texels are taken to shrink as its maps grow. Rims and warps make that true to a few texels
-/// only: ask again of a plan of that size, and grow it until the answer is no larger.
+/// Texels are assumed to shrink as maps grow. Borders and warps make that inexact by a few texels: repeat the
+/// query with a plan of that size until the result is no larger.
 ///
 /// Kernels in texels: every map size, so the smallest, where radius + 1/2 texels are 3.47 or more; none
 /// below. Penumbras: those of `distances`, no wider than FilterSettings::radius; nearer blockers have

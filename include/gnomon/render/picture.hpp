@@ -14,9 +14,9 @@ namespace gnomon::render {
 using Color = glm::u8vec3;
 
 [[nodiscard]] Image blank_image(int width, int height, Color color);
-/// Fills the rectangle; parts outside of the image are left out.
+/// Fills the rectangle, clipped to the image.
 void fill_rectangle(Image& image, int x, int y, int width, int height, Color color);
-/// Copies `from` to (x, y); parts outside of `to` are left out.
+/// Copies `from` to (x, y), clipped to `to`.
 void paste(Image& to, const Image& from, int x, int y);
 /// The image at another size no larger than it is, each pixel the average of those it covers.
 [[nodiscard]] Image shrunk(const Image& image, int width, int height);
@@ -34,8 +34,8 @@ void draw_text(Image& image, int x, int y, std::string_view text, Color color, i
 void draw_heat_legend(Image& image);
 /// Colour fields with what they stand for, in the lower left corner: the depth interval of each map.
 struct LegendEntry {
-  Color color;
-  std::string_view text;
+  Color color;            ///< of the field
+  std::string_view text;  ///< beside the field
 };
 void draw_legend(Image& image, std::string_view title, std::span<const LegendEntry> entries);
 /// The colour that the cascade tint gives to a map.

@@ -1,4 +1,4 @@
-// What the current context's driver can do, and whether its clock can be believed.
+// Which limits does the current context's driver have, and is its clock reliable?
 #pragma once
 
 #include <cstdint>
@@ -7,34 +7,37 @@
 
 namespace gnomon::render {
 
+/// One limit of the driver.
 struct Limit {
-  std::string name;
-  std::int64_t value = 0;
+  std::string name;        ///< as OpenGL names it
+  std::int64_t value = 0;  ///< in its own unit
 };
 
+/// Limits and clock of a driver.
 struct Probe {
   std::vector<Limit> limits;  ///< those that maps and passes can run into
   /// GL_TIME_ELAPSED of a heavy pass against the wall clock around it with nothing else in flight. Software
   /// drivers draw after the query has ended, and their timers run several times too fast.
   bool timers_trusted = false;
-  std::string timers_why;  ///< one line, with both times
-  double timer_ms = 0.0, wall_ms = 0.0;
+  std::string timers_why;                ///< one line, with both times
+  double timer_ms = 0.0, wall_ms = 0.0;  ///< of the same pass
 };
 /// Draws for some 50 ms in the context that is current. Throws RenderError.
 [[nodiscard]] Probe probe_driver();
 
 /// Whether the driver gives `maps` maps of this size and so many bytes a texel, and, where it draws in
-/// software, whether that much memory is free. Takes the images of the size asked for, for a moment, in the
-/// context that is current.
+/// software, whether that much memory is free. Allocates images of that size for a moment, in the current
+/// context.
 [[nodiscard]] bool memory_takes_maps(int map_size, int maps, double bytes_per_texel);
 
+/// The result of largest_maps.
 struct FittingMaps {
   int size = 0;            ///< texels along each side; 0: none fits
   double mebibytes = 0.0;  ///< that all of them take
-  std::string why;         ///< what larger ones are too large for; empty: they are as large as asked for
+  std::string why;         ///< the limit that larger maps exceed; empty: they are as large as requested
 };
 /// Maps of `map_size` texels a side, halved until memory takes `maps` of them and they stay within
-/// `limit_mib` (0: no limit), down to 16. Asks memory_takes_maps(), in the context that is current.
+/// `limit_mib` (0: no limit), down to 16. Calls memory_takes_maps(), in the current context.
 [[nodiscard]] FittingMaps largest_maps(int map_size, int maps, double bytes_per_texel, double limit_mib);
 
 }  // namespace gnomon::render

@@ -36,21 +36,20 @@ inline constexpr std::size_t kPassCount = 8;
 
 /// A filter whose program is compiled; only Renderer::prepare makes one.
 struct PreparedFilter {
-  FilterSettings settings;
-  std::size_t program = 0;
+  FilterSettings settings;  ///< that the program is compiled for
+  std::size_t program = 0;  ///< index within the renderer
 };
 
-/// How one map passes into the next where maps follow each other in view depth: over ShadowMap::overlap,
-/// which a plan has where PlanOptions::split_overlap asks for it.
+/// Transition between cascades, over the blend band ShadowMap::overlap (SplitOptions::overlap).
 enum class SplitTransition : std::uint8_t {
   cut,     ///< at the split
   blend,   ///< both maps are read and mixed: twice the reads over the transition
   dither,  ///< either map, by a noise from pixel to pixel
 };
 
-/// What to draw besides the lit picture.
+/// Pictures to draw besides the lit one.
 struct FrameOptions {
-  SplitTransition transition = SplitTransition::cut;
+  SplitTransition transition = SplitTransition::cut;  ///< between cascades
   /// Of a spot or point light: fades the picture out at its cone and range. The mask is the plan's alone.
   const Light* light = nullptr;
   bool aliasing = true;      ///< the error per pixel
@@ -58,28 +57,30 @@ struct FrameOptions {
   bool cascade_tint = true;  ///< the picture tinted by map
   /// Waits for each pass to end and takes its wall-clock time. Costs the overlap of passes.
   bool time_passes = true;
-  /// What may be left out of drawing; those that the plan decides say nothing here. Maps are held for the
-  /// next frame whether it asks for them or not.
+  /// Work that may be omitted; rules that the plan applies have no effect here. Maps are cached for the next
+  /// frame in any case.
   PruneRules prune = default_prune_rules();
-  /// PruneRule::small_casters: the most texels of a map, as a share of all, that casters left out may cover,
-  /// 0..1. Larger: fewer draws, and shadows of small things gone.
+  /// PruneRule::small_casters: the most texels of a map, as a share of all, that omitted casters may cover,
+  /// 0..1. Larger: fewer draws, and small shadows disappear.
   double lost_shadow_share = 1e-4;
 };
 
+/// Work of one map, or of the surfaces pass, in one frame.
 struct MapStats {
   std::uint32_t instances = 0;  ///< drawn into this map, after culling
   std::uint32_t draws = 0;      ///< draw commands: runs of instances of one primitive
-  std::uint64_t triangles = 0;
-  std::uint64_t texels = 0;  ///< rasterized into: width times height; of held maps, those drawn to
-  bool held = false;         ///< as it was: nothing drawn, nothing filtered
-  bool scrolled = false;     ///< moved by whole texels and drawn where it was not in the map before
-  int age = 0;               ///< frames since all of it was drawn
+  std::uint64_t triangles = 0;  ///< drawn
+  std::uint64_t texels = 0;     ///< rasterized into: width times height; of cached maps, those redrawn
+  bool held = false;            ///< cached: nothing drawn, nothing filtered
+  bool scrolled = false;        ///< moved by whole texels and drawn where it was not in the map before
+  int age = 0;                  ///< frames since all of it was drawn
 };
 
+/// Work of one frame.
 struct FrameStats {
-  std::array<double, kPassCount> milliseconds{};  ///< by Pass; 0 where not drawn or not timed
-  std::array<MapStats, kMaxMaps> map{};
-  int map_count = 0;
+  std::array<double, kPassCount> milliseconds{};     ///< by Pass; 0 where not drawn or not timed
+  std::array<MapStats, kMaxMaps> map{};              ///< by index of the map in the plan
+  int map_count = 0;                                 ///< entries of `map` that are used
   MapStats camera;                                   ///< the surfaces pass; its texels are pixels
   std::uint64_t texels = 0;                          ///< over all maps
   std::array<PruneSaving, kPruneRuleCount> saved{};  ///< by PruneRule, the plan's own included
@@ -101,18 +102,21 @@ class Renderer {
 
   /// Compiles the filter's programs, once. Throws RenderError with shader file and line.
   [[nodiscard]] PreparedFilter prepare(const FilterSettings& settings);
+  /// The same with the filter's default settings.
   [[nodiscard]] PreparedFilter prepare(const Filter& filter) { return prepare(default_settings(filter)); }
 
   /// Draws one frame at camera.width x camera.height. The plan must be one of this camera and of this scene's
   /// boxes (Scene::instances' bounds_world as casters). A plan without maps leaves everything lit. Images are
-  /// made anew where the frame's or the maps' size grows.
+  /// reallocated when the frame or the maps grow.
   FrameStats draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                   const FrameOptions& options = {}) noexcept;
 
   /// The last frame's pictures, rows top to bottom. They, and all that follow, throw RenderError where the
   /// driver has reset the context since.
   [[nodiscard]] Image image() const;
+  /// The aliasing error as colours (heat_color).
   [[nodiscard]] Image heat_map() const;
+  /// The lit picture, tinted by map.
   [[nodiscard]] Image cascade_tint() const;
   /// Channels "visibility" (1 lit .. 0 in shadow) and "map" (-1: none).
   [[nodiscard]] FloatImage mask() const;
@@ -136,7 +140,7 @@ class Renderer {
   void show(Picture picture, int width, int height) const noexcept;
   /// Copies an image to the lower left corner of the default framebuffer.
   void show_overlay(const Image& image) const;
-  /// What the default framebuffer holds where show() last drew: the whole picture as on screen.
+  /// The content of the default framebuffer where show() last drew: the whole picture as on screen.
   [[nodiscard]] Image screen() const;
 
   /// Texture names (OpenGL) of the last frame's depth array, for passes of one's own and for tests.

@@ -13,6 +13,7 @@ namespace gnomon::render {
 /// A context whose default framebuffer is a window. Input is read through GLFW with handle().
 class Window : public Context {
  public:
+  /// The window for GLFW's functions; valid while this lives.
   [[nodiscard]] virtual GLFWwindow* handle() const noexcept = 0;
 };
 

@@ -10,26 +10,27 @@
 
 namespace gnomon::report {
 
-/// What one technique was predicted to draw and measured to take, on one frame.
+/// Predicted work and measured times of one technique on one frame.
 struct Observation {
   std::string view;    ///< scene, frame and light: what errors can be compared within
   std::string filter;  ///< with its options
-  PlanWork work;
-  double megapixels = 0.0, bytes_per_texel = 4.0;
-  double frame_ms = 0.0, depth_ms = 0.0, prefilter_ms = 0.0, lookup_ms = 0.0;
-  double m = 0.0;      ///< predicted: planned_error
+  PlanWork work;       ///< predicted
+  double megapixels = 0.0, bytes_per_texel = 4.0;  ///< of the frame; of everything that is kept
+  double frame_ms = 0.0, depth_ms = 0.0, prefilter_ms = 0.0, lookup_ms = 0.0;  ///< measured, milliseconds
+  double m = 0.0;                                                              ///< predicted: planned_error
   double wrong = 0.0;  ///< share of the pixels on the wrong side of one half, measured
 };
 
 /// A CostModel that owns its names.
 struct StoredCostModel {
-  std::string machine;  ///< renderer and CPU it was measured on
-  DrawingCosts drawing;
+  std::string machine;   ///< renderer and CPU it was measured on
+  DrawingCosts drawing;  ///< milliseconds per unit of work
+  /// One filter's cost, with its name.
   struct Filter {
-    std::string name;
-    FilterCost cost;
+    std::string name;  ///< with its options
+    FilterCost cost;   ///< its name is empty
   };
-  std::vector<Filter> filters;
+  std::vector<Filter> filters;                                          ///< at least one
   double depth_error = 0.0, prefilter_error = 0.0, lookup_error = 0.0;  ///< mean relative error of the fit
 
   /// Views into this object, which must outlive them. `costs` is where the filters go.
@@ -41,7 +42,7 @@ struct StoredCostModel {
 [[nodiscard]] StoredCostModel fit_costs(std::span<const Observation> observations, std::string machine);
 
 /// Coefficients >= 0 that make sum over rows of ((features . x - value) / value)^2 least; rows whose value is
-/// not above zero do not count. Each row holds as many features as the answer has coefficients.
+/// not above zero do not count. Each row holds one feature per coefficient.
 [[nodiscard]] std::vector<double> least_squares(std::span<const std::vector<double>> rows,
                                                 std::span<const double> values);
 

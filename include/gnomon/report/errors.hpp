@@ -1,4 +1,4 @@
-// How wrong a shadow mask is, and in which way.
+// How wrong is a shadow mask, and in which way?
 #pragma once
 
 #include <cstdint>
@@ -8,38 +8,38 @@ namespace gnomon::report {
 
 /// A mask against the truth, pixel by pixel. Rates are shares in [0,1]; 0 where there is nothing to count.
 struct MaskErrors {
-  std::uint64_t pixels = 0;   ///< judged against the hard truth
+  std::uint64_t pixels = 0;   ///< compared with the hard truth
   double false_lit = 0.0;     ///< of them: truly in shadow, more than half lit in the mask
   double false_shadow = 0.0;  ///< of them: truly lit, at most half lit in the mask
   double mean_error = 0.0;    ///< |mask - soft truth|, mean over the pixels that has a value for
   /// Mean of the mask over the `deep_pixels` that no part of the kernel sees lit: light that leaks through.
   double leaking = 0.0;
-  std::uint64_t deep_pixels = 0;
+  std::uint64_t deep_pixels = 0;  ///< counted in `leaking`
   /// Mean of 1 - mask over the `open_pixels` that every part of the kernel sees lit: acne and false shadow.
   double darkening = 0.0;
-  std::uint64_t open_pixels = 0;
+  std::uint64_t open_pixels = 0;  ///< counted in `darkening`
 };
 
-/// All spans are equally long. `mask`: 1 lit .. 0 in shadow. `hard`: 1, 0, or negative where not judged.
-/// `soft`: 1 .. 0, or negative where not judged.
+/// All spans are equally long. `mask`: 1 lit .. 0 in shadow. `hard`: 1, 0, or negative where undecided.
+/// `soft`: 1 .. 0, or negative where undecided.
 [[nodiscard]] MaskErrors mask_errors(std::span<const float> mask, std::span<const float> hard,
                                      std::span<const float> soft) noexcept;
 
-/// Pixels whose answer changes although the truth at the same world point does not, as a share of those that
-/// are judged in both frames. `before` and `after` are masks at the same points; a change is one by more than
-/// half. Zero for a technique that stands still.
+/// Pixels whose shadow changes although the truth at the same world point does not, as a share of those that
+/// are decided in both frames. `before` and `after` are masks at the same points; a change is one by more
+/// than half. Zero for a stable technique.
 [[nodiscard]] double excess_flips(std::span<const float> before, std::span<const float> after,
                                   std::span<const float> truth_before,
                                   std::span<const float> truth_after) noexcept;
 
 /// The aliasing error over the pixels of a frame.
 struct PixelAliasing {
-  double p50 = 0.0, p95 = 0.0, max = 0.0;
-  double share_undersampled = 0.0;  ///< m > 1
-  std::uint64_t pixels = 0;
+  double p50 = 0.0, p95 = 0.0, max = 0.0;  ///< of m, screen pixels per texel
+  double share_undersampled = 0.0;         ///< m > 1
+  std::uint64_t pixels = 0;                ///< that counted
 };
-/// Of m where it is above zero; infinities count. `m` holds one value per pixel, 0 or negative where there is
-/// none.
+/// Statistics of m where it is above zero; infinities count. `m` holds one value per pixel, 0 or negative
+/// where there is none.
 [[nodiscard]] PixelAliasing pixel_aliasing(std::span<const float> m);
 
 }  // namespace gnomon::report

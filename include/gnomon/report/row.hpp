@@ -21,25 +21,27 @@ class ReportError : public std::runtime_error {
 /// How the shadow was made.
 struct Technique {
   std::string warp, split, fit, filter;  ///< names as on the command line
-  int cascades = 1;                      ///< asked for
+  int cascades = 1;                      ///< requested
   int map_size = 1024;                   ///< texels along each side
   /// "none / auto / 4 x 1024 / pcf": unique within a sweep, for people.
   [[nodiscard]] std::string name() const;
+  /// The same names and numbers.
   bool operator==(const Technique&) const = default;
 };
 
 /// Where it was measured.
 struct Machine {
-  std::string renderer, context, cpu, version, rays;
-  bool software = true;  ///< drawn by the CPU
-  int cores = 0;
-  double load = 0.0;  ///< average over the last minute, when the row was measured
+  std::string renderer, context;   ///< GL_RENDERER; kind of context
+  std::string cpu, version, rays;  ///< names of CPU, gnomon's version and ray tracer
+  bool software = true;            ///< drawn by the CPU
+  int cores = 0;                   ///< logical ones
+  double load = 0.0;               ///< average over the last minute, when the row was measured
 };
 
 /// Milliseconds of the wall clock after the driver has finished, but plan_ns.
 struct Times {
-  Estimate plan_ns, depth_ms, prefilter_ms, shade_ms;
-  Estimate total_ms;         ///< of the four
+  Estimate plan_ns, depth_ms, prefilter_ms, shade_ms;  ///< nanoseconds, then milliseconds
+  Estimate total_ms;                                   ///< of the four
   double baseline_ms = 0.0;  ///< median total of hard x no warp x one map in the same rounds
   int rounds = 0;            ///< measured, warm-up not counted
   /// total over baseline; 0 where there is none.
@@ -48,45 +50,48 @@ struct Times {
   }
 };
 
+/// Counts of one frame's shadows.
 struct Costs {
-  int maps = 0;  ///< drawn
-  std::uint64_t draws = 0, triangles = 0, texels = 0, map_bytes = 0;
+  int maps = 0;                                                       ///< drawn
+  std::uint64_t draws = 0, triangles = 0, texels = 0, map_bytes = 0;  ///< over all maps
 };
 
+/// One omission of the plan, or the savings of one prune rule.
 struct LeftOut {
-  std::string what, why;
-  std::int64_t saves_texels = 0;
+  std::string what, why;          ///< as describe() words them
+  std::int64_t saves_texels = 0;  ///< not drawn
   std::string rule = {};  ///< of gnomon::prune_rules(): all that it saved of the frame; empty: one thing
-  std::int64_t saves_triangles = 0;
+  std::int64_t saves_triangles = 0;  ///< not drawn
 };
 
 /// Files beside the rows, relative to their folder; empty: none was written for this frame.
 struct Pictures {
-  std::string image, truth, mask, difference, heat;
+  std::string image, truth, mask, difference, heat;  ///< PNG files
 };
 
+/// One technique on one frame of one scene.
 struct Row {
   std::uint64_t index = 0;  ///< place in the whole sweep, the same in every shard
-  std::string scene;
-  std::string scene_hash;  ///< of the scene's files, in hexadecimal; empty: built in, or not known
-  int frame = 0, frames = 1, width = 0, height = 0;
+  std::string scene;        ///< as on the command line
+  std::string scene_hash;   ///< of the scene's files, in hexadecimal; empty: built in, or not known
+  int frame = 0, frames = 1, width = 0, height = 0;  ///< index, count, pixels
   std::string light;  ///< "sun", "spot" or "point", in the direction of elevation and azimuth
-  double light_elevation_deg = 0.0, light_azimuth_deg = 0.0;
-  Technique technique;
-  std::string plan_status;
-  std::string truth;  ///< what mean_error is against: "filtered" or "area"
-  MaskErrors errors;
-  std::uint64_t undecided_pixels = 0;  ///< that the geometry leaves open, not judged
+  double light_elevation_deg = 0.0, light_azimuth_deg = 0.0;  ///< degrees
+  Technique technique;                                        ///< how the shadow was made
+  std::string plan_status;                                    ///< name of the PlanStatus
+  std::string truth;                   ///< what mean_error is against: "filtered" or "area"
+  MaskErrors errors;                   ///< against the truth
+  std::uint64_t undecided_pixels = 0;  ///< undecided by the geometry, not counted in `errors`
   double flips = 0.0;                  ///< excess flips per pixel over one step of a 60 Hz viewer
-  PixelAliasing aliasing;
-  Costs costs;
-  Times times;
-  std::vector<LeftOut> left_out;
-  Pictures pictures;
-  Machine machine;
+  PixelAliasing aliasing;              ///< over the pixels of the frame
+  Costs costs;                         ///< of the frame
+  Times times;                         ///< over all rounds
+  std::vector<LeftOut> left_out;       ///< by the plan and the renderer
+  Pictures pictures;                   ///< of this frame
+  Machine machine;                     ///< that measured
 
-  /// All that decides what a row says, apart from the machine and what the scene's files hold: equal keys
-  /// mean the same measurement.
+  /// Everything that identifies a measurement, except the machine and the content of the scene's files: equal
+  /// keys mean the same measurement.
   [[nodiscard]] std::string key() const;
 };
 

@@ -22,6 +22,7 @@ class ResultsLock {
   /// The folder must exist. Throws ReportError where another writer holds it ("in use by process N"), or
   /// nothing can be written there.
   explicit ResultsLock(const std::filesystem::path& folder);
+  /// Takes the lock of `other`, which then holds none.
   ResultsLock(ResultsLock&& other) noexcept;
   ~ResultsLock();
   ResultsLock(const ResultsLock&) = delete;

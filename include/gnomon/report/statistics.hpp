@@ -13,7 +13,8 @@ namespace gnomon::report {
 
 /// A median and the interval that holds the true one with 95 % confidence.
 struct Estimate {
-  double median = 0.0, low = 0.0, high = 0.0;
+  double median = 0.0, low = 0.0, high = 0.0;  ///< low <= median <= high
+  /// Equal in all members.
   bool operator==(const Estimate&) const = default;
 };
 /// By the percentile bootstrap (Efron 1979) over 1000 resamples drawn with a fixed seed. One value is its own
@@ -25,11 +26,11 @@ struct Estimate {
 
 /// A choice: both are to be made small.
 struct Choice {
-  double cost = 0.0, error = 0.0;
+  double cost = 0.0, error = 0.0;  ///< any units
 };
 /// Indices of the choices that no other beats, by rising cost: none costs no more and errs no more while
-/// being better in one of them. Of equals the first stands. Choices with a value that is not finite take no
-/// part.
+/// being better in one of them. The first of equal choices is taken. Choices with a value that is not finite
+/// take no part.
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const Choice> choices);
 
 }  // namespace gnomon::report

@@ -10,19 +10,20 @@
 
 namespace gnomon {
 
+/// One key of a camera path.
 struct CameraKey {
-  glm::dvec3 position{0.0};
+  glm::dvec3 position{0.0};           ///< eye, world space
   glm::dvec3 target{0.0, 0.0, -1.0};  ///< the point looked at, not equal to position
 };
 
 /// Catmull-Rom through `keys` (centripetal, so no loops or cusps between them), in the unit interval of time.
 /// One key is a still camera. `closed` joins the last key to the first.
 struct CameraPath {
-  std::vector<CameraKey> keys;
-  bool closed = false;
+  std::vector<CameraKey> keys;                ///< at least one
+  bool closed = false;                        ///< the last key leads back to the first
   double fov_y_radians = 1.0471975511965976;  ///< 60 degrees
-  double near_depth = 0.1;
-  double far_depth = 100.0;
+  double near_depth = 0.1;                    ///< near plane, world units, above 0
+  double far_depth = 100.0;                   ///< far plane, world units
   /// The camera at time `t` in [0,1] (clamped), for an image of this size. World up is +Y.
   [[nodiscard]] Camera at(double t, int width, int height) const noexcept;
 };

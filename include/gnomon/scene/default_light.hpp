@@ -1,4 +1,4 @@
-// A light for a scene that brings none: the sun, or a lamp in its direction over the middle of the scene.
+// Which light does a scene get that has none? The sun, or a local light over the middle of the scene.
 #pragma once
 
 #include <string_view>
@@ -15,16 +15,17 @@ enum class LightKind : unsigned char { sun, spot, point };
 /// False, and `kind` unchanged, for any other name.
 [[nodiscard]] bool light_kind_from_name(std::string_view name, LightKind& kind) noexcept;
 
+/// Kind and direction of a light for a scene that has none.
 struct LightPlacement {
-  LightKind kind = LightKind::sun;
-  double elevation_deg = 38.0;  ///< above the horizon
-  double azimuth_deg = 140.0;   ///< 0: over -Z; 90: over +X
+  LightKind kind = LightKind::sun;  ///< sun, spot or point
+  double elevation_deg = 38.0;      ///< above the horizon
+  double azimuth_deg = 140.0;       ///< 0: over -Z; 90: over +X
 };
 
 /// Sun: parallel light from that direction. Spot: from that direction at 0.6 of the scene's longest side from
 /// its middle, half angle 0.6 radians, range 1.5 sides. Point: over the middle at 0.8 of the scene's height,
-/// range 0.75 sides; direction does not matter. A scene that is one point has lamps of range zero in that
-/// very point, and an empty one lamps nowhere (not a number): make_plan refuses both.
+/// range 0.75 sides; direction does not matter. In a scene that is one point the range is zero, and in an
+/// empty one the position is not a number: make_plan refuses both.
 [[nodiscard]] Light default_light(const LightPlacement& placement, const Box& scene) noexcept;
 
 }  // namespace gnomon

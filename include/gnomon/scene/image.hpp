@@ -11,8 +11,9 @@
 
 namespace gnomon {
 
-/// Decodes PNG or JPEG bytes, told by their first bytes and not by a name. Throws SceneError with `name` in
-/// it where the bytes are neither, damaged, or larger than `max_pixels` (checked before decoding).
+/// Decodes PNG, JPEG or still WebP (if OpenImageIO reads it), recognised by the first bytes. Throws
+/// SceneError with `name` in it where the bytes are none of these, damaged, or larger than `max_pixels`
+/// (checked before decoding).
 [[nodiscard]] Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name,
                                  std::uint64_t max_pixels);
 
@@ -26,9 +27,9 @@ void write_png(const Image& image, const std::filesystem::path& file);
 /// A float picture, `channels` interleaved, rows top to bottom; written as 32-bit float EXR. Throws
 /// SceneError.
 struct FloatImage {
-  int width = 0, height = 0, channels = 1;
-  std::vector<float> values;
-  std::vector<std::string> channel_names;  ///< one per channel
+  int width = 0, height = 0, channels = 1;  ///< pixels; values per pixel
+  std::vector<float> values;                ///< width x height x channels
+  std::vector<std::string> channel_names;   ///< one per channel
 };
 void write_exr(const FloatImage& image, const std::filesystem::path& file);
 

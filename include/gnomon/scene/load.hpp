@@ -38,8 +38,8 @@ struct LoadLimits {
 /// A scene built in code. `build_glb` gives it as a binary glTF file; `load_builtin` reads that through
 /// load_gltf's own path, so that a builtin scene is a glTF scene.
 struct BuiltinScene {
-  std::string_view name;
-  std::string_view summary;
+  std::string_view name;     ///< behind "builtin:"
+  std::string_view summary;  ///< one line
 };
 [[nodiscard]] std::span<const BuiltinScene> builtin_scenes() noexcept;
 [[nodiscard]] std::string build_glb(std::string_view name);  ///< throws SceneError for an unknown name
@@ -48,9 +48,9 @@ struct BuiltinScene {
 /// `builtin:NAME` or a path. Throws SceneError.
 [[nodiscard]] Scene load_scene(const std::string& spec, const LoadLimits& limits = {});
 
-/// What a scene's file and all files it names hold, as one number (FNV-1a, 64 bits): tells whether a scene is
-/// still the one it was, whatever the dates of its files say. 0 for builtin scenes, which are the program's.
-/// Loads a file to learn which others it names. Throws what load_scene() throws.
+/// Hash of a scene's file and all files it names (FNV-1a, 64 bits): it changes when their content changes,
+/// whatever their dates. 0 for builtin scenes, which are the program's. Loads a file to learn which others it
+/// names. Throws what load_scene() throws.
 [[nodiscard]] std::uint64_t scene_files_hash(const std::string& spec, const LoadLimits& limits = {});
 
 }  // namespace gnomon

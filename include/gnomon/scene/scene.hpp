@@ -15,60 +15,61 @@ namespace gnomon {
 
 /// A decoded picture: rows top to bottom, four 8-bit channels (red, green, blue, alpha), colour in sRGB.
 struct Image {
-  std::string name;
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgba;
+  std::string name;                ///< for messages
+  int width = 0, height = 0;       ///< pixels
+  std::vector<std::uint8_t> rgba;  ///< width x height x 4
 };
 
 /// How a texture coordinate outside [0,1] is read.
 enum class TextureWrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
-/// What alpha means. `blend` surfaces are drawn and cast shadows like opaque ones with a cutoff of 0.5.
+/// Meaning of alpha. `blend` surfaces are drawn and cast shadows like opaque ones with a cutoff of 0.5.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
+/// The look of a surface, as far as light and shadow need it.
 struct Material {
-  std::string name;
+  std::string name;            ///< as in the file; may be empty
   glm::vec4 base_color{1.0f};  ///< linear, multiplied with the image
   int base_color_image = -1;   ///< index into Scene::images, -1: none
-  TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
-  AlphaMode alpha_mode = AlphaMode::opaque;
+  TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;  ///< of the image
+  AlphaMode alpha_mode = AlphaMode::opaque;                                ///< which fragments are there
   float alpha_cutoff = 0.5f;  ///< a fragment below it is not there (mask and blend)
-  bool double_sided = false;
+  bool double_sided = false;  ///< back faces are drawn, too
 };
 
 /// A run of triangles with one material. `first_index` and `index_count` count entries of Scene::indices; the
 /// indices are absolute into the vertex arrays and always in range. `bounds` is in object space and holds
 /// every vertex used.
 struct Primitive {
-  std::uint32_t first_index = 0, index_count = 0;
-  int material = 0;
-  Box bounds;
+  std::uint32_t first_index = 0, index_count = 0;  ///< a multiple of 3 entries of Scene::indices
+  int material = 0;                                ///< index into Scene::materials
+  Box bounds;                                      ///< object space
 };
 
 /// One primitive placed in the world: the unit of drawing and of culling.
 struct Instance {
-  glm::dmat4 world_from_object{1.0};
-  std::uint32_t primitive = 0;
-  bool mirrored = false;  ///< the transform turns the winding round (negative determinant)
-  Box bounds_world;       ///< of the transformed vertices, not of the transformed box
+  glm::dmat4 world_from_object{1.0};  ///< affine
+  std::uint32_t primitive = 0;        ///< index into Scene::primitives
+  bool mirrored = false;              ///< the transform turns the winding round (negative determinant)
+  Box bounds_world;                   ///< of the transformed vertices, not of the transformed box
 };
 
 /// Triangles in object space, placed by instances. Vertex arrays have equal length; `normals` are unit
 /// length, `texcoords` are (0,0) where a mesh has none.
 struct Scene {
-  std::string name;
-  std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;
-  std::vector<glm::vec2> texcoords;
-  std::vector<std::uint32_t> indices;
-  std::vector<Primitive> primitives;
-  std::vector<Instance> instances;
+  std::string name;                    ///< of the file, without folder and ending
+  std::vector<glm::vec3> positions;    ///< object space
+  std::vector<glm::vec3> normals;      ///< unit, object space
+  std::vector<glm::vec2> texcoords;    ///< (0, 0) is the first texel of the first row
+  std::vector<std::uint32_t> indices;  ///< three for each triangle
+  std::vector<Primitive> primitives;   ///< each placed by any number of instances
+  std::vector<Instance> instances;     ///< in the order of the file's nodes
   std::vector<Material> materials;  ///< never empty: index 0 is the default material where a file names none
-  std::vector<Image> images;
-  std::vector<std::string> warnings;  ///< what was repaired or left out on loading, a line each
+  std::vector<Image> images;        ///< of base colours
+  std::vector<std::string> warnings;  ///< repairs and omissions of the loader, a line each
   Box bounds_world;                   ///< of all instances; empty for an empty scene
 
-  /// What vertices, indices, instances and pictures take in memory.
+  /// Memory of vertices, indices, instances and pictures, bytes.
   [[nodiscard]] std::uint64_t bytes() const noexcept {
     std::uint64_t n = positions.size() * (sizeof(glm::vec3) * 2 + sizeof(glm::vec2)) +
                       indices.size() * sizeof(std::uint32_t) + instances.size() * sizeof(Instance);

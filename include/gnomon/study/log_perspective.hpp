@@ -28,11 +28,11 @@ struct LogPerspectiveMap {
   double x_min = 0.0, x_max = 0.0;   ///< of the body's image (distance across - centre) / w
 };
 
-/// The map with `size` texels along each side, kLeastMapSize..kMostMapSize, and no rim for filters.
+/// The map with `size` texels along each side, kLeastMapSize..kMostMapSize, and no border for filters.
 [[nodiscard]] LogPerspectiveMap log_perspective_map(const Camera& camera, const DirectionalLight& light,
                                                     const SceneBounds& bounds, int size) noexcept;
 
-/// Where a world point lands, in texels from the map's corner; in y, texels are laid along ln w. Infinite
+/// Where a world point lands, in texels from the map's corner; in y, texels are even in ln w. Infinite
 /// behind the projection's centre.
 [[nodiscard]] glm::dvec2 log_perspective_texel(const LogPerspectiveMap& map,
                                                const glm::dvec3& point_world) noexcept;
@@ -40,7 +40,7 @@ struct LogPerspectiveMap {
 /// d(texel) / d(world): gradients of both texel coordinates, per world unit. Zero behind the projection's
 /// centre.
 struct LogPerspectiveJacobian {
-  glm::dvec3 x, y;
+  glm::dvec3 x, y;  ///< texels per world unit
 };
 [[nodiscard]] LogPerspectiveJacobian log_perspective_jacobian(const LogPerspectiveMap& map,
                                                               const glm::dvec3& point_world) noexcept;

@@ -27,8 +27,8 @@ enum class OmniMapping : std::uint8_t {
 /// A place on one of the maps; u and v in [-1, 1] over the map's rectangle, of which a disc or a triangle
 /// uses a part.
 struct OmniPoint {
-  int map = 0;
-  glm::dvec2 uv{0.0};
+  int map = 0;         ///< index of the map, below omni_map_count()
+  glm::dvec2 uv{0.0};  ///< in [-1, 1]
 };
 
 /// Where a direction lands. On a border the lower map takes it; the zero vector lands anywhere, finite.
@@ -39,7 +39,7 @@ struct OmniPoint {
 /// Gradients of u and v over the direction: d(uv) / d(offset from the light) at an offset of that length.
 /// Across the ray; along it nothing changes.
 struct OmniJacobian {
-  glm::dvec3 u, v;
+  glm::dvec3 u, v;  ///< per world unit
 };
 [[nodiscard]] OmniJacobian omni_jacobian(OmniMapping mapping, int map, const glm::dvec3& direction) noexcept;
 
@@ -65,7 +65,7 @@ struct OmniJacobian {
 /// Error over what the camera sees within the light's range, for each mapping; storage as in AliasingStats,
 /// summed over the maps.
 struct OmniComparison {
-  AliasingStats cube, dual_paraboloid, tetrahedron;
+  AliasingStats cube, dual_paraboloid, tetrahedron;  ///< each at the same number of texels
 };
 /// Compares the mappings at an equal number of texels, unfocused: every map shows all of its directions.
 /// Samples as measure() does. Zeros where nothing in view is within range.

@@ -15,28 +15,28 @@
 
 namespace gnomon::trace {
 
-/// What is known about a pixel before any ray goes to the light.
+/// State of a pixel before any ray goes to the light.
 enum class PixelState : std::uint8_t {
   sky,          ///< no surface
   turned_away,  ///< the side that is seen faces away from the light: dark without any map
   unlit,        ///< beyond the range or outside of the cone of the light
-  undecided,    ///< no certain answer: no triangle where the picture has one, or light that only grazes it
+  undecided,    ///< no certain result: no triangle where the picture has one, or light that only grazes it
   facing,       ///< a ray decides
 };
 
-/// What a pixel shows: the world point that the technique was asked about, and the triangle it lies on.
+/// The surface at a pixel: the world point of the look-up, and the triangle it lies on.
 struct SurfacePoint {
-  PixelState state = PixelState::sky;
-  std::uint32_t triangle = kNoTriangle;
-  glm::dvec3 position{0.0};  ///< world
-  glm::dvec3 normal{0.0};    ///< of the triangle, unit, turned to the viewer
-  double above = 0.0;        ///< height of `position` over the triangle's plane along `normal`: rounding
+  PixelState state = PixelState::sky;    ///< known before any ray goes to the light
+  std::uint32_t triangle = kNoTriangle;  ///< index within the tracer
+  glm::dvec3 position{0.0};              ///< world
+  glm::dvec3 normal{0.0};                ///< of the triangle, unit, turned to the viewer
+  double above = 0.0;  ///< height of `position` over the triangle's plane along `normal`: rounding
 };
 
 /// Rows top to bottom, as in FloatImage.
 struct SurfacePoints {
-  int width = 0, height = 0;
-  std::vector<SurfacePoint> pixels;
+  int width = 0, height = 0;         ///< pixels
+  std::vector<SurfacePoint> pixels;  ///< width x height
 };
 
 /// Finds the triangle behind each pixel by a ray from the eye. `positions` and `normals` are those of
@@ -44,26 +44,27 @@ struct SurfacePoints {
 [[nodiscard]] SurfacePoints surface_points(const Tracer& tracer, const Camera& camera, const Light& light,
                                            const FloatImage& positions, const FloatImage& normals);
 
-/// The answer of one ray to the light's centre.
+/// Result of one ray to the light's centre.
 enum class Verdict : std::uint8_t {
-  none,       ///< nothing to judge: sky, turned away, unlit
-  undecided,  ///< the point is undecided, or the answer changes within Tracer::error_world across the ray:
-              ///< an edge passes too close to tell
+  none,       ///< nothing to evaluate: sky, turned away, unlit
+  undecided,  ///< the point is undecided, or the result changes within Tracer::error_world across the ray: an
+              ///< edge is too close
   shadow,
   lit,
 };
+/// The exact hard shadow of each pixel.
 struct HardReference {
-  int width = 0, height = 0;
-  std::vector<Verdict> pixels;
+  int width = 0, height = 0;    ///< pixels
+  std::vector<Verdict> pixels;  ///< width x height, rows top to bottom
 };
-/// One ray per pixel decides, four more round it at the engine's error say whether the answer is certain.
+/// One ray per pixel decides. Four more around it, at the engine's error, check that the result is certain.
 [[nodiscard]] HardReference hard_reference(const Tracer& tracer, const SurfacePoints& points,
                                            const Light& light);
 
-/// Visibility 1 lit .. 0 in shadow; -1 where there is nothing to judge or the point is undecided.
+/// Visibility 1 lit .. 0 in shadow; -1 where there is nothing to evaluate or the point is undecided.
 struct SoftReference {
-  int width = 0, height = 0;
-  std::vector<float> pixels;
+  int width = 0, height = 0;  ///< pixels
+  std::vector<float> pixels;  ///< width x height, rows top to bottom
 };
 
 /// How a filter's kernel weighs the plane across the light, in the unit of its axes.
@@ -74,7 +75,7 @@ enum class KernelShape : std::uint8_t {
 };
 /// Where a kernel lies at a point: world vectors across the light. Both zero: a single point.
 struct KernelAxes {
-  glm::dvec3 x{0.0}, y{0.0};
+  glm::dvec3 x{0.0}, y{0.0};  ///< world units
 };
 /// The texel's sides across the light at a point, in world units, times `radius_texels`: the axes of a kernel
 /// of that radius in the map. Zero where the map is singular.
@@ -87,15 +88,15 @@ struct KernelAxes {
 /// every run. 16 are good to about 0.03 at the middle of a straight edge's penumbra.
 inline constexpr int kSoftSamples = 16;
 
-/// What an ideal filter of that kernel gives: the part of the kernel's weight, laid along the receiver's
-/// plane, from which the light's centre is visible. `axes` is asked for facing pixels, from several threads.
+/// Result of an ideal filter: the share of the kernel's weight, in the receiver's plane, from which the
+/// light's centre is visible. `axes` is called for facing pixels, from several threads.
 [[nodiscard]] SoftReference filtered_reference(const Tracer& tracer, const SurfacePoints& points,
                                                const Light& light, KernelShape shape,
                                                const std::function<KernelAxes(std::size_t pixel)>& axes,
                                                int samples = kSoftSamples);
 
-/// The visible part of a light with an extent: a disc that faces the point. `radius` is world units for a
-/// light with a position, the tangent of the angular radius for a directional one (the sun's is 0.00465).
+/// The visible part of an area light: a disc that faces the point. `radius` is world units for a local light,
+/// the tangent of the angular radius for a directional one (the sun's is 0.00465).
 [[nodiscard]] SoftReference area_reference(const Tracer& tracer, const SurfacePoints& points,
                                            const Light& light, double radius, int samples = kSoftSamples);
 

@@ -10,9 +10,9 @@
 
 namespace gnomon::trace {
 
-/// What rays through the centres of columns x rows equal parts of the image first hit between the camera's
-/// near and far depth, row by row, for SceneDetail and measure_seen. Surfaces that are turned from the light
-/// or that it does not reach are left out: no shadow map is asked about them. Empty without columns or rows.
+/// Visible points: first hits of rays through the centres of columns x rows equal parts of the image, between
+/// the camera's near and far depth, row by row, for SceneDetail and measure_seen. Surfaces that face away
+/// from the light or lie beyond it are omitted: no shadow map serves them. Empty without columns or rows.
 [[nodiscard]] std::vector<glm::dvec3> seen_points(const Tracer& tracer, const Camera& camera,
                                                   const Light& light, int columns = 64, int rows = 36);
 

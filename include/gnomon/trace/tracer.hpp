@@ -16,7 +16,7 @@
 
 namespace gnomon::trace {
 
-/// Embree was asked for where it was not built in, or it ran out of memory. what() is one line.
+/// Embree was requested where it was not built in, or it ran out of memory. what() is one line.
 class TraceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -33,6 +33,7 @@ struct Ray {
   std::uint32_t except = kNoTriangle;                    ///< a triangle that is not there for this ray
 };
 
+/// Where a ray meets a triangle.
 struct Hit {
   std::uint32_t triangle = kNoTriangle;  ///< kNoTriangle: nothing was hit, the rest is unset
   double t = 0.0;                        ///< in lengths of the ray's direction
@@ -60,6 +61,7 @@ class Tracer {
   Tracer& operator=(const Tracer&) = delete;
 
   [[nodiscard]] Engine engine() const noexcept;  ///< never automatic
+  /// Triangles of all instances.
   [[nodiscard]] std::size_t triangle_count() const noexcept;
 
   /// out[i] = 1 where something stops rays[i], else 0. The spans are equally long. Neighbours in the span
@@ -70,9 +72,9 @@ class Tracer {
   /// The same, but the hit whose t is nearest to `t`.
   [[nodiscard]] Hit hit_nearest_to(const Ray& ray, double t) const noexcept;
 
-  /// How far beside the true triangles the engine may see them, world units: an answer is certain where it
-  /// does not change within this distance across the ray. A multiple of the rounding unit times the diameter
-  /// of the scene and of what `reach` away from it rays start at.
+  /// Largest distance between true triangles and those that the engine hits, world units: a result is certain
+  /// where it does not change within this distance across the ray. A multiple of the rounding unit times the
+  /// diameter of the scene, enlarged by `reach`, the distance from which rays start.
   [[nodiscard]] double error_world(double reach = 0.0) const noexcept;
 
  private:

@@ -16,17 +16,15 @@ namespace {
 // far below anything that shows.
 constexpr double kClipTolerance = 1e-13;
 
-constexpr int kCornerFaces[8][3] = {{0, 2, 4}, {1, 2, 4}, {0, 3, 4}, {1, 3, 4},
-                                    {0, 2, 5}, {1, 2, 5}, {0, 3, 5}, {1, 3, 5}};
-
 /// Six faces in the order -x +x -y +y -z +z; corner i has bit 0 for +x, bit 1 for +y, bit 2 for +z. Crossing
 /// face pair k flips bit k, which is the edge on the two other faces.
-void set_cuboid(Polytope& body, const glm::dvec3 (&corner)[8]) noexcept {
+template <typename Corner>
+void set_cuboid(Polytope& body, const Corner& corner) noexcept {
   for (int i = 0; i < 8; ++i) {
     Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(i)];
-    v.position = corner[i];
+    v.position = corner((i & 1) != 0, (i & 2) != 0, (i & 4) != 0);
     for (int k = 0; k < 3; ++k) {
-      v.face[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(kCornerFaces[i][k]);
+      v.face[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(2 * k + (i >> k & 1));
       v.neighbour[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(i ^ (1 << k));
     }
   }
@@ -220,12 +218,9 @@ Polytope& Polytope::operator=(const Polytope& other) noexcept {
 
 Polytope box_polytope(const Box& box) noexcept {
   Polytope body;
-  glm::dvec3 corner[8];
-  for (int i = 0; i < 8; ++i) {
-    corner[i] = {(i & 1) ? box.max.x : box.min.x, (i & 2) ? box.max.y : box.min.y,
-                 (i & 4) ? box.max.z : box.min.z};
-  }
-  set_cuboid(body, corner);
+  set_cuboid(body, [&](bool x, bool y, bool z) {
+    return glm::dvec3(x ? box.max.x : box.min.x, y ? box.max.y : box.min.y, z ? box.max.z : box.min.z);
+  });
   body.plane[0] = {{1, 0, 0}, -box.min.x};
   body.plane[1] = {{-1, 0, 0}, box.max.x};
   body.plane[2] = {{0, 1, 0}, -box.min.y};
@@ -237,14 +232,12 @@ Polytope box_polytope(const Box& box) noexcept {
 
 Polytope frustum_slice(const Camera& camera, const CameraAxes& axes, double begin, double end) noexcept {
   Polytope body;
-  glm::dvec3 corner[8];
-  for (int i = 0; i < 8; ++i) {
-    const double depth = (i & 4) ? end : begin;
+  set_cuboid(body, [&](bool right, bool top, bool far) {
+    const double depth = far ? end : begin;
     const double scale = camera.orthographic ? 1.0 : depth;
-    corner[i] = axes.right * (((i & 1) ? camera.right : camera.left) * scale) +
-                axes.up * (((i & 2) ? camera.top : camera.bottom) * scale) + axes.forward * depth;
-  }
-  set_cuboid(body, corner);
+    return axes.right * ((right ? camera.right : camera.left) * scale) +
+           axes.up * ((top ? camera.top : camera.bottom) * scale) + axes.forward * depth;
+  });
   // Side planes hold a side edge of slope (x or y) per unit depth and the other image axis.
   const double slope = camera.orthographic ? 0.0 : 1.0;
   const auto side = [&](const glm::dvec3& axis, double edge, double inward) {

@@ -24,13 +24,6 @@ Box without_signed_zeros(const Box& box) noexcept {
   return {box.min + 0.0, box.max + 0.0};
 }
 
-/// Largest dot(direction, p) over the box.
-double reach(const Box& box, const glm::dvec3& direction) noexcept {
-  return (direction.x > 0.0 ? box.max.x : box.min.x) * direction.x +
-         (direction.y > 0.0 ? box.max.y : box.min.y) * direction.y +
-         (direction.z > 0.0 ? box.max.z : box.min.z) * direction.z;
-}
-
 /// A box in a table, which takes no time to make.
 struct Corners {
   glm::dvec3 min, max;
@@ -222,12 +215,6 @@ void walk_down(BoxWalk<Query>& walk, const Boxes& boxes) noexcept {
 }
 
 }  // namespace
-
-Side side_of(const Plane& plane, const Box& box) noexcept {
-  const double inward = reach(box, plane.normal), outward = reach(box, -plane.normal);
-  if (inward + plane.offset < -kTouching * (std::abs(inward) + std::abs(plane.offset))) return Side::outside;
-  return plane.offset - outward >= 0.0 ? Side::inside : Side::across;
-}
 
 Box visible_bounds(const Polytope& region, const Boxes& boxes, const glm::dvec3& origin) noexcept {
   if (boxes.size() == 1) {

@@ -12,10 +12,6 @@ namespace gnomon {
   return {box.min - origin, box.max - origin};
 }
 
-/// How a box lies to a plane.
-enum class Side : std::uint8_t { outside, across, inside };
-[[nodiscard]] Side side_of(const Plane& plane, const Box& box) noexcept;
-
 /// The smallest box round the parts of `boxes` (world space) inside `region`; `region` and the result are
 /// relative to `origin`. A single box is returned whole: the caller clips by it anyway.
 [[nodiscard]] Box visible_bounds(const Polytope& region, const Boxes& boxes,

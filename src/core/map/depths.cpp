@@ -30,9 +30,10 @@ double lowest(const LightBody& body) noexcept {
   return z;
 }
 
-/// The height of a face over the light plane: `at` + slope_x x + slope_y y.
-struct Face {
-  double at, slope_x, slope_y;
+/// The heights of faces over the light plane: `at` + slope_x x + slope_y y.
+template <std::size_t count>
+struct Faces {
+  std::array<double, count> at{}, slope_x{}, slope_y{};
 };
 
 /// Of a point of the body: 1 / w at the near side of its border, how far the border reaches in the light
@@ -57,17 +58,17 @@ Bordered bordered(const PlaneMap& map, double margin_image, const WarpInput::Poi
 /// Largest (z - bottom) / w over the body and its border, of the body itself or, where that is more, of the
 /// face on which it is least.
 template <std::size_t count>
-double highest_over(const FittedPlane& f, double bottom, const std::array<Face, count>& faces) noexcept {
+double highest_over(const FittedPlane& f, double bottom, const Faces<count>& faces) noexcept {
   const double margin_image = f.border * ((f.plane.a_max - f.plane.a_min) + (f.plane.b_max - f.plane.b_min));
   std::array<double, count> steepest, highest{};
   for (std::size_t k = 0; k < count; ++k)
-    steepest[k] = std::sqrt(faces[k].slope_x * faces[k].slope_x + faces[k].slope_y * faces[k].slope_y);
+    steepest[k] = std::sqrt(faces.slope_x[k] * faces.slope_x[k] + faces.slope_y[k] * faces.slope_y[k]);
   double of_body = 0.0;
   for (const WarpInput::Point& p : f.body.points()) {
     const Bordered b = bordered(f.plane, margin_image, p);
     of_body = max_of(of_body, (p.z - bottom) * b.inverse_w);
     for (std::size_t k = 0; k < count; ++k) {
-      const double z = faces[k].at + faces[k].slope_x * p.x + faces[k].slope_y * p.y + steepest[k] * b.margin;
+      const double z = faces.at[k] + faces.slope_x[k] * p.x + faces.slope_y[k] * p.y + steepest[k] * b.margin;
       highest[k] = max_of(highest[k], (z - bottom) * b.inverse_w);
     }
   }
@@ -86,13 +87,15 @@ double caster_height(const CasterReach& reach, const LightFrame& frame, const Fi
                           up.y > 0.0 ? reach.bounds.max.y : reach.bounds.min.y,
                           up.z > 0.0 ? reach.bounds.max.z : reach.bounds.min.z};
   // First the plane across the light through the highest caster, also in the place of faces along the light.
-  std::array<Face, 4> faces;
-  faces.fill({reach.top, 0.0, 0.0});
+  Faces<4> faces;
+  faces.at.fill(reach.top);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(up[axis]) > kSteepestFace)) continue;
     const double inverse = 1.0 / up[axis];
-    faces[static_cast<std::size_t>(axis) + 1] = {corner[axis] * inverse, -frame.x[axis] * inverse,
-                                                 -frame.y[axis] * inverse};
+    const auto k = static_cast<std::size_t>(axis) + 1;
+    faces.at[k] = corner[axis] * inverse;
+    faces.slope_x[k] = -frame.x[axis] * inverse;
+    faces.slope_y[k] = -frame.y[axis] * inverse;
   }
   return highest_over(f, bottom, faces);
 }
@@ -147,7 +150,7 @@ HeightRange perspective_heights(const PlanContext& c, const MapRequest& request,
   range.nearest = near_distance;
   range.bottom = 1.0 / far_distance;
   const double from = f.measured_from.value_or(range.bottom);
-  range.height = highest_over(f, from, std::array{Face{1.0 / near_distance, 0.0, 0.0}});
+  range.height = highest_over(f, from, Faces<1>{{1.0 / near_distance}});
   return range;
 }
 

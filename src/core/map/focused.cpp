@@ -74,7 +74,7 @@ PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const Lig
   const bool steady = c.remembers && !c.stable && c.options.fit != Fit::warped_stable;
   const bool warped = &request.warp != &warps::none && !c.stable;
   if (!warped && c.options.fit != Fit::rotated && !steady) return plane_map(body.points(), request.unwarped);
-  const WarpQuestion question(c, request);
+  const WarpQuestion question(c, request, body);
   WarpChoice choice = chosen_warp(c, request, question, result);
   if (c.options.fit == Fit::rotated) choice = turned_to_least_area(question.in, choice);
   return steady ? steady_plane(c, request, question, choice, result) : plane_map(question.in.body, choice);

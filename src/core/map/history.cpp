@@ -172,17 +172,16 @@ struct Change {
 
 Change change_between(const Homography& before, const Homography& now,
                       std::span<const WarpInput::Point> body) noexcept {
-  Change change{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  const double area = elementary::log(std::abs(now.determinant() / before.determinant()));
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;  // of the weight before over that now
   for (const WarpInput::Point& p : body) {
     const double w = before.weight(p);
     // Where the last frame had nothing, nothing changes.
     if (!(w > 0.0)) continue;
-    const double value = area + 3.0 * elementary::log(w / now.weight(p));
-    change.low = min_of(change.low, value);
-    change.high = max_of(change.high, value);
+    low = min_of(low, w / now.weight(p));
+    high = max_of(high, w / now.weight(p));
   }
-  return change;
+  const double area = elementary::log(std::abs(now.determinant() / before.determinant()));
+  return {area + 3.0 * elementary::log(low), area + 3.0 * elementary::log(high)};
 }
 
 /// The strongest fall-off whose texels keep up with the camera: texels of a warp that moves along with the

@@ -138,8 +138,8 @@ LightBody judged_body(const PlanContext& c, const MapRequest& request, Polytope&
   return points;
 }
 
-WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request) noexcept
-    : points(judged_body(c, request, focus)), in{} {
+WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept
+    : points(c.options.warp.focus.empty() ? body : judged = judged_body(c, request, focus)), in{} {
   const LightFrame& frame = request.space.frame;
   turn(request.body, frame, body_light);
   if (!focus.empty()) turn(Polytope(focus), frame, focus);
@@ -218,7 +218,8 @@ bool takes(const Warp& warp, const WarpChoice& choice, double ratio) noexcept {
 }
 
 double focused_objective(const PlanContext& c, const MapRequest& request) noexcept {
-  const WarpQuestion question(c, request);
+  const LightBody body = in_light_space(c, request);
+  const WarpQuestion question(c, request, body);
   const WarpInput& in = question.in;
   const WarpChoice choice = request.warp.choose(in);
   PlaneError error(in);
@@ -229,7 +230,8 @@ double focused_objective(const PlanContext& c, const MapRequest& request) noexce
 }
 
 PlaneMap focused_plane(const PlanContext& c, const MapRequest& request) noexcept {
-  const WarpQuestion question(c, request);
+  const LightBody body = in_light_space(c, request);
+  const WarpQuestion question(c, request, body);
   const WarpInput& in = question.in;
   const WarpChoice choice = request.warp.choose(in);
   const double ratio = gain_ratio(in, choice, most_stretch(c, request, question.points));

@@ -23,9 +23,11 @@ struct LightBody {
 /// How a warp is asked about a body, with everything that the question refers to.
 struct WarpQuestion {
   Polytope focus, body_light;
-  LightBody points;
+  LightBody judged;         // where there is a focus
+  const LightBody& points;  // as warps judge them
   WarpInput in;
-  WarpQuestion(const PlanContext& c, const MapRequest& request) noexcept;
+  /// `body`: the request's, in light space; refers to it.
+  WarpQuestion(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept;
   WarpQuestion(const WarpQuestion&) = delete;
   WarpQuestion& operator=(const WarpQuestion&) = delete;
 };
