@@ -76,7 +76,9 @@ TEST(Mask, a_pixel_takes_the_finest_map_that_holds_its_point) {
     }
     // At a map's border rounding decides.
     EXPECT_LT(other, same / 200) << warp->name;
-    if (warp == &warps::none) EXPECT_GT(nearer, same / 20);
+    if (warp == &warps::none) {
+      EXPECT_GT(nearer, same / 20);
+    }
   }
 }
 
