@@ -30,11 +30,11 @@ inline constexpr double kDensityStep = 0.05;
 
 /// A map of CadenceOptions as it was planned, and the camera it was planned for.
 struct KeptMap {
-  std::int64_t frame = -1;  ///< in which it was planned; -1: never
-  bool drawn = false;       ///< false: no caster could reach its receivers
-  ShadowMap map;
+  std::int64_t frame = -1;        ///< in which it was planned; -1: never
+  bool drawn = false;             ///< false: no caster could reach its receivers
+  ShadowMap map;                  ///< as make_plan gave it
   glm::dmat4 gl_from_world{1.0};  ///< OpenGL clip space
-  Camera camera;
+  Camera camera;                  ///< of the frame in which the map was planned
 };
 
 /// State that make_plan carries from frame to frame. Start with an empty one; keep one per camera and light;

@@ -19,7 +19,7 @@ inline constexpr int kMaxViews =
 /// ShadowPlan::origin_world, the mean of the eyes: shaders take points relative to it, or each camera takes
 /// rebased(map, its position).
 ///
-/// Cameras that see no receiver are left out, and listed as OmissionKind::view_without_receiver. One camera:
+/// Cameras that see no receiver are omitted, and listed as OmissionKind::view_without_receiver. One camera:
 /// the plan of make_plan with MapSelection::finest. SplitScheme::optimal is logarithmic, pseudo_near and the
 /// warp's axis are those of the mean view, and Partition::view_depth is the only one. Fit::stable serves
 /// directional lights only where the cameras keep their places to each other.

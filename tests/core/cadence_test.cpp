@@ -83,7 +83,7 @@ TEST(Cadence, a_broken_promise_another_lens_or_light_plans_every_cascade) {
   EXPECT_TRUE(all_change([](Plain& p) { p.options.resolution.max_size = 512; }));
 }
 
-TEST(Cadence, room_is_what_the_promise_asks_for) {
+TEST(Cadence, room_is_what_the_promise_requires) {
   Plain still, moving;
   still.options.cadence = {3, 0.0, 0.0};
   const ShadowPlan a = still.plan(), b = moving.plan();

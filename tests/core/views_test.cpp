@@ -75,7 +75,7 @@ TEST(Views, no_boxes_show_nothing_and_a_broken_one_in_a_set_is_named) {
   EXPECT_EQ(plan_views(eyes, street.light, {set, street.boxes}).invalid_field, "bounds.casters");
 }
 
-TEST(Views, cameras_that_see_nothing_are_left_out_and_listed) {
+TEST(Views, cameras_that_see_nothing_are_omitted_and_listed) {
   const Street street;
   Camera away = street.camera(0);
   away.position = {0, 500, 0};
