@@ -236,7 +236,7 @@ TEST(RoomLaw, at_the_separating_plane_both_maps_are_as_dense) {
   constexpr double kEqual = 1.05;
   std::uint64_t divided = 0;
   double worst = 0.0;
-  for_all(700, [&] {
+  for_all(2500, [&] {
     Case c = draw_case({.orthographic = false, .max_depth_ratio = 1e4, .max_boxes = 1});
     const double f = c.camera.far_depth;
     c.receivers = c.casters = {{c.camera.position - glm::dvec3(2.0 * f, 0.3 * f, 2.0 * f),

@@ -121,7 +121,7 @@ RowChoice by_corners(RowSearch& search, const WarpInput& input) noexcept {
     if (less(rows.value, best.value)) best = rows;
   }
   const double length = length_of(best.fall_off);
-  constexpr int kWideSteps = 6, kNarrowSteps = 8;
+  constexpr int kWideSteps = 4, kNarrowSteps = 6;
   best = walk_from(best, max_of(0.25, 0.2 * length), kWideSteps,
                    [&](const std::array<double, 2>& at, const RowChoice&) {
                      return search.round({at[0], at[1]});
@@ -156,6 +156,7 @@ Judged polished(RowSearch& search, PlaneError& error, const Judged& start, int e
   const auto look = [&](const std::array<double, 4>& at, const Value&) {
     return Value{error.value(choice_at(at))};
   };
+  error.count_worst(start.choice);
   constexpr std::array<double, 4> kStep = {0.08, -0.1, 0.05, 0.05};
   std::array<Corner<4, Value>, 5> simplex;
   const std::array<double, 4> at{from.fall_off.x, from.fall_off.y, 0.0, 0.0};
@@ -166,9 +167,11 @@ Judged polished(RowSearch& search, PlaneError& error, const Judged& start, int e
     simplex[i + 1] = {p, look(p, {})};
   }
   walk<4>(simplex, evaluations - 4, look);
+  error.count_all();
+  const WarpChoice found = choice_at(simplex[0].at);
+  const Judged end{found, error.value(found)};
   // The start stays as it is, to the last bit.
-  if (!(simplex[0].what.value < start.value)) return start;
-  return {choice_at(simplex[0].at), simplex[0].what.value};
+  return less(end.value, start.value) ? end : start;
 }
 
 WarpChoice choose(const WarpInput& input) noexcept {
@@ -185,11 +188,12 @@ WarpChoice choose(const WarpInput& input) noexcept {
   for (const Warp* other : all_warps()) {
     if (other->choose == choose) continue;
     const WarpChoice choice = other->choose(input);
-    if (!usable(input.body, choice, input.most_stretch)) continue;
+    if (choice.kappa == 0.0 && choice.axis == input.unwarped.axis && choice.row_a == input.unwarped.row_a)
+      continue;
     const double value = error.value(choice);
-    if (less(value, best.value)) best = {choice, value};
+    if (less(value, best.value) && usable(input.body, choice, input.most_stretch)) best = {choice, value};
   }
-  constexpr int kPolish = 16;
+  constexpr int kPolish = 14;
   if (!search.line()) best = polished(search, error, best, kPolish);
   const bool gains = best.value < without * (1.0 - kLeastGain);
   WarpChoice choice = gains ? best.choice : input.unwarped;

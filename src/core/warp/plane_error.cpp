@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
@@ -98,7 +99,7 @@ PlaneError::PlaneError(const WarpInput& input) noexcept : input_(input), lanes_(
     add_edges(body, outside);
     // The worst texel may lie inside a face or the body where rays fan out: the eye's in a wide image, or the
     // light's, and with them the warp.
-    constexpr double kWide = 2.0;  // of the slope: 90 degrees
+    constexpr double kWide = 3.5;  // of the slope: 120 degrees
     const ViewInLight& view = input.view;
     const double wider = max_of(view.image_right - view.image_left, view.image_top - view.image_bottom);
     if (input.light.perspective || wider > kWide) {
@@ -106,7 +107,32 @@ PlaneError::PlaneError(const WarpInput& input) noexcept : input_(input), lanes_(
       if (!input.orthographic) add_visible_points();
     }
   }
+  all_ = sample_.count;
   sample_.fill_lanes();
+}
+
+void PlaneError::count_worst(const WarpChoice& choice) noexcept {
+  // A percentile is of all points.
+  if (share_ > 0.0 || sample_.count == 0) return;
+  find_rows(choice);
+  constexpr double kNearWorst = 0.25;  // of the square: half the error
+  const bool storage = input_.objective == Objective::storage;
+  double most_x = 0.0, most_y = 0.0;
+  for (std::size_t i = 0; i < sample_.count; ++i) {
+    if (!storage) row_x_[i] = row_y_[i] = row_x_[i] + row_y_[i];
+    most_x = max_of(most_x, row_x_[i]);
+    most_y = max_of(most_y, row_y_[i]);
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < all_; ++i) {
+    if (!(row_x_[i] > kNearWorst * most_x || row_y_[i] > kNearWorst * most_y)) continue;
+    for (auto* lane : {&sample_.x, &sample_.y, &sample_.xx, &sample_.xy, &sample_.yx, &sample_.yy,
+                       &sample_.inverse_determinant})
+      std::swap((*lane)[kept], (*lane)[i]);
+    ++kept;
+  }
+  // The lanes past the last kept one hold points, too, and may as well count.
+  if (kept > 0) sample_.count = whole_lanes(kept) < all_ ? whole_lanes(kept) : all_;
 }
 
 /// The part of the body whose error counts: all of it where nothing would be left.

@@ -45,6 +45,12 @@ class PlaneError {
   /// The objective under `choice`, up to a factor that is the same for every choice; infinite for an unusable
   /// one.
   [[nodiscard]] double value(const WarpChoice& choice) noexcept;
+  /// From now on counts only the points whose error is near the worst under `choice`: for choices near it.
+  void count_worst(const WarpChoice& choice) noexcept;
+  void count_all() noexcept {
+    sample_.count = all_;
+    sample_.fill_lanes();
+  }
   /// The body's vertices: few points that bound the error nearly everywhere.
   [[nodiscard]] const Corners& corners() const noexcept { return corners_; }
   [[nodiscard]] const BodyLanes& body() const noexcept { return body_; }
@@ -66,7 +72,8 @@ class PlaneError {
   [[nodiscard]] double worst_squared() noexcept;
 
   const WarpInput& input_;
-  std::size_t lanes_;  // kWarpLanes, but not known when this is compiled: as in lane_range
+  std::size_t all_ = 0;  // of the samples
+  std::size_t lanes_;    // kWarpLanes, but not known when this is compiled: as in lane_range
   double height_range_ = 0.0, distance_ = 0.0;  // of the body, as plane_map takes them
   bool complete_ = true;                        // no vertex was refused
   double share_ = 1.0;  // of the samples that may exceed the value asked for: 0.05 for p95
