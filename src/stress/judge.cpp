@@ -204,6 +204,8 @@ const char* kind_name(OmissionKind kind) {
       return "texels finer than requested";
     case OmissionKind::depth_near_light:
       return "depths near the light";
+    case OmissionKind::view_without_receiver:
+      return "view without receiver";
     case OmissionKind::option_ignored:
       return "option without use";
   }
