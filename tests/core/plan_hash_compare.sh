@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Are plans the same bits with every compiler, optimization and instruction set? Builds the core and plan_hash with
-# each of g++ and clang++ that is there, at -O0, at -O3 and at -O3 for this very processor, and compares their hashes.
+# each of g++ and clang++ that is there, at -O0 and at -O3, g++ for this very processor, and compares their hashes.
 #   plan_hash_compare.sh SOURCE_DIR WORK_DIR [PLANS]
 set -euo pipefail
 source_dir=$1 work=$2 plans=${3:-2000}
@@ -8,7 +8,9 @@ launcher=$(command -v ccache || true)
 hashes=()
 for compiler in g++ clang++; do
   command -v "$compiler" >/dev/null || { echo "no $compiler here: left out"; continue; }
-  for level in -O0 -O3 "-O3 -march=native"; do
+  best=-O3
+  [[ $compiler == g++ ]] && best="-O3 -march=native"
+  for level in -O0 "$best"; do
     out="$work/$compiler${level// /}"
     mkdir -p "$out"
     mapfile -t files < <(find "$source_dir/src/core" -name '*.cpp')
