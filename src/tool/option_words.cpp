@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdio>
 #include <type_traits>
 
 namespace gnomon::tool {
@@ -31,6 +33,13 @@ std::string joined(const Words& words) {
 }  // namespace
 
 std::string number_word(double value) {
+  // Beyond this a double has no digits to show.
+  constexpr double kLong = 1e15;
+  if (std::abs(value) >= kLong) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+  }
   std::string text = std::to_string(value);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();

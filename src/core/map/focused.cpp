@@ -14,6 +14,7 @@
 #include "map/served.hpp"
 #include "map/size.hpp"
 #include "warp/plane_error.hpp"
+#include "warp/registry.hpp"
 
 namespace gnomon {
 namespace {
@@ -43,7 +44,7 @@ double border_of_body(const ShadowMap& map) noexcept {
 WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
                        MapResult& result) noexcept {
   const WarpInput& in = question.in;
-  if (&request.warp == &warps::none || c.stable) return in.unwarped;
+  if (is_unwarped(request.warp) || c.stable) return in.unwarped;
   const WarpChoice choice = request.warp.choose(in);
   const double ratio = gain_ratio(in, choice, most_stretch(c, request, question.points));
   if (takes(request.warp, choice, ratio)) return choice;
@@ -72,7 +73,7 @@ WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) n
 PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const LightBody& body,
                       MapResult& result) noexcept {
   const bool steady = c.remembers && !c.stable && c.options.fit != Fit::warped_stable;
-  const bool warped = &request.warp != &warps::none && !c.stable;
+  const bool warped = !is_unwarped(request.warp) && !c.stable;
   if (!warped && c.options.fit != Fit::rotated && !steady) return plane_map(body.points(), request.unwarped);
   const WarpQuestion question(c, request, body);
   WarpChoice choice = chosen_warp(c, request, question, result);

@@ -8,6 +8,7 @@
 #include "map/history.hpp"
 #include "plan/cascades.hpp"
 #include "split/optimal.hpp"
+#include "warp/registry.hpp"
 
 namespace gnomon {
 namespace {
@@ -71,7 +72,7 @@ double simple_error(const PlanContext& c, const ParallelScene& scene, double beg
   }
   in.orthographic = c.camera.orthographic;
   in.objective = c.options.warp.objective;
-  const bool warped = &scene.warp != &warps::none;
+  const bool warped = !is_unwarped(scene.warp);
   return warp_error(in, warped ? warps::lispsm.choose(in).kappa : 0.0).value(in.objective);
 }
 

@@ -14,6 +14,7 @@
 #include "map/shared_views.hpp"
 #include "plan/budget.hpp"
 #include "plan/merge.hpp"
+#include "warp/registry.hpp"
 
 namespace gnomon {
 namespace {
@@ -276,7 +277,7 @@ void plan_frusta(const LocalScene& scene, const Light& light, ShadowPlan& plan) 
   plan.map_count = plan.omission_count = 0;
   const PlanOptions& options = scene.c.options;
   report_ignored(scene.c, scene.c.seen != nullptr && !scene.c.seen->empty(), plan);
-  if (scene.c.stable && options.warp.warp != nullptr && options.warp.warp != &warps::none)
+  if (scene.c.stable && options.warp.warp != nullptr && !is_unwarped(*options.warp.warp))
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
   const auto* spot = std::get_if<SpotLight>(&light);
   if (spot == nullptr) {
@@ -298,7 +299,7 @@ void plan_local(const PlanContext& c, const Light& light, PlanHistory* history, 
   const Camera& camera = c.camera;
   const PlanOptions& options = c.options;
   LocalScene scene{c,
-                   options.warp.warp != nullptr ? *options.warp.warp : warps::optimal,
+                   requested_warp(options),
                    (spot != nullptr ? spot->position : point->position) - camera.position,
                    spot != nullptr ? spot->range : point->range,
                    view_body(c),

@@ -13,6 +13,7 @@
 #include "plan/input.hpp"
 #include "plan/local.hpp"
 #include "plan/parts.hpp"
+#include "warp/registry.hpp"
 
 namespace gnomon {
 namespace {
@@ -31,7 +32,7 @@ void finish_parallel(const PlanContext& c, ShadowPlan& plan) noexcept {
   const PlanOptions& options = c.options;
   if (c.stable && options.split.partition != Partition::view_depth)
     omit(plan, {OmissionKind::partition_in_stable_fit, -1, 0.0, 0.0, 0});
-  if (c.stable && options.warp.warp != nullptr && options.warp.warp != &warps::none)
+  if (c.stable && options.warp.warp != nullptr && !is_unwarped(*options.warp.warp))
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
@@ -49,7 +50,7 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
   ParallelScene scene{body,
                       c.views.empty() ? depths_of(body, c.axes.forward) : depths_seen(c.views),
                       {},
-                      options.warp.warp != nullptr ? *options.warp.warp : warps::optimal};
+                      requested_warp(options)};
   scene.space.frame =
       c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
   c.seen = usable_depths(c, scene.depths, visible);

@@ -1,5 +1,5 @@
 // The registry of warps, and the error of a warp over a body.
-#include "gnomon/warp.hpp"
+#include "warp/registry.hpp"
 
 #include <array>
 
@@ -27,6 +27,14 @@ const Warp* find_warp(std::string_view name) noexcept {
     if (warp->name == name) return warp;
   }
   return nullptr;
+}
+
+const Warp& requested_warp(const PlanOptions& options) noexcept {
+  return options.warp.warp != nullptr ? *options.warp.warp : warps::optimal;
+}
+
+bool is_unwarped(const Warp& warp) noexcept {
+  return &warp == &warps::none;
 }
 
 std::string_view to_string(Objective objective) noexcept {

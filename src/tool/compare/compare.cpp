@@ -226,7 +226,7 @@ std::vector<Option> technique_options(CompareRequest& request) {
        .only_names = false},
       {.name = "--near-hint",
        .target = &request.near_hint,
-       .help = "view depth from which the error of split pseudo_near counts; 0: the near plane",
+       .help = "view depth, world units, from which the error of split pseudo_near counts; 0: the near plane",
        .range = {{0.0, 1e30}}},
       {.name = "--fits",
        .target = &request.fits,
