@@ -1,9 +1,11 @@
 // Reads the command line by a program's tables. CLI11, slow to compile, is seen by this file alone.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
@@ -145,7 +147,7 @@ bool parse(CLI::App& app, const CLI::App& command, const Arguments& arguments, c
       throw std::runtime_error(bad_usage(command, arguments, error));
     app.exit(error);
     std::cout.flush();
-    if (!std::cout) throw std::runtime_error("standard output cannot be written");
+    if (!std::cout) throw std::runtime_error(std::string("standard output: ") + std::strerror(errno));
     return false;
   }
   note_given(command, arguments);

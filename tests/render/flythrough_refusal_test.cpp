@@ -110,7 +110,7 @@ TEST_F(Flythrough, standard_output_that_cannot_be_written_is_an_error) {
     const int status =
         std::system((FLYTHROUGH " " + arguments + " > /dev/full 2> " + error.string()).c_str());
     EXPECT_EQ(WEXITSTATUS(status), 2) << arguments;
-    EXPECT_EQ(text_of(error), "flythrough: standard output cannot be written\n");
+    EXPECT_EQ(text_of(error), "flythrough: standard output: No space left on device\n");
   }
 }
 

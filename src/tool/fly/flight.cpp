@@ -2,6 +2,8 @@
 #include "flight.hpp"
 
 #include <fmt/core.h>
+#include <cerrno>
+#include <cstring>
 
 #include <algorithm>
 #include <array>
@@ -337,7 +339,8 @@ int run(Options options) {
   if (options.perceptual_resolution) options.plan.resolution.max_size = perceptual_map_size(options, flight);
   const int code = options.context == render::ContextKind::glfw ? fly_in_window(options, flight)
                                                                 : fly_to_files(options, flight);
-  if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
+  if (std::fflush(stdout) != 0)
+    throw std::runtime_error(std::string("standard output: ") + std::strerror(errno));
   return code;
 }
 

@@ -1,0 +1,14 @@
+// What stages ask of a warp without knowing which it is.
+#pragma once
+
+#include "gnomon/plan_options.hpp"
+#include "gnomon/warp.hpp"
+
+namespace gnomon {
+
+/// The warp that the options name, and the default one where they name none.
+[[nodiscard]] const Warp& requested_warp(const PlanOptions& options) noexcept;
+/// True for the warp that leaves every map unwarped.
+[[nodiscard]] bool is_unwarped(const Warp& warp) noexcept;
+
+}  // namespace gnomon
