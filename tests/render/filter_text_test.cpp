@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <limits>
-#include <regex>
+#include <string>
 
 #include "gnomon/render/filter.hpp"
 
@@ -74,7 +74,12 @@ TEST(FilterText, is_the_name_alone_by_default_and_reads_back_to_the_same_setting
 
 /// The text without its line breaks and columns.
 std::string in_one_line(const std::string& text) {
-  return std::regex_replace(text, std::regex("[ \n]+"), " ");
+  std::string line;
+  for (const char c : text) {
+    const bool gap = c == ' ' || c == '\n';
+    if (!gap || line.empty() || line.back() != ' ') line += gap ? ' ' : c;
+  }
+  return line;
 }
 
 TEST(FilterText, help_names_exactly_the_keys_that_are_read) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
+#include <string>
 
 #include "process.hpp"
 
@@ -12,6 +13,16 @@ namespace gnomon::test {
 namespace {
 
 using nlohmann::json;
+
+/// The text without its line breaks and columns.
+std::string in_one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    const bool gap = c == ' ' || c == '\n';
+    if (!gap || line.empty() || line.back() != ' ') line += gap ? ' ' : c;
+  }
+  return line;
+}
 
 TEST(Filters, lists_every_filter_with_its_source_and_options) {
   const Finished finished = run_gnomon({"filters", "--json"});
@@ -37,7 +48,7 @@ TEST(Filters, prints_the_options_of_one_filter_with_range_default_unit_and_sourc
     const auto name = filter.at("name").get<std::string>();
     const Finished finished = run_gnomon({"filters", name});
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
-    const std::string text = std::regex_replace(finished.out, std::regex("[ \n]+"), " ");
+    const std::string text = in_one_line(finished.out);
     EXPECT_NE(text.find("Source: " + filter.at("source").get<std::string>()), std::string::npos) << text;
     for (const json& option : filter.at("options")) {
       EXPECT_NE(text.find(option.at("summary").get<std::string>()), std::string::npos) << text;
