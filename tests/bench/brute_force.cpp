@@ -30,7 +30,7 @@ struct Found {
 
 class Brute {
  public:
-  explicit Brute(const WarpInput& input) : in_(input), error_(input) {
+  explicit Brute(const WarpInput& input) : in_(input), error_(input, true) {
     double nearest = 1e300, farthest = 0.0;
     for (const WarpInput::Point& p : input.body) {
       if (!std::isfinite(p.depth)) continue;

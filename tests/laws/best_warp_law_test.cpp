@@ -31,7 +31,7 @@ Judged judged;
 
 /// In the place of a warp: compares all warps for each body that a plan asks about.
 WarpChoice judge(const WarpInput& input) noexcept {
-  PlaneError error(input);
+  PlaneError error(input, true);
   const double without = error.value(input.unwarped);
   if (!(without > 0.0 && without < 1e300)) return input.unwarped;
   const auto value = [&](const Warp& warp) {

@@ -176,7 +176,7 @@ Judged polished(RowSearch& search, PlaneError& error, const Judged& start, int e
 
 WarpChoice choose(const WarpInput& input) noexcept {
   if (input.flat() || !(input.y_max - input.y_min > 0.0)) return input.unwarped;
-  PlaneError error(input);
+  PlaneError error(input, true);
   if (error.corners().count == 0) return input.unwarped;
   RowSearch search(input, error);
   const double without = error.value(input.unwarped);

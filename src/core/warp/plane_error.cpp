@@ -71,7 +71,8 @@ BodyLanes::BodyLanes(const WarpInput& input) noexcept {
   }
 }
 
-PlaneError::PlaneError(const WarpInput& input) noexcept : input_(input), lanes_(kWarpLanes), body_(input) {
+PlaneError::PlaneError(const WarpInput& input, bool searched) noexcept
+    : input_(input), lanes_(kWarpLanes), body_(input) {
   double low = input.body.front().z, high = low;
   for (const WarpInput::Point& p : input.body) {
     low = min_of(low, p.z);
@@ -102,10 +103,9 @@ PlaneError::PlaneError(const WarpInput& input) noexcept : input_(input), lanes_(
     constexpr double kWide = 3.5;  // of the slope: 120 degrees
     const ViewInLight& view = input.view;
     const double wider = max_of(view.image_right - view.image_left, view.image_top - view.image_bottom);
-    if (input.light.perspective || wider > kWide) {
-      add_faces(body, outside);
-      if (!input.orthographic) add_visible_points();
-    }
+    const bool inside = searched && (input.light.perspective || wider > kWide);
+    if (input.light.perspective || inside) add_faces(body, outside);
+    if (inside && !input.orthographic) add_visible_points();
   }
   all_ = sample_.count;
   sample_.fill_lanes();

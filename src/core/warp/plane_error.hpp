@@ -39,8 +39,9 @@ class PlaneError {
 
   /// Samples the body for `input.objective`: vertices and middles of edges, where the largest errors are
   /// (under a local light of faces, too, as its rays fan out), or points spread evenly over the pixels and
-  /// the logarithm of depth.
-  explicit PlaneError(const WarpInput& input) noexcept;
+  /// the logarithm of depth. `searched`: the choices come from a search, which would end where no sample is;
+  /// where rays fan out wide, the inside of the body counts then as well.
+  explicit PlaneError(const WarpInput& input, bool searched = false) noexcept;
 
   /// The objective under `choice`, up to a factor that is the same for every choice; infinite for an unusable
   /// one.
