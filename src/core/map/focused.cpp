@@ -40,47 +40,6 @@ double border_of_body(const ShadowMap& map) noexcept {
   return border / (1.0 - 2.0 * border);
 }
 
-/// The warp's answer, measured, and used only where it lowers the objective.
-WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
-                       MapResult& result) noexcept {
-  const WarpInput& in = question.in;
-  if (is_unwarped(request.warp) || c.stable) return in.unwarped;
-  const WarpChoice choice = request.warp.choose(in);
-  const double ratio = gain_ratio(in, choice, most_stretch(c, request, question.points));
-  if (takes(request.warp, choice, ratio)) return choice;
-  result.omit({OmissionKind::warp_without_gain, request.slot.cascade, ratio, 0.0, 0});
-  result.map.warp = &warps::none;
-  return in.unwarped;
-}
-
-/// The choice with its rectangle turned to the least area, where that lowers the objective.
-WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) noexcept {
-  const PlaneMap map = plane_map(in.body, choice);
-  std::array<glm::dvec2, kMaxBodyPoints> image;
-  std::size_t count = 0;
-  for (const WarpInput::Point& p : in.body) image[count++] = map.image(p.x, p.y);
-  const glm::dvec2 side = least_rectangle_side({image.data(), count});
-  WarpChoice turned = choice;
-  turned.row_a = side;
-  turned.row_b = {-side.y, side.x};
-  // Without perspective the area is the objective.
-  if (in.flat()) return turned;
-  PlaneError error(in);
-  return error.value(turned) < error.value(choice) * (1.0 - kLeastWarpGain) ? turned : choice;
-}
-
-/// The best map of the plane, or the steady way there.
-PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const LightBody& body,
-                      MapResult& result) noexcept {
-  const bool steady = c.remembers && !c.stable && c.options.fit != Fit::warped_stable;
-  const bool warped = !is_unwarped(request.warp) && !c.stable;
-  if (!warped && c.options.fit != Fit::rotated && !steady) return plane_map(body.points(), request.unwarped);
-  const WarpQuestion question(c, request, body);
-  WarpChoice choice = chosen_warp(c, request, question, result);
-  if (c.options.fit == Fit::rotated) choice = turned_to_least_area(question.in, choice);
-  return steady ? steady_plane(c, request, question, choice, result) : plane_map(question.in.body, choice);
-}
-
 /// Widens the rectangle to what shaders can aim at. Only bodies that are tiny for their distance, far below a
 /// pixel of any camera wider than a hundredth of a degree, or edge-on to the light are that narrow.
 void widen_for_floats(const MapRequest& request, const LightBody& body, PlaneMap& map) noexcept {
@@ -111,6 +70,66 @@ void widen_for_floats(const MapRequest& request, const LightBody& body, PlaneMap
   }
   widen(map.a_min, map.a_max, least(row_a));
   widen(map.b_min, map.b_max, least(row_b));
+}
+
+/// How much longer the rectangle's sides become by that.
+glm::dvec2 widening(const MapRequest& request, const LightBody& body, const WarpChoice& choice) noexcept {
+  const PlaneMap map = plane_map(body.points(), choice);
+  PlaneMap wide = map;
+  widen_for_floats(request, body, wide);
+  return {(wide.a_max - wide.a_min) / (map.a_max - map.a_min),
+          (wide.b_max - wide.b_min) / (map.b_max - map.b_min)};
+}
+
+/// The objective's ratio where the rectangles are widened: the warp's by as much as it may lose by that, the
+/// other by as little.
+double widened_ratio(const WarpInput& in, const MapRequest& request, const LightBody& body,
+                     const WarpChoice& choice, double ratio) noexcept {
+  const glm::dvec2 warped = widening(request, body, choice), unwarped = widening(request, body, in.unwarped);
+  if (in.objective == Objective::storage) return ratio * (warped.x * warped.y) / (unwarped.x * unwarped.y);
+  return ratio * max_of(warped.x, warped.y) / min_of(unwarped.x, unwarped.y);
+}
+
+/// The warp's answer, measured, and used only where it lowers the objective.
+WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                       const WarpQuestion& question, MapResult& result) noexcept {
+  const WarpInput& in = question.in;
+  if (is_unwarped(request.warp) || c.stable) return in.unwarped;
+  const WarpChoice choice = request.warp.choose(in);
+  double ratio = gain_ratio(in, choice, most_stretch(c, request, question.points));
+  if (takes(request.warp, choice, ratio)) ratio = widened_ratio(in, request, body, choice, ratio);
+  if (takes(request.warp, choice, ratio)) return choice;
+  result.omit({OmissionKind::warp_without_gain, request.slot.cascade, ratio, 0.0, 0});
+  result.map.warp = &warps::none;
+  return in.unwarped;
+}
+
+/// The choice with its rectangle turned to the least area, where that lowers the objective.
+WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) noexcept {
+  const PlaneMap map = plane_map(in.body, choice);
+  std::array<glm::dvec2, kMaxBodyPoints> image;
+  std::size_t count = 0;
+  for (const WarpInput::Point& p : in.body) image[count++] = map.image(p.x, p.y);
+  const glm::dvec2 side = least_rectangle_side({image.data(), count});
+  WarpChoice turned = choice;
+  turned.row_a = side;
+  turned.row_b = {-side.y, side.x};
+  // Without perspective the area is the objective.
+  if (in.flat()) return turned;
+  PlaneError error(in);
+  return error.value(turned) < error.value(choice) * (1.0 - kLeastWarpGain) ? turned : choice;
+}
+
+/// The best map of the plane, or the steady way there.
+PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                      MapResult& result) noexcept {
+  const bool steady = c.remembers && !c.stable && c.options.fit != Fit::warped_stable;
+  const bool warped = !is_unwarped(request.warp) && !c.stable;
+  if (!warped && c.options.fit != Fit::rotated && !steady) return plane_map(body.points(), request.unwarped);
+  const WarpQuestion question(c, request, body);
+  WarpChoice choice = chosen_warp(c, request, body, question, result);
+  if (c.options.fit == Fit::rotated) choice = turned_to_least_area(question.in, choice);
+  return steady ? steady_plane(c, request, question, choice, result) : plane_map(question.in.body, choice);
 }
 
 /// All that a local light's frustum shows, for a grid that does not follow the view.
