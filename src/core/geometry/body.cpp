@@ -57,20 +57,24 @@ class Cutter {
   ~Cutter() { close_gaps(); }
 
   void by(const Plane& plane) noexcept {
-    by(plane, [&](const glm::dvec3& p) {
+    by(plane, std::abs(plane.offset), [&](const glm::dvec3& p) {
       return plane.normal.x * p.x + plane.normal.y * p.y + plane.normal.z * p.z + plane.offset;
     });
   }
   template <int axis>
   void by(const Box& box, const Box& own) noexcept {
+    // Vertices have the rounding of all their coordinates: a plate is not far enough inside itself.
+    const double size = max_of(largest_component(own.min), largest_component(own.max));
     Plane plane{glm::dvec3(0.0), -box.min[axis]};
     plane.normal[axis] = 1.0;
     if (own.min[axis] < box.min[axis])
-      by(plane, [&](const glm::dvec3& p) { return p[axis] - box.min[axis]; });
+      by(plane, max_of(size, std::abs(box.min[axis])),
+         [&](const glm::dvec3& p) { return p[axis] - box.min[axis]; });
     plane.normal[axis] = -1.0;
     plane.offset = box.max[axis];
     if (own.max[axis] > box.max[axis])
-      by(plane, [&](const glm::dvec3& p) { return box.max[axis] - p[axis]; });
+      by(plane, max_of(size, std::abs(box.max[axis])),
+         [&](const glm::dvec3& p) { return box.max[axis] - p[axis]; });
   }
 
  private:
@@ -82,8 +86,11 @@ class Cutter {
   // More places than these are sorted out first: a cut takes one for each edge that it crosses.
   static constexpr std::size_t kManyPlaces = 40;
 
+  /// `size`: of the numbers that distances are made from.
   template <typename Distance>
-  void by(const Plane& plane, const Distance& distance_of) noexcept;
+  void by(const Plane& plane, double size, const Distance& distance_of) noexcept;
+  /// Whether some vertex is outside by no more than its rounding.
+  [[nodiscard]] bool touches(const double* distance) const noexcept;
   void divide(const Plane& plane, const double* distance, VertexSet cut_off) noexcept;
   [[nodiscard]] std::size_t add_vertices(const double* distance, VertexSet cut_off,
                                          CrossingEdges& crossing) noexcept;
@@ -96,9 +103,9 @@ class Cutter {
 };
 
 template <typename Distance>
-void Cutter::by(const Plane& plane, const Distance& distance_of) noexcept {
+void Cutter::by(const Plane& plane, double size, const Distance& distance_of) noexcept {
   double distance[kMaxVertices];
-  double lowest = 0.0, highest = std::abs(plane.offset);
+  double lowest = 0.0, highest = size;
   for_each_vertex(kept_, [&](std::size_t i) {
     distance[i] = distance_of(body_.vertex[i].position);
     lowest = min_of(lowest, distance[i]);
@@ -108,8 +115,18 @@ void Cutter::by(const Plane& plane, const Distance& distance_of) noexcept {
   if (lowest >= limit) return;
   VertexSet cut_off = 0;
   for_each_vertex(kept_, [&](std::size_t i) { cut_off |= VertexSet{distance[i] < limit} << i; });
+  if (cut_off == kept_ && touches(distance)) return;
   divide(plane, distance, cut_off);
   if (places_ > kManyPlaces) close_gaps();
+}
+
+bool Cutter::touches(const double* distance) const noexcept {
+  double nearest = -std::numeric_limits<double>::infinity(), size = 0.0;
+  for_each_vertex(kept_, [&](std::size_t i) {
+    nearest = max_of(nearest, distance[i]);
+    size = max_of(size, largest_component(body_.vertex[i].position));
+  });
+  return nearest >= -kClipTolerance * size;
 }
 
 void Cutter::divide(const Plane& plane, const double* distance, VertexSet cut_off) noexcept {
