@@ -25,6 +25,9 @@ constexpr double kRoom = 0.1;
 // Narrowest rectangle under a local light, as a slope: below it positions are rounding.
 constexpr double kLeastSlope = 1e-8;
 
+// Shortest side of a rectangle, world units: a matrix of floats, which end at 3e38, has its inverse.
+constexpr double kLeastSide = 1e-30;
+
 /// A fitted plane with its depths, and the casters it needs.
 struct Fitted {
   PlaneMap plane;
@@ -58,7 +61,7 @@ void widen_for_floats(const MapRequest& request, const LightBody& body, PlaneMap
   for (const WarpInput::Point& p : body.points()) across = max_of(across, largest_component({p.x, p.y, p.z}));
   double along = across * map.stretch;
   const auto least = [&](const glm::dvec2& row) {
-    return kLeastOfOffset * (std::abs(row.x) * across + std::abs(row.y) * along);
+    return max_of(kLeastSide, kLeastOfOffset * (std::abs(row.x) * across + std::abs(row.y) * along));
   };
   const glm::dvec2 row_a = map.choice.row_a, row_b = map.choice.row_b;
   if (map.a_max - map.a_min >= least(row_a) && map.b_max - map.b_min >= least(row_b)) return;

@@ -112,8 +112,9 @@ PlaneError::PlaneError(const WarpInput& input, bool searched) noexcept
 }
 
 void PlaneError::count_worst(const WarpChoice& choice) noexcept {
-  // A percentile is of all points.
-  if (share_ > 0.0 || sample_.count == 0) return;
+  const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
+  // A percentile is of all points, and without an area there is no error.
+  if (share_ > 0.0 || sample_.count == 0 || rows == 0.0) return;
   find_rows(choice);
   constexpr double kNearWorst = 0.25;  // of the square: half the error
   const bool storage = input_.objective == Objective::storage;
