@@ -217,8 +217,8 @@ double most_stretch(const PlanContext& c, const MapRequest& request, const Light
 namespace {
 
 /// The objective with the choice over that without; infinite where it is not known.
-double sampled_ratio(const WarpInput& in, const WarpChoice& choice, int set) noexcept {
-  PlaneError error(in, false, set);
+double sampled_ratio(const WarpInput& in, const WarpChoice& choice, bool inside, int set) noexcept {
+  PlaneError error(in, inside, set);
   const double without = error.value(in.unwarped);
   const bool known = without > 0.0 && std::isfinite(without);
   return known ? error.value(choice) / without : std::numeric_limits<double>::infinity();
@@ -237,7 +237,7 @@ double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
     const double plain = warp_error(in, 0.0).value(in.objective);
     if (with < kCertainRatio * plain) return with / plain;
   }
-  return sampled_ratio(in, choice, 0);
+  return sampled_ratio(in, choice, false, 0);
 }
 
 }  // namespace
@@ -245,10 +245,12 @@ double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
 double gain_ratio(const WarpInput& in, const WarpChoice& choice, double most_stretch) noexcept {
   if (!usable(in.body, choice, most_stretch)) return std::numeric_limits<double>::infinity();
   const double ratio = first_ratio(in, choice);
-  // The 95th percentile of so few points is off by up to a fifth: a smaller gain must show in others, too.
-  constexpr double kSure = 0.8;
-  if (in.objective != Objective::p95 || in.orthographic || !(ratio > kSure && ratio < 1.0)) return ratio;
-  return max_of(ratio, sampled_ratio(in, choice, 1));
+  // The 95th percentile of so few points is off by up to a fifth, and where rays fan out wide the worst texel
+  // lies between them: a gain below that must show in other points, too.
+  constexpr double kSure = 0.8, kWide = 1.75;
+  const bool exact = in.objective != Objective::p95 && !in.light.perspective && !(in.tan_half_fov > kWide);
+  if (exact || in.orthographic || !(ratio > kSure && ratio < 1.0)) return ratio;
+  return max_of(ratio, sampled_ratio(in, choice, true, 1));
 }
 
 bool takes(const Warp& warp, const WarpChoice& choice, double ratio) noexcept {
