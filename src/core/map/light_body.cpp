@@ -246,10 +246,12 @@ double gain_ratio(const WarpInput& in, const WarpChoice& choice, double most_str
   if (!usable(in.body, choice, most_stretch)) return std::numeric_limits<double>::infinity();
   const double ratio = first_ratio(in, choice);
   // The 95th percentile of so few points is off by up to a fifth, and where rays fan out wide the worst texel
-  // lies between them: a gain below that must show in other points, too.
-  constexpr double kSure = 0.8, kWide = 1.75;
+  // lies between them: a gain below that must show in other points, too. Where the light comes to meet the
+  // eye the worst texel may lie anywhere inside.
+  constexpr double kSure = 0.8, kWide = 1.75, kOpposed = -0.5;
+  const bool opposed = in.cos_gamma < kOpposed && choice.kappa > 0.0;
   const bool exact = in.objective != Objective::p95 && !in.light.perspective && !(in.tan_half_fov > kWide);
-  if (exact || in.orthographic || !(ratio > kSure && ratio < 1.0)) return ratio;
+  if (in.orthographic || !(ratio < 1.0) || (!opposed && (exact || !(ratio > kSure)))) return ratio;
   return max_of(ratio, sampled_ratio(in, choice, true, 1));
 }
 

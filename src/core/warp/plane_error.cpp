@@ -103,7 +103,9 @@ PlaneError::PlaneError(const WarpInput& input, bool searched, int set) noexcept
     constexpr double kWide = 3.5;  // of the slope: 120 degrees
     const ViewInLight& view = input.view;
     const double wider = max_of(view.image_right - view.image_left, view.image_top - view.image_bottom);
-    const bool inside = searched && (input.light.perspective || wider > kWide);
+    // So do rays that come to meet the eye's: the half vector turns fast between them.
+    constexpr double kOpposed = -0.5;
+    const bool inside = searched && (input.light.perspective || wider > kWide || input.cos_gamma < kOpposed);
     if (input.light.perspective || inside) add_faces(body, outside);
     if (inside && !input.orthographic) add_visible_points(set);
   }
