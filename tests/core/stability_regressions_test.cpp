@@ -211,6 +211,24 @@ TEST(StabilityRegressions, the_largest_texel_under_a_local_light_is_largest_over
   EXPECT_GT(most_above_centre, 2.0);  // else the texel at the centre would do
 }
 
+TEST(StabilityRegressions, a_plate_in_a_small_rest_of_a_large_body_is_not_lost) {
+  // Vertices of the rest have the rounding of the frustum that it was cut from, 4e4 times its own size.
+  const Camera camera = perspective_camera({-0.0625, -0.5, -0.5}, {-0.78, 0.57, 0.25}, {0, 1, 0}, 0.0349, 2.1,
+                                           3.9e-5, 0.25, 134, 64);
+  const CameraAxes axes = camera_axes(camera);
+  int kept = 0;
+  for (int i = 0; i < 200; ++i) {
+    const glm::dvec3 on = axes.forward * (4.3e-5 * (1.0 + 0.001 * i));
+    const Box plate{{on.x, on.y - 1e-6, on.z - 1e-6}, {on.x, on.y + 1e-6, on.z + 1e-6}};
+    Polytope body = frustum_slice(camera, axes, camera.near_depth, camera.far_depth);
+    clip(body, Box{{-0.25, -0.25, -0.25}, {on.x, 0.25, 0.25}});
+    clip(body, Plane{-axes.forward, 1.7e-4});
+    clip(body, plate);
+    kept += body.empty() ? 0 : 1;
+  }
+  EXPECT_EQ(kept, 200);
+}
+
 TEST(StabilityRegressions, measure_takes_no_point_from_an_empty_box) {
   const Camera camera = perspective_camera({0, 2, 0}, {0, -0.3, -1}, {0, 1, 0}, 1.0, 1.5, 0.1, 100, 640, 480);
   const std::vector<Box> ground = {{{-50, -1, -50}, {50, 0, 50}}};
