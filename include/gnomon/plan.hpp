@@ -134,8 +134,8 @@ struct ShadowMap {
   [[nodiscard]] TexelGrid texels() const noexcept { return {width, height, shape, shape_parameters}; }
 };
 
-/// Room for so many records. Unset until they are written: setting all of a plan's would take a tenth of the
-/// time that planning takes.
+/// An array of `room` records. A new one leaves them unset: setting all the records of a plan would take a
+/// tenth of the time that planning takes.
 template <typename Record, std::size_t room>
 class Records {
  public:
