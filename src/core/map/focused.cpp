@@ -75,7 +75,7 @@ void widen_for_floats(const MapRequest& request, const LightBody& body, PlaneMap
   widen(map.b_min, map.b_max, least(row_b));
 }
 
-/// How much longer the rectangle's sides become by that.
+/// How much longer the rectangle's sides become by that; 1: not at all.
 glm::dvec2 widening(const MapRequest& request, const LightBody& body, const WarpChoice& choice) noexcept {
   const PlaneMap map = plane_map(body.points(), choice);
   PlaneMap wide = map;
@@ -84,11 +84,13 @@ glm::dvec2 widening(const MapRequest& request, const LightBody& body, const Warp
           (wide.b_max - wide.b_min) / (map.b_max - map.b_min)};
 }
 
-/// The objective's ratio where the rectangles are widened: the warp's by as much as it may lose by that, the
-/// other by as little.
+/// The objective's ratio where the warp's rectangle is widened: the warp's by as much as it may lose by that,
+/// the other by as little.
 double widened_ratio(const WarpInput& in, const MapRequest& request, const LightBody& body,
                      const WarpChoice& choice, double ratio) noexcept {
-  const glm::dvec2 warped = widening(request, body, choice), unwarped = widening(request, body, in.unwarped);
+  const glm::dvec2 warped = widening(request, body, choice);
+  if (warped == glm::dvec2(1.0)) return ratio;
+  const glm::dvec2 unwarped = widening(request, body, in.unwarped);
   if (in.objective == Objective::storage) return ratio * (warped.x * warped.y) / (unwarped.x * unwarped.y);
   return ratio * max_of(warped.x, warped.y) / min_of(unwarped.x, unwarped.y);
 }

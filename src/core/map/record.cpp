@@ -1,7 +1,6 @@
 // Everything of a map's record that follows from its plane, its matrix and its swept body.
 #include "map/record.hpp"
 
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -37,21 +36,35 @@ glm::dvec2 longest_sides(const LightSpace& space, const LightBody& body, const P
     glm::dvec2 v, on_plane;
     double w, distance, v_length, length;
   };
-  std::array<Corner, kMaxBodyPoints> corner;
+  Corner corner[kMaxBodyPoints];
   const WarpChoice& choice = plane.choice;
   const glm::dvec2 axis = choice.axis;
   const double area = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
   const auto longest = [&](const glm::dvec2& image) {
     std::size_t count = 0;
+    double most_w = 0.0, most_v = 0.0, square = 0.0;
     for (const WarpInput::Point& p : body.points()) {
       const double d = space.perspective ? 1.0 / p.z : 1.0, w = plane.w(p.x, p.y);
       const glm::dvec2 at{p.x * axis.y - p.y * axis.x, p.x * axis.x + p.y * axis.y};
       const double along = image.y / plane.stretch;
       const glm::dvec2 v{d * (image.x + choice.kappa * (at.x - choice.centre) * along), w * d * along};
-      corner[count++] = {
-          v, at * d, w * d, d, std::sqrt(glm::dot(v, v)), d * std::sqrt(1.0 + glm::dot(at, at))};
+      Corner& here = corner[count++];
+      here.v = v;
+      here.w = w * d;
+      here.distance = d;
+      const double v_square = glm::dot(v, v);
+      most_w = max_of(most_w, w * w);
+      most_v = max_of(most_v, v_square);
+      square = max_of(square, w * w * v_square);
+      if (!space.perspective) continue;
+      here.on_plane = at * d;
+      here.v_length = std::sqrt(v_square);
+      here.length = d * std::sqrt(1.0 + glm::dot(at, at));
     }
-    double square = 0.0, least_cosine = 1.0, most_cosine = -1.0;
+    // As a rule one vertex has the largest of both: no pair exceeds it.
+    if (!space.perspective && most_w * most_v <= square) return std::sqrt(square);
+    double least_cosine = 1.0, most_cosine = -1.0;
+    square = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       const Corner& a = corner[i];
       // Without a warp the vertices themselves bound both.
