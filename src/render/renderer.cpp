@@ -121,6 +121,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   FilterBlock filtering = filter_block(filter.settings, blur);
   const DepthCurves curves = depth_curves(plan);
   set_depth_curves(curves, filtering);
+  fit_options(filter.settings, plan, filtering);
   timed(Pass::shadow_maps, [&] {
     const FrameBlock block =
         frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur, curves);
@@ -136,8 +137,9 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
         camera);
     impl.draw_shadow_maps(drawn, options.prune.has(PruneRule::alpha_test));
   });
-  timed(Pass::prefilter, [&] { impl.prefilter(plan, filter, filtering); });
   timed(Pass::surfaces, [&] { impl.draw_surfaces(); });
+  timed(Pass::prefilter,
+        [&] { impl.prefilter(plan, filter, filtering, options.prune.has(PruneRule::unread_tiles)); });
   timed(Pass::mask, [&] { impl.draw_mask(filter); });
   timed(Pass::shade, [&] { impl.draw_shade(); });
   if (options.aliasing) timed(Pass::aliasing, [&] { impl.draw_aliasing(); });
@@ -150,6 +152,12 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     stats.texels += impl.lists.map_stats(i).texels;
   }
   stats.saved = impl.lists.saved();
+  if (options.time_passes) {
+    stats.filtered_texels = impl.stored.take_filtered_texels();
+    const std::uint64_t whole = impl.stored.whole_texels();
+    stats.saved[static_cast<std::size_t>(PruneRule::unread_tiles)].filtered =
+        whole - std::min(stats.filtered_texels, whole);
+  }
   stats.camera = impl.lists.camera_stats();
   stats.prefilter_passes = impl.stored.passes();
   stats.maps_read_back = impl.maps_read_back;

@@ -101,13 +101,16 @@ TEST(Shaders, pass_the_reference_validator_with_every_filter) {
     ++checked;
   }
   for (const Filter* filter : all_filters()) {
-    for (const std::string_view path : filter_shaders(*filter)) {
-      const std::string extension = std::filesystem::path(path).extension();
-      const ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",
-                                shadow_vectors(default_settings(*filter))};
-      EXPECT_EQ(validated(compose_shader(path, choice), extension.substr(1)), "")
-          << filter->info.name << " " << path;
-      ++checked;
+    for (const MapRead reads : {filter->info.reads, reads_of(default_settings(*filter))}) {
+      for (const std::string_view path : filter_shaders(*filter, reads)) {
+        const std::string extension = std::filesystem::path(path).extension();
+        const ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",
+                                  shadow_vectors(default_settings(*filter)), true,
+                                  reads == MapRead::filtered};
+        EXPECT_EQ(validated(compose_shader(path, choice), extension.substr(1)), "")
+            << filter->info.name << " " << path;
+        ++checked;
+      }
     }
   }
   EXPECT_GT(checked, 10u);

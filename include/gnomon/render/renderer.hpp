@@ -20,7 +20,7 @@
 
 namespace gnomon::render {
 
-/// The passes of a frame, in the order they run.
+/// The passes of a frame, in the order of reports. Surfaces are drawn before prefilter, which looks at them.
 enum class Pass : std::uint8_t {
   shadow_maps,
   prefilter,
@@ -85,7 +85,9 @@ struct FrameStats {
   std::uint64_t texels = 0;                          ///< over all maps
   std::array<PruneSaving, kPruneRuleCount> saved{};  ///< by PruneRule, the plan's own included
   int prefilter_passes = 0;  ///< over all maps: what the filter stores, blurs, sums and shrinks
-  int maps_read_back = 0;    ///< by filters that choose for each map from its depths
+  /// Texels that the filter stored and blurred, in whole tiles; needs FrameOptions::time_passes, else 0.
+  std::uint64_t filtered_texels = 0;
+  int maps_read_back = 0;  ///< by filters that choose for each map from its depths
   /// Depth maps and everything that the filter keeps besides, scratch images included.
   std::uint64_t map_bytes = 0;
 };

@@ -18,7 +18,12 @@ constexpr FilterOption kOptions[] = {
      "receiver offset towards the light, in half steps of the series: 1/(2 order) of the depth range"},
     {"scale", 1.02, 1.0, 4.0,
      "factor of the result before it is clamped to 1: larger brightens lit surfaces, hardens edges"},
+    kFalloffWorld,
+    kFalloffKernel,
 };
+/// The filter's own option behind them: by how much more than the series' half step shadows take to fade in,
+/// as a share of it.
+constexpr std::size_t kWidening = 6;
 constexpr TexelFormat kFormats[] = {TexelFormat::unorm8, TexelFormat::fp16, TexelFormat::unorm16,
                                     TexelFormat::fp32};
 
@@ -32,13 +37,25 @@ int channels(const FilterSettings& settings) noexcept {
   return 2 * order_of(settings);
 }
 
+double whole_range_of(const FilterSettings& settings) noexcept;
+
+void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
+  const double wanted = Falloff{settings.option[4], settings.option[5]}.length(depths);
+  const double has = depths.range_world * fourier_half_step(order_of(settings)) / whole_range_of(settings);
+  settings.option[kWidening] = wanted > has && has > 0.0 ? wanted / has - 1.0 : 0.0;
+}
+
 /// Part of the period that depths 0..1 take: a difference of 1, moved by the offset, must not reach the
 /// series' next step. Of orders 1 and 2 that would take all contrast; they keep three quarters, and go wrong
 /// at the largest differences.
-double range_of(const FilterSettings& settings) noexcept {
+double whole_range_of(const FilterSettings& settings) noexcept {
   constexpr double kMostGivenUp = 0.25;
   const double wanted = (settings.option[2] + 1.0) * fourier_half_step(order_of(settings));
   return 1.0 - std::min(wanted, kMostGivenUp);
+}
+/// A longer fall-off takes a smaller part: the series' step is then wider in depth.
+double range_of(const FilterSettings& settings) noexcept {
+  return whole_range_of(settings) / (1.0 + settings.option[kWidening]);
 }
 
 StoredTexel store(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
@@ -113,6 +130,10 @@ const Filter filters::convolution{
             .contact = 0.1,
             .store = store,
             .visibility = visibility,
+        },
+    .hooks =
+        {
+            .fit_map = fit_map,
         },
 };
 
