@@ -162,6 +162,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   stats.prefilter_passes = impl.stored.passes();
   stats.maps_read_back = impl.maps_read_back;
   stats.map_bytes = impl.maps.bytes() + impl.stored.bytes();
+  stats.scratch_bytes = impl.stored.scratch_bytes();
   return stats;
 }
 

@@ -196,7 +196,7 @@ bool StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& setti
   if (wanted.layers < shape_.layers) same_but_fewer.layers = wanted.layers;
   if (wanted == same_but_fewer) return false;
   shape_ = wanted;
-  bytes_ = 0;
+  bytes_ = scratch_bytes_ = 0;
   stored_.clear();
   scratch_.clear();
   depth_max_ = {};
@@ -204,7 +204,7 @@ bool StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& setti
     stored_.push_back(
         array_image(wanted.format, wanted.levels, wanted.width, wanted.height, wanted.layers, bytes_));
     if (wanted.scratch && (i == 0 || !wanted.walks))
-      scratch_.push_back(array_image(wanted.format, 1, wanted.width, wanted.height, 1, bytes_));
+      scratch_.push_back(array_image(wanted.format, 1, wanted.width, wanted.height, 1, scratch_bytes_));
   }
   if (wanted.depth_max) {
     const int width = std::max(wanted.width / 2, 1), height = std::max(wanted.height / 2, 1);
@@ -236,6 +236,7 @@ void StoredMaps::draw(GLuint fbo, glm::ivec2 size) {
 
 void StoredMaps::blur_map(const FilterPrograms& programs, GLint map, bool blurred) {
   attach(stored_fbo_, stored_, 0, map);
+  tiles_.list(map, viewport_, programs.variant.reach);  // counts them; the passes look at the states
   tiles_.bind_for_reads();
   glUseProgram(programs.store.name());
   glUniform1i(kMapLocation, map);

@@ -71,8 +71,8 @@ class StoredMaps {
   void bind() const noexcept;
 
   [[nodiscard]] int passes() const noexcept { return passes_; }  ///< of the last build()
-  /// Kept, scratch images and the states of tiles included.
-  [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_ + tiles_.bytes(); }
+  [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }  ///< kept for look-ups
+  [[nodiscard]] std::uint64_t scratch_bytes() const noexcept { return scratch_bytes_ + tiles_.bytes(); }
   /// Texels that were filled since the last call; waits for the passes.
   [[nodiscard]] std::uint64_t take_filtered_texels() { return tiles_.take_count(); }
   /// Texels of the maps that the last build() began anew.
@@ -137,7 +137,7 @@ class StoredMaps {
   std::uint64_t whole_texels_ = 0;
   glm::ivec2 viewport_{0};
   int passes_ = 0;
-  std::uint64_t bytes_ = 0;
+  std::uint64_t bytes_ = 0, scratch_bytes_ = 0;
 };
 
 }  // namespace gnomon::render

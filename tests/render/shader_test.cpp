@@ -174,7 +174,8 @@ TEST(ShaderLibrary, compiles_in_an_engines_shader_for_opengl_and_for_vulkan) {
   if (std::string_view(GLSLANG_VALIDATOR).empty()) GTEST_SKIP() << "glslangValidator is not installed";
   for (const Filter* filter : all_filters()) {
     const ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",
-                              shadow_vectors(default_settings(*filter))};
+                              shadow_vectors(default_settings(*filter)), true,
+                              filter->info.reads == MapRead::filtered};
     const ComposedShader shader = compose_shader_text("engine.frag", engine_shader(*filter), choice);
     EXPECT_EQ(validated(shader, "frag", "--target-env opengl -G"), "") << filter->info.name;
     EXPECT_EQ(validated(shader, "frag", "-V"), "") << filter->info.name;

@@ -88,8 +88,10 @@ struct FrameStats {
   /// Texels that the filter stored and blurred, in whole tiles; needs FrameOptions::time_passes, else 0.
   std::uint64_t filtered_texels = 0;
   int maps_read_back = 0;  ///< by filters that choose for each map from its depths
-  /// Depth maps and everything that the filter keeps besides, scratch images included.
+  /// Depth maps and everything that the filter keeps besides for its look-ups.
   std::uint64_t map_bytes = 0;
+  /// Used while maps are filtered, free for other passes after that: images of one layer, lists of tiles.
+  std::uint64_t scratch_bytes = 0;
 };
 
 /// Holds a scene on the GPU and the images of the last frame drawn. The context it was made in must be

@@ -29,7 +29,7 @@ constexpr FilterOption kOptions[] = {
     {"epsilon", 0.02, 0.0, 1.0,
      "visibility above 1 that still counts as valid; beyond it the fallback is used"},
     kFalloffWorld,
-    kFalloffKernel,
+    falloff_kernel(4.0),
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
 

@@ -15,7 +15,7 @@ constexpr FilterOption kOptions[] = {
     {"floor", 1e-4, 0.0, 0.1,
      "least standard deviation, as a share of the depth range; never below the format's rounding"},
     kFalloffWorld,
-    kFalloffKernel,
+    falloff_kernel(16.0),
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16};
 

@@ -47,8 +47,10 @@ namespace gnomon::render {
 inline constexpr FilterOption kFalloffWorld{
     "falloff_world", 0.0, 0.0, 1e6,
     "least distance over which a caster's shadow fades in behind it, world units: alike in all maps"};
-inline constexpr FilterOption kFalloffKernel{
-    "falloff_kernel", 1.0, 0.0, 1000.0, "the same in half widths of the kernel; the longer of both counts"};
+[[nodiscard]] constexpr FilterOption falloff_kernel(double fallback) noexcept {
+  return {"falloff_kernel", fallback, 0.0, 1000.0,
+          "the same in half widths of the kernel; the longer of both counts"};
+}
 
 /// The values of both.
 struct Falloff {

@@ -119,10 +119,9 @@ class Asker {
   Asker(const FilterSettings& settings, const char* text, const std::vector<Question>& questions)
       : program_(make_program(
             compose_shader("fullscreen.vert"),
-            compose_shader_text(
-                "filter_test.frag", std::string(kHead) + text,
-                {"filter/" + std::string(settings.filter->info.name) + ".glsl", shadow_vectors(settings), true,
-                 reads_of(settings) == MapRead::filtered}))),
+            compose_shader_text("filter_test.frag", std::string(kHead) + text,
+                                {"filter/" + std::string(settings.filter->info.name) + ".glsl",
+                                 shadow_vectors(settings), true, reads_of(settings) == MapRead::filtered}))),
         half_side_(static_cast<float>(settings.radius + 0.5)),
         width_(static_cast<GLsizei>(questions.size())) {
     Row points, gradients;
