@@ -12,7 +12,7 @@ namespace {
 constexpr int kMostTerms = 16;
 constexpr FilterOption kOptions[] = {
     {"order", 16, 1, kMostTerms, "terms of the series, two channels each: more terms make sharper contacts"},
-    {"attenuation", 1.0, 0.0, 4.0,
+    {"attenuation", 2.5, 0.0, 4.0,
      "damping: term k is weighted by exp(-attenuation (k/order)^2); larger rings less, softens contacts"},
     {"offset", 0.0, 0.0, 1.0,
      "receiver offset towards the light, in half steps of the series: 1/(2 order) of the depth range"},
