@@ -70,7 +70,6 @@ float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DAr
   if (fallback == kLargestDepth) {
     fails = depth + allowed / c + kPyramidReach * dot(rise, at.box) < depth_max_in(depth_max, at, at.box);
   }
-  if (fails) return compare_2x2(depth_map, at, at.texel);
-  float lit = exp(log_lit);
+  float lit = fails ? compare_2x2(depth_map, at, at.texel) : exp(log_lit);  // not-a-number is lit
   return lit < 1.0 ? max(lit, 0.0) : 1.0;
 }

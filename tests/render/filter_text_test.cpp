@@ -45,7 +45,7 @@ TEST(FilterText, reads_every_key) {
   EXPECT_EQ(s.radius, 2.5);
   EXPECT_EQ(s.unit, KernelUnit::world);
   EXPECT_EQ(s.blur, BlurShape::gauss);
-  EXPECT_EQ(s.format, TexelFormat::fp16);
+  EXPECT_EQ(s.format, TexelFormat::unorm16);
   EXPECT_TRUE(s.mipmap);
   EXPECT_EQ(s.anisotropy, 8);
   EXPECT_EQ(s.value("bleed"), 0.25);

@@ -50,7 +50,8 @@ void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
 /// at the largest differences.
 double whole_range_of(const FilterSettings& settings) noexcept {
   constexpr double kMostGivenUp = 0.25;
-  const double wanted = (settings.option[2] + 1.0) * fourier_half_step(order_of(settings));
+  constexpr double kStepReach = 3.5;  // half steps: the attenuated step is that wide to either side
+  const double wanted = (settings.option[2] + kStepReach) * fourier_half_step(order_of(settings));
   return 1.0 - std::min(wanted, kMostGivenUp);
 }
 /// A longer fall-off takes a smaller part: the series' step is then wider in depth.

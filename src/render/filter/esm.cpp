@@ -100,7 +100,7 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
   bool fails = fallback == 1.0 && log_lit > allowed;
   if (fallback == 2.0)
     fails = depth + allowed / c + kPyramidReach * glm::dot(rise, lookup.box) < lookup.depth_max;
-  return fails ? compare_2x2(lookup, lookup.position) : saturate(std::exp(log_lit));
+  return saturate(fails ? compare_2x2(lookup, lookup.position) : std::exp(log_lit));
 }
 
 }  // namespace
