@@ -87,8 +87,7 @@ FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const Frame
   block.light_place = light_place(plan, camera);
   block.layer = glm::vec4(glm::dvec4(layer_width, layer_height, 0.0, camera.far_depth));
   set_lamp(options.light, block);
-  const double selection = plan.select_finest ? 2.0 : plan.select_by_map ? 1.0 : 0.0;
-  block.selection = glm::vec4(glm::dvec4(selection, static_cast<double>(options.transition), 0.0, 0.0));
+  block.selection = glm::vec4(shader_selection(plan), static_cast<float>(options.transition), 0.0f, 0.0f);
   const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
     block.maps[i] =
