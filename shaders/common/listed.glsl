@@ -1,4 +1,4 @@
-// What an invocation of a walk fills: the part of a listed tile that is its own.
+// The part of a listed tile that an invocation of a walk fills.
 #ifndef GNOMON_COMMON_LISTED_GLSL
 #define GNOMON_COMMON_LISTED_GLSL
 #include "common/tiles.glsl"

@@ -191,7 +191,7 @@ TEST(Perceptual, holds_for_plans_of_the_size_it_returns) {
   }
 }
 
-TEST(Perceptual, judges_visible_points_alone_where_they_are_known) {
+TEST(Perceptual, evaluates_visible_points_alone_where_they_are_known) {
   const Scene scene = box_on_ground();
   const FilterSettings settings = filter("pcf:radius=0.5,unit=world");
   PlanOptions options;

@@ -152,7 +152,7 @@ struct FilterReference {
                        const FilterSettings& settings) = nullptr;
 };
 
-/// What a filter's exponents and offsets depend on, map by map: lengths along and across the light, world
+/// Lengths that decide a filter's exponents and offsets in one map: along and across the light, world
 /// units.
 struct MapDepths {
   double range_world = 0.0;   ///< from the map's near to its far plane (ShadowMap::depth_range_world)

@@ -62,7 +62,7 @@ struct HidingMapSize {
 [[nodiscard]] HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera,
                                             const FilterSettings& settings,
                                             const ShadowDistances& distances = {}) noexcept;
-/// The same judged at visible points alone (trace::seen_points): a texel is hidden where it is at most a
+/// The same evaluated at visible points alone (trace::seen_points): a texel is hidden where it is at most a
 /// pixel long on the screen, or where the kernel's radius there is 3.47 times as long. Texels that no pixel
 /// sees, or sees from far away, take no larger map. Points that no map serves are skipped; without any other,
 /// the smallest map.
