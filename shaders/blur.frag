@@ -2,6 +2,7 @@
 // The blur along y, of what store.frag has blurred along x.
 #include "common/filter.glsl"
 #include <filter>
+#include "common/wanted.glsl"
 
 layout(binding = 8) uniform sampler2DArray stored[GNOMON_SHADOW_VECTORS];
 layout(location = 0) uniform int map;
@@ -9,6 +10,7 @@ layout(location = 0) out vec4 texel_out[GNOMON_SHADOW_VECTORS];
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
+  if (!wanted_within(texel, 0, map)) discard;
   int height = textureSize(stored[0], 0).y;
   ShadowOptions options = shadow_options(map);
   ShadowTexel sum = shadow_nothing(options);

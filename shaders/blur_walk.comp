@@ -5,7 +5,6 @@
 #include <filter>
 #include "common/walk.glsl"
 
-layout(local_size_x = 32) in;
 layout(binding = 8) uniform sampler2DArray stored;
 layout(binding = 0) writeonly uniform image2DArray texel_out;
 layout(location = 0) uniform int map;
@@ -18,16 +17,17 @@ vec4 texel_at(int across, int along, int end, vec4 outside) {
 }
 
 void main() {
-  int across = int(gl_GlobalInvocationID.x), begin = int(gl_GlobalInvocationID.y) * walk.w;
+  ivec2 first = blur.x == 1 ? listed_row(kRows, walk.w).yx : listed_column();
+  int across = first.x, begin = first.y;
   ivec2 size = blur.x == 1 ? walk.yx : walk.xy;
-  if (across >= size.x) return;
+  if (across < 0 || across >= size.x) return;
   ShadowOptions options = shadow_options(map);
   float weights[kReach + 1] = tap_weights_of(map);
   ShadowTexel beyond = shadow_store(1.0, vec2(0.0), options);
   vec4 outside = beyond.v[blur.z];
   vec4 window[kSide];
   for (int i = 1; i < kSide; ++i) window[i] = texel_at(across, begin - kReach - 1 + i, size.y, outside);
-  int end = min(begin + walk.w, size.y);
+  int end = min(begin + kTileSide, size.y);
   for (int at = begin; at < end; ++at) {
     for (int i = 0; i < kSide - 1; ++i) window[i] = window[i + 1];
     window[kSide - 1] = texel_at(across, at + kReach, size.y, outside);

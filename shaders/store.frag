@@ -1,6 +1,7 @@
 #version 450 core
 // From depths to stored texels, and the blur along x in the same pass.
 #include "common/stored.glsl"
+#include "common/wanted.glsl"
 
 layout(location = 0) out vec4 texel_out[GNOMON_SHADOW_VECTORS];
 
@@ -9,6 +10,7 @@ void main() {
   ShadowOptions options = shadow_options(map);
   ShadowTexel sum = shadow_nothing(options);
   int reach = filtering.reach[map].x;
+  if (!wanted_within(texel, reach, map)) discard;
   // Each depth along x is fetched once, though three taps use it.
   float before = depth_at(texel - ivec2(reach + 1, 0)), here = depth_at(texel - ivec2(reach, 0));
   for (int i = -reach; i <= reach; ++i) {

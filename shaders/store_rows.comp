@@ -4,7 +4,7 @@
 #include "common/stored.glsl"
 #include "common/walk.glsl"
 
-layout(local_size_x = 32) in;
+layout(location = 2) uniform int list;  // of the strips to be filled
 layout(binding = 0) writeonly uniform image2DArray texel_out[GNOMON_SHADOW_VECTORS];
 
 // Stores the texel that the walk comes to. `before` and `here`: depths of the texel before it and of itself.
@@ -22,8 +22,9 @@ ShadowTexel next_stored(ivec2 texel, inout float before, inout float here, Shado
 }
 
 void main() {
-  int y = int(gl_GlobalInvocationID.x), begin = int(gl_GlobalInvocationID.y) * walk.w;
-  if (y >= walk.y) return;
+  ivec2 first = listed_row(list, walk.w);
+  int y = first.y, begin = first.x;
+  if (y < 0 || y >= walk.y) return;
   ShadowOptions options = shadow_options(map);
   float weights[kReach + 1] = tap_weights_of(map);
   float before = 1.0, here = 1.0;
@@ -33,7 +34,7 @@ void main() {
 #endif
   ShadowTexel window[kSide];
   for (int i = 1; i < kSide; ++i) window[i] = next_stored(ivec2(begin - kReach - 1 + i, y), before, here, options);
-  int end = min(begin + walk.w, walk.x);
+  int end = min(begin + kTileSide, walk.x);
   for (int x = begin; x < end; ++x) {
     for (int i = 0; i < kSide - 1; ++i) window[i] = window[i + 1];
     window[kSide - 1] = next_stored(ivec2(x + kReach, y), before, here, options);

@@ -96,6 +96,7 @@ struct PruneSaving {
   std::uint64_t triangles = 0;  ///< not drawn into maps
   std::uint64_t instances = 0;  ///< the same
   std::uint64_t maps = 0;       ///< cascades that were omitted, or maps that were not drawn at all
+  std::uint64_t filtered = 0;   ///< texels that a filter did not store and blur
 };
 
 }  // namespace gnomon

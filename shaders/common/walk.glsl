@@ -1,9 +1,12 @@
 // A blur whose radius the shader was compiled for. One invocation walks along a part of a row or column; loops over its
 // window have bounds that every compiler unrolls, so that the window stays in registers.
+#include "common/listed.glsl"
+
+layout(local_size_x = 32) in;  // four strips of a tile, or the columns of one
 const int kReach = GNOMON_REACH;      // taps to either side of the middle one
 const int kSide = 2 * GNOMON_REACH + 1;
 
-layout(location = 1) uniform ivec4 walk;  // texels along x and y to be filled, layer written, texels of one walk
+layout(location = 1) uniform ivec4 walk;  // texels along x and y to be filled, layer written, tiles of a layer
 
 // Puts one vector of the kernel's texels together, where the window holds nothing else.
 vec4 joined(vec4 window[kSide], float weights[GNOMON_REACH + 1], ShadowOptions options) {

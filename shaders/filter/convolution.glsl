@@ -5,12 +5,13 @@
 
 const float kPi = 3.14159265;
 
-// Options: order, attenuation, offset, scale.
+// Options: order, attenuation, offset, scale, two of the fall-off, widening.
 int fourier_order(ShadowOptions options) { return min(int(options.value[0] + 0.5), 2 * GNOMON_SHADOW_VECTORS); }
 
-// Part of the period that depths 0..1 take: the largest difference must not reach the series' next step.
+// Part of the period that depths 0..1 take: the largest difference must not reach the series' next step. A
+// longer fall-off takes a smaller part.
 float fourier_range(ShadowOptions options) {
-  return 1.0 - min((options.value[2] + 1.0) * 0.5 / options.value[0], 0.25);
+  return (1.0 - min((options.value[2] + 3.5) * 0.5 / options.value[0], 0.25)) / (1.0 + options.value[6]);
 }
 
 vec2 turned(vec2 a, vec2 by) { return vec2(a.x * by.x - a.y * by.y, a.x * by.y + a.y * by.x); }

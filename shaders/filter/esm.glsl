@@ -1,9 +1,22 @@
 // Exponential shadow maps (Annen, Mertens, Seidel, Flerackers, Kautz 2008): exp(-c d) times the mean of exp(c z). A texel
-// stores ln(mean of exp(c z)) / c, a soft maximum of depths, which never overflows.
+// stores that mean where floats hold it (GNOMON_MEAN), else ln(mean of exp(c z)) / c, a soft maximum of depths, which never
+// overflows.
 #include "library/compare.glsl"
 #include "library/depth_max.glsl"
 
 // Options: c, fallback, epsilon.
+#if GNOMON_MEAN
+#include "library/mean.glsl"
+
+// The middle of the depths is 1: the numbers use both signs of the exponent.
+ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) {
+  ShadowTexel texel;
+  texel.v[0] = vec4(exp(options.value[0] * (depth - 0.5)), 0.0, 0.0, 0.0);
+  return texel;
+}
+
+float soft_maximum(ShadowTexel texel, float c) { return 0.5 + log(texel.v[0].x) / c; }
+#else
 ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) {
   ShadowTexel texel;
   texel.v[0] = vec4(depth, 0.0, 0.0, 0.0);
@@ -34,6 +47,9 @@ vec4 shadow_of_sum(vec4 sum, vec4 largest, ShadowOptions options) {
   return vec4(largest.x + log(sum.x) / options.value[0], 0.0, 0.0, 0.0);
 }
 
+float soft_maximum(ShadowTexel texel, float c) { return texel.v[0].x; }
+#endif
+
 // ln(sinh(s) / s) for s >= 0: how far a plane's exponentials' mean lies above its middle's.
 float log_mean_over(float s) {
   return s < 0.5 ? s * s * (1.0 / 6.0 - s * s / 180.0) : s + log((1.0 - exp(-2.0 * s)) / (2.0 * s));
@@ -45,7 +61,7 @@ float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DAr
   float c = options.value[0], fallback = options.value[1], epsilon = options.value[2];
   float depth = min(at.depth, 1.0) - options.rounding;
   vec2 rise = abs(at.depth_gradient);
-  float log_lit = c * (texel.v[0].x - depth) - log_mean_over(c * rise.x * at.box.x) - log_mean_over(c * rise.y * at.box.y);
+  float log_lit = c * (soft_maximum(texel, c) - depth) - log_mean_over(c * rise.x * at.box.x) - log_mean_over(c * rise.y * at.box.y);
   // The mean holds only where no texel of the kernel lies behind the receiver by more than slope bias and normal offset
   // lift it off its plane, up to half a texel of its rise each.
   float allowed = log(1.0 + epsilon) + c * (rise.x + rise.y);
@@ -54,7 +70,6 @@ float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DAr
   if (fallback == kLargestDepth) {
     fails = depth + allowed / c + kPyramidReach * dot(rise, at.box) < depth_max_in(depth_max, at, at.box);
   }
-  if (fails) return compare_2x2(depth_map, at, at.texel);
-  float lit = exp(log_lit);
+  float lit = fails ? compare_2x2(depth_map, at, at.texel) : exp(log_lit);  // not-a-number is lit
   return lit < 1.0 ? max(lit, 0.0) : 1.0;
 }

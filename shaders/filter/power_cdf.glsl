@@ -42,13 +42,14 @@ float power_lit(float least, float mean, float largest, float depth) {
   return one_less_power((largest - depth) / range, exponent) / one_less_power((largest - mean) / range, exponent);
 }
 
-// Options: offset.
+// Options: offset, two of the fall-off, longest offset (0: no limit).
 float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DArray depth_max, ShadowLookup at,
                         ShadowOptions options) {
   const float kRoundings = 4.0;  // of the mean, stored after each half of the blur, read and compared
   float depth = min(at.depth, 1.0);
   float value = options.unsigned_unit ? depth : 2.0 * depth - 1.0;
-  float offset = options.value[0] * (texel.v[0].z - texel.v[0].x) + kRoundings * options.rounding;
+  float longest = options.value[3] > 0.0 ? (options.unsigned_unit ? 1.0 : 2.0) * options.value[3] : 2.0;
+  float offset = min(options.value[0] * (texel.v[0].z - texel.v[0].x), longest) + kRoundings * options.rounding;
   float lit = power_lit(texel.v[0].x, texel.v[0].y, texel.v[0].z, value - offset);
   return lit < 1.0 ? max(lit, 0.0) : 1.0;  // not-a-number is lit
 }

@@ -101,6 +101,18 @@ FilterSettings default_settings(const Filter& filter) noexcept {
   return settings;
 }
 
+MapRead reads_of(const FilterSettings& settings) noexcept {
+  const Filter& filter = *settings.filter;
+  const bool averages = filter.hooks.averages != nullptr && filter.hooks.averages(settings);
+  return averages ? MapRead::filtered : filter.info.reads;
+}
+
+FilterSettings settings_for_map(const FilterSettings& settings, const MapDepths& depths) noexcept {
+  FilterSettings own = settings;
+  if (settings.filter->hooks.fit_map != nullptr) settings.filter->hooks.fit_map(own, depths);
+  return own;
+}
+
 double bytes_per_texel(const FilterSettings& settings) noexcept {
   const Filter& filter = *settings.filter;
   constexpr double kDepthBytes = 4.0, kMipChain = 4.0 / 3.0, kMaxPyramid = 4.0 / 3.0;
@@ -124,7 +136,7 @@ void set_margin(const FilterSettings& settings, PlanOptions& options) noexcept {
   const double widest = filter.info.may_mipmap ? 3.0 : 1.0;
   const bool in_world = settings.unit == KernelUnit::world;
   options.filter.texels = filter.info.lookup_reach_texels + (in_world ? 0.0 : settings.radius) +
-                                 (filter.info.channels ? kBilinear : 0.0);
+                          (filter.info.channels ? kBilinear : 0.0);
   options.filter.world = in_world ? settings.radius * widest : 0.0;
 }
 

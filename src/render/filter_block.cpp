@@ -68,6 +68,19 @@ int tap_weights(BlurShape shape, double half_side, std::array<double, 4 * kTapVe
   return reach;
 }
 
+MapDepths map_depths(const FilterSettings& settings, const ShadowMap& map) noexcept {
+  const double kernel = settings.unit == KernelUnit::world
+                            ? kBoxOfDisc * settings.radius
+                            : (settings.radius + 0.5) * std::max(map.texel_world.x, map.texel_world.y);
+  return {map.depth_range_world, kernel};
+}
+
+void fit_options(const FilterSettings& settings, const ShadowPlan& plan, FilterBlock& block) noexcept {
+  if (settings.filter->hooks.fit_map == nullptr) return;
+  for (std::size_t i = 0; i < plan.maps().size(); ++i)
+    set_options(settings_for_map(settings, map_depths(settings, plan.map[i])), i, block);
+}
+
 void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& block) noexcept {
   for (std::size_t i = 0; i < kMaxFilterOptions; ++i) {
     block.options[map * kOptionVectors + i / 4][static_cast<int>(i % 4)] =

@@ -35,6 +35,8 @@ using BlurSides = std::array<double, kMaxMaps>;
 /// many there are beyond the middle one.
 int tap_weights(BlurShape shape, double half_side, std::array<double, 4 * kTapVectors>& weights) noexcept;
 
+/// Lengths of a map that settings_for_map takes.
+[[nodiscard]] MapDepths map_depths(const FilterSettings& settings, const ShadowMap& map) noexcept;
 /// Options of one map.
 void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& block) noexcept;
 /// shaders/library/lookup.glsl: depths of a lamp's map made even in distance.
@@ -47,6 +49,8 @@ using DepthCurves = std::array<double, kMaxMaps>;
 [[nodiscard]] DepthCurves depth_curves(const ShadowPlan& plan) noexcept;
 void set_depth_curves(const DepthCurves& curves, FilterBlock& block) noexcept;
 
+/// Options of each map of a plan.
+void fit_options(const FilterSettings& settings, const ShadowPlan& plan, FilterBlock& block) noexcept;
 /// With the same options for all maps, and no curve for any.
 [[nodiscard]] FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides) noexcept;
 

@@ -113,9 +113,24 @@ void Renderer::Impl::adapt_filter(const FilterSettings& settings, FilterBlock& b
   glNamedBufferSubData(filter_buffer.name(), 0, sizeof block, &block);
 }
 
-void Renderer::Impl::prefilter(const ShadowPlan& plan, const PreparedFilter& filter,
-                               FilterBlock& block) noexcept {
+bool Renderer::Impl::pays_to_mark(const FilterPrograms& filter, bool unread_tiles) const noexcept {
+  if (!unread_tiles || !filter.mark) return false;
+  std::uint64_t texels = 0, pixels = static_cast<std::uint64_t>(targets.width) *
+                                     static_cast<std::uint64_t>(targets.height);
+  for (int i = 0; i < map_count; ++i) {
+    if (lists.map_stats(i).held) continue;
+    const glm::ivec2 size = map_size[static_cast<std::size_t>(i)];
+    texels += static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
+  }
+  // A marked pixel costs about as much as two filtered vectors of four channels.
+  constexpr std::uint64_t kVectorsPerPixel = 2;
+  return texels * static_cast<std::uint64_t>(filter.variant.vectors) >= kVectorsPerPixel * pixels;
+}
+
+void Renderer::Impl::prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block,
+                               bool unread_tiles) noexcept {
   adapt_filter(filter.settings, block);
+  const FilterPrograms& programs_of_filter = filter_programs[filter.program];
   StoreJob job;
   job.depth = maps.depth.name();
   job.layer_width = maps.width;
@@ -123,7 +138,9 @@ void Renderer::Impl::prefilter(const ShadowPlan& plan, const PreparedFilter& fil
   job.map_size = {map_size.data(), static_cast<std::size_t>(plan.map_count)};
   job.mipmaps = wants_mipmaps(filter.settings, plan);
   for (int i = 0; i < plan.map_count; ++i) job.held[static_cast<std::size_t>(i)] = lists.map_stats(i).held;
-  stored.build(filter_programs[filter.program], filter.settings, block, job);
+  if (pays_to_mark(programs_of_filter, unread_tiles))
+    job.mark_read = [&] { fullscreen(targets.mask_fbo, programs_of_filter.mark); };
+  stored.build(programs_of_filter, filter.settings, block, job);
 }
 
 void Renderer::Impl::draw_surfaces() noexcept {

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+
+#include "gnomon/metric.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -22,6 +25,12 @@ double most_pixels_per_world(const ShadowPlan& plan, const Camera& camera) noexc
   double depth = camera.far_depth;
   for (const ShadowMap& map : plan.maps()) depth = std::min(depth, map.depth_begin);
   return per_edge / std::max(depth, camera.near_depth);
+}
+
+double pixels_per_world(const Camera& camera, double view_depth) noexcept {
+  const double per_edge =
+      std::max(camera.width / (camera.right - camera.left), camera.height / (camera.top - camera.bottom));
+  return camera.orthographic ? per_edge : per_edge / std::max(view_depth, camera.near_depth);
 }
 
 /// Texels along a side that make the plan's longest texel this long, world units.
@@ -77,6 +86,33 @@ HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera, cons
   const double side = side_for(plan, result.radius_world / kHidingRadius) * (1.0 - kRounding);
   result.hides = side <= kMostMapSize;  // false for not-a-number
   if (result.hides) result.map_size = std::max(kLeastMapSize, static_cast<int>(std::ceil(side)));
+  return result;
+}
+HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera, const FilterSettings& settings,
+                              const ShadowDistances& distances,
+                              std::span<const glm::dvec3> visible_world) noexcept {
+  HidingMapSize result = hiding_map_size(plan, camera, settings, distances);
+  if (plan.map_count == 0 || !is_kernel_in_world(settings) || !(result.radius_world > 0.0)) return result;
+  constexpr double kPixel = 1.0;  // artifacts of at most a pixel are none
+  double side = 0.0;
+  result.radius_pixels = 0.0;
+  const glm::dvec3 forward = glm::normalize(camera.forward);
+  for (const glm::dvec3& point : visible_world) {
+    const double view_depth = glm::dot(point - camera.position, forward);
+    const int serving = map_serving(plan, point, view_depth);
+    if (serving < 0) continue;
+    const ShadowMap& map = plan.map[static_cast<std::size_t>(serving)];
+    // On the surface that faces the half vector, lengths across the light and across the eye's ray are seen
+    // alike: texel and kernel compare there.
+    const PointAliasing texel = measure_perspective(map, camera, point);
+    if (texel.status != PointAliasing::Status::ok) continue;
+    const double radius_pixels = result.radius_world * pixels_per_world(camera, view_depth);
+    result.radius_pixels = std::max(result.radius_pixels, radius_pixels);
+    const double hidden = std::max(hidden_texel_pixels(radius_pixels), kPixel);
+    side = std::max(side, std::max(map.width, map.height) * texel.perspective_max / hidden);
+  }
+  result.hides = side <= kMostMapSize;
+  result.map_size = result.hides ? std::max(kLeastMapSize, static_cast<int>(std::ceil(side))) : kMostMapSize;
   return result;
 }
 

@@ -128,7 +128,7 @@ std::vector<DrawnDepths> Renderer::drawn_depths(const FilterSettings& settings,
       for (float& depth : depths) depth = static_cast<float>(linear_depth(depth, curve));
     const BiasWorld& bias = map.bias_world;
     maps.push_back({std::move(depths), map.width, map.height, std::max(sides[at], 0.5),
-                    (bias.constant + bias.slope) / map.depth_range_world});
+                    map_depths(settings, map), (bias.constant + bias.slope) / map.depth_range_world});
   }
   return maps;
 }

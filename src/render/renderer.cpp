@@ -125,6 +125,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   set_depth_curves(curves, filtering);
   const FrameBlock block =
       frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur, curves);
+  fit_options(filter.settings, plan, filtering);
   timed(Pass::shadow_maps, [&] {
     glNamedBufferSubData(impl.frame_buffer.name(), 0, sizeof block, &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, impl.frame_buffer.name());
@@ -138,8 +139,9 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
         camera);
     impl.draw_shadow_maps(drawn, options.prune.has(PruneRule::alpha_test));
   });
-  timed(Pass::prefilter, [&] { impl.prefilter(plan, filter, filtering); });
   timed(Pass::surfaces, [&] { impl.draw_surfaces(); });
+  timed(Pass::prefilter,
+        [&] { impl.prefilter(plan, filter, filtering, options.prune.has(PruneRule::unread_tiles)); });
   const bool accumulated = options.accumulation.on;
   accumulated ? impl.history.resize(camera.width, camera.height) : impl.history.forget();
   timed(Pass::mask, [&] {
@@ -158,10 +160,17 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     stats.texels += impl.lists.map_stats(i).texels;
   }
   stats.saved = impl.lists.saved();
+  if (options.time_passes) {
+    stats.filtered_texels = impl.stored.take_filtered_texels();
+    const std::uint64_t whole = impl.stored.whole_texels();
+    stats.saved[static_cast<std::size_t>(PruneRule::unread_tiles)].filtered =
+        whole - std::min(stats.filtered_texels, whole);
+  }
   stats.camera = impl.lists.camera_stats();
   stats.prefilter_passes = impl.stored.passes();
   stats.maps_read_back = impl.maps_read_back;
   stats.map_bytes = impl.maps.bytes() + impl.stored.bytes();
+  stats.scratch_bytes = impl.stored.scratch_bytes();
   return stats;
 }
 

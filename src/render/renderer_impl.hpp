@@ -28,7 +28,10 @@ struct Renderer::Impl {
   void draw_map_part(const DrawnPart& part, const DrawnMap& map, bool alpha_test_where_masked) noexcept;
   void draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept;
   /// `block`: with the options that the filter chooses for each map, on return.
-  void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block) noexcept;
+  void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block,
+                 bool unread_tiles) noexcept;
+  /// Whether a pass over the pixels costs less than what it saves.
+  [[nodiscard]] bool pays_to_mark(const FilterPrograms& filter, bool unread_tiles) const noexcept;
   /// For maps whose depths are not those of the last frame; the others keep what was chosen then.
   void adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept;
   /// Of the last frame's map, row by row.

@@ -14,9 +14,8 @@ namespace {
 
 constexpr GLint kMapLocation = 0;
 constexpr GLuint kSumsImage = 0;
-constexpr int kRowsPerGroup = 32;  ///< local_size_x of all compute shaders
-constexpr GLint kTexelsPerWalk = 64;
-constexpr GLint kWalkLocation = 1, kBlurLocation = 2;
+constexpr int kRowsPerGroup = 32;  ///< local_size_x of sum_rows.comp and sum_columns.comp
+constexpr GLint kWalkLocation = 1, kListLocation = 2, kBlurLocation = 2, kLevelsLocation = 1;
 /// Compilers unroll loops over 31 taps; wider kernels are rare.
 constexpr int kMostWalkReach = 15;
 
@@ -27,6 +26,10 @@ bool fuses_store(const FilterVariant& variant) noexcept {
 
 GLuint groups_of(int count, int each) noexcept {
   return static_cast<GLuint>((count + each - 1) / each);
+}
+
+std::uint64_t area(const glm::ivec2& size) noexcept {
+  return static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
 }
 
 std::string filter_path(const Filter& filter) {
@@ -114,20 +117,21 @@ void bind_images(const std::vector<Texture>& images, const Sampler& sampler) {
 
 }  // namespace
 
-std::vector<std::string_view> filter_shaders(const Filter& filter) {
-  std::vector<std::string_view> paths{mask_path(filter.info.reads)};
-  if (filter.info.reads == MapRead::filtered || filter.info.reads == MapRead::joined) {
-    paths.insert(paths.end(), {"store_rows.comp", "blur_walk.comp", "store.frag", "blur.frag"});
+std::vector<std::string_view> filter_shaders(const Filter& filter, MapRead reads) {
+  std::vector<std::string_view> paths{mask_path(reads)};
+  if (reads == MapRead::filtered || reads == MapRead::joined) {
+    paths.insert(paths.end(),
+                 {"store_rows.comp", "blur_walk.comp", "store.frag", "blur.frag", "mark_tiles.frag"});
   }
-  if (filter.info.reads == MapRead::joined && filter.info.may_mipmap) paths.emplace_back("join_mip.frag");
-  if (filter.info.reads == MapRead::summed) paths.insert(paths.end(), {"sum_rows.comp", "sum_columns.comp"});
+  if (reads == MapRead::joined && filter.info.may_mipmap) paths.emplace_back("join_mip.frag");
+  if (reads == MapRead::summed) paths.insert(paths.end(), {"sum_rows.comp", "sum_columns.comp"});
   if (filter.hooks.needs_depth_max != nullptr) paths.emplace_back("depth_max.frag");
   return paths;
 }
 
 FilterVariant variant_of(const FilterSettings& settings) noexcept {
   const Filter& filter = *settings.filter;
-  FilterVariant variant{&filter, shadow_vectors(settings), false, 0};
+  FilterVariant variant{&filter, shadow_vectors(settings), reads_of(settings), false, 0};
   if (filter.info.reads == MapRead::depth) return variant;
   variant.reads_slope = filter.hooks.reads_slope != nullptr && filter.hooks.reads_slope(settings);
   if (filter.info.reads == MapRead::summed) return variant;
@@ -144,8 +148,8 @@ FilterPrograms make_filter_programs(const FilterSettings& settings) {
   programs.variant = variant_of(settings);
   const bool any_reach = programs.variant.reach == FilterVariant::kAnyReach;
   ShaderChoice choice{filter_path(*settings.filter), programs.variant.vectors, programs.variant.reads_slope,
-                      settings.filter->info.reads == MapRead::filtered, std::max(programs.variant.reach, 0)};
-  const std::vector<std::string_view> paths = filter_shaders(*settings.filter);
+                      programs.variant.reads == MapRead::filtered, std::max(programs.variant.reach, 0)};
+  const std::vector<std::string_view> paths = filter_shaders(*settings.filter, programs.variant.reads);
   programs.mask = make_program("fullscreen.vert", paths.front(), choice);
   const auto make = [&](Program& program, std::string_view path) {
     if (std::find(paths.begin(), paths.end(), path) == paths.end()) return;
@@ -160,6 +164,7 @@ FilterPrograms make_filter_programs(const FilterSettings& settings) {
     if (!fuses_store(programs.variant)) choice.reach = 0;
     make(programs.store_rows, "store_rows.comp");
   }
+  make(programs.mark, "mark_tiles.frag");
   make(programs.join_mip, "join_mip.frag");
   make(programs.sum_rows, "sum_rows.comp");
   make(programs.sum_columns, "sum_columns.comp");
@@ -191,7 +196,7 @@ bool StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& setti
   if (wanted.layers < shape_.layers) same_but_fewer.layers = wanted.layers;
   if (wanted == same_but_fewer) return false;
   shape_ = wanted;
-  bytes_ = 0;
+  bytes_ = scratch_bytes_ = 0;
   stored_.clear();
   scratch_.clear();
   depth_max_ = {};
@@ -199,7 +204,7 @@ bool StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& setti
     stored_.push_back(
         array_image(wanted.format, wanted.levels, wanted.width, wanted.height, wanted.layers, bytes_));
     if (wanted.scratch && (i == 0 || !wanted.walks))
-      scratch_.push_back(array_image(wanted.format, 1, wanted.width, wanted.height, 1, bytes_));
+      scratch_.push_back(array_image(wanted.format, 1, wanted.width, wanted.height, 1, scratch_bytes_));
   }
   if (wanted.depth_max) {
     const int width = std::max(wanted.width / 2, 1), height = std::max(wanted.height / 2, 1);
@@ -231,6 +236,8 @@ void StoredMaps::draw(GLuint fbo, glm::ivec2 size) {
 
 void StoredMaps::blur_map(const FilterPrograms& programs, GLint map, bool blurred) {
   attach(stored_fbo_, stored_, 0, map);
+  tiles_.list(map, viewport_, programs.variant.reach);  // counts them; the passes look at the states
+  tiles_.bind_for_reads();
   glUseProgram(programs.store.name());
   glUniform1i(kMapLocation, map);
   draw(blurred ? scratch_fbo_.name() : stored_fbo_.name(), viewport_);
@@ -248,42 +255,39 @@ void StoredMaps::walk_store(const FilterPrograms& programs, GLint map, const Wal
   }
   glUseProgram(programs.store_rows.name());
   glUniform1i(kMapLocation, map);
-  glUniform4i(kWalkLocation, viewport_.x, viewport_.y, into.layer, kTexelsPerWalk);
-  glDispatchCompute(groups_of(viewport_.y, kRowsPerGroup), groups_of(viewport_.x, kTexelsPerWalk), 1);
+  glUniform4i(kWalkLocation, viewport_.x, viewport_.y, into.layer, tiles_.per_layer());
+  glUniform1i(kListLocation, static_cast<GLint>(into.list));
+  tiles_.dispatch(into.list);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void StoredMaps::walk_blur(const FilterPrograms& programs, GLint map, const WalkBlur& blur) {
-  // Texels of 16 bytes in one column lie a power of two apart: long walks along y evict each other's lines
-  // from the cache (35 ms in place of 19 at 1024 x 1024 in llvmpipe).
-  const GLint length = !blur.along_x && bytes_of(shape_.format) >= 16 ? kTexelsPerWalk / 4 : kTexelsPerWalk;
-  const int across = blur.along_x ? viewport_.y : viewport_.x,
-            along = blur.along_x ? viewport_.x : viewport_.y;
   glBindImageTexture(0, blur.to, 0, GL_TRUE, 0, GL_WRITE_ONLY, shape_.format);
   glBindTextureUnit(kStoredUnit, blur.from);
   glBindSampler(kStoredUnit, nearest_sampler_.name());
   glUseProgram(programs.blur_walk.name());
   glUniform1i(kMapLocation, map);
-  glUniform4i(kWalkLocation, viewport_.x, viewport_.y, blur.to_layer, length);
+  glUniform4i(kWalkLocation, viewport_.x, viewport_.y, blur.to_layer, tiles_.per_layer());
   glUniform3i(kBlurLocation, blur.along_x ? 1 : 0, blur.from_layer, blur.vector);
-  glDispatchCompute(groups_of(across, kRowsPerGroup), groups_of(along, length), 1);
+  tiles_.dispatch(blur.along_x ? FilterTiles::List::rows : FilterTiles::List::tiles);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
 void StoredMaps::walk_map(const FilterPrograms& programs, GLint map) {
+  tiles_.list(map, viewport_, programs.variant.reach);
   if (programs.variant.reach == 0) {
-    walk_store(programs, map, {stored_, map});
+    walk_store(programs, map, {stored_, map, FilterTiles::List::rows});
     ++passes_;
     return;
   }
   passes_ += 2;
   if (fuses_store(programs.variant)) {
-    walk_store(programs, map, {scratch_, 0});
+    walk_store(programs, map, {scratch_, 0, FilterTiles::List::rows});
     walk_blur(programs, map, {scratch_[0].name(), 0, stored_[0].name(), map, 0, false});
     return;
   }
   // Windows of many vectors do not fit into registers: each vector is blurred by itself.
-  walk_store(programs, map, {stored_, map});
+  walk_store(programs, map, {stored_, map, FilterTiles::List::rows_and_columns});
   for (std::size_t i = 0; i < stored_.size(); ++i) {
     const GLuint kept = stored_[i].name(), scratch = scratch_[0].name();
     const auto vector = static_cast<GLint>(i);
@@ -351,6 +355,48 @@ void StoredMaps::build_depth_max(const FilterPrograms& programs, const StoreJob&
   glBindTextureUnit(kDepthUnit, job.depth);
 }
 
+StoredMaps::Held StoredMaps::keep_whole(const StoreJob& job) noexcept {
+  Held held{};
+  for (std::size_t i = 0; i < job.map_size.size(); ++i) {
+    held[i] = job.held[i] && made_[i].depths;
+    made_[i] = {true, true, 0};
+  }
+  return held;
+}
+
+StoredMaps::Held StoredMaps::choose_tiles(const FilterPrograms& programs, const StoreJob& job) {
+  // Marking in one frame after the other must not come to more than filling all tiles once.
+  constexpr int kMostMarks = 4;
+  Held held{};
+  tiles_.fit(shape_.width, shape_.height, shape_.layers);
+  const glm::ivec2 layer{shape_.width, shape_.height};
+  whole_texels_ = 0;
+  bool marks = false;
+  for (std::size_t i = 0; i < job.map_size.size(); ++i) {
+    Made& made = made_[i];
+    const bool kept = job.held[i] && made.depths;
+    held[i] = kept && made.whole;
+    if (held[i]) continue;
+    // Several vectors are stored in place before their blur, which would spoil tiles that are valid.
+    const bool all = !job.mark_read || made.marks == kMostMarks || (kept && programs.variant.vectors > 1);
+    const bool holds = kept && programs.variant.vectors == 1;
+    tiles_.keep(static_cast<GLint>(i), {holds, all});
+    made = {true, all, all ? 0 : kept ? made.marks + 1 : 1};
+    if (!kept) whole_texels_ += area(job.mipmaps ? layer : job.map_size[i]);
+    marks = marks || !all;
+  }
+  if (marks) {
+    tiles_.bind_for_marks();
+    glUseProgram(programs.mark.name());
+    glUniform1i(kLevelsLocation, job.mipmaps ? shape_.levels : 1);
+    job.mark_read();
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glDisable(GL_DEPTH_TEST);
+    glBindVertexArray(no_vertices_.name());
+  }
+  return held;
+}
+
 void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& settings,
                        const FilterBlock& block, const StoreJob& job) {
   passes_ = 0;
@@ -361,14 +407,10 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
   const bool alike = made_alike(settings, block);
   const bool fresh = fit(programs, settings, job, any_blur && (programs.blur || programs.blur_walk));
   if (!alike || fresh) made_ = {};
-  Held held{};
-  for (std::size_t i = 0; i < maps; ++i) {
-    held[i] = job.held[i] && made_[i];
-    made_[i] = true;
-  }
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glBindVertexArray(no_vertices_.name());
+  const Held held = programs.mark ? choose_tiles(programs, job) : keep_whole(job);
   glBindTextureUnit(kDepthUnit, job.depth);
   glBindSampler(kDepthUnit, nearest_sampler_.name());
   for (std::size_t i = 0; i < maps; ++i) {
@@ -396,7 +438,7 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
     for (const Texture& image : stored_) glGenerateTextureMipmap(image.name());
     ++passes_;
   }
-  const bool smooth = settings.filter->info.reads == MapRead::filtered;
+  const bool smooth = programs.variant.reads == MapRead::filtered;
   const GLint shrinking = !smooth ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR;
   glSamplerParameteri(stored_sampler_.name(), GL_TEXTURE_MIN_FILTER,
                       mipmaps ? shrinking : (smooth ? GL_LINEAR : GL_NEAREST));

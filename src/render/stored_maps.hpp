@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "filter_block.hpp"
+#include "filter_tiles.hpp"
 #include "gl_object.hpp"
 #include "gnomon/render/filter.hpp"
 
@@ -19,6 +21,7 @@ struct FilterVariant {
   static constexpr int kAnyReach = -1;
   const Filter* filter = nullptr;
   int vectors = 1;
+  MapRead reads = MapRead::depth;  ///< reads_of
   bool reads_slope = false;
   int reach = 0;  ///< of the blur that all maps have; kAnyReach: read from the block for each map
   bool operator==(const FilterVariant&) const = default;
@@ -29,10 +32,10 @@ struct FilterVariant {
 /// blurred by store_rows and blur_walk where all maps have one reach, else by store and blur.
 struct FilterPrograms {
   FilterVariant variant;
-  Program mask, store_rows, blur_walk, store, blur, join_mip, depth_max, sum_rows, sum_columns;
+  Program mask, mark, store_rows, blur_walk, store, blur, join_mip, depth_max, sum_rows, sum_columns;
 };
-/// Paths of the shaders that the filter takes part in, that of the mask first.
-[[nodiscard]] std::vector<std::string_view> filter_shaders(const Filter& filter);
+/// Paths of the shaders that the filter takes part in when it is read so, that of the mask first.
+[[nodiscard]] std::vector<std::string_view> filter_shaders(const Filter& filter, MapRead reads);
 /// Throws RenderError with shader file and line.
 [[nodiscard]] FilterPrograms make_filter_programs(const FilterSettings& settings);
 
@@ -49,6 +52,9 @@ struct StoreJob {
   bool mipmaps = false;
   /// Maps whose depths are those of the last build(): what was made of them stays, where it was made alike.
   std::array<bool, kMaxMaps> held{};
+  /// Draws the bound program over the frame's pixels, so that it marks the tiles that the mask reads. Empty:
+  /// maps are filtered whole.
+  std::function<void()> mark_read = {};
 };
 
 class StoredMaps {
@@ -64,8 +70,13 @@ class StoredMaps {
   /// Binds what build() filled to the filters' texture units.
   void bind() const noexcept;
 
-  [[nodiscard]] int passes() const noexcept { return passes_; }          ///< of the last build()
-  [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }  ///< kept, scratch images included
+  [[nodiscard]] int passes() const noexcept { return passes_; }  ///< of the last build()
+  [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }  ///< kept for look-ups
+  [[nodiscard]] std::uint64_t scratch_bytes() const noexcept { return scratch_bytes_ + tiles_.bytes(); }
+  /// Texels that were filled since the last call; waits for the passes.
+  [[nodiscard]] std::uint64_t take_filtered_texels() { return tiles_.take_count(); }
+  /// Texels of the maps that the last build() began anew.
+  [[nodiscard]] std::uint64_t whole_texels() const noexcept { return whole_texels_; }
   /// OpenGL name of the image of channels 4 i .. 4 i + 3, 0 where there is none.
   [[nodiscard]] GLuint image(std::size_t i) const noexcept {
     return i < stored_.size() ? stored_[i].name() : 0;
@@ -74,6 +85,10 @@ class StoredMaps {
  private:
   /// True where all images are new.
   bool fit(const FilterPrograms& programs, const FilterSettings& settings, const StoreJob& job, bool blurred);
+  /// Which maps are valid as they are; `made_` becomes what they hold after this build().
+  Held keep_whole(const StoreJob& job) noexcept;
+  /// The same, and decides which tiles of the others are filled.
+  Held choose_tiles(const FilterPrograms& programs, const StoreJob& job);
   /// Whether the last build() was told the same.
   [[nodiscard]] bool made_alike(const FilterSettings& settings, const FilterBlock& block) noexcept;
   void blur_map(const FilterPrograms& programs, GLint map, bool blurred);
@@ -81,6 +96,7 @@ class StoredMaps {
   struct WalkTarget {
     const std::vector<Texture>& images;
     GLint layer;
+    FilterTiles::List list;
   };
   void walk_store(const FilterPrograms& programs, GLint map, const WalkTarget& into);
   struct WalkBlur {
@@ -110,10 +126,18 @@ class StoredMaps {
   Sampler stored_sampler_ = make_sampler(), nearest_sampler_ = make_sampler();
   FilterSettings made_with_;  ///< of the last build()
   FilterBlock made_block_{};
-  Held made_{};  ///< layers that are of these settings: a frame touches those of its maps alone
+  /// What a layer holds; a frame touches those of its maps alone.
+  struct Made {
+    bool depths = false;  ///< texels of these settings
+    bool whole = false;   ///< in all tiles
+    int marks = 0;        ///< frames that marked tiles since the depths were drawn
+  };
+  std::array<Made, kMaxMaps> made_{};
+  FilterTiles tiles_;
+  std::uint64_t whole_texels_ = 0;
   glm::ivec2 viewport_{0};
   int passes_ = 0;
-  std::uint64_t bytes_ = 0;
+  std::uint64_t bytes_ = 0, scratch_bytes_ = 0;
 };
 
 }  // namespace gnomon::render

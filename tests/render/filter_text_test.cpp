@@ -28,7 +28,7 @@ TEST(FilterText, refuses_what_it_does_not_know_with_one_line_that_names_it) {
                 {"vsm:radius=-1", "radius=-1"},
                 {"vsm:radius=33", "radius=33: at most 32 texels"},
                 {"vsm:unit=feet", "unit=feet: wants texels or world"},
-                {"vsm:format=unorm8", "format=unorm8: wants fp32, fp16, unorm16"},
+                {"vsm:format=unorm8", "format=unorm8: wants fp32, unorm16"},
                 {"hard:format=fp32", "stores nothing"},
                 {"hard:mipmap=1", "mipmap: hard knows radius, unit"},
                 {"pcf:c=40", "c: pcf knows radius, unit, pattern, samples, rotate"}};
@@ -42,13 +42,13 @@ TEST(FilterText, refuses_what_it_does_not_know_with_one_line_that_names_it) {
 
 TEST(FilterText, reads_every_key) {
   const FilterSettings s =
-      parse_filter("vsm:radius=2.5,unit=world,blur=gauss,format=fp16,mipmap=1,anisotropy=8,bleed=0.25")
+      parse_filter("vsm:radius=2.5,unit=world,blur=gauss,format=unorm16,mipmap=1,anisotropy=8,bleed=0.25")
           .settings;
   EXPECT_EQ(s.filter, &filters::vsm);
   EXPECT_EQ(s.radius, 2.5);
   EXPECT_EQ(s.unit, KernelUnit::world);
   EXPECT_EQ(s.blur, BlurShape::gauss);
-  EXPECT_EQ(s.format, TexelFormat::fp16);
+  EXPECT_EQ(s.format, TexelFormat::unorm16);
   EXPECT_TRUE(s.mipmap);
   EXPECT_EQ(s.anisotropy, 8);
   EXPECT_EQ(s.value("bleed"), 0.25);
@@ -129,7 +129,7 @@ TEST(TexelFormats, round_as_their_texels_do) {
 TEST(Filters, cost_what_their_images_take) {
   EXPECT_EQ(bytes_per_texel(parse_filter("hard").settings), 4.0);
   EXPECT_EQ(bytes_per_texel(parse_filter("vsm").settings), 4.0 + 8.0);
-  EXPECT_EQ(bytes_per_texel(parse_filter("vsm:format=fp16").settings), 4.0 + 4.0);
+  EXPECT_EQ(bytes_per_texel(parse_filter("vsm:format=unorm16").settings), 4.0 + 4.0);
   EXPECT_NEAR(bytes_per_texel(parse_filter("vsm:mipmap=1").settings), 4.0 + 8.0 * 4.0 / 3.0, 1e-12);
 }
 

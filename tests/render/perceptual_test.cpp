@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 #include <string>
 
+#include "gnomon/metric.hpp"
 #include "support/property.hpp"
 #include "test_scene.hpp"
 
@@ -187,6 +189,34 @@ TEST(Perceptual, holds_for_plans_of_the_size_it_returns) {
   for (const ShadowMap& map : smaller.maps()) {
     EXPECT_LE(std::max(map.texel_world_max.x, map.texel_world_max.y) * kHidingRadius, kRim * settings.radius);
   }
+}
+
+TEST(Perceptual, evaluates_visible_points_alone_where_they_are_known) {
+  const Scene scene = box_on_ground();
+  const FilterSettings settings = filter("pcf:radius=0.5,unit=world");
+  PlanOptions options;
+  set_margin(settings, options);
+  options.prune = options.prune.without(PruneRule::metric_resolution);
+  options.resolution.max_size = 1024;
+  options.cascades = 1;
+  const Camera view = camera();
+  const ShadowPlan plan = plan_for(scene, view, {0.4, -1.0, -0.3}, options);
+  ASSERT_EQ(plan.map_count, 1);
+  const std::vector<glm::dvec3> near{{0.0, 0.0, 1.5}};
+  const std::vector<glm::dvec3> both{{0.0, 0.0, 1.5}, {1.5, 0.0, -1.5}};
+  const std::vector<glm::dvec3> nowhere{{1e6, 1e6, 1e6}};
+  ASSERT_GE(map_serving(plan, near[0], glm::dot(near[0] - view.position, glm::normalize(view.forward))), 0);
+  const int everywhere = hiding_map_size(plan, view, settings).map_size;
+  const int one = hiding_map_size(plan, view, settings, {}, near).map_size;
+  const int two = hiding_map_size(plan, view, settings, {}, both).map_size;
+  EXPECT_GT(one, kLeastMapSize);
+  EXPECT_GE(two, one);
+  EXPECT_LE(two, static_cast<int>(1.05 * everywhere));  // the half vector's surface is seen within 5 %
+  EXPECT_EQ(hiding_map_size(plan, view, settings, {}, nowhere).map_size, kLeastMapSize);
+  // A texel of a pixel needs no kernel.
+  const double m = measure_perspective(plan.map[0], view, near[0]).perspective_max;
+  EXPECT_EQ(hiding_map_size(plan, view, filter("pcf:radius=0.0001,unit=world"), {}, near).map_size,
+            static_cast<int>(std::ceil(std::max(plan.map[0].width, plan.map[0].height) * m)));
 }
 
 }  // namespace

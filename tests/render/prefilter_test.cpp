@@ -42,13 +42,16 @@ TEST_F(Prefilter, blurs_7_by_7_on_1024_texels_of_two_floats_in_two_passes_and_on
   const FrameStats stats = stats_of(parsed("vsm:radius=3,format=fp32"), 1024);
   EXPECT_EQ(stats.prefilter_passes, 2);
   constexpr std::uint64_t kTexels = 1024u * 1024u, kDepth = 4, kMoments = 8;
-  EXPECT_EQ(stats.map_bytes, kTexels * (kDepth + 2 * kMoments));  // stored, and blurred one way
+  EXPECT_EQ(stats.map_bytes, kTexels * (kDepth + kMoments));
+  constexpr std::uint64_t kTiles = 32 * 32, kLists = 64 + kTiles * 9 * 4;
+  EXPECT_EQ(stats.scratch_bytes, kTexels * kMoments + kTiles + kLists);  // blurred one way; which tiles
 }
 
 TEST_F(Prefilter, builds_mip_maps_and_pyramids_only_for_filters_that_read_them) {
   EXPECT_EQ(stats_of(parsed("vsm:radius=0,mipmap=1"), 64).prefilter_passes,
             2);  // the driver's own count as one
-  EXPECT_EQ(stats_of(parsed("esm:radius=0,mipmap=1"), 64).prefilter_passes, 1 + 6);  // 32, 16, .. 1
+  EXPECT_EQ(stats_of(parsed("esm:radius=0,mipmap=1"), 64).prefilter_passes, 2);
+  EXPECT_EQ(stats_of(parsed("esm:c=200,radius=0,mipmap=1"), 64).prefilter_passes, 1 + 6);  // 32, 16, .. 1
   EXPECT_EQ(stats_of(parsed("esm:radius=0,fallback=1"), 64).prefilter_passes, 1);
   EXPECT_EQ(stats_of(parsed("esm:radius=0,fallback=2"), 64).prefilter_passes, 1 + 6);
 }

@@ -101,13 +101,16 @@ TEST(Shaders, pass_the_reference_validator_with_every_filter) {
     ++checked;
   }
   for (const Filter* filter : all_filters()) {
-    for (const std::string_view path : filter_shaders(*filter)) {
-      const std::string extension = std::filesystem::path(path).extension();
-      const ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",
-                                shadow_vectors(default_settings(*filter))};
-      EXPECT_EQ(validated(compose_shader(path, choice), extension.substr(1)), "")
-          << filter->info.name << " " << path;
-      ++checked;
+    for (const MapRead reads : {filter->info.reads, reads_of(default_settings(*filter))}) {
+      for (const std::string_view path : filter_shaders(*filter, reads)) {
+        const std::string extension = std::filesystem::path(path).extension();
+        const ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",
+                                  shadow_vectors(default_settings(*filter)), true,
+                                  reads == MapRead::filtered};
+        EXPECT_EQ(validated(compose_shader(path, choice), extension.substr(1)), "")
+            << filter->info.name << " " << path;
+        ++checked;
+      }
     }
   }
   EXPECT_GT(checked, 10u);
@@ -171,7 +174,8 @@ TEST(ShaderLibrary, compiles_in_an_engines_shader_for_opengl_and_for_vulkan) {
   if (std::string_view(GLSLANG_VALIDATOR).empty()) GTEST_SKIP() << "glslangValidator is not installed";
   for (const Filter* filter : all_filters()) {
     const ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",
-                              shadow_vectors(default_settings(*filter))};
+                              shadow_vectors(default_settings(*filter)), true,
+                              filter->info.reads == MapRead::filtered};
     const ComposedShader shader = compose_shader_text("engine.frag", engine_shader(*filter), choice);
     EXPECT_EQ(validated(shader, "frag", "--target-env opengl -G"), "") << filter->info.name;
     EXPECT_EQ(validated(shader, "frag", "-V"), "") << filter->info.name;

@@ -152,8 +152,20 @@ struct FilterReference {
                        const FilterSettings& settings) = nullptr;
 };
 
+/// Lengths that decide a filter's exponents and offsets in one map: along and across the light, world
+/// units.
+struct MapDepths {
+  double range_world = 0.0;   ///< from the map's near to its far plane (ShadowMap::depth_range_world)
+  double kernel_world = 0.0;  ///< half width of the kernel, at the body's centre; 0: unknown
+};
+
 /// Work of the renderer for a filter besides running its shaders.
 struct FilterHooks {
+  /// True if these settings' texels may be averaged though FilterInfo::reads says joined: hardware then
+  /// blurs, shrinks and interpolates them. nullptr: never.
+  bool (*averages)(const FilterSettings& settings) noexcept = nullptr;
+  /// Turns lengths in the world into the options of one map; see settings_for_map. nullptr: nothing to do.
+  void (*fit_map)(FilterSettings& settings, const MapDepths& depths) noexcept = nullptr;
   /// True if shadow_store uses its slope: two to four more depths are fetched per texel. nullptr: never.
   bool (*reads_slope)(const FilterSettings& settings) noexcept = nullptr;
   /// True if the lookup reads the largest depth under the kernel. nullptr: never.
@@ -178,6 +190,12 @@ struct Filter {
 [[nodiscard]] const Filter* find_filter(std::string_view name) noexcept;
 
 [[nodiscard]] FilterSettings default_settings(const Filter& filter) noexcept;
+/// How these settings' texels are read: FilterInfo::reads, or filtered where they may be averaged.
+[[nodiscard]] MapRead reads_of(const FilterSettings& settings) noexcept;
+/// The options for one map: a fall-off in world units becomes an exponent or offset, a share of the map's
+/// depth range. Settings as they are where the filter has no such option. Renderers do this for each map.
+[[nodiscard]] FilterSettings settings_for_map(const FilterSettings& settings,
+                                              const MapDepths& depths) noexcept;
 
 /// Settings, or one line that says what is wrong with the text.
 struct ParsedFilter {

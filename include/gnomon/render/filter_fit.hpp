@@ -16,6 +16,7 @@ struct DrawnDepths {
   std::vector<float> depths;  ///< row by row, 0 near the light .. 1 where nothing is; even in distance
   int width = 0, height = 0;  ///< texels
   double half_side = 1.5;     ///< of the kernel as a box, texels
+  MapDepths world = {};       ///< its lengths in world units; 0: unknown
   double bias = 0.0;          ///< what lookups take off a receiver's depth, of the map's depth range
 };
 

@@ -3,6 +3,9 @@
 // size).
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <span>
+
 #include "gnomon/camera.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/filter.hpp"
@@ -59,5 +62,12 @@ struct HidingMapSize {
 [[nodiscard]] HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera,
                                             const FilterSettings& settings,
                                             const ShadowDistances& distances = {}) noexcept;
+/// The same evaluated at visible points alone (trace::seen_points): a texel is hidden where it is at most a
+/// pixel long on the screen, or where the kernel's radius there is 3.47 times as long. Texels that no pixel
+/// sees, or sees from far away, take no larger map. Points that no map serves are skipped; without any other,
+/// the smallest map.
+[[nodiscard]] HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera,
+                                            const FilterSettings& settings, const ShadowDistances& distances,
+                                            std::span<const glm::dvec3> visible_world) noexcept;
 
 }  // namespace gnomon::render

@@ -20,7 +20,7 @@
 
 namespace gnomon::render {
 
-/// The passes of a frame, in the order they run.
+/// The passes of a frame, in the order of reports. Surfaces are drawn before prefilter, which looks at them.
 enum class Pass : std::uint8_t {
   shadow_maps,
   prefilter,
@@ -112,9 +112,13 @@ struct FrameStats {
   std::uint64_t texels = 0;                          ///< over all maps
   std::array<PruneSaving, kPruneRuleCount> saved{};  ///< by PruneRule, the plan's own included
   int prefilter_passes = 0;  ///< over all maps: what the filter stores, blurs, sums and shrinks
-  int maps_read_back = 0;    ///< by filters that choose for each map from its depths
-  /// Depth maps and everything that the filter keeps besides, scratch images included.
+  /// Texels that the filter stored and blurred, in whole tiles; needs FrameOptions::time_passes, else 0.
+  std::uint64_t filtered_texels = 0;
+  int maps_read_back = 0;  ///< by filters that choose for each map from its depths
+  /// Depth maps and everything that the filter keeps besides for its look-ups.
   std::uint64_t map_bytes = 0;
+  /// Used while maps are filtered, free for other passes after that: images of one layer, lists of tiles.
+  std::uint64_t scratch_bytes = 0;
 };
 
 /// Holds a scene on the GPU and the images of the last frame drawn. The context it was made in must be

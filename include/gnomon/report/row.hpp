@@ -54,6 +54,7 @@ struct Times {
 struct Costs {
   int maps = 0;                                                       ///< drawn
   std::uint64_t draws = 0, triangles = 0, texels = 0, map_bytes = 0;  ///< over all maps
+  std::uint64_t filtered_texels = 0;                                  ///< stored and blurred by the filter
 };
 
 /// One omission of the plan, or the savings of one prune rule.
@@ -62,6 +63,7 @@ struct LeftOut {
   std::int64_t saves_texels = 0;  ///< not drawn
   std::string rule = {};  ///< of gnomon::prune_rules(): all that it saved of the frame; empty: one thing
   std::int64_t saves_triangles = 0;  ///< not drawn
+  std::int64_t saves_filtered = 0;   ///< texels that the filter did not store and blur
 };
 
 /// Files beside the rows, relative to their folder; empty: none was written for this frame.

@@ -12,13 +12,18 @@ namespace {
 constexpr int kMostTerms = 16;
 constexpr FilterOption kOptions[] = {
     {"order", 16, 1, kMostTerms, "terms of the series, two channels each: more terms make sharper contacts"},
-    {"attenuation", 1.0, 0.0, 4.0,
+    {"attenuation", 2.5, 0.0, 4.0,
      "damping: term k is weighted by exp(-attenuation (k/order)^2); larger rings less, softens contacts"},
-    {"offset", 1.0, 0.0, 1.0,
+    {"offset", 0.0, 0.0, 1.0,
      "receiver offset towards the light, in half steps of the series: 1/(2 order) of the depth range"},
-    {"scale", 1.02, 1.0, 4.0,
-     "factor of the result before it is clamped to 1: larger brightens lit surfaces, hardens edges"},
+    {"scale", 2.0, 1.0, 4.0,
+     "factor of the result before it is clamped to 1: without an offset, 2 keeps lit surfaces lit"},
+    kFalloffWorld,
+    falloff_kernel(0.0),
 };
+/// The filter's own option behind them: by how much more than the series' half step shadows take to fade in,
+/// as a share of it.
+constexpr std::size_t kWidening = 6;
 constexpr TexelFormat kFormats[] = {TexelFormat::unorm8, TexelFormat::fp16, TexelFormat::unorm16,
                                     TexelFormat::fp32};
 
@@ -32,13 +37,26 @@ int channels(const FilterSettings& settings) noexcept {
   return 2 * order_of(settings);
 }
 
+double whole_range_of(const FilterSettings& settings) noexcept;
+
+void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
+  const double wanted = Falloff{settings.option[4], settings.option[5]}.length(depths);
+  const double has = depths.range_world * fourier_half_step(order_of(settings)) / whole_range_of(settings);
+  settings.option[kWidening] = wanted > has && has > 0.0 ? wanted / has - 1.0 : 0.0;
+}
+
 /// Part of the period that depths 0..1 take: a difference of 1, moved by the offset, must not reach the
 /// series' next step. Of orders 1 and 2 that would take all contrast; they keep three quarters, and go wrong
 /// at the largest differences.
-double range_of(const FilterSettings& settings) noexcept {
+double whole_range_of(const FilterSettings& settings) noexcept {
   constexpr double kMostGivenUp = 0.25;
-  const double wanted = (settings.option[2] + 1.0) * fourier_half_step(order_of(settings));
+  constexpr double kStepReach = 3.5;  // half steps: the attenuated step is that wide to either side
+  const double wanted = (settings.option[2] + kStepReach) * fourier_half_step(order_of(settings));
   return 1.0 - std::min(wanted, kMostGivenUp);
+}
+/// A longer fall-off takes a smaller part: the series' step is then wider in depth.
+double range_of(const FilterSettings& settings) noexcept {
+  return whole_range_of(settings) / (1.0 + settings.option[kWidening]);
 }
 
 StoredTexel store(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
@@ -107,12 +125,16 @@ const Filter filters::convolution{
         },
     .reference =
         {
-            // The attenuated series of order 16 stays within 0.02 of its step beyond it; 8 bits may round by
-            // 0.0084, after each half of the blur.
-            .tolerance = 0.04,
+            // The attenuated series of order 16 stays within 0.01 of its step beyond it; 8 bits may round by
+            // 0.0084, after each half of the blur; all of it is scaled by 2.
+            .tolerance = 0.06,
             .contact = 0.1,
             .store = store,
             .visibility = visibility,
+        },
+    .hooks =
+        {
+            .fit_map = fit_map,
         },
 };
 

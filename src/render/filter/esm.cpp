@@ -8,6 +8,9 @@
 // the plan's bias lifts the receiver by is no failure, either. Else nearly all of a lit slope would count as
 // failed, and a mip-map's wide kernel be read as four texels.
 //
+// Texels hold exp(c z) where 32-bit floats do: hardware then averages them. For larger c they hold
+// ln(mean of exp(c z)) / c, which never overflows.
+//
 // Shadows fade over ln(20) / c of the depth range in front of the receiver: contacts leak below that. The
 // mean is right only where no texel of the kernel lies behind the receiver; where one does, by either of the
 // paper's classifications, the four texels round the point are compared instead.
@@ -19,21 +22,34 @@ namespace gnomon::render {
 namespace {
 
 constexpr FilterOption kOptions[] = {
-    {"c", 80.0, 1.0, 10000.0,
-     "exponent over the depth range: larger leaks less at contacts; at most 80 in 16 bits"},
+    {"c", 160.0, 1.0, 10000.0,
+     "largest exponent over the depth range: larger leaks less; above 160 slower; at most 80 in 16 bits"},
     {"fallback", 1.0, 0.0, 2.0,
      "2x2 comparisons where the mean fails: 0 never, 1 by threshold, 2 by largest depth"},
     {"epsilon", 0.02, 0.0, 1.0,
      "visibility above 1 that still counts as valid; beyond it the fallback is used"},
+    kFalloffWorld,
+    falloff_kernel(4.0),
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
 
 /// 16 bits hold the soft maximum to 2^-12 of the range: at c = 80 that is 2 % of the answer.
 constexpr double kMaxC16 = 80.0;
+/// exp(c (z - 1/2)) and a kernel's sum of it stay within 32-bit floats up to here, with a factor of 100 left.
+constexpr double kMaxPlainC = 160.0;
 
 void settle(FilterSettings& settings) noexcept {
   if (settings.format != TexelFormat::fp32) settings.option[0] = std::min(settings.option[0], kMaxC16);
   settings.option[1] = std::round(settings.option[1]);
+}
+
+void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
+  settings.option[0] = exponent_for(settings.option[0], {settings.option[3], settings.option[4]}, depths);
+}
+
+/// Texels hold the exponential itself, else its logarithm over c.
+bool is_plain(const FilterSettings& settings) noexcept {
+  return settings.format == TexelFormat::fp32 && settings.option[0] <= kMaxPlainC;
 }
 
 int channels(const FilterSettings&) noexcept {
@@ -44,16 +60,20 @@ bool needs_depth_max(const FilterSettings& settings) noexcept {
   return settings.option[1] == 2.0;
 }
 
-StoredTexel store(double depth, const glm::dvec2&, const FilterSettings&) noexcept {
-  return {depth};
+StoredTexel store(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
+  return {is_plain(settings) ? std::exp(settings.option[0] * (depth - 0.5)) : depth};
 }
 
-StoredTexel nothing(const FilterSettings&) noexcept {
-  return {-1e30};
+StoredTexel nothing(const FilterSettings& settings) noexcept {
+  return {is_plain(settings) ? 0.0 : -1e30};
 }
 
 void join(StoredTexel& sum, const StoredTexel& texel, double weight,
           const FilterSettings& settings) noexcept {
+  if (is_plain(settings)) {
+    sum[0] += weight * texel[0];
+    return;
+  }
   const double c = settings.option[0], largest = std::max(sum[0], texel[0]);
   sum[0] =
       largest + std::log(std::exp(c * (sum[0] - largest)) + weight * std::exp(c * (texel[0] - largest))) / c;
@@ -69,9 +89,10 @@ double log_mean_over(double s) noexcept {
 double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
   const double c = settings.option[0], fallback = settings.option[1], epsilon = settings.option[2];
   const double depth = std::min(lookup.depth, 1.0) - rounding_of(settings.format);
+  const double stored = is_plain(settings) ? 0.5 + std::log(texel[0]) / c : texel[0];
   const glm::dvec2 rise = glm::abs(lookup.depth_gradient);
   const double plane = log_mean_over(c * rise.x * lookup.box.x) + log_mean_over(c * rise.y * lookup.box.y);
-  const double log_lit = c * (texel[0] - depth) - plane;
+  const double log_lit = c * (stored - depth) - plane;
   // Slope bias and normal offset lift receivers off their plane by up to half a texel of its rise each.
   const double allowed = std::log(1.0 + epsilon) + c * (rise.x + rise.y);
   // The pyramid's texels reach less than five half sides of the kernel from the point.
@@ -79,7 +100,7 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
   bool fails = fallback == 1.0 && log_lit > allowed;
   if (fallback == 2.0)
     fails = depth + allowed / c + kPyramidReach * glm::dot(rise, lookup.box) < lookup.depth_max;
-  return fails ? compare_2x2(lookup, lookup.position) : saturate(std::exp(log_lit));
+  return saturate(fails ? compare_2x2(lookup, lookup.position) : std::exp(log_lit));
 }
 
 }  // namespace
@@ -109,6 +130,8 @@ const Filter filters::esm{
         },
     .hooks =
         {
+            .averages = is_plain,
+            .fit_map = fit_map,
             .needs_depth_max = needs_depth_max,
         },
 };

@@ -7,16 +7,22 @@ namespace {
 
 constexpr FilterOption kOptions[] = {
     {"c", 40.0, 0.5, 42.0,
-     "exponent over half the depth range: larger bleeds less; at most 5.54 in half floats"},
+     "largest exponent over half the depth range: larger bleeds less; at most 5.54 in half floats"},
     {"bleed", 0.1, 0.0, 0.95,
      "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
     {"floor", 1e-4, 0.0, 0.1,
      "least standard deviation, as a share of the depth range; never below the format's rounding"},
+    kFalloffWorld,
+    falloff_kernel(16.0),
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16};
 
 void settle(FilterSettings& settings) noexcept {
   settings.option[0] = std::min(settings.option[0], largest_exponent(settings.format));
+}
+
+void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
+  settings.option[0] = warp_exponent(settings.option[0], {settings.option[3], settings.option[4]}, depths);
 }
 
 int channels(const FilterSettings&) noexcept {
@@ -57,6 +63,10 @@ const Filter filters::evsm2{
             .contact = 0.1,
             .store = store,
             .visibility = visibility,
+        },
+    .hooks =
+        {
+            .fit_map = fit_map,
         },
 };
 

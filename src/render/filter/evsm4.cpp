@@ -7,13 +7,15 @@ namespace {
 
 constexpr FilterOption kOptions[] = {
     {"c", 40.0, 0.5, 42.0,
-     "exponent over half the depth range: larger bleeds less; at most 5.54 in half floats"},
+     "largest exponent over half the depth range: larger bleeds less; at most 5.54 in half floats"},
     {"c_negative", 5.0, 0.5, 42.0,
      "exponent of the falling warp: larger bleeds less where occluders overlap, leaks sooner"},
     {"bleed", 0.1, 0.0, 0.95,
      "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
     {"floor", 1e-4, 0.0, 0.1,
      "least standard deviation, as a share of the depth range; never below the format's rounding"},
+    kFalloffWorld,
+    falloff_kernel(16.0),
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16};
 
@@ -21,6 +23,10 @@ void settle(FilterSettings& settings) noexcept {
   for (std::size_t i = 0; i < 2; ++i) {
     settings.option[i] = std::min(settings.option[i], largest_exponent(settings.format));
   }
+}
+
+void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
+  settings.option[0] = warp_exponent(settings.option[0], {settings.option[4], settings.option[5]}, depths);
 }
 
 int channels(const FilterSettings&) noexcept {
@@ -66,6 +72,10 @@ const Filter filters::evsm4{
             .contact = 0.1,
             .store = store,
             .visibility = visibility,
+        },
+    .hooks =
+        {
+            .fit_map = fit_map,
         },
 };
 

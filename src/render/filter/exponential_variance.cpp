@@ -8,6 +8,10 @@ double largest_exponent(TexelFormat format) noexcept {
   return format == TexelFormat::fp16 ? 5.54 : 42.0;
 }
 
+double warp_exponent(double most, const Falloff& falloff, const MapDepths& depths) noexcept {
+  return 0.5 * exponent_for(2.0 * most, falloff, depths);
+}
+
 std::array<double, 2> warped_moments(double depth, double c) noexcept {
   const double w = std::exp(c * (2.0 * depth - 1.0));
   return {w, w * w};

@@ -4,12 +4,16 @@
 
 #include <array>
 
+#include "filter_parts.hpp"
 #include "variance.hpp"
 
 namespace gnomon::render {
 
 /// Largest exponent whose square a format holds, with room for sums: exp(2 c) stays below its largest number.
 [[nodiscard]] double largest_exponent(TexelFormat format) noexcept;
+
+/// exponent_for of filter_parts.hpp, over half the depth range.
+[[nodiscard]] double warp_exponent(double most, const Falloff& falloff, const MapDepths& depths) noexcept;
 
 /// exp(c u) of u = 2 depth - 1, and its square.
 [[nodiscard]] std::array<double, 2> warped_moments(double depth, double c) noexcept;

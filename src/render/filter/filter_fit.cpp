@@ -144,6 +144,7 @@ std::vector<Place> places_of(const std::vector<Map>& maps, const FilterFitOption
 std::vector<FilterSettings> per_map(const FilterSettings& settings, const std::vector<Map>& maps) {
   std::vector<FilterSettings> all(maps.size(), settings);
   const Filter& filter = *settings.filter;
+  for (std::size_t i = 0; i < maps.size(); ++i) all[i] = settings_for_map(settings, maps[i].drawn.world);
   if (filter.hooks.adapts == nullptr || !filter.hooks.adapts(settings)) return all;
   for (std::size_t i = 0; i < maps.size(); ++i) filter.hooks.adapt(all[i], maps[i].drawn.depths);
   return all;

@@ -43,6 +43,33 @@ namespace gnomon::render {
   return slope == 0.0 ? 0.0 : (lookup.ray.x - z * lookup.ray.y) / slope;
 }
 
+/// Options of the filters whose shadows fade in over a length along the light.
+inline constexpr FilterOption kFalloffWorld{
+    "falloff_world", 0.0, 0.0, 1e6,
+    "least distance over which a caster's shadow fades in behind it, world units: alike in all maps"};
+[[nodiscard]] constexpr FilterOption falloff_kernel(double fallback) noexcept {
+  return {"falloff_kernel", fallback, 0.0, 1000.0,
+          "the same in half widths of the kernel; the longer of both counts"};
+}
+
+/// The values of both.
+struct Falloff {
+  double world = 0.0, kernels = 0.0;
+  /// World units; 0: none asked for.
+  [[nodiscard]] double length(const MapDepths& depths) const noexcept {
+    return std::max(world, kernels * depths.kernel_world);
+  }
+};
+/// The exponent over a map's depth range at which exp(-c d) falls to 1/20 over the fall-off, between 1 and
+/// `most`, which is the result where lengths are unknown.
+[[nodiscard]] inline double exponent_for(double most, const Falloff& falloff,
+                                         const MapDepths& depths) noexcept {
+  constexpr double kFaded = 2.995732273553991;  // ln(20)
+  const double length = falloff.length(depths);
+  if (!(length > 0.0) || !(depths.range_world > 0.0)) return most;
+  return std::min(most, std::max(kFaded * depths.range_world / length, 1.0));
+}
+
 /// Clamps to [0, 1]; not-a-number becomes 1, lit.
 [[nodiscard]] inline double saturate(double value) noexcept {
   return value < 1.0 ? std::max(value, 0.0) : 1.0;

@@ -14,10 +14,20 @@ namespace {
 constexpr FilterOption kOptions[] = {
     {"offset", 0.2, 0.0, 0.5,
      "receiver offset towards the light, as a share of the kernel's range of depths"},
+    {"falloff_world", 0.0, 0.0, 1e6,
+     "longest receiver offset, world units: alike in all maps; 0: no limit but falloff_kernel"},
+    {"falloff_kernel", 0.0, 0.0, 1000.0, "the same in half widths of the kernel; the longer of both counts"},
 };
+/// The filter's own option behind them: the longest offset, of the depth range; 0: no limit.
+constexpr std::size_t kLongest = 3;
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
 /// A texel that counts less is in the kernel by the rounding of its place alone.
 constexpr double kLeastWeight = 1e-4;
+
+void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
+  const double longest = Falloff{settings.option[1], settings.option[2]}.length(depths);
+  settings.option[kLongest] = depths.range_world > 0.0 ? longest / depths.range_world : 0.0;
+}
 
 int channels(const FilterSettings&) noexcept {
   return 3;
@@ -45,8 +55,11 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
   constexpr double kRoundings = 4.0;  // of the mean, stored after each half of the blur, read and compared
   const double depth = std::min(lookup.depth, 1.0);
   const double value = is_unsigned_unit(settings.format) ? depth : 2.0 * depth - 1.0;
-  const double offset =
-      settings.option[0] * (texel[2] - texel[0]) + kRoundings * rounding_of(settings.format);
+  // Values of the texel per depth.
+  const double scale = is_unsigned_unit(settings.format) ? 1.0 : 2.0;
+  const double longest = settings.option[kLongest] > 0.0 ? scale * settings.option[kLongest] : 2.0;
+  const double offset = std::min(settings.option[0] * (texel[2] - texel[0]), longest) +
+                        kRoundings * rounding_of(settings.format);
   return saturate(power_lit(texel[0], texel[1], texel[2], value - offset));
 }
 
@@ -87,6 +100,10 @@ const Filter filters::power_cdf{
             .join = join,
             .nothing = nothing,
             .visibility = visibility,
+        },
+    .hooks =
+        {
+            .fit_map = fit_map,
         },
 };
 

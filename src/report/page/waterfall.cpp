@@ -13,13 +13,14 @@ namespace {
 
 struct Step {
   std::string rule, what, why;
-  double texels = 0.0, triangles = 0.0;  ///< saved, over all frames
+  double texels = 0.0, triangles = 0.0, filtered = 0.0;  ///< saved, over all frames
 };
 
 struct Waterfall {
   std::string scene;
   int frames = 0;
   double texels = 0.0, triangles = 0.0;  ///< drawn in the end
+  double filtered = 0.0;                 ///< texels that filters stored, over all techniques
   std::vector<Step> steps = {};
 };
 
@@ -28,17 +29,30 @@ bool draws_from_last_frame(std::string_view rule) noexcept {
   return info != nullptr && info->source == PruneSource::last_frame;
 }
 
+Step& step_of(const LeftOut& l, Waterfall& fall) {
+  auto at = std::find_if(fall.steps.begin(), fall.steps.end(),
+                         [&](const Step& step) { return step.rule == l.rule; });
+  if (at == fall.steps.end()) at = fall.steps.insert(fall.steps.end(), {l.rule, l.what, l.why});
+  return *at;
+}
+
+/// Of every filter: they differ in the texels that they store.
+void add_filtered(const Row& row, Waterfall& fall) {
+  fall.filtered += static_cast<double>(row.costs.filtered_texels);
+  for (const LeftOut& l : row.left_out)
+    if (!l.rule.empty() && l.saves_filtered > 0)
+      step_of(l, fall).filtered += static_cast<double>(l.saves_filtered);
+}
+
 void add(const Row& row, Waterfall& fall) {
   ++fall.frames;
   fall.texels += static_cast<double>(row.costs.texels);
   fall.triangles += static_cast<double>(row.costs.triangles);
   for (const LeftOut& l : row.left_out) {
-    if (l.rule.empty()) continue;
-    auto at = std::find_if(fall.steps.begin(), fall.steps.end(),
-                           [&](const Step& step) { return step.rule == l.rule; });
-    if (at == fall.steps.end()) at = fall.steps.insert(fall.steps.end(), {l.rule, l.what, l.why});
-    at->texels += static_cast<double>(l.saves_texels);
-    at->triangles += static_cast<double>(l.saves_triangles);
+    if (l.rule.empty() || (l.saves_texels == 0 && l.saves_triangles == 0)) continue;
+    Step& step = step_of(l, fall);
+    step.texels += static_cast<double>(l.saves_texels);
+    step.triangles += static_cast<double>(l.saves_triangles);
   }
 }
 
@@ -46,11 +60,11 @@ std::vector<Waterfall> waterfalls_of(const std::vector<Row>& rows) {
   std::vector<Waterfall> falls;
   std::set<std::string> counted;
   for (const Row& row : rows) {
-    if (!counted.insert(plan_of(row)).second) continue;
     auto at = std::find_if(falls.begin(), falls.end(),
                            [&](const Waterfall& fall) { return fall.scene == row.scene; });
     if (at == falls.end()) at = falls.insert(falls.end(), {row.scene});
-    add(row, *at);
+    add_filtered(row, *at);
+    if (counted.insert(plan_of(row)).second) add(row, *at);
   }
   for (Waterfall& fall : falls)
     std::stable_partition(fall.steps.begin(), fall.steps.end(),
@@ -69,13 +83,14 @@ std::string share_with_bar(double part, double whole) {
 }
 
 std::string table(const Waterfall& fall) {
-  double texels = fall.texels, triangles = fall.triangles;
+  double texels = fall.texels, triangles = fall.triangles, filtered = fall.filtered;
   for (const Step& step : fall.steps) {
     if (draws_from_last_frame(step.rule)) continue;
     texels += step.texels;
     triangles += step.triangles;
+    filtered += step.filtered;
   }
-  const double all_texels = texels, all_triangles = triangles;
+  const double all_texels = texels, all_triangles = triangles, all_filtered = filtered;
   std::string out =
       "<h3>" + escaped(fall.scene) + "</h3>\n<p class=\"note\">Without rules " +
       short_number(texels / fall.frames / 1e6) + " million texels and " +
@@ -83,13 +98,15 @@ std::string table(const Waterfall& fall) {
       " thousand triangles a frame, mean over all parametrizations and frames.</p>\n" +
       scroll_box("Savings of each rule: " + fall.scene, true) +
       "<table class=\"words\"><thead><tr><th>rule</th><th>omits</th><th colspan=\"2\">texels left</th><th "
-      "colspan=\"2\">triangles left</th><th>proof or bound</th></tr></thead><tbody>\n";
+      "colspan=\"2\">triangles left</th><th colspan=\"2\">filtered texels left</th><th>proof or "
+      "bound</th></tr></thead><tbody>\n";
   for (const Step& step : fall.steps) {
     texels -= step.texels;
     triangles -= step.triangles;
+    filtered -= step.filtered;
     out += "<tr><td>" + escaped(step.rule) + "</td><td>" + escaped(step.what) + "</td>" +
-           share_with_bar(texels, all_texels) + share_with_bar(triangles, all_triangles) + "<td>" +
-           escaped(step.why) + "</td></tr>\n";
+           share_with_bar(texels, all_texels) + share_with_bar(triangles, all_triangles) +
+           share_with_bar(filtered, all_filtered) + "<td>" + escaped(step.why) + "</td></tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }

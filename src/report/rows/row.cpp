@@ -48,11 +48,8 @@ Json aliasing_json(const PixelAliasing& a) {
 }
 
 Json costs_json(const Costs& c) {
-  return {{"maps", c.maps},
-          {"draws", c.draws},
-          {"triangles", c.triangles},
-          {"texels", c.texels},
-          {"map_bytes", c.map_bytes}};
+  return {{"maps", c.maps},     {"draws", c.draws},         {"triangles", c.triangles},
+          {"texels", c.texels}, {"map_bytes", c.map_bytes}, {"filtered_texels", c.filtered_texels}};
 }
 
 Json times_json(const Times& t) {
@@ -72,7 +69,8 @@ Json left_out_json(const std::vector<LeftOut>& list) {
                      {"why", l.why},
                      {"saves_texels", l.saves_texels},
                      {"rule", l.rule},
-                     {"saves_triangles", l.saves_triangles}});
+                     {"saves_triangles", l.saves_triangles},
+                     {"saves_filtered", l.saves_filtered}});
   return array;
 }
 
@@ -187,6 +185,9 @@ void results_from(const Json& json, Row& row) {
   row.costs = {whole_from<int>(c.at("maps")), whole_from<std::uint64_t>(c.at("draws")),
                whole_from<std::uint64_t>(c.at("triangles")), whole_from<std::uint64_t>(c.at("texels")),
                whole_from<std::uint64_t>(c.at("map_bytes"))};
+  // Rows of an earlier version have none.
+  if (c.contains("filtered_texels"))
+    row.costs.filtered_texels = whole_from<std::uint64_t>(c.at("filtered_texels"));
   for (const Json& l : json.at("left_out")) {
     LeftOut left{l.at("what").get<std::string>(), l.at("why").get<std::string>(),
                  whole_from<std::int64_t>(l.at("saves_texels"))};
@@ -194,6 +195,8 @@ void results_from(const Json& json, Row& row) {
     if (l.contains("rule")) {
       l.at("rule").get_to(left.rule);
       left.saves_triangles = whole_from<std::int64_t>(l.at("saves_triangles"));
+      if (l.contains("saves_filtered"))
+        left.saves_filtered = whole_from<std::int64_t>(l.at("saves_filtered"));
     }
     row.left_out.push_back(std::move(left));
   }

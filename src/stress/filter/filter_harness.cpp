@@ -119,9 +119,9 @@ class Asker {
   Asker(const FilterSettings& settings, const char* text, const std::vector<Question>& questions)
       : program_(make_program(
             compose_shader("fullscreen.vert"),
-            compose_shader_text(
-                "filter_test.frag", std::string(kHead) + text,
-                {"filter/" + std::string(settings.filter->info.name) + ".glsl", shadow_vectors(settings)}))),
+            compose_shader_text("filter_test.frag", std::string(kHead) + text,
+                                {"filter/" + std::string(settings.filter->info.name) + ".glsl",
+                                 shadow_vectors(settings), true, reads_of(settings) == MapRead::filtered}))),
         half_side_(static_cast<float>(settings.radius + 0.5)),
         width_(static_cast<GLsizei>(questions.size())) {
     Row points, gradients;
@@ -226,7 +226,7 @@ std::vector<float> ask_shader(const FilterSettings& settings, const TestMap& map
   StoredMaps stored;
   stored.build(programs, settings, block.block,
                {targets.depth.name(), map.width, map.height, sizes, settings.mipmap});
-  Asker asker(settings, text_for(settings.filter->info.reads), questions);
+  Asker asker(settings, text_for(reads_of(settings)), questions);
   for (const GLuint unit : {kCompareUnit, kDepthUnit}) glBindTextureUnit(unit, targets.depth.name());
   glBindSampler(kCompareUnit, targets.compare_sampler.name());
   glBindSampler(kDepthUnit, targets.plain_sampler.name());

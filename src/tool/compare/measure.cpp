@@ -83,6 +83,7 @@ void count_costs(const render::FrameStats& stats, const SweepEntry& entry, repor
     row.costs.triangles += map.triangles;
   }
   row.costs.texels = stats.texels;
+  row.costs.filtered_texels = stats.filtered_texels;
   // Of this technique alone: the renderer's own images may be those of a larger one before it.
   row.costs.map_bytes =
       static_cast<std::uint64_t>(static_cast<double>(stats.texels) * render::bytes_per_texel(entry.filter));
@@ -93,10 +94,11 @@ void count_savings(const render::FrameStats& stats, PruneSource source, report::
   for (const PruneRuleInfo& rule : prune_rules()) {
     if (rule.source != source) continue;
     const PruneSaving& saved = stats.saved[static_cast<std::size_t>(rule.rule)];
-    if (saved.texels == 0 && saved.triangles == 0) continue;
+    if (saved.texels == 0 && saved.triangles == 0 && saved.filtered == 0) continue;
     row.left_out.push_back({std::string(rule.what), std::string(rule.proof),
                             static_cast<std::int64_t>(saved.texels), std::string(rule.name),
-                            static_cast<std::int64_t>(saved.triangles)});
+                            static_cast<std::int64_t>(saved.triangles),
+                            static_cast<std::int64_t>(saved.filtered)});
   }
 }
 

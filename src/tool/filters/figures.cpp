@@ -210,7 +210,7 @@ Figure convolution_orders(const FigureSize& size) {
   add("pcf:radius=2");
   // Lit surfaces kept lit by the paper's two ways: an offset of half a step of the series, and twice the
   // answer.
-  for (const char* way : {"attenuation=0", "attenuation=0,offset=0,scale=2"}) {
+  for (const char* way : {"attenuation=0,offset=1,scale=1.02", "attenuation=0"}) {
     for (const int order : {1, 2, 4, 8, 16})
       add("convolution:radius=2,order=" + std::to_string(order) + "," + way);
   }

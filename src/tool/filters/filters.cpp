@@ -67,15 +67,17 @@ std::string cost_row(int map_size, const Measured& run, const Measured& hard, bo
                                   {"ms_ratio", median(ratios)},
                                   {"prefilter_passes", run.stats.prefilter_passes},
                                   {"bytes", run.stats.map_bytes},
+                                  {"scratch_bytes", run.stats.scratch_bytes},
                                   {"bytes_ratio", bytes_ratio}}
         .dump();
   }
   constexpr double kMebi = 1024.0 * 1024.0;
   const std::string box = blur == 1 ? "none" : std::to_string(blur) + "x" + std::to_string(blur);
   char text[256];
-  std::snprintf(text, sizeof text, "| %d | %s | %s | %.1f | %.2f | %d | %.1f | %.2f |", map_size,
+  std::snprintf(text, sizeof text, "| %d | %s | %s | %.1f | %.2f | %d | %.1f | %.2f | %.1f |", map_size,
                 std::string(run.settings.filter->info.name).c_str(), box.c_str(), median(run.milliseconds),
-                median(ratios), run.stats.prefilter_passes, bytes / kMebi, bytes_ratio);
+                median(ratios), run.stats.prefilter_passes, bytes / kMebi, bytes_ratio,
+                static_cast<double>(run.stats.scratch_bytes) / kMebi);
   return text;
 }
 
@@ -144,8 +146,9 @@ void print_filter_cost(const FiltersRequest& request) {
   FilterStage stage(load_scene(request.scene), 38.0, 140.0);
   const Camera camera = default_path(stage.scene()).at(0.5, kWidth, kHeight);
   if (!request.json) {
-    print_line("| map | filter | blur | ms | ratio to hard | prefilter passes | MiB | ratio |");
-    print_line("|---|---|---|---|---|---|---|---|");
+    print_line(
+        "| map | filter | blur | ms | ratio to hard | prefilter passes | MiB kept | ratio | MiB scratch |");
+    print_line("|---|---|---|---|---|---|---|---|---|");
   }
   for (const int map_size : request.map_sizes) {
     std::vector<Measured> runs = runs_of(filters);
@@ -167,7 +170,7 @@ namespace {
 /// Prints the list, one filter or the cost table, or writes the gallery. Throws std::runtime_error.
 int run_filters(const FiltersRequest& request) {
   if (!request.name.empty()) {
-    if (request.cost || !request.fit.empty() || !request.gallery.empty())
+    if (request.cost || request.contacts || !request.fit.empty() || !request.gallery.empty())
       throw std::runtime_error(one_line(request.name, 80) + ": --cost and --fit take filters by --filters");
     print_one_filter(request);
     return 0;
@@ -175,8 +178,12 @@ int run_filters(const FiltersRequest& request) {
   check_scene_word("--scene", request.scene);
   check_scene_word("--fit", request.fit);
   if (!request.gallery.empty()) check_folder("--gallery", request.gallery);
+  if (request.contacts) {
+    print_filter_contacts(request);
+    return 0;
+  }
   if (!request.cost && request.fit.empty() && request.filters != FiltersRequest{}.filters)
-    throw std::runtime_error("--filters requires --cost or --fit");
+    throw std::runtime_error("--filters requires --cost, --contacts or --fit");
   if (!request.cost && request.fit.empty() && request.gallery.empty()) {
     print_line(filter_list(request.json));
     flush_output();
@@ -221,7 +228,7 @@ std::vector<Option> fit_options(FiltersRequest& request) {
 std::vector<Option> cost_options(FiltersRequest& request) {
   return {{.name = "--filters",
            .target = &request.filters,
-           .help = "filters of --cost and --fit, with options as in vsm:radius=3; or all",
+           .help = "filters of --cost, --contacts and --fit, with options as in vsm:radius=3; or all",
            .names = names_in(render::all_filters(), {"all"}),
            .only_names = false},
           {.name = "--map-sizes",
@@ -255,6 +262,9 @@ std::function<int()> declare_filters(Arguments& arguments) {
              {.name = "--cost",
               .target = &request->cost,
               .help = "measure time and memory of each filter against hard, as a table"},
+             {.name = "--contacts",
+              .target = &request->contacts,
+              .help = "print the light left close behind a flat occluder, for each filter and format"},
              {.name = "--gallery",
               .target = &request->gallery,
               .help = "write the comparisons of the filters' papers as pictures into this folder",

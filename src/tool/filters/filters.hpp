@@ -11,6 +11,7 @@ namespace gnomon::tool {
 struct FiltersRequest {
   std::string name;  ///< the one filter to describe; empty: all are listed
   bool cost = false;
+  bool contacts = false;
   bool json = false;
   std::string fit;                              ///< scene whose maps say what each filter needs; empty: none
   double fit_bound = 0.5;                       ///< by how much answers may differ, in steps of 8 bits
@@ -29,6 +30,8 @@ struct FiltersRequest {
 void print_filter_needs(const FiltersRequest& request);
 /// Prints a row for every filter, blur and map size, each against `hard` in the same interleaved rounds.
 void print_filter_cost(const FiltersRequest& request);
+/// Prints a row for every filter and format: the visibility left close behind a flat occluder.
+void print_filter_contacts(const FiltersRequest& request);
 /// Writes the papers' figures as strips in PNG, and their numbers as gallery.md; all filters on `scene` at
 /// the end.
 void write_filter_gallery(const std::string& folder, const std::string& scene);

@@ -334,7 +334,7 @@ int run(Options options) {
   const Flight flight = load_flight(options);
   if (options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0)
     choose_technique_of(options, flight);
-  if (options.perceptual_resolution) options.plan.resolution.max_size = perceptual_map_size(options, flight);
+  if (options.perceptual_resolution) choose_perceptual_maps(options, flight);
   const int code = options.context == render::ContextKind::glfw ? fly_in_window(options, flight)
                                                                 : fly_to_files(options, flight);
   flush_output();

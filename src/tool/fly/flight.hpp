@@ -29,9 +29,10 @@ struct Flight {
 /// where not even the least fit.
 void fit_maps_to_memory(Options& options);
 
-/// The smallest map size whose texels the filter hides in all frames; prints it. Throws std::runtime_error
-/// where none does.
-[[nodiscard]] int perceptual_map_size(const Options& options, const Flight& flight);
+/// Takes the smallest maps, never larger than the given ones, whose texels the filter hides at the visible
+/// points of all frames, without the warp where that is smaller; prints them. Throws std::runtime_error where
+/// the kernel hides nothing.
+void choose_perceptual_maps(Options& options, const Flight& flight);
 
 /// Takes maps and filter that meet Options::budget in the frame that is hardest to serve, and prints them
 /// with what less cost and what less error would have taken. Throws std::runtime_error.

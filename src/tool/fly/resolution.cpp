@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "flight.hpp"
 #include "gnomon/render/perceptual.hpp"
+#include "seen_by.hpp"
 
 namespace gnomon::tool::fly {
 namespace {
@@ -25,41 +27,100 @@ ShadowDistances distances_of(const Options& options, const Flight& flight, const
   return distances;
 }
 
+/// What one warp takes.
+struct Needed {
+  int size = 0;            ///< texels along a side, at most the given size
+  HidingMapSize widest;    ///< of the frame whose kernels are widest on the screen
+  int bounded_frame = -1;  ///< the first frame whose texels even the given size shows; -1: none
+};
+
+class Judge {
+ public:
+  Judge(const Options& options, const Flight& flight, const SeenBy& seen)
+      : options_(options),
+        flight_(flight),
+        light_(default_light(options.light, flight.scene.bounds_world)),
+        distances_(distances_of(options, flight, light_)) {
+    for (int frame = 0; frame < options.frames; ++frame) {
+      cameras_.push_back(camera_of(options, flight, frame));
+      seen_.push_back(seen(cameras_.back(), light_));
+    }
+  }
+
+  [[nodiscard]] Needed size_with(const Warp* warp) const {
+    PlanOptions plan_options = options_.plan;
+    plan_options.warp.warp = warp;
+    const int given = plan_options.resolution.max_size;
+    // Smaller maps are all border.
+    const int least = static_cast<int>(std::ceil(4.0 * plan_options.filter.texels));
+    Needed needed;
+    needed.size = std::min(std::max(least, kLeastMapSize), given);
+    for (int frame = 0; frame < options_.frames; ++frame)
+      needed.size = std::max(needed.size, std::min(asked(frame, plan_options).map_size, given));
+    for (int frame = 0; frame < options_.frames; ++frame) {
+      // Plans of another size have another border, and may have another warp: asked until they agree. Each
+      // turn grows the maps, so that this ends.
+      HidingMapSize answer;
+      plan_options.resolution.max_size = needed.size;
+      while ((answer = asked(frame, plan_options)).map_size > needed.size && needed.size < given) {
+        needed.size = std::min(answer.map_size, given);
+        plan_options.resolution.max_size = needed.size;
+      }
+      if (answer.map_size > given && needed.bounded_frame < 0) needed.bounded_frame = frame;
+      if (answer.radius_pixels > needed.widest.radius_pixels) needed.widest = answer;
+    }
+    return needed;
+  }
+
+ private:
+  /// Throws where the kernel hides nothing.
+  [[nodiscard]] HidingMapSize asked(int frame, const PlanOptions& plan_options) const {
+    const auto at = static_cast<std::size_t>(frame);
+    const ShadowPlan plan = make_plan(cameras_[at], light_, flight_.bounds(), plan_options);
+    const HidingMapSize answer =
+        seen_[at].empty() ? hiding_map_size(plan, cameras_[at], options_.filter, distances_)
+                          : hiding_map_size(plan, cameras_[at], options_.filter, distances_, seen_[at]);
+    // Narrower than a pixel, a kernel hides nothing: what it would want is maps of one texel a pixel.
+    if (answer.radius_pixels >= 1.0) return answer;
+    throw std::runtime_error(
+        fmt::format("--resolution perceptual: frame {}: a kernel of {:.3g} world units is {:.3g} pixels wide "
+                    "where it is widest, and hides no texel; widen the kernel",
+                    frame, answer.radius_world, answer.radius_pixels));
+  }
+
+  const Options& options_;
+  const Flight& flight_;
+  Light light_;
+  ShadowDistances distances_;
+  std::vector<Camera> cameras_;
+  std::vector<std::vector<glm::dvec3>> seen_;
+};
+
 }  // namespace
 
-int perceptual_map_size(const Options& options, const Flight& flight) {
-  const Light light = default_light(options.light, flight.scene.bounds_world);
-  const ShadowDistances distances = distances_of(options, flight, light);
-  PlanOptions plan_options = options.plan;
-  // Smaller maps are all border.
-  const int least = static_cast<int>(std::ceil(4.0 * plan_options.filter.texels));
-  const auto needed = [&](int frame) {
-    const Camera camera = camera_of(options, flight, frame);
-    return hiding_map_size(make_plan(camera, light, flight.bounds(), plan_options), camera, options.filter,
-                           distances);
-  };
-  int size = std::max(least, kLeastMapSize);
-  for (int frame = 0; frame < options.frames; ++frame) size = std::max(size, needed(frame).map_size);
-  HidingMapSize widest;
-  for (int frame = 0; frame < options.frames; ++frame) {
-    // Plans of another size have another border, and may have another warp: asked until they agree. Each turn
-    // grows the maps, so that this ends.
-    HidingMapSize asked;
-    for (plan_options.resolution.max_size = size; (asked = needed(frame)).map_size > size;
-         plan_options.resolution.max_size = size)
-      size = asked.map_size;
-    if (!asked.hides) {
-      throw std::runtime_error(fmt::format(
-          "--resolution perceptual: frame {}: no map of up to {} texels has texels that a kernel of {:.3g} "
-          "world units hides; widen the kernel, or take more cascades",
-          frame, asked.map_size, asked.radius_world));
+void choose_perceptual_maps(Options& options, const Flight& flight) {
+  const SeenBy seen(flight.scene);
+  const Judge judge(options, flight, seen);
+  const int given = options.plan.resolution.max_size;
+  Needed needed = judge.size_with(options.plan.warp.warp);
+  bool dropped = false;
+  if (options.plan.warp.warp != &warps::none) {
+    // A warp makes texels small where the view is near, and longer elsewhere.
+    const Needed unwarped = judge.size_with(&warps::none);
+    dropped = unwarped.size < needed.size || (needed.bounded_frame >= 0 && unwarped.bounded_frame < 0);
+    if (dropped) {
+      needed = unwarped;
+      options.plan.warp.warp = &warps::none;
     }
-    if (asked.radius_pixels > widest.radius_pixels) widest = asked;
   }
-  if (!options.json)
-    fmt::print("maps:     {0}x{0} texels, hidden by kernels of {1:.3g} world units, up to {2:.3g} pixels\n",
-               size, widest.radius_world, widest.radius_pixels);
-  return size;
+  options.plan.resolution.max_size = needed.size;
+  if (options.json) return;
+  fmt::print("maps:     {0}x{0} texels{1}, hidden by kernels of {2:.3g} world units, up to {3:.3g} pixels\n",
+             needed.size, dropped ? " without the warp" : "", needed.widest.radius_world,
+             needed.widest.radius_pixels);
+  if (needed.bounded_frame >= 0)
+    fmt::print("          --map-size {} is too small to hide all texels, first in frame {}\n", given,
+               needed.bounded_frame);
 }
 
 }  // namespace gnomon::tool::fly

@@ -11,34 +11,13 @@
 #include "gnomon/report/cost_model.hpp"
 #include "gnomon/report/row.hpp"
 #include "gnomon/scene/caster_work.hpp"
-#ifdef GNOMON_HAS_TRACE
-#include "gnomon/trace/seen_points.hpp"
-#endif
+#include "seen_by.hpp"
 
 namespace gnomon::tool::fly {
 namespace {
 
 /// Frames that are looked at: a flight changes slowly.
 constexpr int kMostFrames = 16;
-
-/// What the camera sees, by rays where they were built in; else nobody knows.
-class SeenBy {
- public:
-#ifdef GNOMON_HAS_TRACE
-  explicit SeenBy(const Scene& scene) : tracer_(scene) {}
-  std::vector<glm::dvec3> operator()(const Camera& camera, const Light& light) const {
-    return trace::seen_points(tracer_, camera, light);
-  }
-
- private:
-  trace::Tracer tracer_;
-#else
-  explicit SeenBy(const Scene&) {}
-  std::vector<glm::dvec3> operator()(const Camera&, const Light&) const {
-    return {};
-  }
-#endif
-};
 
 /// Filters that the program knows, with what they cost; without a model the one that was given, at no cost.
 struct Known {

@@ -1,6 +1,8 @@
 // Exponential shadow maps: the golden rows, the logarithm's blur, and when the mean counts as failed.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "filter_harness.hpp"
 #include "golden_filters.hpp"
 
@@ -11,7 +13,8 @@ constexpr double kGolden = 1e-9;
 
 TEST(EsmFilter, agrees_with_the_golden_rows_of_the_clamped_exponential) {
   for (const GoldenRow& row : golden_rows()) {
-    for (const char* text : {"esm:c=10,fallback=0", "esm:c=80,fallback=0"}) {
+    for (const char* text :
+         {"esm:c=10,fallback=0", "esm:c=80,fallback=0", "esm:c=80,fallback=0,format=fp16"}) {
       const FilterSettings settings = settings_from(text);
       FilterLookup lookup;
       // What the filter takes off for the format's rounding is given back.
@@ -27,9 +30,13 @@ TEST(EsmFilter, blurs_in_the_logarithm_without_overflow_for_any_exponent) {
   for (const nlohmann::json& row : golden_filters().at("esm").at("logspace")) {
     FilterSettings settings = settings_from("esm");
     settings.option[0] = row.at("c").get<double>();
+    const double c = settings.option[0];
+    const bool plain = reads_of(settings) == MapRead::filtered;
     const GoldenKernel kernel{"", row.at("z").get<std::vector<double>>(),
                               row.at("w").get<std::vector<double>>()};
-    EXPECT_NEAR(mean_over(kernel, settings)[0], row.at("log_filtered_over_c").get<double>(), kGolden);
+    const double stored = mean_over(kernel, settings)[0];
+    EXPECT_NEAR(plain ? 0.5 + std::log(stored) / c : stored, row.at("log_filtered_over_c").get<double>(),
+                kGolden);
   }
 }
 
@@ -39,7 +46,8 @@ TEST(EsmFilter, fades_by_the_exponential_of_the_distance) {
     settings.option[0] = row.at("c").get<double>();
     FilterLookup lookup;
     lookup.depth = -0.5 + row.at("t").get<double>() + rounding_of(settings.format);
-    EXPECT_NEAR(filters::esm.reference.visibility({-0.5}, lookup, settings),
+    const StoredTexel texel = filters::esm.reference.store(-0.5, {}, settings);
+    EXPECT_NEAR(filters::esm.reference.visibility(texel, lookup, settings),
                 std::min(row.at("f").get<double>(), 1.0), 1e-9);
   }
 }
@@ -52,7 +60,7 @@ TEST(EsmFilter, compares_four_texels_where_a_texel_of_the_kernel_lies_behind_the
   lookup.depth = 0.5;
   lookup.depth_max = 1.0;
   lookup.position = {6.5, 5.5};
-  const StoredTexel mean{0.98};
+  const StoredTexel mean = filters::esm.reference.store(0.98, {}, settings_from("esm"));
   EXPECT_EQ(filters::esm.reference.visibility(mean, lookup, settings_from("esm:fallback=0")), 1.0);
   EXPECT_EQ(filters::esm.reference.visibility(mean, lookup, settings_from("esm:fallback=1")), 0.0);
   EXPECT_EQ(filters::esm.reference.visibility(mean, lookup, settings_from("esm:fallback=2")), 0.0);
@@ -62,7 +70,7 @@ TEST(EsmFilter, compares_four_texels_where_a_texel_of_the_kernel_lies_behind_the
 
 TEST(EsmFilter, lights_a_slanted_plane_by_its_own_mean_and_calls_it_no_failure) {
   // A plane whose depths rise by 0.002 a texel under a kernel of 9 x 9: the mean is 1.08 of the middle's.
-  const FilterSettings settings = settings_from("esm:radius=4");
+  const FilterSettings settings = settings_from("esm:radius=4,c=80");
   FilterLookup lookup;
   lookup.map_depth = [](int, int) { return 0.0; };  // what a comparison would call dark
   lookup.depth_gradient = {0.002, 0.0};
@@ -71,7 +79,8 @@ TEST(EsmFilter, lights_a_slanted_plane_by_its_own_mean_and_calls_it_no_failure) 
     StoredTexel sum = filters::esm.reference.nothing(settings);
     for (int i = 0; i < 9; ++i) {
       const double depth = i < lit_columns ? 0.5 + 0.002 * (i - 4) : 0.1;
-      filters::esm.reference.join(sum, {depth}, 1.0 / 9.0, settings);
+      filters::esm.reference.join(sum, filters::esm.reference.store(depth, {}, settings), 1.0 / 9.0,
+                                  settings);
     }
     lookup.depth = 0.5;
     const double lit = filters::esm.reference.visibility(sum, lookup, settings);
@@ -92,6 +101,38 @@ TEST(EsmFilter, classifies_by_the_largest_depth_alike_on_gpu_and_cpu) {
       ASSERT_NEAR(gpu[i], reference.answer(questions[i]), reference.bound(questions[i])) << text << " " << i;
     }
   }
+}
+
+TEST(EsmFilter, stores_the_bare_exponential_where_floats_hold_it_and_its_logarithm_beyond) {
+  for (const char* text : {"esm", "esm:c=160", "esm:c=80"})
+    EXPECT_EQ(reads_of(settings_from(text)), MapRead::filtered) << text;
+  for (const char* text : {"esm:c=160.1", "esm:c=80,format=fp16", "esm:c=80,format=unorm16"})
+    EXPECT_EQ(reads_of(settings_from(text)), MapRead::joined) << text;
+  for (const double depth : {0.0, 1.0}) {
+    // A kernel of 65 x 65 texels adds up to no infinity; no texel is 0.
+    const double stored = filters::esm.reference.store(depth, {}, settings_from("esm:c=160"))[0];
+    EXPECT_LT(stored * 65.0 * 65.0, 3.4e38);
+    EXPECT_GT(stored, 1.2e-38);
+  }
+}
+
+TEST(EsmFilter, fades_over_the_same_length_in_maps_of_any_depth_range) {
+  const FilterSettings asked = settings_from("esm:c=10000,falloff_world=0.5,falloff_kernel=0,fallback=0");
+  for (const double range : {5.0, 40.0, 300.0}) {
+    const FilterSettings settings = settings_for_map(asked, {range, 0.01});
+    FilterLookup lookup;
+    lookup.depth = 0.25 + 0.5 / range + rounding_of(settings.format);  // half a unit behind the texel
+    const StoredTexel texel = filters::esm.reference.store(0.25, {}, settings);
+    EXPECT_NEAR(filters::esm.reference.visibility(texel, lookup, settings), 0.05, 1e-6) << range;
+  }
+  // By the kernel: the longer of both counts. No exponent above the one asked for, none below 1.
+  EXPECT_NEAR(
+      settings_for_map(settings_from("esm:falloff_world=1,falloff_kernel=4"), {100.0, 0.5}).value("c"),
+      0.5 * 299.573, 1e-3);
+  EXPECT_EQ(settings_for_map(settings_from("esm:c=50"), {1e6, 1e-6}).value("c"), 50.0);
+  EXPECT_EQ(settings_for_map(settings_from("esm:falloff_world=1000"), {1.0, 0.0}).value("c"), 1.0);
+  for (const MapDepths& unknown : {MapDepths{}, MapDepths{0.0, 1.0}, MapDepths{std::nan(""), 1.0}})
+    EXPECT_EQ(settings_for_map(settings_from("esm:c=50,falloff_world=1"), unknown).value("c"), 50.0);
 }
 
 TEST(EsmFilter, keeps_its_exponent_within_what_16_bits_hold) {
