@@ -1,0 +1,117 @@
+// The base of a page plan: one map of make_plan for each part of the light, and the ladder of levels over it.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "geometry/vector.hpp"
+#include "gnomon/pages.hpp"
+
+namespace gnomon {
+
+/// Steps of a ladder: 26 octaves in up to four steps, and the first.
+inline constexpr int kLadder = 26 * 4 + 1;
+/// PagePoint::level of a point that no base holds.
+inline constexpr std::uint32_t kOutside = std::numeric_limits<std::uint32_t>::max();
+
+/// A base map, and places on it: (row_x, row_y) over row_w, each applied to (point, 1).
+struct PageBase {
+  ShadowMap map;
+  glm::dvec4 row_x{0.0}, row_y{0.0}, row_w{0.0};
+  glm::dvec2 low{0.0}, high{1.0};  ///< places that the map shows
+  glm::dvec2 side{1.0};            ///< of a page of the coarsest level, in units of places
+  glm::dvec2 unit{1.0};            ///< units of places along the map's sides
+  glm::dvec2 shift{0.0};           ///< added to places: where the grids of all levels begin
+  bool fixed = false;              ///< the grid does not follow the camera: no size is tried
+
+  [[nodiscard]] glm::dvec2 place(const glm::dvec3& p) const noexcept {
+    const auto row = [&p](const glm::dvec4& r) { return r.x * p.x + r.y * p.y + r.z * p.z + r.w; };
+    return glm::dvec2(row(row_x), row(row_y)) / row(row_w);
+  }
+  [[nodiscard]] bool holds(const glm::dvec3& p) const noexcept {
+    if (!(row_w.x * p.x + row_w.y * p.y + row_w.z * p.z + row_w.w > 0.0)) return false;
+    const glm::dvec2 at = place(p);
+    return at.x >= low.x && at.y >= low.y && at.x <= high.x && at.y <= high.y;
+  }
+};
+
+/// Pages along one level of a base: cells [first, first + count) along each axis.
+struct PageGrid {
+  glm::dvec2 side;
+  std::int64_t first_x, first_y;
+  std::int32_t columns, rows;
+};
+
+/// What the stages of a page plan share. Points are memory.points[0 .. point_count).
+struct PageContext {
+  const Camera& camera;
+  const SeenPoints& seen;
+  const PageOptions& options;
+  const PageMemory& memory;
+  CameraAxes axes;
+  std::array<PageBase, kMaxMaps> base = {};
+  int base_count = 0;
+  bool select_by_map = false;   ///< the first base that holds a point serves it
+  int steps = 1;                ///< of the ladder per octave
+  int deepest = 0;              ///< last step of the ladder
+  double target = 1.0;          ///< of this try
+  std::size_t point_count = 0;  ///< outside ones included
+  std::uint64_t outside = 0, edge_on = 0;
+  std::size_t page_count = 0;
+  std::array<double, kLadder> shrink{};  ///< texels of a step over those of the first
+
+  [[nodiscard]] PageBase& base_of(std::uint32_t level) noexcept { return base[level / kLadder]; }
+  [[nodiscard]] const PageBase& base_of(std::uint32_t level) const noexcept { return base[level / kLadder]; }
+  /// How many times too coarse the first step is for an error of 1.
+  [[nodiscard]] double excess(const PagePoint& point) const noexcept {
+    const PageBase& b = base_of(point.level);
+    return max_of(point.need_x * b.side.x, point.need_y * b.side.y) / options.page_texels;
+  }
+  /// The first step of the ladder that is fine enough; the deepest where none is.
+  [[nodiscard]] int step_for(double excess_at_target) const noexcept {
+    if (!(excess_at_target > 1.0)) return excess_at_target != excess_at_target ? deepest : 0;
+    if (!(excess_at_target * shrink[static_cast<std::size_t>(deepest)] <= 1.0)) return deepest;
+    int step = std::min(std::ilogb(excess_at_target) * steps, deepest);
+    while (excess_at_target * shrink[static_cast<std::size_t>(step)] > 1.0) ++step;
+    return step;
+  }
+  /// Gives the point a step of its base's ladder.
+  void set_step(PagePoint& point, int step) const noexcept {
+    const int kept = step < 0 ? 0 : step > deepest ? deepest : step;
+    point.level = point.level / kLadder * kLadder + static_cast<std::uint32_t>(kept);
+  }
+  /// Calls f(point, index) for each point that a base holds.
+  template <typename F>
+  void for_each_point(F&& f) noexcept {
+    for (std::size_t i = 0; i < point_count; ++i) {
+      if (memory.points[i].level != kOutside) f(memory.points[i], i);
+    }
+  }
+  [[nodiscard]] std::uint8_t feedback(std::size_t point) const noexcept {
+    return seen.feedback.empty() ? std::uint8_t{0} : seen.feedback[point];
+  }
+  [[nodiscard]] PageGrid grid(std::uint32_t level) const noexcept {
+    const PageBase& b = base_of(level);
+    PageGrid g{};
+    g.side = b.side * shrink[level % kLadder];
+    const glm::dvec2 low = (b.low + b.shift) / g.side, high = (b.high + b.shift) / g.side;
+    g.first_x = static_cast<std::int64_t>(std::floor(low.x));
+    g.first_y = static_cast<std::int64_t>(std::floor(low.y));
+    g.columns = static_cast<std::int32_t>(std::floor(high.x) - static_cast<double>(g.first_x)) + 1;
+    g.rows = static_cast<std::int32_t>(std::floor(high.y) - static_cast<double>(g.first_y)) + 1;
+    return g;
+  }
+};
+
+/// Plans the base maps; returns the status of that plan, and writes what it says besides pages to `out`.
+[[nodiscard]] PlanStatus plan_base(const Light& light, const SceneBounds& bounds, const PlanOptions& options,
+                                   PageContext& context, PagePlan& out) noexcept;
+/// Fills memory.points with the visible points, or with samples of the boxes.
+void take_points(const SceneBounds& bounds, PageContext& context) noexcept;
+/// Gives the sides of pages the aspect that wastes the fewest texels, and moves all sizes by `offset` of a
+/// step.
+void size_base(int trial, PageContext& context) noexcept;
+
+}  // namespace gnomon
