@@ -76,23 +76,20 @@ void place_in_world(const glm::dvec3& light_direction, PageBase& base) noexcept 
 /// Points on their way to their base's block.
 class Needs {
  public:
-  explicit Needs(PageContext& context) noexcept : c_(context) {}
+  explicit Needs(PageContext& context) noexcept
+      : c_(context), one_base_(context.base_count == 1 && context.base[0].map.select_plane_count == 0) {}
 
   /// `normal`: nullptr where there is none.
   void add(const glm::dvec3& point, const glm::dvec3* normal) noexcept {
     if (c_.point_count == c_.memory.points.size()) return;
     const std::size_t index = c_.point_count++;
-    PagePoint& out = c_.memory.points[index];
-    const int base = base_holding(point);
+    const int base = one_base_ ? 0 : base_holding(point);
     if (base < 0) {
-      out = {0.0, 0.0, 0.0f, 0.0f, kOutside, 0};
-      ++c_.outside;
+      leave_out(index);
       return;
     }
     if (base != base_ || count_ == kMetricLanes) flush();
     base_ = base;
-    const glm::dvec2 at = c_.base[static_cast<std::size_t>(base)].place(point);
-    out = {at.x, at.y, 0.0f, 0.0f, static_cast<std::uint32_t>(base * kLadder), 0};
     index_[count_] = static_cast<std::uint32_t>(index);
     block_.point.set(count_, point);
     has_normals_ = normal != nullptr;
@@ -116,9 +113,14 @@ class Needs {
     }
     return true;
   }
-  void store(std::size_t lane, const glm::dvec2& m_per_map) noexcept;
+  void leave_out(std::size_t index) noexcept {
+    c_.memory.points[index] = {0.0, 0.0, 0.0f, 0.0f, kOutside, 0};
+    ++c_.outside;
+  }
+  void store(const PageBase& base, std::size_t lane, const glm::dvec2& m_per_map) noexcept;
 
   PageContext& c_;
+  bool one_base_;
   int base_ = -1;
   std::size_t count_ = 0;
   bool has_normals_ = false;
@@ -126,25 +128,36 @@ class Needs {
   MetricBlock block_;
 };
 
-/// The next float above a number, so that a rounded need is never too small.
+/// The next float above a number >= 0, so that a rounded need is never too small.
 float rounded_up(double value) noexcept {
   constexpr double kLargestFloat = 3e38;
   if (!(value < kLargestFloat)) return std::numeric_limits<float>::infinity();
   const auto rounded = static_cast<float>(value);
-  return rounded >= value ? rounded : std::nextafter(rounded, std::numeric_limits<float>::infinity());
+  return rounded >= value ? rounded : std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) + 1u);
 }
 
-void Needs::store(std::size_t lane, const glm::dvec2& m_per_map) noexcept {
-  const PageBase& base = c_.base[static_cast<std::size_t>(base_)];
-  PagePoint& out = c_.memory.points[index_[lane]];
-  out.need_x = rounded_up(m_per_map.x / base.unit.x);
-  out.need_y = rounded_up(m_per_map.y / base.unit.y);
+void Needs::store(const PageBase& base, std::size_t lane, const glm::dvec2& m_per_map) noexcept {
+  const glm::dvec3 point = block_.point[lane];
+  const glm::dvec2 at = base.place(point);
+  // Also false for what is no number.
+  if (!(at.x >= base.low.x && at.y >= base.low.y && at.x <= base.high.x && at.y <= base.high.y) ||
+      !(base.distance(point) > 0.0)) {
+    leave_out(index_[lane]);
+    return;
+  }
+  c_.memory.points[index_[lane]] = {at.x,
+                                    at.y,
+                                    rounded_up(m_per_map.x / base.unit.x),
+                                    rounded_up(m_per_map.y / base.unit.y),
+                                    static_cast<std::uint32_t>(base_ * kLadder),
+                                    0};
 }
 
 void Needs::flush() noexcept {
   if (count_ == 0) return;
   // One texel across the map, so that errors are in pixels per map.
-  ShadowMap whole = c_.base[static_cast<std::size_t>(base_)].map;
+  const PageBase& base = c_.base[static_cast<std::size_t>(base_)];
+  ShadowMap whole = base.map;
   whole.width = whole.height = 1;
   judge_perspective(MetricFrame(whole, c_.camera, c_.axes), block_, count_);
   if (has_normals_) judge_surface(MetricFrame(whole, c_.camera, c_.axes), block_, count_);
@@ -152,12 +165,12 @@ void Needs::flush() noexcept {
     const double light = has_normals_ ? block_.cos_light[i] : 0.0;
     const bool at_surface = has_normals_ && block_.cos_eye[i] > 0.0;
     if (at_surface && light < 0.0) {
-      store(i, {0.0, 0.0});  // turned from the light: any level serves
+      store(base, i, {0.0, 0.0});  // turned from the light: any level serves
     } else if (at_surface && light >= c_.options.least_light_sine) {
-      store(i, {block_.surface.s[i], block_.surface.t[i]});
+      store(base, i, {block_.surface.s[i], block_.surface.t[i]});
     } else {
       if (at_surface) ++c_.edge_on;
-      store(i, {block_.perspective.s[i], block_.perspective.t[i]});
+      store(base, i, {block_.perspective.s[i], block_.perspective.t[i]});
     }
   }
   count_ = 0;
@@ -176,14 +189,15 @@ class AspectHistogram {
   /// The ratio for which the fewest texels are wasted: a need off it by d octaves costs 2^|d| of the texels.
   [[nodiscard]] double best() const noexcept {
     if (count_ == 0) return 1.0;
+    std::array<double, kBins> cost_of;  // of a need this many bins off
+    for (int bins = 0; bins < kBins; ++bins)
+      cost_of[static_cast<std::size_t>(bins)] = elementary::exp2(bins / static_cast<double>(kPerOctave));
     int best = 0;
     double least = std::numeric_limits<double>::infinity();
     for (int at = 0; at < kBins; ++at) {
       double cost = 0.0;
       for (int bin = 0; bin < kBins; ++bin) {
-        const double octaves = std::abs(bin - at) / static_cast<double>(kPerOctave);
-        if (bins_[static_cast<std::size_t>(bin)] > 0)
-          cost += bins_[static_cast<std::size_t>(bin)] * elementary::exp2(octaves);
+        cost += bins_[static_cast<std::size_t>(bin)] * cost_of[static_cast<std::size_t>(std::abs(bin - at))];
       }
       if (!(cost < least)) continue;
       least = cost;
@@ -224,7 +238,7 @@ void narrow(PageContext& c, std::uint32_t index) noexcept {
 
 /// How much the needs along y exceed those along x, over all points of a base. A few hundred points suffice.
 double aspect_of(PageContext& c, std::uint32_t base) noexcept {
-  constexpr std::size_t kPoints = 512;
+  constexpr std::size_t kPoints = 256;
   AspectHistogram histogram;
   const std::size_t stride = std::max<std::size_t>(1, c.point_count / kPoints);
   for (std::size_t i = 0; i < c.point_count; i += stride) {

@@ -1,7 +1,9 @@
 // The base of a page plan: one map of make_plan for each part of the light, and the ladder of levels over it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,8 +13,9 @@
 
 namespace gnomon {
 
-/// Steps of a ladder: 26 octaves in up to four steps, and the first.
-inline constexpr int kLadder = 26 * 4 + 1;
+/// Steps of a ladder: 26 octaves in up to four steps, and the first; rounded up to a power of two.
+inline constexpr int kLadder = 128;
+static_assert(kLadder >= 26 * 4 + 1);
 /// PagePoint::level of a point that no base holds.
 inline constexpr std::uint32_t kOutside = std::numeric_limits<std::uint32_t>::max();
 
@@ -26,20 +29,27 @@ struct PageBase {
   glm::dvec2 shift{0.0};           ///< added to places: where the grids of all levels begin
   bool fixed = false;              ///< the grid does not follow the camera: no size is tried
 
+  /// Above 0 in front of the light.
+  [[nodiscard]] double distance(const glm::dvec3& p) const noexcept { return applied(row_w, p); }
   [[nodiscard]] glm::dvec2 place(const glm::dvec3& p) const noexcept {
-    const auto row = [&p](const glm::dvec4& r) { return r.x * p.x + r.y * p.y + r.z * p.z + r.w; };
-    return glm::dvec2(row(row_x), row(row_y)) / row(row_w);
+    return glm::dvec2(applied(row_x, p), applied(row_y, p)) * (1.0 / distance(p));
   }
   [[nodiscard]] bool holds(const glm::dvec3& p) const noexcept {
-    if (!(row_w.x * p.x + row_w.y * p.y + row_w.z * p.z + row_w.w > 0.0)) return false;
+    if (!(distance(p) > 0.0)) return false;
     const glm::dvec2 at = place(p);
     return at.x >= low.x && at.y >= low.y && at.x <= high.x && at.y <= high.y;
+  }
+
+ private:
+  [[nodiscard]] static double applied(const glm::dvec4& row, const glm::dvec3& p) noexcept {
+    return row.x * p.x + row.y * p.y + row.z * p.z + row.w;
   }
 };
 
 /// Pages along one level of a base: cells [first, first + count) along each axis.
 struct PageGrid {
   glm::dvec2 side;
+  glm::dvec2 scale, offset;  ///< cell = place * scale + offset
   std::int64_t first_x, first_y;
   std::int32_t columns, rows;
 };
@@ -57,6 +67,7 @@ struct PageContext {
   int steps = 1;                ///< of the ladder per octave
   int deepest = 0;              ///< last step of the ladder
   double target = 1.0;          ///< of this try
+  double per_page = 1.0;        ///< 1 / PageOptions::page_texels
   std::size_t point_count = 0;  ///< outside ones included
   std::uint64_t outside = 0, edge_on = 0;
   std::size_t page_count = 0;
@@ -67,14 +78,17 @@ struct PageContext {
   /// How many times too coarse the first step is for an error of 1.
   [[nodiscard]] double excess(const PagePoint& point) const noexcept {
     const PageBase& b = base_of(point.level);
-    return max_of(point.need_x * b.side.x, point.need_y * b.side.y) / options.page_texels;
+    return max_of(point.need_x * b.side.x, point.need_y * b.side.y) * per_page;
   }
   /// The first step of the ladder that is fine enough; the deepest where none is.
   [[nodiscard]] int step_for(double excess_at_target) const noexcept {
     if (!(excess_at_target > 1.0)) return excess_at_target != excess_at_target ? deepest : 0;
     if (!(excess_at_target * shrink[static_cast<std::size_t>(deepest)] <= 1.0)) return deepest;
-    int step = std::min(std::ilogb(excess_at_target) * steps, deepest);
-    while (excess_at_target * shrink[static_cast<std::size_t>(step)] > 1.0) ++step;
+    // The exponent, of a number above 1.
+    const auto octaves = static_cast<int>(std::bit_cast<std::uint64_t>(excess_at_target) >> 52) - 1023;
+    int step = std::min(octaves * steps, deepest);
+    // No branch: neighbouring points need different steps. It stops at the first that suffices.
+    for (int i = 0; i < steps; ++i) step += excess_at_target * shrink[static_cast<std::size_t>(step)] > 1.0;
     return step;
   }
   /// Gives the point a step of its base's ladder.
@@ -101,6 +115,8 @@ struct PageContext {
     g.first_y = static_cast<std::int64_t>(std::floor(low.y));
     g.columns = static_cast<std::int32_t>(std::floor(high.x) - static_cast<double>(g.first_x)) + 1;
     g.rows = static_cast<std::int32_t>(std::floor(high.y) - static_cast<double>(g.first_y)) + 1;
+    g.scale = 1.0 / g.side;
+    g.offset = b.shift / g.side - glm::dvec2(g.first_x, g.first_y);
     return g;
   }
 };

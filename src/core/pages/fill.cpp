@@ -39,14 +39,15 @@ class Opening {
     clear();
     if (!sort()) return true;
     for (int step = c_.deepest; step >= 0; --step) {
-      for (int base = 0; base < c_.base_count; ++base) {
+      for (int base = c_.base_count - 1; base >= 0; --base) {
         const auto level = static_cast<std::uint32_t>(base * kLadder + step);
-        if (begin_[level] == begin_[level + 1]) continue;
+        const bool whole = step == 0 && c_.options.fallback;
+        if (begin_[level] == begin_[level + 1] && !whole) continue;
         grid_[level] = c_.grid(level);
-        if (!open_level(level)) return false;
+        if (!open_level(level) || (whole && !open_whole(level))) return false;
       }
     }
-    return !c_.options.fallback || open_fallback();
+    return true;
   }
   /// Whether finer pages of one level hold the point and what lies this far round it, in its own pages.
   [[nodiscard]] bool held_by_finer(const PagePoint& point, double reach) const noexcept {
@@ -64,11 +65,9 @@ class Opening {
   }
   [[nodiscard]] CellRange cells(std::uint32_t level, const PagePoint& point, double reach) const noexcept {
     const PageGrid& g = grid_[level];
-    const glm::dvec2 shift = c_.base_of(level).shift;
-    const double x = (point.x + shift.x) / g.side.x - static_cast<double>(g.first_x);
-    const double y = (point.y + shift.y) / g.side.y - static_cast<double>(g.first_y);
+    const double x = point.x * g.scale.x + g.offset.x, y = point.y * g.scale.y + g.offset.y;
     const auto cell = [](double at, std::int32_t count) {
-      return static_cast<std::int32_t>(clamp_to(std::floor(at), 0.0, count - 1));
+      return static_cast<std::int32_t>(clamp_to(at, 0.0, count - 1));
     };
     return {{cell(x - reach, g.columns), cell(x + reach, g.columns)},
             {cell(y - reach, g.rows), cell(y + reach, g.rows)}};
@@ -128,14 +127,9 @@ class Opening {
     }
     return true;
   }
-  /// All pages of the coarsest level.
-  bool open_fallback() noexcept {
-    for (int base = 0; base < c_.base_count; ++base) {
-      const auto level = static_cast<std::uint32_t>(base * kLadder);
-      grid_[level] = c_.grid(level);
-      if (!open_range(level, {{0, grid_[level].columns - 1}, {0, grid_[level].rows - 1}})) return false;
-    }
-    return true;
+  /// All pages of a level.
+  bool open_whole(std::uint32_t level) noexcept {
+    return open_range(level, {{0, grid_[level].columns - 1}, {0, grid_[level].rows - 1}});
   }
   [[nodiscard]] bool holds_all(std::uint32_t level, const CellRange& range) const noexcept {
     for (std::int32_t row = range.row[0]; row <= range.row[1]; ++row) {
@@ -151,7 +145,7 @@ class Opening {
   std::span<std::uint32_t> table_;
   std::size_t room_ = 0;
   std::array<std::uint32_t, kLevels + 1> begin_{};
-  std::array<PageGrid, kLevels> grid_{};
+  std::array<PageGrid, kLevels> grid_;  // of levels that were opened or have points
   std::array<bool, kLevels> opened_{};
 };
 

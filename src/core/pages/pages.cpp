@@ -65,6 +65,7 @@ void omit(PagePlan& plan, const Omission& omission) noexcept {
 
 /// The ladder: whole octaves are exact, so that steps of two plans agree to the last bit.
 void make_ladder(PageContext& c) noexcept {
+  c.per_page = 1.0 / c.options.page_texels;
   c.steps = c.options.policy->octaves ? 1 : c.options.levels_per_octave;
   const double octaves =
       elementary::log2(static_cast<double>(c.options.virtual_texels) / c.options.page_texels);
@@ -179,13 +180,9 @@ void finish(PageContext& c, PagePlan& plan) noexcept {
       listed[level] = levels++;
     }
   }
-  // Pages of one level keep the order in which points asked for them.
+  // Opened from the finest level to the coarsest, and by face from the last to the first.
   for (Page& page : pages) page.level = listed[page.level];
   std::reverse(pages.begin(), pages.end());
-  std::sort(pages.begin(), pages.end(), [](const Page& a, const Page& b) {
-    if (a.level != b.level) return a.level < b.level;
-    return a.row != b.row ? a.row < b.row : a.column < b.column;
-  });
   const auto table = c.memory.table.first(page_table_size(static_cast<int>(pages.size())));
   std::fill(table.begin(), table.end(), 0u);
   for (std::uint32_t i = 0; i < pages.size(); ++i) {

@@ -11,8 +11,9 @@ const PagePolicy clipmap{"clipmap",
                          false,
                          0,
                          [](PageContext& c) noexcept {
+                           const double inverse = 1.0 / c.target;
                            c.for_each_point([&](PagePoint& point, std::size_t) {
-                             c.set_step(point, c.step_for(c.excess(point) / c.target));
+                             c.set_step(point, c.step_for(c.excess(point) * inverse));
                            });
                          }};
 
