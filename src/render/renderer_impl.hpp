@@ -8,6 +8,7 @@
 #include "frame_block.hpp"
 #include "gl_object.hpp"
 #include "gnomon/render/renderer.hpp"
+#include "page_pool.hpp"
 #include "scene_buffers.hpp"
 #include "stored_maps.hpp"
 #include "target.hpp"
@@ -25,6 +26,8 @@ struct Renderer::Impl {
 
   void fit_maps(const ShadowPlan& plan);
   void draw_map_part(const DrawnPart& part, const DrawnMap& map, bool alpha_test_where_masked) noexcept;
+  void draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
+                    bool alpha_test_where_masked) noexcept;
   void draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept;
   /// `block`: with the options that the filter chooses for each map, on return.
   void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block) noexcept;
@@ -32,8 +35,9 @@ struct Renderer::Impl {
   void adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept;
   /// Of the last frame's map, row by row.
   void read_depths(int map, std::span<float> depths) const noexcept;
+  void draw_pages(bool alpha_test_where_masked) noexcept;
   void draw_surfaces() noexcept;
-  void draw_mask(const PreparedFilter& filter) noexcept;
+  void draw_mask(const Program& program) noexcept;
   void draw_shade() noexcept;
   void draw_aliasing() noexcept;
   void draw_heat_map() noexcept;
@@ -48,6 +52,7 @@ struct Renderer::Impl {
   StoredMaps stored;
   FrameTargets targets;
   MapTargets maps;
+  PagePool pages;
   Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;
   std::array<glm::ivec2, kMaxMaps> map_size{};  ///< of the last frame

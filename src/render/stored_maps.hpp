@@ -29,10 +29,13 @@ struct FilterVariant {
 /// blurred by store_rows and blur_walk where all maps have one reach, else by store and blur.
 struct FilterPrograms {
   FilterVariant variant;
+  Program mask_pages;  ///< made when pages are first drawn
   Program mask, store_rows, blur_walk, store, blur, join_mip, depth_max, sum_rows, sum_columns;
 };
 /// Paths of the shaders that the filter takes part in, that of the mask first.
 [[nodiscard]] std::vector<std::string_view> filter_shaders(const Filter& filter);
+/// The mask from pages. Throws RenderError as make_filter_programs, and for filters that store texels.
+[[nodiscard]] Program make_pages_program(const FilterSettings& settings);
 /// Throws RenderError with shader file and line.
 [[nodiscard]] FilterPrograms make_filter_programs(const FilterSettings& settings);
 
