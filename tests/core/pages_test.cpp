@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -350,6 +351,19 @@ TEST(Pages, tiled_gives_more_of_the_pool_to_tiles_with_depth_edges) {
   const double before = texel(even, 3900);
   for (std::size_t i = 3500; i < 4000; ++i) street.feedback[i] = kDepthEdge;
   EXPECT_LT(texel(street.plan(memory), 3900), before);
+}
+
+TEST(Pages, a_light_inside_a_caster_is_planned_and_reported) {
+  Street street;
+  street.light = PointLight{{0.0, 8.0, -20.0}, 300.0};
+  street.boxes.push_back({{-1.0, 7.0, -21.0}, {1.0, 9.0, -19.0}});
+  Memory memory;
+  const PagePlan plan = street.plan(memory);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  EXPECT_TRUE(std::any_of(plan.omitted().begin(), plan.omitted().end(),
+                          [](const Omission& o) { return o.kind == OmissionKind::depth_near_light; }));
+  for (std::size_t i = 0; i < street.points.size(); i += 50)
+    EXPECT_GE(page_serving(plan, street.points[i]), 0);
 }
 
 TEST(Pages, names_find_their_policies) {

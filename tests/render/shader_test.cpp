@@ -101,7 +101,9 @@ TEST(Shaders, pass_the_reference_validator_with_every_filter) {
     ++checked;
   }
   for (const Filter* filter : all_filters()) {
-    for (const std::string_view path : filter_shaders(*filter)) {
+    std::vector<std::string_view> paths = filter_shaders(*filter);
+    if (filter->info.reads == MapRead::depth) paths.push_back("mask_pages.frag");
+    for (const std::string_view path : paths) {
       const std::string extension = std::filesystem::path(path).extension();
       const ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",
                                 shadow_vectors(default_settings(*filter))};
