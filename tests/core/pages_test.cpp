@@ -366,6 +366,26 @@ TEST(Pages, a_light_inside_a_caster_is_planned_and_reported) {
     EXPECT_GE(page_serving(plan, street.points[i]), 0);
 }
 
+TEST(Pages, scenes_at_the_end_of_the_range_are_planned_or_refused) {
+  for (const double offset : {1e12, 1e20, 9e29}) {
+    for (const Fit fit : {Fit::tight, Fit::stable}) {
+      Street street;
+      street.plan_options.fit = fit;
+      street.camera.position += offset;
+      for (Box& box : street.boxes) box = {box.min + offset, box.max + offset};
+      for (glm::dvec3& point : street.points) point += offset;
+      Memory memory;
+      const PagePlan plan = street.plan(memory);
+      for (const Page& page : plan.pages) {
+        EXPECT_GE(page.column, 0);
+        EXPECT_GE(page.row, 0);
+        EXPECT_TRUE(std::isfinite(page_map(plan, page).clip_from_world[3][0]));
+      }
+      EXPECT_LE(plan.points + plan.points_outside, street.points.size());
+    }
+  }
+}
+
 TEST(Pages, names_find_their_policies) {
   EXPECT_EQ(all_page_policies().size(), 5u);
   for (const PagePolicy* policy : all_page_policies()) {

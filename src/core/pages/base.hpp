@@ -111,10 +111,17 @@ struct PageContext {
     PageGrid g{};
     g.side = b.side * shrink[level % kLadder];
     const glm::dvec2 low = (b.low + b.shift) / g.side, high = (b.high + b.shift) / g.side;
-    g.first_x = static_cast<std::int64_t>(std::floor(low.x));
-    g.first_y = static_cast<std::int64_t>(std::floor(low.y));
-    g.columns = static_cast<std::int32_t>(std::floor(high.x) - static_cast<double>(g.first_x)) + 1;
-    g.rows = static_cast<std::int32_t>(std::floor(high.y) - static_cast<double>(g.first_y)) + 1;
+    // Beyond, doubles hold no whole number of pages: positions there are rounding.
+    constexpr double kFarthest = 0x1p53, kMostPagesAcross = 0x1p22;
+    g.first_x = static_cast<std::int64_t>(clamp_to(std::floor(low.x), -kFarthest, kFarthest));
+    g.first_y = static_cast<std::int64_t>(clamp_to(std::floor(low.y), -kFarthest, kFarthest));
+    const auto across = [](double last, std::int64_t first) {
+      return static_cast<std::int32_t>(
+                 clamp_to(std::floor(last) - static_cast<double>(first), 0.0, kMostPagesAcross)) +
+             1;
+    };
+    g.columns = across(high.x, g.first_x);
+    g.rows = across(high.y, g.first_y);
     g.scale = 1.0 / g.side;
     g.offset = b.shift / g.side - glm::dvec2(g.first_x, g.first_y);
     return g;
