@@ -71,7 +71,7 @@ BodyLanes::BodyLanes(const WarpInput& input) noexcept {
   }
 }
 
-PlaneError::PlaneError(const WarpInput& input, bool searched) noexcept
+PlaneError::PlaneError(const WarpInput& input, bool searched, int set) noexcept
     : input_(input), lanes_(kWarpLanes), body_(input) {
   double low = input.body.front().z, high = low;
   for (const WarpInput::Point& p : input.body) {
@@ -91,7 +91,7 @@ PlaneError::PlaneError(const WarpInput& input, bool searched) noexcept
   corners_.fill_lanes();
   // Fewer samples make no percentile: the body shows in a few pixels only.
   constexpr std::size_t kTooFew = 20;
-  if (input.objective == Objective::p95 && !input.orthographic) add_visible_points();
+  if (input.objective == Objective::p95 && !input.orthographic) add_visible_points(set);
   share_ = kShareAbove95;
   if (sample_.count < kTooFew) {
     share_ = 0.0;
@@ -103,17 +103,20 @@ PlaneError::PlaneError(const WarpInput& input, bool searched) noexcept
     constexpr double kWide = 3.5;  // of the slope: 120 degrees
     const ViewInLight& view = input.view;
     const double wider = max_of(view.image_right - view.image_left, view.image_top - view.image_bottom);
-    const bool inside = searched && (input.light.perspective || wider > kWide);
+    // So do rays that come to meet the eye's: the half vector turns fast between them.
+    constexpr double kOpposed = -0.5;
+    const bool inside = searched && (input.light.perspective || wider > kWide || input.cos_gamma < kOpposed);
     if (input.light.perspective || inside) add_faces(body, outside);
-    if (inside && !input.orthographic) add_visible_points();
+    if (inside && !input.orthographic) add_visible_points(set);
   }
   all_ = sample_.count;
   sample_.fill_lanes();
 }
 
 void PlaneError::count_worst(const WarpChoice& choice) noexcept {
-  // A percentile is of all points.
-  if (share_ > 0.0 || sample_.count == 0) return;
+  const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
+  // A percentile is of all points, and without an area there is no error.
+  if (share_ > 0.0 || sample_.count == 0 || rows == 0.0) return;
   find_rows(choice);
   constexpr double kNearWorst = 0.25;  // of the square: half the error
   const bool storage = input_.objective == Objective::storage;
@@ -230,7 +233,7 @@ void PlaneError::add_edges(const Polytope& body, double pixels) noexcept {
   }
 }
 
-void PlaneError::add_visible_points() noexcept {
+void PlaneError::add_visible_points(int set) noexcept {
   const ViewInLight& view = input_.view;
   const Polytope* const focus = input_.focus;
   const auto weight_at = [&](const glm::dvec3& p) {
@@ -265,7 +268,8 @@ void PlaneError::add_visible_points() noexcept {
   double total = 0.0;
   for (int i = 0; i < kRays; ++i) {
     // Roberts' R2 sequence: even over the image without the aliasing of a grid against the body's edges.
-    const double along_x = 0.5 + 0.7548776662466927 * i, along_y = 0.5 + 0.5698402909980532 * i;
+    const int number = i + set * kRays;
+    const double along_x = 0.5 + 0.7548776662466927 * number, along_y = 0.5 + 0.5698402909980532 * number;
     const double x = left + (right - left) * (along_x - std::floor(along_x));
     const double y = bottom + (top - bottom) * (along_y - std::floor(along_y));
     double least = 0.0, most = 1.0 / input_.depth_begin;

@@ -40,8 +40,9 @@ class PlaneError {
   /// Samples the body for `input.objective`: vertices and middles of edges, where the largest errors are
   /// (under a local light of faces, too, as its rays fan out), or points spread evenly over the pixels and
   /// the logarithm of depth. `searched`: the choices come from a search, which would end where no sample is;
-  /// where rays fan out wide, the inside of the body counts then as well.
-  explicit PlaneError(const WarpInput& input, bool searched = false) noexcept;
+  /// where rays fan out wide, the inside of the body counts then as well. `set`: other points of the same
+  /// spread, from 0 on.
+  explicit PlaneError(const WarpInput& input, bool searched = false, int set = 0) noexcept;
 
   /// The objective under `choice`, up to a factor that is the same for every choice; infinite for an unusable
   /// one.
@@ -67,7 +68,7 @@ class PlaneError {
   void add_corners(const Polytope& body, double pixels) noexcept;
   void add_edges(const Polytope& body, double pixels) noexcept;
   void add_faces(const Polytope& body, double pixels) noexcept;
-  void add_visible_points() noexcept;
+  void add_visible_points(int set) noexcept;
   void find_rows(const WarpChoice& choice) noexcept;
   [[nodiscard]] double storage_squared() const noexcept;
   [[nodiscard]] double worst_squared() noexcept;
