@@ -16,6 +16,7 @@
 #include "gnomon/jitter.hpp"
 #include "gnomon/light.hpp"
 #include "gnomon/metric.hpp"
+#include "gnomon/pages.hpp"
 #include "gnomon/partition.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/prune.hpp"

@@ -20,5 +20,8 @@ layout(std140, binding = 0) uniform Frame {
   ShadowMap maps[kMaxMaps];
 } frame;
 
+#ifndef GNOMON_PAGES
 ShadowMap shadow_map(int index) { return frame.maps[index]; }
+float layer_of_map(int index) { return float(index); }
+#endif
 #endif

@@ -41,12 +41,16 @@ float frame_noise() {
 
 float visibility_through(int index, Surface s, float noise) {
   ShadowMap map = shadow_map(index);
-  ShadowLookup at = shadow_lookup(map, float(index), frame.layer.xy, ShadowSurface(s.position, s.normal, frame.light_place),
+  ShadowLookup at = shadow_lookup(map, layer_of_map(index), frame.layer.xy, ShadowSurface(s.position, s.normal, frame.light_place),
                                   frame.bias);
   ShadowKernel kernel = ShadowKernel(filtering.kernel.x, filtering.kernel.y > 0.5, filtering.kernel.z > 0.5);
   set_kernel(at, map, kernel, kernel.minify ? texels_per_pixel(map, s) : mat2(0.0));
   at.rotation = 6.2831853 * noise;
+#ifdef GNOMON_PAGES
+  return visibility(at, map, shadow_options(0));
+#else
   return visibility(at, map, shadow_options(index));
+#endif
 }
 
 void main() {
@@ -57,7 +61,11 @@ void main() {
   int count = int(frame.light.w);
   bool by_hold = frame.selection.x > 0.5;
   vec3 light = light_at(frame.light_place, s.position);
+#ifdef GNOMON_PAGES
+  int map = page_serving(s.position, int(page_counts.x), page_counts.y - 1u);
+#else
   int map = map_serving(s.position, s.depth, light, frame.selection.x, count);
+#endif
   bool faces_light = dot(s.normal, light) < 0.0;
   mask = vec2(faces_light || count == 0 ? 1.0 : 0.0, float(map));
   if (map < 0 || !faces_light) return;

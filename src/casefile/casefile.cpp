@@ -204,6 +204,7 @@ PlanOptions options_from(const json& value) {
   std::vector<std::string_view> known;
   for (const PlanField& field : plan_fields()) known.push_back(field.key);
   for (const auto& [other, key] : kOtherNames) known.push_back(other);
+  known.push_back("pages");
   const Fields fields(value, "options", known);
   for (const auto& [other, key] : kOtherNames) {
     if (fields.has(other) && fields.has(key))
@@ -219,6 +220,64 @@ PlanOptions options_from(const json& value) {
   apply_implications(fields, options);
   if (partition_as_warp) set_name("partition", to_string(Partition::separating_plane), options);
   return options;
+}
+
+PageOptions pages_from(const json& value) {
+  const Fields fields(value, "options.pages",
+                      {"policy", "page_texels", "capacity", "target_m", "share", "levels_per_octave",
+                       "trials", "virtual_texels", "reach_texels", "fallback", "least_light_sine"});
+  PageOptions pages;
+  if (fields.has("policy")) {
+    const std::string name = fields.text("policy");
+    std::vector<std::string> names;
+    for (const PagePolicy* policy : all_page_policies()) names.emplace_back(policy->name);
+    pages.policy = find_page_policy(name);
+    if (pages.policy == nullptr)
+      fields.refuse("policy",
+                    "is \"" + one_line(name, 40) + "\", not one of " + listed(names) + meant(name, names));
+  }
+  fields.read("page_texels", pages.page_texels);
+  fields.read("capacity", pages.capacity);
+  fields.read("target_m", pages.target_m);
+  fields.read("share", pages.share);
+  fields.read("levels_per_octave", pages.levels_per_octave);
+  fields.read("trials", pages.trials);
+  fields.read("virtual_texels", pages.virtual_texels);
+  fields.read("reach_texels", pages.reach_texels);
+  fields.read("fallback", pages.fallback);
+  fields.read("least_light_sine", pages.least_light_sine);
+  return pages;
+}
+
+/// Visible points: lists of three numbers, or of six with the normal.
+void read_seen(const Fields& fields, Case& result) {
+  const json& list = fields.at("seen");
+  if (!list.is_array()) fields.refuse("seen", "needs a list of points");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string path = "seen[" + std::to_string(i) + "]";
+    const json& point = list[i];
+    const bool with_normal = point.is_array() && point.size() == 6;
+    if (!with_normal && !(point.is_array() && point.size() == 3))
+      throw CaseError(path + ": needs three numbers, or six with the normal");
+    if (i > 0 && with_normal == result.seen_normals.empty())
+      throw CaseError(path + ": has " + (with_normal ? "a" : "no") + " normal, unlike the points before");
+    std::array<double, 6> number{};
+    for (std::size_t k = 0; k < point.size(); ++k) {
+      if (!point[k].is_number()) throw CaseError(path + "[" + std::to_string(k) + "]: needs a number");
+      number[k] = point[k].get<double>();
+    }
+    result.seen.emplace_back(number[0], number[1], number[2]);
+    if (with_normal) result.seen_normals.emplace_back(number[3], number[4], number[5]);
+  }
+}
+
+void read_feedback(const Fields& fields, Case& result) {
+  for (const double bits : fields.numbers("seen_feedback")) {
+    constexpr double kAllBits = kShadowEdge | kShadowChanged | kDepthEdge;
+    if (!(bits >= 0.0 && bits <= kAllBits && bits == static_cast<int>(bits)))
+      fields.refuse("seen_feedback", "needs sums of 1 (shadow edge), 2 (shadow changed) and 4 (depth edge)");
+    result.seen_feedback.push_back(static_cast<std::uint8_t>(bits));
+  }
 }
 
 std::string read_text(const std::filesystem::path& file) {
@@ -239,13 +298,23 @@ std::string read_text(const std::filesystem::path& file) {
 
 Case read_case(std::string_view json_text) {
   const json value = parse_json(json_text);
-  const Fields fields(value, "", {"camera", "light", "receivers", "casters", "options"});
+  const Fields fields(value, "",
+                      {"camera", "light", "receivers", "casters", "options", "seen", "seen_feedback"});
   Case result;
   result.camera = camera_from(fields.at("camera"));
   result.light = light_from(fields.at("light"));
   result.receivers = fields.boxes("receivers");
   result.casters = fields.boxes("casters");
-  if (fields.has("options")) result.options = options_from(fields.at("options"));
+  if (fields.has("options")) {
+    result.options = options_from(fields.at("options"));
+    const json& options = fields.at("options");
+    if (options.contains("pages")) result.pages = pages_from(options.at("pages"));
+  }
+  for (const char* key : {"seen", "seen_feedback"}) {
+    if (fields.has(key) && !result.pages) fields.refuse(key, "is only read with options.pages");
+  }
+  if (fields.has("seen")) read_seen(fields, result);
+  if (fields.has("seen_feedback")) read_feedback(fields, result);
   return result;
 }
 
@@ -274,6 +343,18 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"light.range", "light.range: must be above 0"},
       {"bounds.casters", "casters: a corner is beyond 1e30"},
       {"bounds.receivers", "receivers: a corner is beyond 1e30"},
+      {"pages.page_texels", "options.pages.page_texels: must be 64, 128 or 256, and at most virtual_texels"},
+      {"pages.virtual_texels", "options.pages.virtual_texels: must lie in 1..67108864"},
+      {"pages.capacity", "options.pages.capacity: must lie in 1..1048576, and hold a page for each map"},
+      {"pages.target_m", "options.pages.target_m: must be at least 1e-9"},
+      {"pages.share", "options.pages.share: must lie above 0 and at most at 1"},
+      {"pages.levels_per_octave", "options.pages.levels_per_octave: must lie in 1..4"},
+      {"pages.trials", "options.pages.trials: must lie in 1..16"},
+      {"pages.reach_texels", "options.pages.reach_texels: must lie in 0..page_texels"},
+      {"pages.least_light_sine", "options.pages.least_light_sine: must lie in 0..1"},
+      {"seen.points_world", "seen: a point is beyond 1e30"},
+      {"seen.normals_world", "seen: a normal is not of length 1"},
+      {"seen.feedback", "seen_feedback: needs one number for each point of seen"},
   });
   for (const Entry& entry : kTexts)
     if (entry.field == invalid_field) return std::string(entry.text);

@@ -63,6 +63,33 @@ void DrawLists::build(const CullingJob& job, const DrawnMaps& drawn, const Camer
     if (map < job.plan.maps().size()) add_map(job, drawn, map, saved);
   }
   saved_ = saved.net();
+  finish(camera);
+}
+
+void DrawLists::build_pages(std::span<const DrawnPage> pages, const Camera& camera) {
+  objects_.clear();
+  commands_.clear();
+  ranges_.clear();
+  page_parts_.clear();
+  saved_ = {};
+  stats_.fill({});
+  MapStats& stats = stats_.front();
+  std::vector<std::uint8_t> draws(visible_.size());
+  for (const DrawnPage& page : pages) {
+    const std::span planes(page.map.cull_planes.data(), static_cast<std::size_t>(page.map.cull_plane_count));
+    std::fill(draws.begin(), draws.end(), std::uint8_t{0});
+    for (const std::uint32_t instance : culling_.instances_within(planes)) draws[instance] = 1;
+    DrawnPart part{page.place, false, ranges_.size(), 0};
+    add_view(draws, stats);
+    part.end = ranges_.size();
+    page_parts_.push_back(part);
+    stats.texels +=
+        static_cast<std::uint64_t>(page.place.width) * static_cast<std::uint64_t>(page.place.height);
+  }
+  finish(camera);
+}
+
+void DrawLists::finish(const Camera& camera) {
   camera_begin_ = ranges_.size();
   MapStats& of_camera = stats_.back();
   of_camera = {};

@@ -12,6 +12,7 @@
 #include "gnomon/plan.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "map_cache.hpp"
+#include "page_pool.hpp"
 #include "scene_buffers.hpp"
 
 namespace gnomon::render {
@@ -36,6 +37,10 @@ class DrawLists {
 
   /// Rebuilds and uploads everything for this frame.
   void build(const CullingJob& job, const DrawnMaps& drawn, const Camera& camera);
+  /// The same with pages in place of maps: one part for each, see page_part.
+  void build_pages(std::span<const DrawnPage> pages, const Camera& camera);
+  /// What is drawn into one page, by index.
+  [[nodiscard]] const DrawnPart& page_part(std::size_t page) const noexcept { return page_parts_[page]; }
   /// The maps hold nothing any more: the next build() draws them whole.
   void forget_maps() noexcept { cache_.forget(); }
 
@@ -66,6 +71,8 @@ class DrawLists {
   void add_map(const CullingJob& job, const DrawnMaps& drawn, std::size_t map, PruneSavings& saved);
   void add_view(std::span<const std::uint8_t> draws, MapStats& stats);
   void mark_visible(const Camera& camera);
+  /// The camera's own list, and all lists to the GPU.
+  void finish(const Camera& camera);
 
   const SceneBuffers& scene_;
   CasterCulling culling_;
@@ -74,6 +81,7 @@ class DrawLists {
   std::array<MapMove, kMaxMaps> move_{};
   std::array<std::array<DrawnPart, MapWork::kMaxParts>, kMaxMaps> parts_{};
   std::array<std::size_t, kMaxMaps> part_count_{};
+  std::vector<DrawnPart> page_parts_;
   std::vector<std::uint8_t> visible_;   ///< scratch: by instance
   std::vector<std::uint32_t> objects_;  ///< object of each drawn instance, all views one after the other
   std::vector<DrawCommand> commands_;

@@ -35,7 +35,6 @@ CommonPrograms::CommonPrograms()
 
 void Renderer::Impl::draw_map_part(const DrawnPart& part, const DrawnMap& map,
                                    bool alpha_test_where_masked) noexcept {
-  const std::span<const Batch> batches = scene.batches();
   const TexelRect& at = part.rectangle;
   // Whole maps with all of their layer, which may be larger.
   if (at.width == map.width && at.height == map.height) {
@@ -46,6 +45,12 @@ void Renderer::Impl::draw_map_part(const DrawnPart& part, const DrawnMap& map,
   }
   constexpr float kFarthest = 1.0f;
   if (part.clear) glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest);
+  draw_casters(part, map.clip_from_position, alpha_test_where_masked);
+}
+
+void Renderer::Impl::draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
+                                  bool alpha_test_where_masked) noexcept {
+  const std::span<const Batch> batches = scene.batches();
   // Opaque batches come first in the order of batches, and their commands follow each other: one call draws
   // them.
   const std::span<const BatchRange> ranges = lists.ranges(part);
@@ -53,12 +58,12 @@ void Renderer::Impl::draw_map_part(const DrawnPart& part, const DrawnMap& map,
   while (alpha_test_where_masked && opaque < ranges.size() && !batches[ranges[opaque].batch].masked) ++opaque;
   if (opaque > 0) {
     glUseProgram(programs.depth.name());
-    glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
+    glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]);
     lists.draw(ranges.front().begin, ranges[opaque - 1].end);
   }
   if (opaque == ranges.size()) return;
   glUseProgram(programs.depth_masked.name());
-  glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
+  glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]);
   for (const BatchRange& range : ranges.subspan(opaque)) {
     bind_material(batches[range.batch]);
     lists.draw(range.begin, range.end);
@@ -86,6 +91,30 @@ void Renderer::Impl::draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_wh
     for (const DrawnPart& part : lists.parts(i)) draw_map_part(part, map, alpha_test_where_masked);
   }
   glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::Impl::draw_pages(bool alpha_test_where_masked) noexcept {
+  glBindVertexArray(scene.vertex_array());
+  scene.use(SceneBuffers::Placed::for_maps);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_SCISSOR_TEST);
+  constexpr float kFarthest = 1.0f;
+  int layer = -1;
+  const std::span<const DrawnPage> drawn = pages.pages();
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    if (drawn[i].layer != layer) {
+      layer = drawn[i].layer;
+      glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0, layer);
+      glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
+      glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest);
+    }
+    // Triangles are clipped to the viewport: no page draws into the next.
+    const TexelRect& at = drawn[i].place;
+    glViewport(at.x, at.y, at.width, at.height);
+    draw_casters(lists.page_part(i), drawn[i].clip_from_position, alpha_test_where_masked);
+  }
 }
 
 void Renderer::Impl::adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept {
@@ -194,14 +223,13 @@ void Renderer::Impl::bind_noise(SampleNoise noise) noexcept {
   glBindSampler(kNoiseUnit, 0);
 }
 
-void Renderer::Impl::draw_mask(const PreparedFilter& filter, bool accumulated) noexcept {
+void Renderer::Impl::draw_mask(const Program& program, bool accumulated) noexcept {
   glBindTextureUnit(kCompareUnit, maps.depth.name());
   glBindSampler(kCompareUnit, maps.compare_sampler.name());
   glBindTextureUnit(kDepthUnit, maps.depth.name());
   glBindSampler(kDepthUnit, maps.plain_sampler.name());
   stored.bind();
-  fullscreen(accumulated ? history.single_fbo() : targets.mask_fbo.name(),
-             filter_programs[filter.program].mask);
+  fullscreen(accumulated ? history.single_fbo() : targets.mask_fbo.name(), program);
   glBindSampler(kExtraUnit, 0);  // shared with the depth pyramid
 }
 

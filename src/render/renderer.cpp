@@ -146,7 +146,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   accumulated ? impl.history.resize(camera.width, camera.height) : impl.history.forget();
   timed(Pass::mask, [&] {
     impl.bind_noise(options.noise);
-    impl.draw_mask(filter, accumulated);
+    impl.draw_mask(impl.filter_programs[filter.program].mask, accumulated);
   });
   if (accumulated) timed(Pass::accumulate, [&] { impl.draw_accumulated(camera, options, block); });
   timed(Pass::shade, [&] { impl.draw_shade(); });
@@ -171,6 +171,74 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   stats.maps_read_back = impl.maps_read_back;
   stats.map_bytes = impl.maps.bytes() + impl.stored.bytes();
   stats.scratch_bytes = impl.stored.scratch_bytes();
+  return stats;
+}
+
+PreparedFilter Renderer::prepare_pages(const FilterSettings& settings) {
+  const PreparedFilter prepared = prepare(settings);
+  Program& program = impl_->filter_programs[prepared.program].mask_pages;
+  if (!program) program = make_pages_program(settings);
+  return prepared;
+}
+
+FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const PreparedFilter& filter,
+                          const FrameOptions& options) noexcept {
+  Impl& impl = *impl_;
+  // What the passes read of a plan besides its maps: the light, and how the first page stores depth.
+  ShadowPlan of_light;
+  of_light.origin_world = plan.origin_world;
+  of_light.light_direction = plan.light_direction;
+  of_light.clip_space = plan.clip_space;
+  of_light.bias = plan.bias;
+  if (plan.pages.empty() || !impl.filter_programs[filter.program].mask_pages)
+    return draw(of_light, camera, filter, options);
+  of_light.map_count = 1;
+  of_light.map[0] = page_map(plan, plan.pages[0]);
+  FrameStats stats;
+  const auto timed = [&](Pass pass, auto&& work) {
+    const Clock::time_point begin = Clock::now();
+    work();
+    if (!options.time_passes) return;
+    glFinish();
+    stats.milliseconds[static_cast<std::size_t>(pass)] =
+        std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  };
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  impl.targets.resize(camera.width, camera.height);
+  const PagePool::Extent extent = PagePool::extent_of(plan);
+  impl.maps.fit(extent.side, extent.side, extent.layers);
+  impl.lists.forget_maps();
+  impl.history.forget();  // the mask is this frame's alone
+  impl.map_count = 0;
+  const BlurSides blur{};
+  const DepthCurves curves = depth_curves(of_light);
+  FilterBlock filtering = filter_block(filter.settings, blur);
+  set_depth_curves(curves, filtering);
+  timed(Pass::shadow_maps, [&] {
+    const FrameBlock block = frame_block(of_light, camera, options, extent.side, extent.side, blur, curves);
+    glNamedBufferSubData(impl.frame_buffer.name(), 0, sizeof block, &block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, impl.frame_buffer.name());
+    glNamedBufferSubData(impl.filter_buffer.name(), 0, sizeof filtering, &filtering);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kFilterBinding, impl.filter_buffer.name());
+    const DrawnMaps drawn = drawn_maps({}, camera.position, impl.scene.origin_step());
+    impl.scene.place(SceneBuffers::Placed::for_camera, camera.position);
+    impl.scene.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
+    impl.pages.build(plan, drawn.origin_world);
+    impl.lists.build_pages(impl.pages.pages(), camera);
+    impl.draw_pages(options.prune.has(PruneRule::alpha_test));
+  });
+  timed(Pass::surfaces, [&] { impl.draw_surfaces(); });
+  timed(Pass::mask, [&] {
+    impl.pages.bind();
+    impl.bind_noise(options.noise);
+    impl.draw_mask(impl.filter_programs[filter.program].mask_pages, false);
+  });
+  timed(Pass::shade, [&] { impl.draw_shade(); });
+  stats.map_count = 1;
+  stats.map[0] = impl.lists.map_stats(0);
+  stats.texels = stats.map[0].texels;
+  stats.camera = impl.lists.camera_stats();
+  stats.map_bytes = impl.maps.bytes();
   return stats;
 }
 

@@ -9,6 +9,7 @@
 #include "gl_object.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "mask_history.hpp"
+#include "page_pool.hpp"
 #include "scene_buffers.hpp"
 #include "stored_maps.hpp"
 #include "target.hpp"
@@ -26,6 +27,8 @@ struct Renderer::Impl {
 
   void fit_maps(const ShadowPlan& plan);
   void draw_map_part(const DrawnPart& part, const DrawnMap& map, bool alpha_test_where_masked) noexcept;
+  void draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
+                    bool alpha_test_where_masked) noexcept;
   void draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept;
   /// `block`: with the options that the filter chooses for each map, on return.
   void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block,
@@ -36,8 +39,9 @@ struct Renderer::Impl {
   void adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept;
   /// Of the last frame's map, row by row.
   void read_depths(int map, std::span<float> depths) const noexcept;
+  void draw_pages(bool alpha_test_where_masked) noexcept;
   void draw_surfaces() noexcept;
-  void draw_mask(const PreparedFilter& filter, bool accumulated) noexcept;
+  void draw_mask(const Program& program, bool accumulated) noexcept;
   void draw_accumulated(const Camera& camera, const FrameOptions& options, const FrameBlock& block) noexcept;
   /// Makes the noise tile at the first frame that reads it.
   void bind_noise(SampleNoise noise) noexcept;
@@ -57,6 +61,7 @@ struct Renderer::Impl {
   MaskHistory history;
   Texture noise_tile;  ///< blue noise
   MapTargets maps;
+  PagePool pages;
   Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;
   std::array<glm::ivec2, kMaxMaps> map_size{};  ///< of the last frame

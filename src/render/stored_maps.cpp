@@ -143,6 +143,13 @@ FilterVariant variant_of(const FilterSettings& settings) noexcept {
   return variant;
 }
 
+Program make_pages_program(const FilterSettings& settings) {
+  if (settings.filter->info.reads != MapRead::depth)
+    throw RenderError("filter " + std::string(settings.filter->info.name) +
+                      ": stores texels of whole maps, and pages have depths alone");
+  return make_program("fullscreen.vert", "mask_pages.frag", {filter_path(*settings.filter)});
+}
+
 FilterPrograms make_filter_programs(const FilterSettings& settings) {
   FilterPrograms programs;
   programs.variant = variant_of(settings);

@@ -32,10 +32,13 @@ struct FilterVariant {
 /// blurred by store_rows and blur_walk where all maps have one reach, else by store and blur.
 struct FilterPrograms {
   FilterVariant variant;
+  Program mask_pages;  ///< made when pages are first drawn
   Program mask, mark, store_rows, blur_walk, store, blur, join_mip, depth_max, sum_rows, sum_columns;
 };
 /// Paths of the shaders that the filter takes part in when it is read so, that of the mask first.
 [[nodiscard]] std::vector<std::string_view> filter_shaders(const Filter& filter, MapRead reads);
+/// The mask from pages. Throws RenderError as make_filter_programs, and for filters that store texels.
+[[nodiscard]] Program make_pages_program(const FilterSettings& settings);
 /// Throws RenderError with shader file and line.
 [[nodiscard]] FilterPrograms make_filter_programs(const FilterSettings& settings);
 
@@ -70,7 +73,7 @@ class StoredMaps {
   /// Binds what build() filled to the filters' texture units.
   void bind() const noexcept;
 
-  [[nodiscard]] int passes() const noexcept { return passes_; }  ///< of the last build()
+  [[nodiscard]] int passes() const noexcept { return passes_; }          ///< of the last build()
   [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }  ///< kept for look-ups
   [[nodiscard]] std::uint64_t scratch_bytes() const noexcept { return scratch_bytes_ + tiles_.bytes(); }
   /// Texels that were filled since the last call; waits for the passes.

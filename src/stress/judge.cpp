@@ -206,6 +206,12 @@ const char* kind_name(OmissionKind kind) {
       return "depths near the light";
     case OmissionKind::view_without_receiver:
       return "view without receiver";
+    case OmissionKind::pages_coarsened:
+      return "pages coarsened";
+    case OmissionKind::points_left_coarser:
+      return "points left to coarser pages";
+    case OmissionKind::points_beyond_levels:
+      return "points beyond the deepest level";
     case OmissionKind::option_ignored:
       return "option without use";
   }

@@ -90,5 +90,32 @@ TEST(Allocation, choosing_a_technique_allocates_nothing) {
   EXPECT_GT(tried, 0);
 }
 
+TEST(Allocation, pages_are_planned_measured_and_found_without_the_heap) {
+  std::vector<ShadowMap> levels(kMostPageLevels);
+  std::vector<Page> pages(256);
+  std::vector<std::uint32_t> table(page_table_size(256));
+  std::vector<PagePoint> work(4096);
+  std::size_t opened = 0;
+  for (const PagePolicy* policy : all_page_policies()) {
+    for_all(20, [&] {
+      const Case c = draw_case();
+      Random random(7);
+      const std::vector<glm::dvec3> points = visible_points(c, random, 8, 16);
+      PageOptions options;
+      options.policy = policy;
+      options.capacity = 256;
+      options.share = 0.9;
+      const std::uint64_t before = g_allocations;
+      const PagePlan plan = plan_pages(c.camera, DirectionalLight{c.light}, c.bounds(), {points}, {}, options,
+                                       {levels, pages, table, work});
+      const PageStats stats = measure_pages(plan, c.camera, {points});
+      for (const Page& page : plan.pages) opened += page_map(plan, page).width > 0;
+      const std::uint64_t after = g_allocations;
+      require(after == before, "allocations", after - before, "samples", stats.m.samples);
+    });
+  }
+  EXPECT_GT(opened, 100u);
+}
+
 }  // namespace
 }  // namespace gnomon::test

@@ -1,6 +1,7 @@
 // `gnomon plan`: what it prints for good cases.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -189,6 +190,91 @@ TEST(Plan, logpsm_adds_the_numbers_of_one_logarithmic_perspective_map_on_request
   const AliasingStats stats = measure(map, input.camera, input.bounds());
   EXPECT_EQ(printed["logpsm"]["storage"].get<double>(), stats.storage);
   EXPECT_EQ(printed["logpsm"]["p95"].get<double>(), stats.p95);
+}
+
+/// A street with two visible points, as text.
+std::string pages_case(const std::string& pages, const std::string& rest) {
+  return R"({"camera": {"position": [0,5,0], "forward": [0,-0.1,-1], "up": [0,1,0], "fov_y_deg": 60,
+    "aspect": 1.5, "near": 0.5, "far": 250, "width": 960, "height": 640},
+    "light": {"type": "directional", "direction": [0.3,-1,0.2]},
+    "receivers": {"min": [-20,-1,-200], "max": [20,30,-1]}, "casters": {"min": [-20,-1,-200], "max": [20,30,-1]},
+    "options": {"pages": )" +
+         pages + "}" + rest + "}";
+}
+
+/// Runs the case through standard input.
+Finished plan_of(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return run_gnomon({"plan", "-"}, text + "\n");
+}
+
+TEST(PlanPages, the_case_format_holds_and_every_point_is_served_by_its_last_level) {
+  const Finished finished =
+      plan_of(pages_case(R"({"policy": "resolution", "page_texels": 64, "capacity": 512, "target_m": 1})",
+                         R"(, "seen": [[0,0,-20], [3,0,-90], [-4,2,-30]])"));
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const json plan = json::parse(finished.lines().at(0));
+  EXPECT_EQ(plan["status"], "ok");
+  EXPECT_EQ(plan["page_texels"], 64);
+  ASSERT_EQ(plan["pages"].size(), 3u);
+  EXPECT_LE(plan["m"]["side_max"].get<double>(), 1.0 + 1e-6);
+  // As architecture says: column and row from ndc (-1, -1), the last level with a resident page.
+  const double points[3][3] = {{0, 0, -20}, {3, 0, -90}, {-4, 2, -30}};
+  for (const auto& p : points) {
+    int served = 0;
+    for (const json& page : plan["pages"]) {
+      const json& level = plan["levels"][page[0].get<std::size_t>()];
+      double clip[4];
+      for (std::size_t row = 0; row < 4; ++row) {
+        const json& r = level["clip_from_world"][row];
+        clip[row] = r[0].get<double>() * p[0] + r[1].get<double>() * p[1] + r[2].get<double>() * p[2] +
+                    r[3].get<double>();
+      }
+      int cell[2];
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        const double texels = level["size"][axis].get<double>();
+        cell[axis] = static_cast<int>((0.5 * clip[axis] / clip[3] + 0.5) * texels / 64.0);
+      }
+      served += cell[0] == page[1].get<int>() && cell[1] == page[2].get<int>();
+    }
+    EXPECT_EQ(served, 1);
+  }
+}
+
+TEST(PlanPages, bad_pages_and_points_are_one_line_that_names_the_key) {
+  struct Entry {
+    const char *pages, *rest, *message;
+  };
+  const Entry entries[] = {
+      {R"({"capacity": 0})", "", "options.pages.capacity: must lie in"},
+      {R"({"page_texels": 100})", "", "options.pages.page_texels: must be 64, 128 or 256"},
+      {R"({"page_texels": 128, "virtual_texels": 64})", "", "options.pages.page_texels: must be"},
+      {R"({"policy": "edgse"})", "", "options.pages.policy: is \"edgse\""},
+      {R"({"size": 3})", "", "options.pages.size: unknown key"},
+      {"{}", R"(, "seen": [[1,2]])", "seen[0]: needs three numbers"},
+      {"{}", R"(, "seen": [[1,2,3],[1,2,3,0,1,0]])", "seen[1]: has a normal"},
+      {"{}", R"(, "seen": [[1,2,null]])", "seen[0][2]: needs a number"},
+      {"{}", R"(, "seen": [[1,2,1e31]])", "seen: a point is beyond"},
+      {"{}", R"(, "seen": [[1,2,3,0,0,0]])", "seen: a normal is not of length 1"},
+      {"{}", R"(, "seen": [[1,2,3]], "seen_feedback": [8])", "seen_feedback: needs sums"},
+      {"{}", R"(, "seen": [[1,2,3]], "seen_feedback": [1, 2])", "seen_feedback: needs one number"}};
+  for (const Entry& entry : entries) {
+    const Finished finished = plan_of(pages_case(entry.pages, entry.rest));
+    EXPECT_EQ(finished.exit_code, 2) << entry.message;
+    EXPECT_NE(finished.err.find(entry.message), std::string::npos) << finished.err;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+    EXPECT_EQ(finished.out, "");
+  }
+}
+
+TEST(PlanPages, repeats_are_timed_and_allocate_nothing) {
+  std::string text = pages_case("{}", R"(, "seen": [[0,0,-20], [3,0,-90]])");
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const Finished finished = run_gnomon({"plan", "--repeat", "20", "-"}, text + "\n");
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const json timing = json::parse(finished.lines().at(0))["plan_ns"];
+  EXPECT_EQ(timing["allocations"], 0);
+  EXPECT_GT(timing["median"].get<double>(), 0.0);
 }
 
 }  // namespace

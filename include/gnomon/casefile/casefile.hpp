@@ -2,7 +2,9 @@
 // it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -11,6 +13,7 @@
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
+#include "gnomon/pages.hpp"
 #include "gnomon/plan.hpp"
 
 namespace gnomon {
@@ -21,6 +24,11 @@ struct Case {
   Light light;                          ///< directional, spot or point
   std::vector<Box> receivers, casters;  ///< world space
   PlanOptions options;                  ///< as the file has them
+  std::optional<PageOptions> pages;     ///< options.pages: plan_pages in place of make_plan
+  /// Visible points for pages, their normals and PageFeedback bits; the last two are empty where the file has
+  /// none.
+  std::vector<glm::dvec3> seen, seen_normals;
+  std::vector<std::uint8_t> seen_feedback;
 
   /// Views into this case: valid while it lives and its lists are not resized.
   [[nodiscard]] SceneBounds bounds() const noexcept { return {casters, receivers}; }

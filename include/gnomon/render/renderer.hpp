@@ -10,6 +10,7 @@
 #include "gnomon/bias.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
+#include "gnomon/pages.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/prune.hpp"
 #include "gnomon/render/error.hpp"
@@ -140,6 +141,16 @@ class Renderer {
   /// boxes (Scene::instances' bounds_world as casters). A plan without maps leaves everything lit. Images are
   /// reallocated when the frame or the maps grow.
   FrameStats draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
+                  const FrameOptions& options = {}) noexcept;
+
+  /// Compiles the filter's program for pages, once. Throws RenderError as prepare, and for filters that store
+  /// texels: pages have depths alone (hard, pcf, pcss).
+  [[nodiscard]] PreparedFilter prepare_pages(const FilterSettings& settings);
+  /// The same frame with the pages of a plan: each is drawn with its own casters into a pool, which is all
+  /// redrawn every frame. `filter` must come from prepare_pages, and the plan's border must hold its kernel
+  /// (set_margin). The mask's channel "map" is the index of the page. No picture of the error or of maps is
+  /// drawn; FrameStats::map[0] is the sum over all pages.
+  FrameStats draw(const PagePlan& plan, const Camera& camera, const PreparedFilter& filter,
                   const FrameOptions& options = {}) noexcept;
 
   /// The last frame's pictures, rows top to bottom. They, and all that follow, throw RenderError where the

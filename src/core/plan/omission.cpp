@@ -120,6 +120,19 @@ OmissionText describe(const Omission& o) noexcept {
       what("camera %.0f", o.a);
       why("no receiver in its view");
       break;
+    case OmissionKind::pages_coarsened:
+      what("levels of pages");
+      why("the pool holds too few pages for an error of %.3g; all levels are as coarse as one of %.3g needs",
+          o.a, o.b);
+      break;
+    case OmissionKind::points_left_coarser:
+      what("pages that few points need");
+      why("%.0f visible points are left to a page of larger texels", o.a);
+      break;
+    case OmissionKind::points_beyond_levels:
+      what("levels beyond the deepest");
+      why("%.0f visible points need more texels than the deepest level has", o.a);
+      break;
     case OmissionKind::option_ignored:
       describe_ignored(o, text);
       break;

@@ -7,6 +7,7 @@
 #include "case_source.hpp"
 #include "command.hpp"
 #include "output.hpp"
+#include "pages_plan.hpp"
 #include "plan_json.hpp"
 #include "progress.hpp"
 #include "timing.hpp"
@@ -35,16 +36,29 @@ Json timing_json(const PlanTiming& timing) {
           {"allocations", timing.allocations}};
 }
 
+/// The plan of one case, of maps or of pages. Throws CaseError.
+Json planned(const Case& input, const std::string& name) {
+  const auto refuse = [&](std::string_view field) {
+    throw CaseError(name + ": " + invalid_input_text(field));
+  };
+  if (!input.pages) {
+    const ShadowPlan plan = make_plan(input.camera, input.light, input.bounds(), input.options);
+    if (plan.status == PlanStatus::invalid_input) refuse(plan.invalid_field);
+    return plan_json(plan, input);
+  }
+  PagePlanner planner(input);
+  const PagePlan plan = planner.plan();
+  if (plan.status == PlanStatus::invalid_input) refuse(plan.invalid_field);
+  return pages_json(plan, input);
+}
+
 /// Prints the plans in the order of the files and lines. Stops at the first bad case, by std::runtime_error
 /// that names it; the plans before it are printed by then.
 int run_plan(const PlanRequest& request) {
   Progress progress("gnomon plan", steps_in_all(request));
   long long steps = 0;
   const auto plan_one = [&](const Case& input, const std::string& name) {
-    const ShadowPlan plan = make_plan(input.camera, input.light, input.bounds(), input.options);
-    if (plan.status == PlanStatus::invalid_input)
-      throw CaseError(name + ": " + invalid_input_text(plan.invalid_field));
-    Json result = plan_json(plan, input);
+    Json result = planned(input, name);
     if (request.log_perspective) result["logpsm"] = log_perspective_json(input);
     if (request.repeats > 0)
       result["plan_ns"] = timing_json(time_plan(input, request.repeats, progress, steps));
@@ -87,6 +101,10 @@ std::function<int()> declare_plan(Arguments& arguments) {
   arguments.footer =
       "Plans are printed in the order of files and lines. The first bad case stops the run; the plans before "
       "it are printed. An infinite error (a visible point that no map covers) is printed as null.\n\n"
+      "A case with options.pages is planned in pages: \"levels\", \"page_texels\" and \"pages\" ([level, "
+      "column, "
+      "row]) in place of \"maps\". \"seen\" lists the visible points, as [x, y, z] or with a normal behind; "
+      "without it the receivers' boxes are sampled.\n\n"
       "--repeat times each plan separately after a warm-up, in nanoseconds, including the reading of the "
       "clock. \"allocations\" is the largest number of heap allocations in one plan.\n\n"
       "Exit: 0 success, even if a case needs no map; 2 bad input, with one line that names the file and key.";

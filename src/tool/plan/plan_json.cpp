@@ -14,7 +14,6 @@
 #include "gnomon/study/log_perspective.hpp"
 
 namespace gnomon::tool {
-namespace {
 
 Json number(double value) {
   if (std::isnan(value)) throw std::logic_error("the plan holds a value that is not a number");
@@ -30,6 +29,25 @@ Json rows_of(const glm::dmat4& matrix) {
   }
   return rows;
 }
+
+Json omitted_json(std::span<const Omission> omitted) {
+  Json list = Json::array();
+  for (const Omission& omission : omitted) {
+    const OmissionText text = describe(omission);
+    list.push_back(
+        {{"what", text.what.data()}, {"why", text.why.data()}, {"saves_texels", omission.saves_texels}});
+  }
+  return list;
+}
+
+const char* reason_of(PlanStatus status) {
+  if (status == PlanStatus::nothing_visible)
+    return "no receiver is in view: nothing to draw, all in view is lit";
+  if (status == PlanStatus::no_caster) return "no caster can reach the receivers in view: all in view is lit";
+  return "";
+}
+
+namespace {
 
 Json planes_of(std::span<const glm::dvec4> list, int count) {
   Json planes = Json::array();
@@ -82,23 +100,6 @@ Json map_json(const ShadowPlan& plan, int index, const Case& input) {
       {"snap_depth", snap_depth_of(map.snap_key)},
       {"m", stats_of(measure_map(plan, index, input.camera, input.bounds()))},
   };
-}
-
-Json omitted_json(const ShadowPlan& plan) {
-  Json list = Json::array();
-  for (const Omission& omission : plan.omitted()) {
-    const OmissionText text = describe(omission);
-    list.push_back(
-        {{"what", text.what.data()}, {"why", text.why.data()}, {"saves_texels", omission.saves_texels}});
-  }
-  return list;
-}
-
-const char* reason_of(PlanStatus status) {
-  if (status == PlanStatus::nothing_visible)
-    return "no receiver is in view: nothing to draw, all in view is lit";
-  if (status == PlanStatus::no_caster) return "no caster can reach the receivers in view: all in view is lit";
-  return "";
 }
 
 bool is_flat(const Json& value) {
@@ -154,7 +155,7 @@ Json plan_json(const ShadowPlan& plan, const Case& input) {
   if (plan.status != PlanStatus::ok) result["reason"] = reason_of(plan.status);
   result["maps"] = Json::array();
   for (int i = 0; i < plan.map_count; ++i) result["maps"].push_back(map_json(plan, i, input));
-  result["omitted"] = omitted_json(plan);
+  result["omitted"] = omitted_json(plan.omitted());
   const AliasingStats stats = measure(plan, input.camera, input.bounds());
   result["m"] = stats_of(stats);
   result["m"]["storage"] = number(stats.storage);

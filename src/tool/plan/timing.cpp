@@ -1,4 +1,4 @@
-// What a plan costs: time and heap allocations of make_plan() over many runs of one case.
+// What a plan costs: time and heap allocations of make_plan() or plan_pages() over many runs of one case.
 #include "timing.hpp"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "allocations.hpp"
+#include "pages_plan.hpp"
 #include "progress.hpp"
 
 namespace gnomon::tool {
@@ -25,19 +26,17 @@ std::int64_t percentile(std::vector<std::int64_t>& samples, double share) {
   return *nth;
 }
 
-}  // namespace
-
-PlanTiming time_plan(const Case& input, int repeats, Progress& progress, long long steps_before) {
+/// Times `plan` over and over.
+template <typename Plan>
+PlanTiming time_runs(int repeats, Progress& progress, long long steps_before, Plan&& plan) {
   using Clock = std::chrono::steady_clock;
-  const SceneBounds bounds = input.bounds();
   std::vector<std::int64_t> samples(static_cast<std::size_t>(repeats));
   PlanTiming timing;
-  ShadowPlan plan;
   const int warm_up = std::min(repeats, kWarmUpRuns);
   for (int run = -warm_up; run < repeats; ++run) {
     const std::uint64_t allocations_before = allocation_count();
     const Clock::time_point begin = Clock::now();
-    plan = make_plan(input.camera, input.light, bounds, input.options);
+    plan();
     const Clock::time_point end = Clock::now();
     timing.allocations = std::max(timing.allocations, allocation_count() - allocations_before);
     if (run < 0) continue;
@@ -49,6 +48,20 @@ PlanTiming time_plan(const Case& input, int repeats, Progress& progress, long lo
   timing.median_ns = percentile(samples, 0.5);
   timing.p99_ns = percentile(samples, 0.99);
   return timing;
+}
+
+}  // namespace
+
+PlanTiming time_plan(const Case& input, int repeats, Progress& progress, long long steps_before) {
+  if (input.pages) {
+    PagePlanner planner(input);
+    PagePlan plan;
+    return time_runs(repeats, progress, steps_before, [&] { plan = planner.plan(); });
+  }
+  const SceneBounds bounds = input.bounds();
+  ShadowPlan plan;
+  return time_runs(repeats, progress, steps_before,
+                   [&] { plan = make_plan(input.camera, input.light, bounds, input.options); });
 }
 
 }  // namespace gnomon::tool

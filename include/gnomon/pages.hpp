@@ -1,0 +1,217 @@
+// Which pages of very large virtual shadow maps are worth drawing? A page plan: levels, and the pages of each
+// that visible points need.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <string_view>
+
+#include "gnomon/metric.hpp"
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+
+struct PageContext;
+
+/// One entry of the registry page_policies.def: how fine the page of each visible point is.
+struct PagePolicy {
+  std::string_view name;     ///< as in files
+  std::string_view summary;  ///< one line
+  /// Levels differ by a factor of two and have square texels in world units, on a grid that does not follow
+  /// the camera.
+  bool octaves;
+  /// Points that a finer page holds need no page of their own level.
+  bool shares_finer;
+  /// PageFeedback bits that the policy reads.
+  std::uint8_t feedback;
+  /// Sets the level of every point; internal.
+  void (*assign)(PageContext& context) noexcept;
+};
+
+/// All policies, in the order of page_policies.def.
+[[nodiscard]] std::span<const PagePolicy* const> all_page_policies() noexcept;
+/// nullptr where there is none of that name.
+[[nodiscard]] const PagePolicy* find_page_policy(std::string_view name) noexcept;
+
+namespace page_policies {
+#define GNOMON_PAGE_POLICY(name) extern const PagePolicy name;
+#include "gnomon/page_policies.def"
+#undef GNOMON_PAGE_POLICY
+}  // namespace page_policies
+
+/// Bits that a renderer reports of a visible point, for policies that read the rendered image.
+enum PageFeedback : std::uint8_t {
+  kShadowEdge = 1,     ///< a shadow edge lies at the point or next to it: `edges`
+  kShadowChanged = 2,  ///< the last refinement changed whether the point is lit: `queried`
+  kDepthEdge = 4,      ///< view depths jump at the point or next to it: `tiled`
+};
+
+/// One resident page.
+struct Page {
+  std::uint32_t level = 0;           ///< index into PagePlan::levels
+  std::int32_t column = 0, row = 0;  ///< of the level's virtual map, from ndc (-1, -1)
+  std::uint32_t slot = 0;            ///< place in the pool, below PagePlan::capacity
+  std::uint32_t points = 0;          ///< visible points that this page was opened for
+};
+
+struct PagePlan;
+
+/// What a caller knows about the visible surfaces, all of it optional.
+struct SeenPoints {
+  /// Points of surfaces that the camera sees, world space: of a depth buffer read at any stride, or the first
+  /// hits of rays. Empty: the receivers' boxes are sampled as volumes, which needs five times the pages.
+  std::span<const glm::dvec3> points_world = {};
+  /// Unit normals of the same points, or empty: the surface that faces the half vector of eye and light.
+  std::span<const glm::dvec3> normals_world = {};
+  /// PageFeedback bits of the same points, or empty: nothing was reported.
+  std::span<const std::uint8_t> feedback = {};
+  /// The plan that the feedback was rendered with; nullptr: the first frame. Read by `queried`. It must not
+  /// lie in the memory of the new plan.
+  const PagePlan* last = nullptr;
+};
+
+/// Least and largest side of a page, and the pages that a plan may have at most.
+inline constexpr int kLeastPageTexels = 64, kMostPageTexels = 256, kMostPages = 1 << 20;
+/// Largest side of a level's virtual map, texels.
+inline constexpr int kMostVirtualTexels = 1 << 26;
+/// Most levels of one plan: six faces, or one map, of 26 octaves in up to four steps each.
+inline constexpr std::size_t kMostPageLevels = 6 * (26 * 4 + 1);
+
+/// Options of plan_pages besides PlanOptions. Every default suits most scenes.
+struct PageOptions {
+  const PagePolicy* policy = nullptr;  ///< nullptr: page_policies::resolution
+  /// Texels along each side that a page serves: 64, 128 or 256. Smaller pages follow the visible surfaces
+  /// more closely; each costs a draw and a border. A page takes page_texels + 2 border_texels along each
+  /// side.
+  int page_texels = 128;
+  /// Pages that the pool holds, 1..kMostPages. Fewer than the target needs: all levels coarsen evenly.
+  int capacity = 4096;
+  /// Aliasing error m_s and m_t (screen pixels per texel, along each side of a texel) that no visible point
+  /// exceeds.
+  double target_m = 1.0;
+  /// Share of the visible points that must meet the target, in (0, 1]. Below 1, pages that few points need
+  /// are left to a level of twice the texel size.
+  double share = 1.0;
+  /// Steps in which texels halve, 1..4. More steps waste fewer texels, and take more look-ups.
+  int levels_per_octave = 3;
+  /// Positions of the levels' sizes that are tried to find the fewest pages, 1..16. Costs as many times the
+  /// time. Stable levels never move, and try none.
+  int trials = 1;
+  /// Largest side of a level, texels, page_texels..kMostVirtualTexels: the deepest level is the last below.
+  int virtual_texels = 1 << 22;
+  /// Each point requests pages this many texels of its level round it, 0..page_texels: for points read at a
+  /// stride, and cameras that move.
+  double reach_texels = 0.0;
+  /// Resident pages of the coarsest level at every place, so that surfaces without a visible point of their
+  /// own keep a shadow. At most four pages for each map of the base.
+  bool fallback = false;
+  /// Sine of the angle between surface and light ray below which normals count as the half vector: no level
+  /// resolves surfaces edge-on to the light. Only with normals.
+  double least_light_sine = 0.05;
+};
+
+/// Working memory of plan_pages for one visible point. Plain data without a meaning of its own.
+struct PagePoint {
+  double x, y;           ///< place in the base
+  float need_x, need_y;  ///< texels per unit of the base for m = 1
+  std::uint32_t level;   ///< of the base's ladder
+  std::uint32_t order;   ///< index of another point
+};
+
+/// Memory that plan_pages writes to; the caller's, and as long-lived as the plan.
+struct PageMemory {
+  std::span<ShadowMap> levels;     ///< kMostPageLevels suffice; the plan uses a few dozen
+  std::span<Page> pages;           ///< at least PageOptions::capacity
+  std::span<std::uint32_t> table;  ///< at least page_table_size(capacity)
+  std::span<PagePoint> points;     ///< as many as visible points; without any, as many samples of the boxes
+};
+/// Entries of PageMemory::table for a pool of this capacity.
+[[nodiscard]] std::size_t page_table_size(int capacity) noexcept;
+
+/// The result of plan_pages: levels and resident pages, in the caller's memory.
+struct PagePlan {
+  PlanStatus status = PlanStatus::invalid_input;  ///< whether there are pages, and why not
+  std::string_view invalid_field;                 ///< for invalid_input: which, e.g. "pages.capacity"
+  glm::dvec3 origin_world{0.0};  ///< what clip_from_camera_relative is relative to: the camera position
+  glm::dvec3 light_direction{0.0, -1.0, 0.0};  ///< as ShadowPlan::light_direction
+  ClipSpace clip_space;                        ///< of all matrices of the plan
+  BiasOptions bias;                            ///< of the options
+  const PagePolicy* policy = nullptr;          ///< never nullptr in a valid plan
+  int page_texels = 0;                         ///< served along each side of a page
+  int border_texels = 0;                       ///< round them, in the page's slot: holds the filter's kernel
+  int capacity = 0;                            ///< of the pool
+  /// Grids of whole virtual maps, coarsest first: width and height are those of the whole map, up to
+  /// PageOptions::virtual_texels. Levels without a page are not listed.
+  std::span<const ShadowMap> levels;
+  std::span<const Page> pages;           ///< resident pages, coarsest level first
+  std::span<const std::uint32_t> table;  ///< hash table over the pages, see page_at; shaders read it as it is
+  double target_m = 0.0;  ///< error that the levels were chosen for: larger than asked for where the pool is
+                          ///< too small
+  std::uint64_t points = 0;                   ///< visible points that pages serve
+  std::uint64_t points_outside = 0;           ///< that lie beside all receivers or the light's range: lit
+  std::uint64_t points_coarser = 0;           ///< left to a coarser level by PageOptions::share
+  std::uint64_t points_capped = 0;            ///< that the deepest level does not suffice for
+  Records<Omission, kMaxOmissions> omission;  ///< the first omission_count are used
+  int omission_count = 0;                     ///< may exceed kMaxOmissions
+
+  /// Texels along each side of a page's slot.
+  [[nodiscard]] int slot_texels() const noexcept { return page_texels + 2 * border_texels; }
+  /// The omissions, at most kMaxOmissions.
+  [[nodiscard]] std::span<const Omission> omitted() const noexcept {
+    return {omission.data(),
+            static_cast<std::size_t>(omission_count < kMaxOmissions ? omission_count : kMaxOmissions)};
+  }
+};
+
+/// Chooses the pages that visible points need. Pure: the same input gives the same bits. Allocates nothing,
+/// never throws; broken input comes back as PlanStatus::invalid_input with the field.
+///
+/// The base of the levels is one map of make_plan for each part of the light: PlanOptions::fit stable gives
+/// levels whose texels and pages stay at the same place in the world under camera motion, so that pages can
+/// be cached; any other fit one map round the visible receivers. PlanOptions::warp.warp warps that base; none
+/// is the default here, as levels already follow the view. Every face of a cube round a local light has
+/// levels of its own. PlanOptions::filter sets the border. resolution, split, cascades and cadence have no
+/// effect.
+///
+/// A point is served by the page of the last level in the list that has one there (page_serving). Texels
+/// halve from level to level along both axes together, so that a finer level is finer along both.
+/// PageOptions::policy decides each point's level. Takes time in proportion to the points.
+/// Based on: Lefohn, Sengupta, Owens, "Resolution-Matched Shadow Maps", 2007; Giegl, Wimmer, "Fitted Virtual
+/// Shadow Maps", 2007. The levels' sizes between powers of two are this project's.
+[[nodiscard]] PagePlan plan_pages(const Camera& camera, const Light& light, const SceneBounds& bounds,
+                                  const SeenPoints& seen, const PlanOptions& options,
+                                  const PageOptions& pages, const PageMemory& memory) noexcept;
+
+/// Index of the resident page at a column and row of a level, or -1.
+[[nodiscard]] int page_at(const PagePlan& plan, std::uint32_t level, std::int32_t column,
+                          std::int32_t row) noexcept;
+/// Index of the page that serves a point, or -1: of the last level that has a resident page there.
+[[nodiscard]] int page_serving(const PagePlan& plan, const glm::dvec3& point_world) noexcept;
+
+/// A page as a map of its own, slot_texels along each side, with the border as filter_margin_texels: to draw
+/// it, read it, and cull its casters. Its cull planes hold every caster that its texels can show.
+[[nodiscard]] ShadowMap page_map(const PagePlan& plan, const Page& page) noexcept;
+
+/// The error over the points that a page plan serves.
+struct PageStats {
+  AliasingStats m;                ///< of m_max; storage is that of the pages, borders included
+  double worst_side = 0.0;        ///< largest m_s or m_t
+  double p95_side = 0.0;          ///< error that 95 % of the points stay below, of the larger of m_s and m_t
+  double texels_per_pixel = 0.0;  ///< pages, without borders, over the pixels of the camera
+  double border_share = 0.0;      ///< texels of borders over those of pages without them
+};
+/// The error at visible points, in the pages that serve them. With normals at their surfaces, points that
+/// face away are not counted. Allocates nothing; plans without pages give zeros.
+[[nodiscard]] PageStats measure_pages(const PagePlan& plan, const Camera& camera,
+                                      const SeenPoints& seen) noexcept;
+/// The same over the visible part of the receivers' boxes, as measure() samples it.
+[[nodiscard]] PageStats measure_pages(const PagePlan& plan, const Camera& camera, const SceneBounds& bounds,
+                                      const MeasureGrid& grid = {}) noexcept;
+
+}  // namespace gnomon

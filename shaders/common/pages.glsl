@@ -1,0 +1,30 @@
+// The pages of the frame: each is a map of its own, somewhere in a layer of the pool.
+#ifndef GNOMON_COMMON_PAGES_GLSL
+#define GNOMON_COMMON_PAGES_GLSL
+#include "common/frame.glsl"
+#include "library/pages.glsl"
+
+struct PageRecord {
+  mat4 clip_from_point;  // x, y -1..1 over the layer of the pool, z 0 near the light .. w
+  uvec4 key;             // level, column, row; layer
+};
+
+layout(std430, binding = 2) readonly buffer PageLevels { PageLevel page_levels[]; };
+layout(std430, binding = 3) readonly buffer PageRecords { PageRecord page_records[]; };
+layout(std430, binding = 4) readonly buffer PageTable {
+  uvec4 page_counts;  // levels; entries of the table; border of a page, texels; 0
+  uint page_entries[];
+};
+
+PageLevel page_level(int index) { return page_levels[index]; }
+uvec4 page_key(uint page) { return page_records[page].key; }
+uint page_table(uint at) { return page_entries[at]; }
+
+ShadowMap shadow_map(int index) {
+  ShadowMap map = frame.maps[0];
+  map.clip_from_point = page_records[index].clip_from_point;
+  map.interval_size.zw = frame.layer.xy;
+  return map;
+}
+float layer_of_map(int index) { return float(page_records[index].key.w); }
+#endif

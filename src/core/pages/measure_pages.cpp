@@ -1,0 +1,110 @@
+// How good is a page plan? The error at visible points, each in the page that serves it.
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "geometry/vector.hpp"
+#include "gnomon/pages.hpp"
+#include "measure/log_histogram.hpp"
+#include "measure/measure_grid.hpp"
+#include "measure/metric_lanes.hpp"
+
+namespace gnomon {
+namespace {
+
+class PageTally {
+ public:
+  PageTally(const PagePlan& plan, const Camera& camera) noexcept
+      : plan_(plan), camera_(camera), axes_(camera_axes(camera)) {}
+
+  void add(const glm::dvec3& point, const glm::dvec3* normal) noexcept {
+    const int page = page_serving(plan_, point);
+    if (page < 0) {
+      ++outside_;
+      return;
+    }
+    const std::uint32_t level = plan_.pages[static_cast<std::size_t>(page)].level;
+    if (count_ == kMetricLanes || (count_ > 0 && level != level_)) judge();
+    level_ = level;
+    has_normals_ = normal != nullptr;
+    block_.point.set(count_, point);
+    if (normal != nullptr) block_.normal.set(count_, *normal);
+    ++count_;
+  }
+  [[nodiscard]] PageStats stats() noexcept;
+
+ private:
+  void judge() noexcept;
+
+  const PagePlan& plan_;
+  const Camera& camera_;
+  CameraAxes axes_;
+  MetricBlock block_;
+  std::size_t count_ = 0;
+  std::uint32_t level_ = 0;
+  bool has_normals_ = false;
+  LogHistogram<10> histogram_;
+  LogHistogram<8> sides_;
+  double sum_ = 0.0;
+  std::uint64_t undersampled_ = 0, outside_ = 0;
+};
+
+void PageTally::judge() noexcept {
+  const MetricFrame frame(plan_.levels[level_], camera_, axes_);
+  judge_perspective(frame, block_, count_);
+  if (has_normals_) judge_surface(frame, block_, count_);
+  const ExtentLanes& e = has_normals_ ? block_.surface : block_.perspective;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (has_normals_ && !(block_.cos_eye[i] > 0.0 && block_.cos_light[i] > 0.0)) continue;
+    histogram_.add(e.longest[i]);
+    sides_.add(max_of(e.s[i], e.t[i]));
+    sum_ += e.longest[i];
+    if (e.longest[i] > 1.0) ++undersampled_;
+  }
+  count_ = 0;
+}
+
+PageStats PageTally::stats() noexcept {
+  if (count_ > 0) judge();
+  PageStats stats;
+  const double pixels = static_cast<double>(camera_.width) * camera_.height;
+  const double pages = static_cast<double>(plan_.pages.size());
+  const double inside = static_cast<double>(plan_.page_texels) * plan_.page_texels;
+  const double whole = static_cast<double>(plan_.slot_texels()) * plan_.slot_texels();
+  stats.texels_per_pixel = pages * inside / pixels;
+  stats.border_share = (whole - inside) / inside;
+  stats.m.storage = pages * whole / pixels;
+  stats.m.outside = outside_;
+  stats.m.samples = histogram_.count();
+  if (stats.m.samples == 0) return stats;
+  stats.m.p50 = histogram_.percentile(0.50);
+  stats.m.p95 = histogram_.percentile(0.95);
+  stats.m.max = histogram_.largest();
+  stats.m.mean = sum_ / static_cast<double>(stats.m.samples);
+  stats.m.share_undersampled = static_cast<double>(undersampled_) / static_cast<double>(stats.m.samples);
+  stats.worst_side = sides_.largest();
+  stats.p95_side = sides_.percentile(0.95);
+  return stats;
+}
+
+}  // namespace
+
+PageStats measure_pages(const PagePlan& plan, const Camera& camera, const SeenPoints& seen) noexcept {
+  if (plan.pages.empty()) return {};
+  PageTally tally(plan, camera);
+  for (std::size_t i = 0; i < seen.points_world.size(); ++i)
+    tally.add(seen.points_world[i], seen.normals_world.empty() ? nullptr : &seen.normals_world[i]);
+  return tally.stats();
+}
+
+PageStats measure_pages(const PagePlan& plan, const Camera& camera, const SceneBounds& bounds,
+                        const MeasureGrid& grid) noexcept {
+  if (plan.pages.empty()) return {};
+  const Camera finite = with_finite_far(camera, bounds.receivers);
+  PageTally tally(plan, finite);
+  for_each_visible(finite, camera_axes(finite), bounds.receivers, grid,
+                   [&](const glm::dvec3& point, double) { tally.add(point, nullptr); });
+  return tally.stats();
+}
+
+}  // namespace gnomon

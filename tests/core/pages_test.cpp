@@ -1,0 +1,413 @@
+// Page plans by hand: what is refused, what a policy does, and who is told.
+#include "gnomon/pages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+namespace gnomon::test {
+namespace {
+
+struct Memory {
+  explicit Memory(int capacity = 4096, std::size_t count = 1 << 14)
+      : pages(static_cast<std::size_t>(capacity)), table(page_table_size(capacity)), points(count) {}
+  std::vector<ShadowMap> levels = std::vector<ShadowMap>(kMostPageLevels);
+  std::vector<Page> pages;
+  std::vector<std::uint32_t> table;
+  std::vector<PagePoint> points;
+  [[nodiscard]] PageMemory spans() { return {levels, pages, table, points}; }
+};
+
+/// A street of 200 units seen from its end, and its ground as the camera sees it.
+struct Street {
+  Camera camera = perspective_camera({0, 5, 0}, {0, -0.1, -1}, {0, 1, 0}, 1.0, 1.5, 0.5, 250, 960, 640);
+  Light light = DirectionalLight{{0.3, -1, 0.2}};
+  std::vector<Box> boxes = {{{-20, -1, -200}, {20, 30, -1}}};
+  std::vector<glm::dvec3> points, normals;
+  std::vector<std::uint8_t> feedback;
+  PlanOptions plan_options;
+  PageOptions options;
+  const PagePlan* last = nullptr;
+
+  Street() {
+    for (int i = 0; i < 4000; ++i) points.push_back({-4.0 + i % 9, 0.0, -8.0 - 0.045 * i});
+  }
+  [[nodiscard]] PagePlan plan(Memory& memory) const {
+    return plan_pages(camera, light, {boxes, boxes}, {points, normals, feedback, last}, plan_options, options,
+                      memory.spans());
+  }
+};
+
+TEST(Pages, broken_options_are_refused_by_name) {
+  struct Entry {
+    const char* field;
+    void (*change)(Street& street);
+  };
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const Entry entries[] = {
+      {"pages.capacity", [](Street& s) { s.options.capacity = 0; }},
+      {"pages.capacity", [](Street& s) { s.options.capacity = kMostPages + 1; }},
+      {"pages.page_texels", [](Street& s) { s.options.page_texels = 100; }},
+      {"pages.page_texels", [](Street& s) { s.options.virtual_texels = 64; }},
+      {"pages.virtual_texels", [](Street& s) { s.options.virtual_texels = 0; }},
+      {"pages.target_m", [](Street& s) { s.options.target_m = 0.0; }},
+      {"pages.target_m", [](Street& s) { s.options.target_m = kNone; }},
+      {"pages.share", [](Street& s) { s.options.share = 0.0; }},
+      {"pages.levels_per_octave", [](Street& s) { s.options.levels_per_octave = 5; }},
+      {"pages.trials", [](Street& s) { s.options.trials = 0; }},
+      {"pages.reach_texels", [](Street& s) { s.options.reach_texels = -1.0; }},
+      {"pages.least_light_sine", [](Street& s) { s.options.least_light_sine = 2.0; }},
+      {"options.filter.texels", [](Street& s) { s.plan_options.filter.texels = 33.0; }},
+      {"options.filter.world", [](Street& s) { s.plan_options.filter.world = 0.1; }},
+      {"seen.points_world", [](Street& s) { s.points[7].y = kNone; }},
+      {"seen.points_world", [](Street& s) { s.points[7].y = std::numeric_limits<double>::infinity(); }},
+      {"seen.normals_world",
+       [](Street& s) {
+         s.normals.assign(3, {0, 1, 0});
+       }},
+      {"seen.normals_world",
+       [](Street& s) {
+         s.normals.assign(4000, {0, kNone, 0});
+       }},
+      {"seen.feedback", [](Street& s) { s.feedback.assign(3999, 0); }},
+      {"camera.far_depth", [](Street& s) { s.camera.far_depth = 0.1; }},
+      {"light.direction",
+       [](Street& s) {
+         s.light = DirectionalLight{{0, 0, 0}};
+       }},
+  };
+  Memory memory;
+  for (const Entry& entry : entries) {
+    Street street;
+    entry.change(street);
+    const PagePlan plan = street.plan(memory);
+    EXPECT_EQ(plan.status, PlanStatus::invalid_input) << entry.field;
+    EXPECT_EQ(plan.invalid_field, entry.field);
+    EXPECT_TRUE(plan.pages.empty());
+  }
+}
+
+TEST(Pages, memory_that_is_too_small_is_refused_by_name) {
+  const Street street;
+  Memory memory;
+  const auto field_of = [&](const PageMemory& spans) {
+    return plan_pages(street.camera, street.light, {street.boxes, street.boxes}, {street.points}, {}, {},
+                      spans)
+        .invalid_field;
+  };
+  PageMemory spans = memory.spans();
+  EXPECT_EQ(field_of(spans), "");
+  spans.levels = spans.levels.first(kMostPageLevels - 1);
+  EXPECT_EQ(field_of(spans), "memory.levels");
+  spans = memory.spans();
+  spans.pages = spans.pages.first(4095);
+  EXPECT_EQ(field_of(spans), "memory.pages");
+  spans = memory.spans();
+  spans.table = spans.table.first(spans.table.size() - 1);
+  EXPECT_EQ(field_of(spans), "memory.table");
+  spans = memory.spans();
+  spans.points = spans.points.first(3999);
+  EXPECT_EQ(field_of(spans), "memory.points");
+}
+
+TEST(Pages, a_pool_that_cannot_hold_one_page_for_each_map_is_refused) {
+  Street street;
+  street.light = PointLight{{0.0, 8.0, -20.0}, 300.0};
+  street.options.capacity = 1;
+  Memory memory;
+  EXPECT_EQ(street.plan(memory).invalid_field, "pages.capacity");
+  street.options.capacity = 6;
+  EXPECT_EQ(street.plan(memory).status, PlanStatus::ok);
+}
+
+TEST(Pages, nothing_visible_and_no_caster_are_values) {
+  Street street;
+  Memory memory;
+  const std::vector<Box> none;
+  const auto plan_with = [&](const SceneBounds& bounds) {
+    return plan_pages(street.camera, street.light, bounds, {street.points}, {}, {}, memory.spans());
+  };
+  EXPECT_EQ(plan_with({street.boxes, none}).status, PlanStatus::nothing_visible);
+  EXPECT_EQ(plan_with({none, street.boxes}).status, PlanStatus::no_caster);
+  // Receivers in view, and points of another scene.
+  for (glm::dvec3& point : street.points) point.x += 5000.0;
+  const PagePlan beside = plan_with({street.boxes, street.boxes});
+  EXPECT_EQ(beside.status, PlanStatus::nothing_visible);
+  EXPECT_EQ(beside.points_outside, street.points.size());
+  EXPECT_EQ(page_serving(beside, street.points[0]), -1);
+  EXPECT_EQ(measure_pages(beside, street.camera, {street.points}).m.samples, 0u);
+}
+
+TEST(Pages, one_point_takes_one_page_of_the_level_that_it_needs) {
+  Street street;
+  street.points = {{0.3, 0.0, -40.0}};
+  Memory memory;
+  const PagePlan plan = street.plan(memory);
+  ASSERT_EQ(plan.pages.size(), 1u);
+  ASSERT_EQ(plan.levels.size(), 1u);
+  const PointAliasing m = measure_perspective(plan.levels[0], street.camera, street.points[0]);
+  EXPECT_LE(std::max(m.m_s, m.m_t), 1.0 + 1e-6);
+  // The next coarser level has texels of 2^(1/3).
+  EXPECT_GT(std::max(m.m_s, m.m_t), 1.0 / std::cbrt(2.0) - 1e-6);
+}
+
+TEST(Pages, normals_ask_for_what_their_surfaces_need) {
+  Street street;
+  street.points = {{0.3, 0.0, -40.0}};
+  Memory memory;
+  // A wall that the sun grazes: pixels there are far smaller in the map than on the ground.
+  const glm::dvec3 grazed = glm::normalize(glm::dvec3(-1.0, 0.0, 0.3));
+  double texel[2];
+  for (int i = 0; i < 2; ++i) {
+    street.normals = {i == 0 ? glm::dvec3(0, 1, 0) : grazed};
+    const PagePlan plan = street.plan(memory);
+    ASSERT_EQ(plan.pages.size(), 1u);
+    texel[i] = plan.levels[0].texel_world.x;
+    const PointAliasing m = measure_point(plan.levels[0], street.camera, street.points[0], street.normals[0]);
+    if (m.status == PointAliasing::Status::ok) {
+      EXPECT_LE(std::max(m.m_s, m.m_t), 1.0 + 1e-6);
+    }
+    EXPECT_EQ(plan.points_capped, 0u);
+  }
+  EXPECT_NE(texel[0], texel[1]);
+  // Turned from the light: any page will do, and the coarsest is enough.
+  street.normals = {{0, -1, 0}};
+  street.camera.position = {0, -5, 0};
+  street.camera.forward = {0, 0.1, -1};
+  const PagePlan dark = street.plan(memory);
+  ASSERT_EQ(dark.pages.size(), 1u);
+  EXPECT_EQ(dark.levels[0].width, dark.page_texels);
+  // Edge-on to the light: no level resolves it, which the plan reports.
+  street.normals = {glm::normalize(glm::cross(glm::dvec3(0.3, -1, 0.2), glm::dvec3(1, 0, 0)))};
+  if (street.normals[0].z < 0.0) street.normals[0] = -street.normals[0];
+  street.camera.position = {0, 5, 0};
+  const PagePlan edge = street.plan(memory);
+  ASSERT_EQ(edge.omission_count, 1);
+  EXPECT_EQ(edge.omission[0].kind, OmissionKind::points_beyond_levels);
+  EXPECT_STREQ(describe(edge.omission[0]).why.data(),
+               "1 visible points need more texels than the deepest level has");
+}
+
+TEST(Pages, without_points_the_boxes_are_sampled) {
+  Street street;
+  street.points.clear();
+  Memory memory;
+  street.options.target_m = 4.0;
+  const PagePlan plan = street.plan(memory);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  EXPECT_GT(plan.points, 3000u);
+  const PageStats stats =
+      measure_pages(plan, street.camera, SceneBounds{street.boxes, street.boxes}, {16, 9, 16});
+  EXPECT_GT(stats.m.samples, 200u);
+  EXPECT_LT(stats.p95_side, plan.target_m * 1.5);
+}
+
+TEST(Pages, a_small_pool_coarsens_all_levels_and_says_so) {
+  Street street;
+  Memory memory;
+  const PagePlan whole = street.plan(memory);
+  street.options.capacity = static_cast<int>(whole.pages.size()) / 3;
+  Memory small(street.options.capacity);
+  const PagePlan plan = street.plan(small);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  EXPECT_LE(plan.pages.size(), static_cast<std::size_t>(street.options.capacity));
+  EXPECT_GT(plan.pages.size(), static_cast<std::size_t>(street.options.capacity) / 2);
+  EXPECT_GT(plan.target_m, 1.0);
+  EXPECT_EQ(plan.points, whole.points);
+  ASSERT_EQ(plan.omission_count, 1);
+  EXPECT_EQ(plan.omission[0].kind, OmissionKind::pages_coarsened);
+  EXPECT_EQ(plan.omission[0].b, plan.target_m);
+  const PageStats stats = measure_pages(plan, street.camera, {street.points});
+  EXPECT_EQ(stats.m.outside, 0u);
+  EXPECT_LE(stats.worst_side, plan.target_m * (1.0 + 1e-6));
+}
+
+TEST(Pages, a_share_below_one_gives_up_the_pages_of_few_points) {
+  Street street;
+  // Clusters, and some points on their own.
+  for (int i = 0; i < 60; ++i) street.points.push_back({10.0 + 0.1 * i, 20.0 - 0.2 * i, -12.0 - 2.9 * i});
+  Memory memory;
+  const PagePlan whole = street.plan(memory);
+  street.options.share = 0.95;
+  Memory second;
+  const PagePlan plan = street.plan(second);
+  EXPECT_LT(plan.pages.size(), whole.pages.size());
+  EXPECT_GT(plan.points_coarser, 0u);
+  std::size_t above = 0;
+  for (const glm::dvec3& point : street.points) {
+    const int page = page_serving(plan, point);
+    ASSERT_GE(page, 0);
+    const PointAliasing m = measure_perspective(plan.levels[plan.pages[static_cast<std::size_t>(page)].level],
+                                                street.camera, point);
+    above += std::max(m.m_s, m.m_t) > 1.0 + 1e-6;
+  }
+  EXPECT_GT(above, 0u);
+  EXPECT_LE(above, plan.points_coarser);
+  EXPECT_LE(static_cast<double>(plan.points_coarser), 0.05 * static_cast<double>(street.points.size()));
+}
+
+TEST(Pages, the_fallback_holds_every_place_of_the_coarsest_level) {
+  Street street;
+  street.points = {{0.3, 0.0, -40.0}};
+  street.options.fallback = true;
+  Memory memory;
+  const PagePlan plan = street.plan(memory);
+  EXPECT_EQ(plan.pages.size(), 2u);
+  EXPECT_EQ(page_serving(plan, {-15.0, 0.0, -120.0}), 0);
+  EXPECT_EQ(page_serving(plan, street.points[0]), 1);
+}
+
+TEST(Pages, a_wider_reach_opens_the_pages_round_each_point) {
+  Street street;
+  Memory memory;
+  const std::size_t points_alone = street.plan(memory).pages.size();
+  street.options.reach_texels = 64.0;
+  const PagePlan plan = street.plan(memory);
+  EXPECT_GT(plan.pages.size(), points_alone);
+  for (const glm::dvec3& point : street.points) {
+    const Page& page = plan.pages[static_cast<std::size_t>(page_serving(plan, point))];
+    // 0.9 of the reach along the level's x, on the ground across the light.
+    const ShadowMap& level = plan.levels[page.level];
+    const double step = 0.9 * 64.0 * level.texel_world.x;
+    const glm::dvec3 axis = glm::normalize(
+        glm::dvec3(level.clip_from_world[0][0], level.clip_from_world[1][0], level.clip_from_world[2][0]));
+    const int beside = page_serving(plan, point + axis * step);
+    ASSERT_GE(beside, 0);
+    EXPECT_GE(plan.pages[static_cast<std::size_t>(beside)].level, page.level);
+  }
+}
+
+TEST(Pages, clipmap_levels_are_octaves_of_square_texels) {
+  Street street;
+  street.options.policy = &page_policies::clipmap;
+  Memory memory;
+  const PagePlan plan = street.plan(memory);
+  ASSERT_GT(plan.levels.size(), 2u);
+  for (const ShadowMap& level : plan.levels) {
+    EXPECT_NEAR(level.texel_world.x, level.texel_world.y, 1e-12 * level.texel_world.x);
+    const double octave = std::log2(level.snap_key.texel);
+    EXPECT_NEAR(octave, std::round(octave), 1e-12);
+  }
+  street.options.policy = &page_policies::resolution;
+  Memory other;
+  EXPECT_LT(street.plan(other).pages.size(), plan.pages.size());
+}
+
+TEST(Pages, edges_spend_texels_at_shadow_edges_alone) {
+  Street street;
+  street.options.policy = &page_policies::edges;
+  street.feedback.assign(street.points.size(), 0);
+  Memory memory;
+  const std::size_t none = street.plan(memory).pages.size();
+  for (std::size_t i = 1000; i < 1200; ++i) street.feedback[i] = kShadowEdge | kDepthEdge;
+  const PagePlan plan = street.plan(memory);
+  EXPECT_GT(plan.pages.size(), none);
+  for (std::size_t i = 0; i < street.points.size(); ++i) {
+    const Page& page = plan.pages[static_cast<std::size_t>(page_serving(plan, street.points[i]))];
+    const PointAliasing m = measure_perspective(plan.levels[page.level], street.camera, street.points[i]);
+    EXPECT_LE(std::max(m.m_s, m.m_t), (street.feedback[i] != 0 ? 1.0 : 8.0) + 1e-5);
+  }
+  street.options.policy = &page_policies::resolution;
+  EXPECT_GT(street.plan(memory).pages.size(), 2 * plan.pages.size());
+}
+
+TEST(Pages, queried_refines_by_an_octave_where_the_picture_changed) {
+  Street street;
+  street.options.policy = &page_policies::queried;
+  street.plan_options.fit = Fit::stable;  // the same grids in every frame
+  Memory memory[2];
+  const PagePlan first = street.plan(memory[0]);
+  ASSERT_EQ(first.status, PlanStatus::ok);
+  street.last = &first;
+  street.feedback.assign(street.points.size(), 0);
+  const PagePlan unchanged = street.plan(memory[1]);
+  EXPECT_EQ(unchanged.pages.size(), first.pages.size());
+  for (std::size_t i = 0; i < 500; ++i) street.feedback[i] = kShadowChanged;
+  const PagePlan refined = street.plan(memory[1]);
+  const auto texel = [](const PagePlan& plan, const glm::dvec3& point) {
+    return plan.levels[plan.pages[static_cast<std::size_t>(page_serving(plan, point))].level].texel_world.x;
+  };
+  EXPECT_NEAR(texel(refined, street.points[100]), 0.5 * texel(first, street.points[100]), 1e-9);
+  EXPECT_NEAR(texel(refined, street.points[3999]), texel(first, street.points[3999]), 1e-9);
+}
+
+TEST(Pages, tiled_gives_more_of_the_pool_to_tiles_with_depth_edges) {
+  Street street;
+  street.options.policy = &page_policies::tiled;
+  street.options.capacity = 200;
+  Memory memory(200);
+  street.feedback.assign(street.points.size(), 0);
+  const PagePlan even = street.plan(memory);
+  ASSERT_EQ(even.status, PlanStatus::ok);
+  EXPECT_LE(even.pages.size(), 200u);
+  const auto texel = [&](const PagePlan& plan, std::size_t i) {
+    return plan.levels[plan.pages[static_cast<std::size_t>(page_serving(plan, street.points[i]))].level]
+        .texel_world.x;
+  };
+  const double before = texel(even, 3900);
+  for (std::size_t i = 3500; i < 4000; ++i) street.feedback[i] = kDepthEdge;
+  EXPECT_LT(texel(street.plan(memory), 3900), before);
+}
+
+TEST(Pages, a_light_inside_a_caster_is_planned_and_reported) {
+  Street street;
+  street.light = PointLight{{0.0, 8.0, -20.0}, 300.0};
+  street.boxes.push_back({{-1.0, 7.0, -21.0}, {1.0, 9.0, -19.0}});
+  Memory memory;
+  const PagePlan plan = street.plan(memory);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  EXPECT_TRUE(std::any_of(plan.omitted().begin(), plan.omitted().end(),
+                          [](const Omission& o) { return o.kind == OmissionKind::depth_near_light; }));
+  for (std::size_t i = 0; i < street.points.size(); i += 50)
+    EXPECT_GE(page_serving(plan, street.points[i]), 0);
+}
+
+TEST(Pages, scenes_at_the_end_of_the_range_are_planned_or_refused) {
+  for (const double offset : {1e12, 1e20, 9e29}) {
+    for (const Fit fit : {Fit::tight, Fit::stable}) {
+      Street street;
+      street.plan_options.fit = fit;
+      street.camera.position += offset;
+      for (Box& box : street.boxes) box = {box.min + offset, box.max + offset};
+      for (glm::dvec3& point : street.points) point += offset;
+      Memory memory;
+      const PagePlan plan = street.plan(memory);
+      for (const Page& page : plan.pages) {
+        EXPECT_GE(page.column, 0);
+        EXPECT_GE(page.row, 0);
+        EXPECT_TRUE(std::isfinite(page_map(plan, page).clip_from_world[3][0]));
+      }
+      EXPECT_LE(plan.points + plan.points_outside, street.points.size());
+    }
+  }
+}
+
+TEST(Pages, names_find_their_policies) {
+  EXPECT_EQ(all_page_policies().size(), 5u);
+  for (const PagePolicy* policy : all_page_policies()) {
+    EXPECT_EQ(find_page_policy(policy->name), policy);
+    EXPECT_FALSE(policy->summary.empty());
+  }
+  EXPECT_EQ(find_page_policy("none"), nullptr);
+}
+
+TEST(Pages, a_million_points_and_a_far_plane_at_infinity_are_planned) {
+  Street street;
+  street.camera.far_depth = std::numeric_limits<double>::infinity();
+  const std::vector<glm::dvec3> few = street.points;
+  for (int copy = 0; copy < 249; ++copy) street.points.insert(street.points.end(), few.begin(), few.end());
+  Memory memory(4096, street.points.size());
+  const PagePlan many = street.plan(memory);
+  ASSERT_EQ(many.status, PlanStatus::ok);
+  EXPECT_EQ(many.points, 1000000u);
+  street.points = few;
+  Memory other;
+  EXPECT_EQ(many.pages.size(), street.plan(other).pages.size());
+}
+
+}  // namespace
+}  // namespace gnomon::test

@@ -1,0 +1,158 @@
+// Are pages drawn and read as one map would be: at their borders, under every filter that reads depths?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "gnomon/render/renderer.hpp"
+#include "mask_frame.hpp"
+#include "test_scene.hpp"
+
+namespace gnomon::render {
+namespace {
+
+struct Memory {
+  std::vector<ShadowMap> levels = std::vector<ShadowMap>(kMostPageLevels);
+  std::vector<Page> pages = std::vector<Page>(4096);
+  std::vector<std::uint32_t> table = std::vector<std::uint32_t>(page_table_size(4096));
+  std::vector<PagePoint> points = std::vector<PagePoint>(1 << 17);
+  [[nodiscard]] PageMemory spans() { return {levels, pages, table, points}; }
+};
+
+/// A scene with what its camera sees.
+struct Stage {
+  Scene scene = box_on_ground();
+  Camera camera = camera_on_box(kSize, kSize);
+  Light light = DirectionalLight{kSlant};
+  Renderer renderer{scene};
+  std::vector<Box> boxes = boxes_of(scene);
+  std::vector<glm::dvec3> points;
+  std::vector<std::size_t> pixels;  ///< of the points
+  FloatImage normals;
+  Memory memory;
+
+  Stage() {
+    const Frame frame = render::draw(renderer, camera, ShadowPlan{}, filters::hard);
+    normals = frame.normals;
+    for (std::size_t i = 0; i < frame.pixels(); ++i) {
+      if (!frame.surface(i)) continue;
+      points.push_back(frame.point(i));
+      pixels.push_back(i);
+    }
+  }
+  [[nodiscard]] PagePlan plan(const FilterSettings& filter, PageOptions pages = {},
+                              PlanOptions options = {}) {
+    set_margin(filter, options);
+    return plan_pages(camera, light, {boxes, boxes}, {points}, options, pages, memory.spans());
+  }
+  FloatImage mask(const PagePlan& plan, const FilterSettings& filter) {
+    FrameOptions options;
+    options.time_passes = false;
+    renderer.draw(plan, camera, renderer.prepare_pages(filter), options);
+    return renderer.mask();
+  }
+};
+
+FilterSettings settings_of(const char* text) {
+  return parse_filter(text).settings;
+}
+
+TEST(PagesRender, pages_of_one_level_are_that_level_drawn_whole) {
+  Stage stage;
+  for (const char* name : {"hard", "pcf:radius=2", "pcf:radius=5", "pcss:radius=6"}) {
+    SCOPED_TRACE(name);
+    const FilterSettings filter = settings_of(name);
+    PageOptions pages;
+    pages.policy = &page_policies::queried;  // its first frame has one level
+    pages.page_texels = 64;
+    const PagePlan plan = stage.plan(filter, pages);
+    ASSERT_EQ(plan.levels.size(), 1u);
+    ASSERT_GT(plan.pages.size(), 100u);
+    const FloatImage by_pages = stage.mask(plan, filter);
+
+    ShadowPlan whole = make_plan(stage.camera, stage.light, {stage.boxes, stage.boxes});
+    whole.map_count = 1;
+    const double begin = whole.map[0].depth_begin;
+    whole.map[0] = plan.levels[0];
+    whole.map[0].depth_begin = begin;
+    whole.map[0].depth_end = stage.camera.far_depth;
+    const Frame by_map = render::draw(stage.renderer, stage.camera, whole, filter);
+    std::size_t differ = 0, dark = 0;
+    for (const std::size_t i : stage.pixels) {
+      differ += std::abs(by_pages.values[2 * i] - by_map.lit(i)) > 0.02f;
+      dark += by_map.lit(i) < 0.5f;
+      EXPECT_GE(by_pages.values[2 * i + 1], 0.0f);
+    }
+    // Triangles are rasterized relative to their page: samples on an edge fall to either side of it.
+    EXPECT_LE(differ, stage.pixels.size() / 500);
+    EXPECT_GT(dark, 300u);
+  }
+}
+
+TEST(PagesRender, the_shader_takes_the_page_that_the_plan_names) {
+  Stage stage;
+  for (const Light& light : {Light{DirectionalLight{kSlant}}, Light{PointLight{{-4.0, 6.0, 3.0}, 60.0}},
+                             Light{SpotLight{{-4.0, 6.0, 3.0}, {0.5, -0.8, -0.3}, 0.9, 60.0}}}) {
+    stage.light = light;
+    const FilterSettings filter = settings_of("hard");
+    const PagePlan plan = stage.plan(filter);
+    ASSERT_EQ(plan.status, PlanStatus::ok);
+    ASSERT_GT(plan.levels.size(), 1u);
+    const FloatImage mask = stage.mask(plan, filter);
+    std::size_t differ = 0;
+    for (std::size_t k = 0; k < stage.points.size(); ++k)
+      differ += static_cast<int>(mask.values[2 * stage.pixels[k] + 1]) != page_serving(plan, stage.points[k]);
+    // On the edge of a page its neighbour is as good.
+    EXPECT_LE(differ, stage.points.size() / 200);
+  }
+}
+
+TEST(PagesRender, shadows_are_those_of_the_box_but_for_a_texel) {
+  Stage stage;
+  for (const char* name : {"hard", "pcf:radius=1"}) {
+    SCOPED_TRACE(name);
+    const FilterSettings filter = settings_of(name);
+    PageOptions pages;
+    pages.target_m = 0.5;
+    const PagePlan plan = stage.plan(filter, pages);
+    const FloatImage mask = stage.mask(plan, filter);
+    std::size_t wrong = 0, shadow = 0;
+    for (std::size_t k = 0; k < stage.points.size(); ++k) {
+      const std::size_t i = stage.pixels[k];
+      const glm::dvec3 n{stage.normals.values[4 * i], stage.normals.values[4 * i + 1],
+                         stage.normals.values[4 * i + 2]};
+      if (glm::dot(n, kSlant) > -0.1) continue;
+      const glm::dvec3 from = stage.points[k] + n * 1e-3;
+      const bool dark = hits_box(from, -kSlant, glm::dvec3(kBoxMin), glm::dvec3(kBoxMax));
+      shadow += dark;
+      wrong += dark == (mask.values[2 * i] > 0.5f);
+    }
+    EXPECT_GT(shadow, 300u);
+    EXPECT_LE(wrong, stage.points.size() / 200);
+  }
+}
+
+TEST(PagesRender, filters_that_store_texels_are_refused_by_name) {
+  Stage stage;
+  try {
+    (void)stage.renderer.prepare_pages(settings_of("vsm"));
+    FAIL() << "not refused";
+  } catch (const RenderError& error) {
+    EXPECT_NE(std::string(error.what()).find("vsm"), std::string::npos) << error.what();
+  }
+}
+
+TEST(PagesRender, a_plan_without_pages_leaves_everything_lit) {
+  Stage stage;
+  const FilterSettings filter = settings_of("hard");
+  const std::vector<Box> none;
+  const PagePlan plan = plan_pages(stage.camera, stage.light, {none, stage.boxes}, {stage.points}, {}, {},
+                                   stage.memory.spans());
+  ASSERT_EQ(plan.status, PlanStatus::no_caster);
+  const FloatImage mask = stage.mask(plan, filter);
+  for (const std::size_t i : stage.pixels) EXPECT_EQ(mask.values[2 * i], 1.0f);
+}
+
+}  // namespace
+}  // namespace gnomon::render
