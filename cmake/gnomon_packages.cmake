@@ -3,7 +3,9 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME gnomon)
 set(CPACK_PACKAGE_VENDOR gnomon)
-set(CPACK_PACKAGE_CONTACT "The gnomon authors <gnomon@example.org>")
+set(GNOMON_MAINTAINER "The gnomon authors <gnomon@example.org>" CACHE STRING
+  "Who answers for the Debian packages: NAME <ADDRESS>. The default's address answers nobody: set it before you publish.")
+set(CPACK_PACKAGE_CONTACT "${GNOMON_MAINTAINER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)

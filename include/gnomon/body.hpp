@@ -72,9 +72,9 @@ void clip(Polytope& body, const Plane& plane) noexcept;
 /// Clips by the six planes of `box` (same space as the body); an empty box empties the body.
 void clip(Polytope& body, const Box& box) noexcept;
 
-/// Planes of `body` swept towards a light: those of its faces that have the light on their inner side, and a
-/// plane through each edge of its silhouette and the light. `light` is a direction towards parallel light
-/// with w = 0, of any length, or a position with w = 1. Returns how many were written.
+/// Planes of `body` swept towards a light. They are those of its faces that have the light on their inner
+/// side, and one through each edge of its silhouette and the light. `light` is a direction towards parallel
+/// light with w = 0, of any length, or a position with w = 1. Returns how many were written.
 int swept_planes(const Polytope& body, const glm::dvec4& light,
                  std::span<Plane, kMaxCullPlanes> out) noexcept;
 

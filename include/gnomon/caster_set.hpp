@@ -24,11 +24,11 @@ struct CasterBlock {
   std::uint8_t unusable = 0;  ///< lanes at or below which a box is none that make_plan takes, see usable()
 };
 
-/// Boxes sorted once into a flat tree, eight children to a node and no pointer: for plans of scenes with many
-/// boxes (SceneBounds takes sets in place of lists, of receivers as well), and for culling many casters for
-/// many maps. Gives the same plans as lists and the same casters as cull_casters, bit for bit: bounds only
-/// grow towards the root and rounding is monotone, so that a node outside of a plane, or inside, stands for
-/// every box below it.
+/// Boxes sorted once into a flat tree, eight children to a node and no pointer. It serves plans of scenes
+/// with many boxes (SceneBounds takes sets in place of lists, of receivers as well), and culls many casters
+/// for many maps. Gives the same plans as lists and the same casters as cull_casters, bit for bit: bounds
+/// only grow towards the root and rounding is monotone. A node outside of a plane, or inside, therefore
+/// stands for every box below it.
 ///
 /// The memory is the caller's and must outlive the set; the boxes are copied into it. Building takes O(n log
 /// n), culling time grows with what lies across the planes, not with what lies inside or outside of them.

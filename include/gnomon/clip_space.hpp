@@ -51,9 +51,9 @@ inline constexpr ClipSpace kMetal = kDirect3D;
 /// such as the viewer's own from clip_from_view.
 [[nodiscard]] glm::dmat4 clip_from_gl_clip(const ClipSpace& target) noexcept;
 
-/// The matrix that takes `source` clip space to where the map is read: after the division by w, x and y are
-/// texture coordinates with (0, 0) at the first texel of the first row and 1 at the far edges, and z is the
-/// depth as a depth buffer holds it, in [0, 1]. For OpenGL, that is with the default glDepthRange.
+/// The matrix that takes `source` clip space to where the map is read. After the division by w, x and y are
+/// texture coordinates: (0, 0) at the first texel of the first row, 1 at the far edges. z is the depth as a
+/// depth buffer holds it, in [0, 1]. For OpenGL, that is with the default glDepthRange.
 [[nodiscard]] glm::dmat4 texture_from_clip(const ClipSpace& source) noexcept;
 
 }  // namespace gnomon

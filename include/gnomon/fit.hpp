@@ -19,7 +19,7 @@ enum class Fit : std::uint8_t {
 [[nodiscard]] bool fit_from_name(std::string_view name, Fit& fit) noexcept;
 
 /// The longest distance between two corners of the frustum slice [begin, end] of a camera with these image
-/// edges, from view space, so that it is the same bits every frame. Image edges as in Camera. This is the
+/// edges. It is found in view space: the same bits every frame. Image edges as in Camera. This is the
 /// side of a square that holds the slice from every direction; never above the diameter of the smallest
 /// enclosing sphere.
 [[nodiscard]] double longest_chord(double left, double right, double bottom, double top, bool orthographic,

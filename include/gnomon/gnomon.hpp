@@ -13,6 +13,7 @@
 #include "gnomon/clip_space.hpp"
 #include "gnomon/fit.hpp"
 #include "gnomon/history.hpp"
+#include "gnomon/jitter.hpp"
 #include "gnomon/light.hpp"
 #include "gnomon/metric.hpp"
 #include "gnomon/partition.hpp"

@@ -74,9 +74,9 @@ struct MeasureGrid {
   int columns = 64, rows = 64, depths = 64;  ///< each at least 1
 };
 
-/// Perspective error over the visible part of the receivers: a grid of pixels, and along each pixel's ray
-/// depths evenly spaced in their logarithm between the camera's near and far plane, kept where they lie in a
-/// receiver box. Allocates nothing: percentiles come from a histogram of log m with bins of 0.1 %. Plans
+/// Perspective error over the visible part of the receivers. Samples are a grid of pixels, with depths along
+/// each pixel's ray evenly spaced in their logarithm from near to far plane. Those in a receiver box
+/// count. Allocates nothing: percentiles come from a histogram of log m with bins of 0.1 %. Plans
 /// without maps give zeros.
 [[nodiscard]] AliasingStats measure(const ShadowPlan& plan, const Camera& camera, const SceneBounds& bounds,
                                     const MeasureGrid& grid = {}) noexcept;

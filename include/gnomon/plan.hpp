@@ -123,8 +123,8 @@ struct ShadowMap {
   std::array<glm::dvec4, kMaxSelectPlanes> select_planes{};
   int select_plane_count = 0;  ///< entries of select_planes that are used
   SnapKey snap_key;            ///< of Fit::stable: equal keys mean an identical grid
-  /// Perspective part of m along the map's x and y, largest over the body by the simplified weights of Lloyd
-  /// et al. 2006, which ignore that pixels beside the view axis are smaller.
+  /// Perspective part of m along the map's x and y, largest over the body. The weights are the simplified
+  /// ones of Lloyd et al. 2006, which ignore that pixels beside the view axis are smaller.
   double m_s_max = 0.0, m_t_max = 0.0;
   /// Bound of the perspective part of m in any direction, over the body.
   double m_max = 0.0;
@@ -134,8 +134,8 @@ struct ShadowMap {
   [[nodiscard]] TexelGrid texels() const noexcept { return {width, height, shape, shape_parameters}; }
 };
 
-/// Room for so many records. Unset until they are written: setting all of a plan's would take a tenth of the
-/// time that planning takes.
+/// An array of `room` records. A new one leaves them unset: setting all the records of a plan would take a
+/// tenth of the time that planning takes.
 template <typename Record, std::size_t room>
 class Records {
  public:
@@ -171,8 +171,8 @@ struct ShadowPlan {
   /// lights and for receivers parted by planes: the first map that holds it (map_holds), at any depth. A
   /// point that no map holds is lit.
   bool select_by_map = false;
-  /// With select_by_map: of the maps that hold a point not the first serves it, but the one with the most
-  /// texels per area across the light there (SplitOptions::selection). Equal ones: the first.
+  /// With select_by_map: several maps may hold a point. The one with the most texels per area across the
+  /// light there serves it (SplitOptions::selection), not the first. Equal ones: the first.
   bool select_finest = false;
   /// True if map sizes depend on the view (metric_resolution, max_error or texel_budget), so that they may
   /// differ from frame to frame. Renderers then keep images a little larger than the maps.
@@ -214,9 +214,9 @@ struct ShadowPlan {
 /// Share of the visible points' bounds that a map covers beyond them on each side.
 inline constexpr double kPointSafety = 1.0 / 64.0;
 
-/// True where the map shows the point off its filter margin and within its depths: its clip coordinates have
-/// w > 0, its texel lies filter_margin_texels or more inside the map (a quarter texel is left to rounding), z
-/// is in the range of the clip space, and the point is inside all select_planes.
+/// True where the map shows the point off its filter margin and within its depths. Its clip coordinates have
+/// w > 0, and z is in the range of the clip space. Its texel lies filter_margin_texels or more inside the map
+/// (a quarter texel is left to rounding). The point is inside all select_planes.
 [[nodiscard]] bool map_holds(const ShadowPlan& plan, const ShadowMap& map,
                              const glm::dvec3& point_world) noexcept;
 /// Index of the map that serves a point at this view depth, or -1; see ShadowPlan::select_by_map. Depths

@@ -33,8 +33,9 @@ struct ResolutionOptions {
   /// PruneRule::metric_resolution is on; they are never larger unless texel_budget is set.
   int max_size = 1024;
   /// Aliasing error m (screen pixels per texel) that suffices; 0: none, all cascades are used. Above 0, the
-  /// plan takes the fewest cascades whose m_max bound is at or below it, or those with the least bound where
-  /// none are, and makes each map as small as the bound allows. Costs up to `cascades` times as much to plan.
+  /// plan takes the fewest cascades whose m_max bound is at or below it. Where none are, it takes those with
+  /// the least bound. It makes each map as small as the bound allows. Costs up to `cascades` times as much to
+  /// plan.
   double max_error = 0.0;
   /// Most texels that all maps may have together; 0: no budget. Texels are distributed so that all maps have
   /// the same worst-case error, up to kMostMapSize along a side. Sides may differ with Fit::tight and

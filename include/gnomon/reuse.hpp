@@ -28,9 +28,9 @@ enum class ReuseKind : std::uint8_t {
   scrolled,   ///< `kept` holds once moved; `strip` is new
 };
 
-/// How to make the current map from the previous one: copy texel (x, y) of the old map to (x + shift_x, y +
-/// shift_y) of the new one wherever that lies in `kept` (or address the texture modulo its size and copy
-/// nothing), then draw the strips. `kept` and the strips cover the map without overlap, whatever the kind.
+/// How to make the current map from the previous one. Copy texel (x, y) of the old map to (x + shift_x, y +
+/// shift_y) of the new one wherever that lies in `kept`; or address the texture modulo its size and copy
+/// nothing. Then draw the strips. `kept` and the strips cover the map without overlap, whatever the kind.
 struct MapReuse {
   ReuseKind kind = ReuseKind::none;  ///< how much of the old map holds
   int shift_x = 0, shift_y = 0;      ///< texels

@@ -28,8 +28,7 @@ struct ShaderMap {
 struct ShaderBlock {
   glm::vec4 light;  ///< direction of parallel light with w = 0, or position relative to the origin with w = 1
   glm::vec4 bias;   ///< BiasOptions: constant, slope, normal offset, largest slope
-  /// Width and height of the texture's layers in texels; number of maps; how a point finds its map: 0 by view
-  /// depth, 1 select_by_map, 2 select_finest.
+  /// Width and height of the texture's layers in texels; number of maps; shader_selection().
   glm::vec4 layer;
   std::array<ShaderMap, kMaxMaps> maps;  ///< in the order of ShadowPlan::maps; those beyond are zero
 };
@@ -61,6 +60,9 @@ struct ShaderLayers {
 
 /// A map's shape as shaders read it: its place in shapes.def, then its parameters.
 [[nodiscard]] glm::vec4 shader_shape(const ShadowMap& map) noexcept;
+/// How a point finds its map, as `layer.w` of ShaderBlock has it: 0 by view depth, 1 select_by_map, 2
+/// select_finest.
+[[nodiscard]] float shader_selection(const ShadowPlan& plan) noexcept;
 /// Fills the block for the plan's clip space. The shader defines GNOMON_REVERSED_Z where that has
 /// reversed_z. A plan without maps gives a block with none.
 [[nodiscard]] ShaderBlock shader_block(const ShadowPlan& plan, const ShaderLayers& layers = {}) noexcept;

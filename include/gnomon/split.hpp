@@ -14,8 +14,8 @@ namespace gnomon {
 inline constexpr int kMaxMaps = 8;  ///< cascades of one plan; beyond 8 no published figure gains anything
 
 /// `optimal` needs the receivers and is made by the plan: it minimises the plan's objective over the actual
-/// body, and costs some hundred microseconds; with Fit::stable, whose edges must not follow what is in view,
-/// it is logarithmic. `automatic` is logarithmic over the receivers' depths, where that is close to the best,
+/// body, and costs some hundred microseconds. It is logarithmic with Fit::stable, whose edges must not follow
+/// what is in view. `automatic` is logarithmic over the receivers' depths, where that is close to the best,
 /// and practical with Fit::stable, whose range begins at the near plane. split_depths() treats both as
 /// logarithmic. `given` takes the caller's own depths.
 enum class SplitScheme : std::uint8_t {

@@ -15,7 +15,7 @@ inline constexpr int kMaxViews =
 /// m_t_max, m_max and storage of a map are the largest over the cameras.
 ///
 /// Points find their map by what the maps hold (ShadowPlan::select_by_map and select_finest are set), so that
-/// all cameras read the same texels for the same point. clip_from_camera_relative is relative to
+/// all cameras read the same texels for one point. clip_from_camera_relative is relative to
 /// ShadowPlan::origin_world, the mean of the eyes: shaders take points relative to it, or each camera takes
 /// rebased(map, its position).
 ///

@@ -31,8 +31,8 @@ struct ViewInLight {
   double pixel_x, pixel_y;                                  ///< slopes, or world units where orthographic
 };
 
-/// A projective map of the light plane. With u the distance along `axis` from the body's near end and s the
-/// coordinate across it, w = 1 + kappa u, and the point lands at X = (s - centre) / w, Y = u (1 + kappa
+/// A projective map of the light plane. u is the distance along `axis` from the body's near end, s the
+/// coordinate across it, and w = 1 + kappa u. The point lands at X = (s - centre) / w, Y = u (1 + kappa
 /// length) / w. The map's axes are A = dot(row_a, (X, Y)) and B = dot(row_b, (X, Y)); a rectangle in them
 /// round the body's image becomes the map. Every perspective of parallel light rays is of this form.
 struct WarpChoice {

@@ -9,6 +9,7 @@
 #include "library/select_map.glsl"
 #include <filter>
 
+layout(binding = 3) uniform sampler2D noise_tile;
 layout(binding = 4) uniform sampler2DArrayShadow shadow_compare;
 layout(binding = 5) uniform sampler2DArray shadow_depth;
 layout(binding = 7) uniform sampler2DArray shadow_depth_max;
@@ -28,6 +29,14 @@ mat2 texels_per_pixel(ShadowMap map, Surface s) {
   y -= ray * (dot(s.normal, y) / facing);
   MapPoint p = map_point(map, s.position);
   return mat2(dot(p.d_texel_x, x), dot(p.d_texel_y, x), dot(p.d_texel_x, y), dot(p.d_texel_y, y));
+}
+
+// Evenly spread over 0..1 from pixel to pixel, and from frame to frame where SampleNoise says so.
+float frame_noise() {
+  const float kBlue = 2.0;
+  if (frame.selection.z != kBlue) return pixel_noise(gl_FragCoord.xy + frame.selection.w);
+  ivec2 pixel = ivec2(gl_FragCoord.xy) & (textureSize(noise_tile, 0) - 1);
+  return fract(texelFetch(noise_tile, pixel, 0).r + frame.selection.w);
 }
 
 float visibility_through(int index, Surface s, float noise) {
@@ -52,7 +61,7 @@ void main() {
   bool faces_light = dot(s.normal, light) < 0.0;
   mask = vec2(faces_light || count == 0 ? 1.0 : 0.0, float(map));
   if (map < 0 || !faces_light) return;
-  float noise = pixel_noise(gl_FragCoord.xy);
+  float noise = frame_noise();
   float next_share = 0.0;
   if (frame.selection.y > 0.5 && !by_hold && map + 1 < count) {
     next_share = share_of_next_map(shadow_map(map + 1), s.depth);

@@ -41,11 +41,12 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
     float off_plane = abs(at.depth_gradient.x) + abs(at.depth_gradient.y);
     return texture(compare_map, vec4(at.texel / at.layer_size, at.layer, texel_of_depth(min(at.depth - off_plane, 1.0))));
   }
-  float angle = options.value[2] > 0.5 ? at.rotation : 0.0;
+  vec2 direction = vogel_first(options.value[2] > 0.5 ? at.rotation : 0.0);
   float sum = 0.0;
   for (int i = 0; i < samples; ++i) {
-    vec2 point = pattern == kPoisson ? poisson_point(i, samples, angle) : vogel_point(i, samples, angle);
+    vec2 point = pattern == kPoisson ? poisson_point(i, direction) : vogel_radius(i, samples) * direction;
     sum += compare_2x2(depth_map, at, at.texel + at.disc * point);
+    if (pattern != kPoisson) direction = vogel_turned(direction);
   }
   return sum / float(samples);
 }

@@ -22,12 +22,14 @@ mat2 disc_of(ShadowLookup at, float radius_world) {
 float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_map, ShadowLookup at,
                         ShadowOptions options) {
   int search_samples = int(options.value[2]), samples = int(options.value[3]);
-  float angle = options.value[4] > 0.5 ? at.rotation : 0.0;
+  vec2 first = vogel_first(options.value[4] > 0.5 ? at.rotation : 0.0);
   mat2 search = disc_of(at, penumbra_radius(at, options, max(distance_to_depth(at, 0.0), 0.0)));
   float sum = 0.0;
   int blockers = 0;
+  vec2 direction = first;
   for (int i = 0; i < search_samples; ++i) {
-    vec2 texel = floor(at.texel + search * vogel_point(i, search_samples, angle)) + 0.5;
+    vec2 texel = floor(at.texel + search * (vogel_radius(i, search_samples) * direction)) + 0.5;
+    direction = vogel_turned(direction);
     float stored = depth_of_texel(textureLod(depth_map, vec3(texel / at.layer_size, at.layer), 0.0).r);
     if (plane_depth(at, texel - at.texel) <= stored) continue;
     sum += max(distance_to_depth(at, stored), 0.0);
@@ -36,8 +38,10 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
   if (blockers == 0) return 1.0;
   mat2 disc = disc_of(at, penumbra_radius(at, options, sum / float(blockers)));
   float lit = 0.0;
+  direction = first;
   for (int i = 0; i < samples; ++i) {
-    lit += compare_2x2(depth_map, at, at.texel + disc * vogel_point(i, samples, angle));
+    lit += compare_2x2(depth_map, at, at.texel + disc * (vogel_radius(i, samples) * direction));
+    direction = vogel_turned(direction);
   }
   return lit / float(samples);
 }

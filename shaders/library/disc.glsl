@@ -1,21 +1,23 @@
 // Points spread over the unit disc, turned by an angle: for kernels of few samples whose error should look like noise.
 #ifndef GNOMON_LIBRARY_DISC_GLSL
 #define GNOMON_LIBRARY_DISC_GLSL
-// A spiral of golden angles (Vogel 1979): even for every number of points.
-vec2 vogel_point(int i, int count, float angle) {
-  const float kGoldenAngle = 2.3999632;
-  float a = float(i) * kGoldenAngle + angle;
-  return sqrt((float(i) + 0.5) / float(count)) * vec2(cos(a), sin(a));
+// A spiral of golden angles (Vogel 1979): even for every number of points. Point i lies along the direction that has been
+// turned i times, at vogel_radius(i, count): a sine and a cosine for all points, not for each.
+vec2 vogel_first(float angle) { return vec2(cos(angle), sin(angle)); }
+vec2 vogel_turned(vec2 direction) {
+  const vec2 kTurn = vec2(-0.73736886, 0.67549032);  // cosine and sine of the golden angle
+  return vec2(direction.x * kTurn.x - direction.y * kTurn.y, direction.x * kTurn.y + direction.y * kTurn.x);
 }
+float vogel_radius(int i, int count) { return sqrt((float(i) + 0.5) / float(count)); }
 
 // Blue noise whose first points are spread out, however many. Repeats after 64.
 const vec2 kPoissonPoints[64] = vec2[](
 #include "library/poisson_64.glsl"
 );
 
-vec2 poisson_point(int i, int count, float angle) {
+// `direction`: cosine and sine of the angle.
+vec2 poisson_point(int i, vec2 direction) {
   vec2 p = kPoissonPoints[i & 63];
-  float c = cos(angle), s = sin(angle);
-  return vec2(c * p.x - s * p.y, s * p.x + c * p.y);
+  return vec2(direction.x * p.x - direction.y * p.y, direction.y * p.x + direction.x * p.y);
 }
 #endif

@@ -211,7 +211,8 @@ std::string filter_help(const Filter& filter) {
                      wrapped("Source: " + std::string(info.source) + ".", 0) + "\n" + stored_text(filter);
   const std::vector<KeyLine> keys = keys_of(filter);
   if (keys.empty()) return text + "It has no options.\n";
-  std::size_t name = 0, range = 0, fallback = 0;
+  // At least as wide as the words over them.
+  std::size_t name = sizeof "name" + 1, range = sizeof "range" + 1, fallback = sizeof "default" + 1;
   for (const KeyLine& key : keys) {
     name = std::max(name, key.name.size() + 2);
     range = std::max(range, key.range.size() + 2);

@@ -64,6 +64,22 @@ MapBlock map_block(const ShadowMap& planned, const glm::dmat4& drawn_from_plan, 
   return block;
 }
 
+/// What moves the noise in this frame: pixels for interleaved gradient noise (Jimenez 2014, whose
+/// neighbourhoods stay even), a share of 1 for blue noise, whose frames the golden ratio spreads.
+double noise_offset(const FrameOptions& options) noexcept {
+  constexpr double kPixelsPerFrame = 5.588238, kGoldenRatio = 0.6180339887498949;
+  constexpr std::uint32_t kFrames = 64;
+  switch (options.noise) {
+    case SampleNoise::still:
+      return 0.0;
+    case SampleNoise::gradient:
+      return kPixelsPerFrame * static_cast<double>(options.frame_index % kFrames);
+    case SampleNoise::blue:
+      return std::fmod(kGoldenRatio * static_cast<double>(options.frame_index), 1.0);
+  }
+  return 0.0;
+}
+
 }  // namespace
 
 glm::dmat4 drawn_from_plan_clip(const ClipSpace& plan_space) noexcept {
@@ -87,8 +103,8 @@ FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const Frame
   block.light_place = light_place(plan, camera);
   block.layer = glm::vec4(glm::dvec4(layer_width, layer_height, 0.0, camera.far_depth));
   set_lamp(options.light, block);
-  const double selection = plan.select_finest ? 2.0 : plan.select_by_map ? 1.0 : 0.0;
-  block.selection = glm::vec4(glm::dvec4(selection, static_cast<double>(options.transition), 0.0, 0.0));
+  block.selection = glm::vec4(shader_selection(plan), static_cast<float>(options.transition),
+                              static_cast<float>(options.noise), static_cast<float>(noise_offset(options)));
   const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
     block.maps[i] =

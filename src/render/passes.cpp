@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include "blue_noise.hpp"
 #include "program.hpp"
 #include "renderer_impl.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 // Bindings and locations as the shaders state them.
 constexpr GLint kBaseColorLocation = 1, kAlphaCutoffLocation = 2, kClipLocation = 3;
 constexpr GLuint kPositionUnit = 0, kNormalUnit = 1, kAlbedoUnit = 2, kColorImageUnit = 3, kMaskUnit = 6,
-                 kExtraUnit = 7;
+                 kExtraUnit = 7, kNoiseUnit = kColorImageUnit;
 
 void bind_material(const Batch& batch) noexcept {
   glBindTextureUnit(kColorImageUnit, batch.texture);
@@ -26,6 +27,7 @@ CommonPrograms::CommonPrograms()
     : depth(make_program("depth.vert", "depth.frag")),
       depth_masked(make_program("depth.vert", "depth_masked.frag")),
       surfaces(make_program("gbuffer.vert", "gbuffer.frag")),
+      accumulate(make_program("fullscreen.vert", "accumulate.frag")),
       shade(make_program("fullscreen.vert", "shade.frag")),
       aliasing(make_program("fullscreen.vert", "aliasing.frag")),
       heat(make_program("fullscreen.vert", "heat.frag")),
@@ -151,8 +153,8 @@ void Renderer::Impl::draw_surfaces() noexcept {
   glDisable(GL_FRAMEBUFFER_SRGB);
 }
 
-void Renderer::Impl::fullscreen(const Framebuffer& fbo, const Program& program) const noexcept {
-  glBindFramebuffer(GL_FRAMEBUFFER, fbo.name());
+void Renderer::Impl::fullscreen(GLuint fbo, const Program& program) const noexcept {
+  glBindFramebuffer(GL_FRAMEBUFFER, fbo);
   glViewport(0, 0, targets.width, targets.height);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(no_vertices.name());
@@ -163,33 +165,53 @@ void Renderer::Impl::fullscreen(const Framebuffer& fbo, const Program& program) 
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::Impl::draw_mask(const PreparedFilter& filter) noexcept {
+void Renderer::Impl::bind_noise(SampleNoise noise) noexcept {
+  if (noise != SampleNoise::blue) return;
+  if (!noise_tile) {
+    const std::vector<float> values = blue_noise();
+    noise_tile = pixel_image(GL_R32F, kBlueNoiseSide, kBlueNoiseSide);
+    glTextureSubImage2D(noise_tile.name(), 0, 0, 0, kBlueNoiseSide, kBlueNoiseSide, GL_RED, GL_FLOAT,
+                        values.data());
+  }
+  glBindTextureUnit(kNoiseUnit, noise_tile.name());
+  glBindSampler(kNoiseUnit, 0);
+}
+
+void Renderer::Impl::draw_mask(const PreparedFilter& filter, bool accumulated) noexcept {
   glBindTextureUnit(kCompareUnit, maps.depth.name());
   glBindSampler(kCompareUnit, maps.compare_sampler.name());
   glBindTextureUnit(kDepthUnit, maps.depth.name());
   glBindSampler(kDepthUnit, maps.plain_sampler.name());
   stored.bind();
-  fullscreen(targets.mask_fbo, filter_programs[filter.program].mask);
+  fullscreen(accumulated ? history.single_fbo() : targets.mask_fbo.name(),
+             filter_programs[filter.program].mask);
   glBindSampler(kExtraUnit, 0);  // shared with the depth pyramid
+}
+
+void Renderer::Impl::draw_accumulated(const Camera& camera, const FrameOptions& options,
+                                      const FrameBlock& block) noexcept {
+  history.bind(camera, options.accumulation);
+  fullscreen(history.fbo_with(targets.mask), programs.accumulate);
+  history.keep(camera, block);
 }
 
 void Renderer::Impl::draw_shade() noexcept {
   glBindTextureUnit(kMaskUnit, targets.mask.name());
   glEnable(GL_FRAMEBUFFER_SRGB);
-  fullscreen(targets.color_fbo, programs.shade);
+  fullscreen(targets.color_fbo.name(), programs.shade);
   glDisable(GL_FRAMEBUFFER_SRGB);
 }
 
 void Renderer::Impl::draw_aliasing() noexcept {
   glBindTextureUnit(kMaskUnit, targets.mask.name());
-  fullscreen(targets.aliasing_fbo, programs.aliasing);
+  fullscreen(targets.aliasing_fbo.name(), programs.aliasing);
 }
 
 void Renderer::Impl::draw_heat_map() noexcept {
   glBindTextureUnit(kMaskUnit, targets.mask.name());
   glBindTextureUnit(kExtraUnit, targets.aliasing.name());
   glEnable(GL_FRAMEBUFFER_SRGB);
-  fullscreen(targets.heat_fbo, programs.heat);
+  fullscreen(targets.heat_fbo.name(), programs.heat);
   glDisable(GL_FRAMEBUFFER_SRGB);
 }
 
@@ -197,7 +219,7 @@ void Renderer::Impl::draw_cascade_tint() noexcept {
   glBindTextureUnit(kMaskUnit, targets.mask.name());
   glBindTextureUnit(kExtraUnit, targets.color.name());
   glEnable(GL_FRAMEBUFFER_SRGB);
-  fullscreen(targets.tint_fbo, programs.tint);
+  fullscreen(targets.tint_fbo.name(), programs.tint);
   glDisable(GL_FRAMEBUFFER_SRGB);
 }
 

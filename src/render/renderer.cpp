@@ -41,6 +41,8 @@ std::string_view to_string(Pass pass) noexcept {
       return "surfaces";
     case Pass::mask:
       return "mask";
+    case Pass::accumulate:
+      return "accumulate";
     case Pass::shade:
       return "shade";
     case Pass::aliasing:
@@ -121,9 +123,9 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   FilterBlock filtering = filter_block(filter.settings, blur);
   const DepthCurves curves = depth_curves(plan);
   set_depth_curves(curves, filtering);
+  const FrameBlock block =
+      frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur, curves);
   timed(Pass::shadow_maps, [&] {
-    const FrameBlock block =
-        frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur, curves);
     glNamedBufferSubData(impl.frame_buffer.name(), 0, sizeof block, &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, impl.frame_buffer.name());
     glNamedBufferSubData(impl.filter_buffer.name(), 0, sizeof filtering, &filtering);
@@ -138,7 +140,13 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   });
   timed(Pass::prefilter, [&] { impl.prefilter(plan, filter, filtering); });
   timed(Pass::surfaces, [&] { impl.draw_surfaces(); });
-  timed(Pass::mask, [&] { impl.draw_mask(filter); });
+  const bool accumulated = options.accumulation.on;
+  accumulated ? impl.history.resize(camera.width, camera.height) : impl.history.forget();
+  timed(Pass::mask, [&] {
+    impl.bind_noise(options.noise);
+    impl.draw_mask(filter, accumulated);
+  });
+  if (accumulated) timed(Pass::accumulate, [&] { impl.draw_accumulated(camera, options, block); });
   timed(Pass::shade, [&] { impl.draw_shade(); });
   if (options.aliasing) timed(Pass::aliasing, [&] { impl.draw_aliasing(); });
   if (options.aliasing && options.heat_map) timed(Pass::heat_map, [&] { impl.draw_heat_map(); });

@@ -8,6 +8,7 @@
 #include "frame_block.hpp"
 #include "gl_object.hpp"
 #include "gnomon/render/renderer.hpp"
+#include "mask_history.hpp"
 #include "scene_buffers.hpp"
 #include "stored_maps.hpp"
 #include "target.hpp"
@@ -16,7 +17,7 @@ namespace gnomon::render {
 
 /// Programs that no filter takes part in.
 struct CommonPrograms {
-  Program depth, depth_masked, surfaces, shade, aliasing, heat, tint;
+  Program depth, depth_masked, surfaces, accumulate, shade, aliasing, heat, tint;
   CommonPrograms();
 };
 
@@ -33,13 +34,16 @@ struct Renderer::Impl {
   /// Of the last frame's map, row by row.
   void read_depths(int map, std::span<float> depths) const noexcept;
   void draw_surfaces() noexcept;
-  void draw_mask(const PreparedFilter& filter) noexcept;
+  void draw_mask(const PreparedFilter& filter, bool accumulated) noexcept;
+  void draw_accumulated(const Camera& camera, const FrameOptions& options, const FrameBlock& block) noexcept;
+  /// Makes the noise tile at the first frame that reads it.
+  void bind_noise(SampleNoise noise) noexcept;
   void draw_shade() noexcept;
   void draw_aliasing() noexcept;
   void draw_heat_map() noexcept;
   void draw_cascade_tint() noexcept;
   /// Draws over all of `fbo` with `program`; the images of the surfaces pass are bound.
-  void fullscreen(const Framebuffer& fbo, const Program& program) const noexcept;
+  void fullscreen(GLuint fbo, const Program& program) const noexcept;
 
   SceneBuffers scene;
   DrawLists lists;
@@ -47,6 +51,8 @@ struct Renderer::Impl {
   std::vector<FilterPrograms> filter_programs;
   StoredMaps stored;
   FrameTargets targets;
+  MaskHistory history;
+  Texture noise_tile;  ///< blue noise
   MapTargets maps;
   Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;

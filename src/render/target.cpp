@@ -5,15 +5,16 @@
 #include <array>
 
 namespace gnomon::render {
-namespace {
 
-Texture image(GLenum format, int width, int height) {
+Texture pixel_image(GLenum format, int width, int height) {
   Texture texture = make_texture(GL_TEXTURE_2D);
   glTextureStorage2D(texture.name(), 1, format, width, height);
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return texture;
 }
+
+namespace {
 
 Framebuffer framebuffer_of(const Texture& color) {
   Framebuffer fbo = make_framebuffer();
@@ -44,15 +45,15 @@ void FrameTargets::resize(int new_width, int new_height) {
   if (width == new_width && height == new_height) return;
   width = new_width;
   height = new_height;
-  position = image(GL_RGBA32F, width, height);
-  normal = image(GL_RGBA32F, width, height);
-  albedo = image(GL_SRGB8_ALPHA8, width, height);
-  depth = image(GL_DEPTH_COMPONENT32F, width, height);
-  mask = image(GL_RG32F, width, height);
-  color = image(GL_SRGB8_ALPHA8, width, height);
-  aliasing = image(GL_RGBA32F, width, height);
-  heat = image(GL_SRGB8_ALPHA8, width, height);
-  tint = image(GL_SRGB8_ALPHA8, width, height);
+  position = pixel_image(GL_RGBA32F, width, height);
+  normal = pixel_image(GL_RGBA32F, width, height);
+  albedo = pixel_image(GL_SRGB8_ALPHA8, width, height);
+  depth = pixel_image(GL_DEPTH_COMPONENT32F, width, height);
+  mask = pixel_image(GL_RG32F, width, height);
+  color = pixel_image(GL_SRGB8_ALPHA8, width, height);
+  aliasing = pixel_image(GL_RGBA32F, width, height);
+  heat = pixel_image(GL_SRGB8_ALPHA8, width, height);
+  tint = pixel_image(GL_SRGB8_ALPHA8, width, height);
   surfaces_fbo = framebuffer_of(position);
   glNamedFramebufferTexture(surfaces_fbo.name(), GL_COLOR_ATTACHMENT1, normal.name(), 0);
   glNamedFramebufferTexture(surfaces_fbo.name(), GL_COLOR_ATTACHMENT2, albedo.name(), 0);

@@ -8,6 +8,9 @@
 
 namespace gnomon::render {
 
+/// One value per pixel, read without a filter.
+[[nodiscard]] Texture pixel_image(GLenum format, int width, int height);
+
 /// Everything at the size of the picture.
 struct FrameTargets {
   int width = 0, height = 0;

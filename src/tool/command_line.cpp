@@ -1,13 +1,10 @@
 // Reads the command line by a program's tables. CLI11, slow to compile, is seen by this file alone.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <exception>
-#include <iostream>
 #include <stdexcept>
 
 #include "command.hpp"
@@ -145,9 +142,7 @@ bool parse(CLI::App& app, const CLI::App& command, const Arguments& arguments, c
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success))
       throw std::runtime_error(bad_usage(command, arguments, error));
-    app.exit(error);
-    std::cout.flush();
-    if (!std::cout) throw std::runtime_error(std::string("standard output: ") + std::strerror(errno));
+    print_text(error.what());
     return false;
   }
   note_given(command, arguments);

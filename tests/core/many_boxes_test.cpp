@@ -211,7 +211,8 @@ TEST(ManyBoxes, the_nearest_part_is_that_of_cutting_every_box) {
     cut_deeper += expected > corner + 1e-9 ? 1 : 0;
     for (const Boxes& boxes : {Boxes(plain.boxes), Boxes(owned.set)}) {
       const double found =
-          nearest_inside(planes, boxes, light.position, -axes.forward, glm::dvec3(0.0), -kInfinity).nearest;
+          nearest_inside(planes, region, boxes, light.position, -axes.forward, glm::dvec3(0.0), -kInfinity)
+              .nearest;
       if (expected < kInfinity) {
         EXPECT_NEAR(found, expected, 1e-9) << seed;
       } else {
@@ -231,9 +232,9 @@ TEST(ManyBoxes, more_boxes_in_the_way_than_are_cut_leave_a_bound_below_the_neare
   const std::span planes(region.plane.data(), static_cast<std::size_t>(region.face_count));
   const Owned owned(slabs);
   for (const std::size_t few : {60u, 200u}) {
-    const double found =
-        nearest_inside(planes, std::span(slabs).first(few), eye.position, {0, 0, 1}, glm::dvec3(0.0), 0.0)
-            .nearest;
+    const double found = nearest_inside(planes, region, std::span(slabs).first(few), eye.position, {0, 0, 1},
+                                        glm::dvec3(0.0), 0.0)
+                             .nearest;
     // x >= 2 is seen from z = 2 / tan(0.25) on.
     const double exact = 2.0 / std::tan(0.25);
     if (few == 60) {
@@ -243,8 +244,8 @@ TEST(ManyBoxes, more_boxes_in_the_way_than_are_cut_leave_a_bound_below_the_neare
       EXPECT_GE(found, 1.5);
     }
   }
-  EXPECT_EQ(nearest_inside(planes, owned.set, eye.position, {0, 0, 1}, glm::dvec3(0.0), 0.0).nearest,
-            nearest_inside(planes, slabs, eye.position, {0, 0, 1}, glm::dvec3(0.0), 0.0).nearest);
+  EXPECT_EQ(nearest_inside(planes, region, owned.set, eye.position, {0, 0, 1}, glm::dvec3(0.0), 0.0).nearest,
+            nearest_inside(planes, region, slabs, eye.position, {0, 0, 1}, glm::dvec3(0.0), 0.0).nearest);
 }
 
 TEST(ManyBoxes, a_box_that_is_no_number_makes_the_set_what_it_makes_the_list) {

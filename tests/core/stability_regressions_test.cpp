@@ -155,6 +155,85 @@ TEST(StabilityRegressions, the_largest_texel_counts_how_far_texels_lean_off_the_
   }
 }
 
+/// The largest texel of the plan's only map at points of a ground at y = 0, as shares of what the record
+/// states.
+glm::dvec2 largest_of_stated(const ShadowPlan& plan, const Camera& camera, const Box& ground,
+                             const glm::dvec3& light, double& above_centre) {
+  constexpr int kSteps = 40;
+  glm::dvec2 largest{0.0};
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int k = 0; k <= kSteps; ++k) {
+      const glm::dvec3 p{glm::mix(ground.min.x, ground.max.x, i / double{kSteps}), 0.0,
+                         glm::mix(ground.min.z, ground.max.z, k / double{kSteps})};
+      const int index = map_serving(plan, p, glm::dot(p - camera.position, glm::normalize(camera.forward)));
+      if (index < 0) continue;
+      const ShadowMap& map = plan.map[static_cast<std::size_t>(index)];
+      const glm::dvec2 texel =
+          texel_extent_world(map.clip_from_world, map.texels(), glm::normalize(p - light), p);
+      for (int axis = 0; axis < 2; ++axis) {
+        largest[axis] = std::max(largest[axis], texel[axis] / map.texel_world_max[axis]);
+        above_centre = std::max(above_centre, texel[axis] / map.texel_world[axis]);
+      }
+    }
+  }
+  return largest;
+}
+
+TEST(StabilityRegressions, the_largest_texel_under_a_local_light_is_largest_over_the_body) {
+  // Texels grow with the distance from the light, and shrink across rays that leave its axis.
+  const Box ground{{-20, -1, -20}, {20, 0, 20}}, aside{{14, -1, -3}, {20, 0, 3}};
+  const glm::dvec3 above{0, 6, 0};
+  double most_above_centre = 0.0;
+  for (const Box& box : {ground, aside}) {
+    for (const Light& light : {Light(SpotLight{above, {0, -1, 0}, 1.3, 60}), Light(PointLight{above, 60})}) {
+      for (const Warp* warp : {&warps::none, &warps::optimal}) {
+        const Camera camera =
+            perspective_camera({0, 8, 30}, {0, -0.3, -1}, {0, 1, 0}, 1.4, 2.0, 0.1, 100, 640, 480);
+        const std::vector<Box> boxes = {box};
+        PlanOptions options;
+        options.cascades = 1;
+        options.warp.warp = warp;
+        const ShadowPlan plan = make_plan(camera, light, {boxes, boxes}, options);
+        ASSERT_EQ(plan.status, PlanStatus::ok);
+        double above_centre = 0.0;
+        const glm::dvec2 largest = largest_of_stated(plan, camera, box, above, above_centre);
+        // How loose the bound is: not at all without a warp, but that the box reaches down to y = -1.
+        const bool unwarped = warp == &warps::none;
+        EXPECT_GE(unwarped ? std::min(largest.x, largest.y) : std::max(largest.x, largest.y),
+                  unwarped ? 0.8 : 0.65)
+            << warp->name;
+        most_above_centre = std::max(most_above_centre, above_centre);
+        EXPECT_LE(std::max(largest.x, largest.y), 1.0 + 1e-6);
+      }
+    }
+  }
+
+  EXPECT_GT(most_above_centre, 2.0);  // else the texel at the centre would do
+}
+
+TEST(StabilityRegressions, a_plate_in_a_small_rest_of_a_large_body_is_not_lost) {
+  // Vertices of the rest have the rounding of the frustum that it was cut from, 6e3 times its own size.
+  Camera camera;
+  camera.position = {-0.062491018325090408, -0.5, -0.5};
+  camera.forward = {-0.78279192544518705, 0.5713652028176599, 0.24653317518531065};
+  camera.right = 0.018337392460323041;
+  camera.left = -camera.right;
+  camera.top = 0.0087268677907587893;
+  camera.bottom = -camera.top;
+  camera.near_depth = 3.924915362455303e-05;
+  camera.far_depth = 0.25;
+  const CameraAxes axes = camera_axes(camera);
+  for (int i = 0; i < 400; ++i) {
+    const glm::dvec3 on = axes.forward * (4.3e-5 * (1.0 + 0.001 * i));
+    const Box plate{{on.x, on.y - 1e-6, on.z - 1e-6}, {on.x, on.y + 1e-6, on.z + 1e-6}};
+    Polytope body = frustum_slice(camera, axes, camera.near_depth, camera.far_depth);
+    clip(body, Box{{-0.2, on.y - 1e-6, on.z - 1e-6}, {on.x, 0.15, 0.07}});
+    clip(body, Plane{-axes.forward, 1.6898516551443825e-4});
+    clip(body, plate);
+    EXPECT_FALSE(body.empty()) << i;
+  }
+}
+
 TEST(StabilityRegressions, measure_takes_no_point_from_an_empty_box) {
   const Camera camera = perspective_camera({0, 2, 0}, {0, -0.3, -1}, {0, 1, 0}, 1.0, 1.5, 0.1, 100, 640, 480);
   const std::vector<Box> ground = {{{-50, -1, -50}, {50, 0, 50}}};

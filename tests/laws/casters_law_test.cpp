@@ -53,7 +53,8 @@ std::vector<std::vector<std::uint32_t>> culled(const Case& c, const ShadowPlan& 
 void require_drawn(const ShadowMap& map, const std::vector<std::uint32_t>& list, const glm::dvec3& start,
                    const glm::dvec3& to_light, const Blocker& blocker) {
   require(std::binary_search(list.begin(), list.end(), blocker.index), "caster", blocker.index,
-          "culled from cascade", map.cascade, map.warp->name);
+          "culled from cascade", map.cascade, map.warp->name, "shadows", start.x, start.y, start.z, "from",
+          blocker.enter, "to", blocker.leave);
   for (const double t : {blocker.enter, blocker.leave}) {
     const glm::dvec4 clip = map.clip_from_world * glm::dvec4(start + to_light * t, 1.0);
     require(clip.w > 0.0, "caster", blocker.index, "behind the map: w", clip.w, "cascade", map.cascade,

@@ -6,9 +6,12 @@
 #include <string>
 
 #include "gnomon/render/filter.hpp"
+#include "support/one_line.hpp"
 
 namespace gnomon::render {
 namespace {
+
+using test::in_one_line;
 
 TEST(FilterText, refuses_what_it_does_not_know_with_one_line_that_names_it) {
   const struct {
@@ -70,16 +73,6 @@ TEST(FilterText, is_the_name_alone_by_default_and_reads_back_to_the_same_setting
     EXPECT_EQ(to_string(back.settings), to_string(other));
     EXPECT_EQ(back.settings.option, other.option) << to_string(other);
   }
-}
-
-/// The text without its line breaks and columns.
-std::string in_one_line(const std::string& text) {
-  std::string line;
-  for (const char c : text) {
-    const bool gap = c == ' ' || c == '\n';
-    if (!gap || line.empty() || line.back() != ' ') line += gap ? ' ' : c;
-  }
-  return line;
 }
 
 TEST(FilterText, help_names_exactly_the_keys_that_are_read) {

@@ -8,21 +8,12 @@
 #include <string>
 
 #include "process.hpp"
+#include "support/one_line.hpp"
 
 namespace gnomon::test {
 namespace {
 
 using nlohmann::json;
-
-/// The text without its line breaks and columns.
-std::string in_one_line(const std::string& text) {
-  std::string line;
-  for (const char c : text) {
-    const bool gap = c == ' ' || c == '\n';
-    if (!gap || line.empty() || line.back() != ' ') line += gap ? ' ' : c;
-  }
-  return line;
-}
 
 TEST(Filters, lists_every_filter_with_its_source_and_options) {
   const Finished finished = run_gnomon({"filters", "--json"});

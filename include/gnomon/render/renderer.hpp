@@ -26,12 +26,13 @@ enum class Pass : std::uint8_t {
   prefilter,
   surfaces,
   mask,
+  accumulate,
   shade,
   aliasing,
   heat_map,
   cascade_tint
 };
-inline constexpr std::size_t kPassCount = 8;
+inline constexpr std::size_t kPassCount = 9;
 [[nodiscard]] std::string_view to_string(Pass pass) noexcept;
 
 /// A filter whose program is compiled; only Renderer::prepare makes one.
@@ -47,9 +48,35 @@ enum class SplitTransition : std::uint8_t {
   dither,  ///< either map, by a noise from pixel to pixel
 };
 
+/// Noise that turns the sample patterns of filters and dithers between maps, from pixel to pixel.
+enum class SampleNoise : std::uint8_t {
+  still,     ///< interleaved gradient noise, the same in every frame
+  gradient,  ///< the same noise, moved from frame to frame
+  blue,      ///< blue noise over tiles of 64 x 64 pixels, other values in every frame
+};
+
+/// Accumulates the mask over frames by re-projection: hard edges converge to the exact ones where the maps'
+/// grids move from frame to frame (jitter.hpp). The scene and the light must be at rest: set `restart` in the
+/// first frame after they moved, and after a cut.
+struct Accumulation {
+  bool on = false;
+  /// The weight of a frame's result is its confidence to this power, 0..64. The confidence falls from 1 at a
+  /// texel's centre to 0 at its border. Larger: sharper edges from more frames. 0: all frames count alike,
+  /// for filters whose samples turn with the noise.
+  double confidence_power = 6.0;
+  /// Frames that the history counts as at most, 1..4096. Larger: less noise and slower changes.
+  double memory = 64.0;
+  /// The history of a pixel is rejected where its view depth is off by more than this share, 0..1.
+  double depth_tolerance = 0.01;
+  bool restart = false;  ///< forgets the history
+};
+
 /// Pictures to draw besides the lit one.
 struct FrameOptions {
   SplitTransition transition = SplitTransition::cut;  ///< between cascades
+  SampleNoise noise = SampleNoise::still;             ///< of sample patterns and of dithered transitions
+  std::uint32_t frame_index = 0;                      ///< counts frames, for noise that moves; may wrap round
+  Accumulation accumulation;                          ///< of the mask over frames
   /// Of a spot or point light: fades the picture out at its cone and range. The mask is the plan's alone.
   const Light* light = nullptr;
   bool aliasing = true;      ///< the error per pixel

@@ -25,7 +25,7 @@ struct MaskErrors {
 [[nodiscard]] MaskErrors mask_errors(std::span<const float> mask, std::span<const float> hard,
                                      std::span<const float> soft) noexcept;
 
-/// Pixels whose shadow changes although the truth at the same world point does not, as a share of those that
+/// Pixels whose shadow changes although the truth at the same world point does not. A share of those that
 /// are decided in both frames. `before` and `after` are masks at the same points; a change is one by more
 /// than half. Zero for a stable technique.
 [[nodiscard]] double excess_flips(std::span<const float> before, std::span<const float> after,

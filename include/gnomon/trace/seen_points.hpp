@@ -10,9 +10,10 @@
 
 namespace gnomon::trace {
 
-/// Visible points: first hits of rays through the centres of columns x rows equal parts of the image, between
-/// the camera's near and far depth, row by row, for SceneDetail and measure_seen. Surfaces that face away
-/// from the light or lie beyond it are omitted: no shadow map serves them. Empty without columns or rows.
+/// Visible points for SceneDetail and measure_seen: first hits of rays between the camera's near and far
+/// depth. The rays go through the centres of columns x rows equal parts of the image, row by row. Surfaces
+/// that face away from the light or lie beyond it are omitted: no shadow map serves them. Empty without
+/// columns or rows.
 [[nodiscard]] std::vector<glm::dvec3> seen_points(const Tracer& tracer, const Camera& camera,
                                                   const Light& light, int columns = 64, int rows = 36);
 

@@ -44,6 +44,15 @@ void for_each_vertex(VertexSet set, Use&& use) noexcept {
   for (; set != 0; set &= set - 1) use(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
+/// Distance of the farthest face: the vertices of a small rest have the rounding of the body that it was cut
+/// from, whose planes it still has.
+double size_of_planes(const Polytope& body) noexcept {
+  double size = 0.0;
+  for (int f = 0; f < body.face_count; ++f)
+    size = max_of(size, std::abs(body.plane[static_cast<std::size_t>(f)].offset));
+  return size;
+}
+
 /// Cuts a body by one plane after another. Vertices keep their places, new ones follow behind, and the gaps
 /// are closed once, at the end.
 class Cutter {
@@ -52,25 +61,30 @@ class Cutter {
       : body_(body),
         kept_(first_vertices(body.vertex_count)),
         places_(static_cast<std::size_t>(body.vertex_count)) {}
+  Cutter(Polytope& body, double size) noexcept : Cutter(body) { size_ = size; }
   Cutter(const Cutter&) = delete;
   Cutter& operator=(const Cutter&) = delete;
   ~Cutter() { close_gaps(); }
 
   void by(const Plane& plane) noexcept {
-    by(plane, [&](const glm::dvec3& p) {
+    by(plane, std::abs(plane.offset), [&](const glm::dvec3& p) {
       return plane.normal.x * p.x + plane.normal.y * p.y + plane.normal.z * p.z + plane.offset;
     });
   }
   template <int axis>
   void by(const Box& box, const Box& own) noexcept {
+    // Vertices have the rounding of all their coordinates: a plate is not far enough inside itself.
+    const double size = max_of(size_, max_of(largest_component(own.min), largest_component(own.max)));
     Plane plane{glm::dvec3(0.0), -box.min[axis]};
     plane.normal[axis] = 1.0;
     if (own.min[axis] < box.min[axis])
-      by(plane, [&](const glm::dvec3& p) { return p[axis] - box.min[axis]; });
+      by(plane, max_of(size, std::abs(box.min[axis])),
+         [&](const glm::dvec3& p) { return p[axis] - box.min[axis]; });
     plane.normal[axis] = -1.0;
     plane.offset = box.max[axis];
     if (own.max[axis] > box.max[axis])
-      by(plane, [&](const glm::dvec3& p) { return box.max[axis] - p[axis]; });
+      by(plane, max_of(size, std::abs(box.max[axis])),
+         [&](const glm::dvec3& p) { return box.max[axis] - p[axis]; });
   }
 
  private:
@@ -82,8 +96,11 @@ class Cutter {
   // More places than these are sorted out first: a cut takes one for each edge that it crosses.
   static constexpr std::size_t kManyPlaces = 40;
 
+  /// `size`: of the numbers that distances are made from.
   template <typename Distance>
-  void by(const Plane& plane, const Distance& distance_of) noexcept;
+  void by(const Plane& plane, double size, const Distance& distance_of) noexcept;
+  /// Whether some vertex is outside by no more than its rounding.
+  [[nodiscard]] bool touches(const double* distance) const noexcept;
   void divide(const Plane& plane, const double* distance, VertexSet cut_off) noexcept;
   [[nodiscard]] std::size_t add_vertices(const double* distance, VertexSet cut_off,
                                          CrossingEdges& crossing) noexcept;
@@ -93,12 +110,13 @@ class Cutter {
   Polytope& body_;
   VertexSet kept_;
   std::size_t places_;  ///< in use so far, gaps included
+  double size_ = 0.0;   ///< of what the body was cut from, as far as its planes tell
 };
 
 template <typename Distance>
-void Cutter::by(const Plane& plane, const Distance& distance_of) noexcept {
+void Cutter::by(const Plane& plane, double size, const Distance& distance_of) noexcept {
   double distance[kMaxVertices];
-  double lowest = 0.0, highest = std::abs(plane.offset);
+  double lowest = 0.0, highest = size;
   for_each_vertex(kept_, [&](std::size_t i) {
     distance[i] = distance_of(body_.vertex[i].position);
     lowest = min_of(lowest, distance[i]);
@@ -108,8 +126,18 @@ void Cutter::by(const Plane& plane, const Distance& distance_of) noexcept {
   if (lowest >= limit) return;
   VertexSet cut_off = 0;
   for_each_vertex(kept_, [&](std::size_t i) { cut_off |= VertexSet{distance[i] < limit} << i; });
+  if (cut_off == kept_ && touches(distance)) return;
   divide(plane, distance, cut_off);
   if (places_ > kManyPlaces) close_gaps();
+}
+
+bool Cutter::touches(const double* distance) const noexcept {
+  double nearest = -std::numeric_limits<double>::infinity(), size = size_of_planes(body_);
+  for_each_vertex(kept_, [&](std::size_t i) {
+    nearest = max_of(nearest, distance[i]);
+    size = max_of(size, largest_component(body_.vertex[i].position));
+  });
+  return nearest >= -kClipTolerance * size;
 }
 
 void Cutter::divide(const Plane& plane, const double* distance, VertexSet cut_off) noexcept {
@@ -265,7 +293,7 @@ void clip(Polytope& body, const Box& box) noexcept {
   }
   // Planes that miss the body are told from its own box, six comparisons in place of six rounds of distances.
   const Box own = bounds_of(body);
-  Cutter cutter(body);
+  Cutter cutter(body, size_of_planes(body));
   cutter.by<0>(box, own);
   cutter.by<1>(box, own);
   cutter.by<2>(box, own);

@@ -247,8 +247,9 @@ namespace {
 
 /// Least dot(toward, apex - p) over the part of a box inside the planes; infinity where there is none.
 double nearest_part(const Box& box, std::span<const Plane> planes, const glm::dvec3& toward,
-                    const glm::dvec3& apex) noexcept {
-  Polytope part = box_polytope(box);
+                    const glm::dvec3& apex, const Box& limit) noexcept {
+  // A box that is enormous beside the scene would be cut with the rounding of its own size.
+  Polytope part = box_polytope({clamp_to(box.min, limit), clamp_to(box.max, limit)});
   for (const Plane& plane : planes) clip(part, plane);
   double nearest = kInfinity;
   for (const Polytope::Vertex& v : part.vertices())
@@ -258,8 +259,14 @@ double nearest_part(const Box& box, std::span<const Plane> planes, const glm::dv
 
 }  // namespace
 
-NearBoxes nearest_inside(std::span<const Plane> planes, const Boxes& boxes, const glm::dvec3& origin,
-                         const glm::dvec3& toward, const glm::dvec3& apex, double least) noexcept {
+NearBoxes nearest_inside(std::span<const Plane> planes, const Polytope& body, const Boxes& boxes,
+                         const glm::dvec3& origin, const glm::dvec3& toward, const glm::dvec3& apex,
+                         double least) noexcept {
+  // What the planes hold ends before: at the light and the body, and at a border no wider than a few of both.
+  constexpr double kBeyond = 64.0;
+  double reach = largest_component(apex);
+  for (const Polytope::Vertex& v : body.vertices()) reach = max_of(reach, largest_component(v.position));
+  const Box limit{glm::dvec3(-kBeyond * reach), glm::dvec3(kBeyond * reach)};
   // Few are cut as a rule: the room for many is asked for only where it is needed.
   constexpr std::size_t kFew = 9;
   for (const std::size_t room : {kFew, NearestQuery::kMost}) {
@@ -274,7 +281,7 @@ NearBoxes nearest_inside(std::span<const Plane> planes, const Boxes& boxes, cons
         result.nearest = max_of(found[i].distance, least);
         break;
       }
-      const double cut = nearest_part(found[i].box, planes, toward, apex);
+      const double cut = nearest_part(found[i].box, planes, toward, apex, limit);
       if (!(cut < kInfinity)) continue;
       const double nearest = max_of(found[i].distance, cut);
       if (nearest < least) {

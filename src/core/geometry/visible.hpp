@@ -38,9 +38,10 @@ struct NearBoxes {
       0;  ///< boxes nearer than the least distance asked for, which do not count: the light is at them
 };
 /// Least dot(toward, apex - p) over the parts of the boxes inside the planes (at most 32) that is at least
-/// `least`. Exact but where more than 64 boxes have a corner nearer than that: then not more than it.
-[[nodiscard]] NearBoxes nearest_inside(std::span<const Plane> planes, const Boxes& boxes,
-                                       const glm::dvec3& origin, const glm::dvec3& toward,
+/// `least`; the planes hold `body`, the light, and little more. Exact but where more than 64 boxes have a
+/// corner nearer than that: then not more than it.
+[[nodiscard]] NearBoxes nearest_inside(std::span<const Plane> planes, const Polytope& body,
+                                       const Boxes& boxes, const glm::dvec3& origin, const glm::dvec3& toward,
                                        const glm::dvec3& apex, double least) noexcept;
 
 }  // namespace gnomon

@@ -129,8 +129,8 @@ HeightRange perspective_heights(const PlanContext& c, const MapRequest& request,
   HeightRange range;
   double far_distance = f.body.farthest * (1.0 + kDepthPadding);
   const double least = kLeastNearShare * f.body.farthest, stand_in = kNearShare * f.body.farthest;
-  const NearBoxes casters =
-      nearest_inside(f.swept.planes(), c.bounds.casters, c.camera.position, frame.z, apex, least);
+  const NearBoxes casters = nearest_inside(f.swept.planes(), request.body, c.bounds.casters,
+                                           c.camera.position, frame.z, apex, least);
   range.has_casters = casters.too_near > 0 || casters.nearest < std::numeric_limits<double>::infinity();
   range.too_near = casters.too_near;
   const double nearest = casters.too_near > 0 ? min_of(casters.nearest, stand_in) : casters.nearest;

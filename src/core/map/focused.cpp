@@ -25,6 +25,9 @@ constexpr double kRoom = 0.1;
 // Narrowest rectangle under a local light, as a slope: below it positions are rounding.
 constexpr double kLeastSlope = 1e-8;
 
+// Shortest side of a rectangle, world units: a matrix of floats, which end at 3e38, has its inverse.
+constexpr double kLeastSide = 1e-30;
+
 /// A fitted plane with its depths, and the casters it needs.
 struct Fitted {
   PlaneMap plane;
@@ -40,13 +43,66 @@ double border_of_body(const ShadowMap& map) noexcept {
   return border / (1.0 - 2.0 * border);
 }
 
+/// Widens the rectangle to what shaders can aim at. Only bodies that are tiny for their distance, far below a
+/// pixel of any camera wider than a hundredth of a degree, or edge-on to the light are that narrow.
+void widen_for_floats(const MapRequest& request, const LightBody& body, PlaneMap& map) noexcept {
+  if (request.space.perspective) {
+    double offset = 0.0;
+    for (const Polytope::Vertex& v : request.body.vertices())
+      offset = max_of(offset, largest_component(v.position));
+    const double least = max_of(kLeastSlope, kLeastOfOffset * offset / body.farthest) / map.stretch;
+    widen(map.a_min, map.a_max, least);
+    widen(map.b_min, map.b_max, least);
+    return;
+  }
+  // Of the image, per unit of relative rounding. At most these, w being 1 at least, which hardly any
+  // rectangle is too narrow for.
+  double across = 0.0;
+  for (const WarpInput::Point& p : body.points()) across = max_of(across, largest_component({p.x, p.y, p.z}));
+  double along = across * map.stretch;
+  const auto least = [&](const glm::dvec2& row) {
+    return max_of(kLeastSide, kLeastOfOffset * (std::abs(row.x) * across + std::abs(row.y) * along));
+  };
+  const glm::dvec2 row_a = map.choice.row_a, row_b = map.choice.row_b;
+  if (map.a_max - map.a_min >= least(row_a) && map.b_max - map.b_min >= least(row_b)) return;
+  across = along = 0.0;
+  for (const WarpInput::Point& p : body.points()) {
+    const double w = map.w(p.x, p.y), reach = largest_component({p.x, p.y, p.z}) / w;
+    across = max_of(across, reach);
+    along = max_of(along, reach * map.stretch / w);
+  }
+  widen(map.a_min, map.a_max, least(row_a));
+  widen(map.b_min, map.b_max, least(row_b));
+}
+
+/// How much longer the rectangle's sides become by that; 1: not at all.
+glm::dvec2 widening(const MapRequest& request, const LightBody& body, const WarpChoice& choice) noexcept {
+  const PlaneMap map = plane_map(body.points(), choice);
+  PlaneMap wide = map;
+  widen_for_floats(request, body, wide);
+  return {(wide.a_max - wide.a_min) / (map.a_max - map.a_min),
+          (wide.b_max - wide.b_min) / (map.b_max - map.b_min)};
+}
+
+/// The objective's ratio where the warp's rectangle is widened: the warp's by as much as it may lose by that,
+/// the other by as little.
+double widened_ratio(const WarpInput& in, const MapRequest& request, const LightBody& body,
+                     const WarpChoice& choice, double ratio) noexcept {
+  const glm::dvec2 warped = widening(request, body, choice);
+  if (warped == glm::dvec2(1.0)) return ratio;
+  const glm::dvec2 unwarped = widening(request, body, in.unwarped);
+  if (in.objective == Objective::storage) return ratio * (warped.x * warped.y) / (unwarped.x * unwarped.y);
+  return ratio * max_of(warped.x, warped.y) / min_of(unwarped.x, unwarped.y);
+}
+
 /// The warp's answer, measured, and used only where it lowers the objective.
-WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
-                       MapResult& result) noexcept {
+WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                       const WarpQuestion& question, MapResult& result) noexcept {
   const WarpInput& in = question.in;
   if (is_unwarped(request.warp) || c.stable) return in.unwarped;
   const WarpChoice choice = request.warp.choose(in);
-  const double ratio = gain_ratio(in, choice);
+  double ratio = gain_ratio(in, choice);
+  if (takes(request.warp, choice, ratio)) ratio = widened_ratio(in, request, body, choice, ratio);
   if (takes(request.warp, choice, ratio)) return choice;
   result.omit({OmissionKind::warp_without_gain, request.slot.cascade, ratio, 0.0, 0});
   result.map.warp = &warps::none;
@@ -76,41 +132,9 @@ PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const Lig
   const bool warped = !is_unwarped(request.warp) && !c.stable;
   if (!warped && c.options.fit != Fit::rotated && !steady) return plane_map(body.points(), request.unwarped);
   const WarpQuestion question(c, request, body);
-  WarpChoice choice = chosen_warp(c, request, question, result);
+  WarpChoice choice = chosen_warp(c, request, body, question, result);
   if (c.options.fit == Fit::rotated) choice = turned_to_least_area(question.in, choice);
   return steady ? steady_plane(c, request, question, choice, result) : plane_map(question.in.body, choice);
-}
-
-/// Widens the rectangle to what shaders can aim at. Only bodies that are tiny for their distance, far below a
-/// pixel of any camera wider than a hundredth of a degree, or edge-on to the light are that narrow.
-void widen_for_floats(const MapRequest& request, const LightBody& body, PlaneMap& map) noexcept {
-  if (request.space.perspective) {
-    double offset = 0.0;
-    for (const Polytope::Vertex& v : request.body.vertices())
-      offset = max_of(offset, largest_component(v.position));
-    const double least = max_of(kLeastSlope, kLeastOfOffset * offset / body.farthest) / map.stretch;
-    widen(map.a_min, map.a_max, least);
-    widen(map.b_min, map.b_max, least);
-    return;
-  }
-  // Of the image, per unit of relative rounding. At most these, w being 1 at least, which hardly any
-  // rectangle is too narrow for.
-  double across = 0.0;
-  for (const WarpInput::Point& p : body.points()) across = max_of(across, largest_component({p.x, p.y, p.z}));
-  double along = across * map.stretch;
-  const auto least = [&](const glm::dvec2& row) {
-    return kLeastOfOffset * (std::abs(row.x) * across + std::abs(row.y) * along);
-  };
-  const glm::dvec2 row_a = map.choice.row_a, row_b = map.choice.row_b;
-  if (map.a_max - map.a_min >= least(row_a) && map.b_max - map.b_min >= least(row_b)) return;
-  across = along = 0.0;
-  for (const WarpInput::Point& p : body.points()) {
-    const double w = map.w(p.x, p.y), reach = largest_component({p.x, p.y, p.z}) / w;
-    across = max_of(across, reach);
-    along = max_of(along, reach * map.stretch / w);
-  }
-  widen(map.a_min, map.a_max, least(row_a));
-  widen(map.b_min, map.b_max, least(row_b));
 }
 
 /// All that a local light's frustum shows, for a grid that does not follow the view.

@@ -22,33 +22,89 @@ void write_planes(const PlanContext& c, const SweptBody& swept, ShadowMap& map) 
   map.cull_plane_count = swept.plane_count;
 }
 
-/// Extents of texels: at the body's centre, and where they are largest, which is at one of its vertices.
+/// Bounds of the extents across the light that the rectangle's sides have anywhere on the body. They need not
+/// be largest at a vertex: under a warp not where the body is wide, under a local light not off its axis.
+///
+/// With d the distance along a local light's axis (else 1), W = w d, S the coordinate across the warp's axis
+/// times d, and (X, Y) the image of a side, the side is W V / d long with V = (d X + kappa S Y / stretch, W Y
+/// / stretch). W, V and d are linear over the body, so that W V and d are sums over pairs of vertices, with
+/// weights that are not negative, of (Wi Vj + Wj Vi) / 2 and (di + dj) / 2: no quotient of the sums exceeds
+/// the largest of a pair. Across a ray the side is shorter by the sine of its angle to the ray, whose cosine
+/// is bounded from below in the same way.
+glm::dvec2 longest_sides(const LightSpace& space, const LightBody& body, const PlaneMap& plane) noexcept {
+  struct Corner {
+    glm::dvec2 v, on_plane;
+    double w, distance, v_length, length;
+  };
+  Corner corner[kMaxBodyPoints];
+  const WarpChoice& choice = plane.choice;
+  const glm::dvec2 axis = choice.axis;
+  const double area = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
+  const auto longest = [&](const glm::dvec2& image) {
+    std::size_t count = 0;
+    double most_w = 0.0, most_v = 0.0, square = 0.0;
+    for (const WarpInput::Point& p : body.points()) {
+      const double d = space.perspective ? 1.0 / p.z : 1.0, w = plane.w(p.x, p.y);
+      const glm::dvec2 at{p.x * axis.y - p.y * axis.x, p.x * axis.x + p.y * axis.y};
+      const double along = image.y / plane.stretch;
+      const glm::dvec2 v{d * (image.x + choice.kappa * (at.x - choice.centre) * along), w * d * along};
+      Corner& here = corner[count++];
+      here.v = v;
+      here.w = w * d;
+      here.distance = d;
+      const double v_square = glm::dot(v, v);
+      most_w = max_of(most_w, w * w);
+      most_v = max_of(most_v, v_square);
+      square = max_of(square, w * w * v_square);
+      if (!space.perspective) continue;
+      here.on_plane = at * d;
+      here.v_length = std::sqrt(v_square);
+      here.length = d * std::sqrt(1.0 + glm::dot(at, at));
+    }
+    // As a rule one vertex has the largest of both: no pair exceeds it.
+    if (!space.perspective && most_w * most_v <= square) return std::sqrt(square);
+    double least_cosine = 1.0, most_cosine = -1.0;
+    square = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Corner& a = corner[i];
+      // Without a warp the vertices themselves bound both.
+      const std::size_t end = choice.kappa > 0.0 ? count : i + 1;
+      for (std::size_t j = i; j < end; ++j) {
+        const Corner& b = corner[j];
+        const glm::dvec2 both = b.v * a.w + a.v * b.w;
+        const double inverse = 1.0 / (a.distance + b.distance);
+        square = max_of(square, glm::dot(both, both) * (inverse * inverse));
+        if (!space.perspective) continue;
+        const double cosine = (glm::dot(a.v, b.on_plane) + glm::dot(b.v, a.on_plane)) /
+                              (a.v_length * b.length + b.v_length * a.length);
+        least_cosine = min_of(least_cosine, cosine);
+        most_cosine = max_of(most_cosine, cosine);
+      }
+    }
+    if (!space.perspective) return std::sqrt(square);
+    const double cosine = max_of(0.0, max_of(least_cosine, -most_cosine));
+    return std::sqrt(square * max_of(0.0, 1.0 - cosine * cosine));
+  };
+  return {longest(glm::dvec2(choice.row_b.y, -choice.row_b.x) / area) * (plane.a_max - plane.a_min),
+          longest(glm::dvec2(-choice.row_a.y, choice.row_a.x) / area) * (plane.b_max - plane.b_min)};
+}
+
+/// Extents of texels: at the body's centre, and a bound of them over the body.
 void write_texels(const PlanContext& c, const MapRequest& request, const MapParts& parts,
                   ShadowMap& map) noexcept {
   const LightSpace& space = request.space;
-  const auto texel_at = [&](const glm::dvec3& p) {
-    const glm::dvec3 way = space.ray(space.frame.turned(p));
-    const glm::dvec3 world = space.frame.x * way.x + space.frame.y * way.y + space.frame.z * way.z;
-    return texel_extent_world(parts.gl_from_relative, map.texels(),
-                              space.perspective ? safe_normalize(world, -space.frame.z) : -space.frame.z, p);
-  };
   glm::dvec3 centre(0.0);
   for (const Polytope::Vertex& v : request.body.vertices()) centre += v.position;
   centre /= static_cast<double>(request.body.vertex_count);
-  map.texel_world = map.texel_world_max = texel_at(centre);
-  const auto grow = [&](const glm::dvec2& texel) {
-    map.texel_world_max = {max_of(map.texel_world_max.x, texel.x), max_of(map.texel_world_max.y, texel.y)};
-  };
-  if (!space.perspective) {
-    if (parts.plane.choice.kappa != 0.0)
-      grow(parts.needed.in_light_plane /
-           (glm::dvec2(map.width, map.height) - 2.0 * map.filter_margin_texels));
-  } else {
-    for (const Polytope::Vertex& v : request.body.vertices()) {
-      // Nearer than the map's nearest distance is only rounding.
-      if (space.distance(space.frame.turned(v.position)) < parts.body.nearest) continue;
-      grow(texel_at(v.position));
-    }
+  const glm::dvec3 way = space.ray(space.frame.turned(centre));
+  const glm::dvec3 travel = space.frame.x * way.x + space.frame.y * way.y + space.frame.z * way.z;
+  map.texel_world = map.texel_world_max =
+      texel_extent_world(parts.gl_from_relative, map.texels(),
+                         space.perspective ? safe_normalize(travel, -space.frame.z) : -space.frame.z, centre);
+  if (space.perspective || parts.plane.choice.kappa != 0.0) {
+    const glm::dvec2 longest = longest_sides(space, parts.body, parts.plane) /
+                               (glm::dvec2(map.width, map.height) - 2.0 * map.filter_margin_texels);
+    map.texel_world_max = {max_of(map.texel_world.x, longest.x), max_of(map.texel_world.y, longest.y)};
   }
   const double texel = max_of(map.texel_world.x, map.texel_world.y);
   const BiasOptions& bias = c.options.bias;

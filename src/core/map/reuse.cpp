@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
 #include "geometry/light_axes.hpp"
@@ -122,6 +123,14 @@ std::array<glm::dvec4, 5> rectangle_planes(const ShadowMap& map, const TexelRect
                                       w * ndc.high.y - y, clip_space.reversed_z ? z : w - z};
   for (glm::dvec4& plane : planes) plane /= glm::length(glm::dvec3(plane));
   return planes;
+}
+
+ShadowMap rebased(const ShadowMap& map, const glm::dvec3& new_origin) noexcept {
+  ShadowMap moved = map;
+  glm::dmat4 from_relative = map.clip_from_world;
+  from_relative[3] = map.clip_from_world * glm::dvec4(new_origin, 1.0);
+  moved.clip_from_camera_relative = glm::mat4(from_relative);
+  return moved;
 }
 
 }  // namespace gnomon

@@ -71,9 +71,9 @@ void clip_to_sides(Polytope& body, const LocalFrustum& frustum) noexcept {
 double nearest_shown(const LocalScene& scene, const LocalFrustum& frustum, const Polytope& body,
                      double farthest) noexcept {
   const double stand_in = kNearShare * farthest;
-  const NearBoxes boxes =
-      nearest_inside({body.plane.data(), static_cast<std::size_t>(body.face_count)}, scene.c.bounds.receivers,
-                     scene.c.camera.position, frustum.frame.z, frustum.apex, kLeastNearShare * farthest);
+  const NearBoxes boxes = nearest_inside({body.plane.data(), static_cast<std::size_t>(body.face_count)}, body,
+                                         scene.c.bounds.receivers, scene.c.camera.position, frustum.frame.z,
+                                         frustum.apex, kLeastNearShare * farthest);
   constexpr double kRoom = 1.0 - 1.0 / 1024.0;
   return min_of(stand_in, max_of(boxes.nearest * kRoom, kLeastNearShare * farthest));
 }

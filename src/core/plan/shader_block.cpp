@@ -66,6 +66,11 @@ glm::vec4 shader_shape(const ShadowMap& map) noexcept {
           static_cast<float>(p[2])};
 }
 
+// As map_serving of shaders/library/select_map.glsl takes it.
+float shader_selection(const ShadowPlan& plan) noexcept {
+  return plan.select_finest ? 2.0f : plan.select_by_map ? 1.0f : 0.0f;
+}
+
 ShaderBlock shader_block(const ShadowPlan& plan, const ShaderLayers& layers) noexcept {
   ShaderBlock block{};
   int width = layers.width, height = layers.height;
@@ -79,9 +84,7 @@ ShaderBlock shader_block(const ShadowPlan& plan, const ShaderLayers& layers) noe
   }
   block.bias = glm::vec4(glm::dvec4(plan.bias.constant_texels, plan.bias.slope_texels,
                                     plan.bias.normal_offset_texels, plan.bias.max_slope));
-  // As map_serving of shaders/library/select_map.glsl takes it.
-  const double selection = plan.select_finest ? 2.0 : plan.select_by_map ? 1.0 : 0.0;
-  block.layer = glm::vec4(glm::dvec4(width, height, plan.map_count, selection));
+  block.layer = glm::vec4(width, height, plan.map_count, shader_selection(plan));
   const glm::dmat4 lookup_from_map = lookup_from_clip(plan.clip_space);
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
     block.maps[i] = shader_map(plan.map[i], lookup_from_map, plan.origin_world, layers.blur_texels);

@@ -22,15 +22,15 @@ constexpr int kVisiblePoints = 96;
 /// of a grid against the body's edges.
 struct EvenRays {
   alignas(64) std::array<double, kRays> x, y;
-  constexpr EvenRays() noexcept : x{}, y{} {
+  constexpr explicit EvenRays(std::size_t set) noexcept : x{}, y{} {
     const auto rest = [](double v) { return v - static_cast<double>(static_cast<int>(v)); };
     for (std::size_t i = 0; i < kRays; ++i) {
-      x[i] = rest(0.5 + 0.7548776662466927 * static_cast<double>(i));
-      y[i] = rest(0.5 + 0.5698402909980532 * static_cast<double>(i));
+      x[i] = rest(0.5 + 0.7548776662466927 * static_cast<double>(i + set * kRays));
+      y[i] = rest(0.5 + 0.5698402909980532 * static_cast<double>(i + set * kRays));
     }
   }
 };
-constexpr EvenRays kEvenRays;
+constexpr std::array<EvenRays, 2> kEvenRays = {EvenRays(0), EvenRays(1)};
 
 /// A face of the body as a bound on 1 / depth along the ray (x, y, 1) of the image: linear in x and y, so
 /// that finding where a ray is inside the body takes no division.
@@ -89,12 +89,12 @@ struct Rays {
   alignas(64) std::array<double, kRays> x, y, least, most, begin, length;
 };
 
-GNOMON_WIDE void find_rays(const ImageRange& image, const InverseDepthBounds& bounds, double most,
-                           Rays& rays) noexcept {
+GNOMON_WIDE void find_rays(const ImageRange& image, const EvenRays& even, const InverseDepthBounds& bounds,
+                           double most, Rays& rays) noexcept {
   const double width = image.right - image.left, height = image.top - image.bottom;
   for (std::size_t i = 0; i < kRays; ++i) {
-    rays.x[i] = image.left + width * kEvenRays.x[i];
-    rays.y[i] = image.bottom + height * kEvenRays.y[i];
+    rays.x[i] = image.left + width * even.x[i];
+    rays.y[i] = image.bottom + height * even.y[i];
     rays.least[i] = 0.0;
     rays.most[i] = most;
   }
@@ -281,10 +281,10 @@ void add_faces(const Polytope& body, double size, PixelLanes& lanes) noexcept {
   }
 }
 
-void add_visible_points(const WarpInput& input, PixelLanes& lanes) noexcept {
+void add_visible_points(const WarpInput& input, int set, PixelLanes& lanes) noexcept {
   const InverseDepthBounds bounds = inverse_depth_bounds(*input.polytope, input.view, input.depth_begin);
   Rays rays;
-  find_rays(shown(input), bounds, 1.0 / input.depth_begin, rays);
+  find_rays(shown(input), kEvenRays[static_cast<std::size_t>(set)], bounds, 1.0 / input.depth_begin, rays);
   double total = 0.0;
   for (const double length : rays.length) total += length;
   if (!(total > 0.0 && total < std::numeric_limits<double>::infinity())) return;

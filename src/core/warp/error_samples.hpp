@@ -35,8 +35,9 @@ void add_vertices(const Polytope& body, double size, PixelLanes& lanes) noexcept
 void add_middles(const Polytope& body, double size, PixelLanes& lanes) noexcept;
 /// The middles of faces.
 void add_faces(const Polytope& body, double size, PixelLanes& lanes) noexcept;
-/// Points spread evenly over the pixels that show the body, and over the logarithm of depth.
-void add_visible_points(const WarpInput& input, PixelLanes& lanes) noexcept;
+/// Points spread evenly over the pixels that show the body, and over the logarithm of depth. `set`: 0, or 1
+/// for others of the same spread.
+void add_visible_points(const WarpInput& input, int set, PixelLanes& lanes) noexcept;
 
 /// From points to pixels, dropping those where nothing is known of a pixel. Returns how many are in front of
 /// the first that was dropped.

@@ -35,7 +35,7 @@ BodyLanes::BodyLanes(const WarpInput& input) noexcept {
   }
 }
 
-PlaneError::PlaneError(const WarpInput& input, bool searched) noexcept
+PlaneError::PlaneError(const WarpInput& input, bool searched, int set) noexcept
     : input_(input), lanes_(kWarpLanes), body_(input) {
   double low = input.body.front().z, high = low;
   for (const WarpInput::Point& p : input.body) {
@@ -53,7 +53,7 @@ PlaneError::PlaneError(const WarpInput& input, bool searched) noexcept
   if (focused) add_vertices(*focus, 1.0, corners_);
   add_vertices(body, focused ? input.focus_weight : 1.0, corners_);
   find_pixels(input, corners_);
-  add_samples(body, focused ? focus : nullptr, searched);
+  add_samples(body, focused ? focus : nullptr, searched, set);
   all_ = sample_.count;
   above_ = above(all_);
 }
@@ -71,11 +71,11 @@ void PlaneError::count_some() noexcept {
   above_ = above(kSome);
 }
 
-void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool searched) noexcept {
+void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool searched, int set) noexcept {
   // Fewer samples make no percentile: the body shows in a few pixels only.
   constexpr std::size_t kTooFew = 20;
   if (input_.objective == Objective::p95 && !input_.orthographic) {
-    add_visible_points(input_, sample_);
+    add_visible_points(input_, set, sample_);
     find_pixels(input_, sample_);
   }
   share_ = kShareAbove95;
@@ -93,14 +93,18 @@ void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool s
   constexpr double kWide = 3.5;  // of the slope: 120 degrees
   const ViewInLight& view = input_.view;
   const double wider = max_of(view.image_right - view.image_left, view.image_top - view.image_bottom);
-  const bool inside = searched && (input_.light.perspective || wider > kWide);
+  // So do rays that come to meet the eye's: the half vector turns fast between them.
+  constexpr double kOpposed = -0.5;
+  const bool inside = searched && (input_.light.perspective || wider > kWide || input_.cos_gamma < kOpposed);
   if (input_.light.perspective || inside) add_faces(body, outside, sample_);
-  if (inside && !input_.orthographic) add_visible_points(input_, sample_);
+  if (inside && !input_.orthographic) add_visible_points(input_, set, sample_);
   complete_ = find_pixels(input_, sample_) >= vertices;
 }
 
 void PlaneError::count_worst(const WarpChoice& choice) noexcept {
-  if (sample_.count == 0) return;
+  const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
+  // Without an area there is no error.
+  if (sample_.count == 0 || rows == 0.0) return;
   find_rows(choice);
   constexpr double kNearWorst = 0.25;  // of the square: half the error
   const bool storage = input_.objective == Objective::storage;

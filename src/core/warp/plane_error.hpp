@@ -34,8 +34,9 @@ class PlaneError {
   /// Samples the body for `input.objective`: vertices and middles of edges, where the largest errors are
   /// (under a local light of faces, too, as its rays fan out), or points spread evenly over the pixels and
   /// the logarithm of depth. `searched`: the choices come from a search, which would end where no sample is;
-  /// where rays fan out wide, the inside of the body counts then as well.
-  explicit PlaneError(const WarpInput& input, bool searched = false) noexcept;
+  /// where rays fan out wide, the inside of the body counts then as well. `set`: other points of the same
+  /// spread, from 0 on.
+  explicit PlaneError(const WarpInput& input, bool searched = false, int set = 0) noexcept;
 
   /// The objective under `choice`, up to a factor that is the same for every choice; infinite for an unusable
   /// one.
@@ -57,7 +58,7 @@ class PlaneError {
 
  private:
   [[nodiscard]] const Polytope& from_pseudo_near(const Polytope& body, Polytope& counted) const noexcept;
-  void add_samples(const Polytope& body, const Polytope* focus, bool searched) noexcept;
+  void add_samples(const Polytope& body, const Polytope* focus, bool searched, int set) noexcept;
   void find_rows(const WarpChoice& choice) noexcept;
   [[nodiscard]] std::size_t above(std::size_t samples) const noexcept;
   struct ExtentLanes;

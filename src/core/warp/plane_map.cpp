@@ -124,7 +124,7 @@ void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane
   const auto nearer = [](const WarpInput::Point& p, const WarpInput::Point& q) { return p.depth < q.depth; };
   if (choice.kappa == 0.0) body = {std::min_element(body.begin(), body.end(), nearer), 1};
   needed.count = 0;
-  double a_max = 0.0, b_max = 0.0, a_longest = 0.0, b_longest = 0.0;
+  double a_max = 0.0, b_max = 0.0;
   for (const WarpInput::Point& p : body) {
     const double w = plane.w(p.x, p.y);
     const double lean = choice.kappa * (p.x * axis.y - p.y * axis.x - choice.centre) / w;
@@ -133,18 +133,13 @@ void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane
       const double u = along * image.y;
       return glm::dvec2(w * image.x + lean * u, u);
     };
-    const glm::dvec2 a_plane = extent(per_a), b_plane = extent(per_b);
-    a_longest = max_of(a_longest, glm::dot(a_plane, a_plane));
-    b_longest = max_of(b_longest, glm::dot(b_plane, b_plane));
-    const glm::dvec2 a = a_plane / p.depth, b = b_plane / p.depth;
+    const glm::dvec2 a = extent(per_a) / p.depth, b = extent(per_b) / p.depth;
     a_max = max_of(a_max, glm::dot(a, a));
     b_max = max_of(b_max, glm::dot(b, b));
     if (needed.count < kMaxBodyPoints)
       needed.vertex[static_cast<std::size_t>(needed.count++)] = {a * side.x, b * side.y};
   }
   needed.sides = {std::sqrt(a_max) * side.x, std::sqrt(b_max) * side.y};
-  needed.in_light_plane = {std::sqrt(a_longest) * (plane.a_max - plane.a_min),
-                           std::sqrt(b_longest) * (plane.b_max - plane.b_min)};
 }
 
 double TexelsNeeded::bound(const glm::dvec2& inside, double obliquity) const noexcept {

@@ -70,8 +70,6 @@ struct LightDepths {
 /// the longest extent that any texel has in any direction, in units where the rectangle is one texel.
 struct TexelsNeeded {
   glm::dvec2 sides{0.0};
-  glm::dvec2 in_light_plane{
-      0.0};  ///< largest extent at any vertex that either side of the rectangle would have
   struct Vertex {
     glm::dvec2 a, b;  ///< extents of the rectangle's sides at the vertex, as multiples of a pixel there
   };

@@ -284,6 +284,9 @@ bool for_warps(const nlohmann::ordered_json& value, nlohmann::ordered_json& out,
   if (options.value("split", "auto") == "optimal") options["split"] = "logarithmic";
   options["prune"] = "exact";
   objective = options.value("objective", "storage");
+  // measure_map() takes no points from the band that a map shares with the cascade before it.
+  const std::string light = out["light"].value("type", "directional");
+  if (objective == "p95" || light != "directional") options.erase("split_overlap");
   auto& receivers = out["receivers"];
   if (receivers.is_array() && receivers.size() > 1) {
     const nlohmann::ordered_json first = receivers.front();
@@ -311,8 +314,9 @@ void compare_maps(const Case& input, const ShadowPlan& with, int a, const Shadow
                                  : Real(m.storage) / m0.storage;
   } else {
     Random random(3);
-    const std::vector<Real3> points =
-        seen_points(view, input.receivers[0], warped.depth_begin, warped.depth_end, 400, random);
+    // With the band that the map shares with the cascade before it, which warps count as well.
+    const std::vector<Real3> points = seen_points(
+        view, input.receivers[0], warped.depth_begin - warped.overlap, warped.depth_end, 400, random);
     const BodyError e = body_error(view, light, RelativeMap(with, warped, view), warped, points);
     const BodyError e0 =
         body_error(view, light, RelativeMap(without, without.map[ib], view), without.map[ib], points);

@@ -2,8 +2,6 @@
 #include "flight.hpp"
 
 #include <fmt/core.h>
-#include <cerrno>
-#include <cstring>
 
 #include <algorithm>
 #include <array>
@@ -339,8 +337,7 @@ int run(Options options) {
   if (options.perceptual_resolution) options.plan.resolution.max_size = perceptual_map_size(options, flight);
   const int code = options.context == render::ContextKind::glfw ? fly_in_window(options, flight)
                                                                 : fly_to_files(options, flight);
-  if (std::fflush(stdout) != 0)
-    throw std::runtime_error(std::string("standard output: ") + std::strerror(errno));
+  flush_output();
   return code;
 }
 

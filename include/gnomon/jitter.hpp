@@ -1,0 +1,28 @@
+// How do texel grids move from frame to frame, so that frames together see more than one? Sub-texel jitter of
+// a plan's maps, for temporal accumulation (render::Accumulation).
+// Based on: Scherzer, Jeschke, Wimmer, "Pixel-Correct Shadow Maps with Temporal Reprojection and Shadow Test
+// Confidence", 2007.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+
+/// A jittered map reads so much farther than its plan, texels: add it to FilterOptions::texels
+/// (`filter.texels`) before planning, so that no kernel leaves its map.
+inline constexpr double kJitterReachTexels = 0.5;
+
+/// Offset of the grid in a frame, texels, each in [-0.5, 0.5): Halton's sequence in bases 2 and 3, whose
+/// frames cover a texel evenly, however many there are. Repeats after 2^16 frames.
+[[nodiscard]] glm::dvec2 jitter_texels(std::uint32_t frame_index) noexcept;
+
+/// The plan with the texel grid of every map moved by `offset_texels` across the light, at most
+/// kJitterReachTexels along each axis; larger offsets and not-a-number are clamped. What the maps serve, and
+/// their casters, stay as they are. Moved maps cannot be reused by the next frame: their snap keys are
+/// invalid.
+[[nodiscard]] ShadowPlan jittered(const ShadowPlan& plan, const glm::dvec2& offset_texels) noexcept;
+
+}  // namespace gnomon

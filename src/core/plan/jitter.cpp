@@ -1,0 +1,56 @@
+// Moves the texel grids of a plan's maps by shares of a texel.
+#include "gnomon/jitter.hpp"
+
+#include <algorithm>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+#include "geometry/vector.hpp"
+
+namespace gnomon {
+namespace {
+
+/// Van der Corput's sequence: the digits of `index` behind the point, mirrored.
+double mirrored(std::uint32_t index, std::uint32_t base) noexcept {
+  double value = 0.0, digit = 1.0;
+  for (; index > 0; index /= base) {
+    digit /= base;
+    value += digit * static_cast<double>(index % base);
+  }
+  return value;
+}
+
+double clamped(double offset) noexcept {
+  if (!(offset > -kJitterReachTexels)) return offset <= -kJitterReachTexels ? -kJitterReachTexels : 0.0;
+  return min_of(offset, kJitterReachTexels);
+}
+
+}  // namespace
+
+glm::dvec2 jitter_texels(std::uint32_t frame_index) noexcept {
+  constexpr std::uint32_t kPeriod = 1u << 16;
+  const std::uint32_t index = frame_index % kPeriod + 1;  // the sequence begins with a corner
+  return {mirrored(index, 2) - 0.5, mirrored(index, 3) - 0.5};
+}
+
+ShadowPlan jittered(const ShadowPlan& plan, const glm::dvec2& offset_texels) noexcept {
+  ShadowPlan moved = plan;
+  const glm::dvec2 offset{clamped(offset_texels.x), clamped(offset_texels.y)};
+  const glm::dmat4 plan_from_gl = clip_from_gl_clip(plan.clip_space);
+  const glm::dmat4 gl_from_plan = glm::inverse(plan_from_gl);
+  for (int i = 0; i < moved.map_count; ++i) {
+    ShadowMap& map = moved.map[static_cast<std::size_t>(i)];
+    glm::dmat4 step(1.0);  // texels to normalized device coordinates, which are 2 wide
+    step[3][0] = 2.0 * offset.x / map.width;
+    step[3][1] = 2.0 * offset.y / map.height;
+    const glm::dmat4 moved_from_plan = plan_from_gl * step * gl_from_plan;
+    map.clip_from_world = moved_from_plan * map.clip_from_world;
+    map.clip_from_camera_relative = glm::mat4(moved_from_plan * glm::dmat4(map.clip_from_camera_relative));
+    // Points at the border are now up to half a texel nearer to the map's side.
+    if (offset != glm::dvec2(0.0)) map.filter_margin_texels = std::max(map.filter_margin_texels - 1, 0);
+    map.snap_key.valid = false;
+  }
+  return moved;
+}
+
+}  // namespace gnomon

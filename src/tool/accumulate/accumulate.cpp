@@ -1,0 +1,373 @@
+// `gnomon accumulate`: how much of the shadow's error is left after 1, 8, 64 frames of temporal accumulation,
+// with the view at rest and along a moving one?
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "command.hpp"
+#include "compare/measure.hpp"
+#include "compare/stage.hpp"
+#include "compare/sweep.hpp"
+#include "gnomon/jitter.hpp"
+#include "gnomon/render/context.hpp"
+#include "gnomon/report/errors.hpp"
+#include "gnomon/scene/image.hpp"
+#include "interrupt.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "scene_words.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+constexpr int kFlightFrames = 600;  ///< ten seconds at 60 Hz
+constexpr int kFrame = kFlightFrames / 2;
+constexpr int kMostFrames = 4096;
+
+struct AccumulateRequest {
+  std::vector<std::string> scenes, filters{"hard"};
+  std::vector<int> frames{1, 8, 64};
+  std::string size = "1680x1050", warp = "optimal", noise = "blue", light = "sun", context = "auto", out;
+  int map_size = 1024, cascades = 1, moving = 32;
+  double light_elevation_deg = 38.0, light_azimuth_deg = 140.0, bias = 0.1;
+  render::Accumulation settings;
+  bool json = false;
+};
+
+std::vector<std::string> noise_names() {
+  return {"still", "gradient", "blue"};
+}
+
+std::vector<std::string> warp_names() {
+  std::vector<std::string> names = names_in(all_warps());
+  names.insert(names.begin(), "auto");
+  return names;
+}
+
+render::SampleNoise noise_from(const std::string& name) {
+  const std::vector<std::string> names = noise_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) refuse_name("--noise", name, names);
+  return static_cast<render::SampleNoise>(found - names.begin());
+}
+
+/// The sweep of the filters, in frames as a viewer at 60 Hz sees them.
+Sweep sweep_of(const AccumulateRequest& request) {
+  CompareRequest compared;
+  compared.scenes = request.scenes;
+  compared.filters = request.filters;
+  compared.warps = {request.warp};
+  compared.cascades = {std::to_string(request.cascades)};
+  compared.map_sizes = {std::to_string(request.map_size)};
+  compared.size = request.size;
+  compared.frames = kFlightFrames;
+  compared.context = request.context;
+  compared.light = request.light;
+  compared.light_elevation_deg = request.light_elevation_deg;
+  compared.light_azimuth_deg = request.light_azimuth_deg;
+  Sweep sweep = make_sweep(compared);
+  for (SweepEntry& entry : sweep.entries) {
+    entry.plan.filter.texels += kJitterReachTexels;
+    BiasOptions& bias = entry.plan.bias;
+    bias.constant_texels *= request.bias;
+    bias.slope_texels *= request.bias;
+    bias.normal_offset_texels *= request.bias;
+  }
+  return sweep;
+}
+
+/// One frame's mask, and the milliseconds that finding and accumulating it took.
+struct DrawnMask {
+  std::vector<float> lit;
+  double mask_ms = 0.0, accumulate_ms = 0.0;
+};
+
+/// Draws frames of one filter on one scene.
+class Run {
+ public:
+  Run(const AccumulateRequest& request, Stage& stage, const SweepEntry& entry)
+      : request_(request), noise_(noise_from(request.noise)), stage_(stage), entry_(entry) {}
+
+  /// `index` counts from 0; 0 forgets what was accumulated. Not accumulated: the frame alone.
+  DrawnMask draw(const Camera& camera, int index, bool accumulated) {
+    const auto frame = static_cast<std::uint32_t>(index);
+    const ShadowPlan plan = jittered(stage_.plan(entry_, camera), jitter_texels(frame));
+    render::FrameOptions options;
+    options.aliasing = options.heat_map = options.cascade_tint = false;
+    options.noise = noise_;
+    options.frame_index = frame;
+    options.accumulation = request_.settings;
+    options.accumulation.on = accumulated;
+    options.accumulation.restart = index == 0;
+    const render::FrameStats stats = stage_.renderer().draw(plan, camera, stage_.filter(entry_), options);
+    const FloatImage mask = stage_.renderer().mask();
+    DrawnMask drawn;
+    for (std::size_t i = 0; i < mask.values.size(); i += 2) drawn.lit.push_back(mask.values[i]);
+    const auto ms = [&stats](render::Pass pass) {
+      return stats.milliseconds[static_cast<std::size_t>(pass)];
+    };
+    drawn.mask_ms = ms(render::Pass::mask);
+    drawn.accumulate_ms = ms(render::Pass::accumulate);
+    return drawn;
+  }
+
+  void write_picture(const std::string& name) const {
+    if (request_.out.empty()) return;
+    write_png(stage_.renderer().image(), std::filesystem::path(request_.out) / (name + ".png"));
+  }
+
+ private:
+  const AccumulateRequest& request_;
+  render::SampleNoise noise_;
+  Stage& stage_;
+  const SweepEntry& entry_;
+};
+
+double misclassified(const std::vector<float>& mask, const FrameTruth& truth) {
+  const report::MaskErrors errors = report::mask_errors(mask, truth.judged, truth.judged);
+  return errors.false_lit + errors.false_shadow;
+}
+
+/// Pixels that are wrong with accumulation and right without, as a share of those that are decided.
+double ghosting(const std::vector<float>& accumulated, const std::vector<float>& single,
+                const FrameTruth& truth) {
+  const auto wrong = [](float lit, float judged) { return (lit > 0.5f) != (judged > 0.5f); };
+  std::uint64_t decided = 0, ghosts = 0;
+  for (std::size_t i = 0; i < accumulated.size(); ++i) {
+    if (truth.judged[i] < 0.0f) continue;
+    ++decided;
+    ghosts += wrong(accumulated[i], truth.judged[i]) && !wrong(single[i], truth.judged[i]) ? 1 : 0;
+  }
+  return decided == 0 ? 0.0 : static_cast<double>(ghosts) / static_cast<double>(decided);
+}
+
+/// A line of the table; numbers below zero were not measured.
+struct AccumulateRow {
+  std::string scene, filter, view;
+  int frames = 0;
+  double wrong = 0.0, to_first = -1.0, flips = -1.0, ghosts = -1.0, mask_ms = 0.0, accumulate_ms = 0.0;
+};
+
+void print_row(const AccumulateRow& row, bool json) {
+  if (json) {
+    nlohmann::ordered_json line{{"scene", row.scene},
+                                {"filter", row.filter},
+                                {"view", row.view},
+                                {"frames", row.frames},
+                                {"misclassified", row.wrong},
+                                {"mask_ms", row.mask_ms},
+                                {"accumulate_ms", row.accumulate_ms}};
+    if (row.to_first >= 0.0) line["to_first"] = row.to_first;
+    if (row.flips >= 0.0) line["flips"] = row.flips;
+    if (row.ghosts >= 0.0) line["ghosting"] = row.ghosts;
+    print_line(line.dump());
+  } else {
+    const auto percent = [](double share) {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
+      return share < 0.0 ? std::string() : std::string(text);
+    };
+    char text[512];
+    std::snprintf(text, sizeof text, "| %s | %s | %s | %d | %s | %s | %s | %s | %.1f | %.1f |",
+                  row.scene.c_str(), row.filter.c_str(), row.view.c_str(), row.frames,
+                  percent(row.wrong).c_str(), percent(row.to_first).c_str(), percent(row.flips).c_str(),
+                  percent(row.ghosts).c_str(), row.mask_ms, row.accumulate_ms);
+    print_line(text);
+  }
+  flush_output();
+}
+
+/// The view at rest: rows at the requested numbers of frames.
+void measure_rest(const AccumulateRequest& request, Run& run, const Camera& camera, const FrameTruth& truth,
+                  AccumulateRow row) {
+  std::vector<int> wanted = request.frames;
+  std::sort(wanted.begin(), wanted.end());
+  row.view = "at rest";
+  double first = -1.0;
+  DrawnMask now = run.draw(camera, 0, true);
+  Progress progress(row.filter, wanted.back());
+  for (int drawn = 1; drawn <= wanted.back(); ++drawn) {
+    check_interrupt();
+    progress.set(drawn);
+    const bool counts = std::binary_search(wanted.begin(), wanted.end(), drawn);
+    if (drawn == 1) first = misclassified(now.lit, truth);
+    if (counts) run.write_picture(row.filter.substr(0, row.filter.find(':')) + "_" + std::to_string(drawn));
+    DrawnMask next = run.draw(camera, drawn, true);
+    if (counts) {
+      row.frames = drawn;
+      row.wrong = misclassified(now.lit, truth);
+      row.to_first = first > 0.0 ? row.wrong / first : -1.0;
+      row.flips = report::excess_flips(now.lit, next.lit, truth.judged, truth.judged);
+      row.mask_ms = now.mask_ms;
+      row.accumulate_ms = now.accumulate_ms;
+      progress.clear();
+      print_row(row, request.json);
+    }
+    now = std::move(next);
+  }
+}
+
+/// The view on its way to the same frame, which is measured alone and with the frames before it.
+void measure_moving(const AccumulateRequest& request, Run& run, const Stage& stage, const FrameTruth& truth,
+                    AccumulateRow row) {
+  const DrawnMask single = run.draw(stage.camera(kFrame), request.moving - 1, false);
+  row.view = "moving, alone";
+  row.frames = 1;
+  row.wrong = misclassified(single.lit, truth);
+  row.mask_ms = single.mask_ms;
+  print_row(row, request.json);
+  DrawnMask accumulated;
+  for (int i = 0; i < request.moving; ++i) {
+    check_interrupt();
+    accumulated = run.draw(stage.camera(kFrame - request.moving + 1 + i), i, true);
+  }
+  run.write_picture(row.filter.substr(0, row.filter.find(':')) + "_moving");
+  const double alone = row.wrong;
+  row.view = "moving";
+  row.frames = request.moving;
+  row.wrong = misclassified(accumulated.lit, truth);
+  row.to_first = alone > 0.0 ? row.wrong / alone : -1.0;
+  row.ghosts = ghosting(accumulated.lit, single.lit, truth);
+  row.mask_ms = accumulated.mask_ms;
+  row.accumulate_ms = accumulated.accumulate_ms;
+  print_row(row, request.json);
+}
+
+int run_accumulate(const AccumulateRequest& request) {
+  for (const std::string& scene : request.scenes) check_scene_word("SCENE", scene);
+  for (const int frames : request.frames)
+    if (frames < 1 || frames > kMostFrames)
+      throw std::runtime_error("--frames " + std::to_string(frames) + ": wants 1 to " +
+                               std::to_string(kMostFrames));
+  (void)noise_from(request.noise);
+  if (request.warp != "auto" && find_warp(request.warp) == nullptr)
+    refuse_name("--warp", request.warp, warp_names());
+  const Sweep sweep = sweep_of(request);
+  watch_interrupts();
+  if (!request.out.empty()) make_folder("--out", request.out);
+  const auto context = render::create_context(sweep.context);
+  if (!request.json) {
+    print_line(
+        "| scene | filter | view | frames | misclassified | to one frame | flips | ghosting | mask ms | "
+        "accumulate ms |");
+    print_line("|--|--|--|--:|--:|--:|--:|--:|--:|--:|");
+  }
+  for (const std::string& scene : sweep.scenes) {
+    Stage stage(sweep, scene);
+    const FrameTruth truth = frame_truth(stage, kFrame, sweep.baseline);
+    for (const SweepEntry& entry : sweep.entries) {
+      Run run(request, stage, entry);
+      AccumulateRow row;
+      row.scene = scene;
+      row.filter = to_string(entry.filter);
+      measure_rest(request, run, truth.camera, truth, row);
+      if (request.moving > 0) measure_moving(request, run, stage, truth, row);
+      render::check_context();
+    }
+  }
+  return 0;
+}
+
+/// Which maps are drawn, and under which light.
+std::vector<Option> scene_options(AccumulateRequest& request) {
+  return {{.name = "--filters",
+           .target = &request.filters,
+           .help = "filters, with options as in pcss:angle_deg=1",
+           .names = names_in(render::all_filters()),
+           .only_names = false},
+          {.name = "--warp",
+           .target = &request.warp,
+           .help = "warp of the maps, or none",
+           .names = warp_names(),
+           .only_names = false},
+          {.name = "--cascades",
+           .target = &request.cascades,
+           .help = "number of shadow maps along the view",
+           .range = {{1, kMaxMaps}}},
+          {.name = "--map-size",
+           .target = &request.map_size,
+           .help = "texels along each side of a map",
+           .range = {{64, 16384}}},
+          {.name = "--bias",
+           .target = &request.bias,
+           .help = "share of the usual bias; comparisons near texels' centres need less of it",
+           .range = {{0.0, 4.0}}},
+          {.name = "--light",
+           .target = &request.light,
+           .help = "sun, or a spot or point light in the middle of the scene",
+           .names = {"sun", "spot", "point"}},
+          {.name = "--light-elevation-deg",
+           .target = &request.light_elevation_deg,
+           .help = "elevation of the sun above the horizon, degrees",
+           .range = {{0.1, 90.0}}},
+          {.name = "--light-azimuth-deg",
+           .target = &request.light_azimuth_deg,
+           .help = "azimuth of the sun, degrees: 0 is -Z, 90 is +X",
+           .range = {{-360.0, 360.0}}}};
+}
+
+/// How frames are accumulated.
+std::vector<Option> accumulation_options(AccumulateRequest& request) {
+  return {{.name = "--frames",
+           .target = &request.frames,
+           .help = "numbers of frames after which the view at rest is measured",
+           .delimiter = ','},
+          {.name = "--moving",
+           .target = &request.moving,
+           .help = "frames of a moving view at 60 Hz that are accumulated; 0: none",
+           .range = {{0, kFrame}}},
+          {.name = "--confidence-power",
+           .target = &request.settings.confidence_power,
+           .help = "power of the confidence that weighs a frame; 0: all frames weigh alike",
+           .range = {{0.0, 64.0}}},
+          {.name = "--memory",
+           .target = &request.settings.memory,
+           .help = "frames that the history counts as at most",
+           .range = {{1.0, 4096.0}}},
+          {.name = "--depth-tolerance",
+           .target = &request.settings.depth_tolerance,
+           .help = "share of the view depth by which the history may be off",
+           .range = {{0.0, 1.0}}},
+          {.name = "--noise",
+           .target = &request.noise,
+           .help = "noise of sample patterns from frame to frame",
+           .names = noise_names()}};
+}
+
+}  // namespace
+
+std::function<int()> declare_accumulate(Arguments& arguments) {
+  const auto request = std::make_shared<AccumulateRequest>();
+  arguments.options = {{.name = "SCENE",
+                        .target = &request->scenes,
+                        .help = "builtin:NAME or glTF files",
+                        .required = true,
+                        .names = builtin_scene_words(),
+                        .only_names = false,
+                        .completion = Completion::files}};
+  for (Option& option : accumulation_options(*request)) arguments.options.push_back(std::move(option));
+  for (Option& option : scene_options(*request)) arguments.options.push_back(std::move(option));
+  arguments.options.push_back(
+      {.name = "--size", .target = &request->size, .help = "size of a frame in pixels, WIDTHxHEIGHT"});
+  arguments.options.push_back(
+      {.name = "--out",
+       .target = &request->out,
+       .help = "folder for pictures of the measured frames; without it none are written",
+       .completion = Completion::folders});
+  arguments.options.push_back(
+      {.name = "--json", .target = &request->json, .help = "print each row as a line of JSON"});
+  arguments.options.push_back({.name = "--context",
+                               .target = &request->context,
+                               .help = "OpenGL context: auto, osmesa or egl",
+                               .names = {"auto", "osmesa", "egl"}});
+  arguments.footer =
+      "Each frame moves the maps' texels by another share of a texel; re-projection accumulates the mask.\n"
+      "Misclassified: pixels whose mask is on the wrong side of one half, against exact rays. Flips: pixels\n"
+      "that change from this frame to the next. Ghosting: pixels that the frame alone has right and\n"
+      "accumulation has wrong.";
+  return [request] { return run_accumulate(*request); };
+}
+
+}  // namespace gnomon::tool

@@ -1,0 +1,234 @@
+// Temporal accumulation: does the mask come closer to the exact shadow, and forget what it must?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "blue_noise.hpp"
+#include "gnomon/jitter.hpp"
+#include "mask_frame.hpp"
+#include "shared_context.hpp"
+
+namespace gnomon::render {
+namespace {
+
+FrameOptions accumulating() {
+  FrameOptions options;
+  options.accumulation.on = true;
+  return options;
+}
+
+PlanOptions coarse_map(const Filter& filter) {
+  PlanOptions options;
+  options.resolution.max_size = 64;
+  options.cascades = 1;
+  options.warp.warp = &warps::none;
+  set_margin(default_settings(filter), options);
+  options.filter.texels += kJitterReachTexels;
+  // Results near texels' centres count most, and they need next to no bias.
+  options.bias.slope_texels *= 0.1;
+  options.bias.normal_offset_texels *= 0.1;
+  return options;
+}
+
+/// Draws frames of a scene from one plan, whose grid moves.
+class Stills {
+ public:
+  explicit Stills(const Filter& filter = filters::hard, const glm::dvec3& light = kSlant)
+      : scene_(box_on_ground()), renderer_(scene_), filter_(filter), light_(light) {}
+  Frame frame(std::uint32_t index, const FrameOptions& options, const Camera& camera = still()) {
+    const ShadowPlan plan = plan_for(scene_, camera, light_, coarse_map(filter_));
+    return draw(renderer_, camera, jittered(plan, jitter_texels(index)), default_settings(filter_), options);
+  }
+  /// After so many frames of a view at rest.
+  Frame after(int frames, FrameOptions options = accumulating()) {
+    Frame last;
+    for (int i = 0; i < frames; ++i) {
+      options.frame_index = static_cast<std::uint32_t>(i);
+      options.accumulation.restart = i == 0;
+      last = frame(options.frame_index, options);
+    }
+    return last;
+  }
+  void turn_light(const glm::dvec3& light) { light_ = light; }
+  [[nodiscard]] static Camera still() { return camera_on_box(kSize, kSize); }
+  /// Pixels of the ground whose mask is on the wrong side of one half.
+  [[nodiscard]] int wrong(const Frame& frame) const {
+    int count = 0;
+    for (std::size_t i = 0; i < frame.pixels(); ++i) {
+      if (!frame.surface(i) || std::abs(frame.point(i).y) > 1e-3) continue;
+      const bool shadow = hits_box(frame.point(i), -light_, glm::dvec3(kBoxMin), glm::dvec3(kBoxMax));
+      count += shadow == (frame.lit(i) > 0.5f) ? 1 : 0;
+    }
+    return count;
+  }
+
+ private:
+  Scene scene_;
+  Renderer renderer_;
+  const Filter& filter_;
+  glm::dvec3 light_;
+};
+
+bool same_mask(const Frame& a, const Frame& b) {
+  return a.mask.values == b.mask.values;
+}
+
+TEST(Accumulation, first_frame_is_that_frame_alone) {
+  Stills stills;
+  const Frame alone = stills.frame(0, {}), first = stills.frame(0, accumulating());
+  EXPECT_TRUE(same_mask(alone, first));
+  EXPECT_GT(stills.wrong(alone), 50) << "a coarse map has stairs";
+}
+
+TEST(Accumulation, sixty_four_frames_leave_a_tenth_of_the_misclassified_pixels) {
+  Stills stills;
+  const int alone = stills.wrong(stills.after(1)), eight = stills.wrong(stills.after(8));
+  const int all = stills.wrong(stills.after(64));
+  EXPECT_LT(eight, 0.5 * alone);
+  EXPECT_LE(all, 0.1 * alone);
+}
+
+TEST(Accumulation, does_not_change_from_frame_to_frame_once_it_has_converged) {
+  Stills stills;
+  const Frame before = stills.after(64);
+  FrameOptions options = accumulating();
+  const Frame after = stills.frame(64, options);
+  int flips = 0, flips_alone = 0;
+  const Frame one = stills.frame(63, {}), other = stills.frame(64, {});
+  for (std::size_t i = 0; i < before.pixels(); ++i) {
+    flips += (before.lit(i) > 0.5f) != (after.lit(i) > 0.5f) ? 1 : 0;
+    flips_alone += (one.lit(i) > 0.5f) != (other.lit(i) > 0.5f) ? 1 : 0;
+  }
+  EXPECT_GT(flips_alone, 50);
+  EXPECT_LT(flips, flips_alone / 20);
+}
+
+TEST(Accumulation, restart_forgets_and_so_does_a_frame_without) {
+  Stills stills;
+  stills.after(16);
+  stills.turn_light(glm::normalize(glm::dvec3(-0.5, -1.0, 0.3)));
+  FrameOptions options = accumulating();
+  options.accumulation.restart = true;
+  const Frame restarted = stills.frame(3, options);
+  const Frame alone = stills.frame(3, {});
+  EXPECT_TRUE(same_mask(restarted, alone));
+  EXPECT_TRUE(same_mask(stills.frame(3, accumulating()), alone)) << "after a frame without accumulation";
+}
+
+TEST(Accumulation, a_moving_view_finds_its_points_again) {
+  Stills stills;
+  Camera camera = Stills::still();
+  const glm::dvec3 step = 0.01 * glm::normalize(glm::cross(camera.forward, camera.up));
+  FrameOptions options = accumulating();
+  Frame last;
+  constexpr int kFrames = 24;
+  for (int i = 0; i < kFrames; ++i) {
+    last = stills.frame(static_cast<std::uint32_t>(i), options, camera);
+    camera.position += step;
+  }
+  camera.position -= step;
+  const Frame alone = stills.frame(kFrames - 1, {}, camera);
+  EXPECT_GT(stills.wrong(alone), 50);
+  EXPECT_LT(stills.wrong(last), 0.5 * stills.wrong(alone));
+}
+
+TEST(Accumulation, rejects_the_history_of_another_surface) {
+  // Ground that the box hid from the camera has no history, though there were pixels where it would have
+  // been.
+  Stills stills;
+  const Camera before = Stills::still();
+  Camera camera = before;
+  camera.position += 3.0 * glm::normalize(glm::cross(camera.forward, camera.up));
+  const Frame alone = stills.frame(40, {}, camera);
+  const auto changed = [&](double tolerance) {
+    stills.after(32);
+    FrameOptions options = accumulating();
+    options.accumulation.depth_tolerance = tolerance;
+    const Frame frame = stills.frame(40, options, camera);
+    int revealed = 0, different = 0;
+    for (std::size_t i = 0; i < frame.pixels(); ++i) {
+      const glm::dvec3 point = frame.point(i);
+      if (!frame.surface(i) || std::abs(point.y) > 1e-3) continue;
+      constexpr double kPixel = 0.1;  // world units: at the outline the history of the ground is right
+      if (!hits_box(point, before.position - point, glm::dvec3(kBoxMin) + kPixel,
+                    glm::dvec3(kBoxMax) - kPixel))
+        continue;
+      ++revealed;
+      different += frame.lit(i) != alone.lit(i) ? 1 : 0;
+    }
+    EXPECT_GT(revealed, 100);
+    return different;
+  };
+  EXPECT_EQ(changed(0.01), 0);
+  EXPECT_GT(changed(1.0), 10);
+}
+
+TEST(Accumulation, noise_that_moves_averages_to_the_whole_kernel) {
+  // Four turning samples of a disc, 32 frames of them, against 64 samples.
+  const Scene scene = box_on_ground();
+  Renderer renderer(scene);
+  const Camera camera = camera_on_box(kSize, kSize);
+  const FilterSettings few = parse_filter("pcf:pattern=1,samples=4,radius=4").settings,
+                       many = parse_filter("pcf:pattern=1,samples=64,radius=4").settings;
+  PlanOptions planned;
+  planned.resolution.max_size = 256;
+  set_margin(few, planned);
+  const ShadowPlan plan = plan_for(scene, camera, kSlant, planned);
+  const Frame whole = draw(renderer, camera, plan, many, {});
+  const auto error_of = [&](const Frame& frame) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < frame.pixels(); ++i) sum += std::abs(frame.lit(i) - whole.lit(i));
+    return sum;
+  };
+  const double still = error_of(draw(renderer, camera, plan, few, {}));
+  for (const SampleNoise noise : {SampleNoise::gradient, SampleNoise::blue}) {
+    FrameOptions options = accumulating();
+    options.noise = noise;
+    options.accumulation.confidence_power = 0.0;
+    Frame last;
+    for (options.frame_index = 0; options.frame_index < 32; ++options.frame_index)
+      last = draw(renderer, camera, plan, few, options);
+    EXPECT_LT(error_of(last), 0.35 * still) << static_cast<int>(noise);
+    EXPECT_GT(still, 10.0);
+  }
+}
+
+TEST(BlueNoise, has_every_value_once_and_little_of_low_frequencies) {
+  const std::vector<float> noise = blue_noise();
+  ASSERT_EQ(noise.size(), static_cast<std::size_t>(kBlueNoiseSide * kBlueNoiseSide));
+  EXPECT_EQ(std::set<float>(noise.begin(), noise.end()).size(), noise.size());
+  EXPECT_EQ(noise, blue_noise());
+  // Power of the waves of 1 to 6 periods over the tile; white noise has the values' variance in every wave.
+  constexpr double kTau = 6.283185307179586;
+  double low = 0.0, high = 0.0;
+  int lows = 0, highs = 0;
+  for (const int v : {0, 1, 2, 4, 6, 20, 28, 32}) {
+    for (const int u : {1, 2, 3, 5, 6, 19, 27, 31}) {
+      double re = 0.0, im = 0.0;
+      for (int y = 0; y < kBlueNoiseSide; ++y) {
+        for (int x = 0; x < kBlueNoiseSide; ++x) {
+          const double value = noise[static_cast<std::size_t>(y * kBlueNoiseSide + x)] - 0.5;
+          const double angle = kTau * (u * x + v * y) / kBlueNoiseSide;
+          re += value * std::cos(angle);
+          im += value * std::sin(angle);
+        }
+      }
+      const double power = (re * re + im * im) / (kBlueNoiseSide * kBlueNoiseSide) * 12.0;
+      const bool is_low = u <= 6 && v <= 6;
+      if (is_low) {
+        low += power;
+        ++lows;
+      } else if (u >= 19 && v >= 20) {
+        high += power;
+        ++highs;
+      }
+    }
+  }
+  EXPECT_LT(low / lows, 0.05) << "1: white noise";
+  EXPECT_GT(high / highs, 0.8);
+}
+
+}  // namespace
+}  // namespace gnomon::render
