@@ -81,6 +81,10 @@ struct WarpInput {
 
   /// Neither camera nor light has a perspective to undo.
   [[nodiscard]] bool flat() const noexcept { return orthographic && !light.perspective; }
+  /// The choice is the map without a warp.
+  [[nodiscard]] bool is_unwarped(const WarpChoice& choice) const noexcept {
+    return choice.kappa == 0.0 && choice.axis == unwarped.axis && choice.row_a == unwarped.row_a;
+  }
   /// A warp along y of this strength.
   [[nodiscard]] WarpChoice along_view(double kappa) const noexcept {
     WarpChoice choice;

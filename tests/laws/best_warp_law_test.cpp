@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 #include <variant>
@@ -10,6 +11,7 @@
 #include "gnomon/warp.hpp"
 #include "support/property.hpp"
 #include "support/seeded_input.hpp"
+#include "warp/along_view.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/plane_map.hpp"
 
@@ -24,10 +26,46 @@ constexpr double kLeastGain = 0.02;
 /// What the bodies of one plan came to.
 struct Judged {
   int bodies = 0;
-  double worst = 0.0;
+  double worst = 0.0, apart = 0.0, log_along = 0.0, log_quick = 0.0;
   std::string worst_against;
 };
 Judged judged;
+
+/// How far the values of choices side by side are from those of each alone.
+double apart(const WarpInput& input, PlaneError& error) noexcept {
+  std::array<WarpChoice, kWarpLanes> choice;
+  ChoiceLanes lanes;
+  for (std::size_t i = 0; i < kWarpLanes; ++i) {
+    choice[i] = all_warps()[i % all_warps().size()]->choose(input);
+    lanes.set(i, choice[i]);
+  }
+  LaneValues value;
+  error.values(lanes, value);
+  double most = 0.0;
+  for (std::size_t i = 0; i < kWarpLanes; ++i) {
+    const bool known = choice[i].kappa == 0.0 || usable(input.body, choice[i], input.most_stretch);
+    const double alone = error.value(choice[i]);
+    // Bodies of rounding give values of rounding.
+    if (!known || !(alone < 1e12)) continue;
+    most = std::max(most, std::abs(value[i] - alone) / alone);
+  }
+  return most;
+}
+
+/// The strength found along the view, over the best of many; and the quick search over the thorough one.
+void judge_along(const WarpInput& input) noexcept {
+  AlongView view(input);
+  const AlongViewBest best = view.best();
+  const double length = input.y_max - input.y_min;
+  double least = warp_error(input, 0.0).value(input.objective);
+  if (!(length > 0.0) || !(least < 1e300)) return;
+  for (double reach = 0.01; reach < 1e6; reach *= 1.05)
+    least = std::min(least, warp_error(input, reach / length).value(input.objective));
+  const double found = warp_error(input, best.kappa).value(input.objective) / least;
+  if (found > 0.0 && found < 1e300) judged.log_along += std::log(found);
+  const double quick = view.least() / best.value;
+  if (quick > 0.0 && quick < 1e300) judged.log_quick += std::log(quick);
+}
 
 /// In the place of a warp: compares all warps for each body that a plan asks about.
 WarpChoice judge(const WarpInput& input) noexcept {
@@ -42,6 +80,8 @@ WarpChoice judge(const WarpInput& input) noexcept {
   };
   const double best = value(warps::optimal);
   ++judged.bodies;
+  judge_along(input);
+  judged.apart = std::max(judged.apart, apart(input, error));
   for (const Warp* warp : all_warps()) {
     const double ratio = best / value(*warp);
     if (!(ratio > judged.worst)) continue;
@@ -55,6 +95,7 @@ const Warp kJudge{"judge", "compares all warps", judge, true};
 void hold(bool parallel, int cases, int least_bodies) {
   std::array<double, 3> worst{};
   int bodies = 0;
+  double log_along = 0.0, log_quick = 0.0;
   for_all(cases, [&] {
     SeededInput input;
     const auto seed = static_cast<std::uint64_t>(pick(1 << 30));
@@ -67,10 +108,18 @@ void hold(bool parallel, int cases, int least_bodies) {
     bodies += judged.bodies;
     double& so_far = worst[static_cast<std::size_t>(input.options.warp.objective)];
     so_far = std::max(so_far, judged.worst);
+    constexpr double kRounding = 1e-6;
+    require(judged.apart <= kRounding, "values side by side are apart by", judged.apart);
+    log_along += judged.log_along;
+    log_quick += judged.log_quick;
     require(judged.worst <= kAtMost, to_string(input.options.warp.objective), "optimal over",
             judged.worst_against, judged.worst);
   });
   EXPECT_GT(bodies, least_bodies);
+  // Not one by one: a flat body's image has no width at one strength alone.
+  constexpr double kAlong = 0.02, kQuick = 0.1;
+  EXPECT_LT(log_along, kAlong * bodies) << "strength along the view over the best";
+  EXPECT_LT(std::abs(log_quick), kQuick * bodies) << "quick search along the view over the thorough one";
   for (const double ratio : worst) {
     EXPECT_GT(ratio, 0.0);
     std::printf("worst ratio to the best other warp %.6f\n", ratio);

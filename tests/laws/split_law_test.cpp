@@ -1,8 +1,13 @@
 // Do splits that are searched for the receivers at hand need no more texels than the formulas' splits?
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 
+#include "split/optimal.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -60,6 +65,36 @@ void compare_with_logarithmic(int boxes, double allowed, std::uint64_t exception
   EXPECT_GT(better, 10u);
   EXPECT_LE(100 * worse, exceptions * compared) << worse << " of " << compared;
   EXPECT_LT(log_ratio, 0.0) << "worse on the average";
+}
+
+// A cost that grows with either end, as a map's error does, and is no formula's: powers of depth with steps.
+struct SomeCost {
+  double power, step;
+  [[nodiscard]] double operator()(double begin, double end) const {
+    return std::pow(end, power) / begin + (begin < step && step < end ? 3.0 * power : 0.0);
+  }
+};
+
+TEST(SplitLaw, a_search_finds_the_least_of_all_divisions_at_its_depths) {
+  for_all(200, [] {
+    const SomeCost cost{between(0.2, 2.0), between(1.0, 100.0)};
+    const bool sum = chance(0.5);
+    const auto joined = [sum](double a, double b) { return sum ? a + b : std::max(a, b); };
+    const auto total = [&](double b, double c) {
+      return joined(joined(cost(1.0, b), cost(b, c)), cost(c, 100.0));
+    };
+    std::array<double, 4> edges{1.0, between(2.0, 20.0), between(20.0, 90.0), 100.0};
+    double least = std::numeric_limits<double>::infinity();
+    const auto depth = [](int i) {
+      return i == kSplitSteps ? 100.0 : std::pow(100.0, double(i) / kSplitSteps);
+    };
+    for (int i = 1; i < kSplitSteps; ++i) {
+      for (int k = i + 1; k < kSplitSteps; ++k) least = std::min(least, total(depth(i), depth(k)));
+    }
+    search_splits(std::span<double>(edges), cost, joined);
+    require(total(edges[1], edges[2]) <= least * 1.0001, "searched", total(edges[1], edges[2]), "least",
+            least);
+  });
 }
 
 TEST(SplitLaw, searched_splits_are_no_worse_than_logarithmic_ones_on_one_receiver) {

@@ -101,7 +101,7 @@ WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const Li
   const WarpInput& in = question.in;
   if (is_unwarped(request.warp) || c.stable) return in.unwarped;
   const WarpChoice choice = request.warp.choose(in);
-  double ratio = gain_ratio(in, choice, most_stretch(c, request, question.points));
+  double ratio = gain_ratio(in, choice);
   if (takes(request.warp, choice, ratio)) ratio = widened_ratio(in, request, body, choice, ratio);
   if (takes(request.warp, choice, ratio)) return choice;
   result.omit({OmissionKind::warp_without_gain, request.slot.cascade, ratio, 0.0, 0});

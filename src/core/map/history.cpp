@@ -267,7 +267,7 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
     return plane;
   };
   const Decomposed from = decompose(walk.before(), in.body, best.axis);
-  if (!from.valid || !usable(in.body, from.choice, most_stretch(c, request, question.points)))
+  if (!from.valid || !usable(in.body, from.choice, in.most_stretch))
     return reported(target, walk.changed(target));
   WarpChoice goal = best;
   goal.kappa = min_of(goal.kappa, strongest_in_motion(c, question, target.length));

@@ -123,6 +123,16 @@ void hold_to_frustum(const MapRequest& request, LightBody& body) noexcept {
   }
 }
 
+/// The strongest warp that a map of this light can take: the ratio of its texels' lengths at both ends.
+double most_stretch(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
+  if (!request.space.perspective) return kStrongest;
+  const PlaneMap plane = plane_map(body.points(), request.unwarped);
+  const double share = border_share(c, request, body, plane);
+  const double border =
+      static_cast<double>(border_texels(c.options, request.slot.width, share)) / request.slot.width;
+  return 1.0 + kBorderGrowth / max_of(border / (1.0 - 2.0 * border), 1e-4);
+}
+
 }  // namespace
 
 LightBody in_light_space(const PlanContext& c, const MapRequest& request) noexcept {
@@ -205,15 +215,6 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, cons
   in.depth_per_y = space.perspective ? in.view.forward.y : in.sin_gamma;
 }
 
-double most_stretch(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
-  if (!request.space.perspective) return kStrongest;
-  const PlaneMap plane = plane_map(body.points(), request.unwarped);
-  const double share = border_share(c, request, body, plane);
-  const double border =
-      static_cast<double>(border_texels(c.options, request.slot.width, share)) / request.slot.width;
-  return 1.0 + kBorderGrowth / max_of(border / (1.0 - 2.0 * border), 1e-4);
-}
-
 namespace {
 
 /// The objective with the choice over that without; infinite where it is not known.
@@ -228,7 +229,7 @@ double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
   if (choice.gain_ratio > 0.0) return choice.gain_ratio;
   const bool along_y = !in.light.perspective && choice.axis.x == 0.0 && choice.centre == 0.0 &&
                        choice.row_a.y == 0.0 && choice.row_b.x == 0.0;
-  if (choice.kappa == 0.0 && choice.axis == in.unwarped.axis && choice.row_a == in.unwarped.row_a) return 1.0;
+  if (in.is_unwarped(choice)) return 1.0;
   if (along_y && in.objective == Objective::storage) {
     // A gain by the simplified weights above this factor is one by the exact error, too: they differ by the
     // obliquity of the view rays alone.
@@ -242,8 +243,8 @@ double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
 
 }  // namespace
 
-double gain_ratio(const WarpInput& in, const WarpChoice& choice, double most_stretch) noexcept {
-  if (!usable(in.body, choice, most_stretch)) return std::numeric_limits<double>::infinity();
+double gain_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
+  if (!usable(in.body, choice, in.most_stretch)) return std::numeric_limits<double>::infinity();
   const double ratio = first_ratio(in, choice);
   // The 95th percentile of so few points is off by up to a fifth, and where rays fan out wide the worst texel
   // lies between them: a gain below that must show in other points, too. Where the light comes to meet the
@@ -267,8 +268,8 @@ double focused_objective(const PlanContext& c, const MapRequest& request) noexce
   const WarpChoice choice = request.warp.choose(in);
   PlaneError error(in);
   const double without = error.value(in.unwarped);
-  if (!usable(in.body, choice, most_stretch(c, request, question.points))) return without;
-  const double with = error.value(choice);
+  if (!usable(in.body, choice, in.most_stretch)) return without;
+  const double with = choice.gain_ratio > 0.0 ? choice.gain_ratio * without : error.value(choice);
   return with < without || !request.warp.drop_without_gain ? with : without;
 }
 
@@ -277,7 +278,7 @@ PlaneMap focused_plane(const PlanContext& c, const MapRequest& request) noexcept
   const WarpQuestion question(c, request, body);
   const WarpInput& in = question.in;
   const WarpChoice choice = request.warp.choose(in);
-  const double ratio = gain_ratio(in, choice, most_stretch(c, request, question.points));
+  const double ratio = gain_ratio(in, choice);
   return plane_map(in.body, takes(request.warp, choice, ratio) ? choice : in.unwarped);
 }
 

@@ -36,13 +36,9 @@ struct WarpQuestion {
 [[nodiscard]] LightBody judged_body(const PlanContext& c, const MapRequest& request,
                                     Polytope& focus) noexcept;
 
-/// The strongest warp that a map of this light can take: the ratio of its texels' lengths at both ends.
-[[nodiscard]] double most_stretch(const PlanContext& c, const MapRequest& request,
-                                  const LightBody& body) noexcept;
-
 /// The objective with the choice over the objective without; infinite for a choice that no map can be made
 /// with.
-[[nodiscard]] double gain_ratio(const WarpInput& in, const WarpChoice& choice, double most_stretch) noexcept;
+[[nodiscard]] double gain_ratio(const WarpInput& in, const WarpChoice& choice) noexcept;
 
 // A warp that gains less than this is dropped: it would come and go with the last bits of the input.
 inline constexpr double kLeastWarpGain = 1e-3;

@@ -1,4 +1,5 @@
 // Which view depths a plan covers, and where it divides them.
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -7,6 +8,7 @@
 #include "geometry/visible.hpp"
 #include "map/history.hpp"
 #include "plan/cascades.hpp"
+#include "plan/split_table.hpp"
 #include "split/optimal.hpp"
 #include "warp/registry.hpp"
 
@@ -92,14 +94,19 @@ double exact_objective(const PlanContext& c, const ParallelScene& scene,
 }
 
 void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double> edges) noexcept {
+  if (edges.size() < 3 || !(edges.front() > 0.0 && edges.back() > edges.front())) return;
   std::array<double, kMaxMaps + 1> given;
   std::copy(edges.begin(), edges.end(), given.begin());
-  const auto cost = [&](double begin, double end) { return simple_error(c, scene, begin, end); };
+  SplitTable table(c, scene);
+  const bool by_table = SplitTable::serves(c);
+  const auto cost = [&](double begin, double end) {
+    return by_table ? table.cost(begin, end) : simple_error(c, scene, begin, end);
+  };
   const auto both = [&](double a, double b) { return joined(c.options.warp.objective, a, b); };
-  if (edges.size() < 3 || !(edges.front() > 0.0 && edges.back() > edges.front())) return;
   search_splits(edges, cost, both);
   refine_splits(edges, cost, both);
   // The search goes by a simplified error; what counts is the exact one.
+  if (std::equal(edges.begin(), edges.end(), given.begin())) return;
   const std::span<const double> before{given.data(), edges.size()};
   if (!(exact_objective(c, scene, edges) < exact_objective(c, scene, before)))
     std::copy(before.begin(), before.end(), edges.begin());

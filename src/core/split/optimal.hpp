@@ -34,10 +34,14 @@ void search_splits(std::span<double> edges, const Cost& cost, const Joined& join
   std::array<std::array<double, kSplitSteps + 1>, kMaxMaps> best;
   std::array<std::array<int, kSplitSteps + 1>, kMaxMaps> from{};
   for (auto& row : best) row.fill(std::numeric_limits<double>::infinity());
+  // What the given edges come to; a map that costs more alone is in no better division, nor is a longer one.
+  double given = cost(edges[0], edges[1]);
+  for (std::size_t m = 1; m + 1 < edges.size(); ++m) given = joined(given, cost(edges[m], edges[m + 1]));
   for (int i = 0; i < kSplitSteps; ++i) {
     for (int j = i + 1; j <= kSplitSteps; ++j) {
       const auto to = static_cast<std::size_t>(j);
       const double one = cost(depth[static_cast<std::size_t>(i)], depth[to]);
+      if (one > given) break;
       if (i == 0) best[0][to] = one;
       for (std::size_t m = 1; m < static_cast<std::size_t>(maps); ++m) {
         const double total = joined(best[m - 1][static_cast<std::size_t>(i)], one);
@@ -47,6 +51,8 @@ void search_splits(std::span<double> edges, const Cost& cost, const Joined& join
       }
     }
   }
+  if (!(best[static_cast<std::size_t>(maps - 1)][kSplitSteps] < std::numeric_limits<double>::infinity()))
+    return;
   int at = kSplitSteps;
   for (int m = maps - 1; m > 0; --m) {
     at = from[static_cast<std::size_t>(m)][static_cast<std::size_t>(at)];

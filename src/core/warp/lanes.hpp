@@ -12,6 +12,12 @@ inline constexpr std::size_t kWarpLanes = 8;
   return (count + kWarpLanes - 1) / kWarpLanes * kWarpLanes;
 }
 
+/// 1 / x, and 0 at 0: without a choice, as compilers divide first and choose then, and without a trap.
+[[nodiscard]] inline double inverse_or_0(double x) noexcept {
+  constexpr double kNothing = 1e-280;
+  return x / (x * x + kNothing);
+}
+
 struct LaneRange {
   double low, high;
 };

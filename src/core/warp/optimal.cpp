@@ -104,8 +104,8 @@ RowChoice walk_from(const RowChoice& best, double step, int evaluations, const L
   return simplex[0].what;
 }
 
-/// The best fall-off by the corners, with its rows.
-RowChoice by_corners(RowSearch& search, const WarpInput& input) noexcept {
+/// The best of a few fall-offs by the corners, with its rows.
+RowChoice best_start(RowSearch& search, const WarpInput& input) noexcept {
   // The best stretch over the body, as a share of its ratio of depths: what 200 random cameras took, at the
   // median.
   const double share = input.objective == Objective::p95 ? 0.65 : 0.55;
@@ -120,8 +120,13 @@ RowChoice by_corners(RowSearch& search, const WarpInput& input) noexcept {
     const RowChoice rows = search.round(start);
     if (less(rows.value, best.value)) best = rows;
   }
+  return best;
+}
+
+/// A place from there where no step is better by the corners.
+RowChoice by_corners(RowSearch& search, RowChoice best) noexcept {
   const double length = length_of(best.fall_off);
-  constexpr int kWideSteps = 4, kNarrowSteps = 6;
+  constexpr int kWideSteps = 3, kNarrowSteps = 5;
   best = walk_from(best, max_of(0.25, 0.2 * length), kWideSteps,
                    [&](const std::array<double, 2>& at, const RowChoice&) {
                      return search.round({at[0], at[1]});
@@ -132,9 +137,52 @@ RowChoice by_corners(RowSearch& search, const WarpInput& input) noexcept {
                    });
 }
 
+WarpChoice choose_optimal(const WarpInput& input) noexcept;
+
 struct Judged {
   WarpChoice choice;
   double value;
+};
+
+/// The other warps of the registry, and what each comes to by a part of the samples.
+class Others {
+ public:
+  Others(const WarpInput& input, PlaneError& error) noexcept : input_(input), error_(error) {
+    choice_[count_++] = input.unwarped;
+    for (const Warp* other : all_warps()) {
+      if (other->choose == choose_optimal || count_ == choice_.size()) continue;
+      const WarpChoice choice = other->choose(input);
+      if (!input.is_unwarped(choice)) choice_[count_++] = choice;
+    }
+    error.count_some();
+    for (std::size_t first = 0; first < count_; first += kWarpLanes) {
+      ChoiceLanes lanes;
+      LaneValues value;
+      for (std::size_t i = 0; i < kWarpLanes; ++i) lanes.set(i, choice_[first + i < count_ ? first + i : 0]);
+      error.values(lanes, value);
+      for (std::size_t i = 0; i < kWarpLanes && first + i < count_; ++i) value_[first + i] = value[i];
+    }
+    error.count_all();
+  }
+  /// Takes the best of them where it is better than `best`, by all samples.
+  void improve(Judged& best) noexcept {
+    // Nearer than this, a part of the samples does not tell.
+    constexpr double kNear = 1.3;
+    for (std::size_t i = 1; i < count_; ++i) {
+      if (!(value_[i] < best.value * kNear)) continue;
+      const double value = error_.value(choice_[i]);
+      value_[i] = std::numeric_limits<double>::infinity();
+      if (less(value, best.value) && usable(input_.body, choice_[i], input_.most_stretch))
+        best = {choice_[i], value};
+    }
+  }
+
+ private:
+  const WarpInput& input_;
+  PlaneError& error_;
+  std::array<WarpChoice, 2 * kWarpLanes> choice_;
+  std::array<double, 2 * kWarpLanes> value_;
+  std::size_t count_ = 0;
 };
 
 /// Fall-off and the rows' leaning, by the error itself.
@@ -174,27 +222,22 @@ Judged polished(RowSearch& search, PlaneError& error, const Judged& start, int e
   return less(end.value, start.value) ? end : start;
 }
 
-WarpChoice choose(const WarpInput& input) noexcept {
+WarpChoice choose_optimal(const WarpInput& input) noexcept {
   if (input.flat() || !(input.y_max - input.y_min > 0.0)) return input.unwarped;
   PlaneError error(input, true);
   if (error.corners().count == 0) return input.unwarped;
   RowSearch search(input, error);
   const double without = error.value(input.unwarped);
   Judged best{input.unwarped, without};
+  // The corners only hint at a percentile: its walk is longer.
+  // The corners only hint at a percentile: its walk is longer.
+  const int steps = input.objective == Objective::p95 ? 18 : 14;
   if (!search.line()) {
-    best.choice = search.choice(by_corners(search, input));
+    best.choice = search.choice(by_corners(search, best_start(search, input)));
     best.value = error.value(best.choice);
   }
-  for (const Warp* other : all_warps()) {
-    if (other->choose == choose) continue;
-    const WarpChoice choice = other->choose(input);
-    if (choice.kappa == 0.0 && choice.axis == input.unwarped.axis && choice.row_a == input.unwarped.row_a)
-      continue;
-    const double value = error.value(choice);
-    if (less(value, best.value) && usable(input.body, choice, input.most_stretch)) best = {choice, value};
-  }
-  constexpr int kPolish = 14;
-  if (!search.line()) best = polished(search, error, best, kPolish);
+  Others(input, error).improve(best);
+  if (!search.line()) best = polished(search, error, best, steps);
   const bool gains = best.value < without * (1.0 - kLeastGain);
   WarpChoice choice = gains ? best.choice : input.unwarped;
   choice.gain_ratio = gains ? best.value / without : 1.0;
@@ -203,6 +246,6 @@ WarpChoice choose(const WarpInput& input) noexcept {
 
 }  // namespace
 
-const Warp optimal{"optimal", "perspective along any axis, searched for the objective", choose, true};
+const Warp optimal{"optimal", "perspective along any axis, searched for the objective", choose_optimal, true};
 
 }  // namespace gnomon::warps

@@ -15,45 +15,9 @@
 namespace gnomon {
 namespace {
 
-// Rays through the image for the even sampling, and points along all of them together.
-constexpr int kRays = 100;
-constexpr int kVisiblePoints = 160;
 constexpr double kShareAbove95 = 0.05;
-
-/// A face of the body as a bound on 1 / depth along the ray (x, y, 1) of the image: linear in x and y, so
-/// that finding where a ray is inside the body takes no division.
-struct InverseDepthBound {
-  double at, per_x, per_y;
-  [[nodiscard]] double on(double x, double y) const noexcept { return at + per_x * x + per_y * y; }
-};
-
-/// The bounds of all faces: `least` from those that have the eye inside, `most` from those that have it
-/// outside. Faces through the eye are the image's own edges.
-struct InverseDepthBounds {
-  std::array<InverseDepthBound, kMaxFaces> least, most;
-  std::size_t least_count = 0, most_count = 0;
-};
-
-InverseDepthBounds inverse_depth_bounds(const Polytope& body, const ViewInLight& view,
-                                        double near_depth) noexcept {
-  InverseDepthBounds bounds;
-  for (int f = 0; f < body.face_count; ++f) {
-    const Plane& plane = body.plane[static_cast<std::size_t>(f)];
-    // Faces nearer to the eye than rounding can tell pass through it.
-    constexpr double kThroughEye = 1e-9;
-    if (std::abs(plane.offset) <= kThroughEye * near_depth) continue;
-    const double inverse = -1.0 / plane.offset;
-    const InverseDepthBound bound{glm::dot(plane.normal, view.forward) * inverse,
-                                  glm::dot(plane.normal, view.right) * inverse,
-                                  glm::dot(plane.normal, view.up) * inverse};
-    if (plane.offset > 0.0) {
-      bounds.least[bounds.least_count++] = bound;
-    } else {
-      bounds.most[bounds.most_count++] = bound;
-    }
-  }
-  return bounds;
-}
+// No more samples than that may exceed the value asked for.
+constexpr std::size_t kMostAbove = 4;
 
 }  // namespace
 
@@ -63,9 +27,9 @@ BodyLanes::BodyLanes(const WarpInput& input) noexcept {
     x[count] = p.x;
     y[count++] = p.y;
   }
-  const std::size_t filled = count;
-  count = whole_lanes(filled);
-  for (std::size_t i = filled; i < count; ++i) {
+  points = count;
+  count = whole_lanes(points);
+  for (std::size_t i = points; i < count; ++i) {
     x[i] = x[0];
     y[i] = y[0];
   }
@@ -77,54 +41,83 @@ PlaneError::PlaneError(const WarpInput& input, bool searched, int set) noexcept
   for (const WarpInput::Point& p : input.body) {
     low = min_of(low, p.z);
     high = max_of(high, p.z);
+    if (std::isfinite(p.depth)) farthest_ = max_of(farthest_, p.depth);
     distance_ = max_of(distance_, largest_component({p.x, p.y, p.z}));
   }
   height_range_ = high - low;
   Polytope counted, counted_focus;
   const Polytope &body = from_pseudo_near(*input.polytope, counted), *focus = input.focus;
   if (focus != nullptr) focus = &from_pseudo_near(*focus, counted_focus);
-  // First, as there may be no room for all.
   const bool focused = focus != nullptr && !focus->empty();
-  const double outside = focused ? input.focus_weight : 1.0;
-  if (focused) add_corners(*focus, 1.0);
-  add_corners(body, outside);
-  corners_.fill_lanes();
+  // First, as there may be no room for all.
+  if (focused) add_vertices(*focus, 1.0, corners_);
+  add_vertices(body, focused ? input.focus_weight : 1.0, corners_);
+  find_pixels(input, corners_);
+  add_samples(body, focused ? focus : nullptr, searched, set);
+  all_ = sample_.count;
+  above_ = above(all_);
+}
+
+std::size_t PlaneError::above(std::size_t samples) const noexcept {
+  const auto wanted = static_cast<std::size_t>(share_ * static_cast<double>(samples));
+  return wanted < kMostAbove ? wanted : kMostAbove;
+}
+
+void PlaneError::count_some() noexcept {
+  // They are even over the image from the first on.
+  constexpr std::size_t kSome = 48;
+  if (share_ == 0.0 || all_ <= kSome) return;
+  sample_.count = kSome;
+  above_ = above(kSome);
+}
+
+void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool searched, int set) noexcept {
   // Fewer samples make no percentile: the body shows in a few pixels only.
   constexpr std::size_t kTooFew = 20;
-  if (input.objective == Objective::p95 && !input.orthographic) add_visible_points(set);
-  share_ = kShareAbove95;
-  if (sample_.count < kTooFew) {
-    share_ = 0.0;
-    sample_.count = 0;
-    if (focused) add_edges(*focus, 1.0);
-    add_edges(body, outside);
-    // The worst texel may lie inside a face or the body where rays fan out: the eye's in a wide image, or the
-    // light's, and with them the warp.
-    constexpr double kWide = 3.5;  // of the slope: 120 degrees
-    const ViewInLight& view = input.view;
-    const double wider = max_of(view.image_right - view.image_left, view.image_top - view.image_bottom);
-    // So do rays that come to meet the eye's: the half vector turns fast between them.
-    constexpr double kOpposed = -0.5;
-    const bool inside = searched && (input.light.perspective || wider > kWide || input.cos_gamma < kOpposed);
-    if (input.light.perspective || inside) add_faces(body, outside);
-    if (inside && !input.orthographic) add_visible_points(set);
+  if (input_.objective == Objective::p95 && !input_.orthographic) {
+    add_visible_points(input_, set, sample_);
+    find_pixels(input_, sample_);
   }
-  all_ = sample_.count;
-  sample_.fill_lanes();
+  share_ = kShareAbove95;
+  if (sample_.count >= kTooFew) return;
+  share_ = 0.0;
+  sample_.count = 0;
+  const double outside = focus != nullptr ? input_.focus_weight : 1.0;
+  if (focus != nullptr) add_vertices(*focus, 1.0, sample_);
+  add_vertices(body, outside, sample_);
+  const std::size_t vertices = sample_.count;
+  if (focus != nullptr) add_middles(*focus, 1.0, sample_);
+  add_middles(body, outside, sample_);
+  // The worst texel may lie inside a face or the body where rays fan out: the eye's in a wide image, or the
+  // light's, and with them the warp.
+  constexpr double kWide = 3.5;  // of the slope: 120 degrees
+  const ViewInLight& view = input_.view;
+  const double wider = max_of(view.image_right - view.image_left, view.image_top - view.image_bottom);
+  // So do rays that come to meet the eye's: the half vector turns fast between them.
+  constexpr double kOpposed = -0.5;
+  const bool inside = searched && (input_.light.perspective || wider > kWide || input_.cos_gamma < kOpposed);
+  if (input_.light.perspective || inside) add_faces(body, outside, sample_);
+  if (inside && !input_.orthographic) add_visible_points(input_, set, sample_);
+  complete_ = find_pixels(input_, sample_) >= vertices;
 }
 
 void PlaneError::count_worst(const WarpChoice& choice) noexcept {
   const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
-  // A percentile is of all points, and without an area there is no error.
-  if (share_ > 0.0 || sample_.count == 0 || rows == 0.0) return;
+  // Without an area there is no error.
+  if (sample_.count == 0 || rows == 0.0) return;
   find_rows(choice);
   constexpr double kNearWorst = 0.25;  // of the square: half the error
   const bool storage = input_.objective == Objective::storage;
   double most_x = 0.0, most_y = 0.0;
-  for (std::size_t i = 0; i < sample_.count; ++i) {
-    if (!storage) row_x_[i] = row_y_[i] = row_x_[i] + row_y_[i];
-    most_x = max_of(most_x, row_x_[i]);
-    most_y = max_of(most_y, row_y_[i]);
+  if (share_ > 0.0) {
+    most_x = worst_squared();
+    for (std::size_t i = 0; i < all_; ++i) row_y_[i] = 0.0;
+  } else {
+    for (std::size_t i = 0; i < all_; ++i) {
+      if (!storage) row_x_[i] = row_y_[i] = row_x_[i] + row_y_[i];
+      most_x = max_of(most_x, row_x_[i]);
+      most_y = max_of(most_y, row_y_[i]);
+    }
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < all_; ++i) {
@@ -135,7 +128,7 @@ void PlaneError::count_worst(const WarpChoice& choice) noexcept {
     ++kept;
   }
   // The lanes past the last kept one hold points, too, and may as well count.
-  if (kept > 0) sample_.count = whole_lanes(kept) < all_ ? whole_lanes(kept) : all_;
+  if (kept > 0) sample_.count = kept;
 }
 
 /// The part of the body whose error counts: all of it where nothing would be left.
@@ -144,153 +137,6 @@ const Polytope& PlaneError::from_pseudo_near(const Polytope& body, Polytope& cou
   counted = body;
   clip(counted, Plane{input_.view.forward, -input_.pseudo_near});
   return counted.empty() ? body : counted;
-}
-
-bool PlaneError::pixel_at(const glm::dvec3& p, double pixels, Pixel& pixel) const noexcept {
-  const double distance = input_.light.distance(p);
-  if (!(distance > 0.0)) return false;
-  const ViewInLight& view = input_.view;
-  const double depth = glm::dot(view.forward, p);
-  const glm::dvec3 eye_ray =
-      input_.orthographic ? view.forward
-                          : p * (1.0 / std::sqrt(max_of(glm::dot(p, p), std::numeric_limits<double>::min())));
-  // The half vector's mirror as in pixel_footprint.hpp; where it vanishes, so does its effect.
-  const glm::dvec3 light = input_.light.perspective ? safe_normalize(input_.light.ray(p), {0.0, 0.0, -1.0})
-                                                    : glm::dvec3(0.0, 0.0, -1.0);
-  const glm::dvec3 sum = eye_ray + light;
-  const double twice = 2.0 / max_of(glm::dot(sum, sum), std::numeric_limits<double>::min());
-  const double scale = (input_.orthographic ? 1.0 : max_of(depth, input_.depth_begin)) * pixels;
-  const auto turned = [&](const glm::dvec3& step) {
-    const glm::dvec3 across = step - eye_ray * glm::dot(eye_ray, step);
-    return input_.light.jacobian(p, across - sum * (twice * glm::dot(sum, across)));
-  };
-  const glm::dvec2 right = turned(view.right * (view.pixel_x * scale));
-  const glm::dvec2 up = turned(view.up * (view.pixel_y * scale));
-  const double determinant = right.x * up.y - up.x * right.y;
-  // Of a pixel that rounding leaves no area, beside the eye or at the edge of a field of view near pi,
-  // nothing is known.
-  constexpr double kLeastArea = 1e-30;
-  const double unit = scale / distance;
-  if (!(std::abs(determinant) > kLeastArea * (view.pixel_x * unit) * (view.pixel_y * unit))) return false;
-  const glm::dvec3 at = input_.light.project(p);
-  pixel = {at.x, at.y, right.x, up.x, right.y, up.y, determinant};
-  return true;
-}
-
-namespace {
-
-template <std::size_t Most, typename Pixel>
-void append(PixelLanes<Most>& lanes, const Pixel& p) noexcept {
-  if (lanes.count == Most) return;
-  const std::size_t i = lanes.count++;
-  lanes.x[i] = p.x;
-  lanes.y[i] = p.y;
-  lanes.xx[i] = p.xx;
-  lanes.xy[i] = p.xy;
-  lanes.yx[i] = p.yx;
-  lanes.yy[i] = p.yy;
-  lanes.inverse_determinant[i] = 1.0 / p.determinant;
-}
-
-}  // namespace
-
-bool PlaneError::add(const glm::dvec3& p, double pixels) noexcept {
-  Pixel pixel;
-  if (!pixel_at(p, pixels, pixel)) return false;
-  append(sample_, pixel);
-  return true;
-}
-
-void PlaneError::add_corners(const Polytope& body, double pixels) noexcept {
-  for (const Polytope::Vertex& v : body.vertices()) {
-    Pixel pixel;
-    if (pixel_at(v.position, pixels, pixel)) append(corners_, pixel);
-  }
-}
-
-void PlaneError::add_faces(const Polytope& body, double pixels) noexcept {
-  std::array<glm::dvec3, kMaxFaces> sum{};
-  std::array<int, kMaxFaces> corners{};
-  for (const Polytope::Vertex& v : body.vertices()) {
-    for (const std::uint8_t f : v.face) {
-      sum[f] += v.position;
-      ++corners[f];
-    }
-  }
-  for (std::size_t f = 0; f < sum.size(); ++f) {
-    if (corners[f] > 0) add(sum[f] / static_cast<double>(corners[f]), pixels);
-  }
-}
-
-/// Vertices and the middles of edges.
-void PlaneError::add_edges(const Polytope& body, double pixels) noexcept {
-  for (std::size_t i = 0; i < body.vertices().size(); ++i) {
-    const Polytope::Vertex& v = body.vertex[i];
-    complete_ = add(v.position, pixels) && complete_;
-    for (const std::uint8_t other : v.neighbour) {
-      if (other > i) add((v.position + body.vertex[other].position) * 0.5, pixels);
-    }
-  }
-}
-
-void PlaneError::add_visible_points(int set) noexcept {
-  const ViewInLight& view = input_.view;
-  const Polytope* const focus = input_.focus;
-  const auto weight_at = [&](const glm::dvec3& p) {
-    if (focus == nullptr || focus->empty()) return 1.0;
-    for (int f = 0; f < focus->face_count; ++f) {
-      const Plane& plane = focus->plane[static_cast<std::size_t>(f)];
-      if (glm::dot(plane.normal, p) + plane.offset < 0.0) return input_.focus_weight;
-    }
-    return 1.0;
-  };
-  const InverseDepthBounds bounds = inverse_depth_bounds(*input_.polytope, view, input_.depth_begin);
-  // Where the image shows the body at all.
-  double left = view.image_right, right = view.image_left, bottom = view.image_top, top = view.image_bottom;
-  for (const Polytope::Vertex& v : input_.polytope->vertices()) {
-    const double depth = max_of(glm::dot(view.forward, v.position), input_.depth_begin);
-    const double x = glm::dot(view.right, v.position) / depth, y = glm::dot(view.up, v.position) / depth;
-    left = min_of(left, x);
-    right = max_of(right, x);
-    bottom = min_of(bottom, y);
-    top = max_of(top, y);
-  }
-  left = max_of(left, view.image_left);
-  right = min_of(right, view.image_right);
-  bottom = max_of(bottom, view.image_bottom);
-  top = min_of(top, view.image_top);
-  struct Ray {
-    glm::dvec3 step;
-    double begin, length;  // depth where it enters the body; logarithm of the ratio to where it leaves
-  };
-  std::array<Ray, kRays> rays;
-  std::size_t ray_count = 0;
-  double total = 0.0;
-  for (int i = 0; i < kRays; ++i) {
-    // Roberts' R2 sequence: even over the image without the aliasing of a grid against the body's edges.
-    const int number = i + set * kRays;
-    const double along_x = 0.5 + 0.7548776662466927 * number, along_y = 0.5 + 0.5698402909980532 * number;
-    const double x = left + (right - left) * (along_x - std::floor(along_x));
-    const double y = bottom + (top - bottom) * (along_y - std::floor(along_y));
-    double least = 0.0, most = 1.0 / input_.depth_begin;
-    for (std::size_t k = 0; k < bounds.least_count; ++k) least = max_of(least, bounds.least[k].on(x, y));
-    for (std::size_t k = 0; k < bounds.most_count; ++k) most = min_of(most, bounds.most[k].on(x, y));
-    if (!(least > 0.0 && least < most)) continue;
-    const Ray ray{view.forward + view.right * x + view.up * y, 1.0 / most, elementary::log(most / least)};
-    total += ray.length;
-    rays[ray_count++] = ray;
-  }
-  if (!(total > 0.0)) return;
-  // Evenly spaced in the total length of all rays: each point stands for an equal share of what is seen.
-  const double spacing = total / kVisiblePoints, ratio = elementary::exp(spacing);
-  double next = 0.5 * spacing;
-  for (std::size_t i = 0; i < ray_count; ++i) {
-    const Ray& ray = rays[i];
-    double depth = next < ray.length ? ray.begin * elementary::exp(next) : 0.0;
-    for (; next < ray.length; next += spacing, depth *= ratio)
-      add(ray.step * depth, weight_at(ray.step * depth));
-    next -= ray.length;
-  }
 }
 
 double PlaneError::value(const WarpChoice& choice) noexcept {
@@ -367,9 +213,8 @@ GNOMON_WIDE double PlaneError::worst_squared() noexcept {
   }
   if (share_ == 0.0) return lane_range(row_x_.data(), whole, lanes_).high;
   // The largest few, smallest of them first: as many as may exceed the value, and the value itself.
-  constexpr std::size_t kMost = kMaxSamples / 16;
-  const auto wanted = static_cast<std::size_t>(share_ * static_cast<double>(n)) + 1;
-  std::array<double, kMost + 1> top{};
+  const std::size_t wanted = above_ + 1;
+  std::array<double, kMostAbove + 1> top{};
   for (std::size_t i = 0; i < n; ++i) {
     const double value = row_x_[i];
     if (!(value > top[0])) continue;
@@ -378,6 +223,200 @@ GNOMON_WIDE double PlaneError::worst_squared() noexcept {
     top[k] = value;
   }
   return top[0];
+}
+
+void ChoiceLanes::set(std::size_t lane, const WarpChoice& choice) noexcept {
+  axis_x[lane] = choice.axis.x;
+  axis_y[lane] = choice.axis.y;
+  kappa[lane] = choice.kappa;
+  centre[lane] = choice.centre;
+  a_x[lane] = choice.row_a.x;
+  a_y[lane] = choice.row_a.y;
+  b_x[lane] = choice.row_b.x;
+  b_y[lane] = choice.row_b.y;
+}
+
+/// A map for each choice: its coordinates A and B and its w, linear over the light plane before the division
+/// by w, scaled so that a texel's extents need no other factor.
+struct PlaneError::MapLanes {
+  alignas(64) LaneValues a_x, a_y, a_1, b_x, b_y, b_1, w_x, w_y, w_1;
+  alignas(64) LaneValues area;   // of the rectangle's cell in the light plane where w is 1
+  alignas(64) LaneValues known;  // 1; 0 where no map can be made with the choice
+};
+
+/// Of the body: along each choice's axis, and along both of its rows in the image.
+struct PlaneError::ExtentLanes {
+  alignas(64) LaneValues u_min, u_max, stretch, a_min, a_max, b_min, b_max;
+};
+
+GNOMON_WIDE void PlaneError::find_extents(const ChoiceLanes& c, ExtentLanes& extents) const noexcept {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::size_t lanes = lanes_;
+  auto& [u_min, u_max, stretch, a_min, a_max, b_min, b_max] = extents;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    u_min[l] = a_min[l] = b_min[l] = kInfinity;
+    u_max[l] = a_max[l] = b_max[l] = -kInfinity;
+  }
+  for (std::size_t i = 0; i < body_.points; ++i) {
+    const double x = body_.x[i], y = body_.y[i];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const double u = x * c.axis_x[l] + y * c.axis_y[l];
+      u_min[l] = min_of(u_min[l], u);
+      u_max[l] = max_of(u_max[l], u);
+    }
+  }
+  for (std::size_t l = 0; l < lanes; ++l) stretch[l] = 1.0 + c.kappa[l] * (u_max[l] - u_min[l]);
+  for (std::size_t i = 0; i < body_.points; ++i) {
+    const double x = body_.x[i], y = body_.y[i];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const double u = x * c.axis_x[l] + y * c.axis_y[l] - u_min[l];
+      const double s = x * c.axis_y[l] - y * c.axis_x[l] - c.centre[l];
+      const double inverse = 1.0 / (1.0 + c.kappa[l] * u), v = u * stretch[l];
+      const double a = (c.a_x[l] * s + c.a_y[l] * v) * inverse, b = (c.b_x[l] * s + c.b_y[l] * v) * inverse;
+      a_min[l] = min_of(a_min[l], a);
+      a_max[l] = max_of(a_max[l], a);
+      b_min[l] = min_of(b_min[l], b);
+      b_max[l] = max_of(b_max[l], b);
+    }
+  }
+}
+
+GNOMON_WIDE void PlaneError::fit(const ChoiceLanes& choices, const ExtentLanes& extents,
+                                 MapLanes& map) const noexcept {
+  const std::size_t lanes = lanes_;
+  // Copies, which the compiler knows that nothing below writes to.
+  const ChoiceLanes c = choices;
+  const ExtentLanes of = extents;
+  const double height = height_range_, least_of_all = least_extent(0.0, distance_), farthest = farthest_;
+  const double most_stretch = input_.most_stretch;
+  const double warped_known = complete_ ? 1.0 : 0.0;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const double a = of.a_max[l] - of.a_min[l], b = of.b_max[l] - of.b_min[l], extent = max_of(a, b);
+    // As least_extent and usable have it.
+    const double least = max_of(1e-6 * max_of(extent, height), least_of_all);
+    const double side_a = max_of(a, least), side_b = max_of(b, least);
+    const double turn = c.a_x[l] * c.b_y[l] - c.a_y[l] * c.b_x[l];
+    const double length = of.u_max[l] - of.u_min[l];
+    const double shortest = max_of(1e-6 * max_of(side_a, side_b), 1e-9 * farthest);
+    const double warped =
+        length > shortest && of.stretch[l] <= most_stretch && turn != 0.0 ? warped_known : 0.0;
+    map.known[l] = c.kappa[l] == 0.0 ? 1.0 : warped;
+    // The determinant of the map's Jacobian is stretch turn / (side_a side_b w^3). Rows come out multiplied
+    // with the area of a cell, and so as extents of texels.
+    const double area = side_a * side_b / of.stretch[l] * inverse_or_0(turn), scale_a = area / side_a,
+                 scale_b = area / side_b;
+    const double ax = c.axis_x[l], ay = c.axis_y[l], kappa = c.kappa[l];
+    const double along_a = c.a_y[l] * of.stretch[l], along_b = c.b_y[l] * of.stretch[l];
+    map.a_x[l] = (c.a_x[l] * ay + along_a * ax) * scale_a;
+    map.a_y[l] = (along_a * ay - c.a_x[l] * ax) * scale_a;
+    map.a_1[l] = -(c.a_x[l] * c.centre[l] + along_a * of.u_min[l]) * scale_a;
+    map.b_x[l] = (c.b_x[l] * ay + along_b * ax) * scale_b;
+    map.b_y[l] = (along_b * ay - c.b_x[l] * ax) * scale_b;
+    map.b_1[l] = -(c.b_x[l] * c.centre[l] + along_b * of.u_min[l]) * scale_b;
+    map.w_x[l] = kappa * ax;
+    map.w_y[l] = kappa * ay;
+    map.w_1[l] = 1.0 - kappa * of.u_min[l];
+    map.area[l] = std::abs(area);
+  }
+}
+
+// For one sample and choice: squared lengths of the rows of d(texel)/d(pixel) over its determinant. The
+// gradient of A = (a_x x + a_y y + a_1) / w is (a - A grad w) / w, and the determinant goes by w^-3.
+#define GNOMON_ROWS                                                                  \
+  const double w = map.w_x[l] * x + map.w_y[l] * y + map.w_1[l], inverse = 1.0 / w;  \
+  const double a = (map.a_x[l] * x + map.a_y[l] * y + map.a_1[l]) * inverse;         \
+  const double b = (map.b_x[l] * x + map.b_y[l] * y + map.b_1[l]) * inverse;         \
+  const double a_x = map.a_x[l] - a * map.w_x[l], a_y = map.a_y[l] - a * map.w_y[l]; \
+  const double b_x = map.b_x[l] - b * map.w_x[l], b_y = map.b_y[l] - b * map.w_y[l]; \
+  const double ax = a_x * xx + a_y * yx, ay = a_x * xy + a_y * yy;                   \
+  const double bx = b_x * xx + b_y * yx, by = b_x * xy + b_y * yy;                   \
+  const double f = w * w * id, f2 = f * f;                                           \
+  const double row_a = (ax * ax + ay * ay) * f2, row_b = (bx * bx + by * by) * f2
+
+GNOMON_WIDE void PlaneError::find_storage(const MapLanes& map, LaneValues& value) const noexcept {
+  const std::size_t lanes = lanes_, n = sample_.count;
+  alignas(64) LaneValues most_a{}, most_b{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = sample_.x[i], y = sample_.y[i], xx = sample_.xx[i], xy = sample_.xy[i];
+    const double yx = sample_.yx[i], yy = sample_.yy[i], id = sample_.inverse_determinant[i];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      GNOMON_ROWS;
+      most_a[l] = max_of(most_a[l], row_a);
+      most_b[l] = max_of(most_b[l], row_b);
+    }
+  }
+  for (std::size_t l = 0; l < lanes; ++l) value[l] = most_a[l] * most_b[l];
+}
+
+// Half the sum of both squared extents, and their product's root: the larger of the two squares.
+#define GNOMON_WORST                                                               \
+  const double half = 0.5 * (row_a + row_b), area = std::abs(f * w * map.area[l]); \
+  const double spread = (half - area) * (half + area);                             \
+  const double square = half + std::sqrt(max_of(spread, 0.0))
+
+GNOMON_WIDE void PlaneError::find_worst(const MapLanes& map, LaneValues& value) const noexcept {
+  const std::size_t lanes = lanes_, n = sample_.count;
+  alignas(64) LaneValues most{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = sample_.x[i], y = sample_.y[i], xx = sample_.xx[i], xy = sample_.xy[i];
+    const double yx = sample_.yx[i], yy = sample_.yy[i], id = sample_.inverse_determinant[i];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      GNOMON_ROWS;
+      GNOMON_WORST;
+      most[l] = max_of(most[l], square);
+    }
+  }
+  for (std::size_t l = 0; l < lanes; ++l) value[l] = most[l];
+}
+
+GNOMON_WIDE void PlaneError::find_percentile(const MapLanes& map, std::size_t above,
+                                             LaneValues& value) const noexcept {
+  const std::size_t lanes = lanes_, n = sample_.count;
+  // The largest few, largest first.
+  alignas(64) std::array<LaneValues, kMostAbove + 1> top{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = sample_.x[i], y = sample_.y[i], xx = sample_.xx[i], xy = sample_.xy[i];
+    const double yx = sample_.yx[i], yy = sample_.yy[i], id = sample_.inverse_determinant[i];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      GNOMON_ROWS;
+      GNOMON_WORST;
+      // What is no number counts as nothing.
+      const double v0 = square > 0.0 ? square : 0.0;
+#define GNOMON_LEVEL(k, in, out)            \
+  const double out = min_of(top[k][l], in); \
+  top[k][l] = max_of(top[k][l], in)
+      GNOMON_LEVEL(0, v0, v1);
+      GNOMON_LEVEL(1, v1, v2);
+      GNOMON_LEVEL(2, v2, v3);
+      GNOMON_LEVEL(3, v3, v4);
+      top[4][l] = max_of(top[4][l], v4);
+#undef GNOMON_LEVEL
+    }
+  }
+  for (std::size_t l = 0; l < lanes; ++l) value[l] = top[above][l];
+}
+#undef GNOMON_WORST
+#undef GNOMON_ROWS
+
+void PlaneError::values(const ChoiceLanes& choices, LaneValues& value) noexcept {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (sample_.count == 0 || body_.points == 0) {
+    value.fill(kInfinity);
+    return;
+  }
+  ExtentLanes extents;
+  MapLanes map;
+  find_extents(choices, extents);
+  fit(choices, extents, map);
+  if (input_.objective == Objective::storage) {
+    find_storage(map, value);
+  } else if (share_ == 0.0) {
+    find_worst(map, value);
+  } else {
+    find_percentile(map, above_, value);
+  }
+  for (std::size_t l = 0; l < kWarpLanes; ++l)
+    value[l] = map.known[l] != 0.0 && value[l] < kInfinity ? std::sqrt(value[l]) : kInfinity;
 }
 
 }  // namespace gnomon

@@ -5,28 +5,23 @@
 #include <cstddef>
 
 #include "gnomon/warp.hpp"
+#include "warp/error_samples.hpp"
 #include "warp/lanes.hpp"
 
 namespace gnomon {
 
-/// Points of the light plane, and d(light plane)/d(pixel) there on a surface that faces the half vector.
-template <std::size_t Most>
-struct PixelLanes {
-  static constexpr std::size_t kMost = Most;
-  alignas(64) std::array<double, Most> x, y, xx, xy, yx, yy, inverse_determinant;
-  std::size_t count = 0;
-  /// Copies of the first fill the last lanes.
-  void fill_lanes() noexcept {
-    for (std::size_t i = count; count > 0 && i < whole_lanes(count); ++i) {
-      for (auto* lane : {&x, &y, &xx, &xy, &yx, &yy, &inverse_determinant}) (*lane)[i] = (*lane)[0];
-    }
-  }
+/// Maps of the light plane, side by side. Rows may have any length.
+struct ChoiceLanes {
+  alignas(64) std::array<double, kWarpLanes> axis_x, axis_y, kappa, centre, a_x, a_y, b_x, b_y;
+  void set(std::size_t lane, const WarpChoice& choice) noexcept;
 };
+using LaneValues = std::array<double, kWarpLanes>;
 
 /// The light-plane positions of a body's vertices, in whole lanes.
 struct BodyLanes {
   alignas(64) std::array<double, whole_lanes(2 * kMaxVertices)> x, y;
-  std::size_t count = 0;  // a multiple of kWarpLanes
+  std::size_t points = 0;  // of the body
+  std::size_t count = 0;   // a multiple of kWarpLanes
   explicit BodyLanes(const WarpInput& input) noexcept;
 };
 
@@ -34,8 +29,7 @@ struct BodyLanes {
 /// so that the perspective error of any map of the plane is a product of two 2x2 matrices away.
 class PlaneError {
  public:
-  static constexpr std::size_t kMaxSamples = 192, kMaxCorners = 64;
-  using Corners = PixelLanes<kMaxCorners>;
+  static constexpr std::size_t kMaxSamples = PixelLanes::kMost, kMaxCorners = 2 * kMaxVertices;
 
   /// Samples the body for `input.objective`: vertices and middles of edges, where the largest errors are
   /// (under a local light of faces, too, as its rays fan out), or points spread evenly over the pixels and
@@ -47,42 +41,46 @@ class PlaneError {
   /// The objective under `choice`, up to a factor that is the same for every choice; infinite for an unusable
   /// one.
   [[nodiscard]] double value(const WarpChoice& choice) noexcept;
+  /// The objective under each of these choices, infinite where `usable` is false as well.
+  void values(const ChoiceLanes& choices, LaneValues& value) noexcept;
   /// From now on counts only the points whose error is near the worst under `choice`: for choices near it.
   void count_worst(const WarpChoice& choice) noexcept;
   void count_all() noexcept {
     sample_.count = all_;
+    above_ = above(all_);
     sample_.fill_lanes();
   }
+  /// From now on counts a part of many points: to sort out what is far off.
+  void count_some() noexcept;
   /// The body's vertices: few points that bound the error nearly everywhere.
-  [[nodiscard]] const Corners& corners() const noexcept { return corners_; }
+  [[nodiscard]] const PixelLanes& corners() const noexcept { return corners_; }
   [[nodiscard]] const BodyLanes& body() const noexcept { return body_; }
 
  private:
-  struct Pixel {
-    double x, y, xx, xy, yx, yy, determinant;
-  };
-  /// A pixel counts as `pixels` times as wide as it is there. False where nothing is known of it.
-  bool pixel_at(const glm::dvec3& point, double pixels, Pixel& pixel) const noexcept;
   [[nodiscard]] const Polytope& from_pseudo_near(const Polytope& body, Polytope& counted) const noexcept;
-  bool add(const glm::dvec3& point, double pixels) noexcept;
-  void add_corners(const Polytope& body, double pixels) noexcept;
-  void add_edges(const Polytope& body, double pixels) noexcept;
-  void add_faces(const Polytope& body, double pixels) noexcept;
-  void add_visible_points(int set) noexcept;
+  void add_samples(const Polytope& body, const Polytope* focus, bool searched, int set) noexcept;
   void find_rows(const WarpChoice& choice) noexcept;
+  [[nodiscard]] std::size_t above(std::size_t samples) const noexcept;
+  struct ExtentLanes;
+  struct MapLanes;
+  void find_extents(const ChoiceLanes& choices, ExtentLanes& extents) const noexcept;
+  void fit(const ChoiceLanes& choices, const ExtentLanes& extents, MapLanes& map) const noexcept;
+  void find_storage(const MapLanes& map, LaneValues& value) const noexcept;
+  void find_worst(const MapLanes& map, LaneValues& value) const noexcept;
+  void find_percentile(const MapLanes& map, std::size_t above, LaneValues& value) const noexcept;
   [[nodiscard]] double storage_squared() const noexcept;
   [[nodiscard]] double worst_squared() noexcept;
 
   const WarpInput& input_;
-  std::size_t all_ = 0;  // of the samples
-  std::size_t lanes_;    // kWarpLanes, but not known when this is compiled: as in lane_range
+  std::size_t all_ = 0;    // of the samples
+  std::size_t above_ = 0;  // of those counted, as many as may exceed the value asked for
+  std::size_t lanes_;      // kWarpLanes, but not known when this is compiled: as in lane_range
   double height_range_ = 0.0, distance_ = 0.0;  // of the body, as plane_map takes them
+  double farthest_ = 0.0;                       // depth of the body, where it counts
   bool complete_ = true;                        // no vertex was refused
   double share_ = 1.0;  // of the samples that may exceed the value asked for: 0.05 for p95
-  static_assert(kMaxSamples >= whole_lanes(2 * kMaxVertices));
   BodyLanes body_;
-  Corners corners_;
-  PixelLanes<kMaxSamples> sample_;
+  PixelLanes corners_, sample_;
   // Of d(texel)/d(pixel) under the choice last asked for: squared lengths of its rows over the square of its
   // determinant, and the inverse of that. Before, the body's image.
   alignas(64) std::array<double, kMaxSamples> row_x_, row_y_, inverse_;

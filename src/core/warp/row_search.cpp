@@ -22,6 +22,8 @@ constexpr std::size_t kFan = 8, kBoth = 2 * kFan;
 constexpr double kLeastSine2 = 0.01;
 // Gains below this are rounding: the first of two rows that mirror each other is taken.
 constexpr double kTie = 1.0 - 1e-9;
+// Shares of an extent below which another is rounding.
+constexpr double kFlattest = 1e-6;
 // Keeps a square away from zero, and changes no bit of one above 1e-14.
 constexpr double kNothing = 1e-30;
 
@@ -103,7 +105,6 @@ RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
                   y = lane_range(body_.y.data(), body_.count, lanes_);
   middle_ = {0.5 * (x.low + x.high), 0.5 * (y.low + y.high)};
   // A body that is flat in the light plane has no direction along which it is thinner than this.
-  constexpr double kFlattest = 1e-6;
   const double longer = max_of(x.high - x.low, y.high - y.low);
   const double least = longer > 0.0 ? kFlattest * longer : 1.0;
   extent_ = {max_of(x.high - x.low, least), max_of(y.high - y.low, least)};
@@ -155,7 +156,6 @@ GNOMON_WIDE void RowSearch::find_image(const Axis& axis, RowChoice& rows) noexce
     image_y_[i] = u * stretch * inverse;
   }
   const LaneRange x = lane_range(image_x_.data(), n, lanes_), y = lane_range(image_y_.data(), n, lanes_);
-  constexpr double kFlattest = 1e-6;
   const double longer = max_of(x.high - x.low, y.high - y.low);
   const double least = longer > 0.0 ? kFlattest * longer : 1.0;
   rows.image = {max_of(x.high - x.low, least), max_of(y.high - y.low, least)};
@@ -319,6 +319,42 @@ GNOMON_WIDE void RowSearch::best_by_worst(const Fan& fan, RowChoice& rows) noexc
   write_rows(fan, best_a, best_b, best, rows);
 }
 
+// The squared extents of a texel together: at most twice the larger one, and cheaper by its root. Good enough
+// where the corners only hint at the objective.
+GNOMON_WIDE void RowSearch::best_by_sum(const Fan& fan, RowChoice& rows) noexcept {
+  const std::size_t directions = directions_, fan_size = directions_ / 2, n = corners_.count;
+  alignas(64) std::array<double, kBoth> xx, xy, yy, extent;
+  for (std::size_t d = 0; d < directions; ++d) {
+    xx[d] = fan.x[d] * fan.x[d];
+    xy[d] = fan.x[d] * fan.y[d];
+    yy[d] = fan.y[d] * fan.y[d];
+  }
+  alignas(64) std::array<double, kFan * kFan> most{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double at_xx = xx_[i], at_xy = xy_[i], at_yy = yy_[i];
+    for (std::size_t d = 0; d < directions; ++d) extent[d] = xx[d] * at_xx + xy[d] * at_xy + yy[d] * at_yy;
+    for (std::size_t a = 0; a < kFan; ++a) {
+      const double side_a = side_[a], extent_a = extent[a];
+      double* const most_a = most.data() + a * kFan;
+      for (std::size_t b = 0; b < fan_size; ++b)
+        most_a[b] = max_of(most_a[b], side_a * extent[kFan + b] + side_[kFan + b] * extent_a);
+    }
+  }
+  double best = std::numeric_limits<double>::infinity();
+  std::size_t best_a = 0, best_b = 0;
+  for (std::size_t a = 0; a < kFan; ++a) {
+    const double* const per_sine = fan.per_sine2.data() + kFan - 1 - a;
+    for (std::size_t b = 0; b < kFan; ++b) {
+      const double v = most[a * kFan + b] * per_sine[b];
+      if (!(v < best * kTie)) continue;
+      best = v;
+      best_a = a;
+      best_b = b;
+    }
+  }
+  write_rows(fan, best_a, best_b, best, rows);
+}
+
 void RowSearch::write_rows(const Fan& fan, std::size_t a, std::size_t b, double squared,
                            RowChoice& rows) const noexcept {
   rows.row_a = {fan.x[a], fan.y[a]};
@@ -335,8 +371,10 @@ RowChoice RowSearch::best(const FallOff& fall_off, const Fan& fan) noexcept {
   find_sides(fan);
   if (objective_ == Objective::storage) {
     best_by_storage(fan, rows);
-  } else {
+  } else if (objective_ == Objective::max) {
     best_by_worst(fan, rows);
+  } else {
+    best_by_sum(fan, rows);
   }
   // Numbers that are none lose every comparison.
   if (!(rows.value < std::numeric_limits<double>::infinity()))

@@ -55,11 +55,12 @@ class RowSearch {
   void write_rows(const Fan& fan, std::size_t a, std::size_t b, double squared,
                   RowChoice& rows) const noexcept;
   void best_by_storage(const Fan& fan, RowChoice& rows) noexcept;
+  void best_by_sum(const Fan& fan, RowChoice& rows) noexcept;
   void best_by_worst(const Fan& fan, RowChoice& rows) noexcept;
 
   // Always the same, but not known when this is compiled: as in lane_range.
   std::size_t lanes_, directions_;
-  const PlaneError::Corners& corners_;
+  const PixelLanes& corners_;
   const BodyLanes& body_;
   Objective objective_;
   double most_reach_;           // kappa times length
