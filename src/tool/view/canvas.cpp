@@ -64,7 +64,8 @@ render::Program line_program() {
 void flip_rows(std::vector<std::uint8_t>& bytes, int width, int height) {
   const auto row = static_cast<std::ptrdiff_t>(width) * 4;
   for (int y = 0; y < height / 2; ++y)
-    std::swap_ranges(bytes.begin() + row * y, bytes.begin() + row * (y + 1), bytes.begin() + row * (height - 1 - y));
+    std::swap_ranges(bytes.begin() + row * y, bytes.begin() + row * (y + 1),
+                     bytes.begin() + row * (height - 1 - y));
 }
 
 }  // namespace
@@ -114,25 +115,26 @@ std::uint32_t Canvas::framebuffer() const noexcept {
 
 void Canvas::put(const Image& image, int x, int y) {
   const int left = std::max(x, 0), top = std::max(y, 0);
-  const int right = std::min(x + image.width, impl_->width), bottom = std::min(y + image.height, impl_->height);
+  const int right = std::min(x + image.width, impl_->width),
+            bottom = std::min(y + image.height, impl_->height);
   if (left >= right || top >= bottom) return;
   const auto row = static_cast<std::size_t>(right - left) * 4;
   std::vector<std::uint8_t> bytes;
   bytes.reserve(row * static_cast<std::size_t>(bottom - top));
   for (int line = bottom - 1; line >= top; --line) {  // OpenGL's rows run bottom to top
-    const std::size_t at =
-        4 * (static_cast<std::size_t>(line - y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(left - x));
+    const std::size_t at = 4 * (static_cast<std::size_t>(line - y) * static_cast<std::size_t>(image.width) +
+                                static_cast<std::size_t>(left - x));
     const auto first = image.rgba.begin() + static_cast<std::ptrdiff_t>(at);
     bytes.insert(bytes.end(), first, first + static_cast<std::ptrdiff_t>(row));
   }
-  glTextureSubImage2D(impl_->texture.name(), 0, left, impl_->height - bottom, right - left, bottom - top, GL_RGBA,
-                      GL_UNSIGNED_BYTE, bytes.data());
+  glTextureSubImage2D(impl_->texture.name(), 0, left, impl_->height - bottom, right - left, bottom - top,
+                      GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
 }
 
 void Canvas::take(const Canvas& from, int begin, int end) {
   if (begin >= end) return;
-  glBlitNamedFramebuffer(from.framebuffer(), framebuffer(), begin, 0, end, impl_->height, begin, 0, end, impl_->height,
-                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitNamedFramebuffer(from.framebuffer(), framebuffer(), begin, 0, end, impl_->height, begin, 0, end,
+                         impl_->height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void Canvas::draw(std::span<const ScreenLine> lines) {
@@ -152,8 +154,8 @@ void Canvas::draw(std::span<const ScreenLine> lines) {
                  d = corner(line.to + aside);
     vertices.insert(vertices.end(), {a, b, c, a, c, d});
   }
-  glNamedBufferData(impl_->vertices.name(), static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
-                    GL_STREAM_DRAW);
+  glNamedBufferData(impl_->vertices.name(), static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
+                    vertices.data(), GL_STREAM_DRAW);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer());
   glViewport(0, 0, impl_->width, impl_->height);
   glDisable(GL_DEPTH_TEST);
@@ -168,8 +170,8 @@ void Canvas::draw(std::span<const ScreenLine> lines) {
 
 Image Canvas::image() const {
   Image image = render::blank_image(impl_->width, impl_->height, {0, 0, 0});
-  glGetTextureImage(impl_->texture.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(image.rgba.size()),
-                    image.rgba.data());
+  glGetTextureImage(impl_->texture.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                    static_cast<GLsizei>(image.rgba.size()), image.rgba.data());
   flip_rows(image.rgba, impl_->width, impl_->height);
   return image;
 }
@@ -194,6 +196,10 @@ void clear_window(int width, int height) {
   glViewport(0, 0, width, height);
   glDisable(GL_SCISSOR_TEST);
   glClearBufferfv(GL_COLOR, 0, kGround.data());
+}
+
+void finish_gl() {
+  glFinish();
 }
 
 unsigned last_gl_error() {

@@ -51,6 +51,8 @@ class Canvas {
 [[nodiscard]] Image window_image(int width, int height);
 /// Fills the window's back buffer with one colour.
 void clear_window(int width, int height);
+/// Waits until all that was drawn is there, so that its time can be taken.
+void finish_gl();
 /// The first OpenGL error since the last call, as a number; 0: none.
 [[nodiscard]] unsigned last_gl_error();
 

@@ -25,7 +25,8 @@ glm::u8vec4 opaque(const render::Color& color) {
   return {color.r, color.g, color.b, 255};
 }
 
-void add_polytope(const Polytope& body, const glm::dvec3& origin, const glm::u8vec4& color, std::vector<WorldLine>& lines) {
+void add_polytope(const Polytope& body, const glm::dvec3& origin, const glm::u8vec4& color,
+                  std::vector<WorldLine>& lines) {
   for (int i = 0; i < body.vertex_count; ++i) {
     const Polytope::Vertex& vertex = body.vertex[static_cast<std::size_t>(i)];
     for (const std::uint8_t other : vertex.neighbour) {
@@ -54,13 +55,15 @@ void add_box(const Box& box, const glm::u8vec4& color, std::vector<WorldLine>& l
       color, 1.0, lines);
 }
 
-void add_map_volume(const ShadowPlan& plan, const ShadowMap& map, const glm::u8vec4& color, std::vector<WorldLine>& lines) {
+void add_map_volume(const ShadowPlan& plan, const ShadowMap& map, const glm::u8vec4& color,
+                    std::vector<WorldLine>& lines) {
   const glm::dmat4 world_from_clip = glm::inverse(map.clip_from_world);
   const double nearest = plan.clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0 : -1.0;
   add_cuboid(
       [&](int i) {
-        const glm::dvec4 p = world_from_clip * glm::dvec4((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0,
-                                                          (i & 4) != 0 ? 1.0 : nearest, 1.0);
+        const glm::dvec4 p =
+            world_from_clip * glm::dvec4((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0,
+                                         (i & 4) != 0 ? 1.0 : nearest, 1.0);
         return glm::dvec3(p) / p.w;
       },
       color, 1.5, lines);
@@ -86,7 +89,8 @@ std::vector<ScreenLine> on_screen(const std::vector<WorldLine>& lines, const Cam
   std::vector<ScreenLine> result;
   result.reserve(lines.size());
   for (const WorldLine& line : lines) {
-    glm::dvec4 a = clip_from_world * glm::dvec4(line.from, 1.0), b = clip_from_world * glm::dvec4(line.to, 1.0);
+    glm::dvec4 a = clip_from_world * glm::dvec4(line.from, 1.0),
+               b = clip_from_world * glm::dvec4(line.to, 1.0);
     // The near plane, and the image with some room for the line's width.
     constexpr double kRoom = 1.1;
     if (!cut(a, b, {0, 0, 1, 1}) || !cut(a, b, {1, 0, 0, kRoom}) || !cut(a, b, {-1, 0, 0, kRoom}) ||
@@ -103,7 +107,8 @@ std::vector<ScreenLine> on_screen(const std::vector<WorldLine>& lines, const Cam
 std::vector<WorldLine> body_lines(const ShadowMap& map, const Camera& camera, const Box& scene,
                                   const glm::u8vec4& color) {
   std::vector<WorldLine> lines;
-  const double begin = std::max(map.depth_begin, camera.near_depth), end = std::min(map.depth_end, camera.far_depth);
+  const double begin = std::max(map.depth_begin, camera.near_depth),
+               end = std::min(map.depth_end, camera.far_depth);
   if (!(begin < end) || scene.empty()) return lines;
   Polytope body = frustum_slice(camera, camera_axes(camera), begin, end);
   clip(body, Box{scene.min - camera.position, scene.max - camera.position});
@@ -124,8 +129,8 @@ std::vector<WorldLine> plan_lines(const ShadowPlan& plan, const Camera& frozen, 
   }
   if (drawn.frustum) {
     constexpr glm::u8vec4 kFrustum{255, 255, 255, 255};
-    add_polytope(frustum_slice(frozen, camera_axes(frozen), frozen.near_depth, frozen.far_depth), frozen.position, kFrustum,
-                 lines);
+    add_polytope(frustum_slice(frozen, camera_axes(frozen), frozen.near_depth, frozen.far_depth),
+                 frozen.position, kFrustum, lines);
   }
   return lines;
 }
@@ -141,8 +146,10 @@ ShadowPlan seen_frozen(ShadowPlan plan, const Camera& frozen, const Camera& came
     // Depths of the frozen view as planes of the world: those of the new one mean nothing to the plan.
     if (!plan.select_by_map && map.select_plane_count + 2 <= kMaxSelectPlanes) {
       auto& planes = map.select_planes;
-      planes[static_cast<std::size_t>(map.select_plane_count++)] = glm::dvec4(forward, -at_eye - map.depth_begin);
-      planes[static_cast<std::size_t>(map.select_plane_count++)] = glm::dvec4(-forward, at_eye + map.depth_end);
+      planes[static_cast<std::size_t>(map.select_plane_count++)] =
+          glm::dvec4(forward, -at_eye - map.depth_begin);
+      planes[static_cast<std::size_t>(map.select_plane_count++)] =
+          glm::dvec4(-forward, at_eye + map.depth_end);
     }
     map.depth_begin = -kEverywhere;
     map.depth_end = kEverywhere;

@@ -23,7 +23,8 @@ struct WorldLine {
 
 /// What `drawn` asks for, of a plan made for `frozen`.
 [[nodiscard]] std::vector<WorldLine> plan_lines(const ShadowPlan& plan, const Camera& frozen,
-                                                const std::vector<Box>& boxes, const Box& scene, const Drawn& drawn);
+                                                const std::vector<Box>& boxes, const Box& scene,
+                                                const Drawn& drawn);
 
 /// Edges of the receivers' body of one map: its slice of the frustum within the scene.
 [[nodiscard]] std::vector<WorldLine> body_lines(const ShadowMap& map, const Camera& camera, const Box& scene,

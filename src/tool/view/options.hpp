@@ -18,8 +18,8 @@ struct Options {
   std::filesystem::path screenshot;  ///< not empty: what the window shows last goes there
   std::filesystem::path tour;        ///< not empty: the tour's pictures go into this folder
   render::ContextKind context = render::ContextKind::automatic;  ///< of `out`
-  int exit_after = 0;                ///< frames; 0: until the window is closed
-  double ui_scale = 0.0;             ///< of text and widgets; 0: as the display has it
+  int exit_after = 0;                                            ///< frames; 0: until the window is closed
+  double ui_scale = 0.0;  ///< of text and widgets; 0: as the display has it
   std::uint64_t max_triangles = 0;
 };
 

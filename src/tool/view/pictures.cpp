@@ -52,7 +52,8 @@ Image mask_picture(const FloatImage& mask, const FloatImage& normals) {
   return image;
 }
 
-Image truth_picture(int width, int height, std::span<const trace::Verdict> verdicts, const FloatImage& normals) {
+Image truth_picture(int width, int height, std::span<const trace::Verdict> verdicts,
+                    const FloatImage& normals) {
   Image image = render::blank_image(width, height, kSky);
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   for (std::size_t i = 0; i < count; ++i) {
@@ -103,8 +104,8 @@ Misclassified misclassified(const FloatImage& mask, std::span<const trace::Verdi
   return result;
 }
 
-Image checker_picture(const Image& lit, const FloatImage& mask, const FloatImage& positions, const ShadowPlan& plan,
-                      const Camera& camera) {
+Image checker_picture(const Image& lit, const FloatImage& mask, const FloatImage& positions,
+                      const ShadowPlan& plan, const Camera& camera) {
   Image image = lit;
   for (std::size_t i = 0; i < pixels_of(mask); ++i) {
     const int index = static_cast<int>(mask.values[2 * i + 1]);
@@ -115,7 +116,8 @@ Image checker_picture(const Image& lit, const FloatImage& mask, const FloatImage
         map.clip_from_world * glm::dvec4(camera.position + glm::dvec3(at[0], at[1], at[2]), 1.0);
     if (!(clip.w > 0.0)) continue;
     const glm::dvec2 texel = map.texels().place(glm::dvec2(clip) / clip.w).texel / double{kCheckerTexels};
-    const bool dark = (static_cast<long long>(std::floor(texel.x)) + static_cast<long long>(std::floor(texel.y))) % 2 != 0;
+    const bool dark =
+        (static_cast<long long>(std::floor(texel.x)) + static_cast<long long>(std::floor(texel.y))) % 2 != 0;
     const Color now{lit.rgba[4 * i], lit.rgba[4 * i + 1], lit.rgba[4 * i + 2]};
     set(image, i, mixed(now, dark ? kShadow : kLit, 0.45));
   }
@@ -132,7 +134,8 @@ Image difference_picture(const Image& a, const Image& b, double gain) {
       const int apart = int{a.rgba[4 * i + c]} - int{b.rgba[4 * i + c]};
       if (std::abs(apart) > std::abs(most)) most = apart;
     }
-    if (most != 0) set(image, i, mixed(kPale, most > 0 ? kFalseLight : kFalseShadow, gain * std::abs(most) / kMost));
+    if (most != 0)
+      set(image, i, mixed(kPale, most > 0 ? kFalseLight : kFalseShadow, gain * std::abs(most) / kMost));
   }
   return image;
 }
@@ -156,15 +159,16 @@ MapFrame frame_of(const ShadowMap& map, int width, int height) {
   return frame;
 }
 
-void add_rectangle(const MapFrame& frame, const glm::dvec2& low, const glm::dvec2& high, const glm::u8vec4& color,
-                   double line_width, std::vector<ScreenLine>& lines) {
+void add_rectangle(const MapFrame& frame, const glm::dvec2& low, const glm::dvec2& high,
+                   const glm::u8vec4& color, double line_width, std::vector<ScreenLine>& lines) {
   const std::array<glm::dvec2, 4> corner{frame.pixel(low), frame.pixel({high.x, low.y}), frame.pixel(high),
                                          frame.pixel({low.x, high.y})};
   for (std::size_t i = 0; i < 4; ++i) lines.push_back({corner[i], corner[(i + 1) % 4], color, line_width});
 }
 
 /// A line of the world in the map. It bends under shapes that are not affine: drawn in pieces.
-void add_line(const MapFrame& frame, const ShadowMap& map, const WorldLine& line, std::vector<ScreenLine>& lines) {
+void add_line(const MapFrame& frame, const ShadowMap& map, const WorldLine& line,
+              std::vector<ScreenLine>& lines) {
   constexpr int kPieces = 8;
   const int pieces = map.shape->affine ? 1 : kPieces;
   const auto place = [&](double t, glm::dvec2& pixel) {
@@ -194,9 +198,11 @@ Image depth_image(const FloatImage& depths, const MapFrame& frame, int width, in
     for (int x = 0; x < width; ++x) {
       const glm::dvec2 texel = glm::dvec2(x + 0.5 - frame.corner.x, frame.corner.y - y - 0.5) / frame.scale;
       if (!(texel.x >= 0.0 && texel.y >= 0.0 && texel.x < depths.width && texel.y < depths.height)) continue;
-      const float depth = depths.values[static_cast<std::size_t>(texel.y) * static_cast<std::size_t>(depths.width) +
-                                        static_cast<std::size_t>(texel.x)];
-      const double share = farthest > nearest ? static_cast<double>((depth - nearest) / (farthest - nearest)) : 0.0;
+      const float depth =
+          depths.values[static_cast<std::size_t>(texel.y) * static_cast<std::size_t>(depths.width) +
+                        static_cast<std::size_t>(texel.x)];
+      const double share =
+          farthest > nearest ? static_cast<double>((depth - nearest) / (farthest - nearest)) : 0.0;
       set(image, static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x),
           depth >= 1.0f ? kNothing : mixed(kLit, {70, 72, 80}, share));
     }
@@ -204,12 +210,13 @@ Image depth_image(const FloatImage& depths, const MapFrame& frame, int width, in
   return image;
 }
 
-constexpr glm::u8vec4 kBorderLine{240, 228, 66, 255}, kCasterLine{0, 158, 115, 110}, kBodyLine{213, 94, 0, 255};
+constexpr glm::u8vec4 kBorderLine{240, 228, 66, 255}, kCasterLine{0, 158, 115, 110},
+    kBodyLine{213, 94, 0, 255};
 
 }  // namespace
 
-MapPicture map_picture(const FloatImage& depths, const ShadowPlan& plan, int index, const Camera& camera, const Box& scene,
-                       const std::vector<Box>& boxes, int width, int height) {
+MapPicture map_picture(const FloatImage& depths, const ShadowPlan& plan, int index, const Camera& camera,
+                       const Box& scene, const std::vector<Box>& boxes, int width, int height) {
   const ShadowMap& map = plan.map[static_cast<std::size_t>(index)];
   const MapFrame frame = frame_of(map, width, height);
   MapPicture picture{depth_image(depths, frame, width, height), {}};
@@ -229,7 +236,8 @@ MapPicture map_picture(const FloatImage& depths, const ShadowPlan& plan, int ind
       add_line(frame, map, line, picture.lines);
     }
   }
-  for (const WorldLine& line : body_lines(map, camera, scene, kBodyLine)) add_line(frame, map, line, picture.lines);
+  for (const WorldLine& line : body_lines(map, camera, scene, kBodyLine))
+    add_line(frame, map, line, picture.lines);
   const glm::dvec2 size(map.width, map.height), border(map.filter_margin_texels);
   add_rectangle(frame, {0.0, 0.0}, size, {200, 200, 205, 255}, 1.0, picture.lines);
   add_rectangle(frame, border, size - border, kBorderLine, 1.0, picture.lines);
@@ -246,7 +254,8 @@ Image heat_legend(int picture_width) {
   return cut;
 }
 
-Image field_legend(const std::string& title, const std::vector<std::pair<Color, std::string>>& fields, int picture_width) {
+Image field_legend(const std::string& title, const std::vector<std::pair<Color, std::string>>& fields,
+                   int picture_width) {
   std::vector<render::LegendEntry> entries;
   int widest = render::text_width(title);
   for (const auto& [color, text] : fields) {
@@ -254,7 +263,7 @@ Image field_legend(const std::string& title, const std::vector<std::pair<Color, 
     widest = std::max(widest, render::text_width(text) + 24);
   }
   Image sheet = render::blank_image(std::min(widest + 32, std::max(picture_width, 64)),
-                                    24 + 16 * (static_cast<int>(fields.size()) + 1), kGround);
+                                    16 + 11 * (static_cast<int>(fields.size()) + 1), kGround);
   render::draw_legend(sheet, title, entries);
   return sheet;
 }
@@ -270,18 +279,21 @@ Image legend(View view, const ShadowPlan& plan, int picture_width) {
       for (std::size_t i = 0; i < plan.maps().size(); ++i) {
         const ShadowMap& map = plan.map[i];
         fields.emplace_back(render::cascade_color(static_cast<int>(i)),
-                            fmt::format("map {}: depth {:.4g} to {:.4g}, {}x{}, {}", i, map.depth_begin, map.depth_end,
-                                        map.width, map.height, map.warp->name));
+                            fmt::format("map {}: depth {:.4g} to {:.4g}, {}x{}, {}", i, map.depth_begin,
+                                        map.depth_end, map.width, map.height, map.warp->name));
       }
-      return field_legend(fields.empty() ? "no map: " + std::string(to_string(plan.status)) : "shadow maps", fields,
-                          picture_width);
+      return field_legend(fields.empty() ? "no map: " + std::string(to_string(plan.status)) : "shadow maps",
+                          fields, picture_width);
     case View::misclassified:
-      return field_legend("against exact rays",
-                          {{kFalseLight, "false light"}, {kFalseShadow, "false shadow"}, {kUndecided, "undecided: an edge"}},
-                          picture_width);
+      return field_legend(
+          "against exact rays",
+          {{kFalseLight, "false light"}, {kFalseShadow, "false shadow"}, {kUndecided, "undecided: an edge"}},
+          picture_width);
     case View::map:
       return field_legend("depth map: light grey is near the light",
-                          {{Color(kBodyLine), "receivers' body"}, {Color(kBorderLine), "border"}, {Color(kCasterLine), "casters"}},
+                          {{Color(kBodyLine), "receivers' body"},
+                           {Color(kBorderLine), "border"},
+                           {Color(kCasterLine), "casters"}},
                           picture_width);
     case View::lit:
     case View::mask:

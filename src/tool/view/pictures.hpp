@@ -42,8 +42,9 @@ struct MapPicture {
   std::vector<ScreenLine> lines;
 };
 /// `camera`: the one that the plan was made for.
-[[nodiscard]] MapPicture map_picture(const FloatImage& depths, const ShadowPlan& plan, int map, const Camera& camera,
-                                     const Box& scene, const std::vector<Box>& boxes, int width, int height);
+[[nodiscard]] MapPicture map_picture(const FloatImage& depths, const ShadowPlan& plan, int map,
+                                     const Camera& camera, const Box& scene, const std::vector<Box>& boxes,
+                                     int width, int height);
 
 /// The legend of a view, for the lower left corner of a picture of this width; empty where there is none.
 [[nodiscard]] Image legend(View view, const ShadowPlan& plan, int picture_width);

@@ -21,19 +21,21 @@ std::vector<WorldLine> footprint_of(const ShadowPlan& plan, const ShadowMap& map
   for (std::size_t i = 0; i < 4; ++i) {
     const glm::dvec2 at = corner + glm::dvec2(i == 1 || i == 2 ? 1.0 : 0.0, i >= 2 ? 1.0 : 0.0);
     const glm::dvec2 ndc = 2.0 * at / map.texels().size() - 1.0;
-    const glm::dvec4 a = world_from_clip * glm::dvec4(ndc, nearest, 1.0), b = world_from_clip * glm::dvec4(ndc, 1.0, 1.0);
+    const glm::dvec4 a = world_from_clip * glm::dvec4(ndc, nearest, 1.0),
+                     b = world_from_clip * glm::dvec4(ndc, 1.0, 1.0);
     const glm::dvec3 from = glm::dvec3(a) / a.w, along = glm::dvec3(b) / b.w - from;
     const double t = glm::dot(point - from, normal) / glm::dot(along, normal);
     if (!std::isfinite(t)) return {};
     on_plane[i] = from + along * t;
   }
   std::vector<WorldLine> lines;
-  for (std::size_t i = 0; i < 4; ++i) lines.push_back({on_plane[i], on_plane[(i + 1) % 4], {230, 159, 0, 255}, 2.0});
+  for (std::size_t i = 0; i < 4; ++i)
+    lines.push_back({on_plane[i], on_plane[(i + 1) % 4], {230, 159, 0, 255}, 2.0});
   return lines;
 }
 
-trace::Ray ray_to_light(const trace::Tracer& tracer, const Light& light, const glm::dvec3& point, const glm::dvec3& normal,
-                        double reach) {
+trace::Ray ray_to_light(const trace::Tracer& tracer, const Light& light, const glm::dvec3& point,
+                        const glm::dvec3& normal, double reach) {
   trace::Ray ray;
   ray.origin = point + normal * (4.0 * tracer.error_world(reach));
   if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
@@ -48,8 +50,8 @@ trace::Ray ray_to_light(const trace::Tracer& tracer, const Light& light, const g
 
 }  // namespace
 
-Probed probe(const trace::Tracer& tracer, const ShadowPlan& plan, const Camera& camera, const Light& light, double x,
-             double y) {
+Probed probe(const trace::Tracer& tracer, const ShadowPlan& plan, const Camera& camera, const Light& light,
+             double x, double y) {
   Probed result;
   const CameraAxes axes = camera_axes(camera);
   const double right = camera.left + (camera.right - camera.left) * x / camera.width,
@@ -65,7 +67,8 @@ Probed probe(const trace::Tracer& tracer, const ShadowPlan& plan, const Camera& 
   result.view_depth = hit.t;
   result.point = eye.origin + eye.direction * hit.t;
   result.normal = glm::dot(hit.normal, eye.direction) > 0.0 ? -hit.normal : hit.normal;
-  const trace::Ray sun = ray_to_light(tracer, light, result.point, result.normal, glm::length(eye.direction) * hit.t);
+  const trace::Ray sun =
+      ray_to_light(tracer, light, result.point, result.normal, glm::length(eye.direction) * hit.t);
   result.turned_away = glm::dot(sun.direction, result.normal) <= 0.0;
   std::uint8_t stopped = 0;
   tracer.occluded({&sun, 1}, {&stopped, 1});

@@ -12,15 +12,16 @@
 namespace gnomon::tool::view {
 
 struct Probed {
-  bool hit = false;              ///< false: the sky, and the rest is unset
+  bool hit = false;  ///< false: the sky, and the rest is unset
   glm::dvec3 point{0.0}, normal{0.0};
   double view_depth = 0.0;
-  int map = -1;                  ///< that serves the point; -1: none
-  PointAliasing aliasing;        ///< in that map
-  glm::dvec2 texel{0.0};         ///< of that map
-  bool shadow = false;           ///< by an exact ray
-  bool turned_away = false;      ///< from the light: dark without any map
-  std::vector<WorldLine> footprint;  ///< the texel's outline on the surface's plane; empty where there is none
+  int map = -1;              ///< that serves the point; -1: none
+  PointAliasing aliasing;    ///< in that map
+  glm::dvec2 texel{0.0};     ///< of that map
+  bool shadow = false;       ///< by an exact ray
+  bool turned_away = false;  ///< from the light: dark without any map
+  std::vector<WorldLine>
+      footprint;  ///< the texel's outline on the surface's plane; empty where there is none
 };
 
 /// `x`, `y`: pixels from the upper left corner of the camera's image. `plan`: as it was drawn.

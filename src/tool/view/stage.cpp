@@ -39,7 +39,8 @@ VisibleDepths visible_depths(render::Renderer& renderer, const Camera& camera) {
   renderer.draw(ShadowPlan{}, camera, renderer.prepare(render::filters::hard), surfaces);
   const FloatImage positions = renderer.positions();
   VisibleDepths depths;
-  for (std::size_t i = 3; i < positions.values.size(); i += 4) depths.add(static_cast<double>(positions.values[i]));
+  for (std::size_t i = 3; i < positions.values.size(); i += 4)
+    depths.add(static_cast<double>(positions.values[i]));
   return depths;
 }
 
@@ -67,9 +68,8 @@ std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_t
 }
 
 Stage::Stage(std::shared_ptr<const Loaded> loaded) : loaded_(std::move(loaded)), renderer_(loaded_->scene) {
-  sorting_ = std::async(std::launch::async, [scene = loaded_] {
-    return std::make_shared<const trace::Tracer>(scene->scene);
-  });
+  sorting_ = std::async(std::launch::async,
+                        [scene = loaded_] { return std::make_shared<const trace::Tracer>(scene->scene); });
 }
 
 void Stage::take_tracer(bool wait) {
@@ -109,7 +109,8 @@ std::string Stage::make_plans(const State& state, int width, int height) {
     Side& side = next[static_cast<std::size_t>(i)];
     const PlanOptions options = plan_options_of(settings);
     if (std::string refusal = memory_refusal(options, settings.filter); !refusal.empty()) return refusal;
-    const VisibleDepths depths = settings.visible_depths ? visible_depths(renderer_, planned) : VisibleDepths{};
+    const VisibleDepths depths =
+        settings.visible_depths ? visible_depths(renderer_, planned) : VisibleDepths{};
     const VisibleDepths* seen = settings.visible_depths ? &depths : nullptr;
     const auto begin = Clock::now();
     side.plan = settings.history ? make_plan(planned, light, bounds, options, side.history, seen)
@@ -152,7 +153,8 @@ std::string Stage::draw(const State& state, int width, int height, bool settled)
   return error.what();
 }
 
-void Stage::draw_side(const State& state, const Settings& settings, Side& side, Canvas& canvas, bool settled) {
+void Stage::draw_side(const State& state, const Settings& settings, Side& side, Canvas& canvas,
+                      bool settled) {
   side.stats = renderer_.draw(side.drawn, camera_, renderer_.prepare(settings.filter),
                               frame_options(state, settings, light_));
   side.errors.reset();
@@ -162,7 +164,8 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
     canvas.put(image, 0, camera_.height - image.height);
   if (state.frozen && state.view != View::map) {
     canvas.draw(on_screen(
-        plan_lines(side.plan, side.plan_camera, loaded_->boxes, loaded_->scene.bounds_world, state.drawn), camera_));
+        plan_lines(side.plan, side.plan_camera, loaded_->boxes, loaded_->scene.bounds_world, state.drawn),
+        camera_));
   }
 }
 
@@ -191,10 +194,12 @@ void Stage::draw_view(const State& state, Side& side, Canvas& canvas) {
       return canvas.put(misclassified_picture(mask, verdicts), 0, 0);
     }
     case View::truth:
-      return canvas.put(truth_picture(camera_.width, camera_.height, truth_.verdicts(), renderer_.normals()), 0, 0);
+      return canvas.put(truth_picture(camera_.width, camera_.height, truth_.verdicts(), renderer_.normals()),
+                        0, 0);
     case View::checker:
       return canvas.put(
-          checker_picture(renderer_.image(), renderer_.mask(), renderer_.positions(), side.plan, camera_), 0, 0);
+          checker_picture(renderer_.image(), renderer_.mask(), renderer_.positions(), side.plan, camera_), 0,
+          0);
     case View::map:
       break;
   }
@@ -212,8 +217,9 @@ namespace {
 
 /// What the corner of a side says: its filter, warp and maps.
 std::string side_text(const char* name, const Settings& settings, const Side& side) {
-  std::string text = fmt::format("{}: {} map{} of {}, {}", name, side.plan.map_count, side.plan.map_count == 1 ? "" : "s",
-                                 settings.plan.resolution.max_size, render::to_string(settings.filter));
+  std::string text =
+      fmt::format("{}: {} map{} of {}, {}", name, side.plan.map_count, side.plan.map_count == 1 ? "" : "s",
+                  settings.plan.resolution.max_size, render::to_string(settings.filter));
   if (side.plan.map_count > 0) text += fmt::format(", warp {}", side.plan.map[0].warp->name);
   return text;
 }
@@ -225,7 +231,8 @@ void Stage::compose(const State& state) {
   if (state.comparison == Comparison::off) return canvas_.take(canvas_a_, 0, width);
   if (state.comparison == Comparison::difference) {
     canvas_.put(difference_picture(canvas_a_.image(), canvas_b_.image(), state.gain), 0, 0);
-    return canvas_.put(label(fmt::format("difference x {:.3g}: orange A lighter, blue B lighter", state.gain)), 0, 0);
+    return canvas_.put(
+        label(fmt::format("difference x {:.3g}: orange A lighter, blue B lighter", state.gain)), 0, 0);
   }
   const int line = static_cast<int>(std::lround(std::clamp(state.wipe, 0.0, 1.0) * width));
   canvas_.take(canvas_a_, 0, line);

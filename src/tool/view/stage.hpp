@@ -32,12 +32,12 @@ struct Loaded {
 
 /// One side of a comparison, as it was drawn last.
 struct Side {
-  ShadowPlan plan;       ///< as it was made
-  ShadowPlan drawn;      ///< as it was drawn: where the plan's camera is frozen, for another eye
-  Camera plan_camera;    ///< that it was made for
+  ShadowPlan plan;     ///< as it was made
+  ShadowPlan drawn;    ///< as it was drawn: where the plan's camera is frozen, for another eye
+  Camera plan_camera;  ///< that it was made for
   render::FrameStats stats;
   double plan_ms = 0.0;
-  AliasingStats m;       ///< over what the plan's camera sees of the boxes
+  AliasingStats m;                      ///< over what the plan's camera sees of the boxes
   std::optional<Misclassified> errors;  ///< where the exact shadow is known
   PlanHistory history;
 };

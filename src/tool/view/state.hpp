@@ -74,10 +74,10 @@ struct Motion {
 
 struct State {
   std::string scene = "builtin:city";
-  std::optional<CameraKey> eye;      ///< none: the scene's path at `path_time`
-  double path_time = 0.5;            ///< 0..1
-  double fov_y_deg = 0.0;            ///< 0: of the scene's path
-  std::optional<CameraKey> frozen;   ///< the plan's camera, where it is not the eye
+  std::optional<CameraKey> eye;     ///< none: the scene's path at `path_time`
+  double path_time = 0.5;           ///< 0..1
+  double fov_y_deg = 0.0;           ///< 0: of the scene's path
+  std::optional<CameraKey> frozen;  ///< the plan's camera, where it is not the eye
   LightState light;
   Settings a, b;
   View view = View::lit;

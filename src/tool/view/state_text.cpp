@@ -53,7 +53,8 @@ Json structured_options(const PlanOptions& options) {
   Json json = Json::object();
   const PlanOptions none;
   if (!options.warp.focus.empty())
-    json["focus"] = {{"min", vector_json(options.warp.focus.min)}, {"max", vector_json(options.warp.focus.max)}};
+    json["focus"] = {{"min", vector_json(options.warp.focus.min)},
+                     {"max", vector_json(options.warp.focus.max)}};
   if (options.split.scheme == SplitScheme::given) {
     Json depths = Json::array();
     for (const double depth : options.split.given)
@@ -272,10 +273,14 @@ void check_brackets(std::string_view text) {
   int depth = 0;
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (quoted && text[i] == '\\') ++i;
-    else if (text[i] == '"') quoted = !quoted;
-    else if (!quoted && (text[i] == '{' || text[i] == '[')) ++depth;
-    else if (!quoted && (text[i] == '}' || text[i] == ']')) --depth;
+    if (quoted && text[i] == '\\')
+      ++i;
+    else if (text[i] == '"')
+      quoted = !quoted;
+    else if (!quoted && (text[i] == '{' || text[i] == '['))
+      ++depth;
+    else if (!quoted && (text[i] == '}' || text[i] == ']'))
+      --depth;
     if (depth > kMaxCaseNesting) throw std::runtime_error("brackets are nested too deep");
   }
 }
@@ -351,7 +356,8 @@ bool is_spoken(std::string_view key) {
   if (key == "filter_radius_texels" || key == "filter_radius_world") return false;
   const PlanField& field = plan_field(key);
   if (field.unit != 1.0) return false;
-  return std::holds_alternative<PlanChoice>(field.place) || std::holds_alternative<PlanMember<int>>(field.place) ||
+  return std::holds_alternative<PlanChoice>(field.place) ||
+         std::holds_alternative<PlanMember<int>>(field.place) ||
          std::holds_alternative<PlanMember<double>>(field.place) ||
          std::holds_alternative<PlanMember<bool>>(field.place);
 }
@@ -393,7 +399,7 @@ void add_settings(const Settings& settings, std::string& text) {
     std::string name = key;
     std::replace(name.begin(), name.end(), '_', '-');
     text += " --" + name + " " +
-            quoted(value.is_string() ? value.get<std::string>()
+            quoted(value.is_string()         ? value.get<std::string>()
                    : value.is_number_float() ? exact(value.get<double>())
                                              : value.dump());
   }
@@ -416,14 +422,16 @@ std::string command_text(const State& state) {
   if (light.sun.kind != none.kind) text += " --light " + std::string(to_string(light.sun.kind));
   if (light.sun.elevation_deg != none.elevation_deg)
     text += " --light-elevation-deg " + exact(light.sun.elevation_deg);
-  if (light.sun.azimuth_deg != none.azimuth_deg) text += " --light-azimuth-deg " + exact(light.sun.azimuth_deg);
+  if (light.sun.azimuth_deg != none.azimuth_deg)
+    text += " --light-azimuth-deg " + exact(light.sun.azimuth_deg);
   if (light.sun.kind == LightKind::spot && light.spot) {
     text += " --light-position=" + point_word(light.spot->position) +
             " --light-direction=" + point_word(light.spot->direction) + " --light-outer-deg " +
             exact(light.spot->outer_radians * kDegrees) + " --light-range " + exact(light.spot->range);
   }
   if (light.sun.kind == LightKind::point && light.point)
-    text += " --light-position=" + point_word(light.point->position) + " --light-range " + exact(light.point->range);
+    text += " --light-position=" + point_word(light.point->position) + " --light-range " +
+            exact(light.point->range);
   if (state.eye)
     text += " --eye=" + point_word(state.eye->position) + " --target=" + point_word(state.eye->target);
   if (state.view != View::lit)

@@ -17,10 +17,12 @@ std::string text_of(const glm::dvec3& v) {
 
 /// All that the exact shadow depends on besides the scene.
 std::string picture_of(const Camera& camera, const Light& light) {
-  std::string text = text_of(camera.position) + text_of(camera.forward) +
-                     fmt::format("{} {} {} {} {} {} {} {}", camera.left, camera.right, camera.bottom, camera.top,
-                                 camera.near_depth, camera.far_depth, camera.width, camera.height);
-  if (const auto* sun = std::get_if<DirectionalLight>(&light)) return text + " sun " + text_of(sun->direction);
+  std::string text =
+      text_of(camera.position) + text_of(camera.forward) +
+      fmt::format("{} {} {} {} {} {} {} {}", camera.left, camera.right, camera.bottom, camera.top,
+                  camera.near_depth, camera.far_depth, camera.width, camera.height);
+  if (const auto* sun = std::get_if<DirectionalLight>(&light))
+    return text + " sun " + text_of(sun->direction);
   if (const auto* spot = std::get_if<SpotLight>(&light))
     return text + " spot " + text_of(spot->position) + text_of(spot->direction) +
            fmt::format("{} {}", spot->outer_radians, spot->range);
@@ -30,7 +32,10 @@ std::string picture_of(const Camera& camera, const Light& light) {
 
 FloatImage rows_of(const FloatImage& image, int begin, int end) {
   const auto row = static_cast<std::ptrdiff_t>(image.width) * image.channels;
-  return {image.width, end - begin, image.channels, {image.values.begin() + row * begin, image.values.begin() + row * end},
+  return {image.width,
+          end - begin,
+          image.channels,
+          {image.values.begin() + row * begin, image.values.begin() + row * end},
           image.channel_names};
 }
 
@@ -46,13 +51,14 @@ void Truth::begin(std::shared_ptr<const trace::Tracer> tracer, const Camera& cam
   picture_ = picture_of(camera, light);
   width_ = positions.width;
   height_ = positions.height;
-  verdicts_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), trace::Verdict::none);
+  verdicts_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
+                   trace::Verdict::none);
   thread_ = std::jthread([this, tracer = std::move(tracer), camera, light, positions = std::move(positions),
                           normals = std::move(normals)](const std::stop_token& stopped) {
     for (int begin = 0; begin < height_ && !stopped.stop_requested(); begin += kBand) {
       const int end = std::min(begin + kBand, height_);
-      const trace::SurfacePoints points =
-          trace::surface_points(*tracer, camera, light, rows_of(positions, begin, end), rows_of(normals, begin, end));
+      const trace::SurfacePoints points = trace::surface_points(
+          *tracer, camera, light, rows_of(positions, begin, end), rows_of(normals, begin, end));
       const trace::HardReference rows = trace::hard_reference(*tracer, points, light);
       std::copy(rows.pixels.begin(), rows.pixels.end(),
                 verdicts_.begin() + static_cast<std::ptrdiff_t>(begin) * width_);

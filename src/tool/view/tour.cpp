@@ -1,0 +1,100 @@
+// The stops of the tour that writes the pictures of docs/viewer.md.
+#include "app.hpp"
+
+namespace gnomon::tool::view {
+namespace {
+
+void to_front(App& app, Tab tab) {
+  app.tab = tab;
+  app.select_tab = true;
+}
+
+void show(App& app, View view) {
+  app.state.view = view;
+}
+
+/// Pixels of the window where the picture's middle lies.
+glm::dvec2 in_picture(const App& app, double x, double y) {
+  return {app.picture.x + x * app.picture.width, app.picture.y + y * app.picture.height};
+}
+
+/// Away from the frozen camera, up and to the side, and looking back at what it sees.
+void fly_off(App& app) {
+  const CameraKey from = *app.state.frozen;
+  const glm::dvec3 ahead = from.target - from.position;
+  const double step = 0.08 * app.stage->loaded().path.far_depth;
+  const glm::dvec3 aside(ahead.z, 0.0, -ahead.x);
+  app.state.eye =
+      CameraKey{from.position - 2.2 * step * ahead + 1.4 * step * aside + glm::dvec3(0.0, 1.6 * step, 0.0),
+                from.position + 2.0 * step * ahead};
+}
+
+constexpr std::array<TourStop, 14> kStops{{
+    {"lit", [](App& app) { to_front(app, Tab::view); }},
+    {"help", [](App& app) { app.help = true; }},
+    {"heat",
+     [](App& app) {
+       app.help = false;
+       show(app, View::heat);
+       to_front(app, Tab::light);
+       app.pointer = in_picture(app, 0.5, 0.7);
+     }},
+    {"mask",
+     [](App& app) {
+       app.pointer = glm::dvec2(-1.0);
+       show(app, View::mask);
+       to_front(app, Tab::filter);
+     }},
+    {"misclassified",
+     [](App& app) {
+       show(app, View::misclassified);
+       to_front(app, Tab::compare);
+     }},
+    {"cascades",
+     [](App& app) {
+       show(app, View::cascades);
+       to_front(app, Tab::maps);
+     }},
+    {"checker", [](App& app) { show(app, View::checker); }},
+    {"map",
+     [](App& app) {
+       show(app, View::map);
+       to_front(app, Tab::view);
+     }},
+    {"truth", [](App& app) { show(app, View::truth); }},
+    {"wipe",
+     [](App& app) {
+       presets()[1].set(app.state);
+       to_front(app, Tab::compare);
+     }},
+    {"difference",
+     [](App& app) {
+       show(app, View::lit);
+       app.state.comparison = Comparison::difference;
+     }},
+    {"freeze",
+     [](App& app) {
+       app.state.a = app.state.b = {};
+       app.state.comparison = Comparison::off;
+       show(app, View::cascades);
+       to_front(app, Tab::view);
+       toggle_freeze(app);
+       fly_off(app);
+     }},
+    {"curves",
+     [](App& app) {
+       app.state.frozen.reset();
+       app.state.eye.reset();
+       show(app, View::lit);
+       to_front(app, Tab::curves);
+     }},
+    {"file", [](App& app) { to_front(app, Tab::file); }},
+}};
+
+}  // namespace
+
+std::span<const TourStop> tour_stops() noexcept {
+  return kStops;
+}
+
+}  // namespace gnomon::tool::view
