@@ -45,6 +45,11 @@ struct Area {
   int x = 0, y = 0, width = 1, height = 1;
 };
 
+/// A key that went down, as GLFW names it.
+struct KeyPress {
+  int key = 0, modifiers = 0;
+};
+
 struct App {
   explicit App(const Options& from) : options(from), state(from.state) {}
   const Options& options;
@@ -63,6 +68,7 @@ struct App {
   double message_until = 0.0;
   std::string refusal;  ///< why the present state is not the one that is shown; empty: it is
 
+  std::vector<KeyPress> presses;  ///< since the last frame
   bool panel = true, help = false, probing = true, recording = false;
   int recorded = 0;
   int side = 0;  ///< that the panel edits
@@ -117,6 +123,7 @@ void set_state(App& app, const State& state);
 struct TourStop {
   const char* name;  ///< of the picture's file
   void (*set)(App& app);
+  int moving_frames = 0;  ///< under a turning sun, before the picture is taken
 };
 [[nodiscard]] std::span<const TourStop> tour_stops() noexcept;
 

@@ -39,13 +39,27 @@ constexpr KeyHelp kKeys[] = {
     {"Esc", "close this page; nothing is lost"},
 };
 
-bool pressed(int key) {
-  return ImGui::IsKeyPressed(key, false);
-}
+/// Presses since the last frame. ImGui 1.86 forgets a key that goes down and up between two frames, which are
+/// half a second apart in software.
+class Presses {
+ public:
+  explicit Presses(const std::vector<KeyPress>& all) : all_(all) {}
+  [[nodiscard]] bool operator()(int key, bool control = false) const {
+    return std::any_of(all_.begin(), all_.end(), [&](const KeyPress& press) {
+      return press.key == key && ((press.modifiers & GLFW_MOD_CONTROL) != 0) == control;
+    });
+  }
+  /// Down now, or since the last frame.
+  [[nodiscard]] bool held(int key) const { return ImGui::IsKeyDown(key) || (*this)(key); }
+  [[nodiscard]] bool shift() const {
+    return ImGui::GetIO().KeyShift || std::any_of(all_.begin(), all_.end(), [](const KeyPress& press) {
+             return (press.modifiers & GLFW_MOD_SHIFT) != 0;
+           });
+  }
 
-bool held(int key) {
-  return ImGui::IsKeyDown(key);
-}
+ private:
+  const std::vector<KeyPress>& all_;
+};
 
 template <class Registry>
 void next_filter(render::FilterSettings& filter, const Registry& all, int step) {
@@ -81,20 +95,21 @@ void hang_light(App& app) {
   }
 }
 
-void control_keys(App& app) {
-  if (pressed(GLFW_KEY_Q)) glfwSetWindowShouldClose(app.window, GLFW_TRUE);
-  if (pressed(GLFW_KEY_C)) {
+void control_keys(App& app, const Presses& pressed) {
+  constexpr bool kControl = true;
+  if (pressed(GLFW_KEY_Q, kControl)) glfwSetWindowShouldClose(app.window, GLFW_TRUE);
+  if (pressed(GLFW_KEY_C, kControl)) {
     ImGui::SetClipboardText(command_text(app.state).c_str());
     show_message(app, "the command is in the clipboard", false);
   }
-  if (pressed(GLFW_KEY_Z)) undo(app, false);
-  if (pressed(GLFW_KEY_Y)) undo(app, true);
+  if (pressed(GLFW_KEY_Z, kControl)) undo(app, false);
+  if (pressed(GLFW_KEY_Y, kControl)) undo(app, true);
 }
 
-void setting_keys(App& app) {
+void setting_keys(App& app, const Presses& pressed) {
   State& state = app.state;
   Settings& settings = app.side == 1 && state.comparison != Comparison::off ? state.b : state.a;
-  const int step = ImGui::GetIO().KeyShift ? -1 : 1;
+  const int step = pressed.shift() ? -1 : 1;
   int& cascades = settings.plan.cascades;
   int& size = settings.plan.resolution.max_size;
   if (pressed(GLFW_KEY_V)) next_warp(settings.plan, step);
@@ -115,7 +130,7 @@ void setting_keys(App& app) {
   if (pressed(GLFW_KEY_R) || pressed(GLFW_KEY_HOME)) state.eye.reset();
 }
 
-void function_keys(App& app) {
+void function_keys(App& app, const Presses& pressed) {
   State& state = app.state;
   for (int i = 0; i < kViewCount; ++i)
     if (pressed(GLFW_KEY_1 + i)) state.view = static_cast<View>(i);
@@ -148,8 +163,10 @@ void move(CameraKey& eye, const glm::dvec3& step) {
   eye.target += step;
 }
 
-void steer(App& app, double seconds) {
-  const auto axis = [](int plus, int minus) { return 1.0 * held(plus) - 1.0 * held(minus); };
+void steer(App& app, const Presses& pressed, double seconds) {
+  const auto axis = [&pressed](int plus, int minus) {
+    return 1.0 * pressed.held(plus) - 1.0 * pressed.held(minus);
+  };
   const bool arrows = (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NavEnableKeyboard) == 0;
   const glm::dvec3 way(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
                        axis(GLFW_KEY_W, GLFW_KEY_S));
@@ -165,8 +182,7 @@ void steer(App& app, double seconds) {
   const CameraAxes axes = camera_axes(camera);
   // A scene's depth in twenty seconds, whatever its units.
   constexpr double kSeconds = 20.0, kFast = 4.0;
-  const double speed =
-      app.stage->loaded().path.far_depth / kSeconds * (ImGui::GetIO().KeyShift ? kFast : 1.0);
+  const double speed = app.stage->loaded().path.far_depth / kSeconds * (pressed.shift() ? kFast : 1.0);
   move(eye, (axes.right * way.x + glm::dvec3(0.0, way.y, 0.0) + axes.forward * way.z) * (speed * seconds));
 }
 
@@ -208,16 +224,14 @@ std::span<const KeyHelp> key_help() noexcept {
 }
 
 void handle_input(App& app, double seconds) {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (!io.WantTextInput) {
-    if (io.KeyCtrl) {
-      control_keys(app);
-    } else {
-      function_keys(app);
-      setting_keys(app);
-      if (app.stage != nullptr) steer(app, seconds);
-    }
+  const Presses pressed(app.presses);
+  if (!ImGui::GetIO().WantTextInput) {
+    control_keys(app, pressed);
+    function_keys(app, pressed);
+    setting_keys(app, pressed);
+    if (app.stage != nullptr && !ImGui::GetIO().KeyCtrl) steer(app, pressed, seconds);
   }
+  app.presses.clear();
   if (app.stage != nullptr) mouse(app);
 }
 

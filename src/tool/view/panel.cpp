@@ -307,7 +307,8 @@ void plot(const char* name, const Curve& curve, const char* unit, const char* he
   const int first = curve.count < Curve::kLength ? 0 : curve.next;
   ImGui::PushID(name);
   ImGui::PlotLines("##curve", curve.value.data(), curve.count, first, nullptr, 0.0f,
-                   std::max(most, 1e-6f) * 1.1f, {-1.0f, ImGui::GetTextLineHeight() * 3.0f});
+                   std::max(most, 1e-6f) * 1.1f,
+                   {ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight() * 3.0f});
   ImGui::PopID();
 }
 
@@ -438,6 +439,8 @@ void status_line(const App& app) {
   ImGui::SetNextWindowPos({left, size.y}, ImGuiCond_Always, {0.0f, 1.0f});
   ImGui::SetNextWindowSize({size.x - left, ImGui::GetFrameHeight()});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8.0f, 2.0f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0f, 1.0f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
   ImGui::Begin("status", nullptr, kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoScrollbar);
   ImGui::TextColored(error ? kError : kQuiet, "%s", text.c_str());
   if (error && ImGui::CalcTextSize(text.c_str()).x > size.x - left) {
@@ -448,7 +451,7 @@ void status_line(const App& app) {
     ImGui::End();
   }
   ImGui::End();
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(3);
 }
 
 void help_page(App& app) {

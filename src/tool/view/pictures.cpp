@@ -71,7 +71,8 @@ Image truth_picture(int width, int height, std::span<const trace::Verdict> verdi
   return image;
 }
 
-Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdict> verdicts) {
+Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdict> verdicts,
+                            const FloatImage& normals) {
   Image image = render::blank_image(mask.width, mask.height, kSky);
   for (std::size_t i = 0; i < pixels_of(mask); ++i) {
     if (i >= verdicts.size()) {
@@ -79,6 +80,8 @@ Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdi
       continue;
     }
     const trace::Verdict verdict = verdicts[i];
+    if (!(normals.values[4 * i + 3] > 0.0f)) continue;
+    if (verdict == trace::Verdict::none) set(image, i, kPale);  // turned away, or unlit
     if (verdict == trace::Verdict::none) continue;
     if (verdict == trace::Verdict::undecided) {
       set(image, i, kUndecided);

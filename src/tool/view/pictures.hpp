@@ -25,7 +25,8 @@ struct Misclassified {
 [[nodiscard]] Image mask_picture(const FloatImage& mask, const FloatImage& normals);
 /// The mask's error over a pale exact shadow. `verdicts` may be of the picture's first rows only; the rest
 /// stays pale.
-[[nodiscard]] Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdict> verdicts);
+[[nodiscard]] Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdict> verdicts,
+                                          const FloatImage& normals);
 [[nodiscard]] Misclassified misclassified(const FloatImage& mask, std::span<const trace::Verdict> verdicts);
 /// The exact shadow as mask_picture() paints one.
 [[nodiscard]] Image truth_picture(int width, int height, std::span<const trace::Verdict> verdicts,

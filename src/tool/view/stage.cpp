@@ -160,13 +160,13 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
   side.errors.reset();
   if (wants_truth_) want_truth(settled);
   draw_view(state, side, canvas);
-  if (const Image image = legend(state.view, side.plan, camera_.width); image.width > 0)
-    canvas.put(image, 0, camera_.height - image.height);
   if (state.frozen && state.view != View::map) {
     canvas.draw(on_screen(
         plan_lines(side.plan, side.plan_camera, loaded_->boxes, loaded_->scene.bounds_world, state.drawn),
         camera_));
   }
+  if (const Image image = legend(state.view, side.plan, camera_.width); image.width > 0)
+    canvas.put(image, 0, camera_.height - image.height);
 }
 
 void Stage::want_truth(bool settled) {
@@ -191,7 +191,7 @@ void Stage::draw_view(const State& state, Side& side, Canvas& canvas) {
       const FloatImage mask = renderer_.mask();
       const auto verdicts = truth_.verdicts();
       if (truth_.done()) side.errors = misclassified(mask, verdicts);
-      return canvas.put(misclassified_picture(mask, verdicts), 0, 0);
+      return canvas.put(misclassified_picture(mask, verdicts, renderer_.normals()), 0, 0);
     }
     case View::truth:
       return canvas.put(truth_picture(camera_.width, camera_.height, truth_.verdicts(), renderer_.normals()),

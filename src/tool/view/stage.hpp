@@ -62,6 +62,8 @@ class Stage {
   [[nodiscard]] const Light& light() const noexcept { return light_; }
   /// Rows of exact shadows that are done, of how many; none where none are wanted.
   [[nodiscard]] std::optional<std::array<int, 2>> truth_progress() const;
+  /// Takes what the background has finished.
+  void poll() { take_tracer(false); }
   /// nullptr until the triangles are sorted.
   [[nodiscard]] const trace::Tracer* tracer() const noexcept { return tracer_.get(); }
   /// Compiles one more of the filters that no state has used yet; false where all are compiled.

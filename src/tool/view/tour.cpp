@@ -1,4 +1,6 @@
 // The stops of the tour that writes the pictures of docs/viewer.md.
+#include <glm/geometric.hpp>
+
 #include "app.hpp"
 
 namespace gnomon::tool::view {
@@ -18,15 +20,16 @@ glm::dvec2 in_picture(const App& app, double x, double y) {
   return {app.picture.x + x * app.picture.width, app.picture.y + y * app.picture.height};
 }
 
-/// Away from the frozen camera, up and to the side, and looking back at what it sees.
+/// Away from the frozen camera, up and to the side, looking at what it sees.
 void fly_off(App& app) {
   const CameraKey from = *app.state.frozen;
-  const glm::dvec3 ahead = from.target - from.position;
-  const double step = 0.08 * app.stage->loaded().path.far_depth;
-  const glm::dvec3 aside(ahead.z, 0.0, -ahead.x);
+  const Box& scene = app.stage->loaded().scene.bounds_world;
+  const glm::dvec3 ahead = glm::normalize(from.target - from.position);
+  const glm::dvec3 aside = glm::normalize(glm::dvec3(ahead.z, 0.0, -ahead.x));
+  const double step = 0.3 * glm::length(scene.max - scene.min);
   app.state.eye =
-      CameraKey{from.position - 2.2 * step * ahead + 1.4 * step * aside + glm::dvec3(0.0, 1.6 * step, 0.0),
-                from.position + 2.0 * step * ahead};
+      CameraKey{from.position - 0.8 * step * ahead + 1.2 * step * aside + glm::dvec3(0.0, 0.9 * step, 0.0),
+                from.position + 0.7 * step * ahead};
 }
 
 constexpr std::array<TourStop, 14> kStops{{
@@ -87,7 +90,8 @@ constexpr std::array<TourStop, 14> kStops{{
        app.state.eye.reset();
        show(app, View::lit);
        to_front(app, Tab::curves);
-     }},
+     },
+     40},
     {"file", [](App& app) { to_front(app, Tab::file); }},
 }};
 

@@ -38,6 +38,12 @@ void on_drop(GLFWwindow* window, int count, const char** files) {
   if (count > 0) open_file(app, files[0]);
 }
 
+void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
+  if (action == GLFW_PRESS)
+    static_cast<App*>(glfwGetWindowUserPointer(window))->presses.push_back({key, modifiers});
+  ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers);
+}
+
 /// ImGui for as long as the window lives.
 class Widgets {
  public:
@@ -45,6 +51,7 @@ class Widgets {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // the panel has one place
     ImGui_ImplGlfw_InitForOpenGL(window, true);
+    glfwSetKeyCallback(window, on_key);
     ImGui_ImplOpenGL3_Init("#version 450");
   }
   ~Widgets() {
@@ -182,14 +189,19 @@ struct Shown {
   int width = 0, height = 0, truth_rows = -1;
   const Stage* stage = nullptr;
   bool settled = false, has_tracer = false;
+  Clock::time_point when;
 };
+
+/// How long the loop may sleep, seconds; 0: there is more to do at once.
+constexpr double kRestSeconds = 0.1, kRaysSeconds = 0.02;
 
 class Loop {
  public:
   Loop(App& app, Widgets& widgets) : app_(app), widgets_(widgets) {}
 
-  /// One frame. Returns true where it had nothing left to do.
-  bool frame() {
+  /// One frame. Returns how long nothing needs the next one, seconds; kRestSeconds: until the user does
+  /// something.
+  double frame() {
     const auto begin = Clock::now();
     const double seconds = std::min(std::chrono::duration<double>(begin - before_).count(), 0.25);
     before_ = begin;
@@ -204,6 +216,7 @@ class Loop {
     const bool drew = draw_picture(moving);
     clear_window(app_.window_width, app_.window_height);
     if (app_.stage != nullptr) app_.stage->canvas().show(app_.picture.x, app_.picture.y, app_.window_height);
+    finish_gl();
     const auto widgets_begin = Clock::now();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     finish_gl();
@@ -211,7 +224,10 @@ class Loop {
     app_.panel_ms += (panel_ms - app_.panel_ms) * 0.1;
     if (const unsigned error = last_gl_error(); error != 0)
       show_message(app_, fmt::format("OpenGL error {}", error), true);
-    return !drew && !moving && app_.stage != nullptr && !app_.loading.valid() && truth_rests();
+    if (app_.stage == nullptr || app_.loading.valid()) return kRaysSeconds;
+    if (drew || moving) return 0.0;
+    const auto progress = app_.stage->truth_progress();
+    return progress && (*progress)[0] < (*progress)[1] ? kRaysSeconds : kRestSeconds;
   }
 
  private:
@@ -238,38 +254,38 @@ class Loop {
     return wait;
   }
 
+  /// Exact rays that arrived are shown now and then, not row by row.
+  [[nodiscard]] bool shows_rays(const std::optional<std::array<int, 2>>& progress) const {
+    if (!progress) return false;
+    if (!shown_.settled) return true;
+    constexpr double kEveryMs = 300.0;
+    const bool more =
+        (*progress)[0] != shown_.truth_rows || (app_.stage->tracer() != nullptr) != shown_.has_tracer;
+    return more && ((*progress)[0] == (*progress)[1] || ms_since(shown_.when) > kEveryMs);
+  }
+
   bool draw_picture(bool moving) {
     if (app_.stage == nullptr) return false;
+    app_.stage->poll();
     const std::string text = state_text(app_.state);
     const auto progress = app_.stage->truth_progress();
-    Shown now{text,
-              app_.picture.width,
-              app_.picture.height,
-              progress ? (*progress)[0] : -1,
-              app_.stage.get(),
-              text == shown_.state,
-              app_.stage->tracer() != nullptr};
-    const bool same = now.state == shown_.state && now.width == shown_.width && now.height == shown_.height &&
-                      now.truth_rows == shown_.truth_rows && now.stage == shown_.stage &&
-                      now.settled == shown_.settled && now.has_tracer == shown_.has_tracer;
-    const bool waits_for_rays = progress && !now.has_tracer;
-    if (same && !moving && !waits_for_rays) {
+    const bool settled = text == shown_.state, has_tracer = app_.stage->tracer() != nullptr;
+    const bool same = settled && app_.picture.width == shown_.width && app_.picture.height == shown_.height &&
+                      app_.stage.get() == shown_.stage;
+    if (same && !moving && !shows_rays(progress)) {
       if (!app_.looking && !app_.wiping) keep_for_undo(app_, text);
       return false;
     }
     if (wait_for_filter()) return true;
     const auto begin = Clock::now();
-    app_.refusal = app_.stage->draw(app_.state, app_.picture.width, app_.picture.height, now.settled);
+    app_.refusal = app_.stage->draw(app_.state, app_.picture.width, app_.picture.height, settled);
     app_.frame_ms = ms_since(begin);
-    shown_ = std::move(now);
-    if (app_.refusal.empty() && !progress) add_curves(app_);
+    shown_ = {
+        text,    app_.picture.width, app_.picture.height, progress ? (*progress)[0] : -1, app_.stage.get(),
+        settled, has_tracer,         Clock::now()};
+    if (app_.refusal.empty() && !(same && progress)) add_curves(app_);
     if (app_.recording) record(app_);
     return true;
-  }
-
-  [[nodiscard]] bool truth_rests() const {
-    const auto progress = app_.stage->truth_progress();
-    return !progress || (*progress)[0] == (*progress)[1];
   }
 
   App& app_;
@@ -282,7 +298,7 @@ void run_loop(App& app, Loop& loop) {
   int frames = 0;
   bool ahead = true;
   while (glfwWindowShouldClose(app.window) == GLFW_FALSE) {
-    const bool idle = loop.frame();
+    const double rest = loop.frame();
     const bool last =
         app.options.exit_after > 0 && app.stage != nullptr && ++frames >= app.options.exit_after;
     if (last && !app.options.screenshot.empty())
@@ -290,12 +306,10 @@ void run_loop(App& app, Loop& loop) {
     glfwSwapBuffers(app.window);
     if (last) break;
     // Filters that nobody asked for yet are compiled while nobody waits.
+    const bool idle = rest == kRestSeconds;
     if (idle && ahead && app.options.exit_after == 0) ahead = app.stage->compile_ahead();
-    constexpr double kIdleSeconds = 0.1, kBusySeconds = 0.002;
-    if (idle && !ahead) {
-      glfwWaitEventsTimeout(kIdleSeconds);
-    } else if (app.stage == nullptr) {
-      glfwWaitEventsTimeout(kBusySeconds * 8.0);
+    if (rest > 0.0 && !(idle && ahead)) {
+      glfwWaitEventsTimeout(rest);
     } else {
       glfwPollEvents();
     }
@@ -305,17 +319,16 @@ void run_loop(App& app, Loop& loop) {
 /// Shows each stop until nothing changes any more, and writes what the window shows.
 void run_tour(App& app, Loop& loop) {
   make_folder("--tour", app.options.tour);
-  constexpr int kStill = 4, kMostFrames = 20'000;  // frames in a row; ImGui places a window in its second
+  constexpr int kStill = 4,
+                kMostFrames = 20'000;  // still frames in a row: ImGui places a window in its second
   const auto settle = [&] {
     int still = 0;
     for (int i = 0; i < kMostFrames && still < kStill && glfwWindowShouldClose(app.window) == GLFW_FALSE;
          ++i) {
-      still = loop.frame() ? still + 1 : 0;
+      const double rest = loop.frame();
+      still = rest == kRestSeconds && app.stage->tracer() != nullptr ? still + 1 : 0;
       if (still < kStill) glfwSwapBuffers(app.window);
-      glfwPollEvents();
-      const bool waits = app.loading.valid() || app.stage == nullptr || app.stage->tracer() == nullptr;
-      if (waits) glfwWaitEventsTimeout(0.02);
-      if (app.stage != nullptr && app.stage->tracer() == nullptr) still = 0;
+      glfwWaitEventsTimeout(std::max(still > 0 ? 0.0 : rest, 1e-3));
       if (app.message_is_error) throw std::runtime_error("tour: " + app.message);
     }
   };
@@ -324,6 +337,15 @@ void run_tour(App& app, Loop& loop) {
   for (const TourStop& stop : tour_stops()) {
     stop.set(app);
     settle();
+    if (stop.moving_frames > 0) {
+      app.state.motion.sun = true;
+      for (int i = 0; i < stop.moving_frames; ++i) {
+        (void)loop.frame();
+        glfwSwapBuffers(app.window);
+      }
+      app.state.motion.sun = false;
+      settle();
+    }
     if (glfwWindowShouldClose(app.window) != GLFW_FALSE) return;
     write_png(window_image(app.window_width, app.window_height),
               app.options.tour / (std::string(stop.name) + ".png"));
