@@ -71,6 +71,7 @@ struct App {
   std::vector<KeyPress> presses;  ///< since the last frame
   bool panel = true, help = false, probing = true, recording = false;
   int recorded = 0;
+  bool wants_picture = false;  ///< to be saved, once it shows the present state
   int side = 0;  ///< that the panel edits
   Tab tab = Tab::view;
   bool select_tab = false;  ///< the panel shows `tab` in its next frame

@@ -144,7 +144,7 @@ void function_keys(App& app, const Presses& pressed) {
   if (pressed(GLFW_KEY_F9)) open_file(app, app.state_file);
   if (pressed(GLFW_KEY_F6)) ImGui::GetIO().ConfigFlags ^= ImGuiConfigFlags_NavEnableKeyboard;
   if (pressed(GLFW_KEY_F11)) app.recording = !app.recording;
-  if (pressed(GLFW_KEY_F12)) save_picture(app);
+  if (pressed(GLFW_KEY_F12)) app.wants_picture = true;
   if (pressed(GLFW_KEY_I)) app.probing = !app.probing;
   if (pressed(GLFW_KEY_ESCAPE)) app.help = false;
 }

@@ -368,7 +368,7 @@ void file_tab(App& app) {
   ImGui::PopTextWrapPos();
   if (ImGui::Button("copy command")) ImGui::SetClipboardText(command.c_str());
   ImGui::Separator();
-  if (ImGui::Button("picture (F12)")) save_picture(app);
+  if (ImGui::Button("picture (F12)")) app.wants_picture = true;
   ImGui::SameLine();
   ImGui::Checkbox("record (F11)", &app.recording);
   tooltip("every picture that is drawn goes into the folder gnomon_record");

@@ -208,12 +208,17 @@ class Loop {
     take_loaded(app_);
     begin_widgets();
     handle_input(app_, seconds);
+    app_.picture = picture_area(app_);  // a key may have hidden the panel
     const bool moving = play(app_, seconds);
     const auto panel_begin = Clock::now();
     draw_panel(app_);
     ImGui::Render();
     double panel_ms = ms_since(panel_begin);
     const bool drew = draw_picture(moving);
+    if (app_.wants_picture && !app_.compiling) {
+      app_.wants_picture = false;
+      save_picture(app_);
+    }
     clear_window(app_.window_width, app_.window_height);
     if (app_.stage != nullptr) app_.stage->canvas().show(app_.picture.x, app_.picture.y, app_.window_height);
     finish_gl();
@@ -285,12 +290,22 @@ class Loop {
         settled, has_tracer,         Clock::now()};
     if (app_.refusal.empty() && !(same && progress)) add_curves(app_);
     if (app_.recording) record(app_);
+    show_title();
     return true;
+  }
+
+  /// The scene's name, from its first picture on.
+  void show_title() {
+    const std::string& name = app_.stage->loaded().name;
+    if (title_ == name) return;
+    title_ = name;
+    glfwSetWindowTitle(app_.window, ("gnomon view: " + name).c_str());
   }
 
   App& app_;
   Widgets& widgets_;
   Shown shown_;
+  std::string title_;  ///< the scene in the window's title
   Clock::time_point before_ = Clock::now();
 };
 
@@ -304,7 +319,8 @@ void run_loop(App& app, Loop& loop) {
     if (last && !app.options.screenshot.empty())
       write_png(window_image(app.window_width, app.window_height), app.options.screenshot);
     glfwSwapBuffers(app.window);
-    if (last) break;
+    const bool no_scene = app.stage == nullptr && !app.loading.valid() && app.message_is_error;
+    if (last || (no_scene && app.options.exit_after > 0)) break;
     // Filters that nobody asked for yet are compiled while nobody waits.
     const bool idle = rest == kRestSeconds;
     if (idle && ahead && app.options.exit_after == 0) ahead = app.stage->compile_ahead();
