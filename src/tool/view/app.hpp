@@ -72,16 +72,16 @@ struct App {
   bool panel = true, help = false, probing = true, recording = false;
   int recorded = 0;
   bool wants_picture = false;  ///< to be saved, once it shows the present state
-  int side = 0;  ///< that the panel edits
+  int side = 0;                ///< that the panel edits
   Tab tab = Tab::view;
   bool select_tab = false;  ///< the panel shows `tab` in its next frame
   std::string state_file = "gnomon_view.json";
   std::array<char, 64> find{};  ///< text that an option's name must hold
   double scale = 1.0;           ///< of widgets, in window units
 
-  Area picture;                             ///< where the picture lies in the framebuffer
-  int window_width = 1, window_height = 1;  ///< of the framebuffer, pixels
-  bool looking = false, wiping = false;     ///< what the mouse's button moves
+  Area picture;                                           ///< where the picture lies in the framebuffer
+  int window_width = 1, window_height = 1;                ///< of the framebuffer, pixels
+  bool looking = false, wiping = false, placing = false;  ///< what the mouse's button moves
   std::optional<Probed> probed;
   double pixel_ratio = 1.0;  ///< framebuffer pixels in a window unit
   double frame_ms = 0.0, panel_ms = 0.0;
@@ -98,6 +98,9 @@ void draw_panel(App& app);
 
 /// Keys and the mouse over the picture.
 void handle_input(App& app, double seconds);
+/// Where the local light is seen in the picture, and where its axis points, pixels; none for the sun and for
+/// a light behind the eye.
+[[nodiscard]] std::optional<ScreenLine> light_handle(const App& app);
 /// Every key with what it does, for the help page.
 struct KeyHelp {
   const char *key, *what;

@@ -30,6 +30,7 @@ constexpr KeyHelp kKeys[] = {
     {"PageUp, PageDown", "maps of twice the size, of half the size"},
     {"M", "next map of the map view"},
     {"I", "probe under the cursor on and off"},
+    {"drag the light", "move it across the view, with Shift along it"},
     {"L", "hang the spot or point light over the point under the cursor"},
     {"P, O", "fly along the path, turn the sun"},
     {"R, Home", "camera of the scene's path"},
@@ -186,6 +187,29 @@ void steer(App& app, const Presses& pressed, double seconds) {
   move(eye, (axes.right * way.x + glm::dvec3(0.0, way.y, 0.0) + axes.forward * way.z) * (speed * seconds));
 }
 
+/// Moves the local light with the mouse: across the view, or with Shift along it.
+void place_light(App& app) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.MouseDelta.x == 0.0f && io.MouseDelta.y == 0.0f) return;
+  Light light = app.stage->light();
+  const Camera& camera = app.stage->camera();
+  const CameraAxes axes = camera_axes(camera);
+  const auto moved = [&](glm::dvec3& position) {
+    const double depth = glm::dot(position - camera.position, axes.forward);
+    const double step = (camera.right - camera.left) / camera.width * depth * app.pixel_ratio;
+    const double right = static_cast<double>(io.MouseDelta.x) * step,
+                 down = static_cast<double>(io.MouseDelta.y) * step;
+    position += io.KeyShift ? axes.forward * -down : axes.right * right - axes.up * down;
+  };
+  if (auto* point = std::get_if<PointLight>(&light)) {
+    moved(point->position);
+    app.state.light.point = *point;
+  } else if (auto* spot = std::get_if<SpotLight>(&light)) {
+    moved(spot->position);
+    app.state.light.spot = *spot;
+  }
+}
+
 void mouse(App& app) {
   const ImGuiIO& io = ImGui::GetIO();
   const double x = static_cast<double>(io.MousePos.x) * app.pixel_ratio - app.picture.x,
@@ -196,9 +220,12 @@ void mouse(App& app) {
   if (over && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     app.wiping =
         app.state.comparison == Comparison::wipe && std::abs(x - app.state.wipe * app.picture.width) < kNear;
-    app.looking = !app.wiping;
+    const auto handle = light_handle(app);
+    app.placing = handle && glm::length(handle->from - glm::dvec2(x, y)) < 2.0 * kNear;
+    app.looking = !app.wiping && !app.placing;
   }
-  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) app.looking = app.wiping = false;
+  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) app.looking = app.wiping = app.placing = false;
+  if (app.placing) place_light(app);
   if (app.wiping) app.state.wipe = std::clamp(x / app.picture.width, 0.0, 1.0);
   constexpr double kRadiansPerUnit = 0.003;
   if (app.looking && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
@@ -211,13 +238,35 @@ void mouse(App& app) {
                   (static_cast<double>(io.MouseWheel) * app.stage->loaded().path.far_depth / kSteps));
   }
   app.probed.reset();
-  if (over && app.probing && !app.looking && !app.wiping && app.stage->tracer() != nullptr &&
+  if (over && app.probing && !app.looking && !app.wiping && !app.placing && app.stage->tracer() != nullptr &&
       app.state.view != View::map)
     app.probed =
         probe(*app.stage->tracer(), app.stage->side(0).drawn, app.stage->camera(), app.stage->light(), x, y);
 }
 
 }  // namespace
+
+std::optional<ScreenLine> light_handle(const App& app) {
+  if (app.stage == nullptr || app.state.view == View::map) return {};
+  const Light& light = app.stage->light();
+  const Camera& camera = app.stage->camera();
+  WorldLine axis;
+  if (const auto* spot = std::get_if<SpotLight>(&light)) {
+    axis.from = spot->position;
+    axis.to = spot->position + glm::normalize(spot->direction) * (0.3 * spot->range);
+  } else if (const auto* point = std::get_if<PointLight>(&light)) {
+    axis.from = point->position;
+    axis.to = point->position - glm::dvec3(0.0, 0.05 * point->range, 0.0);
+  } else {
+    return {};
+  }
+  // Cut lines begin elsewhere: the handle is the light's own place, or none.
+  if (on_screen({{axis.from, axis.from + camera_axes(camera).right * 1e-9, {}, 1.0}}, camera).empty())
+    return {};
+  const std::vector<ScreenLine> seen = on_screen({axis}, camera);
+  if (seen.empty()) return {};
+  return seen.front();
+}
 
 std::span<const KeyHelp> key_help() noexcept {
   return kKeys;

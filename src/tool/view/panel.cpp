@@ -114,7 +114,9 @@ void local_light(App& app) {
   const glm::dvec3 size =
       app.stage->loaded().scene.bounds_world.max - app.stage->loaded().scene.bounds_world.min;
   const double speed = std::max({size.x, size.y, size.z, 1e-6}) / 1000.0;
-  ImGui::TextWrapped("Drag the values, or press L to hang the light over the point under the cursor.");
+  ImGui::TextWrapped(
+      "Drag the light in the picture (with Shift along the view), drag the values, or press L to hang it "
+      "over the point under the cursor.");
   const auto range = [&](double& value) {
     ImGui::DragScalar("range", ImGuiDataType_Double, &value, static_cast<float>(speed * 5.0), nullptr,
                       nullptr, "%.4g");
@@ -514,6 +516,22 @@ void probe_text(App& app) {
   }
 }
 
+void draw_light(const App& app) {
+  const std::optional<ScreenLine> handle = light_handle(app);
+  if (!handle) return;
+  const auto at = [&app](const glm::dvec2& p) {
+    return ImVec2(static_cast<float>((p.x + app.picture.x) / app.pixel_ratio),
+                  static_cast<float>((p.y + app.picture.y) / app.pixel_ratio));
+  };
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  constexpr ImU32 kLight = IM_COL32(255, 214, 90, 255), kEdge = IM_COL32(20, 20, 24, 255);
+  const auto radius = static_cast<float>(8.0 * app.scale);
+  list.AddLine(at(handle->from), at(handle->to), kEdge, 4.0f);
+  list.AddLine(at(handle->from), at(handle->to), kLight, 2.0f);
+  list.AddCircleFilled(at(handle->from), radius + 1.5f, kEdge, 24);
+  list.AddCircleFilled(at(handle->from), radius, kLight, 24);
+}
+
 void waiting_page(const App& app) {
   if (app.stage != nullptr) return;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -541,6 +559,7 @@ void draw_panel(App& app) {
     tabs(app);
     ImGui::End();
   }
+  draw_light(app);
   probe_text(app);
   waiting_page(app);
   status_line(app);

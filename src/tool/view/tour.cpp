@@ -32,7 +32,7 @@ void fly_off(App& app) {
                 from.position + 0.7 * step * ahead};
 }
 
-constexpr std::array<TourStop, 14> kStops{{
+constexpr std::array<TourStop, 15> kStops{{
     {"lit", [](App& app) { to_front(app, Tab::view); }},
     {"help", [](App& app) { app.help = true; }},
     {"heat",
@@ -78,6 +78,7 @@ constexpr std::array<TourStop, 14> kStops{{
     {"freeze",
      [](App& app) {
        app.state.a = app.state.b = {};
+       app.state.drawn.casters = false;
        app.state.comparison = Comparison::off;
        show(app, View::cascades);
        to_front(app, Tab::view);
@@ -92,6 +93,11 @@ constexpr std::array<TourStop, 14> kStops{{
        to_front(app, Tab::curves);
      },
      40},
+    {"local_light",
+     [](App& app) {
+       app.state.light.sun.kind = LightKind::spot;
+       to_front(app, Tab::light);
+     }},
     {"file", [](App& app) { to_front(app, Tab::file); }},
 }};
 

@@ -253,7 +253,9 @@ class Loop {
 
   /// The filter's program takes a while to compile: the status line says so for a frame before.
   bool wait_for_filter() {
-    const bool unknown = !app_.stage->is_compiled(app_.state.a.filter);
+    const bool both = app_.state.comparison != Comparison::off;
+    const bool unknown = !app_.stage->is_compiled(app_.state.a.filter) ||
+                         (both && !app_.stage->is_compiled(app_.state.b.filter));
     const bool wait = unknown && !app_.compiling;
     app_.compiling = wait;
     return wait;
@@ -278,7 +280,7 @@ class Loop {
     const bool same = settled && app_.picture.width == shown_.width && app_.picture.height == shown_.height &&
                       app_.stage.get() == shown_.stage;
     if (same && !moving && !shows_rays(progress)) {
-      if (!app_.looking && !app_.wiping) keep_for_undo(app_, text);
+      if (!app_.looking && !app_.wiping && !app_.placing) keep_for_undo(app_, text);
       return false;
     }
     if (wait_for_filter()) return true;
