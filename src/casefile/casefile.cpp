@@ -326,6 +326,10 @@ Case load_case(const std::filesystem::path& file) {
   }
 }
 
+PlanOptions read_plan_options(std::string_view json_text) {
+  return options_from(parse_json(json_text));
+}
+
 std::string invalid_input_text(std::string_view invalid_field) {
   struct Entry {
     std::string_view field, text;

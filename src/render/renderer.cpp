@@ -246,12 +246,27 @@ std::uint32_t Renderer::depth_array() const noexcept {
   return impl_->maps.depth.name();
 }
 
+const Framebuffer& Renderer::Impl::framebuffer_of(Picture picture) const noexcept {
+  switch (picture) {
+    case Picture::heat_map:
+      return targets.heat_fbo;
+    case Picture::cascade_tint:
+      return targets.tint_fbo;
+    case Picture::lit:
+      break;
+  }
+  return targets.color_fbo;
+}
+
+void Renderer::copy(Picture picture, std::uint32_t framebuffer) const noexcept {
+  const FrameTargets& t = impl_->targets;
+  glBlitNamedFramebuffer(impl_->framebuffer_of(picture).name(), framebuffer, 0, 0, t.width, t.height, 0, 0,
+                         t.width, t.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
 void Renderer::show(Picture picture, int width, int height) const noexcept {
   const FrameTargets& t = impl_->targets;
-  const Framebuffer& from = picture == Picture::heat_map       ? t.heat_fbo
-                            : picture == Picture::cascade_tint ? t.tint_fbo
-                                                               : t.color_fbo;
-  glBlitNamedFramebuffer(from.name(), 0, 0, 0, t.width, t.height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+  glBlitNamedFramebuffer(impl_->framebuffer_of(picture).name(), 0, 0, 0, t.width, t.height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
                          t.width == width && t.height == height ? GL_NEAREST : GL_LINEAR);
   impl_->screen_size = {width, height};
 }

@@ -49,6 +49,7 @@ struct Renderer::Impl {
   void draw_aliasing() noexcept;
   void draw_heat_map() noexcept;
   void draw_cascade_tint() noexcept;
+  [[nodiscard]] const Framebuffer& framebuffer_of(Picture picture) const noexcept;
   /// Draws over all of `fbo` with `program`; the images of the surfaces pass are bound.
   void fullscreen(GLuint fbo, const Program& program) const noexcept;
 

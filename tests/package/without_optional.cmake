@@ -1,8 +1,8 @@
-# Does the project configure and build without OpenImageIO, Draco, meshoptimizer, Embree, GLFW, and the pkg-config that OpenImageIO alone is
-# found by? Without TARGETS, all that stands in for them is compiled; TARGETS=all (./dev lean) builds everything and asks
+# Does the project configure and build without OpenImageIO, Draco, meshoptimizer, Embree, GLFW, Dear ImGui, and the pkg-config that OpenImageIO and
+# Dear ImGui are found by? Without TARGETS, all that stands in for them is compiled; TARGETS=all (./dev lean) builds everything and asks
 # the programs for what is missing, which takes minutes.
 file(REMOVE_RECURSE ${WORK_DIR})
-set(parts OPENIMAGEIO DRACO MESHOPTIMIZER EMBREE GLFW)
+set(parts OPENIMAGEIO DRACO MESHOPTIMIZER EMBREE GLFW IMGUI)
 list(TRANSFORM parts REPLACE "(.+)" "-DGNOMON_WITH_\\1=OFF")
 
 function(step what expected)
@@ -23,7 +23,7 @@ endfunction()
 step("configuring" 0 ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR} -G Ninja -DCMAKE_BUILD_TYPE=Release
   -DCMAKE_CXX_COMPILER=${CXX} -DGNOMON_WERROR=ON -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
   -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON ${parts})
-foreach(part OPENIMAGEIO DRACO MESHOPTIMIZER EMBREE GLFW)
+foreach(part OPENIMAGEIO DRACO MESHOPTIMIZER EMBREE GLFW IMGUI)
   expect_word("Built without ${part}, as asked for")
 endforeach()
 if(NOT TARGETS)
@@ -31,7 +31,8 @@ if(NOT TARGETS)
     src/scene/CMakeFiles/gnomon_scene.dir/gltf_draco_absent.cpp.o
     src/scene/CMakeFiles/gnomon_scene.dir/gltf_meshopt_absent.cpp.o
     src/trace/CMakeFiles/gnomon_trace.dir/embree_absent.cpp.o
-    src/render/CMakeFiles/gnomon_window.dir/context/glfw_absent.cpp.o)
+    src/render/CMakeFiles/gnomon_window.dir/context/glfw_absent.cpp.o
+    src/tool/CMakeFiles/gnomon_view.dir/view/window_absent.cpp.o)
 endif()
 step("building" 0 ${CMAKE_COMMAND} --build ${WORK_DIR} --target ${TARGETS})
 if(NOT TARGETS STREQUAL "all")
@@ -40,7 +41,10 @@ endif()
 set(SCENE ${SOURCE_DIR}/tests/fuzz/seeds/gltf/triangle.gltf)
 step("a window" 2 ${WORK_DIR}/bin/flythrough --context glfw ${SCENE})
 expect_word("built without GLFW")
+step("the viewer" 2 ${WORK_DIR}/bin/gnomon view ${SCENE})
+expect_word("built without GLFW")
+expect_word("Dear ImGui")
 step("pictures" 2 ${WORK_DIR}/bin/flythrough --frames 1 --size 32x32 --map-size 32 --out ${WORK_DIR}/out ${SCENE})
 expect_word("built without OpenImageIO")
 step("a plan" 0 ${WORK_DIR}/bin/gnomon plan ${SOURCE_DIR}/tests/data/cases/light45.json)
-message(STATUS "built and run without OpenImageIO, Draco, meshoptimizer, Embree and GLFW")
+message(STATUS "built and run without OpenImageIO, Draco, meshoptimizer, Embree, GLFW and Dear ImGui")

@@ -54,6 +54,10 @@ inline constexpr int kMaxCaseNesting = 32;
 /// The same from a file; messages begin with its name.
 [[nodiscard]] Case load_case(const std::filesystem::path& file);
 
+/// The value of "options" in a case, alone: a JSON object with the same keys. Throws CaseError as read_case()
+/// does.
+[[nodiscard]] PlanOptions read_plan_options(std::string_view json_text);
+
 /// ShadowPlan::invalid_field in words of a case file: the key and the values that it may have
 /// ("camera.far: must lie above near"). A field that has no text of its own comes back as "FIELD: not
 /// usable".

@@ -180,6 +180,8 @@ class Renderer {
   enum class Picture : std::uint8_t { lit, heat_map, cascade_tint };
   /// Copies a picture to the default framebuffer of this size.
   void show(Picture picture, int width, int height) const noexcept;
+  /// Copies a picture to the lower left corner of a framebuffer object (its OpenGL name), pixel by pixel.
+  void copy(Picture picture, std::uint32_t framebuffer) const noexcept;
   /// Copies an image to the lower left corner of the default framebuffer.
   void show_overlay(const Image& image) const;
   /// The content of the default framebuffer where show() last drew: the whole picture as on screen.

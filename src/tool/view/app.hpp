@@ -1,0 +1,134 @@
+// What the window keeps from frame to frame, shared by its panel, its keys and its tour.
+#pragma once
+
+#include <array>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+#include "probe.hpp"
+#include "session.hpp"
+#include "stage.hpp"
+
+struct GLFWwindow;
+
+namespace gnomon::tool::view {
+
+/// A tab of the panel.
+enum class Tab : std::uint8_t { view, light, maps, filter, compare, curves, file };
+inline constexpr int kTabCount = 7;
+
+/// The last values of one figure.
+struct Curve {
+  static constexpr int kLength = 240;
+  std::array<float, kLength> value{};
+  int next = 0, count = 0;
+  void add(double v) noexcept {
+    value[static_cast<std::size_t>(next)] = static_cast<float>(v);
+    next = (next + 1) % kLength;
+    count = std::min(count + 1, kLength);
+  }
+  [[nodiscard]] float last() const noexcept {
+    return count == 0 ? 0.0f : value[static_cast<std::size_t>((next + kLength - 1) % kLength)];
+  }
+};
+/// Figures of side A over the frames that were drawn.
+struct Curves {
+  Curve plan, maps, prefilter, lookup, m_p95, texels;
+};
+
+/// A rectangle of the framebuffer, pixels from its upper left corner.
+struct Area {
+  int x = 0, y = 0, width = 1, height = 1;
+};
+
+/// A key that went down, as GLFW names it.
+struct KeyPress {
+  int key = 0, modifiers = 0;
+};
+
+struct App {
+  explicit App(const Options& from) : options(from), state(from.state) {}
+  const Options& options;
+  GLFWwindow* window = nullptr;
+  State state;
+  std::string undo_now;  ///< the state as it last came to rest
+  std::vector<std::string> undo, redo;
+
+  std::unique_ptr<Stage> stage;
+  std::future<std::shared_ptr<const Loaded>> loading;
+  std::string loading_name;
+  double loading_since = 0.0;
+
+  std::string message;  ///< what went wrong, or what was written where
+  bool message_is_error = false;
+  double message_until = 0.0;
+  std::string refusal;  ///< why the present state is not the one that is shown; empty: it is
+
+  std::vector<KeyPress> presses;  ///< since the last frame
+  bool panel = true, help = false, probing = true, recording = false;
+  int recorded = 0;
+  bool wants_picture = false;  ///< to be saved, once it shows the present state
+  int side = 0;                ///< that the panel edits
+  Tab tab = Tab::view;
+  bool select_tab = false;  ///< the panel shows `tab` in its next frame
+  std::string state_file = "gnomon_view.json";
+  std::array<char, 64> find{};  ///< text that an option's name must hold
+  double scale = 1.0;           ///< of widgets, in window units
+
+  Area picture;                                           ///< where the picture lies in the framebuffer
+  int window_width = 1, window_height = 1;                ///< of the framebuffer, pixels
+  bool looking = false, wiping = false, placing = false;  ///< what the mouse's button moves
+  std::optional<Probed> probed;
+  double pixel_ratio = 1.0;  ///< framebuffer pixels in a window unit
+  double frame_ms = 0.0, panel_ms = 0.0;
+  bool compiling = false;  ///< a filter is compiled after this frame
+  Curves curves;
+  Session session;
+  std::optional<glm::dvec2> pointer;  ///< of the tour, framebuffer pixels
+};
+
+/// The panel, the help page, the status line and the probe's text; changes App::state.
+void draw_panel(App& app);
+/// Width of the panel in window units; 0 where it is hidden.
+[[nodiscard]] double panel_width(const App& app);
+
+/// Keys and the mouse over the picture.
+void handle_input(App& app, double seconds);
+/// Where the local light is seen in the picture, and where its axis points, pixels; none for the sun and for
+/// a light behind the eye.
+[[nodiscard]] std::optional<ScreenLine> light_handle(const App& app);
+/// Every key with what it does, for the help page.
+struct KeyHelp {
+  const char *key, *what;
+};
+[[nodiscard]] std::span<const KeyHelp> key_help() noexcept;
+
+/// Begins to load a scene, and keeps the present one until it is there.
+void open_scene(App& app, const std::string& scene);
+/// Opens a file by its ending: a state (.json) or a scene.
+void open_file(App& app, const std::string& file);
+void save_state(App& app, const std::string& file);
+/// Writes the picture without the panel beside the program's working folder's other pictures.
+void save_picture(App& app);
+void show_message(App& app, const std::string& text, bool error);
+void undo(App& app, bool forward);
+/// The camera of the state, which from now on is the user's own.
+[[nodiscard]] CameraKey& own_eye(App& app);
+/// Freezes the plan's camera where it is, or lets it follow the eye again.
+void toggle_freeze(App& app);
+/// Goes on to another state, from the next frame on without what plans remember.
+void set_state(App& app, const State& state);
+
+/// One stop of the tour.
+struct TourStop {
+  const char* name;  ///< of the picture's file
+  void (*set)(App& app);
+  int moving_frames = 0;  ///< under a turning sun, before the picture is taken
+};
+[[nodiscard]] std::span<const TourStop> tour_stops() noexcept;
+
+}  // namespace gnomon::tool::view

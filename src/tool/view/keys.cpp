@@ -1,0 +1,287 @@
+// Keys, and the mouse over the picture.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app.hpp"
+
+namespace gnomon::tool::view {
+namespace {
+
+constexpr KeyHelp kKeys[] = {
+    {"W A S D, Q E", "move; with Shift four times as fast"},
+    {"drag, arrows", "look around; the wheel moves along the view"},
+    {"1 ... 8", "lit, heat, mask, misclassified, cascades, checker, map, truth"},
+    {"Tab", "panel on and off"},
+    {"F1, H", "this page"},
+    {"F2", "freeze the plan's camera, and fly away from it"},
+    {"F3", "compare: off, wipe, difference; drag the line"},
+    {"F4", "change A or B in the panel"},
+    {"F5, F9", "save the state file, open it"},
+    {"F6", "arrows and Enter move in the panel, and again in the scene"},
+    {"F11, F12", "record pictures, save one picture"},
+    {"V, F", "next warp, next filter; with Shift the one before"},
+    {"T", "stable fit on and off"},
+    {"+, -", "one cascade more, one less"},
+    {"PageUp, PageDown", "maps of twice the size, of half the size"},
+    {"M", "next map of the map view"},
+    {"I", "probe under the cursor on and off"},
+    {"drag the light", "move it across the view, with Shift along it"},
+    {"L", "hang the spot or point light over the point under the cursor"},
+    {"P, O", "fly along the path, turn the sun"},
+    {"R, Home", "camera of the scene's path"},
+    {"Ctrl+C", "copy the command with this picture"},
+    {"Ctrl+Z, Ctrl+Y", "undo, redo"},
+    {"Ctrl+Q", "quit; the state is kept as the last session"},
+    {"Esc", "close this page; nothing is lost"},
+};
+
+/// Presses since the last frame. ImGui 1.86 forgets a key that goes down and up between two frames, which are
+/// half a second apart in software.
+class Presses {
+ public:
+  explicit Presses(const std::vector<KeyPress>& all) : all_(all) {}
+  [[nodiscard]] bool operator()(int key, bool control = false) const {
+    return std::any_of(all_.begin(), all_.end(), [&](const KeyPress& press) {
+      return press.key == key && ((press.modifiers & GLFW_MOD_CONTROL) != 0) == control;
+    });
+  }
+  /// Down now, or since the last frame.
+  [[nodiscard]] bool held(int key) const { return ImGui::IsKeyDown(key) || (*this)(key); }
+  [[nodiscard]] bool shift() const {
+    return ImGui::GetIO().KeyShift || std::any_of(all_.begin(), all_.end(), [](const KeyPress& press) {
+             return (press.modifiers & GLFW_MOD_SHIFT) != 0;
+           });
+  }
+
+ private:
+  const std::vector<KeyPress>& all_;
+};
+
+template <class Registry>
+void next_filter(render::FilterSettings& filter, const Registry& all, int step) {
+  const auto at = std::find(all.begin(), all.end(), filter.filter) - all.begin();
+  const auto count = static_cast<std::ptrdiff_t>(all.size());
+  filter = render::default_settings(*all[static_cast<std::size_t>((at + step + count) % count)]);
+}
+
+void next_warp(PlanOptions& plan, int step) {
+  const auto all = all_warps();
+  const auto count = static_cast<std::ptrdiff_t>(all.size()) + 1;  // the first is nullptr: chosen by the plan
+  const auto at =
+      plan.warp.warp == nullptr ? 0 : std::find(all.begin(), all.end(), plan.warp.warp) - all.begin() + 1;
+  const auto next = (at + step + count) % count;
+  plan.warp.warp = next == 0 ? nullptr : all[static_cast<std::size_t>(next - 1)];
+}
+
+/// Over the point under the cursor, at the height that the light has above the scene's floor.
+void hang_light(App& app) {
+  LightState& light = app.state.light;
+  if (!app.probed || !app.probed->hit || light.sun.kind == LightKind::sun) return;
+  const Box& bounds = app.stage->loaded().scene.bounds_world;
+  const double up = 0.4 * (bounds.max.y - bounds.min.y);
+  const glm::dvec3 position = app.probed->point + glm::dvec3(0.0, up, 0.0);
+  Light now = light_of(light, bounds);
+  if (auto* point = std::get_if<PointLight>(&now)) {
+    point->position = position;
+    light.point = *point;
+  } else if (auto* spot = std::get_if<SpotLight>(&now)) {
+    spot->position = position;
+    spot->direction = {0.0, -1.0, 0.0};
+    light.spot = *spot;
+  }
+}
+
+void control_keys(App& app, const Presses& pressed) {
+  constexpr bool kControl = true;
+  if (pressed(GLFW_KEY_Q, kControl)) glfwSetWindowShouldClose(app.window, GLFW_TRUE);
+  if (pressed(GLFW_KEY_C, kControl)) {
+    ImGui::SetClipboardText(command_text(app.state).c_str());
+    show_message(app, "the command is in the clipboard", false);
+  }
+  if (pressed(GLFW_KEY_Z, kControl)) undo(app, false);
+  if (pressed(GLFW_KEY_Y, kControl)) undo(app, true);
+}
+
+void setting_keys(App& app, const Presses& pressed) {
+  State& state = app.state;
+  Settings& settings = app.side == 1 && state.comparison != Comparison::off ? state.b : state.a;
+  const int step = pressed.shift() ? -1 : 1;
+  int& cascades = settings.plan.cascades;
+  int& size = settings.plan.resolution.max_size;
+  if (pressed(GLFW_KEY_V)) next_warp(settings.plan, step);
+  if (pressed(GLFW_KEY_F)) next_filter(settings.filter, render::all_filters(), step);
+  if (pressed(GLFW_KEY_T)) settings.plan.fit = settings.plan.fit == Fit::stable ? Fit::tight : Fit::stable;
+  if (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD)) cascades = std::min(cascades + 1, kMaxMaps);
+  if (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT)) cascades = std::max(cascades - 1, 1);
+  if (pressed(GLFW_KEY_PAGE_UP)) size = std::min(size * 2, kMostMapSize);
+  if (pressed(GLFW_KEY_PAGE_DOWN)) size = std::max(size / 2, kLeastMapSize);
+  if (pressed(GLFW_KEY_L)) hang_light(app);
+  if (pressed(GLFW_KEY_O)) state.motion.sun = !state.motion.sun;
+  if (pressed(GLFW_KEY_M) && app.stage != nullptr)
+    state.map = (state.map + 1) % std::max(app.stage->side(0).plan.map_count, 1);
+  if (pressed(GLFW_KEY_P)) {
+    state.motion.camera = !state.motion.camera;
+    if (state.motion.camera) state.eye.reset();
+  }
+  if (pressed(GLFW_KEY_R) || pressed(GLFW_KEY_HOME)) state.eye.reset();
+}
+
+void function_keys(App& app, const Presses& pressed) {
+  State& state = app.state;
+  for (int i = 0; i < kViewCount; ++i)
+    if (pressed(GLFW_KEY_1 + i)) state.view = static_cast<View>(i);
+  if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) app.help = !app.help;
+  if (pressed(GLFW_KEY_TAB)) app.panel = !app.panel;
+  if (pressed(GLFW_KEY_F2)) toggle_freeze(app);
+  if (pressed(GLFW_KEY_F3))
+    state.comparison = static_cast<Comparison>((static_cast<int>(state.comparison) + 1) % 3);
+  if (pressed(GLFW_KEY_F4)) app.side = 1 - app.side;
+  if (pressed(GLFW_KEY_F5)) save_state(app, app.state_file);
+  if (pressed(GLFW_KEY_F9)) open_file(app, app.state_file);
+  if (pressed(GLFW_KEY_F6)) ImGui::GetIO().ConfigFlags ^= ImGuiConfigFlags_NavEnableKeyboard;
+  if (pressed(GLFW_KEY_F11)) app.recording = !app.recording;
+  if (pressed(GLFW_KEY_F12)) app.wants_picture = true;
+  if (pressed(GLFW_KEY_I)) app.probing = !app.probing;
+  if (pressed(GLFW_KEY_ESCAPE)) app.help = false;
+}
+
+void turn(CameraKey& eye, double right, double up) {
+  const glm::dvec3 look = eye.target - eye.position;
+  const double length = glm::length(look), heading = std::atan2(look.x, -look.z) + right;
+  constexpr double kSteepest = 1.55;  // radians: short of straight up and down
+  const double pitch = std::clamp(std::atan2(look.y, std::hypot(look.x, look.z)) + up, -kSteepest, kSteepest);
+  eye.target = eye.position + length * glm::dvec3(std::sin(heading) * std::cos(pitch), std::sin(pitch),
+                                                  -std::cos(heading) * std::cos(pitch));
+}
+
+void move(CameraKey& eye, const glm::dvec3& step) {
+  eye.position += step;
+  eye.target += step;
+}
+
+void steer(App& app, const Presses& pressed, double seconds) {
+  const auto axis = [&pressed](int plus, int minus) {
+    return 1.0 * pressed.held(plus) - 1.0 * pressed.held(minus);
+  };
+  const bool arrows = (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NavEnableKeyboard) == 0;
+  const glm::dvec3 way(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
+                       axis(GLFW_KEY_W, GLFW_KEY_S));
+  const glm::dvec2 look =
+      arrows ? glm::dvec2(axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(GLFW_KEY_UP, GLFW_KEY_DOWN))
+             : glm::dvec2(0.0);
+  if (way == glm::dvec3(0.0) && look == glm::dvec2(0.0)) return;
+  CameraKey& eye = own_eye(app);
+  constexpr double kRadiansPerSecond = 1.2;
+  turn(eye, look.x * kRadiansPerSecond * seconds, look.y * kRadiansPerSecond * seconds);
+  Camera camera = app.stage->camera();
+  camera.forward = eye.target - eye.position;
+  const CameraAxes axes = camera_axes(camera);
+  // A scene's depth in twenty seconds, whatever its units.
+  constexpr double kSeconds = 20.0, kFast = 4.0;
+  const double speed = app.stage->loaded().path.far_depth / kSeconds * (pressed.shift() ? kFast : 1.0);
+  move(eye, (axes.right * way.x + glm::dvec3(0.0, way.y, 0.0) + axes.forward * way.z) * (speed * seconds));
+}
+
+/// Moves the local light with the mouse: across the view, or with Shift along it.
+void place_light(App& app) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.MouseDelta.x == 0.0f && io.MouseDelta.y == 0.0f) return;
+  Light light = app.stage->light();
+  const Camera& camera = app.stage->camera();
+  const CameraAxes axes = camera_axes(camera);
+  const auto moved = [&](glm::dvec3& position) {
+    const double depth = glm::dot(position - camera.position, axes.forward);
+    const double step = (camera.right - camera.left) / camera.width * depth * app.pixel_ratio;
+    const double right = static_cast<double>(io.MouseDelta.x) * step,
+                 down = static_cast<double>(io.MouseDelta.y) * step;
+    position += io.KeyShift ? axes.forward * -down : axes.right * right - axes.up * down;
+  };
+  if (auto* point = std::get_if<PointLight>(&light)) {
+    moved(point->position);
+    app.state.light.point = *point;
+  } else if (auto* spot = std::get_if<SpotLight>(&light)) {
+    moved(spot->position);
+    app.state.light.spot = *spot;
+  }
+}
+
+void mouse(App& app) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const double x = static_cast<double>(io.MousePos.x) * app.pixel_ratio - app.picture.x,
+               y = static_cast<double>(io.MousePos.y) * app.pixel_ratio - app.picture.y;
+  const bool over =
+      !io.WantCaptureMouse && x >= 0.0 && y >= 0.0 && x < app.picture.width && y < app.picture.height;
+  constexpr double kNear = 8.0;  // pixels from the line that the button still takes hold of
+  if (over && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    app.wiping =
+        app.state.comparison == Comparison::wipe && std::abs(x - app.state.wipe * app.picture.width) < kNear;
+    const auto handle = light_handle(app);
+    app.placing = handle && glm::length(handle->from - glm::dvec2(x, y)) < 2.0 * kNear;
+    app.looking = !app.wiping && !app.placing;
+  }
+  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) app.looking = app.wiping = app.placing = false;
+  if (app.placing) place_light(app);
+  if (app.wiping) app.state.wipe = std::clamp(x / app.picture.width, 0.0, 1.0);
+  constexpr double kRadiansPerUnit = 0.003;
+  if (app.looking && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
+    turn(own_eye(app), static_cast<double>(io.MouseDelta.x) * kRadiansPerUnit,
+         -static_cast<double>(io.MouseDelta.y) * kRadiansPerUnit);
+  if (over && io.MouseWheel != 0.0f) {
+    CameraKey& eye = own_eye(app);
+    constexpr double kSteps = 60.0;  // of the wheel, through the scene's depth
+    move(eye, glm::normalize(eye.target - eye.position) *
+                  (static_cast<double>(io.MouseWheel) * app.stage->loaded().path.far_depth / kSteps));
+  }
+  app.probed.reset();
+  if (over && app.probing && !app.looking && !app.wiping && !app.placing && app.stage->tracer() != nullptr &&
+      app.state.view != View::map)
+    app.probed =
+        probe(*app.stage->tracer(), app.stage->side(0).drawn, app.stage->camera(), app.stage->light(), x, y);
+}
+
+}  // namespace
+
+std::optional<ScreenLine> light_handle(const App& app) {
+  if (app.stage == nullptr || app.state.view == View::map) return {};
+  const Light& light = app.stage->light();
+  const Camera& camera = app.stage->camera();
+  WorldLine axis;
+  if (const auto* spot = std::get_if<SpotLight>(&light)) {
+    axis.from = spot->position;
+    axis.to = spot->position + glm::normalize(spot->direction) * (0.3 * spot->range);
+  } else if (const auto* point = std::get_if<PointLight>(&light)) {
+    axis.from = point->position;
+    axis.to = point->position - glm::dvec3(0.0, 0.05 * point->range, 0.0);
+  } else {
+    return {};
+  }
+  // Cut lines begin elsewhere: the handle is the light's own place, or none.
+  if (on_screen({{axis.from, axis.from + camera_axes(camera).right * 1e-9, {}, 1.0}}, camera).empty())
+    return {};
+  const std::vector<ScreenLine> seen = on_screen({axis}, camera);
+  if (seen.empty()) return {};
+  return seen.front();
+}
+
+std::span<const KeyHelp> key_help() noexcept {
+  return kKeys;
+}
+
+void handle_input(App& app, double seconds) {
+  const Presses pressed(app.presses);
+  if (!ImGui::GetIO().WantTextInput) {
+    control_keys(app, pressed);
+    function_keys(app, pressed);
+    setting_keys(app, pressed);
+    if (app.stage != nullptr && !ImGui::GetIO().KeyCtrl) steer(app, pressed, seconds);
+  }
+  app.presses.clear();
+  if (app.stage != nullptr) mouse(app);
+}
+
+}  // namespace gnomon::tool::view

@@ -1,0 +1,162 @@
+// The camera, the maps and the boxes of a plan as lines in the picture of another camera.
+#include "lines.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "gnomon/body.hpp"
+#include "gnomon/render/picture.hpp"
+#include "gnomon/reuse.hpp"
+
+namespace gnomon::tool::view {
+namespace {
+
+/// Cuts the segment of clip coordinates where dot(plane, p) < 0; false where nothing is left.
+bool cut(glm::dvec4& a, glm::dvec4& b, const glm::dvec4& plane) {
+  const double da = glm::dot(plane, a), db = glm::dot(plane, b);
+  if (da < 0.0 && db < 0.0) return false;
+  if (da < 0.0) a += (b - a) * (da / (da - db));
+  if (db < 0.0) b += (a - b) * (db / (db - da));
+  return true;
+}
+
+glm::u8vec4 opaque(const render::Color& color) {
+  return {color.r, color.g, color.b, 255};
+}
+
+void add_polytope(const Polytope& body, const glm::dvec3& origin, const glm::u8vec4& color,
+                  std::vector<WorldLine>& lines) {
+  for (int i = 0; i < body.vertex_count; ++i) {
+    const Polytope::Vertex& vertex = body.vertex[static_cast<std::size_t>(i)];
+    for (const std::uint8_t other : vertex.neighbour) {
+      if (other > i)
+        lines.push_back({origin + vertex.position, origin + body.vertex[other].position, color, 2.0});
+    }
+  }
+}
+
+/// Corner by its number: bit 0 is x, bit 1 is y, bit 2 is z.
+template <class Corner>
+void add_cuboid(Corner&& corner, const glm::u8vec4& color, double width, std::vector<WorldLine>& lines) {
+  for (int i = 0; i < 8; ++i) {
+    for (int bit = 1; bit < 8; bit <<= 1)
+      if ((i & bit) == 0) lines.push_back({corner(i), corner(i | bit), color, width});
+  }
+}
+
+void add_box(const Box& box, const glm::u8vec4& color, std::vector<WorldLine>& lines) {
+  if (box.empty()) return;
+  add_cuboid(
+      [&box](int i) {
+        return glm::dvec3((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                          (i & 4) != 0 ? box.max.z : box.min.z);
+      },
+      color, 1.0, lines);
+}
+
+void add_map_volume(const ShadowPlan& plan, const ShadowMap& map, const glm::u8vec4& color,
+                    std::vector<WorldLine>& lines) {
+  const glm::dmat4 world_from_clip = glm::inverse(map.clip_from_world);
+  const double nearest = plan.clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0 : -1.0;
+  add_cuboid(
+      [&](int i) {
+        const glm::dvec4 p =
+            world_from_clip * glm::dvec4((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0,
+                                         (i & 4) != 0 ? 1.0 : nearest, 1.0);
+        return glm::dvec3(p) / p.w;
+      },
+      color, 1.5, lines);
+}
+
+/// Every box once: in the colour of the first map that draws it, or grey where none does.
+void add_casters(const ShadowPlan& plan, const std::vector<Box>& boxes, std::vector<WorldLine>& lines) {
+  constexpr glm::u8vec4 kCulled{150, 150, 150, 70};
+  std::vector<int> drawn(boxes.size(), -1);
+  std::vector<std::uint32_t> list(boxes.size());
+  for (int i = plan.map_count - 1; i >= 0; --i) {
+    const std::size_t count = cull_casters(plan.map[static_cast<std::size_t>(i)], boxes, list);
+    for (std::size_t n = 0; n < std::min(count, list.size()); ++n) drawn[list[n]] = i;
+  }
+  for (std::size_t n = 0; n < boxes.size(); ++n)
+    add_box(boxes[n], drawn[n] < 0 ? kCulled : opaque(render::cascade_color(drawn[n])), lines);
+}
+
+}  // namespace
+
+std::vector<ScreenLine> on_screen(const std::vector<WorldLine>& lines, const Camera& camera) {
+  const glm::dmat4 clip_from_world = clip_from_view(camera) * view_from_world(camera);
+  std::vector<ScreenLine> result;
+  result.reserve(lines.size());
+  for (const WorldLine& line : lines) {
+    glm::dvec4 a = clip_from_world * glm::dvec4(line.from, 1.0),
+               b = clip_from_world * glm::dvec4(line.to, 1.0);
+    // The near plane, and the image with some room for the line's width.
+    constexpr double kRoom = 1.1;
+    if (!cut(a, b, {0, 0, 1, 1}) || !cut(a, b, {1, 0, 0, kRoom}) || !cut(a, b, {-1, 0, 0, kRoom}) ||
+        !cut(a, b, {0, 1, 0, kRoom}) || !cut(a, b, {0, -1, 0, kRoom}) || !(a.w > 0.0) || !(b.w > 0.0))
+      continue;
+    const auto pixel = [&camera](const glm::dvec4& p) {
+      return glm::dvec2((p.x / p.w + 1.0) * 0.5 * camera.width, (1.0 - p.y / p.w) * 0.5 * camera.height);
+    };
+    result.push_back({pixel(a), pixel(b), line.color, line.width});
+  }
+  return result;
+}
+
+std::vector<WorldLine> body_lines(const ShadowMap& map, const Camera& camera, const Box& scene,
+                                  const glm::u8vec4& color) {
+  std::vector<WorldLine> lines;
+  const double begin = std::max(map.depth_begin, camera.near_depth),
+               end = std::min(map.depth_end, camera.far_depth);
+  if (!(begin < end) || scene.empty()) return lines;
+  Polytope body = frustum_slice(camera, camera_axes(camera), begin, end);
+  clip(body, Box{scene.min - camera.position, scene.max - camera.position});
+  add_polytope(body, camera.position, color, lines);
+  return lines;
+}
+
+std::vector<WorldLine> plan_lines(const ShadowPlan& plan, const Camera& frozen, const std::vector<Box>& boxes,
+                                  const Box& scene, const Drawn& drawn) {
+  std::vector<WorldLine> lines;
+  if (drawn.casters) add_casters(plan, boxes, lines);
+  for (std::size_t i = 0; i < plan.maps().size(); ++i) {
+    const glm::u8vec4 color = opaque(render::cascade_color(static_cast<int>(i)));
+    if (drawn.maps) add_map_volume(plan, plan.map[i], color, lines);
+    if (!drawn.bodies) continue;
+    const std::vector<WorldLine> body = body_lines(plan.map[i], frozen, scene, color);
+    lines.insert(lines.end(), body.begin(), body.end());
+  }
+  if (drawn.frustum) {
+    constexpr glm::u8vec4 kFrustum{255, 255, 255, 255};
+    add_polytope(frustum_slice(frozen, camera_axes(frozen), frozen.near_depth, frozen.far_depth),
+                 frozen.position, kFrustum, lines);
+  }
+  return lines;
+}
+
+ShadowPlan seen_frozen(ShadowPlan plan, const Camera& frozen, const Camera& camera) noexcept {
+  const glm::dvec3 forward = camera_axes(frozen).forward;
+  const double at_eye = glm::dot(forward, frozen.position);
+  constexpr double kEverywhere = 1e30;  // world units, and still a number in single precision
+  plan.origin_world = camera.position;
+  for (std::size_t i = 0; i < plan.maps().size(); ++i) {
+    ShadowMap& map = plan.map[i];
+    map = rebased(map, camera.position);
+    // Depths of the frozen view as planes of the world: those of the new one mean nothing to the plan.
+    if (!plan.select_by_map && map.select_plane_count + 2 <= kMaxSelectPlanes) {
+      auto& planes = map.select_planes;
+      planes[static_cast<std::size_t>(map.select_plane_count++)] =
+          glm::dvec4(forward, -at_eye - map.depth_begin);
+      planes[static_cast<std::size_t>(map.select_plane_count++)] =
+          glm::dvec4(-forward, at_eye + map.depth_end);
+    }
+    map.depth_begin = -kEverywhere;
+    map.depth_end = kEverywhere;
+    map.overlap = 0.0;
+  }
+  plan.select_by_map = true;
+  return plan;
+}
+
+}  // namespace gnomon::tool::view

@@ -1,0 +1,569 @@
+// The panel, the help page, the status line and the probe's text.
+#include <fmt/core.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <numbers>
+
+#include "app.hpp"
+#include "gnomon/render/picture.hpp"
+#include "gnomon/scene/load.hpp"
+#include "widgets.hpp"
+
+namespace gnomon::tool::view {
+namespace {
+
+const ImVec4 kError{1.0f, 0.55f, 0.45f, 1.0f}, kQuiet{0.66f, 0.68f, 0.72f, 1.0f};
+constexpr std::array<const char*, kTabCount> kTabs{"View", "Light",  "Maps", "Filter",
+                                                   "A|B",  "Curves", "File"};
+
+std::vector<std::string> names_of(std::span<const Named> all, bool help) {
+  std::vector<std::string> texts;
+  for (const Named& one : all) texts.emplace_back(help ? one.help : one.name);
+  return texts;
+}
+
+Settings& edited(App& app) {
+  return app.side == 1 && app.state.comparison != Comparison::off ? app.state.b : app.state.a;
+}
+
+/// Which side the tabs Maps and Filter change.
+void side_row(App& app) {
+  if (app.state.comparison == Comparison::off) return;
+  ImGui::TextUnformatted("change:");
+  for (int side = 0; side < 2; ++side) {
+    ImGui::SameLine();
+    ImGui::RadioButton(side == 0 ? "A" : "B", &app.side, side);
+  }
+  ImGui::SameLine();
+  if (ImGui::SmallButton("copy to the other"))
+    (app.side == 0 ? app.state.b : app.state.a) = app.side == 0 ? app.state.a : app.state.b;
+  ImGui::Separator();
+}
+
+void drawn_switches(Drawn& drawn) {
+  ImGui::Checkbox("frustum", &drawn.frustum);
+  tooltip("the frozen camera's frustum");
+  ImGui::SameLine();
+  ImGui::Checkbox("bodies", &drawn.bodies);
+  tooltip("the receivers' body of each map, in the map's colour");
+  ImGui::SameLine();
+  ImGui::Checkbox("maps", &drawn.maps);
+  tooltip("the volume that each map shows");
+  ImGui::SameLine();
+  ImGui::Checkbox("casters", &drawn.casters);
+  tooltip("boxes of casters: in the colour of the first map that draws them; grey: culled");
+}
+
+void camera_part(App& app) {
+  State& state = app.state;
+  if (ImGui::Checkbox("fly along the path", &state.motion.camera) && state.motion.camera) state.eye.reset();
+  tooltip("P; any key that moves the camera ends it");
+  ImGui::DragScalar("path seconds", ImGuiDataType_Double, &state.motion.path_seconds, 0.2f, nullptr, nullptr,
+                    "%.3g");
+  state.motion.path_seconds = std::clamp(state.motion.path_seconds, 1.0, 3600.0);
+  double fov = state.fov_y_deg > 0.0 || app.stage == nullptr
+                   ? state.fov_y_deg
+                   : app.stage->loaded().path.fov_y_radians * 180.0 / std::numbers::pi;
+  constexpr double kNarrow = 5.0, kWide = 150.0;
+  if (ImGui::SliderScalar("field of view", ImGuiDataType_Double, &fov, &kNarrow, &kWide, "%.0f degrees"))
+    state.fov_y_deg = std::clamp(fov, 1.0, 170.0);
+  if (ImGui::Button("camera of the scene's path")) {
+    state.eye.reset();
+    state.fov_y_deg = 0.0;
+  }
+  bool frozen = state.frozen.has_value();
+  if (ImGui::Checkbox("freeze the plan's camera", &frozen)) toggle_freeze(app);
+  tooltip("F2: the maps stay as they are for this camera while you fly away");
+  if (frozen) drawn_switches(state.drawn);
+}
+
+void view_tab(App& app) {
+  State& state = app.state;
+  int view = static_cast<int>(state.view);
+  for (int i = 0; i < kViewCount; ++i) {
+    const Named& one = view_names()[static_cast<std::size_t>(i)];
+    if (i % 2 == 1) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.5f);
+    if (ImGui::RadioButton(fmt::format("{} {}", i + 1, one.name).c_str(), &view, i))
+      state.view = static_cast<View>(i);
+    tooltip(one.help);
+  }
+  if (state.view == View::map && app.stage != nullptr) {
+    const int maps = std::max(app.stage->side(0).plan.map_count, 1);
+    ImGui::SliderInt("map", &state.map, 0, maps - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
+  }
+  ImGui::Checkbox("probe under the cursor", &app.probing);
+  tooltip("I: the aliasing error, the map and the exact shadow at the point under the cursor");
+  ImGui::Separator();
+  camera_part(app);
+  ImGui::Separator();
+  ImGui::TextUnformatted("presets");
+  for (const Preset& preset : presets()) {
+    if (ImGui::Button(std::string(preset.name).c_str(), {-1.0f, 0.0f})) preset.set(state);
+    tooltip(preset.help);
+  }
+}
+
+void local_light(App& app) {
+  State& state = app.state;
+  const Light now = light_of(state.light, app.stage->loaded().scene.bounds_world);
+  const glm::dvec3 size =
+      app.stage->loaded().scene.bounds_world.max - app.stage->loaded().scene.bounds_world.min;
+  const double speed = std::max({size.x, size.y, size.z, 1e-6}) / 1000.0;
+  ImGui::TextWrapped(
+      "Drag the light in the picture (with Shift along the view), drag the values, or press L to hang it "
+      "over the point under the cursor.");
+  const auto range = [&](double& value) {
+    ImGui::DragScalar("range", ImGuiDataType_Double, &value, static_cast<float>(speed * 5.0), nullptr,
+                      nullptr, "%.4g");
+    value = std::isfinite(value) ? std::clamp(value, 1e-6, 1e30) : 1.0;
+    tooltip("distance that the light reaches, world units");
+  };
+  if (state.light.sun.kind == LightKind::point) {
+    PointLight light = std::get<PointLight>(now);
+    const PointLight before = light;
+    edit_vector("position", light.position, speed, "world units");
+    range(light.range);
+    if (light.position != before.position || light.range != before.range) state.light.point = light;
+    return;
+  }
+  SpotLight light = std::get<SpotLight>(now);
+  const SpotLight before = light;
+  edit_vector("position", light.position, speed, "world units");
+  edit_vector("direction", light.direction, 0.01, "direction of travel, any length");
+  if (light.direction == glm::dvec3(0.0)) light.direction = before.direction;
+  constexpr double kDegrees = 180.0 / std::numbers::pi, kNarrow = 1.0, kWide = 179.0;
+  double outer = light.outer_radians * kDegrees;
+  if (ImGui::SliderScalar("cone", ImGuiDataType_Double, &outer, &kNarrow, &kWide, "%.1f degrees",
+                          ImGuiSliderFlags_AlwaysClamp))
+    light.outer_radians = outer / kDegrees;
+  tooltip("half angle of the cone");
+  range(light.range);
+  if (light.position != before.position || light.direction != before.direction ||
+      light.range != before.range || light.outer_radians != before.outer_radians)
+    state.light.spot = light;
+}
+
+void light_tab(App& app) {
+  LightState& light = app.state.light;
+  int kind = static_cast<int>(light.sun.kind);
+  for (const LightKind one : {LightKind::sun, LightKind::spot, LightKind::point}) {
+    if (one != LightKind::sun) ImGui::SameLine();
+    if (ImGui::RadioButton(std::string(to_string(one)).c_str(), &kind, static_cast<int>(one)))
+      light.sun.kind = one;
+  }
+  if (light.sun.kind != LightKind::sun) {
+    if (app.stage != nullptr) local_light(app);
+    if (ImGui::Button("back to its default place")) light.spot.reset(), light.point.reset();
+    return;
+  }
+  edit_sun_dome(light.sun, ImGui::GetContentRegionAvail().x * 0.72f);
+  constexpr double kLeast = 0.1, kZenith = 90.0, kTurn = 180.0, kBack = -180.0;
+  ImGui::SliderScalar("elevation", ImGuiDataType_Double, &light.sun.elevation_deg, &kLeast, &kZenith,
+                      "%.1f degrees", ImGuiSliderFlags_AlwaysClamp);
+  tooltip("above the horizon");
+  ImGui::SliderScalar("azimuth", ImGuiDataType_Double, &light.sun.azimuth_deg, &kBack, &kTurn, "%.1f degrees",
+                      ImGuiSliderFlags_AlwaysClamp);
+  tooltip("0 is -Z, 90 is +X");
+  ImGui::Checkbox("turning sun", &app.state.motion.sun);
+  tooltip("O: watch for shimmering while the light moves");
+  ImGui::DragScalar("degrees a second", ImGuiDataType_Double, &app.state.motion.sun_degrees_per_second, 0.2f,
+                    nullptr, nullptr, "%.3g");
+  app.state.motion.sun_degrees_per_second =
+      std::clamp(app.state.motion.sun_degrees_per_second, -360.0, 360.0);
+  if (ImGui::Button("reset light")) light = {};
+}
+
+void maps_tab(App& app) {
+  side_row(app);
+  Settings& settings = edited(app);
+  ImGui::InputTextWithHint("##find", "find an option", app.find.data(), app.find.size());
+  ImGui::SameLine();
+  if (ImGui::SmallButton("reset all")) settings.plan = {};
+  ImGui::BeginChild("options", {0.0f, 0.0f});
+  ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.48f);
+  for (const PlanField& field : plan_fields()) {
+    const bool found =
+        app.find[0] == '\0' || std::string_view(field.key).find(app.find.data()) != std::string_view::npos;
+    if (found) edit_plan_field(field, settings.plan);
+  }
+  if (app.find[0] == '\0') {
+    ImGui::Separator();
+    int transition = static_cast<int>(settings.transition);
+    if (choose("transition", transition, {"cut", "blend", "dither"}))
+      settings.transition = static_cast<render::SplitTransition>(transition);
+    tooltip("between cascades, over split_overlap of each");
+    ImGui::Checkbox("history", &settings.history);
+    tooltip("texel density changes smoothly from frame to frame");
+    ImGui::Checkbox("visible_depths", &settings.visible_depths);
+    tooltip("each frame is drawn twice: the second is planned for the depths that the first shows");
+  }
+  ImGui::PopItemWidth();
+  ImGui::EndChild();
+}
+
+void figure_row(const char* name, const char* help, const std::string& a, const std::string& b) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(name);
+  tooltip(help);
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(a.c_str());
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(b.c_str());
+}
+
+/// Both sides' figures; B's column is empty where there is no B.
+void figures(const App& app) {
+  if (app.stage == nullptr ||
+      !ImGui::BeginTable("figures", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp))
+    return;
+  ImGui::TableSetupColumn("", 0, 1.5f);
+  ImGui::TableSetupColumn("A");
+  ImGui::TableSetupColumn("B");
+  ImGui::TableHeadersRow();
+  const bool both = app.state.comparison != Comparison::off && !app.state.b_is_truth;
+  const auto row = [&](const char* name, const char* help, auto&& text) {
+    figure_row(name, help, text(app.stage->side(0)), both ? text(app.stage->side(1)) : std::string());
+  };
+  const auto pass = [&](const char* name, render::Pass which, const char* help) {
+    row(name, help, [which](const Side& s) {
+      return fmt::format("{:.2f} ms", s.stats.milliseconds[static_cast<std::size_t>(which)]);
+    });
+  };
+  row("plan", "time of make_plan", [](const Side& s) { return fmt::format("{:.1f} us", s.plan_ms * 1e3); });
+  pass("draw maps", render::Pass::shadow_maps, "drawing the depth maps");
+  pass("prefilter", render::Pass::prefilter, "what the filter stores, blurs and sums");
+  pass("look-up", render::Pass::mask, "reading the maps for every pixel");
+  row("maps", "texels over all maps", [](const Side& s) {
+    return fmt::format("{} / {:.2f} M", s.plan.map_count, static_cast<double>(s.stats.texels) / 1e6);
+  });
+  row("memory", "of depth maps and of what the filter keeps", [](const Side& s) {
+    return fmt::format("{:.1f} MiB", static_cast<double>(s.stats.map_bytes) / 1048576.0);
+  });
+  row("m median", "aliasing error m over what the camera sees of the boxes, pixels per texel",
+      [](const Side& s) { return fmt::format("{:.3g}", s.m.p50); });
+  row("m p95", "95 % of it stays below", [](const Side& s) { return fmt::format("{:.3g}", s.m.p95); });
+  row("m max", "the largest", [](const Side& s) { return fmt::format("{:.3g}", s.m.max); });
+  row("casters", "instances drawn, over all maps", [](const Side& s) {
+    std::uint64_t count = 0;
+    for (int i = 0; i < s.stats.map_count; ++i) count += s.stats.map[static_cast<std::size_t>(i)].instances;
+    return std::to_string(count);
+  });
+  const auto share = [](std::size_t count, std::size_t of) {
+    return of == 0 ? 0.0 : 100.0 * static_cast<double>(count) / static_cast<double>(of);
+  };
+  row("false light", "of the pixels that a ray decides; in the misclassified view", [&](const Side& s) {
+    return s.errors ? fmt::format("{:.3f} %", share(s.errors->false_light, s.errors->decided))
+                    : std::string("-");
+  });
+  row("false shadow", "of the pixels that a ray decides; in the misclassified view", [&](const Side& s) {
+    return s.errors ? fmt::format("{:.3f} %", share(s.errors->false_shadow, s.errors->decided))
+                    : std::string("-");
+  });
+  ImGui::EndTable();
+}
+
+void compare_tab(App& app) {
+  State& state = app.state;
+  int comparison = static_cast<int>(state.comparison);
+  if (choose("compare", comparison, names_of(comparison_names(), false), names_of(comparison_names(), true)))
+    state.comparison = static_cast<Comparison>(comparison);
+  if (state.comparison != Comparison::off) {
+    ImGui::Checkbox("B is the exact shadow", &state.b_is_truth);
+    tooltip("B shows one ray a pixel, best beside the mask view");
+    constexpr double kNone = 0.0, kAll = 1.0, kMostGain = 64.0;
+    if (state.comparison == Comparison::wipe)
+      ImGui::SliderScalar("wipe", ImGuiDataType_Double, &state.wipe, &kNone, &kAll, "%.2f",
+                          ImGuiSliderFlags_AlwaysClamp);
+    else
+      ImGui::SliderScalar("gain", ImGuiDataType_Double, &state.gain, &kAll, &kMostGain, "%.1f",
+                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    if (ImGui::Button("swap A and B")) std::swap(state.a, state.b);
+    ImGui::SameLine();
+    if (ImGui::Button("A to B")) state.b = state.a;
+    ImGui::TextWrapped("The tabs Maps and Filter change A or B.");
+  }
+  ImGui::Separator();
+  figures(app);
+  if (app.stage == nullptr) return;
+  const auto omitted = app.stage->side(0).plan.omitted();
+  if (omitted.empty() || !ImGui::TreeNode("omitted by the plan")) return;
+  for (const Omission& omission : omitted) {
+    const OmissionText text = describe(omission);
+    ImGui::TextWrapped("%s: %s", text.what.data(), text.why.data());
+  }
+  ImGui::TreePop();
+}
+
+void plot(const char* name, const Curve& curve, const char* unit, const char* help) {
+  float most = 0.0f;
+  for (int i = 0; i < curve.count; ++i) most = std::max(most, curve.value[static_cast<std::size_t>(i)]);
+  ImGui::Text("%s  %.3g %s  (most %.3g)", name, static_cast<double>(curve.last()), unit,
+              static_cast<double>(most));
+  tooltip(help);
+  const int first = curve.count < Curve::kLength ? 0 : curve.next;
+  ImGui::PushID(name);
+  ImGui::PlotLines("##curve", curve.value.data(), curve.count, first, nullptr, 0.0f,
+                   std::max(most, 1e-6f) * 1.1f,
+                   {ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight() * 3.0f});
+  ImGui::PopID();
+}
+
+void curves_tab(App& app) {
+  ImGui::TextWrapped("Side A over the last %d drawn frames: move, or let the sun turn.", Curve::kLength);
+  plot("plan", app.curves.plan, "us", "time of make_plan");
+  plot("draw maps", app.curves.maps, "ms", "drawing the depth maps");
+  plot("prefilter", app.curves.prefilter, "ms", "what the filter stores, blurs and sums");
+  plot("look-up", app.curves.lookup, "ms", "reading the maps for every pixel");
+  plot("m p95", app.curves.m_p95, "pixels", "aliasing error that 95 % of what is in view stays below");
+  plot("texels drawn", app.curves.texels, "M", "over all maps; cached maps draw none");
+  if (ImGui::Button("clear")) app.curves = {};
+}
+
+void scene_part(App& app) {
+  ImGui::TextWrapped("scene: %s", app.state.scene.c_str());
+  if (ImGui::BeginCombo("built-in", "open ...")) {
+    for (const BuiltinScene& scene : builtin_scenes()) {
+      const std::string name = "builtin:" + std::string(scene.name);
+      if (ImGui::Selectable(name.c_str(), name == app.state.scene)) open_scene(app, name);
+      tooltip(scene.summary);
+    }
+    ImGui::EndCombo();
+  }
+  if (ImGui::BeginCombo("recent", app.session.recent.empty() ? "none yet" : "open ...")) {
+    const std::vector<std::string> recent = app.session.recent;
+    for (const std::string& scene : recent)
+      if (ImGui::Selectable(scene.c_str())) open_scene(app, scene);
+    ImGui::EndCombo();
+  }
+  ImGui::TextWrapped("Or drop a .gltf, .glb or state file on the window.");
+}
+
+void file_tab(App& app) {
+  scene_part(app);
+  ImGui::Separator();
+  ImGui::InputText("state file", &app.state_file);
+  if (ImGui::Button("save (F5)")) save_state(app, app.state_file);
+  ImGui::SameLine();
+  if (ImGui::Button("open (F9)")) open_file(app, app.state_file);
+  ImGui::SameLine();
+  if (ImGui::Button("last session")) open_file(app, last_state_file().string());
+  if (ImGui::Button("undo")) undo(app, false);
+  ImGui::SameLine();
+  if (ImGui::Button("redo")) undo(app, true);
+  ImGui::SameLine();
+  if (ImGui::Button("reset all")) {
+    State state;
+    state.scene = app.state.scene;
+    app.state = state;
+  }
+  ImGui::Separator();
+  ImGui::TextUnformatted("the command with this picture");
+  std::string command = command_text(app.state);
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted(command.c_str());
+  ImGui::PopTextWrapPos();
+  if (ImGui::Button("copy command")) ImGui::SetClipboardText(command.c_str());
+  ImGui::Separator();
+  if (ImGui::Button("picture (F12)")) app.wants_picture = true;
+  ImGui::SameLine();
+  ImGui::Checkbox("record (F11)", &app.recording);
+  tooltip("every picture that is drawn goes into the folder gnomon_record");
+  float scale = static_cast<float>(app.session.ui_scale);
+  if (ImGui::SliderFloat("text size", &scale, 0.0f, 3.0f, scale < 0.5f ? "of the display" : "%.2f"))
+    app.session.ui_scale = scale < 0.5f ? 0.0 : std::clamp(static_cast<double>(scale), 0.5, 8.0);
+  ImGui::Text("panel %.1f ms, frame %.1f ms", app.panel_ms, app.frame_ms);
+}
+
+void tabs(App& app) {
+  if (!ImGui::BeginTabBar("tabs")) return;
+  static constexpr std::array<void (*)(App&), kTabCount> kContents{view_tab,
+                                                                   light_tab,
+                                                                   maps_tab,
+                                                                   [](App& a) {
+                                                                     side_row(a);
+                                                                     edit_filter(edited(a).filter);
+                                                                   },
+                                                                   compare_tab,
+                                                                   curves_tab,
+                                                                   file_tab};
+  const bool select = app.select_tab;
+  const Tab wanted = app.tab;
+  for (int i = 0; i < kTabCount; ++i) {
+    const bool to_front = select && static_cast<Tab>(i) == wanted;
+    if (!ImGui::BeginTabItem(kTabs[static_cast<std::size_t>(i)], nullptr,
+                             to_front ? ImGuiTabItemFlags_SetSelected : 0))
+      continue;
+    if (!select) app.tab = static_cast<Tab>(i);
+    ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
+    kContents[static_cast<std::size_t>(i)](app);
+    ImGui::PopItemWidth();
+    ImGui::EndTabItem();
+  }
+  if (select) app.select_tab = false;
+  ImGui::EndTabBar();
+}
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
+                                    ImGuiWindowFlags_NoSavedSettings;
+constexpr ImGuiWindowFlags kText = kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
+                                   ImGuiWindowFlags_NoFocusOnAppearing;
+
+std::string waiting_text(const App& app) {
+  if (app.loading.valid())
+    return fmt::format("loading {} ... {:.1f} s", app.loading_name, ImGui::GetTime() - app.loading_since);
+  if (app.compiling) return fmt::format("compiling {} ...", app.state.a.filter.filter->info.name);
+  if (app.stage == nullptr) return "compiling shaders ...";
+  if (const auto progress = app.stage->truth_progress(); progress && (*progress)[0] < (*progress)[1]) {
+    return app.stage->tracer() == nullptr
+               ? std::string("sorting triangles for exact rays ...")
+               : fmt::format("exact rays: {} of {} rows", (*progress)[0], (*progress)[1]);
+  }
+  return {};
+}
+
+void status_line(const App& app) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const auto left = static_cast<float>(panel_width(app));
+  std::string text = waiting_text(app);
+  if (!app.refusal.empty()) text = app.refusal + " (the last good picture stays)";
+  const bool error = !app.refusal.empty() || (app.message_is_error && ImGui::GetTime() < app.message_until);
+  if (ImGui::GetTime() < app.message_until && app.refusal.empty()) text = app.message;
+  if (text.empty() && app.stage != nullptr)
+    text = fmt::format("{}   {:.1f} ms   F1 keys   Tab panel   WASD move   drag to look   1-8 views",
+                       view_names()[static_cast<std::size_t>(app.state.view)].name, app.frame_ms);
+  ImGui::SetNextWindowPos({left, size.y}, ImGuiCond_Always, {0.0f, 1.0f});
+  ImGui::SetNextWindowSize({size.x - left, ImGui::GetFrameHeight()});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8.0f, 2.0f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0f, 1.0f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
+  ImGui::Begin("status", nullptr, kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoScrollbar);
+  ImGui::TextColored(error ? kError : kQuiet, "%s", text.c_str());
+  if (error && ImGui::CalcTextSize(text.c_str()).x > size.x - left) {
+    ImGui::SetNextWindowPos({left + 8.0f, size.y - ImGui::GetFrameHeight()}, ImGuiCond_Always, {0.0f, 1.0f});
+    ImGui::SetNextWindowSize({std::max(size.x - left - 16.0f, 64.0f), 0.0f});
+    ImGui::Begin("message", nullptr, kFixed | ImGuiWindowFlags_NoInputs);
+    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::End();
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(3);
+}
+
+void help_page(App& app) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({size.x * 0.5f, size.y * 0.5f}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {size.x, size.y});
+  ImGui::Begin("keys", &app.help,
+               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoSavedSettings);
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const KeyHelp& one : key_help()) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(one.key);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(one.what);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::TextColored(kQuiet, "Options: point at a name for its help, right click it to reset.");
+  ImGui::End();
+}
+
+std::string map_text(const Probed& probed) {
+  if (probed.map < 0) return "no map serves this point";
+  const PointAliasing& m = probed.aliasing;
+  const std::string where =
+      fmt::format("map {}, texel {:.1f} {:.1f}\n", probed.map, probed.texel.x, probed.texel.y);
+  if (m.status == PointAliasing::Status::faces_away) return where + "turned from the light";
+  if (m.status != PointAliasing::Status::ok) return where + "m: no value";
+  return where + fmt::format("m {:.3g}   m_s {:.3g}   m_t {:.3g}\nanisotropy {:.3g}", m.m_max, m.m_s, m.m_t,
+                             m.anisotropy);
+}
+
+void probe_text(App& app) {
+  if (!app.probed || !app.probed->hit) return;
+  const ImVec2 mouse = ImGui::GetIO().MousePos, size = ImGui::GetIO().DisplaySize;
+  constexpr float kAside = 18.0f;
+  // On the side of the cursor where there is room.
+  const ImVec2 pivot{mouse.x > size.x * 0.7f ? 1.0f : 0.0f, mouse.y > size.y * 0.7f ? 1.0f : 0.0f};
+  ImGui::SetNextWindowPos(
+      {mouse.x + (pivot.x > 0.0f ? -kAside : kAside), mouse.y + (pivot.y > 0.0f ? -kAside : kAside)},
+      ImGuiCond_Always, pivot);
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  ImGui::Begin("probe", nullptr, kText);
+  ImGui::TextUnformatted(map_text(*app.probed).c_str());
+  ImGui::Text("depth %.4g   exact: %s", app.probed->view_depth,
+              app.probed->turned_away ? "turned away"
+              : app.probed->shadow    ? "shadow"
+                                      : "lit");
+  ImGui::End();
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const auto ratio = static_cast<float>(app.pixel_ratio);
+  for (const ScreenLine& line : on_screen(app.probed->footprint, app.stage->camera())) {
+    const auto at = [&](const glm::dvec2& p) {
+      return ImVec2((static_cast<float>(p.x) + static_cast<float>(app.picture.x)) / ratio,
+                    (static_cast<float>(p.y) + static_cast<float>(app.picture.y)) / ratio);
+    };
+    list.AddLine(at(line.from), at(line.to), IM_COL32(230, 159, 0, 255), 2.0f);
+  }
+}
+
+void draw_light(const App& app) {
+  const std::optional<ScreenLine> handle = light_handle(app);
+  if (!handle) return;
+  const auto at = [&app](const glm::dvec2& p) {
+    return ImVec2(static_cast<float>((p.x + app.picture.x) / app.pixel_ratio),
+                  static_cast<float>((p.y + app.picture.y) / app.pixel_ratio));
+  };
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  constexpr ImU32 kLight = IM_COL32(255, 214, 90, 255), kEdge = IM_COL32(20, 20, 24, 255);
+  const auto radius = static_cast<float>(8.0 * app.scale);
+  list.AddLine(at(handle->from), at(handle->to), kEdge, 4.0f);
+  list.AddLine(at(handle->from), at(handle->to), kLight, 2.0f);
+  list.AddCircleFilled(at(handle->from), radius + 1.5f, kEdge, 24);
+  list.AddCircleFilled(at(handle->from), radius, kLight, 24);
+}
+
+void waiting_page(const App& app) {
+  if (app.stage != nullptr) return;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const auto left = static_cast<float>(panel_width(app));
+  ImGui::SetNextWindowPos({(left + size.x) * 0.5f, size.y * 0.45f}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::Begin("waiting", nullptr, kText);
+  const std::string text = waiting_text(app);
+  ImGui::TextUnformatted(app.message_is_error && !app.loading.valid() ? app.message.c_str() : text.c_str());
+  ImGui::End();
+}
+
+}  // namespace
+
+double panel_width(const App& app) {
+  if (!app.panel) return 0.0;
+  constexpr double kWidth = 380.0, kMostShare = 0.6;
+  return std::floor(std::min(kWidth * app.scale, kMostShare * app.window_width / app.pixel_ratio));
+}
+
+void draw_panel(App& app) {
+  if (app.panel) {
+    ImGui::SetNextWindowPos({0.0f, 0.0f});
+    ImGui::SetNextWindowSize({static_cast<float>(panel_width(app)), ImGui::GetIO().DisplaySize.y});
+    ImGui::Begin("panel", nullptr, kFixed | ImGuiWindowFlags_NoBringToFrontOnFocus);
+    tabs(app);
+    ImGui::End();
+  }
+  draw_light(app);
+  probe_text(app);
+  waiting_page(app);
+  status_line(app);
+  if (app.help) help_page(app);
+}
+
+}  // namespace gnomon::tool::view

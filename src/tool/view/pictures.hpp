@@ -1,0 +1,55 @@
+// The views that are painted on the CPU from what the renderer measured, and their legends.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "canvas.hpp"
+#include "gnomon/camera.hpp"
+#include "gnomon/plan.hpp"
+#include "gnomon/scene/image.hpp"
+#include "gnomon/trace/reference.hpp"
+#include "state.hpp"
+
+namespace gnomon::tool::view {
+
+/// Pixels of a mask on the wrong side of one half, against exact rays.
+struct Misclassified {
+  std::size_t false_light = 0, false_shadow = 0;
+  std::size_t decided = 0;  ///< pixels that a ray decides
+};
+
+/// Visibility as grey; the sky blue.
+[[nodiscard]] Image mask_picture(const FloatImage& mask, const FloatImage& normals);
+/// The mask's error over a pale exact shadow. `verdicts` may be of the picture's first rows only; the rest
+/// stays pale.
+[[nodiscard]] Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdict> verdicts,
+                                          const FloatImage& normals);
+[[nodiscard]] Misclassified misclassified(const FloatImage& mask, std::span<const trace::Verdict> verdicts);
+/// The exact shadow as mask_picture() paints one.
+[[nodiscard]] Image truth_picture(int width, int height, std::span<const trace::Verdict> verdicts,
+                                  const FloatImage& normals);
+/// `lit`, with every other square of kCheckerTexels texels darkened. `mask`: for the map of each pixel.
+[[nodiscard]] Image checker_picture(const Image& lit, const FloatImage& mask, const FloatImage& positions,
+                                    const ShadowPlan& plan, const Camera& camera);
+/// Grey where equal; orange where A is lighter, blue where B is, `gain` times the difference.
+[[nodiscard]] Image difference_picture(const Image& a, const Image& b, double gain);
+
+/// A depth map as large as the picture allows, and what lies in it.
+struct MapPicture {
+  Image image;
+  std::vector<ScreenLine> lines;
+};
+/// `camera`: the one that the plan was made for.
+[[nodiscard]] MapPicture map_picture(const FloatImage& depths, const ShadowPlan& plan, int map,
+                                     const Camera& camera, const Box& scene, const std::vector<Box>& boxes,
+                                     int width, int height);
+
+/// The legend of a view, for the lower left corner of a picture of this width; empty where there is none.
+[[nodiscard]] Image legend(View view, const ShadowPlan& plan, int picture_width);
+/// Text on a dark ground, for a corner of the picture.
+[[nodiscard]] Image label(const std::string& text);
+
+}  // namespace gnomon::tool::view

@@ -1,0 +1,263 @@
+// Draws one state of the viewer to a picture: the same with a window and without.
+#include "stage.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "gnomon/casefile/casefile.hpp"
+#include "gnomon/render/context.hpp"
+#include "gnomon/render/error.hpp"
+#include "gnomon/render/picture.hpp"
+#include "gnomon/render/probe.hpp"
+#include "gnomon/scene/load.hpp"
+#include "lines.hpp"
+
+namespace gnomon::tool::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Over which the curve of m is measured: a thousandth of a second, and steady to a few percent.
+constexpr MeasureGrid kCoarse{24, 24, 16};
+
+render::FrameOptions frame_options(const State& state, const Settings& settings, const Light& light) {
+  render::FrameOptions frame;
+  frame.transition = settings.transition;
+  frame.light = &light;
+  frame.prune = settings.plan.prune;
+  frame.aliasing = frame.heat_map = state.view == View::heat;
+  frame.cascade_tint = state.view == View::cascades;
+  return frame;
+}
+
+VisibleDepths visible_depths(render::Renderer& renderer, const Camera& camera) {
+  render::FrameOptions surfaces;
+  surfaces.aliasing = surfaces.heat_map = surfaces.cascade_tint = surfaces.time_passes = false;
+  renderer.draw(ShadowPlan{}, camera, renderer.prepare(render::filters::hard), surfaces);
+  const FloatImage positions = renderer.positions();
+  VisibleDepths depths;
+  for (std::size_t i = 3; i < positions.values.size(); i += 4)
+    depths.add(static_cast<double>(positions.values[i]));
+  return depths;
+}
+
+/// Refuses maps that memory does not take, before a driver is asked for them. Empty: they fit.
+std::string memory_refusal(const PlanOptions& plan, const render::FilterSettings& filter) {
+  constexpr double kSurelyThere = 256.0 * 1024 * 1024;
+  const int maps = plan.cascades, size = plan.resolution.max_size;
+  const double bytes = 1.0 * size * size * maps * render::bytes_per_texel(filter);
+  if (bytes <= kSurelyThere) return {};
+  const render::FittingMaps fitting = render::largest_maps(size, maps, render::bytes_per_texel(filter), 0.0);
+  if (fitting.size >= size) return {};
+  return fmt::format("map_size {}: {} such maps do not fit ({})", size, maps, fitting.why);
+}
+
+}  // namespace
+
+std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles) {
+  auto loaded = std::make_shared<Loaded>();
+  loaded->name = scene;
+  loaded->scene = load_scene(scene, limits_of_triangles(max_triangles));
+  constexpr double kUsualAspect = 16.0 / 9.0;
+  loaded->path = default_path(loaded->scene, kUsualAspect);
+  for (const Instance& instance : loaded->scene.instances) loaded->boxes.push_back(instance.bounds_world);
+  return loaded;
+}
+
+Stage::Stage(std::shared_ptr<const Loaded> loaded) : loaded_(std::move(loaded)), renderer_(loaded_->scene) {
+  sorting_ = std::async(std::launch::async,
+                        [scene = loaded_] { return std::make_shared<const trace::Tracer>(scene->scene); });
+}
+
+void Stage::take_tracer(bool wait) {
+  if (tracer_ != nullptr || !sorting_.valid()) return;
+  if (!wait && sorting_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  tracer_ = sorting_.get();
+}
+
+void Stage::cut() noexcept {
+  for (Side& side : sides_) side.history.clear();
+}
+
+bool Stage::is_compiled(const render::FilterSettings& filter) const {
+  return std::find(compiled_.begin(), compiled_.end(), render::to_string(filter)) != compiled_.end();
+}
+
+bool Stage::compile_ahead() {
+  for (const render::Filter* filter : render::all_filters()) {
+    const render::FilterSettings settings = render::default_settings(*filter);
+    if (is_compiled(settings)) continue;
+    (void)renderer_.prepare(settings);
+    compiled_.push_back(render::to_string(settings));
+    return true;
+  }
+  return false;
+}
+
+std::string Stage::make_plans(const State& state, int width, int height) {
+  const Camera eye = camera_of(state, state.eye, loaded_->path, width, height);
+  const Camera planned = state.frozen ? camera_of(state, state.frozen, loaded_->path, width, height) : eye;
+  const Light light = light_of(state.light, loaded_->scene.bounds_world);
+  const SceneBounds bounds{loaded_->boxes, loaded_->boxes};
+  const bool both = state.comparison != Comparison::off && !state.b_is_truth;
+  std::array<Side, 2> next = sides_;
+  for (int i = 0; i < (both ? 2 : 1); ++i) {
+    const Settings& settings = i == 0 ? state.a : state.b;
+    Side& side = next[static_cast<std::size_t>(i)];
+    const PlanOptions options = plan_options_of(settings);
+    if (std::string refusal = memory_refusal(options, settings.filter); !refusal.empty()) return refusal;
+    const VisibleDepths depths =
+        settings.visible_depths ? visible_depths(renderer_, planned) : VisibleDepths{};
+    const VisibleDepths* seen = settings.visible_depths ? &depths : nullptr;
+    const auto begin = Clock::now();
+    side.plan = settings.history ? make_plan(planned, light, bounds, options, side.history, seen)
+                                 : make_plan(planned, light, bounds, options, seen);
+    side.plan_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    if (side.plan.status == PlanStatus::invalid_input) return invalid_input_text(side.plan.invalid_field);
+    side.plan_camera = planned;
+    side.m = measure(side.plan, planned, bounds, kCoarse);
+    side.drawn = state.frozen ? seen_frozen(side.plan, planned, eye) : side.plan;
+    // Throws where a shader does not compile: before anything of the last picture is gone.
+    (void)renderer_.prepare(settings.filter);
+    const std::string name = render::to_string(settings.filter);
+    if (!is_compiled(settings.filter)) compiled_.push_back(name);
+  }
+  sides_ = next;
+  camera_ = eye;
+  light_ = light;
+  return {};
+}
+
+std::string Stage::draw(const State& state, int width, int height, bool settled) try {
+  take_tracer(false);
+  if (std::string refusal = make_plans(state, width, height); !refusal.empty()) return refusal;
+  for (Canvas* canvas : {&canvas_, &canvas_a_, &canvas_b_}) canvas->resize(width, height);
+  wants_truth_ = state.view == View::misclassified || state.view == View::truth ||
+                 (state.comparison != Comparison::off && state.b_is_truth);
+  if (!wants_truth_) truth_.stop();
+  draw_side(state, state.a, sides_[0], canvas_a_, settled);
+  if (state.comparison != Comparison::off) {
+    if (state.b_is_truth) {
+      canvas_b_.put(truth_picture(width, height, truth_.verdicts(), renderer_.normals()), 0, 0);
+    } else {
+      draw_side(state, state.b, sides_[1], canvas_b_, settled);
+    }
+  }
+  compose(state);
+  render::check_context();
+  return {};
+} catch (const std::runtime_error& error) {
+  return error.what();
+}
+
+void Stage::draw_side(const State& state, const Settings& settings, Side& side, Canvas& canvas,
+                      bool settled) {
+  side.stats = renderer_.draw(side.drawn, camera_, renderer_.prepare(settings.filter),
+                              frame_options(state, settings, light_));
+  side.errors.reset();
+  if (wants_truth_) want_truth(settled);
+  draw_view(state, side, canvas);
+  if (state.frozen && state.view != View::map) {
+    canvas.draw(on_screen(
+        plan_lines(side.plan, side.plan_camera, loaded_->boxes, loaded_->scene.bounds_world, state.drawn),
+        camera_));
+  }
+  if (const Image image = legend(state.view, side.plan, camera_.width); image.width > 0)
+    canvas.put(image, 0, camera_.height - image.height);
+}
+
+void Stage::want_truth(bool settled) {
+  if (truth_.is_of(camera_, light_)) return;
+  truth_.stop();
+  if (!settled || tracer_ == nullptr) return;
+  truth_.begin(tracer_, camera_, light_, renderer_.positions(), renderer_.normals());
+}
+
+void Stage::draw_view(const State& state, Side& side, Canvas& canvas) {
+  using Picture = render::Renderer::Picture;
+  switch (state.view) {
+    case View::lit:
+      return renderer_.copy(Picture::lit, canvas.framebuffer());
+    case View::heat:
+      return renderer_.copy(Picture::heat_map, canvas.framebuffer());
+    case View::cascades:
+      return renderer_.copy(Picture::cascade_tint, canvas.framebuffer());
+    case View::mask:
+      return canvas.put(mask_picture(renderer_.mask(), renderer_.normals()), 0, 0);
+    case View::misclassified: {
+      const FloatImage mask = renderer_.mask();
+      const auto verdicts = truth_.verdicts();
+      if (truth_.done()) side.errors = misclassified(mask, verdicts);
+      return canvas.put(misclassified_picture(mask, verdicts, renderer_.normals()), 0, 0);
+    }
+    case View::truth:
+      return canvas.put(truth_picture(camera_.width, camera_.height, truth_.verdicts(), renderer_.normals()),
+                        0, 0);
+    case View::checker:
+      return canvas.put(
+          checker_picture(renderer_.image(), renderer_.mask(), renderer_.positions(), side.plan, camera_), 0,
+          0);
+    case View::map:
+      break;
+  }
+  if (side.plan.map_count == 0)
+    return canvas.put(render::blank_image(camera_.width, camera_.height, {24, 24, 28}), 0, 0);
+  const int map = std::min(state.map, side.plan.map_count - 1);
+  const MapPicture picture =
+      map_picture(renderer_.depth_map(map), side.plan, map, side.plan_camera, loaded_->scene.bounds_world,
+                  loaded_->boxes, camera_.width, camera_.height);
+  canvas.put(picture.image, 0, 0);
+  canvas.draw(picture.lines);
+}
+
+namespace {
+
+/// What the corner of a side says: its filter, warp and maps.
+std::string side_text(const char* name, const Settings& settings, const Side& side) {
+  std::string text =
+      fmt::format("{}: {} map{} of {}, {}", name, side.plan.map_count, side.plan.map_count == 1 ? "" : "s",
+                  settings.plan.resolution.max_size, render::to_string(settings.filter));
+  if (side.plan.map_count > 0) text += fmt::format(", warp {}", side.plan.map[0].warp->name);
+  return text;
+}
+
+}  // namespace
+
+void Stage::compose(const State& state) {
+  const int width = camera_.width;
+  if (state.comparison == Comparison::off) return canvas_.take(canvas_a_, 0, width);
+  if (state.comparison == Comparison::difference) {
+    canvas_.put(difference_picture(canvas_a_.image(), canvas_b_.image(), state.gain), 0, 0);
+    return canvas_.put(
+        label(fmt::format("difference x {:.3g}: orange A lighter, blue B lighter", state.gain)), 0, 0);
+  }
+  const int line = static_cast<int>(std::lround(std::clamp(state.wipe, 0.0, 1.0) * width));
+  canvas_.take(canvas_a_, 0, line);
+  canvas_.take(canvas_b_, line, width);
+  const double x = line;
+  const ScreenLine wipe{{x, 0.0}, {x, 1.0 * camera_.height}, {240, 228, 66, 255}, 2.0};
+  canvas_.draw({&wipe, 1});
+  const Image a = label(side_text("A", state.a, sides_[0])),
+              b = label(state.b_is_truth ? "B: exact rays" : side_text("B", state.b, sides_[1]));
+  canvas_.put(a, 0, 0);
+  // Below A's where the picture is too narrow for both.
+  canvas_.put(b, std::max(width - b.width, 0), a.width + b.width <= width ? 0 : a.height);
+}
+
+void Stage::finish_truth() {
+  take_tracer(true);
+  if (!wants_truth_) return;
+  if (!truth_.is_of(camera_, light_) && tracer_ != nullptr)
+    truth_.begin(tracer_, camera_, light_, renderer_.positions(), renderer_.normals());
+  truth_.finish();
+}
+
+std::optional<std::array<int, 2>> Stage::truth_progress() const {
+  if (!wants_truth_) return {};
+  return std::array<int, 2>{truth_.rows(), camera_.height};
+}
+
+}  // namespace gnomon::tool::view

@@ -1,0 +1,97 @@
+// Draws one state of the viewer to a picture: the same with a window and without.
+#pragma once
+
+#include <array>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "canvas.hpp"
+#include "gnomon/history.hpp"
+#include "gnomon/metric.hpp"
+#include "gnomon/render/renderer.hpp"
+#include "gnomon/scene/scene.hpp"
+#include "gnomon/trace/tracer.hpp"
+#include "pictures.hpp"
+#include "state.hpp"
+#include "truth.hpp"
+
+namespace gnomon::tool::view {
+
+/// A scene as it was loaded; needs no context, so that any thread may load it.
+struct Loaded {
+  std::string name;  ///< as State::scene has it
+  Scene scene;
+  CameraPath path;
+  std::vector<Box> boxes;  ///< of the instances: they cast and receive
+};
+/// Throws SceneError.
+[[nodiscard]] std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles);
+
+/// One side of a comparison, as it was drawn last.
+struct Side {
+  ShadowPlan plan;     ///< as it was made
+  ShadowPlan drawn;    ///< as it was drawn: where the plan's camera is frozen, for another eye
+  Camera plan_camera;  ///< that it was made for
+  render::FrameStats stats;
+  double plan_ms = 0.0;
+  AliasingStats m;                      ///< over what the plan's camera sees of the boxes
+  std::optional<Misclassified> errors;  ///< where the exact shadow is known
+  PlanHistory history;
+};
+
+class Stage {
+ public:
+  /// Uploads the scene and compiles what every frame needs. Begins to sort the triangles for rays in the
+  /// background. Throws RenderError.
+  explicit Stage(std::shared_ptr<const Loaded> loaded);
+
+  [[nodiscard]] const Loaded& loaded() const noexcept { return *loaded_; }
+
+  /// Draws the state. `settled`: it will not change at once, so that exact shadows are worth beginning.
+  /// Returns what is wrong with the state, in which case the last picture stays, or an empty text.
+  std::string draw(const State& state, int width, int height, bool settled);
+  /// Waits for the exact shadows of the last picture, if it shows any; draw() then shows all of them.
+  void finish_truth();
+
+  [[nodiscard]] const Canvas& canvas() const noexcept { return canvas_; }
+  [[nodiscard]] const Side& side(int which) const noexcept { return sides_[static_cast<std::size_t>(which)]; }
+  [[nodiscard]] const Camera& camera() const noexcept { return camera_; }
+  [[nodiscard]] const Light& light() const noexcept { return light_; }
+  /// Rows of exact shadows that are done, of how many; none where none are wanted.
+  [[nodiscard]] std::optional<std::array<int, 2>> truth_progress() const;
+  /// Takes what the background has finished.
+  void poll() { take_tracer(false); }
+  /// nullptr until the triangles are sorted.
+  [[nodiscard]] const trace::Tracer* tracer() const noexcept { return tracer_.get(); }
+  /// Compiles one more of the filters that no state has used yet; false where all are compiled.
+  bool compile_ahead();
+  /// True where the filter's programs are compiled already.
+  [[nodiscard]] bool is_compiled(const render::FilterSettings& filter) const;
+  /// Forgets what plans carry from frame to frame: after a cut.
+  void cut() noexcept;
+
+ private:
+  [[nodiscard]] std::string make_plans(const State& state, int width, int height);
+  void draw_side(const State& state, const Settings& settings, Side& side, Canvas& canvas, bool settled);
+  void want_truth(bool settled);
+  void draw_view(const State& state, Side& side, Canvas& canvas);
+  void compose(const State& state);
+  void take_tracer(bool wait);
+
+  std::shared_ptr<const Loaded> loaded_;
+  std::future<std::shared_ptr<const trace::Tracer>> sorting_;
+  std::shared_ptr<const trace::Tracer> tracer_;
+  render::Renderer renderer_;
+  std::vector<std::string> compiled_;  ///< filters as text
+  std::array<Side, 2> sides_;
+  Canvas canvas_, canvas_a_, canvas_b_;
+  Camera camera_;
+  Light light_;
+  Truth truth_;
+  bool wants_truth_ = false;
+};
+
+}  // namespace gnomon::tool::view

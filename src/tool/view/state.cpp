@@ -1,0 +1,101 @@
+// Defaults, names and presets of the viewer's state.
+#include "state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "plan_option.hpp"
+
+namespace gnomon::tool::view {
+namespace {
+
+constexpr std::array<Named, kViewCount> kViews{{
+    {"lit", "the shaded scene"},
+    {"heat", "aliasing error m, screen pixels per texel: white is 1, red too coarse, blue finer than needed"},
+    {"mask", "visibility as the filter returns it: white lit, black in shadow"},
+    {"misclassified", "false light (orange) and false shadow (blue) against exact rays"},
+    {"cascades", "which map serves which part"},
+    {"checker", "squares of 8 x 8 texels of the map that serves each point"},
+    {"map", "the depth map itself, with its border, the receivers' body and the casters drawn in"},
+    {"truth", "the exact hard shadow, one ray a pixel"},
+}};
+constexpr std::array<Named, 3> kComparisons{{
+    {"off", "A alone"},
+    {"wipe", "A left of a line, B right of it: drag the line"},
+    {"difference", "how far A and B differ, times the gain"},
+}};
+
+Settings with(const char* filter, const char* key = nullptr, const char* choice = nullptr) {
+  Settings settings;
+  settings.filter = render::parse_filter(filter).settings;
+  if (key != nullptr) (void)set_plan_choice(key, choice, settings.plan);
+  return settings;
+}
+
+constexpr std::array<Preset, 6> kPresets{{
+    {"defaults", "every option as it is by default", [](State& s) { s.a = {}; }},
+    {"one map, no warp against the chosen warp", "what the warp gains at equal texels: drag the line",
+     [](State& s) {
+       s.a = with("hard", "warp", "none");
+       s.b = with("hard", "warp", "auto");
+       s.a.plan.cascades = s.b.plan.cascades = 1;
+       s.comparison = Comparison::wipe;
+       s.view = View::heat;
+     }},
+    {"stable cascades", "texel-snapped maps, as most engines have them",
+     [](State& s) { s.a = with("pcf:radius=2", "fit", "stable"); }},
+    {"soft contact shadows", "pcss, whose penumbra grows with the distance from the caster",
+     [](State& s) { s.a = with("pcss"); }},
+    {"variance shadows", "vsm, to look for light bleeding in the misclassified view",
+     [](State& s) {
+       s.a = with("vsm:radius=3");
+       s.view = View::misclassified;
+     }},
+    {"cheapest", "one small map without a warp, nearest texel",
+     [](State& s) {
+       s.a = with("hard", "warp", "none");
+       s.a.plan.cascades = 1;
+       s.a.plan.resolution.max_size = 512;
+     }},
+}};
+
+}  // namespace
+
+std::span<const Named> view_names() noexcept {
+  return kViews;
+}
+
+std::span<const Named> comparison_names() noexcept {
+  return kComparisons;
+}
+
+std::span<const Preset> presets() noexcept {
+  return kPresets;
+}
+
+Light light_of(const LightState& light, const Box& scene) noexcept {
+  if (light.sun.kind == LightKind::spot && light.spot) return *light.spot;
+  if (light.sun.kind == LightKind::point && light.point) return *light.point;
+  return default_light(light.sun, scene);
+}
+
+Camera camera_of(const State& state, const std::optional<CameraKey>& key, const CameraPath& path, int width,
+                 int height) noexcept {
+  CameraPath lens = path;
+  if (state.fov_y_deg > 0.0) lens.fov_y_radians = state.fov_y_deg * (std::numbers::pi / 180.0);
+  Camera camera = lens.at(state.path_time, width, height);
+  if (key) {
+    camera.position = key->position;
+    camera.forward = key->target - key->position;
+  }
+  return camera;
+}
+
+PlanOptions plan_options_of(const Settings& settings) noexcept {
+  PlanOptions options = settings.plan;
+  render::set_margin(settings.filter, options);
+  return options;
+}
+
+}  // namespace gnomon::tool::view

@@ -1,0 +1,122 @@
+// Everything that decides what the viewer shows: plain data, without OpenGL and without a window.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "gnomon/light.hpp"
+#include "gnomon/plan.hpp"
+#include "gnomon/render/filter.hpp"
+#include "gnomon/render/renderer.hpp"
+#include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/default_light.hpp"
+
+namespace gnomon::tool::view {
+
+/// What a pixel of the picture shows.
+enum class View : std::uint8_t {
+  lit,            ///< the shaded scene
+  heat,           ///< the aliasing error m as colours
+  mask,           ///< visibility as the filter returns it
+  misclassified,  ///< false shadow and false light against exact rays
+  cascades,       ///< the scene tinted by map
+  checker,        ///< squares of kCheckerTexels texels on the surfaces
+  map,            ///< the depth map itself, with what lies in it
+  truth,          ///< the exact hard shadow
+};
+inline constexpr int kViewCount = 8;
+inline constexpr int kCheckerTexels = 8;
+
+/// How two settings are compared.
+enum class Comparison : std::uint8_t { off, wipe, difference };
+
+/// A name on command lines and in files, and half a line for help.
+struct Named {
+  std::string_view name, help;
+};
+/// By View and by Comparison.
+[[nodiscard]] std::span<const Named> view_names() noexcept;
+[[nodiscard]] std::span<const Named> comparison_names() noexcept;
+
+/// One side of a comparison: how shadows are planned and filtered.
+struct Settings {
+  PlanOptions plan;
+  render::FilterSettings filter = render::default_settings(render::filters::pcf);
+  render::SplitTransition transition = render::SplitTransition::cut;
+  bool history = false;         ///< texel density changes smoothly from frame to frame
+  bool visible_depths = false;  ///< each frame is drawn twice, the second for the depths that the first shows
+};
+
+/// The light. Local lights lie where default_light() puts them until they are moved.
+struct LightState {
+  LightPlacement sun;  ///< its kind decides which of these is used
+  std::optional<SpotLight> spot;
+  std::optional<PointLight> point;
+};
+
+/// The lines that are drawn over the picture while the plan's camera is frozen.
+struct Drawn {
+  bool frustum = true;   ///< the frozen camera's frustum, with the splits
+  bool bodies = true;    ///< the receivers' body of each map
+  bool maps = false;     ///< the volume of each map
+  bool casters = false;  ///< the boxes of drawn and of culled casters
+};
+
+/// What moves by itself in a window.
+struct Motion {
+  bool camera = false, sun = false;
+  double path_seconds = 30.0;            ///< of one flight along the scene's path
+  double sun_degrees_per_second = 10.0;  ///< azimuth
+};
+
+struct State {
+  std::string scene = "builtin:city";
+  std::optional<CameraKey> eye;     ///< none: the scene's path at `path_time`
+  double path_time = 0.5;           ///< 0..1
+  double fov_y_deg = 0.0;           ///< 0: of the scene's path
+  std::optional<CameraKey> frozen;  ///< the plan's camera, where it is not the eye
+  LightState light;
+  Settings a, b;
+  View view = View::lit;
+  int map = 0;  ///< View::map: which one
+  Comparison comparison = Comparison::off;
+  bool b_is_truth = false;  ///< B is the exact hard shadow
+  double wipe = 0.5;        ///< share of the picture's width that shows A
+  double gain = 4.0;        ///< of the difference picture
+  Drawn drawn;
+  Motion motion;
+};
+
+/// The light of a state over a scene with these bounds.
+[[nodiscard]] Light light_of(const LightState& light, const Box& scene) noexcept;
+/// The camera of a state; `key`: State::eye or State::frozen.
+[[nodiscard]] Camera camera_of(const State& state, const std::optional<CameraKey>& key,
+                               const CameraPath& path, int width, int height) noexcept;
+/// The plan's options with the border that the filter needs.
+[[nodiscard]] PlanOptions plan_options_of(const Settings& settings) noexcept;
+
+/// A state that shows something worth knowing, over the present scene and camera.
+struct Preset {
+  std::string_view name, help;
+  void (*set)(State& state);
+};
+[[nodiscard]] std::span<const Preset> presets() noexcept;
+
+/// The state as JSON text, which read_state() reads back to the same state.
+[[nodiscard]] std::string state_text(const State& state);
+/// Throws std::runtime_error with the key and what is wrong.
+[[nodiscard]] State read_state(std::string_view text);
+/// The same from a file; the message begins with its name.
+[[nodiscard]] State load_state(const std::string& file);
+/// Fields of a plan whose value no option of the command line carries, as the text of --options; empty where
+/// all have their default.
+[[nodiscard]] std::string unspoken_options(const PlanOptions& options);
+/// True where the field `key` of a plan has an option of the command line of its own.
+[[nodiscard]] bool is_spoken(std::string_view key);
+/// The command that shows the same picture.
+[[nodiscard]] std::string command_text(const State& state);
+
+}  // namespace gnomon::tool::view

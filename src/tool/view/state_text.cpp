@@ -1,0 +1,442 @@
+// The viewer's state as a JSON file, and as a command line.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+#include "gnomon/casefile/casefile.hpp"
+#include "nearest_name.hpp"
+#include "option_words.hpp"
+#include "plan_option.hpp"
+#include "state.hpp"
+#include "whole_file.hpp"
+
+namespace gnomon::tool::view {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kVersionKey = "gnomon_view";
+constexpr int kVersion = 1;
+constexpr double kDegrees = 180.0 / std::numbers::pi;  ///< in a radian
+
+Json vector_json(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Json key_json(const CameraKey& key) {
+  return {{"position", vector_json(key.position)}, {"target", vector_json(key.target)}};
+}
+
+Json clip_space_json(const ClipSpace& clip) {
+  return {{"ndc_depth", clip.ndc_depth == NdcDepth::zero_to_one ? "zero_to_one" : "minus_one_to_one"},
+          {"reversed_z", clip.reversed_z},
+          {"y_down", clip.y_down},
+          {"handedness", clip.handedness == Handedness::left ? "left" : "right"},
+          {"first_row", clip.first_row == FirstRow::y_plus_one ? "y_plus_one" : "y_minus_one"}};
+}
+
+Json bias_json(const BiasOptions& bias) {
+  return {{"constant_texels", bias.constant_texels},
+          {"slope_texels", bias.slope_texels},
+          {"normal_offset_texels", bias.normal_offset_texels},
+          {"max_slope", bias.max_slope}};
+}
+
+/// What plan_options_json() leaves out, where it is not the default.
+Json structured_options(const PlanOptions& options) {
+  Json json = Json::object();
+  const PlanOptions none;
+  if (!options.warp.focus.empty())
+    json["focus"] = {{"min", vector_json(options.warp.focus.min)},
+                     {"max", vector_json(options.warp.focus.max)}};
+  if (options.split.scheme == SplitScheme::given) {
+    Json depths = Json::array();
+    for (const double depth : options.split.given)
+      if (std::isfinite(depth)) depths.push_back(depth);
+    json["given_splits"] = depths;
+  }
+  if (bias_json(options.bias) != bias_json(none.bias)) json["bias"] = bias_json(options.bias);
+  if (options.clip_space != none.clip_space) json["clip_space"] = clip_space_json(options.clip_space);
+  return json;
+}
+
+Json options_json(const PlanOptions& options) {
+  Json json = plan_options_json(options);
+  json.update(structured_options(options));
+  return json;
+}
+
+constexpr std::array<std::string_view, 3> kTransitions{"cut", "blend", "dither"};
+
+Json settings_json(const Settings& settings) {
+  return {{"options", options_json(settings.plan)},
+          {"filter", render::to_string(settings.filter)},
+          {"transition", kTransitions[static_cast<std::size_t>(settings.transition)]},
+          {"history", settings.history},
+          {"visible_depths", settings.visible_depths}};
+}
+
+Json light_json(const LightState& light) {
+  Json json{{"type", to_string(light.sun.kind)},
+            {"elevation_deg", light.sun.elevation_deg},
+            {"azimuth_deg", light.sun.azimuth_deg}};
+  if (light.spot)
+    json["spot"] = {{"position", vector_json(light.spot->position)},
+                    {"direction", vector_json(light.spot->direction)},
+                    {"outer_deg", light.spot->outer_radians * kDegrees},
+                    {"range", light.spot->range}};
+  if (light.point)
+    json["point"] = {{"position", vector_json(light.point->position)}, {"range", light.point->range}};
+  return json;
+}
+
+/// An object of the file, whose keys are taken one by one; done() refuses those that are left.
+class Reader {
+ public:
+  Reader(const Json& json, std::string path) : json_(json), path_(std::move(path)) {
+    if (!json.is_object()) throw std::runtime_error(path_ + (path_.empty() ? "" : ": ") + "needs an object");
+  }
+
+  [[nodiscard]] const Json* take(const char* key) {
+    known_.emplace_back(key);
+    const auto found = json_.find(key);
+    return found == json_.end() || found->is_null() ? nullptr : &*found;
+  }
+  void read(const char* key, double& out, double least, double most) {
+    const Json* value = take(key);
+    if (value == nullptr) return;
+    if (!value->is_number()) refuse(key, fmt::format("needs a number, is {}", value->type_name()));
+    const double number = value->get<double>();
+    if (!(number >= least && number <= most))
+      refuse(key, fmt::format("{:g} is not in {:g}..{:g}", number, least, most));
+    out = number;
+  }
+  void read(const char* key, bool& out) {
+    const Json* value = take(key);
+    if (value == nullptr) return;
+    if (!value->is_boolean()) refuse(key, fmt::format("needs true or false, is {}", value->type_name()));
+    out = value->get<bool>();
+  }
+  void read(const char* key, std::string& out) {
+    const Json* value = take(key);
+    if (value == nullptr) return;
+    if (!value->is_string()) refuse(key, fmt::format("needs a text, is {}", value->type_name()));
+    out = value->get<std::string>();
+  }
+  void read(const char* key, glm::dvec3& out) {
+    const Json* value = take(key);
+    if (value == nullptr) return;
+    constexpr double kMost = 1e30;
+    const bool numbers = value->is_array() && value->size() == 3 &&
+                         std::all_of(value->begin(), value->end(), [](const Json& v) {
+                           return v.is_number() && std::abs(v.get<double>()) <= kMost;
+                         });
+    if (!numbers) refuse(key, "needs three numbers");
+    out = {(*value)[0].get<double>(), (*value)[1].get<double>(), (*value)[2].get<double>()};
+  }
+  /// The index of a name; `out` as it was where the key is absent.
+  template <class Enum>
+  void read_name(const char* key, Enum& out, const std::vector<std::string>& names) {
+    std::string name;
+    read(key, name);
+    if (name.empty()) return;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      refuse(key, "is \"" + one_line(name, 40) + "\", not one of " + any_of_text(names) + meant(name, names));
+    out = static_cast<Enum>(found - names.begin());
+  }
+  [[nodiscard]] std::string path_of(const char* key) const { return path_.empty() ? key : path_ + "." + key; }
+  [[noreturn]] void refuse(const char* key, const std::string& why) const {
+    throw std::runtime_error(path_of(key) + ": " + why);
+  }
+  void done() const {
+    for (const auto& [key, value] : json_.items()) {
+      if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+      const std::string shown = one_line(key, 60);
+      throw std::runtime_error(path_of(shown.c_str()) + ": unknown key" + meant(key, known_));
+    }
+  }
+
+ private:
+  const Json& json_;
+  std::string path_;
+  std::vector<std::string> known_;
+};
+
+std::vector<std::string> names_of(std::span<const Named> all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.emplace_back(one.name);
+  return names;
+}
+
+std::optional<CameraKey> read_key(Reader& from, const char* key) {
+  const Json* json = from.take(key);
+  if (json == nullptr) return {};
+  Reader reader(*json, from.path_of(key));
+  CameraKey result;
+  reader.read("position", result.position);
+  reader.read("target", result.target);
+  reader.done();
+  if (result.position == result.target) from.refuse(key, "position and target must differ");
+  return result;
+}
+
+Settings read_settings(const Json& json, const std::string& path) {
+  Reader reader(json, path);
+  Settings settings;
+  if (const Json* options = reader.take("options")) {
+    try {
+      settings.plan = read_plan_options(options->dump());
+    } catch (const CaseError& error) {
+      throw std::runtime_error(path + "." + error.what());
+    }
+  }
+  std::string filter;
+  reader.read("filter", filter);
+  if (!filter.empty()) {
+    const render::ParsedFilter parsed = render::parse_filter(filter);
+    if (!parsed.error.empty()) reader.refuse("filter", parsed.error);
+    settings.filter = parsed.settings;
+  }
+  reader.read_name("transition", settings.transition, {kTransitions.begin(), kTransitions.end()});
+  reader.read("history", settings.history);
+  reader.read("visible_depths", settings.visible_depths);
+  reader.done();
+  return settings;
+}
+
+constexpr double kMostLength = 1e30;
+
+LightState read_light(const Json& json) {
+  Reader reader(json, "light");
+  LightState light;
+  reader.read_name("type", light.sun.kind, {"sun", "spot", "point"});
+  reader.read("elevation_deg", light.sun.elevation_deg, 0.1, 90.0);
+  reader.read("azimuth_deg", light.sun.azimuth_deg, -360.0, 360.0);
+  if (const Json* spot = reader.take("spot")) {
+    Reader fields(*spot, "light.spot");
+    light.spot.emplace();
+    fields.read("position", light.spot->position);
+    fields.read("direction", light.spot->direction);
+    double outer_deg = 30.0;
+    fields.read("outer_deg", outer_deg, 0.1, 179.9);
+    light.spot->outer_radians = outer_deg / kDegrees;
+    fields.read("range", light.spot->range, 0.0, kMostLength);
+    fields.done();
+    if (light.spot->direction == glm::dvec3(0.0)) fields.refuse("direction", "must not be zero");
+  }
+  if (const Json* point = reader.take("point")) {
+    Reader fields(*point, "light.point");
+    light.point.emplace();
+    fields.read("position", light.point->position);
+    fields.read("range", light.point->range, 0.0, kMostLength);
+    fields.done();
+  }
+  reader.done();
+  return light;
+}
+
+void read_rest(Reader& reader, State& state) {
+  reader.read_name("view", state.view, names_of(view_names()));
+  double map = state.map;
+  reader.read("map", map, 0, kMaxMaps - 1);
+  state.map = static_cast<int>(map);
+  reader.read_name("comparison", state.comparison, names_of(comparison_names()));
+  reader.read("b_is_truth", state.b_is_truth);
+  reader.read("wipe", state.wipe, 0.0, 1.0);
+  reader.read("gain", state.gain, 1.0, 64.0);
+  if (const Json* drawn = reader.take("drawn")) {
+    Reader fields(*drawn, "drawn");
+    fields.read("frustum", state.drawn.frustum);
+    fields.read("bodies", state.drawn.bodies);
+    fields.read("maps", state.drawn.maps);
+    fields.read("casters", state.drawn.casters);
+    fields.done();
+  }
+  if (const Json* motion = reader.take("motion")) {
+    Reader fields(*motion, "motion");
+    fields.read("camera", state.motion.camera);
+    fields.read("sun", state.motion.sun);
+    fields.read("path_seconds", state.motion.path_seconds, 1.0, 3600.0);
+    fields.read("sun_degrees_per_second", state.motion.sun_degrees_per_second, -360.0, 360.0);
+    fields.done();
+  }
+}
+
+void check_brackets(std::string_view text) {
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (quoted && text[i] == '\\')
+      ++i;
+    else if (text[i] == '"')
+      quoted = !quoted;
+    else if (!quoted && (text[i] == '{' || text[i] == '['))
+      ++depth;
+    else if (!quoted && (text[i] == '}' || text[i] == ']'))
+      --depth;
+    if (depth > kMaxCaseNesting) throw std::runtime_error("brackets are nested too deep");
+  }
+}
+
+}  // namespace
+
+std::string state_text(const State& state) {
+  Json json{{kVersionKey, kVersion}, {"scene", state.scene}, {"path_time", state.path_time}};
+  if (state.eye) json["eye"] = key_json(*state.eye);
+  if (state.frozen) json["frozen"] = key_json(*state.frozen);
+  if (state.fov_y_deg > 0.0) json["fov_y_deg"] = state.fov_y_deg;
+  json["light"] = light_json(state.light);
+  json["a"] = settings_json(state.a);
+  json["b"] = settings_json(state.b);
+  json["view"] = view_names()[static_cast<std::size_t>(state.view)].name;
+  json["map"] = state.map;
+  json["comparison"] = comparison_names()[static_cast<std::size_t>(state.comparison)].name;
+  json["b_is_truth"] = state.b_is_truth;
+  json["wipe"] = state.wipe;
+  json["gain"] = state.gain;
+  json["drawn"] = {{"frustum", state.drawn.frustum},
+                   {"bodies", state.drawn.bodies},
+                   {"maps", state.drawn.maps},
+                   {"casters", state.drawn.casters}};
+  json["motion"] = {{"camera", state.motion.camera},
+                    {"sun", state.motion.sun},
+                    {"path_seconds", state.motion.path_seconds},
+                    {"sun_degrees_per_second", state.motion.sun_degrees_per_second}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+State read_state(std::string_view text) {
+  if (text.size() > kMaxCaseBytes) throw std::runtime_error("larger than 16 MiB");
+  check_brackets(text);
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw std::runtime_error(std::string("no JSON: ") + one_line(error.what(), 200));
+  }
+  Reader reader(json, "");
+  double version = 0;
+  reader.read(kVersionKey, version, kVersion, kVersion);
+  if (version != kVersion) reader.refuse(kVersionKey, "is missing: this is no state of the viewer");
+  State state;
+  reader.read("scene", state.scene);
+  reader.read("path_time", state.path_time, 0.0, 1.0);
+  state.eye = read_key(reader, "eye");
+  state.frozen = read_key(reader, "frozen");
+  reader.read("fov_y_deg", state.fov_y_deg, 1.0, 170.0);
+  if (const Json* light = reader.take("light")) state.light = read_light(*light);
+  if (const Json* a = reader.take("a")) state.a = read_settings(*a, "a");
+  if (const Json* b = reader.take("b")) state.b = read_settings(*b, "b");
+  read_rest(reader, state);
+  reader.done();
+  return state;
+}
+
+State load_state(const std::string& file) {
+  try {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw std::runtime_error("cannot be read");
+    std::ostringstream content;
+    content << stream.rdbuf();
+    return read_state(content.str());
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(shown_name(file) + ": " + error.what());
+  }
+}
+
+bool is_spoken(std::string_view key) {
+  // A filter sets its own radii, and a command line has no list of splits without the word for it.
+  if (key == "filter_radius_texels" || key == "filter_radius_world") return false;
+  const PlanField& field = plan_field(key);
+  if (field.unit != 1.0) return false;
+  return std::holds_alternative<PlanChoice>(field.place) ||
+         std::holds_alternative<PlanMember<int>>(field.place) ||
+         std::holds_alternative<PlanMember<double>>(field.place) ||
+         std::holds_alternative<PlanMember<bool>>(field.place);
+}
+
+std::string unspoken_options(const PlanOptions& options) {
+  const Json now = plan_options_json(options), none = plan_options_json({});
+  Json json = structured_options(options);
+  for (const auto& [key, value] : now.items()) {
+    if (!is_spoken(key) && !key.starts_with("filter_radius") && value != none[key]) json[key] = value;
+  }
+  return json.empty() ? std::string() : json.dump();
+}
+
+namespace {
+
+std::string quoted(const std::string& word) {
+  const bool plain = !word.empty() && word.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                          "_-+=:,./%@") == std::string::npos;
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+/// Shortest text that reads back to the same number.
+std::string exact(double value) {
+  return fmt::format("{}", value);
+}
+
+std::string point_word(const glm::dvec3& p) {
+  return exact(p.x) + "," + exact(p.y) + "," + exact(p.z);
+}
+
+void add_settings(const Settings& settings, std::string& text) {
+  const Json now = plan_options_json(settings.plan), none = plan_options_json({});
+  for (const auto& [key, value] : now.items()) {
+    if (!is_spoken(key) || value == none[key]) continue;
+    std::string name = key;
+    std::replace(name.begin(), name.end(), '_', '-');
+    text += " --" + name + " " +
+            quoted(value.is_string()         ? value.get<std::string>()
+                   : value.is_number_float() ? exact(value.get<double>())
+                                             : value.dump());
+  }
+  if (const std::string rest = unspoken_options(settings.plan); !rest.empty())
+    text += " --options " + quoted(rest);
+  text += " --filter " + quoted(render::to_string(settings.filter));
+  if (settings.transition != render::SplitTransition::cut)
+    text += " --transition " + std::string(kTransitions[static_cast<std::size_t>(settings.transition)]);
+  if (settings.history) text += " --history";
+  if (settings.visible_depths) text += " --visible-depths";
+}
+
+}  // namespace
+
+std::string command_text(const State& state) {
+  std::string text = "gnomon view " + quoted(state.scene);
+  add_settings(state.a, text);
+  const LightState& light = state.light;
+  const LightPlacement none;
+  if (light.sun.kind != none.kind) text += " --light " + std::string(to_string(light.sun.kind));
+  if (light.sun.elevation_deg != none.elevation_deg)
+    text += " --light-elevation-deg " + exact(light.sun.elevation_deg);
+  if (light.sun.azimuth_deg != none.azimuth_deg)
+    text += " --light-azimuth-deg " + exact(light.sun.azimuth_deg);
+  if (light.sun.kind == LightKind::spot && light.spot) {
+    text += " --light-position=" + point_word(light.spot->position) +
+            " --light-direction=" + point_word(light.spot->direction) + " --light-outer-deg " +
+            exact(light.spot->outer_radians * kDegrees) + " --light-range " + exact(light.spot->range);
+  }
+  if (light.sun.kind == LightKind::point && light.point)
+    text += " --light-position=" + point_word(light.point->position) + " --light-range " +
+            exact(light.point->range);
+  if (state.eye)
+    text += " --eye=" + point_word(state.eye->position) + " --target=" + point_word(state.eye->target);
+  if (state.view != View::lit)
+    text += " --view " + std::string(view_names()[static_cast<std::size_t>(state.view)].name);
+  return text;
+}
+
+}  // namespace gnomon::tool::view

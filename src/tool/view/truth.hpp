@@ -1,0 +1,46 @@
+// The exact hard shadow of a picture, traced in the background row by row.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gnomon/camera.hpp"
+#include "gnomon/light.hpp"
+#include "gnomon/scene/image.hpp"
+#include "gnomon/trace/reference.hpp"
+
+namespace gnomon::tool::view {
+
+class Truth {
+ public:
+  Truth() = default;
+  ~Truth() { stop(); }
+  Truth(const Truth&) = delete;
+  Truth& operator=(const Truth&) = delete;
+
+  /// True where rows of this picture are there or on their way.
+  [[nodiscard]] bool is_of(const Camera& camera, const Light& light) const;
+  /// Forgets the last picture, and begins with this one: `positions` and `normals` as the renderer has them.
+  void begin(std::shared_ptr<const trace::Tracer> tracer, const Camera& camera, const Light& light,
+             FloatImage positions, FloatImage normals);
+  void stop();
+  /// Waits for the last row.
+  void finish();
+  /// Pixels of the rows that are done, from the top.
+  [[nodiscard]] std::span<const trace::Verdict> verdicts() const;
+  [[nodiscard]] bool done() const;
+  /// Changes with each row that is done.
+  [[nodiscard]] int rows() const { return rows_; }
+
+ private:
+  std::string picture_;
+  int width_ = 0, height_ = 0;
+  std::vector<trace::Verdict> verdicts_;
+  std::atomic<int> rows_ = 0;
+  std::jthread thread_;
+};
+
+}  // namespace gnomon::tool::view

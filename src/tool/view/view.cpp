@@ -1,0 +1,354 @@
+// The words of `gnomon view`, and the picture without a window.
+#include <fmt/core.h>
+
+#include <charconv>
+#include <memory>
+#include <stdexcept>
+
+#include "command.hpp"
+#include "filter_words.hpp"
+#include "gnomon/casefile/casefile.hpp"
+#include "gnomon/scene/image.hpp"
+#include "gnomon/scene/load.hpp"
+#include "offscreen_context.hpp"
+#include "options.hpp"
+#include "output.hpp"
+#include "plan_option.hpp"
+#include "scene_words.hpp"
+#include "stage.hpp"
+
+namespace gnomon::tool::view {
+namespace {
+
+constexpr int kLeastSide = 16, kMostSide = 16'384;
+
+/// What the command line says, before it is understood.
+struct Request {
+  Options options;
+  std::string state, size = "1280x720", context = "auto", filter = "pcf", plan_json, out, screenshot, tour,
+                     eye, target, light = "sun", light_position, light_direction, transition = "cut",
+                     view = "lit";
+  double light_outer_deg = 0.0, light_range = 0.0;
+  /// Of every option that sets a part of the state, and whether it is given: a list never moves its nodes.
+  std::vector<std::pair<std::string, std::unique_ptr<bool>>> settings;
+};
+
+std::string not_three_numbers(const std::string& option, const std::string& word) {
+  return fmt::format("{} {}: wants three numbers, as in 1,2.5,-3", option, word);
+}
+
+glm::dvec3 point_word(const std::string& option, const std::string& word) {
+  glm::dvec3 point{0.0};
+  const char* at = word.data();
+  const char* const end = word.data() + word.size();
+  for (int i = 0; i < 3; ++i) {
+    const auto [next, error] = std::from_chars(at, end, point[i]);
+    if (error != std::errc{} || !(std::abs(point[i]) <= 1e30))
+      throw std::runtime_error(not_three_numbers(option, word));
+    at = next;
+    if (i < 2 && (at == end || *at++ != ',')) throw std::runtime_error(not_three_numbers(option, word));
+  }
+  if (at != end) throw std::runtime_error(not_three_numbers(option, word));
+  return point;
+}
+
+void parse_size(const std::string& text, Options& options) {
+  const std::size_t x = text.find('x');
+  const auto number = [&text](std::size_t begin, std::size_t end, int& value) {
+    const auto [last, error] = std::from_chars(text.data() + begin, text.data() + end, value);
+    return error == std::errc{} && last == text.data() + end && value >= kLeastSide && value <= kMostSide;
+  };
+  if (x == std::string::npos || !number(0, x, options.width) || !number(x + 1, text.size(), options.height))
+    throw std::runtime_error(fmt::format("--size {}: wants WIDTHxHEIGHT, each {} to {}, as in 1280x720", text,
+                                         kLeastSide, kMostSide));
+}
+
+template <class Enum>
+void set_named(const std::string& option, const std::string& word, std::span<const Named> all, Enum& value) {
+  std::vector<std::string> names;
+  for (const Named& one : all) {
+    if (one.name == word) {
+      value = static_cast<Enum>(names.size());
+      return;
+    }
+    names.emplace_back(one.name);
+  }
+  refuse_name(option, word, names);
+}
+
+void resolve_light(const Request& request, LightState& light) {
+  (void)light_kind_from_name(request.light, light.sun.kind);
+  const bool placed = !request.light_position.empty();
+  if (!placed) {
+    if (!request.light_direction.empty() || request.light_outer_deg > 0.0 || request.light_range > 0.0)
+      throw std::runtime_error(
+          "--light-direction, --light-outer-deg and --light-range need --light-position");
+    return;
+  }
+  if (light.sun.kind == LightKind::sun)
+    throw std::runtime_error("--light-position: the sun has none; give --light spot or --light point");
+  constexpr double kRange = 100.0, kRadians = 3.14159265358979323846 / 180.0;
+  const glm::dvec3 position = point_word("--light-position", request.light_position);
+  const double range = request.light_range > 0.0 ? request.light_range : kRange;
+  if (light.sun.kind == LightKind::point) {
+    light.point = PointLight{position, range};
+    return;
+  }
+  SpotLight spot{position, {0.0, -1.0, 0.0}, SpotLight{}.outer_radians, range};
+  if (!request.light_direction.empty())
+    spot.direction = point_word("--light-direction", request.light_direction);
+  if (spot.direction == glm::dvec3(0.0)) throw std::runtime_error("--light-direction: must not be zero");
+  if (request.light_outer_deg > 0.0) spot.outer_radians = request.light_outer_deg * kRadians;
+  light.spot = spot;
+}
+
+void resolve_camera(const Request& request, State& state) {
+  if (request.eye.empty() != request.target.empty())
+    throw std::runtime_error("--eye and --target: give both, or neither");
+  if (request.eye.empty()) return;
+  state.eye = CameraKey{point_word("--eye", request.eye), point_word("--target", request.target)};
+  if (state.eye->position == state.eye->target) throw std::runtime_error("--target: must differ from --eye");
+}
+
+/// The fields that only --options carries, taken from its text; the others are as the command line has them.
+void resolve_plan(const Request& request, PlanOptions& plan) {
+  if (request.plan_json.empty()) return;
+  PlanOptions read;
+  try {
+    read = read_plan_options(request.plan_json);
+  } catch (const CaseError& error) {
+    throw std::runtime_error(std::string("--options: ") + error.what());
+  }
+  const PlanOptions words = plan;
+  plan = read;
+  for (const auto& [name, given] : request.settings) {
+    std::string key = name.substr(2);
+    std::replace(key.begin(), key.end(), '-', '_');
+    const auto fields = plan_fields();
+    const auto field =
+        std::find_if(fields.begin(), fields.end(), [&key](const PlanField& f) { return f.key == key; });
+    if (!*given || field == fields.end()) continue;
+    PlanOptions from = words;
+    std::visit(
+        [&](const auto& place) {
+          using Place = std::remove_cvref_t<decltype(place)>;
+          if constexpr (std::is_same_v<Place, PlanChoice>) {
+            (void)place.set(place.get(from), plan);
+          } else {
+            place(plan) = place(from);
+          }
+        },
+        field->place);
+  }
+}
+
+Options resolved(const Request& request) {
+  Options options = request.options;
+  parse_size(request.size, options);
+  options.out = request.out;
+  options.screenshot = request.screenshot;
+  options.tour = request.tour;
+  options.context = offscreen_context(request.context);
+  if (!request.state.empty()) {
+    for (const auto& [name, given] : request.settings)
+      if (*given)
+        throw std::runtime_error(name +
+                                 ": --state has all settings already; change them in the window or the file");
+    const std::string scene = options.state.scene;
+    const bool other = options.scene_given;
+    options.state = load_state(request.state);
+    if (other) options.state.scene = scene;
+    options.scene_given = true;
+  }
+  check_scene_word("scene", options.state.scene);
+  if (!request.state.empty()) return options;
+  State& state = options.state;
+  resolve_plan(request, state.a.plan);
+  state.a.filter = filter_word("--filter", request.filter);
+  if (request.transition != "cut")
+    state.a.transition =
+        request.transition == "blend" ? render::SplitTransition::blend : render::SplitTransition::dither;
+  // A warped grid is only stable from frame to frame.
+  if (state.a.plan.fit == Fit::warped_stable) state.a.history = true;
+  state.b = state.a;
+  set_named("--view", request.view, view_names(), state.view);
+  resolve_light(request, state.light);
+  resolve_camera(request, state);
+  return options;
+}
+
+std::string scene_help() {
+  std::string text = "glTF file (.gltf, .glb) or one of";
+  for (const BuiltinScene& scene : builtin_scenes()) text += fmt::format(" builtin:{}", scene.name);
+  return text;
+}
+
+/// What is opened, and what becomes of it.
+std::vector<Option> run_options(Request& request) {
+  Options& options = request.options;
+  return {
+      {.name = "scene",
+       .target = &options.state.scene,
+       .help = scene_help(),
+       .names = builtin_scene_words(),
+       .only_names = false,
+       .completion = Completion::files,
+       .given = &options.scene_given},
+      {.name = "--state",
+       .target = &request.state,
+       .help = "open this state, a file that the window saved",
+       .completion = Completion::files},
+      {.name = "--out",
+       .target = &request.out,
+       .help = "draw the picture into this PNG file and open no window",
+       .completion = Completion::files},
+      {.name = "--size",
+       .target = &request.size,
+       .help = "size of the window, or of the picture of --out, in pixels, WIDTHxHEIGHT"},
+      {.name = "--context",
+       .target = &request.context,
+       .help = "OpenGL context of --out: auto, osmesa or egl",
+       .names = {"auto", "osmesa", "egl"}},
+      {.name = "--exit-after",
+       .target = &options.exit_after,
+       .help = "close the window after this many frames with the scene; 0: stay open",
+       .range = {{0, 1e9}}},
+      {.name = "--screenshot",
+       .target = &request.screenshot,
+       .help = "write what the window shows last to this PNG file",
+       .completion = Completion::files},
+      {.name = "--tour",
+       .target = &request.tour,
+       .help =
+           "go through all views and panels, write a picture of the window of each into this folder, and end",
+       .completion = Completion::folders},
+      {.name = "--ui-scale",
+       .target = &options.ui_scale,
+       .help = "size of text and widgets; 0: as the display has it",
+       .range = {{0.0, 8.0}}},
+      {.name = "--max-triangles",
+       .target = &options.max_triangles,
+       .help = "refuse scenes with more triangles, over all instances; each takes up to 100 bytes",
+       .range = {{1, 1e9}}}};
+}
+
+/// Everything that --state has as well.
+std::vector<Option> setting_options(Request& request) {
+  State& state = request.options.state;
+  std::vector<Option> options;
+  for (const PlanField& field : plan_fields())
+    if (is_spoken(field.key)) options.push_back(plan_option(field.key, state.a.plan));
+  std::vector<std::string> views;
+  for (const Named& one : view_names()) views.emplace_back(one.name);
+  const std::vector<Option> others{
+      {.name = "--options",
+       .target = &request.plan_json,
+       .help = "further options of the plan, as \"options\" of a case file has them, in JSON",
+       .word = "JSON"},
+      {.name = "--filter",
+       .target = &request.filter,
+       .help = "shadow filter, with options as in pcf:radius=2,unit=texels; gnomon filters lists all",
+       .names = names_in(render::all_filters()),
+       .only_names = false},
+      {.name = "--transition",
+       .target = &request.transition,
+       .help = "transition between cascades, over --split-overlap",
+       .names = {"cut", "blend", "dither"}},
+      {.name = "--history",
+       .target = &state.a.history,
+       .help = "change texel density smoothly from frame to frame"},
+      {.name = "--visible-depths",
+       .target = &state.a.visible_depths,
+       .help = "draw each frame twice, and plan the second for the depths that the first shows"},
+      {.name = "--light",
+       .target = &request.light,
+       .help = "sun, or a spot or point light in the middle of the scene",
+       .names = {"sun", "spot", "point"}},
+      {.name = "--light-elevation-deg",
+       .target = &state.light.sun.elevation_deg,
+       .help = "elevation of the sun above the horizon, degrees",
+       .range = {{0.1, 90.0}}},
+      {.name = "--light-azimuth-deg",
+       .target = &state.light.sun.azimuth_deg,
+       .help = "azimuth of the sun, degrees: 0 is -Z, 90 is +X",
+       .range = {{-360.0, 360.0}}},
+      {.name = "--light-position",
+       .target = &request.light_position,
+       .help = "position of the spot or point light, world units",
+       .word = "X,Y,Z"},
+      {.name = "--light-direction",
+       .target = &request.light_direction,
+       .help = "direction of the spot light",
+       .word = "X,Y,Z"},
+      {.name = "--light-outer-deg",
+       .target = &request.light_outer_deg,
+       .help = "half angle of the spot light's cone, degrees",
+       .range = {{0.0, 179.9}}},
+      {.name = "--light-range",
+       .target = &request.light_range,
+       .help = "distance that the local light reaches, world units",
+       .range = {{0.0, 1e30}}},
+      {.name = "--eye",
+       .target = &request.eye,
+       .help = "position of the camera, world units; needs --target",
+       .word = "X,Y,Z"},
+      {.name = "--target",
+       .target = &request.target,
+       .help = "point that the camera looks at",
+       .word = "X,Y,Z"},
+      {.name = "--view",
+       .target = &request.view,
+       .help = "what the picture shows: " + any_of_text(views),
+       .names = views}};
+  options.insert(options.end(), others.begin(), others.end());
+  for (Option& option : options) {
+    request.settings.emplace_back(option.name, std::make_unique<bool>(false));
+    option.given = request.settings.back().second.get();
+  }
+  return options;
+}
+
+}  // namespace
+
+int draw_to_file(const Options& options) {
+  check_folder("--out",
+               options.out.has_parent_path() ? options.out.parent_path() : std::filesystem::path("."));
+  const auto context = render::create_context(options.context);
+  Stage stage(load(options.state.scene, options.max_triangles));
+  for (const bool settled : {false, true}) {
+    if (settled) stage.finish_truth();
+    const std::string refusal = stage.draw(options.state, options.width, options.height, settled);
+    if (!refusal.empty()) throw std::runtime_error(refusal);
+    if (!stage.truth_progress()) break;
+  }
+  const Image image = stage.canvas().image();
+  render::check_context();
+  if (options.out.has_parent_path()) make_folder("--out", options.out.parent_path());
+  write_png(image, options.out);
+  return 0;
+}
+
+}  // namespace gnomon::tool::view
+
+namespace gnomon::tool {
+
+std::function<int()> declare_view(Arguments& arguments) {
+  const auto request = std::make_shared<view::Request>();
+  request->options.max_triangles = LoadLimits{}.triangles;
+  for (const auto& part : {view::run_options, view::setting_options}) {
+    for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
+  }
+  arguments.footer = "Keys are listed in the window: press F1 or H. docs/viewer.md shows each view.\n";
+  return [request] {
+    const view::Options options = view::resolved(*request);
+    try {
+      const int code = options.out.empty() ? view::open_window(options) : view::draw_to_file(options);
+      flush_output();
+      return code;
+    } catch (const SceneError& error) {
+      throw std::runtime_error(error.what());
+    }
+  };
+}
+
+}  // namespace gnomon::tool

@@ -1,0 +1,297 @@
+// The viewer's window under a display of the test's own, driven by a person's keys and mouse.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gnomon/scene/image.hpp"
+#include "process.hpp"
+
+extern char** environ;
+
+namespace gnomon::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+pid_t start(std::vector<std::string> words, const std::string& log, int keep_open = -1) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  if (keep_open >= 0) posix_spawn_file_actions_adddup2(&actions, keep_open, 3);
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_t process = 0;
+  const int failed = posix_spawnp(&process, argv[0], &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  return failed == 0 ? process : -1;
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream content;
+  content << stream.rdbuf();
+  return content.str();
+}
+
+int wait_for(pid_t process) {
+  int status = 0;
+  if (waitpid(process, &status, 0) != process) return -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// Runs a program to its end; its output, or "" where it is not there.
+std::string output_of(const std::vector<std::string>& words, const TemporaryFolder& folder,
+                      int* code = nullptr) {
+  const std::string log = folder.write("output", "");
+  const pid_t process = start(words, log);
+  const int ended = process < 0 ? -1 : wait_for(process);
+  if (code != nullptr) *code = ended;
+  return content_of(log);
+}
+
+/// One X server for all tests of this program.
+class Display : public testing::Environment {
+ public:
+  void SetUp() override {
+    int ends[2];
+    if (pipe(ends) != 0) return lack("a pipe");
+    server_ = start({"Xvfb", "-displayfd", "3", "-screen", "0", "1400x900x24", "-nolisten", "tcp"},
+                    folder_.write("xvfb", ""), ends[1]);
+    close(ends[1]);
+    std::string number;
+    for (char c = 0; read(ends[0], &c, 1) == 1 && c != '\n';) number += c;
+    close(ends[0]);
+    if (server_ < 0 || number.empty()) return lack("Xvfb");
+    setenv("DISPLAY", (":" + number).c_str(), 1);
+    setenv("HOME", folder_.path().c_str(), 1);
+    unsetenv("XDG_CONFIG_HOME");
+    unsetenv("XDG_STATE_HOME");
+    unsetenv("WAYLAND_DISPLAY");
+    int code = 0;
+    (void)output_of({"xdotool", "version"}, folder_, &code);
+    if (code != 0) return lack("xdotool");
+  }
+  void TearDown() override {
+    if (server_ > 0) {
+      kill(server_, SIGTERM);
+      (void)wait_for(server_);
+    }
+  }
+  [[nodiscard]] const std::string& lacking() const { return lacking_; }
+  [[nodiscard]] const std::filesystem::path& home() const { return folder_.path(); }
+
+ private:
+  void lack(const char* what) { lacking_ = what; }
+  TemporaryFolder folder_;
+  pid_t server_ = -1;
+  std::string lacking_;
+};
+Display* const display = static_cast<Display*>(testing::AddGlobalTestEnvironment(new Display));
+
+/// The viewer in a folder of its own, as a person has it on the screen.
+class ViewWindow : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!display->lacking().empty())
+      GTEST_SKIP() << "no window can be driven here: " << display->lacking() << " is missing";
+    before_ = std::filesystem::current_path();
+    std::filesystem::current_path(folder_.path());
+  }
+  void TearDown() override {
+    if (process_ > 0) {
+      kill(process_, SIGKILL);
+      (void)wait_for(process_);
+    }
+    if (!before_.empty()) std::filesystem::current_path(before_);
+  }
+
+  void open(std::vector<std::string> words) {
+    words.insert(words.begin(), {GNOMON_PROGRAM, "view"});
+    process_ = start(words, log());
+    ASSERT_GT(process_, 0);
+    std::istringstream ids(output_of(
+        {"timeout", "60", "xdotool", "search", "--sync", "--onlyvisible", "--name", "^gnomon view: "},
+        folder_));
+    std::getline(ids, window_);
+    ASSERT_FALSE(window_.empty()) << content_of(log());
+    // Off the picture, whose probe would draw over it.
+    drive({"mousemove", "--window", window_, "2", "2"});
+    drive({"windowfocus", "--sync", window_});
+  }
+  void drive(std::vector<std::string> words) {
+    words.insert(words.begin(), "xdotool");
+    (void)output_of(words, folder_);
+  }
+  void key(const std::string& name) { drive({"key", name}); }
+  /// Until the file is there, or a minute is over.
+  [[nodiscard]] bool wrote(const std::filesystem::path& file) const {
+    for (int i = 0; i < 600 && !std::filesystem::exists(file); ++i) std::this_thread::sleep_for(100ms);
+    return std::filesystem::exists(file);
+  }
+  /// The picture as F12 writes it, the n-th of this window.
+  Image picture(int n) {
+    const std::filesystem::path file = "gnomon_view_000" + std::to_string(n) + ".png";
+    key("F12");
+    EXPECT_TRUE(wrote(file)) << content_of(log());
+    return read(file);
+  }
+  [[nodiscard]] static Image read(const std::filesystem::path& file) {
+    const std::string bytes = content_of(file);
+    EXPECT_FALSE(bytes.empty()) << file;
+    if (bytes.empty()) return {};
+    return decode_image({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, file.string(),
+                        1u << 24);
+  }
+  int close() {
+    key("ctrl+q");
+    const int code = wait_for(process_);
+    process_ = -1;
+    return code;
+  }
+  [[nodiscard]] std::string log() const { return (folder_.path() / "log").string(); }
+  /// The picture of the state file without a window, in the size of `like`.
+  [[nodiscard]] Image headless(const std::string& state, const Image& like) const {
+    const Finished run = run_gnomon({"view", "--state", state, "--size",
+                                     std::to_string(like.width) + "x" + std::to_string(like.height), "--out",
+                                     "headless.png", "--context", "osmesa"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return read("headless.png");
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path before_;
+  pid_t process_ = -1;
+  std::string window_;
+};
+
+std::size_t different_pixels(const Image& a, const Image& b) {
+  if (a.rgba.size() != b.rgba.size()) return a.rgba.size() + b.rgba.size();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); i += 4)
+    count += std::equal(&a.rgba[i], &a.rgba[i] + 3, &b.rgba[i]) ? 0 : 1;
+  return count;
+}
+
+const std::vector<std::string> kSmall{"builtin:hangar", "--map-size", "256", "--size", "640x300"};
+
+TEST_F(ViewWindow, shows_what_its_state_shows_without_a_window) {
+  open(kSmall);
+  const Image lit = picture(1);
+  key("2");  // heat
+  key("v");  // no warp
+  key("minus");
+  const Image heat = picture(2);
+  EXPECT_GT(different_pixels(lit, heat), 1000u);
+  key("F5");
+  ASSERT_TRUE(wrote("gnomon_view.json"));
+  EXPECT_EQ(different_pixels(heat, headless("gnomon_view.json", heat)), 0u);
+  const std::string state = content_of("gnomon_view.json");
+  EXPECT_NE(state.find("\"view\": \"heat\""), std::string::npos);
+  EXPECT_NE(state.find("\"warp\": \"none\""), std::string::npos);
+  EXPECT_NE(state.find("\"cascades\": 3"), std::string::npos);
+  EXPECT_EQ(close(), 0);
+  EXPECT_EQ(content_of(log()), "") << "warnings, or errors of OpenGL";
+  // The session is where the base directory specification has it.
+  EXPECT_NE(content_of(display->home() / ".config/gnomon/view.json").find("builtin:hangar"),
+            std::string::npos);
+  EXPECT_EQ(content_of(display->home() / ".local/state/gnomon/view_state.json"), state);
+}
+
+TEST_F(ViewWindow, moves_at_once_and_undoes) {
+  open(kSmall);
+  const Image begin = picture(1);
+  drive({"keydown", "w"});
+  std::this_thread::sleep_for(300ms);
+  drive({"keyup", "w"});
+  const Image moved = picture(2);
+  EXPECT_GT(different_pixels(begin, moved), 1000u);
+  key("r");
+  EXPECT_EQ(different_pixels(begin, picture(3)), 0u);
+  key("Escape");  // closes nothing but the help
+  key("F5");
+  EXPECT_TRUE(wrote("gnomon_view.json"));
+  EXPECT_EQ(close(), 0);
+}
+
+TEST_F(ViewWindow, goes_through_filters_views_wipe_freeze_and_sizes_without_an_error) {
+  open(kSmall);
+  Image last = picture(1);
+  const Image first = last;
+  for (const char* view : {"3", "4", "5", "6", "7", "8", "1"}) key(view);
+  for (int i = 0; i < 12; ++i) key("f");
+  key("F3");
+  drive({"mousemove", "--window", window_, "510", "100", "mousedown", "1", "mousemove", "--window", window_,
+         "560", "100", "mouseup", "1", "mousemove", "--window", window_, "2", "2"});
+  key("F3");
+  key("F3");
+  key("F2");
+  key("F1");
+  key("F1");
+  drive({"windowsize", "--sync", window_, "800", "420"});
+  last = picture(2);
+  // The panel keeps its width.
+  EXPECT_EQ(last.width - first.width, 160);
+  EXPECT_EQ(last.height - first.height, 120);
+  drive({"windowsize", "--sync", window_, "120", "90"});
+  key("Tab");
+  EXPECT_EQ(picture(3).width, 120);
+  key("F5");
+  ASSERT_TRUE(wrote("gnomon_view.json"));
+  EXPECT_EQ(close(), 0);
+  EXPECT_EQ(content_of(log()), "");
+}
+
+TEST_F(ViewWindow, keeps_its_scene_and_state_where_a_file_is_broken) {
+  open(kSmall);
+  const Image begin = picture(1);
+  (void)folder_.write("gnomon_view.json", "{\"gnomon_view\": 1, \"scene\": 5}");
+  key("F9");
+  EXPECT_EQ(different_pixels(begin, picture(2)), 0u);
+  (void)folder_.write("gnomon_view.json", "{\"gnomon_view\": 1, \"scene\": \"/no/such/scene.glb\"}");
+  key("F9");
+  std::this_thread::sleep_for(500ms);
+  std::filesystem::remove("gnomon_view.json");
+  key("F5");
+  ASSERT_TRUE(wrote("gnomon_view.json"));
+  EXPECT_NE(content_of("gnomon_view.json").find("builtin:hangar"), std::string::npos);
+  EXPECT_EQ(close(), 0);
+}
+
+TEST_F(ViewWindow, ends_by_itself_with_its_screenshot) {
+  const Finished run = run_gnomon({"view", "builtin:hangar", "--map-size", "256", "--size", "640x300",
+                                   "--exit-after", "3", "--screenshot", "shot.png", "--ui-scale", "1.5"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const Image shot = read("shot.png");
+  EXPECT_EQ(shot.width, 640);
+  // The panel is dark; the picture beside it is not.
+  const auto brightness = [&shot](int begin, int end) {
+    std::size_t sum = 0;
+    for (int y = 0; y < 200; ++y)
+      for (int x = begin; x < end; ++x) sum += shot.rgba[4 * static_cast<std::size_t>(y * shot.width + x)];
+    return sum / static_cast<std::size_t>(200 * (end - begin));
+  };
+  EXPECT_LT(brightness(0, 300), 70u);
+  EXPECT_GT(brightness(450, 640), 110u);
+  const Finished missing = run_gnomon({"view", "/no/such/scene.glb", "--exit-after", "3"});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_NE(missing.err.find("/no/such/scene.glb"), std::string::npos) << missing.err;
+}
+
+}  // namespace
+}  // namespace gnomon::test
