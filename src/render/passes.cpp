@@ -168,7 +168,7 @@ void Renderer::Impl::prefilter(const ShadowPlan& plan, const PreparedFilter& fil
   job.mipmaps = wants_mipmaps(filter.settings, plan);
   for (int i = 0; i < plan.map_count; ++i) job.held[static_cast<std::size_t>(i)] = lists.map_stats(i).held;
   if (pays_to_mark(programs_of_filter, unread_tiles))
-    job.mark_read = [&] { fullscreen(targets.mask_fbo, programs_of_filter.mark); };
+    job.mark_read = [&] { fullscreen(targets.mask_fbo.name(), programs_of_filter.mark); };
   stored.build(programs_of_filter, filter.settings, block, job);
 }
 
