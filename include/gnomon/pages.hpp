@@ -151,9 +151,9 @@ struct PagePlan {
   std::span<const ShadowMap> levels;
   std::span<const Page> pages;           ///< resident pages, coarsest level first
   std::span<const std::uint32_t> table;  ///< hash table over the pages, see page_at; shaders read it as it is
-  double target_m = 0.0;  ///< error that the levels were chosen for: larger than asked for where the pool is
-                          ///< too small
-  std::uint64_t points = 0;                   ///< visible points that pages serve
+  double target_m = 0.0;     ///< error that the levels were chosen for: larger than requested where the pool
+                             ///< is too small
+  std::uint64_t points = 0;  ///< visible points that pages serve
   std::uint64_t points_outside = 0;           ///< that lie beside all receivers or the light's range: lit
   std::uint64_t points_coarser = 0;           ///< left to a coarser level by PageOptions::share
   std::uint64_t points_capped = 0;            ///< that the deepest level does not suffice for

@@ -56,7 +56,7 @@ enum class OmissionKind : std::uint8_t {
   depth_near_light,         ///< nearer than a to the light nothing casts shadows; b: number of casters there
   option_ignored,           ///< an option that this light or partition has no use for; a: IgnoredOption
   view_without_receiver,    ///< of plan_views: no receiver in view; a: index of the camera
-  pages_coarsened,          ///< of plan_pages: the pool is too small; a: error asked for, b: error planned for
+  pages_coarsened,          ///< of plan_pages: the pool is too small; a: requested error, b: planned error
   points_left_coarser,      ///< of plan_pages: PageOptions::share left them to coarser pages; a: how many
   points_beyond_levels,     ///< of plan_pages: the deepest level does not suffice for them; a: how many
 };

@@ -34,5 +34,5 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
       weights += dot(weight, vec4(1.0));
     }
   }
-  return sum / weights;
+  return weights > 0.0 ? sum / weights : 1.0;  // 0: the point is no number
 }

@@ -19,7 +19,8 @@ constexpr OmissionKind kKinds[] = {
     OmissionKind::partition_in_stable_fit,  OmissionKind::face_without_receiver,
     OmissionKind::face_without_caster,      OmissionKind::resolution_without_gain,
     OmissionKind::depth_near_light,         OmissionKind::option_ignored,
-    OmissionKind::view_without_receiver};
+    OmissionKind::view_without_receiver,    OmissionKind::pages_coarsened,
+    OmissionKind::points_left_coarser,      OmissionKind::points_beyond_levels};
 
 TEST(Omission, the_list_above_holds_every_kind) {
   for (std::size_t i = 0; i < std::size(kKinds); ++i) EXPECT_EQ(static_cast<std::size_t>(kKinds[i]), i);

@@ -155,7 +155,7 @@ TEST(Pages, one_point_takes_one_page_of_the_level_that_it_needs) {
   EXPECT_GT(std::max(m.m_s, m.m_t), 1.0 / std::cbrt(2.0) - 1e-6);
 }
 
-TEST(Pages, normals_ask_for_what_their_surfaces_need) {
+TEST(Pages, normals_bring_the_levels_that_their_surfaces_need) {
   Street street;
   street.points = {{0.3, 0.0, -40.0}};
   Memory memory;

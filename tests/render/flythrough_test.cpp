@@ -15,13 +15,13 @@ namespace flythrough_test {
 namespace {
 
 TEST_F(Flythrough, lets_the_filter_store_less_within_a_bound_and_says_so) {
-  const std::string flight = "builtin:hangar --frames 1 --size 96x64 --map-size 128 --filter esm ";
+  const std::string flight = "builtin:hangar --frames 1 --size 96x64 --map-size 128 --filter esm:c=80 ";
   const auto told = [&](const std::string& more) {
     const Outcome outcome = run(flight + more);
     EXPECT_EQ(outcome.code, 0) << outcome.error;
     std::ifstream csv(out() / "frames.csv");
     const std::string text{std::istreambuf_iterator<char>(csv), {}};
-    return text.find("esm:format=unorm16 suffices for esm") != std::string::npos;
+    return text.find("esm:format=unorm16,c=80 suffices for esm") != std::string::npos;
   };
   EXPECT_TRUE(told("--filter-precision 0.5"));
   EXPECT_FALSE(told("--filter-precision 0"));

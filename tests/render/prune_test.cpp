@@ -337,7 +337,7 @@ TEST(Prune, a_filter_that_stores_less_within_a_bound_draws_the_same_picture) {
   const Scene scene = load_builtin("hangar");
   const std::vector<Box> boxes = boxes_of(scene);
   Renderer renderer(scene);
-  const FilterSettings full = default_settings(filters::esm);
+  const FilterSettings full = parse_filter("esm:c=80").settings;
   PlanOptions options;
   options.resolution.max_size = kMapSize;
   options.prune = PruneRules::all();

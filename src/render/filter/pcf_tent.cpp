@@ -53,9 +53,7 @@ const Filter filters::pcf_tent{
     .info =
         {
             .name = "pcf_tent",
-            .summary =
-                "soft edges without steps: comparisons weighted by a tent; radius 1, 2, 3 take 3, 5, 7 "
-                "bilinear taps a side",
+            .summary = "soft edges without steps: a tent over 3, 5 or 7 bilinear taps a side",
             .source = "Castaño 2013, Shadow mapping summary (The Witness), after Reeves, Salesin, Cook 1987",
             .reads = MapRead::depth,
             .bias_class = FilterClass::wide_kernel,

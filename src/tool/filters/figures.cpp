@@ -242,7 +242,7 @@ Figure minification(const FigureSize& size) {
   for (const char* filter :
        {"hard", "pcf:radius=1", "vsm:radius=1,mipmap=1,anisotropy=16",
         "convolution:radius=1,mipmap=1,anisotropy=16", "esm:radius=1,mipmap=1,anisotropy=16,fallback=0",
-        "esm:radius=1,mipmap=1,anisotropy=16"}) {
+        "esm:radius=1,mipmap=1,c=80,anisotropy=16"}) {
     Figure::Row row{filter, {}};
     for (const int at : {1, 2, 4, 8}) {
       const CameraOf camera = [at](int width, int height) { return grating_camera(at, width, height); };
@@ -337,9 +337,9 @@ Figure matching_samples(const FigureSize& size) {
                 {"filter", "RMS to the truth, sun at 80 degrees", "at 38 degrees"},
                 {},
                 {}};
-  std::vector<std::string> filters{"esm:radius=1,mipmap=1,fallback=0",
-                                   "esm:radius=1,mipmap=1,fallback=0,anisotropy=16",
-                                   "esm:radius=1,mipmap=1,anisotropy=16"};
+  std::vector<std::string> filters{"esm:radius=1,mipmap=1,c=80,fallback=0",
+                                   "esm:radius=1,mipmap=1,c=80,fallback=0,anisotropy=16",
+                                   "esm:radius=1,mipmap=1,c=80,anisotropy=16"};
   for (int count = 1; count <= 64; count *= 2)
     filters.push_back("pcf:pattern=1,radius=4,samples=" + std::to_string(count));
   for (const std::string& filter : filters) figure.rows.push_back({filter, {}});
