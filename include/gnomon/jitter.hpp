@@ -20,8 +20,8 @@ inline constexpr double kJitterReachTexels = 0.5;
 [[nodiscard]] glm::dvec2 jitter_texels(std::uint32_t frame_index) noexcept;
 
 /// The plan with the texel grid of every map moved by `offset_texels` across the light, at most
-/// kJitterReachTexels along each axis; larger offsets and not-a-number are clamped. What the maps serve, and
-/// their casters, stay as they are. Moved maps cannot be reused by the next frame: their snap keys are
+/// kJitterReachTexels along each axis; larger offsets and not-a-number are clamped. The maps serve the same
+/// points and casters as before. Moved maps cannot be reused by the next frame: their snap keys are
 /// invalid.
 [[nodiscard]] ShadowPlan jittered(const ShadowPlan& plan, const glm::dvec2& offset_texels) noexcept;
 

@@ -62,7 +62,7 @@ struct Page {
 
 struct PagePlan;
 
-/// What a caller knows about the visible surfaces, all of it optional.
+/// Visible surfaces as far as a caller knows them; all of it is optional.
 struct SeenPoints {
   /// Points of surfaces that the camera sees, world space: of a depth buffer read at any stride, or the first
   /// hits of rays. Empty: the receivers' boxes are sampled as volumes, which needs five times the pages.

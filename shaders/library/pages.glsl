@@ -37,8 +37,8 @@ bool in_face(PageLevel level, vec3 position) {
   return held;
 }
 
-// The page that serves a point: of the last level that has a resident page there, or -1. Of the faces of a cube, which
-// share a little at their edges, the first that holds the point.
+// The page that serves a point: of the last level that has a resident page there, or -1. Faces of a cube share a
+// little at their edges: the first that holds the point serves it.
 int page_serving(vec3 position, int level_count, uint table_mask) {
   const int kNoFace = 1 << 20;
   int face = kNoFace;
