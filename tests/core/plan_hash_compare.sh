@@ -13,11 +13,12 @@ for compiler in g++ clang++; do
   for level in -O0 "$best"; do
     out="$work/$compiler${level// /}"
     mkdir -p "$out"
+    rm -f "$out"/*.o  # of sources that are no more
     mapfile -t files < <(find "$source_dir/src/core" -name '*.cpp')
     files+=("$source_dir"/tests/core/plan_hash.cpp "$source_dir"/tests/core/support/seeded_input.cpp)
     printf '%s\n' "${files[@]}" | CCACHE_BASEDIR="$source_dir" xargs -P 2 -I FILE sh -c '
       $1 $2 -std=c++20 $3 -ffp-contract=off -fno-exceptions -fno-math-errno -fno-trapping-math -w \
-        -I"$4/include" -I"$4/src/core" -I"$4/tests/core" -c "$6" -o "$5/$(basename "$6" .cpp).o"' \
+        -I"$4/include" -I"$4/src/core" -I"$4/tests/core" -c "$6" -o "$5/$(echo "$6" | tr / _).o"' \
       sh "$launcher" "$compiler" "$level" "$source_dir" "$out" FILE
     "$compiler" "$out"/*.o -o "$out/plan_hash"
     hash=$("$out/plan_hash" "$plans")
