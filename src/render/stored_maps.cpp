@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "gnomon/render/error.hpp"
 #include "program.hpp"
 
 namespace gnomon::render {
