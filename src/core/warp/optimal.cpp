@@ -230,7 +230,6 @@ WarpChoice choose_optimal(const WarpInput& input) noexcept {
   const double without = error.value(input.unwarped);
   Judged best{input.unwarped, without};
   // The corners only hint at a percentile: its walk is longer.
-  // The corners only hint at a percentile: its walk is longer.
   const int steps = input.objective == Objective::p95 ? 18 : 14;
   if (!search.line()) {
     best.choice = search.choice(by_corners(search, best_start(search, input)));
