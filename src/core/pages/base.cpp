@@ -8,6 +8,7 @@
 #include "geometry/elementary.hpp"
 #include "geometry/light_axes.hpp"
 #include "geometry/matrix.hpp"
+#include "geometry/visible.hpp"
 #include "measure/measure_grid.hpp"
 #include "measure/metric_lanes.hpp"
 #include "plan/select.hpp"
@@ -46,6 +47,33 @@ void place_on_map(PageBase& base) noexcept {
   base.high = glm::dvec2(1.0 + kEdgeRoom);
   base.shift = glm::dvec2(kEdgeRoom);
   base.side = glm::dvec2(kWholeSide);
+}
+
+/// Depths that all bounds lie within, in steps: neither the camera nor what it sees changes them, so that
+/// drawn pages stay valid. Not where the bounds are so deep that floats would run out.
+void deepen_to_bounds(const SceneBounds& bounds, const glm::dvec3& light_direction,
+                      const ClipSpace& clip_space, PageBase& base) noexcept {
+  const glm::dvec3 up = fixed_frame(light_direction).z;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Boxes& boxes : {bounds.casters, bounds.receivers}) {
+    high = max_of(high, casters_inside({}, boxes, glm::dvec3(0.0), up).top);
+    low = min_of(low, -casters_inside({}, boxes, glm::dvec3(0.0), -up).top);
+  }
+  constexpr double kSteps = 16.0, kDeepest = 64.0, kMostSteps = 0x1p50;
+  const double side = base.map.texel_world.x * base.map.width;
+  if (!(high > low && high - low < kDeepest * side)) return;
+  const double step = 2.0 * elementary::power_of_two_below(high - low) / kSteps;
+  const double first = std::floor(low / step) - 1.0, last = std::ceil(high / step) + 1.0;
+  if (!(max_of(std::abs(first), std::abs(last)) < kMostSteps)) return;
+  const double bottom = first * step, height = (last - first) * step;
+  glm::dmat4 depth(0.0);
+  for (int i = 0; i < 3; ++i) depth[i][2] = -2.0 / height * up[i];
+  depth[3] = {0.0, 0.0, 1.0 + 2.0 * bottom / height, 1.0};
+  const glm::dmat4 clip = clip_from_gl_clip(clip_space) * depth;
+  for (int i = 0; i < 4; ++i) base.map.clip_from_world[i][2] = clip[i][2];
+  base.map.depth_range_world = height;
+  base.map.snap_key.depth_far = static_cast<std::int64_t>(first);
+  base.map.snap_key.depth_near = static_cast<std::int64_t>(last);
 }
 
 /// Places in world units across parallel light, from the world's origin on: the same for every camera.
@@ -264,9 +292,13 @@ PlanStatus plan_base(const Light& light, const SceneBounds& bounds, const PlanOp
     base.fixed = stable;
     if (stable && std::holds_alternative<DirectionalLight>(light)) {
       place_in_world(plan.light_direction, base);
+      deepen_to_bounds(bounds, plan.light_direction, options.clip_space, base);
     } else {
       place_on_map(base);
     }
+    // Shifts of bases that stay at their place are final.
+    out.places[static_cast<std::size_t>(base.map.cascade)] = {
+        base.row_x + base.row_w * base.shift.x, base.row_y + base.row_w * base.shift.y, base.row_w};
   }
   return plan.status;
 }
