@@ -99,7 +99,6 @@ void Renderer::Impl::draw_pages(bool alpha_test_where_masked) noexcept {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_CULL_FACE);
-  glDisable(GL_SCISSOR_TEST);
   constexpr float kFarthest = 1.0f;
   const auto clear = [&] { glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest); };
   int layer = -1;
@@ -110,19 +109,18 @@ void Renderer::Impl::draw_pages(bool alpha_test_where_masked) noexcept {
       layer = drawn[i].layer;
       glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0, layer);
       glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
+      glDisable(GL_SCISSOR_TEST);
       if (fresh) clear();
+      glEnable(GL_SCISSOR_TEST);
     }
     const TexelRect& at = drawn[i].place;
-    if (!fresh) {
-      glEnable(GL_SCISSOR_TEST);
-      glScissor(at.x, at.y, at.width, at.height);
-      clear();
-      glDisable(GL_SCISSOR_TEST);
-    }
-    // Triangles are clipped to the viewport: no page draws into the next.
+    // Clipping to the viewport alone lets triangles that pass by a local light spill a row into the next page.
+    glScissor(at.x, at.y, at.width, at.height);
     glViewport(at.x, at.y, at.width, at.height);
+    if (!fresh) clear();
     draw_casters(lists.page_part(i), drawn[i].clip_from_position, alpha_test_where_masked);
   }
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void Renderer::Impl::adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept {
