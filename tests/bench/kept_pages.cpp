@@ -6,6 +6,7 @@
 // A flight has 600 frames: ten seconds at 60 Hz. Shares are those of all of them, for policies that no mask
 // need report to; the FRAMES (default 40) in its middle are drawn as well.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -228,8 +229,14 @@ double cascades_ms(Flight& flight, int frames, bool keeps) {
 void print(const Flight& flight, const PagePolicy& policy, double share, Kept kept, Kept redrawn) {
   const auto frames = static_cast<double>(kept.map_ms.size());
   std::sort(kept.map_ms.begin(), kept.map_ms.end());
-  std::printf("%-9s %-11s %9.2f %7.0f %8.2f %6d %8.2f %8.2f %8.2f %8.2f\n", flight.name.c_str(),
-              std::string(policy.name).c_str(), 100.0 * share, kept.pages / frames,
+  std::string share_text = "-";
+  if (share >= 0.0) {
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), "%.2f", 100.0 * share);
+    share_text = text.data();
+  }
+  std::printf("%-9s %-11s %9s %7.0f %8.2f %6d %8.2f %8.2f %8.2f %8.2f\n", flight.name.c_str(),
+              std::string(policy.name).c_str(), share_text.c_str(), kept.pages / frames,
               100.0 * (1.0 - kept.drawn / kept.pages), kept.whole_frames, median(redrawn.map_ms),
               median(kept.map_ms), kept.map_ms[kept.map_ms.size() * 99 / 100], median(kept.plan_ms));
   std::fflush(stdout);
