@@ -4,12 +4,15 @@
 //     bench_kept_pages [FRAMES] [SCENE...]
 //
 // A flight has 600 frames: ten seconds at 60 Hz. Shares are those of all of them, for policies that no mask
-// need report to; the FRAMES (default 40) in its middle are drawn as well.
+// need report to; the FRAMES (default 40) in its middle are drawn as well. 0: an instance walks, and no
+// camera flies.
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -242,14 +245,77 @@ void print(const Flight& flight, const PagePolicy& policy, double share, Kept ke
   std::fflush(stdout);
 }
 
+/// The instance that walks: the nearest to the middle of the view, of those no larger than a twentieth of the
+/// scene.
+std::size_t walker_of(const Flight& flight, const Camera& camera) {
+  const double largest = 0.05 * glm::length(flight.scene.bounds_world.max - flight.scene.bounds_world.min);
+  const CameraAxes axes = camera_axes(camera);
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < flight.boxes.size(); ++i) {
+    const Box& box = flight.boxes[i];
+    const glm::dvec3 at = 0.5 * (box.min + box.max) - camera.position;
+    const double depth = glm::dot(at, axes.forward);
+    if (glm::length(box.max - box.min) > largest || !(depth > camera.near_depth)) continue;
+    const double off = glm::length(at - axes.forward * depth) + 0.1 * depth;
+    if (off < least) {
+      least = off;
+      best = i;
+    }
+  }
+  return best;
+}
+
+/// An instance walks before a camera at rest: the pages drawn over those whose texels changed.
+void walk(Flight& flight, const PagePolicy& policy) {
+  constexpr int kSteps = 12;
+  const Camera camera = flight.camera(kFlightFrames / 2);
+  const render::FilterSettings filter = render::default_settings(render::filters::hard);
+  const render::PreparedFilter hard = flight.renderer.prepare_pages(filter);
+  PlanOptions options;
+  const PageOptions pages = page_options(policy, filter, options);
+  flight.renderer.draw(ShadowPlan{}, camera, hard, quiet());
+  flight.read_back(camera);
+  const PagePlan plan = plan_pages(camera, flight.light, {flight.boxes, flight.boxes}, {flight.points},
+                                   options, pages, flight.memory.spans());
+  const auto texels_of_pages = [&] {
+    std::vector<std::vector<float>> texels;
+    for (std::size_t i = 0; i < plan.pages.size(); ++i)
+      texels.push_back(flight.renderer.page_depths(i).values);
+    return texels;
+  };
+  flight.renderer.draw(plan, camera, hard, quiet());
+  std::vector<std::vector<float>> before = texels_of_pages();
+  const std::size_t walker = walker_of(flight, camera);
+  const Instance at_rest = flight.scene.instances[walker];
+  const glm::dvec3 size = at_rest.bounds_world.max - at_rest.bounds_world.min;
+  std::size_t drawn = 0, changed = 0;
+  for (int step = 1; step <= kSteps; ++step) {
+    const glm::dvec3 by = glm::dvec3(size.x, 0.0, 0.5 * size.z) * (0.05 * step);
+    Instance at = at_rest;
+    at.world_from_object[3] += glm::dvec4(by, 0.0);
+    at.bounds_world = {at.bounds_world.min + by, at.bounds_world.max + by};
+    flight.renderer.move_instance(walker, at);
+    drawn += static_cast<std::size_t>(flight.renderer.draw(plan, camera, hard, quiet()).pages_drawn);
+    std::vector<std::vector<float>> after = texels_of_pages();
+    for (std::size_t i = 0; i < after.size(); ++i) changed += after[i] != before[i];
+    before = std::move(after);
+  }
+  flight.renderer.move_instance(walker, at_rest);
+  std::printf("%-9s %-11s an instance walks: %.1f of %zu pages drawn in a frame, %.1f change\n",
+              flight.name.c_str(), std::string(policy.name).c_str(), static_cast<double>(drawn) / kSteps,
+              plan.pages.size(), static_cast<double>(changed) / kSteps);
+}
+
 }  // namespace
 }  // namespace gnomon
 
 int main(int argc, char** argv) {
   using namespace gnomon;
   const int frames = argc > 1 ? std::atoi(argv[1]) : 40;
-  if (frames < 3 || frames > kFlightFrames) {
-    std::fprintf(stderr, "bench_kept_pages: FRAMES %s: wants a number from 3 to 600\n", argv[1]);
+  const bool walks_alone = frames == 0;
+  if ((frames != 0 && frames < 3) || frames > kFlightFrames) {
+    std::fprintf(stderr, "bench_kept_pages: FRAMES %s: wants 0 or a number from 3 to 600\n", argv[1]);
     return 2;
   }
   std::vector<std::string> scenes(argv + std::min(argc, 2), argv + argc);
@@ -263,6 +329,9 @@ int main(int argc, char** argv) {
   constexpr int kRedrawn = 6;
   for (const std::string& name : scenes) {
     Flight flight(name);
+    for (const PagePolicy* policy : {&page_policies::resolution, &page_policies::clipmap})
+      walk(flight, *policy);
+    if (walks_alone) continue;
     std::vector<CountedPool> pools;
     for (const PagePolicy* policy : all_page_policies()) {
       // Without a mask drawn there are no shadow edges, and queried asks whether a still picture changes.

@@ -37,6 +37,25 @@ struct PageSides {
   }
 };
 
+/// Under parallel light: false where a line along an edge of the box parts its outline from the page.
+/// Together with the sides, that decides for the box exactly.
+bool outline_may_reach(const glm::dmat4& m, const Box& box) noexcept {
+  const bool parallel = m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0 && m[3][3] > 0.0;
+  if (!parallel) return true;
+  const glm::dvec3 middle = 0.5 * (box.min + box.max), half = 0.5 * (box.max - box.min);
+  const glm::dvec2 at(m * glm::dvec4(middle, 1.0));
+  for (int edge = 0; edge < 3; ++edge) {
+    const glm::dvec2 across(-m[edge][1], m[edge][0]);
+    double reach = m[3][3] * (std::abs(across.x) + std::abs(across.y));
+    for (int axis = 0; axis < 3; ++axis)
+      reach += std::abs(across.x * m[axis][0] + across.y * m[axis][1]) * half[axis];
+    const double off = std::abs(glm::dot(across, at));
+    constexpr double kRounding = 1e-9;
+    if (off > reach + kRounding * (off + reach)) return false;
+  }
+  return true;
+}
+
 /// By the rows that differ from page to page.
 std::uint64_t hash_of(const glm::dmat4& m) noexcept {
   std::uint64_t h = 0x9E3779B97F4A7C15u;
@@ -85,8 +104,9 @@ std::uint64_t empty_touched(std::span<const Box> moved, std::span<PageSlot> slot
   for (PageSlot& slot : slots) {
     if (slot.used == 0) continue;
     const PageSides sides(slot.clip_from_world);
-    const bool reached = std::any_of(moved.begin(), moved.end(),
-                                     [&](const Box& box) { return !box.empty() && sides.may_hold(box); });
+    const bool reached = std::any_of(moved.begin(), moved.end(), [&](const Box& box) {
+      return !box.empty() && sides.may_hold(box) && outline_may_reach(slot.clip_from_world, box);
+    });
     if (!reached) continue;
     slot.used = 0;
     ++touched;
