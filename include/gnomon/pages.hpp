@@ -137,7 +137,7 @@ struct PageMemory {
 /// Where a point lies on the base of a light's part: rows x and y over row w, each applied to (point, 1).
 /// Pages of stable levels are counted from place 0.
 struct PagePlaces {
-  glm::dvec4 x{0.0}, y{0.0}, w{0.0};
+  glm::dvec4 x{0.0}, y{0.0}, w{0.0};  ///< rows; the unit is that of SnapKey::texel
 };
 
 /// The result of plan_pages: levels and resident pages, in the caller's memory.
@@ -213,12 +213,12 @@ struct PageSlot {
   int texels = 0;                   ///< along each side of the slot
   std::uint64_t used = 0;           ///< count of the last keep_pages that used it; 0: it holds nothing
 };
-/// What becomes of one page of a plan.
+/// Where one page of a plan lies in a pool.
 struct KeptPage {
   std::uint32_t slot = 0;  ///< of the pool, in place of Page::slot
   bool draw = true;        ///< false: the slot holds the page already
 };
-/// What keep_pages found.
+/// Counts of keep_pages.
 struct KeptPages {
   bool fits = false;          ///< false: the pool or the memory is too small, and nothing was changed
   std::uint64_t kept = 0;     ///< pages that are not drawn

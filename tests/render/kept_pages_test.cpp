@@ -144,7 +144,7 @@ TEST(KeptPages, bounds_that_the_caller_names_are_redrawn) {
   EXPECT_LT(pair.last.pages_drawn, pair.last.pages);
 }
 
-TEST(KeptPages, maps_take_the_pool_and_other_page_sizes_begin_anew) {
+TEST(KeptPages, maps_take_the_pool_and_other_page_sizes_begin_again) {
   Pair pair(boxes_on_ground());
   const Camera camera = going(0);
   ASSERT_EQ(pair.stale(camera), 0u);
