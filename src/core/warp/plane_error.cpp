@@ -18,6 +18,9 @@ namespace {
 constexpr double kShareAbove95 = 0.05;
 // No more samples than that may exceed the value asked for.
 constexpr std::size_t kMostAbove = 4;
+// w is 1 or more over the body. Under a warp that is too strong for the body's own rounding it comes out as
+// anything: this keeps it off zero, and changes no other.
+constexpr double kLeastW = 0.5;
 
 }  // namespace
 
@@ -181,7 +184,7 @@ GNOMON_WIDE void PlaneError::find_rows(const WarpChoice& choice) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     const double s = sample_.x[i] * axis_y - sample_.y[i] * axis_x - centre;
     const double u = sample_.x[i] * axis_x + sample_.y[i] * axis_y - u_min;
-    const double w = 1.0 + kappa * u, inverse = 1.0 / w;
+    const double w = max_of(1.0 + kappa * u, kLeastW), inverse = 1.0 / w;
     const double shear = s * kappa * inverse, stretch = map_stretch * inverse;
     // Gradients over the light plane of the projected coordinates, turned to the map's axes, along s and u.
     const double a_s = a_x * inverse, a_u = (a_y * stretch - a_x * shear) * inverse;
@@ -323,7 +326,8 @@ GNOMON_WIDE void PlaneError::fit(const ChoiceLanes& choices, const ExtentLanes& 
 // For one sample and choice: squared lengths of the rows of d(texel)/d(pixel) over its determinant. The
 // gradient of A = (a_x x + a_y y + a_1) / w is (a - A grad w) / w, and the determinant goes by w^-3.
 #define GNOMON_ROWS                                                                  \
-  const double w = map.w_x[l] * x + map.w_y[l] * y + map.w_1[l], inverse = 1.0 / w;  \
+  const double whole = map.w_x[l] * x + map.w_y[l] * y + map.w_1[l];                 \
+  const double w = max_of(whole, kLeastW), inverse = 1.0 / w;                        \
   const double a = (map.a_x[l] * x + map.a_y[l] * y + map.a_1[l]) * inverse;         \
   const double b = (map.b_x[l] * x + map.b_y[l] * y + map.b_1[l]) * inverse;         \
   const double a_x = map.a_x[l] - a * map.w_x[l], a_y = map.a_y[l] - a * map.w_y[l]; \
