@@ -179,12 +179,12 @@ std::size_t Cutter::add_vertices(const double* distance, VertexSet cut_off,
       if ((cut_off >> other & 1) == 0 || places + added++ >= kMaxVertices) continue;
       const double from = max_of(distance[i], 0.0), length = from - distance[other];
       const glm::dvec3 &begin = v.position, &end = vertex[other].position;
-      // From an end that is far away, what is near the other one would get the rounding of that distance.
-      constexpr double kNearEnd = 0x1p-14;
+      const double t = from / length;
       Polytope::Vertex& on_plane = vertex[places + added - 1];
-      on_plane.position = -distance[other] < kNearEnd * length
-                              ? end + (begin - end) * (-distance[other] / length)
-                              : begin + (end - begin) * (from / length);
+      on_plane.position = begin + (end - begin) * t;
+      // From an end that is far away, what is near the other one would get the rounding of that distance.
+      constexpr double kNearEnd = 1.0 - 0x1p-14;
+      if (t > kNearEnd) on_plane.position = end + (begin - end) * (-distance[other] / length);
       on_plane.face = {cap, v.face[(k + 1u) % 3], v.face[(k + 2u) % 3]};
       on_plane.neighbour[0] = static_cast<std::uint8_t>(i);
       crossing[added - 1] = {static_cast<std::uint8_t>(i), k};

@@ -214,36 +214,34 @@ void walk_down(BoxWalk<Query>& walk, const Boxes& boxes) noexcept {
   walk.whole();
 }
 
-/// The first two boxes that are not empty: of a list in its order, of a set anywhere.
-struct FirstBoxes {
-  std::array<Box, 2> box;
-  int count = 0;
-  void add(const Box& next) noexcept {
-    if (count < 2 && !next.empty()) box[static_cast<std::size_t>(count++)] = next;
-  }
-};
-
-FirstBoxes first_boxes(const Boxes& boxes) noexcept {
-  FirstBoxes first;
+/// Calls `use` with each box that is not empty, until it returns false.
+template <typename Use>
+void for_each_box(const Boxes& boxes, Use&& use) noexcept {
   const CasterSet* const set = boxes.set();
-  for (std::size_t i = 0; set == nullptr && first.count < 2 && i < boxes.size(); ++i)
-    first.add(boxes.list()[i]);
-  for (std::size_t i = 0; set != nullptr && first.count < 2 && i * kLanes < boxes.size(); ++i) {
-    const CasterBlock& block = set->block(0, i);
-    for_each_bit(block.occupied, [&](std::size_t lane) { first.add(lane_box(block, lane)); });
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Box box = set != nullptr ? lane_box(set->block(0, i / kLanes), i % kLanes) : boxes.list()[i];
+    if (!box.empty() && !use(box)) return;
   }
-  return first;
 }
 
 }  // namespace
 
 bool several(const Boxes& boxes) noexcept {
-  return boxes.size() > 1 && first_boxes(boxes).count > 1;
+  if (boxes.size() < 2) return false;
+  int count = 0;
+  for_each_box(boxes, [&](const Box&) { return ++count < 2; });
+  return count == 2;
 }
 
 Box visible_bounds(const Polytope& region, const Boxes& boxes, const glm::dvec3& origin) noexcept {
-  if (const FirstBoxes first = first_boxes(boxes); first.count < 2)
-    return first.count == 0 ? Box{} : relative_to(first.box[0], origin);
+  if (!several(boxes)) {
+    Box only;
+    for_each_box(boxes, [&](const Box& box) {
+      only = relative_to(box, origin);
+      return false;
+    });
+    return only;
+  }
   if (region.empty()) return {};
   // Cutting a box costs as much as asking a hundred. In a tree, cut ones also tell where not to look.
   VisibleQuery query(region, boxes.set() == nullptr);

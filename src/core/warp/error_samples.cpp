@@ -173,6 +173,8 @@ inline Vector minus(const Vector& a, const Vector& b, double times) noexcept {
 }
 
 constexpr double kSmallest = std::numeric_limits<double>::min();
+// Square of a sum of two rays below which it is their rounding: its direction says nothing.
+constexpr double kOpposed = 1e-24;
 
 /// The eye's ray to `p`, of unit length.
 inline Vector eye_ray(const PixelTerms& t, const Vector& p) noexcept {
@@ -190,14 +192,11 @@ inline double extent(const PixelTerms& t, const Vector& p, double size) noexcept
   const double depth = t.forward.x * p.x + t.forward.y * p.y + t.forward.z * p.z;
   return min_of(max_of(depth, t.depth_begin), t.depth_most) * size;
 }
-/// 0 where nothing is known of the pixel: of one without an area, and where the rays of eye and light oppose
-/// each other so closely that the half vector, of length `sum_squared`, is their rounding.
-inline double inverse_area(double determinant, double least, double sum_squared) noexcept {
-  constexpr double kLeastSum = 1e-24;
-  const bool known = std::abs(determinant) > least, apart = sum_squared > kLeastSum;
+/// 0 where nothing is known of the pixel.
+inline double inverse_area(double determinant, double least) noexcept {
+  const bool known = std::abs(determinant) > least;
   const double inverse = inverse_or_0(determinant);
-  const double of_area = known ? inverse : 0.0;
-  return apart ? of_area : 0.0;
+  return known ? inverse : 0.0;
 }
 
 GNOMON_WIDE void find_parallel(const PixelTerms& terms, PixelLanes& l) noexcept {
@@ -207,15 +206,14 @@ GNOMON_WIDE void find_parallel(const PixelTerms& terms, PixelLanes& l) noexcept 
   for (std::size_t i = 0; i < n; ++i) {
     const Vector p{l.x[i], l.y[i], l.z[i]};
     const Vector eye = eye_ray(t, p), sum{eye.x, eye.y, eye.z - 1.0};
-    const double square = dot(sum, sum);
-    const double twice = 2.0 / max_of(square, kSmallest), scale = extent(t, p, l.size[i]);
+    const double twice = 2.0 / max_of(dot(sum, sum), kOpposed), scale = extent(t, p, l.size[i]);
     const Vector a = mirrored(right, eye, sum, twice), b = mirrored(up, eye, sum, twice);
     const double xx = a.x * scale, yx = a.y * scale, xy = b.x * scale, yy = b.y * scale;
     l.xx[i] = xx;
     l.xy[i] = xy;
     l.yx[i] = yx;
     l.yy[i] = yy;
-    l.inverse_determinant[i] = inverse_area(xx * yy - xy * yx, t.least_area * scale * scale, square);
+    l.inverse_determinant[i] = inverse_area(xx * yy - xy * yx, t.least_area * scale * scale);
   }
 }
 
@@ -233,14 +231,13 @@ GNOMON_WIDE void find_local(const PixelTerms& terms, PixelLanes& l) noexcept {
     const Vector eye = eye_ray(t, p);
     const Vector sum{eye.x + scaled.x * per_length, eye.y + scaled.y * per_length,
                      eye.z + scaled.z * per_length};
-    const double square = dot(sum, sum);
-    const double twice = 2.0 / max_of(square, kSmallest), scale = extent(t, p, l.size[i]);
+    const double twice = 2.0 / max_of(dot(sum, sum), kOpposed), scale = extent(t, p, l.size[i]);
     const Vector a = mirrored(right, eye, sum, twice), b = mirrored(up, eye, sum, twice);
     const double distance = -from.z, h = inverse_or_0(distance), x = from.x * h, y = from.y * h,
                  unit = scale * h;
     const double xx = (a.x + x * a.z) * unit, yx = (a.y + y * a.z) * unit;
     const double xy = (b.x + x * b.z) * unit, yy = (b.y + y * b.z) * unit;
-    const double known = inverse_area(xx * yy - xy * yx, t.least_area * unit * unit, square);
+    const double known = inverse_area(xx * yy - xy * yx, t.least_area * unit * unit);
     l.x[i] = x;
     l.y[i] = y;
     l.xx[i] = xx;

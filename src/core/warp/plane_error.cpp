@@ -18,9 +18,6 @@ namespace {
 constexpr double kShareAbove95 = 0.05;
 // No more samples than that may exceed the value asked for.
 constexpr std::size_t kMostAbove = 4;
-// w is 1 or more over the body. Under a warp that is too strong for the body's own rounding it comes out as
-// anything: this keeps it off zero, and changes no other.
-constexpr double kLeastW = 0.5;
 
 }  // namespace
 
@@ -107,7 +104,7 @@ void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool s
 void PlaneError::count_worst(const WarpChoice& choice) noexcept {
   const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
   // Without an area there is no error.
-  if (sample_.count == 0 || rows == 0.0) return;
+  if (sample_.count == 0 || rows == 0.0 || choice.kappa * distance_ > kMostKappaDistance) return;
   find_rows(choice);
   constexpr double kNearWorst = 0.25;  // of the square: half the error
   const bool storage = input_.objective == Objective::storage;
@@ -145,7 +142,8 @@ const Polytope& PlaneError::from_pseudo_near(const Polytope& body, Polytope& cou
 double PlaneError::value(const WarpChoice& choice) noexcept {
   // A body with corners of which nothing is known is no ground to choose a warp on.
   const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
-  if ((!complete_ && choice.kappa > 0.0) || sample_.count == 0 || body_.count == 0 || rows == 0.0)
+  if ((!complete_ && choice.kappa > 0.0) || sample_.count == 0 || body_.count == 0 || rows == 0.0 ||
+      choice.kappa * distance_ > kMostKappaDistance)
     return std::numeric_limits<double>::infinity();
   find_rows(choice);
   const double squared = input_.objective == Objective::storage ? storage_squared() : worst_squared();
@@ -184,7 +182,7 @@ GNOMON_WIDE void PlaneError::find_rows(const WarpChoice& choice) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     const double s = sample_.x[i] * axis_y - sample_.y[i] * axis_x - centre;
     const double u = sample_.x[i] * axis_x + sample_.y[i] * axis_y - u_min;
-    const double w = max_of(1.0 + kappa * u, kLeastW), inverse = 1.0 / w;
+    const double w = 1.0 + kappa * u, inverse = 1.0 / w;
     const double shear = s * kappa * inverse, stretch = map_stretch * inverse;
     // Gradients over the light plane of the projected coordinates, turned to the map's axes, along s and u.
     const double a_s = a_x * inverse, a_u = (a_y * stretch - a_x * shear) * inverse;
@@ -290,7 +288,8 @@ GNOMON_WIDE void PlaneError::fit(const ChoiceLanes& choices, const ExtentLanes& 
   // Copies, which the compiler knows that nothing below writes to.
   const ChoiceLanes c = choices;
   const ExtentLanes of = extents;
-  const double height = height_range_, least_of_all = least_extent(0.0, distance_), farthest = farthest_;
+  const double distance = distance_, height = height_range_, least_of_all = least_extent(0.0, distance_),
+               farthest = farthest_;
   const double most_stretch = input_.most_stretch;
   const double warped_known = complete_ ? 1.0 : 0.0;
   for (std::size_t l = 0; l < lanes; ++l) {
@@ -303,12 +302,15 @@ GNOMON_WIDE void PlaneError::fit(const ChoiceLanes& choices, const ExtentLanes& 
     const double shortest = max_of(1e-6 * max_of(side_a, side_b), 1e-9 * farthest);
     const double warped =
         length > shortest && of.stretch[l] <= most_stretch && turn != 0.0 ? warped_known : 0.0;
-    map.known[l] = c.kappa[l] == 0.0 ? 1.0 : warped;
+    const double kept = c.kappa[l] * distance <= kMostKappaDistance ? warped : 0.0;
+    map.known[l] = c.kappa[l] == 0.0 ? 1.0 : kept;
     // The determinant of the map's Jacobian is stretch turn / (side_a side_b w^3). Rows come out multiplied
     // with the area of a cell, and so as extents of texels.
     const double area = side_a * side_b / of.stretch[l] * inverse_or_0(turn), scale_a = area / side_a,
                  scale_b = area / side_b;
-    const double ax = c.axis_x[l], ay = c.axis_y[l], kappa = c.kappa[l];
+    const double ax = c.axis_x[l], ay = c.axis_y[l];
+    // Of one that is not usable w might be 0 at a sample.
+    const double kappa = map.known[l] != 0.0 ? c.kappa[l] : 0.0;
     const double along_a = c.a_y[l] * of.stretch[l], along_b = c.b_y[l] * of.stretch[l];
     map.a_x[l] = (c.a_x[l] * ay + along_a * ax) * scale_a;
     map.a_y[l] = (along_a * ay - c.a_x[l] * ax) * scale_a;
@@ -326,8 +328,7 @@ GNOMON_WIDE void PlaneError::fit(const ChoiceLanes& choices, const ExtentLanes& 
 // For one sample and choice: squared lengths of the rows of d(texel)/d(pixel) over its determinant. The
 // gradient of A = (a_x x + a_y y + a_1) / w is (a - A grad w) / w, and the determinant goes by w^-3.
 #define GNOMON_ROWS                                                                  \
-  const double whole = map.w_x[l] * x + map.w_y[l] * y + map.w_1[l];                 \
-  const double w = max_of(whole, kLeastW), inverse = 1.0 / w;                        \
+  const double w = map.w_x[l] * x + map.w_y[l] * y + map.w_1[l], inverse = 1.0 / w;  \
   const double a = (map.a_x[l] * x + map.a_y[l] * y + map.a_1[l]) * inverse;         \
   const double b = (map.b_x[l] * x + map.b_y[l] * y + map.b_1[l]) * inverse;         \
   const double a_x = map.a_x[l] - a * map.w_x[l], a_y = map.a_y[l] - a * map.w_y[l]; \

@@ -101,13 +101,14 @@ bool usable(std::span<const WarpInput::Point> body, const WarpChoice& choice, do
   // from rounding, and a warp's strength from it would be noise.
   constexpr double kShortest = 1e-6, kShortestOfDistance = 1e-9;
   const PlaneMap map = plane_map(body, choice);
-  double farthest = 0.0;
+  double farthest = 0.0, distance = 0.0;
   for (const WarpInput::Point& p : body) {
     if (std::isfinite(p.depth)) farthest = max_of(farthest, p.depth);
+    distance = max_of(distance, largest_component({p.x, p.y, p.z}));
   }
   const double extent = max_of(map.a_max - map.a_min, map.b_max - map.b_min);
   return map.length > kShortest * extent && map.length > kShortestOfDistance * farthest &&
-         map.stretch <= most_stretch;
+         map.stretch <= most_stretch && choice.kappa * distance <= kMostKappaDistance;
 }
 
 void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane, double pixels_per_slope,

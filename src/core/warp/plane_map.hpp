@@ -60,6 +60,9 @@ struct LightDepths {
   return clip_from_light(map, depths, glm::dvec2(border));
 }
 
+/// kappa times the body's distance beyond which w over the body is the rounding of positions.
+inline constexpr double kMostKappaDistance = 1e14;
+
 /// False for a choice that no map can be made with: too strong for float matrices or, beyond `most_stretch`,
 /// for the map's border, or with its axis along a body whose length that way is rounding.
 [[nodiscard]] bool usable(std::span<const WarpInput::Point> body, const WarpChoice& choice,
