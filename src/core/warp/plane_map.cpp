@@ -39,6 +39,16 @@ void grow(PlaneMap& map, double share) noexcept {
   map.b_max += b;
 }
 
+double border_in_image(const PlaneMap& map, double border) noexcept {
+  const glm::dvec2 a = map.choice.row_a, b = map.choice.row_b;
+  // The image's step per unit of A is as long as row b over the rows' area, and the other way round.
+  const double area = std::abs(a.x * b.y - a.y * b.x);
+  return border *
+         ((map.a_max - map.a_min) * std::sqrt(glm::dot(b, b)) +
+          (map.b_max - map.b_min) * std::sqrt(glm::dot(a, a))) /
+         area;
+}
+
 PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& choice) noexcept {
   PlaneMap map{};
   map.choice = choice;

@@ -41,6 +41,10 @@ void widen(double& low, double& high, double least) noexcept;
 /// Moves each side of the rectangle out by this share of the rectangle.
 void grow(PlaneMap& map, double share) noexcept;
 
+/// How far a border of this share of both sides reaches in the image: farther than the sides are long where
+/// the rows are not at a right angle.
+[[nodiscard]] double border_in_image(const PlaneMap& map, double border) noexcept;
+
 /// The smallest rectangle that holds the body's image. Flat and single-point bodies get an extent of 1e-6 of
 /// the largest one.
 [[nodiscard]] PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& choice) noexcept;
