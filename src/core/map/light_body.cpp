@@ -230,8 +230,8 @@ constexpr double kSquare = 2.0;
 /// Slope of an image's edge from which on rays fan out wide: 60 degrees.
 constexpr double kWide = 1.75;
 
-double longer_side(const ViewInLight& view) noexcept {
-  return max_of(view.pixel_x, view.pixel_y) / min_of(view.pixel_x, view.pixel_y);
+bool sides_differ(const ViewInLight& view, double factor) noexcept {
+  return max_of(view.pixel_x, view.pixel_y) > factor * min_of(view.pixel_x, view.pixel_y);
 }
 
 double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
@@ -248,7 +248,7 @@ double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
                                max_of(std::abs(view.image_bottom), std::abs(view.image_top)));
     const double with = warp_error(in, choice.kappa).value(in.objective);
     const double plain = warp_error(in, 0.0).value(in.objective);
-    if (with < kCertainRatio * plain && edge < kWide && longer_side(view) < kSquare) return with / plain;
+    if (with < kCertainRatio * plain && edge < kWide && !sides_differ(view, kSquare)) return with / plain;
   }
   return sampled_ratio(in, choice, false, 0);
 }
@@ -256,10 +256,9 @@ double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
 /// How much a warp may lose beyond what samples show. Where rays of the light oppose those of the eye, the
 /// sides of a pixel on a surface between them turn through every direction, of which samples see a few.
 double turned_pixels(const WarpInput& in, const WarpChoice& choice) noexcept {
-  const double longer = longer_side(in.view);
   // Rounding of a camera's aspect is no difference.
   constexpr double kAlike = 1.01, kOpposed = -0.5;
-  if (longer < kAlike || choice.kappa == 0.0) return 1.0;
+  if (!sides_differ(in.view, kAlike) || choice.kappa == 0.0) return 1.0;
   double least_cosine = 1.0;
   for (const Polytope::Vertex& v : in.polytope->vertices()) {
     const glm::dvec3 ray = safe_normalize(v.position, in.view.forward);
@@ -268,6 +267,7 @@ double turned_pixels(const WarpInput& in, const WarpChoice& choice) noexcept {
     least_cosine = min_of(least_cosine, glm::dot(ray, light));
   }
   if (least_cosine > kOpposed) return 1.0;
+  const double longer = max_of(in.view.pixel_x, in.view.pixel_y) / min_of(in.view.pixel_x, in.view.pixel_y);
   return in.objective == Objective::storage ? longer * longer : longer;
 }
 
