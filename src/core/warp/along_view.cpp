@@ -119,10 +119,10 @@ AlongViewBest AlongView::best() noexcept {
   return {weakest_as_good(fine), fine.value};
 }
 
-double AlongView::least() noexcept {
+AlongViewBest AlongView::quick() noexcept {
   begin();
-  if (count_ == 0 || !(length_ > 0.0)) return unwarped();
-  return refined(coarse(), 1).value;
+  if (count_ == 0 || !(length_ > 0.0)) return {0.0, unwarped()};
+  return refined(coarse(), 1);
 }
 
 AlongViewBest AlongView::refined(AlongViewBest best, std::size_t rounds) noexcept {

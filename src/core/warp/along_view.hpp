@@ -23,8 +23,8 @@ class AlongView {
   void add(double x, double y, double depth) noexcept;
   /// The weakest of the best strengths; 0 where no warp is better.
   [[nodiscard]] AlongViewBest best() noexcept;
-  /// The value of the best strength, to some hundredths: in half the time.
-  [[nodiscard]] double least() noexcept;
+  /// The best strength and its value, to some hundredths: in half the time.
+  [[nodiscard]] AlongViewBest quick() noexcept;
   /// Without a warp.
   [[nodiscard]] double unwarped() noexcept;
 
