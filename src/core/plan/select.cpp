@@ -1,18 +1,24 @@
 // Which map serves a point.
+#include "plan/select.hpp"
+
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "geometry/jacobian.hpp"
 #include "geometry/vector.hpp"
-#include "gnomon/plan.hpp"
 
 namespace gnomon {
 
-bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& point) noexcept {
+bool inside_select_planes(const ShadowMap& map, const glm::dvec3& point) noexcept {
   for (int i = 0; i < map.select_plane_count; ++i) {
     const glm::dvec4& plane = map.select_planes[static_cast<std::size_t>(i)];
     if (!(glm::dot(glm::dvec3(plane), point) + plane.w >= 0.0)) return false;
   }
+  return true;
+}
+
+bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& point) noexcept {
+  if (!inside_select_planes(map, point)) return false;
   const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
   const double lowest = plan.clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0 : -1.0;
   // Far outside is outside of every shape, and a quotient might overflow there.
