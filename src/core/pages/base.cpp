@@ -198,7 +198,7 @@ class Needs {
   [[nodiscard]] int base_holding(const glm::dvec3& point) const noexcept {
     for (int i = 0; i < c_.base_count; ++i) {
       const PageBase& base = c_.base[static_cast<std::size_t>(i)];
-      if (base.holds(point) && inside_select_planes(base.map, point)) return i;
+      if (base.holds(point) && inside_select_planes(base.map, point, c_.camera.position)) return i;
     }
     return -1;
   }

@@ -29,7 +29,8 @@ int page_serving(const PagePlan& plan, const glm::dvec3& point) noexcept {
   // Of a cube's faces, which share a little at their edges, the first that holds the point.
   int part = -1;
   for (const ShadowMap& level : plan.levels) {
-    if ((part < 0 || level.cascade < part) && inside_select_planes(level, point)) part = level.cascade;
+    if ((part < 0 || level.cascade < part) && inside_select_planes(level, point, plan.origin_world))
+      part = level.cascade;
   }
   for (std::size_t i = plan.levels.size(); i-- > 0;) {
     const ShadowMap& level = plan.levels[i];

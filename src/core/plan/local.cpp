@@ -99,7 +99,7 @@ void clip_to_distances(const LocalScene& scene, Polytope& body, const LocalFrust
 
 /// The receivers among what is left, where there are several: their common box is smaller here.
 void clip_to_receivers(const LocalScene& scene, Polytope& body) noexcept {
-  if (body.empty() || scene.c.bounds.receivers.size() < 2) return;
+  if (body.empty() || !several(scene.c.bounds.receivers)) return;
   clip(body, visible_bounds(body, scene.c.bounds.receivers, scene.c.camera.position));
 }
 
