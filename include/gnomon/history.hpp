@@ -38,8 +38,8 @@ struct KeptMap {
 };
 
 /// State that make_plan carries from frame to frame. Start with an empty one; keep one per camera and light;
-/// clear it at a cut. With CadenceOptions also clear it when other plan options change: kept maps were planned
-/// with the old ones. Plain data: copy it to try a frame twice.
+/// clear it at a cut. With CadenceOptions also clear it when other plan options change: kept maps were
+/// planned with the old ones. Plain data: copy it to try a frame twice.
 struct PlanHistory {
   /// The last map of one cascade.
   struct Map {

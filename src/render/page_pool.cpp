@@ -66,12 +66,14 @@ void PagePool::build(const PagePlan& plan, const glm::dvec3& origin_world) {
     const int at = static_cast<int>(page.slot);
     drawn.layer = at / (kPagesAcross * kPagesAcross);
     drawn.place = {at % kPagesAcross * slot, at / kPagesAcross % kPagesAcross * slot, slot, slot};
-    glm::dmat4 clip_from_position = drawn.map.clip_from_world;
-    clip_from_position[3] = drawn.map.clip_from_world * glm::dvec4(origin_world, 1.0);
-    drawn.clip_from_position = glm::mat4(drawn_from_plan * clip_from_position);
-    glm::dmat4 from_camera = drawn.map.clip_from_world;
-    from_camera[3] = drawn.map.clip_from_world * glm::dvec4(plan.origin_world, 1.0);
-    records_.push_back({glm::mat4(layer_from_slot(drawn.place, extent.side) * drawn_from_plan * from_camera),
+    const auto counted_from = [&](const glm::dvec3& origin) {
+      glm::dmat4 m = drawn.map.clip_from_world;
+      m[3] = m * glm::dvec4(origin, 1.0);
+      return m;
+    };
+    drawn.clip_from_position = glm::mat4(drawn_from_plan * counted_from(origin_world));
+    records_.push_back({glm::mat4(layer_from_slot(drawn.place, extent.side) * drawn_from_plan *
+                                  counted_from(plan.origin_world)),
                         {page.level, static_cast<std::uint32_t>(page.column),
                          static_cast<std::uint32_t>(page.row), static_cast<std::uint32_t>(drawn.layer)}});
     pages_.push_back(drawn);

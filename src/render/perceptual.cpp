@@ -17,20 +17,18 @@ double at_least_zero(double value) noexcept {
   return value > 0.0 ? value : 0.0;
 }
 
-/// Pixels per world unit across the view at the least depth that any map serves.
-double most_pixels_per_world(const ShadowPlan& plan, const Camera& camera) noexcept {
-  const double per_edge =
-      std::max(camera.width / (camera.right - camera.left), camera.height / (camera.top - camera.bottom));
-  if (camera.orthographic) return per_edge;
-  double depth = camera.far_depth;
-  for (const ShadowMap& map : plan.maps()) depth = std::min(depth, map.depth_begin);
-  return per_edge / std::max(depth, camera.near_depth);
-}
-
+/// Across the view.
 double pixels_per_world(const Camera& camera, double view_depth) noexcept {
   const double per_edge =
       std::max(camera.width / (camera.right - camera.left), camera.height / (camera.top - camera.bottom));
   return camera.orthographic ? per_edge : per_edge / std::max(view_depth, camera.near_depth);
+}
+
+/// At the least depth that any map serves.
+double most_pixels_per_world(const ShadowPlan& plan, const Camera& camera) noexcept {
+  double depth = camera.far_depth;
+  for (const ShadowMap& map : plan.maps()) depth = std::min(depth, map.depth_begin);
+  return pixels_per_world(camera, depth);
 }
 
 /// Texels along a side that make the plan's longest texel this long, world units.
@@ -88,6 +86,7 @@ HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera, cons
   if (result.hides) result.map_size = std::max(kLeastMapSize, static_cast<int>(std::ceil(side)));
   return result;
 }
+
 HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera, const FilterSettings& settings,
                               const ShadowDistances& distances,
                               std::span<const glm::dvec3> visible_world) noexcept {

@@ -29,6 +29,21 @@ bool reads_everywhere(const FilterSettings& settings, const ShadowPlan& plan) no
          (filter.hooks.adapts != nullptr && filter.hooks.adapts(settings));
 }
 
+/// Runs passes, and measures each where that is requested.
+struct PassTimer {
+  FrameStats& stats;
+  bool on;
+  template <typename Work>
+  void operator()(Pass pass, Work&& work) const {
+    const Clock::time_point begin = Clock::now();
+    work();
+    if (!on) return;
+    glFinish();
+    stats.milliseconds[static_cast<std::size_t>(pass)] =
+        std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  }
+};
+
 }  // namespace
 
 std::string_view to_string(Pass pass) noexcept {
@@ -104,18 +119,25 @@ PreparedFilter Renderer::prepare(const FilterSettings& settings) {
   return {settings, known.size() - 1};
 }
 
+void Renderer::Impl::upload(const FrameBlock& frame, const FilterBlock& filtering) noexcept {
+  glNamedBufferSubData(frame_buffer.name(), 0, sizeof frame, &frame);
+  glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_buffer.name());
+  glNamedBufferSubData(filter_buffer.name(), 0, sizeof filtering, &filtering);
+  glBindBufferBase(GL_UNIFORM_BUFFER, kFilterBinding, filter_buffer.name());
+}
+
+DrawnMaps Renderer::Impl::place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world) {
+  const DrawnMaps drawn = drawn_maps(plan, camera_world, scene.origin_step());
+  scene.place(SceneBuffers::Placed::for_camera, camera_world);
+  scene.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
+  return drawn;
+}
+
 FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                           const FrameOptions& options) noexcept {
   Impl& impl = *impl_;
   FrameStats stats;
-  const auto timed = [&](Pass pass, auto&& work) {
-    const Clock::time_point begin = Clock::now();
-    work();
-    if (!options.time_passes) return;
-    glFinish();
-    stats.milliseconds[static_cast<std::size_t>(pass)] =
-        std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-  };
+  const PassTimer timed{stats, options.time_passes};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   impl.targets.resize(camera.width, camera.height);
   impl.fit_maps(plan);
@@ -127,13 +149,8 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
       frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur, curves);
   fit_options(filter.settings, plan, filtering);
   timed(Pass::shadow_maps, [&] {
-    glNamedBufferSubData(impl.frame_buffer.name(), 0, sizeof block, &block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, impl.frame_buffer.name());
-    glNamedBufferSubData(impl.filter_buffer.name(), 0, sizeof filtering, &filtering);
-    glBindBufferBase(GL_UNIFORM_BUFFER, kFilterBinding, impl.filter_buffer.name());
-    const DrawnMaps drawn = drawn_maps(plan, camera.position, impl.scene.origin_step());
-    impl.scene.place(SceneBuffers::Placed::for_camera, camera.position);
-    impl.scene.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
+    impl.upload(block, filtering);
+    const DrawnMaps drawn = impl.place_scene(plan, camera.position);
     impl.lists.build(
         {plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan)}, drawn,
         camera);
@@ -195,14 +212,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   of_light.map_count = 1;
   of_light.map[0] = page_map(plan, plan.pages[0]);
   FrameStats stats;
-  const auto timed = [&](Pass pass, auto&& work) {
-    const Clock::time_point begin = Clock::now();
-    work();
-    if (!options.time_passes) return;
-    glFinish();
-    stats.milliseconds[static_cast<std::size_t>(pass)] =
-        std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-  };
+  const PassTimer timed{stats, options.time_passes};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   impl.targets.resize(camera.width, camera.height);
   const PagePool::Extent extent = PagePool::extent_of(plan);
@@ -216,13 +226,8 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   set_depth_curves(curves, filtering);
   timed(Pass::shadow_maps, [&] {
     const FrameBlock block = frame_block(of_light, camera, options, extent.side, extent.side, blur, curves);
-    glNamedBufferSubData(impl.frame_buffer.name(), 0, sizeof block, &block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, impl.frame_buffer.name());
-    glNamedBufferSubData(impl.filter_buffer.name(), 0, sizeof filtering, &filtering);
-    glBindBufferBase(GL_UNIFORM_BUFFER, kFilterBinding, impl.filter_buffer.name());
-    const DrawnMaps drawn = drawn_maps({}, camera.position, impl.scene.origin_step());
-    impl.scene.place(SceneBuffers::Placed::for_camera, camera.position);
-    impl.scene.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
+    impl.upload(block, filtering);
+    const DrawnMaps drawn = impl.place_scene({}, camera.position);
     impl.pages.build(plan, drawn.origin_world);
     impl.lists.build_pages(impl.pages.pages(), camera);
     impl.draw_pages(options.prune.has(PruneRule::alpha_test));
@@ -266,7 +271,8 @@ void Renderer::copy(Picture picture, std::uint32_t framebuffer) const noexcept {
 
 void Renderer::show(Picture picture, int width, int height) const noexcept {
   const FrameTargets& t = impl_->targets;
-  glBlitNamedFramebuffer(impl_->framebuffer_of(picture).name(), 0, 0, 0, t.width, t.height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+  glBlitNamedFramebuffer(impl_->framebuffer_of(picture).name(), 0, 0, 0, t.width, t.height, 0, 0, width,
+                         height, GL_COLOR_BUFFER_BIT,
                          t.width == width && t.height == height ? GL_NEAREST : GL_LINEAR);
   impl_->screen_size = {width, height};
 }

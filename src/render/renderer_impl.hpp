@@ -26,6 +26,11 @@ struct Renderer::Impl {
   explicit Impl(const Scene& scene);
 
   void fit_maps(const ShadowPlan& plan);
+  /// Makes both blocks those that all shaders read.
+  void upload(const FrameBlock& frame, const FilterBlock& filtering) noexcept;
+  /// Positions of the scene near the camera and near the maps' origin; matrices of the plan's maps from
+  /// there.
+  [[nodiscard]] DrawnMaps place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world);
   void draw_map_part(const DrawnPart& part, const DrawnMap& map, bool alpha_test_where_masked) noexcept;
   void draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
                     bool alpha_test_where_masked) noexcept;

@@ -1,4 +1,4 @@
-// Names of built-in scenes on a command line.
+// The scene and its light on a command line: names, and the options that several commands have.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "command.hpp"
+#include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/load.hpp"
 
 namespace gnomon::tool {
@@ -23,6 +24,35 @@ inline void check_scene_word(const char* option, const std::string& word) {
   const std::vector<std::string> words = builtin_scene_words();
   if (word.starts_with("builtin:") && std::find(words.begin(), words.end(), word) == words.end())
     refuse_name(option, word, words);
+}
+
+[[nodiscard]] inline std::string scene_help() {
+  std::string text = "glTF file (.gltf, .glb) or one of";
+  for (const std::string& word : builtin_scene_words()) text += " " + word;
+  return text;
+}
+
+/// --light, --light-elevation-deg, --light-azimuth-deg.
+[[nodiscard]] inline std::vector<Option> light_options(std::string& kind, LightPlacement& sun) {
+  return {{.name = "--light",
+           .target = &kind,
+           .help = "sun, or a spot or point light in the middle of the scene",
+           .names = {"sun", "spot", "point"}},
+          {.name = "--light-elevation-deg",
+           .target = &sun.elevation_deg,
+           .help = "elevation of the sun above the horizon, degrees",
+           .range = {{0.1, 90.0}}},
+          {.name = "--light-azimuth-deg",
+           .target = &sun.azimuth_deg,
+           .help = "azimuth of the sun, degrees: 0 is -Z, 90 is +X",
+           .range = {{-360.0, 360.0}}}};
+}
+
+[[nodiscard]] inline Option max_triangles_option(std::uint64_t& most) {
+  return {.name = "--max-triangles",
+          .target = &most,
+          .help = "refuse scenes with more triangles, over all instances; each takes up to 100 bytes",
+          .range = {{1, 1e9}}};
 }
 
 }  // namespace gnomon::tool

@@ -2,8 +2,8 @@
 // read, or a refusal of one line?
 #include <cmath>
 
-#include "rows/cost_model_text.hpp"
 #include "fuzz.hpp"
+#include "rows/cost_model_text.hpp"
 
 namespace {
 

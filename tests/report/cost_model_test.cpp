@@ -7,8 +7,8 @@
 #include <fstream>
 #include <random>
 
-#include "rows/cost_model_text.hpp"
 #include "gnomon/report/row.hpp"
+#include "rows/cost_model_text.hpp"
 #include "sample_rows.hpp"
 
 namespace gnomon::report {

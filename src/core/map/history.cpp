@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "geometry/elementary.hpp"
+#include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
 #include "map/border.hpp"
 #include "warp/plane_error.hpp"
@@ -46,9 +47,7 @@ struct Homography {
 /// OpenGL clip space from homogeneous light space.
 glm::dmat4 gl_from_light(const PlanContext& c, const LightSpace& space,
                          const glm::dmat4& gl_from_world) noexcept {
-  glm::dmat4 relative_from_world = gl_from_world;
-  relative_from_world[3] = gl_from_world * glm::dvec4(c.camera.position, 1.0);
-  return relative_from_world * space.relative_from_light();
+  return counted_from(gl_from_world, c.camera.position) * space.relative_from_light();
 }
 
 Homography homography(const glm::dmat4& m) noexcept {

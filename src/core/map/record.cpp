@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
 #include "map/size.hpp"
 
@@ -115,9 +116,7 @@ void write_texels(const PlanContext& c, const MapRequest& request, const MapPart
 }  // namespace
 
 glm::dmat4 world_matrix(const glm::dmat4& from_relative, const glm::dvec3& eye_world) noexcept {
-  glm::dmat4 m = from_relative;
-  m[3] = from_relative * glm::dvec4(-eye_world, 1.0);
-  return m;
+  return counted_from(from_relative, -eye_world);
 }
 
 void begin_record(const PlanContext& c, const MapRequest& request, ShadowMap& map) noexcept {

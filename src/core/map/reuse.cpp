@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "geometry/light_axes.hpp"
+#include "geometry/matrix.hpp"
 
 namespace gnomon {
 namespace {
@@ -18,12 +19,6 @@ namespace {
 bool same_texels(const ShadowMap& a, const ShadowMap& b) noexcept {
   return a.width == b.width && a.height == b.height && a.shape == b.shape &&
          a.shape_parameters == b.shape_parameters;
-}
-
-using Row = glm::dvec4;
-
-Row row_of(const glm::dmat4& m, int row) noexcept {
-  return {m[0][row], m[1][row], m[2][row], m[3][row]};
 }
 
 bool same_grid(const ShadowMap& a, const ShadowMap& b) noexcept {
@@ -110,8 +105,8 @@ MapReuse reuse(const ShadowMap& previous, const ShadowMap& current, const ClipSp
 std::array<glm::dvec4, 5> rectangle_planes(const ShadowMap& map, const TexelRect& rectangle,
                                            const ClipSpace& clip_space) noexcept {
   const glm::dmat4& m = map.clip_from_world;
-  const Row x = row_of(m, 0), y = row_of(m, 1), w = row_of(m, 3);
-  const Row z = row_of(texture_from_clip(clip_space) * m, 2);
+  const glm::dvec4 x = row_of(m, 0), y = row_of(m, 1), w = row_of(m, 3);
+  const glm::dvec4 z = row_of(texture_from_clip(clip_space) * m, 2);
   // Texels are counted from ndc (-1, -1), rows of memory from where the clip space says.
   const bool downwards = clip_space.first_row == FirstRow::y_plus_one;
   const int row = downwards ? map.height - rectangle.y - rectangle.height : rectangle.y;
@@ -127,9 +122,7 @@ std::array<glm::dvec4, 5> rectangle_planes(const ShadowMap& map, const TexelRect
 
 ShadowMap rebased(const ShadowMap& map, const glm::dvec3& new_origin) noexcept {
   ShadowMap moved = map;
-  glm::dmat4 from_relative = map.clip_from_world;
-  from_relative[3] = map.clip_from_world * glm::dvec4(new_origin, 1.0);
-  moved.clip_from_camera_relative = glm::mat4(from_relative);
+  moved.clip_from_camera_relative = glm::mat4(counted_from(map.clip_from_world, new_origin));
   return moved;
 }
 

@@ -7,8 +7,10 @@
 
 #include "geometry/elementary.hpp"
 #include "geometry/light_axes.hpp"
+#include "geometry/matrix.hpp"
 #include "measure/measure_grid.hpp"
 #include "measure/metric_lanes.hpp"
+#include "plan/select.hpp"
 
 namespace gnomon {
 namespace {
@@ -32,10 +34,6 @@ PlanOptions base_options(const PlanOptions& options, bool stable, const PagePlan
   base.filter.texels = std::min(0.25 * kBaseTexels, std::ceil(static_cast<double>(kBaseTexels) *
                                                               pages.border_texels / pages.page_texels));
   return base;
-}
-
-glm::dvec4 row_of(const glm::dmat4& m, int row) noexcept {
-  return {m[0][row], m[1][row], m[2][row], m[3][row]};
 }
 
 /// Places from 0 to 1 across the map.
@@ -102,16 +100,9 @@ class Needs {
   [[nodiscard]] int base_holding(const glm::dvec3& point) const noexcept {
     for (int i = 0; i < c_.base_count; ++i) {
       const PageBase& base = c_.base[static_cast<std::size_t>(i)];
-      if (base.holds(point) && inside_select_planes(base.map, point)) return i;
+      if (base.holds(point) && inside_select_planes(base.map, point, c_.camera.position)) return i;
     }
     return -1;
-  }
-  static bool inside_select_planes(const ShadowMap& map, const glm::dvec3& point) noexcept {
-    for (int i = 0; i < map.select_plane_count; ++i) {
-      const glm::dvec4& plane = map.select_planes[static_cast<std::size_t>(i)];
-      if (!(glm::dot(glm::dvec3(plane), point) + plane.w >= 0.0)) return false;
-    }
-    return true;
   }
   void leave_out(std::size_t index) noexcept {
     c_.memory.points[index] = {0.0, 0.0, 0.0f, 0.0f, kOutside, 0};

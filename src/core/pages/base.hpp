@@ -103,6 +103,12 @@ struct PageContext {
       if (memory.points[i].level != kOutside) f(memory.points[i], i);
     }
   }
+  /// Gives each point the coarsest step that keeps the target.
+  void set_steps_by_need() noexcept {
+    const double inverse = 1.0 / target;
+    for_each_point(
+        [&](PagePoint& point, std::size_t) { set_step(point, step_for(excess(point) * inverse)); });
+  }
   [[nodiscard]] std::uint8_t feedback(std::size_t point) const noexcept {
     return seen.feedback.empty() ? std::uint8_t{0} : seen.feedback[point];
   }
@@ -133,8 +139,8 @@ struct PageContext {
                                    PageContext& context, PagePlan& out) noexcept;
 /// Fills memory.points with the visible points, or with samples of the boxes.
 void take_points(const SceneBounds& bounds, PageContext& context) noexcept;
-/// Gives the sides of pages the aspect that wastes the fewest texels, and moves all sizes by `offset` of a
-/// step.
+/// Gives the sides of pages the aspect that wastes the fewest texels, and a size within a step of the ladder
+/// that goes by `trial`: 0 is the largest.
 void size_base(int trial, PageContext& context) noexcept;
 
 }  // namespace gnomon

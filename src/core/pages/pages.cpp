@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "geometry/elementary.hpp"
+#include "geometry/matrix.hpp"
 #include "geometry/usable.hpp"
 #include "pages/fill.hpp"
 #include "plan/input.hpp"
@@ -140,9 +141,7 @@ ShadowMap level_map(const PageContext& c, std::uint32_t level) noexcept {
     map.clip_from_world[i][0] = row_x[i];
     map.clip_from_world[i][1] = row_y[i];
   }
-  glm::dmat4 relative = map.clip_from_world;
-  relative[3] = map.clip_from_world * glm::dvec4(c.camera.position, 1.0);
-  map.clip_from_camera_relative = glm::mat4(relative);
+  map.clip_from_camera_relative = glm::mat4(counted_from(map.clip_from_world, c.camera.position));
   // Of a texel of the level over one of the base's record.
   const glm::dvec2 scale =
       g.side / static_cast<double>(page) * glm::dvec2(base.map.width, base.map.height) / base.unit;

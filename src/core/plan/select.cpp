@@ -1,11 +1,12 @@
 // Which map serves a point.
+#include "plan/select.hpp"
+
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "geometry/jacobian.hpp"
 #include "geometry/vector.hpp"
-#include "gnomon/plan.hpp"
 
 namespace gnomon {
 
@@ -30,12 +31,19 @@ struct Sizes {
 
 }  // namespace
 
-bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& point) noexcept {
-  const Sizes sizes{glm::abs(point) + glm::abs(plan.origin_world)};
+bool inside_select_planes(const ShadowMap& map, const glm::dvec3& point,
+                          const glm::dvec3& origin_world) noexcept {
+  const Sizes sizes{glm::abs(point) + glm::abs(origin_world)};
   for (int i = 0; i < map.select_plane_count; ++i) {
     const glm::dvec4& plane = map.select_planes[static_cast<std::size_t>(i)];
     if (!(glm::dot(glm::dvec3(plane), point) + plane.w >= -kRounding * sizes.plane(plane))) return false;
   }
+  return true;
+}
+
+bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& point) noexcept {
+  if (!inside_select_planes(map, point, plan.origin_world)) return false;
+  const Sizes sizes{glm::abs(point) + glm::abs(plan.origin_world)};
   const glm::dmat4& m = map.clip_from_world;
   const glm::dvec4 clip = m * glm::dvec4(point, 1.0);
   if (!(clip.w > 0.0)) return false;

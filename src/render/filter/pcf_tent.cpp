@@ -40,7 +40,7 @@ double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSe
       if (plane_depth(lookup, offset) <= lookup.map_depth(x, y)) sum += weight;
     }
   }
-  return sum / weights;
+  return weights > 0.0 ? sum / weights : 1.0;
 }
 
 void settle(FilterSettings& settings) noexcept {

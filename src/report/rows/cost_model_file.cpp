@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "rows/cost_model_text.hpp"
 #include "file.hpp"
+#include "rows/cost_model_text.hpp"
 #include "text.hpp"
 
 namespace gnomon::report {

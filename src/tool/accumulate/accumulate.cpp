@@ -15,6 +15,7 @@
 #include "gnomon/report/errors.hpp"
 #include "gnomon/scene/image.hpp"
 #include "interrupt.hpp"
+#include "offscreen_context.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "scene_words.hpp"
@@ -31,7 +32,8 @@ struct AccumulateRequest {
   std::vector<int> frames{1, 8, 64};
   std::string size = "1680x1050", warp = "optimal", noise = "blue", light = "sun", context = "auto", out;
   int map_size = 1024, cascades = 1, moving = 32;
-  double light_elevation_deg = 38.0, light_azimuth_deg = 140.0, bias = 0.1;
+  LightPlacement sun;
+  double bias = 0.1;
   render::Accumulation settings;
   bool json = false;
 };
@@ -65,8 +67,7 @@ Sweep sweep_of(const AccumulateRequest& request) {
   compared.frames = kFlightFrames;
   compared.context = request.context;
   compared.light = request.light;
-  compared.light_elevation_deg = request.light_elevation_deg;
-  compared.light_azimuth_deg = request.light_azimuth_deg;
+  compared.sun = request.sun;
   Sweep sweep = make_sweep(compared);
   for (SweepEntry& entry : sweep.entries) {
     entry.plan.filter.texels += kJitterReachTexels;
@@ -293,19 +294,7 @@ std::vector<Option> scene_options(AccumulateRequest& request) {
           {.name = "--bias",
            .target = &request.bias,
            .help = "share of the usual bias; comparisons near texels' centres need less of it",
-           .range = {{0.0, 4.0}}},
-          {.name = "--light",
-           .target = &request.light,
-           .help = "sun, or a spot or point light in the middle of the scene",
-           .names = {"sun", "spot", "point"}},
-          {.name = "--light-elevation-deg",
-           .target = &request.light_elevation_deg,
-           .help = "elevation of the sun above the horizon, degrees",
-           .range = {{0.1, 90.0}}},
-          {.name = "--light-azimuth-deg",
-           .target = &request.light_azimuth_deg,
-           .help = "azimuth of the sun, degrees: 0 is -Z, 90 is +X",
-           .range = {{-360.0, 360.0}}}};
+           .range = {{0.0, 4.0}}}};
 }
 
 /// How frames are accumulated.
@@ -349,6 +338,8 @@ std::function<int()> declare_accumulate(Arguments& arguments) {
                         .completion = Completion::files}};
   for (Option& option : accumulation_options(*request)) arguments.options.push_back(std::move(option));
   for (Option& option : scene_options(*request)) arguments.options.push_back(std::move(option));
+  for (Option& option : light_options(request->light, request->sun))
+    arguments.options.push_back(std::move(option));
   arguments.options.push_back(
       {.name = "--size", .target = &request->size, .help = "size of a frame in pixels, WIDTHxHEIGHT"});
   arguments.options.push_back(
@@ -358,10 +349,7 @@ std::function<int()> declare_accumulate(Arguments& arguments) {
        .completion = Completion::folders});
   arguments.options.push_back(
       {.name = "--json", .target = &request->json, .help = "print each row as a line of JSON"});
-  arguments.options.push_back({.name = "--context",
-                               .target = &request->context,
-                               .help = "OpenGL context: auto, osmesa or egl",
-                               .names = {"auto", "osmesa", "egl"}});
+  arguments.options.push_back(context_option(request->context));
   arguments.footer =
       "Each frame moves the maps' texels by another share of a texel; re-projection accumulates the mask.\n"
       "Misclassified: pixels whose mask is on the wrong side of one half, against exact rays. Flips: pixels\n"

@@ -12,6 +12,7 @@
 #include "compare/compare.hpp"
 #include "gnomon/report/cost_model.hpp"
 #include "gnomon/report/rows_file.hpp"
+#include "offscreen_context.hpp"
 #include "output.hpp"
 #include "planner_check.hpp"
 
@@ -131,10 +132,7 @@ std::function<int()> declare_calibrate(Arguments& arguments) {
        .target = &request->out,
        .help = "folder for the sweep that is measured first",
        .completion = Completion::folders},
-      {.name = "--context",
-       .target = &request->context,
-       .help = "OpenGL context of that sweep: auto, osmesa or egl",
-       .names = {"auto", "osmesa", "egl"}},
+      context_option(request->context, " of that sweep"),
       {.name = "--json", .target = &request->json, .help = "print a summary as one line of JSON"}};
   return [request] { return run_calibrate(*request, request->json); };
 }

@@ -19,6 +19,7 @@
 #include "interrupt.hpp"
 #include "machine.hpp"
 #include "measure.hpp"
+#include "offscreen_context.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "scene_words.hpp"
@@ -268,36 +269,22 @@ std::vector<Option> measuring_options(CompareRequest& request) {
           {.name = "--shard",
            .target = &request.shard,
            .help = "I/N: measure only part I of N; gnomon merge joins the parts"},
-          {.name = "--context",
-           .target = &request.context,
-           .help = "OpenGL context: auto, osmesa or egl",
-           .names = {"auto", "osmesa", "egl"}}};
+          context_option(request.context)};
 }
 
-/// The light, and what the machine may give.
-std::vector<Option> setting_options(CompareRequest& request) {
-  return {{.name = "--light",
-           .target = &request.light,
-           .help = "sun, or a spot or point light in the middle of the scene",
-           .names = {"sun", "spot", "point"}},
-          {.name = "--light-elevation-deg",
-           .target = &request.light_elevation_deg,
-           .help = "elevation of the sun above the horizon, degrees",
-           .range = {{0.1, 90.0}}},
-          {.name = "--light-azimuth-deg",
-           .target = &request.light_azimuth_deg,
-           .help = "azimuth of the sun, degrees: 0 is -Z, 90 is +X",
-           .range = {{-360.0, 360.0}}},
-          {.name = "--map-memory-mib",
+/// What the machine may give.
+std::vector<Option> limit_options(CompareRequest& request) {
+  return {{.name = "--map-memory-mib",
            .target = &request.map_memory_mib,
            .help = "memory for a technique's maps, MiB; larger maps are halved until they fit; 0: no limit",
            .range = {{0.0, 1e9}}},
-          {.name = "--max-triangles",
-           .target = &request.max_triangles,
-           .help = "refuse scenes with more triangles, over all instances; each takes up to 100 bytes",
-           .range = {{1, 1e9}}},
+          max_triangles_option(request.max_triangles),
           {.name = "--resume", .target = &request.resume, .help = "continue with the results in --out"},
           {.name = "--json", .target = &request.json, .help = "print a summary as one line of JSON"}};
+}
+
+std::vector<Option> sun_options(CompareRequest& request) {
+  return light_options(request.light, request.sun);
 }
 
 }  // namespace
@@ -311,7 +298,7 @@ std::function<int()> declare_compare(Arguments& arguments) {
                         .names = builtin_scene_words(),
                         .only_names = false,
                         .completion = Completion::files}};
-  for (const auto& part : {technique_options, measuring_options, setting_options}) {
+  for (const auto& part : {technique_options, measuring_options, sun_options, limit_options}) {
     for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
   }
   arguments.footer = compare_footer();

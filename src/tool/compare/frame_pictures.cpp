@@ -6,24 +6,14 @@
 
 #include "gnomon/render/picture.hpp"
 #include "gnomon/scene/image.hpp"
+#include "picture_colors.hpp"
 
 namespace gnomon::tool {
 namespace {
 
 using render::Color;
 
-constexpr Color kSky{214, 224, 234}, kTurnedAway{70, 74, 84}, kUndecided{160, 60, 160};
-constexpr Color kShadow{40, 42, 50}, kLit{245, 243, 236};
-// Told apart by those who see red and green alike, and by brightness.
-constexpr Color kFalseLit{255, 140, 0}, kFalseShadow{30, 110, 230};
-
-Color mixed(const Color& a, const Color& b, double share) {
-  const double s = std::clamp(share, 0.0, 1.0);
-  const auto channel = [s](std::uint8_t from, std::uint8_t to) {
-    return static_cast<std::uint8_t>(from + (to - from) * s + 0.5);
-  };
-  return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
-}
+constexpr Color kTurnedAway{70, 74, 84};
 
 /// A picture of the frame's size: `lit` colours the pixels that a ray decides, by their number.
 Image painted(const FrameTruth& truth, const std::function<Color(std::size_t)>& lit) {
@@ -65,10 +55,8 @@ report::Pictures write_pictures(const std::filesystem::path& folder, std::size_t
   write_png(painted(truth, [&](std::size_t i) { return light_at(truth.judged[i]); }), folder / names.truth);
   write_png(painted(truth, [&](std::size_t i) { return light_at(seen.mask[i]); }), folder / names.mask);
   const auto difference = [&](std::size_t i) {
-    // The truth pales behind what is wrong with it.
-    const Color ground = mixed(light_at(truth.judged[i]), kSky, 0.5);
-    const double error = static_cast<double>(seen.mask[i]) - static_cast<double>(truth.judged[i]);
-    return mixed(ground, error > 0.0 ? kFalseLit : kFalseShadow, std::abs(error));
+    const auto exact = static_cast<double>(truth.judged[i]);
+    return error_color(exact, static_cast<double>(seen.mask[i]) - exact);
   };
   write_png(painted(truth, difference), folder / names.difference);
   Image heat = seen.heat;

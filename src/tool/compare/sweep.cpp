@@ -11,6 +11,7 @@
 #include "filter_words.hpp"
 #include "gnomon/render/probe.hpp"
 #include "offscreen_context.hpp"
+#include "picture_words.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -270,15 +271,14 @@ Sweep make_sweep(const CompareRequest& request) {
   }
   sweep.frames = request.frames;
   sweep.rounds = request.rounds;
-  sweep.light = {LightKind::sun, request.light_elevation_deg, request.light_azimuth_deg};
+  sweep.light = request.sun;
   if (!light_kind_from_name(request.light, sweep.light.kind))
     refuse("--light", request.light, "sun, spot or point");
   sweep.out = request.out;
   sweep.resume = request.resume;
   sweep.map_memory_mib = request.map_memory_mib;
   sweep.max_triangles = request.max_triangles;
-  if (!parse_pair(request.size, 'x', kMinSide, kMaxSide, sweep.width, sweep.height))
-    refuse("--size", request.size, "WIDTHxHEIGHT, each 16 to 16384, as in 480x270");
+  read_picture_size(request.size, kMinSide, kMaxSide, sweep.width, sweep.height);
   int shard = 0, shards = 0;
   if (!parse_pair(request.shard, '/', 1, kMaxShards, shard, shards) || shard > shards)
     refuse("--shard", request.shard, "I/N with 1 <= I <= N, as in 2/8");

@@ -21,7 +21,7 @@ struct CompareRequest {
   int frames = 4, rounds = 5;
   std::string size = "480x270", shard = "1/1", context = "auto", out = "out/compare";
   std::string light = "sun";
-  double light_elevation_deg = 38.0, light_azimuth_deg = 140.0;
+  LightPlacement sun;           ///< its kind is that of `light`
   double near_hint = 0.0;       ///< of split pseudo_near: view depth from which error counts
   double map_memory_mib = 0.0;  ///< that a technique's maps may take; 0: what there is
   std::uint64_t max_triangles = LoadLimits{}.triangles;

@@ -274,10 +274,7 @@ std::function<int()> declare_filters(Arguments& arguments) {
   options.push_back({.name = "--json",
                      .target = &request->json,
                      .help = "print the list, one filter or the table as JSON"});
-  options.push_back({.name = "--context",
-                     .target = &request->context,
-                     .help = "OpenGL context: auto, osmesa or egl",
-                     .names = {"auto", "osmesa", "egl"}});
+  options.push_back(context_option(request->context));
   return [request] { return run_filters(*request); };
 }
 

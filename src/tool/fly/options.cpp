@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
 #include <memory>
 #include <stdexcept>
 
@@ -11,6 +10,7 @@
 #include "filter_words.hpp"
 #include "gnomon/render/perceptual.hpp"
 #include "gnomon/scene/load.hpp"
+#include "picture_words.hpp"
 #include "plan_option.hpp"
 #include "scene_words.hpp"
 
@@ -27,18 +27,6 @@ struct Request {
   bool stable = false, split_given = false, lambda_given = false;
   std::vector<std::string> compared_warps;
 };
-
-void parse_size(const std::string& text, Options& options) {
-  const std::size_t x = text.find('x');
-  const auto number = [&text](std::size_t begin, std::size_t end, int& value) {
-    const auto [last, error] = std::from_chars(text.data() + begin, text.data() + end, value);
-    return error == std::errc{} && last == text.data() + end && value >= 16 && value <= kMaxSide;
-  };
-  if (x == std::string::npos || !number(0, x, options.width) || !number(x + 1, text.size(), options.height)) {
-    throw std::runtime_error(
-        fmt::format("--size {}: wants WIDTHxHEIGHT, each 16 to {}, as in 960x540", text, kMaxSide));
-  }
-}
 
 void resolve_resolution(const Request& request, Options& options) {
   options.perceptual_resolution = request.resolution == "perceptual";
@@ -64,16 +52,14 @@ void resolve_budget(const Request& request, Options& options) {
 }
 
 void resolve_transition(const Request& request, Options& options) {
-  using render::SplitTransition;
-  if (request.transition == "cut") return;
-  options.transition = request.transition == "blend" ? SplitTransition::blend : SplitTransition::dither;
-  options.plan.split.overlap = kTransitionShare;
+  options.transition = transition_from_name(request.transition);
+  if (options.transition != render::SplitTransition::cut) options.plan.split.overlap = kTransitionShare;
 }
 
 Options resolved(const Request& request) {
   Options options = request.options;
   check_scene_word("scene", options.scene);
-  parse_size(request.size, options);
+  read_picture_size(request.size, 16, kMaxSide, options.width, options.height);
   options.out = request.out;
   (void)render::context_kind_from_name(request.context, options.context);
   if (request.lambda_given && !request.split_given) (void)set_plan_choice("split", "practical", options.plan);
@@ -95,12 +81,6 @@ Options resolved(const Request& request) {
   resolve_budget(request, options);
   if (!request.path.empty()) options.path = request.path;
   return options;
-}
-
-std::string scene_help() {
-  std::string text = "glTF file (.gltf, .glb) or one of";
-  for (const BuiltinScene& scene : builtin_scenes()) text += fmt::format(" builtin:{}", scene.name);
-  return text;
 }
 
 std::string prune_footer() {
@@ -178,7 +158,7 @@ std::vector<Option> map_options(Request& request) {
       {.name = "--transition",
        .target = &request.transition,
        .help = "transition between cascades: cut; blend or dither over the last tenth of each",
-       .names = {"cut", "blend", "dither"}},
+       .names = transition_names()},
       {.name = "--history",
        .target = &request.options.history,
        .help = "change texel density smoothly from frame to frame; for paths of many frames"},
@@ -195,10 +175,7 @@ std::vector<Option> budget_options(Request& request) {
            .target = &options.map_memory_mib,
            .help = "memory for all maps, MiB; larger maps are halved until they fit; 0: no limit",
            .range = {{0.0, 1e9}}},
-          {.name = "--max-triangles",
-           .target = &options.max_triangles,
-           .help = "refuse scenes with more triangles, over all instances; each takes up to 100 bytes",
-           .range = {{1, 1e9}}},
+          max_triangles_option(options.max_triangles),
           {.name = "--resolution",
            .target = &request.resolution,
            .help = "given: by --map-size; perceptual: the smallest maps whose texels the filter hides",
@@ -238,20 +215,8 @@ std::vector<Option> filter_options(Request& request) {
        .range = {{0.0, 1e12}}}};
 }
 
-std::vector<Option> light_options(Request& request) {
-  LightPlacement& light = request.options.light;
-  return {{.name = "--light",
-           .target = &request.light,
-           .help = "sun, or a spot or point light in the middle of the scene",
-           .names = {"sun", "spot", "point"}},
-          {.name = "--light-elevation-deg",
-           .target = &light.elevation_deg,
-           .help = "elevation of the sun above the horizon, degrees",
-           .range = {{0.1, 90.0}}},
-          {.name = "--light-azimuth-deg",
-           .target = &light.azimuth_deg,
-           .help = "azimuth of the sun, degrees: 0 is -Z, 90 is +X",
-           .range = {{-360.0, 360.0}}}};
+std::vector<Option> sun_options(Request& request) {
+  return light_options(request.light, request.options.light);
 }
 
 }  // namespace
@@ -261,8 +226,8 @@ namespace gnomon::tool {
 
 std::function<int()> declare_fly(Arguments& arguments) {
   const auto request = std::make_shared<fly::Request>();
-  for (const auto& part : {fly::flight_options, fly::map_options, fly::budget_options, fly::filter_options,
-                           fly::light_options}) {
+  for (const auto& part :
+       {fly::flight_options, fly::map_options, fly::budget_options, fly::filter_options, fly::sun_options}) {
     for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
   }
   arguments.footer = fly::prune_footer();

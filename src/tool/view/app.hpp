@@ -91,8 +91,10 @@ struct App {
   std::optional<glm::dvec2> pointer;  ///< of the tour, framebuffer pixels
 };
 
-/// The panel, the help page, the status line and the probe's text; changes App::state.
+/// Tabs with every option; changes App::state.
 void draw_panel(App& app);
+/// The status line, the help page, the probe's text and the light's handle.
+void draw_overlay(App& app);
 /// Width of the panel in window units; 0 where it is hidden.
 [[nodiscard]] double panel_width(const App& app);
 

@@ -9,24 +9,14 @@
 
 #include "gnomon/render/picture.hpp"
 #include "lines.hpp"
+#include "picture_colors.hpp"
 
 namespace gnomon::tool::view {
 namespace {
 
 using render::Color;
 
-constexpr Color kSky{214, 224, 234}, kUndecided{160, 60, 160}, kPale{150, 152, 158};
-constexpr Color kShadow{40, 42, 50}, kLit{245, 243, 236}, kGround{24, 24, 28};
-// Okabe and Ito's orange and blue: told apart by those who see red and green alike, and by brightness.
-constexpr Color kFalseLight{230, 159, 0}, kFalseShadow{0, 114, 178};
-
-Color mixed(const Color& a, const Color& b, double share) {
-  const double s = std::clamp(share, 0.0, 1.0);
-  const auto channel = [s](std::uint8_t from, std::uint8_t to) {
-    return static_cast<std::uint8_t>(from + (to - from) * s + 0.5);
-  };
-  return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
-}
+constexpr Color kPale{150, 152, 158}, kGround{24, 24, 28};
 
 void set(Image& image, std::size_t pixel, const Color& color) {
   image.rgba[4 * pixel] = color.r;
@@ -88,9 +78,7 @@ Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdi
       continue;
     }
     const double truth = verdict == trace::Verdict::lit ? 1.0 : 0.0, error = first_channel(mask, i) - truth;
-    // The exact shadow pales behind the errors.
-    const Color ground = mixed(mixed(kShadow, kLit, truth), kSky, 0.5);
-    set(image, i, mixed(ground, error > 0.0 ? kFalseLight : kFalseShadow, std::abs(error)));
+    set(image, i, error_color(truth, error));
   }
   return image;
 }

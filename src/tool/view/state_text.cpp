@@ -12,6 +12,7 @@
 #include "gnomon/casefile/casefile.hpp"
 #include "nearest_name.hpp"
 #include "option_words.hpp"
+#include "picture_words.hpp"
 #include "plan_option.hpp"
 #include "state.hpp"
 #include "whole_file.hpp"
@@ -72,12 +73,10 @@ Json options_json(const PlanOptions& options) {
   return json;
 }
 
-constexpr std::array<std::string_view, 3> kTransitions{"cut", "blend", "dither"};
-
 Json settings_json(const Settings& settings) {
   return {{"options", options_json(settings.plan)},
           {"filter", render::to_string(settings.filter)},
-          {"transition", kTransitions[static_cast<std::size_t>(settings.transition)]},
+          {"transition", transition_names()[static_cast<std::size_t>(settings.transition)]},
           {"history", settings.history},
           {"visible_depths", settings.visible_depths}};
 }
@@ -204,7 +203,7 @@ Settings read_settings(const Json& json, const std::string& path) {
     if (!parsed.error.empty()) reader.refuse("filter", parsed.error);
     settings.filter = parsed.settings;
   }
-  reader.read_name("transition", settings.transition, {kTransitions.begin(), kTransitions.end()});
+  reader.read_name("transition", settings.transition, transition_names());
   reader.read("history", settings.history);
   reader.read("visible_depths", settings.visible_depths);
   reader.done();
@@ -407,7 +406,7 @@ void add_settings(const Settings& settings, std::string& text) {
     text += " --options " + quoted(rest);
   text += " --filter " + quoted(render::to_string(settings.filter));
   if (settings.transition != render::SplitTransition::cut)
-    text += " --transition " + std::string(kTransitions[static_cast<std::size_t>(settings.transition)]);
+    text += " --transition " + std::string(transition_names()[static_cast<std::size_t>(settings.transition)]);
   if (settings.history) text += " --history";
   if (settings.visible_depths) text += " --visible-depths";
 }

@@ -13,6 +13,7 @@
 #include "offscreen_context.hpp"
 #include "options.hpp"
 #include "output.hpp"
+#include "picture_words.hpp"
 #include "plan_option.hpp"
 #include "scene_words.hpp"
 #include "stage.hpp"
@@ -29,7 +30,8 @@ struct Request {
                      eye, target, light = "sun", light_position, light_direction, transition = "cut",
                      view = "lit";
   double light_outer_deg = 0.0, light_range = 0.0;
-  /// Of every option that sets a part of the state, and whether it is given: a list never moves its nodes.
+  /// Options that set a part of the state, and whether each is given; on the heap, as their addresses are
+  /// kept.
   std::vector<std::pair<std::string, std::unique_ptr<bool>>> settings;
 };
 
@@ -50,17 +52,6 @@ glm::dvec3 point_word(const std::string& option, const std::string& word) {
   }
   if (at != end) throw std::runtime_error(not_three_numbers(option, word));
   return point;
-}
-
-void parse_size(const std::string& text, Options& options) {
-  const std::size_t x = text.find('x');
-  const auto number = [&text](std::size_t begin, std::size_t end, int& value) {
-    const auto [last, error] = std::from_chars(text.data() + begin, text.data() + end, value);
-    return error == std::errc{} && last == text.data() + end && value >= kLeastSide && value <= kMostSide;
-  };
-  if (x == std::string::npos || !number(0, x, options.width) || !number(x + 1, text.size(), options.height))
-    throw std::runtime_error(fmt::format("--size {}: wants WIDTHxHEIGHT, each {} to {}, as in 1280x720", text,
-                                         kLeastSide, kMostSide));
 }
 
 template <class Enum>
@@ -144,7 +135,7 @@ void resolve_plan(const Request& request, PlanOptions& plan) {
 
 Options resolved(const Request& request) {
   Options options = request.options;
-  parse_size(request.size, options);
+  read_picture_size(request.size, kLeastSide, kMostSide, options.width, options.height);
   options.out = request.out;
   options.screenshot = request.screenshot;
   options.tour = request.tour;
@@ -165,9 +156,7 @@ Options resolved(const Request& request) {
   State& state = options.state;
   resolve_plan(request, state.a.plan);
   state.a.filter = filter_word("--filter", request.filter);
-  if (request.transition != "cut")
-    state.a.transition =
-        request.transition == "blend" ? render::SplitTransition::blend : render::SplitTransition::dither;
+  state.a.transition = transition_from_name(request.transition);
   // A warped grid is only stable from frame to frame.
   if (state.a.plan.fit == Fit::warped_stable) state.a.history = true;
   state.b = state.a;
@@ -175,12 +164,6 @@ Options resolved(const Request& request) {
   resolve_light(request, state.light);
   resolve_camera(request, state);
   return options;
-}
-
-std::string scene_help() {
-  std::string text = "glTF file (.gltf, .glb) or one of";
-  for (const BuiltinScene& scene : builtin_scenes()) text += fmt::format(" builtin:{}", scene.name);
-  return text;
 }
 
 /// What is opened, and what becomes of it.
@@ -205,10 +188,7 @@ std::vector<Option> run_options(Request& request) {
       {.name = "--size",
        .target = &request.size,
        .help = "size of the window, or of the picture of --out, in pixels, WIDTHxHEIGHT"},
-      {.name = "--context",
-       .target = &request.context,
-       .help = "OpenGL context of --out: auto, osmesa or egl",
-       .names = {"auto", "osmesa", "egl"}},
+      context_option(request.context, " of --out"),
       {.name = "--exit-after",
        .target = &options.exit_after,
        .help = "close the window after this many frames with the scene; 0: stay open",
@@ -226,10 +206,7 @@ std::vector<Option> run_options(Request& request) {
        .target = &options.ui_scale,
        .help = "size of text and widgets; 0: as the display has it",
        .range = {{0.0, 8.0}}},
-      {.name = "--max-triangles",
-       .target = &options.max_triangles,
-       .help = "refuse scenes with more triangles, over all instances; each takes up to 100 bytes",
-       .range = {{1, 1e9}}}};
+      max_triangles_option(options.max_triangles)};
 }
 
 /// Everything that --state has as well.
@@ -240,7 +217,7 @@ std::vector<Option> setting_options(Request& request) {
     if (is_spoken(field.key)) options.push_back(plan_option(field.key, state.a.plan));
   std::vector<std::string> views;
   for (const Named& one : view_names()) views.emplace_back(one.name);
-  const std::vector<Option> others{
+  const std::vector<Option> of_picture{
       {.name = "--options",
        .target = &request.plan_json,
        .help = "further options of the plan, as \"options\" of a case file has them, in JSON",
@@ -253,54 +230,44 @@ std::vector<Option> setting_options(Request& request) {
       {.name = "--transition",
        .target = &request.transition,
        .help = "transition between cascades, over --split-overlap",
-       .names = {"cut", "blend", "dither"}},
+       .names = transition_names()},
       {.name = "--history",
        .target = &state.a.history,
        .help = "change texel density smoothly from frame to frame"},
       {.name = "--visible-depths",
        .target = &state.a.visible_depths,
-       .help = "draw each frame twice, and plan the second for the depths that the first shows"},
-      {.name = "--light",
-       .target = &request.light,
-       .help = "sun, or a spot or point light in the middle of the scene",
-       .names = {"sun", "spot", "point"}},
-      {.name = "--light-elevation-deg",
-       .target = &state.light.sun.elevation_deg,
-       .help = "elevation of the sun above the horizon, degrees",
-       .range = {{0.1, 90.0}}},
-      {.name = "--light-azimuth-deg",
-       .target = &state.light.sun.azimuth_deg,
-       .help = "azimuth of the sun, degrees: 0 is -Z, 90 is +X",
-       .range = {{-360.0, 360.0}}},
-      {.name = "--light-position",
-       .target = &request.light_position,
-       .help = "position of the spot or point light, world units",
-       .word = "X,Y,Z"},
-      {.name = "--light-direction",
-       .target = &request.light_direction,
-       .help = "direction of the spot light",
-       .word = "X,Y,Z"},
-      {.name = "--light-outer-deg",
-       .target = &request.light_outer_deg,
-       .help = "half angle of the spot light's cone, degrees",
-       .range = {{0.0, 179.9}}},
-      {.name = "--light-range",
-       .target = &request.light_range,
-       .help = "distance that the local light reaches, world units",
-       .range = {{0.0, 1e30}}},
-      {.name = "--eye",
-       .target = &request.eye,
-       .help = "position of the camera, world units; needs --target",
-       .word = "X,Y,Z"},
-      {.name = "--target",
-       .target = &request.target,
-       .help = "point that the camera looks at",
-       .word = "X,Y,Z"},
-      {.name = "--view",
-       .target = &request.view,
-       .help = "what the picture shows: " + any_of_text(views),
-       .names = views}};
-  options.insert(options.end(), others.begin(), others.end());
+       .help = "draw each frame twice, and plan the second for the depths that the first shows"}};
+  const std::vector<Option> of_light = light_options(request.light, state.light.sun);
+  const std::vector<Option> others{{.name = "--light-position",
+                                    .target = &request.light_position,
+                                    .help = "position of the spot or point light, world units",
+                                    .word = "X,Y,Z"},
+                                   {.name = "--light-direction",
+                                    .target = &request.light_direction,
+                                    .help = "direction of the spot light",
+                                    .word = "X,Y,Z"},
+                                   {.name = "--light-outer-deg",
+                                    .target = &request.light_outer_deg,
+                                    .help = "half angle of the spot light's cone, degrees",
+                                    .range = {{0.0, 179.9}}},
+                                   {.name = "--light-range",
+                                    .target = &request.light_range,
+                                    .help = "distance that the local light reaches, world units",
+                                    .range = {{0.0, 1e30}}},
+                                   {.name = "--eye",
+                                    .target = &request.eye,
+                                    .help = "position of the camera, world units; needs --target",
+                                    .word = "X,Y,Z"},
+                                   {.name = "--target",
+                                    .target = &request.target,
+                                    .help = "point that the camera looks at",
+                                    .word = "X,Y,Z"},
+                                   {.name = "--view",
+                                    .target = &request.view,
+                                    .help = "what the picture shows: " + any_of_text(views),
+                                    .names = views}};
+  for (const auto* part : {&of_picture, &of_light, &others})
+    options.insert(options.end(), part->begin(), part->end());
   for (Option& option : options) {
     request.settings.emplace_back(option.name, std::make_unique<bool>(false));
     option.given = request.settings.back().second.get();

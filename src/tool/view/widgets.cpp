@@ -56,7 +56,7 @@ bool edit_int(const char* label, int& value, int least, int most) {
 
 void edit_choice(const char* label, const PlanField& field, const PlanChoice& choice, PlanOptions& options) {
   std::vector<std::string> names = choice.names();
-  // Of rules that are joined by commas only the words for whole sets are a list.
+  // Only the words for whole sets are a list: rules may be joined by commas as well.
   std::erase_if(names, [](const std::string& name) { return name.find(' ') != std::string::npos; });
   const std::string now = choice.get(options);
   if (!ImGui::BeginCombo(label, now.c_str())) return tooltip(field.summary);

@@ -1,6 +1,8 @@
 // Widgets for the options of a plan and of a filter, made from the tables that command lines read.
 #pragma once
 
+#include <imgui.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +13,11 @@
 #include "state.hpp"
 
 namespace gnomon::tool::view {
+
+/// A part of the window's own layout: nothing moves or resizes it.
+inline constexpr ImGuiWindowFlags kFixedWindow = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
+                                                 ImGuiWindowFlags_NoSavedSettings;
 
 /// One option of a plan: its widget, its help as a tooltip, and its reset where it is not the default.
 void edit_plan_field(const PlanField& field, PlanOptions& options);

@@ -212,6 +212,7 @@ class Loop {
     const bool moving = play(app_, seconds);
     const auto panel_begin = Clock::now();
     draw_panel(app_);
+    draw_overlay(app_);
     ImGui::Render();
     double panel_ms = ms_since(panel_begin);
     const bool drew = draw_picture(moving);

@@ -1,4 +1,5 @@
-// Plans one map through the installed core. all_headers.hpp is written by the test: every header that is installed.
+// Plans one map through the installed core. all_headers.hpp is written by the test: every header that is
+// installed.
 #include <cstdio>
 
 #include "all_headers.hpp"

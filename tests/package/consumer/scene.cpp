@@ -1,4 +1,5 @@
-// Asks the installed scene library for a scene that it does not have: the exception is caught by its own type.
+// Asks the installed scene library for a scene that it does not have: the exception is caught by its own
+// type.
 #include <cstdio>
 
 #include "all_headers.hpp"

@@ -5,16 +5,11 @@
 
 namespace gnomon::page_policies {
 
-const PagePolicy clipmap{"clipmap",
-                         "octaves of square texels by footprint, as engines do: the baseline",
-                         true,
-                         false,
-                         0,
-                         [](PageContext& c) noexcept {
-                           const double inverse = 1.0 / c.target;
-                           c.for_each_point([&](PagePoint& point, std::size_t) {
-                             c.set_step(point, c.step_for(c.excess(point) * inverse));
-                           });
-                         }};
+const PagePolicy clipmap{.name = "clipmap",
+                         .summary = "octaves of square texels by footprint, as engines do: the baseline",
+                         .octaves = true,
+                         .shares_finer = false,
+                         .feedback = 0,
+                         .assign = [](PageContext& c) noexcept { c.set_steps_by_need(); }};
 
 }  // namespace gnomon::page_policies

@@ -13,12 +13,12 @@ constexpr double kCoarserOffEdges = 8.0;
 }  // namespace
 
 const PagePolicy edges{
-    "edges",
-    "the target at shadow edges of the last frame, eight times as coarse elsewhere",
-    false,
-    true,
-    kShadowEdge,
-    [](PageContext& c) noexcept {
+    .name = "edges",
+    .summary = "the target at shadow edges of the last frame, eight times as coarse elsewhere",
+    .octaves = false,
+    .shares_finer = true,
+    .feedback = kShadowEdge,
+    .assign = [](PageContext& c) noexcept {
       c.for_each_point([&](PagePoint& point, std::size_t index) {
         const bool edge = (c.feedback(index) & kShadowEdge) != 0;
         c.set_step(point, c.step_for(c.excess(point) / (edge ? c.target : kCoarserOffEdges * c.target)));

@@ -60,8 +60,11 @@ void assign(PageContext& c) noexcept {
 
 }  // namespace
 
-const PagePolicy queried{"queried",      "an octave finer wherever the last refinement changed the picture",
-                         false,          true,
-                         kShadowChanged, assign};
+const PagePolicy queried{.name = "queried",
+                         .summary = "an octave finer wherever the last refinement changed the picture",
+                         .octaves = false,
+                         .shares_finer = true,
+                         .feedback = kShadowChanged,
+                         .assign = assign};
 
 }  // namespace gnomon::page_policies

@@ -5,16 +5,11 @@
 
 namespace gnomon::page_policies {
 
-const PagePolicy resolution{"resolution",
-                            "what every visible point needs for the target error",
-                            false,
-                            true,
-                            0,
-                            [](PageContext& c) noexcept {
-                              const double inverse = 1.0 / c.target;
-                              c.for_each_point([&](PagePoint& point, std::size_t) {
-                                c.set_step(point, c.step_for(c.excess(point) * inverse));
-                              });
-                            }};
+const PagePolicy resolution{.name = "resolution",
+                            .summary = "what every visible point needs for the target error",
+                            .octaves = false,
+                            .shares_finer = true,
+                            .feedback = 0,
+                            .assign = [](PageContext& c) noexcept { c.set_steps_by_need(); }};
 
 }  // namespace gnomon::page_policies

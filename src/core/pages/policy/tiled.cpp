@@ -45,7 +45,11 @@ void assign(PageContext& c) noexcept {
 
 }  // namespace
 
-const PagePolicy tiled{
-    "tiled", "tiles of one map share the pool by nearness and depth edges", false, true, kDepthEdge, assign};
+const PagePolicy tiled{.name = "tiled",
+                       .summary = "tiles of one map share the pool by nearness and depth edges",
+                       .octaves = false,
+                       .shares_finer = true,
+                       .feedback = kDepthEdge,
+                       .assign = assign};
 
 }  // namespace gnomon::page_policies

@@ -1,0 +1,34 @@
+// Words about pictures that several commands take: their size, and how cascades go over into each other.
+#pragma once
+
+#include <charconv>
+#include <stdexcept>
+#include <string>
+
+#include "command.hpp"
+#include "gnomon/render/renderer.hpp"
+
+namespace gnomon::tool {
+
+/// Of --size, pixels. Throws std::runtime_error where `text` is not WIDTHxHEIGHT, each within [least, most].
+inline void read_picture_size(const std::string& text, int least, int most, int& width, int& height) {
+  const std::size_t x = text.find('x');
+  const auto number = [&](std::size_t begin, std::size_t end, int& value) {
+    const auto [last, error] = std::from_chars(text.data() + begin, text.data() + end, value);
+    return error == std::errc{} && last == text.data() + end && value >= least && value <= most;
+  };
+  if (x == std::string::npos || !number(0, x, width) || !number(x + 1, text.size(), height))
+    throw std::runtime_error("--size " + text + ": wants WIDTHxHEIGHT, each " + std::to_string(least) +
+                             " to " + std::to_string(most) + ", as in 960x540");
+}
+
+[[nodiscard]] inline std::vector<std::string> transition_names() {
+  return {"cut", "blend", "dither"};  // in the order of render::SplitTransition
+}
+/// Of one of transition_names().
+[[nodiscard]] inline render::SplitTransition transition_from_name(const std::string& name) {
+  if (name == "blend") return render::SplitTransition::blend;
+  return name == "dither" ? render::SplitTransition::dither : render::SplitTransition::cut;
+}
+
+}  // namespace gnomon::tool
