@@ -104,25 +104,34 @@ TEST(WarpSearch, rows_of_a_choice_make_the_same_map_again) {
   EXPECT_GT(looked, 12);
 }
 
-TEST(WarpSearch, the_best_rows_of_a_fan_are_no_worse_than_straight_ones) {
+TEST(WarpSearch, the_best_rows_near_straight_ones_are_no_worse_than_those) {
   looked = 0;
   for (const Objective objective : {Objective::storage, Objective::max}) {
     show(street(), {0.6, -1, -0.4}, kGround, objective, [](const WarpInput& input) {
       PlaneError error(input);
       RowSearch search(input, error);
-      for (const double share : {0.3, 0.6, 0.9}) {
-        const RowChoice found = search.round(search.ahead(share));
-        EXPECT_TRUE(std::isfinite(found.value)) << share;
-        WarpChoice straight = search.choice(found);
-        straight.row_a = {1.0, 0.0};
-        straight.row_b = {0.0, 1.0};
-        // The corners alone count there, and the samples here: some hundredths apart.
-        EXPECT_LE(error.value(search.choice(found)), 1.1 * error.value(straight)) << share;
+      RowLanes candidates{};
+      for (std::size_t lane = 0; lane < RowLanes::kCount; ++lane) {
+        RowChoice straight;
+        straight.fall_off = search.ahead(0.05 + 0.06 * static_cast<double>(lane));
+        candidates.set(lane, straight);
+      }
+      const RowLanes before = candidates;
+      search.find_rows(0.1, candidates);
+      search.find_values(candidates);
+      RowLanes as_they_were = before;
+      search.find_values(as_they_were);
+      for (std::size_t lane = 0; lane < RowLanes::kCount; ++lane) {
+        EXPECT_TRUE(std::isfinite(candidates.value[lane])) << lane;
+        EXPECT_GT(candidates.value[lane], 0.0F) << lane;
+        // The rows go by both extents together: a little off what the objective says.
+        EXPECT_LE(candidates.value[lane], 1.2F * as_they_were.value[lane]) << lane;
         ++looked;
       }
+      EXPECT_NEAR(candidates.best().value, candidates.value[candidates.least()], 0.0);
     });
   }
-  EXPECT_EQ(looked, 6);
+  EXPECT_EQ(looked, 32);
 }
 
 TEST(WarpSearch, a_wall_along_the_light_is_a_line_at_any_angle_to_the_view) {

@@ -329,6 +329,8 @@ void compare_maps(const Case& input, const ShadowPlan& with, int a, const Shadow
     if (points.size() < 100 || !(e.rounding < kUseful) || !(e0.rounding < kUseful)) return;
     ratio = objective == "max" ? e.longest / e0.longest : e.m_s * e.m_t / (e0.m_s * e0.m_t);
   }
+  // Both are infinite where a pixel has no area.
+  if (std::isnan(ratio)) return;
   ++report.counts().warps;
   if (!(ratio <= allowed)) {
     std::ostringstream text;
