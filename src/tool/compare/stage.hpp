@@ -27,7 +27,7 @@ class Stage {
   [[nodiscard]] const trace::Tracer& tracer() const noexcept { return *tracer_; }
   [[nodiscard]] render::Renderer& renderer() noexcept { return *renderer_; }
   [[nodiscard]] render::PreparedFilter filter(const SweepEntry& entry) {
-    return renderer_->prepare(entry.filter);
+    return entry.irregular ? renderer_->prepare_irregular() : renderer_->prepare(entry.filter);
   }
   [[nodiscard]] const Scene& scene() const noexcept { return view_.scene(); }
 

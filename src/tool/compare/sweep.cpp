@@ -70,8 +70,10 @@ std::vector<std::string> expanded(const std::vector<std::string>& texts, const E
 }
 
 void set_filter(const std::string& text, SweepEntry& entry) {
-  entry.filter = filter_word("--filters", text);
-  entry.technique.filter = render::to_string(entry.filter);
+  entry.irregular = text == kIrregular;
+  entry.filter =
+      entry.irregular ? render::default_settings(render::filters::hard) : filter_word("--filters", text);
+  entry.technique.filter = entry.irregular ? std::string(kIrregular) : render::to_string(entry.filter);
   render::set_margin(entry.filter, entry.plan);
 }
 
@@ -223,7 +225,8 @@ std::string compare_footer() {
          any_of_text(names_in(all_warps(), {"auto"})) + ".\nSplits: " + any_of_text(split_names()) +
          ", each with :finest, :visible_depths or :visible_points behind it" +
          ".\nFilters: " + any_of_text(names_in(render::all_filters())) +
-         ". gnomon filters NAME prints the options of one.\n";
+         ". gnomon filters NAME prints the options of one. " + std::string(kIrregular) +
+         " takes no filter: casters are tested against each pixel, for exact hard shadows at their price.\n";
 }
 
 std::vector<std::string> split_names() {
