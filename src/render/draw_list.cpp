@@ -66,6 +66,28 @@ void DrawLists::build(const CullingJob& job, const DrawnMaps& drawn, const Camer
   finish(camera);
 }
 
+void DrawLists::build_uncached(const CullingJob& job, const Camera& camera) {
+  objects_.clear();
+  commands_.clear();
+  ranges_.clear();
+  PruneSavings saved;
+  culling_.count_omissions(job.plan, saved);
+  for (std::size_t map = 0; map < kMaxMaps; ++map) {
+    stats_[map] = {};
+    part_count_[map] = 0;
+    move_[map] = {};
+    if (map >= job.plan.maps().size()) continue;
+    const ShadowMap& of = job.plan.map[map];
+    DrawnPart& part = parts_[map][part_count_[map]++];
+    part = {{0, 0, of.width, of.height}, false, ranges_.size(), 0};
+    add_view(culling_.casters_of(job, of, saved), stats_[map]);
+    part.end = ranges_.size();
+    stats_[map].texels = texels_of(of);
+  }
+  saved_ = saved.net();
+  finish(camera);
+}
+
 void DrawLists::build_pages(std::span<const DrawnPage> pages, const Camera& camera) {
   objects_.clear();
   commands_.clear();

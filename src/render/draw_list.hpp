@@ -37,6 +37,9 @@ class DrawLists {
 
   /// Rebuilds and uploads everything for this frame.
   void build(const CullingJob& job, const DrawnMaps& drawn, const Camera& camera);
+  /// The same without the cache: one part for each map, with all of its casters. The maps' depths stay as
+  /// they are.
+  void build_uncached(const CullingJob& job, const Camera& camera);
   /// The same with pages in place of maps: one part for each, see page_part.
   void build_pages(std::span<const DrawnPage> pages, const Camera& camera);
   /// What is drawn into one page, by index.

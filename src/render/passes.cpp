@@ -10,7 +10,8 @@ namespace gnomon::render {
 namespace {
 
 // Bindings and locations as the shaders state them.
-constexpr GLint kBaseColorLocation = 1, kAlphaCutoffLocation = 2, kClipLocation = 3;
+constexpr GLint kBaseColorLocation = 1, kAlphaCutoffLocation = 2, kClipLocation = 3, kMapLocation = 3,
+                kWrapLocation = 4;
 constexpr GLuint kPositionUnit = 0, kNormalUnit = 1, kAlbedoUnit = 2, kColorImageUnit = 3, kMaskUnit = 6,
                  kExtraUnit = 7, kNoiseUnit = kColorImageUnit;
 
@@ -48,8 +49,9 @@ void Renderer::Impl::draw_map_part(const DrawnPart& part, const DrawnMap& map,
   draw_casters(part, map.clip_from_position, alpha_test_where_masked);
 }
 
-void Renderer::Impl::draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
-                                  bool alpha_test_where_masked) noexcept {
+template <class SetPlace>
+void Renderer::Impl::draw_casters(const DrawnPart& part, const CasterPrograms& by,
+                                  bool alpha_test_where_masked, SetPlace&& set_place) noexcept {
   const std::span<const Batch> batches = scene.batches();
   // Opaque batches come first in the order of batches, and their commands follow each other: one call draws
   // them.
@@ -57,17 +59,45 @@ void Renderer::Impl::draw_casters(const DrawnPart& part, const glm::mat4& clip_f
   std::size_t opaque = 0;
   while (alpha_test_where_masked && opaque < ranges.size() && !batches[ranges[opaque].batch].masked) ++opaque;
   if (opaque > 0) {
-    glUseProgram(programs.depth.name());
-    glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]);
+    glUseProgram(by.opaque.name());
+    set_place();
     lists.draw(ranges.front().begin, ranges[opaque - 1].end);
   }
   if (opaque == ranges.size()) return;
-  glUseProgram(programs.depth_masked.name());
-  glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]);
+  glUseProgram(by.masked.name());
+  set_place();
   for (const BatchRange& range : ranges.subspan(opaque)) {
-    bind_material(batches[range.batch]);
+    const Batch& batch = batches[range.batch];
+    bind_material(batch);
+    glUniform2i(by.wrap_location, static_cast<GLint>(batch.wrap_u), static_cast<GLint>(batch.wrap_v));
     lists.draw(range.begin, range.end);
   }
+}
+
+void Renderer::Impl::draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
+                                  bool alpha_test_where_masked) noexcept {
+  draw_casters(part, CasterPrograms{programs.depth, programs.depth_masked}, alpha_test_where_masked,
+               [&] { glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]); });
+}
+
+void Renderer::Impl::draw_casters_on_lists(const ShadowPlan& plan, bool alpha_test_where_masked) noexcept {
+  pixel_lists->bind(targets.mask.name());
+  glBindVertexArray(scene.vertex_array());
+  // From the camera, as the surfaces: casters then have the very corners of the triangles that are seen.
+  scene.use(SceneBuffers::Placed::for_camera);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_SCISSOR_TEST);
+  for (int i = 0; i < plan.map_count; ++i) {
+    const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
+    glViewport(0, 0, map.width, map.height);
+    for (const DrawnPart& part : lists.parts(i)) {
+      draw_casters(part, CasterPrograms{pixel_lists->opaque(), pixel_lists->masked(), kWrapLocation},
+                   alpha_test_where_masked, [i] { glUniform1i(kMapLocation, i); });
+    }
+  }
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
+                  GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void Renderer::Impl::draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept {
@@ -178,8 +208,7 @@ void Renderer::Impl::prefilter(const ShadowPlan& plan, const PreparedFilter& fil
   stored.build(programs_of_filter, filter.settings, block, job);
 }
 
-void Renderer::Impl::draw_surfaces() noexcept {
-  const GLuint fbo = targets.surfaces_fbo.name();
+void Renderer::Impl::draw_surfaces(GLuint fbo, const Program& program) noexcept {
   glBindFramebuffer(GL_FRAMEBUFFER, fbo);
   glViewport(0, 0, targets.width, targets.height);
   constexpr std::array<float, 4> kNothing{};
@@ -191,7 +220,7 @@ void Renderer::Impl::draw_surfaces() noexcept {
   glEnable(GL_FRAMEBUFFER_SRGB);
   glBindVertexArray(scene.vertex_array());
   scene.use(SceneBuffers::Placed::for_camera);
-  glUseProgram(programs.surfaces.name());
+  glUseProgram(program.name());
   const std::span<const Batch> batches = scene.batches();
   for (const BatchRange& range : lists.camera()) {
     const Batch& batch = batches[range.batch];
@@ -205,14 +234,18 @@ void Renderer::Impl::draw_surfaces() noexcept {
   glDisable(GL_FRAMEBUFFER_SRGB);
 }
 
+void Renderer::Impl::bind_surfaces() const noexcept {
+  glBindTextureUnit(kPositionUnit, targets.position.name());
+  glBindTextureUnit(kNormalUnit, targets.normal.name());
+  glBindTextureUnit(kAlbedoUnit, targets.albedo.name());
+}
+
 void Renderer::Impl::fullscreen(GLuint fbo, const Program& program) const noexcept {
   glBindFramebuffer(GL_FRAMEBUFFER, fbo);
   glViewport(0, 0, targets.width, targets.height);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(no_vertices.name());
-  glBindTextureUnit(kPositionUnit, targets.position.name());
-  glBindTextureUnit(kNormalUnit, targets.normal.name());
-  glBindTextureUnit(kAlbedoUnit, targets.albedo.name());
+  bind_surfaces();
   glUseProgram(program.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }

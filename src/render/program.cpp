@@ -56,6 +56,17 @@ Program make_program(std::string_view vertex_path, std::string_view fragment_pat
   return make_program(compose_shader(vertex_path), compose_shader(fragment_path, choice));
 }
 
+Program make_geometry_program(std::string_view vertex_path, std::string_view geometry_path,
+                              std::string_view fragment_path) {
+  const ComposedShader vertex = compose_shader(vertex_path), geometry = compose_shader(geometry_path),
+                       fragment = compose_shader(fragment_path);
+  const Shader vertex_shader = compile(GL_VERTEX_SHADER, vertex);
+  const Shader geometry_shader = compile(GL_GEOMETRY_SHADER, geometry);
+  const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment);
+  const std::array<const Shader*, 3> all{&vertex_shader, &geometry_shader, &fragment_shader};
+  return link(all, vertex.files.front() + ", " + geometry.files.front() + " and " + fragment.files.front());
+}
+
 Program make_compute_program(std::string_view path, const ShaderChoice& choice) {
   const ComposedShader source = compose_shader(path, choice);
   const Shader shader = compile(GL_COMPUTE_SHADER, source);

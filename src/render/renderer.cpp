@@ -2,9 +2,9 @@
 #include "gnomon/render/renderer.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
+#include "pass_timer.hpp"
 #include "program.hpp"
 #include "renderer_impl.hpp"
 
@@ -12,8 +12,6 @@ namespace gnomon::render {
 namespace {
 
 constexpr GLuint kFrameBinding = 0;
-
-using Clock = std::chrono::steady_clock;
 
 void GLAD_API_PTR report_gl_error(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
                                   const void*) {
@@ -28,21 +26,6 @@ bool reads_everywhere(const FilterSettings& settings, const ShadowPlan& plan) no
          (filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings)) ||
          (filter.hooks.adapts != nullptr && filter.hooks.adapts(settings));
 }
-
-/// Runs passes, and measures each where that is requested.
-struct PassTimer {
-  FrameStats& stats;
-  bool on;
-  template <typename Work>
-  void operator()(Pass pass, Work&& work) const {
-    const Clock::time_point begin = Clock::now();
-    work();
-    if (!on) return;
-    glFinish();
-    stats.milliseconds[static_cast<std::size_t>(pass)] =
-        std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-  }
-};
 
 }  // namespace
 
@@ -147,6 +130,23 @@ bool Renderer::move_instance(std::size_t instance, const Instance& to) {
   return true;
 }
 
+void Renderer::Impl::draw_pictures(const PassTimer& timed, const FrameOptions& options) noexcept {
+  timed(Pass::shade, [&] { draw_shade(); });
+  if (options.aliasing) timed(Pass::aliasing, [&] { draw_aliasing(); });
+  if (options.aliasing && options.heat_map) timed(Pass::heat_map, [&] { draw_heat_map(); });
+  if (options.cascade_tint) timed(Pass::cascade_tint, [&] { draw_cascade_tint(); });
+}
+
+void Renderer::Impl::count_work(const ShadowPlan& plan, FrameStats& stats) const noexcept {
+  stats.map_count = plan.map_count;
+  for (int i = 0; i < plan.map_count; ++i) {
+    stats.map[static_cast<std::size_t>(i)] = lists.map_stats(i);
+    stats.texels += lists.map_stats(i).texels;
+  }
+  stats.saved = lists.saved();
+  stats.camera = lists.camera_stats();
+}
+
 FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                           const FrameOptions& options) noexcept {
   Impl& impl = *impl_;
@@ -157,6 +157,8 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     impl.moved.clear();
   }
   if (plan.map_count > 0) impl.pages.forget();
+  if (filter.irregular && impl.pixel_lists && impl.pixel_lists->fits(camera.width, camera.height))
+    return impl.draw_irregular(plan, camera, filter, options);
   FrameStats stats;
   const PassTimer timed{stats, options.time_passes};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -177,7 +179,8 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
         camera);
     impl.draw_shadow_maps(drawn, options.prune.has(PruneRule::alpha_test));
   });
-  timed(Pass::surfaces, [&] { impl.draw_surfaces(); });
+  timed(Pass::surfaces,
+        [&] { impl.draw_surfaces(impl.targets.surfaces_fbo.name(), impl.programs.surfaces); });
   timed(Pass::prefilter,
         [&] { impl.prefilter(plan, filter, filtering, options.prune.has(PruneRule::unread_tiles)); });
   const bool accumulated = options.accumulation.on;
@@ -187,24 +190,14 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     impl.draw_mask(impl.filter_programs[filter.program].mask, accumulated);
   });
   if (accumulated) timed(Pass::accumulate, [&] { impl.draw_accumulated(camera, options, block); });
-  timed(Pass::shade, [&] { impl.draw_shade(); });
-  if (options.aliasing) timed(Pass::aliasing, [&] { impl.draw_aliasing(); });
-  if (options.aliasing && options.heat_map) timed(Pass::heat_map, [&] { impl.draw_heat_map(); });
-  if (options.cascade_tint) timed(Pass::cascade_tint, [&] { impl.draw_cascade_tint(); });
-
-  stats.map_count = plan.map_count;
-  for (int i = 0; i < plan.map_count; ++i) {
-    stats.map[static_cast<std::size_t>(i)] = impl.lists.map_stats(i);
-    stats.texels += impl.lists.map_stats(i).texels;
-  }
-  stats.saved = impl.lists.saved();
+  impl.draw_pictures(timed, options);
+  impl.count_work(plan, stats);
   if (options.time_passes) {
     stats.filtered_texels = impl.stored.take_filtered_texels();
     const std::uint64_t whole = impl.stored.whole_texels();
     stats.saved[static_cast<std::size_t>(PruneRule::unread_tiles)].filtered =
         whole - std::min(stats.filtered_texels, whole);
   }
-  stats.camera = impl.lists.camera_stats();
   stats.prefilter_passes = impl.stored.passes();
   stats.maps_read_back = impl.maps_read_back;
   stats.map_bytes = impl.maps.bytes() + impl.stored.bytes();
@@ -259,7 +252,8 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
     impl.lists.build_pages(impl.pages.pages(), camera);
     impl.draw_pages(alpha_test);
   });
-  timed(Pass::surfaces, [&] { impl.draw_surfaces(); });
+  timed(Pass::surfaces,
+        [&] { impl.draw_surfaces(impl.targets.surfaces_fbo.name(), impl.programs.surfaces); });
   timed(Pass::mask, [&] {
     impl.pages.bind();
     impl.bind_noise(options.noise);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "draw_list.hpp"
@@ -10,6 +11,8 @@
 #include "gnomon/render/renderer.hpp"
 #include "mask_history.hpp"
 #include "page_pool.hpp"
+#include "pass_timer.hpp"
+#include "pixel_lists.hpp"
 #include "scene_buffers.hpp"
 #include "stored_maps.hpp"
 #include "target.hpp"
@@ -20,6 +23,13 @@ namespace gnomon::render {
 struct CommonPrograms {
   Program depth, depth_masked, surfaces, accumulate, shade, aliasing, heat, tint;
   CommonPrograms();
+};
+
+/// Programs that draw casters, and where they take what differs from batch to batch.
+struct CasterPrograms {
+  const Program& opaque;
+  const Program& masked;
+  GLint wrap_location = -1;  ///< of the mask's image; -1: its sampler says it
 };
 
 struct Renderer::Impl {
@@ -37,6 +47,18 @@ struct Renderer::Impl {
   void draw_map_part(const DrawnPart& part, const DrawnMap& map, bool alpha_test_where_masked) noexcept;
   void draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
                     bool alpha_test_where_masked) noexcept;
+  /// `set_place` sets the uniforms that say where casters go, of the program that is in use.
+  template <class SetPlace>
+  void draw_casters(const DrawnPart& part, const CasterPrograms& by, bool alpha_test_where_masked,
+                    SetPlace&& set_place) noexcept;
+  /// The frame with exact shadows: pixels are listed, and casters are tested against them.
+  FrameStats draw_irregular(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
+                            const FrameOptions& options) noexcept;
+  void draw_casters_on_lists(const ShadowPlan& plan, bool alpha_test_where_masked) noexcept;
+  /// The pictures that are drawn once the mask is there.
+  void draw_pictures(const PassTimer& timed, const FrameOptions& options) noexcept;
+  /// What the draw lists of this plan held.
+  void count_work(const ShadowPlan& plan, FrameStats& stats) const noexcept;
   void draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept;
   /// `block`: with the options that the filter chooses for each map, on return.
   void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block,
@@ -48,7 +70,8 @@ struct Renderer::Impl {
   /// Of the last frame's map, row by row.
   void read_depths(int map, std::span<float> depths) const noexcept;
   void draw_pages(bool alpha_test_where_masked) noexcept;
-  void draw_surfaces() noexcept;
+  /// `program` writes at least what programs.surfaces writes.
+  void draw_surfaces(GLuint fbo, const Program& program) noexcept;
   void draw_mask(const Program& program, bool accumulated) noexcept;
   void draw_accumulated(const Camera& camera, const FrameOptions& options, const FrameBlock& block) noexcept;
   /// Makes the noise tile at the first frame that reads it.
@@ -58,6 +81,8 @@ struct Renderer::Impl {
   void draw_heat_map() noexcept;
   void draw_cascade_tint() noexcept;
   [[nodiscard]] const Framebuffer& framebuffer_of(Picture picture) const noexcept;
+  /// The images of the surfaces pass, for shaders that read them.
+  void bind_surfaces() const noexcept;
   /// Draws over all of `fbo` with `program`; the images of the surfaces pass are bound.
   void fullscreen(GLuint fbo, const Program& program) const noexcept;
 
@@ -71,7 +96,8 @@ struct Renderer::Impl {
   Texture noise_tile;  ///< blue noise
   MapTargets maps;
   PagePool pages;
-  std::vector<Box> moved;  ///< bounds of casters before and after, since the last frame
+  std::vector<Box> moved;                 ///< bounds of casters before and after, since the last frame
+  std::optional<PixelLists> pixel_lists;  ///< made when they are first prepared
   Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;
   std::array<glm::ivec2, kMaxMaps> map_size{};  ///< of the last frame

@@ -76,10 +76,10 @@ SceneBuffers::SceneBuffers(const Scene& scene)
   for (const Box& box : boxes_) {
     if (!box.empty()) all.extend(box);
   }
-  const double diagonal = all.empty() ? 0.0 : glm::length(all.max - all.min);
+  diagonal_ = all.empty() ? 0.0 : glm::length(all.max - all.min);
   constexpr int kStepsPerDiagonal = 4;  // as a power of two
-  if (diagonal > 0.0 && std::isfinite(diagonal))
-    origin_step_ = std::ldexp(1.0, std::ilogb(diagonal) - kStepsPerDiagonal);
+  if (diagonal_ > 0.0 && std::isfinite(diagonal_))
+    origin_step_ = std::ldexp(1.0, std::ilogb(diagonal_) - kStepsPerDiagonal);
 }
 
 void SceneBuffers::move(std::size_t instance, const Instance& to) {
@@ -170,7 +170,9 @@ void SceneBuffers::make_batches(const Scene& scene) {
                 .mirrored = instance.mirrored,
                 .base_color = material.base_color,
                 .texture = white_.name(),
-                .sampler = sampler_for(material)};
+                .sampler = sampler_for(material),
+                .wrap_u = material.wrap_u,
+                .wrap_v = material.wrap_v};
     batch.masked = material.alpha_mode != AlphaMode::opaque;
     if (batch.masked) batch.alpha_cutoff = material.alpha_cutoff;
     if (material.base_color_image >= 0) {

@@ -21,6 +21,7 @@ struct Batch {
   glm::vec4 base_color{1.0f};
   float alpha_cutoff = -1.0f;  ///< nothing is below it
   GLuint texture = 0, sampler = 0;
+  TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;  ///< as the sampler's
 };
 
 /// glMultiDrawElementsIndirect's own layout.
@@ -47,6 +48,8 @@ class SceneBuffers {
   /// Distance that loses nothing of a float's precision on this scene, a power of two: 1/16 of its diagonal
   /// or less.
   [[nodiscard]] double origin_step() const noexcept { return origin_step_; }
+  /// Of the box round all instances, world units; 0 for an empty scene.
+  [[nodiscard]] double diagonal() const noexcept { return diagonal_; }
 
   [[nodiscard]] std::span<const std::uint32_t> order() const noexcept { return order_; }
   [[nodiscard]] std::span<const Batch> batches() const noexcept { return batches_; }
@@ -90,7 +93,7 @@ class SceneBuffers {
     std::optional<glm::dvec3> origin_world;
   };
   std::array<Placement, 2> placement_;  ///< by Placed
-  double origin_step_ = 1.0;
+  double origin_step_ = 1.0, diagonal_ = 0.0;
   std::vector<Texture> textures_;
   std::vector<Sampler> samplers_;  ///< by wrap_u * 3 + wrap_v
   Texture white_;

@@ -55,17 +55,31 @@ void FrameTargets::resize(int new_width, int new_height) {
   aliasing = pixel_image(GL_RGBA32F, width, height);
   heat = pixel_image(GL_SRGB8_ALPHA8, width, height);
   tint = pixel_image(GL_SRGB8_ALPHA8, width, height);
-  surfaces_fbo = framebuffer_of(position);
-  glNamedFramebufferTexture(surfaces_fbo.name(), GL_COLOR_ATTACHMENT1, normal.name(), 0);
-  glNamedFramebufferTexture(surfaces_fbo.name(), GL_COLOR_ATTACHMENT2, albedo.name(), 0);
-  glNamedFramebufferTexture(surfaces_fbo.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
-  constexpr std::array<GLenum, 3> kAll{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
-  glNamedFramebufferDrawBuffers(surfaces_fbo.name(), static_cast<GLsizei>(kAll.size()), kAll.data());
+  surfaces_fbo = surfaces_framebuffer(nullptr);
+  off_plane = {};
   mask_fbo = framebuffer_of(mask);
   color_fbo = framebuffer_of(color);
   aliasing_fbo = framebuffer_of(aliasing);
   heat_fbo = framebuffer_of(heat);
   tint_fbo = framebuffer_of(tint);
+}
+
+Framebuffer FrameTargets::surfaces_framebuffer(const Texture* fourth) const {
+  Framebuffer fbo = framebuffer_of(position);
+  glNamedFramebufferTexture(fbo.name(), GL_COLOR_ATTACHMENT1, normal.name(), 0);
+  glNamedFramebufferTexture(fbo.name(), GL_COLOR_ATTACHMENT2, albedo.name(), 0);
+  if (fourth != nullptr) glNamedFramebufferTexture(fbo.name(), GL_COLOR_ATTACHMENT3, fourth->name(), 0);
+  glNamedFramebufferTexture(fbo.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
+  constexpr std::array<GLenum, 4> kAll{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2,
+                                       GL_COLOR_ATTACHMENT3};
+  glNamedFramebufferDrawBuffers(fbo.name(), fourth != nullptr ? 4 : 3, kAll.data());
+  return fbo;
+}
+
+void FrameTargets::add_off_plane() {
+  if (off_plane) return;
+  off_plane = pixel_image(GL_R32F, width, height);
+  off_plane_fbo = surfaces_framebuffer(&off_plane);
 }
 
 MapTargets::MapTargets()

@@ -17,8 +17,17 @@ struct FrameTargets {
   Texture position, normal, albedo, depth, mask, color, aliasing, heat, tint;
   Framebuffer surfaces_fbo, mask_fbo, color_fbo, aliasing_fbo, heat_fbo, tint_fbo;
 
+  Texture off_plane;          ///< heights of positions over their triangles' planes; made by add_off_plane
+  Framebuffer off_plane_fbo;  ///< surfaces_fbo with those
+
   /// Makes all images anew where the size differs.
   void resize(int new_width, int new_height);
+  /// Makes the image of heights where there is none of this size.
+  void add_off_plane();
+
+ private:
+  /// `fourth`: nullptr, or an image more that is drawn into.
+  [[nodiscard]] Framebuffer surfaces_framebuffer(const Texture* fourth) const;
 };
 
 /// One layer per shadow map; a map smaller than the layers uses their lower left corner.

@@ -13,6 +13,12 @@ namespace {
 // coordinates are rounded to single precision and interpolated from corners that may lie a hundred times as
 // far off as the point: 1e-3 leaves room for ten thousand roundings.
 constexpr double kSearch = 1e-3;
+// How far off its triangle's plane, of the same distance. A picture's point that lies farther off is one of
+// another triangle, whose edge the ray from the eye missed by rounding: a thousand roundings remain.
+constexpr double kOffPlane = 1e-4;
+// Cosine between the picture's normal and the triangle's, below which they are two surfaces: a picture takes
+// its normals from differences between pixels, good to a hundredth.
+constexpr double kSameNormal = 0.95;
 
 SurfacePoint located(const Tracer& tracer, const Camera& camera, const Light& light, const float* position,
                      const float* normal) {
@@ -34,6 +40,8 @@ SurfacePoint located(const Tracer& tracer, const Camera& camera, const Light& li
   point.triangle = hit.triangle;
   point.normal = glm::dot(hit.normal, view.direction) > 0.0 ? -hit.normal : hit.normal;
   point.above = -hit.t * glm::dot(view.direction, point.normal);
+  if (glm::dot(seen_normal, point.normal) < kSameNormal) return point;
+  if (std::abs(point.above) > kOffPlane * glm::length(view.direction)) return point;
   const double cosine = glm::dot(point.normal, to_light.direction);
   // Either normal may be the wrong one where a triangle is seen edge-on: only where they agree is the side
   // known.

@@ -32,6 +32,16 @@ TEST(Rows, come_back_from_json_as_they_were) {
   EXPECT_EQ(row_from_json(line, "here").technique, row.technique);
 }
 
+TEST(Rows, lengths_of_lists_come_back_where_there_are_lists) {
+  Row row = sample_row();
+  EXPECT_EQ(to_json_line(row).find("\"lists\""), std::string::npos);
+  row.costs.lists = {2.5, 17, 40};
+  const Row back = row_from_json(to_json_line(row), "here");
+  EXPECT_EQ(back.costs.lists.mean, 2.5);
+  EXPECT_EQ(back.costs.lists.p99, 17u);
+  EXPECT_EQ(back.costs.lists.most, 40u);
+}
+
 TEST(Rows, infinite_aliasing_and_strange_names_survive) {
   Row row = sample_row();
   row.aliasing.max = std::numeric_limits<double>::infinity();

@@ -339,6 +339,51 @@ TEST(Compare, measures_every_filter_of_the_registry_against_its_own_truth) {
   }
 }
 
+TEST(Compare, irregular_is_a_technique_without_misclassified_pixels_and_with_its_price) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",     "builtin:fence",
+                                        "--warps",     "none,optimal",
+                                        "--cascades",  "1,4",
+                                        "--filters",   "hard,irregular",
+                                        "--frames",    "1",
+                                        "--rounds",    "1",
+                                        "--size",      "96x54",
+                                        "--map-sizes", "64",
+                                        "--context",   "osmesa",
+                                        "--out",       folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  ASSERT_EQ(rows.size(), 8u);
+  std::uint64_t longest_unwarped = 0, longest_warped = 0;
+  for (const report::Row& row : rows) {
+    if (row.technique.filter == "hard") {
+      EXPECT_GT(row.errors.false_lit + row.errors.false_shadow, 0.01) << row.technique.name();
+      EXPECT_EQ(row.costs.lists.most, 0u);
+      continue;
+    }
+    EXPECT_EQ(row.technique.filter, "irregular");
+    EXPECT_EQ(row.truth, "hard");
+    EXPECT_EQ(row.errors.false_lit, 0.0) << row.technique.name();
+    EXPECT_EQ(row.errors.false_shadow, 0.0) << row.technique.name();
+    EXPECT_EQ(row.errors.mean_error, 0.0) << row.technique.name();
+    EXPECT_GT(row.errors.pixels, 500u);
+    EXPECT_GT(row.times.depth_ms.median, 0.0);
+    EXPECT_GT(row.times.shade_ms.median, 0.0);
+    EXPECT_GE(row.costs.lists.mean, 1.0);
+    EXPECT_GE(row.costs.lists.most, row.costs.lists.p99);
+    EXPECT_EQ(row.costs.map_bytes, 4 * row.costs.texels + 16u * 96u * 54u);
+    if (row.technique.cascades == 1)
+      (row.technique.warp == "none" ? longest_unwarped : longest_warped) = row.costs.lists.most;
+  }
+  EXPECT_GT(longest_unwarped, 2 * longest_warped);
+  std::ifstream fronts(folder.path() / "fronts.md");
+  const std::string text{std::istreambuf_iterator<char>(fronts), {}};
+  EXPECT_NE(text.find("irregular"), std::string::npos);
+  const Finished refused = run_gnomon({"compare", "builtin:fence", "--filters", "irregular:radius=2"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("irregular"), std::string::npos) << refused.err;
+}
+
 TEST(Compare, refuses_bad_input_before_it_measures) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::vector<std::string>& more) {

@@ -62,6 +62,33 @@ TEST(Reference, surfaces_turned_from_the_light_and_beyond_its_range_are_not_eval
   EXPECT_EQ(state(SpotLight{{0, 1, 0}, {0, -1, 0}, 0.3, 5.0}, 27), PixelState::facing);
 }
 
+TEST(Reference, a_pixel_that_shows_another_surface_than_the_ray_from_the_eye_finds_is_undecided) {
+  const Scene scene = half_covered();
+  const Tracer tracer(scene);
+  const Camera camera = overhead(8);
+  const Light sun = DirectionalLight{{0, -1, 0}};
+  const auto state_after = [&](auto&& change) {
+    Picture picture = picture_of(tracer, camera);
+    change(picture);
+    return surface_points(tracer, camera, sun, picture.positions, picture.normals).pixels[9].state;
+  };
+  EXPECT_EQ(state_after([](Picture&) {}), PixelState::facing);
+  // The eye is two units above: rounding moves a point by less than 1e-4 of that.
+  const auto raised_by = [](float height) {
+    return [height](Picture& picture) { picture.positions.values[4 * 9 + 1] += height; };
+  };
+  EXPECT_EQ(state_after(raised_by(1e-5f)), PixelState::facing);
+  EXPECT_EQ(state_after(raised_by(5e-4f)), PixelState::undecided);
+  const auto turned_to = [](float x, float y) {
+    return [x, y](Picture& picture) {
+      picture.normals.values[4 * 9] = x;
+      picture.normals.values[4 * 9 + 1] = y;
+    };
+  };
+  EXPECT_EQ(state_after(turned_to(0.01f, 0.99995f)), PixelState::facing);
+  EXPECT_EQ(state_after(turned_to(0.7071f, 0.7071f)), PixelState::undecided);
+}
+
 TEST(Reference, the_box_throws_the_shadow_that_geometry_says) {
   const Scene scene = render::box_on_ground();
   const Camera camera = render::camera_on_box(96, 64);

@@ -37,10 +37,11 @@ enum class Pass : std::uint8_t {
 inline constexpr std::size_t kPassCount = 9;
 [[nodiscard]] std::string_view to_string(Pass pass) noexcept;
 
-/// A filter whose program is compiled; only Renderer::prepare makes one.
+/// A filter whose program is compiled; only Renderer::prepare and its relatives make one.
 struct PreparedFilter {
   FilterSettings settings;  ///< that the program is compiled for
   std::size_t program = 0;  ///< index within the renderer
+  bool irregular = false;   ///< exact shadows by lists of pixels: Renderer::prepare_irregular
 };
 
 /// Transition between cascades, over the blend band ShadowMap::overlap (SplitOptions::overlap).
@@ -120,6 +121,8 @@ struct FrameStats {
   int prefilter_passes = 0;  ///< over all maps: what the filter stores, blurs, sums and shrinks
   /// Texels that the filter stored and blurred, in whole tiles; needs FrameOptions::time_passes, else 0.
   std::uint64_t filtered_texels = 0;
+  bool irregular =
+      false;  ///< the mask is exact; false after prepare_irregular: the frame was too large for lists
   int maps_read_back = 0;  ///< by filters that choose for each map from its depths
   int pages = 0;           ///< resident, of a PagePlan
   int pages_drawn = 0;     ///< of them; the others were kept from earlier frames (PruneRule::held_maps)
@@ -149,6 +152,18 @@ class Renderer {
   /// reallocated when the frame or the maps grow.
   FrameStats draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                   const FrameOptions& options = {}) noexcept;
+
+  /// Exact hard shadows in place of a filter: an irregular z-buffer. The pixels of a frame are listed by the
+  /// texels of the plan's maps, and each caster's triangle is tested against the pixels of the texels that it
+  /// touches. The maps only sort: any plan has the same mask, and no depth map is drawn. Alpha-masked casters
+  /// are tested by the finest level of their image. A frame with more pixels than the driver's storage
+  /// buffers hold is drawn by `filters::hard` (FrameStats::irregular). Pass::mask is the time of listing,
+  /// Pass::shadow_maps that of the casters. No blending between maps, no accumulation. Throws RenderError
+  /// where the driver has no storage buffers in fragment shaders.
+  [[nodiscard]] PreparedFilter prepare_irregular();
+  /// Pixels in each list of the last such frame, in no order; lists without pixels are skipped. Reads them
+  /// back; throws RenderError as image().
+  [[nodiscard]] std::vector<std::uint32_t> list_lengths() const;
 
   /// Compiles the filter's program for pages, once. Throws RenderError as prepare, and for filters that store
   /// texels: pages have depths alone (hard, pcf, pcss).

@@ -56,11 +56,18 @@ struct Times {
   }
 };
 
+/// Pixels in each list of an irregular z-buffer; lists without pixels are skipped.
+struct ListLengths {
+  double mean = 0.0;                ///< over the lists
+  std::uint64_t p99 = 0, most = 0;  ///< 99 % of the lists are not longer; the longest
+};
+
 /// Counts of one frame's shadows.
 struct Costs {
   int maps = 0;                                                       ///< drawn
   std::uint64_t draws = 0, triangles = 0, texels = 0, map_bytes = 0;  ///< over all maps
   std::uint64_t filtered_texels = 0;                                  ///< stored and blurred by the filter
+  ListLengths lists = {};                                             ///< of technique "irregular" alone
 };
 
 /// One omission of the plan, or the savings of one prune rule.
@@ -87,7 +94,7 @@ struct Row {
   double light_elevation_deg = 0.0, light_azimuth_deg = 0.0;  ///< degrees
   Technique technique;                                        ///< how the shadow was made
   std::string plan_status;                                    ///< name of the PlanStatus
-  std::string truth;                   ///< what mean_error is against: "filtered" or "area"
+  std::string truth;                   ///< what mean_error is against: "filtered", "area" or "hard"
   MaskErrors errors;                   ///< against the truth
   std::uint64_t undecided_pixels = 0;  ///< undecided by the geometry, not counted in `errors`
   double flips = 0.0;                  ///< excess flips per pixel over one step of a 60 Hz viewer

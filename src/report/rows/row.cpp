@@ -53,8 +53,11 @@ Json aliasing_json(const PixelAliasing& a) {
 }
 
 Json costs_json(const Costs& c) {
-  return {{"maps", c.maps},     {"draws", c.draws},         {"triangles", c.triangles},
-          {"texels", c.texels}, {"map_bytes", c.map_bytes}, {"filtered_texels", c.filtered_texels}};
+  Json json{{"maps", c.maps},     {"draws", c.draws},         {"triangles", c.triangles},
+            {"texels", c.texels}, {"map_bytes", c.map_bytes}, {"filtered_texels", c.filtered_texels}};
+  if (c.lists.most > 0)
+    json["lists"] = {{"mean", c.lists.mean}, {"p99", c.lists.p99}, {"most", c.lists.most}};
+  return json;
 }
 
 Json times_json(const Times& t) {
@@ -197,6 +200,12 @@ void results_from(const Json& json, Row& row) {
   // Rows of an earlier version have none.
   if (c.contains("filtered_texels"))
     row.costs.filtered_texels = whole_from<std::uint64_t>(c.at("filtered_texels"));
+  // Rows of techniques without lists have none.
+  if (c.contains("lists")) {
+    const Json& l = c.at("lists");
+    row.costs.lists = {real_from(l.at("mean")), whole_from<std::uint64_t>(l.at("p99")),
+                       whole_from<std::uint64_t>(l.at("most"))};
+  }
   for (const Json& l : json.at("left_out")) {
     LeftOut left{l.at("what").get<std::string>(), l.at("why").get<std::string>(),
                  whole_from<std::int64_t>(l.at("saves_texels"))};

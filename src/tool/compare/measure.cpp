@@ -56,6 +56,7 @@ double light_radius(const render::FilterSettings& filter, const Light& light) no
 
 std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const Planned& plan,
                               const SweepEntry& entry, const std::vector<float>& maps) {
+  if (entry.irregular) return truth.judged;
   const double light = light_radius(entry.filter, stage.light());
   if (light > 0.0) return trace::area_reference(stage.tracer(), truth.points, stage.light(), light).pixels;
   // Stored texels are blurred by a Gauss that is cut at two deviations, the box's half side: 0.88 of a
@@ -73,6 +74,17 @@ std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const
   return trace::filtered_reference(stage.tracer(), truth.points, stage.light(),
                                    gauss ? trace::KernelShape::gauss : trace::KernelShape::box, axes)
       .pixels;
+}
+
+/// Pixels in the lists of an irregular frame.
+report::ListLengths list_lengths(const render::Renderer& renderer) {
+  std::vector<std::uint32_t> lengths = renderer.list_lengths();
+  if (lengths.empty()) return {};
+  std::sort(lengths.begin(), lengths.end());
+  constexpr double kHigh = 0.99;
+  const auto high = static_cast<std::size_t>(kHigh * static_cast<double>(lengths.size() - 1));
+  const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  return {sum / static_cast<double>(lengths.size()), lengths[high], lengths.back()};
 }
 
 void count_costs(const render::FrameStats& stats, const Planned& plan, const SweepEntry& entry,
@@ -179,7 +191,12 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
   const render::FrameStats stats = plan.draw(truth.camera, frame_options(true));
   const FloatImage mask_image = renderer.mask();
   const std::vector<float> mask = channel(mask_image, 0), maps = channel(mask_image, 1);
-  row.truth = light_radius(entry.filter, stage.light()) > 0.0 ? "area" : "filtered";
+  if (entry.irregular && !stats.irregular)
+    throw std::runtime_error(row.technique.name() + ": the driver's storage buffers hold no list of " +
+                             std::to_string(row.width) + "x" + std::to_string(row.height) + " pixels");
+  row.truth = entry.irregular                                   ? "hard"
+              : light_radius(entry.filter, stage.light()) > 0.0 ? "area"
+                                                                : "filtered";
   const std::vector<float> soft = soft_truth(stage, truth, plan, entry, maps);
   row.errors = report::mask_errors(mask, truth.judged, soft);
   row.undecided_pixels = truth.undecided;
@@ -187,6 +204,11 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
   row.flips = report::excess_flips(mask_before, mask, truth.judged, truth.judged);
   row.aliasing = report::pixel_aliasing(plan.aliasing(mask_image));
   count_costs(stats, plan, entry, row);
+  if (entry.irregular) {
+    row.costs.lists = list_lengths(renderer);
+    constexpr std::uint64_t kEntryBytes = 16;  // of a list; its texel has as many as one of a depth map
+    row.costs.map_bytes += kEntryBytes * mask.size();
+  }
   row.plan_status = to_string(plan.status());
   for (const Omission& omission : plan.omitted()) {
     const OmissionText text = describe(omission);

@@ -75,8 +75,10 @@ std::vector<std::string> expanded(const std::vector<std::string>& texts, const E
 }
 
 void set_filter(const std::string& text, SweepEntry& entry) {
-  entry.filter = filter_word("--filters", text);
-  entry.technique.filter = render::to_string(entry.filter);
+  entry.irregular = text == kIrregular;
+  entry.filter =
+      entry.irregular ? render::default_settings(render::filters::hard) : filter_word("--filters", text);
+  entry.technique.filter = entry.irregular ? std::string(kIrregular) : render::to_string(entry.filter);
   render::set_margin(entry.filter, entry.plan);
 }
 
@@ -218,6 +220,7 @@ struct NoPages {
   std::string what, why;
 };
 std::optional<NoPages> no_pages(const SweepEntry& entry, LightKind light) {
+  if (entry.irregular) return NoPages{std::string(kIrregular), "draws no map, and so no page"};
   const render::FilterSettings& filter = entry.filter;
   if (filter.filter->info.reads != render::MapRead::depth)
     return NoPages{std::string(filter.filter->info.name),
@@ -344,7 +347,8 @@ std::string compare_footer() {
          ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "
          "that reads depths in texels; the others are named and skipped. docs/pages.md explains them." +
          "\nFilters: " + any_of_text(names_in(render::all_filters())) +
-         ". gnomon filters NAME prints the options of one.\n";
+         ". gnomon filters NAME prints the options of one. " + std::string(kIrregular) +
+         " takes no filter: casters are tested against each pixel, for exact hard shadows at their price.\n";
 }
 
 std::vector<std::string> split_names() {

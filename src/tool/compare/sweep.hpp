@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gnomon/pages.hpp"
@@ -32,11 +33,15 @@ struct CompareRequest {
   bool visible_depths = false, visible_points = false;  ///< plan with what a frame shows
 };
 
+/// Word among the filters that stands for exact hard shadows: render::Renderer::prepare_irregular.
+inline constexpr std::string_view kIrregular = "irregular";
+
 /// One point of the product, with what the names stand for.
 struct SweepEntry {
   report::Technique technique;
   PlanOptions plan;
-  render::FilterSettings filter;
+  render::FilterSettings filter;                        ///< hard where `irregular` is set
+  bool irregular = false;                               ///< exact shadows by lists of pixels (kIrregular)
   bool visible_depths = false, visible_points = false;  ///< of the frame, given to the plan
   PageOptions pages;                                    ///< where by_pages()
 
