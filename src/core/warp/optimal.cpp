@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "geometry/vector.hpp"
-#include "warp/along_view.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/plane_map.hpp"
 #include "warp/row_search.hpp"
@@ -120,11 +119,8 @@ void improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) 
   std::array<double, 2 * kWarpLanes> value;
   std::size_t count = 0;
   choice[count++] = best.choice;
-  // LiSPSM's strength takes a thorough search, for which there is time where a quick one comes near.
-  constexpr std::size_t kLispsm = 1;
-  choice[count++] = input.along_view(AlongView(input).quick().kappa);
   for (const Warp* other : all_warps()) {
-    if (other == &warps::lispsm || other->choose == choose_optimal || count == choice.size()) continue;
+    if (other->choose == choose_optimal || count == choice.size()) continue;
     const WarpChoice found = other->choose(input);
     if (!input.is_unwarped(found)) choice[count++] = found;
   }
@@ -138,12 +134,8 @@ void improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) 
   }
   error.count_all();
   // Nearer than this, a part of the samples does not tell; a bound does.
-  constexpr double kNear = 1.1, kQuick = 1.05;
+  constexpr double kNear = 1.3;
   const double enough = bound ? best.value : value[0] * kNear;
-  if (value[kLispsm] < enough * kQuick) {
-    choice[kLispsm] = warps::lispsm.choose(input);
-    value[kLispsm] = 0.0;
-  }
   for (std::size_t i = 1; i < count; ++i) {
     if (!(value[i] < enough)) continue;
     const double exact = error.value(choice[i]);
