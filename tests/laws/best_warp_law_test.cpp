@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "gnomon/warp.hpp"
 #include "support/property.hpp"
@@ -14,6 +15,7 @@
 #include "warp/along_view.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/plane_map.hpp"
+#include "warp/row_search.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -26,7 +28,7 @@ constexpr double kLeastGain = 0.02;
 /// What the bodies of one plan came to.
 struct Judged {
   int bodies = 0;
-  double worst = 0.0, apart = 0.0, log_along = 0.0, log_quick = 0.0;
+  double worst = 0.0, apart = 0.0, search_apart = 0.0, log_along = 0.0, log_quick = 0.0;
   std::string worst_against;
 };
 Judged judged;
@@ -48,6 +50,29 @@ double apart(const WarpInput& input, PlaneError& error) noexcept {
     // Bodies of rounding give values of rounding.
     if (!known || !(alone < 1e12)) continue;
     most = std::max(most, std::abs(value[i] - alone) / alone);
+  }
+  return most;
+}
+
+/// How far values of a search in single precision are from those of the error itself, each over the first's.
+double search_apart(const WarpInput& input, PlaneError& error) noexcept {
+  RowSearch search(input, error);
+  if (input.objective == Objective::storage || search.line() || input.flat()) return 0.0;
+  search.count(error.counted());
+  RowLanes lanes;
+  std::array<WarpChoice, RowLanes::kCount> choice;
+  for (std::size_t l = 0; l < RowLanes::kCount; ++l) {
+    const double share = 0.1 * static_cast<double>(l % 8), lean = l < 8 ? 0.0 : 0.2;
+    const RowChoice rows{search.ahead(share), {1.0, lean}, {-lean, 1.0}, 0.0};
+    lanes.set(l, rows);
+    choice[l] = search.choice(rows);
+  }
+  search.find_values(lanes);
+  const double first = error.value(choice[0]), first_lane = std::sqrt(lanes.value[0]);
+  double most = 0.0;
+  for (std::size_t l = 1; l < RowLanes::kCount; ++l) {
+    const double exact = error.value(choice[l]) / first, found = std::sqrt(lanes.value[l]) / first_lane;
+    if (exact > 0.0 && exact < 1e3) most = std::max(most, std::abs(found / exact - 1.0));
   }
   return most;
 }
@@ -82,6 +107,7 @@ WarpChoice judge(const WarpInput& input) noexcept {
   ++judged.bodies;
   judge_along(input);
   judged.apart = std::max(judged.apart, apart(input, error));
+  judged.search_apart = std::max(judged.search_apart, search_apart(input, error));
   for (const Warp* warp : all_warps()) {
     const double ratio = best / value(*warp);
     if (!(ratio > judged.worst)) continue;
@@ -95,6 +121,7 @@ const Warp kJudge{"judge", "compares all warps", judge, true};
 void hold(bool parallel, int cases, int least_bodies) {
   std::array<double, 3> worst{};
   int bodies = 0;
+  std::vector<double> search_worst;
   double log_along = 0.0, log_quick = 0.0;
   for_all(cases, [&] {
     SeededInput input;
@@ -110,6 +137,7 @@ void hold(bool parallel, int cases, int least_bodies) {
     so_far = std::max(so_far, judged.worst);
     constexpr double kRounding = 1e-6;
     require(judged.apart <= kRounding, "values side by side are apart by", judged.apart);
+    search_worst.push_back(judged.search_apart);
     log_along += judged.log_along;
     log_quick += judged.log_quick;
     require(judged.worst <= kAtMost, to_string(input.options.warp.objective), "optimal over",
@@ -120,6 +148,12 @@ void hold(bool parallel, int cases, int least_bodies) {
   constexpr double kAlong = 0.02, kQuick = 0.1;
   EXPECT_LT(log_along, kAlong * bodies) << "strength along the view over the best";
   EXPECT_LT(std::abs(log_quick), kQuick * bodies) << "quick search along the view over the thorough one";
+  std::sort(search_worst.begin(), search_worst.end());
+  // Bodies of rounding, and texels at the bounds of single precision, are the rest.
+  constexpr double kSearchApart = 1e-4;
+  ASSERT_FALSE(search_worst.empty());
+  EXPECT_GT(search_worst.back(), 0.0);
+  EXPECT_LT(search_worst[search_worst.size() * 98 / 100], kSearchApart);
   for (const double ratio : worst) {
     EXPECT_GT(ratio, 0.0);
     std::printf("worst ratio to the best other warp %.6f\n", ratio);

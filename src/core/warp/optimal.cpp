@@ -2,7 +2,6 @@
 // Based on: the error measure of Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006.
 // The search is this project's: the fall-off's two numbers first, sixteen places at a time, by the corners
 // and with the best rows for each; then by all samples, or from a warp of the registry where that is better.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

@@ -305,16 +305,14 @@ GNOMON_WIDE void RowSearch::find_image(Maps<Directions>& maps) const noexcept {
   }
 }
 
-/// Directions round the candidates' rows, and squared lengths of the rectangle's sides across each.
+/// Directions round the candidates' rows, and gradients scaled to what texels of those rows take.
 template <std::size_t Directions>
-GNOMON_WIDE void RowSearch::find_sides(const RowLanes& candidates, float step,
-                                       Maps<Directions>& maps) const noexcept {
+GNOMON_WIDE void RowSearch::find_directions(const RowLanes& candidates, float step,
+                                            Maps<Directions>& maps) const noexcept {
   Maps<Directions>& __restrict m = maps;
   const RowLanes& __restrict c = candidates;
   constexpr std::size_t kBoth = 2 * Directions;
   const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
-  const std::size_t n = points_;
-  alignas(64) std::array<Numbers, kBoth> low, high;
   for (std::size_t d = 0; d < Directions; ++d) {
     const Turn turn((static_cast<float>(d) - 0.5F * static_cast<float>(Directions - 1)) * step);
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -346,6 +344,19 @@ GNOMON_WIDE void RowSearch::find_sides(const RowLanes& candidates, float step,
       m.xx[d][l] = m.unit_x[d][l] * m.unit_x[d][l];
       m.xy[d][l] = 2.0F * m.unit_x[d][l] * m.unit_y[d][l];
       m.yy[d][l] = m.unit_y[d][l] * m.unit_y[d][l];
+    }
+  }
+}
+
+/// Squared lengths of the rectangle's sides across each direction.
+template <std::size_t Directions>
+GNOMON_WIDE void RowSearch::find_sides(Maps<Directions>& maps) const noexcept {
+  Maps<Directions>& __restrict m = maps;
+  constexpr std::size_t kBoth = 2 * Directions;
+  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1), n = points_;
+  alignas(64) std::array<Numbers, kBoth> low, high;
+  for (std::size_t d = 0; d < kBoth; ++d) {
+    for (std::size_t l = 0; l < lanes; ++l) {
       low[d][l] = kInfinity;
       high[d][l] = -kInfinity;
     }
@@ -372,7 +383,8 @@ template <std::size_t Directions>
 void RowSearch::fit(const RowLanes& candidates, double step, Maps<Directions>& maps) const noexcept {
   find_axes(candidates, maps);
   find_image(maps);
-  find_sides(candidates, static_cast<float>(step), maps);
+  find_directions(candidates, static_cast<float>(step), maps);
+  find_sides(maps);
 }
 
 // For one sample and candidate: the form of a row's squared extent, of which the side across and the area are

@@ -76,7 +76,9 @@ class RowSearch {
   template <std::size_t Directions>
   void find_image(Maps<Directions>& maps) const noexcept;
   template <std::size_t Directions>
-  void find_sides(const RowLanes& candidates, float step, Maps<Directions>& maps) const noexcept;
+  void find_directions(const RowLanes& candidates, float step, Maps<Directions>& maps) const noexcept;
+  template <std::size_t Directions>
+  void find_sides(Maps<Directions>& maps) const noexcept;
   template <std::size_t Directions>
   void fit(const RowLanes& candidates, double step, Maps<Directions>& maps) const noexcept;
   void find_products(Maps<4>& maps) const noexcept;
