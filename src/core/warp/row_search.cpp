@@ -142,6 +142,9 @@ RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
     farthest = max_of(farthest, p.depth);
   }
   depth_range_ = nearest > 0.0 && farthest > nearest ? elementary::log(farthest / nearest) : 0.0;
+  // No longer than its distance rounds: a point, as `usable` has it.
+  constexpr double kPointSize = 1e-9;
+  line_ = line_ || !(longer > kPointSize * farthest);
   std::size_t smallest = 0;
   for (std::size_t i = 1; i < corners_.count; ++i) {
     if (std::abs(corners_.inverse_determinant[i]) > std::abs(corners_.inverse_determinant[smallest]))
