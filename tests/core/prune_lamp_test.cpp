@@ -234,5 +234,30 @@ TEST(PruneLocalLight, depths_are_pulled_to_what_is_there_only_where_the_rule_is_
   EXPECT_GT(looser, maps / 4);
 }
 
+/// A box round the light says nothing of how near its surfaces are. Floats tell depths apart that lie within
+/// a thousandth of the range; over an eight-thousandth, walls of real rooms have acne.
+TEST(PruneLocalLight, a_room_in_one_box_with_its_light_has_depths_over_a_thousandth_of_its_range) {
+  Lamp lamp;
+  lamp.camera = perspective_camera({1, 1.5, 2}, {0, -0.1, -1}, {0, 1, 0}, 1.2, 1.5, 0.05, 60.0, 640, 427);
+  lamp.boxes = lamp.casters = {{{-5, 0, -4}, {5, 3, 4}}};
+  const glm::dvec3 place{0.3, 2.0, -0.4};
+  lamp.light = SpotLight{place, {0.1, -0.3, -1.0}, 1.0, 30.0};
+  const ShadowPlan plan = lamp.plan();
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  ASSERT_EQ(plan.map_count, 1);
+  EXPECT_TRUE(std::any_of(plan.omitted().begin(), plan.omitted().end(),
+                          [](const Omission& o) { return o.kind == OmissionKind::depth_near_light; }));
+  const glm::dvec3 axis = glm::normalize(glm::dvec3(0.1, -0.3, -1.0));
+  double nearest = 100.0, farthest = 0.0;
+  for (double away = 1e-5; away < 100.0; away *= 1.01) {
+    const glm::dvec4 clip = plan.map[0].clip_from_world * glm::dvec4(place + axis * away, 1.0);
+    if (!(clip.w > 0.0 && std::abs(clip.z) <= clip.w)) continue;
+    nearest = std::min(nearest, away);
+    farthest = std::max(farthest, away);
+  }
+  EXPECT_GT(nearest, farthest / 2000.0);
+  EXPECT_LT(nearest, farthest / 200.0);
+}
+
 }  // namespace
 }  // namespace gnomon::test

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
+#include <glm/vector_relational.hpp>
 #include <numbers>
 #include <vector>
 
@@ -108,6 +109,28 @@ bool lit(const LightCase& c, const glm::dvec3& p) {
   return r * (single ? cosine : std::sqrt(1.0 / 3.0)) > kTooNear * c.range;
 }
 
+/// Points of a grid over image and depths that the single receiver and the light hold. A map shows more than
+/// the cone that it was fitted to, and what is dark there counts for no warp.
+std::vector<glm::dvec3> lit_points(const LightCase& c, const MeasureGrid& grid) {
+  const Camera& camera = c.scene.camera;
+  const Box& receiver = c.scene.receivers.front();
+  std::vector<glm::dvec3> points;
+  const auto middle = [](int i, int count) { return (i + 0.5) / count; };
+  for (int k = 0; k < grid.depths; ++k) {
+    const double depth =
+        camera.near_depth * std::pow(camera.far_depth / camera.near_depth, middle(k, grid.depths));
+    for (int i = 0; i < grid.columns * grid.rows; ++i) {
+      const double x = 2.0 * middle(i % grid.columns, grid.columns) - 1.0;
+      const double y = 2.0 * middle(i / grid.columns, grid.rows) - 1.0;
+      const glm::dvec3 p = point_at(camera, x, y, depth);
+      const bool inside =
+          glm::all(glm::greaterThanEqual(p, receiver.min)) && glm::all(glm::lessThanEqual(p, receiver.max));
+      if (inside && lit(c, p)) points.push_back(p);
+    }
+  }
+  return points;
+}
+
 /// Smallest distance along the axis of any map at which casters must be shown, as a share of the way.
 double shown_from(const LightCase& c, double length) {
   const double cosine = c.spot && c.outer < 85.0 * std::numbers::pi / 180.0 ? std::cos(c.outer) : 0.5;
@@ -157,8 +180,11 @@ TEST(PositionalLaw, a_lit_receiver_in_view_is_held_by_a_map_or_nothing_stands_be
       const ShadowMap& map = plan.map[static_cast<std::size_t>(index)];
       const glm::dvec4 clip = map.clip_from_world * glm::dvec4(p, 1.0);
       const double inner = 1.0 - 2.0 * c.scene.options.filter.texels / map.width;
+      // map_holds leaves this much of the depths to rounding.
+      constexpr double kDepthSlack = 1.0 + 2.1e-5;
       require(clip.w > 0.0 && std::abs(clip.x) <= (inner + 0.5 / map.width + kRim) * clip.w &&
-                  std::abs(clip.y) <= (inner + 0.5 / map.width + kRim) * clip.w && std::abs(clip.z) <= clip.w,
+                  std::abs(clip.y) <= (inner + 0.5 / map.width + kRim) * clip.w &&
+                  std::abs(clip.z) <= clip.w * kDepthSlack,
               "outside its map");
     }
   });
@@ -360,17 +386,20 @@ TEST(PositionalLaw, a_warp_never_makes_its_map_need_more_storage) {
         // The warp is chosen by samples of the exact error, and measured at others.
         constexpr double kSampled = 1.25;
         constexpr std::uint64_t kEnough = 100;
-        const auto index = [](const ShadowPlan& plan, const ShadowMap& map) {
-          return static_cast<int>(&map - plan.map.data());
-        };
-        const MeasureGrid grid{24, 24, 32};
-        const AliasingStats m = measure_map(with, index(with, a), c.scene.camera, c.scene.bounds(), grid);
-        const AliasingStats n =
-            measure_map(without, index(without, b), c.scene.camera, c.scene.bounds(), grid);
-        if (m.samples < kEnough || m.samples != n.samples || with.map_count > 1) continue;
+        if (with.map_count > 1 || without.map_count > 1) continue;
+        const std::vector<glm::dvec3> points = lit_points(c, {24, 24, 32});
+        const AliasingStats m = measure_seen(with, c.scene.camera, points);
+        const AliasingStats n = measure_seen(without, c.scene.camera, points);
+        if (m.samples < kEnough || m.samples != n.samples) continue;
         ++compared;
-        require(m.storage <= n.storage * kSampled, "face", a.cascade, "storage", m.storage, "above",
-                n.storage);
+        double after = m.storage, before = n.storage;
+        // Few rays of the grid may miss the worst corner of the map without a warp.
+        if (!(after <= before * kSampled)) {
+          const std::vector<glm::dvec3> fine = lit_points(c, {100, 100, 100});
+          after = measure_seen(with, c.scene.camera, fine).storage;
+          before = measure_seen(without, c.scene.camera, fine).storage;
+        }
+        require(after <= before * kSampled, "face", a.cascade, "storage", after, "above", before);
       }
     }
   });
@@ -397,20 +426,21 @@ TEST(PositionalLaw, a_measured_warp_is_not_above_the_unwarped_map_by_more_than_s
     c.scene.options.warp.warp = &warps::none;
     const ShadowPlan without = c.plan();
     for (int i = 0; i < with.map_count; ++i) {
-      const MeasureGrid grid{16, 16, 32};
-      const AliasingStats a = measure_map(with, i, c.scene.camera, c.scene.bounds(), grid);
-      const AliasingStats b = measure_map(without, i, c.scene.camera, c.scene.bounds(), grid);
-      if (a.samples < 50 || b.samples < 50 || with.map_count > 1) continue;
+      if (with.map_count > 1 || without.map_count > 1) continue;
+      const std::vector<glm::dvec3> points = lit_points(c, {16, 16, 32});
+      const AliasingStats a = measure_seen(with, c.scene.camera, points);
+      const AliasingStats b = measure_seen(without, c.scene.camera, points);
+      if (a.samples < 50 || a.samples != b.samples) continue;
       ++compared;
       double after = a.max, before = b.max;
       // A body that shows in a few rays of the grid may hide its worst corner from it, and with that what the
       // map without a warp loses there: only what a dense grid shows counts against a warp.
       if (!(after <= before * kSampling)) {
-        constexpr MeasureGrid kFine{100, 100, 100};
-        after = measure_map(with, i, c.scene.camera, c.scene.bounds(), kFine).max;
-        before = measure_map(without, i, c.scene.camera, c.scene.bounds(), kFine).max;
+        const std::vector<glm::dvec3> fine = lit_points(c, {100, 100, 100});
+        after = measure_seen(with, c.scene.camera, fine).max;
+        before = measure_seen(without, c.scene.camera, fine).max;
       }
-      require(after <= before * kSampling, "max", after, "above", before, "samples", a.samples);
+      require(after <= before * kSampling, "map", i, "max", after, "above", before, "samples", a.samples);
     }
   });
   EXPECT_GT(compared, 20u);

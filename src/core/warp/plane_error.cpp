@@ -104,7 +104,7 @@ void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool s
 void PlaneError::count_worst(const WarpChoice& choice) noexcept {
   const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
   // Without an area there is no error.
-  if (sample_.count == 0 || rows == 0.0) return;
+  if (sample_.count == 0 || rows == 0.0 || choice.kappa * distance_ > kMostKappaDistance) return;
   find_rows(choice);
   constexpr double kNearWorst = 0.25;  // of the square: half the error
   const bool storage = input_.objective == Objective::storage;
@@ -142,7 +142,8 @@ const Polytope& PlaneError::from_pseudo_near(const Polytope& body, Polytope& cou
 double PlaneError::value(const WarpChoice& choice) noexcept {
   // A body with corners of which nothing is known is no ground to choose a warp on.
   const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
-  if ((!complete_ && choice.kappa > 0.0) || sample_.count == 0 || body_.count == 0 || rows == 0.0)
+  if ((!complete_ && choice.kappa > 0.0) || sample_.count == 0 || body_.count == 0 || rows == 0.0 ||
+      choice.kappa * distance_ > kMostKappaDistance)
     return std::numeric_limits<double>::infinity();
   find_rows(choice);
   const double squared = input_.objective == Objective::storage ? storage_squared() : worst_squared();
@@ -287,7 +288,8 @@ GNOMON_WIDE void PlaneError::fit(const ChoiceLanes& choices, const ExtentLanes& 
   // Copies, which the compiler knows that nothing below writes to.
   const ChoiceLanes c = choices;
   const ExtentLanes of = extents;
-  const double height = height_range_, least_of_all = least_extent(0.0, distance_), farthest = farthest_;
+  const double distance = distance_, height = height_range_, least_of_all = least_extent(0.0, distance_),
+               farthest = farthest_;
   const double most_stretch = input_.most_stretch;
   const double warped_known = complete_ ? 1.0 : 0.0;
   for (std::size_t l = 0; l < lanes; ++l) {
@@ -300,12 +302,15 @@ GNOMON_WIDE void PlaneError::fit(const ChoiceLanes& choices, const ExtentLanes& 
     const double shortest = max_of(1e-6 * max_of(side_a, side_b), 1e-9 * farthest);
     const double warped =
         length > shortest && of.stretch[l] <= most_stretch && turn != 0.0 ? warped_known : 0.0;
-    map.known[l] = c.kappa[l] == 0.0 ? 1.0 : warped;
+    const double kept = c.kappa[l] * distance <= kMostKappaDistance ? warped : 0.0;
+    map.known[l] = c.kappa[l] == 0.0 ? 1.0 : kept;
     // The determinant of the map's Jacobian is stretch turn / (side_a side_b w^3). Rows come out multiplied
     // with the area of a cell, and so as extents of texels.
     const double area = side_a * side_b / of.stretch[l] * inverse_or_0(turn), scale_a = area / side_a,
                  scale_b = area / side_b;
-    const double ax = c.axis_x[l], ay = c.axis_y[l], kappa = c.kappa[l];
+    const double ax = c.axis_x[l], ay = c.axis_y[l];
+    // Of one that is not usable w might be 0 at a sample.
+    const double kappa = map.known[l] != 0.0 ? c.kappa[l] : 0.0;
     const double along_a = c.a_y[l] * of.stretch[l], along_b = c.b_y[l] * of.stretch[l];
     const double w_x = kappa * ax, w_y = kappa * ay, w_1 = 1.0 - kappa * of.u_min[l];
     const double a_x = (c.a_x[l] * ay + along_a * ax) * scale_a,
