@@ -111,8 +111,8 @@ struct ReceiverPlane {
 /// Where to look the fragment up instead: an offset along its normal, world units, that lifts it off its
 /// plane by plane_bias_ndc with slope_texels = normal_offset_texels. Without a warp that is
 /// (normal_offset_texels + radius) texels times sin(angle), along each of the texel's sides. Exact for
-/// directional lights under every warp: it accounts for w at the place it moves to. Thin shadows move a
-/// little at concave edges. (Holbert, "Saying Goodbye to Shadow Acne", GDC 2011)
+/// directional lights where a warp changes little over the offset: it accounts for w where it leads. Thin
+/// shadows move a little at concave edges. (Holbert, "Saying Goodbye to Shadow Acne", GDC 2011)
 [[nodiscard]] glm::dvec3 normal_offset_world(const BiasOptions& options, const Receiver& receiver,
                                              double kernel_radius_texels) noexcept;
 

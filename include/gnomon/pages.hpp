@@ -134,6 +134,12 @@ struct PageMemory {
 /// Entries of PageMemory::table for a pool of this capacity.
 [[nodiscard]] std::size_t page_table_size(int capacity) noexcept;
 
+/// Where a point lies on the base of a light's part: rows x and y over row w, each applied to (point, 1).
+/// Pages of stable levels are counted from place 0.
+struct PagePlaces {
+  glm::dvec4 x{0.0}, y{0.0}, w{0.0};
+};
+
 /// The result of plan_pages: levels and resident pages, in the caller's memory.
 struct PagePlan {
   PlanStatus status = PlanStatus::invalid_input;  ///< whether there are pages, and why not
@@ -148,7 +154,9 @@ struct PagePlan {
   int capacity = 0;                            ///< of the pool
   /// Grids of whole virtual maps, coarsest first: width and height are those of the whole map, up to
   /// PageOptions::virtual_texels. Levels without a page are not listed.
+  /// Stable levels have a valid snap_key: column and row 0 begin at texel x, y of the base.
   std::span<const ShadowMap> levels;
+  std::array<PagePlaces, 6> places{};    ///< of the base, by ShadowMap::cascade of a level
   std::span<const Page> pages;           ///< resident pages, coarsest level first
   std::span<const std::uint32_t> table;  ///< hash table over the pages, see page_at; shaders read it as it is
   double target_m = 0.0;     ///< error that the levels were chosen for: larger than requested where the pool
@@ -195,8 +203,41 @@ struct PagePlan {
 [[nodiscard]] int page_serving(const PagePlan& plan, const glm::dvec3& point_world) noexcept;
 
 /// A page as a map of its own, slot_texels along each side, with the border as filter_margin_texels: to draw
-/// it, read it, and cull its casters. Its cull planes hold every caster that its texels can show.
+/// it, read it, and cull its casters. Its cull planes hold every caster that its texels can show. The matrix
+/// of a page of a stable level has the same bits in every plan of the same light and bounds.
 [[nodiscard]] ShadowMap page_map(const PagePlan& plan, const Page& page) noexcept;
+
+/// One slot of a pool that keeps pages from frame to frame. Plain data; as made, it holds nothing.
+struct PageSlot {
+  glm::dmat4 clip_from_world{0.0};  ///< of the page_map that was drawn into it
+  int texels = 0;                   ///< along each side of the slot
+  std::uint64_t used = 0;           ///< count of the last keep_pages that used it; 0: it holds nothing
+};
+/// What becomes of one page of a plan.
+struct KeptPage {
+  std::uint32_t slot = 0;  ///< of the pool, in place of Page::slot
+  bool draw = true;        ///< false: the slot holds the page already
+};
+/// What keep_pages found.
+struct KeptPages {
+  bool fits = false;          ///< false: the pool or the memory is too small, and nothing was changed
+  std::uint64_t kept = 0;     ///< pages that are not drawn
+  std::uint64_t drawn = 0;    ///< pages to draw
+  std::uint64_t touched = 0;  ///< slots whose pages a moved caster touched, resident or not
+};
+/// Finds the pages of a plan that a pool still holds, and a slot for each of the others: empty ones first,
+/// then the least recently used. A page is kept where its matrix and size have the same bits and no moved
+/// bounds reach it; then a redraw would give the same texels. Pages that leave a plan stay in their slot
+/// until it is needed. PlanOptions::fit stable, or policy clipmap, keeps pages while the camera moves.
+///
+/// `moved_world`: bounds of casters that changed since the last call, where they were and where they are.
+/// `slots`: the pool, at least as many as pages; the caller's from call to call, and emptied where texels are
+/// lost or the scene changes otherwise. `table`: working memory, page_table_size(slots.size()) entries.
+/// `out`: one for each page of the plan. Allocates nothing. Takes time in proportion to slots and moved
+/// bounds.
+[[nodiscard]] KeptPages keep_pages(const PagePlan& plan, std::span<const Box> moved_world,
+                                   std::span<PageSlot> slots, std::span<std::uint32_t> table,
+                                   std::span<KeptPage> out) noexcept;
 
 /// The error over the points that a page plan serves.
 struct PageStats {

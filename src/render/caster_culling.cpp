@@ -92,12 +92,15 @@ CasterCulling::CasterCulling(const SceneBuffers& scene)
       indices_(CasterSet::index_count(scene.boxes().size())),
       listed_(scene.boxes().size()),
       draws_(scene.boxes().size()),
-      set_(scene.boxes(), blocks_, indices_) {
-  diagonal_.reserve(scene.boxes().size());
-  for (std::uint32_t i = 0; i < scene.boxes().size(); ++i) {
-    diagonal_.push_back(glm::length(scene.boxes()[i].max - scene.boxes()[i].min));
-    triangles_ += scene.triangles_of(i);
-  }
+      diagonal_(scene.boxes().size()) {
+  for (std::uint32_t i = 0; i < scene.boxes().size(); ++i) triangles_ += scene.triangles_of(i);
+  rebuild();
+}
+
+void CasterCulling::rebuild() {
+  set_ = CasterSet(scene_.boxes(), blocks_, indices_);
+  for (std::size_t i = 0; i < diagonal_.size(); ++i)
+    diagonal_[i] = glm::length(scene_.boxes()[i].max - scene_.boxes()[i].min);
 }
 
 void CasterCulling::count_omissions(const ShadowPlan& plan, PruneSavings& saved) const noexcept {

@@ -50,6 +50,8 @@ class CasterCulling {
  public:
   explicit CasterCulling(const SceneBuffers& scene);
 
+  /// Takes the scene's boxes as they are now.
+  void rebuild();
   /// Counts what the plan pruned itself.
   void count_omissions(const ShadowPlan& plan, PruneSavings& saved) const noexcept;
   /// Casters of one map by instance: 1 or 0. Valid until the next call.

@@ -44,6 +44,8 @@ class DrawLists {
   void build_pages(std::span<const DrawnPage> pages, const Camera& camera);
   /// What is drawn into one page, by index.
   [[nodiscard]] const DrawnPart& page_part(std::size_t page) const noexcept { return page_parts_[page]; }
+  /// Casters are culled by the scene's boxes as they are now.
+  void rebuild_casters() { culling_.rebuild(); }
   /// The maps hold nothing any more: the next build() draws them whole.
   void forget_maps() noexcept { cache_.forget(); }
 

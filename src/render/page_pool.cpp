@@ -12,7 +12,7 @@ namespace {
 // Bindings as shaders/common/pages.glsl states them.
 constexpr GLuint kLevelBinding = 2, kRecordBinding = 3, kTableBinding = 4;
 // Pages along each side of a layer: drivers take at least 2048 layers, of at least 16384 texels.
-constexpr int kPagesAcross = 8;
+constexpr int kPagesAcross = 8, kPerLayer = kPagesAcross * kPagesAcross;
 
 template <class T>
 void send(Buffer& buffer, const std::vector<T>& values) {
@@ -35,19 +35,78 @@ glm::dmat4 layer_from_slot(const TexelRect& place, int side) {
 
 }  // namespace
 
-PagePool::Extent PagePool::extent_of(const PagePlan& plan) noexcept {
-  constexpr int kPerLayer = kPagesAcross * kPagesAcross;
+PagePool::Extent PagePool::fit(const PagePlan& plan) noexcept {
   const int pages = static_cast<int>(plan.pages.size());
-  return {kPagesAcross * plan.slot_texels(), std::max(1, (pages + kPerLayer - 1) / kPerLayer)};
+  const bool enough = slot_texels_ == plan.slot_texels() && pages <= extent_.layers * kPerLayer;
+  if (enough) return extent_;
+  if (slot_texels_ != plan.slot_texels()) forget();
+  slot_texels_ = plan.slot_texels();
+  extent_ = {kPagesAcross * slot_texels_, std::max(1, (pages + pages / 4 + kPerLayer - 1) / kPerLayer)};
+  slots_.resize(static_cast<std::size_t>(extent_.layers * kPerLayer));
+  scratch_.resize(page_table_size(static_cast<int>(slots_.size())));
+  return extent_;
 }
 
-void PagePool::build(const PagePlan& plan, const glm::dvec3& origin_world) {
-  const Extent extent = extent_of(plan);
-  const int slot = plan.slot_texels();
+void PagePool::forget() noexcept {
+  std::fill(slots_.begin(), slots_.end(), PageSlot{});
+}
+
+TexelRect PagePool::rectangle(std::uint32_t slot) const noexcept {
+  const int at = static_cast<int>(slot) % kPerLayer;
+  return {at % kPagesAcross * slot_texels_, at / kPagesAcross * slot_texels_, slot_texels_, slot_texels_};
+}
+
+DrawnPage PagePool::place_of(std::size_t page) const noexcept {
+  DrawnPage place;
+  place.layer = static_cast<int>(kept_[page].slot) / kPerLayer;
+  place.place = rectangle(kept_[page].slot);
+  return place;
+}
+
+void PagePool::build(const PagePlan& plan, const PageFrame& frame) {
+  // Drawn relative to another origin, texels differ by rounding.
+  if (frame.origin_world != origin_world_ || frame.alpha_test != alpha_test_) forget();
+  origin_world_ = frame.origin_world;
+  alpha_test_ = frame.alpha_test;
+  kept_.resize(plan.pages.size());
+  (void)keep_pages(plan, frame.moved_world, slots_, scratch_, kept_);  // fit() made room
   const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
   pages_.clear();
-  levels_.clear();
   records_.clear();
+  std::vector<std::uint8_t> held(slots_.size());
+  std::transform(slots_.begin(), slots_.end(), held.begin(),
+                 [](const PageSlot& slot) { return slot.used != 0; });
+  for (std::size_t i = 0; i < plan.pages.size(); ++i) {
+    const Page& page = plan.pages[i];
+    DrawnPage drawn = place_of(i);
+    drawn.map = page_map(plan, page);
+    const auto counted_from = [&](const glm::dvec3& origin) {
+      glm::dmat4 m = drawn.map.clip_from_world;
+      m[3] = m * glm::dvec4(origin, 1.0);
+      return m;
+    };
+    records_.push_back({glm::mat4(layer_from_slot(drawn.place, extent_.side) * drawn_from_plan *
+                                  counted_from(plan.origin_world)),
+                        {page.level, static_cast<std::uint32_t>(page.column),
+                         static_cast<std::uint32_t>(page.row), static_cast<std::uint32_t>(drawn.layer)}});
+    if (frame.keeps && !kept_[i].draw) continue;
+    held[kept_[i].slot] = 0;
+    drawn.clip_from_position = glm::mat4(drawn_from_plan * counted_from(frame.origin_world));
+    pages_.push_back(drawn);
+  }
+  fresh_.assign(static_cast<std::size_t>(extent_.layers), true);
+  for (std::size_t slot = 0; slot < held.size(); ++slot) {
+    if (held[slot] != 0) fresh_[slot / kPerLayer] = false;
+  }
+  // Slots of kept pages lie anywhere: each layer is bound once.
+  std::stable_sort(pages_.begin(), pages_.end(),
+                   [](const DrawnPage& a, const DrawnPage& b) { return a.layer < b.layer; });
+  send_tables(plan);
+}
+
+void PagePool::send_tables(const PagePlan& plan) {
+  const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
+  levels_.clear();
   for (const ShadowMap& map : plan.levels) {
     Level level{glm::mat4(drawn_from_plan * glm::dmat4(map.clip_from_camera_relative)), {}, {}};
     level.select_planes.fill({0.0f, 0.0f, 0.0f, 1.0f});
@@ -59,24 +118,6 @@ void PagePool::build(const PagePlan& plan, const glm::dvec3& origin_world) {
     }
     level.grid = {map.width / plan.page_texels, map.height / plan.page_texels, map.cascade, 0};
     levels_.push_back(level);
-  }
-  for (const Page& page : plan.pages) {
-    DrawnPage drawn;
-    drawn.map = page_map(plan, page);
-    const int at = static_cast<int>(page.slot);
-    drawn.layer = at / (kPagesAcross * kPagesAcross);
-    drawn.place = {at % kPagesAcross * slot, at / kPagesAcross % kPagesAcross * slot, slot, slot};
-    const auto counted_from = [&](const glm::dvec3& origin) {
-      glm::dmat4 m = drawn.map.clip_from_world;
-      m[3] = m * glm::dvec4(origin, 1.0);
-      return m;
-    };
-    drawn.clip_from_position = glm::mat4(drawn_from_plan * counted_from(origin_world));
-    records_.push_back({glm::mat4(layer_from_slot(drawn.place, extent.side) * drawn_from_plan *
-                                  counted_from(plan.origin_world)),
-                        {page.level, static_cast<std::uint32_t>(page.column),
-                         static_cast<std::uint32_t>(page.row), static_cast<std::uint32_t>(drawn.layer)}});
-    pages_.push_back(drawn);
   }
   table_ = {static_cast<std::uint32_t>(plan.levels.size()), static_cast<std::uint32_t>(plan.table.size()),
             static_cast<std::uint32_t>(plan.border_texels), 0};

@@ -20,18 +20,35 @@ struct DrawnPage {
   TexelRect place{};  ///< in the layer, border included
 };
 
-/// Pages side by side in the layers of one depth array.
+/// What decides about pages besides their plan.
+struct PageFrame {
+  glm::dvec3 origin_world{0.0};  ///< what casters are drawn relative to
+  bool alpha_test = false;       ///< where materials are masked alone
+  bool keeps = false;            ///< draws what the pool does not hold; else every page
+  std::span<const Box> moved_world = {};
+};
+
+/// Pages side by side in the layers of one depth array, kept from frame to frame.
 class PagePool {
  public:
-  /// Sides of a layer, and layers that all pages of the plan need.
+  /// Sides of a layer, and layers.
   struct Extent {
     int side = 1, layers = 1;
   };
-  [[nodiscard]] static Extent extent_of(const PagePlan& plan) noexcept;
+  /// Grows to hold the pages of the plan, and a quarter more where it grows: pages that leave the view stay.
+  Extent fit(const PagePlan& plan) noexcept;
+  /// The layers hold nothing any more.
+  void forget() noexcept;
 
-  /// Places the pages and sends the tables. `origin_world`: what casters are drawn relative to.
-  void build(const PagePlan& plan, const glm::dvec3& origin_world);
+  /// Places the pages and sends the tables.
+  void build(const PagePlan& plan, const PageFrame& frame);
+  /// Those to draw, layer by layer.
   [[nodiscard]] std::span<const DrawnPage> pages() const noexcept { return pages_; }
+  /// True where all that a layer holds is drawn in this frame.
+  [[nodiscard]] bool is_fresh(int layer) const noexcept { return fresh_[static_cast<std::size_t>(layer)]; }
+  /// Where a page of the last plan lies; its index must be below resident().
+  [[nodiscard]] DrawnPage place_of(std::size_t page) const noexcept;
+  [[nodiscard]] std::size_t resident() const noexcept { return records_.size(); }
   /// Binds the tables where shaders/common/pages.glsl reads them.
   void bind() const noexcept;
 
@@ -46,6 +63,17 @@ class PagePool {
     glm::mat4 clip_from_point;
     glm::uvec4 key;
   };
+  [[nodiscard]] TexelRect rectangle(std::uint32_t slot) const noexcept;
+  void send_tables(const PagePlan& plan);
+
+  Extent extent_;
+  int slot_texels_ = 0;
+  glm::dvec3 origin_world_{0.0};
+  bool alpha_test_ = false;
+  std::vector<PageSlot> slots_;
+  std::vector<std::uint32_t> scratch_;
+  std::vector<KeptPage> kept_;
+  std::vector<bool> fresh_;  ///< by layer
   std::vector<DrawnPage> pages_;
   std::vector<Level> levels_;
   std::vector<Record> records_;

@@ -129,22 +129,28 @@ void Renderer::Impl::draw_pages(bool alpha_test_where_masked) noexcept {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_CULL_FACE);
-  glDisable(GL_SCISSOR_TEST);
   constexpr float kFarthest = 1.0f;
+  const auto clear = [&] { glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest); };
   int layer = -1;
   const std::span<const DrawnPage> drawn = pages.pages();
   for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const bool fresh = pages.is_fresh(drawn[i].layer);
     if (drawn[i].layer != layer) {
       layer = drawn[i].layer;
       glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0, layer);
       glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
-      glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest);
+      glDisable(GL_SCISSOR_TEST);
+      if (fresh) clear();
+      glEnable(GL_SCISSOR_TEST);
     }
-    // Triangles are clipped to the viewport: no page draws into the next.
     const TexelRect& at = drawn[i].place;
+    // Clipping to the viewport alone lets triangles that pass by a local light spill a row into the next page.
+    glScissor(at.x, at.y, at.width, at.height);
     glViewport(at.x, at.y, at.width, at.height);
+    if (!fresh) clear();
     draw_casters(lists.page_part(i), drawn[i].clip_from_position, alpha_test_where_masked);
   }
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void Renderer::Impl::adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept {

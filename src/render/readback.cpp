@@ -115,6 +115,19 @@ FloatImage Renderer::depth_map(int map) const {
   return image;
 }
 
+FloatImage Renderer::page_depths(std::size_t page) const {
+  if (page >= impl_->pages.resident())
+    throw RenderError("no page " + std::to_string(page) + " in the last frame");
+  const DrawnPage at = impl_->pages.place_of(page);
+  FloatImage image{at.place.width, at.place.height, 1, {}, {"depth"}};
+  image.values.resize(static_cast<std::size_t>(at.place.width) * static_cast<std::size_t>(at.place.height));
+  glGetTextureSubImage(impl_->maps.depth.name(), 0, at.place.x, at.place.y, at.layer, at.place.width,
+                       at.place.height, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                       static_cast<GLsizei>(image.values.size() * sizeof(float)), image.values.data());
+  check_context();
+  return image;
+}
+
 std::vector<DrawnDepths> Renderer::drawn_depths(const FilterSettings& settings,
                                                 const ShadowPlan& plan) const {
   std::vector<DrawnDepths> maps;

@@ -109,8 +109,9 @@ void Renderer::Impl::upload(const FrameBlock& frame, const FilterBlock& filterin
   glBindBufferBase(GL_UNIFORM_BUFFER, kFilterBinding, filter_buffer.name());
 }
 
-DrawnMaps Renderer::Impl::place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world) {
-  const DrawnMaps drawn = drawn_maps(plan, camera_world, scene.origin_step());
+DrawnMaps Renderer::Impl::place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world,
+                                      double origin_steps) {
+  const DrawnMaps drawn = drawn_maps(plan, camera_world, origin_steps * scene.origin_step());
   scene.place(SceneBuffers::Placed::for_camera, camera_world);
   scene.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
   return drawn;
@@ -133,9 +134,29 @@ void Renderer::Impl::count_work(const ShadowPlan& plan, FrameStats& stats) const
   stats.camera = lists.camera_stats();
 }
 
+void Renderer::Impl::take_moved(std::span<const Box> moved_world) {
+  if (!moved.empty()) lists.rebuild_casters();
+  moved.insert(moved.end(), moved_world.begin(), moved_world.end());
+}
+
+bool Renderer::move_instance(std::size_t instance, const Instance& to) {
+  if (instance >= impl_->scene.boxes().size() || to.bounds_world.empty()) return false;
+  impl_->moved.push_back(impl_->scene.boxes()[instance]);
+  impl_->moved.push_back(to.bounds_world);
+  impl_->scene.move(instance, to);
+  return true;
+}
+
 FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                           const FrameOptions& options) noexcept {
   Impl& impl = *impl_;
+  impl.take_moved(options.moved_world);
+  if (!impl.moved.empty()) {
+    impl.lists.forget_maps();
+    impl.pages.forget();
+    impl.moved.clear();
+  }
+  if (plan.map_count > 0) impl.pages.forget();
   if (filter.irregular && impl.pixel_lists && impl.pixel_lists->fits(camera.width, camera.height))
     return impl.draw_irregular(plan, camera, filter, options);
   FrameStats stats;
@@ -208,8 +229,8 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   const PassTimer timed{stats, options.time_passes};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   impl.targets.resize(camera.width, camera.height);
-  const PagePool::Extent extent = PagePool::extent_of(plan);
-  impl.maps.fit(extent.side, extent.side, extent.layers);
+  const PagePool::Extent extent = impl.pages.fit(plan);
+  if (impl.maps.fit(extent.side, extent.side, extent.layers)) impl.pages.forget();
   impl.lists.forget_maps();
   impl.history.forget();  // the mask is this frame's alone
   impl.map_count = 0;
@@ -220,10 +241,16 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   timed(Pass::shadow_maps, [&] {
     const FrameBlock block = frame_block(of_light, camera, options, extent.side, extent.side, blur, curves);
     impl.upload(block, filtering);
-    const DrawnMaps drawn = impl.place_scene({}, camera.position);
-    impl.pages.build(plan, drawn.origin_world);
+    // Kept pages want an origin that stays; as near the camera as two bits of a float allow.
+    constexpr double kOriginSteps = 4.0;
+    const DrawnMaps drawn = impl.place_scene({}, camera.position, kOriginSteps);
+    impl.take_moved(options.moved_world);
+    const bool alpha_test = options.prune.has(PruneRule::alpha_test);
+    impl.pages.build(plan,
+                     {drawn.origin_world, alpha_test, options.prune.has(PruneRule::held_maps), impl.moved});
+    impl.moved.clear();
     impl.lists.build_pages(impl.pages.pages(), camera);
-    impl.draw_pages(options.prune.has(PruneRule::alpha_test));
+    impl.draw_pages(alpha_test);
   });
   timed(Pass::surfaces,
         [&] { impl.draw_surfaces(impl.targets.surfaces_fbo.name(), impl.programs.surfaces); });
@@ -238,6 +265,12 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   stats.texels = stats.map[0].texels;
   stats.camera = impl.lists.camera_stats();
   stats.map_bytes = impl.maps.bytes();
+  stats.pages = static_cast<int>(plan.pages.size());
+  stats.pages_drawn = static_cast<int>(impl.pages.pages().size());
+  PruneSaving& held = stats.saved[static_cast<std::size_t>(PruneRule::held_maps)];
+  held.maps = static_cast<std::uint64_t>(stats.pages - stats.pages_drawn);
+  held.texels = held.maps * static_cast<std::uint64_t>(plan.slot_texels()) *
+                static_cast<std::uint64_t>(plan.slot_texels());
   return stats;
 }
 

@@ -39,8 +39,11 @@ struct Renderer::Impl {
   /// Makes both blocks those that all shaders read.
   void upload(const FrameBlock& frame, const FilterBlock& filtering) noexcept;
   /// Positions of the scene near the camera and near the maps' origin; matrices of the plan's maps from
-  /// there.
-  [[nodiscard]] DrawnMaps place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world);
+  /// there. `origin_steps`: of SceneBuffers, from one place of the maps' origin to the next.
+  [[nodiscard]] DrawnMaps place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world,
+                                      double origin_steps = 1.0);
+  /// Adds what the caller says has moved; casters are culled by where they are now.
+  void take_moved(std::span<const Box> moved_world);
   void draw_map_part(const DrawnPart& part, const DrawnMap& map, bool alpha_test_where_masked) noexcept;
   void draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
                     bool alpha_test_where_masked) noexcept;
@@ -94,6 +97,7 @@ struct Renderer::Impl {
   MapTargets maps;
   PagePool pages;
   std::optional<PixelLists> pixel_lists;  ///< made when they are first prepared
+  std::vector<Box> moved;                 ///< bounds of casters before and after, since the last frame
   Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;
   std::array<glm::ivec2, kMaxMaps> map_size{};  ///< of the last frame

@@ -65,12 +65,8 @@ SceneBuffers::SceneBuffers(const Scene& scene)
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     primitive_of_.push_back(instance.primitive);
-    boxes_.push_back(instance.bounds_world);
-    const glm::dmat4& m = instance.world_from_object;
-    translation_[i] = glm::dvec3(m[3]);
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) objects_[i].row[r].value[c] = static_cast<float>(m[c][r]);
-    }
+    boxes_.emplace_back();
+    move(i, instance);
   }
   upload_vertices(scene);
   upload_images(scene);
@@ -84,6 +80,16 @@ SceneBuffers::SceneBuffers(const Scene& scene)
   constexpr int kStepsPerDiagonal = 4;  // as a power of two
   if (diagonal_ > 0.0 && std::isfinite(diagonal_))
     origin_step_ = std::ldexp(1.0, std::ilogb(diagonal_) - kStepsPerDiagonal);
+}
+
+void SceneBuffers::move(std::size_t instance, const Instance& to) {
+  boxes_[instance] = to.bounds_world;
+  const glm::dmat4& m = to.world_from_object;
+  translation_[instance] = glm::dvec3(m[3]);
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) objects_[instance].row[r].value[c] = static_cast<float>(m[c][r]);
+  }
+  for (Placement& placement : placement_) placement.origin_world.reset();
 }
 
 void SceneBuffers::upload_vertices(const Scene& scene) {

@@ -41,6 +41,8 @@ class SceneBuffers {
   enum class Placed : std::uint8_t { for_camera, for_maps };
   /// Sends the instances' matrices relative to `origin_world`, where they are not there yet.
   void place(Placed placed, const glm::dvec3& origin_world);
+  /// Places one instance elsewhere, with other bounds; seen by the next place().
+  void move(std::size_t instance, const Instance& to);
   /// Takes those for the next draws.
   void use(Placed placed) const noexcept;
   /// Distance that loses nothing of a float's precision on this scene, a power of two: 1/16 of its diagonal

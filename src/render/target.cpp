@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace gnomon::render {
 
@@ -95,16 +96,22 @@ std::uint64_t MapTargets::bytes() const noexcept {
 }
 
 bool MapTargets::fit(int new_width, int new_height, int new_layers) {
-  if (width == new_width && height == new_height && layers >= new_layers) return false;
+  const bool same_size = width == new_width && height == new_height;
+  if (same_size && layers >= new_layers) return false;
+  const int kept_layers = same_size ? layers : 0;
+  const Texture before = std::move(depth);
   width = new_width;
   height = new_height;
   layers = std::max(layers, new_layers);
   depth = depth_layers(width, height, layers);
+  if (kept_layers > 0)
+    glCopyImageSubData(before.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, depth.name(), GL_TEXTURE_2D_ARRAY, 0,
+                       0, 0, 0, width, height, kept_layers);
   scratch = {};
   fbo = make_framebuffer();
   glNamedFramebufferDrawBuffer(fbo.name(), GL_NONE);
   glNamedFramebufferReadBuffer(fbo.name(), GL_NONE);
-  return true;
+  return !same_size;
 }
 
 void MapTargets::move(int layer, const TexelRect& to, int shift_x, int shift_y) noexcept {

@@ -40,7 +40,8 @@ struct MapTargets {
   Sampler plain_sampler;    ///< reads depths, nearest
 
   MapTargets();
-  /// Grows to hold maps of this size; never shrinks the number of layers. True where all maps are new.
+  /// Grows to hold maps of this size; never shrinks the number of layers. More layers of the same size keep
+  /// what they hold. True where all maps are new.
   bool fit(int new_width, int new_height, int new_layers);
   /// Copies what lies in the rectangle of a layer, once moved by `shift`, from where it is now.
   void move(int layer, const TexelRect& to, int shift_x, int shift_y) noexcept;

@@ -95,6 +95,9 @@ TEST(Allocation, pages_are_planned_measured_and_found_without_the_heap) {
   std::vector<Page> pages(256);
   std::vector<std::uint32_t> table(page_table_size(256));
   std::vector<PagePoint> work(4096);
+  std::vector<PageSlot> slots(512);
+  std::vector<std::uint32_t> slot_table(page_table_size(512));
+  std::vector<KeptPage> kept(256);
   std::size_t opened = 0;
   for (const PagePolicy* policy : all_page_policies()) {
     for_all(20, [&] {
@@ -109,9 +112,12 @@ TEST(Allocation, pages_are_planned_measured_and_found_without_the_heap) {
       const PagePlan plan = plan_pages(c.camera, DirectionalLight{c.light}, c.bounds(), {points}, {}, options,
                                        {levels, pages, table, work});
       const PageStats stats = measure_pages(plan, c.camera, {points});
+      const KeptPages first = keep_pages(plan, {}, slots, slot_table, kept);
+      const KeptPages second = keep_pages(plan, c.casters, slots, slot_table, kept);
       for (const Page& page : plan.pages) opened += page_map(plan, page).width > 0;
       const std::uint64_t after = g_allocations;
       require(after == before, "allocations", after - before, "samples", stats.m.samples);
+      require(first.fits && second.fits, "the pool is too small");
     });
   }
   EXPECT_GT(opened, 100u);

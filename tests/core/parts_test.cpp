@@ -110,5 +110,22 @@ TEST(SeparatingPlane, what_is_parted_is_no_worse_than_two_cascades) {
   EXPECT_GT(parted + cascades, 8);
 }
 
+TEST(Parts, planes_between_the_faces_of_the_frustum_are_parallel_to_the_light) {
+  int planes = 0;
+  for (const double height : {15.0, 35.0, 60.0, 80.0}) {
+    Scene scene(height, 100.0, warps::none);
+    scene.camera.left = -0.8;
+    scene.camera.top = 0.3;
+    scene.options.split.partition = Partition::frustum_faces;
+    const ShadowPlan plan = scene.plan();
+    const glm::dvec3 light = glm::normalize(scene.sun.direction);
+    for (const ShadowMap& map : plan.maps()) {
+      for (int i = 0; i < map.select_plane_count; ++i, ++planes)
+        EXPECT_NEAR(glm::dot(glm::dvec3(map.select_planes[static_cast<std::size_t>(i)]), light), 0.0, 1e-12);
+    }
+  }
+  EXPECT_GT(planes, 8);
+}
+
 }  // namespace
 }  // namespace gnomon::test

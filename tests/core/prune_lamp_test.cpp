@@ -236,7 +236,7 @@ TEST(PruneLocalLight, depths_are_pulled_to_what_is_there_only_where_the_rule_is_
 
 /// A box round the light says nothing of how near its surfaces are. Floats tell depths apart that lie within
 /// a thousandth of the range; over an eight-thousandth, walls of real rooms have acne.
-TEST(PruneLocalLight, a_room_in_one_box_with_its_lamp_has_depths_over_a_thousandth_of_its_range) {
+TEST(PruneLocalLight, a_room_in_one_box_with_its_light_has_depths_over_a_thousandth_of_its_range) {
   Lamp lamp;
   lamp.camera = perspective_camera({1, 1.5, 2}, {0, -0.1, -1}, {0, 1, 0}, 1.2, 1.5, 0.05, 60.0, 640, 427);
   lamp.boxes = lamp.casters = {{{-5, 0, -4}, {5, 3, 4}}};

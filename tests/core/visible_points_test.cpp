@@ -60,6 +60,26 @@ TEST(VisiblePoints, by_hand_the_map_is_as_wide_as_their_bounds_and_the_room_roun
   EXPECT_LT(map.texel_world.x, 0.25 * plain.plan({}).map[0].texel_world.x);
 }
 
+TEST(VisiblePoints, the_room_goes_by_the_longer_side_of_a_pixel) {
+  for (const bool wide : {true, false}) {
+    Plain plain;
+    (wide ? plain.camera.width : plain.camera.height) = 40;
+    // Beside the axis, so that no edge of the image is the other one's opposite.
+    plain.camera.left += 0.1;
+    plain.camera.right += 0.1;
+    plain.camera.bottom += 0.05;
+    plain.camera.top += 0.05;
+    const std::vector<glm::dvec3> one = {{0, 2, 100}};
+    const ShadowPlan plan = plain.plan(one);
+    ASSERT_EQ(plan.map_count, 1);
+    const ShadowMap& map = plan.map[0];
+    const Camera& camera = plain.camera;
+    const double pixel = wide ? (camera.right - camera.left) / 40 : (camera.top - camera.bottom) / 40;
+    const double room = 16.0 * pixel * depth_of(camera, one[0]);
+    EXPECT_NEAR(map.texel_world.x * (map.width - 2 * map.filter_margin_texels), 2.0 * room, 0.01 * room);
+  }
+}
+
 TEST(VisiblePoints, none_or_none_in_view_or_beside_all_receivers_change_nothing) {
   const Plain plain;
   const ShadowPlan without = plain.plan({});

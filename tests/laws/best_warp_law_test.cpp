@@ -63,7 +63,7 @@ void judge_along(const WarpInput& input) noexcept {
     least = std::min(least, warp_error(input, reach / length).value(input.objective));
   const double found = warp_error(input, best.kappa).value(input.objective) / least;
   if (found > 0.0 && found < 1e300) judged.log_along += std::log(found);
-  const double quick = view.least() / best.value;
+  const double quick = view.quick().value / best.value;
   if (quick > 0.0 && quick < 1e300) judged.log_quick += std::log(quick);
 }
 

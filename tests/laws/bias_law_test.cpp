@@ -93,15 +93,17 @@ double shadowing_with(BiasKind kind, const Scene& s, int radius) {
   return shadowing(s, r.point, radius, [&](const glm::dvec2&) { return bias; });
 }
 
-/// True where texels are about as large over the whole kernel as in its middle.
+/// True where texels are about as large over the whole kernel as in its middle, and where an offset along the
+/// normal leads: as far as depths slant under a warp, which is farther than the plane's own slope tells.
 bool evenly_spaced(const Scene& s, int radius) {
   constexpr double kAbout = 1.2;
   const Receiver& r = s.receiver;
+  const double reach = std::max(s.texel * (radius + 1) * (1.0 + s.tangent),
+                                glm::length(normal_offset_world(kLeast, r, radius)));
   const glm::dvec3 a = any_across(r.light_direction), b = glm::cross(a, r.light_direction);
   for (int i = 0; i < 8; ++i) {
     const double turn = 0.7853981633974483 * i;
-    const glm::dvec3 p =
-        r.point + (a * std::cos(turn) + b * std::sin(turn)) * (s.texel * (radius + 1) * (1.0 + s.tangent));
+    const glm::dvec3 p = r.point + (a * std::cos(turn) + b * std::sin(turn)) * reach;
     const glm::dvec2 texel = texel_extent_world(r.clip_from_world, r.texels, r.light_direction, p);
     const double there = std::max(texel.x, texel.y);
     if (!(there <= s.texel * kAbout && there * kAbout >= s.texel)) return false;

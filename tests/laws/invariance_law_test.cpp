@@ -212,8 +212,11 @@ TEST(InvarianceLaw, turning_and_moving_the_world_changes_nothing) {
     c.options.fit = Fit::tight;  // a stable grid is tied to the world's axes
     if (searched(c)) c.options.warp.warp = &warps::lispsm04;
     // A caster that exactly touches the shaft of light may count either way; one round everything always
-    // does.
-    const double f = 8.0 * c.camera.far_depth;
+    // does: round all of a view whose edges go aside farther than it is deep, too.
+    double widest = 1.0;
+    for (const double edge : {c.camera.left, c.camera.right, c.camera.bottom, c.camera.top})
+      widest = std::max(widest, std::abs(edge) / (c.camera.orthographic ? c.camera.far_depth : 1.0));
+    const double f = 8.0 * widest * c.camera.far_depth;
     c.casters = {{c.camera.position - glm::dvec3(coarse(f)), c.camera.position + glm::dvec3(coarse(f))}};
     Case turned = c;
     turn(turned, cube_rotation(pick(64)));

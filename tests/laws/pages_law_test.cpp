@@ -220,11 +220,16 @@ TEST(PagesLaw, culling_keeps_every_caster_between_the_light_and_a_served_point) 
       for (std::size_t k = 0; k < casters.size(); ++k) {
         if (casters[k].empty()) continue;
         // Inside by more than rounding, so that the ray meets the box for certain.
-        const Crossing crossing = cross(casters[k], point, way);
+        constexpr double kGraze = 1e-9;
+        const glm::dvec3 eye = scene.input.camera.position;
+        const double size = glm::length(casters[k].min - eye) + scene.input.camera.far_depth;
+        const glm::dvec3 inset = glm::min(glm::dvec3(kGraze * size), 0.5 * (casters[k].max - casters[k].min));
+        const Crossing crossing = cross({casters[k].min + inset, casters[k].max - inset}, point, way);
         if (!crossing.hits || !(crossing.leave > crossing.enter)) continue;
         if (map.light_world.w != 0.0 && crossing.enter > 1.0) continue;
         ++casters_met;
-        require(std::find(kept.begin(), kept.end(), k) != kept.end(), "caster", k, "of page", index);
+        require(std::find(kept.begin(), kept.end(), k) != kept.end(), "caster", k, "of page", index, "enter",
+                crossing.enter, "leave", crossing.leave, "light", map.light_world.w);
       }
     }
   });
@@ -310,6 +315,35 @@ TEST(PagesLaw, stable_levels_keep_their_texels_in_the_world_while_the_camera_mov
     }
   });
   EXPECT_GT(pages_shared, 30);
+}
+
+TEST(PagesLaw, no_page_is_kept_that_a_moved_caster_can_land_on_and_kept_ones_have_the_same_bits) {
+  std::size_t landed = 0, kept = 0;
+  over_scenes(250, [&](const Scene& scene, const PagePlan& plan) {
+    std::vector<PageSlot> slots(plan.pages.size() + 16);
+    std::vector<std::uint32_t> table(page_table_size(static_cast<int>(slots.size())));
+    std::vector<KeptPage> out(slots.size());
+    require(keep_pages(plan, {}, slots, table, out).drawn == plan.pages.size(), "an empty pool holds pages");
+    const std::vector<Box>& casters = scene.input.casters;
+    const Box moved = casters[static_cast<std::size_t>(pick(static_cast<int>(casters.size())))];
+    const KeptPages again = keep_pages(plan, {&moved, 1}, slots, table, out);
+    require(again.fits && again.kept + again.drawn == plan.pages.size(), "counted", again.kept, again.drawn);
+    for (std::size_t i = 0; i < plan.pages.size(); ++i) {
+      const glm::dmat4 clip_from_world = page_map(plan, plan.pages[i]).clip_from_world;
+      require(slots[out[i].slot].clip_from_world == clip_from_world, "another page in slot", out[i].slot);
+      if (out[i].draw || moved.empty()) continue;
+      ++kept;
+      for (int sample = 0; sample < 16; ++sample) {
+        const glm::dvec3 at =
+            moved.min + (moved.max - moved.min) * glm::dvec3(between(0, 1), between(0, 1), between(0, 1));
+        const glm::dvec4 clip = clip_from_world * glm::dvec4(at, 1.0);
+        require(!(clip.w > 0.0 && std::abs(clip.x) < clip.w && std::abs(clip.y) < clip.w), "stale page", i);
+      }
+    }
+    landed += again.drawn;
+  });
+  EXPECT_GT(landed, 100u);
+  EXPECT_GT(kept, 1000u);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "gnomon/bias.hpp"
@@ -92,6 +93,10 @@ struct FrameOptions {
   /// PruneRule::small_casters: the most texels of a map, as a share of all, that omitted casters may cover,
   /// 0..1. Larger: fewer draws, and small shadows disappear.
   double lost_shadow_share = 1e-4;
+  /// Bounds of casters that the caller says have changed since the last frame, where they were and where they
+  /// are, world space. Cached maps are drawn whole, cached pages where a box reaches them. Instances moved by
+  /// Renderer::move_instance are known already.
+  std::span<const Box> moved_world = {};
 };
 
 /// Work of one map, or of the surfaces pass, in one frame.
@@ -119,6 +124,8 @@ struct FrameStats {
   bool irregular =
       false;  ///< the mask is exact; false after prepare_irregular: the frame was too large for lists
   int maps_read_back = 0;  ///< by filters that choose for each map from its depths
+  int pages = 0;           ///< resident, of a PagePlan
+  int pages_drawn = 0;     ///< of them; the others were kept from earlier frames (PruneRule::held_maps)
   /// Depth maps and everything that the filter keeps besides for its look-ups.
   std::uint64_t map_bytes = 0;
   /// Used while maps are filtered, free for other passes after that: images of one layer, lists of tiles.
@@ -161,10 +168,14 @@ class Renderer {
   /// Compiles the filter's program for pages, once. Throws RenderError as prepare, and for filters that store
   /// texels: pages have depths alone (hard, pcf, pcss).
   [[nodiscard]] PreparedFilter prepare_pages(const FilterSettings& settings);
-  /// The same frame with the pages of a plan: each is drawn with its own casters into a pool, which is all
-  /// redrawn every frame. `filter` must come from prepare_pages, and the plan's border must hold its kernel
-  /// (set_margin). The mask's channel "map" is the index of the page. No picture of the error or of maps is
-  /// drawn; FrameStats::map[0] is the sum over all pages.
+  /// Places an instance elsewhere: `to.world_from_object` and `to.bounds_world`; all else of it stays. Plans
+  /// must be given its new bounds. False where there is no such instance or its bounds are empty.
+  bool move_instance(std::size_t instance, const Instance& to);
+  /// The same frame with the pages of a plan: each is drawn with its own casters into a pool. Pages that the
+  /// pool holds from earlier frames are not drawn again where `options.prune` has PruneRule::held_maps
+  /// (keep_pages); a frame with maps empties the pool. `filter` must come from prepare_pages, and the plan's
+  /// border must hold its kernel (set_margin). The mask's channel "map" is the index of the page. No picture
+  /// of the error or of maps is drawn; FrameStats::map[0] is the sum over all pages.
   FrameStats draw(const PagePlan& plan, const Camera& camera, const PreparedFilter& filter,
                   const FrameOptions& options = {}) noexcept;
 
@@ -187,6 +198,8 @@ class Renderer {
   /// Channel "depth" of one map of the last frame: 0 near the light .. 1; row 0 is texel row 0 of the map
   /// (ndc y = -1).
   [[nodiscard]] FloatImage depth_map(int map) const;
+  /// The same of one page of the last frame, border included, by its index in the plan.
+  [[nodiscard]] FloatImage page_depths(std::size_t page) const;
   /// The last frame's maps, which were drawn for this plan, as fit_filter wants them: reads them all back.
   [[nodiscard]] std::vector<DrawnDepths> drawn_depths(const FilterSettings& settings,
                                                       const ShadowPlan& plan) const;

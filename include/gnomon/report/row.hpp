@@ -23,6 +23,12 @@ struct Technique {
   std::string warp, split, fit, filter;  ///< names as on the command line
   int cascades = 1;                      ///< requested
   int map_size = 1024;                   ///< texels along each side
+  /// Page policy: a pool of pages, with as many texels as the maps would have, replaces them. Empty: maps.
+  std::string pages = {};
+  int page_texels = 0;         ///< along each side that a page serves; 0: maps
+  double page_target_m = 0.0;  ///< error that pages are opened for; 0: the least that the pool holds
+  /// "warp lispsm", or "pages resolution": the charts' marks.
+  [[nodiscard]] std::string kind() const;
   /// "none / auto / 4 x 1024 / pcf": unique within a sweep, for people.
   [[nodiscard]] std::string name() const;
   /// The same names and numbers.

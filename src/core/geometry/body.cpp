@@ -99,8 +99,8 @@ class Cutter {
   /// `size`: of the numbers that distances are made from.
   template <typename Distance>
   void by(const Plane& plane, double size, const Distance& distance_of) noexcept;
-  /// Whether some vertex is outside by no more than its rounding.
-  [[nodiscard]] bool touches(const double* distance) const noexcept;
+  /// The vertices that are outside by more than their rounding.
+  [[nodiscard]] VertexSet beyond_rounding(const double* distance) const noexcept;
   void divide(const Plane& plane, const double* distance, VertexSet cut_off) noexcept;
   [[nodiscard]] std::size_t add_vertices(const double* distance, VertexSet cut_off,
                                          CrossingEdges& crossing) noexcept;
@@ -126,18 +126,21 @@ void Cutter::by(const Plane& plane, double size, const Distance& distance_of) no
   if (lowest >= limit) return;
   VertexSet cut_off = 0;
   for_each_vertex(kept_, [&](std::size_t i) { cut_off |= VertexSet{distance[i] < limit} << i; });
-  if (cut_off == kept_ && touches(distance)) return;
+  // What is outside by no more than its rounding may be all that is left.
+  if (cut_off == kept_) cut_off = beyond_rounding(distance);
+  if (cut_off == 0) return;
   divide(plane, distance, cut_off);
   if (places_ > kManyPlaces) close_gaps();
 }
 
-bool Cutter::touches(const double* distance) const noexcept {
-  double nearest = -std::numeric_limits<double>::infinity(), size = size_of_planes(body_);
-  for_each_vertex(kept_, [&](std::size_t i) {
-    nearest = max_of(nearest, distance[i]);
-    size = max_of(size, largest_component(body_.vertex[i].position));
-  });
-  return nearest >= -kClipTolerance * size;
+VertexSet Cutter::beyond_rounding(const double* distance) const noexcept {
+  double size = size_of_planes(body_);
+  for_each_vertex(kept_,
+                  [&](std::size_t i) { size = max_of(size, largest_component(body_.vertex[i].position)); });
+  VertexSet beyond = 0;
+  for_each_vertex(kept_,
+                  [&](std::size_t i) { beyond |= VertexSet{distance[i] < -kClipTolerance * size} << i; });
+  return beyond;
 }
 
 void Cutter::divide(const Plane& plane, const double* distance, VertexSet cut_off) noexcept {
@@ -174,10 +177,14 @@ std::size_t Cutter::add_vertices(const double* distance, VertexSet cut_off,
     for (std::uint8_t k = 0; k < 3; ++k) {
       const std::uint8_t other = v.neighbour[k];
       if ((cut_off >> other & 1) == 0 || places + added++ >= kMaxVertices) continue;
-      const double from = max_of(distance[i], 0.0);
-      const double t = from / (from - distance[other]);
+      const double from = max_of(distance[i], 0.0), length = from - distance[other];
+      const glm::dvec3 &begin = v.position, &end = vertex[other].position;
+      const double t = from / length;
       Polytope::Vertex& on_plane = vertex[places + added - 1];
-      on_plane.position = v.position + (vertex[other].position - v.position) * t;
+      on_plane.position = begin + (end - begin) * t;
+      // From an end that is far away, what is near the other one would get the rounding of that distance.
+      constexpr double kNearEnd = 1.0 - 0x1p-14;
+      if (t > kNearEnd) on_plane.position = end + (begin - end) * (-distance[other] / length);
       on_plane.face = {cap, v.face[(k + 1u) % 3], v.face[(k + 2u) % 3]};
       on_plane.neighbour[0] = static_cast<std::uint8_t>(i);
       crossing[added - 1] = {static_cast<std::uint8_t>(i), k};

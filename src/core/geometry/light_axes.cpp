@@ -1,6 +1,7 @@
 // Axes across the light: along the view where a warp wants them, fixed where a grid must not move.
 #include "geometry/light_axes.hpp"
 
+#include <cstddef>
 #include <glm/geometric.hpp>
 
 #include "geometry/vector.hpp"
@@ -34,6 +35,13 @@ LightFrame view_aligned_frame(const glm::dvec3& light_direction, const CameraAxe
 
 LightFrame fixed_frame(const glm::dvec3& light_direction) noexcept {
   return frame_from(light_direction, least_aligned_axis(light_direction));
+}
+
+LightFrame face_frame(const LightFrame& cube, int face) noexcept {
+  const glm::dvec3 axis[3] = {cube.x, cube.y, cube.z};
+  const auto k = static_cast<std::size_t>(face / 2);
+  const glm::dvec3 z = axis[k] * (face % 2 == 0 ? -1.0 : 1.0), y = axis[(k + 2) % 3];
+  return {glm::cross(y, z), y, z};
 }
 
 }  // namespace gnomon

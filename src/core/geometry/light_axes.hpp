@@ -18,4 +18,7 @@ namespace gnomon {
 /// Depends on the light alone, so that a snapped grid never turns with the camera.
 [[nodiscard]] LightFrame fixed_frame(const glm::dvec3& light_direction) noexcept;
 
+/// Of a face of the cube whose faces look along +x -x +y -y +z -z of `cube`; z against the face's axis.
+[[nodiscard]] LightFrame face_frame(const LightFrame& cube, int face) noexcept;
+
 }  // namespace gnomon

@@ -214,12 +214,33 @@ void walk_down(BoxWalk<Query>& walk, const Boxes& boxes) noexcept {
   walk.whole();
 }
 
+/// Calls `use` with each box that is not empty, until it returns false.
+template <typename Use>
+void for_each_box(const Boxes& boxes, Use&& use) noexcept {
+  const CasterSet* const set = boxes.set();
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Box box = set != nullptr ? lane_box(set->block(0, i / kLanes), i % kLanes) : boxes.list()[i];
+    if (!box.empty() && !use(box)) return;
+  }
+}
+
 }  // namespace
 
+bool several(const Boxes& boxes) noexcept {
+  if (boxes.size() < 2) return false;
+  int count = 0;
+  for_each_box(boxes, [&](const Box&) { return ++count < 2; });
+  return count == 2;
+}
+
 Box visible_bounds(const Polytope& region, const Boxes& boxes, const glm::dvec3& origin) noexcept {
-  if (boxes.size() == 1) {
-    const Box only = boxes.set() != nullptr ? lane_box(boxes.set()->block(0, 0), 0) : boxes.list()[0];
-    return only.empty() ? Box{} : relative_to(only, origin);
+  if (!several(boxes)) {
+    Box only;
+    for_each_box(boxes, [&](const Box& box) {
+      only = relative_to(box, origin);
+      return false;
+    });
+    return only;
   }
   if (region.empty()) return {};
   // Cutting a box costs as much as asking a hundred. In a tree, cut ones also tell where not to look.

@@ -12,8 +12,11 @@ namespace gnomon {
   return {box.min - origin, box.max - origin};
 }
 
+/// True where more than one box holds anything.
+[[nodiscard]] bool several(const Boxes& boxes) noexcept;
+
 /// The smallest box round the parts of `boxes` (world space) inside `region`; `region` and the result are
-/// relative to `origin`. A single box is returned whole: the caller clips by it anyway.
+/// relative to `origin`. A single box that holds anything is returned whole: the caller clips by it anyway.
 [[nodiscard]] Box visible_bounds(const Polytope& region, const Boxes& boxes,
                                  const glm::dvec3& origin) noexcept;
 

@@ -59,7 +59,7 @@ Bordered bordered(const PlaneMap& map, double margin_image, const WarpInput::Poi
 /// face on which it is least.
 template <std::size_t count>
 double highest_over(const FittedPlane& f, double bottom, const Faces<count>& faces) noexcept {
-  const double margin_image = f.border * ((f.plane.a_max - f.plane.a_min) + (f.plane.b_max - f.plane.b_min));
+  const double margin_image = border_in_image(f.plane, f.border);
   std::array<double, count> steepest, highest{};
   for (std::size_t k = 0; k < count; ++k)
     steepest[k] = std::sqrt(faces.slope_x[k] * faces.slope_x[k] + faces.slope_y[k] * faces.slope_y[k]);
@@ -174,8 +174,7 @@ void sweep_for(const PlanContext& c, const MapRequest& request, const LightBody&
   // distance, at most.
   constexpr double kNearestHorizon = 0.1;
   const double growth = plane.stretch / max_of(1.0 - border * (plane.stretch - 1.0), kNearestHorizon);
-  const double reach =
-      border * growth * ((plane.a_max - plane.a_min) + (plane.b_max - plane.b_min)) * body.farthest;
+  const double reach = border_in_image(plane, border) * growth * body.farthest;
   const glm::dvec4 light = request.space.light();
   const LightFrame& frame = request.space.frame;
   sweep(request.body, glm::dvec4(frame.x * light.x + frame.y * light.y + frame.z * light.z, light.w), reach,

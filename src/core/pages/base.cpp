@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <variant>
 
 #include "geometry/elementary.hpp"
 #include "geometry/light_axes.hpp"
 #include "geometry/matrix.hpp"
+#include "geometry/usable.hpp"
+#include "geometry/visible.hpp"
 #include "measure/measure_grid.hpp"
 #include "measure/metric_lanes.hpp"
 #include "plan/select.hpp"
@@ -48,6 +52,33 @@ void place_on_map(PageBase& base) noexcept {
   base.side = glm::dvec2(kWholeSide);
 }
 
+/// Depths that all bounds lie within, in steps: neither the camera nor what it sees changes them, so that
+/// drawn pages stay valid. Not where the bounds are so deep that floats would run out.
+void deepen_to_bounds(const SceneBounds& bounds, const glm::dvec3& light_direction,
+                      const ClipSpace& clip_space, PageBase& base) noexcept {
+  const glm::dvec3 up = fixed_frame(light_direction).z;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Boxes& boxes : {bounds.casters, bounds.receivers}) {
+    high = max_of(high, casters_inside({}, boxes, glm::dvec3(0.0), up).top);
+    low = min_of(low, -casters_inside({}, boxes, glm::dvec3(0.0), -up).top);
+  }
+  constexpr double kSteps = 16.0, kDeepest = 64.0, kMostSteps = 0x1p50;
+  const double side = base.map.texel_world.x * base.map.width;
+  if (!(high > low && high - low < kDeepest * side)) return;
+  const double step = 2.0 * elementary::power_of_two_below(high - low) / kSteps;
+  const double first = std::floor(low / step) - 1.0, last = std::ceil(high / step) + 1.0;
+  if (!(max_of(std::abs(first), std::abs(last)) < kMostSteps)) return;
+  const double bottom = first * step, height = (last - first) * step;
+  glm::dmat4 depth(0.0);
+  for (int i = 0; i < 3; ++i) depth[i][2] = -2.0 / height * up[i];
+  depth[3] = {0.0, 0.0, 1.0 + 2.0 * bottom / height, 1.0};
+  const glm::dmat4 clip = clip_from_gl_clip(clip_space) * depth;
+  for (int i = 0; i < 4; ++i) base.map.clip_from_world[i][2] = clip[i][2];
+  base.map.depth_range_world = height;
+  base.map.snap_key.depth_far = static_cast<std::int64_t>(first);
+  base.map.snap_key.depth_near = static_cast<std::int64_t>(last);
+}
+
 /// Places in world units across parallel light, from the world's origin on: the same for every camera.
 void place_in_world(const glm::dvec3& light_direction, PageBase& base) noexcept {
   const ShadowMap& map = base.map;
@@ -69,6 +100,73 @@ void place_in_world(const glm::dvec3& light_direction, PageBase& base) noexcept 
   base.high = centre + half;
   base.unit = glm::dvec2(2.0 * half);
   base.side = base.unit;
+}
+
+/// The frame that a stable map of a local light lies in: of a face of a cube, or of the only one of a spot.
+LightFrame local_frame(const Light& light, const glm::dvec3& light_direction, const ShadowMap& map) noexcept {
+  if (map.select_plane_count == 0) return fixed_frame(light_direction);
+  return face_frame(std::holds_alternative<PointLight>(light) ? LightFrame{} : fixed_frame(light_direction),
+                    map.cascade);
+}
+
+/// Near and far distance of a perspective map in powers of two, which rounding that follows the eye leaves as
+/// they are.
+void snap_distances(const ClipSpace& clip_space, const glm::dvec4& row_w, ShadowMap& map) noexcept {
+  const glm::dmat4 clip_from_gl = clip_from_gl_clip(clip_space);
+  const glm::dmat4 gl = glm::inverse(clip_from_gl) * map.clip_from_world;
+  const glm::dvec4 z = row_of(gl, 2), w = row_of(gl, 3);
+  const glm::dvec3 ahead(row_w);
+  // z = a w + b over the distance w: -1 at the near and 1 at the far plane.
+  const double scale = glm::dot(glm::dvec3(w), ahead), a = glm::dot(glm::dvec3(z), ahead) / scale;
+  const double b = (z.w - a * w.w) / scale;
+  constexpr double kRounding = 1e-6;
+  const double near_distance = elementary::power_of_two_below(-b / (a + 1.0) * (1.0 + kRounding));
+  const double far_distance = 2.0 * elementary::power_of_two_below(-b / (a - 1.0) * (1.0 - kRounding));
+  if (!(near_distance > 0.0 && far_distance > near_distance && far_distance < kLargest)) return;
+  const double range = far_distance - near_distance;
+  const glm::dvec4 row_z = row_w * ((far_distance + near_distance) / range) -
+                           glm::dvec4(0.0, 0.0, 0.0, 2.0 * far_distance * near_distance / range);
+  glm::dmat4 depth(0.0);
+  for (int i = 0; i < 4; ++i) {
+    depth[i][2] = row_z[i];
+    depth[i][3] = row_w[i];
+  }
+  const glm::dmat4 clip = clip_from_gl * depth;
+  for (int i = 0; i < 4; ++i) {
+    map.clip_from_world[i][2] = clip[i][2];
+    map.clip_from_world[i][3] = clip[i][3];
+  }
+  map.depth_range_world = range;
+}
+
+glm::dvec3 position_of(const Light& light) noexcept {
+  const auto* const spot = std::get_if<SpotLight>(&light);
+  return spot != nullptr ? spot->position : std::get<PointLight>(light).position;
+}
+
+/// Places in slopes across a local light's axis, from the axis on: the same for every camera.
+void place_in_light(const Light& light, const glm::dvec3& light_direction, const ClipSpace& clip_space,
+                    PageBase& base) noexcept {
+  const LightFrame frame = local_frame(light, light_direction, base.map);
+  const glm::dmat4& m = base.map.clip_from_world;
+  const glm::dvec3 apex = position_of(light), ahead = -frame.z;
+  const double scale = glm::dot(glm::dvec3(row_of(m, 3)), ahead);
+  const auto over_apex = [&](const glm::dvec3& axis) { return glm::dvec4(axis, -glm::dot(axis, apex)); };
+  glm::dvec4* const rows[2] = {&base.row_x, &base.row_y};
+  const glm::dvec3 axes[2] = {frame.x, frame.y};
+  for (int i = 0; i < 2; ++i) {
+    const glm::dvec3 row(row_of(m, i));
+    const double along = glm::dot(row, axes[i]), across = glm::dot(row, ahead) / scale;
+    *rows[i] = over_apex(along < 0.0 ? -axes[i] : axes[i]);
+    const double per_slope = std::abs(along) / scale;
+    base.low[i] = (-1.0 - across) / per_slope;
+    base.high[i] = (1.0 - across) / per_slope;
+  }
+  base.row_w = over_apex(ahead);
+  base.unit = base.side = base.high - base.low;
+  base.low -= kEdgeRoom * base.unit;
+  base.high += kEdgeRoom * base.unit;
+  snap_distances(clip_space, base.row_w, base.map);
 }
 
 /// Points on their way to their base's block.
@@ -100,7 +198,7 @@ class Needs {
   [[nodiscard]] int base_holding(const glm::dvec3& point) const noexcept {
     for (int i = 0; i < c_.base_count; ++i) {
       const PageBase& base = c_.base[static_cast<std::size_t>(i)];
-      if (base.holds(point) && inside_select_planes(base.map, point)) return i;
+      if (base.holds(point) && inside_select_planes(base.map, point, c_.camera.position)) return i;
     }
     return -1;
   }
@@ -264,9 +362,15 @@ PlanStatus plan_base(const Light& light, const SceneBounds& bounds, const PlanOp
     base.fixed = stable;
     if (stable && std::holds_alternative<DirectionalLight>(light)) {
       place_in_world(plan.light_direction, base);
+      deepen_to_bounds(bounds, plan.light_direction, options.clip_space, base);
+    } else if (stable) {
+      place_in_light(light, plan.light_direction, options.clip_space, base);
     } else {
       place_on_map(base);
     }
+    // Shifts of bases that stay at their place are final.
+    out.places[static_cast<std::size_t>(base.map.cascade)] = {
+        base.row_x + base.row_w * base.shift.x, base.row_y + base.row_w * base.shift.y, base.row_w};
   }
   return plan.status;
 }

@@ -156,7 +156,8 @@ ShadowMap level_map(const PageContext& c, std::uint32_t level) noexcept {
   map.m_max *= max_of(scale.x, scale.y);
   map.storage = map.m_s_max * map.m_t_max * map.width * static_cast<double>(map.height) /
                 (static_cast<double>(c.camera.width) * c.camera.height);
-  if (map.snap_key.valid && base.fixed) {
+  if (base.fixed) {
+    map.snap_key.valid = true;
     map.snap_key.x = g.first_x * page;
     map.snap_key.y = g.first_y * page;
     map.snap_key.texel = g.side.x / page;

@@ -29,7 +29,8 @@ int page_serving(const PagePlan& plan, const glm::dvec3& point) noexcept {
   // Of a cube's faces, which share a little at their edges, the first that holds the point.
   int part = -1;
   for (const ShadowMap& level : plan.levels) {
-    if ((part < 0 || level.cascade < part) && inside_select_planes(level, point)) part = level.cascade;
+    if ((part < 0 || level.cascade < part) && inside_select_planes(level, point, plan.origin_world))
+      part = level.cascade;
   }
   for (std::size_t i = plan.levels.size(); i-- > 0;) {
     const ShadowMap& level = plan.levels[i];
@@ -52,13 +53,27 @@ ShadowMap page_map(const PagePlan& plan, const Page& page) noexcept {
   const int slot = plan.slot_texels();
   map.width = map.height = slot;
   map.filter_margin_texels = plan.border_texels;
-  const glm::dvec2 size(level.width, level.height);
-  const glm::dvec2 middle = (glm::dvec2(page.column, page.row) + 0.5) * texels / size * 2.0 - 1.0;
-  const glm::dvec2 scale = size / static_cast<double>(slot);
   glm::dmat4& m = map.clip_from_world;
-  for (int i = 0; i < 4; ++i) {
-    m[i][0] = (m[i][0] - middle.x * m[i][3]) * scale.x;
-    m[i][1] = (m[i][1] - middle.y * m[i][3]) * scale.y;
+  if (level.snap_key.valid) {
+    // From the place alone, not from the level's extent, which follows the view.
+    const PagePlaces& at = plan.places[static_cast<std::size_t>(level.cascade)];
+    const double side = level.snap_key.texel * texels, scale = 2.0 * texels / slot;
+    const auto middle = [&](std::int64_t first, std::int32_t cell) {
+      return static_cast<double>(first / plan.page_texels + cell) + 0.5;
+    };
+    const double column = middle(level.snap_key.x, page.column), row = middle(level.snap_key.y, page.row);
+    for (int i = 0; i < 4; ++i) {
+      m[i][0] = (at.x[i] / side - at.w[i] * column) * scale;
+      m[i][1] = (at.y[i] / side - at.w[i] * row) * scale;
+    }
+  } else {
+    const glm::dvec2 size(level.width, level.height);
+    const glm::dvec2 middle = (glm::dvec2(page.column, page.row) + 0.5) * texels / size * 2.0 - 1.0;
+    const glm::dvec2 scale = size / static_cast<double>(slot);
+    for (int i = 0; i < 4; ++i) {
+      m[i][0] = (m[i][0] - middle.x * m[i][3]) * scale.x;
+      m[i][1] = (m[i][1] - middle.y * m[i][3]) * scale.y;
+    }
   }
   map.clip_from_camera_relative = glm::mat4(counted_from(m, plan.origin_world));
   map.cull_planes.fill(glm::dvec4(0.0));

@@ -17,10 +17,17 @@ namespace {
 /// The part of the scene's body between two depths that holds receivers.
 void receivers_between(const PlanContext& c, const ParallelScene& scene, double begin, double end,
                        Polytope& part) noexcept {
+  if (cut_from_afar(c, scene.depths.end, end)) {
+    const double from = max_of(begin, scene.depths.begin);
+    part = frustum_slice(c.camera, c.axes, min_of(from, end), end);
+    if (from > end) part.vertex_count = 0;
+    clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
+    return;
+  }
   part = scene.body;
   if (begin > scene.depths.begin) clip(part, Plane{c.axes.forward, -begin});
   if (end < scene.depths.end) clip(part, Plane{-c.axes.forward, end});
-  if (c.bounds.receivers.size() > 1 && !part.empty())
+  if (several(c.bounds.receivers) && !part.empty())
     clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
 }
 
@@ -170,6 +177,12 @@ bool last_sizes_serve(const PlanHistory& history, const ShadowPlan& fitted,
 }
 
 }  // namespace
+
+bool cut_from_afar(const PlanContext& c, double far, double end) noexcept {
+  // A cut leaves 1e-13 of the largest distance to rounding: a millionth of what is this much nearer.
+  constexpr double kAfar = 1e-7;
+  return c.views.empty() && !c.camera.orthographic && end < kAfar * far && end > c.camera.near_depth;
+}
 
 MapRequest request_for(const ParallelScene& scene, const Polytope& body, double begin, double end) noexcept {
   return {{}, body, scene.space, scene.warp, begin, end, {}, 0.0, 0.0, 0.0, false, {}};

@@ -21,6 +21,10 @@ struct ParallelScene {
 /// The view depths of a body.
 [[nodiscard]] DepthRange depths_of(const Polytope& body, const glm::dvec3& forward) noexcept;
 
+/// True where receivers up to the view depth `end` are better cut from their own part of the frustum than
+/// from one that goes on to `far`.
+[[nodiscard]] bool cut_from_afar(const PlanContext& c, double far, double end) noexcept;
+
 /// The edges between the cascades, with the depths that no cascade covers.
 struct CascadeEdges {
   std::array<double, kMaxMaps + 1> depth{};

@@ -78,13 +78,16 @@ double simple_error(const PlanContext& c, const ParallelScene& scene, double beg
   return warp_error(in, warped ? warps::lispsm.choose(in).kappa : 0.0).value(in.objective);
 }
 
-/// The objective of all maps together, exactly as the plan will fit them.
-double exact_objective(const PlanContext& c, const ParallelScene& scene,
+/// The objective of all maps together by the error itself; with LiSPSM in the place of a warp that takes a
+/// longer search.
+double exact_objective(const PlanContext& c, const ParallelScene& asked,
                        std::span<const double> edges) noexcept {
+  const bool searched = &asked.warp == &warps::optimal;
+  const ParallelScene scene{asked.body, asked.depths, asked.space, searched ? warps::lispsm : asked.warp};
   double total = 0.0;
   for (std::size_t m = 0; m + 1 < edges.size(); ++m) {
     Polytope part = between(c, scene.body, edges[m], edges[m + 1]);
-    if (c.bounds.receivers.size() > 1 && !part.empty())
+    if (several(c.bounds.receivers) && !part.empty())
       clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
     if (part.empty()) continue;
     total = joined(c.options.warp.objective, total,

@@ -99,7 +99,7 @@ void clip_to_distances(const LocalScene& scene, Polytope& body, const LocalFrust
 
 /// The receivers among what is left, where there are several: their common box is smaller here.
 void clip_to_receivers(const LocalScene& scene, Polytope& body) noexcept {
-  if (body.empty() || scene.c.bounds.receivers.size() < 2) return;
+  if (body.empty() || !several(scene.c.bounds.receivers)) return;
   clip(body, visible_bounds(body, scene.c.bounds.receivers, scene.c.camera.position));
 }
 
@@ -226,14 +226,10 @@ void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double oute
 
 /// Six faces in the order +x -x +y -y +z -z of `base`.
 void plan_cube(const LocalScene& scene, const LightFrame& base, const Cone* cone, ShadowPlan& plan) noexcept {
-  const glm::dvec3 axis[3] = {base.x, base.y, base.z};
   const PruneRules& prune = scene.c.options.prune;
   bool any_receiver = false;
   for (int face = 0; face < 6; ++face) {
-    const auto k = static_cast<std::size_t>(face / 2);
-    const double sign = face % 2 == 0 ? 1.0 : -1.0;
-    const glm::dvec3 z = axis[k] * -sign, y = axis[(k + 2) % 3];
-    const LocalFrustum frustum{scene.apex, {glm::cross(y, z), y, z}, 1.0 + kFaceOverlap};
+    const LocalFrustum frustum{scene.apex, face_frame(base, face), 1.0 + kFaceOverlap};
     // Face 5 looks along the cone's direction, face 4 away from it.
     const bool dark = cone != nullptr && face == 4 && cone->outer < kLeavesBackDark;
     Polytope body = scene.lit;

@@ -37,12 +37,26 @@ void finish_parallel(const PlanContext& c, ShadowPlan& plan) noexcept {
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
 
+Polytope visible_receivers(const PlanContext& c) noexcept {
+  const auto received = [&](Polytope body) {
+    clip(body, visible_bounds(body, c.bounds.receivers, c.camera.position));
+    return body;
+  };
+  Polytope body = received(view_body(c));
+  if (body.empty()) return body;
+  const double end = depths_of(body, c.axes.forward).end;
+  if (!cut_from_afar(c, c.camera.far_depth, end)) return body;
+  // Twice the depth has room for the first cut's rounding.
+  const Polytope nearer =
+      received(frustum_slice(c.camera, c.axes, c.camera.near_depth, min_of(2.0 * end, c.camera.far_depth)));
+  return nearer.empty() ? body : nearer;
+}
+
 void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleDepths* visible,
                    PlanHistory* history, ShadowPlan& plan) noexcept {
   const PlanOptions& options = c.options;
   plan.light_direction = safe_normalize(light.direction, {0.0, -1.0, 0.0});
-  Polytope body = view_body(c);
-  clip(body, visible_bounds(body, c.bounds.receivers, c.camera.position));
+  Polytope body = visible_receivers(c);
   if (body.empty()) {
     plan.status = PlanStatus::nothing_visible;
     return;

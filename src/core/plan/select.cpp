@@ -2,6 +2,7 @@
 #include "plan/select.hpp"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "geometry/jacobian.hpp"
@@ -9,28 +10,64 @@
 
 namespace gnomon {
 
-bool inside_select_planes(const ShadowMap& map, const glm::dvec3& point) noexcept {
+namespace {
+
+// Of the sum that a clip coordinate is: of its products, of the matrix's last column, which is such a sum
+// itself, and of the point.
+constexpr double kRounding = 64.0 * 0x1p-53;
+
+/// The sums of absolute values that the clip coordinates of a point are made of, and those of its planes.
+struct Sizes {
+  glm::dvec3 of_point;
+  [[nodiscard]] double row(const glm::dmat4& m, int i) const noexcept {
+    return std::abs(m[0][i]) * of_point.x + std::abs(m[1][i]) * of_point.y + std::abs(m[2][i]) * of_point.z +
+           std::abs(m[3][i]);
+  }
+  [[nodiscard]] double plane(const glm::dvec4& p) const noexcept {
+    return std::abs(p.x) * of_point.x + std::abs(p.y) * of_point.y + std::abs(p.z) * of_point.z +
+           std::abs(p.w);
+  }
+};
+
+}  // namespace
+
+bool inside_select_planes(const ShadowMap& map, const glm::dvec3& point,
+                          const glm::dvec3& origin_world) noexcept {
+  const Sizes sizes{glm::abs(point) + glm::abs(origin_world)};
   for (int i = 0; i < map.select_plane_count; ++i) {
     const glm::dvec4& plane = map.select_planes[static_cast<std::size_t>(i)];
-    if (!(glm::dot(glm::dvec3(plane), point) + plane.w >= 0.0)) return false;
+    if (!(glm::dot(glm::dvec3(plane), point) + plane.w >= -kRounding * sizes.plane(plane))) return false;
   }
   return true;
 }
 
 bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& point) noexcept {
-  if (!inside_select_planes(map, point)) return false;
-  const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
+  if (!inside_select_planes(map, point, plan.origin_world)) return false;
+  const Sizes sizes{glm::abs(point) + glm::abs(plan.origin_world)};
+  const glm::dmat4& m = map.clip_from_world;
+  const glm::dvec4 clip = m * glm::dvec4(point, 1.0);
+  if (!(clip.w > 0.0)) return false;
   const double lowest = plan.clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0 : -1.0;
+  // Of the depths: what shaders, which compute in floats, leave to rounding as well.
+  constexpr double kDepthSlack = 1e-5;
+  const double off_w = kRounding * sizes.row(m, 3);
+  const double deep = kDepthSlack * (1.0 - lowest) * clip.w + kRounding * sizes.row(m, 2) + off_w;
   // Far outside is outside of every shape, and a quotient might overflow there.
-  if (!(clip.w > 0.0 && clip.z >= lowest * clip.w && clip.z <= clip.w) || std::abs(clip.x) > 2.0 * clip.w ||
+  if (!(clip.z >= lowest * clip.w - deep && clip.z <= clip.w + deep) || std::abs(clip.x) > 2.0 * clip.w ||
       std::abs(clip.y) > 2.0 * clip.w)
     return false;
-  // A quarter texel of the border is left to rounding; no kernel tells it apart.
-  constexpr double kRounding = 0.25;
-  const double border = map.filter_margin_texels - kRounding;
-  const glm::dvec2 texel = map.texels().place(glm::dvec2(clip) / clip.w).texel;
-  return texel.x >= border && texel.y >= border && texel.x <= map.width - border &&
-         texel.y <= map.height - border;
+  const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;
+  // A quarter texel of the border is left to rounding; no kernel tells it apart. More where a texel is less
+  // than the rounding of positions.
+  constexpr double kQuarter = 0.25;
+  const auto border = [&](int axis, int side) {
+    const double off = (kRounding * sizes.row(m, axis) + std::abs(ndc[axis]) * off_w) / clip.w;
+    return map.filter_margin_texels - max_of(kQuarter, 0.5 * off * side);
+  };
+  const glm::dvec2 texel = map.texels().place(ndc).texel;
+  const glm::dvec2 least{border(0, map.width), border(1, map.height)};
+  return texel.x >= least.x && texel.y >= least.y && texel.x <= map.width - least.x &&
+         texel.y <= map.height - least.y;
 }
 
 namespace {

@@ -65,7 +65,7 @@ double SplitTable::cost(double begin, double end) noexcept {
     for (std::size_t i = 0; i < at.count; ++i) add(at.point[i]);
   }
   if (count == 0) return 0.0;
-  return warped_ ? view.least() : view.unwarped();
+  return warped_ ? view.quick().value : view.unwarped();
 }
 
 }  // namespace gnomon

@@ -18,6 +18,7 @@ constexpr double kWeakest = 1.0 / 16.0;  // weaker warps change texel sizes by u
 constexpr int kCoarseSteps = 34;         // up to 2^30 / 16: beyond the ratio far / near of any usable camera
 constexpr double kMost = 4.0;            // of the body's own ratio of depths: w need not fall off faster
 constexpr double kTie = 1e-9;            // gains below this are rounding: the weaker warp wins
+constexpr float kQuickTie = 1.0F - 1e-5F;
 
 // A factor 4 in sixteen steps and a bit, two of those in as many, and again: to a thousandth.
 constexpr int kRefinements = 3;
@@ -119,10 +120,88 @@ AlongViewBest AlongView::best() noexcept {
   return {weakest_as_good(fine), fine.value};
 }
 
-double AlongView::least() noexcept {
+GNOMON_WIDE void AlongView::find_quick(const QuickBody& body, const QuickStrengths& reach,
+                                       QuickStrengths& value) const noexcept {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const std::size_t strengths = strengths_;
+  alignas(64) QuickStrengths k, left, right, most, most2;
+  for (std::size_t l = 0; l < strengths; ++l) {
+    k[l] = reach[l];
+    left[l] = kInfinity;
+    right[l] = -kInfinity;
+    most[l] = most2[l] = 0.0F;
+  }
+  for (std::size_t i = 0; i < count_; ++i) {
+    const float x = body.x[i], y = body.y[i], share = body.share[i];
+    for (std::size_t l = 0; l < strengths; ++l) {
+      const float w = 1.0F + k[l] * y, image = x / w, r = w * share, r2 = w * r;
+      left[l] = image < left[l] ? image : left[l];
+      right[l] = image > right[l] ? image : right[l];
+      most[l] = r > most[l] ? r : most[l];
+      most2[l] = r2 > most2[l] ? r2 : most2[l];
+    }
+  }
+  const bool storage = objective_ == Objective::storage;
+  const float s_scale = body.s_scale, t_scale = body.t_scale;
+  for (std::size_t l = 0; l < strengths; ++l) {
+    const float s = (right[l] - left[l]) * most[l] * s_scale, t = most2[l] / (1.0F + k[l]) * t_scale;
+    const float product = s * t, larger = s > t ? s : t;
+    value[l] = storage ? product : larger;
+  }
+}
+
+AlongViewBest AlongView::quick() noexcept {
   begin();
-  if (count_ == 0 || !(length_ > 0.0)) return unwarped();
-  return refined(coarse(), 1).value;
+  // Beyond this, w^2 leaves single precision.
+  constexpr double kWidest = 1e12;
+  const double ratio = farthest_ / nearest_;
+  if (count_ == 0 || !(length_ > 0.0 && ratio < kWidest)) return {0.0, unwarped()};
+  QuickBody body;
+  for (std::size_t i = 0; i < count_; ++i) body.width = max_of(body.width, std::abs(x_[i]));
+  const double larger = max_of(body.width, length_), per_x = body.width > 0.0 ? 1.0 / body.width : 0.0;
+  const double per_y = 1.0 / length_;
+  for (std::size_t i = 0; i < count_; ++i) {
+    body.x[i] = static_cast<float>(x_[i] * per_x);
+    body.y[i] = static_cast<float>((y_[i] - y_min_) * per_y);
+    body.share[i] = static_cast<float>(per_depth_[i] * nearest_);
+  }
+  body.s_scale = static_cast<float>(body.width / larger);
+  body.t_scale = static_cast<float>(length_ / larger);
+  // Strengths a factor apart from the weakest to the strongest; then as many between the best one's
+  // neighbours.
+  const auto weakest = static_cast<float>(kWeakest), strongest = static_cast<float>(kMost * ratio);
+  float factor = strongest / weakest;
+  for (std::size_t l = 1; l < kAtOnce; l *= 2) factor = std::sqrt(factor);
+  QuickStrengths reach, value;
+  reach[0] = 0.0F;
+  reach[1] = weakest;
+  for (std::size_t l = 2; l < kAtOnce; ++l) reach[l] = reach[l - 1] * factor;
+  const auto least = [&] {
+    std::size_t first = 0;
+    for (std::size_t l = 1; l < kAtOnce; ++l) first = value[l] < value[first] * kQuickTie ? l : first;
+    return first;
+  };
+  find_quick(body, reach, value);
+  const std::size_t coarse = least();
+  float best = reach[coarse], found = value[coarse];
+  const float step = std::sqrt(std::sqrt(std::sqrt(factor)));
+  // Half of the strengths below the best, half above.
+  const float middle = coarse > 0 ? best : 0.5F * weakest;
+  reach[0] = middle * std::sqrt(step) / factor;
+  for (std::size_t l = 1; l < kAtOnce; ++l) reach[l] = reach[l - 1] * step;
+  find_quick(body, reach, value);
+  const std::size_t fine = least();
+  if (value[fine] < found * kQuickTie) {
+    best = reach[fine];
+    found = value[fine];
+  }
+  const double scale = larger / nearest_;
+  const AlongViewBest quick{best * per_y, found * (objective_ == Objective::storage ? scale * scale : scale)};
+  // A body that is flat under the light has no width at one strength alone.
+  constexpr float kSharp = 1.1F;
+  const float below = fine > 0 ? value[fine - 1] : 0.0F, above = fine + 1 < kAtOnce ? value[fine + 1] : 0.0F;
+  const bool sharp = below > found * kSharp || above > found * kSharp;
+  return sharp ? refined(quick, kRefineFactors.size()) : quick;
 }
 
 AlongViewBest AlongView::refined(AlongViewBest best, std::size_t rounds) noexcept {

@@ -23,8 +23,8 @@ class AlongView {
   void add(double x, double y, double depth) noexcept;
   /// The weakest of the best strengths; 0 where no warp is better.
   [[nodiscard]] AlongViewBest best() noexcept;
-  /// The value of the best strength, to some hundredths: in half the time.
-  [[nodiscard]] double least() noexcept;
+  /// The best strength and its value, to some hundredths: in half the time.
+  [[nodiscard]] AlongViewBest quick() noexcept;
   /// Without a warp.
   [[nodiscard]] double unwarped() noexcept;
 
@@ -34,6 +34,16 @@ class AlongView {
   /// value_ for these strengths.
   void find(const Strengths& kappa) noexcept;
   void begin() noexcept;
+  /// The body's points for a quick search, in single precision: x over the widest, y from the near end over
+  /// the length, and the share that the nearest depth is of each.
+  struct QuickBody {
+    std::array<float, kMaxBodyPoints> x, y, share;
+    double width = 0.0;  // the widest x
+    float s_scale = 0.0F, t_scale = 0.0F;
+  };
+  using QuickStrengths = std::array<float, kAtOnce>;
+  /// The value for each of these strengths times length.
+  void find_quick(const QuickBody& body, const QuickStrengths& reach, QuickStrengths& value) const noexcept;
   [[nodiscard]] AlongViewBest coarse() noexcept;
   /// Closer by a factor of the list in each round.
   [[nodiscard]] AlongViewBest refined(AlongViewBest best, std::size_t rounds) noexcept;

@@ -173,6 +173,8 @@ inline Vector minus(const Vector& a, const Vector& b, double times) noexcept {
 }
 
 constexpr double kSmallest = std::numeric_limits<double>::min();
+// Square of a sum of two rays below which it is their rounding: its direction says nothing.
+constexpr double kOpposed = 1e-24;
 
 /// The eye's ray to `p`, of unit length.
 inline Vector eye_ray(const PixelTerms& t, const Vector& p) noexcept {
@@ -204,7 +206,7 @@ GNOMON_WIDE void find_parallel(const PixelTerms& terms, PixelLanes& l) noexcept 
   for (std::size_t i = 0; i < n; ++i) {
     const Vector p{l.x[i], l.y[i], l.z[i]};
     const Vector eye = eye_ray(t, p), sum{eye.x, eye.y, eye.z - 1.0};
-    const double twice = 2.0 / max_of(dot(sum, sum), kSmallest), scale = extent(t, p, l.size[i]);
+    const double twice = 2.0 / max_of(dot(sum, sum), kOpposed), scale = extent(t, p, l.size[i]);
     const Vector a = mirrored(right, eye, sum, twice), b = mirrored(up, eye, sum, twice);
     const double xx = a.x * scale, yx = a.y * scale, xy = b.x * scale, yy = b.y * scale;
     l.xx[i] = xx;
@@ -229,7 +231,7 @@ GNOMON_WIDE void find_local(const PixelTerms& terms, PixelLanes& l) noexcept {
     const Vector eye = eye_ray(t, p);
     const Vector sum{eye.x + scaled.x * per_length, eye.y + scaled.y * per_length,
                      eye.z + scaled.z * per_length};
-    const double twice = 2.0 / max_of(dot(sum, sum), kSmallest), scale = extent(t, p, l.size[i]);
+    const double twice = 2.0 / max_of(dot(sum, sum), kOpposed), scale = extent(t, p, l.size[i]);
     const Vector a = mirrored(right, eye, sum, twice), b = mirrored(up, eye, sum, twice);
     const double distance = -from.z, h = inverse_or_0(distance), x = from.x * h, y = from.y * h,
                  unit = scale * h;

@@ -1,7 +1,7 @@
 // The best projective map of the light plane for this body: fall-off and rows searched together.
 // Based on: the error measure of Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006.
-// The search is this project's: the fall-off's two numbers first, by the corners alone and with the best rows
-// for each, then all four by the error itself, from there or from a warp of the registry that is better.
+// The search is this project's: the fall-off's two numbers first, sixteen places at a time, by the corners
+// and with the best rows for each; then by all samples, or from a warp of the registry where that is better.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,116 +25,84 @@ constexpr bool less(double a, double b) noexcept {
   return a < b * kTie;
 }
 
-/// What a simplex walks on: `Count` numbers, and the value there.
-template <std::size_t Count, typename What>
-struct Corner {
-  std::array<double, Count> at;
-  What what;
-  [[nodiscard]] double value() const noexcept { return what.value; }
+constexpr std::size_t kLanes = RowLanes::kCount;
+// Half a right angle.
+constexpr double kEighth = 0.7853981633974483;
+
+/// A step of a search, as shares of its radius: along the fall-off and across it.
+struct Step {
+  double along, across;
 };
-
-/// Nelder and Mead's simplex from `simplex`, so many evaluations of `look(position, nearest corner)`; the
-/// best comes first.
-template <std::size_t Count, typename What, typename Look>
-void walk(std::array<Corner<Count, What>, Count + 1>& simplex, int evaluations, const Look& look) noexcept {
-  using At = std::array<double, Count>;
-  const auto mixed = [](const At& a, double by, const At& b, double with) {
-    At p;
-    for (std::size_t i = 0; i < Count; ++i) p[i] = a[i] * by + b[i] * with;
-    return p;
-  };
-  const auto sort = [&] {
-    for (std::size_t i = 1; i <= Count; ++i) {
-      for (std::size_t k = i; k > 0 && less(simplex[k].value(), simplex[k - 1].value()); --k)
-        std::swap(simplex[k], simplex[k - 1]);
-    }
-  };
-  sort();
-  while (evaluations > 0) {
-    At centre{};
-    for (std::size_t i = 0; i < Count; ++i) centre = mixed(centre, 1.0, simplex[i].at, 1.0 / Count);
-    auto& worst = simplex[Count];
-    const auto tried = [&](double reach) {
-      --evaluations;
-      const At p = mixed(centre, 1.0 + reach, worst.at, -reach);
-      return Corner<Count, What>{p, look(p, simplex[0].what)};
-    };
-    const auto reflected = tried(1.0);
-    if (less(reflected.value(), simplex[0].value())) {
-      const auto expanded = tried(2.0);
-      worst = less(expanded.value(), reflected.value()) ? expanded : reflected;
-    } else if (less(reflected.value(), simplex[Count - 1].value())) {
-      worst = reflected;
-    } else {
-      const auto contracted = tried(less(reflected.value(), worst.value()) ? 0.5 : -0.5);
-      if (less(contracted.value(), worst.value())) {
-        worst = contracted;
-      } else {
-        for (std::size_t i = 1; i <= Count; ++i) {
-          const At p = mixed(simplex[0].at, 0.5, simplex[i].at, 0.5);
-          simplex[i] = {p, look(p, simplex[0].what)};
-          --evaluations;
-        }
-      }
-    }
-    sort();
-  }
-}
-
-using FallOffCorner = Corner<2, RowChoice>;
+// The middle, a ring of half the radius, and one of all of it.
+constexpr std::array<Step, kLanes> kRings = {{{0.0, 0.0},
+                                              {0.45, 0.217},
+                                              {0.111, 0.487},
+                                              {-0.312, 0.391},
+                                              {-0.5, 0.0},
+                                              {-0.312, -0.391},
+                                              {0.111, -0.487},
+                                              {0.45, -0.217},
+                                              {1, 0},
+                                              {0.707, 0.707},
+                                              {0, 1},
+                                              {-0.707, 0.707},
+                                              {-1, 0},
+                                              {-0.707, -0.707},
+                                              {0, -1},
+                                              {0.707, -0.707}}};
 
 double length_of(const FallOff& f) noexcept {
   return std::sqrt(f.x * f.x + f.y * f.y);
 }
 
-/// A simplex round `best`: steps along the fall-off and across it.
-template <typename Look>
-RowChoice walk_from(const RowChoice& best, double step, int evaluations, const Look& look) noexcept {
-  const double length = length_of(best.fall_off);
-  const double x = length > 0.0 ? best.fall_off.x / length : 0.0;
-  const double y = length > 0.0 ? best.fall_off.y / length : 1.0;
-  const std::array<double, 2> at{best.fall_off.x, best.fall_off.y};
-  std::array<FallOffCorner, 3> simplex;
-  simplex[0] = {at, best};
-  const std::array<double, 2> along{at[0] + step * x, at[1] + step * y};
-  const std::array<double, 2> across{at[0] - step * y, at[1] + step * x};
-  simplex[1] = {along, look(along, best)};
-  simplex[2] = {across, look(across, best)};
-  walk<2>(simplex, evaluations - 2, look);
-  return simplex[0].what;
-}
-
-/// The best of a few fall-offs by the corners, with its rows.
+/// The best of these fall-offs by the corners, each with the best of rows all round.
 RowChoice best_start(RowSearch& search, const WarpInput& input) noexcept {
   // The best stretch over the body, as a share of its ratio of depths: what 200 random cameras took, at the
   // median.
   const double share = input.objective == Objective::p95 ? 0.65 : 0.55;
   const double ratio = search.ahead(share).y;
-  // A third aside of the view: the best rows are turned, and their fall-off with them.
-  constexpr double kAside = 0.35, kAhead = 0.94;
-  const std::array<FallOff, 5> starts = {
-      FallOff{0.0, ratio}, search.fitted(), FallOff{kAside * ratio, kAhead * ratio},
-      FallOff{-kAside * ratio, kAhead * ratio}, FallOff{0.0, -0.5 * ratio}};
-  RowChoice best = search.round({});
-  for (const FallOff& start : starts) {
-    const RowChoice rows = search.round(start);
-    if (less(rows.value, best.value)) best = rows;
-  }
-  return best;
+  const FallOff fit = input.light.perspective ? search.fitted() : FallOff{0.0, 0.35 * ratio};
+  // Along the view, a third aside of it as the best rows are turned and their fall-off with them, and near
+  // what pixels cover.
+  const std::array<FallOff, kLanes> starts = {{{0.0, 0.0},
+                                               {0.0, ratio},
+                                               {0.0, 0.6 * ratio},
+                                               {0.0, 1.4 * ratio},
+                                               {0.0, 2.0 * ratio},
+                                               {0.0, -0.5 * ratio},
+                                               fit,
+                                               {0.75 * fit.x, 0.75 * fit.y},
+                                               {1.3 * fit.x, 1.3 * fit.y},
+                                               {0.35 * ratio, 0.94 * ratio},
+                                               {-0.35 * ratio, 0.94 * ratio},
+                                               {0.6 * ratio, 0.6 * ratio},
+                                               {-0.6 * ratio, 0.6 * ratio},
+                                               {0.3 * ratio, 0.4 * ratio},
+                                               {-0.3 * ratio, 0.4 * ratio},
+                                               {0.2 * ratio, 1.2 * ratio}}};
+  // Two fans of four from an edge of the image on, that meet in a right angle.
+  constexpr double kCosine = 0.8314696123025452, kSine = 0.5555702330196022;  // of three sixteenths of pi
+  RowLanes lanes;
+  for (std::size_t l = 0; l < kLanes; ++l)
+    lanes.set(l, {starts[l], {kCosine, kSine}, {-kSine, kCosine}, 0.0});
+  search.find_rows(0.5 * kEighth, lanes);
+  return lanes.best();
 }
 
-/// A place from there where no step is better by the corners.
-RowChoice by_corners(RowSearch& search, RowChoice best) noexcept {
+/// The best of sixteen fall-offs round `best`, or itself.
+RowChoice best_around(RowSearch& search, const RowChoice& best, double radius, double fan) noexcept {
   const double length = length_of(best.fall_off);
-  constexpr int kWideSteps = 3, kNarrowSteps = 5;
-  best = walk_from(best, max_of(0.25, 0.2 * length), kWideSteps,
-                   [&](const std::array<double, 2>& at, const RowChoice&) {
-                     return search.round({at[0], at[1]});
-                   });
-  return walk_from(search.near(best.fall_off, best), max_of(0.12, 0.06 * length), kNarrowSteps,
-                   [&](const std::array<double, 2>& at, const RowChoice& rows) {
-                     return search.near({at[0], at[1]}, rows);
-                   });
+  const double x = length > 0.0 ? best.fall_off.x / length : 0.0;
+  const double y = length > 0.0 ? best.fall_off.y / length : 1.0;
+  RowLanes lanes;
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    const double along = kRings[l].along * radius, across = kRings[l].across * radius;
+    const FallOff at{best.fall_off.x + along * x - across * y, best.fall_off.y + along * y + across * x};
+    lanes.set(l, {at, best.row_a, best.row_b, 0.0});
+  }
+  search.find_rows(fan, lanes);
+  const RowChoice found = lanes.best();
+  return found.value < best.value ? found : best;
 }
 
 WarpChoice choose_optimal(const WarpInput& input) noexcept;
@@ -144,82 +112,135 @@ struct Judged {
   double value;
 };
 
-/// The other warps of the registry, and what each comes to by a part of the samples.
-class Others {
+/// The best of the registry's other warps where it is better than `best`. Most are sorted out by a part of
+/// the samples.
+void improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) noexcept {
+  std::array<WarpChoice, 2 * kWarpLanes> choice;
+  std::array<double, 2 * kWarpLanes> value;
+  std::size_t count = 0;
+  choice[count++] = best.choice;
+  for (const Warp* other : all_warps()) {
+    if (other->choose == choose_optimal || count == choice.size()) continue;
+    const WarpChoice found = other->choose(input);
+    if (!input.is_unwarped(found)) choice[count++] = found;
+  }
+  const bool bound = error.count_some();
+  for (std::size_t first = 0; first < count; first += kWarpLanes) {
+    ChoiceLanes lanes;
+    LaneValues values;
+    for (std::size_t i = 0; i < kWarpLanes; ++i) lanes.set(i, choice[first + i < count ? first + i : 0]);
+    error.values(lanes, values);
+    for (std::size_t i = 0; i < kWarpLanes && first + i < count; ++i) value[first + i] = values[i];
+  }
+  error.count_all();
+  // Nearer than this, a part of the samples does not tell; a bound does.
+  constexpr double kNear = 1.3;
+  const double enough = bound ? best.value : value[0] * kNear;
+  for (std::size_t i = 1; i < count; ++i) {
+    if (!(value[i] < enough)) continue;
+    const double exact = error.value(choice[i]);
+    if (less(exact, best.value) && usable(input.body, choice[i], input.most_stretch))
+      best = {choice[i], exact};
+  }
+}
+
+/// Where a search by the objective itself tries sixteen places at once: over the fall-off and how far both
+/// rows lean. Steps along each of these numbers, steps along half of their diagonals, and on along the way
+/// that was best in the last round.
+class Polish {
  public:
-  Others(const WarpInput& input, PlaneError& error) noexcept : input_(input), error_(error) {
-    choice_[count_++] = input.unwarped;
-    for (const Warp* other : all_warps()) {
-      if (other->choose == choose_optimal || count_ == choice_.size()) continue;
-      const WarpChoice choice = other->choose(input);
-      if (!input.is_unwarped(choice)) choice_[count_++] = choice;
+  using At = std::array<double, 4>;
+  [[nodiscard]] std::array<At, kLanes> places(int round) const noexcept {
+    constexpr double kDiagonal = 0.6, kOn = 1.0, kFarOn = 2.0;
+    std::array<At, kLanes> places;
+    places.fill(best_);
+    for (std::size_t l = 0; l < 8; ++l) places[l][l / 2] += l % 2 == 0 ? step_[l / 2] : -step_[l / 2];
+    for (std::size_t bits = 0; bits < 8; ++bits) {
+      // The fourth sign is by the others: half of the diagonals, and the other half in the next round.
+      const std::size_t fourth = bits ^ (bits >> 1) ^ (bits >> 2) ^ static_cast<std::size_t>(round);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const bool plus = ((i < 3 ? bits >> i : fourth) & 1U) != 0;
+        places[8 + bits][i] += (plus ? kDiagonal : -kDiagonal) * step_[i];
+      }
     }
-    error.count_some();
-    for (std::size_t first = 0; first < count_; first += kWarpLanes) {
-      ChoiceLanes lanes;
-      LaneValues value;
-      for (std::size_t i = 0; i < kWarpLanes; ++i) lanes.set(i, choice_[first + i < count_ ? first + i : 0]);
-      error.values(lanes, value);
-      for (std::size_t i = 0; i < kWarpLanes && first + i < count_; ++i) value_[first + i] = value[i];
+    if (round == 0) {
+      places[0] = best_;
+      return places;
     }
-    error.count_all();
+    for (std::size_t i = 0; i < 4; ++i) {
+      places[1][i] = best_[i] + kOn * way_[i];
+      places[9][i] = best_[i] + kFarOn * way_[i];
+    }
+    return places;
   }
-  /// Takes the best of them where it is better than `best`, by all samples.
-  void improve(Judged& best) noexcept {
-    // Nearer than this, a part of the samples does not tell.
-    constexpr double kNear = 1.3;
-    for (std::size_t i = 1; i < count_; ++i) {
-      if (!(value_[i] < best.value * kNear)) continue;
-      const double value = error_.value(choice_[i]);
-      value_[i] = std::numeric_limits<double>::infinity();
-      if (less(value, best.value) && usable(input_.body, choice_[i], input_.most_stretch))
-        best = {choice_[i], value};
+  void take(const std::array<At, kLanes>& places, const RowLanes& lanes) noexcept {
+    constexpr double kShorter = 0.6;
+    const std::size_t found = lanes.least();
+    way_ = {};
+    if (lanes.value[found] < least_ * RowLanes::kTie) {
+      for (std::size_t i = 0; i < 4; ++i) way_[i] = places[found][i] - best_[i];
+      best_ = places[found];
+      least_ = lanes.value[found];
     }
+    for (double& step : step_) step *= kShorter;
   }
+  [[nodiscard]] const At& best() const noexcept { return best_; }
 
  private:
-  const WarpInput& input_;
-  PlaneError& error_;
-  std::array<WarpChoice, 2 * kWarpLanes> choice_;
-  std::array<double, 2 * kWarpLanes> value_;
-  std::size_t count_ = 0;
+  At best_{}, way_{}, step_ = {0.2, 0.25, 0.125, 0.125};
+  float least_ = std::numeric_limits<float>::infinity();
 };
 
-/// Fall-off and the rows' leaning, by the error itself.
-Judged polished(RowSearch& search, PlaneError& error, const Judged& start, int evaluations) noexcept {
-  struct Value {
-    double value;
-  };
+/// Fall-off and the rows' leaning from `start` on, by the objective at the samples near the worst.
+Judged polished(RowSearch& search, PlaneError& error, const Judged& start, int rounds) noexcept {
+  error.count_worst(start.choice);
+  search.count(error.counted());
+  error.count_all();
   const RowChoice from = search.rows_of(start.choice);
   const auto leaning = [](const glm::dvec2& row, double by) {
     return glm::dvec2(row.x - row.y * by, row.y + row.x * by);
   };
-  const auto choice_at = [&](const std::array<double, 4>& at) {
-    RowChoice rows = from;
-    rows.fall_off = {at[0], at[1]};
-    rows.row_a = leaning(from.row_a, at[2]);
-    rows.row_b = leaning(from.row_b, at[3]);
-    return search.choice(rows);
+  const auto rows_at = [&](const Polish::At& at) {
+    return RowChoice{{from.fall_off.x + at[0], from.fall_off.y + at[1]},
+                     leaning(from.row_a, at[2]),
+                     leaning(from.row_b, at[3]),
+                     0.0};
   };
-  const auto look = [&](const std::array<double, 4>& at, const Value&) {
-    return Value{error.value(choice_at(at))};
-  };
-  error.count_worst(start.choice);
-  constexpr std::array<double, 4> kStep = {0.08, -0.1, 0.05, 0.05};
-  std::array<Corner<4, Value>, 5> simplex;
-  const std::array<double, 4> at{from.fall_off.x, from.fall_off.y, 0.0, 0.0};
-  simplex[0] = {at, {start.value}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    std::array<double, 4> p = at;
-    p[i] += kStep[i];
-    simplex[i + 1] = {p, look(p, {})};
+  Polish polish;
+  for (int round = 0; round < rounds; ++round) {
+    const auto places = polish.places(round);
+    RowLanes lanes;
+    for (std::size_t l = 0; l < kLanes; ++l) lanes.set(l, rows_at(places[l]));
+    search.find_values(lanes);
+    polish.take(places, lanes);
   }
-  walk<4>(simplex, evaluations - 4, look);
-  error.count_all();
-  const WarpChoice found = choice_at(simplex[0].at);
+  const WarpChoice found = search.choice(rows_at(polish.best()));
   const Judged end{found, error.value(found)};
   // The start stays as it is, to the last bit.
   return less(end.value, start.value) ? end : start;
+}
+
+/// The best fall-off with its rows by the corners, and by storage then by all samples.
+RowChoice searched(RowSearch& search, const PlaneError& error, const WarpInput& input) noexcept {
+  RowChoice rows = best_start(search, input);
+  double radius = max_of(0.2, 0.16 * length_of(rows.fall_off)), fan = 0.15;
+  // A round that gains much goes on nearly as wide; one that gains little is the last.
+  // Under a local light the starts are farther off.
+  const int least_rounds = input.light.perspective ? 4 : 2;
+  constexpr int kMostRounds = 6;
+  constexpr double kMuch = 0.5, kLittle = 0.7;
+  for (int round = 1; round <= kMostRounds; ++round) {
+    const double before = rows.value;
+    rows = best_around(search, rows, radius, fan);
+    const double left = rows.value / before;
+    radius *= left < kMuch ? 0.8 : 0.45;
+    fan *= left < kMuch ? 0.8 : 0.5;
+    if (round >= least_rounds && !(left < kLittle)) break;
+  }
+  if (input.objective != Objective::storage) return rows;
+  search.count(error.counted());
+  rows.value = std::numeric_limits<double>::infinity();
+  return best_around(search, rows, radius, fan);
 }
 
 WarpChoice choose_optimal(const WarpInput& input) noexcept {
@@ -229,14 +250,16 @@ WarpChoice choose_optimal(const WarpInput& input) noexcept {
   RowSearch search(input, error);
   const double without = error.value(input.unwarped);
   Judged best{input.unwarped, without};
-  // The corners only hint at a percentile: its walk is longer.
-  const int steps = input.objective == Objective::p95 ? 18 : 14;
   if (!search.line()) {
-    best.choice = search.choice(by_corners(search, best_start(search, input)));
+    best.choice = search.choice(searched(search, error, input));
     best.value = error.value(best.choice);
   }
-  Others(input, error).improve(best);
-  if (!search.line()) best = polished(search, error, best, steps);
+  improve_by_others(input, error, best);
+  if (!search.line() && input.objective != Objective::storage) {
+    // The corners only hint at a percentile, and their surrogate at the worst texel.
+    constexpr int kWorst = 4, kPercentile = 3;
+    best = polished(search, error, best, input.objective == Objective::p95 ? kPercentile : kWorst);
+  }
   const bool gains = best.value < without * (1.0 - kLeastGain);
   WarpChoice choice = gains ? best.choice : input.unwarped;
   choice.gain_ratio = gains ? best.value / without : 1.0;

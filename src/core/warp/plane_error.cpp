@@ -16,8 +16,6 @@ namespace gnomon {
 namespace {
 
 constexpr double kShareAbove95 = 0.05;
-// No more samples than that may exceed the value asked for.
-constexpr std::size_t kMostAbove = 4;
 
 }  // namespace
 
@@ -63,12 +61,14 @@ std::size_t PlaneError::above(std::size_t samples) const noexcept {
   return wanted < kMostAbove ? wanted : kMostAbove;
 }
 
-void PlaneError::count_some() noexcept {
-  // They are even over the image from the first on.
+bool PlaneError::count_some() noexcept {
+  // Visible points are even over the image from the first on; else the vertices come first.
   constexpr std::size_t kSome = 48;
-  if (share_ == 0.0 || all_ <= kSome) return;
-  sample_.count = kSome;
-  above_ = above(kSome);
+  const bool bound = share_ == 0.0;
+  const std::size_t some = bound ? corners_.count : kSome;
+  if (all_ > some) sample_.count = some;
+  above_ = above(sample_.count);
+  return bound;
 }
 
 void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool searched, int set) noexcept {
@@ -104,7 +104,7 @@ void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool s
 void PlaneError::count_worst(const WarpChoice& choice) noexcept {
   const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
   // Without an area there is no error.
-  if (sample_.count == 0 || rows == 0.0) return;
+  if (sample_.count == 0 || rows == 0.0 || choice.kappa * distance_ > kMostKappaDistance) return;
   find_rows(choice);
   constexpr double kNearWorst = 0.25;  // of the square: half the error
   const bool storage = input_.objective == Objective::storage;
@@ -142,7 +142,8 @@ const Polytope& PlaneError::from_pseudo_near(const Polytope& body, Polytope& cou
 double PlaneError::value(const WarpChoice& choice) noexcept {
   // A body with corners of which nothing is known is no ground to choose a warp on.
   const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
-  if ((!complete_ && choice.kappa > 0.0) || sample_.count == 0 || body_.count == 0 || rows == 0.0)
+  if ((!complete_ && choice.kappa > 0.0) || sample_.count == 0 || body_.count == 0 || rows == 0.0 ||
+      choice.kappa * distance_ > kMostKappaDistance)
     return std::numeric_limits<double>::infinity();
   find_rows(choice);
   const double squared = input_.objective == Objective::storage ? storage_squared() : worst_squared();
@@ -236,10 +237,10 @@ void ChoiceLanes::set(std::size_t lane, const WarpChoice& choice) noexcept {
   b_y[lane] = choice.row_b.y;
 }
 
-/// A map for each choice: its coordinates A and B and its w, linear over the light plane before the division
-/// by w, scaled so that a texel's extents need no other factor.
+/// A map for each choice: its w, linear over the light plane, and the gradients of its coordinates A and B
+/// times w^2, which are (turn y + x, y - turn x); scaled so that a texel's extents need no other factor.
 struct PlaneError::MapLanes {
-  alignas(64) LaneValues a_x, a_y, a_1, b_x, b_y, b_1, w_x, w_y, w_1;
+  alignas(64) LaneValues a_turn, a_x, a_y, b_turn, b_x, b_y, w_x, w_y, w_1;
   alignas(64) LaneValues area;   // of the rectangle's cell in the light plane where w is 1
   alignas(64) LaneValues known;  // 1; 0 where no map can be made with the choice
 };
@@ -287,7 +288,8 @@ GNOMON_WIDE void PlaneError::fit(const ChoiceLanes& choices, const ExtentLanes& 
   // Copies, which the compiler knows that nothing below writes to.
   const ChoiceLanes c = choices;
   const ExtentLanes of = extents;
-  const double height = height_range_, least_of_all = least_extent(0.0, distance_), farthest = farthest_;
+  const double distance = distance_, height = height_range_, least_of_all = least_extent(0.0, distance_),
+               farthest = farthest_;
   const double most_stretch = input_.most_stretch;
   const double warped_known = complete_ ? 1.0 : 0.0;
   for (std::size_t l = 0; l < lanes; ++l) {
@@ -300,37 +302,46 @@ GNOMON_WIDE void PlaneError::fit(const ChoiceLanes& choices, const ExtentLanes& 
     const double shortest = max_of(1e-6 * max_of(side_a, side_b), 1e-9 * farthest);
     const double warped =
         length > shortest && of.stretch[l] <= most_stretch && turn != 0.0 ? warped_known : 0.0;
-    map.known[l] = c.kappa[l] == 0.0 ? 1.0 : warped;
+    const double kept = c.kappa[l] * distance <= kMostKappaDistance ? warped : 0.0;
+    map.known[l] = c.kappa[l] == 0.0 ? 1.0 : kept;
     // The determinant of the map's Jacobian is stretch turn / (side_a side_b w^3). Rows come out multiplied
     // with the area of a cell, and so as extents of texels.
     const double area = side_a * side_b / of.stretch[l] * inverse_or_0(turn), scale_a = area / side_a,
                  scale_b = area / side_b;
-    const double ax = c.axis_x[l], ay = c.axis_y[l], kappa = c.kappa[l];
+    const double ax = c.axis_x[l], ay = c.axis_y[l];
+    // Of one that is not usable w might be 0 at a sample.
+    const double kappa = map.known[l] != 0.0 ? c.kappa[l] : 0.0;
     const double along_a = c.a_y[l] * of.stretch[l], along_b = c.b_y[l] * of.stretch[l];
-    map.a_x[l] = (c.a_x[l] * ay + along_a * ax) * scale_a;
-    map.a_y[l] = (along_a * ay - c.a_x[l] * ax) * scale_a;
-    map.a_1[l] = -(c.a_x[l] * c.centre[l] + along_a * of.u_min[l]) * scale_a;
-    map.b_x[l] = (c.b_x[l] * ay + along_b * ax) * scale_b;
-    map.b_y[l] = (along_b * ay - c.b_x[l] * ax) * scale_b;
-    map.b_1[l] = -(c.b_x[l] * c.centre[l] + along_b * of.u_min[l]) * scale_b;
-    map.w_x[l] = kappa * ax;
-    map.w_y[l] = kappa * ay;
-    map.w_1[l] = 1.0 - kappa * of.u_min[l];
+    const double w_x = kappa * ax, w_y = kappa * ay, w_1 = 1.0 - kappa * of.u_min[l];
+    const double a_x = (c.a_x[l] * ay + along_a * ax) * scale_a,
+                 a_y = (along_a * ay - c.a_x[l] * ax) * scale_a;
+    const double a_1 = -(c.a_x[l] * c.centre[l] + along_a * of.u_min[l]) * scale_a;
+    const double b_x = (c.b_x[l] * ay + along_b * ax) * scale_b,
+                 b_y = (along_b * ay - c.b_x[l] * ax) * scale_b;
+    const double b_1 = -(c.b_x[l] * c.centre[l] + along_b * of.u_min[l]) * scale_b;
+    map.a_turn[l] = a_x * w_y - a_y * w_x;
+    map.a_x[l] = a_x * w_1 - a_1 * w_x;
+    map.a_y[l] = a_y * w_1 - a_1 * w_y;
+    map.b_turn[l] = b_x * w_y - b_y * w_x;
+    map.b_x[l] = b_x * w_1 - b_1 * w_x;
+    map.b_y[l] = b_y * w_1 - b_1 * w_y;
+    map.w_x[l] = w_x;
+    map.w_y[l] = w_y;
+    map.w_1[l] = w_1;
     map.area[l] = std::abs(area);
   }
 }
 
 // For one sample and choice: squared lengths of the rows of d(texel)/d(pixel) over its determinant. The
-// gradient of A = (a_x x + a_y y + a_1) / w is (a - A grad w) / w, and the determinant goes by w^-3.
-#define GNOMON_ROWS                                                                  \
-  const double w = map.w_x[l] * x + map.w_y[l] * y + map.w_1[l], inverse = 1.0 / w;  \
-  const double a = (map.a_x[l] * x + map.a_y[l] * y + map.a_1[l]) * inverse;         \
-  const double b = (map.b_x[l] * x + map.b_y[l] * y + map.b_1[l]) * inverse;         \
-  const double a_x = map.a_x[l] - a * map.w_x[l], a_y = map.a_y[l] - a * map.w_y[l]; \
-  const double b_x = map.b_x[l] - b * map.w_x[l], b_y = map.b_y[l] - b * map.w_y[l]; \
-  const double ax = a_x * xx + a_y * yx, ay = a_x * xy + a_y * yy;                   \
-  const double bx = b_x * xx + b_y * yx, by = b_x * xy + b_y * yy;                   \
-  const double f = w * w * id, f2 = f * f;                                           \
+// gradient of A = S / w is (w grad S - S grad w) / w^2, whose numerator is linear over the plane, and the
+// determinant goes by w^-3: no sample takes a division.
+#define GNOMON_ROWS                                                                        \
+  const double w = map.w_x[l] * x + map.w_y[l] * y + map.w_1[l];                           \
+  const double a_x = map.a_turn[l] * y + map.a_x[l], a_y = map.a_y[l] - map.a_turn[l] * x; \
+  const double b_x = map.b_turn[l] * y + map.b_x[l], b_y = map.b_y[l] - map.b_turn[l] * x; \
+  const double ax = a_x * xx + a_y * yx, ay = a_x * xy + a_y * yy;                         \
+  const double bx = b_x * xx + b_y * yx, by = b_x * xy + b_y * yy;                         \
+  const double f = w * id, f2 = f * f;                                                     \
   const double row_a = (ax * ax + ay * ay) * f2, row_b = (bx * bx + by * by) * f2
 
 GNOMON_WIDE void PlaneError::find_storage(const MapLanes& map, LaneValues& value) const noexcept {
@@ -349,9 +360,9 @@ GNOMON_WIDE void PlaneError::find_storage(const MapLanes& map, LaneValues& value
 }
 
 // Half the sum of both squared extents, and their product's root: the larger of the two squares.
-#define GNOMON_WORST                                                               \
-  const double half = 0.5 * (row_a + row_b), area = std::abs(f * w * map.area[l]); \
-  const double spread = (half - area) * (half + area);                             \
+#define GNOMON_WORST                                                                   \
+  const double half = 0.5 * (row_a + row_b), area = std::abs(f * w * w * map.area[l]); \
+  const double spread = (half - area) * (half + area);                                 \
   const double square = half + std::sqrt(max_of(spread, 0.0))
 
 GNOMON_WIDE void PlaneError::find_worst(const MapLanes& map, LaneValues& value) const noexcept {

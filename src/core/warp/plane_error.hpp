@@ -30,6 +30,8 @@ struct BodyLanes {
 class PlaneError {
  public:
   static constexpr std::size_t kMaxSamples = PixelLanes::kMost, kMaxCorners = 2 * kMaxVertices;
+  /// No more samples than that may exceed the value asked for.
+  static constexpr std::size_t kMostAbove = 4;
 
   /// Samples the body for `input.objective`: vertices and middles of edges, where the largest errors are
   /// (under a local light of faces, too, as its rays fan out), or points spread evenly over the pixels and
@@ -50,11 +52,15 @@ class PlaneError {
     above_ = above(all_);
     sample_.fill_lanes();
   }
-  /// From now on counts a part of many points: to sort out what is far off.
-  void count_some() noexcept;
+  /// From now on counts a part of the points: to sort out what is far off. Returns true where the objective
+  /// there is never above the objective at all points.
+  bool count_some() noexcept;
   /// The body's vertices: few points that bound the error nearly everywhere.
   [[nodiscard]] const PixelLanes& corners() const noexcept { return corners_; }
   [[nodiscard]] const BodyLanes& body() const noexcept { return body_; }
+  /// The samples that count, and how many of them may exceed the value asked for.
+  [[nodiscard]] const PixelLanes& counted() const noexcept { return sample_; }
+  [[nodiscard]] std::size_t above() const noexcept { return above_; }
 
  private:
   [[nodiscard]] const Polytope& from_pseudo_near(const Polytope& body, Polytope& counted) const noexcept;

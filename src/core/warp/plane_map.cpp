@@ -39,6 +39,16 @@ void grow(PlaneMap& map, double share) noexcept {
   map.b_max += b;
 }
 
+double border_in_image(const PlaneMap& map, double border) noexcept {
+  const glm::dvec2 a = map.choice.row_a, b = map.choice.row_b;
+  // The image's step per unit of A is as long as row b over the rows' area, and the other way round.
+  const double area = std::abs(a.x * b.y - a.y * b.x);
+  return border *
+         ((map.a_max - map.a_min) * std::sqrt(glm::dot(b, b)) +
+          (map.b_max - map.b_min) * std::sqrt(glm::dot(a, a))) /
+         area;
+}
+
 PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& choice) noexcept {
   PlaneMap map{};
   map.choice = choice;
@@ -101,13 +111,14 @@ bool usable(std::span<const WarpInput::Point> body, const WarpChoice& choice, do
   // from rounding, and a warp's strength from it would be noise.
   constexpr double kShortest = 1e-6, kShortestOfDistance = 1e-9;
   const PlaneMap map = plane_map(body, choice);
-  double farthest = 0.0;
+  double farthest = 0.0, distance = 0.0;
   for (const WarpInput::Point& p : body) {
     if (std::isfinite(p.depth)) farthest = max_of(farthest, p.depth);
+    distance = max_of(distance, largest_component({p.x, p.y, p.z}));
   }
   const double extent = max_of(map.a_max - map.a_min, map.b_max - map.b_min);
   return map.length > kShortest * extent && map.length > kShortestOfDistance * farthest &&
-         map.stretch <= most_stretch;
+         map.stretch <= most_stretch && choice.kappa * distance <= kMostKappaDistance;
 }
 
 void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane, double pixels_per_slope,

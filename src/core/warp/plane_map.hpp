@@ -41,6 +41,10 @@ void widen(double& low, double& high, double least) noexcept;
 /// Moves each side of the rectangle out by this share of the rectangle.
 void grow(PlaneMap& map, double share) noexcept;
 
+/// How far a border of this share of both sides reaches in the image: farther than the sides are long where
+/// the rows are not at a right angle.
+[[nodiscard]] double border_in_image(const PlaneMap& map, double border) noexcept;
+
 /// The smallest rectangle that holds the body's image. Flat and single-point bodies get an extent of 1e-6 of
 /// the largest one.
 [[nodiscard]] PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& choice) noexcept;
@@ -59,6 +63,9 @@ struct LightDepths {
                                                 double border) noexcept {
   return clip_from_light(map, depths, glm::dvec2(border));
 }
+
+/// kappa times the body's distance beyond which w over the body is the rounding of positions.
+inline constexpr double kMostKappaDistance = 1e14;
 
 /// False for a choice that no map can be made with: too strong for float matrices or, beyond `most_stretch`,
 /// for the map's border, or with its axis along a body whose length that way is rounding.

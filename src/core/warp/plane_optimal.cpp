@@ -53,6 +53,10 @@ std::array<double, kMaxFaces> areas_across_light(const WarpInput& input) noexcep
 /// is none.
 const Plane* receiver_plane(const WarpInput& input) noexcept {
   const Polytope& body = *input.polytope;
+  // Rounding takes vertices at a local light behind it: they have no place under it.
+  for (const Polytope::Vertex& v : body.vertices()) {
+    if (input.light.perspective && !(input.light.distance(v.position) > 0.0)) return nullptr;
+  }
   const std::array<double, kMaxFaces> area = areas_across_light(input);
   const glm::dvec4 light = input.light.light();
   // Less of the largest face is a face that was cut away to a line, and rounding.
@@ -85,6 +89,8 @@ WarpChoice choose(const WarpInput& input) noexcept {
   if (plane == nullptr) return input.unwarped;
   const LightLinear face = light_linear(input.light, plane->normal, plane->offset);
   const glm::dvec3 n = face.slope;
+  // Of a face that rounding alone turns to the light no ray finds a place.
+  if (n.z == 0.0) return input.unwarped;
   // Along the light onto the plane: h = -(constant + n.x x + n.y y) / n.z. A direction's component becomes
   // linear in x, y.
   const auto on_plane = [&](const glm::dvec3& direction) {

@@ -1,8 +1,8 @@
-// For a fall-off of the texels over the light plane: which two rows make the map with the least error at the
-// body's corners? Based on: the error measure of Lloyd et al., "Warping and Partitioning for Low Error Shadow
-// Maps", 2006. With J the Jacobian of the image (X, Y) by the pixel, rows a and b and lengths la and lb of
-// the rectangle's sides, the squared extents of a texel in pixels are la^2 |b J|^2 and lb^2 |a J|^2 over (det
-// J (a x b))^2: what is by the rows stands apart from what is by the fall-off.
+// For fall-offs of the texels over the light plane: which two rows make the map with the least error? Based
+// on: the error measure of Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006. With J
+// the Jacobian of the image (X, Y) by the pixel, rows a and b and lengths la and lb of the rectangle's sides,
+// the squared extents of a texel in pixels are la^2 |b J|^2 and lb^2 |a J|^2 over (det J (a x b))^2: what is
+// by the rows stands apart from what is by the fall-off.
 #include "warp/row_search.hpp"
 
 #include <cmath>
@@ -16,90 +16,102 @@
 namespace gnomon {
 namespace {
 
-// Directions of a fan, and both fans together.
-constexpr std::size_t kFan = 8, kBoth = 2 * kFan;
+constexpr std::size_t kAtOnce = RowLanes::kCount;
+// Directions that are tried for each row.
+constexpr std::size_t kFan = 4;
 // Square of the sine at which rows lean too close together for a useful map.
-constexpr double kLeastSine2 = 0.01;
-// Gains below this are rounding: the first of two rows that mirror each other is taken.
-constexpr double kTie = 1.0 - 1e-9;
+constexpr float kLeastSine2 = 0.01F;
 // Shares of an extent below which another is rounding.
 constexpr double kFlattest = 1e-6;
-// Keeps a square away from zero, and changes no bit of one above 1e-14.
-constexpr double kNothing = 1e-30;
+// Keep divisors away from zero, and products within single precision: what goes beyond is far from the best.
+constexpr float kNothing = 1e-30F, kFar = 1e14F, kWidest = 1e7F;
+constexpr double kMostReach = 2e4;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// Kappa times length, beyond which float matrices end, has this fall-off at most.
+constexpr float kStrongest = 43.0F;
 
-/// Cosines and sines of multiples of an angle, from -(Count - 1) / 2 of it upwards.
-template <std::size_t Count>
-struct Turns {
-  std::array<double, Count> cosine, sine;
-  explicit constexpr Turns(double step) noexcept : cosine{}, sine{} {
-    constexpr auto kSine = elementary::detail::inverse_factorials<12>(1, 2, -1.0);
-    constexpr auto kCosine = elementary::detail::inverse_factorials<12>(0, 2, -1.0);
-    for (std::size_t i = 0; i < Count; ++i) {
-      const double angle = (static_cast<double>(i) - 0.5 * static_cast<double>(Count - 1)) * step;
-      sine[i] = angle * elementary::detail::horner(kSine, angle * angle);
-      cosine[i] = elementary::detail::horner(kCosine, angle * angle);
-    }
-  }
-};
-
-/// The directions of a fan, and the angles between those of two fans.
-struct FanSteps {
-  Turns<kFan> turn;
-  Turns<kBoth - 1> between;
-  explicit constexpr FanSteps(double step) noexcept : turn(step), between(step) {}
-};
-constexpr double kHalfTurn = 3.141592653589793;
-// Two fans of a quarter turn each, and fans that reach the neighbours of what the first found.
-constexpr double kRoundStep = kHalfTurn / kBoth, kNearStep = 2.0 * kRoundStep / (kFan - 1);
-constexpr FanSteps kRoundFan(kRoundStep), kNearFan(kNearStep);
+// Of single precision: those of vector.hpp widen their arguments.
+constexpr float min_of(float a, float b) noexcept {
+  return a < b ? a : b;
+}
+constexpr float max_of(float a, float b) noexcept {
+  return a > b ? a : b;
+}
 
 /// Kappa times length of a fall-off: nearly its exponential less 1, for four multiplications.
-double reach_of(double fall_off) noexcept {
-  // Beyond 1e9, where float matrices end.
-  constexpr double kStrongest = 43.0;
-  const double root = 1.0 + min_of(fall_off, kStrongest) * (1.0 / 16.0);
-  const double power2 = root * root, power4 = power2 * power2, power8 = power4 * power4;
-  return power8 * power8 - 1.0;
+template <typename Number>
+Number reach_of(Number fall_off) noexcept {
+  const auto strongest = static_cast<Number>(kStrongest);
+  const Number root = 1 + (fall_off < strongest ? fall_off : strongest) * static_cast<Number>(0.0625);
+  const Number power2 = root * root, power4 = power2 * power2, power8 = power4 * power4;
+  return power8 * power8 - 1;
 }
 /// The fall-off whose w has this logarithm of its ratio from end to end.
 double fall_off_of(double log_ratio) noexcept {
   return 16.0 * elementary::expm1(log_ratio * (1.0 / 16.0));
 }
 
+/// Cosine and sine of a small angle.
+struct Turn {
+  float cosine, sine;
+  explicit constexpr Turn(float angle) noexcept : cosine(0.0F), sine(0.0F) {
+    const float square = angle * angle;
+    cosine = 1.0F - square * (0.5F - square * (1.0F / 24.0F - square * (1.0F / 720.0F)));
+    sine = angle * (1.0F - square * (1.0F / 6.0F - square * (1.0F / 120.0F - square * (1.0F / 5040.0F))));
+  }
+};
+
 }  // namespace
 
-/// Two fans: the first for row a, the second for row b.
-struct RowSearch::Fan {
-  alignas(64) std::array<double, kBoth> x, y;
-  // Of the sine of the angle from a's direction i to b's j: at kFan - 1 + j - i.
-  std::array<double, kBoth - 1> per_sine2, per_sine4;
-  constexpr Fan(double ax, double ay, double bx, double by, const FanSteps& steps) noexcept
-      : x{}, y{}, per_sine2{}, per_sine4{} {
-    for (std::size_t i = 0; i < kFan; ++i) {
-      const double c = steps.turn.cosine[i], s = steps.turn.sine[i];
-      x[i] = ax * c - ay * s;
-      y[i] = ax * s + ay * c;
-      x[kFan + i] = bx * c - by * s;
-      y[kFan + i] = bx * s + by * c;
-    }
-    const double cosine_ab = ax * bx + ay * by, sine_ab = ax * by - ay * bx;
-    for (std::size_t i = 0; i < per_sine2.size(); ++i) {
-      const double sine = sine_ab * steps.between.cosine[i] + cosine_ab * steps.between.sine[i];
-      // A sum, not a choice: compilers divide first and choose then.
-      per_sine2[i] = min_of(1.0 / (sine * sine + kNothing), 1.0 / kLeastSine2);
-      per_sine4[i] = per_sine2[i] * per_sine2[i];
-    }
-  }
+void RowLanes::set(std::size_t lane, const RowChoice& rows) noexcept {
+  x[lane] = static_cast<float>(rows.fall_off.x);
+  y[lane] = static_cast<float>(rows.fall_off.y);
+  a_x[lane] = static_cast<float>(rows.row_a.x);
+  a_y[lane] = static_cast<float>(rows.row_a.y);
+  b_x[lane] = static_cast<float>(rows.row_b.x);
+  b_y[lane] = static_cast<float>(rows.row_b.y);
+}
+
+std::size_t RowLanes::least() const noexcept {
+  std::size_t least = 0;
+  for (std::size_t l = 1; l < kCount; ++l) least = value[l] < value[least] * kTie ? l : least;
+  return least;
+}
+
+RowChoice RowLanes::best() const noexcept {
+  const std::size_t i = least();
+  return {{x[i], y[i]}, {a_x[i], a_y[i]}, {b_x[i], b_y[i]}, value[i]};
+}
+
+/// The candidates' maps. w, and the numerators of X and Y, are linear over the samples' numbers.
+template <std::size_t Directions>
+struct RowSearch::Maps {
+  static constexpr std::size_t kBoth = 2 * Directions;
+  alignas(64) Numbers reach, u_min, u_max;
+  alignas(64) Numbers u_x, u_y;       // along the axis
+  alignas(64) Numbers s_x, s_y, s_1;  // across it
+  alignas(64) Numbers w_x, w_y, w_1;
+  alignas(64) Numbers x_low, x_high, y_low, y_high;  // of the image
+  alignas(64) std::array<Numbers, kMostPoints> image_x, image_y;
+  // The gradient of X times w^2 is (turn_x y + first_x, second_x - turn_x x), and Y's alike; then both over
+  // the image's extents and times its area, so that they come out as extents of texels.
+  alignas(64) Numbers turn_x, first_x, second_x, turn_y, first_y, second_y;
+  alignas(64) Numbers area;  // of the image's rectangle, in the plane where w is 1
+  // Directions of both rows, over the unit square and over X and Y, and squared lengths of the sides across.
+  alignas(64) std::array<Numbers, kBoth> unit_x, unit_y, x, y, side;
+  alignas(64) std::array<Numbers, kBoth> xx, xy, yy;              // of those over X and Y
+  alignas(64) std::array<Numbers, Directions * Directions> pair;  // values
 };
 
 RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
     : lanes_(kWarpLanes),
-      directions_(kBoth),
+      fall_offs_(kAtOnce),
+      error_(error),
       corners_(error.corners()),
       body_(error.body()),
       objective_(input.objective),
       // Less what rounding adds.
-      most_reach_((input.most_stretch - 1.0) * (1.0 - 1e-9)),
+      most_reach_(min_of((input.most_stretch - 1.0) * (1.0 - 1e-9), kMostReach)),
       pivot_(input.centre, input.light.perspective ? input.y_min : 0.0) {
   const LaneRange x = lane_range(body_.x.data(), body_.count, lanes_),
                   y = lane_range(body_.y.data(), body_.count, lanes_);
@@ -108,6 +120,11 @@ RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
   const double longer = max_of(x.high - x.low, y.high - y.low);
   const double least = longer > 0.0 ? kFlattest * longer : 1.0;
   extent_ = {max_of(x.high - x.low, least), max_of(y.high - y.low, least)};
+  // Any pivot serves with other rows, and one that is far away drowns the body's own numbers.
+  constexpr double kFarthest = 4.0;
+  const glm::dvec2 room = extent_ * kFarthest;
+  pivot_ = {clamp_to(pivot_.x, middle_.x - room.x, middle_.x + room.x),
+            clamp_to(pivot_.y, middle_.y - room.y, middle_.y + room.y)};
   double xx = 0.0, xy = 0.0, yy = 0.0;
   for (std::size_t i = 0; i < body_.count; ++i) {
     const double px = body_.x[i] - middle_.x, py = body_.y[i] - middle_.y;
@@ -125,6 +142,48 @@ RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
     farthest = max_of(farthest, p.depth);
   }
   depth_range_ = nearest > 0.0 && farthest > nearest ? elementary::log(farthest / nearest) : 0.0;
+  std::size_t smallest = 0;
+  for (std::size_t i = 1; i < corners_.count; ++i) {
+    if (std::abs(corners_.inverse_determinant[i]) > std::abs(corners_.inverse_determinant[smallest]))
+      smallest = i;
+  }
+  origin_ = {corners_.x[smallest], corners_.y[smallest]};
+  const double scale_x = 1.0 / extent_.x, scale_y = 1.0 / extent_.y;
+  points_ = (body_.points + 3) / 4 * 4;
+  for (std::size_t i = 0; i < points_; ++i) {
+    point_x_[i] = static_cast<float>((body_.x[i] - origin_.x) * scale_x);
+    point_y_[i] = static_cast<float>((body_.y[i] - origin_.y) * scale_y);
+  }
+  count(corners_);
+}
+
+void RowSearch::count(const PixelLanes& samples) noexcept {
+  samples_ = samples.count;
+  above_ = error_.above();
+  const double scale_x = 1.0 / extent_.x, scale_y = 1.0 / extent_.y, area = extent_.x * extent_.y;
+  const std::size_t n = samples_;
+  alignas(64) std::array<double, PixelLanes::kMost> xx, xy, yy;
+  double most = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double inverse = samples.inverse_determinant[i] * area;
+    const double ax = samples.xx[i] * scale_x * inverse, ay = samples.xy[i] * scale_x * inverse;
+    const double bx = samples.yx[i] * scale_y * inverse, by = samples.yy[i] * scale_y * inverse;
+    xx[i] = ax * ax + ay * ay;
+    xy[i] = ax * bx + ay * by;
+    yy[i] = bx * bx + by * by;
+    most = max_of(most, xx[i] + yy[i]);
+  }
+  // Relative to the largest: what is far below it plays no part.
+  constexpr double kLeast = 1e-280;
+  const double scale = most > kLeast ? 1.0 / most : 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    x_[i] = static_cast<float>((samples.x[i] - origin_.x) * scale_x);
+    y_[i] = static_cast<float>((samples.y[i] - origin_.y) * scale_y);
+    xx_[i] = static_cast<float>(xx[i] * scale);
+    xy_[i] = static_cast<float>(xy[i] * scale);
+    yy_[i] = static_cast<float>(yy[i] * scale);
+    inverse_[i] = static_cast<float>(samples.inverse_determinant[i] * area * scale);
+  }
 }
 
 RowSearch::Axis RowSearch::axis_of(const FallOff& fall_off) noexcept {
@@ -145,7 +204,8 @@ RowSearch::Axis RowSearch::axis_of(const FallOff& fall_off) noexcept {
   return result;
 }
 
-GNOMON_WIDE void RowSearch::find_image(const Axis& axis, RowChoice& rows) noexcept {
+/// Extents of the body's image.
+glm::dvec2 RowSearch::image_extent(const Axis& axis) noexcept {
   const double axis_x = axis.axis.x, axis_y = axis.axis.y, kappa = axis.kappa, u_min = axis.u_min;
   const double stretch = axis.stretch, centre = axis.centre;
   const std::size_t n = body_.count;
@@ -158,250 +218,343 @@ GNOMON_WIDE void RowSearch::find_image(const Axis& axis, RowChoice& rows) noexce
   const LaneRange x = lane_range(image_x_.data(), n, lanes_), y = lane_range(image_y_.data(), n, lanes_);
   const double longer = max_of(x.high - x.low, y.high - y.low);
   const double least = longer > 0.0 ? kFlattest * longer : 1.0;
-  rows.image = {max_of(x.high - x.low, least), max_of(y.high - y.low, least)};
-  const double scale_x = 1.0 / rows.image.x, scale_y = 1.0 / rows.image.y;
-  for (std::size_t i = 0; i < n; ++i) {
-    image_x_[i] = (image_x_[i] - x.low) * scale_x;
-    image_y_[i] *= scale_y;
-  }
+  return {max_of(x.high - x.low, least), max_of(y.high - y.low, least)};
 }
 
-GNOMON_WIDE void RowSearch::find_pixels(const Axis& axis, const glm::dvec2& image) noexcept {
-  const double axis_x = axis.axis.x, axis_y = axis.axis.y, kappa = axis.kappa, u_min = axis.u_min;
-  const double centre = axis.centre, scale_x = 1.0 / image.x, scale_y = axis.stretch / image.y;
-  const double area = image.x * image.y / axis.stretch;
-  const std::size_t n = whole_lanes(corners_.count);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double u = corners_.x[i] * axis_x + corners_.y[i] * axis_y - u_min;
-    const double s = corners_.x[i] * axis_y - corners_.y[i] * axis_x - centre;
-    const double w = 1.0 + kappa * u, inverse = 1.0 / w, lean = kappa * s * inverse;
-    const double sx = corners_.xx[i] * axis_y - corners_.yx[i] * axis_x;
-    const double sy = corners_.xy[i] * axis_y - corners_.yy[i] * axis_x;
-    const double ux = corners_.xx[i] * axis_x + corners_.yx[i] * axis_y;
-    const double uy = corners_.xy[i] * axis_x + corners_.yy[i] * axis_y;
-    const double across = inverse * scale_x, along = inverse * inverse * scale_y;
-    const double xx = (sx - lean * ux) * across, xy = (sy - lean * uy) * across;
-    const double yx = ux * along, yy = uy * along;
-    const double inverse_determinant = std::abs(w * w * w * area * corners_.inverse_determinant[i]);
-    const double square = inverse_determinant * inverse_determinant;
-    xx_[i] = (xx * xx + xy * xy) * square;
-    xy_[i] = 2.0 * (xx * yx + xy * yy) * square;
-    yy_[i] = (yx * yx + yy * yy) * square;
-    area_[i] = inverse_determinant;
-  }
-}
-
-/// Squared lengths of the rectangle's sides across each direction of both fans.
-GNOMON_WIDE void RowSearch::find_sides(const Fan& fan) noexcept {
-  const std::size_t directions = directions_, n = body_.count;
-  alignas(64) std::array<double, kBoth> low, high;
-  for (std::size_t d = 0; d < directions; ++d)
-    low[d] = high[d] = fan.x[d] * image_x_[0] + fan.y[d] * image_y_[0];
-  // Four at a time, as each round waits for the one before it.
-  for (std::size_t i = 0; i < n; i += 4) {
-    const double x0 = image_x_[i], x1 = image_x_[i + 1], x2 = image_x_[i + 2], x3 = image_x_[i + 3];
-    const double y0 = image_y_[i], y1 = image_y_[i + 1], y2 = image_y_[i + 2], y3 = image_y_[i + 3];
-    for (std::size_t d = 0; d < directions; ++d) {
-      const double x = fan.x[d], y = fan.y[d];
-      const double v0 = x * x0 + y * y0, v1 = x * x1 + y * y1, v2 = x * x2 + y * y2, v3 = x * x3 + y * y3;
-      low[d] = min_of(low[d], min_of(min_of(v0, v1), min_of(v2, v3)));
-      high[d] = max_of(high[d], max_of(max_of(v0, v1), max_of(v2, v3)));
-    }
-  }
-  for (std::size_t d = 0; d < directions; ++d) side_[d] = (high[d] - low[d]) * (high[d] - low[d]);
-}
-
-GNOMON_WIDE void RowSearch::best_by_storage(const Fan& fan, RowChoice& rows) noexcept {
-  const std::size_t directions = directions_, half = directions_ / 2, n = whole_lanes(corners_.count);
-  alignas(64) std::array<double, kBoth> xx, xy, yy, most{};
-  for (std::size_t d = 0; d < directions; ++d) {
-    xx[d] = fan.x[d] * fan.x[d];
-    xy[d] = fan.x[d] * fan.y[d];
-    yy[d] = fan.y[d] * fan.y[d];
+template <std::size_t Directions>
+GNOMON_WIDE void RowSearch::find_axes(const RowLanes& candidates, Maps<Directions>& maps) const noexcept {
+  Maps<Directions>& __restrict m = maps;
+  const RowLanes& __restrict c = candidates;
+  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
+  const std::size_t n = points_;
+  const double unit = 1.0 / max_of(extent_.x, extent_.y);
+  const auto extent_x = static_cast<float>(extent_.x * unit);
+  const auto extent_y = static_cast<float>(extent_.y * unit);
+  const auto x_1 = static_cast<float>((origin_.x - pivot_.x) * unit);
+  const auto y_1 = static_cast<float>((origin_.y - pivot_.y) * unit);
+  const auto most_reach = static_cast<float>(most_reach_);
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const float length = std::sqrt(c.x[l] * c.x[l] + c.y[l] * c.y[l]);
+    m.reach[l] = min_of(reach_of(length), most_reach);
+    const float slope_x = c.x[l] * extent_y, slope_y = (length > 0.0F ? c.y[l] : 1.0F) * extent_x;
+    const float inverse = 1.0F / std::sqrt(max_of(slope_x * slope_x + slope_y * slope_y, kNothing));
+    const float axis_x = slope_x * inverse, axis_y = slope_y * inverse;
+    m.u_x[l] = axis_x * extent_x;
+    m.u_y[l] = axis_y * extent_y;
+    m.s_x[l] = axis_y * extent_x;
+    m.s_y[l] = -axis_x * extent_y;
+    m.s_1[l] = x_1 * axis_y - y_1 * axis_x;
+    m.u_min[l] = kInfinity;
+    m.u_max[l] = -kInfinity;
   }
   for (std::size_t i = 0; i < n; i += 4) {
-    const double xx0 = xx_[i], xx1 = xx_[i + 1], xx2 = xx_[i + 2], xx3 = xx_[i + 3];
-    const double xy0 = xy_[i], xy1 = xy_[i + 1], xy2 = xy_[i + 2], xy3 = xy_[i + 3];
-    const double yy0 = yy_[i], yy1 = yy_[i + 1], yy2 = yy_[i + 2], yy3 = yy_[i + 3];
-    for (std::size_t d = 0; d < directions; ++d) {
-      const double v0 = xx[d] * xx0 + xy[d] * xy0 + yy[d] * yy0, v1 = xx[d] * xx1 + xy[d] * xy1 + yy[d] * yy1;
-      const double v2 = xx[d] * xx2 + xy[d] * xy2 + yy[d] * yy2, v3 = xx[d] * xx3 + xy[d] * xy3 + yy[d] * yy3;
-      most[d] = max_of(most[d], max_of(max_of(v0, v1), max_of(v2, v3)));
+    const float x0 = point_x_[i], x1 = point_x_[i + 1], x2 = point_x_[i + 2], x3 = point_x_[i + 3];
+    const float y0 = point_y_[i], y1 = point_y_[i + 1], y2 = point_y_[i + 2], y3 = point_y_[i + 3];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const float x = m.u_x[l], y = m.u_y[l];
+      const float u0 = x * x0 + y * y0, u1 = x * x1 + y * y1, u2 = x * x2 + y * y2, u3 = x * x3 + y * y3;
+      m.u_min[l] = min_of(m.u_min[l], min_of(min_of(u0, u1), min_of(u2, u3)));
+      m.u_max[l] = max_of(m.u_max[l], max_of(max_of(u0, u1), max_of(u2, u3)));
     }
   }
-  for (std::size_t d = 0; d < directions; ++d) most[d] *= side_[d];
-  // Of the pairs with each second row: the least, and which first row it has.
-  alignas(64) std::array<double, kFan> least, at;
-  for (std::size_t b = 0; b < half; ++b) {
-    least[b] = std::numeric_limits<double>::infinity();
-    at[b] = 0.0;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const float kappa = m.reach[l] / max_of(m.u_max[l] - m.u_min[l], kNothing);
+    m.w_x[l] = kappa * m.u_x[l];
+    m.w_y[l] = kappa * m.u_y[l];
+    m.w_1[l] = 1.0F - kappa * m.u_min[l];
+  }
+}
+
+// The gradient of X = S / w is (w grad S - S grad w) / w^2: its numerator is linear over the plane, and each
+// component over one coordinate alone. No sample takes a division.
+template <std::size_t Directions>
+GNOMON_WIDE void RowSearch::find_image(Maps<Directions>& maps) const noexcept {
+  Maps<Directions>& __restrict m = maps;
+  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
+  const std::size_t n = points_;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    m.x_low[l] = m.y_low[l] = kInfinity;
+    m.x_high[l] = m.y_high[l] = -kInfinity;
+    m.turn_x[l] = m.s_x[l] * m.w_y[l] - m.s_y[l] * m.w_x[l];
+    m.first_x[l] = m.s_x[l] * m.w_1[l] - m.s_1[l] * m.w_x[l];
+    m.second_x[l] = m.s_y[l] * m.w_1[l] - m.s_1[l] * m.w_y[l];
+    m.turn_y[l] = m.u_x[l] * m.w_y[l] - m.u_y[l] * m.w_x[l];
+    m.first_y[l] = m.u_x[l] * m.w_1[l] + m.u_min[l] * m.w_x[l];
+    m.second_y[l] = m.u_y[l] * m.w_1[l] + m.u_min[l] * m.w_y[l];
+  }
+  for (std::size_t i = 0; i < n; i += 2) {
+    const float x0 = point_x_[i], x1 = point_x_[i + 1], y0 = point_y_[i], y1 = point_y_[i + 1];
+    Numbers &image_x0 = m.image_x[i], &image_x1 = m.image_x[i + 1];
+    Numbers &image_y0 = m.image_y[i], &image_y1 = m.image_y[i + 1];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const float inverse0 = 1.0F / (m.w_x[l] * x0 + m.w_y[l] * y0 + m.w_1[l]);
+      const float inverse1 = 1.0F / (m.w_x[l] * x1 + m.w_y[l] * y1 + m.w_1[l]);
+      const float s0 = (m.s_x[l] * x0 + m.s_y[l] * y0 + m.s_1[l]) * inverse0;
+      const float s1 = (m.s_x[l] * x1 + m.s_y[l] * y1 + m.s_1[l]) * inverse1;
+      const float u0 = (m.u_x[l] * x0 + m.u_y[l] * y0 - m.u_min[l]) * inverse0;
+      const float u1 = (m.u_x[l] * x1 + m.u_y[l] * y1 - m.u_min[l]) * inverse1;
+      m.x_low[l] = min_of(m.x_low[l], min_of(s0, s1));
+      m.x_high[l] = max_of(m.x_high[l], max_of(s0, s1));
+      m.y_low[l] = min_of(m.y_low[l], min_of(u0, u1));
+      m.y_high[l] = max_of(m.y_high[l], max_of(u0, u1));
+      image_x0[l] = s0;
+      image_x1[l] = s1;
+      image_y0[l] = u0;
+      image_y1[l] = u1;
+    }
+  }
+}
+
+/// Directions round the candidates' rows, and squared lengths of the rectangle's sides across each.
+template <std::size_t Directions>
+GNOMON_WIDE void RowSearch::find_sides(const RowLanes& candidates, float step,
+                                       Maps<Directions>& maps) const noexcept {
+  Maps<Directions>& __restrict m = maps;
+  const RowLanes& __restrict c = candidates;
+  constexpr std::size_t kBoth = 2 * Directions;
+  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
+  const std::size_t n = points_;
+  alignas(64) std::array<Numbers, kBoth> low, high;
+  for (std::size_t d = 0; d < Directions; ++d) {
+    const Turn turn((static_cast<float>(d) - 0.5F * static_cast<float>(Directions - 1)) * step);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      m.unit_x[d][l] = c.a_x[l] * turn.cosine - c.a_y[l] * turn.sine;
+      m.unit_y[d][l] = c.a_x[l] * turn.sine + c.a_y[l] * turn.cosine;
+      m.unit_x[Directions + d][l] = c.b_x[l] * turn.cosine - c.b_y[l] * turn.sine;
+      m.unit_y[Directions + d][l] = c.b_x[l] * turn.sine + c.b_y[l] * turn.cosine;
+    }
+  }
+  for (std::size_t l = 0; l < lanes; ++l) {
+    // Of a narrower image only rounding is left.
+    constexpr float kNarrowest = 1e-6F;
+    const float width = max_of(m.x_high[l] - m.x_low[l], kNarrowest * max_of(m.x_high[l], -m.x_low[l]));
+    const float height = max_of(m.y_high[l] - m.y_low[l], kNarrowest * m.y_high[l]);
+    const float scale_x = 1.0F / max_of(width, kNothing), scale_y = 1.0F / max_of(height, kNothing);
+    const float area = std::abs(m.first_x[l] * m.second_y[l] - m.second_x[l] * m.first_y[l]) / m.w_1[l];
+    const float per_area = 1.0F / max_of(area, kNothing);
+    const float per_x = min_of(height * per_area, kWidest), per_y = min_of(width * per_area, kWidest);
+    m.turn_x[l] *= per_x;
+    m.first_x[l] *= per_x;
+    m.second_x[l] *= per_x;
+    m.turn_y[l] *= per_y;
+    m.first_y[l] *= per_y;
+    m.second_y[l] *= per_y;
+    m.area[l] = per_x * width;
+    for (std::size_t d = 0; d < kBoth; ++d) {
+      m.x[d][l] = m.unit_x[d][l] * scale_x;
+      m.y[d][l] = m.unit_y[d][l] * scale_y;
+      m.xx[d][l] = m.unit_x[d][l] * m.unit_x[d][l];
+      m.xy[d][l] = 2.0F * m.unit_x[d][l] * m.unit_y[d][l];
+      m.yy[d][l] = m.unit_y[d][l] * m.unit_y[d][l];
+      low[d][l] = kInfinity;
+      high[d][l] = -kInfinity;
+    }
+  }
+  for (std::size_t i = 0; i < n; i += 4) {
+    const Numbers *const x = &m.image_x[i], *const y = &m.image_y[i];
+    for (std::size_t d = 0; d < kBoth; ++d) {
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const float by_x = m.x[d][l], by_y = m.y[d][l];
+        const float v0 = by_x * x[0][l] + by_y * y[0][l], v1 = by_x * x[1][l] + by_y * y[1][l];
+        const float v2 = by_x * x[2][l] + by_y * y[2][l], v3 = by_x * x[3][l] + by_y * y[3][l];
+        low[d][l] = min_of(low[d][l], min_of(min_of(v0, v1), min_of(v2, v3)));
+        high[d][l] = max_of(high[d][l], max_of(max_of(v0, v1), max_of(v2, v3)));
+      }
+    }
+  }
+  for (std::size_t d = 0; d < kBoth; ++d) {
+    for (std::size_t l = 0; l < lanes; ++l)
+      m.side[d][l] = (high[d][l] - low[d][l]) * (high[d][l] - low[d][l]);
+  }
+}
+
+template <std::size_t Directions>
+void RowSearch::fit(const RowLanes& candidates, double step, Maps<Directions>& maps) const noexcept {
+  find_axes(candidates, maps);
+  find_image(maps);
+  find_sides(candidates, static_cast<float>(step), maps);
+}
+
+// For one sample and candidate: the form of a row's squared extent, of which the side across and the area are
+// left out.
+#define GNOMON_FORM                                                                      \
+  const float w = m.w_x[l] * x + m.w_y[l] * y + m.w_1[l], w2 = w * w;                    \
+  const float ax = m.turn_x[l] * y + m.first_x[l], ay = m.second_x[l] - m.turn_x[l] * x; \
+  const float bx = m.turn_y[l] * y + m.first_y[l], by = m.second_y[l] - m.turn_y[l] * x; \
+  const float jx = ax * at_xx + ay * at_xy, jy = ax * at_xy + ay * at_yy;                \
+  const float kx = bx * at_xx + by * at_xy, ky = bx * at_xy + by * at_yy;                \
+  const float xx = (ax * jx + ay * jy) * w2, xy = (bx * jx + by * jy) * w2;              \
+  const float yy = (bx * kx + by * ky) * w2
+
+GNOMON_WIDE void RowSearch::find_products(Maps<kFan>& maps) const noexcept {
+  Maps<kFan>& __restrict m = maps;
+  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
+  const std::size_t n = samples_;
+  alignas(64) std::array<Numbers, 2 * kFan> most;
+  for (std::size_t d = 0; d < 2 * kFan; ++d) {
+    for (std::size_t l = 0; l < lanes; ++l) most[d][l] = 0.0F;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = x_[i], y = y_[i], at_xx = xx_[i], at_xy = xy_[i], at_yy = yy_[i];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      GNOMON_FORM;
+      for (std::size_t d = 0; d < 2 * kFan; ++d) {
+        most[d][l] = max_of(most[d][l], m.xx[d][l] * xx + m.xy[d][l] * xy + m.yy[d][l] * yy);
+      }
+    }
   }
   for (std::size_t a = 0; a < kFan; ++a) {
-    const double first = most[a], index = static_cast<double>(a);
-    const double* const per_sine = fan.per_sine4.data() + kFan - 1 - a;
-    for (std::size_t b = 0; b < half; ++b) {
-      const double v = first * most[kFan + b] * per_sine[b];
-      const double enough = least[b] * kTie;
-      at[b] = v < enough ? index : at[b];
-      least[b] = v < enough ? v : least[b];
+    for (std::size_t b = 0; b < kFan; ++b) {
+      for (std::size_t l = 0; l < lanes; ++l) {
+        m.pair[a * kFan + b][l] =
+            min_of(m.side[a][l] * most[a][l], kFar) * min_of(m.side[kFan + b][l] * most[kFan + b][l], kFar);
+      }
     }
   }
-  std::size_t b = 0;
-  for (std::size_t l = 1; l < kFan; ++l) b = least[l] < least[b] * kTie ? l : b;
-  write_rows(fan, static_cast<std::size_t>(at[b]), b, least[b], rows);
 }
 
-// The larger squared extent is half + root(half^2 - area^2). Below a value v it is where half < v and
-// 2 v half < v^2 + area^2: no root for the many pairs that are worse than the best so far.
-GNOMON_WIDE void RowSearch::best_by_worst(const Fan& fan, RowChoice& rows) noexcept {
-  const std::size_t directions = directions_, fan_size = directions_ / 2, n = whole_lanes(corners_.count);
-  alignas(64) std::array<double, PlaneError::kMaxCorners * kBoth> extent;
-  alignas(64) std::array<double, kBoth> xx, xy, yy;
-  for (std::size_t d = 0; d < directions; ++d) {
-    xx[d] = fan.x[d] * fan.x[d];
-    xy[d] = fan.x[d] * fan.y[d];
-    yy[d] = fan.y[d] * fan.y[d];
+// The sum of the squares of both squared extents, of which each is a root of a quadratic: at most twice the
+// larger square, and that without a root.
+GNOMON_WIDE void RowSearch::find_sums(Maps<kFan>& maps) const noexcept {
+  Maps<kFan>& __restrict m = maps;
+  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1), n = samples_;
+  alignas(64) std::array<Numbers, 2 * kFan> extent;
+  alignas(64) std::array<Numbers, kFan * kFan> product;
+  alignas(64) Numbers area;
+  for (std::size_t a = 0; a < kFan; ++a) {
+    for (std::size_t b = 0; b < kFan; ++b) {
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const float sine = m.unit_x[a][l] * m.unit_y[kFan + b][l] - m.unit_y[a][l] * m.unit_x[kFan + b][l];
+        product[a * kFan + b][l] = 2.0F * m.side[a][l] * m.side[kFan + b][l] * (sine * sine);
+        m.pair[a * kFan + b][l] = 0.0F;
+      }
+    }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const double at_xx = xx_[i], at_xy = xy_[i], at_yy = yy_[i];
-    double* const at = extent.data() + i * kBoth;
-    for (std::size_t d = 0; d < directions; ++d) at[d] = xx[d] * at_xx + xy[d] * at_xy + yy[d] * at_yy;
-  }
-  double best = std::numeric_limits<double>::infinity();
-  std::size_t best_a = 0, best_b = 0;
-  // The middle first: where a walk goes on from, it is likely to stay the best.
-  for (const std::size_t a : {kFan / 2, kFan / 2 - 1, kFan / 2 + 1, kFan / 2 - 2, kFan / 2 + 2, kFan / 2 - 3,
-                              kFan / 2 + 3, std::size_t{0}}) {
-    const double* const per_sine = fan.per_sine2.data() + kFan - 1 - a;
-    alignas(64) std::array<double, kFan> by_a, by_b, texel, most, room;
-    for (std::size_t b = 0; b < fan_size; ++b) {
-      by_a[b] = 0.5 * side_[a] * per_sine[b];
-      by_b[b] = 0.5 * side_[kFan + b] * per_sine[b];
-      texel[b] = side_[a] * side_[kFan + b] * per_sine[b];
-      most[b] = 0.0;
-      room[b] = best;
+    const float x = x_[i], y = y_[i], at_xx = xx_[i], at_xy = xy_[i], at_yy = yy_[i], inverse = inverse_[i];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      GNOMON_FORM;
+      const float root = min_of(w2 * w * inverse * m.area[l], kFar);
+      area[l] = root * root;
+      for (std::size_t d = 0; d < 2 * kFan; ++d)
+        extent[d][l] = min_of(m.xx[d][l] * xx + m.xy[d][l] * xy + m.yy[d][l] * yy, kFar);
     }
-    if (best < std::numeric_limits<double>::infinity()) {
-      const double square = best * best, twice = 2.0 * best;
-      for (std::size_t i = 0; i < n; i += 2) {
-        const double* const at = extent.data() + i * kBoth;
-        const double a0 = at[a], a1 = at[kBoth + a], area0 = area_[i] * area_[i];
-        const double area1 = area_[i + 1] * area_[i + 1];
-        for (std::size_t b = 0; b < fan_size; ++b) {
-          const double half0 = by_a[b] * at[kFan + b] + by_b[b] * a0;
-          const double half1 = by_a[b] * at[kBoth + kFan + b] + by_b[b] * a1;
-          const double straight = min_of(best - half0, best - half1);
-          const double curved = min_of((square + texel[b] * area0) - twice * half0,
-                                       (square + texel[b] * area1) - twice * half1);
-          room[b] = min_of(room[b], min_of(straight, curved));
+    for (std::size_t a = 0; a < kFan; ++a) {
+      for (std::size_t b = 0; b < kFan; ++b) {
+        for (std::size_t l = 0; l < lanes; ++l) {
+          const float sum = m.side[a][l] * extent[kFan + b][l] + m.side[kFan + b][l] * extent[a][l];
+          const float squares = sum * sum - product[a * kFan + b][l] * area[l];
+          m.pair[a * kFan + b][l] = max_of(m.pair[a * kFan + b][l], squares);
         }
       }
-      double widest = room[0];
-      for (std::size_t b = 1; b < kFan; ++b) widest = max_of(widest, room[b]);
-      if (!(widest > 0.0)) continue;
     }
-    for (std::size_t i = 0; i < n; ++i) {
-      const double* const at = extent.data() + i * kBoth;
-      const double at_a = at[a], area = area_[i] * area_[i];
-      for (std::size_t b = 0; b < fan_size; ++b) {
-        const double half = by_a[b] * at[kFan + b] + by_b[b] * at_a;
-        const double spread = half * half - texel[b] * area;
-        most[b] = max_of(most[b], half + std::sqrt(max_of(spread, 0.0)));
+  }
+}
+
+GNOMON_WIDE void RowSearch::find_rows(double step, RowLanes& candidates) noexcept {
+  Maps<kFan> m;
+  RowLanes& __restrict c = candidates;
+  fit(c, step, m);
+  const bool storage = objective_ == Objective::storage;
+  if (storage) {
+    find_products(m);
+  } else {
+    find_sums(m);
+  }
+  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
+  // Of the sine of the angle between the rows, which goes by how far apart they are in their fans.
+  alignas(64) std::array<Numbers, 2 * kFan - 1> factor;
+  for (std::size_t k = 0; k < factor.size(); ++k) {
+    const Turn turn((static_cast<float>(k) - static_cast<float>(kFan - 1)) * static_cast<float>(step));
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const float straight = c.a_x[l] * c.b_x[l] + c.a_y[l] * c.b_y[l];
+      const float sine = (c.a_x[l] * c.b_y[l] - c.a_y[l] * c.b_x[l]) * turn.cosine + straight * turn.sine;
+      const float sine2 = sine * sine, per_sine2 = 1.0F / max_of(sine2, kLeastSine2);
+      factor[k][l] = sine2 > kLeastSine2 ? per_sine2 * per_sine2 : kWidest;
+    }
+  }
+  alignas(64) Numbers best, best_a, best_b;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    best[l] = kInfinity;
+    best_a[l] = best_b[l] = 0.0F;
+  }
+  for (std::size_t a = 0; a < kFan; ++a) {
+    for (std::size_t b = 0; b < kFan; ++b) {
+      const auto at_a = static_cast<float>(a), at_b = static_cast<float>(b);
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const float value = m.pair[a * kFan + b][l] * factor[kFan - 1 + b - a][l];
+        const bool better = value < best[l] * RowLanes::kTie;
+        best[l] = better ? value : best[l];
+        best_a[l] = better ? at_a : best_a[l];
+        best_b[l] = better ? at_b : best_b[l];
       }
     }
-    for (std::size_t b = 0; b < kFan; ++b) {
-      if (!(most[b] < best * kTie)) continue;
-      best = most[b];
-      best_a = a;
-      best_b = b;
-    }
   }
-  write_rows(fan, best_a, best_b, best, rows);
+  for (std::size_t l = 0; l < kAtOnce; ++l) {
+    const auto a = static_cast<std::size_t>(best_a[l]), b = kFan + static_cast<std::size_t>(best_b[l]);
+    c.a_x[l] = m.unit_x[a][l];
+    c.a_y[l] = m.unit_y[a][l];
+    c.b_x[l] = m.unit_x[b][l];
+    c.b_y[l] = m.unit_y[b][l];
+    c.value[l] = best[l];
+  }
 }
 
-// The squared extents of a texel together: at most twice the larger one, and cheaper by its root. Good enough
-// where the corners only hint at the objective.
-GNOMON_WIDE void RowSearch::best_by_sum(const Fan& fan, RowChoice& rows) noexcept {
-  const std::size_t directions = directions_, fan_size = directions_ / 2, n = corners_.count;
-  alignas(64) std::array<double, kBoth> xx, xy, yy, extent;
-  for (std::size_t d = 0; d < directions; ++d) {
-    xx[d] = fan.x[d] * fan.x[d];
-    xy[d] = fan.x[d] * fan.y[d];
-    yy[d] = fan.y[d] * fan.y[d];
+// Half the sum of both squared extents, and their product's root: the larger of the two squares.
+GNOMON_WIDE void RowSearch::find_worst(Maps<1>& maps, RowLanes& candidates) const noexcept {
+  Maps<1>& __restrict m = maps;
+  RowLanes& __restrict c = candidates;
+  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
+  const std::size_t n = samples_, above = above_;
+  // The largest few, largest first.
+  alignas(64) std::array<Numbers, PlaneError::kMostAbove + 1> top;
+  alignas(64) Numbers half_a, half_b, texel, usable;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const float sine = m.unit_x[0][l] * m.unit_y[1][l] - m.unit_y[0][l] * m.unit_x[1][l], sine2 = sine * sine;
+    const float per = 1.0F / max_of(sine2, kLeastSine2);
+    usable[l] = sine2 > kLeastSine2 ? 1.0F : 0.0F;
+    half_a[l] = 0.5F * m.side[0][l] * per;
+    half_b[l] = 0.5F * m.side[1][l] * per;
+    texel[l] = std::sqrt(m.side[0][l] * m.side[1][l] * per) * m.area[l];
+    for (auto& level : top) level[l] = 0.0F;
   }
-  alignas(64) std::array<double, kFan * kFan> most{};
   for (std::size_t i = 0; i < n; ++i) {
-    const double at_xx = xx_[i], at_xy = xy_[i], at_yy = yy_[i];
-    for (std::size_t d = 0; d < directions; ++d) extent[d] = xx[d] * at_xx + xy[d] * at_xy + yy[d] * at_yy;
-    for (std::size_t a = 0; a < kFan; ++a) {
-      const double side_a = side_[a], extent_a = extent[a];
-      double* const most_a = most.data() + a * kFan;
-      for (std::size_t b = 0; b < fan_size; ++b)
-        most_a[b] = max_of(most_a[b], side_a * extent[kFan + b] + side_[kFan + b] * extent_a);
+    const float x = x_[i], y = y_[i], at_xx = xx_[i], at_xy = xy_[i], at_yy = yy_[i], inverse = inverse_[i];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      GNOMON_FORM;
+      const float extent_a = min_of(m.xx[0][l] * xx + m.xy[0][l] * xy + m.yy[0][l] * yy, kFar);
+      const float extent_b = min_of(m.xx[1][l] * xx + m.xy[1][l] * xy + m.yy[1][l] * yy, kFar);
+      const float half = half_a[l] * extent_b + half_b[l] * extent_a;
+      const float area = min_of(std::abs(texel[l] * w2 * w * inverse), kFar);
+      const float spread = (half - area) * (half + area);
+      const float square = half + std::sqrt(max_of(spread, 0.0F));
+      float rest = square;
+      for (auto& level : top) {
+        const float next = min_of(level[l], rest);
+        level[l] = max_of(level[l], rest);
+        rest = next;
+      }
     }
   }
-  double best = std::numeric_limits<double>::infinity();
-  std::size_t best_a = 0, best_b = 0;
-  for (std::size_t a = 0; a < kFan; ++a) {
-    const double* const per_sine = fan.per_sine2.data() + kFan - 1 - a;
-    for (std::size_t b = 0; b < kFan; ++b) {
-      const double v = most[a * kFan + b] * per_sine[b];
-      if (!(v < best * kTie)) continue;
-      best = v;
-      best_a = a;
-      best_b = b;
-    }
-  }
-  write_rows(fan, best_a, best_b, best, rows);
+  for (std::size_t l = 0; l < lanes; ++l) c.value[l] = usable[l] > 0.0F ? top[above][l] : kInfinity;
 }
+#undef GNOMON_FORM
 
-void RowSearch::write_rows(const Fan& fan, std::size_t a, std::size_t b, double squared,
-                           RowChoice& rows) const noexcept {
-  rows.row_a = {fan.x[a], fan.y[a]};
-  rows.row_b = {fan.x[kFan + b], fan.y[kFan + b]};
-  rows.value = std::sqrt(squared);
-}
-
-RowChoice RowSearch::best(const FallOff& fall_off, const Fan& fan) noexcept {
-  RowChoice rows;
-  rows.fall_off = fall_off;
-  const Axis axis = axis_of(fall_off);
-  find_image(axis, rows);
-  find_pixels(axis, rows.image);
-  find_sides(fan);
-  if (objective_ == Objective::storage) {
-    best_by_storage(fan, rows);
-  } else if (objective_ == Objective::max) {
-    best_by_worst(fan, rows);
-  } else {
-    best_by_sum(fan, rows);
-  }
-  // Numbers that are none lose every comparison.
-  if (!(rows.value < std::numeric_limits<double>::infinity()))
-    rows.value = std::numeric_limits<double>::infinity();
-  return rows;
-}
-
-RowChoice RowSearch::round(const FallOff& fall_off) noexcept {
-  // The first quadrant and the second, less half a step.
-  constexpr double kMiddle = 0.5 * (kFan - 1) * kRoundStep;
-  static constexpr Turns<2> kFirst(2.0 * kMiddle);
-  static constexpr Fan kFans(kFirst.cosine[1], kFirst.sine[1], -kFirst.sine[1], kFirst.cosine[1], kRoundFan);
-  return best(fall_off, kFans);
-}
-
-RowChoice RowSearch::near(const FallOff& fall_off, const RowChoice& rows) noexcept {
-  return best(fall_off, Fan(rows.row_a.x, rows.row_a.y, rows.row_b.x, rows.row_b.y, kNearFan));
+void RowSearch::find_values(RowLanes& candidates) noexcept {
+  Maps<1> maps;
+  fit(candidates, 0.0, maps);
+  find_worst(maps, candidates);
 }
 
 WarpChoice RowSearch::choice(const RowChoice& rows) noexcept {
   const Axis axis = axis_of(rows.fall_off);
+  const glm::dvec2 image = image_extent(axis);
   WarpChoice result;
   result.kappa = axis.kappa;
   result.axis = axis.axis;
   result.centre = axis.centre;
   const auto row = [&](const glm::dvec2& v) {
-    const glm::dvec2 whole{v.x / rows.image.x, v.y / rows.image.y};
+    const glm::dvec2 whole{v.x / image.x, v.y / image.y};
     return whole / std::sqrt(glm::dot(whole, whole));
   };
   result.row_a = row(rows.row_a);
@@ -424,9 +577,9 @@ RowChoice RowSearch::rows_of(const WarpChoice& choice) noexcept {
   // Another centre shears the image: 1 / w is linear in its Y.
   const Axis axis = axis_of(rows.fall_off);
   const double shear = (choice.centre - axis.centre) * choice.kappa / (1.0 + reach);
-  find_image(axis, rows);
+  const glm::dvec2 image = image_extent(axis);
   const auto row = [&](const glm::dvec2& v) {
-    const glm::dvec2 scaled{v.x * rows.image.x, (v.y + v.x * shear) * rows.image.y};
+    const glm::dvec2 scaled{v.x * image.x, (v.y + v.x * shear) * image.y};
     const double length = std::sqrt(glm::dot(scaled, scaled));
     return length > 0.0 ? scaled / length : glm::dvec2(1.0, 0.0);
   };

@@ -1,5 +1,5 @@
-// For a fall-off of the texels over the light plane: which two rows make the map with the least error at the
-// body's corners? Read off fans of directions, so that a search is left with the fall-off's two numbers.
+// For fall-offs of the texels over the light plane: which two rows make the map with the least error? Sixteen
+// fall-offs side by side, so that a search tries many at once.
 #pragma once
 
 #include "warp/plane_error.hpp"
@@ -17,19 +17,38 @@ struct FallOff {
 struct RowChoice {
   FallOff fall_off;
   glm::dvec2 row_a{1.0, 0.0}, row_b{0.0, 1.0};
-  glm::dvec2 image{1.0, 1.0};  ///< extents of the image
-  double value = 0.0;          ///< the objective at the corners
+  double value = 0.0;  ///< of the search: only to be compared with others of the same samples
+};
+
+/// Candidates of a search, side by side, in single precision: their errors need three digits.
+struct RowLanes {
+  static constexpr std::size_t kCount = 16;
+  using Numbers = std::array<float, kCount>;
+  alignas(64) Numbers x, y;                // fall-off
+  alignas(64) Numbers a_x, a_y, b_x, b_y;  // rows
+  alignas(64) Numbers value;
+  void set(std::size_t lane, const RowChoice& rows) noexcept;
+  // Gains below this are rounding: the first of two that mirror each other is taken, wherever the world
+  // stands and whatever its unit.
+  static constexpr float kTie = 1.0F - 1e-5F;
+  /// The first of the best.
+  [[nodiscard]] std::size_t least() const noexcept;
+  [[nodiscard]] RowChoice best() const noexcept;
 };
 
 class RowSearch {
  public:
-  /// `error` must outlive the search. Its corners are more than 0.
+  /// `error` must outlive the search. Its corners are more than 0, and count at first.
   RowSearch(const WarpInput& input, const PlaneError& error) noexcept;
 
-  /// The best of all rows, to a sixteenth of a half turn.
-  [[nodiscard]] RowChoice round(const FallOff& fall_off) noexcept;
-  /// The best of the rows near these.
-  [[nodiscard]] RowChoice near(const FallOff& fall_off, const RowChoice& rows) noexcept;
+  /// From now on these samples count.
+  void count(const PixelLanes& samples) noexcept;
+  /// Replaces each candidate's rows by the best of those near them: four for each row, `step` apart, in
+  /// radians. The value goes by storage, or else by both extents of the worst texel together.
+  void find_rows(double step, RowLanes& candidates) noexcept;
+  /// Each candidate's value by the worst texel, or by the objective's percentile of the samples that count.
+  void find_values(RowLanes& candidates) noexcept;
+
   /// The body is a line or a point in the light plane: the width of its image is rounding, and no row is
   /// better than another.
   [[nodiscard]] bool line() const noexcept { return line_; }
@@ -42,39 +61,46 @@ class RowSearch {
   [[nodiscard]] FallOff ahead(double share) const noexcept;
 
  private:
-  struct Fan;
+  using Numbers = RowLanes::Numbers;
+  static constexpr std::size_t kMostPoints = whole_lanes(2 * kMaxVertices);
   struct Axis {
     glm::dvec2 axis;
     double u_min, kappa, stretch, centre;
   };
+  template <std::size_t Directions>
+  struct Maps;
   [[nodiscard]] Axis axis_of(const FallOff& fall_off) noexcept;
-  [[nodiscard]] RowChoice best(const FallOff& fall_off, const Fan& fan) noexcept;
-  void find_image(const Axis& axis, RowChoice& rows) noexcept;
-  void find_pixels(const Axis& axis, const glm::dvec2& image) noexcept;
-  void find_sides(const Fan& fan) noexcept;
-  void write_rows(const Fan& fan, std::size_t a, std::size_t b, double squared,
-                  RowChoice& rows) const noexcept;
-  void best_by_storage(const Fan& fan, RowChoice& rows) noexcept;
-  void best_by_sum(const Fan& fan, RowChoice& rows) noexcept;
-  void best_by_worst(const Fan& fan, RowChoice& rows) noexcept;
+  [[nodiscard]] glm::dvec2 image_extent(const Axis& axis) noexcept;
+  template <std::size_t Directions>
+  void find_axes(const RowLanes& candidates, Maps<Directions>& maps) const noexcept;
+  template <std::size_t Directions>
+  void find_image(Maps<Directions>& maps) const noexcept;
+  template <std::size_t Directions>
+  void find_sides(const RowLanes& candidates, float step, Maps<Directions>& maps) const noexcept;
+  template <std::size_t Directions>
+  void fit(const RowLanes& candidates, double step, Maps<Directions>& maps) const noexcept;
+  void find_products(Maps<4>& maps) const noexcept;
+  void find_sums(Maps<4>& maps) const noexcept;
+  void find_worst(Maps<1>& maps, RowLanes& candidates) const noexcept;
 
   // Always the same, but not known when this is compiled: as in lane_range.
-  std::size_t lanes_, directions_;
+  std::size_t lanes_, fall_offs_;
+  const PlaneError& error_;
   const PixelLanes& corners_;
   const BodyLanes& body_;
   Objective objective_;
   double most_reach_;           // kappa times length
   glm::dvec2 middle_, extent_;  // of the body
   glm::dvec2 pivot_;            // that the axis turns about
+  glm::dvec2 origin_;           // of the numbers below: where pixels are smallest
   bool line_;
   double depth_range_;  // logarithm of the ratio of the farthest to the nearest depth
-  // Squared lengths of the rectangle's sides, for each direction of both fans.
-  alignas(64) std::array<double, 2 * kWarpLanes> side_;
-  // Of the body's image, scaled to a unit square.
-  alignas(64) std::array<double, whole_lanes(2 * kMaxVertices)> image_x_, image_y_;
-  // Of the corners: the squared extent of a map's side for rows (a, b) is xx a^2 + xy a b + yy b^2 times the
-  // square of the other side's length, and the texel's area in pixels.
-  alignas(64) std::array<double, PlaneError::kMaxCorners> xx_, xy_, yy_, area_;
+  alignas(64) std::array<double, kMostPoints> image_x_, image_y_;
+  // The body's points, from the origin, as shares of its extents; in fours.
+  std::size_t points_ = 0, samples_ = 0, above_ = 0;
+  std::array<float, kMostPoints> point_x_, point_y_;
+  // The samples alike, with the squared extents of a pixel there: J J^T over the square of J's determinant.
+  alignas(64) std::array<float, PixelLanes::kMost> x_, y_, xx_, xy_, yy_, inverse_;
 };
 
 }  // namespace gnomon

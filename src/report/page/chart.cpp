@@ -49,12 +49,17 @@ constexpr const char* kStyle =
 }  // namespace
 
 std::string_view mark_path(std::size_t kind) noexcept {
-  constexpr std::array<std::string_view, kMarks> kPaths{"M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z",
-                                                        "M-4.6,-4.6h9.2v9.2h-9.2z",
-                                                        "M0,-6L5.6,4.4H-5.6z",
-                                                        "M0,-6.4L6.4,0L0,6.4L-6.4,0z",
-                                                        "M0,6L5.6,-4.4H-5.6z",
-                                                        "M-2,-6h4v4h4v4h-4v4h-4v-4h-4v-4h4z"};
+  constexpr std::array<std::string_view, kMarks> kPaths{
+      "M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z",
+      "M-4.6,-4.6h9.2v9.2h-9.2z",
+      "M0,-6L5.6,4.4H-5.6z",
+      "M0,-6.4L6.4,0L0,6.4L-6.4,0z",
+      "M0,6L5.6,-4.4H-5.6z",
+      "M-2,-6h4v4h4v4h-4v4h-4v-4h-4v-4h4z",
+      "M-3,-5.5h6L6,0L3,5.5h-6L-6,0z",
+      "M-6.4,-2h12.8v4h-12.8z",
+      "M-2,-6.4h4v12.8h-4z",
+      "M-4,-6L0,-2L4,-6L6,-4L2,0L6,4L4,6L0,2L-4,6L-6,4L-2,0L-6,-4z"};
   return kPaths[kind % kMarks];
 }
 

@@ -22,7 +22,7 @@ struct Axis {
 };
 
 /// Colours and marks repeat where there are more names than kinds.
-inline constexpr std::size_t kColors = 12, kMarks = 6;
+inline constexpr std::size_t kColors = 12, kMarks = 10;
 
 struct Point {
   double x = 0.0, y = 0.0;

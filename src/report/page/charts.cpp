@@ -66,10 +66,10 @@ Chart error_time_chart(const Summary& summary, std::size_t scene) {
     if (!cell.measured) continue;
     chart.mark({cell.values[cost], measures()[error].shown(cell.values[error])},
                place_in(summary.filters, summary.techniques[t].filter),
-               place_in(summary.warps, summary.techniques[t].warp), tip_of(summary, scene, t), t);
+               place_in(summary.kinds, summary.techniques[t].kind()), tip_of(summary, scene, t), t);
   }
   for (std::size_t f = 0; f < summary.filters.size(); ++f) chart.legend_color(summary.filters[f], f);
-  for (std::size_t w = 0; w < summary.warps.size(); ++w) chart.legend_mark("warp " + summary.warps[w], w);
+  for (std::size_t k = 0; k < summary.kinds.size(); ++k) chart.legend_mark(summary.kinds[k], k);
   return chart;
 }
 

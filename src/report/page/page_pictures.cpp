@@ -165,7 +165,7 @@ std::string page_data(const PageInput& input, const PagePictures& pictures) {
   for (const Technique& t : summary.techniques)
     data["techniques"].push_back({{"name", t.name()},
                                   {"color", place_in(summary.filters, t.filter) % kColors},
-                                  {"mark", place_in(summary.warps, t.warp) % kMarks}});
+                                  {"mark", place_in(summary.kinds, t.kind()) % kMarks}});
   data["marks"] = Json::array();
   for (std::size_t kind = 0; kind < kMarks; ++kind) data["marks"].push_back(mark_path(kind));
   data["cells"] = Json::array();

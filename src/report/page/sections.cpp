@@ -156,7 +156,8 @@ std::string section_error_time(const PageInput& input) {
   std::string out =
       "<section id=\"s1\">\n<h2>1. Error against run time</h2>\n<p>Each mark is a technique: colour by "
       "filter, shape by "
-      "warp. Lower left is better. The dashed line is the front: no other technique is better in both. For "
+      "warp or page policy. Lower left is better. The dashed line is the front: no other technique is better "
+      "in both. For "
       "all scenes together, errors are means and times geometric means.</p>\n<div class=\"bar "
       "script\"><label>scene "
       "<select "
@@ -183,7 +184,8 @@ std::string section_summary(const PageInput& input) {
       "no other technique is both cheaper and more exact. Other techniques are grey. A click on a column "
       "head sorts.</p>\n" +
       missing_note(input.summary) + scroll_box("Summary", true) +
-      "<table id=\"summary\"><thead><tr><th>warp / split / maps / filter</th><th>Pareto</th>";
+      "<table id=\"summary\"><thead><tr><th>warp / split / maps, or pages / texels / "
+      "filter</th><th>Pareto</th>";
   for (const Measure& measure : measures()) out += "<th>" + escaped(measure.column) + "</th>";
   out += "</tr></thead>\n";
   const std::size_t error = measure_index(kDefaultError), cost = measure_index(kDefaultCost);

@@ -132,7 +132,7 @@ Summary summarize(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     (void)place_of(s.techniques, row.technique);
     (void)place_of(s.filters, row.technique.filter);
-    (void)place_of(s.warps, row.technique.warp);
+    (void)place_of(s.kinds, row.technique.kind());
   }
   s.rows_of.emplace_back();
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -42,7 +42,7 @@ struct Summary {
   std::vector<Technique> techniques;
   std::vector<std::vector<Cell>> cells;           ///< [scene][technique]
   std::vector<std::vector<std::size_t>> rows_of;  ///< [scene][row numbers], by frame; none for the first
-  std::vector<std::string> filters, warps;        ///< in the order they appear
+  std::vector<std::string> filters, kinds;        ///< in the order they appear
 
   /// Techniques of a scene that no other beats in this error and cost, by rising cost.
   [[nodiscard]] std::vector<std::size_t> front(std::size_t scene, std::size_t error, std::size_t cost) const;

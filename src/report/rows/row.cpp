@@ -25,8 +25,13 @@ Json to_json(const Estimate& e) {
 }
 
 Json to_json(const Technique& t) {
-  return {{"warp", t.warp}, {"split", t.split},       {"cascades", t.cascades},
-          {"fit", t.fit},   {"map_size", t.map_size}, {"filter", t.filter}};
+  Json json{{"warp", t.warp}, {"split", t.split},       {"cascades", t.cascades},
+            {"fit", t.fit},   {"map_size", t.map_size}, {"filter", t.filter}};
+  if (t.pages.empty()) return json;  // as before there were pages: results can be continued
+  json["pages"] = t.pages;
+  json["page_texels"] = t.page_texels;
+  json["page_target_m"] = t.page_target_m;
+  return json;
 }
 
 Json errors_json(const Row& row) {
@@ -161,6 +166,10 @@ Technique technique_from(const Json& json) {
   json.at("fit").get_to(t.fit);
   get_whole(json.at("map_size"), t.map_size);
   json.at("filter").get_to(t.filter);
+  if (!json.contains("pages")) return t;
+  json.at("pages").get_to(t.pages);
+  get_whole(json.at("page_texels"), t.page_texels);
+  t.page_target_m = real_from(json.at("page_target_m"));
   return t;
 }
 
@@ -241,8 +250,17 @@ void measurement_from(const Json& json, Row& row) {
 
 }  // namespace
 
+std::string Technique::kind() const {
+  return pages.empty() ? "warp " + warp : "pages " + pages;
+}
+
 std::string Technique::name() const {
   std::string maps = std::to_string(cascades) + " x " + std::to_string(map_size);
+  if (!pages.empty()) {
+    const std::string target = page_target_m > 0.0 ? " m " + short_number(page_target_m) : "";
+    return kind() + " " + std::to_string(page_texels) + target + (fit == "stable" ? " stable" : "") +
+           " / as " + maps + " / " + filter;
+  }
   return warp + " / " + split + (fit == "stable" ? " stable" : "") + " / " + maps + " / " + filter;
 }
 

@@ -306,8 +306,14 @@ void compare_maps(const Case& input, const ShadowPlan& with, int a, const Shadow
   if (objective == "p95" || !light.parallel()) {
     constexpr MeasureGrid kGrid{24, 24, 48};
     constexpr std::uint64_t kEnough = 400;
-    const AliasingStats m = measure_map(with, a, input.camera, input.bounds(), kGrid);
-    const AliasingStats m0 = measure_map(without, b, input.camera, input.bounds(), kGrid);
+    // Over all of the camera's depths the grid might have a single layer of them in the map.
+    Camera own = input.camera;
+    if (warped.depth_begin < warped.depth_end) {
+      own.near_depth = warped.depth_begin;
+      own.far_depth = warped.depth_end;
+    }
+    const AliasingStats m = measure_map(with, a, own, input.bounds(), kGrid);
+    const AliasingStats m0 = measure_map(without, b, own, input.bounds(), kGrid);
     if (m.samples < kEnough || m.samples != m0.samples || m.outside != m0.outside) return;
     ratio = objective == "p95"   ? Real(m.p95) / m0.p95
             : objective == "max" ? Real(m.max) / m0.max

@@ -128,16 +128,19 @@ void check_receiver(const Scene& s, int index, const Real3& p, Report& report) {
                name(map) + ": ndc depth is " + number(shown.ndc(2)) + at(s, p));
 }
 
-/// The plan says that what is this near to a local light casts no shadow.
+/// The plan says that what is this near to a local light casts no shadow: the place itself, or all between it
+/// and the light.
 bool said_too_near(const Scene& s, const ShadowMap& map, const Real3& q) {
-  // From the distance along the light's axis to the distance itself, for the widest single map (85 degrees).
-  constexpr Real kWidest = 12.0L;
   const glm::dvec4 light = map.light_world;
-  const Real3 to_light = Real3(glm::dvec3(light)) - Real3(s.input.camera.position) - q;
+  if (light.w == 0.0) return false;
+  const Real3 from_light = q - s.light.apex();
+  const auto* spot = std::get_if<SpotLight>(&s.input.light);
+  // Maps of a cube measure along its axes, which lie within 54.8 degrees of every direction of their faces.
+  constexpr Real kCube = 1.75L;
+  const bool cube = spot == nullptr || map.select_plane_count > 0;
+  const Real distance = cube ? length(from_light) / kCube : glm::dot(from_light, s.light.axis());
   for (const Omission& o : s.plan.omitted()) {
-    if (o.kind == OmissionKind::depth_near_light && o.map == map.cascade && light.w != 0.0 &&
-        glm::dot(to_light, to_light) < (kWidest * o.a) * (kWidest * o.a))
-      return true;
+    if (o.kind == OmissionKind::depth_near_light && o.map == map.cascade && distance < o.a) return true;
   }
   return false;
 }
@@ -228,6 +231,9 @@ void check_unmapped(const Scene& s, const Real3& p, Report& report) {
   }
   const auto found = blockers(s, p, 1);
   if (found.empty()) return;
+  const bool said = std::any_of(s.plan.maps().begin(), s.plan.maps().end(),
+                                [&](const ShadowMap& map) { return said_too_near(s, map, p); });
+  if (said) return;
   report.add(s.plan.status == PlanStatus::no_caster
                  ? kind_for(s, "no_caster_with_caster", "local_no_caster_with_caster")
                  : kind_for(s, "no_map_with_caster", "local_no_map_with_caster"),

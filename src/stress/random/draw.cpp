@@ -311,7 +311,7 @@ void draw_boxes(Dice& dice, const Stage& s, Json& value) {
   if (s.stiff && dice.chance(0.1)) {  // a box beyond all measure
     auto& boxes = dice.chance(0.5) ? receivers : casters;
     BoxOf& box = boxes[static_cast<std::size_t>(dice.pick(static_cast<int>(boxes.size())))];
-    const double reach = dice.power(20.0, 99.6);
+    const double reach = std::min(dice.power(20.0, 99.6), kLargest);
     const int only = dice.pick(6);  // one axis, or all
     for (int axis = 0; axis < 3; ++axis) {
       if (only < 3 && axis != only) continue;

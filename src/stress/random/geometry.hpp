@@ -35,6 +35,8 @@ class LightAt {
   LightAt(const Light& light, const View& view);
   [[nodiscard]] bool parallel() const noexcept { return parallel_; }
   [[nodiscard]] const Real3& apex() const noexcept { return apex_; }
+  /// Unit, the way a spot points.
+  [[nodiscard]] const Real3& axis() const noexcept { return axis_; }
   /// Whether the light shines on the point, clear of cone, range and the light itself.
   [[nodiscard]] bool clearly_lights(const Real3& p) const;
   /// From the point towards the light: a unit vector for parallel light, else all the way to it.

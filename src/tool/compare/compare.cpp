@@ -185,6 +185,7 @@ Compared compare(const CompareRequest& request) {
   const std::vector<std::string> hashes = hashes_of(sweep);
   std::set<std::string> known = known_keys(sweep, hashes);
   const std::unique_ptr<render::Context> context = render::create_context(sweep.context);
+  for (const std::string& line : sweep.left_out) warn(line);
   for (const std::string& line : fit_to_memory(sweep)) warn(line);
   make_folder("--out", sweep.out);
   if (!lock) {
@@ -240,9 +241,19 @@ std::vector<Option> technique_options(CompareRequest& request) {
        .help = "filters, with options as in vsm:radius=3; or all of them; or irregular, for exact shadows",
        .names = names_in(render::all_filters(), {"all", std::string(kIrregular)}),
        .only_names = false},
-      {.name = "--map-sizes",
-       .target = &request.map_sizes,
-       .help = "sizes of a map, texels along each side"}};
+      {.name = "--map-sizes", .target = &request.map_sizes, .help = "sizes of a map, texels along each side"},
+      {.name = "--pages",
+       .target = &request.pages,
+       .help = "page policies, or all: pages of as many texels as the maps, beside them; listed below",
+       .names = names_in(all_page_policies(), {"all"}),
+       .only_names = false},
+      {.name = "--page-sizes",
+       .target = &request.page_sizes,
+       .help = "sizes of a page, texels along each side: 64, 128, 256"},
+      {.name = "--page-target",
+       .target = &request.page_target,
+       .help = "error m that pages are opened for; 0: the least that the pool holds",
+       .range = {{0.0, 1e6}}}};
 }
 
 /// What it is measured on.

@@ -5,13 +5,14 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <stdexcept>
 #include <utility>
 #include <variant>
 
-#include "seen_from.hpp"
+#include "planned.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -53,7 +54,7 @@ double light_radius(const render::FilterSettings& filter, const Light& light) no
                                                          : penumbra(filter, 0.5, 1.0);
 }
 
-std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const ShadowPlan& plan,
+std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const Planned& plan,
                               const SweepEntry& entry, const std::vector<float>& maps) {
   if (entry.irregular) return truth.judged;
   const double light = light_radius(entry.filter, stage.light());
@@ -67,9 +68,8 @@ std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const
   const auto axes = [&](std::size_t pixel) {
     const glm::dvec3& point = truth.points.pixels[pixel].position;
     if (entry.filter.unit == render::KernelUnit::world) return trace::world_axes(stage.light(), point, side);
-    const int map = static_cast<int>(maps[pixel]);
-    if (map < 0 || map >= plan.map_count) return trace::KernelAxes{};
-    return trace::texel_axes(plan.map[static_cast<std::size_t>(map)], point, side);
+    const ShadowMap* const map = plan.map(static_cast<int>(maps[pixel]));
+    return map == nullptr ? trace::KernelAxes{} : trace::texel_axes(*map, point, side);
   };
   return trace::filtered_reference(stage.tracer(), truth.points, stage.light(),
                                    gauss ? trace::KernelShape::gauss : trace::KernelShape::box, axes)
@@ -87,8 +87,9 @@ report::ListLengths list_lengths(const render::Renderer& renderer) {
   return {sum / static_cast<double>(lengths.size()), lengths[high], lengths.back()};
 }
 
-void count_costs(const render::FrameStats& stats, const SweepEntry& entry, report::Row& row) {
-  row.costs.maps = stats.map_count;
+void count_costs(const render::FrameStats& stats, const Planned& plan, const SweepEntry& entry,
+                 report::Row& row) {
+  row.costs.maps = plan.map_count();
   for (int i = 0; i < stats.map_count; ++i) {
     const render::MapStats& map = stats.map[static_cast<std::size_t>(i)];
     row.costs.draws += map.draws;
@@ -98,7 +99,8 @@ void count_costs(const render::FrameStats& stats, const SweepEntry& entry, repor
   row.costs.filtered_texels = stats.filtered_texels;
   // Of this technique alone: the renderer's own images may be those of a larger one before it.
   row.costs.map_bytes =
-      static_cast<std::uint64_t>(static_cast<double>(stats.texels) * render::bytes_per_texel(entry.filter));
+      static_cast<std::uint64_t>(static_cast<double>(stats.texels) * render::bytes_per_texel(entry.filter)) +
+      plan.table_bytes();
 }
 
 /// What the rules of one source saved, in their order.
@@ -125,26 +127,24 @@ struct Samples {
 
 /// One visit to a technique: drawn once to have its images made and the caches full of it, as they are in a
 /// program that uses nothing else; then as often as counts. Nowhere to put samples: a visit that warms up.
-void time_visit(Stage& stage, const Camera& camera, const SweepEntry& entry, Samples* samples) {
+void time_visit(Planned& plan, const Camera& camera, Samples* samples) {
   using Clock = std::chrono::steady_clock;
   constexpr std::size_t kPlans = 5;  // a plan takes microseconds: the median of a few is steadier
   constexpr int kDraws = 2;
   std::array<double, kPlans> plan_ns{};
-  ShadowPlan plan;
   for (double& ns : plan_ns) {
     const Clock::time_point begin = Clock::now();
-    plan = stage.plan(entry, camera);
+    plan.again();
     ns = std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
   }
-  const render::PreparedFilter filter = stage.filter(entry);
   const render::FrameOptions options = frame_options(false);
-  stage.renderer().draw(plan, camera, filter, options);
+  plan.draw(camera, options);
   if (samples == nullptr) return;
   constexpr double kMillisecondsPerNanosecond = 1e-6;
   const double plan_time = report::median(plan_ns);
   samples->plan_ns.push_back(plan_time);
   for (int i = 0; i < kDraws; ++i) {
-    const render::FrameStats stats = stage.renderer().draw(plan, camera, filter, options);
+    const render::FrameStats stats = plan.draw(camera, options);
     const double depth = milliseconds(stats, Pass::shadow_maps),
                  prefilter = milliseconds(stats, Pass::prefilter), shade = milliseconds(stats, Pass::mask);
     samples->depth_ms.push_back(depth);
@@ -180,16 +180,15 @@ FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry) {
 void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, report::Row& row,
                     Seen* seen) {
   render::Renderer& renderer = stage.renderer();
-  const render::PreparedFilter filter = stage.filter(entry);
-  const ShadowPlan before = seen_from(stage.plan(entry, truth.before), truth.before, truth.camera);
-  renderer.draw(before, truth.camera, filter, frame_options(false));
+  Planned before(stage, entry, truth.before), plan(stage, entry, truth.camera);
+  if (plan.status() == PlanStatus::invalid_input)
+    throw std::runtime_error(row.scene + ", " + row.technique.name() + ": the plan refuses " +
+                             std::string(plan.invalid_field()));
+  before.seen_by(truth.camera);
+  before.draw(truth.camera, frame_options(false));
   const std::vector<float> mask_before = channel(renderer.mask(), 0);
 
-  const ShadowPlan plan = stage.plan(entry, truth.camera);
-  if (plan.status == PlanStatus::invalid_input)
-    throw std::runtime_error(row.scene + ", " + row.technique.name() + ": the plan refuses " +
-                             std::string(plan.invalid_field));
-  const render::FrameStats stats = renderer.draw(plan, truth.camera, filter, frame_options(true));
+  const render::FrameStats stats = plan.draw(truth.camera, frame_options(true));
   const FloatImage mask_image = renderer.mask();
   const std::vector<float> mask = channel(mask_image, 0), maps = channel(mask_image, 1);
   if (entry.irregular && !stats.irregular)
@@ -203,32 +202,26 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
   row.undecided_pixels = truth.undecided;
   // Scene and light stand still, so the truth at a world point does, too.
   row.flips = report::excess_flips(mask_before, mask, truth.judged, truth.judged);
-  const FloatImage aliasing = renderer.aliasing();
-  std::vector<float> m = channel(aliasing, 0);
-  const std::vector<float> served = channel(aliasing, 3);
-  for (std::size_t i = 0; i < m.size(); ++i) {
-    if (served[i] < 0.0f) m[i] = 0.0f;
-  }
-  row.aliasing = report::pixel_aliasing(m);
-  count_costs(stats, entry, row);
+  row.aliasing = report::pixel_aliasing(plan.aliasing(mask_image));
+  count_costs(stats, plan, entry, row);
   if (entry.irregular) {
     row.costs.lists = list_lengths(renderer);
     constexpr std::uint64_t kEntryBytes = 16;  // of a list; its texel has as many as one of a depth map
     row.costs.map_bytes += kEntryBytes * mask.size();
   }
-  row.plan_status = to_string(plan.status);
+  row.plan_status = to_string(plan.status());
   for (const Omission& omission : plan.omitted()) {
     const OmissionText text = describe(omission);
     row.left_out.push_back({text.what.data(), text.why.data(), omission.saves_texels});
   }
   count_savings(stats, PruneSource::this_frame, row);
-  if (seen != nullptr) *seen = {renderer.image(), renderer.heat_map(), mask};
-  // Tight maps are others in every frame.
+  if (seen != nullptr) *seen = {renderer.image(), plan.heat_map(mask_image), mask};
+  // Tight maps are others in every frame, and so are their pages.
   if (entry.plan.fit == Fit::tight) return;
   render::FrameOptions all_rules = frame_options(false);
   all_rules.prune = {};
-  renderer.draw(before, truth.camera, filter, all_rules);
-  count_savings(renderer.draw(plan, truth.camera, filter, all_rules), PruneSource::last_frame, row);
+  before.draw(truth.camera, all_rules);
+  count_savings(plan.draw(truth.camera, all_rules), PruneSource::last_frame, row);
 }
 
 std::vector<report::Times> measure_times(Stage& stage, const Camera& camera,
@@ -237,6 +230,8 @@ std::vector<report::Times> measure_times(Stage& stage, const Camera& camera,
                                          const std::function<void()>& done) {
   std::vector<const SweepEntry*> all = entries;
   all.push_back(&baseline);
+  std::vector<std::unique_ptr<Planned>> plans;
+  for (const SweepEntry* const entry : all) plans.push_back(std::make_unique<Planned>(stage, *entry, camera));
   std::vector<Samples> samples(all.size());
   std::vector<std::size_t> order(all.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -244,7 +239,7 @@ std::vector<report::Times> measure_times(Stage& stage, const Camera& camera,
   for (int round = -1; round < rounds; ++round) {
     for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[random() % (i + 1)]);
     for (const std::size_t i : order) {
-      time_visit(stage, camera, *all[i], round < 0 ? nullptr : &samples[i]);
+      time_visit(*plans[i], camera, round < 0 ? nullptr : &samples[i]);
       done();
     }
   }

@@ -7,17 +7,58 @@
 
 namespace gnomon::tool {
 
+namespace {
+
+/// Whether the view depth of a pixel is off a neighbour's by more than a tenth of the nearer one.
+bool is_depth_edge(const FloatImage& positions, int x, int y) {
+  constexpr float kJump = 1.1f;
+  const auto depth = [&](int column, int row) {
+    const auto pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(positions.width) +
+                       static_cast<std::size_t>(column);
+    return positions.values[4 * pixel + 3];
+  };
+  const float own = depth(x, y);
+  for (const auto& [column, row] :
+       {std::pair(x - 1, y), std::pair(x + 1, y), std::pair(x, y - 1), std::pair(x, y + 1)}) {
+    if (column < 0 || row < 0 || column >= positions.width || row >= positions.height) continue;
+    const float other = depth(column, row);
+    if (own > kJump * other || other > kJump * own) return true;
+  }
+  return false;
+}
+
+void add_sparse_points(const FloatImage& positions, Stage::View& view) {
+  for (int y = 0; y < positions.height; y += Stage::kStride) {
+    for (int x = 0; x < positions.width; x += Stage::kStride) {
+      const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(positions.width) +
+                         static_cast<std::size_t>(x);
+      const float* const at = positions.values.data() + 4 * pixel;
+      if (!(at[3] > 0.0f) || !std::isfinite(at[3])) continue;
+      view.sparse_points.push_back(view.camera.position + glm::dvec3(at[0], at[1], at[2]));
+      view.sparse_pixels.push_back(static_cast<std::uint32_t>(pixel));
+      view.depth_edges.push_back(is_depth_edge(positions, x, y));
+    }
+  }
+}
+
+}  // namespace
+
 Stage::Stage(const Sweep& sweep, const std::string& scene)
     : sweep_(sweep), view_(scene, sweep.light, limits_of_triangles(sweep.max_triangles)) {
   tracer_ = std::make_unique<trace::Tracer>(view_.scene());
   renderer_ = std::make_unique<render::Renderer>(view_.scene());
 }
 
-ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const noexcept {
+const Stage::View* Stage::view(const Camera& camera) const noexcept {
   const auto view = std::find_if(views_.begin(), views_.end(), [&](const View& v) {
     return v.camera.position == camera.position && v.camera.forward == camera.forward;
   });
-  if (view == views_.end()) return make_plan(camera, view_.light(), view_.bounds(), entry.plan);
+  return view == views_.end() ? nullptr : &*view;
+}
+
+ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const noexcept {
+  const View* const view = this->view(camera);
+  if (view == nullptr) return make_plan(camera, view_.light(), view_.bounds(), entry.plan);
   return make_plan(
       camera, view_.light(), view_.bounds(), entry.plan, entry.visible_depths ? &view->depths : nullptr,
       entry.visible_points ? std::span<const glm::dvec3>(view->points) : std::span<const glm::dvec3>());
@@ -26,7 +67,7 @@ ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const noex
 void Stage::see(const Camera& camera, const Camera& before) {
   views_.clear();
   const bool asked = std::any_of(sweep_.entries.begin(), sweep_.entries.end(), [](const SweepEntry& entry) {
-    return entry.visible_depths || entry.visible_points;
+    return entry.visible_depths || entry.visible_points || entry.by_pages();
   });
   if (!asked) return;
   views_.push_back(seen_by(camera));
@@ -39,7 +80,8 @@ Stage::View Stage::seen_by(const Camera& camera) {
   renderer_->draw(ShadowPlan{}, camera, filter(sweep_.baseline), surfaces);
   const FloatImage positions = renderer_->positions();
   const auto channels = static_cast<std::size_t>(positions.channels);
-  View view{camera, {}, {}};
+  View view;
+  view.camera = camera;
   // Channels x, y, z relative to the camera, and depth: 0 for the sky.
   for (std::size_t i = 0; i + channels <= positions.values.size(); i += channels) {
     const float* const at = positions.values.data() + i;
@@ -48,6 +90,7 @@ Stage::View Stage::seen_by(const Camera& camera) {
     if (depth > 0.0 && std::isfinite(depth))
       view.points.push_back(camera.position + glm::dvec3(at[0], at[1], at[2]));
   }
+  add_sparse_points(positions, view);
   return view;
 }
 

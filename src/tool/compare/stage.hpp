@@ -27,17 +27,28 @@ class Stage {
   [[nodiscard]] const trace::Tracer& tracer() const noexcept { return *tracer_; }
   [[nodiscard]] render::Renderer& renderer() noexcept { return *renderer_; }
   [[nodiscard]] render::PreparedFilter filter(const SweepEntry& entry) {
-    return entry.irregular ? renderer_->prepare_irregular() : renderer_->prepare(entry.filter);
+    if (entry.irregular) return renderer_->prepare_irregular();
+    return entry.by_pages() ? renderer_->prepare_pages(entry.filter) : renderer_->prepare(entry.filter);
   }
-  [[nodiscard]] const Scene& scene() const noexcept { return view_.scene(); }
+  [[nodiscard]] SceneBounds bounds() const noexcept { return view_.bounds(); }
 
- private:
   /// What a camera shows.
   struct View {
     Camera camera;
     VisibleDepths depths;
     std::vector<glm::dvec3> points;
+    /// Every few pixels of a row, in every few rows: what pages are planned from.
+    std::vector<glm::dvec3> sparse_points;
+    std::vector<std::uint32_t> sparse_pixels;  ///< of the sparse points
+    std::vector<bool> depth_edges;             ///< by sparse point: view depth jumps beside its pixel
   };
+  /// nullptr where the camera was not seen.
+  [[nodiscard]] const View* view(const Camera& camera) const noexcept;
+  /// Pixels between two sparse points.
+  static constexpr int kStride = 3;
+  [[nodiscard]] const Scene& scene() const noexcept { return view_.scene(); }
+
+ private:
   [[nodiscard]] View seen_by(const Camera& camera);
 
   const Sweep& sweep_;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -50,6 +52,9 @@ std::vector<int> parse_numbers(const std::string& option, const std::vector<std:
 
 std::string_view name_of(const Warp& warp) noexcept {
   return warp.name;
+}
+std::string_view name_of(const PagePolicy& policy) noexcept {
+  return policy.name;
 }
 std::string_view name_of(const render::Filter& filter) noexcept {
   return filter.info.name;
@@ -118,6 +123,25 @@ void set_cascades(int cascades, SweepEntry& entry) {
   entry.technique.cascades = entry.plan.cascades = cascades;
 }
 
+void set_pages(const std::string& policy, SweepEntry& entry) {
+  entry.technique.pages = policy;
+  entry.pages.policy = find_page_policy(policy);
+  if (entry.pages.policy == nullptr) refuse_name("--pages", policy, names_in(all_page_policies(), {"all"}));
+  // Surfaces between the points that were read keep a shadow.
+  entry.pages.fallback = true;
+}
+
+void set_page_texels(int texels, SweepEntry& entry) {
+  entry.technique.page_texels = entry.pages.page_texels = texels;
+}
+
+void set_page_target(double target_m, SweepEntry& entry) {
+  entry.technique.page_target_m = target_m;
+  // So small that the pool coarsens every plan: it is spent whole.
+  constexpr double kFillsThePool = 0.02;
+  entry.pages.target_m = target_m > 0.0 ? target_m : kFillsThePool;
+}
+
 /// Each entry once for each of the values.
 template <class Values, class Set>
 void multiply(std::vector<SweepEntry>& entries, const Values& values, Set&& set) {
@@ -172,7 +196,108 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
                entries.front().technique.cascades};
   if (std::find(warps.begin(), warps.end(), "none") != warps.end()) first.warp = "none";
   std::erase_if(entries, [&](const SweepEntry& entry) { return is_double(entry, first, light); });
-  // A list that names something twice.
+  return entries;
+}
+
+/// Of the maps that its plans may have.
+int most_maps(const SweepEntry& entry, LightKind light) noexcept {
+  constexpr int kCubeFaces = 6;
+  if (light != LightKind::sun) return kCubeFaces;
+  return entry.plan.split.partition == Partition::view_depth ? entry.plan.cascades : kMaxMaps;
+}
+
+/// As many pages as the texels of the technique's maps hold, borders included.
+void set_capacity(SweepEntry& entry, LightKind light) noexcept {
+  const double slot = entry.pages.page_texels + 2.0 * std::ceil(entry.plan.filter.texels);
+  const double side = entry.plan.resolution.max_size;
+  const int maps = light == LightKind::sun ? entry.technique.cascades : light == LightKind::spot ? 1 : 6;
+  entry.pages.capacity =
+      static_cast<int>(std::clamp(maps * side * side / (slot * slot), 0.0, double{kMostPages}));
+}
+
+/// What cannot be measured with pages, and why.
+struct NoPages {
+  std::string what, why;
+};
+std::optional<NoPages> no_pages(const SweepEntry& entry, LightKind light) {
+  if (entry.irregular) return NoPages{std::string(kIrregular), "lists pixels by whole maps"};
+  const render::FilterSettings& filter = entry.filter;
+  if (filter.filter->info.reads != render::MapRead::depth)
+    return NoPages{std::string(filter.filter->info.name),
+                   "stores texels of whole maps, and pages have depths alone"};
+  if (filter.unit == render::KernelUnit::world)
+    return NoPages{entry.technique.filter, "kernel in world units, which no page border holds"};
+  if (entry.plan.filter.texels > 0.25 * entry.pages.page_texels)
+    return NoPages{entry.technique.filter, "border of more than a quarter of a page of " +
+                                               std::to_string(entry.pages.page_texels) + " texels"};
+  // Every map of the base has up to four pages of its coarsest level.
+  const int least = light == LightKind::point ? 24 : 4;
+  if (entry.pages.capacity < least)
+    return NoPages{entry.technique.name(),
+                   "fewer than " + std::to_string(least) + " pages fit into its pool"};
+  return std::nullopt;
+}
+
+/// One line for each reason.
+std::vector<std::string> lines_of(const std::vector<NoPages>& left_out) {
+  std::vector<NoPages> joined;
+  for (const NoPages& one : left_out) {
+    const auto same =
+        std::find_if(joined.begin(), joined.end(), [&](const NoPages& n) { return n.why == one.why; });
+    if (same == joined.end()) {
+      joined.push_back(one);
+    } else {
+      same->what += ", " + one.what;
+    }
+  }
+  std::vector<std::string> lines;
+  for (const NoPages& one : joined) lines.push_back("--pages leaves out " + one.what + ": " + one.why);
+  return lines;
+}
+
+/// The same with pages in place of maps; what cannot be measured goes into `left_out`, a line for each
+/// reason.
+std::vector<SweepEntry> page_product_of(const CompareRequest& request, LightKind light,
+                                        std::vector<std::string>& left_out) {
+  if (request.pages.empty()) return {};
+  std::vector<SweepEntry> entries(1);
+  set_warp("none", entries.front());
+  set_split("uniform", entries.front());
+  set_page_target(request.page_target, entries.front());
+  multiply(entries, expanded(request.filters, render::all_filters()), set_filter);
+  multiply(entries, split_lists(request.fits), set_fit);
+  multiply(entries, expanded(request.pages, all_page_policies()), set_pages);
+  std::vector<int> sizes =
+      parse_numbers("--page-sizes", request.page_sizes, kLeastPageTexels, kMostPageTexels);
+  for (const int size : sizes) {
+    if (size != 64 && size != 128 && size != 256)
+      refuse("--page-sizes", std::to_string(size), "64, 128 or 256");
+  }
+  multiply(entries, sizes, set_page_texels);
+  std::vector<int> cascades = parse_numbers("--cascades", request.cascades, 1, kMaxMaps);
+  if (light != LightKind::sun) cascades.resize(1);
+  multiply(entries, cascades, set_cascades);
+  multiply(entries, parse_numbers("--map-sizes", request.map_sizes, kMinMapSize, kMaxMapSize), set_size);
+  for (SweepEntry& entry : entries) {
+    if (entry.pages.policy->octaves) set_fit("stable", entry);  // its levels are stable whatever the fit
+    set_capacity(entry, light);
+  }
+  std::vector<NoPages> none;
+  std::erase_if(entries, [&](const SweepEntry& entry) {
+    const std::optional<NoPages> why = no_pages(entry, light);
+    const bool is_new = why && std::none_of(none.begin(), none.end(), [&](const NoPages& n) {
+                          return n.what == why->what && n.why == why->why;
+                        });
+    if (is_new) none.push_back(*why);
+    return why.has_value();
+  });
+  left_out = lines_of(none);
+  if (entries.empty()) throw std::runtime_error(left_out.front() + "; nothing is left to measure");
+  return entries;
+}
+
+/// Each technique once, in the order they appear.
+std::vector<SweepEntry> without_doubles(std::vector<SweepEntry> entries) {
   std::vector<SweepEntry> once;
   for (SweepEntry& entry : entries) {
     const bool known = std::any_of(once.begin(), once.end(), [&](const SweepEntry& other) {
@@ -181,13 +306,6 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
     if (!known) once.push_back(std::move(entry));
   }
   return once;
-}
-
-/// Of the maps that its plans may have.
-int most_maps(const SweepEntry& entry, LightKind light) noexcept {
-  constexpr int kCubeFaces = 6;
-  if (light != LightKind::sun) return kCubeFaces;
-  return entry.plan.split.partition == Partition::view_depth ? entry.plan.cascades : kMaxMaps;
 }
 
 std::string fit_to_memory(SweepEntry& entry, const Sweep& sweep) {
@@ -199,6 +317,7 @@ std::string fit_to_memory(SweepEntry& entry, const Sweep& sweep) {
   if (fitting.size == 0) throw std::runtime_error(name + ": no map fits (" + fitting.why + ")");
   if (fitting.size == wanted) return {};
   set_size(fitting.size, entry);
+  if (entry.by_pages()) set_capacity(entry, sweep.light.kind);
   return name + ": maps of " + std::to_string(wanted) + " do not fit (" + fitting.why + "): maps of " +
          std::to_string(fitting.size);
 }
@@ -224,7 +343,10 @@ std::string compare_footer() {
          "Warps: " +
          any_of_text(names_in(all_warps(), {"auto"})) + ".\nSplits: " + any_of_text(split_names()) +
          ", each with :finest, :visible_depths or :visible_points behind it" +
-         ".\nFilters: " + any_of_text(names_in(render::all_filters())) +
+         ".\nPages: " + any_of_text(names_in(all_page_policies())) +
+         ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "
+         "that reads depths in texels; the others are named and left out. docs/pages.md explains them." +
+         "\nFilters: " + any_of_text(names_in(render::all_filters())) +
          ". gnomon filters NAME prints the options of one. " + std::string(kIrregular) +
          " takes no filter: casters are tested against each pixel, for exact hard shadows at their price.\n";
 }
@@ -263,6 +385,10 @@ SweepEntry sweep_entry(const report::Technique& technique) {
   set_split(technique.split, entry);
   set_cascades(technique.cascades, entry);
   set_size(technique.map_size, entry);
+  if (technique.pages.empty()) return entry;
+  set_pages(technique.pages, entry);
+  set_page_texels(technique.page_texels, entry);
+  set_page_target(technique.page_target_m, entry);
   return entry;
 }
 
@@ -289,6 +415,10 @@ Sweep make_sweep(const CompareRequest& request) {
   sweep.shards = static_cast<std::size_t>(shards);
   sweep.context = offscreen_context(request.context);
   sweep.entries = product_of(request, sweep.light.kind);
+  for (SweepEntry& entry : page_product_of(request, sweep.light.kind, sweep.left_out))
+    sweep.entries.push_back(std::move(entry));
+  // A list that names something twice.
+  sweep.entries = without_doubles(std::move(sweep.entries));
   sweep.baseline =
       sweep_entry({"none", "uniform", "tight", "hard", 1, sweep.entries.front().technique.map_size});
   return sweep;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gnomon/pages.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/renderer.hpp"
@@ -20,6 +21,8 @@ struct CompareRequest {
   std::vector<std::string> warps{"none", "lispsm", "optimal"}, splits{"auto"}, fits{"tight"}, filters{"all"};
   std::vector<std::string> cascades{"1", "4"}, map_sizes{"1024"};
   int frames = 4, rounds = 5;
+  std::vector<std::string> pages, page_sizes{"128"};  ///< policies beside the maps; none: maps alone
+  double page_target = 0.0;  ///< error m that pages are opened for; 0: the least that the pool holds
   std::string size = "480x270", shard = "1/1", context = "auto", out = "out/compare";
   std::string light = "sun";
   LightPlacement sun;           ///< its kind is that of `light`
@@ -40,12 +43,17 @@ struct SweepEntry {
   render::FilterSettings filter;                        ///< hard where `irregular` is set
   bool irregular = false;                               ///< exact shadows by lists of pixels (kIrregular)
   bool visible_depths = false, visible_points = false;  ///< of the frame, given to the plan
+  PageOptions pages;                                    ///< where by_pages()
+
+  /// Planned by plan_pages in place of make_plan.
+  [[nodiscard]] bool by_pages() const noexcept { return !technique.pages.empty(); }
 };
 
 struct Sweep {
   std::vector<std::string> scenes;
   std::vector<SweepEntry> entries;
-  SweepEntry baseline;  ///< hard x no warp x one map, of the first map size
+  std::vector<std::string> left_out;  ///< combinations that --pages cannot measure, a line for each reason
+  SweepEntry baseline;                ///< hard x no warp x one map, of the first map size
   int frames = 1, rounds = 1, width = 0, height = 0;
   std::size_t shard = 0, shards = 1;
   render::ContextKind context = render::ContextKind::automatic;

@@ -1,0 +1,72 @@
+// What a technique plans for one camera, maps or pages, ready to be drawn, timed and looked into.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "stage.hpp"
+
+namespace gnomon::tool {
+
+/// Pages and the memory that they lie in.
+class PlannedPages {
+ public:
+  explicit PlannedPages(std::size_t capacity, std::size_t points);
+  [[nodiscard]] PageMemory spans() noexcept { return {levels_, pages_, table_, points_}; }
+  /// Matrices relative to another eye; the pages stay where they are.
+  void rebase(const glm::dvec3& origin_world) noexcept;
+
+  PagePlan plan;
+
+ private:
+  std::vector<ShadowMap> levels_;
+  std::vector<Page> pages_;
+  std::vector<std::uint32_t> table_;
+  std::vector<PagePoint> points_;
+};
+
+class Planned {
+ public:
+  /// Plans until what the renderer reports of it changes nothing: page policies may read the mask of a frame
+  /// before. The stage must have seen the camera.
+  Planned(Stage& stage, const SweepEntry& entry, const Camera& camera);
+  /// Plans once more from the same input, for a stopwatch.
+  void again();
+  /// As a renderer may draw it with another camera: the same texels over the same parts of the world.
+  void seen_by(const Camera& after);
+  render::FrameStats draw(const Camera& camera, const render::FrameOptions& options);
+
+  [[nodiscard]] PlanStatus status() const noexcept;
+  [[nodiscard]] std::string_view invalid_field() const noexcept;
+  [[nodiscard]] std::span<const Omission> omitted() const noexcept;
+  /// The texels that the mask's channel "map" names; nullptr: none.
+  [[nodiscard]] const ShadowMap* map(int index) const noexcept;
+  /// Maps or pages.
+  [[nodiscard]] int map_count() const noexcept;
+  /// The error m of each pixel of the last frame drawn, 0 where there is none: sky, turned from the light.
+  [[nodiscard]] std::vector<float> aliasing(const FloatImage& mask) const;
+  /// The same as colours.
+  [[nodiscard]] Image heat_map(const FloatImage& mask) const;
+  /// Of the tables that the look-up reads besides texels.
+  [[nodiscard]] std::uint64_t table_bytes() const noexcept;
+
+ private:
+  [[nodiscard]] bool by_pages() const noexcept { return entry_.by_pages(); }
+  void plan_pages_into(PlannedPages& pages, const PagePlan* last);
+  /// Draws and reports until the pages stay the same.
+  void refine();
+  /// Which of the points' pixels the policy wants to know of.
+  void report(const std::vector<float>& mask, const std::vector<float>& mask_before);
+
+  Stage& stage_;
+  const SweepEntry& entry_;
+  Camera camera_;
+  ShadowPlan maps_;
+  std::unique_ptr<PlannedPages> pages_, last_;
+  std::vector<std::uint8_t> feedback_;
+};
+
+}  // namespace gnomon::tool

@@ -1,0 +1,122 @@
+// Are pages measured beside maps by `gnomon compare`, by every policy, against the same rays?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "gnomon/pages.hpp"
+#include "small_sweep.hpp"
+
+namespace gnomon::test {
+namespace {
+
+std::vector<std::string> page_sweep(const fs::path& out, const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"compare", "builtin:hangar", "--warps",   "none",     "--cascades",
+                                     "1",       "--map-sizes",    "256",       "--frames", "1",
+                                     "--size",  "96x54",          "--rounds",  "1",        "--context",
+                                     "osmesa",  "--out",          out.string()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+double wrong(const report::Row& row) {
+  return row.errors.false_lit + row.errors.false_shadow;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(ComparePages, every_policy_is_measured_beside_the_map_of_as_many_texels) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon(
+      page_sweep(folder.path(), {"--filters", "hard,pcf,vsm", "--pages", "all", "--page-sizes", "64"}));
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.err.find("--pages leaves out vsm: stores texels of whole maps"), std::string::npos)
+      << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  const std::size_t policies = all_page_policies().size();
+  ASSERT_EQ(rows.size(), 3u + 2u * policies);
+  for (const report::Row& row : rows) {
+    if (row.technique.pages.empty()) continue;
+    SCOPED_TRACE(row.technique.name());
+    const report::Row& map = row.technique.filter == rows[0].technique.filter ? rows[0] : rows[1];
+    ASSERT_EQ(map.technique.filter, row.technique.filter);
+    EXPECT_EQ(row.plan_status, "ok");
+    EXPECT_EQ(row.technique.page_texels, 64);
+    EXPECT_EQ(row.errors.pixels, map.errors.pixels);
+    EXPECT_GT(row.costs.maps, 3);
+    EXPECT_LE(row.costs.texels, map.costs.texels);
+    EXPECT_GT(row.costs.texels, map.costs.texels / 4);
+    EXPECT_GT(row.costs.map_bytes, 4 * row.costs.texels) << "the tables count";
+    EXPECT_LT(wrong(row), 1.5 * wrong(map) + 0.02);
+    EXPECT_GT(row.times.total_ms.median, 0.0);
+    EXPECT_GT(row.times.plan_ns.median, 0.0);
+    EXPECT_GT(row.aliasing.p95, 0.05);
+    EXPECT_EQ(row.aliasing.pixels, map.aliasing.pixels);
+    EXPECT_TRUE(fs::exists(folder.path() / row.pictures.heat));
+  }
+  // What the whole of it is for: as many texels, smaller ones where they show.
+  for (const report::Row& row : rows) {
+    if (row.technique.pages == "resolution") {
+      EXPECT_LT(row.aliasing.p95, rows[0].aliasing.p95);
+    }
+  }
+  const std::string chart = text_of(folder.path() / "charts/error_time_scene0.svg");
+  for (const PagePolicy* policy : all_page_policies()) {
+    EXPECT_NE(chart.find("pages " + std::string(policy->name)), std::string::npos) << policy->name;
+  }
+  EXPECT_NE(text_of(folder.path() / "summary.csv").find(",\"queried\",64,0"), std::string::npos);
+}
+
+TEST(ComparePages, local_lights_are_measured_and_a_target_opens_fewer_pages_than_the_pool_holds) {
+  for (const char* light : {"spot", "point"}) {
+    const TemporaryFolder folder;
+    std::vector<report::Row> rows;
+    for (const char* target : {"0", "4"}) {
+      const fs::path out = folder.path() / target;
+      const Finished finished =
+          run_gnomon(page_sweep(out, {"--light", light, "--filters", "hard", "--pages", "resolution,clipmap",
+                                      "--page-sizes", "64", "--page-target", target}));
+      ASSERT_EQ(finished.exit_code, 0) << finished.err;
+      const std::vector<report::Row> measured = report::read_rows(out);
+      ASSERT_EQ(measured.size(), 3u);
+      rows.insert(rows.end(), measured.begin() + 1, measured.end());
+      for (const report::Row& row : measured) {
+        EXPECT_EQ(row.plan_status, "ok");
+        EXPECT_LT(wrong(row), std::string(target) == "0" ? 0.15 : 0.3) << light << ": " << row.technique.name();
+      }
+    }
+    for (std::size_t policy : {0u, 1u}) {
+      EXPECT_LT(rows[2 + policy].costs.texels, rows[policy].costs.texels) << light;
+      EXPECT_GT(rows[2 + policy].aliasing.p95, rows[policy].aliasing.p95) << light;
+      EXPECT_NE(rows[2 + policy].key(), rows[policy].key());
+    }
+  }
+}
+
+TEST(ComparePages, what_pages_cannot_do_is_refused_in_one_line) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{"--filters", "vsm,esm", "--pages", "resolution"}, "leaves out vsm, esm: stores texels of whole maps"},
+      {{"--filters", "pcf:radius=0.1,unit=world", "--pages", "resolution"}, "kernel in world units"},
+      {{"--filters", "pcf:radius=20", "--pages", "resolution", "--page-sizes", "64"},
+       "more than a quarter of a page"},
+      {{"--filters", "hard", "--pages", "resoluton"}, "did you mean 'resolution'?"},
+      {{"--filters", "hard", "--pages", "resolution", "--page-sizes", "96"}, "wants 64, 128 or 256"},
+      {{"--filters", "hard", "--pages", "clipmap", "--light", "point"}, "fewer than 24 pages"},
+      {{"--filters", "hard", "--pages", "all", "--page-target", "-1"}, "--page-target"}};
+  for (const auto& [more, line] : cases) {
+    const Finished finished = run_gnomon(page_sweep(out, more));
+    EXPECT_EQ(finished.exit_code, 2) << line;
+    EXPECT_NE(finished.err.find(line), std::string::npos) << finished.err;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+    EXPECT_FALSE(fs::exists(out));
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::test
