@@ -117,19 +117,6 @@ DrawnMaps Renderer::Impl::place_scene(const ShadowPlan& plan, const glm::dvec3& 
   return drawn;
 }
 
-void Renderer::Impl::take_moved(std::span<const Box> moved_world) {
-  if (!moved.empty()) lists.rebuild_casters();
-  moved.insert(moved.end(), moved_world.begin(), moved_world.end());
-}
-
-bool Renderer::move_instance(std::size_t instance, const Instance& to) {
-  if (instance >= impl_->scene.boxes().size() || to.bounds_world.empty()) return false;
-  impl_->moved.push_back(impl_->scene.boxes()[instance]);
-  impl_->moved.push_back(to.bounds_world);
-  impl_->scene.move(instance, to);
-  return true;
-}
-
 void Renderer::Impl::draw_pictures(const PassTimer& timed, const FrameOptions& options) noexcept {
   timed(Pass::shade, [&] { draw_shade(); });
   if (options.aliasing) timed(Pass::aliasing, [&] { draw_aliasing(); });
@@ -145,6 +132,19 @@ void Renderer::Impl::count_work(const ShadowPlan& plan, FrameStats& stats) const
   }
   stats.saved = lists.saved();
   stats.camera = lists.camera_stats();
+}
+
+void Renderer::Impl::take_moved(std::span<const Box> moved_world) {
+  if (!moved.empty()) lists.rebuild_casters();
+  moved.insert(moved.end(), moved_world.begin(), moved_world.end());
+}
+
+bool Renderer::move_instance(std::size_t instance, const Instance& to) {
+  if (instance >= impl_->scene.boxes().size() || to.bounds_world.empty()) return false;
+  impl_->moved.push_back(impl_->scene.boxes()[instance]);
+  impl_->moved.push_back(to.bounds_world);
+  impl_->scene.move(instance, to);
+  return true;
 }
 
 FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,

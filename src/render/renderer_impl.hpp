@@ -96,8 +96,8 @@ struct Renderer::Impl {
   Texture noise_tile;  ///< blue noise
   MapTargets maps;
   PagePool pages;
-  std::vector<Box> moved;                 ///< bounds of casters before and after, since the last frame
   std::optional<PixelLists> pixel_lists;  ///< made when they are first prepared
+  std::vector<Box> moved;                 ///< bounds of casters before and after, since the last frame
   Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;
   std::array<glm::ivec2, kMaxMaps> map_size{};  ///< of the last frame
