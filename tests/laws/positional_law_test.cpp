@@ -20,9 +20,9 @@ namespace {
 
 // Rounding of positions through two matrices, relative to the map's half width.
 constexpr double kRim = 1e-6;
-// Share of the range round the light in which nothing need be shown: the nearest distance of a map is 1e-4 of
-// the farthest one, along the axis of a face.
-constexpr double kTooNear = 2e-4;
+// Share of the range round the light in which nothing need be shown: a map may begin at 2^-10 of the farthest
+// distance, along the axis of a face.
+constexpr double kTooNear = 1.1 * 0x1p-10;
 // A ray that only grazes a box, a cone or a range by this share may count either way.
 constexpr double kGraze = 1e-9;
 
