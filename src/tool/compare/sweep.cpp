@@ -251,7 +251,7 @@ std::vector<std::string> lines_of(const std::vector<NoPages>& left_out) {
     }
   }
   std::vector<std::string> lines;
-  for (const NoPages& one : joined) lines.push_back("--pages leaves out " + one.what + ": " + one.why);
+  for (const NoPages& one : joined) lines.push_back("--pages skips " + one.what + ": " + one.why);
   return lines;
 }
 
@@ -345,7 +345,7 @@ std::string compare_footer() {
          ", each with :finest, :visible_depths or :visible_points behind it" +
          ".\nPages: " + any_of_text(names_in(all_page_policies())) +
          ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "
-         "that reads depths in texels; the others are named and left out. docs/pages.md explains them." +
+         "that reads depths in texels; the others are named and skipped. docs/pages.md explains them." +
          "\nFilters: " + any_of_text(names_in(render::all_filters())) +
          ". gnomon filters NAME prints the options of one. " + std::string(kIrregular) +
          " takes no filter: casters are tested against each pixel, for exact hard shadows at their price.\n";
