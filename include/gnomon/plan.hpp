@@ -218,8 +218,8 @@ struct ShadowPlan {
 inline constexpr double kPointSafety = 1.0 / 64.0;
 
 /// True where the map shows the point off its filter margin and within its depths. Its clip coordinates have
-/// w > 0, and z is in the range of the clip space. Its texel lies filter_margin_texels or more inside the map.
-/// A quarter texel, or what positions round by, is left to rounding. It is inside all select_planes.
+/// w > 0, and z is in the range of the clip space. Its texel lies filter_margin_texels or more inside the
+/// map. A quarter texel, or what positions round by, is left to rounding. It is inside all select_planes.
 [[nodiscard]] bool map_holds(const ShadowPlan& plan, const ShadowMap& map,
                              const glm::dvec3& point_world) noexcept;
 /// Index of the map that serves a point at this view depth, or -1; see ShadowPlan::select_by_map. Depths

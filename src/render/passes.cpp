@@ -144,7 +144,8 @@ void Renderer::Impl::draw_pages(bool alpha_test_where_masked) noexcept {
       glEnable(GL_SCISSOR_TEST);
     }
     const TexelRect& at = drawn[i].place;
-    // Clipping to the viewport alone lets triangles that pass by a local light spill a row into the next page.
+    // Clipping to the viewport alone lets triangles that pass by a local light spill a row into the next
+    // page.
     glScissor(at.x, at.y, at.width, at.height);
     glViewport(at.x, at.y, at.width, at.height);
     if (!fresh) clear();

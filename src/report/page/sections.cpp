@@ -157,10 +157,8 @@ std::string section_error_time(const PageInput& input) {
       "<section id=\"s1\">\n<h2>1. Error against run time</h2>\n<p>Each mark is a technique: colour by "
       "filter, shape by "
       "warp or page policy. Lower left is better. The dashed line is the front: no other technique is better "
-      "in both. For "
-      "all scenes together, errors are means and times geometric means.</p>\n<div class=\"bar "
-      "script\"><label>scene "
-      "<select "
+      "in both. An error of 0 lies on the lower edge. For all scenes together, errors are means and times "
+      "geometric means.</p>\n<div class=\"bar script\"><label>scene <select "
       "id=\"scene\"></select></label><label>error <select id=\"error\"></select></label><label>cost <select "
       "id=\"cost\"></select></label></div>\n";
   out += error_time_chart(summary, input.start_scene).embedded("error-time");
