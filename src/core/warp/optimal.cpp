@@ -231,10 +231,10 @@ RowChoice searched(RowSearch& search, const PlaneError& error, const WarpInput& 
   for (int round = 1; round <= kMostRounds; ++round) {
     const double before = rows.value;
     rows = best_around(search, rows, radius, fan);
-    const double left = rows.value / before;
-    radius *= left < kMuch ? 0.8 : 0.45;
-    fan *= left < kMuch ? 0.8 : 0.5;
-    if (round >= least_rounds && !(left < kLittle)) break;
+    const bool gains_much = rows.value < kMuch * before;
+    radius *= gains_much ? 0.8 : 0.45;
+    fan *= gains_much ? 0.8 : 0.5;
+    if (round >= least_rounds && !(rows.value < kLittle * before)) break;
   }
   if (input.objective != Objective::storage) return rows;
   search.count(error.counted());
