@@ -93,7 +93,9 @@ TEST(PagesLaw, every_visible_point_is_served_and_meets_the_target_above_the_deep
     require(served >= plan.points, "served", served, "of", plan.points);
     require(plan.points + plan.points_outside == scene.points.size(), "counted", plan.points,
             plan.points_outside);
-    require(above <= plan.points_capped, "above the target", above, "capped", plan.points_capped);
+    // Points beyond a local light's reach have no page of their own; some lie in one of another point.
+    require(above <= plan.points_capped + plan.points_outside, "above the target", above, "capped",
+            plan.points_capped, "outside", plan.points_outside);
     require(plan.target_m >= scene.options.target_m, "finer than asked for");
   });
   EXPECT_GT(checked, 150);
