@@ -10,7 +10,8 @@
 
 namespace gnomon::tool {
 
-/// Of --size, pixels. Throws std::runtime_error where `text` is not WIDTHxHEIGHT, each within [least, most].
+/// Reads the pixels of --size. Throws std::runtime_error where `text` is not WIDTHxHEIGHT, each within
+/// [least, most].
 inline void read_picture_size(const std::string& text, int least, int most, int& width, int& height) {
   const std::size_t x = text.find('x');
   const auto number = [&](std::size_t begin, std::size_t end, int& value) {
@@ -25,7 +26,7 @@ inline void read_picture_size(const std::string& text, int least, int most, int&
 [[nodiscard]] inline std::vector<std::string> transition_names() {
   return {"cut", "blend", "dither"};  // in the order of render::SplitTransition
 }
-/// Of one of transition_names().
+/// `name` is one of transition_names().
 [[nodiscard]] inline render::SplitTransition transition_from_name(const std::string& name) {
   if (name == "blend") return render::SplitTransition::blend;
   return name == "dither" ? render::SplitTransition::dither : render::SplitTransition::cut;

@@ -50,7 +50,7 @@ class Planned {
   [[nodiscard]] std::vector<float> aliasing(const FloatImage& mask) const;
   /// The same as colours.
   [[nodiscard]] Image heat_map(const FloatImage& mask) const;
-  /// Of the tables that the look-up reads besides texels.
+  /// Bytes of the tables that the look-up reads besides texels; 0 for maps.
   [[nodiscard]] std::uint64_t table_bytes() const noexcept;
 
  private:

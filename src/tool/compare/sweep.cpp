@@ -199,7 +199,7 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
   return entries;
 }
 
-/// Of the maps that its plans may have.
+/// The most maps that its plans may have.
 int most_maps(const SweepEntry& entry, LightKind light) noexcept {
   constexpr int kCubeFaces = 6;
   if (light != LightKind::sun) return kCubeFaces;
