@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "gnomon/render/picture.hpp"
@@ -12,6 +13,13 @@ inline constexpr render::Color kSky{214, 224, 234}, kUndecided{160, 60, 160};
 inline constexpr render::Color kShadow{40, 42, 50}, kLit{245, 243, 236};
 /// Orange and blue differ by brightness as well, and for those who see red and green alike.
 inline constexpr render::Color kFalseLight{255, 140, 0}, kFalseShadow{30, 110, 230};
+
+/// Keeps the pixel's alpha.
+inline void set_pixel(Image& image, std::size_t pixel, const render::Color& color) noexcept {
+  image.rgba[4 * pixel] = color.r;
+  image.rgba[4 * pixel + 1] = color.g;
+  image.rgba[4 * pixel + 2] = color.b;
+}
 
 /// `a` at share 0, `b` at 1; shares beyond are clamped.
 [[nodiscard]] inline render::Color mixed(const render::Color& a, const render::Color& b,

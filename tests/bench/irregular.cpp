@@ -21,6 +21,7 @@
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/trace/reference.hpp"
+#include "quiet.hpp"
 
 namespace gnomon {
 namespace {
@@ -31,9 +32,8 @@ struct Request {
   std::vector<std::string> scenes;
 };
 
-render::FrameOptions quiet() {
-  render::FrameOptions options;
-  options.aliasing = options.heat_map = options.cascade_tint = false;
+render::FrameOptions uncached() {
+  render::FrameOptions options = quiet();
   options.prune = prune_rules_of(PruneSource::this_frame);
   return options;
 }
@@ -54,7 +54,7 @@ struct Frame {
         renderer(scene) {
     for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
     light = default_light({.kind = kind}, scene.bounds_world);
-    renderer.draw(ShadowPlan{}, camera, renderer.prepare(render::filters::hard), quiet());
+    renderer.draw(ShadowPlan{}, camera, renderer.prepare(render::filters::hard), uncached());
     const trace::Tracer tracer(scene);
     truth = trace::hard_reference(
                 tracer,
@@ -86,7 +86,7 @@ double milliseconds(const render::FrameStats& stats) {
 double timed(Frame& frame, const ShadowPlan& plan, const render::PreparedFilter& filter) {
   std::vector<double> times;
   for (int i = 0; i < 6; ++i) {
-    const render::FrameStats stats = frame.renderer.draw(plan, frame.camera, filter, quiet());
+    const render::FrameStats stats = frame.renderer.draw(plan, frame.camera, filter, uncached());
     if (i > 0) times.push_back(milliseconds(stats));
   }
   std::nth_element(times.begin(), times.begin() + 2, times.end());

@@ -22,25 +22,13 @@
 #include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/load.hpp"
 #include "median.hpp"
+#include "page_storage.hpp"
+#include "quiet.hpp"
 
 namespace gnomon {
 namespace {
 
 constexpr int kWidth = 480, kHeight = 270, kStride = 3, kFlightFrames = 600;
-
-struct Memory {
-  std::vector<ShadowMap> levels = std::vector<ShadowMap>(kMostPageLevels);
-  std::vector<Page> pages = std::vector<Page>(1 << 13);
-  std::vector<std::uint32_t> table = std::vector<std::uint32_t>(page_table_size(1 << 13));
-  std::vector<PagePoint> points = std::vector<PagePoint>(std::size_t{kWidth} * kHeight);
-  [[nodiscard]] PageMemory spans() { return {levels, pages, table, points}; }
-};
-
-render::FrameOptions quiet() {
-  render::FrameOptions options;
-  options.aliasing = options.heat_map = options.cascade_tint = false;
-  return options;
-}
 
 /// A scene, its flight, and what a depth buffer reports of every frame.
 struct Flight {
@@ -53,7 +41,7 @@ struct Flight {
   std::vector<glm::dvec3> points;
   std::vector<std::uint32_t> pixels;
   std::vector<std::uint8_t> feedback;
-  Memory memory, memory_before;
+  PageStorage memory{1 << 13, std::size_t{kWidth} * kHeight}, memory_before = memory;
 
   explicit Flight(const std::string& of)
       : name(of), scene(load_builtin(of)), path(default_path(scene)), renderer(scene) {
@@ -137,7 +125,7 @@ Kept fly(Flight& flight, const PagePolicy& policy, int frames, bool keeps) {
   PagePlan before;
   for (int frame = 0; frame < frames; ++frame) {
     const Camera camera = flight.camera(begin_frame + frame);
-    Memory& memory = frame % 2 == 0 ? flight.memory : flight.memory_before;
+    PageStorage& memory = frame % 2 == 0 ? flight.memory : flight.memory_before;
     const Clock::time_point begin = Clock::now();
     const PagePlan plan = plan_pages(camera, flight.light, {flight.boxes, flight.boxes},
                                      {flight.points, {}, flight.feedback, frame == 0 ? nullptr : &before},

@@ -17,19 +17,13 @@
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/trace/reference.hpp"
+#include "page_storage.hpp"
+#include "quiet.hpp"
 
 namespace gnomon {
 namespace {
 
 constexpr int kWidth = 480, kHeight = 270;
-
-struct Memory {
-  std::vector<ShadowMap> levels = std::vector<ShadowMap>(kMostPageLevels);
-  std::vector<Page> pages = std::vector<Page>(1 << 14);
-  std::vector<std::uint32_t> table = std::vector<std::uint32_t>(page_table_size(1 << 14));
-  std::vector<PagePoint> points = std::vector<PagePoint>(std::size_t{kWidth} * kHeight);
-  [[nodiscard]] PageMemory spans() { return {levels, pages, table, points}; }
-};
 
 /// One frame of a scene with what is seen in it and what is true of it.
 struct Frame {
@@ -60,11 +54,6 @@ struct Frame {
     }
   }
   [[nodiscard]] SceneBounds bounds() const { return {boxes, boxes}; }
-  [[nodiscard]] static render::FrameOptions quiet() {
-    render::FrameOptions options;
-    options.aliasing = options.heat_map = options.cascade_tint = false;
-    return options;
-  }
   /// Share of the pixels that a ray decides, in percent.
   [[nodiscard]] double misclassified(const FloatImage& mask) const {
     std::size_t wrong = 0, decided = 0;
@@ -111,7 +100,8 @@ void print(const std::string& scene, const char* technique, const render::FrameS
 }
 
 /// Four cascades of this size, and pages of as many texels.
-void compare(Frame& frame, const std::string& name, int map_size, Memory& memory, const std::string& folder) {
+void compare(Frame& frame, const std::string& name, int map_size, PageStorage& memory,
+             const std::string& folder) {
   const render::FilterSettings filter = render::default_settings(render::filters::hard);
   PlanOptions options;
   options.resolution.max_size = map_size;
@@ -123,7 +113,7 @@ void compare(Frame& frame, const std::string& name, int map_size, Memory& memory
         make_plan(frame.camera, frame.light, frame.bounds(), options, nullptr,
                   points ? std::span<const glm::dvec3>(frame.points) : std::span<const glm::dvec3>());
     const render::FrameStats stats =
-        frame.renderer.draw(plan, frame.camera, frame.renderer.prepare(filter), Frame::quiet());
+        frame.renderer.draw(plan, frame.camera, frame.renderer.prepare(filter), quiet());
     const FloatImage mask = frame.renderer.mask();
     print(name, points ? "four cascades, points" : "four cascades", stats, frame.misclassified(mask));
     if (!folder.empty() && points) save(stem + "cascades.png", picture(mask, nullptr));
@@ -143,7 +133,7 @@ void compare(Frame& frame, const std::string& name, int map_size, Memory& memory
       continue;
     }
     const render::FrameStats stats =
-        frame.renderer.draw(plan, frame.camera, frame.renderer.prepare_pages(filter), Frame::quiet());
+        frame.renderer.draw(plan, frame.camera, frame.renderer.prepare_pages(filter), quiet());
     const FloatImage mask = frame.renderer.mask();
     print(name, normals ? "pages, normals" : "pages", stats, frame.misclassified(mask));
     if (folder.empty()) continue;
@@ -160,7 +150,7 @@ int main(int argc, char** argv) {
   if (!folder.empty()) std::filesystem::create_directories(folder);
   const auto context = gnomon::render::create_context();
   std::printf("%-10s %-22s %9s %10s %9s\n", "scene", "technique", "texels/px", "wrong, %", "ms");
-  gnomon::Memory memory;
+  gnomon::PageStorage memory(1 << 14, std::size_t{gnomon::kWidth} * gnomon::kHeight);
   for (const gnomon::BuiltinScene& scene : gnomon::builtin_scenes()) {
     const std::string name(scene.name);
     gnomon::Frame frame(name, 0.5);

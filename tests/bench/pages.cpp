@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "case_table.hpp"
+#include "page_storage.hpp"
 
 namespace gnomon {
 namespace {
@@ -39,15 +40,6 @@ std::vector<glm::dvec3> far_faces(const Case& c, int columns, int rows) {
   return points;
 }
 
-/// Memory of page plans, large enough for every plan of the table.
-struct Memory {
-  std::vector<ShadowMap> levels = std::vector<ShadowMap>(kMostPageLevels);
-  std::vector<Page> pages = std::vector<Page>(1 << 15);
-  std::vector<std::uint32_t> table = std::vector<std::uint32_t>(page_table_size(1 << 15));
-  std::vector<PagePoint> points = std::vector<PagePoint>(1 << 17);
-  [[nodiscard]] PageMemory spans() { return {levels, pages, table, points}; }
-};
-
 struct Column {
   const char* name;
   const PagePolicy* policy;
@@ -70,7 +62,7 @@ const Column kColumns[] = {
 };
 
 double texels_per_pixel(const NamedCase& c, const std::vector<glm::dvec3>& points, const Column& column,
-                        int page_texels, Memory& memory) {
+                        int page_texels, PageStorage& memory) {
   PlanOptions options;
   options.fit = column.fit;
   options.filter.texels = 0.0;
@@ -96,7 +88,7 @@ double texels_per_pixel(const NamedCase& c, const std::vector<glm::dvec3>& point
   return stats.texels_per_pixel;
 }
 
-void print_table(const std::vector<NamedCase>& cases, Memory& memory) {
+void print_table(const std::vector<NamedCase>& cases, PageStorage& memory) {
   for (const int page_texels : {128, 64}) {
     std::printf("texels per pixel, pages of %d, borders apart\n%-16s", page_texels, "");
     for (const Column& column : kColumns) std::printf(" %11s", column.name);
@@ -118,7 +110,7 @@ void print_table(const std::vector<NamedCase>& cases, Memory& memory) {
 }
 
 /// Median time of one plan from 10 000 points, for the target that gives about 1000 pages.
-void print_times(const std::vector<NamedCase>& cases, Memory& memory) {
+void print_times(const std::vector<NamedCase>& cases, PageStorage& memory) {
   using Clock = std::chrono::steady_clock;
   for (const char* name : {"light45", "overhead", "fov110"}) {
     const auto c =
@@ -148,7 +140,7 @@ void print_times(const std::vector<NamedCase>& cases, Memory& memory) {
 
 int main(int argc, char** argv) {
   const std::vector<gnomon::NamedCase> cases = gnomon::load_cases();
-  gnomon::Memory memory;
+  gnomon::PageStorage memory(1 << 15, 1 << 17);
   if (argc < 2 || std::strcmp(argv[1], "--seconds") != 0) gnomon::print_table(cases, memory);
   gnomon::print_times(cases, memory);
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gnomon/pages.hpp"
-#include "support/page_memory.hpp"
+#include "page_storage.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -23,7 +23,7 @@ struct Street {
   std::vector<PageSlot> slots = std::vector<PageSlot>(2048);
   std::vector<std::uint32_t> table = std::vector<std::uint32_t>(page_table_size(2048));
   std::vector<KeptPage> kept = std::vector<KeptPage>(2048);
-  HeldPages memory{2048};
+  PageStorage memory{2048};
 
   Street() {
     plan_options.fit = Fit::stable;

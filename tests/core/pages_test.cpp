@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "support/page_memory.hpp"
+#include "page_storage.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -28,7 +28,7 @@ struct Street {
   Street() {
     for (int i = 0; i < 4000; ++i) points.push_back({-4.0 + i % 9, 0.0, -8.0 - 0.045 * i});
   }
-  [[nodiscard]] PagePlan plan(HeldPages& memory) const {
+  [[nodiscard]] PagePlan plan(PageStorage& memory) const {
     return plan_pages(camera, light, {boxes, boxes}, {points, normals, feedback, last}, plan_options, options,
                       memory.spans());
   }
@@ -72,7 +72,7 @@ TEST(Pages, broken_options_are_refused_by_name) {
          s.light = DirectionalLight{{0, 0, 0}};
        }},
   };
-  HeldPages memory;
+  PageStorage memory;
   for (const Entry& entry : entries) {
     Street street;
     entry.change(street);
@@ -85,7 +85,7 @@ TEST(Pages, broken_options_are_refused_by_name) {
 
 TEST(Pages, memory_that_is_too_small_is_refused_by_name) {
   const Street street;
-  HeldPages memory;
+  PageStorage memory;
   const auto field_of = [&](const PageMemory& spans) {
     return plan_pages(street.camera, street.light, {street.boxes, street.boxes}, {street.points}, {}, {},
                       spans)
@@ -110,7 +110,7 @@ TEST(Pages, a_pool_that_cannot_hold_one_page_for_each_map_is_refused) {
   Street street;
   street.light = PointLight{{0.0, 8.0, -20.0}, 300.0};
   street.options.capacity = 1;
-  HeldPages memory;
+  PageStorage memory;
   EXPECT_EQ(street.plan(memory).invalid_field, "pages.capacity");
   street.options.capacity = 6;
   EXPECT_EQ(street.plan(memory).status, PlanStatus::ok);
@@ -118,7 +118,7 @@ TEST(Pages, a_pool_that_cannot_hold_one_page_for_each_map_is_refused) {
 
 TEST(Pages, nothing_visible_and_no_caster_are_values) {
   Street street;
-  HeldPages memory;
+  PageStorage memory;
   const std::vector<Box> none;
   const auto plan_with = [&](const SceneBounds& bounds) {
     return plan_pages(street.camera, street.light, bounds, {street.points}, {}, {}, memory.spans());
@@ -137,7 +137,7 @@ TEST(Pages, nothing_visible_and_no_caster_are_values) {
 TEST(Pages, one_point_takes_one_page_of_the_level_that_it_needs) {
   Street street;
   street.points = {{0.3, 0.0, -40.0}};
-  HeldPages memory;
+  PageStorage memory;
   const PagePlan plan = street.plan(memory);
   ASSERT_EQ(plan.pages.size(), 1u);
   ASSERT_EQ(plan.levels.size(), 1u);
@@ -150,7 +150,7 @@ TEST(Pages, one_point_takes_one_page_of_the_level_that_it_needs) {
 TEST(Pages, normals_bring_the_levels_that_their_surfaces_need) {
   Street street;
   street.points = {{0.3, 0.0, -40.0}};
-  HeldPages memory;
+  PageStorage memory;
   // A wall that the sun grazes: pixels there are far smaller in the map than on the ground.
   const glm::dvec3 grazed = glm::normalize(glm::dvec3(-1.0, 0.0, 0.3));
   double texel[2];
@@ -187,7 +187,7 @@ TEST(Pages, normals_bring_the_levels_that_their_surfaces_need) {
 TEST(Pages, without_points_the_boxes_are_sampled) {
   Street street;
   street.points.clear();
-  HeldPages memory;
+  PageStorage memory;
   street.options.target_m = 4.0;
   const PagePlan plan = street.plan(memory);
   ASSERT_EQ(plan.status, PlanStatus::ok);
@@ -200,10 +200,10 @@ TEST(Pages, without_points_the_boxes_are_sampled) {
 
 TEST(Pages, a_small_pool_coarsens_all_levels_and_says_so) {
   Street street;
-  HeldPages memory;
+  PageStorage memory;
   const PagePlan whole = street.plan(memory);
   street.options.capacity = static_cast<int>(whole.pages.size()) / 3;
-  HeldPages small(street.options.capacity);
+  PageStorage small(street.options.capacity);
   const PagePlan plan = street.plan(small);
   ASSERT_EQ(plan.status, PlanStatus::ok);
   EXPECT_LE(plan.pages.size(), static_cast<std::size_t>(street.options.capacity));
@@ -222,10 +222,10 @@ TEST(Pages, a_share_below_one_gives_up_the_pages_of_few_points) {
   Street street;
   // Clusters, and some points on their own.
   for (int i = 0; i < 60; ++i) street.points.push_back({10.0 + 0.1 * i, 20.0 - 0.2 * i, -12.0 - 2.9 * i});
-  HeldPages memory;
+  PageStorage memory;
   const PagePlan whole = street.plan(memory);
   street.options.share = 0.95;
-  HeldPages second;
+  PageStorage second;
   const PagePlan plan = street.plan(second);
   EXPECT_LT(plan.pages.size(), whole.pages.size());
   EXPECT_GT(plan.points_coarser, 0u);
@@ -246,7 +246,7 @@ TEST(Pages, the_fallback_holds_every_place_of_the_coarsest_level) {
   Street street;
   street.points = {{0.3, 0.0, -40.0}};
   street.options.fallback = true;
-  HeldPages memory;
+  PageStorage memory;
   const PagePlan plan = street.plan(memory);
   EXPECT_EQ(plan.pages.size(), 2u);
   EXPECT_EQ(page_serving(plan, {-15.0, 0.0, -120.0}), 0);
@@ -255,7 +255,7 @@ TEST(Pages, the_fallback_holds_every_place_of_the_coarsest_level) {
 
 TEST(Pages, a_wider_reach_opens_the_pages_round_each_point) {
   Street street;
-  HeldPages memory;
+  PageStorage memory;
   const std::size_t points_alone = street.plan(memory).pages.size();
   street.options.reach_texels = 64.0;
   const PagePlan plan = street.plan(memory);
@@ -276,7 +276,7 @@ TEST(Pages, a_wider_reach_opens_the_pages_round_each_point) {
 TEST(Pages, clipmap_levels_are_octaves_of_square_texels) {
   Street street;
   street.options.policy = &page_policies::clipmap;
-  HeldPages memory;
+  PageStorage memory;
   const PagePlan plan = street.plan(memory);
   ASSERT_GT(plan.levels.size(), 2u);
   for (const ShadowMap& level : plan.levels) {
@@ -285,7 +285,7 @@ TEST(Pages, clipmap_levels_are_octaves_of_square_texels) {
     EXPECT_NEAR(octave, std::round(octave), 1e-12);
   }
   street.options.policy = &page_policies::resolution;
-  HeldPages other;
+  PageStorage other;
   EXPECT_LT(street.plan(other).pages.size(), plan.pages.size());
 }
 
@@ -293,7 +293,7 @@ TEST(Pages, edges_spend_texels_at_shadow_edges_alone) {
   Street street;
   street.options.policy = &page_policies::edges;
   street.feedback.assign(street.points.size(), 0);
-  HeldPages memory;
+  PageStorage memory;
   const std::size_t none = street.plan(memory).pages.size();
   for (std::size_t i = 1000; i < 1200; ++i) street.feedback[i] = kShadowEdge | kDepthEdge;
   const PagePlan plan = street.plan(memory);
@@ -311,7 +311,7 @@ TEST(Pages, queried_refines_by_an_octave_where_the_picture_changed) {
   Street street;
   street.options.policy = &page_policies::queried;
   street.plan_options.fit = Fit::stable;  // the same grids in every frame
-  HeldPages memory[2];
+  PageStorage memory[2];
   const PagePlan first = street.plan(memory[0]);
   ASSERT_EQ(first.status, PlanStatus::ok);
   street.last = &first;
@@ -331,7 +331,7 @@ TEST(Pages, tiled_gives_more_of_the_pool_to_tiles_with_depth_edges) {
   Street street;
   street.options.policy = &page_policies::tiled;
   street.options.capacity = 200;
-  HeldPages memory(200);
+  PageStorage memory(200);
   street.feedback.assign(street.points.size(), 0);
   const PagePlan even = street.plan(memory);
   ASSERT_EQ(even.status, PlanStatus::ok);
@@ -349,7 +349,7 @@ TEST(Pages, a_light_inside_a_caster_is_planned_and_reported) {
   Street street;
   street.light = PointLight{{0.0, 8.0, -20.0}, 300.0};
   street.boxes.push_back({{-1.0, 7.0, -21.0}, {1.0, 9.0, -19.0}});
-  HeldPages memory;
+  PageStorage memory;
   const PagePlan plan = street.plan(memory);
   ASSERT_EQ(plan.status, PlanStatus::ok);
   EXPECT_TRUE(std::any_of(plan.omitted().begin(), plan.omitted().end(),
@@ -366,7 +366,7 @@ TEST(Pages, scenes_at_the_end_of_the_range_are_planned_or_refused) {
       street.camera.position += offset;
       for (Box& box : street.boxes) box = {box.min + offset, box.max + offset};
       for (glm::dvec3& point : street.points) point += offset;
-      HeldPages memory;
+      PageStorage memory;
       const PagePlan plan = street.plan(memory);
       for (const Page& page : plan.pages) {
         EXPECT_GE(page.column, 0);
@@ -392,12 +392,12 @@ TEST(Pages, a_million_points_and_a_far_plane_at_infinity_are_planned) {
   street.camera.far_depth = std::numeric_limits<double>::infinity();
   const std::vector<glm::dvec3> few = street.points;
   for (int copy = 0; copy < 249; ++copy) street.points.insert(street.points.end(), few.begin(), few.end());
-  HeldPages memory(4096, street.points.size());
+  PageStorage memory(4096, street.points.size());
   const PagePlan many = street.plan(memory);
   ASSERT_EQ(many.status, PlanStatus::ok);
   EXPECT_EQ(many.points, 1000000u);
   street.points = few;
-  HeldPages other;
+  PageStorage other;
   EXPECT_EQ(many.pages.size(), street.plan(other).pages.size());
 }
 

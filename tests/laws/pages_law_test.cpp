@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gnomon/pages.hpp"
-#include "support/page_memory.hpp"
+#include "page_storage.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -26,7 +26,7 @@ struct Scene {
   PageOptions options;
   PlanOptions plan_options;
 
-  [[nodiscard]] PagePlan plan(HeldPages& memory) const {
+  [[nodiscard]] PagePlan plan(PageStorage& memory) const {
     return plan_pages(input.camera, light, input.bounds(), {points}, plan_options, options, memory.spans());
   }
 };
@@ -68,7 +68,7 @@ int over_scenes(int cases, Check&& check) {
   for_all(cases, [&] {
     const Scene scene = draw_scene();
     if (scene.points.empty()) return;
-    HeldPages memory(kCapacity, scene.points.size());
+    PageStorage memory(kCapacity, scene.points.size());
     const PagePlan plan = scene.plan(memory);
     require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
     if (plan.status != PlanStatus::ok) return;
@@ -142,7 +142,7 @@ TEST(PagesLaw, larger_targets_need_no_more_pages) {
     other.options.target_m = 0.25;
     std::size_t before = static_cast<std::size_t>(kCapacity) + 1;
     for (int i = 0; i < 12; ++i) {
-      HeldPages memory(kCapacity, scene.points.size());
+      PageStorage memory(kCapacity, scene.points.size());
       const PagePlan plan = other.plan(memory);
       require(plan.pages.size() <= before, "target", other.options.target_m, "pages", plan.pages.size(),
               "before", before);
@@ -159,7 +159,7 @@ TEST(PagesLaw, the_pool_is_never_exceeded_and_no_point_loses_its_page) {
     Scene small = scene;
     small.options.capacity = 24 + pick(40);
     small.options.policy = all_page_policies()[static_cast<std::size_t>(pick(5))];
-    HeldPages memory(small.options.capacity, scene.points.size());
+    PageStorage memory(small.options.capacity, scene.points.size());
     const PagePlan plan = small.plan(memory);
     require(plan.status == PlanStatus::ok, "refused", plan.invalid_field);
     require(plan.pages.size() <= static_cast<std::size_t>(small.options.capacity), "pages",
@@ -240,7 +240,7 @@ TEST(PagesLaw, culling_keeps_every_caster_between_the_light_and_a_served_point) 
 
 TEST(PagesLaw, the_same_input_gives_the_same_bits) {
   const int checked = over_scenes(100, [](const Scene& scene, const PagePlan& plan) {
-    HeldPages memory(kCapacity, scene.points.size());
+    PageStorage memory(kCapacity, scene.points.size());
     std::fill(memory.table.begin(), memory.table.end(), 7u);  // what was there before plays no part
     const PagePlan again = scene.plan(memory);
     require(again.pages.size() == plan.pages.size() && again.levels.size() == plan.levels.size(), "sizes");
@@ -276,7 +276,7 @@ TEST(PagesLaw, scaling_the_world_by_a_power_of_two_changes_no_page) {
     }
 
     for (glm::dvec3& point : scaled.points) point *= scale;
-    HeldPages memory(kCapacity, scene.points.size());
+    PageStorage memory(kCapacity, scene.points.size());
     const PagePlan other = scaled.plan(memory);
     require(other.status == plan.status && other.pages.size() == plan.pages.size(), "pages",
             plan.pages.size(), "scaled", other.pages.size());
@@ -296,7 +296,7 @@ TEST(PagesLaw, stable_levels_keep_their_texels_in_the_world_while_the_camera_mov
     Scene moved = scene;
     const double step = 0.01 * (scene.input.camera.far_depth - scene.input.camera.near_depth);
     moved.input.camera.position += glm::dvec3(step, 0.3 * step, -0.5 * step);
-    HeldPages memory(kCapacity, scene.points.size());
+    PageStorage memory(kCapacity, scene.points.size());
     const PagePlan other = moved.plan(memory);
     for (const ShadowMap& a : plan.levels) {
       for (const ShadowMap& b : other.levels) {

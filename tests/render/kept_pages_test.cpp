@@ -7,7 +7,7 @@
 
 #include "gnomon/render/renderer.hpp"
 #include "mask_frame.hpp"
-#include "support/page_memory.hpp"
+#include "page_storage.hpp"
 #include "test_scene.hpp"
 
 namespace gnomon::render {
@@ -21,7 +21,7 @@ struct Pair {
   std::vector<Box> boxes;
   PlanOptions options;
   PageOptions pages;
-  test::HeldPages memory{4096, 1 << 17};
+  PageStorage memory{4096, 1 << 17};
   FilterSettings filter = default_settings(filters::hard);
   std::size_t kept = 0, all = 0;
 

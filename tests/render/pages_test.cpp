@@ -7,18 +7,11 @@
 
 #include "gnomon/render/renderer.hpp"
 #include "mask_frame.hpp"
+#include "page_storage.hpp"
 #include "test_scene.hpp"
 
 namespace gnomon::render {
 namespace {
-
-struct Memory {
-  std::vector<ShadowMap> levels = std::vector<ShadowMap>(kMostPageLevels);
-  std::vector<Page> pages = std::vector<Page>(4096);
-  std::vector<std::uint32_t> table = std::vector<std::uint32_t>(page_table_size(4096));
-  std::vector<PagePoint> points = std::vector<PagePoint>(1 << 17);
-  [[nodiscard]] PageMemory spans() { return {levels, pages, table, points}; }
-};
 
 /// A scene with what its camera sees.
 struct Stage {
@@ -30,7 +23,7 @@ struct Stage {
   std::vector<glm::dvec3> points;
   std::vector<std::size_t> pixels;  ///< of the points
   FloatImage normals;
-  Memory memory;
+  PageStorage memory{4096, 1 << 17};
 
   Stage() {
     const Frame frame = render::draw(renderer, camera, ShadowPlan{}, filters::hard);

@@ -8,6 +8,7 @@
 #include "gnomon/metric.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/reuse.hpp"
+#include "picture_colors.hpp"
 #include "seen_from.hpp"
 
 namespace gnomon::tool {
@@ -33,6 +34,13 @@ bool same_pages(const PagePlan& a, const PagePlan& b) {
                                                           });
 }
 
+/// Matrices relative to another eye; the pages stay where they are.
+void rebase(PlannedPages& pages, const glm::dvec3& origin_world) noexcept {
+  for (ShadowMap& level : std::span(pages.storage.levels).first(pages.plan.levels.size()))
+    level = rebased(level, origin_world);
+  pages.plan.origin_world = origin_world;
+}
+
 /// Least and largest value in the square round a pixel that ends half way to the next sparse point.
 std::pair<float, float> range_round(const std::vector<float>& values, int width, int height, int pixel) {
   constexpr int kReach = Stage::kStride / 2 + 1;
@@ -50,17 +58,6 @@ std::pair<float, float> range_round(const std::vector<float>& values, int width,
 
 }  // namespace
 
-PlannedPages::PlannedPages(std::size_t capacity, std::size_t points)
-    : levels_(kMostPageLevels),
-      pages_(capacity),
-      table_(page_table_size(static_cast<int>(capacity))),
-      points_(std::max<std::size_t>(points, 1)) {}
-
-void PlannedPages::rebase(const glm::dvec3& origin_world) noexcept {
-  for (ShadowMap& level : std::span(levels_).first(plan.levels.size())) level = rebased(level, origin_world);
-  plan.origin_world = origin_world;
-}
-
 Planned::Planned(Stage& stage, const SweepEntry& entry, const Camera& camera)
     : stage_(stage), entry_(entry), camera_(camera) {
   if (!by_pages()) {
@@ -68,9 +65,9 @@ Planned::Planned(Stage& stage, const SweepEntry& entry, const Camera& camera)
     return;
   }
   const Stage::View& view = *stage_.view(camera);
-  const auto capacity = static_cast<std::size_t>(entry.pages.capacity);
-  pages_ = std::make_unique<PlannedPages>(capacity, view.sparse_points.size());
-  last_ = std::make_unique<PlannedPages>(capacity, view.sparse_points.size());
+  const PageStorage storage(entry.pages.capacity, std::max<std::size_t>(view.sparse_points.size(), 1));
+  pages_ = std::make_unique<PlannedPages>(PlannedPages{storage, {}});
+  last_ = std::make_unique<PlannedPages>(PlannedPages{storage, {}});
   feedback_.assign(view.sparse_points.size(), 0);
   if ((entry.pages.policy->feedback & kDepthEdge) != 0) {
     for (std::size_t i = 0; i < feedback_.size(); ++i) feedback_[i] = view.depth_edges[i] ? kDepthEdge : 0;
@@ -82,7 +79,7 @@ Planned::Planned(Stage& stage, const SweepEntry& entry, const Camera& camera)
 void Planned::plan_pages_into(PlannedPages& pages, const PagePlan* last) {
   const Stage::View& view = *stage_.view(camera_);
   pages.plan = plan_pages(camera_, stage_.light(), stage_.bounds(), {view.sparse_points, {}, feedback_, last},
-                          entry_.plan, entry_.pages, pages.spans());
+                          entry_.plan, entry_.pages, pages.storage.spans());
 }
 
 void Planned::refine() {
@@ -119,7 +116,7 @@ void Planned::again() {
 }
 
 void Planned::seen_by(const Camera& after) {
-  by_pages() ? pages_->rebase(after.position) : void(maps_ = seen_from(maps_, camera_, after));
+  by_pages() ? rebase(*pages_, after.position) : void(maps_ = seen_from(maps_, camera_, after));
 }
 
 render::FrameStats Planned::draw(const Camera& camera, const render::FrameOptions& options) {
@@ -180,11 +177,7 @@ Image Planned::heat_map(const FloatImage& mask) const {
   const std::vector<float> m = aliasing(mask);
   Image image = render::blank_image(mask.width, mask.height, kNone);
   for (std::size_t i = 0; i < m.size(); ++i) {
-    if (!(m[i] > 0.0f)) continue;
-    const render::Color color = render::heat_color(static_cast<double>(m[i]));
-    image.rgba[4 * i] = color.r;
-    image.rgba[4 * i + 1] = color.g;
-    image.rgba[4 * i + 2] = color.b;
+    if (m[i] > 0.0f) set_pixel(image, i, render::heat_color(static_cast<double>(m[i])));
   }
   return image;
 }

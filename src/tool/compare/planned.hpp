@@ -7,25 +7,15 @@
 #include <string_view>
 #include <vector>
 
+#include "page_storage.hpp"
 #include "stage.hpp"
 
 namespace gnomon::tool {
 
 /// Pages and the memory that they lie in.
-class PlannedPages {
- public:
-  explicit PlannedPages(std::size_t capacity, std::size_t points);
-  [[nodiscard]] PageMemory spans() noexcept { return {levels_, pages_, table_, points_}; }
-  /// Matrices relative to another eye; the pages stay where they are.
-  void rebase(const glm::dvec3& origin_world) noexcept;
-
+struct PlannedPages {
+  PageStorage storage;
   PagePlan plan;
-
- private:
-  std::vector<ShadowMap> levels_;
-  std::vector<Page> pages_;
-  std::vector<std::uint32_t> table_;
-  std::vector<PagePoint> points_;
 };
 
 class Planned {

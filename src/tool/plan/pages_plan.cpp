@@ -35,15 +35,13 @@ Json stats_json(const PageStats& stats) {
 
 PagePlanner::PagePlanner(const Case& input)
     : input_(input),
-      levels_(kMostPageLevels),
       // A capacity that is refused needs no memory.
-      pages_(static_cast<std::size_t>(std::clamp(input.pages->capacity, 0, kMostPages))),
-      table_(page_table_size(static_cast<int>(pages_.size()))),
-      points_(input.seen.empty() ? kSamples : input.seen.size()) {}
+      storage_(std::clamp(input.pages->capacity, 0, kMostPages),
+               input.seen.empty() ? kSamples : input.seen.size()) {}
 
 PagePlan PagePlanner::plan() noexcept {
   return plan_pages(input_.camera, input_.light, input_.bounds(), seen_in(input_), input_.options,
-                    *input_.pages, {levels_, pages_, table_, points_});
+                    *input_.pages, storage_.spans());
 }
 
 Json pages_json(const PagePlan& plan, const Case& input) {

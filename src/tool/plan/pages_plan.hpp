@@ -1,10 +1,7 @@
 // A page plan of a case with its memory, and its JSON.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include "gnomon/pages.hpp"
+#include "page_storage.hpp"
 #include "plan_json.hpp"
 
 namespace gnomon::tool {
@@ -19,10 +16,7 @@ class PagePlanner {
 
  private:
   const Case& input_;
-  std::vector<ShadowMap> levels_;
-  std::vector<Page> pages_;
-  std::vector<std::uint32_t> table_;
-  std::vector<PagePoint> points_;
+  PageStorage storage_;
 };
 
 /// As plan_json, of pages.

@@ -18,12 +18,6 @@ using render::Color;
 
 constexpr Color kPale{150, 152, 158}, kGround{24, 24, 28};
 
-void set(Image& image, std::size_t pixel, const Color& color) {
-  image.rgba[4 * pixel] = color.r;
-  image.rgba[4 * pixel + 1] = color.g;
-  image.rgba[4 * pixel + 2] = color.b;
-}
-
 std::size_t pixels_of(const FloatImage& image) {
   return image.values.size() / static_cast<std::size_t>(image.channels);
 }
@@ -37,7 +31,7 @@ double first_channel(const FloatImage& image, std::size_t pixel) {
 Image mask_picture(const FloatImage& mask, const FloatImage& normals) {
   Image image = render::blank_image(mask.width, mask.height, kSky);
   for (std::size_t i = 0; i < pixels_of(mask); ++i) {
-    if (normals.values[4 * i + 3] > 0.0f) set(image, i, mixed(kShadow, kLit, first_channel(mask, i)));
+    if (normals.values[4 * i + 3] > 0.0f) set_pixel(image, i, mixed(kShadow, kLit, first_channel(mask, i)));
   }
   return image;
 }
@@ -49,14 +43,14 @@ Image truth_picture(int width, int height, std::span<const trace::Verdict> verdi
   for (std::size_t i = 0; i < count; ++i) {
     if (!(normals.values[4 * i + 3] > 0.0f)) continue;
     if (i >= verdicts.size()) {
-      set(image, i, kPale);
+      set_pixel(image, i, kPale);
       continue;
     }
     // Surfaces turned away from the light are dark without any map, as in a mask.
     const Color color = verdicts[i] == trace::Verdict::lit         ? kLit
                         : verdicts[i] == trace::Verdict::undecided ? kUndecided
                                                                    : kShadow;
-    set(image, i, color);
+    set_pixel(image, i, color);
   }
   return image;
 }
@@ -66,19 +60,19 @@ Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdi
   Image image = render::blank_image(mask.width, mask.height, kSky);
   for (std::size_t i = 0; i < pixels_of(mask); ++i) {
     if (i >= verdicts.size()) {
-      set(image, i, kPale);
+      set_pixel(image, i, kPale);
       continue;
     }
     const trace::Verdict verdict = verdicts[i];
     if (!(normals.values[4 * i + 3] > 0.0f)) continue;
-    if (verdict == trace::Verdict::none) set(image, i, kPale);  // turned away, or unlit
+    if (verdict == trace::Verdict::none) set_pixel(image, i, kPale);  // turned away, or unlit
     if (verdict == trace::Verdict::none) continue;
     if (verdict == trace::Verdict::undecided) {
-      set(image, i, kUndecided);
+      set_pixel(image, i, kUndecided);
       continue;
     }
     const double truth = verdict == trace::Verdict::lit ? 1.0 : 0.0, error = first_channel(mask, i) - truth;
-    set(image, i, error_color(truth, error));
+    set_pixel(image, i, error_color(truth, error));
   }
   return image;
 }
@@ -110,7 +104,7 @@ Image checker_picture(const Image& lit, const FloatImage& mask, const FloatImage
     const bool dark =
         (static_cast<long long>(std::floor(texel.x)) + static_cast<long long>(std::floor(texel.y))) % 2 != 0;
     const Color now{lit.rgba[4 * i], lit.rgba[4 * i + 1], lit.rgba[4 * i + 2]};
-    set(image, i, mixed(now, dark ? kShadow : kLit, 0.45));
+    set_pixel(image, i, mixed(now, dark ? kShadow : kLit, 0.45));
   }
   return image;
 }
@@ -126,7 +120,7 @@ Image difference_picture(const Image& a, const Image& b, double gain) {
       if (std::abs(apart) > std::abs(most)) most = apart;
     }
     if (most != 0)
-      set(image, i, mixed(kPale, most > 0 ? kFalseLight : kFalseShadow, gain * std::abs(most) / kMost));
+      set_pixel(image, i, mixed(kPale, most > 0 ? kFalseLight : kFalseShadow, gain * std::abs(most) / kMost));
   }
   return image;
 }
@@ -194,8 +188,9 @@ Image depth_image(const FloatImage& depths, const MapFrame& frame, int width, in
                         static_cast<std::size_t>(texel.x)];
       const double share =
           farthest > nearest ? static_cast<double>((depth - nearest) / (farthest - nearest)) : 0.0;
-      set(image, static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x),
-          depth >= 1.0f ? kNothing : mixed(kLit, {70, 72, 80}, share));
+      set_pixel(image,
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x),
+                depth >= 1.0f ? kNothing : mixed(kLit, {70, 72, 80}, share));
     }
   }
   return image;
