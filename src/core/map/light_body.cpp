@@ -227,8 +227,6 @@ double sampled_ratio(const WarpInput& in, const WarpChoice& choice, bool inside,
 
 /// Pixels whose sides differ by no more than this factor count as square.
 constexpr double kSquare = 2.0;
-/// Slope of an image's edge from which on rays fan out wide: 60 degrees.
-constexpr double kWide = 1.75;
 
 bool sides_differ(const ViewInLight& view, double factor) noexcept {
   return max_of(view.pixel_x, view.pixel_y) > factor * min_of(view.pixel_x, view.pixel_y);
@@ -248,7 +246,8 @@ double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
                                max_of(std::abs(view.image_bottom), std::abs(view.image_top)));
     const double with = warp_error(in, choice.kappa).value(in.objective);
     const double plain = warp_error(in, 0.0).value(in.objective);
-    if (with < kCertainRatio * plain && edge < kWide && !sides_differ(view, kSquare)) return with / plain;
+    if (with < kCertainRatio * plain && edge < kWideSlope && !sides_differ(view, kSquare))
+      return with / plain;
   }
   return sampled_ratio(in, choice, false, 0);
 }
@@ -257,7 +256,7 @@ double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
 /// sides of a pixel on a surface between them turn through every direction, of which samples see a few.
 double turned_pixels(const WarpInput& in, const WarpChoice& choice) noexcept {
   // Rounding of a camera's aspect is no difference.
-  constexpr double kAlike = 1.01, kOpposed = -0.5;
+  constexpr double kAlike = 1.01;
   if (!sides_differ(in.view, kAlike) || choice.kappa == 0.0) return 1.0;
   double least_cosine = 1.0;
   for (const Polytope::Vertex& v : in.polytope->vertices()) {
@@ -266,7 +265,7 @@ double turned_pixels(const WarpInput& in, const WarpChoice& choice) noexcept {
                                                   : glm::dvec3(0.0, 0.0, -1.0);
     least_cosine = min_of(least_cosine, glm::dot(ray, light));
   }
-  if (least_cosine > kOpposed) return 1.0;
+  if (least_cosine > kOpposedCosine) return 1.0;
   const double longer = max_of(in.view.pixel_x, in.view.pixel_y) / min_of(in.view.pixel_x, in.view.pixel_y);
   return in.objective == Objective::storage ? longer * longer : longer;
 }
@@ -280,9 +279,10 @@ double gain_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
   // The 95th percentile of so few points is off by up to a fifth, and where rays fan out wide the worst texel
   // lies between them: a gain below that must show in other points, too. Where the light comes to meet the
   // eye the worst texel may lie anywhere inside.
-  constexpr double kSure = 0.8, kOpposed = -0.5;
-  const bool opposed = in.cos_gamma < kOpposed && choice.kappa > 0.0;
-  const bool exact = in.objective != Objective::p95 && !in.light.perspective && !(in.tan_half_fov > kWide);
+  constexpr double kSure = 0.8;
+  const bool opposed = in.cos_gamma < kOpposedCosine && choice.kappa > 0.0;
+  const bool exact =
+      in.objective != Objective::p95 && !in.light.perspective && !(in.tan_half_fov > kWideSlope);
   if (!opposed && (exact || !(ratio > kSure))) return ratio * turned_pixels(in, choice);
   return max_of(ratio, sampled_ratio(in, choice, true, 1)) * turned_pixels(in, choice);
 }

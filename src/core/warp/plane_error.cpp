@@ -90,12 +90,11 @@ void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool s
   add_middles(body, outside, sample_);
   // The worst texel may lie inside a face or the body where rays fan out: the eye's in a wide image, or the
   // light's, and with them the warp.
-  constexpr double kWide = 3.5;  // of the slope: 120 degrees
   const ViewInLight& view = input_.view;
   const double wider = max_of(view.image_right - view.image_left, view.image_top - view.image_bottom);
   // So do rays that come to meet the eye's: the half vector turns fast between them.
-  constexpr double kOpposed = -0.5;
-  const bool inside = searched && (input_.light.perspective || wider > kWide || input_.cos_gamma < kOpposed);
+  const bool inside =
+      searched && (input_.light.perspective || wider > 2.0 * kWideSlope || input_.cos_gamma < kOpposedCosine);
   if (input_.light.perspective || inside) add_faces(body, outside, sample_);
   if (inside && !input_.orthographic) add_visible_points(input_, set, sample_);
   complete_ = find_pixels(input_, sample_) >= vertices;

@@ -10,6 +10,13 @@
 
 namespace gnomon {
 
+/// Slope of an image's edge from which on rays fan out wide: 60 degrees. The worst texel may lie between
+/// them.
+inline constexpr double kWideSlope = 1.75;
+/// Cosine between the eye's rays and the light's below which they come to meet: the half vector turns fast
+/// between them, and the worst texel may lie anywhere.
+inline constexpr double kOpposedCosine = -0.5;
+
 /// Maps of the light plane, side by side. Rows may have any length.
 struct ChoiceLanes {
   alignas(64) std::array<double, kWarpLanes> axis_x, axis_y, kappa, centre, a_x, a_y, b_x, b_y;
