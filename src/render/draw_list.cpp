@@ -51,32 +51,30 @@ DrawLists::DrawLists(const SceneBuffers& scene)
   objects_.reserve(scene.order().size() * 2);
 }
 
-void DrawLists::build(const CullingJob& job, const DrawnMaps& drawn, const Camera& camera) {
+void DrawLists::clear() {
   objects_.clear();
   commands_.clear();
   ranges_.clear();
+  page_parts_.clear();
+  part_count_.fill(0);
+  stats_.fill({});
+}
+
+void DrawLists::build(const CullingJob& job, const DrawnMaps& drawn, const Camera& camera) {
+  clear();
   PruneSavings saved;
   culling_.count_omissions(job.plan, saved);
-  for (std::size_t map = 0; map < kMaxMaps; ++map) {
-    stats_[map] = {};
-    part_count_[map] = 0;
-    if (map < job.plan.maps().size()) add_map(job, drawn, map, saved);
-  }
+  for (std::size_t map = 0; map < job.plan.maps().size(); ++map) add_map(job, drawn, map, saved);
   saved_ = saved.net();
   finish(camera);
 }
 
 void DrawLists::build_uncached(const CullingJob& job, const Camera& camera) {
-  objects_.clear();
-  commands_.clear();
-  ranges_.clear();
+  clear();
   PruneSavings saved;
   culling_.count_omissions(job.plan, saved);
-  for (std::size_t map = 0; map < kMaxMaps; ++map) {
-    stats_[map] = {};
-    part_count_[map] = 0;
+  for (std::size_t map = 0; map < job.plan.maps().size(); ++map) {
     move_[map] = {};
-    if (map >= job.plan.maps().size()) continue;
     const ShadowMap& of = job.plan.map[map];
     DrawnPart& part = parts_[map][part_count_[map]++];
     part = {{0, 0, of.width, of.height}, false, ranges_.size(), 0};
@@ -89,12 +87,8 @@ void DrawLists::build_uncached(const CullingJob& job, const Camera& camera) {
 }
 
 void DrawLists::build_pages(std::span<const DrawnPage> pages, const Camera& camera) {
-  objects_.clear();
-  commands_.clear();
-  ranges_.clear();
-  page_parts_.clear();
+  clear();
   saved_ = {};
-  stats_.fill({});
   MapStats& stats = stats_.front();
   std::vector<std::uint8_t> draws(visible_.size());
   for (const DrawnPage& page : pages) {

@@ -76,6 +76,8 @@ class DrawLists {
   void add_map(const CullingJob& job, const DrawnMaps& drawn, std::size_t map, PruneSavings& saved);
   void add_view(std::span<const std::uint8_t> draws, MapStats& stats);
   void mark_visible(const Camera& camera);
+  /// Empties all lists, those of pages too.
+  void clear();
   /// The camera's own list, and all lists to the GPU.
   void finish(const Camera& camera);
 

@@ -224,14 +224,15 @@ void for_each_box(const Boxes& boxes, Use&& use) noexcept {
   }
 }
 
-}  // namespace
-
+/// Whether more than one box holds anything.
 bool several(const Boxes& boxes) noexcept {
   if (boxes.size() < 2) return false;
   int count = 0;
   for_each_box(boxes, [&](const Box&) { return ++count < 2; });
   return count == 2;
 }
+
+}  // namespace
 
 Box visible_bounds(const Polytope& region, const Boxes& boxes, const glm::dvec3& origin) noexcept {
   if (!several(boxes)) {
@@ -248,6 +249,10 @@ Box visible_bounds(const Polytope& region, const Boxes& boxes, const glm::dvec3&
   BoxWalk walk({region.plane.data(), static_cast<std::size_t>(region.face_count)}, boxes, origin, query);
   walk_down(walk, boxes);
   return query.answer();
+}
+
+void clip_part(Polytope& part, const Boxes& boxes, const glm::dvec3& origin) noexcept {
+  if (!part.empty() && several(boxes)) clip(part, visible_bounds(part, boxes, origin));
 }
 
 CasterReach casters_inside(std::span<const Plane> planes, const Boxes& casters, const glm::dvec3& origin,

@@ -12,13 +12,14 @@ namespace gnomon {
   return {box.min - origin, box.max - origin};
 }
 
-/// True where more than one box holds anything.
-[[nodiscard]] bool several(const Boxes& boxes) noexcept;
-
 /// The smallest box round the parts of `boxes` (world space) inside `region`; `region` and the result are
 /// relative to `origin`. A single box that holds anything is returned whole: the caller clips by it anyway.
 [[nodiscard]] Box visible_bounds(const Polytope& region, const Boxes& boxes,
                                  const glm::dvec3& origin) noexcept;
+
+/// For a part of a region that visible_bounds has clipped: clips it by the bounds of what it holds itself,
+/// which are smaller where there are several boxes.
+void clip_part(Polytope& part, const Boxes& boxes, const glm::dvec3& origin) noexcept;
 
 /// What of the casters reaches a region: the smallest box round those that do, and how far towards `up` they
 /// go.

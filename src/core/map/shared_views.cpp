@@ -126,8 +126,7 @@ ViewedBody viewed_between(const PlanContext& c, double begin, double end) noexce
   const std::span<Polytope> parts{part.data(), c.views.size()};
   for (std::size_t i = 0; i < parts.size(); ++i) {
     parts[i] = receivers_between(c.views[i], begin, end);
-    if (several(c.bounds.receivers) && !parts[i].empty())
-      clip(parts[i], visible_bounds(parts[i], c.bounds.receivers, c.camera.position));
+    clip_part(parts[i], c.bounds.receivers, c.camera.position);
   }
   ViewedBody viewed;
   viewed.hull = hull_of(parts);

@@ -27,8 +27,7 @@ void receivers_between(const PlanContext& c, const ParallelScene& scene, double 
   part = scene.body;
   if (begin > scene.depths.begin) clip(part, Plane{c.axes.forward, -begin});
   if (end < scene.depths.end) clip(part, Plane{-c.axes.forward, end});
-  if (several(c.bounds.receivers) && !part.empty())
-    clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
+  clip_part(part, c.bounds.receivers, c.camera.position);
 }
 
 /// The receivers of one cascade, and the depths that its map serves.

@@ -87,8 +87,7 @@ double exact_objective(const PlanContext& c, const ParallelScene& asked,
   double total = 0.0;
   for (std::size_t m = 0; m + 1 < edges.size(); ++m) {
     Polytope part = between(c, scene.body, edges[m], edges[m + 1]);
-    if (several(c.bounds.receivers) && !part.empty())
-      clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
+    clip_part(part, c.bounds.receivers, c.camera.position);
     if (part.empty()) continue;
     total = joined(c.options.warp.objective, total,
                    focused_objective(c, request_for(scene, part, edges[m], edges[m + 1])));

@@ -97,12 +97,6 @@ void clip_to_distances(const LocalScene& scene, Polytope& body, const LocalFrust
   clip(body, distance_plane(frustum, nearest_shown(scene, frustum, body, farthest)));
 }
 
-/// The receivers among what is left, where there are several: their common box is smaller here.
-void clip_to_receivers(const LocalScene& scene, Polytope& body) noexcept {
-  if (body.empty() || !several(scene.c.bounds.receivers)) return;
-  clip(body, visible_bounds(body, scene.c.bounds.receivers, scene.c.camera.position));
-}
-
 /// The cone that a cube is clipped by; without one everything is lit.
 struct Cone {
   glm::dvec3 direction;
@@ -211,7 +205,7 @@ void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double oute
   const glm::dvec3 b = (frustum.frame.x - frustum.frame.y) * std::sqrt(0.5);
   for (const glm::dvec3& side : {a, -a, b, -b}) clip(body, slope_plane(frustum, side, frustum.slope));
   if (!body.empty()) clip_to_distances(scene, body, frustum);
-  clip_to_receivers(scene, body);
+  clip_part(body, scene.c.bounds.receivers, scene.c.camera.position);
   if (body.empty()) {
     plan.status = PlanStatus::nothing_visible;
     return;
@@ -237,7 +231,7 @@ void plan_cube(const LocalScene& scene, const LightFrame& base, const Cone* cone
     clip_to_sides(body, frustum);
     if (cone != nullptr && face < 4) clip_to_cone(body, frustum, *cone);
     if (!body.empty()) clip_to_distances(scene, body, frustum);
-    clip_to_receivers(scene, body);
+    clip_part(body, scene.c.bounds.receivers, scene.c.camera.position);
     if (body.empty() && !dark && !prune.has(PruneRule::empty_faces)) body = whole_face(scene, frustum);
     if (body.empty()) {
       omit(plan, {OmissionKind::face_without_receiver, face, 0.0, 0.0, texels_asked(scene.c.options)});

@@ -71,8 +71,7 @@ void add_part(const PlanContext& c, const Polytope& body, Part part, Parts& part
     plane.offset += overlap;
     clip(part.body, plane);
   }
-  if (part.plane_count > 0 && several(c.bounds.receivers) && !part.body.empty())
-    clip(part.body, visible_bounds(part.body, c.bounds.receivers, c.camera.position));
+  if (part.plane_count > 0) clip_part(part.body, c.bounds.receivers, c.camera.position);
   if (part.body.empty()) return;
   if (part.plane_count > 0) narrow_depths(c, part);
   const double objective = focused_objective(c, request_of(part));
