@@ -2,8 +2,10 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "command.hpp"
+#include "gnomon/report/figures.hpp"
 #include "gnomon/report/page.hpp"
 #include "gnomon/report/rows_file.hpp"
 #include "output.hpp"
@@ -33,23 +35,30 @@ int run_merge(const std::vector<std::string>& folders, const std::string& out, b
   return 0;
 }
 
-/// Writes the report of each folder again.
-int run_report(const std::vector<std::string>& folders, bool json) {
-  nlohmann::json pages = nlohmann::json::array();
+/// Writes the report of each folder again, and the survey's charts where a folder for them is named.
+int run_report(const std::vector<std::string>& folders, const std::string& figures, bool json) {
+  if (folders.empty() && figures.empty()) throw std::runtime_error("DIR: wants a folder with results.jsonl");
+  nlohmann::json pages = nlohmann::json::array(), charts = nlohmann::json::array();
+  if (!figures.empty()) {
+    for (const std::filesystem::path& file : report::write_figures(figures)) {
+      charts.push_back(file.string());
+      if (!json) print_line(file.string());
+    }
+  }
   for (const std::string& folder : folders) {
     std::vector<std::string> warnings;
     pages.push_back(report::write_report(folder, &warnings).string());
     print_warnings(warnings);
     if (!json) print_line(pages.back().get<std::string>());
   }
-  if (json) print_line(nlohmann::json{{"reports", pages}}.dump());
+  if (json) print_line(nlohmann::json{{"reports", pages}, {"figures", charts}}.dump());
   flush_output();
   return 0;
 }
 
 struct FoldersRequest {
   std::vector<std::string> folders;
-  std::string out = "out/merged";
+  std::string out = "out/merged", figures;
   bool json = false;
 };
 
@@ -80,8 +89,16 @@ std::function<int()> declare_merge(Arguments& arguments) {
 
 std::function<int()> declare_report(Arguments& arguments) {
   const auto request = std::make_shared<FoldersRequest>();
-  arguments.options = {folders_option(*request), json_option(*request)};
-  return [request] { return run_report(request->folders, request->json); };
+  arguments.options = {folders_option(*request),
+                       {.name = "--figures",
+                        .target = &request->figures,
+                        .help = "also write two charts of the survey from measured plans into this folder: "
+                                "storage by number of maps, and error by depth",
+                        .word = "DIR",
+                        .completion = Completion::folders},
+                       json_option(*request)};
+  arguments.options.front().required = false;
+  return [request] { return run_report(request->folders, request->figures, request->json); };
 }
 
 }  // namespace gnomon::tool
