@@ -8,6 +8,7 @@
 
 #include "support/property.hpp"
 #include "support/random_case.hpp"
+#include "support/seeded_input.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -112,6 +113,30 @@ TEST(OverlapLaw, an_overlap_is_the_requested_share_of_the_map_before_and_moves_n
     }
   });
   EXPECT_GT(overlaps, 1000u);
+}
+
+// Found by bench_random_cases: a warp that gained in the overlap alone lost up to 3.4 times behind it.
+TEST(OverlapLaw, a_warp_that_may_be_dropped_gains_where_its_map_serves) {
+  for (const std::uint64_t seed : {620, 1574, 7840, 9692}) {
+    SeededInput in;
+    seed_input(seed, Extremes::ordinary, in);
+    Box receivers;
+    for (const Box& box : in.receivers) receivers.extend(box);
+    in.receivers = {receivers};
+    PlanOptions& o = in.options;
+    ASSERT_GT(o.split.overlap, 0.5) << seed;
+    o.resolution.max_error = o.split.pseudo_near = 0.0;
+    o.resolution.texel_budget = 0;
+    const auto error = [&] {
+      const AliasingStats stats = measure(in.plan(), in.camera, in.bounds());
+      EXPECT_GT(stats.samples, 1000u) << seed;
+      return o.warp.objective == Objective::max ? stats.max : stats.p95;
+    };
+    ASSERT_NE(o.warp.objective, Objective::storage) << seed;
+    const double with = error();
+    o.warp.warp = &warps::none;
+    EXPECT_LT(with, 1.05 * error()) << seed;
+  }
 }
 
 }  // namespace

@@ -63,9 +63,16 @@ WarpInput::Point light_point(const PlanContext& c, const LightSpace& space, cons
   return {(p.x - space.apex.x) * h, (p.y - space.apex.y) * h, h, depth * h};
 }
 
+/// View depth from which the error of the request's map counts: in the band of a transition the map before it
+/// still shows.
+double counted_from(const PlanContext& c, const MapRequest& request) noexcept {
+  const double hint = c.options.split.pseudo_near, band = request.slot.overlap;
+  return band > 0.0 ? max_of(hint, request.begin + band) : hint;
+}
+
 void add_vertices(const PlanContext& c, const MapRequest& request, const Polytope& body, double nearest,
                   LightBody& out) noexcept {
-  const double pseudo_near = c.options.split.pseudo_near;
+  const double pseudo_near = counted_from(c, request);
   // Receivers in the room for motion are served from the slice's begin on.
   const double begin = request.room > 0.0 ? request.begin : 0.0;
   const double least = max_of(max_of(c.camera.near_depth, pseudo_near), begin);
@@ -97,7 +104,7 @@ void add_vertices(const PlanContext& c, const MapRequest& request, const Polytop
 /// The points that stand for the request's body: those of several views, or its vertices.
 void add_body(const PlanContext& c, const MapRequest& request, double nearest, LightBody& out) noexcept {
   if (request.viewed.empty()) return add_vertices(c, request, request.body, nearest, out);
-  const double least = max_of(c.camera.near_depth, c.options.split.pseudo_near);
+  const double least = max_of(c.camera.near_depth, counted_from(c, request));
   for (const ViewedPoint& point : request.viewed)
     out.point[static_cast<std::size_t>(out.count++)] = light_point(c, request.space, point, least, nearest);
 }
@@ -195,8 +202,8 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, cons
   const glm::dvec3 across = glm::cross(in.view.forward, light_way);
   in.sin_gamma = std::sqrt(glm::dot(across, across));
   in.cos_gamma = glm::dot(in.view.forward, light_way);
-  in.pseudo_near = c.camera.orthographic ? 0.0 : c.options.split.pseudo_near;
-  in.depth_begin = max_of(request.begin, c.options.split.pseudo_near);
+  in.pseudo_near = c.camera.orthographic ? 0.0 : counted_from(c, request);
+  in.depth_begin = max_of(request.begin, counted_from(c, request));
   in.depth_end = max_of(request.end, in.depth_begin);
   in.tan_half_fov = tan_half_fov(c, frame);
   in.orthographic = c.camera.orthographic;
