@@ -69,6 +69,7 @@ State unusual() {
   State state = hangar();
   state.eye = CameraKey{{1.5, 2.25, 3.0}, {-4.0, 1.0 / 3.0, 0.1}};
   state.frozen = CameraKey{{1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}};
+  state.path = {{{0.0, 1.0, 2.0}, {3.0, 4.0, 5.0}}, {{1.0, 1.0, 2.5}, {3.0, 4.0, 5.0}}};
   state.fov_y_deg = 41.5;
   state.light.sun = {LightKind::spot, 12.5, -33.0};
   state.light.spot = SpotLight{{1, 9, 2}, {0.1, -1, 0.2}, 0.7, 55.5};
@@ -108,6 +109,8 @@ TEST(ViewState, reads_back_what_it_wrote) {
   EXPECT_NEAR(back.a.plan.cadence.largest_turn, 0.125, 1e-15);
   EXPECT_EQ(back.b.filter.format, render::TexelFormat::fp16);
   EXPECT_EQ(back.light.spot->range, 55.5);
+  ASSERT_EQ(back.path.size(), 2u);
+  EXPECT_EQ(back.path[1].position, glm::dvec3(1.0, 1.0, 2.5));
   EXPECT_FALSE(read_state(state_text(State{})).eye);
 }
 
@@ -134,6 +137,9 @@ TEST(ViewState, that_is_broken_is_refused_with_the_key) {
   EXPECT_EQ(refusal("{}"), "gnomon_view: is missing: this is no state of the viewer");
   EXPECT_EQ(refusal(std::string(10'000, '[')), "brackets are nested too deep");
   EXPECT_EQ(refusal(with("\"wipe\": 0.25", "\"wipe\": 2")), "wipe: 2 is not in 0..1");
+  EXPECT_EQ(refusal("{\"gnomon_view\": 1, \"path\": 5}"), "path: needs a list of at most 1024 keys");
+  EXPECT_EQ(refusal("{\"gnomon_view\": 1, \"path\": [{\"position\": [1, 2, 3], \"target\": [1, 2, 3]}]}"),
+            "path[0]: position and target must differ");
   EXPECT_EQ(refusal(with("\"wipe\"", "\"wip\"")), "wip: unknown key; did you mean 'wipe'?");
   EXPECT_TRUE(
       refusal(with("\"cascades\": 3", "\"cascades\": \"x\"")).starts_with("a.options.cascades: needs"));

@@ -229,6 +229,38 @@ TEST_F(ViewWindow, moves_at_once_and_undoes) {
   EXPECT_EQ(close(), 0);
 }
 
+TEST_F(ViewWindow, records_a_path_and_flies_along_it) {
+  open(kSmall);
+  (void)picture(1);
+  key("k");
+  key("k");  // the camera did not move: no path
+  key("k");
+  for (int i = 0; i < 3; ++i) {
+    drive({"keydown", "w"});
+    std::this_thread::sleep_for(700ms);
+    drive({"keyup", "w"});
+  }
+  const Image end = picture(2);
+  key("k");
+  ASSERT_TRUE(wrote("gnomon_path_0001.json"));
+  key("r");  // the middle of the path
+  const Image middle = picture(3);
+  EXPECT_GT(different_pixels(end, middle), 1000u);
+  key("F5");
+  ASSERT_TRUE(wrote("gnomon_view.json"));
+  EXPECT_EQ(different_pixels(middle, headless("gnomon_view.json", middle)), 0u);
+  EXPECT_EQ(close(), 0);
+  EXPECT_FALSE(std::filesystem::exists("gnomon_path_0002.json"));
+  std::vector<std::string> command{"view",      "--path", "gnomon_path_0001.json", "--out", "path.png",
+                                   "--context", "osmesa"};
+  command.insert(command.begin() + 1, kSmall.begin(), kSmall.end());
+  *std::find(command.begin(), command.end(), "640x300") =
+      std::to_string(middle.width) + "x" + std::to_string(middle.height);
+  const Finished run = run_gnomon(command);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(different_pixels(middle, read("path.png")), 0u);
+}
+
 TEST_F(ViewWindow, goes_through_filters_views_wipe_freeze_and_sizes_without_an_error) {
   open(kSmall);
   Image last = picture(1);

@@ -71,8 +71,10 @@ struct App {
   std::vector<KeyPress> presses;  ///< since the last frame
   bool panel = true, help = false, probing = true, recording = false;
   int recorded = 0;
-  bool wants_picture = false;  ///< to be saved, once it shows the present state
-  int side = 0;                ///< that the panel edits
+  std::optional<CameraPath> recorded_path;  ///< that the camera's places are added to
+  double path_seconds = 0.0;                ///< since its last key
+  bool wants_picture = false;               ///< to be saved, once it shows the present state
+  int side = 0;                             ///< that the panel edits
   Tab tab = Tab::view;
   bool select_tab = false;  ///< the panel shows `tab` in its next frame
   std::string state_file = "gnomon_view.json";
@@ -116,6 +118,11 @@ void open_file(App& app, const std::string& file);
 void save_state(App& app, const std::string& file);
 /// Writes the picture without the panel beside the program's working folder's other pictures.
 void save_picture(App& app);
+/// Begins to record the camera's way; where that is going on, ends it, writes the path's file, and from then
+/// on the state flies along it.
+void toggle_path_recording(App& app);
+/// `State`, with the eye named where the command could not name it otherwise.
+[[nodiscard]] State spoken_state(const App& app);
 void show_message(App& app, const std::string& text, bool error);
 void undo(App& app, bool forward);
 /// The camera of the state, which from now on is the user's own.

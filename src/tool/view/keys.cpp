@@ -33,7 +33,8 @@ constexpr KeyHelp kKeys[] = {
     {"drag the light", "move it across the view, with Shift along it"},
     {"L", "hang the spot or point light over the point under the cursor"},
     {"P, O", "fly along the path, turn the sun"},
-    {"R, Home", "camera of the scene's path"},
+    {"K", "record the camera's way as the path, into a file; K ends it"},
+    {"R, Home", "camera of the path"},
     {"Ctrl+C", "copy the command with this picture"},
     {"Ctrl+Z, Ctrl+Y", "undo, redo"},
     {"Ctrl+Q", "quit; the state is kept as the last session"},
@@ -100,7 +101,7 @@ void control_keys(App& app, const Presses& pressed) {
   constexpr bool kControl = true;
   if (pressed(GLFW_KEY_Q, kControl)) glfwSetWindowShouldClose(app.window, GLFW_TRUE);
   if (pressed(GLFW_KEY_C, kControl)) {
-    ImGui::SetClipboardText(command_text(app.state).c_str());
+    ImGui::SetClipboardText(command_text(spoken_state(app)).c_str());
     show_message(app, "the command is in the clipboard", false);
   }
   if (pressed(GLFW_KEY_Z, kControl)) undo(app, false);
@@ -121,6 +122,7 @@ void setting_keys(App& app, const Presses& pressed) {
   if (pressed(GLFW_KEY_PAGE_UP)) size = std::min(size * 2, kMostMapSize);
   if (pressed(GLFW_KEY_PAGE_DOWN)) size = std::max(size / 2, kLeastMapSize);
   if (pressed(GLFW_KEY_L)) hang_light(app);
+  if (pressed(GLFW_KEY_K)) toggle_path_recording(app);
   if (pressed(GLFW_KEY_O)) state.motion.sun = !state.motion.sun;
   if (pressed(GLFW_KEY_M) && app.stage != nullptr)
     state.map = (state.map + 1) % std::max(app.stage->side(0).plan.map_count, 1);

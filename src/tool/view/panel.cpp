@@ -72,10 +72,17 @@ void camera_part(App& app) {
   constexpr double kNarrow = 5.0, kWide = 150.0;
   if (ImGui::SliderScalar("field of view", ImGuiDataType_Double, &fov, &kNarrow, &kWide, "%.0f degrees"))
     state.fov_y_deg = std::clamp(fov, 1.0, 170.0);
-  if (ImGui::Button("camera of the scene's path")) {
+  if (ImGui::Button(app.recorded_path ? "end the recording (K)" : "record a path (K)"))
+    toggle_path_recording(app);
+  tooltip(
+      "fly, and the camera's way becomes the path; it is written as gnomon_path_0001.json and on, which "
+      "gnomon fly --path measures");
+  ImGui::SameLine();
+  if (ImGui::Button("camera of the path")) {
     state.eye.reset();
     state.fov_y_deg = 0.0;
   }
+  if (!state.path.empty() && ImGui::Button("the scene's own path")) state.path.clear();
   bool frozen = state.frozen.has_value();
   if (ImGui::Checkbox("freeze the plan's camera", &frozen)) toggle_freeze(app);
   tooltip("F2: the maps stay as they are for this camera while you fly away");
@@ -364,7 +371,7 @@ void file_tab(App& app) {
   }
   ImGui::Separator();
   ImGui::TextUnformatted("the command with this picture");
-  std::string command = command_text(app.state);
+  std::string command = command_text(spoken_state(app));
   ImGui::PushTextWrapPos(0.0f);
   ImGui::TextUnformatted(command.c_str());
   ImGui::PopTextWrapPos();

@@ -80,11 +80,19 @@ Light light_of(const LightState& light, const Box& scene) noexcept {
   return default_light(light.sun, scene);
 }
 
-Camera camera_of(const State& state, const std::optional<CameraKey>& key, const CameraPath& path, int width,
-                 int height) noexcept {
-  CameraPath lens = path;
-  if (state.fov_y_deg > 0.0) lens.fov_y_radians = state.fov_y_deg * (std::numbers::pi / 180.0);
-  Camera camera = lens.at(state.path_time, width, height);
+CameraPath path_of(const State& state, const CameraPath& scenes) {
+  CameraPath path = scenes;
+  if (!state.path.empty()) {
+    path.keys = state.path;
+    path.closed = false;
+  }
+  if (state.fov_y_deg > 0.0) path.fov_y_radians = state.fov_y_deg * (std::numbers::pi / 180.0);
+  return path;
+}
+
+Camera camera_of(const State& state, const std::optional<CameraKey>& key, const CameraPath& scenes, int width,
+                 int height) {
+  Camera camera = path_of(state, scenes).at(state.path_time, width, height);
   if (key) {
     camera.position = key->position;
     camera.forward = key->target - key->position;

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gnomon/light.hpp"
 #include "gnomon/plan.hpp"
@@ -72,9 +73,13 @@ struct Motion {
   double sun_degrees_per_second = 10.0;  ///< azimuth
 };
 
+/// Half a second each: most of ten minutes.
+inline constexpr std::size_t kMostPathKeys = 1024;
+
 struct State {
   std::string scene = "builtin:city";
-  std::optional<CameraKey> eye;     ///< none: the scene's path at `path_time`
+  std::optional<CameraKey> eye;     ///< none: the path at `path_time`
+  std::vector<CameraKey> path;      ///< recorded; empty: the scene's path
   double path_time = 0.5;           ///< 0..1
   double fov_y_deg = 0.0;           ///< 0: of the scene's path
   std::optional<CameraKey> frozen;  ///< the plan's camera, where it is not the eye
@@ -92,9 +97,11 @@ struct State {
 
 /// The light of a state over a scene with these bounds.
 [[nodiscard]] Light light_of(const LightState& light, const Box& scene) noexcept;
+/// The path that the state flies along: the recorded one, or the scene's, with the state's field of view.
+[[nodiscard]] CameraPath path_of(const State& state, const CameraPath& scenes);
 /// The camera of a state; `key`: State::eye or State::frozen.
 [[nodiscard]] Camera camera_of(const State& state, const std::optional<CameraKey>& key,
-                               const CameraPath& path, int width, int height) noexcept;
+                               const CameraPath& scenes, int width, int height);
 /// The plan's options with the border that the filter needs.
 [[nodiscard]] PlanOptions plan_options_of(const Settings& settings) noexcept;
 

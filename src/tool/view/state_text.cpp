@@ -174,16 +174,31 @@ std::vector<std::string> names_of(std::span<const Named> all) {
   return names;
 }
 
-std::optional<CameraKey> read_key(Reader& from, const char* key) {
-  const Json* json = from.take(key);
-  if (json == nullptr) return {};
-  Reader reader(*json, from.path_of(key));
+CameraKey read_key(const Json& json, const std::string& path) {
+  Reader reader(json, path);
   CameraKey result;
   reader.read("position", result.position);
   reader.read("target", result.target);
   reader.done();
-  if (result.position == result.target) from.refuse(key, "position and target must differ");
+  if (result.position == result.target) throw std::runtime_error(path + ": position and target must differ");
   return result;
+}
+
+std::optional<CameraKey> read_key(Reader& from, const char* key) {
+  const Json* json = from.take(key);
+  if (json == nullptr) return {};
+  return read_key(*json, from.path_of(key));
+}
+
+std::vector<CameraKey> read_keys(Reader& from, const char* key) {
+  std::vector<CameraKey> keys;
+  const Json* json = from.take(key);
+  if (json == nullptr) return keys;
+  if (!json->is_array() || json->size() > kMostPathKeys)
+    from.refuse(key, fmt::format("needs a list of at most {} keys", kMostPathKeys));
+  for (std::size_t i = 0; i < json->size(); ++i)
+    keys.push_back(read_key((*json)[i], fmt::format("{}[{}]", from.path_of(key), i)));
+  return keys;
 }
 
 Settings read_settings(const Json& json, const std::string& path) {
@@ -290,6 +305,7 @@ std::string state_text(const State& state) {
   Json json{{kVersionKey, kVersion}, {"scene", state.scene}, {"path_time", state.path_time}};
   if (state.eye) json["eye"] = key_json(*state.eye);
   if (state.frozen) json["frozen"] = key_json(*state.frozen);
+  for (const CameraKey& key : state.path) json["path"].push_back(key_json(key));
   if (state.fov_y_deg > 0.0) json["fov_y_deg"] = state.fov_y_deg;
   json["light"] = light_json(state.light);
   json["a"] = settings_json(state.a);
@@ -329,6 +345,7 @@ State read_state(std::string_view text) {
   reader.read("path_time", state.path_time, 0.0, 1.0);
   state.eye = read_key(reader, "eye");
   state.frozen = read_key(reader, "frozen");
+  state.path = read_keys(reader, "path");
   reader.read("fov_y_deg", state.fov_y_deg, 1.0, 170.0);
   if (const Json* light = reader.take("light")) state.light = read_light(*light);
   if (const Json* a = reader.take("a")) state.a = read_settings(*a, "a");

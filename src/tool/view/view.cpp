@@ -1,13 +1,16 @@
 // The words of `gnomon view`, and the picture without a window.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
+#include <numbers>
 #include <stdexcept>
 
 #include "command.hpp"
 #include "filter_words.hpp"
 #include "gnomon/casefile/casefile.hpp"
+#include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
 #include "offscreen_context.hpp"
@@ -27,7 +30,7 @@ constexpr int kLeastSide = 16, kMostSide = 16'384;
 struct Request {
   Options options;
   std::string state, size = "1280x720", context = "auto", filter = "pcf", plan_json, out, screenshot, tour,
-                     eye, target, light = "sun", light_position, light_direction, transition = "cut",
+                     eye, target, path, light = "sun", light_position, light_direction, transition = "cut",
                      view = "lit";
   double light_outer_deg = 0.0, light_range = 0.0;
   /// Options that set a part of the state, and whether each is given; on the heap, as their addresses are
@@ -94,6 +97,14 @@ void resolve_light(const Request& request, LightState& light) {
 }
 
 void resolve_camera(const Request& request, State& state) {
+  if (!request.path.empty()) {
+    const CameraPath path = load_camera_path(request.path);
+    if (path.keys.size() > kMostPathKeys)
+      throw std::runtime_error(fmt::format("--path: at most {} keys", kMostPathKeys));
+    state.path = path.keys;
+    if (path.closed) state.path.push_back(path.keys.front());
+    state.fov_y_deg = std::clamp(path.fov_y_radians * (180.0 / std::numbers::pi), 1.0, 170.0);
+  }
   if (request.eye.empty() != request.target.empty())
     throw std::runtime_error("--eye and --target: give both, or neither");
   if (request.eye.empty()) return;
@@ -262,6 +273,10 @@ std::vector<Option> setting_options(Request& request) {
                                     .target = &request.target,
                                     .help = "point that the camera looks at",
                                     .word = "X,Y,Z"},
+                                   {.name = "--path",
+                                    .target = &request.path,
+                                    .help = "camera path, a JSON file, in place of the scene's own",
+                                    .completion = Completion::files},
                                    {.name = "--view",
                                     .target = &request.view,
                                     .help = "what the picture shows: " + any_of_text(views),

@@ -28,6 +28,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kMessageSeconds = 6.0, kErrorSeconds = 15.0;
 constexpr std::size_t kMostUndo = 200;
+// Between keys of a recorded path, seconds.
+constexpr double kPathStep = 0.5;
 
 double ms_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -110,6 +112,7 @@ void take_loaded(App& app) {
     if (other && app.state.scene != loaded->name) {
       app.state.eye.reset();
       app.state.frozen.reset();
+      app.state.path.clear();
       app.state.light.spot.reset();
       app.state.light.point.reset();
     }
@@ -133,6 +136,22 @@ bool play(App& app, double seconds) {
     state.light.sun.azimuth_deg = turned - kTurn * std::floor((turned + kHalf) / kTurn);
   }
   return state.motion.camera || state.motion.sun;
+}
+
+void add_path_key(App& app) {
+  const Camera& camera = app.stage->camera();
+  const CameraKey key{camera.position, camera.position + camera.forward};
+  std::vector<CameraKey>& keys = app.recorded_path->keys;
+  app.path_seconds = 0.0;
+  const bool moved = keys.empty() || keys.back().position != key.position || keys.back().target != key.target;
+  if (moved && keys.size() < kMostPathKeys) keys.push_back(key);
+}
+
+/// A key every half second in which the camera moved.
+void record_path(App& app, double seconds) {
+  if (!app.recorded_path || app.stage == nullptr) return;
+  app.path_seconds += seconds;
+  if (app.path_seconds >= kPathStep) add_path_key(app);
 }
 
 void add_curves(App& app) {
@@ -169,6 +188,14 @@ Area picture_area(const App& app) {
   const int status =
       static_cast<int>(std::lround(static_cast<double>(ImGui::GetFrameHeight()) * app.pixel_ratio));
   return {left, 0, std::max(app.window_width - left, 16), std::max(app.window_height - status, 16)};
+}
+
+/// The first name with a number that no file has yet.
+std::filesystem::path free_name(fmt::format_string<int&> pattern) {
+  constexpr int kMost = 9999;
+  int i = 1;
+  while (i < kMost && std::filesystem::exists(fmt::format(pattern, i))) ++i;
+  return fmt::format(pattern, i);
 }
 
 void record(App& app) {
@@ -210,6 +237,7 @@ class Loop {
     handle_input(app_, seconds);
     app_.picture = picture_area(app_);  // a key may have hidden the panel
     const bool moving = play(app_, seconds);
+    record_path(app_, seconds);
     const auto panel_begin = Clock::now();
     draw_panel(app_);
     draw_overlay(app_);
@@ -419,14 +447,46 @@ void save_state(App& app, const std::string& file) {
   show_message(app, why.empty() ? "saved " + shown_name(file) : shown_name(file) + ": " + why, !why.empty());
 }
 
+void toggle_path_recording(App& app) {
+  if (app.stage == nullptr) return;
+  if (!app.recorded_path) {
+    app.recorded_path = path_of(app.state, app.stage->loaded().path);
+    app.recorded_path->keys.clear();
+    app.recorded_path->closed = false;
+    add_path_key(app);
+    return show_message(app, "the camera's path is recorded; K ends it", false);
+  }
+  add_path_key(app);
+  const CameraPath path = std::move(*app.recorded_path);
+  app.recorded_path.reset();
+  if (path.keys.size() < 2) return show_message(app, "the camera did not move: no path", true);
+  app.state.path = path.keys;
+  app.state.motion.path_seconds =
+      std::clamp(kPathStep * static_cast<double>(path.keys.size() - 1), 1.0, 3600.0);
+  const std::filesystem::path file = free_name("gnomon_path_{:04}.json");
+  try {
+    save_camera_path(path, file);
+    show_message(app,
+                 fmt::format("P flies along the path; wrote {}", std::filesystem::absolute(file).string()),
+                 false);
+  } catch (const std::exception& error) {
+    show_message(app, error.what(), true);
+  }
+}
+
+State spoken_state(const App& app) {
+  State state = app.state;
+  const bool usual = state.path.empty() && state.path_time == State().path_time;
+  if (!state.eye && !usual && app.stage != nullptr) {
+    const Camera& camera = app.stage->camera();
+    state.eye = CameraKey{camera.position, camera.position + camera.forward};
+  }
+  return state;
+}
+
 void save_picture(App& app) {
   if (app.stage == nullptr) return;
-  std::filesystem::path file;
-  constexpr int kMost = 10'000;
-  for (int i = 1; i < kMost; ++i) {
-    file = fmt::format("gnomon_view_{:04}.png", i);
-    if (!std::filesystem::exists(file)) break;
-  }
+  const std::filesystem::path file = free_name("gnomon_view_{:04}.png");
   try {
     write_png(app.stage->canvas().image(), file);
     show_message(app, "wrote " + std::filesystem::absolute(file).string(), false);
