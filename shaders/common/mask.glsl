@@ -43,6 +43,7 @@ float visibility_through(int index, Surface s, float noise) {
   ShadowMap map = shadow_map(index);
   ShadowLookup at = shadow_lookup(map, layer_of_map(index), frame.layer.xy, ShadowSurface(s.position, s.normal, frame.light_place),
                                   frame.bias);
+  if (filtering.sums.w > 0.5) at.depth_gradient = vec2(0.0);
   ShadowKernel kernel = ShadowKernel(filtering.kernel.x, filtering.kernel.y > 0.5, filtering.kernel.z > 0.5);
   set_kernel(at, map, kernel, kernel.minify ? texels_per_pixel(map, s) : mat2(0.0));
   at.rotation = 6.2831853 * noise;

@@ -46,6 +46,8 @@ float texel_of_depth(float depth) { return depth; }
 // Perspective crowds the depths of a local light's map at the far end. With curve = far / near - 1 this makes them linear in
 // distance, 0 near .. 1 far; curve 0, for directional lights, changes nothing.
 float linear_depth(float depth, float curve) { return depth / (1.0 + (1.0 - depth) * curve); }
+// The other way.
+float depth_from_linear(float linear, float curve) { return linear * (1.0 + curve) / (1.0 + linear * curve); }
 
 // From the receiver towards the light to where the map's depth is z, world units; negative behind the receiver.
 float distance_to_depth(ShadowLookup at, float z) {

@@ -21,6 +21,8 @@ struct CullingJob {
   /// A lookup may read beyond the map's filter margin, or depends on the whole map: casters that no receiver
   /// needs count, too.
   bool reads_everywhere = false;
+  /// Maps are peeled: one that changes is drawn whole.
+  bool peels = false;
 };
 
 /// What each rule saved in one frame, and what it drew more to save that.

@@ -43,6 +43,10 @@ void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& b
 [[nodiscard]] inline double linear_depth(double depth, double curve) noexcept {
   return depth / (1.0 + (1.0 - depth) * curve);
 }
+/// The other way.
+[[nodiscard]] inline double depth_from_linear(double linear, double curve) noexcept {
+  return linear * (1.0 + curve) / (1.0 + linear * curve);
+}
 /// The curve of a map: far over near distance less 1 along its middle ray for a lamp, 0 for parallel light.
 [[nodiscard]] double depth_curve(const ShadowPlan& plan, const ShadowMap& map) noexcept;
 using DepthCurves = std::array<double, kMaxMaps>;

@@ -114,8 +114,8 @@ MapWork MapCache::update(const CachedDraw& draw, PruneSavings& saved) {
   map.clip_from_world = drawn_from_plan_clip(job.plan.clip_space) * map.clip_from_world;
   const bool usable = cached.valid && cached.origin_world == draw.drawn.origin_world;
   const bool holds = usable && job.prune.has(PruneRule::held_maps) && cached.drawn == drawn &&
-                     (!job.reads_everywhere || cached.holds == draws_);
-  const MapReuse moved = usable && !holds && job.prune.has(PruneRule::scrolled_maps)
+                     (!(job.reads_everywhere || job.peels) || cached.holds == draws_);
+  const MapReuse moved = usable && !holds && !job.peels && job.prune.has(PruneRule::scrolled_maps)
                              ? reuse(cached.map, map, kOpenGlZeroToOne)
                              : MapReuse{};
   MapWork work = holds                               ? hold(map, cached, saved)

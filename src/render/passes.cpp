@@ -1,5 +1,7 @@
 // What each pass of a frame binds and draws.
+#include <algorithm>
 #include <array>
+#include <glm/matrix.hpp>
 #include <vector>
 
 #include "blue_noise.hpp"
@@ -14,6 +16,7 @@ constexpr GLint kBaseColorLocation = 1, kAlphaCutoffLocation = 2, kClipLocation 
                 kWrapLocation = 4;
 constexpr GLuint kPositionUnit = 0, kNormalUnit = 1, kAlbedoUnit = 2, kColorImageUnit = 3, kMaskUnit = 6,
                  kExtraUnit = 7, kNoiseUnit = kColorImageUnit;
+constexpr GLint kSheetLocation = 5;
 
 void bind_material(const Batch& batch) noexcept {
   glBindTextureUnit(kColorImageUnit, batch.texture);
@@ -22,7 +25,24 @@ void bind_material(const Batch& batch) noexcept {
   glUniform1f(kAlphaCutoffLocation, batch.alpha_cutoff);
 }
 
+/// A caster without thickness: see DepthLayer.
+bool is_sheet(const Batch& batch) noexcept {
+  return batch.double_sided || batch.masked;
+}
+
+/// Whether the map shows the scene as a mirror does. Its depth grows away from the light in either case.
+bool is_mirrored(const glm::mat4& clip_from_position) noexcept {
+  return glm::determinant(glm::dmat4(clip_from_position)) > 0.0;
+}
+
+constexpr auto kNoBatchState = [](const Batch&) {};
+
 }  // namespace
+
+PeeledDepth DepthDraw::peeled(const ShadowPlan& plan, const ShadowMap& map) const noexcept {
+  const double texel = std::max(map.texel_world.x, map.texel_world.y), range = map.depth_range_world;
+  return {layer, depth_curve(plan, map), range > 0.0 ? dual_limit_texels * texel / range : 0.0};
+}
 
 CommonPrograms::CommonPrograms()
     : depth(make_program("depth.vert", "depth.frag")),
@@ -35,7 +55,7 @@ CommonPrograms::CommonPrograms()
       tint(make_program("fullscreen.vert", "tint.frag")) {}
 
 void Renderer::Impl::draw_map_part(const DrawnPart& part, const DrawnMap& map,
-                                   bool alpha_test_where_masked) noexcept {
+                                   const DepthDraw& how) noexcept {
   const TexelRect& at = part.rectangle;
   // Whole maps with all of their layer, which may be larger.
   if (at.width == map.width && at.height == map.height) {
@@ -46,12 +66,13 @@ void Renderer::Impl::draw_map_part(const DrawnPart& part, const DrawnMap& map,
   }
   constexpr float kFarthest = 1.0f;
   if (part.clear) glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest);
-  draw_casters(part, map.clip_from_position, alpha_test_where_masked);
+  draw_casters(part, map.clip_from_position, how);
 }
 
-template <class SetPlace>
+template <class SetPlace, class SetBatch>
 void Renderer::Impl::draw_casters(const DrawnPart& part, const CasterPrograms& by,
-                                  bool alpha_test_where_masked, SetPlace&& set_place) noexcept {
+                                  bool alpha_test_where_masked, SetPlace&& set_place,
+                                  SetBatch&& set_batch) noexcept {
   const std::span<const Batch> batches = scene.batches();
   // Opaque batches come first in the order of batches, and their commands follow each other: one call draws
   // them.
@@ -61,7 +82,15 @@ void Renderer::Impl::draw_casters(const DrawnPart& part, const CasterPrograms& b
   if (opaque > 0) {
     glUseProgram(by.opaque.name());
     set_place();
-    lists.draw(ranges.front().begin, ranges[opaque - 1].end);
+    const auto alike = [&](std::size_t a, std::size_t b) {
+      const Batch &one = batches[ranges[a].batch], &other = batches[ranges[b].batch];
+      return !by.apart || (is_sheet(one) == is_sheet(other) && one.mirrored == other.mirrored);
+    };
+    for (std::size_t begin = 0, end = 0; begin < opaque; begin = end) {
+      while (end < opaque && alike(begin, end)) ++end;
+      set_batch(batches[ranges[begin].batch]);
+      lists.draw(ranges[begin].begin, ranges[end - 1].end);
+    }
   }
   if (opaque == ranges.size()) return;
   glUseProgram(by.masked.name());
@@ -69,15 +98,47 @@ void Renderer::Impl::draw_casters(const DrawnPart& part, const CasterPrograms& b
   for (const BatchRange& range : ranges.subspan(opaque)) {
     const Batch& batch = batches[range.batch];
     bind_material(batch);
+    set_batch(batch);
     glUniform2i(by.wrap_location, static_cast<GLint>(batch.wrap_u), static_cast<GLint>(batch.wrap_v));
     lists.draw(range.begin, range.end);
   }
 }
 
 void Renderer::Impl::draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
-                                  bool alpha_test_where_masked) noexcept {
-  draw_casters(part, CasterPrograms{programs.depth, programs.depth_masked}, alpha_test_where_masked,
-               [&] { glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]); });
+                                  const DepthDraw& how) noexcept {
+  const auto set_place = [&] { glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]); };
+  const CasterPrograms both_sides{programs.depth, programs.depth_masked};
+  // Both sides cast: open and thin things have one side only, and the truth knows no sides.
+  if (how.layer != DepthLayer::back) {
+    draw_casters(part, both_sides, how.alpha_test_where_masked, set_place, kNoBatchState);
+    return;
+  }
+  const bool mirrored = is_mirrored(clip_from_position);
+  glCullFace(GL_FRONT);
+  draw_casters(part, CasterPrograms{programs.depth, programs.depth_masked, -1, true},
+               how.alpha_test_where_masked, set_place, [mirrored](const Batch& batch) {
+                 is_sheet(batch) ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
+                 glFrontFace(batch.mirrored != mirrored ? GL_CW : GL_CCW);
+               });
+  glCullFace(GL_BACK);
+  glDisable(GL_CULL_FACE);
+}
+
+void Renderer::Impl::draw_casters_behind(const DrawnPart& part, const glm::mat4& clip_from_position,
+                                         const DepthDraw& how) noexcept {
+  draw_casters(
+      part, CasterPrograms{depth_peel.opaque(), depth_peel.masked(), -1, true}, how.alpha_test_where_masked,
+      [&] { glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]); },
+      [](const Batch& batch) { glUniform1i(kSheetLocation, is_sheet(batch) ? 1 : 0); });
+}
+
+void Renderer::Impl::peel(const DrawnPart& part, const TexelRect& at, int layer,
+                          const glm::mat4& clip_from_position, const DepthDraw& how,
+                          const PeeledDepth& depth) noexcept {
+  depth_peel.begin(maps, layer, at);
+  draw_casters_behind(part, clip_from_position, how);
+  depth_peel.finish(maps, layer, at, depth, no_vertices.name());
+  glBindVertexArray(scene.vertex_array());
 }
 
 void Renderer::Impl::draw_casters_on_lists(const ShadowPlan& plan, bool alpha_test_where_masked) noexcept {
@@ -92,15 +153,17 @@ void Renderer::Impl::draw_casters_on_lists(const ShadowPlan& plan, bool alpha_te
     const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
     glViewport(0, 0, map.width, map.height);
     for (const DrawnPart& part : lists.parts(i)) {
-      draw_casters(part, CasterPrograms{pixel_lists->opaque(), pixel_lists->masked(), kWrapLocation},
-                   alpha_test_where_masked, [i] { glUniform1i(kMapLocation, i); });
+      draw_casters(
+          part, CasterPrograms{pixel_lists->opaque(), pixel_lists->masked(), kWrapLocation},
+          alpha_test_where_masked, [i] { glUniform1i(kMapLocation, i); }, kNoBatchState);
     }
   }
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                   GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void Renderer::Impl::draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept {
+void Renderer::Impl::draw_shadow_maps(const ShadowPlan& plan, const DrawnMaps& drawn,
+                                      const DepthDraw& how) noexcept {
   // All moves before the first draw: a copy waits for what is being drawn into its image.
   for (int i = 0; i < map_count; ++i) {
     const MapMove& move = lists.move(i);
@@ -110,7 +173,6 @@ void Renderer::Impl::draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_wh
   scene.use(SceneBuffers::Placed::for_maps);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
-  // Both sides cast: open and thin things have one side only, and the truth knows no sides.
   glDisable(GL_CULL_FACE);
   for (int i = 0; i < map_count; ++i) {
     if (lists.parts(i).empty()) continue;
@@ -118,12 +180,17 @@ void Renderer::Impl::draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_wh
     glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0, i);
     glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
     glViewport(0, 0, map.width, map.height);
-    for (const DrawnPart& part : lists.parts(i)) draw_map_part(part, map, alpha_test_where_masked);
+    for (const DrawnPart& part : lists.parts(i)) {
+      draw_map_part(part, map, how);
+      if (info_of(how.layer).peels)
+        peel(part, part.rectangle, i, map.clip_from_position, how,
+             how.peeled(plan, plan.map[static_cast<std::size_t>(i)]));
+    }
   }
   glDisable(GL_SCISSOR_TEST);
 }
 
-void Renderer::Impl::draw_pages(bool alpha_test_where_masked) noexcept {
+void Renderer::Impl::draw_pages(const ShadowPlan& of_light, const DepthDraw& how) noexcept {
   glBindVertexArray(scene.vertex_array());
   scene.use(SceneBuffers::Placed::for_maps);
   glEnable(GL_DEPTH_TEST);
@@ -149,7 +216,10 @@ void Renderer::Impl::draw_pages(bool alpha_test_where_masked) noexcept {
     glScissor(at.x, at.y, at.width, at.height);
     glViewport(at.x, at.y, at.width, at.height);
     if (!fresh) clear();
-    draw_casters(lists.page_part(i), drawn[i].clip_from_position, alpha_test_where_masked);
+    draw_casters(lists.page_part(i), drawn[i].clip_from_position, how);
+    if (!info_of(how.layer).peels) continue;
+    peel(lists.page_part(i), at, layer, drawn[i].clip_from_position, how, how.peeled(of_light, drawn[i].map));
+    glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
   }
   glDisable(GL_SCISSOR_TEST);
 }

@@ -27,6 +27,11 @@ bool reads_everywhere(const FilterSettings& settings, const ShadowPlan& plan) no
          (filter.hooks.adapts != nullptr && filter.hooks.adapts(settings));
 }
 
+DepthDraw depth_draw(const FrameOptions& options) noexcept {
+  const double limit = options.dual_limit_texels;
+  return {options.prune.has(PruneRule::alpha_test), options.depth_layer, limit > 0.0 ? limit : 0.0};
+}
+
 }  // namespace
 
 std::string_view to_string(Pass pass) noexcept {
@@ -134,6 +139,16 @@ void Renderer::Impl::count_work(const ShadowPlan& plan, FrameStats& stats) const
   stats.camera = lists.camera_stats();
 }
 
+void Renderer::Impl::take_layer(const FrameOptions& options) noexcept {
+  const bool same = options.depth_layer == drawn_layer &&
+                    (drawn_layer != DepthLayer::dual || options.dual_limit_texels == drawn_limit_texels);
+  drawn_layer = options.depth_layer;
+  drawn_limit_texels = options.dual_limit_texels;
+  if (same) return;
+  lists.forget_maps();
+  pages.forget();
+}
+
 void Renderer::Impl::take_moved(std::span<const Box> moved_world) {
   if (!moved.empty()) lists.rebuild_casters();
   moved.insert(moved.end(), moved_world.begin(), moved_world.end());
@@ -157,6 +172,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     impl.moved.clear();
   }
   if (plan.map_count > 0) impl.pages.forget();
+  impl.take_layer(options);
   if (filter.irregular && impl.pixel_lists && impl.pixel_lists->fits(camera.width, camera.height))
     return impl.draw_irregular(plan, camera, filter, options);
   FrameStats stats;
@@ -168,16 +184,17 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   FilterBlock filtering = filter_block(filter.settings, blur);
   const DepthCurves curves = depth_curves(plan);
   set_depth_curves(curves, filtering);
+  filtering.sums.w = options.receiver_plane ? 0.0f : 1.0f;
   const FrameBlock block =
       frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur, curves);
   fit_options(filter.settings, plan, filtering);
   timed(Pass::shadow_maps, [&] {
     impl.upload(block, filtering);
     const DrawnMaps drawn = impl.place_scene(plan, camera.position);
-    impl.lists.build(
-        {plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan)}, drawn,
-        camera);
-    impl.draw_shadow_maps(drawn, options.prune.has(PruneRule::alpha_test));
+    impl.lists.build({plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
+                      info_of(options.depth_layer).peels},
+                     drawn, camera);
+    impl.draw_shadow_maps(plan, drawn, depth_draw(options));
   });
   timed(Pass::surfaces,
         [&] { impl.draw_surfaces(impl.targets.surfaces_fbo.name(), impl.programs.surfaces); });
@@ -201,7 +218,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   stats.prefilter_passes = impl.stored.passes();
   stats.maps_read_back = impl.maps_read_back;
   stats.map_bytes = impl.maps.bytes() + impl.stored.bytes();
-  stats.scratch_bytes = impl.stored.scratch_bytes();
+  stats.scratch_bytes = impl.stored.scratch_bytes() + impl.depth_peel.bytes();
   return stats;
 }
 
@@ -234,10 +251,12 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   impl.lists.forget_maps();
   impl.history.forget();  // the mask is this frame's alone
   impl.map_count = 0;
+  impl.take_layer(options);
   const BlurSides blur{};
   const DepthCurves curves = depth_curves(of_light);
   FilterBlock filtering = filter_block(filter.settings, blur);
   set_depth_curves(curves, filtering);
+  filtering.sums.w = options.receiver_plane ? 0.0f : 1.0f;
   timed(Pass::shadow_maps, [&] {
     const FrameBlock block = frame_block(of_light, camera, options, extent.side, extent.side, blur, curves);
     impl.upload(block, filtering);
@@ -250,7 +269,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
                      {drawn.origin_world, alpha_test, options.prune.has(PruneRule::held_maps), impl.moved});
     impl.moved.clear();
     impl.lists.build_pages(impl.pages.pages(), camera);
-    impl.draw_pages(alpha_test);
+    impl.draw_pages(of_light, depth_draw(options));
   });
   timed(Pass::surfaces,
         [&] { impl.draw_surfaces(impl.targets.surfaces_fbo.name(), impl.programs.surfaces); });

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "depth_peel.hpp"
 #include "draw_list.hpp"
 #include "frame_block.hpp"
 #include "gl_object.hpp"
@@ -30,6 +31,16 @@ struct CasterPrograms {
   const Program& opaque;
   const Program& masked;
   GLint wrap_location = -1;  ///< of the mask's image; -1: its sampler says it
+  bool apart = false;        ///< sheets, solids and mirrored ones in draws of their own
+};
+
+/// How the casters of a frame become the depths of its maps.
+struct DepthDraw {
+  bool alpha_test_where_masked = true;
+  DepthLayer layer = DepthLayer::front;
+  double dual_limit_texels = 0.0;
+  /// What a peeled map of the plan stores.
+  [[nodiscard]] PeeledDepth peeled(const ShadowPlan& plan, const ShadowMap& map) const noexcept;
 };
 
 struct Renderer::Impl {
@@ -44,13 +55,22 @@ struct Renderer::Impl {
                                       double origin_steps = 1.0);
   /// Adds what the caller says has moved; casters are culled by where they are now.
   void take_moved(std::span<const Box> moved_world);
-  void draw_map_part(const DrawnPart& part, const DrawnMap& map, bool alpha_test_where_masked) noexcept;
+  void draw_map_part(const DrawnPart& part, const DrawnMap& map, const DepthDraw& how) noexcept;
   void draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
-                    bool alpha_test_where_masked) noexcept;
-  /// `set_place` sets the uniforms that say where casters go, of the program that is in use.
-  template <class SetPlace>
+                    const DepthDraw& how) noexcept;
+  /// Draws what lies behind the first surface, which DepthPeel::begin() took.
+  void draw_casters_behind(const DrawnPart& part, const glm::mat4& clip_from_position,
+                           const DepthDraw& how) noexcept;
+  /// From the first surface, which the texels hold, to what the layer stores.
+  void peel(const DrawnPart& part, const TexelRect& at, int layer, const glm::mat4& clip_from_position,
+            const DepthDraw& how, const PeeledDepth& depth) noexcept;
+  /// `set_place` sets the uniforms that say where casters go, of the program that is in use; `set_batch`,
+  /// with CasterPrograms::apart, what differs between sheets, solids and mirrored ones.
+  template <class SetPlace, class SetBatch>
   void draw_casters(const DrawnPart& part, const CasterPrograms& by, bool alpha_test_where_masked,
-                    SetPlace&& set_place) noexcept;
+                    SetPlace&& set_place, SetBatch&& set_batch) noexcept;
+  /// Takes the layer for the next maps; those of another one are not reused.
+  void take_layer(const FrameOptions& options) noexcept;
   /// The frame with exact shadows: pixels are listed, and casters are tested against them.
   FrameStats draw_irregular(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                             const FrameOptions& options) noexcept;
@@ -59,7 +79,7 @@ struct Renderer::Impl {
   void draw_pictures(const PassTimer& timed, const FrameOptions& options) noexcept;
   /// What the draw lists of this plan held.
   void count_work(const ShadowPlan& plan, FrameStats& stats) const noexcept;
-  void draw_shadow_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept;
+  void draw_shadow_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const DepthDraw& how) noexcept;
   /// `block`: with the options that the filter chooses for each map, on return.
   void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block,
                  bool unread_tiles) noexcept;
@@ -69,7 +89,8 @@ struct Renderer::Impl {
   void adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept;
   /// Of the last frame's map, row by row.
   void read_depths(int map, std::span<float> depths) const noexcept;
-  void draw_pages(bool alpha_test_where_masked) noexcept;
+  /// `of_light`: the plan that says how the light's depths run.
+  void draw_pages(const ShadowPlan& of_light, const DepthDraw& how) noexcept;
   /// `program` writes at least what programs.surfaces writes.
   void draw_surfaces(GLuint fbo, const Program& program) noexcept;
   void draw_mask(const Program& program, bool accumulated) noexcept;
@@ -95,6 +116,9 @@ struct Renderer::Impl {
   MaskHistory history;
   Texture noise_tile;  ///< blue noise
   MapTargets maps;
+  DepthPeel depth_peel;
+  DepthLayer drawn_layer = DepthLayer::front;  ///< that maps and pages hold
+  double drawn_limit_texels = 0.0;             ///< the same, of DepthLayer::dual
   PagePool pages;
   std::optional<PixelLists> pixel_lists;  ///< made when they are first prepared
   std::vector<Box> moved;                 ///< bounds of casters before and after, since the last frame

@@ -15,18 +15,25 @@ Texture pixel_image(GLenum format, int width, int height) {
   return texture;
 }
 
+Texture depth_layers(int width, int height, int layers) {
+  Texture texture = make_texture(GL_TEXTURE_2D_ARRAY);
+  glTextureStorage3D(texture.name(), 1, GL_DEPTH_COMPONENT32F, width, height, layers);
+  return texture;
+}
+
+Framebuffer depth_framebuffer() {
+  Framebuffer fbo = make_framebuffer();
+  glNamedFramebufferDrawBuffer(fbo.name(), GL_NONE);
+  glNamedFramebufferReadBuffer(fbo.name(), GL_NONE);
+  return fbo;
+}
+
 namespace {
 
 Framebuffer framebuffer_of(const Texture& color) {
   Framebuffer fbo = make_framebuffer();
   glNamedFramebufferTexture(fbo.name(), GL_COLOR_ATTACHMENT0, color.name(), 0);
   return fbo;
-}
-
-Texture depth_layers(int width, int height, int layers) {
-  Texture texture = make_texture(GL_TEXTURE_2D_ARRAY);
-  glTextureStorage3D(texture.name(), 1, GL_DEPTH_COMPONENT32F, width, height, layers);
-  return texture;
 }
 
 Sampler depth_sampler(GLint filter) {
@@ -108,9 +115,7 @@ bool MapTargets::fit(int new_width, int new_height, int new_layers) {
     glCopyImageSubData(before.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, depth.name(), GL_TEXTURE_2D_ARRAY, 0,
                        0, 0, 0, width, height, kept_layers);
   scratch = {};
-  fbo = make_framebuffer();
-  glNamedFramebufferDrawBuffer(fbo.name(), GL_NONE);
-  glNamedFramebufferReadBuffer(fbo.name(), GL_NONE);
+  fbo = depth_framebuffer();
   return !same_size;
 }
 

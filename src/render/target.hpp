@@ -10,6 +10,10 @@ namespace gnomon::render {
 
 /// One value per pixel, read without a filter.
 [[nodiscard]] Texture pixel_image(GLenum format, int width, int height);
+/// Depths as shadow maps store them.
+[[nodiscard]] Texture depth_layers(int width, int height, int layers);
+/// Draws depths alone, into what is attached later.
+[[nodiscard]] Framebuffer depth_framebuffer();
 
 /// Everything at the size of the picture.
 struct FrameTargets {

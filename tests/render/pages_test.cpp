@@ -51,6 +51,46 @@ FilterSettings settings_of(const char* text) {
   return parse_filter(text).settings;
 }
 
+TEST(PagesRender, pages_store_the_layer_of_their_own_two_surfaces) {
+  Stage stage;
+  stage.scene.materials[0].double_sided = false;
+  Renderer renderer(stage.scene);
+  const FilterSettings filter = settings_of("hard");
+  PageOptions pages;
+  pages.policy = &page_policies::queried;
+  pages.page_texels = 64;
+  const PagePlan plan = stage.plan(filter, pages);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  const auto drawn = [&](DepthLayer layer) {
+    FrameOptions options;
+    options.time_passes = false;
+    options.depth_layer = layer;
+    // The second frame keeps what the first one drew.
+    for (int frame = 0; frame < 2; ++frame)
+      renderer.draw(plan, stage.camera, renderer.prepare_pages(filter), options);
+    std::vector<float> depths;
+    for (std::size_t page = 0; page < plan.pages.size(); ++page) {
+      const FloatImage of_page = renderer.page_depths(page);
+      depths.insert(depths.end(), of_page.values.begin(), of_page.values.end());
+    }
+    return depths;
+  };
+  const std::vector<float> front = drawn(DepthLayer::front), second = drawn(DepthLayer::second),
+                           midpoint = drawn(DepthLayer::midpoint), dual = drawn(DepthLayer::dual);
+  ASSERT_EQ(front.size(), midpoint.size());
+  constexpr double kRounding = 4.0 / 16777216.0;
+  std::size_t solid = 0, wrong = 0;
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    solid += second[i] > front[i];
+    // Without a second surface, `second` holds the first.
+    const double middle = depth_of_layer(DepthLayer::midpoint, front[i], second[i], 0.0, 0.0);
+    wrong += std::abs(midpoint[i] - middle) > kRounding || dual[i] < front[i] - kRounding;
+    wrong += second[i] > front[i] && dual[i] > midpoint[i] + kRounding;
+  }
+  EXPECT_GT(solid, 1000u);
+  EXPECT_EQ(wrong, 0u);
+}
+
 TEST(PagesRender, pages_of_one_level_are_that_level_drawn_whole) {
   Stage stage;
   for (const char* name : {"hard", "pcf:radius=2", "pcf:radius=5", "pcss:radius=6"}) {

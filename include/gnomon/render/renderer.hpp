@@ -14,6 +14,7 @@
 #include "gnomon/pages.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/prune.hpp"
+#include "gnomon/render/depth_layer.hpp"
 #include "gnomon/render/error.hpp"
 #include "gnomon/render/filter.hpp"
 #include "gnomon/render/filter_fit.hpp"
@@ -80,6 +81,14 @@ struct FrameOptions {
   SampleNoise noise = SampleNoise::still;             ///< of sample patterns and of dithered transitions
   std::uint32_t frame_index = 0;                      ///< counts frames, for noise that moves; may wrap round
   Accumulation accumulation;                          ///< of the mask over frames
+  /// The surface whose depth the maps store. A frame with another one than the last frame's draws all maps.
+  DepthLayer depth_layer = DepthLayer::front;
+  /// DepthLayer::dual: the farthest that it stores behind the first surface, in texels at the centre of the
+  /// map's body, >= 0. Larger: less acne, wider gaps at contacts.
+  double dual_limit_texels = 4.0;
+  /// Filters compare each texel with the receiver's plane at that texel. False: with the receiver's own depth,
+  /// as look-ups without the plane do; BiasOptions must then cover the slope over the whole kernel.
+  bool receiver_plane = true;
   /// Of a spot or point light: fades the picture out at its cone and range. The mask is the plan's alone.
   const Light* light = nullptr;
   bool aliasing = true;      ///< the error per pixel

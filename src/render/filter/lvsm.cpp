@@ -48,7 +48,7 @@ int channels(const FilterSettings& settings) noexcept {
 StoredTexel store(double depth, const glm::dvec2& slope, const FilterSettings& settings) noexcept {
   StoredTexel texel{};
   for (int i = 0; i < layers_of(settings); ++i) {
-    const DepthLayer layer = layer_of(i, settings);
+    const DepthBand layer = layer_of(i, settings);
     const bool within = depth > layer.begin && depth < layer.end;
     const glm::dvec2 warped_slope = within ? slope / (layer.end - layer.begin) : glm::dvec2(0.0);
     const StoredTexel moments = store_moments(layer.warped(depth), warped_slope, settings);
@@ -94,7 +94,7 @@ void adapt(FilterSettings& settings, std::span<const float> depths) noexcept {
 
 }  // namespace
 
-DepthLayer layer_of(int i, const FilterSettings& settings) noexcept {
+DepthBand layer_of(int i, const FilterSettings& settings) noexcept {
   const double begin = end_before(i, settings), end = end_before(i + 1, settings),
                overlap = settings.option[4];
   return {begin - overlap * (begin - end_before(i - 1, settings)),

@@ -6,7 +6,7 @@
 namespace gnomon::render {
 
 /// A layer from `begin` (where depths count 0) to `end` (1).
-struct DepthLayer {
+struct DepthBand {
   double begin = 0.0, end = 1.0;
   /// Depths in front of it are all 0, those behind all 1.
   [[nodiscard]] double warped(double depth) const noexcept {
@@ -14,7 +14,7 @@ struct DepthLayer {
   }
 };
 /// Layer i, reaching into the ones before and behind it by a share of them.
-[[nodiscard]] DepthLayer layer_of(int i, const FilterSettings& settings) noexcept;
+[[nodiscard]] DepthBand layer_of(int i, const FilterSettings& settings) noexcept;
 /// How little layer i says about a receiver whose deepest texel under the kernel is at `deepest`: 0 up to
 /// where the layer would end without overlap, 1 from its end on.
 [[nodiscard]] double beyond_layer(int i, const FilterSettings& settings, double deepest) noexcept;

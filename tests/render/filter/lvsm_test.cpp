@@ -18,7 +18,7 @@ namespace {
 constexpr double kGolden = 1e-9;  ///< golden rows are computed in double
 
 /// Chebyshev's bound of one layer over the kernel.
-double bound_in(const DepthLayer& layer, const GoldenKernel& kernel, double depth) {
+double bound_in(const DepthBand& layer, const GoldenKernel& kernel, double depth) {
   double mean = 0.0, second = 0.0;
   for (std::size_t i = 0; i < kernel.depth.size(); ++i) {
     const double warped = layer.warped(kernel.depth[i]);
@@ -34,7 +34,7 @@ GoldenKernel five() {
 }
 
 /// Layer i of `count` even ones.
-DepthLayer even_layer(int i, int count, double overlap) {
+DepthBand even_layer(int i, int count, double overlap) {
   FilterSettings settings = default_settings(filters::lvsm);
   settings.option[3] = count;
   settings.option[4] = overlap;

@@ -1,0 +1,7 @@
+#version 450 core
+// Opaque casters behind the first surface: the depth alone.
+#include "common/peel.glsl"
+
+void main() {
+  if (is_peeled_off()) discard;
+}
