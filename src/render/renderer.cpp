@@ -129,10 +129,18 @@ void Renderer::Impl::draw_pictures(const PassTimer& timed, const FrameOptions& o
   if (options.cascade_tint) timed(Pass::cascade_tint, [&] { draw_cascade_tint(); });
 }
 
+MapStats Renderer::Impl::work_of_map(int map) const noexcept {
+  MapStats work = lists.map_stats(map);
+  if (!info_of(drawn_layer).peels) return work;
+  work.draws *= 2;
+  work.triangles *= 2;
+  return work;
+}
+
 void Renderer::Impl::count_work(const ShadowPlan& plan, FrameStats& stats) const noexcept {
   stats.map_count = plan.map_count;
   for (int i = 0; i < plan.map_count; ++i) {
-    stats.map[static_cast<std::size_t>(i)] = lists.map_stats(i);
+    stats.map[static_cast<std::size_t>(i)] = work_of_map(i);
     stats.texels += lists.map_stats(i).texels;
   }
   stats.saved = lists.saved();
@@ -280,7 +288,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   });
   timed(Pass::shade, [&] { impl.draw_shade(); });
   stats.map_count = 1;
-  stats.map[0] = impl.lists.map_stats(0);
+  stats.map[0] = impl.work_of_map(0);
   stats.texels = stats.map[0].texels;
   stats.camera = impl.lists.camera_stats();
   stats.map_bytes = impl.maps.bytes();

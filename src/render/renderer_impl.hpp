@@ -77,6 +77,8 @@ struct Renderer::Impl {
   void draw_casters_on_lists(const ShadowPlan& plan, bool alpha_test_where_masked) noexcept;
   /// The pictures that are drawn once the mask is there.
   void draw_pictures(const PassTimer& timed, const FrameOptions& options) noexcept;
+  /// Of the draw lists; peeled maps draw them twice.
+  [[nodiscard]] MapStats work_of_map(int map) const noexcept;
   /// What the draw lists of this plan held.
   void count_work(const ShadowPlan& plan, FrameStats& stats) const noexcept;
   void draw_shadow_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const DepthDraw& how) noexcept;

@@ -366,6 +366,67 @@ TEST_F(DepthLayers, unchanged_maps_are_held_and_changed_ones_are_peeled_again) {
   EXPECT_EQ(depths(renderer, plan, camera, culled).values, depths(fresh, plan, camera, culled).values);
 }
 
+/// What the adaptive bias on the CPU says of a pixel; nothing where
+/// rounding decides.
+std::optional<bool> lit_by_adaptive_bias(const Frame& frame, std::size_t pixel, const Light& light,
+                                         const FloatImage& depth) {
+  const ShadowMap& map = frame.plan.map[0];
+  const glm::dvec3 point = frame.point(pixel);
+  const auto* spot = std::get_if<SpotLight>(&light);
+  const glm::dvec3 way =
+      glm::normalize(spot != nullptr ? point - spot->position : frame.plan.light_direction);
+  const Receiver receiver{map.clip_from_world, map.texels(), way, point, frame.normal(pixel)};
+  const glm::dvec2 texel_world = texel_extent_world(map.clip_from_world, map.texels(), way, point);
+  const double epsilon = frame.plan.bias.constant_texels * std::max(texel_world.x, texel_world.y);
+  const glm::dvec4 h = map.clip_from_world * glm::dvec4(point, 1.0);
+  const glm::dvec2 texel = (glm::dvec2(h) / h.w * 0.5 + 0.5) * glm::dvec2(map.width, map.height);
+  const glm::dvec2 cell = glm::floor(texel), inside = texel - cell;
+  constexpr double kBorder = 0.01, kDepth = 1e-5;
+  const bool on_border = std::min({inside.x, inside.y, 1.0 - inside.x, 1.0 - inside.y}) < kBorder;
+  if (on_border || cell.x < 0.0 || cell.y < 0.0 || cell.x >= map.width || cell.y >= map.height)
+    return std::nullopt;
+  const double biased = 0.5 * (h.z / h.w + adaptive_bias_ndc(frame.plan.bias, receiver, epsilon)) + 0.5;
+  const double stored = depth.values[static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(map.width) +
+                                     static_cast<std::size_t>(cell.x)];
+  if (std::abs(biased - stored) < kDepth) return std::nullopt;
+  return biased <= stored;
+}
+
+TEST_F(DepthLayers, the_hard_filter_without_slope_bias_is_the_adaptive_bias_of_the_cpu) {
+  const Scene scene = solids();
+  const Camera camera = camera_on_box(kSize, kSize);
+  Renderer renderer(scene);
+  const Light lights[] = {DirectionalLight{kSlant}, SpotLight{{4, 12, 6}, {-0.35, -1, -0.5}, 0.6, 40.0}};
+  for (const Light& light : lights) {
+    for (const char* warp : {"none", "optimal"}) {
+      PlanOptions options = one_map(warp);
+      options.bias = {0.05, 0.0, 0.0, 8.0};
+      const ShadowPlan plan = planned(scene, camera, light, options);
+      const Frame frame =
+          render::draw(renderer, camera, plan, default_settings(filters::hard), frame_of(DepthLayer::front));
+      const FloatImage depth = renderer.depth_map(0);
+      FrameOptions own_depth = frame_of(DepthLayer::front);
+      own_depth.receiver_plane = false;
+      const Frame without = render::draw(renderer, camera, plan, default_settings(filters::hard), own_depth);
+      std::size_t lit = 0, dark = 0, wrong = 0, acne = 0;
+      for (std::size_t i = 0; i < frame.pixels(); ++i) {
+        const auto* spot = std::get_if<SpotLight>(&light);
+        const glm::dvec3 way = spot != nullptr ? frame.point(i) - spot->position : plan.light_direction;
+        if (!frame.surface(i) || frame.map(i) != 0 || glm::dot(frame.normal(i), way) >= 0.0) continue;
+        const std::optional<bool> expected = lit_by_adaptive_bias(frame, i, light, depth);
+        if (!expected) continue;
+        ++(*expected ? lit : dark);
+        wrong += *expected != (frame.lit(i) > 0.5f);
+        acne += *expected && without.lit(i) < 0.5f;
+      }
+      EXPECT_GT(lit, 400u) << warp;
+      EXPECT_GT(dark, 300u) << warp;
+      EXPECT_EQ(wrong, 0u) << warp << light.index();
+      EXPECT_GT(acne, 10u) << "the receiver's own depth needs a slope bias";
+    }
+  }
+}
+
 TEST_F(DepthLayers, filters_find_the_shadow_of_a_solid_in_every_layer) {
   const Scene scene = [] {
     Scene s = single_sided();

@@ -86,10 +86,11 @@ struct FrameOptions {
   /// DepthLayer::dual: the farthest that it stores behind the first surface, in texels at the centre of the
   /// map's body, >= 0. Larger: less acne, wider gaps at contacts.
   double dual_limit_texels = 4.0;
-  /// Filters compare each texel with the receiver's plane at that texel. False: with the receiver's own depth,
-  /// as look-ups without the plane do; BiasOptions must then cover the slope over the whole kernel.
+  /// Filters compare each texel with the receiver's plane at that texel. False: with the receiver's own
+  /// depth, as look-ups without the plane do; BiasOptions must then cover the slope over the whole kernel.
   bool receiver_plane = true;
-  /// Of a spot or point light: fades the picture out at its cone and range. The mask is the plan's alone.
+  /// The spot or point light at whose cone and range the picture fades out; the mask is the plan's alone.
+  /// nullptr: none.
   const Light* light = nullptr;
   bool aliasing = true;      ///< the error per pixel
   bool heat_map = true;      ///< the same as colours; needs `aliasing`

@@ -27,6 +27,8 @@ struct Technique {
   std::string pages = {};
   int page_texels = 0;         ///< along each side that a page serves; 0: maps
   double page_target_m = 0.0;  ///< error that pages are opened for; 0: the least that the pool holds
+  /// Name of the render::DepthLayer that the maps store. Empty: front.
+  std::string layer = {};
   /// "warp lispsm", or "pages resolution": the charts' marks.
   [[nodiscard]] std::string kind() const;
   /// "none / auto / 4 x 1024 / pcf": unique within a sweep, for people.

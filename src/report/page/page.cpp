@@ -70,11 +70,12 @@ void write_charts(const PageInput& input) {
 std::string technique_columns(const Technique& t) {
   return csv_field(t.warp) + "," + csv_field(t.split) + "," + csv_field(t.fit) + "," +
          std::to_string(t.cascades) + "," + std::to_string(t.map_size) + "," + csv_field(t.filter) + "," +
-         csv_field(t.pages) + "," + std::to_string(t.page_texels) + "," + exact_number(t.page_target_m);
+         csv_field(t.pages) + "," + std::to_string(t.page_texels) + "," + exact_number(t.page_target_m) +
+         "," + csv_field(t.layer);
 }
 
 constexpr const char* kTechniqueHead =
-    "warp,split,fit,cascades,map_size,filter,pages,page_texels,page_target_m";
+    "warp,split,fit,cascades,map_size,filter,pages,page_texels,page_target_m,layer";
 
 std::string measure_head() {
   std::string line;

@@ -27,7 +27,9 @@ Json to_json(const Estimate& e) {
 Json to_json(const Technique& t) {
   Json json{{"warp", t.warp}, {"split", t.split},       {"cascades", t.cascades},
             {"fit", t.fit},   {"map_size", t.map_size}, {"filter", t.filter}};
-  if (t.pages.empty()) return json;  // as before there were pages: results can be continued
+  // As before there were layers and pages: results can be continued.
+  if (!t.layer.empty()) json["layer"] = t.layer;
+  if (t.pages.empty()) return json;
   json["pages"] = t.pages;
   json["page_texels"] = t.page_texels;
   json["page_target_m"] = t.page_target_m;
@@ -166,6 +168,7 @@ Technique technique_from(const Json& json) {
   json.at("fit").get_to(t.fit);
   get_whole(json.at("map_size"), t.map_size);
   json.at("filter").get_to(t.filter);
+  if (json.contains("layer")) json.at("layer").get_to(t.layer);
   if (!json.contains("pages")) return t;
   json.at("pages").get_to(t.pages);
   get_whole(json.at("page_texels"), t.page_texels);
@@ -255,7 +258,8 @@ std::string Technique::kind() const {
 }
 
 std::string Technique::name() const {
-  std::string maps = std::to_string(cascades) + " x " + std::to_string(map_size);
+  std::string maps = std::to_string(cascades) + " x " + std::to_string(map_size) +
+                     (layer.empty() ? "" : " " + layer + " layer");
   if (!pages.empty()) {
     const std::string target = page_target_m > 0.0 ? " m " + short_number(page_target_m) : "";
     return kind() + " " + std::to_string(page_texels) + target + (fit == "stable" ? " stable" : "") +

@@ -119,7 +119,8 @@ void Planned::seen_by(const Camera& after) {
   by_pages() ? rebase(*pages_, after.position) : void(maps_ = seen_from(maps_, camera_, after));
 }
 
-render::FrameStats Planned::draw(const Camera& camera, const render::FrameOptions& options) {
+render::FrameStats Planned::draw(const Camera& camera, render::FrameOptions options) {
+  options.depth_layer = entry_.layer;
   const render::PreparedFilter filter = stage_.filter(entry_);
   return by_pages() ? stage_.renderer().draw(pages_->plan, camera, filter, options)
                     : stage_.renderer().draw(maps_, camera, filter, options);

@@ -27,7 +27,8 @@ class Planned {
   void again();
   /// As a renderer may draw it with another camera: the same texels over the same parts of the world.
   void seen_by(const Camera& after);
-  render::FrameStats draw(const Camera& camera, const render::FrameOptions& options);
+  /// With the entry's depth layer.
+  render::FrameStats draw(const Camera& camera, render::FrameOptions options);
 
   [[nodiscard]] PlanStatus status() const noexcept;
   [[nodiscard]] std::string_view invalid_field() const noexcept;

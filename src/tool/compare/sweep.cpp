@@ -74,12 +74,32 @@ std::vector<std::string> expanded(const std::vector<std::string>& texts, const E
   return names;
 }
 
+/// The list with "all" replaced by every layer.
+std::vector<std::string> expanded_layers(const std::vector<std::string>& texts) {
+  std::vector<std::string> names;
+  for (const std::string& text : split_lists(texts)) {
+    if (text != "all") {
+      names.push_back(text);
+      continue;
+    }
+    for (const render::DepthLayerInfo& info : render::depth_layers()) names.emplace_back(info.name);
+  }
+  return names;
+}
+
 void set_filter(const std::string& text, SweepEntry& entry) {
   entry.irregular = text == kIrregular;
   entry.filter =
       entry.irregular ? render::default_settings(render::filters::hard) : filter_word("--filters", text);
   entry.technique.filter = entry.irregular ? std::string(kIrregular) : render::to_string(entry.filter);
   render::set_margin(entry.filter, entry.plan);
+}
+
+void set_layer(const std::string& text, SweepEntry& entry) {
+  const render::DepthLayerInfo* const info = render::find_depth_layer(text);
+  if (info == nullptr) refuse_name("--layers", text, layer_names());
+  entry.layer = info->layer;
+  entry.technique.layer = info->layer == render::DepthLayer::front ? "" : text;
 }
 
 void set_warp(const std::string& text, SweepEntry& entry) {
@@ -175,7 +195,18 @@ bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
   return t.fit == "stable" && (!by_depth || (t.warp != "none" && t.warp != first.warp));
 }
 
-std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind light) {
+/// Removes entries whose filter cannot read their layer; `left_out` gets a line for each.
+void drop_unread_layers(std::vector<SweepEntry>& entries, std::vector<std::string>& left_out) {
+  const std::string line =
+      "--layers skips " + std::string(kIrregular) + ": draws no depth map, and is measured with front alone";
+  const auto unread = [](const SweepEntry& e) { return e.irregular && e.layer != render::DepthLayer::front; };
+  if (std::erase_if(entries, unread) == 0) return;
+  if (entries.empty()) throw std::runtime_error(line + "; nothing is left to measure");
+  left_out.push_back(line);
+}
+
+std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind light,
+                                   std::vector<std::string>& left_out) {
   std::vector<SweepEntry> entries(1);
   std::vector<std::string> splits = split_lists(request.splits);
   for (std::string& split : splits) {
@@ -184,6 +215,8 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
   }
   const std::vector<std::string> warps = expanded(request.warps, all_warps());
   multiply(entries, expanded(request.filters, render::all_filters()), set_filter);
+  multiply(entries, expanded_layers(request.layers), set_layer);
+  drop_unread_layers(entries, left_out);
   multiply(entries, split_lists(request.fits), set_fit);
   multiply(entries, warps, set_warp);
   multiply(entries, splits, set_split);
@@ -265,6 +298,7 @@ std::vector<SweepEntry> page_product_of(const CompareRequest& request, LightKind
   set_split("uniform", entries.front());
   set_page_target(request.page_target, entries.front());
   multiply(entries, expanded(request.filters, render::all_filters()), set_filter);
+  multiply(entries, expanded_layers(request.layers), set_layer);
   multiply(entries, split_lists(request.fits), set_fit);
   multiply(entries, expanded(request.pages, all_page_policies()), set_pages);
   std::vector<int> sizes =
@@ -291,8 +325,9 @@ std::vector<SweepEntry> page_product_of(const CompareRequest& request, LightKind
     if (is_new) none.push_back(*why);
     return why.has_value();
   });
-  left_out = lines_of(none);
-  if (entries.empty()) throw std::runtime_error(left_out.front() + "; nothing is left to measure");
+  const std::vector<std::string> lines = lines_of(none);
+  if (entries.empty()) throw std::runtime_error(lines.front() + "; nothing is left to measure");
+  left_out.insert(left_out.end(), lines.begin(), lines.end());
   return entries;
 }
 
@@ -346,9 +381,15 @@ std::string compare_footer() {
          ".\nPages: " + any_of_text(names_in(all_page_policies())) +
          ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "
          "that reads depths in texels; the others are named and skipped. docs/pages.md explains them." +
+         "\nLayers: " + any_of_text(layer_names()) + ". gnomon bias and docs/bias.md compare them." +
          "\nFilters: " + any_of_text(names_in(render::all_filters())) +
          ". gnomon filters NAME prints the options of one. " + std::string(kIrregular) +
          " takes no filter: casters are tested against each pixel, for exact hard shadows at their price.\n";
+}
+
+std::vector<std::string> layer_names(std::vector<std::string> before) {
+  for (const render::DepthLayerInfo& info : render::depth_layers()) before.emplace_back(info.name);
+  return before;
 }
 
 std::vector<std::string> split_names() {
@@ -380,6 +421,7 @@ std::vector<std::string> split_lists(const std::vector<std::string>& lists) {
 SweepEntry sweep_entry(const report::Technique& technique) {
   SweepEntry entry;
   set_filter(technique.filter, entry);
+  if (!technique.layer.empty()) set_layer(technique.layer, entry);
   set_fit(technique.fit, entry);
   set_warp(technique.warp, entry);
   set_split(technique.split, entry);
@@ -414,7 +456,7 @@ Sweep make_sweep(const CompareRequest& request) {
   sweep.shard = static_cast<std::size_t>(shard - 1);
   sweep.shards = static_cast<std::size_t>(shards);
   sweep.context = offscreen_context(request.context);
-  sweep.entries = product_of(request, sweep.light.kind);
+  sweep.entries = product_of(request, sweep.light.kind, sweep.left_out);
   for (SweepEntry& entry : page_product_of(request, sweep.light.kind, sweep.left_out))
     sweep.entries.push_back(std::move(entry));
   // A list that names something twice.

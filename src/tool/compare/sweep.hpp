@@ -22,6 +22,7 @@ struct CompareRequest {
   std::vector<std::string> cascades{"1", "4"}, map_sizes{"1024"};
   int frames = 4, rounds = 5;
   std::vector<std::string> pages, page_sizes{"128"};  ///< policies beside the maps; none: maps alone
+  std::vector<std::string> layers{"front"};           ///< depth layers
   double page_target = 0.0;  ///< error m that pages are opened for; 0: the least that the pool holds
   std::string size = "480x270", shard = "1/1", context = "auto", out = "out/compare";
   std::string light = "sun";
@@ -40,10 +41,11 @@ inline constexpr std::string_view kIrregular = "irregular";
 struct SweepEntry {
   report::Technique technique;
   PlanOptions plan;
-  render::FilterSettings filter;                        ///< hard where `irregular` is set
-  bool irregular = false;                               ///< exact shadows by lists of pixels (kIrregular)
-  bool visible_depths = false, visible_points = false;  ///< of the frame, given to the plan
-  PageOptions pages;                                    ///< where by_pages()
+  render::FilterSettings filter;                         ///< hard where `irregular` is set
+  render::DepthLayer layer = render::DepthLayer::front;  ///< that maps and pages store
+  bool irregular = false;                                ///< exact shadows by lists of pixels (kIrregular)
+  bool visible_depths = false, visible_points = false;   ///< of the frame, given to the plan
+  PageOptions pages;                                     ///< where by_pages()
 
   /// Planned by plan_pages in place of make_plan.
   [[nodiscard]] bool by_pages() const noexcept { return !technique.pages.empty(); }
@@ -52,7 +54,7 @@ struct SweepEntry {
 struct Sweep {
   std::vector<std::string> scenes;
   std::vector<SweepEntry> entries;
-  std::vector<std::string> left_out;  ///< combinations that --pages cannot measure, a line for each reason
+  std::vector<std::string> left_out;  ///< combinations that cannot be measured, a line for each reason
   SweepEntry baseline;                ///< hard x no warp x one map, of the first map size
   int frames = 1, rounds = 1, width = 0, height = 0;
   std::size_t shard = 0, shards = 1;
@@ -90,6 +92,9 @@ std::vector<std::string> fit_to_memory(Sweep& sweep);
 /// Schemes and partitions that --splits takes. Behind each may follow `:finest` (MapSelection),
 /// `:visible_depths` and `:visible_points` (what the frame shows is given to the plan).
 [[nodiscard]] std::vector<std::string> split_names();
+
+/// Names of the depth layers behind those of `before`.
+[[nodiscard]] std::vector<std::string> layer_names(std::vector<std::string> before = {});
 
 /// Elements of lists with commas; an element of the form `key=value` without a colon belongs to the one
 /// before it, as in `esm:c=40,radius=3,pcf`.

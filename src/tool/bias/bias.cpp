@@ -1,0 +1,279 @@
+// `gnomon bias`: which depth should a map store, and which bias does it need, on solids, sheets and leaves?
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <variant>
+
+#include "command.hpp"
+#include "compare/measure.hpp"
+#include "compare/planned.hpp"
+#include "compare/stage.hpp"
+#include "compare/sweep.hpp"
+#include "gnomon/bias.hpp"
+#include "gnomon/render/context.hpp"
+#include "gnomon/report/errors.hpp"
+#include "gnomon/scene/image.hpp"
+#include "interrupt.hpp"
+#include "offscreen_context.hpp"
+#include "output.hpp"
+#include "scene_words.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+/// A bias as the table names it.
+struct NamedBias {
+  std::string_view name;
+  BiasOptions options;
+  bool receiver_plane = false;
+};
+// Constant: two texels, as engines set it who know no slope. The others with the usual constant, against
+// rounding.
+constexpr double kRounding = BiasOptions{}.constant_texels, kTwoTexels = 2.0;
+constexpr NamedBias kBiases[] = {
+    {"zero", {0.0, 0.0, 0.0}, false},          {"constant", {kTwoTexels, 0.0, 0.0}, false},
+    {"slope", {kRounding, 0.5, 0.0}, false},   {"normal_offset", {kRounding, 0.0, 0.5}, false},
+    {"adaptive", {kRounding, 0.0, 0.0}, true}, {"default", {}, true},
+};
+
+struct BiasRequest {
+  std::vector<std::string> scenes, layers{"all"}, biases{"all"};
+  std::string filter = "hard", warp = "none", light = "sun", size = "480x270", context = "auto", out;
+  int map_size = 1024, cascades = 1;
+  LightPlacement sun;
+  bool json = false;
+};
+
+std::vector<std::string> bias_names() {
+  std::vector<std::string> names{"all"};
+  for (const NamedBias& bias : kBiases) names.emplace_back(bias.name);
+  return names;
+}
+
+std::vector<NamedBias> chosen_biases(const std::vector<std::string>& texts) {
+  std::vector<NamedBias> chosen;
+  for (const std::string& text : split_lists(texts)) {
+    const auto known = std::find_if(std::begin(kBiases), std::end(kBiases),
+                                    [&](const NamedBias& bias) { return bias.name == text; });
+    if (text != "all" && known == std::end(kBiases)) refuse_name("--biases", text, bias_names());
+    text == "all" ? void(chosen.insert(chosen.end(), std::begin(kBiases), std::end(kBiases)))
+                  : chosen.push_back(*known);
+  }
+  return chosen;
+}
+
+Sweep sweep_of(const BiasRequest& request) {
+  CompareRequest compared;
+  compared.scenes = request.scenes;
+  // Closed solids, an open sheet, alpha-masked leaves.
+  if (compared.scenes.empty()) compared.scenes = {"builtin:city", "builtin:terrain", "builtin:trees"};
+  compared.filters = {request.filter};
+  compared.layers = request.layers;
+  compared.warps = {request.warp};
+  compared.cascades = {std::to_string(request.cascades)};
+  compared.map_sizes = {std::to_string(request.map_size)};
+  compared.size = request.size;
+  compared.frames = 1;
+  compared.context = request.context;
+  compared.light = request.light;
+  compared.sun = request.sun;
+  Sweep sweep = make_sweep(compared);
+  for (const SweepEntry& entry : sweep.entries) {
+    if (entry.irregular)
+      throw std::runtime_error("--filter " + request.filter + ": compares no depths, and knows no bias");
+  }
+  return sweep;
+}
+
+glm::dvec3 light_direction(const Light& light, const glm::dvec3& point) {
+  if (const auto* sun = std::get_if<DirectionalLight>(&light)) return glm::normalize(sun->direction);
+  const auto* spot = std::get_if<SpotLight>(&light);
+  return glm::normalize(point - (spot != nullptr ? spot->position : std::get<PointLight>(light).position));
+}
+
+/// From each pixel in shadow to the nearest thing that shadows it, world units along the light; below zero:
+/// lit.
+std::vector<double> blocker_distances(const Stage& stage, const FrameTruth& truth) {
+  std::vector<double> distances(truth.judged.size(), -1.0);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    if (truth.judged[i] != 0.0f) continue;
+    const trace::SurfacePoint& point = truth.points.pixels[i];
+    trace::Ray ray;
+    ray.origin = point.position;
+    ray.direction = -light_direction(stage.light(), point.position);
+    ray.except = point.triangle;
+    const trace::Hit hit = stage.tracer().first_hit(ray);
+    if (hit.triangle != trace::kNoTriangle) distances[i] = hit.t;
+  }
+  return distances;
+}
+
+/// How far from a contact shadows begin: the distance of a blocker, in texels at the receiver, within which
+/// pixels in shadow are lit falsely at least half way from the frame's own share to all. 0: shadows begin at
+/// the contact.
+double contact_gap(const Planned& plan, const Stage& stage, const FrameTruth& truth, const FloatImage& mask,
+                   const std::vector<double>& blocker) {
+  struct Contact {
+    double texels = 0.0;
+    bool lit = false;
+  };
+  std::vector<Contact> contacts;
+  for (std::size_t i = 0; i < blocker.size(); ++i) {
+    const ShadowMap* const map = plan.map(static_cast<int>(mask.values[2 * i + 1]));
+    if (blocker[i] < 0.0 || map == nullptr) continue;
+    const glm::dvec3& point = truth.points.pixels[i].position;
+    const glm::dvec2 texel =
+        texel_extent_world(map->clip_from_world, map->texels(), light_direction(stage.light(), point), point);
+    contacts.push_back({blocker[i] / std::max(texel.x, texel.y), mask.values[2 * i] > 0.5f});
+  }
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& a, const Contact& b) { return a.texels < b.texels; });
+  // Thin casters that the map misses anywhere are false light, but no gap.
+  const auto all_lit = static_cast<double>(
+      std::count_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.lit; }));
+  const double wanted = 0.5 * (1.0 + all_lit / std::max(1.0, static_cast<double>(contacts.size())));
+  // Fewer pixels say nothing: an edge that a texel misses is no gap.
+  constexpr std::size_t kLeast = 10;
+  double gap = 0.0, lit = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    lit += contacts[i].lit ? 1.0 : 0.0;
+    const auto count = static_cast<double>(i + 1);
+    if (i + 1 >= kLeast && lit >= wanted * count) gap = contacts[i].texels;
+  }
+  return gap;
+}
+
+void print_row(const std::string& scene, const SweepEntry& entry, const NamedBias& bias,
+               const report::MaskErrors& errors, double gap, bool json) {
+  const std::string layer(render::info_of(entry.layer).name), name(bias.name);
+  if (json) {
+    print_line(nlohmann::ordered_json{
+        {"scene", scene},
+        {"filter", render::to_string(entry.filter)},
+        {"layer", layer},
+        {"bias", name},
+        {"false_shadow", errors.false_shadow},
+        {"false_light", errors.false_lit},
+        {"contact_gap_texels",
+         gap}}.dump());
+  } else {
+    char text[256];
+    std::snprintf(text, sizeof text, "| %s | %s | %s | %.2f %% | %.2f %% | %.1f |", scene.c_str(),
+                  layer.c_str(), name.c_str(), 100.0 * errors.false_shadow, 100.0 * errors.false_lit, gap);
+    print_line(text);
+  }
+  flush_output();
+}
+
+void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::string& scene,
+                   const std::vector<NamedBias>& biases) {
+  Stage stage(sweep, scene);
+  const FrameTruth truth = frame_truth(stage, 0, sweep.baseline);
+  const std::vector<double> blocker = blocker_distances(stage, truth);
+  for (SweepEntry entry : sweep.entries) {
+    for (const NamedBias& bias : biases) {
+      check_interrupt();
+      entry.plan.bias = bias.options;
+      render::FrameOptions options;
+      options.prune = prune_rules_of(PruneSource::this_frame);
+      options.receiver_plane = bias.receiver_plane;
+      Planned plan(stage, entry, truth.camera);
+      if (plan.status() == PlanStatus::invalid_input)
+        throw std::runtime_error(scene + ": the plan refuses " + std::string(plan.invalid_field()));
+      (void)plan.draw(truth.camera, options);
+      const FloatImage mask = stage.renderer().mask();
+      std::vector<float> lit;
+      for (std::size_t i = 0; i < mask.values.size(); i += 2) lit.push_back(mask.values[i]);
+      print_row(scene, entry, bias, report::mask_errors(lit, truth.judged, truth.judged),
+                contact_gap(plan, stage, truth, mask, blocker), request.json);
+      if (request.out.empty()) continue;
+      const std::string name =
+          std::filesystem::path(scene.substr(scene.find_last_of(":/") + 1)).stem().string() + "_" +
+          std::string(render::info_of(entry.layer).name) + "_" + std::string(bias.name);
+      write_png(stage.renderer().image(), std::filesystem::path(request.out) / (name + ".png"));
+    }
+  }
+  render::check_context();
+}
+
+int run_bias(const BiasRequest& request) {
+  for (const std::string& scene : request.scenes) check_scene_word("SCENE", scene);
+  const std::vector<NamedBias> biases = chosen_biases(request.biases);
+  const Sweep sweep = sweep_of(request);
+  watch_interrupts();
+  if (!request.out.empty()) make_folder("--out", request.out);
+  const auto context = render::create_context(sweep.context);
+  if (!request.json) {
+    print_line("| scene | layer | bias | false shadow | false light | contact gap, texels |");
+    print_line("|--|--|--|--:|--:|--:|");
+  }
+  for (const std::string& scene : sweep.scenes) measure_scene(request, sweep, scene, biases);
+  return 0;
+}
+
+/// Which maps are drawn and read.
+std::vector<Option> map_options(BiasRequest& request) {
+  return {{.name = "--layers",
+           .target = &request.layers,
+           .help = "depths that the maps store, or all",
+           .names = layer_names({"all"}),
+           .only_names = false},
+          {.name = "--biases",
+           .target = &request.biases,
+           .help = "biases of the comparison, or all",
+           .names = bias_names(),
+           .only_names = false},
+          {.name = "--filter",
+           .target = &request.filter,
+           .help = "filter that reads the maps, with options as in pcf:radius=2",
+           .names = names_in(render::all_filters()),
+           .only_names = false},
+          {.name = "--warp",
+           .target = &request.warp,
+           .help = "warp of the maps, or none",
+           .names = names_in(all_warps(), {"auto"}),
+           .only_names = false},
+          {.name = "--cascades",
+           .target = &request.cascades,
+           .help = "number of shadow maps along the view",
+           .range = {{1, kMaxMaps}}},
+          {.name = "--map-size",
+           .target = &request.map_size,
+           .help = "texels along each side of a map",
+           .range = {{64, 16384}}}};
+}
+
+}  // namespace
+
+std::function<int()> declare_bias(Arguments& arguments) {
+  const auto request = std::make_shared<BiasRequest>();
+  arguments.options = {{.name = "SCENE",
+                        .target = &request->scenes,
+                        .help = "builtin:NAME or glTF files; without any: builtin:city, terrain and trees",
+                        .names = builtin_scene_words(),
+                        .only_names = false,
+                        .completion = Completion::files}};
+  for (Option& option : map_options(*request)) arguments.options.push_back(std::move(option));
+  for (Option& option : light_options(request->light, request->sun))
+    arguments.options.push_back(std::move(option));
+  arguments.options.push_back(
+      {.name = "--size", .target = &request->size, .help = "size of a frame in pixels, WIDTHxHEIGHT"});
+  arguments.options.push_back({.name = "--out",
+                               .target = &request->out,
+                               .help = "folder for a picture of each row; without it none are written",
+                               .completion = Completion::folders});
+  arguments.options.push_back(
+      {.name = "--json", .target = &request->json, .help = "print each row as a line of JSON"});
+  arguments.options.push_back(context_option(request->context));
+  arguments.footer =
+      "False shadow and false light are shares of the pixels that exact rays decide. The contact gap is\n"
+      "how far from a contact shadows begin: up to this distance of a blocker, in texels at the receiver,\n"
+      "light leaks more than in the rest of the frame. docs/bias.md explains layers and biases.";
+  return [request] { return run_bias(*request); };
+}
+
+}  // namespace gnomon::tool

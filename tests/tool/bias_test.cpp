@@ -1,0 +1,102 @@
+// `gnomon bias` and `gnomon compare --layers` from outside: their rows, and what they refuse.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gnomon/render/depth_layer.hpp"
+#include "small_sweep.hpp"
+
+namespace gnomon::test {
+namespace {
+
+using nlohmann::json;
+
+TEST(Bias, table_shows_the_acne_of_the_first_surface_and_that_other_layers_lack_it) {
+  const Finished finished = run_gnomon({"bias", "builtin:terrain", "--size", "96x54", "--map-size", "256",
+                                        "--biases", "zero,default", "--context", "osmesa", "--json"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  std::map<std::pair<std::string, std::string>, json> rows;
+  std::istringstream lines(finished.out);
+  for (std::string line; std::getline(lines, line);) {
+    const json row = json::parse(line);
+    EXPECT_EQ(row.at("scene"), "builtin:terrain");
+    EXPECT_GE(row.at("contact_gap_texels"), 0.0);
+    rows[{row.at("layer"), row.at("bias")}] = row;
+  }
+  ASSERT_EQ(rows.size(), 2u * render::kDepthLayerCount);
+  const auto false_shadow = [&](const char* layer, const char* bias) {
+    return rows.at({layer, bias}).at("false_shadow").get<double>();
+  };
+  EXPECT_GT(false_shadow("front", "zero"), 0.2);
+  EXPECT_LT(false_shadow("front", "default"), 0.02);
+  // The hills' sheet has no other surface behind it, and culled front faces leave nothing to be shadowed by.
+  EXPECT_LT(false_shadow("back", "zero"), 0.02);
+  EXPECT_LT(false_shadow("dual", "zero"), 0.02);
+}
+
+TEST(Bias, refuses_bad_input_in_one_line) {
+  const std::vector<std::vector<std::string>> bad = {
+      {"bias", "builtin:nowhere"},
+      {"bias", "--layers", "front,behind"},
+      {"bias", "--biases", "none"},
+      {"bias", "--filter", "irregular"},
+      {"bias", "--filter", "blur"},
+      {"bias", "--warp", "bent"},
+      {"bias", "--cascades", "9"},
+      {"bias", "--size", "10"},
+      {"compare", "builtin:fence", "--layers", "middle"},
+      {"compare", "builtin:fence", "--layers", "back,dual", "--filters", "irregular"},
+  };
+  for (const std::vector<std::string>& words : bad) {
+    const Finished finished = run_gnomon(words);
+    EXPECT_EQ(finished.exit_code, 2) << words.back() << finished.out;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+  }
+}
+
+TEST(CompareLayers, every_layer_has_a_row_and_irregular_is_measured_once) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",     "builtin:fence",
+                                        "--warps",     "none",
+                                        "--cascades",  "1",
+                                        "--filters",   "hard,irregular",
+                                        "--layers",    "all",
+                                        "--frames",    "1",
+                                        "--size",      "64x36",
+                                        "--rounds",    "1",
+                                        "--map-sizes", "128",
+                                        "--context",   "osmesa",
+                                        "--out",       folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.err.find("--layers skips irregular"), std::string::npos) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  ASSERT_EQ(rows.size(), render::kDepthLayerCount + 1);
+  std::map<std::string, report::Row> by_layer;
+  for (const report::Row& row : rows) {
+    EXPECT_GT(row.times.total_ms.median, 0.0);
+    if (row.technique.filter == "hard") by_layer[row.technique.layer] = row;
+  }
+  ASSERT_EQ(by_layer.size(), render::kDepthLayerCount);
+  const report::Row& front = by_layer.at("");
+  EXPECT_EQ(front.technique.name().find("layer"), std::string::npos);
+  for (const char* layer : {"back", "second", "midpoint", "dual"}) {
+    const report::Row& row = by_layer.at(layer);
+    const bool peels = std::string(layer) != "back";
+    EXPECT_EQ(row.costs.triangles, (peels ? 2 : 1) * front.costs.triangles) << layer;
+    EXPECT_NE(row.technique.name().find(std::string(layer) + " layer"), std::string::npos);
+    // The usual bias hides the difference between the first surface and one close behind it.
+    const bool far_behind = std::string(layer) == "back" || std::string(layer) == "second";
+    if (far_behind) {
+      EXPECT_NE(row.errors.false_lit, front.errors.false_lit) << layer;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::test
