@@ -27,6 +27,8 @@ struct BiasOptions {
   double normal_offset_texels = 0.5;
   /// Cap of tan(angle): at grazing light the slope term would move shadows off their casters.
   double max_slope = 8.0;
+  /// Equal in all members.
+  bool operator==(const BiasOptions&) const = default;
 };
 
 /// The same in world units at the centre of the map's body, for one map.

@@ -30,6 +30,8 @@ struct Box {
     extend(other.min);
     extend(other.max);
   }
+  /// Equal in all members.
+  bool operator==(const Box&) const = default;
 };
 
 class CasterSet;

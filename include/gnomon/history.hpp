@@ -38,8 +38,7 @@ struct KeptMap {
 };
 
 /// State that make_plan carries from frame to frame. Start with an empty one; keep one per camera and light;
-/// clear it at a cut. With CadenceOptions also clear it when other plan options change: kept maps were
-/// planned with the old ones. Plain data: copy it to try a frame twice.
+/// clear it at a cut. Plain data: copy it to try a frame twice.
 struct PlanHistory {
   /// The last map of one cascade.
   struct Map {
@@ -55,6 +54,8 @@ struct PlanHistory {
   std::array<double, kMaxMaps + 1> edge{};  ///< view depths between the cascades
   int edge_count = 0;                       ///< entries of `edge` that are used; 0 before the first plan
   std::array<KeptMap, kMaxMaps> kept;       ///< by cascade
+  /// That the maps in `kept` were planned with. Under any others they are planned again.
+  PlanOptions kept_options;
 
   /// Events of the last plan; event_count of them are used.
   std::array<PlanEvent, kMaxMaps> event;

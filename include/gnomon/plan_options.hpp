@@ -49,6 +49,8 @@ struct ResolutionOptions {
   /// Different world sizes per octave that a map of Fit::stable may have, 1..1024. Fewer keep the texel grid
   /// unchanged through a zoom or a change of the splits, and enlarge texels by up to 1 / steps.
   int stable_size_steps = 1024;
+  /// Equal in all members.
+  bool operator==(const ResolutionOptions&) const = default;
 };
 
 /// Which perspective warp a map gets, and what it is chosen by.
@@ -61,6 +63,8 @@ struct WarpOptions {
   /// stays in the map, with larger texels. An empty box, the default, means none.
   Box focus;
   double focus_weight = 4.0;  ///< 1..1e6
+  /// Equal in all members.
+  bool operator==(const WarpOptions&) const = default;
 };
 
 /// How far the widest filter kernel reaches from a texel. A border this wide is reserved for filtering:
@@ -71,12 +75,14 @@ struct FilterExtent {
   /// Kernel radius in world units across the light, >= 0. The border is as wide as the kernel gets where the
   /// map's texels are smallest, at most a quarter of the map. The wider of the two radii counts.
   double world = 0.0;
+  /// Equal in all members.
+  bool operator==(const FilterExtent&) const = default;
 };
 
 /// How often the cascades behind the first are planned. Between two plans of a cascade its map keeps its
 /// matrix, with room for the motion in between, and needs no drawing: reuse() returns `identical`.
 /// Needs a PlanHistory, a directional light and unmoved bounds. A cascade is planned at once where the camera
-/// moved farther than promised, or its lens, its splits or the light changed.
+/// moved farther than promised, or its lens, the light or any option changed.
 /// With more than one frame, cascades divide the camera's whole depths, by `practical` in place of
 /// `automatic` and `optimal`, and visible depths and points are ignored.
 struct CadenceOptions {
@@ -89,6 +95,8 @@ struct CadenceOptions {
   /// Largest turn of the camera from one frame to the next, radians, 0..pi; default 0. Room is a turn's arc
   /// at the cascade's far end.
   double largest_turn = 0.0;
+  /// Equal in all members.
+  bool operator==(const CadenceOptions&) const = default;
 };
 
 /// Options of make_plan. Every default suits most scenes.
@@ -116,6 +124,8 @@ struct PlanOptions {
   /// Work that may be omitted: by default such that no pixel changes. PruneRules::all() adds the bounded
   /// rules of prune_rules.def: among others, maps shrink to the size that their error bound needs.
   PruneRules prune = default_prune_rules();
+  /// Equal in all members.
+  bool operator==(const PlanOptions&) const = default;
 };
 
 /// The shortest side that a texel budget gives: kSizeStep, or four filter radii.

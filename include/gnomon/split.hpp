@@ -77,6 +77,8 @@ struct SplitOptions {
     for (double& depth : all) depth = std::numeric_limits<double>::infinity();
     return all;
   }
+  /// Equal in all members.
+  bool operator==(const SplitOptions&) const = default;
 };
 
 /// Fills `edges` (N + 1 of them for N maps) with the borders, ascending; the first is exactly `near_depth`,

@@ -83,6 +83,65 @@ TEST(Cadence, a_broken_promise_another_lens_or_light_plans_every_cascade) {
   EXPECT_TRUE(all_change([](Plain& p) { p.options.resolution.max_size = 512; }));
 }
 
+/// Which cascades were planned in the last frame, of those that may be kept.
+int planned_anew(const PlanHistory& history) {
+  int planned = 0;
+  for (std::size_t i = 1; i < 4; ++i) planned += history.kept[i].frame == history.frame - 1 ? 1 : 0;
+  return planned;
+}
+
+// Not split.lambda and the like: edges move to their new places in steps, and each step is another map.
+TEST(Cadence, any_other_option_plans_every_cascade_once) {
+  struct Change {
+    const char* what;
+    void (*make)(PlanOptions&);
+  };
+  const Change changes[] = {
+      {"resolution.max_size", [](PlanOptions& o) { o.resolution.max_size = 512; }},
+      {"fit", [](PlanOptions& o) { o.fit = Fit::rotated; }},
+      {"split.pseudo_near", [](PlanOptions& o) { o.split.pseudo_near = 3.0; }},
+      {"split.overlap", [](PlanOptions& o) { o.split.overlap = 0.25; }},
+      {"split.selection", [](PlanOptions& o) { o.split.selection = MapSelection::finest; }},
+      {"warp.warp", [](PlanOptions& o) { o.warp.warp = &warps::none; }},
+      {"warp.objective", [](PlanOptions& o) { o.warp.objective = Objective::p95; }},
+      {"warp.focus",
+       [](PlanOptions& o) {
+         o.warp.focus = {{-5, 0, -60}, {5, 8, -50}};
+       }},
+      {"cadence.frames", [](PlanOptions& o) { o.cadence.frames = 5; }},
+      {"cadence.largest_step", [](PlanOptions& o) { o.cadence.largest_step = 5.0; }},
+      {"cadence.largest_turn", [](PlanOptions& o) { o.cadence.largest_turn = 0.2; }},
+      {"filter.texels", [](PlanOptions& o) { o.filter.texels = 8.0; }},
+      {"filter.world", [](PlanOptions& o) { o.filter.world = 2.0; }},
+      {"bias.slope_texels", [](PlanOptions& o) { o.bias.slope_texels = 2.0; }},
+      {"clip_space.reversed_z", [](PlanOptions& o) { o.clip_space.reversed_z = true; }},
+      {"prune", [](PlanOptions& o) { o.prune = o.prune.without(PruneRule::casterless_cascades); }},
+  };
+  for (const Change& change : changes) {
+    Plain plain;
+    (void)plain.plan();
+    (void)plain.plan();
+    ASSERT_LT(planned_anew(plain.history), 3);
+    change.make(plain.options);
+    const ShadowPlan now = plain.plan();
+    EXPECT_EQ(planned_anew(plain.history), 3) << change.what;
+    for (const ShadowMap& map : now.maps()) {
+      EXPECT_GE(map.filter_margin_texels, plain.options.filter.texels) << change.what;
+      EXPECT_EQ(map.width, plain.options.resolution.max_size) << change.what;
+    }
+    (void)plain.plan();
+    EXPECT_LT(planned_anew(plain.history), 3) << change.what;
+  }
+}
+
+TEST(Cadence, a_lambda_that_is_no_number_keeps_maps_like_any_other) {
+  Plain plain;
+  plain.options.split.lambda = std::numeric_limits<double>::quiet_NaN();
+  (void)plain.plan();
+  (void)plain.plan();
+  EXPECT_LT(planned_anew(plain.history), 3);
+}
+
 TEST(Cadence, room_is_what_the_promise_requires) {
   Plain still, moving;
   still.options.cadence = {3, 0.0, 0.0};

@@ -59,7 +59,15 @@ PlanOptions with_fixed_splits(PlanOptions options) noexcept {
   const SplitScheme scheme = options.split.scheme;
   if (scheme == SplitScheme::automatic || scheme == SplitScheme::optimal)
     options.split.scheme = SplitScheme::practical;
+  // As split_depths takes it: options that hold no number equal no others.
+  if (std::isnan(options.split.lambda)) options.split.lambda = 0.5;
   return options;
+}
+
+void keep_for(const PlanOptions& options, PlanHistory& history) noexcept {
+  if (options == history.kept_options) return;
+  for (KeptMap& kept : history.kept) kept.frame = -1;
+  history.kept_options = options;
 }
 
 double room_for_motion(const PlanContext& c, double end) noexcept {
@@ -94,9 +102,8 @@ const KeptMap* kept_map(const PlanContext& c, const PlanHistory& history, const 
   const bool due = (history.frame + slot.cascade) % frames == 0;
   if (due || kept.frame < 0 || history.frame - kept.frame >= frames) return nullptr;
   const ShadowMap& map = kept.map;
-  const int size = c.options.resolution.max_size;
   const bool same = c.same_light && same_lens(c.camera, kept.camera) && map.depth_begin == slot.begin &&
-                    map.depth_end == slot.end && map.width == size && map.height == size;
+                    map.depth_end == slot.end;
   return same && motion_between(c, kept.camera, slot.end) <= room_for_motion(c, slot.end) ? &kept : nullptr;
 }
 

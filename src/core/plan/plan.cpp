@@ -133,6 +133,7 @@ void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bou
   PlanContext context = begin_plan(camera, bounds, options, history != nullptr, plan);
   context.keeps = keeps_cascades(light, options, history != nullptr);
   context.seen_points = visible.points_world;
+  if (context.keeps) keep_for(options, *history);
   if (history != nullptr) {
     context.last_eye = history->eye_world;
     context.last_forward = history->forward;
