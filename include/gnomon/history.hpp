@@ -37,6 +37,13 @@ struct KeptMap {
   Camera camera;                  ///< of the frame in which the map was planned
 };
 
+/// The best warp of one cascade, where the next frame's search begins.
+struct SearchedWarp {
+  std::int64_t until = -1;         ///< the frame whose search begins from nothing again; -1: at once
+  glm::dmat4 xyw_from_world{1.0};  ///< x, y and w of OpenGL clip space; z is of no use
+  double gain_ratio = 1.0;         ///< objective over that of no warp
+};
+
 /// State that make_plan carries from frame to frame. Start with an empty one; keep one per camera and light;
 /// clear it at a cut. Plain data: copy it to try a frame twice.
 struct PlanHistory {
@@ -45,6 +52,7 @@ struct PlanHistory {
     std::int64_t frame = -1;                              ///< in which it was fitted; -1: never
     glm::dmat4 gl_from_world{1.0};                        ///< OpenGL clip space
     int width = 0, height = 0, filter_margin_texels = 0;  ///< texels
+    SearchedWarp searched;                                ///< that the map moves towards
   };
   std::array<Map, kMaxMaps> map;            ///< by cascade
   std::int64_t frame = 0;                   ///< of the next plan
@@ -54,8 +62,8 @@ struct PlanHistory {
   std::array<double, kMaxMaps + 1> edge{};  ///< view depths between the cascades
   int edge_count = 0;                       ///< entries of `edge` that are used; 0 before the first plan
   std::array<KeptMap, kMaxMaps> kept;       ///< by cascade
-  /// That the maps in `kept` were planned with. Under any others they are planned again.
-  PlanOptions kept_options;
+  /// Of the last frame. Under any others kept maps are planned again, and searches begin from nothing.
+  PlanOptions options;
 
   /// Events of the last plan; event_count of them are used.
   std::array<PlanEvent, kMaxMaps> event;

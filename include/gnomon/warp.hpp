@@ -43,6 +43,18 @@ struct WarpChoice {
   glm::dvec2 row_b{0.0, 1.0};  ///< with row_a
   /// The objective over that of no warp, where the warp has measured it itself; 0: the plan measures it.
   double gain_ratio = 0.0;
+  /// The objective of WarpStart::map over that of no warp where the search began at WarpInput::start,
+  /// infinite without such a map; 0: it began from nothing.
+  double last_ratio = 0.0;
+};
+
+/// The last frame's warp and map in this frame's light plane, where a search may start. Rows may have any
+/// length.
+struct WarpStart {
+  WarpChoice best;       ///< what the last frame's search returned, with its gain_ratio
+  WarpChoice map;        ///< the map that was drawn, which changes in small steps only
+  bool has_map = false;  ///< `map` can be drawn again
+  bool moved = true;     ///< camera or light moved since, so that `best` may have as well
 };
 
 /// The body as a warp sees it. The light plane's x and y (light_space.hpp) span the map; y runs along the
@@ -78,6 +90,8 @@ struct WarpInput {
   double pseudo_near = 0.0;  ///< view depth from which error counts; 0: everywhere
   /// 1 + kappa length of the strongest warp that a map can take: beyond it the plan drops the warp.
   double most_stretch = 1e9;
+  /// Where a search may begin, in place of at everything; nullptr: nothing is known.
+  const WarpStart* start = nullptr;
 
   /// Neither camera nor light has a perspective to undo.
   [[nodiscard]] bool flat() const noexcept { return orthographic && !light.perspective; }
@@ -114,6 +128,8 @@ struct Warp {
   /// True where the plan may drop the warp because it does not lower the objective. False only for warps kept
   /// to reproduce a paper as it stands.
   bool drop_without_gain;
+  /// True where the search begins at WarpInput::start, if there is one.
+  bool follows_start = false;
 };
 
 /// All warps, in the order of warps.def.

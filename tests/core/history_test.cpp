@@ -38,5 +38,33 @@ TEST(PlanHistory, fits_maps_within_the_budget_for_cascades_that_had_none) {
   EXPECT_GT(budgeted, 10) << "plans with maps and a budget";
 }
 
+TEST(PlanHistory, searches_from_nothing_after_a_while_and_under_other_options) {
+  const Camera camera =
+      perspective_camera({0, 5, 0}, {0, -0.3, -1}, {0, 1, 0}, 1.0, 1.6, 0.5, 200.0, 640, 400);
+  const std::vector<Box> boxes = {{{-100, -1, -100}, {100, 0, 100}}, {{-5, 0, -30}, {5, 8, -20}}};
+  PlanOptions options;
+  options.cascades = 1;
+  PlanHistory history;
+  const auto plan = [&] {
+    return make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {boxes, boxes}, options, history).map_count;
+  };
+  ASSERT_EQ(plan(), 1);
+  const std::int64_t first = history.map[0].searched.until;
+  EXPECT_LT(history.map[0].searched.gain_ratio, 1.0);
+  while (history.frame < first) {
+    ASSERT_EQ(plan(), 1);
+    ASSERT_EQ(history.map[0].searched.until, first)
+        << "follows the first result in frame " << history.frame - 1;
+  }
+  ASSERT_EQ(plan(), 1);
+  EXPECT_GT(history.map[0].searched.until, first);
+  const std::int64_t second = history.map[0].searched.until;
+  ASSERT_EQ(plan(), 1);
+  EXPECT_EQ(history.map[0].searched.until, second);
+  options.warp.objective = Objective::p95;
+  ASSERT_EQ(plan(), 1);
+  EXPECT_GT(history.map[0].searched.until, second) << "another objective has another best warp";
+}
+
 }  // namespace
 }  // namespace gnomon::test

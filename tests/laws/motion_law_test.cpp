@@ -11,6 +11,7 @@
 
 #include "support/property.hpp"
 #include "support/random_case.hpp"
+#include "warp/plane_error.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -193,7 +194,7 @@ TEST(MotionLaw, a_still_camera_keeps_its_grid) {
     w.turn = 0.0;
     const Fit fits[] = {Fit::tight, Fit::warped_stable};
     w.options.fit = fits[pick(2)];
-    fly(w, 8,
+    fly(w, 20,
         [&](const ShadowPlan& a, const ShadowPlan& b, const Camera&, const Camera&,
             const PlanHistory& history) {
           require(history.event_count == 0, "events", history.event_count);
@@ -206,6 +207,70 @@ TEST(MotionLaw, a_still_camera_keeps_its_grid) {
           }
         });
   });
+}
+
+/// What searches from the last frame's result came to, over searches from nothing in the same frame.
+struct Followed {
+  std::vector<double> ratio;  // of the objective
+  int searches = 0;
+  double over_none = 0.0;  // the largest objective over that of no warp
+};
+Followed followed;
+
+/// In the place of `optimal`, which it asks twice.
+WarpChoice follow(const WarpInput& input) noexcept {
+  const WarpChoice choice = warps::optimal.choose(input);
+  ++followed.searches;
+  if (!(choice.last_ratio > 0.0)) return choice;
+  WarpInput cold = input;
+  cold.start = nullptr;
+  PlaneError error(input, true);
+  const double value = error.value(choice);
+  followed.ratio.push_back(value / error.value(warps::optimal.choose(cold)));
+  followed.over_none = std::max(followed.over_none, value / error.value(input.unwarped));
+  return choice;
+}
+const Warp kFollow{"follow", "compares searches", follow, true, true};
+
+double mean_log(std::span<const double> ratios) {
+  double sum = 0.0;
+  for (const double r : ratios) sum += std::log(r);
+  return sum / static_cast<double>(ratios.size());
+}
+
+TEST(MotionLaw, a_search_from_the_last_result_finds_what_one_from_nothing_finds_and_does_not_drift) {
+  constexpr double kMean = 0.005;     // of the logarithm: a search from nothing is off by as much
+  constexpr double kNearlyAll = 1.3;  // where another place became better since the last search
+  constexpr int kFrames = 600;
+  for (const Objective objective : {Objective::storage, Objective::max, Objective::p95}) {
+    std::vector<double> all, early, late;
+    int searches = 0;
+    for_all(5, [&] {
+      Walk w = draw_walk();
+      w.options.warp.warp = &kFollow;
+      w.options.warp.objective = objective;
+      w.options.cascades = 2;
+      PlanHistory history;
+      for (int frame = 0; frame < kFrames; ++frame) {
+        followed = {};
+        (void)make_plan(w.camera(frame), DirectionalLight{w.light}, w.bounds(), w.options, history);
+        searches += followed.searches;
+        require(followed.over_none <= 1.0 + kRounding, "over no warp", followed.over_none, "frame", frame);
+        for (const double r : followed.ratio) {
+          all.push_back(r);
+          (frame < kFrames / 2 ? early : late).push_back(r);
+        }
+      }
+    });
+    ASSERT_GT(static_cast<int>(all.size()), searches * 8 / 10) << "most begin at the last result";
+    EXPECT_LT(mean_log(all), kMean) << to_string(objective);
+    EXPECT_LT(mean_log(late), mean_log(early) + 4.0 * kMean) << to_string(objective);
+    std::sort(all.begin(), all.end());
+    EXPECT_LT(all[all.size() * 99 / 100], kNearlyAll) << to_string(objective);
+    std::printf("%s: mean %.4f, 90%% %.4f, 99%% %.4f, worst %.4f\n",
+                std::string(to_string(objective)).c_str(), std::exp(mean_log(all)), all[all.size() * 9 / 10],
+                all[all.size() * 99 / 100], all.back());
+  }
 }
 
 TEST(MotionLaw, a_broken_input_leaves_the_history_as_it_was) {

@@ -42,6 +42,7 @@ struct PlanContext {
   bool keeps = false;                            // cascades behind the first, over frames
   bool same_light = false;                       // as in the last frame, to the last bit
   std::span<const SharedView> views = {};        // cameras that share the maps; empty: `camera` alone
+  std::int64_t frame = 0;                        // of the history
   // Of the last frame, where one is remembered.
   glm::dvec3 last_eye{0.0}, last_forward{0.0};
 };
@@ -80,6 +81,7 @@ struct MapResult {
   bool drawn = false;  // false: no caster can reach the body
   ShadowMap map;
   glm::dmat4 gl_from_world{1.0};
+  SearchedWarp searched;
   std::array<Omission, 3> omission;
   int omission_count = 0;
   bool has_event = false;

@@ -106,7 +106,10 @@ WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const Li
   if (takes(request.warp, choice, ratio)) return choice;
   result.omit({OmissionKind::warp_without_gain, request.slot.cascade, ratio, 0.0, 0});
   result.map.warp = &warps::none;
-  return in.unwarped;
+  WarpChoice unwarped = in.unwarped;
+  unwarped.gain_ratio = choice.last_ratio > 0.0 ? 1.0 : 0.0;
+  unwarped.last_ratio = choice.last_ratio;
+  return unwarped;
 }
 
 /// The choice with its rectangle turned to the least area, where that lowers the objective.
@@ -119,6 +122,8 @@ WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) n
   WarpChoice turned = choice;
   turned.row_a = side;
   turned.row_b = {-side.y, side.x};
+  // What the warp has measured is of its own rectangle.
+  turned.gain_ratio = turned.last_ratio = 0.0;
   // Without perspective the area is the objective.
   if (in.flat()) return turned;
   PlaneError error(in);
@@ -131,8 +136,12 @@ PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const Lig
   const bool steady = c.remembers && !c.stable && c.options.fit != Fit::warped_stable;
   const bool warped = !is_unwarped(request.warp) && !c.stable;
   if (!warped && c.options.fit != Fit::rotated && !steady) return plane_map(body.points(), request.unwarped);
-  const WarpQuestion question(c, request, body);
+  WarpQuestion question(c, request, body);
+  WarpStart start;
+  const bool follows = steady && warped && request.warp.follows_start;
+  if (follows && find_start(c, request, question, start)) question.in.start = &start;
   WarpChoice choice = chosen_warp(c, request, body, question, result);
+  if (follows) result.searched = searched_warp(c, request, question, choice);
   if (c.options.fit == Fit::rotated) choice = turned_to_least_area(question.in, choice);
   return steady ? steady_plane(c, request, question, choice, result) : plane_map(question.in.body, choice);
 }

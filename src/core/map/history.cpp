@@ -14,6 +14,7 @@
 #include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
 #include "map/border.hpp"
+#include "map/record.hpp"
 #include "warp/plane_error.hpp"
 
 namespace gnomon {
@@ -28,8 +29,11 @@ constexpr double kWorthFollowing = 0.02;
 // A change beyond this factor is a cut: nothing is gained by going slowly.
 constexpr double kCut = 0.4054651081081644;  // ln 1.5
 constexpr double kPi = 3.141592653589793;
-// Steps of the search for the farthest way that is still smooth.
-constexpr int kBisections = 6;
+// Steps of the search for the farthest way that is still smooth, and how much less is taken than a straight
+// line through two of them says.
+constexpr int kSteps = 3;
+constexpr int kBisections = 6;  // where a line says nothing
+constexpr double kShorter = 0.98;
 // Largest change of an edge between cascades from frame to frame, of its logarithm.
 constexpr double kEdgeStep = 0.01;
 // Share of a held map that the view must use: less wastes more texels than a still grid is worth.
@@ -204,6 +208,17 @@ bool remembered(const MapRequest& request) noexcept {
 
 namespace {
 
+/// The last frame's map, now `last`, is hardly worse than `goal`: the best one, or one on the way there.
+bool is_near_best(const WarpInput& in, const WarpChoice& last, const WarpChoice& goal,
+                  const WarpChoice& best) noexcept {
+  constexpr double kNear = 1.0 + kWorthFollowing;
+  // A goal that is held back by the camera's motion is worse than the best.
+  const bool measured = best.last_ratio > 0.0 && best.gain_ratio > 0.0 && goal.kappa == best.kappa;
+  if (measured) return best.last_ratio <= best.gain_ratio * kNear;
+  PlaneError error(in);
+  return error.value(last) <= error.value(goal) * kNear;
+}
+
 /// A walk from the last frame's map to the best one.
 class SteadyWay {
  public:
@@ -223,17 +238,27 @@ class SteadyWay {
     change.high += borders;
     return change;
   }
-  /// The farthest share of the way whose change is still smooth.
+  /// Nearly the farthest share of the way whose change is still smooth.
   [[nodiscard]] double farthest_smooth(const Way& way) const noexcept {
-    const auto smooth = [&](double t) {
+    // Over what is smooth.
+    const auto over = [&](double t) {
       const Change change = changed(at(way, t));
-      return -change.low <= kLimit && change.high - change.low <= 2.0 * kLimit;
+      return max_of(-change.low / kLimit, (change.high - change.low) / (2.0 * kLimit));
     };
-    if (smooth(1.0)) return 1.0;
+    double far = 1.0, over_far = over(1.0);
+    if (over_far <= 1.0) return 1.0;
+    // The camera's own motion changes texels as well.
+    const double over_near = over(0.0);
+    for (int i = 0; i < kSteps && over_near < 1.0; ++i) {
+      far *= kShorter * (1.0 - over_near) / (over_far - over_near);
+      over_far = over(far);
+      if (over_far <= 1.0) return far;
+    }
+    // Staying may change texels more than going some of the way does.
     double share = 0.0, bad = 1.0;
     for (int i = 0; i < kBisections; ++i) {
       const double middle = 0.5 * (share + bad);
-      (smooth(middle) ? share : bad) = middle;
+      (over(middle) <= 1.0 ? share : bad) = middle;
     }
     return share;
   }
@@ -248,7 +273,42 @@ class SteadyWay {
   Homography before_;
 };
 
+// Frames from one search that begins from nothing to the next, of one map; those of several maps are spread.
+constexpr std::int64_t kSearchEvery = 16;
+constexpr std::int64_t kSearchApart = 4;
+
 }  // namespace
+
+bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
+                WarpStart& start) noexcept {
+  if (request.last == nullptr) return false;
+  const SearchedWarp& last = request.last->searched;
+  if (c.frame >= last.until) return false;
+  const WarpInput& in = question.in;
+  const auto choice_of = [&](const glm::dmat4& m, WarpChoice& choice) {
+    const Decomposed d = decompose(homography(gl_from_light(c, request.space, m)), in.body, in.unwarped.axis);
+    choice = d.choice;
+    return d.valid && usable(in.body, d.choice, in.most_stretch);
+  };
+  if (!choice_of(last.xyw_from_world, start.best)) return false;
+  start.best.gain_ratio = last.gain_ratio;
+  // Searches round the same place would find better ones for ever, and move texels under a still camera.
+  start.moved = !c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward;
+  start.has_map = remembered(request) && choice_of(request.last->gl_from_world, start.map);
+  return true;
+}
+
+SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
+                           const WarpChoice& choice) noexcept {
+  const bool followed = choice.last_ratio > 0.0;
+  const std::int64_t sooner =
+      request.last != nullptr ? 0 : kSearchApart * request.slot.cascade % kSearchEvery;
+  const PlaneMap plane = plane_map(question.in.body, choice);
+  return {followed ? request.last->searched.until : c.frame + kSearchEvery - sooner,
+          world_matrix(clip_from_light(plane, {0.0, 1.0}, 0.0) * request.space.light_from_relative(),
+                       c.camera.position),
+          choice.gain_ratio > 0.0 ? choice.gain_ratio : 1.0};
+}
 
 PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
                       const WarpChoice& best, MapResult& result) noexcept {
@@ -271,9 +331,7 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
   WarpChoice goal = best;
   goal.kappa = min_of(goal.kappa, strongest_in_motion(c, question, target.length));
   const Way way = way_between(from, decompose(of_plane(plane_map(in.body, goal)), in.body, from.choice.axis));
-  PlaneError error(in);
-  const bool stays =
-      !in.orthographic && error.value(way.at(0.0, in.body)) <= error.value(goal) * (1.0 + kWorthFollowing);
+  const bool stays = !in.orthographic && is_near_best(in, way.at(0.0, in.body), goal, best);
   PlaneMap plane = walk.at(way, stays ? 0.0 : walk.farthest_smooth(way));
   Change change = walk.changed(plane);
   if (change.largest() > kCut) return reported(target, walk.changed(target));

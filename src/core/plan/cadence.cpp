@@ -64,12 +64,6 @@ PlanOptions with_fixed_splits(PlanOptions options) noexcept {
   return options;
 }
 
-void keep_for(const PlanOptions& options, PlanHistory& history) noexcept {
-  if (options == history.kept_options) return;
-  for (KeptMap& kept : history.kept) kept.frame = -1;
-  history.kept_options = options;
-}
-
 double room_for_motion(const PlanContext& c, double end) noexcept {
   const CadenceOptions& cadence = c.options.cadence;
   const double steps = static_cast<double>(cadence.frames - 1);

@@ -12,10 +12,6 @@ namespace gnomon {
 /// The options with splits that no motion of the camera moves.
 [[nodiscard]] PlanOptions with_fixed_splits(PlanOptions options) noexcept;
 
-/// Forgets the kept maps where they were planned with other options than `options`, which are those of
-/// with_fixed_splits; from now on maps are kept for these.
-void keep_for(const PlanOptions& options, PlanHistory& history) noexcept;
-
 /// How far, in world units, a point of the slice up to the view depth `end` may move against the camera while
 /// its map is kept.
 [[nodiscard]] double room_for_motion(const PlanContext& c, double end) noexcept;

@@ -105,8 +105,8 @@ void keep(const PlanContext& c, const KeptMap& kept, PlanHistory& history, Shado
   }
   const ShadowMap& map = plan.map[static_cast<std::size_t>(plan.map_count++)] =
       rebased(kept.map, c.camera.position);
-  history.map[static_cast<std::size_t>(map.cascade)] = {history.frame, kept.gl_from_world, map.width,
-                                                        map.height, map.filter_margin_texels};
+  PlanHistory::Map& last = history.map[static_cast<std::size_t>(map.cascade)];
+  last = {history.frame, kept.gl_from_world, map.width, map.height, map.filter_margin_texels, last.searched};
 }
 
 /// What later frames may keep.

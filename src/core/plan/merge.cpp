@@ -31,8 +31,8 @@ void merge(const MapResult& result, const Omission& missing, PlanHistory* histor
   if (history == nullptr) return;
   if (result.has_event && history->event_count < kMaxMaps)
     history->event[static_cast<std::size_t>(history->event_count++)] = result.event;
-  history->map[static_cast<std::size_t>(map.cascade)] = {history->frame, result.gl_from_world, map.width,
-                                                         map.height, map.filter_margin_texels};
+  history->map[static_cast<std::size_t>(map.cascade)] = {
+      history->frame, result.gl_from_world, map.width, map.height, map.filter_margin_texels, result.searched};
 }
 
 std::int64_t texels_asked(const PlanOptions& options) noexcept {

@@ -119,6 +119,14 @@ PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const Pl
   return context;
 }
 
+/// Forgets what was planned with other options: maps that are kept as they are, and where searches begin.
+void remember_options(const PlanOptions& options, PlanHistory& history) noexcept {
+  if (options == history.options) return;
+  for (KeptMap& kept : history.kept) kept.frame = -1;
+  for (PlanHistory::Map& map : history.map) map.searched.until = -1;
+  history.options = options;
+}
+
 /// Fills in the plan of one frame; `history` may be nullptr.
 void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
                 const PlanOptions& options, PlanHistory* history, const Visible& visible,
@@ -133,8 +141,9 @@ void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bou
   PlanContext context = begin_plan(camera, bounds, options, history != nullptr, plan);
   context.keeps = keeps_cascades(light, options, history != nullptr);
   context.seen_points = visible.points_world;
-  if (context.keeps) keep_for(options, *history);
   if (history != nullptr) {
+    remember_options(options, *history);
+    context.frame = history->frame;
     context.last_eye = history->eye_world;
     context.last_forward = history->forward;
     // Maps of another place are no start, and no reason to go slowly; a turning sun's are.

@@ -14,6 +14,13 @@
 namespace gnomon::warps {
 namespace {
 
+// From the last frame's result on: how far round it, as a fall-off and in radians; and for a search by the
+// objective itself how many rounds, and the length of its steps over those from afar.
+constexpr double kFollowingRadius = 0.05, kFollowingFan = 0.02, kFollowingReach = 0.3;
+constexpr int kFollowingRounds = 2;
+// A result that loses or gains this much in a frame is no start: all is searched again.
+constexpr double kMostLoss = 1.04, kMostGain = 0.96;
+
 // A warp that gains less is not worth its sampling noise.
 constexpr double kLeastGain = 0.02;
 
@@ -149,6 +156,10 @@ void improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) 
 class Polish {
  public:
   using At = std::array<double, 4>;
+  /// `reach`: of the first steps, over what a search from afar takes.
+  explicit Polish(double reach) noexcept {
+    for (double& step : step_) step *= reach;
+  }
   [[nodiscard]] std::array<At, kLanes> places(int round) const noexcept {
     constexpr double kDiagonal = 0.6, kOn = 1.0, kFarOn = 2.0;
     std::array<At, kLanes> places;
@@ -191,7 +202,8 @@ class Polish {
 };
 
 /// Fall-off and the rows' leaning from `start` on, by the objective at the samples near the worst.
-Judged polished(RowSearch& search, PlaneError& error, const Judged& start, int rounds) noexcept {
+Judged polished(RowSearch& search, PlaneError& error, const Judged& start, int rounds,
+                double reach) noexcept {
   error.count_worst(start.choice);
   search.count(error.counted());
   error.count_all();
@@ -205,7 +217,7 @@ Judged polished(RowSearch& search, PlaneError& error, const Judged& start, int r
                      leaning(from.row_b, at[3]),
                      0.0};
   };
-  Polish polish;
+  Polish polish(reach);
   for (int round = 0; round < rounds; ++round) {
     const auto places = polish.places(round);
     RowLanes lanes;
@@ -242,10 +254,50 @@ RowChoice searched(RowSearch& search, const PlaneError& error, const WarpInput& 
   return best_around(search, rows, radius, fan);
 }
 
+WarpChoice judged_choice(const WarpInput& input, const Judged& best, double without) noexcept {
+  const bool gains = best.value < without * (1.0 - kLeastGain);
+  WarpChoice choice = gains ? best.choice : input.unwarped;
+  choice.gain_ratio = gains ? best.value / without : 1.0;
+  return choice;
+}
+
+/// The best of a few places near `start`, or `start` itself.
+Judged refined(RowSearch& search, PlaneError& error, const WarpInput& input, const Judged& start) noexcept {
+  if (input.objective != Objective::storage)
+    return polished(search, error, start, kFollowingRounds, kFollowingReach);
+  error.count_worst(start.choice);
+  search.count(error.counted());
+  error.count_all();
+  RowChoice rows = search.rows_of(start.choice);
+  rows.value = std::numeric_limits<double>::infinity();
+  const WarpChoice found = search.choice(best_around(search, rows, kFollowingRadius, kFollowingFan));
+  const double value = error.value(found);
+  return less(value, start.value) ? Judged{found, value} : start;
+}
+
+/// From the last frame's result on. False where that is no start, or no longer a good one.
+bool follow(const WarpInput& input, PlaneError& error, WarpChoice& choice) noexcept {
+  const WarpStart& start = *input.start;
+  const double without = error.value(input.unwarped), expected = without * start.best.gain_ratio;
+  Judged best{start.best, error.value(start.best)};
+  if (start.moved) {
+    RowSearch search(input, error);
+    if (search.line()) return false;
+    best = refined(search, error, input, best);
+  }
+  // Another body than in the last frame, for which another one may be better by far.
+  if (!(best.value >= expected * kMostGain && best.value <= expected * kMostLoss)) return false;
+  choice = judged_choice(input, best, without);
+  choice.last_ratio =
+      start.has_map ? error.value(start.map) / without : std::numeric_limits<double>::infinity();
+  return true;
+}
+
 WarpChoice choose_optimal(const WarpInput& input) noexcept {
   if (input.flat() || !(input.y_max - input.y_min > 0.0)) return input.unwarped;
   PlaneError error(input, true);
   if (error.corners().count == 0) return input.unwarped;
+  if (WarpChoice choice; input.start != nullptr && follow(input, error, choice)) return choice;
   RowSearch search(input, error);
   const double without = error.value(input.unwarped);
   Judged best{input.unwarped, without};
@@ -257,16 +309,14 @@ WarpChoice choose_optimal(const WarpInput& input) noexcept {
   if (!search.line() && input.objective != Objective::storage) {
     // The corners only hint at a percentile, and their surrogate at the worst texel.
     constexpr int kWorst = 4, kPercentile = 3;
-    best = polished(search, error, best, input.objective == Objective::p95 ? kPercentile : kWorst);
+    best = polished(search, error, best, input.objective == Objective::p95 ? kPercentile : kWorst, 1.0);
   }
-  const bool gains = best.value < without * (1.0 - kLeastGain);
-  WarpChoice choice = gains ? best.choice : input.unwarped;
-  choice.gain_ratio = gains ? best.value / without : 1.0;
-  return choice;
+  return judged_choice(input, best, without);
 }
 
 }  // namespace
 
-const Warp optimal{"optimal", "perspective along any axis, searched for the objective", choose_optimal, true};
+const Warp optimal{"optimal", "perspective along any axis, searched for the objective", choose_optimal, true,
+                   true};
 
 }  // namespace gnomon::warps
