@@ -80,7 +80,7 @@ struct MapResult {
   bool drawn = false;  // false: no caster can reach the body
   ShadowMap map;
   glm::dmat4 gl_from_world{1.0};
-  std::array<Omission, 3> omission;
+  std::array<Omission, 4> omission;
   int omission_count = 0;
   bool has_event = false;
   PlanEvent event;
