@@ -195,6 +195,32 @@ TEST(LogarithmicMap, plans_fall_back_to_linear_texels_and_say_so) {
   EXPECT_EQ(linear.map[0].shape, &shapes::linear);
 }
 
+TEST(LogarithmicMap, parts_of_the_frustum_and_spots_have_it_where_it_gains) {
+  const Camera camera =
+      perspective_camera({0, 4, 0}, {0.1, -0.2, -1}, {0, 1, 0}, 1.0, 1.5, 0.3, 120, 600, 400);
+  const std::array<Box, 2> boxes{{{{-60, -0.5, -190}, {60, 0, 5}}, {{-3, 0, -40}, {3, 9, -12}}}};
+  const Light sun = DirectionalLight{{0.2, -1, 0.1}};
+  const Light spot = SpotLight{{0, 60, -40}, {0, -1, 0.05}, 1.1, 200.0};
+  for (const Light& light : {sun, spot}) {
+    PlanOptions options = one_logarithmic_map();
+    options.cascades = 4;
+    options.filter.texels = 2.0;
+    options.split.partition = Partition::frustum_faces;
+    const ShadowPlan plan = make_plan(camera, light, {boxes, boxes}, options);
+    ASSERT_EQ(plan.status, PlanStatus::ok);
+    int bent = 0;
+    for (const ShadowMap& map : plan.maps()) bent += map.shape->affine ? 0 : 1;
+    EXPECT_GT(bent, 0);
+    options.warp.shape = &shapes::linear;
+    options.warp.warp = &warps::psm;
+    const ShadowPlan linear = make_plan(camera, light, {boxes, boxes}, options);
+    const AliasingStats with = measure(plan, camera, {boxes, boxes});
+    const AliasingStats without = measure(linear, camera, {boxes, boxes});
+    EXPECT_EQ(with.outside, 0u);
+    EXPECT_LT(with.p95, without.p95);
+  }
+}
+
 TEST(LogarithmicMap, extreme_views_keep_within_what_single_precision_holds) {
   for (const double near : {1e-4, 1e-2, 0.999e3}) {
     Camera camera = overhead_camera();
