@@ -220,9 +220,6 @@ TEST(BentMaps, masks_cut_holes) {
   const FloatImage drawn = depths_of(renderer, straight_by_rectangles(linear), camera);
   const Difference d = difference(own, drawn, 0.01);
   EXPECT_LT(d.covered_by_one, own.values.size() / 500);
-  FrameOptions solid;
-  solid.prune = solid.prune.without(PruneRule::alpha_test);
-  renderer.draw(linear, camera, renderer.prepare(filters::hard));
   // The board is seen by the light at all: without it the depths are others.
   const FloatImage without = [&] {
     Renderer bare(box_on_ground());
@@ -248,6 +245,32 @@ TEST(BentMaps, every_clip_space_draws_the_same_shadows) {
       other += reference[i] != frame.mask.values[i] ? 1 : 0;
     EXPECT_LT(other, reference.size() / 2000);
   }
+}
+
+TEST(BentMaps, a_spot_light_has_its_shadows) {
+  const Scene scene = box_on_ground();
+  const Camera camera = camera_on_box(kSize, kSize);
+  const SpotLight spot{{8.0, 9.0, 3.0}, {-1.0, -1.0, -0.4}, 0.7, 60.0};
+  const std::vector<Box> boxes = boxes_of(scene);
+  const ShadowPlan plan = make_plan(camera, spot, {boxes, boxes}, one_map(shapes::logarithmic, 512));
+  ASSERT_EQ(plan.map_count, 1);
+  ASSERT_EQ(plan.map[0].shape, &shapes::logarithmic);
+  Renderer renderer(scene);
+  const Light light = spot;
+  FrameOptions options;
+  options.light = &light;
+  const Frame frame = draw(renderer, camera, plan, default_settings(filters::hard), options);
+  std::size_t dark = 0, wrong = 0, judged = 0;
+  for (std::size_t i = 0; i < frame.pixels(); ++i) {
+    const glm::dvec3 p = frame.point(i);
+    if (!frame.surface(i) || p.y > 0.01 || frame.map(i) < 0) continue;
+    const bool shadowed = hits_box(p, glm::normalize(spot.position - p), kBoxMin, kBoxMax);
+    ++judged;
+    dark += shadowed ? 1 : 0;
+    wrong += (frame.lit(i) < 0.5f) != shadowed ? 1 : 0;
+  }
+  EXPECT_GT(dark, judged / 100);
+  EXPECT_LT(wrong, judged / 50);
 }
 
 TEST(BentMaps, every_filter_reads_them) {
