@@ -59,6 +59,7 @@ enum class OmissionKind : std::uint8_t {
   pages_coarsened,          ///< of plan_pages: the pool is too small; a: requested error, b: planned error
   points_left_coarser,      ///< of plan_pages: PageOptions::share left them to coarser pages; a: how many
   points_beyond_levels,     ///< of plan_pages: the deepest level does not suffice for them; a: how many
+  shape_without_gain,       ///< a: error along the warp with the shape over that without; 1: it has no use
 };
 /// The option that OmissionKind::option_ignored names.
 enum class IgnoredOption : std::uint8_t {
@@ -71,6 +72,7 @@ enum class IgnoredOption : std::uint8_t {
   selection,       ///< split.selection: only cascades are chosen among by view depth
   cadence,         ///< cadence: needs a history and cascades of a fixed number and size
   visible_points,  ///< the visible points: a local light's maps, kept or stable maps do not follow them
+  shape,           ///< warp.shape: stable, rotated and remembered maps have linear texels
 };
 /// One entry of ShadowPlan::omitted.
 struct Omission {

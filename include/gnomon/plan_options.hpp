@@ -9,6 +9,7 @@
 #include "gnomon/fit.hpp"
 #include "gnomon/partition.hpp"
 #include "gnomon/prune.hpp"
+#include "gnomon/shape.hpp"
 #include "gnomon/split.hpp"
 #include "gnomon/warp.hpp"
 
@@ -57,6 +58,12 @@ struct ResolutionOptions {
 struct WarpOptions {
   /// The warp; nullptr lets the plan choose the one with the largest measured gain. Fit::stable has none.
   const Warp* warp = nullptr;
+  /// How texels lie along the warp (shape.hpp): `logarithmic` evens out the error along the view that the
+  /// warp's perspective leaves, and is drawn by bounding rectangles, which costs time. Taken where it lowers
+  /// the error of a map whose rows lie across its warp; linear elsewhere, and with fits other than tight or
+  /// with a history. With it, a `warp` of nullptr is psm, which it goes best with, where both together lower
+  /// the objective. nullptr counts as linear.
+  const Shape* shape = &shapes::linear;
   /// The error that a warp must lower to be used.
   Objective objective = Objective::storage;
   /// World-space box whose error counts `focus_weight` times: a hero, a cockpit, a table top. Everything else

@@ -58,8 +58,9 @@ struct ShaderLayers {
   double blur_texels = 0.0;  ///< half side of the box that stored texels were blurred with; 0: not blurred
 };
 
-/// A map's shape as shaders read it: its place in shapes.def, then its parameters.
-[[nodiscard]] glm::vec4 shader_shape(const ShadowMap& map) noexcept;
+/// A map's shape as shaders read it: its place in shapes.def, then its parameters in the clip space that they
+/// look the map up in.
+[[nodiscard]] glm::vec4 shader_shape(const ShadowMap& map, const glm::dmat4& lookup_from_map) noexcept;
 /// How a point finds its map, as `layer.w` of ShaderBlock has it: 0 by view depth, 1 select_by_map, 2
 /// select_finest.
 [[nodiscard]] float shader_selection(const ShadowPlan& plan) noexcept;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <glm/mat2x2.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <span>
 #include <string_view>
@@ -26,8 +27,9 @@ struct ShapeRectangle {
   glm::dvec2 low, high;  ///< corners
 };
 
-/// One entry of the registry shapes.def. `size`: width and height of the map in texels. Every function takes
-/// any finite place; off the square -1..1 the shape goes on as its formula does.
+/// One entry of the registry shapes.def. `size`: width and height of the map in texels. Either texel
+/// coordinate grows with the ndc coordinate of the same name. Every function takes any finite place; off the
+/// square -1..1 the shape goes on as its formula does, or along its tangent where the formula ends.
 struct Shape {
   std::string_view name;     ///< as in files
   std::string_view summary;  ///< one line
@@ -37,14 +39,29 @@ struct Shape {
   /// Where a place in ndc lies in the map.
   ShapedPoint (*place)(const ShapeParameters& parameters, const glm::dvec2& size,
                        const glm::dvec2& ndc) noexcept;
+  /// The inverse: which place in ndc lies at a place in the map.
+  glm::dvec2 (*ndc_of)(const ShapeParameters& parameters, const glm::dvec2& size,
+                       const glm::dvec2& texel) noexcept;
   /// The smallest rectangle of texels round the image of a rectangle of ndc.
   ShapeRectangle (*texel_bounds)(const ShapeParameters& parameters, const glm::dvec2& size,
                                  const ShapeRectangle& ndc) noexcept;
   /// The smallest rectangle of ndc whose image holds a rectangle of texels.
   ShapeRectangle (*ndc_bounds)(const ShapeParameters& parameters, const glm::dvec2& size,
                                const ShapeRectangle& texels) noexcept;
+  /// Parameters under which rows of texels undo the warp of a map whose w grows by exp(log_growth) from ndc y
+  /// -1 to 1. Any value; beyond kMostLogGrowth and where it is not a number the shape goes as far as it can.
+  ShapeParameters (*undoing)(double log_growth) noexcept;
+  /// Parameters of the same shape seen in a mirror: over ndc x (`x`), ndc y (`y`) of the other sign.
+  ShapeParameters (*mirrored)(const ShapeParameters& parameters, bool x, bool y) noexcept;
 };
 
+/// Logarithm of the largest growth of w that a shape undoes. Beyond it, places near the far end are rounding
+/// in single precision: a texel of 1024 per 2^-24 of ndc.
+inline constexpr double kMostLogGrowth = 9.0;
+
+/// Parameters of the same texels in another clip space, whose axes point the same or the opposite way.
+[[nodiscard]] ShapeParameters parameters_in(const glm::dmat4& other_from_this, const Shape& shape,
+                                            const ShapeParameters& parameters) noexcept;
 /// All shapes, in the order of shapes.def.
 [[nodiscard]] std::span<const Shape* const> all_shapes() noexcept;
 /// nullptr where there is none of that name.
@@ -67,6 +84,10 @@ struct TexelGrid {
   /// Where a place in ndc lies in the map.
   [[nodiscard]] ShapedPoint place(const glm::dvec2& ndc) const noexcept {
     return shape->place(parameters, size(), ndc);
+  }
+  /// Where in ndc a place in the map lies.
+  [[nodiscard]] glm::dvec2 ndc_of(const glm::dvec2& texel) const noexcept {
+    return shape->ndc_of(parameters, size(), texel);
   }
 };
 

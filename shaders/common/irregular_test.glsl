@@ -2,6 +2,7 @@
 #ifndef GNOMON_COMMON_IRREGULAR_TEST_GLSL
 #define GNOMON_COMMON_IRREGULAR_TEST_GLSL
 #include "common/irregular.glsl"
+#include "common/turn.glsl"
 
 layout(binding = 4) uniform usampler2DArray heads;
 layout(binding = 1, rg32f) writeonly uniform image2D mask_image;
@@ -9,12 +10,6 @@ layout(location = 3) uniform int map;
 layout(location = 0) flat in vec3 corner[3];  // across the light, as ListedPixel::at
 
 bool is_there(vec3 weights);
-
-// Both sides of an edge get the same bits but for the sign, so that no ray slips through between two triangles.
-float turn(vec2 a, vec2 b) {
-  precise float turn = a.x * b.y - a.y * b.x;
-  return turn;
-}
 
 bool shadows(vec3 at) {
   bool local = local_light();

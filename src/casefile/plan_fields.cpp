@@ -26,6 +26,23 @@ std::string warp_of(const PlanOptions& options) {
   return options.warp.warp == nullptr ? "auto" : std::string(options.warp.warp->name);
 }
 
+std::vector<std::string> shape_names() {
+  std::vector<std::string> names;
+  for (const Shape* shape : all_shapes()) names.emplace_back(shape->name);
+  return names;
+}
+
+bool set_shape(std::string_view name, PlanOptions& options) {
+  const Shape* shape = find_shape(name);
+  if (shape == nullptr) return false;
+  options.warp.shape = shape;
+  return true;
+}
+
+std::string shape_of(const PlanOptions& options) {
+  return std::string((options.warp.shape == nullptr ? shapes::linear : *options.warp.shape).name);
+}
+
 std::vector<std::string> split_range_names() {
   return {"auto", "receivers", "camera"};
 }
@@ -119,6 +136,7 @@ std::vector<PlanField> make_fields() {
        GNOMON_CHOICE(split.partition, partition_from_name, "view_depth", "frustum_faces",
                      "separating_plane")},
       {"warp", "perspective warp of the maps", PlanChoice{warp_names, set_warp, warp_of}},
+      {"shape", "how texels lie along the warp", PlanChoice{shape_names, set_shape, shape_of}},
       {"objective", "error that the warp lowers",
        GNOMON_CHOICE(warp.objective, objective_from_name, "storage", "max", "p95")},
       {"fit", "how a map is fitted to its part of the view",

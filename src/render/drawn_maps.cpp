@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 
 #include "frame_block.hpp"
+#include "gnomon/shader_block.hpp"
 
 namespace gnomon::render {
 
@@ -15,7 +16,8 @@ DrawnMaps drawn_maps(const ShadowPlan& plan, const glm::dvec3& camera_world, dou
     const ShadowMap& map = plan.map[i];
     glm::dmat4 clip_from_position = map.clip_from_world;
     clip_from_position[3] = map.clip_from_world * glm::dvec4(drawn.origin_world, 1.0);
-    drawn.map[i] = {glm::mat4(drawn_from_plan * clip_from_position), map.width, map.height};
+    drawn.map[i] = {glm::mat4(drawn_from_plan * clip_from_position), map.width, map.height,
+                    shader_shape(map, drawn_from_plan), !map.shape->affine};
   }
   return drawn;
 }

@@ -59,7 +59,7 @@ MapBlock map_block(const ShadowMap& planned, const glm::dmat4& drawn_from_plan, 
     block.select_planes[at] =
         glm::vec4(glm::vec3(plane), static_cast<float>(plane.w + glm::dot(glm::dvec3(plane), eye)));
   }
-  block.shape = shader_shape(map);
+  block.shape = shader_shape(map, drawn_from_plan);
   block.kernel = glm::vec4(glm::dvec4(map.filter_margin_texels, blur, map.overlap, curve));
   return block;
 }

@@ -111,7 +111,9 @@ MapWork MapCache::update(const CachedDraw& draw, PruneSavings& saved) {
   Cached& cached = cached_[draw.index];
   const DrawnMap& drawn = draw.drawn.map[draw.index];
   ShadowMap map = job.plan.map[draw.index];
-  map.clip_from_world = drawn_from_plan_clip(job.plan.clip_space) * map.clip_from_world;
+  const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(job.plan.clip_space);
+  map.clip_from_world = drawn_from_plan * map.clip_from_world;
+  map.shape_parameters = parameters_in(drawn_from_plan, *map.shape, map.shape_parameters);
   const bool usable = cached.valid && cached.origin_world == draw.drawn.origin_world;
   const bool holds = usable && job.prune.has(PruneRule::held_maps) && cached.drawn == drawn &&
                      (!(job.reads_everywhere || job.peels) || cached.holds == draws_);

@@ -13,7 +13,7 @@ namespace {
 
 // Bindings and locations as the shaders state them.
 constexpr GLint kBaseColorLocation = 1, kAlphaCutoffLocation = 2, kClipLocation = 3, kMapLocation = 3,
-                kWrapLocation = 4;
+                kWrapLocation = 4, kShapeLocation = 7, kSizeLocation = 8;
 constexpr GLuint kPositionUnit = 0, kNormalUnit = 1, kAlbedoUnit = 2, kColorImageUnit = 3, kMaskUnit = 6,
                  kExtraUnit = 7, kNoiseUnit = kColorImageUnit;
 constexpr GLint kSheetLocation = 5;
@@ -47,6 +47,8 @@ PeeledDepth DepthDraw::peeled(const ShadowPlan& plan, const ShadowMap& map) cons
 CommonPrograms::CommonPrograms()
     : depth(make_program("depth.vert", "depth.frag")),
       depth_masked(make_program("depth.vert", "depth_masked.frag")),
+      bent(make_geometry_program("depth.vert", "bent.geom", "bent.frag")),
+      bent_masked(make_geometry_program("depth.vert", "bent.geom", "bent_masked.frag")),
       surfaces(make_program("gbuffer.vert", "gbuffer.frag")),
       accumulate(make_program("fullscreen.vert", "accumulate.frag")),
       shade(make_program("fullscreen.vert", "shade.frag")),
@@ -66,7 +68,10 @@ void Renderer::Impl::draw_map_part(const DrawnPart& part, const DrawnMap& map,
   }
   constexpr float kFarthest = 1.0f;
   if (part.clear) glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest);
-  draw_casters(part, map.clip_from_position, how);
+  if (map.bent)
+    draw_bent_casters(part, map, how.alpha_test_where_masked);
+  else
+    draw_casters(part, map.clip_from_position, how);
 }
 
 template <class SetPlace, class SetBatch>
@@ -141,6 +146,17 @@ void Renderer::Impl::peel(const DrawnPart& part, const TexelRect& at, int layer,
   glBindVertexArray(scene.vertex_array());
 }
 
+void Renderer::Impl::draw_bent_casters(const DrawnPart& part, const DrawnMap& map,
+                                       bool alpha_test_where_masked) noexcept {
+  const auto set_place = [&] {
+    glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
+    glUniform4fv(kShapeLocation, 1, &map.shape.x);
+    glUniform2f(kSizeLocation, static_cast<float>(map.width), static_cast<float>(map.height));
+  };
+  draw_casters(part, CasterPrograms{programs.bent, programs.bent_masked}, alpha_test_where_masked, set_place,
+               kNoBatchState);
+}
+
 void Renderer::Impl::draw_casters_on_lists(const ShadowPlan& plan, bool alpha_test_where_masked) noexcept {
   pixel_lists->bind(targets.mask.name());
   glBindVertexArray(scene.vertex_array());
@@ -182,7 +198,7 @@ void Renderer::Impl::draw_shadow_maps(const ShadowPlan& plan, const DrawnMaps& d
     glViewport(0, 0, map.width, map.height);
     for (const DrawnPart& part : lists.parts(i)) {
       draw_map_part(part, map, how);
-      if (info_of(how.layer).peels)
+      if (info_of(how.layer).peels && !map.bent)
         peel(part, part.rectangle, i, map.clip_from_position, how,
              how.peeled(plan, plan.map[static_cast<std::size_t>(i)]));
     }

@@ -212,6 +212,8 @@ const char* kind_name(OmissionKind kind) {
       return "points left to coarser pages";
     case OmissionKind::points_beyond_levels:
       return "points beyond the deepest level";
+    case OmissionKind::shape_without_gain:
+      return "shape without gain";
     case OmissionKind::option_ignored:
       return "option without use";
   }

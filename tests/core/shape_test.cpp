@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <iterator>
+#include <limits>
 #include <string>
 
 #include "gnomon/bias.hpp"
@@ -40,12 +41,30 @@ ShapeRectangle whole_texels(const ShapeParameters&, const glm::dvec2& size, cons
 ShapeRectangle whole_ndc(const ShapeParameters&, const glm::dvec2&, const ShapeRectangle&) noexcept {
   return {{-1.0, -1.0}, {1.0, 1.0}};
 }
-const Shape kBent{"bent", "for this test", false, bend, whole_texels, whole_ndc};
+/// By Newton's method: the bent shape has no inverse that could be written down.
+glm::dvec2 unbend(const ShapeParameters& p, const glm::dvec2& size, const glm::dvec2& texel) noexcept {
+  glm::dvec2 ndc = texel / size * 2.0 - 1.0;
+  for (int i = 0; i < 30; ++i) {
+    const ShapedPoint at = bend(p, size, ndc);
+    ndc += glm::inverse(at.texel_from_ndc) * (texel - at.texel);
+  }
+  return ndc;
+}
+ShapeParameters straight(double) noexcept {
+  return {};
+}
+ShapeParameters as_it_is(const ShapeParameters& p, bool, bool) noexcept {
+  return p;
+}
+const Shape kBent{"bent", "for this test", false, bend, unbend, whole_texels, whole_ndc, straight, as_it_is};
 
 /// Every registered shape, and the bent one, as grids to look at.
 std::vector<TexelGrid> grids() {
   std::vector<TexelGrid> all;
-  for (const Shape* shape : all_shapes()) all.push_back({640, 384, shape, {}});
+  for (const Shape* shape : all_shapes()) {
+    for (const double growth : {0.0, 0.1, 2.0, -3.0, 5.0})
+      all.push_back({640, 384, shape, shape->undoing(growth)});
+  }
   all.push_back({640, 384, &kBent, {0.2, 0.0, 0.0}});
   return all;
 }
@@ -93,6 +112,67 @@ TEST(Shape, linear_texels_by_hand) {
   EXPECT_EQ(p.texel, glm::dvec2(6, 1));
   EXPECT_EQ(p.texel_from_ndc, glm::dmat2(4, 0, 0, 2));
   EXPECT_TRUE(shapes::linear.affine);
+}
+
+TEST(Shape, logarithmic_texels_by_hand) {
+  // w doubles from ndc y -1 to 1: where 1 / w is (1 + 1/2) / 2, the texel is the share ln(4/3) / ln 2.
+  const TexelGrid grid{8, 4, &shapes::logarithmic, {std::log(2.0), 0.0, 0.0}};
+  const ShapedPoint p = grid.place({0.5, 0.0});
+  EXPECT_NEAR(p.texel.x, 6.0, 1e-12);
+  EXPECT_NEAR(p.texel.y, 4.0 * std::log(4.0 / 3.0) / std::log(2.0), 1e-12);
+  EXPECT_NEAR(p.texel_from_ndc[1][1], 2.0 * 0.5 / (std::log(2.0) * 0.75), 1e-12);
+  EXPECT_FALSE(shapes::logarithmic.affine);
+}
+
+TEST(Shape, parameters_that_are_no_warp_give_linear_texels) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (const double growth : {0.0, 1e-300, -1e-9, kNone}) {
+    const TexelGrid grid{8, 4, &shapes::logarithmic, {growth, 0.0, 0.0}};
+    for (const glm::dvec2 ndc : {glm::dvec2(-1, -1), glm::dvec2(0.5, -0.5), glm::dvec2(1, 3)}) {
+      EXPECT_EQ(grid.place(ndc).texel, TexelGrid(8, 4).place(ndc).texel);
+      EXPECT_EQ(grid.ndc_of(grid.place(ndc).texel), ndc);
+    }
+  }
+  // The strongest that there is.
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(shapes::logarithmic.undoing(kEndless)[0], kMostLogGrowth);
+  EXPECT_EQ(shapes::logarithmic.undoing(kNone)[0], 0.0);
+  const TexelGrid grid{8, 4, &shapes::logarithmic, {kEndless, 0.0, 0.0}};
+  EXPECT_TRUE(std::isfinite(grid.place({0.0, 5.0}).texel.y));
+}
+
+TEST(Shape, every_place_comes_back_from_its_texel) {
+  for (const TexelGrid& grid : grids()) {
+    for (double x = -1.25; x <= 1.25; x += 0.125) {
+      for (double y = -1.25; y <= 1.25; y += 0.125) {
+        // The bent one has no inverse beyond its square.
+        if (grid.shape == &kBent && (std::abs(x) > 1.0 || std::abs(y) > 1.0)) continue;
+        const glm::dvec2 back = grid.ndc_of(grid.place({x, y}).texel);
+        EXPECT_NEAR(back.x, x, 1e-11) << grid.shape->name;
+        EXPECT_NEAR(back.y, y, 1e-11) << grid.shape->name;
+      }
+    }
+  }
+}
+
+TEST(Shape, a_mirrored_shape_has_the_same_texels) {
+  for (const Shape* shape : all_shapes()) {
+    const ShapeParameters p = shape->undoing(3.0);
+    const TexelGrid grid{640, 384, shape, p};
+    for (const bool mirror_x : {false, true}) {
+      for (const bool mirror_y : {false, true}) {
+        const glm::dmat4 other(
+            glm::dmat4(mirror_x ? -1 : 1, 0, 0, 0, 0, mirror_y ? -1 : 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1));
+        const TexelGrid mirrored{640, 384, shape, parameters_in(other, *shape, p)};
+        for (double y = -1.0; y <= 1.0; y += 0.25) {
+          const glm::dvec2 ndc(0.3, y), a = grid.place(ndc).texel;
+          const glm::dvec2 b = mirrored.place(ndc * glm::dvec2(mirror_x ? -1 : 1, mirror_y ? -1 : 1)).texel;
+          EXPECT_NEAR(b.x, mirror_x ? 640.0 - a.x : a.x, 1e-9) << shape->name;
+          EXPECT_NEAR(b.y, mirror_y ? 384.0 - a.y : a.y, 1e-9) << shape->name;
+        }
+      }
+    }
+  }
 }
 
 TEST(Shape, derivatives_are_those_of_finite_differences) {
@@ -235,7 +315,7 @@ TEST(Shape, shaders_get_the_place_in_the_list_and_the_parameters) {
   map.shape_parameters = {1.0, 2.0, 3.0};
   for (std::size_t i = 0; i < all_shapes().size(); ++i) {
     map.shape = all_shapes()[i];
-    EXPECT_EQ(shader_shape(map), glm::vec4(static_cast<float>(i), 1.0f, 2.0f, 3.0f));
+    EXPECT_EQ(shader_shape(map, glm::dmat4(1.0)), glm::vec4(static_cast<float>(i), 1.0f, 2.0f, 3.0f));
   }
 }
 

@@ -339,6 +339,29 @@ TEST(Compare, measures_every_filter_of_the_registry_against_its_own_truth) {
   }
 }
 
+TEST(Compare, shapes_are_rows_beside_the_warps_with_an_even_error) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",     "builtin:terrain",
+                                        "--warps",     "none,psm",
+                                        "--shapes",    "all",
+                                        "--cascades",  "1",
+                                        "--filters",   "hard",
+                                        "--frames",    "1",
+                                        "--rounds",    "1",
+                                        "--size",      "96x54",
+                                        "--map-sizes", "256",
+                                        "--context",   "osmesa",
+                                        "--out",       folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  // Without a warp there is one shape.
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[1].technique.warp, "psm");
+  EXPECT_EQ(rows[2].technique.warp, "psm:logarithmic");
+  EXPECT_LT(rows[2].aliasing.p95, 0.5 * rows[1].aliasing.p95);
+  EXPECT_LT(rows[2].errors.false_lit + rows[2].errors.false_shadow, 0.02);
+}
+
 TEST(Compare, irregular_is_a_technique_without_misclassified_pixels_and_with_its_price) {
   const TemporaryFolder folder;
   const Finished finished = run_gnomon({"compare",     "builtin:fence",
@@ -400,6 +423,7 @@ TEST(Compare, refuses_bad_input_before_it_measures) {
   EXPECT_EQ(run_gnomon({"compare", "/nowhere.glb", "--out", (folder.path() / "none").string()}).exit_code, 2);
   for (const auto& [option, value] :
        std::vector<std::pair<std::string, std::string>>{{"--warps", "bent"},
+                                                        {"--shapes", "round"},
                                                         {"--splits", "even"},
                                                         {"--fits", "loose"},
                                                         {"--filters", "soap"},

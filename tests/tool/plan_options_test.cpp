@@ -68,6 +68,16 @@ TEST(PlanOptions, warp_by_name) {
   EXPECT_EQ(warped["maps"][0]["warp"], "lispsm04");
 }
 
+TEST(PlanOptions, shape_by_name_is_printed_where_it_is_not_linear) {
+  const json plain = plan_with_options({{"shape", "linear"}, {"cascades", 1}});
+  EXPECT_EQ(plain, plan_with_options({{"cascades", 1}}));
+  EXPECT_FALSE(plain["maps"][0].contains("shape"));
+  const json bent = plan_with_options({{"shape", "logarithmic"}, {"cascades", 1}});
+  EXPECT_EQ(bent["maps"][0]["shape"]["name"], "logarithmic");
+  EXPECT_GT(bent["maps"][0]["shape"]["parameters"][0].get<double>(), 0.0);
+  EXPECT_EQ(bent["maps"][0]["shape"]["parameters"].size(), 3u);
+}
+
 TEST(PlanOptions, stable_maps_carry_a_snap_key_and_tight_ones_do_not) {
   const json stable = plan_with_options({{"stable", true}});
   ASSERT_FALSE(stable["maps"].empty());

@@ -14,6 +14,11 @@ constexpr std::array kShapes = {
 
 }  // namespace
 
+ShapeParameters parameters_in(const glm::dmat4& other_from_this, const Shape& shape,
+                              const ShapeParameters& parameters) noexcept {
+  return shape.mirrored(parameters, other_from_this[0][0] < 0.0, other_from_this[1][1] < 0.0);
+}
+
 std::span<const Shape* const> all_shapes() noexcept {
   return kShapes;
 }

@@ -82,7 +82,7 @@ struct MapResult {
   ShadowMap map;
   glm::dmat4 gl_from_world{1.0};
   SearchedWarp searched;
-  std::array<Omission, 3> omission;
+  std::array<Omission, 4> omission;
   int omission_count = 0;
   bool has_event = false;
   PlanEvent event;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
 #include "map/border.hpp"
 
@@ -42,6 +43,15 @@ struct Bordered {
   double inverse_w, margin;
 };
 
+/// Of rows that undo the warp: the same texels are the same growth of w anywhere.
+Bordered bordered_rows(const PlaneMap& map, const MapBorder& border, const WarpInput::Point& p) noexcept {
+  const double kappa = map.choice.kappa, w = map.w(p.x, p.y), growth = elementary::expm1(border.log_w);
+  const double across = std::abs(p.x * map.choice.axis.y - p.y * map.choice.axis.x - map.choice.centre);
+  const double margin_across = border.share * (map.a_max - map.a_min) * w * (1.0 + growth);
+  const double margin_along = growth * w / kappa;
+  return {(1.0 + growth) / w, margin_across + margin_along * (1.0 + kappa * across / w)};
+}
+
 Bordered bordered(const PlaneMap& map, double margin_image, const WarpInput::Point& p) noexcept {
   const double kappa = map.choice.kappa;
   if (kappa == 0.0) return {1.0, 2.0 * margin_image};
@@ -59,13 +69,14 @@ Bordered bordered(const PlaneMap& map, double margin_image, const WarpInput::Poi
 /// face on which it is least.
 template <std::size_t count>
 double highest_over(const FittedPlane& f, double bottom, const Faces<count>& faces) noexcept {
-  const double margin_image = border_in_image(f.plane, f.border);
+  const double margin_image = border_in_image(f.plane, f.border.share);
   std::array<double, count> steepest, highest{};
   for (std::size_t k = 0; k < count; ++k)
     steepest[k] = std::sqrt(faces.slope_x[k] * faces.slope_x[k] + faces.slope_y[k] * faces.slope_y[k]);
   double of_body = 0.0;
   for (const WarpInput::Point& p : f.body.points()) {
-    const Bordered b = bordered(f.plane, margin_image, p);
+    const Bordered b =
+        f.border.log_w > 0.0 ? bordered_rows(f.plane, f.border, p) : bordered(f.plane, margin_image, p);
     of_body = max_of(of_body, (p.z - bottom) * b.inverse_w);
     for (std::size_t k = 0; k < count; ++k) {
       const double z = faces.at[k] + faces.slope_x[k] * p.x + faces.slope_y[k] * p.y + steepest[k] * b.margin;
@@ -168,13 +179,19 @@ LightDepths padded(double bottom, double height, double extent) noexcept {
 }
 
 void sweep_for(const PlanContext& c, const MapRequest& request, const LightBody& body, const PlaneMap& plane,
-               double border, SweptBody& swept) noexcept {
+               const MapBorder& border, SweptBody& swept) noexcept {
   // The border at the far end, where texels are largest: across they grow with w, along with w^2 / stretch =
   // w there, and w itself grows over the border. Under a local light a step in slopes is that step times the
   // distance, at most.
   constexpr double kNearestHorizon = 0.1;
-  const double growth = plane.stretch / max_of(1.0 - border * (plane.stretch - 1.0), kNearestHorizon);
-  const double reach = border_in_image(plane, border) * growth * body.farthest;
+  const double growth = plane.stretch / max_of(1.0 - border.share * (plane.stretch - 1.0), kNearestHorizon);
+  double reach = border_in_image(plane, border.share) * growth;
+  if (border.log_w > 0.0) {
+    reach = 0.0;
+    for (const WarpInput::Point& p : body.points())
+      reach = max_of(reach, bordered_rows(plane, border, p).margin);
+  }
+  reach *= body.farthest;
   const glm::dvec4 light = request.space.light();
   const LightFrame& frame = request.space.frame;
   sweep(request.body, glm::dvec4(frame.x * light.x + frame.y * light.y + frame.z * light.z, light.w), reach,

@@ -8,12 +8,19 @@
 
 namespace gnomon {
 
+/// What a map keeps free round its body for kernels.
+struct MapBorder {
+  double share;        ///< of the rectangle's side, on each side
+  double log_w = 0.0;  ///< rows that undo the warp: logarithm of w's growth over the border, which replaces
+                       ///< the share along the warp
+};
+
 /// A fitted plane with its casters, not yet its depths.
 struct FittedPlane {
   const LightBody& body;
   const PlaneMap& plane;
   const SweptBody& swept;
-  double border;                             ///< of the map, as a share of the rectangle's side
+  MapBorder border;                          ///< of the map
   std::optional<double> measured_from = {};  ///< height that HeightRange::height counts from; its own bottom
 };
 
@@ -34,6 +41,6 @@ struct HeightRange {
 
 /// Planes round everything that can shadow the body or fall into the kernels round it.
 void sweep_for(const PlanContext& c, const MapRequest& request, const LightBody& body, const PlaneMap& plane,
-               double border, SweptBody& swept) noexcept;
+               const MapBorder& border, SweptBody& swept) noexcept;
 
 }  // namespace gnomon

@@ -11,6 +11,7 @@
 #include "map/depths.hpp"
 #include "map/history.hpp"
 #include "map/record.hpp"
+#include "map/row_shape.hpp"
 #include "map/served.hpp"
 #include "map/size.hpp"
 #include "warp/plane_error.hpp"
@@ -35,12 +36,18 @@ struct Fitted {
   SweptBody swept;
   TexelsNeeded needed;
   HeightRange heights;
+  RowShape rows;
+  BorderedPlane bordered;  // where the rows are bent
 };
 
 /// The border as a share of the rectangle's side; the wider of both.
 double border_of_body(const ShadowMap& map) noexcept {
   const double border = static_cast<double>(map.filter_margin_texels) / min_of(map.width, map.height);
   return border / (1.0 - 2.0 * border);
+}
+
+MapBorder border_of_body(const ShadowMap& map, const Fitted& fitted) noexcept {
+  return {border_of_body(map), fitted.bordered.log_w};
 }
 
 /// Widens the rectangle to what shaders can aim at. Only bodies that are tiny for their distance, far below a
@@ -143,7 +150,71 @@ PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const Lig
   WarpChoice choice = chosen_warp(c, request, body, question, result);
   if (follows) result.searched = searched_warp(c, request, question, choice);
   if (c.options.fit == Fit::rotated) choice = turned_to_least_area(question.in, choice);
-  return steady ? steady_plane(c, request, question, choice, result) : plane_map(question.in.body, choice);
+  if (steady) return steady_plane(c, request, question, choice, result);
+  PlaneMap plane = plane_map(question.in.body, choice);
+  limit_to_shape(c, question.in.body, plane);
+  return plane;
+}
+
+/// The objective by what vertices need.
+double objective_of(const PlanContext& c, const TexelsNeeded& needed) noexcept {
+  const glm::dvec2 sides = needed.sides;
+  return c.options.warp.objective == Objective::storage ? sides.x * sides.y : max_of(sides.x, sides.y);
+}
+
+/// Rows of the requested shape where they lower the error. Where the plan chose the warp for them, both or
+/// none.
+void shape_rows(const PlanContext& c, const MapRequest& request, const LightBody& body, MapResult& result,
+                Fitted& fitted) noexcept {
+  if (requested_shape(c.options).affine || ignores_shape(c)) return;
+  const int map = request.slot.cascade;
+  fitted.rows = row_shape(c, fitted.plane, 0.0);
+  TexelsNeeded shaped = fitted.needed;
+  texels_needed(fitted.rows, body.points(), fitted.plane, shaped);
+  const double along = shaped.sides.y / fitted.needed.sides.y;
+  if (c.options.warp.warp == nullptr && fitted.plane.choice.kappa > 0.0) {
+    PlaneMap flat = plane_map(body.points(), request.unwarped);
+    widen_for_floats(request, body, flat);
+    TexelsNeeded plain;
+    texels_needed(body.points(), flat, pixels_per_slope(c.camera), plain);
+    const double ratio = objective_of(c, shaped) / objective_of(c, plain);
+    if (!(ratio < 1.0 - kLeastWarpGain)) {
+      result.omit({OmissionKind::warp_without_gain, map, ratio, 0.0, 0});
+      result.map.warp = &warps::none;
+      fitted.plane = flat;
+      fitted.needed = plain;
+      fitted.rows = {};
+    }
+  }
+  if (fitted.rows.bent() && along < 1.0 - kLeastWarpGain) {
+    fitted.needed = shaped;
+    return;
+  }
+  result.omit({OmissionKind::shape_without_gain, map, fitted.rows.bent() ? along : 1.0, 0.0, 0});
+  fitted.rows = {};
+}
+
+/// The shape with the border that the map has, or linear rows where no room is left for that.
+void border_rows(const PlanContext& c, const LightBody& body, MapResult& result, Fitted& fitted) noexcept {
+  if (!fitted.rows.bent()) return;
+  ShadowMap& map = result.map;
+  const double border = static_cast<double>(map.filter_margin_texels) / map.height;
+  if (row_shape(c, fitted.plane, border).bent()) {
+    fitted.bordered = with_border(fitted.rows, fitted.plane, border);
+    map.shape = fitted.rows.shape;
+    map.shape_parameters = fitted.bordered.parameters;
+    return;
+  }
+  result.omit({OmissionKind::shape_without_gain, map.cascade, 1.0, 0.0, 0});
+  fitted.rows = {};
+  texels_needed(body.points(), fitted.plane, pixels_per_slope(c.camera), fitted.needed);
+}
+
+/// OpenGL clip space from the light frame, border included.
+glm::dmat4 clip_from_light(const ShadowMap& map, const Fitted& fitted) noexcept {
+  const glm::dvec2 border = static_cast<double>(map.filter_margin_texels) / glm::dvec2(map.width, map.height);
+  if (fitted.rows.bent()) return clip_from_light(fitted.bordered.plane, fitted.depths, {border.x, 0.0});
+  return clip_from_light(fitted.plane, fitted.depths, border);
 }
 
 /// All that a local light's frustum shows, for a grid that does not follow the view.
@@ -176,11 +247,11 @@ bool kept_from_before(const PlanContext& c, const MapRequest& request, const Lig
   fitted.plane = held.plane;
   fitted.depths = held.depths;
   const ServedBody served(c, request, body, held.plane);
-  sweep_for(c, served.request(), served.points(), held.plane, border_of_body(map), fitted.swept);
+  sweep_for(c, served.request(), served.points(), held.plane, border_of_body(map, fitted), fitted.swept);
   texels_needed(body.points(), held.plane, pixels_per_slope(c.camera), fitted.needed);
-  fitted.heights =
-      height_range(c, served.request(),
-                   {served.points(), fitted.plane, fitted.swept, border_of_body(map), held.depths.bottom});
+  fitted.heights = height_range(
+      c, served.request(),
+      {served.points(), fitted.plane, fitted.swept, border_of_body(map, fitted), held.depths.bottom});
   if (!(fitted.heights.bottom >= held.depths.bottom && fitted.heights.height <= held.depths.height))
     return false;
   return true;
@@ -200,10 +271,12 @@ void fit(const PlanContext& c, const MapRequest& request, const LightBody& body,
   }
   const double share = border_share(c, request, body, fitted.plane);
   texels_needed(body.points(), fitted.plane, pixels_per_slope(c.camera), fitted.needed);
+  shape_rows(c, request, body, result, fitted);
   const MapSize size = map_size(c, request, fitted.plane, fitted.needed, obliquity, share);
   map.width = size.width;
   map.height = size.height;
   map.filter_margin_texels = size.border;
+  border_rows(c, body, result, fitted);
   const std::int64_t saved =
       std::int64_t{request.slot.width} * request.slot.height - std::int64_t{size.width} * size.height;
   if (saved > 0) {
@@ -212,9 +285,9 @@ void fit(const PlanContext& c, const MapRequest& request, const LightBody& body,
                  fitted.needed.bound(inside, obliquity), saved});
   }
   const ServedBody served(c, request, body, fitted.plane);
-  sweep_for(c, served.request(), served.points(), fitted.plane, border_of_body(map), fitted.swept);
-  fitted.heights =
-      height_range(c, served.request(), {served.points(), fitted.plane, fitted.swept, border_of_body(map)});
+  const MapBorder border = border_of_body(map, fitted);
+  sweep_for(c, served.request(), served.points(), fitted.plane, border, fitted.swept);
+  fitted.heights = height_range(c, served.request(), {served.points(), fitted.plane, fitted.swept, border});
   const double extent =
       max_of(fitted.plane.a_max - fitted.plane.a_min, fitted.plane.b_max - fitted.plane.b_min);
   fitted.depths = request.space.perspective ? LightDepths{fitted.heights.bottom, fitted.heights.height}
@@ -260,10 +333,9 @@ MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept 
     result.omit({OmissionKind::depth_near_light, request.slot.cascade, fitted.heights.nearest,
                  static_cast<double>(fitted.heights.too_near), 0});
   map.depth_range_world = depth_range(request, fitted);
-  const glm::dvec2 border = static_cast<double>(map.filter_margin_texels) / glm::dvec2(map.width, map.height);
-  const glm::dmat4 gl_from_relative =
-      clip_from_light(fitted.plane, fitted.depths, border) * request.space.light_from_relative();
-  complete_record(c, request, {body, fitted.plane, fitted.swept, fitted.needed, obliquity, gl_from_relative},
+  const glm::dmat4 gl_from_relative = clip_from_light(map, fitted) * request.space.light_from_relative();
+  complete_record(c, request,
+                  {body, fitted.plane, fitted.swept, fitted.needed, fitted.rows, obliquity, gl_from_relative},
                   map);
   if (c.stable) write_snap_key(fitted, map);
   result.gl_from_world = world_matrix(gl_from_relative, c.camera.position);

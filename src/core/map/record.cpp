@@ -30,9 +30,11 @@ void write_planes(const PlanContext& c, const SweptBody& swept, ShadowMap& map) 
 /// times d, and (X, Y) the image of a side, the side is W V / d long with V = (d X + kappa S Y / stretch, W Y
 /// / stretch). W, V and d are linear over the body, so that W V and d are sums over pairs of vertices, with
 /// weights that are not negative, of (Wi Vj + Wj Vi) / 2 and (di + dj) / 2: no quotient of the sums exceeds
-/// the largest of a pair. Across a ray the side is shorter by the sine of its angle to the ray, whose cosine
+/// the largest of a pair. Rows that undo w along the warp stand for a W over d that is the same everywhere.
+/// Across a ray the side is shorter by the sine of its angle to the ray, whose cosine
 /// is bounded from below in the same way.
-glm::dvec2 longest_sides(const LightSpace& space, const LightBody& body, const PlaneMap& plane) noexcept {
+glm::dvec2 longest_sides(const LightSpace& space, const LightBody& body, const PlaneMap& plane,
+                         const RowShape& rows) noexcept {
   struct Corner {
     glm::dvec2 v, on_plane;
     double w, distance, v_length, length;
@@ -41,7 +43,7 @@ glm::dvec2 longest_sides(const LightSpace& space, const LightBody& body, const P
   const WarpChoice& choice = plane.choice;
   const glm::dvec2 axis = choice.axis;
   const double area = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
-  const auto longest = [&](const glm::dvec2& image) {
+  const auto longest = [&](const glm::dvec2& image, const RowShape& rows_across) {
     std::size_t count = 0;
     double most_w = 0.0, most_v = 0.0, square = 0.0;
     for (const WarpInput::Point& p : body.points()) {
@@ -49,14 +51,15 @@ glm::dvec2 longest_sides(const LightSpace& space, const LightBody& body, const P
       const glm::dvec2 at{p.x * axis.y - p.y * axis.x, p.x * axis.x + p.y * axis.y};
       const double along = image.y / plane.stretch;
       const glm::dvec2 v{d * (image.x + choice.kappa * (at.x - choice.centre) * along), w * d * along};
+      const double weight = w * rows_across.lengthening(plane, p.x, p.y);
       Corner& here = corner[count++];
       here.v = v;
-      here.w = w * d;
+      here.w = weight * d;
       here.distance = d;
       const double v_square = glm::dot(v, v);
-      most_w = max_of(most_w, w * w);
+      most_w = max_of(most_w, weight * weight);
       most_v = max_of(most_v, v_square);
-      square = max_of(square, w * w * v_square);
+      square = max_of(square, weight * weight * v_square);
       if (!space.perspective) continue;
       here.on_plane = at * d;
       here.v_length = std::sqrt(v_square);
@@ -86,8 +89,8 @@ glm::dvec2 longest_sides(const LightSpace& space, const LightBody& body, const P
     const double cosine = max_of(0.0, max_of(least_cosine, -most_cosine));
     return std::sqrt(square * max_of(0.0, 1.0 - cosine * cosine));
   };
-  return {longest(glm::dvec2(choice.row_b.y, -choice.row_b.x) / area) * (plane.a_max - plane.a_min),
-          longest(glm::dvec2(-choice.row_a.y, choice.row_a.x) / area) * (plane.b_max - plane.b_min)};
+  return {longest(glm::dvec2(choice.row_b.y, -choice.row_b.x) / area, {}) * (plane.a_max - plane.a_min),
+          longest(glm::dvec2(-choice.row_a.y, choice.row_a.x) / area, rows) * (plane.b_max - plane.b_min)};
 }
 
 /// Extents of texels: at the body's centre, and a bound of them over the body.
@@ -103,7 +106,7 @@ void write_texels(const PlanContext& c, const MapRequest& request, const MapPart
       texel_extent_world(parts.gl_from_relative, map.texels(),
                          space.perspective ? safe_normalize(travel, -space.frame.z) : -space.frame.z, centre);
   if (space.perspective || parts.plane.choice.kappa != 0.0) {
-    const glm::dvec2 longest = longest_sides(space, parts.body, parts.plane) /
+    const glm::dvec2 longest = longest_sides(space, parts.body, parts.plane, parts.rows) /
                                (glm::dvec2(map.width, map.height) - 2.0 * map.filter_margin_texels);
     map.texel_world_max = {max_of(map.texel_world.x, longest.x), max_of(map.texel_world.y, longest.y)};
   }
@@ -149,6 +152,8 @@ void complete_record(const PlanContext& c, const MapRequest& request, const MapP
   map.light_world =
       space.perspective ? glm::dvec4(apex + c.camera.position, 1.0) : glm::dvec4(space.frame.z, 0.0);
   write_texels(c, request, parts, map);
+  map.shape_parameters =
+      parameters_in(clip_from_gl_clip(c.options.clip_space), *map.shape, map.shape_parameters);
   const glm::dvec2 inside = glm::dvec2(map.width, map.height) - 2.0 * map.filter_margin_texels;
   map.m_s_max = parts.needed.sides.x / inside.x;
   map.m_t_max = parts.needed.sides.y / inside.y;

@@ -3,6 +3,7 @@
 
 #include "cull/sweep.hpp"
 #include "map/light_body.hpp"
+#include "map/row_shape.hpp"
 
 namespace gnomon {
 
@@ -12,11 +13,12 @@ struct MapParts {
   const PlaneMap& plane;
   const SweptBody& swept;
   const TexelsNeeded& needed;
+  const RowShape& rows;
   double obliquity;
   const glm::dmat4& gl_from_relative;
 };
 
-/// Fills in `map`, whose size and border are set.
+/// Fills in `map`, whose size, border and shape, of OpenGL's clip space, are set.
 void complete_record(const PlanContext& c, const MapRequest& request, const MapParts& parts,
                      ShadowMap& map) noexcept;
 

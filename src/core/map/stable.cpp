@@ -137,7 +137,7 @@ MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
   const ServedBody served(c, request, body, plane);
   SweptBody swept;
   sweep(served.request().body, light, grid.texel * map.filter_margin_texels, c.camera.position, swept);
-  const HeightRange heights = height_range(c, served.request(), {served.points(), plane, swept, border});
+  const HeightRange heights = height_range(c, served.request(), {served.points(), plane, swept, {border}});
   if (!heights.has_casters && !request.without_casters) return result;
   result.drawn = true;
   const LightDepths still_depths = snapped_depths(grid, heights, map.snap_key);
@@ -148,7 +148,7 @@ MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
   const glm::dmat4 turn = request.space.light_from_relative();
   const glm::dmat4 gl_from_relative = clip_from_grid(centre, grid.half, depths) * turn;
   complete_record(c, request,
-                  {body, plane, swept, needed, pixel_obliquity(c, request.body), gl_from_relative}, map);
+                  {body, plane, swept, needed, {}, pixel_obliquity(c, request.body), gl_from_relative}, map);
   // Of the key alone: the same key, the same bits, and what was drawn stays as it is.
   result.gl_from_world = clip_from_grid(grid.centre, grid.half, still_depths) * turn;
   map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * result.gl_from_world;

@@ -11,6 +11,7 @@
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "map/border.hpp"
+#include "map/row_shape.hpp"
 #include "map/shared_views.hpp"
 #include "plan/budget.hpp"
 #include "plan/merge.hpp"
@@ -269,6 +270,7 @@ void plan_frusta(const LocalScene& scene, const Light& light, ShadowPlan& plan) 
   report_ignored(scene.c, scene.c.seen != nullptr && !scene.c.seen->empty(), plan);
   if (scene.c.stable && options.warp.warp != nullptr && !is_unwarped(*options.warp.warp))
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
+  if (ignores_shape(scene.c)) omit(plan, IgnoredOption::shape);
   const auto* spot = std::get_if<SpotLight>(&light);
   if (spot == nullptr) {
     plan_cube(scene, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, nullptr, plan);

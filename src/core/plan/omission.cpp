@@ -50,7 +50,8 @@ void describe_ignored(const Omission& o, OmissionText& text) noexcept {
       {"history", "parts that follow the view do not move steadily"},
       {"option split.selection", "only cascades can be chosen among by view depth"},
       {"option cadence", "it needs a history, a directional light, and cascades of a fixed number and size"},
-      {"visible points", "local lights, stable fits, parts and kept maps do not follow them"}};
+      {"visible points", "local lights, stable fits, parts and kept maps do not follow them"},
+      {"option warp.shape", "it needs a tight fit without a history"}};
   const auto at = static_cast<std::size_t>(o.a);
   if (at >= std::size(kEntries)) return;
   std::snprintf(text.what.data(), text.what.size(), "%s", kEntries[at].what);
@@ -132,6 +133,10 @@ OmissionText describe(const Omission& o) noexcept {
     case OmissionKind::points_beyond_levels:
       what("levels beyond the deepest");
       why("%.0f visible points need more texels than the deepest level has", o.a);
+      break;
+    case OmissionKind::shape_without_gain:
+      what("shape of map %d", o.map);
+      why("the error along the warp with it is %.4g of that without", o.a);
       break;
     case OmissionKind::option_ignored:
       describe_ignored(o, text);

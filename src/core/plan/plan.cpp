@@ -7,6 +7,7 @@
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "map/row_shape.hpp"
 #include "plan/cadence.hpp"
 #include "plan/cascades.hpp"
 #include "plan/frame.hpp"
@@ -34,6 +35,7 @@ void finish_parallel(const PlanContext& c, ShadowPlan& plan) noexcept {
     omit(plan, {OmissionKind::partition_in_stable_fit, -1, 0.0, 0.0, 0});
   if (c.stable && options.warp.warp != nullptr && !is_unwarped(*options.warp.warp))
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
+  if (ignores_shape(c)) omit(plan, IgnoredOption::shape);
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
 

@@ -50,7 +50,7 @@ ShaderMap shader_map(const ShadowMap& map, const glm::dmat4& lookup_from_map, co
     out.select_planes[at] =
         glm::vec4(glm::vec3(plane), static_cast<float>(plane.w + glm::dot(glm::dvec3(plane), origin)));
   }
-  out.shape = shader_shape(map);
+  out.shape = shader_shape(map, lookup_from_map);
   out.kernel =
       glm::vec4(glm::dvec4(map.filter_margin_texels, blur, map.overlap, depth_curve(map, lookup_from_map)));
   return out;
@@ -58,10 +58,10 @@ ShaderMap shader_map(const ShadowMap& map, const glm::dmat4& lookup_from_map, co
 
 }  // namespace
 
-glm::vec4 shader_shape(const ShadowMap& map) noexcept {
+glm::vec4 shader_shape(const ShadowMap& map, const glm::dmat4& lookup_from_map) noexcept {
   const std::span<const Shape* const> all = all_shapes();
   const auto place = std::find(all.begin(), all.end(), map.shape) - all.begin();
-  const ShapeParameters& p = map.shape_parameters;
+  const ShapeParameters p = parameters_in(lookup_from_map, *map.shape, map.shape_parameters);
   return {static_cast<float>(place), static_cast<float>(p[0]), static_cast<float>(p[1]),
           static_cast<float>(p[2])};
 }

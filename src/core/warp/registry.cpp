@@ -29,8 +29,13 @@ const Warp* find_warp(std::string_view name) noexcept {
   return nullptr;
 }
 
+const Shape& requested_shape(const PlanOptions& options) noexcept {
+  return options.warp.shape != nullptr ? *options.warp.shape : shapes::linear;
+}
+
 const Warp& requested_warp(const PlanOptions& options) noexcept {
-  return options.warp.warp != nullptr ? *options.warp.warp : warps::optimal;
+  if (options.warp.warp != nullptr) return *options.warp.warp;
+  return requested_shape(options).affine ? warps::optimal : warps::psm;
 }
 
 bool is_unwarped(const Warp& warp) noexcept {

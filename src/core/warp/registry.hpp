@@ -6,7 +6,10 @@
 
 namespace gnomon {
 
-/// The warp that the options name, and the default one where they name none.
+/// The shape that the options name.
+[[nodiscard]] const Shape& requested_shape(const PlanOptions& options) noexcept;
+/// The warp that the options name, and the default one where they name none: of a shape that undoes the
+/// viewer's perspective along the view, the whole of that perspective.
 [[nodiscard]] const Warp& requested_warp(const PlanOptions& options) noexcept;
 /// True for the warp that leaves every map unwarped.
 [[nodiscard]] bool is_unwarped(const Warp& warp) noexcept;

@@ -175,9 +175,9 @@ TechniqueChoice Replanned::choose(const View& view, const Budget& budget, const 
   for (const report::Row& row : view.rows) {
     const SweepEntry entry = sweep_entry(row.technique);
     if (entry.plan.fit != Fit::tight || entry.plan.split.partition != Partition::view_depth ||
-        entry.plan.warp.warp == nullptr)
+        entry.plan.warp.warp == nullptr || !entry.plan.warp.shape->affine)
       throw std::runtime_error(row.technique.name() +
-                               ": the planner chooses among named warps, split by depth");
+                               ": the planner chooses among named warps with linear texels, split by depth");
     once(warps, entry.plan.warp.warp);
     once(splits, entry.plan.split.scheme);
     once(cascades, entry.plan.cascades);

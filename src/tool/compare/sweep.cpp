@@ -53,6 +53,9 @@ std::vector<int> parse_numbers(const std::string& option, const std::vector<std:
 std::string_view name_of(const Warp& warp) noexcept {
   return warp.name;
 }
+std::string_view name_of(const Shape& shape) noexcept {
+  return shape.name;
+}
 std::string_view name_of(const PagePolicy& policy) noexcept {
   return policy.name;
 }
@@ -104,9 +107,31 @@ void set_layer(const std::string& text, SweepEntry& entry) {
 
 void set_warp(const std::string& text, SweepEntry& entry) {
   entry.technique.warp = text;
-  entry.plan.warp.warp = find_warp(text);
-  if (entry.plan.warp.warp == nullptr && text != "auto")
+  const std::size_t colon = text.find(':');
+  const std::string warp = text.substr(0, colon);
+  entry.plan.warp.warp = find_warp(warp);
+  if (entry.plan.warp.warp == nullptr && warp != "auto")
     refuse_name("--warps", text, names_in(all_warps(), {"all", "auto"}));
+  if (colon == std::string::npos) return;
+  entry.plan.warp.shape = find_shape(text.substr(colon + 1));
+  if (entry.plan.warp.shape == nullptr)
+    refuse_name("--shapes", text.substr(colon + 1), names_in(all_shapes(), {"all"}));
+}
+
+/// Warps with shapes: `lispsm:logarithmic`. Without a warp there is nothing that a shape could undo.
+std::vector<std::string> with_shapes(const std::vector<std::string>& warps,
+                                     const std::vector<std::string>& shapes) {
+  std::vector<std::string> both;
+  for (const std::string& warp : warps) {
+    for (const std::string& shape : shapes) {
+      if (find_shape(shape) == nullptr) refuse_name("--shapes", shape, names_in(all_shapes(), {"all"}));
+      if (shape == "linear")
+        both.push_back(warp);
+      else if (warp != "none")
+        both.push_back(warp + ":" + shape);
+    }
+  }
+  return both;
 }
 
 void set_split(const std::string& text, SweepEntry& entry) {
@@ -213,7 +238,10 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
     if (request.visible_depths) split += ":visible_depths";
     if (request.visible_points) split += ":visible_points";
   }
-  const std::vector<std::string> warps = expanded(request.warps, all_warps());
+  const std::vector<std::string> warps =
+      with_shapes(expanded(request.warps, all_warps()), expanded(request.shapes, all_shapes()));
+  if (warps.empty())
+    throw std::runtime_error("--shapes: warp none is always linear, and no other warp is given");
   multiply(entries, expanded(request.filters, render::all_filters()), set_filter);
   multiply(entries, expanded_layers(request.layers), set_layer);
   drop_unread_layers(entries, left_out);
@@ -254,6 +282,8 @@ struct NoPages {
 };
 std::optional<NoPages> no_pages(const SweepEntry& entry, LightKind light) {
   if (entry.irregular) return NoPages{std::string(kIrregular), "lists pixels by whole maps"};
+  if (!entry.plan.warp.shape->affine)
+    return NoPages{std::string(entry.plan.warp.shape->name), "bends lines, and pages have linear texels"};
   const render::FilterSettings& filter = entry.filter;
   if (filter.filter->info.reads != render::MapRead::depth)
     return NoPages{std::string(filter.filter->info.name),

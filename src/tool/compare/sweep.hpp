@@ -19,6 +19,7 @@ namespace gnomon::tool {
 struct CompareRequest {
   std::vector<std::string> scenes;
   std::vector<std::string> warps{"none", "lispsm", "optimal"}, splits{"auto"}, fits{"tight"}, filters{"all"};
+  std::vector<std::string> shapes{"linear"};  ///< beside the warps: each other than linear as WARP:SHAPE
   std::vector<std::string> cascades{"1", "4"}, map_sizes{"1024"};
   int frames = 4, rounds = 5;
   std::vector<std::string> pages, page_sizes{"128"};  ///< policies beside the maps; none: maps alone

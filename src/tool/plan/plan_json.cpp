@@ -79,7 +79,7 @@ Json stats_of(const AliasingStats& stats) {
 
 Json map_json(const ShadowPlan& plan, int index, const Case& input) {
   const ShadowMap& map = plan.map[static_cast<std::size_t>(index)];
-  return {
+  Json result{
       {"clip_from_world", rows_of(map.clip_from_world)},
       {"depth_begin", number(map.depth_begin)},
       {"depth_end", number(map.depth_end)},
@@ -100,6 +100,12 @@ Json map_json(const ShadowPlan& plan, int index, const Case& input) {
       {"snap_depth", snap_depth_of(map.snap_key)},
       {"m", stats_of(measure_map(plan, index, input.camera, input.bounds()))},
   };
+  if (map.shape != &shapes::linear) {
+    const ShapeParameters& p = map.shape_parameters;
+    result["shape"] = {{"name", std::string(map.shape->name)},
+                       {"parameters", {number(p[0]), number(p[1]), number(p[2])}}};
+  }
+  return result;
 }
 
 bool is_flat(const Json& value) {

@@ -20,7 +20,7 @@ std::vector<WorldLine> footprint_of(const ShadowPlan& plan, const ShadowMap& map
   std::array<glm::dvec3, 4> on_plane;
   for (std::size_t i = 0; i < 4; ++i) {
     const glm::dvec2 at = corner + glm::dvec2(i == 1 || i == 2 ? 1.0 : 0.0, i >= 2 ? 1.0 : 0.0);
-    const glm::dvec2 ndc = 2.0 * at / map.texels().size() - 1.0;
+    const glm::dvec2 ndc = map.texels().ndc_of(at);
     const glm::dvec4 a = world_from_clip * glm::dvec4(ndc, nearest, 1.0),
                      b = world_from_clip * glm::dvec4(ndc, 1.0, 1.0);
     const glm::dvec3 from = glm::dvec3(a) / a.w, along = glm::dvec3(b) / b.w - from;

@@ -1,0 +1,40 @@
+// How do a map's texels lie along its warp? By the shape that the options name, where a map's rows lie across
+// the warp's axis, so that rows alone can undo what the warp's w does along it.
+#pragma once
+
+#include "map/context.hpp"
+#include "warp/plane_map.hpp"
+
+namespace gnomon {
+
+/// Rows of one map.
+struct RowShape {
+  const Shape* shape = &shapes::linear;
+  double log_growth = 0.0;  // logarithm of w at the rectangle's far end over w at its near end
+
+  [[nodiscard]] bool bent() const noexcept { return !shape->affine; }
+  /// How much longer a row is at a point of the light plane than rows of one size over the rectangle.
+  [[nodiscard]] double lengthening(const PlaneMap& plane, double x, double y) const noexcept;
+};
+
+/// True where a shape was requested that maps of this plan cannot have.
+[[nodiscard]] bool ignores_shape(const PlanContext& c) noexcept;
+
+/// Linear where the requested shape is of no use to a map of this plane. `border`: share of the map's height
+/// that it keeps free at either end.
+[[nodiscard]] RowShape row_shape(const PlanContext& c, const PlaneMap& plane, double border) noexcept;
+/// Weakens a warp to the strongest that a shape can undo.
+void limit_to_shape(const PlanContext& c, std::span<const WarpInput::Point> body, PlaneMap& plane) noexcept;
+/// From what linear texels need to what these need.
+void texels_needed(const RowShape& rows, std::span<const WarpInput::Point> body, const PlaneMap& plane,
+                   TexelsNeeded& needed) noexcept;
+
+/// The plane with a border along y in its rectangle, as rows of the shape leave it, and the parameters.
+struct BorderedPlane {
+  PlaneMap plane;
+  ShapeParameters parameters{};
+  double log_w = 0.0;  // logarithm of w's growth over the border at either end
+};
+[[nodiscard]] BorderedPlane with_border(const RowShape& rows, const PlaneMap& plane, double border) noexcept;
+
+}  // namespace gnomon
