@@ -378,7 +378,7 @@ TEST(Pages, a_wider_reach_opens_the_pages_round_each_point) {
   }
 }
 
-TEST(Pages, the_reach_of_a_point_is_in_texels_of_the_level_that_it_needs) {
+TEST(Pages, reach_texels_are_those_of_the_level_that_a_point_needs) {
   Street street;
   // Few points that lie apart, so that finer pages of one hold little of another's surroundings.
   street.points.clear();
