@@ -257,6 +257,23 @@ TEST(CasterSet, boxes_that_moved_vanished_or_came_are_found_where_they_are_now) 
   });
 }
 
+TEST(CasterSet, one_box_that_is_none_among_many_is_refused) {
+  std::vector<Box> boxes(200, Box{{-1, 0, -11}, {1, 1, -10}});
+  Owned owned(boxes);
+  const std::vector<Box> ground = {{{-50, -1, -100}, {50, 0, 0}}};
+  const Camera camera = perspective_camera({0, 2, 0}, {0, -0.1, -1}, {0, 1, 0}, 1.0, 1.5, 0.5, 100, 640, 480);
+  const auto status = [&] {
+    return make_plan(camera, DirectionalLight{{0.3, -1, 0}}, SceneBounds{owned.set, ground}).status;
+  };
+  EXPECT_EQ(status(), PlanStatus::ok);
+  for (const std::uint32_t index : {0u, 77u, 199u}) {
+    owned.set.update(index, {{0, std::numeric_limits<double>::quiet_NaN(), 0}, {1, 1, 1}});
+    EXPECT_EQ(status(), PlanStatus::invalid_input) << index;
+    owned.set.update(index, boxes[index]);
+    EXPECT_EQ(status(), PlanStatus::ok) << index;
+  }
+}
+
 TEST(CasterSet, a_refit_with_another_number_of_boxes_changes_nothing) {
   std::vector<Box> boxes(20, Box{{0, 0, 0}, {1, 1, 1}});
   Owned owned(boxes);

@@ -95,6 +95,14 @@ TEST(KeepPages, a_page_that_comes_back_is_still_there) {
   EXPECT_EQ(street.keep(back).kept, back.pages.size());
 }
 
+TEST(KeepPages, a_page_of_another_size_at_the_same_place_is_another) {
+  Street street;
+  const PagePlan plan = street.plan(0.0);
+  (void)street.keep(plan);
+  for (PageSlot& slot : street.slots) slot.texels *= 2;
+  EXPECT_EQ(street.keep(plan).kept, 0u);
+}
+
 TEST(KeepPages, a_fit_that_follows_the_view_keeps_nothing_once_the_camera_moves) {
   Street street;
   street.plan_options.fit = Fit::tight;
@@ -139,6 +147,24 @@ TEST(KeepPages, a_moved_caster_costs_the_pages_under_it_and_few_more) {
     EXPECT_LT(result.drawn, plan.pages.size() / 2);
     EXPECT_EQ(street.keep(plan).drawn, 0u) << "moved once";
   }
+}
+
+TEST(KeepPages, a_caster_that_moves_up_to_an_edge_of_a_page_is_drawn_into_it) {
+  Street street;
+  street.light = DirectionalLight{{0, -1, 0}};  // pages along the world's axes, their edges whole numbers
+  const PagePlan plan = street.plan(0.0);
+  (void)street.keep(plan);
+  const std::size_t middle = plan.pages.size() / 2;
+  const glm::dmat4 m = page_map(plan, plan.pages[middle]).clip_from_world;
+  Box beside{{-1e3, 1, -1e3}, {1e3, 2, 1e3}};
+  const int axis = m[0][0] != 0.0 ? 0 : 2;
+  const double low = (-1.0 - m[3][0]) / m[axis][0], high = (1.0 - m[3][0]) / m[axis][0];
+  beside.max[axis] = std::min(low, high);
+  (void)street.keep(plan, {&beside, 1});
+  EXPECT_TRUE(street.kept[middle].draw) << "touched";
+  beside.max[axis] -= 1e-3 * std::abs(high - low);
+  (void)street.keep(plan, {&beside, 1});
+  EXPECT_FALSE(street.kept[middle].draw) << "beside it";
 }
 
 TEST(KeepPages, a_page_out_of_the_plan_goes_stale_as_well) {

@@ -35,12 +35,21 @@ TEST(MeasureSeen, is_the_perspective_error_at_each_point_in_the_map_that_serves_
     const ShadowPlan plan = street.plan(cascades);
     ASSERT_EQ(plan.map_count, cascades);
     std::vector<double> m;
+    std::vector<PointAliasing> worst(static_cast<std::size_t>(cascades));  // sides over each map's points
     const CameraAxes axes = camera_axes(street.camera);
     for (const glm::dvec3& point : street.points) {
       const int map = map_serving(plan, point, glm::dot(point - street.camera.position, axes.forward));
       ASSERT_GE(map, 0);
-      m.push_back(measure_perspective(plan.map[static_cast<std::size_t>(map)], street.camera, point).m_max);
+      const auto index = static_cast<std::size_t>(map);
+      const PointAliasing one = measure_perspective(plan.map[index], street.camera, point);
+      m.push_back(one.m_max);
+      worst[index].m_s = std::max(worst[index].m_s, one.m_s);
+      worst[index].m_t = std::max(worst[index].m_t, one.m_t);
     }
+    double storage = 0.0;  // texels over pixels that an error of 1 takes, all maps together
+    for (std::size_t i = 0; i < worst.size(); ++i)
+      storage += worst[i].m_s * worst[i].m_t * plan.map[i].width * plan.map[i].height;
+    storage /= static_cast<double>(street.camera.width) * street.camera.height;
     std::sort(m.begin(), m.end());
     double sum = 0.0;
     for (const double one : m) sum += one;
@@ -50,6 +59,7 @@ TEST(MeasureSeen, is_the_perspective_error_at_each_point_in_the_map_that_serves_
     EXPECT_NEAR(stats.mean, sum / static_cast<double>(m.size()), 1e-12 * stats.mean);
     EXPECT_NEAR(stats.p95, m[475], 0.01 * stats.p95);
     EXPECT_EQ(stats.max, m.back());
+    EXPECT_NEAR(stats.storage, storage, 1e-12 * storage);
   }
 }
 

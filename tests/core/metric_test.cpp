@@ -67,6 +67,25 @@ TEST(Metric, twice_as_far_the_texels_are_half_as_large_on_screen) {
   EXPECT_CLOSE(measure_perspective(map, camera, {0, 0, 0}).m_max, 1.0, kRounding);
 }
 
+TEST(Metric, what_a_map_holds_but_for_its_own_rounding_is_not_outside) {
+  // The corner of a body that rounding alone made wide, in its map: at x = 1 + 1.2e-9 with exact arithmetic.
+  ShadowMap map;
+  map.width = map.height = 64;
+  map.clip_from_world =
+      glm::dmat4(66417038.428117387, -0.2619986964560585, 6704479.9479697431, 6704479.9479697431, 0, 0,
+                 -12.210920994187061, 0, -24051410.185472954, -0.071672882772003815, -2427880.7833160996,
+                 -2427880.7833160996, -8060986.113503864, -0.0014988864565391054, -813716.83912605606,
+                 -813717.96571336209);
+  map.light_world = {0, 1, 0, 0};
+  const Camera camera =
+      perspective_camera({0, 0, 0}, {0.94, -0.04, -0.34}, {0, 1, 0}, 1.55, 1.5, 0.006, 0.25, 101, 64);
+  const glm::dvec3 corner(0.048970943276564823, 0.092420270703335861, -0.19992517193467149);
+  EXPECT_EQ(measure_perspective(map, camera, corner).status, Status::ok);
+  // A thousandth of a texel of the largest map is beside it.
+  const ShadowMap wide = map_from_above(1 << 14);
+  EXPECT_EQ(measure_perspective(wide, camera_from_above(4.0), {1.0 + 2e-7, 0, 0}).status, Status::outside);
+}
+
 TEST(Metric, light_straight_into_the_eye_gives_finite_numbers) {
   // e = -l: the rotation from eye ray to light ray is not unique, any serves.
   Camera camera = camera_from_above(4.0);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "page_storage.hpp"
+#include "support/near.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -218,6 +219,110 @@ TEST(Pages, a_small_pool_coarsens_all_levels_and_says_so) {
   EXPECT_LE(stats.worst_side, plan.target_m * (1.0 + 1e-6));
 }
 
+TEST(Pages, a_small_pool_coarsens_by_no_eighth_of_an_octave_too_much) {
+  Street street;
+  street.options.trials = 1;  // of several, the pool's size decides
+  PageStorage memory;
+  const std::size_t whole = street.plan(memory).pages.size();
+  for (const std::size_t part : {2u, 3u, 4u, 5u, 7u}) {
+    Street other = street;
+    other.options.capacity = static_cast<int>(whole / part);
+    const PagePlan plan = other.plan(memory);
+    ASSERT_EQ(plan.status, PlanStatus::ok);
+    other.options.capacity = street.options.capacity;
+    other.options.target_m = plan.target_m * std::exp2(-0.125);
+    EXPECT_GT(other.plan(memory).pages.size(), whole / part) << "the pool had room for an eighth less";
+  }
+}
+
+TEST(Pages, more_trials_take_no_more_pages) {
+  Street street;
+  PageStorage memory;
+  std::size_t before = 0, first = 0;
+  for (const int trials : {1, 2, 4, 8, 16}) {
+    street.options.trials = trials;
+    const std::size_t pages = street.plan(memory).pages.size();
+    if (trials == 1) first = before = pages;
+    EXPECT_LE(pages, before) << trials;
+    before = pages;
+  }
+  EXPECT_LT(before, first);
+}
+
+TEST(Pages, a_point_on_the_edges_of_pages_opens_those_on_all_sides) {
+  Street street;
+  street.light = DirectionalLight{{0, -1, 0}};
+  street.plan_options.fit = Fit::stable;  // edges at powers of two, from the world's origin on
+  street.points = {{0, 0, -64}};
+  PageStorage memory;
+  EXPECT_EQ(street.plan(memory).pages.size(), 4u);
+  street.points = {{1e-3, 0, -64}};
+  EXPECT_EQ(street.plan(memory).pages.size(), 2u);
+  street.points = {{1e-3, 0, -64.001}};
+  EXPECT_EQ(street.plan(memory).pages.size(), 1u);
+}
+
+TEST(Pages, the_border_is_counted_beside_the_texels_inside) {
+  Street street;
+  street.options.page_texels = 64;
+  street.plan_options.filter.texels = 2.5;
+  PageStorage memory;
+  const PagePlan plan = street.plan(memory);
+  const PageStats stats = measure_pages(plan, street.camera, {street.points});
+  EXPECT_CLOSE(stats.border_share, (70.0 * 70.0 - 64.0 * 64.0) / (64.0 * 64.0), 1e-12);
+  EXPECT_CLOSE(stats.m.storage, stats.texels_per_pixel * (1.0 + stats.border_share), 1e-12);
+}
+
+TEST(Pages, the_bias_of_a_level_is_that_of_its_own_texels) {
+  Street street;
+  PageStorage memory;
+  const PagePlan plan = street.plan(memory);
+  ASSERT_GT(plan.levels.size(), 2u);
+  const auto in_texels = [](const ShadowMap& level, double bias) {
+    return bias / std::max(level.texel_world.x, level.texel_world.y);
+  };
+  const ShadowMap& first = plan.levels.front();
+  EXPECT_GT(first.bias_world.constant, 0.0);
+  for (const ShadowMap& level : plan.levels) {
+    const auto &own = level.bias_world, &other = first.bias_world;
+    EXPECT_CLOSE(in_texels(level, own.constant), in_texels(first, other.constant), 1e-12);
+    EXPECT_CLOSE(in_texels(level, own.slope), in_texels(first, other.slope), 1e-12);
+    EXPECT_CLOSE(in_texels(level, own.normal_offset), in_texels(first, other.normal_offset), 1e-12);
+  }
+}
+
+TEST(Pages, texels_are_long_where_pixels_are) {
+  Street street;
+  street.normals.assign(street.points.size(), {0, 1, 0});
+  PageStorage memory;
+  const PagePlan plan = street.plan(memory);
+  const glm::dvec2 texel = plan.levels.front().texel_world;
+  EXPECT_GT(std::abs(std::log2(texel.x / texel.y)), 0.5) << "the street is seen at a slant";
+  double sum = 0.0;
+  for (const glm::dvec3& point : street.points) {
+    const Page& page = plan.pages[static_cast<std::size_t>(page_serving(plan, point))];
+    const PointAliasing m = measure_point(plan.levels[page.level], street.camera, point, {0, 1, 0});
+    sum += std::log2(m.m_s / m.m_t);
+  }
+  // In octaves: the aspect is one for all points, and chosen from a histogram in quarters.
+  EXPECT_LT(std::abs(sum) / static_cast<double>(street.points.size()), 0.5);
+}
+
+TEST(Pages, no_caster_behind_a_local_light_is_drawn) {
+  Street street;
+  street.light = SpotLight{{0, 20, -60}, {0, -1, 0}, 0.8, 100.0};
+  PageStorage memory;
+  const PagePlan plan = street.plan(memory);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  // So wide that it lies across the planes of all four sides.
+  const std::vector<Box> behind = {{{-500, 21, -500}, {500, 22, 500}}};
+  const std::vector<Box> before = {{{-500, 18, -500}, {500, 19, 500}}};
+  for (const Page& page : plan.pages) {
+    EXPECT_EQ(cull_casters(page_map(plan, page), behind, {}), 0u);
+    EXPECT_EQ(cull_casters(page_map(plan, page), before, {}), 1u);
+  }
+}
+
 TEST(Pages, a_share_below_one_gives_up_the_pages_of_few_points) {
   Street street;
   // Clusters, and some points on their own.
@@ -271,6 +376,39 @@ TEST(Pages, a_wider_reach_opens_the_pages_round_each_point) {
     ASSERT_GE(beside, 0);
     EXPECT_GE(plan.pages[static_cast<std::size_t>(beside)].level, page.level);
   }
+}
+
+TEST(Pages, reach_texels_are_those_of_the_level_that_a_point_needs) {
+  Street street;
+  // Few points that lie apart, so that finer pages of one hold little of another's surroundings.
+  street.points.clear();
+  for (int i = 0; i < 400; ++i) street.points.push_back({-3.0 + 7 * i % 13 * 0.5, 0.0, -8.0 - 0.45 * i});
+  street.options.reach_texels = 48.0;
+  PageStorage memory;
+  const PagePlan plan = street.plan(memory);
+  int beside = 0;
+  for (const glm::dvec3& point : street.points) {
+    const auto needed = std::find_if(plan.levels.begin(), plan.levels.end(), [&](const ShadowMap& level) {
+      const PointAliasing m = measure_perspective(level, street.camera, point);
+      return std::max(m.m_s, m.m_t) <= plan.target_m;
+    });
+    ASSERT_NE(needed, plan.levels.end());
+    for (int row = 0; row < 2; ++row) {
+      const glm::dmat4& m = needed->clip_from_world;
+      const glm::dvec3 axis = glm::normalize(glm::dvec3(m[0][row], m[1][row], m[2][row]));
+      for (const double way : {-0.95, 0.95}) {
+        const glm::dvec3 place =
+            point + axis * (way * street.options.reach_texels * needed->texel_world[row]);
+        const int page = page_serving(plan, place);
+        const glm::dvec4 clip = m * glm::dvec4(place, 1.0);
+        if (std::max(std::abs(clip.x), std::abs(clip.y)) > clip.w) continue;  // beside all receivers
+        ASSERT_GE(page, 0);
+        EXPECT_GE(plan.pages[static_cast<std::size_t>(page)].level, needed - plan.levels.begin());
+        ++beside;
+      }
+    }
+  }
+  EXPECT_GT(beside, 1000);
 }
 
 TEST(Pages, clipmap_levels_are_octaves_of_square_texels) {

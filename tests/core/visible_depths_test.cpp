@@ -129,6 +129,23 @@ TEST(VisibleDepths, cascades_step_over_a_gap) {
   EXPECT_LT(2.0 * plan.map[0].m_s_max, all.map[0].m_s_max);
 }
 
+TEST(VisibleDepths, slices_round_a_gap_are_as_short_as_their_number_allows) {
+  Plain plain;
+  VisibleDepths depths = visible_between(2.0, 4.0);
+  const VisibleDepths far = visible_between(100.0, 200.0);
+  for (std::size_t bin = 0; bin < depths.count.size(); ++bin) depths.count[bin] += far.count[bin];
+  depths.max = far.max;
+  plain.visible = &depths;
+  plain.options.cascades = 4;
+  plain.options.split.scheme = SplitScheme::logarithmic;
+  const ShadowPlan plan = plain.plan();
+  ASSERT_EQ(plan.map_count, 4);
+  // Two slices over each octave, with its safety at both ends; the last of each may be shorter.
+  const double octave = 2.0 * kBin * (1.0 + kDepthSafety) / (1.0 - kDepthSafety);
+  for (const ShadowMap& map : plan.maps())
+    EXPECT_LE(map.depth_end / map.depth_begin, std::sqrt(octave) * 1.001);
+}
+
 TEST(VisibleDepths, one_visible_pixel_gets_one_map_or_more_and_no_map_twice) {
   Plain plain;
   VisibleDepths depths;

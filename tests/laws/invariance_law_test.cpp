@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
@@ -107,6 +108,14 @@ Case draw_with_formula_splits() {
 // Between two ends of a search that started from numbers equal but for their last bits. The search stops
 // within 0.1 % of the best strength; the bounds of the error follow it in the first order.
 constexpr double kSearched = 0.01;
+
+/// Whether rounding decides how the map lies: psm follows the slant between light and view however small it
+/// is, and below this sine the unit vectors' last bits turn it by more than the law allows.
+bool turned_by_rounding(const Case& c) {
+  constexpr double kLeastSine = 1e-9;
+  const glm::dvec3 across = glm::cross(glm::normalize(c.camera.forward), glm::normalize(c.light));
+  return c.options.warp.warp == &warps::psm && glm::length(across) < kLeastSine;
+}
 
 void require_same_quality(const ShadowPlan& a, const Case& ca, const ShadowPlan& b, const Case& cb,
                           double unit_of_b) {
@@ -210,7 +219,7 @@ TEST(InvarianceLaw, turning_and_moving_the_world_changes_nothing) {
   for_all(1000, [&] {
     Case c = draw_with_formula_splits();
     c.options.fit = Fit::tight;  // a stable grid is tied to the world's axes
-    if (searched(c)) c.options.warp.warp = &warps::lispsm04;
+    if (searched(c) || turned_by_rounding(c)) c.options.warp.warp = &warps::lispsm04;
     // A caster that exactly touches the shaft of light may count either way; one round everything always
     // does: round all of a view whose edges go aside farther than it is deep, too.
     double widest = 1.0;

@@ -128,6 +128,12 @@ TEST(MetricLaw, the_perspective_part_is_the_error_on_the_surface_that_faces_the_
 
 // Central differences of step h: h^2 for the curvature, rounding / h for the positions.
 constexpr double kDifference = 1e-5;
+// Most that w may change over h, as a share of w: the quotient's curvature is the square of that.
+constexpr double kStraight = 1e-3;
+
+double w_of(const ShadowMap& map, const glm::dvec3& p) {
+  return (map.clip_from_world * glm::dvec4(p, 1.0)).w;
+}
 
 TEST(MetricLaw, the_extents_agree_with_finite_differences_of_both_projections) {
   std::uint64_t count = 0;
@@ -140,11 +146,17 @@ TEST(MetricLaw, the_extents_agree_with_finite_differences_of_both_projections) {
     c.camera.position = glm::dvec3(0.0);
     const ShadowPlan plan = c.plan();
     RC_LOG() << c;
-    count += at_samples(c, plan, [&](const Sample& s) {
+    (void)at_samples(c, plan, [&](const Sample& s) {
       const glm::dvec3 u = any_across(s.normal), v = glm::cross(s.normal, u);
       const double step = 1e-5 * (c.camera.orthographic ? c.camera.top - c.camera.bottom
                                                         : std::min(c.camera.top - c.camera.bottom, 1.0) *
                                                               depth_of(c.camera, s.point));
+      // A thin body's strong warp runs from end to end within such a step.
+      const double w = w_of(*s.map, s.point);
+      if (std::abs(w_of(*s.map, s.point + u * step) - w) > kStraight * w ||
+          std::abs(w_of(*s.map, s.point + v * step) - w) > kStraight * w)
+        return;
+      ++count;
       glm::dmat2 pixels, texels;
       pixels[0] = pixel_of(c.camera, s.point + u * step) - pixel_of(c.camera, s.point - u * step);
       pixels[1] = pixel_of(c.camera, s.point + v * step) - pixel_of(c.camera, s.point - v * step);

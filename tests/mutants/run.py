@@ -15,21 +15,39 @@ import time
 
 # The pinned hash of all plans would notice any change of a bit, and say nothing of what the other tests are worth.
 NOT_THE_HASH = "--gtest_filter=-PlanHash.*"
+DRAWN = ["filter_fit_test", "render_pages_test", "prune_test", "render_irregular_test", "render_test"]
 SUITES = {  # the quick ones first
     "src/core/": ["core_tests", "core_golden_tests", "core_extreme_tests", "core_laws_tests"],
     "src/scene/": ["load_gltf_test", "gltf_refusal_test", "gltf_confinement_test", "gltf_skin_test", "scene_image_test",
                    "camera_path_test", "builtin_scene_test"],
     "src/casefile/": ["casefile_test"],
+    "src/report/": ["report_test"],
+    "src/trace/": ["trace_test", "trace_scenes_test"],
+    "src/render/": DRAWN,
+    "shaders/": DRAWN,
+    "src/tool/compare/": ["flips_law_test", "compare_test"],
 }
-PATIENCE = 300  # seconds for one test program: a fault that never ends is caught, too
-OFF = ["RENDER", "TRACE", "REPORT", "TOOL", "SAMPLES", "BENCH"]
+# What is built beside core, scene and case files, by the folder whose faults need it.
+PARTS = {
+    "src/report/": ["REPORT"],
+    "src/trace/": ["TRACE"],
+    "src/render/": ["RENDER", "TRACE"],
+    "shaders/": ["RENDER", "TRACE"],
+    "src/tool/compare/": ["RENDER", "TRACE", "REPORT", "TOOL"],
+}
+ALL_PARTS = ["RENDER", "TRACE", "REPORT", "TOOL", "SAMPLES", "BENCH"]
+PATIENCE = 900  # seconds for one test program: a fault that never ends is caught, too
+
+
+def folder_of(file):
+    for folder in SUITES:
+        if file.startswith(folder):
+            return folder
+    sys.exit(f"mutants: no tests are named for {file}")
 
 
 def suite_of(file):
-    for folder, tests in SUITES.items():
-        if file.startswith(folder):
-            return tests
-    sys.exit(f"mutants: no tests are named for {file}")
+    return SUITES[folder_of(file)]
 
 
 def tracked_files(source):
@@ -64,7 +82,8 @@ def build(work, tests):
 
 def failures(work, test, without=(), fast=True):
     """Names of the tests that fail in a program; the program's own where it ends without a word."""
-    environment = dict(os.environ, GTEST_FAIL_FAST="1" if fast else "0", GTEST_BRIEF="1")
+    # One thread of the software renderer, as in the suite.
+    environment = dict(os.environ, GTEST_FAIL_FAST="1" if fast else "0", GTEST_BRIEF="1", LP_NUM_THREADS="1")
     environment.pop("RC_PARAMS", None)  # the laws have a seed of their own, under which they hold
     try:
         done = run([work / "build/bin/tests" / test, ":".join([NOT_THE_HASH, *without])], env=environment, timeout=PATIENCE)
@@ -97,11 +116,12 @@ def main():
     mutants = [m for m in mutants if not sys.argv[3:] or any(t in m["file"] + m["breaks"] for t in sys.argv[3:])]
     copy = work / "source"
     copy_sources(source, copy)
+    parts = {part for m in mutants for part in PARTS.get(folder_of(m["file"]), [])}
     configured = run(["cmake", "-S", copy, "-B", work / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
                       "-DGNOMON_TESTS=ON", "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache",
                       # A write beyond a vector's end must not pass for luck.
                       "-DCMAKE_CXX_FLAGS=-O1 -D_GLIBCXX_ASSERTIONS",
-                      *[f"-DGNOMON_{part}=OFF" for part in OFF]])
+                      *[f"-DGNOMON_{part}={'ON' if part in parts else 'OFF'}" for part in ALL_PARTS]])
     if configured.returncode != 0:
         sys.exit(configured.stdout + configured.stderr)
     tests = sorted({t for m in mutants for t in suite_of(m["file"])})

@@ -120,7 +120,8 @@ TEST(Accumulation, restart_forgets_and_so_does_a_frame_without) {
 TEST(Accumulation, a_moving_view_finds_its_points_again) {
   Stills stills;
   Camera camera = Stills::still();
-  const glm::dvec3 step = 0.01 * glm::normalize(glm::cross(camera.forward, camera.up));
+  // More than a pixel: looked up where they were on the image, points would be others.
+  const glm::dvec3 step = 0.05 * glm::normalize(glm::cross(camera.forward, camera.up));
   FrameOptions options = accumulating();
   Frame last;
   constexpr int kFrames = 24;

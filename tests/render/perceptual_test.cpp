@@ -108,6 +108,11 @@ TEST(Perceptual, sizes_maps_for_kernels_in_world_units_by_hand) {
   EXPECT_EQ(odd.radius_world, 1.0);
   // The view is 2 tan(0.45) z high and has 100 pixels; the map begins at z = 2.
   EXPECT_NEAR(odd.radius_pixels, 100.0 / (4.0 * std::tan(0.45)), 100.0 * kRounding);
+  // Pixels twice as close side by side: what hides along one side only shows along the other.
+  Camera close = camera();
+  close.width *= 2;
+  const HidingMapSize same = hiding_map_size(plan_of(1000, 0.1), close, filter("pcf:radius=1,unit=world"));
+  EXPECT_NEAR(same.radius_pixels, 2.0 * odd.radius_pixels, 100.0 * kRounding);
 }
 
 TEST(Perceptual, sizes_all_maps_for_the_worst_of_them) {

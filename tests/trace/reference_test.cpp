@@ -191,6 +191,43 @@ TEST(Reference, a_kernel_without_extent_is_the_hard_shadow) {
   }
 }
 
+TEST(Reference, a_gauss_filter_over_a_straight_edge_is_its_integral_and_ends_at_three_deviations) {
+  constexpr int kSize = 32, kSamples = 1024;
+  const Scene scene = half_covered();
+  const Tracer tracer(scene);
+  const Camera camera = overhead(kSize);
+  const Picture picture = picture_of(tracer, camera);
+  const Light sun = DirectionalLight{{0, -1, 0}};
+  const SurfacePoints points = surface_points(tracer, camera, sun, picture.positions, picture.normals);
+  constexpr double kDeviation = 0.25, kCut = 3.0;
+  const KernelAxes axes{{kDeviation, 0, 0}, {0, 0, kDeviation}};
+  const SoftReference soft = filtered_reference(
+      tracer, points, sun, KernelShape::gauss, [&](std::size_t) { return axes; }, kSamples);
+  for (std::size_t i = 0; i < soft.pixels.size(); ++i) {
+    const double x = world_of(i % kSize, kSize) / kDeviation;
+    // What lies beyond the cut is a hundredth; 1024 stratified samples.
+    EXPECT_NEAR(soft.pixels[i], 0.5 * std::erfc(-x / std::sqrt(2.0)), 0.03) << i;
+    if (std::abs(x) < kCut) continue;
+    EXPECT_EQ(soft.pixels[i], x > 0.0 ? 1.0f : 0.0f) << i;
+  }
+}
+
+TEST(Reference, rays_begin_at_the_triangle_and_not_where_the_picture_has_rounded_it_to) {
+  // A sheet between the ground and where the picture shows the ground.
+  Scene scene = empty_scene();
+  add_quad(scene, {-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
+  add_quad(scene, {-2, 1e-3f, 2}, {4, 0, 0}, {0, 0, -4});
+  const Tracer tracer(scene, Engine::own);
+  SurfacePoint point;
+  point.position = {0.1, 2e-3, 0.2};
+  point.normal = {0, 1, 0};
+  point.above = 2e-3;
+  point.state = PixelState::facing;
+  const SurfacePoints points{1, 1, {point}};
+  for (const Light& light : {Light(DirectionalLight{kSlant}), Light(PointLight{{1, 5, 0}, 50.0})})
+    EXPECT_EQ(hard_reference(tracer, points, light).pixels[0], Verdict::shadow);
+}
+
 TEST(Reference, the_penumbra_of_a_disc_is_the_disc_cut_by_the_edge) {
   constexpr int kSize = 16, kSamples = 1024;
   const Scene scene = half_covered();

@@ -6,6 +6,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 #include <random>
 
 #include "render/test_scene.hpp"
@@ -125,6 +126,37 @@ TEST(Tracer, first_and_nearest_hits_are_exact) {
   EXPECT_EQ(tracer.hit_nearest_to(ray, 0.0).t, -0.25);
 }
 
+TEST(Tracer, the_first_hit_is_the_nearest_of_many_from_either_side) {
+  Scene scene = empty_scene();
+  constexpr int kSquares = 20;
+  for (int i = 0; i < kSquares; ++i) {  // 1 to 20 in another order
+    const auto y = static_cast<float>(1 + 7 * i % kSquares);
+    add_quad(scene, {-1, y, 1}, {2, 0, 0}, {0, 0, -2});
+  }
+  const Tracer tracer(scene, Engine::own);
+  for (int below = 0; below < kSquares; ++below) {
+    Ray up = up_from(0.5, 0.25, below + 0.5), down = up_from(0.5, 0.25, below + 1.5);
+    up.direction = {0, 1, 0};
+    down.direction = {0, -1, 0};
+    EXPECT_EQ(tracer.first_hit(up).t, 0.5) << below;
+    EXPECT_EQ(tracer.first_hit(down).t, 0.5) << below;
+  }
+}
+
+TEST(Tracer, rays_along_the_sides_of_boxes_are_stopped_by_what_lies_there) {
+  // Far more than a leaf holds: each square has sides of boxes through its own sides.
+  Scene scene = empty_scene();
+  for (int i = 0; i < 32; ++i) add_quad(scene, {static_cast<float>(2 * i), 1, 1}, {1, 0, 0}, {0, 0, -1});
+  const Tracer tracer(scene, Engine::own);
+  for (int i = 0; i < 32; ++i) {
+    for (const double side : {0.0, 1.0}) {
+      Ray ray = up_from(2.0 * i + side, 0.5);
+      ray.direction = {0, 1, 0};
+      EXPECT_TRUE(occluded(tracer, ray)) << i << " " << side;
+    }
+  }
+}
+
 TEST(Tracer, masks_let_light_through_where_they_cut) {
   Scene scene = empty_scene();
   // Two columns: left alpha 0, right 255. Bilinear between their centres at u = 1/4 and 3/4; cut below one
@@ -177,6 +209,9 @@ TEST(Tracer, a_million_units_from_the_origin_results_are_the_same) {
     };
     EXPECT_TRUE(occluded(tracer, shifted(0.99999, 0.25)));
     EXPECT_FALSE(occluded(tracer, shifted(1.00001, 0.25)));
+    // Coordinates alone are rounded to this.
+    const double rounding = 3e6 * std::numeric_limits<double>::epsilon();
+    EXPECT_GT(tracer.error_world(), engine == Engine::own ? rounding : 0.0);
     EXPECT_LT(tracer.error_world(), 1e-5);
   }
 }

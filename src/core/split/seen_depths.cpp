@@ -50,13 +50,15 @@ std::size_t put_slices(const VisibleDepths& depths, DepthRange cover, double rat
                        std::span<double> ends) noexcept {
   std::size_t count = 0;
   double at = cover.begin;
-  while (true) {
+  // From the end on there is nothing, though a range of no length is not empty.
+  while (at < cover.end) {
     const DepthRange left = seen_between(depths, at, cover.end);
-    if (left.empty()) return count;
+    if (left.empty()) break;
     if (count == ends.size()) return count + 1;
     at = min_of(left.begin * ratio, cover.end);
     ends[count++] = at;
   }
+  return count;
 }
 
 }  // namespace
