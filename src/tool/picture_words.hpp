@@ -1,9 +1,11 @@
-// Words about pictures that several commands take: their size, and how cascades go over into each other.
+// Words about pictures that several commands take: their size, how cascades go over into each other, and
+// which depth the maps store.
 #pragma once
 
 #include <charconv>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "command.hpp"
 #include "gnomon/render/renderer.hpp"
@@ -30,6 +32,24 @@ inline void read_picture_size(const std::string& text, int least, int most, int&
 [[nodiscard]] inline render::SplitTransition transition_from_name(const std::string& name) {
   if (name == "blend") return render::SplitTransition::blend;
   return name == "dither" ? render::SplitTransition::dither : render::SplitTransition::cut;
+}
+
+/// Names of the depth layers behind those of `before`, in their order.
+[[nodiscard]] inline std::vector<std::string> layer_names(std::vector<std::string> before = {}) {
+  for (const render::DepthLayerInfo& info : render::depth_layers()) before.emplace_back(info.name);
+  return before;
+}
+/// --layer of a command that draws one picture; `name` is one of layer_names().
+[[nodiscard]] inline Option layer_option(std::string& name) {
+  return {.name = "--layer",
+          .target = &name,
+          .help = "depth that the maps store; docs/bias.md says which for which scene",
+          .names = layer_names()};
+}
+/// `name` is one of layer_names().
+[[nodiscard]] inline render::DepthLayer layer_from_name(const std::string& name) {
+  const render::DepthLayerInfo* const info = render::find_depth_layer(name);
+  return info != nullptr ? info->layer : render::DepthLayer::front;
 }
 
 }  // namespace gnomon::tool

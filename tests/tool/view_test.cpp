@@ -85,6 +85,7 @@ State unusual() {
   state.a.plan.prune = kPruneNothing;
   state.b.filter = render::parse_filter("evsm4:radius=3,format=fp16").settings;
   state.b.transition = render::SplitTransition::dither;
+  state.b.layer = render::DepthLayer::midpoint;
   state.b.history = state.b.visible_depths = true;
   state.view = View::checker;
   state.map = 2;
@@ -108,6 +109,7 @@ TEST(ViewState, reads_back_what_it_wrote) {
   EXPECT_TRUE(back.a.plan.clip_space.reversed_z);
   EXPECT_NEAR(back.a.plan.cadence.largest_turn, 0.125, 1e-15);
   EXPECT_EQ(back.b.filter.format, render::TexelFormat::fp16);
+  EXPECT_EQ(back.b.layer, render::DepthLayer::midpoint);
   EXPECT_EQ(back.light.spot->range, 55.5);
   ASSERT_EQ(back.path.size(), 2u);
   EXPECT_EQ(back.path[1].position, glm::dvec3(1.0, 1.0, 2.5));
@@ -157,10 +159,12 @@ TEST(ViewState, is_a_command_that_names_what_is_not_the_default) {
   state.a.plan.bias.slope_texels = 2.0;
   state.a.plan.cadence.largest_turn = 0.5;
   state.view = View::heat;
+  state.a.layer = render::DepthLayer::back;
   state.eye = CameraKey{{1, 2, 3}, {0, 0, -1}};
   const std::string command = command_text(state);
   EXPECT_NE(command.find("--options '{\"bias\":{"), std::string::npos) << command;
   EXPECT_NE(command.find("cadence_turn_deg"), std::string::npos) << command;
+  EXPECT_NE(command.find(" --layer back"), std::string::npos) << command;
   EXPECT_NE(command.find("--eye=1,2,3 --target=0,0,-1 --view heat"), std::string::npos) << command;
 }
 

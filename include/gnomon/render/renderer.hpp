@@ -82,6 +82,7 @@ struct FrameOptions {
   std::uint32_t frame_index = 0;                      ///< counts frames, for noise that moves; may wrap round
   Accumulation accumulation;                          ///< of the mask over frames
   /// The surface whose depth the maps store. A frame with another one than the last frame's draws all maps.
+  /// Maps whose shape bends lines always store the first.
   DepthLayer depth_layer = DepthLayer::front;
   /// DepthLayer::dual: the farthest that it stores behind the first surface, in texels at the centre of the
   /// map's body, >= 0. Larger: less acne, wider gaps at contacts.

@@ -20,6 +20,7 @@
 #include "interrupt.hpp"
 #include "offscreen_context.hpp"
 #include "output.hpp"
+#include "picture_words.hpp"
 #include "scene_words.hpp"
 
 namespace gnomon::tool {

@@ -21,6 +21,7 @@
 #include "measure.hpp"
 #include "offscreen_context.hpp"
 #include "output.hpp"
+#include "picture_words.hpp"
 #include "progress.hpp"
 #include "scene_words.hpp"
 #include "stage.hpp"

@@ -417,11 +417,6 @@ std::string compare_footer() {
          " takes no filter: casters are tested against each pixel, for exact hard shadows at their price.\n";
 }
 
-std::vector<std::string> layer_names(std::vector<std::string> before) {
-  for (const render::DepthLayerInfo& info : render::depth_layers()) before.emplace_back(info.name);
-  return before;
-}
-
 std::vector<std::string> split_names() {
   return {"auto",    "uniform",    "logarithmic",   "practical",       "pseudo_near",
           "optimal", "view_depth", "frustum_faces", "separating_plane"};

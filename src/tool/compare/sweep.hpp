@@ -94,9 +94,6 @@ std::vector<std::string> fit_to_memory(Sweep& sweep);
 /// `:visible_depths` and `:visible_points` (what the frame shows is given to the plan).
 [[nodiscard]] std::vector<std::string> split_names();
 
-/// Names of the depth layers behind those of `before`.
-[[nodiscard]] std::vector<std::string> layer_names(std::vector<std::string> before = {});
-
 /// Elements of lists with commas; an element of the form `key=value` without a colon belongs to the one
 /// before it, as in `esm:c=40,radius=3,pcf`.
 [[nodiscard]] std::vector<std::string> split_lists(const std::vector<std::string>& lists);

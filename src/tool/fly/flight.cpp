@@ -126,6 +126,7 @@ FrameRow draw_frame(Studio& studio, int frame) {
   row.plan_ns = timed.nanoseconds;
   render::FrameOptions drawn;
   drawn.transition = options.transition;
+  drawn.depth_layer = options.layer;
   drawn.light = &light;
   drawn.prune = options.prune;
   row.stats = studio.renderer.draw(timed.plan, camera, studio.filter, drawn);

@@ -23,7 +23,7 @@ constexpr int kMaxFrames = 100'000, kMaxSide = 16'384;
 struct Request {
   Options options;
   std::string size = "960x540", context = "auto", filter = "pcf", path, light = "sun", cost_model,
-              out = "out/flythrough", resolution = "given", transition = "cut";
+              out = "out/flythrough", resolution = "given", transition = "cut", layer = "front";
   bool stable = false, split_given = false, lambda_given = false;
   std::vector<std::string> compared_warps;
 };
@@ -78,6 +78,7 @@ Options resolved(const Request& request) {
   options.prune = options.plan.prune;
   resolve_resolution(request, options);
   resolve_transition(request, options);
+  options.layer = layer_from_name(request.layer);
   resolve_budget(request, options);
   if (!request.path.empty()) options.path = request.path;
   return options;
@@ -159,6 +160,7 @@ std::vector<Option> map_options(Request& request) {
        .target = &request.transition,
        .help = "transition between cascades: cut; blend or dither over the last tenth of each",
        .names = transition_names()},
+      layer_option(request.layer),
       {.name = "--history",
        .target = &request.options.history,
        .help = "change texel density smoothly from frame to frame; for paths of many frames"},

@@ -32,6 +32,7 @@ struct Options {
   render::FilterSettings filter = render::default_settings(render::filters::pcf);
   /// Other than cut: maps overlap by kTransitionShare of the cascade before the split.
   render::SplitTransition transition = render::SplitTransition::cut;
+  render::DepthLayer layer = render::DepthLayer::front;  ///< that the maps store
   /// Steps of 8 bits by which the filter's answers may differ where it stores less than it was asked to; 0:
   /// it stores all of it.
   double filter_precision = 0.0;

@@ -180,6 +180,7 @@ void draw(Viewer& viewer, double seconds) {
   const ShadowPlan plan = plan_frame(viewer.options, viewer.flight, light, camera, depths, viewer.history);
   render::FrameOptions frame;
   frame.transition = viewer.options.transition;
+  frame.depth_layer = viewer.options.layer;
   frame.time_passes = false;
   frame.light = &light;
   frame.prune = viewer.options.prune;

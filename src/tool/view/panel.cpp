@@ -204,6 +204,9 @@ void maps_tab(App& app) {
     if (choose("transition", transition, transition_names()))
       settings.transition = static_cast<render::SplitTransition>(transition);
     tooltip("between cascades, over split_overlap of each");
+    int layer = static_cast<int>(settings.layer);
+    if (choose("layer", layer, layer_names())) settings.layer = static_cast<render::DepthLayer>(layer);
+    tooltip("the depth that the maps store: the first surface, the back, the second, or what lies between");
     ImGui::Checkbox("history", &settings.history);
     tooltip("texel density changes smoothly from frame to frame");
     ImGui::Checkbox("visible_depths", &settings.visible_depths);

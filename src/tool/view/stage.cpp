@@ -26,6 +26,7 @@ constexpr MeasureGrid kCoarse{24, 24, 16};
 render::FrameOptions frame_options(const State& state, const Settings& settings, const Light& light) {
   render::FrameOptions frame;
   frame.transition = settings.transition;
+  frame.depth_layer = settings.layer;
   frame.light = &light;
   frame.prune = settings.plan.prune;
   frame.aliasing = frame.heat_map = state.view == View::heat;

@@ -47,6 +47,7 @@ struct Settings {
   PlanOptions plan;
   render::FilterSettings filter = render::default_settings(render::filters::pcf);
   render::SplitTransition transition = render::SplitTransition::cut;
+  render::DepthLayer layer = render::DepthLayer::front;  ///< that the maps store
   bool history = false;         ///< texel density changes smoothly from frame to frame
   bool visible_depths = false;  ///< each frame is drawn twice, the second for the depths that the first shows
 };

@@ -77,6 +77,7 @@ Json settings_json(const Settings& settings) {
   return {{"options", options_json(settings.plan)},
           {"filter", render::to_string(settings.filter)},
           {"transition", transition_names()[static_cast<std::size_t>(settings.transition)]},
+          {"layer", render::info_of(settings.layer).name},
           {"history", settings.history},
           {"visible_depths", settings.visible_depths}};
 }
@@ -219,6 +220,7 @@ Settings read_settings(const Json& json, const std::string& path) {
     settings.filter = parsed.settings;
   }
   reader.read_name("transition", settings.transition, transition_names());
+  reader.read_name("layer", settings.layer, layer_names());
   reader.read("history", settings.history);
   reader.read("visible_depths", settings.visible_depths);
   reader.done();
@@ -424,6 +426,8 @@ void add_settings(const Settings& settings, std::string& text) {
   text += " --filter " + quoted(render::to_string(settings.filter));
   if (settings.transition != render::SplitTransition::cut)
     text += " --transition " + std::string(transition_names()[static_cast<std::size_t>(settings.transition)]);
+  if (settings.layer != render::DepthLayer::front)
+    text += " --layer " + std::string(render::info_of(settings.layer).name);
   if (settings.history) text += " --history";
   if (settings.visible_depths) text += " --visible-depths";
 }

@@ -31,7 +31,7 @@ struct Request {
   Options options;
   std::string state, size = "1280x720", context = "auto", filter = "pcf", plan_json, out, screenshot, tour,
                      eye, target, path, light = "sun", light_position, light_direction, transition = "cut",
-                     view = "lit";
+                     layer = "front", view = "lit";
   double light_outer_deg = 0.0, light_range = 0.0;
   /// Options that set a part of the state, and whether each is given; on the heap, as their addresses are
   /// kept.
@@ -168,6 +168,7 @@ Options resolved(const Request& request) {
   resolve_plan(request, state.a.plan);
   state.a.filter = filter_word("--filter", request.filter);
   state.a.transition = transition_from_name(request.transition);
+  state.a.layer = layer_from_name(request.layer);
   // A warped grid is only stable from frame to frame.
   if (state.a.plan.fit == Fit::warped_stable) state.a.history = true;
   state.b = state.a;
@@ -242,6 +243,7 @@ std::vector<Option> setting_options(Request& request) {
        .target = &request.transition,
        .help = "transition between cascades, over --split-overlap",
        .names = transition_names()},
+      layer_option(request.layer),
       {.name = "--history",
        .target = &state.a.history,
        .help = "change texel density smoothly from frame to frame"},
