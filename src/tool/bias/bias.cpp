@@ -32,7 +32,7 @@ struct NamedBias {
   BiasOptions options;
   bool receiver_plane = false;
 };
-// Constant: two texels, as engines set it who know no slope. The others with the usual constant, against
+// Constant: two texels, as engines set it that know no slope. The others with the usual constant, against
 // rounding.
 constexpr double kRounding = BiasOptions{}.constant_texels, kTwoTexels = 2.0;
 constexpr NamedBias kBiases[] = {
