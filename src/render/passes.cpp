@@ -47,14 +47,16 @@ PeeledDepth DepthDraw::peeled(const ShadowPlan& plan, const ShadowMap& map) cons
 CommonPrograms::CommonPrograms()
     : depth(make_program("depth.vert", "depth.frag")),
       depth_masked(make_program("depth.vert", "depth_masked.frag")),
-      bent(make_geometry_program("depth.vert", "bent.geom", "bent.frag")),
-      bent_masked(make_geometry_program("depth.vert", "bent.geom", "bent_masked.frag")),
       surfaces(make_program("gbuffer.vert", "gbuffer.frag")),
       accumulate(make_program("fullscreen.vert", "accumulate.frag")),
       shade(make_program("fullscreen.vert", "shade.frag")),
       aliasing(make_program("fullscreen.vert", "aliasing.frag")),
       heat(make_program("fullscreen.vert", "heat.frag")),
       tint(make_program("fullscreen.vert", "tint.frag")) {}
+
+BentPrograms::BentPrograms()
+    : opaque(make_geometry_program("depth.vert", "bent.geom", "bent.frag")),
+      masked(make_geometry_program("depth.vert", "bent.geom", "bent_masked.frag")) {}
 
 void Renderer::Impl::draw_map_part(const DrawnPart& part, const DrawnMap& map,
                                    const DepthDraw& how) noexcept {
@@ -153,7 +155,7 @@ void Renderer::Impl::draw_bent_casters(const DrawnPart& part, const DrawnMap& ma
     glUniform4fv(kShapeLocation, 1, &map.shape.x);
     glUniform2f(kSizeLocation, static_cast<float>(map.width), static_cast<float>(map.height));
   };
-  draw_casters(part, CasterPrograms{programs.bent, programs.bent_masked}, alpha_test_where_masked, set_place,
+  draw_casters(part, CasterPrograms{bent->opaque, bent->masked}, alpha_test_where_masked, set_place,
                kNoBatchState);
 }
 

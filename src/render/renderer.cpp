@@ -117,6 +117,10 @@ void Renderer::Impl::upload(const FrameBlock& frame, const FilterBlock& filterin
 DrawnMaps Renderer::Impl::place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world,
                                       double origin_steps) {
   const DrawnMaps drawn = drawn_maps(plan, camera_world, origin_steps * scene.origin_step());
+  const auto planned = plan.maps();
+  const bool bends =
+      std::any_of(planned.begin(), planned.end(), [](const ShadowMap& map) { return !map.shape->affine; });
+  if (bends && !bent) bent.emplace();
   scene.place(SceneBuffers::Placed::for_camera, camera_world);
   scene.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
   return drawn;

@@ -22,8 +22,14 @@ namespace gnomon::render {
 
 /// Programs that no filter takes part in.
 struct CommonPrograms {
-  Program depth, depth_masked, bent, bent_masked, surfaces, accumulate, shade, aliasing, heat, tint;
+  Program depth, depth_masked, surfaces, accumulate, shade, aliasing, heat, tint;
   CommonPrograms();
+};
+
+/// Programs for maps whose shape bends lines: compiled with the first such map.
+struct BentPrograms {
+  Program opaque, masked;
+  BentPrograms();
 };
 
 /// Programs that draw casters, and where they take what differs from batch to batch.
@@ -58,6 +64,7 @@ struct Renderer::Impl {
   void draw_map_part(const DrawnPart& part, const DrawnMap& map, const DepthDraw& how) noexcept;
   void draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
                     const DepthDraw& how) noexcept;
+  std::optional<BentPrograms> bent;
   /// Into a map whose shape bends lines: the first surface, whatever the layer.
   void draw_bent_casters(const DrawnPart& part, const DrawnMap& map, bool alpha_test_where_masked) noexcept;
   /// Draws what lies behind the first surface, which DepthPeel::begin() took.
