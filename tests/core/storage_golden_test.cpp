@@ -114,6 +114,38 @@ TEST(StorageGolden, lloyds_fall_off_has_the_strengths_of_his_thesis) {
   EXPECT_GT(off, 5);
 }
 
+TEST(StorageGolden, every_strength_of_the_page_has_its_storage_and_its_errors) {
+  constexpr double kFormula = 1e-9;
+  // `n_brute` is where a search stopped on a flat valley: its strength has few digits, its storage has them
+  // all.
+  constexpr double kBrute = 1e-6;
+  int closed = 0;
+  for (const Json& row : golden("falloff").at("rows")) {
+    const double theta = number(row.at("theta_deg")) * std::numbers::pi / 180.0;
+    const double gamma = number(row.at("gamma_deg")) * std::numbers::pi / 180.0;
+    const Profile profile(1.0, row.at("alpha"), std::tan(theta), gamma);
+    EXPECT_CLOSE(std::min_element(profile.point.begin(), profile.point.end(),
+                                  [](const auto& a, const auto& b) { return a.y < b.y; })
+                     ->y,
+                 number(row.at("y0")), kFormula);
+    const auto at = [&](const char* n) { return warp_error(profile.in, 1.0 / number(row.at(n))); };
+    const auto storage = [&](const WarpError& error) {
+      return normalised(error.value(Objective::storage), theta);
+    };
+    EXPECT_CLOSE(storage(at("n_brute")), number(row.at("S_brute")), kBrute) << row.dump();
+    EXPECT_CLOSE(storage(at("n_lloyd_cos")), number(row.at("S_lloyd_cos")), kFormula) << row.dump();
+    EXPECT_CLOSE(storage(warp_error(profile.in, 1.0)), number(row.at("S_psm_n1")), kFormula) << row.dump();
+    EXPECT_CLOSE(storage(at("n_closed")), number(row.at("S_closed")), kFormula) << row.dump();
+    const double kappa = warps::lispsm_closed.choose(profile.in).kappa;
+    EXPECT_NEAR(kappa, 1.0 / number(row.at("n_closed")), kFormula) << row.dump();
+    const double ratio = at("n_closed").m_t / warp_error(profile.in, 0.0).m_t;
+    const double uniform_t = number(row.at("S_uniform")) / number(row.at("alpha"));
+    EXPECT_CLOSE(ratio * uniform_t, number(row.at("Mt_closed")), kFormula) << row.dump();
+    if (kappa > 0.0) ++closed;
+  }
+  EXPECT_GT(closed, 20);
+}
+
 TEST(StorageGolden, an_overhead_light_takes_the_weakest_of_the_strengths_that_are_equally_good) {
   // Storage is flat from PSM to LiSPSM there, while the worst texel is best at LiSPSM: the weakest is the
   // answer.

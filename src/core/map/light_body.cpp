@@ -299,16 +299,15 @@ bool takes(const Warp& warp, const WarpChoice& choice, double ratio) noexcept {
          (ratio < 1.0 - kLeastWarpGain || (!warp.drop_without_gain && choice.kappa > 0.0));
 }
 
-double focused_objective(const PlanContext& c, const MapRequest& request) noexcept {
+FocusedObjective focused_objective(const PlanContext& c, const MapRequest& request) noexcept {
   const LightBody body = in_light_space(c, request);
   const WarpQuestion question(c, request, body);
   const WarpInput& in = question.in;
   const WarpChoice choice = request.warp.choose(in);
   PlaneError error(in);
   const double without = error.value(in.unwarped);
-  if (!usable(in.body, choice, in.most_stretch)) return without;
-  const double with = choice.gain_ratio > 0.0 ? choice.gain_ratio * without : error.value(choice);
-  return with < without || !request.warp.drop_without_gain ? with : without;
+  if (in.is_unwarped(choice) || !takes(request.warp, choice, gain_ratio(in, choice))) return {without, false};
+  return {choice.gain_ratio > 0.0 ? choice.gain_ratio * without : error.value(choice), true};
 }
 
 PlaneMap focused_plane(const PlanContext& c, const MapRequest& request) noexcept {

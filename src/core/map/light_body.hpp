@@ -45,9 +45,13 @@ inline constexpr double kLeastWarpGain = 1e-3;
 /// Whether a warp with this ratio is used.
 [[nodiscard]] bool takes(const Warp& warp, const WarpChoice& choice, double ratio) noexcept;
 
-/// The plan's objective over the body under the warp that focused_map would use, up to a factor that is the
-/// same for all bodies.
-[[nodiscard]] double focused_objective(const PlanContext& c, const MapRequest& request) noexcept;
+/// What a map of the body would come to.
+struct FocusedObjective {
+  double value;  ///< the plan's objective, up to a factor that is the same for all bodies
+  bool warped;   ///< whether the map would take a warp
+};
+/// The objective of the map that focused_map would make.
+[[nodiscard]] FocusedObjective focused_objective(const PlanContext& c, const MapRequest& request) noexcept;
 /// The light plane under that warp.
 [[nodiscard]] PlaneMap focused_plane(const PlanContext& c, const MapRequest& request) noexcept;
 

@@ -78,40 +78,61 @@ double simple_error(const PlanContext& c, const ParallelScene& scene, double beg
   return warp_error(in, warped ? warps::lispsm.choose(in).kappa : 0.0).value(in.objective);
 }
 
-/// The objective of all maps together by the error itself; with LiSPSM in the place of a warp that takes a
-/// longer search.
-double exact_objective(const PlanContext& c, const ParallelScene& asked,
-                       std::span<const double> edges) noexcept {
+/// The objective of all maps together by the error itself, with LiSPSM in the place of a warp that takes a
+/// longer search; warped where any of them would be.
+FocusedObjective exact_objective(const PlanContext& c, const ParallelScene& asked,
+                                 std::span<const double> edges) noexcept {
   const bool searched = &asked.warp == &warps::optimal;
   const ParallelScene scene{asked.body, asked.depths, asked.space, searched ? warps::lispsm : asked.warp};
-  double total = 0.0;
+  FocusedObjective total{0.0, false};
   for (std::size_t m = 0; m + 1 < edges.size(); ++m) {
     Polytope part = between(c, scene.body, edges[m], edges[m + 1]);
     clip_part(part, c.bounds.receivers, c.camera.position);
     if (part.empty()) continue;
-    total = joined(c.options.warp.objective, total,
-                   focused_objective(c, request_for(scene, part, edges[m], edges[m + 1])));
+    const FocusedObjective one = focused_objective(c, request_for(scene, part, edges[m], edges[m + 1]));
+    total = {joined(c.options.warp.objective, total.value, one.value), total.warped || one.warped};
   }
   return total;
 }
 
-void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double> edges) noexcept {
-  if (edges.size() < 3 || !(edges.front() > 0.0 && edges.back() > edges.front())) return;
-  std::array<double, kMaxMaps + 1> given;
-  std::copy(edges.begin(), edges.end(), given.begin());
+/// Edges, and what the maps between them come to.
+struct JudgedEdges {
+  std::array<double, kMaxMaps + 1> depth;
+  FocusedObjective objective;
+};
+
+/// The best edges by the simplified error, from those that `edges` gives.
+JudgedEdges searched_edges(const PlanContext& c, const ParallelScene& scene,
+                           std::span<const double> edges) noexcept {
+  JudgedEdges result{};
+  std::copy(edges.begin(), edges.end(), result.depth.begin());
+  const std::span<double> depths{result.depth.data(), edges.size()};
   SplitTable table(c, scene);
   const bool by_table = SplitTable::serves(c);
   const auto cost = [&](double begin, double end) {
     return by_table ? table.cost(begin, end) : simple_error(c, scene, begin, end);
   };
   const auto both = [&](double a, double b) { return joined(c.options.warp.objective, a, b); };
-  search_splits(edges, cost, both);
-  refine_splits(edges, cost, both);
+  search_splits(depths, cost, both);
+  refine_splits(depths, cost, both);
+  result.objective = exact_objective(c, scene, depths);
+  return result;
+}
+
+void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double> edges) noexcept {
+  if (edges.size() < 3 || !(edges.front() > 0.0 && edges.back() > edges.front())) return;
+  JudgedEdges best = searched_edges(c, scene, edges);
+  const auto take = [&] { std::copy_n(best.depth.begin(), edges.size(), edges.begin()); };
   // The search goes by a simplified error; what counts is the exact one.
-  if (std::equal(edges.begin(), edges.end(), given.begin())) return;
-  const std::span<const double> before{given.data(), edges.size()};
-  if (!(exact_objective(c, scene, edges) < exact_objective(c, scene, before)))
-    std::copy(before.begin(), before.end(), edges.begin());
+  const FocusedObjective given = exact_objective(c, scene, edges);
+  const bool warped = best.objective.warped || is_unwarped(scene.warp);
+  if (best.objective.value < given.value) take();
+  if (warped || given.warped) return;
+  // No map takes the warp that the search reckoned with.
+  const ParallelScene plain{scene.body, scene.depths, scene.space, warps::none};
+  const double least = min_of(best.objective.value, given.value);
+  best = searched_edges(c, plain, edges);
+  if (best.objective.value < least) take();
 }
 
 }  // namespace
