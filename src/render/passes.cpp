@@ -150,6 +150,7 @@ void Renderer::Impl::peel(const DrawnPart& part, const TexelRect& at, int layer,
 
 void Renderer::Impl::draw_bent_casters(const DrawnPart& part, const DrawnMap& map,
                                        bool alpha_test_where_masked) noexcept {
+  if (!bent) return;
   const auto set_place = [&] {
     glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
     glUniform4fv(kShapeLocation, 1, &map.shape.x);

@@ -120,7 +120,13 @@ DrawnMaps Renderer::Impl::place_scene(const ShadowPlan& plan, const glm::dvec3& 
   const auto planned = plan.maps();
   const bool bends =
       std::any_of(planned.begin(), planned.end(), [](const ShadowMap& map) { return !map.shape->affine; });
-  if (bends && !bent) bent.emplace();
+  if (bends && !bent) {
+    try {
+      bent.emplace();
+    } catch (const RenderError&) {
+      // A lost context compiles nothing; who drew the frame finds out from the context.
+    }
+  }
   scene.place(SceneBuffers::Placed::for_camera, camera_world);
   scene.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
   return drawn;

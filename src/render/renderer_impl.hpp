@@ -64,7 +64,6 @@ struct Renderer::Impl {
   void draw_map_part(const DrawnPart& part, const DrawnMap& map, const DepthDraw& how) noexcept;
   void draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
                     const DepthDraw& how) noexcept;
-  std::optional<BentPrograms> bent;
   /// Into a map whose shape bends lines: the first surface, whatever the layer.
   void draw_bent_casters(const DrawnPart& part, const DrawnMap& map, bool alpha_test_where_masked) noexcept;
   /// Draws what lies behind the first surface, which DepthPeel::begin() took.
@@ -121,6 +120,7 @@ struct Renderer::Impl {
   SceneBuffers scene;
   DrawLists lists;
   CommonPrograms programs;
+  std::optional<BentPrograms> bent;  ///< none until a map needs them, and where the context was lost by then
   std::vector<FilterPrograms> filter_programs;
   StoredMaps stored;
   FrameTargets targets;
