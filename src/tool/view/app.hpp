@@ -121,6 +121,9 @@ void save_picture(App& app);
 /// Begins to record the camera's way; where that is going on, ends it, writes the path's file, and from then
 /// on the state flies along it.
 void toggle_path_recording(App& app);
+/// The next frame of such a recording, `seconds` after the last: a key every half second in which the camera
+/// moved.
+void record_path(App& app, double seconds);
 /// `State`, with the eye named where the command could not name it otherwise.
 [[nodiscard]] State spoken_state(const App& app);
 void show_message(App& app, const std::string& text, bool error);
