@@ -73,6 +73,7 @@ void PagePool::build(const PagePlan& plan, const PageFrame& frame) {
   const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
   pages_.clear();
   records_.clear();
+  drew_.assign(plan.pages.size(), false);
   std::vector<std::uint8_t> held(slots_.size());
   std::transform(slots_.begin(), slots_.end(), held.begin(),
                  [](const PageSlot& slot) { return slot.used != 0; });
@@ -91,6 +92,7 @@ void PagePool::build(const PagePlan& plan, const PageFrame& frame) {
                          static_cast<std::uint32_t>(page.row), static_cast<std::uint32_t>(drawn.layer)}});
     if (frame.keeps && !kept_[i].draw) continue;
     held[kept_[i].slot] = 0;
+    drew_[i] = true;
     drawn.clip_from_position = glm::mat4(drawn_from_plan * counted_from(frame.origin_world));
     pages_.push_back(drawn);
   }

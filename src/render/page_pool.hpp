@@ -49,6 +49,8 @@ class PagePool {
   /// Where a page of the last plan lies; its index must be below resident().
   [[nodiscard]] DrawnPage place_of(std::size_t page) const noexcept;
   [[nodiscard]] std::size_t resident() const noexcept { return records_.size(); }
+  /// False where a page of the last plan was kept from an earlier one, and beyond resident().
+  [[nodiscard]] bool drew(std::size_t page) const noexcept { return page < drew_.size() && drew_[page]; }
   /// Binds the tables where shaders/common/pages.glsl reads them.
   void bind() const noexcept;
 
@@ -74,6 +76,7 @@ class PagePool {
   std::vector<std::uint32_t> scratch_;
   std::vector<KeptPage> kept_;
   std::vector<bool> fresh_;  ///< by layer
+  std::vector<bool> drew_;   ///< by page of the last plan
   std::vector<DrawnPage> pages_;
   std::vector<Level> levels_;
   std::vector<Record> records_;

@@ -128,6 +128,10 @@ FloatImage Renderer::page_depths(std::size_t page) const {
   return image;
 }
 
+bool Renderer::drew_page(std::size_t page) const noexcept {
+  return impl_->pages.drew(page);
+}
+
 std::vector<DrawnDepths> Renderer::drawn_depths(const FilterSettings& settings,
                                                 const ShadowPlan& plan) const {
   std::vector<DrawnDepths> maps;

@@ -14,54 +14,16 @@
 #include "lines.hpp"
 #include "pictures.hpp"
 #include "probe.hpp"
-#include "render/shared_context.hpp"
-#include "stage.hpp"
-#include "state.hpp"
+#include "view_pictures.hpp"
 
 namespace gnomon::tool::view {
 namespace {
-
-constexpr int kWidth = 160, kHeight = 90;
-
-/// The hangar: small, and thin shadows everywhere.
-Stage& stage() {
-  static Stage* const hangar = new Stage(load("builtin:hangar", LoadLimits{}.triangles));
-  return *hangar;
-}
-
-State hangar() {
-  State state;
-  state.scene = "builtin:hangar";
-  state.a.plan.resolution.max_size = state.b.plan.resolution.max_size = 256;
-  return state;
-}
-
-Image picture(const State& state) {
-  EXPECT_EQ(stage().draw(state, kWidth, kHeight, true), "");
-  if (stage().truth_progress()) {
-    stage().finish_truth();
-    EXPECT_EQ(stage().draw(state, kWidth, kHeight, true), "");
-  }
-  return stage().canvas().image();
-}
 
 std::size_t colors_of(const Image& image) {
   std::set<std::array<std::uint8_t, 3>> colors;
   for (std::size_t i = 0; i < image.rgba.size(); i += 4)
     colors.insert({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
   return colors.size();
-}
-
-double share_equal(const Image& a, const Image& b, int begin, int end) {
-  std::size_t equal = 0, all = 0;
-  for (int y = 0; y < a.height; ++y) {
-    for (int x = begin; x < end; ++x, ++all) {
-      const auto at =
-          4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x));
-      equal += std::equal(&a.rgba[at], &a.rgba[at] + 3, &b.rgba[at]) ? 1 : 0;
-    }
-  }
-  return static_cast<double>(equal) / static_cast<double>(std::max<std::size_t>(all, 1));
 }
 
 /// A state in which nothing has its default.
@@ -86,6 +48,7 @@ State unusual() {
   state.b.filter = render::parse_filter("evsm4:radius=3,format=fp16").settings;
   state.b.transition = render::SplitTransition::dither;
   state.b.layer = render::DepthLayer::midpoint;
+  state.b.pages = {&page_policies::tiled, 256, 77, 2.5};
   state.b.history = state.b.visible_depths = true;
   state.view = View::checker;
   state.map = 2;
@@ -110,6 +73,7 @@ TEST(ViewState, reads_back_what_it_wrote) {
   EXPECT_NEAR(back.a.plan.cadence.largest_turn, 0.125, 1e-15);
   EXPECT_EQ(back.b.filter.format, render::TexelFormat::fp16);
   EXPECT_EQ(back.b.layer, render::DepthLayer::midpoint);
+  EXPECT_EQ(back.b.pages, unusual().b.pages);
   EXPECT_EQ(back.light.spot->range, 55.5);
   ASSERT_EQ(back.path.size(), 2u);
   EXPECT_EQ(back.path[1].position, glm::dvec3(1.0, 1.0, 2.5));
@@ -146,6 +110,10 @@ TEST(ViewState, that_is_broken_is_refused_with_the_key) {
   EXPECT_TRUE(
       refusal(with("\"cascades\": 3", "\"cascades\": \"x\"")).starts_with("a.options.cascades: needs"));
   EXPECT_TRUE(refusal(with("evsm4:", "evsn4:")).starts_with("b.filter: "));
+  EXPECT_TRUE(refusal(with("\"tiled\"", "\"tild\"")).starts_with("b.pages.policy: is \"tild\""));
+  EXPECT_EQ(refusal(with("\"page_texels\": 256", "\"page_texels\": 96")),
+            "b.pages.page_texels: 96 is not 64, 128 or 256");
+  EXPECT_EQ(refusal(with("\"capacity\": 77", "\"capacity\": 0")), "b.pages.capacity: 0 is not in 1..65536");
   EXPECT_TRUE(refusal(with("\"checker\"", "\"chequer\"")).find("did you mean 'checker'") !=
               std::string::npos);
   EXPECT_TRUE(refusal(with("\"position\": [\n", "\"position\": [\"a\",\n")).find("needs three numbers") !=
@@ -156,6 +124,12 @@ TEST(ViewState, that_is_broken_is_refused_with_the_key) {
 TEST(ViewState, is_a_command_that_names_what_is_not_the_default) {
   State state = hangar();
   EXPECT_EQ(command_text(state), "gnomon view builtin:hangar --map-size 256 --filter pcf");
+  state.a.pages.page_texels = 64;
+  EXPECT_EQ(command_text(state), "gnomon view builtin:hangar --map-size 256 --filter pcf");
+  state.a.pages = {&page_policies::clipmap, 64, 1024, 0.5};
+  EXPECT_EQ(command_text(state),
+            "gnomon view builtin:hangar --map-size 256 --pages clipmap --page-size 64 --page-target 0.5 "
+            "--filter pcf");
   state.a.plan.bias.slope_texels = 2.0;
   state.a.plan.cadence.largest_turn = 0.5;
   state.view = View::heat;
@@ -371,6 +345,7 @@ TEST(ViewMemory, is_steady_over_five_hundred_switches) {
     state.a.plan.cascades = 1 + i % 3;
     state.comparison = static_cast<Comparison>(i % 3);
     state.a.plan.resolution.max_size = state.b.plan.resolution.max_size = 64;
+    if (i % 5 < 2 && i % 2 == 0) state.a.pages.policy = &page_policies::resolution;
     EXPECT_EQ(stage().draw(state, 64, 36, false), "");
   };
   constexpr int kWarm = 70, kSwitches = 500;

@@ -211,6 +211,9 @@ class Renderer {
   [[nodiscard]] FloatImage depth_map(int map) const;
   /// The same of one page of the last frame, border included, by its index in the plan.
   [[nodiscard]] FloatImage page_depths(std::size_t page) const;
+  /// Whether the last frame with pages drew this page of its plan. False: it was kept from an earlier frame,
+  /// or there is none of that index.
+  [[nodiscard]] bool drew_page(std::size_t page) const noexcept;
   /// The last frame's maps, which were drawn for this plan, as fit_filter wants them: reads them all back.
   [[nodiscard]] std::vector<DrawnDepths> drawn_depths(const FilterSettings& settings,
                                                       const ShadowPlan& plan) const;

@@ -7,16 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "page_storage.hpp"
+#include "frame_pages.hpp"
 #include "stage.hpp"
 
 namespace gnomon::tool {
-
-/// Pages and the memory that they lie in.
-struct PlannedPages {
-  PageStorage storage;
-  PagePlan plan;
-};
 
 class Planned {
  public:
@@ -46,18 +40,12 @@ class Planned {
 
  private:
   [[nodiscard]] bool by_pages() const noexcept { return entry_.by_pages(); }
-  void plan_pages_into(PlannedPages& pages, const PagePlan* last);
-  /// Draws and reports until the pages stay the same.
-  void refine();
-  /// Which of the points' pixels the policy wants to know of.
-  void report(const std::vector<float>& mask, const std::vector<float>& mask_before);
 
   Stage& stage_;
   const SweepEntry& entry_;
   Camera camera_;
   ShadowPlan maps_;
-  std::unique_ptr<PlannedPages> pages_, last_;
-  std::vector<std::uint8_t> feedback_;
+  std::unique_ptr<FramePages> pages_;
 };
 
 }  // namespace gnomon::tool

@@ -7,42 +7,6 @@
 
 namespace gnomon::tool {
 
-namespace {
-
-/// Whether the view depth of a pixel is off a neighbour's by more than a tenth of the nearer one.
-bool is_depth_edge(const FloatImage& positions, int x, int y) {
-  constexpr float kJump = 1.1f;
-  const auto depth = [&](int column, int row) {
-    const auto pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(positions.width) +
-                       static_cast<std::size_t>(column);
-    return positions.values[4 * pixel + 3];
-  };
-  const float own = depth(x, y);
-  for (const auto& [column, row] :
-       {std::pair(x - 1, y), std::pair(x + 1, y), std::pair(x, y - 1), std::pair(x, y + 1)}) {
-    if (column < 0 || row < 0 || column >= positions.width || row >= positions.height) continue;
-    const float other = depth(column, row);
-    if (own > kJump * other || other > kJump * own) return true;
-  }
-  return false;
-}
-
-void add_sparse_points(const FloatImage& positions, Stage::View& view) {
-  for (int y = 0; y < positions.height; y += Stage::kStride) {
-    for (int x = 0; x < positions.width; x += Stage::kStride) {
-      const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(positions.width) +
-                         static_cast<std::size_t>(x);
-      const float* const at = positions.values.data() + 4 * pixel;
-      if (!(at[3] > 0.0f) || !std::isfinite(at[3])) continue;
-      view.sparse_points.push_back(view.camera.position + glm::dvec3(at[0], at[1], at[2]));
-      view.sparse_pixels.push_back(static_cast<std::uint32_t>(pixel));
-      view.depth_edges.push_back(is_depth_edge(positions, x, y));
-    }
-  }
-}
-
-}  // namespace
-
 Stage::Stage(const Sweep& sweep, const std::string& scene)
     : sweep_(sweep), view_(scene, sweep.light, limits_of_triangles(sweep.max_triangles)) {
   tracer_ = std::make_unique<trace::Tracer>(view_.scene());
@@ -90,7 +54,7 @@ Stage::View Stage::seen_by(const Camera& camera) {
     if (depth > 0.0 && std::isfinite(depth))
       view.points.push_back(camera.position + glm::dvec3(at[0], at[1], at[2]));
   }
-  add_sparse_points(positions, view);
+  view.surfaces = std::make_shared<const SeenSurfaces>(seen_surfaces(positions, nullptr, camera));
   return view;
 }
 

@@ -8,6 +8,7 @@
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/trace/reference.hpp"
 #include "scene_view.hpp"
+#include "seen_surfaces.hpp"
 #include "sweep.hpp"
 
 namespace gnomon::tool {
@@ -37,15 +38,10 @@ class Stage {
     Camera camera;
     VisibleDepths depths;
     std::vector<glm::dvec3> points;
-    /// Every few pixels of a row, in every few rows: what pages are planned from.
-    std::vector<glm::dvec3> sparse_points;
-    std::vector<std::uint32_t> sparse_pixels;  ///< of the sparse points
-    std::vector<bool> depth_edges;             ///< by sparse point: view depth jumps beside its pixel
+    std::shared_ptr<const SeenSurfaces> surfaces;  ///< what pages are planned from
   };
   /// nullptr where the camera was not seen.
   [[nodiscard]] const View* view(const Camera& camera) const noexcept;
-  /// Pixels between two sparse points.
-  static constexpr int kStride = 3;
   [[nodiscard]] const Scene& scene() const noexcept { return view_.scene(); }
 
  private:

@@ -13,6 +13,7 @@
 #include "filter_words.hpp"
 #include "gnomon/render/probe.hpp"
 #include "offscreen_context.hpp"
+#include "page_setting.hpp"
 #include "picture_words.hpp"
 
 namespace gnomon::tool {
@@ -182,9 +183,7 @@ void set_page_texels(int texels, SweepEntry& entry) {
 
 void set_page_target(double target_m, SweepEntry& entry) {
   entry.technique.page_target_m = target_m;
-  // So small that the pool coarsens every plan: it is spent whole.
-  constexpr double kFillsThePool = 0.02;
-  entry.pages.target_m = target_m > 0.0 ? target_m : kFillsThePool;
+  entry.pages.target_m = target_of(target_m);
 }
 
 /// Each entry once for each of the values.
@@ -277,24 +276,10 @@ void set_capacity(SweepEntry& entry, LightKind light) noexcept {
 }
 
 /// What cannot be measured with pages, and why.
-struct NoPages {
-  std::string what, why;
-};
 std::optional<NoPages> no_pages(const SweepEntry& entry, LightKind light) {
   if (entry.irregular) return NoPages{std::string(kIrregular), "lists pixels by whole maps"};
-  if (!entry.plan.warp.shape->affine)
-    return NoPages{std::string(entry.plan.warp.shape->name), "bends lines, and pages have linear texels"};
-  const render::FilterSettings& filter = entry.filter;
-  if (filter.filter->info.reads != render::MapRead::depth)
-    return NoPages{std::string(filter.filter->info.name),
-                   "stores texels of whole maps, and pages have depths alone"};
-  if (filter.unit == render::KernelUnit::world)
-    return NoPages{entry.technique.filter, "kernel in world units, which no page border holds"};
-  if (entry.plan.filter.texels > 0.25 * entry.pages.page_texels)
-    return NoPages{entry.technique.filter, "border of more than a quarter of a page of " +
-                                               std::to_string(entry.pages.page_texels) + " texels"};
-  // Every map of the base has up to four pages of its coarsest level.
-  const int least = light == LightKind::point ? 24 : 4;
+  if (auto why = tool::no_pages(entry.filter, entry.plan, entry.pages.page_texels)) return why;
+  const int least = least_pool_pages(light);
   if (entry.pages.capacity < least)
     return NoPages{entry.technique.name(),
                    "fewer than " + std::to_string(least) + " pages fit into its pool"};
@@ -334,8 +319,7 @@ std::vector<SweepEntry> page_product_of(const CompareRequest& request, LightKind
   std::vector<int> sizes =
       parse_numbers("--page-sizes", request.page_sizes, kLeastPageTexels, kMostPageTexels);
   for (const int size : sizes) {
-    if (size != 64 && size != 128 && size != 256)
-      refuse("--page-sizes", std::to_string(size), "64, 128 or 256");
+    if (!is_page_size(size)) refuse("--page-sizes", std::to_string(size), "64, 128 or 256");
   }
   multiply(entries, sizes, set_page_texels);
   std::vector<int> cascades = parse_numbers("--cascades", request.cascades, 1, kMaxMaps);

@@ -37,7 +37,7 @@ struct Curve {
 };
 /// Figures of side A over the frames that were drawn.
 struct Curves {
-  Curve plan, maps, prefilter, lookup, m_p95, texels;
+  Curve plan, maps, prefilter, lookup, m_p95, texels, pages;
 };
 
 /// A rectangle of the framebuffer, pixels from its upper left corner.

@@ -15,7 +15,7 @@ namespace {
 constexpr KeyHelp kKeys[] = {
     {"W A S D, Q E", "move; with Shift four times as fast"},
     {"drag, arrows", "look around; the wheel moves along the view"},
-    {"1 ... 8", "lit, heat, mask, misclassified, cascades, checker, map, truth"},
+    {"1 ... 9", "lit, heat, mask, misclassified, cascades, checker, map, truth, kept"},
     {"Tab", "panel on and off"},
     {"F1, H", "this page"},
     {"F2", "freeze the plan's camera, and fly away from it"},
@@ -25,10 +25,11 @@ constexpr KeyHelp kKeys[] = {
     {"F6", "arrows and Enter move in the panel, and again in the scene"},
     {"F11, F12", "record pictures, save one picture"},
     {"V, F", "next warp, next filter; with Shift the one before"},
+    {"G", "pages: off, next policy; with Shift the one before"},
     {"T", "stable fit on and off"},
     {"+, -", "one cascade more, one less"},
     {"PageUp, PageDown", "maps of twice the size, of half the size"},
-    {"M", "next map of the map view"},
+    {"M", "next map or level of the map view"},
     {"I", "probe under the cursor on and off"},
     {"drag the light", "move it across the view, with Shift along it"},
     {"L", "hang the spot or point light over the point under the cursor"},
@@ -79,6 +80,13 @@ void next_warp(PlanOptions& plan, int step) {
   plan.warp.warp = next == 0 ? nullptr : all[static_cast<std::size_t>(next - 1)];
 }
 
+void next_policy(PageSetting& pages, int step) {
+  const std::vector<std::string> names = page_policy_names();
+  const auto at = std::find(names.begin(), names.end(), page_policy_name(pages)) - names.begin();
+  const auto count = static_cast<std::ptrdiff_t>(names.size());
+  pages.policy = page_policy_of(names[static_cast<std::size_t>((at + step + count) % count)]);
+}
+
 /// Over the point under the cursor, at the height that the light has above the scene's floor.
 void hang_light(App& app) {
   LightState& light = app.state.light;
@@ -116,6 +124,7 @@ void setting_keys(App& app, const Presses& pressed) {
   int& size = settings.plan.resolution.max_size;
   if (pressed(GLFW_KEY_V)) next_warp(settings.plan, step);
   if (pressed(GLFW_KEY_F)) next_filter(settings.filter, render::all_filters(), step);
+  if (pressed(GLFW_KEY_G)) next_policy(settings.pages, step);
   if (pressed(GLFW_KEY_T)) settings.plan.fit = settings.plan.fit == Fit::stable ? Fit::tight : Fit::stable;
   if (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD)) cascades = std::min(cascades + 1, kMaxMaps);
   if (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT)) cascades = std::max(cascades - 1, 1);
@@ -125,7 +134,7 @@ void setting_keys(App& app, const Presses& pressed) {
   if (pressed(GLFW_KEY_K)) toggle_path_recording(app);
   if (pressed(GLFW_KEY_O)) state.motion.sun = !state.motion.sun;
   if (pressed(GLFW_KEY_M) && app.stage != nullptr)
-    state.map = (state.map + 1) % std::max(app.stage->side(0).plan.map_count, 1);
+    state.map = (state.map + 1) % std::max(app.stage->side(0).picture_count(), 1);
   if (pressed(GLFW_KEY_P)) {
     state.motion.camera = !state.motion.camera;
     if (state.motion.camera) state.eye.reset();
@@ -242,8 +251,8 @@ void mouse(App& app) {
   app.probed.reset();
   if (over && app.probing && !app.looking && !app.wiping && !app.placing && app.stage->tracer() != nullptr &&
       app.state.view != View::map)
-    app.probed =
-        probe(*app.stage->tracer(), app.stage->side(0).drawn, app.stage->camera(), app.stage->light(), x, y);
+    app.probed = probe(*app.stage->tracer(), app.stage->side(0).drawn, app.stage->camera(),
+                       app.stage->light(), x, y, app.stage->side(0).page_plan());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "gnomon/body.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/reuse.hpp"
+#include "page_pictures.hpp"
 
 namespace gnomon::tool::view {
 namespace {
@@ -55,31 +56,54 @@ void add_box(const Box& box, const glm::u8vec4& color, std::vector<WorldLine>& l
       color, 1.0, lines);
 }
 
-void add_map_volume(const ShadowPlan& plan, const ShadowMap& map, const glm::u8vec4& color,
+glm::dvec3 world_at(const glm::dmat4& world_from_clip, double x, double y, double z) {
+  const glm::dvec4 p = world_from_clip * glm::dvec4(x, y, z, 1.0);
+  return glm::dvec3(p) / p.w;
+}
+
+/// Outline of a page at the far end of its volume.
+void add_page(const ClipSpace& clip_space, const ShadowMap& page, const glm::u8vec4& color,
+              std::vector<WorldLine>& lines) {
+  const glm::dmat4 world_from_clip = glm::inverse(page.clip_from_world);
+  const bool one = clip_space.ndc_depth == NdcDepth::zero_to_one;
+  const double farthest = !clip_space.reversed_z ? 1.0 : one ? 0.0 : -1.0;
+  const auto corner = [&](int i) {
+    return world_at(world_from_clip, i == 1 || i == 2 ? 1.0 : -1.0, i >= 2 ? 1.0 : -1.0, farthest);
+  };
+  for (int i = 0; i < 4; ++i) lines.push_back({corner(i), corner((i + 1) % 4), color, 1.5});
+}
+
+void add_map_volume(const ClipSpace& clip_space, const ShadowMap& map, const glm::u8vec4& color,
                     std::vector<WorldLine>& lines) {
   const glm::dmat4 world_from_clip = glm::inverse(map.clip_from_world);
-  const double nearest = plan.clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0 : -1.0;
+  const double nearest = clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0 : -1.0;
   add_cuboid(
       [&](int i) {
-        const glm::dvec4 p =
-            world_from_clip * glm::dvec4((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0,
-                                         (i & 4) != 0 ? 1.0 : nearest, 1.0);
-        return glm::dvec3(p) / p.w;
+        return world_at(world_from_clip, (i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0,
+                        (i & 4) != 0 ? 1.0 : nearest);
       },
       color, 1.5, lines);
 }
 
 /// Every box once: in the colour of the first map that draws it, or grey where none does.
-void add_casters(const ShadowPlan& plan, const std::vector<Box>& boxes, std::vector<WorldLine>& lines) {
+void add_casters(std::span<const ShadowMap> maps, const std::vector<glm::u8vec4>& colors,
+                 const std::vector<Box>& boxes, std::vector<WorldLine>& lines) {
   constexpr glm::u8vec4 kCulled{150, 150, 150, 70};
-  std::vector<int> drawn(boxes.size(), -1);
+  constexpr std::size_t kNone = ~std::size_t{0};
+  std::vector<std::size_t> drawn(boxes.size(), kNone);
   std::vector<std::uint32_t> list(boxes.size());
-  for (int i = plan.map_count - 1; i >= 0; --i) {
-    const std::size_t count = cull_casters(plan.map[static_cast<std::size_t>(i)], boxes, list);
+  for (std::size_t i = maps.size(); i-- > 0;) {
+    const std::size_t count = cull_casters(maps[i], boxes, list);
     for (std::size_t n = 0; n < std::min(count, list.size()); ++n) drawn[list[n]] = i;
   }
   for (std::size_t n = 0; n < boxes.size(); ++n)
-    add_box(boxes[n], drawn[n] < 0 ? kCulled : opaque(render::cascade_color(drawn[n])), lines);
+    add_box(boxes[n], drawn[n] == kNone ? kCulled : colors[drawn[n]], lines);
+}
+
+void add_frustum(const Camera& frozen, std::vector<WorldLine>& lines) {
+  constexpr glm::u8vec4 kFrustum{255, 255, 255, 255};
+  add_polytope(frustum_slice(frozen, camera_axes(frozen), frozen.near_depth, frozen.far_depth),
+               frozen.position, kFrustum, lines);
 }
 
 }  // namespace
@@ -119,19 +143,34 @@ std::vector<WorldLine> body_lines(const ShadowMap& map, const Camera& camera, co
 std::vector<WorldLine> plan_lines(const ShadowPlan& plan, const Camera& frozen, const std::vector<Box>& boxes,
                                   const Box& scene, const Drawn& drawn) {
   std::vector<WorldLine> lines;
-  if (drawn.casters) add_casters(plan, boxes, lines);
+  std::vector<glm::u8vec4> colors;
+  for (std::size_t i = 0; i < plan.maps().size(); ++i)
+    colors.push_back(opaque(render::cascade_color(static_cast<int>(i))));
+  if (drawn.casters) add_casters(plan.maps(), colors, boxes, lines);
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
-    const glm::u8vec4 color = opaque(render::cascade_color(static_cast<int>(i)));
-    if (drawn.maps) add_map_volume(plan, plan.map[i], color, lines);
+    const glm::u8vec4 color = colors[i];
+    if (drawn.maps) add_map_volume(plan.clip_space, plan.map[i], color, lines);
     if (!drawn.bodies) continue;
     const std::vector<WorldLine> body = body_lines(plan.map[i], frozen, scene, color);
     lines.insert(lines.end(), body.begin(), body.end());
   }
-  if (drawn.frustum) {
-    constexpr glm::u8vec4 kFrustum{255, 255, 255, 255};
-    add_polytope(frustum_slice(frozen, camera_axes(frozen), frozen.near_depth, frozen.far_depth),
-                 frozen.position, kFrustum, lines);
+  if (drawn.frustum) add_frustum(frozen, lines);
+  return lines;
+}
+
+std::vector<WorldLine> page_lines(const PagePlan& plan, const Camera& frozen, const std::vector<Box>& boxes,
+                                  const Drawn& drawn) {
+  std::vector<WorldLine> lines;
+  std::vector<ShadowMap> maps;
+  std::vector<glm::u8vec4> colors;
+  for (const Page& page : plan.pages) {
+    maps.push_back(page_map(plan, page));
+    colors.push_back(opaque(level_color(page.level, plan.levels.size())));
   }
+  if (drawn.casters) add_casters(maps, colors, boxes, lines);
+  for (std::size_t i = 0; drawn.maps && i < maps.size(); ++i)
+    add_page(plan.clip_space, maps[i], colors[i], lines);
+  if (drawn.frustum) add_frustum(frozen, lines);
   return lines;
 }
 

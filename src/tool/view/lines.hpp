@@ -6,6 +6,7 @@
 #include "canvas.hpp"
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
+#include "gnomon/pages.hpp"
 #include "gnomon/plan.hpp"
 #include "state.hpp"
 
@@ -25,6 +26,11 @@ struct WorldLine {
 [[nodiscard]] std::vector<WorldLine> plan_lines(const ShadowPlan& plan, const Camera& frozen,
                                                 const std::vector<Box>& boxes, const Box& scene,
                                                 const Drawn& drawn);
+
+/// The same of pages: in place of the maps' volumes each page's outline behind all casters and receivers, in
+/// its level's colour; no bodies.
+[[nodiscard]] std::vector<WorldLine> page_lines(const PagePlan& plan, const Camera& frozen,
+                                                const std::vector<Box>& boxes, const Drawn& drawn);
 
 /// Edges of the receivers' body of one map: its slice of the frustum within the scene.
 [[nodiscard]] std::vector<WorldLine> body_lines(const ShadowMap& map, const Camera& camera, const Box& scene,

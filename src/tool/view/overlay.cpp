@@ -42,7 +42,7 @@ void status_line(const App& app) {
   const bool error = !app.refusal.empty() || (app.message_is_error && ImGui::GetTime() < app.message_until);
   if (ImGui::GetTime() < app.message_until && app.refusal.empty()) text = app.message;
   if (text.empty() && app.stage != nullptr)
-    text = fmt::format("{}   {:.1f} ms   F1 keys   Tab panel   WASD move   drag to look   1-8 views",
+    text = fmt::format("{}   {:.1f} ms   F1 keys   Tab panel   WASD move   drag to look   1-9 views",
                        view_names()[static_cast<std::size_t>(app.state.view)].name, app.frame_ms);
   ImGui::SetNextWindowPos({left, size.y}, ImGuiCond_Always, {0.0f, 1.0f});
   ImGui::SetNextWindowSize({size.x - left, ImGui::GetFrameHeight()});
@@ -83,11 +83,22 @@ void help_page(App& app) {
   ImGui::End();
 }
 
-std::string map_text(const Probed& probed) {
-  if (probed.map < 0) return "no map serves this point";
+std::string page_text(const Probed& probed, const FramePages& pages) {
+  const auto index = static_cast<std::size_t>(probed.map);
+  const bool drawn = index < pages.drawn().size() && pages.drawn()[index];
+  return fmt::format("page {} of {}, {}\nlevel {} of {}, column {}, row {}\ntexel {:.1f} {:.1f}\n",
+                     probed.map, pages.plan().pages.size(), drawn ? "drawn in this frame" : "kept",
+                     probed.page->level, pages.plan().levels.size(), probed.page->column, probed.page->row,
+                     probed.texel.x, probed.texel.y);
+}
+
+std::string map_text(const Probed& probed, const FramePages* pages) {
+  if (probed.map < 0) return pages != nullptr ? "no page serves this point" : "no map serves this point";
   const PointAliasing& m = probed.aliasing;
   const std::string where =
-      fmt::format("map {}, texel {:.1f} {:.1f}\n", probed.map, probed.texel.x, probed.texel.y);
+      pages != nullptr && probed.page
+          ? page_text(probed, *pages)
+          : fmt::format("map {}, texel {:.1f} {:.1f}\n", probed.map, probed.texel.x, probed.texel.y);
   if (m.status == PointAliasing::Status::faces_away) return where + "turned from the light";
   if (m.status != PointAliasing::Status::ok) return where + "m: no value";
   return where + fmt::format("m {:.3g}   m_s {:.3g}   m_t {:.3g}\nanisotropy {:.3g}", m.m_max, m.m_s, m.m_t,
@@ -105,7 +116,7 @@ void probe_text(App& app) {
       ImGuiCond_Always, pivot);
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("probe", nullptr, kTextWindow);
-  ImGui::TextUnformatted(map_text(*app.probed).c_str());
+  ImGui::TextUnformatted(map_text(*app.probed, app.stage->side(0).pages.get()).c_str());
   ImGui::Text("depth %.4g   exact: %s", app.probed->view_depth,
               app.probed->turned_away ? "turned away"
               : app.probed->shadow    ? "shadow"

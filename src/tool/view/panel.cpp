@@ -100,8 +100,9 @@ void view_tab(App& app) {
     tooltip(one.help);
   }
   if (state.view == View::map && app.stage != nullptr) {
-    const int maps = std::max(app.stage->side(0).plan.map_count, 1);
-    ImGui::SliderInt("map", &state.map, 0, maps - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
+    const int maps = std::max(app.stage->side(0).picture_count(), 1);
+    ImGui::SliderInt(app.stage->side(0).pages ? "level" : "map", &state.map, 0, maps - 1, "%d",
+                     ImGuiSliderFlags_AlwaysClamp);
   }
   ImGui::Checkbox("probe under the cursor", &app.probing);
   tooltip("I: the aliasing error, the map and the exact shadow at the point under the cursor");
@@ -188,6 +189,7 @@ void light_tab(App& app) {
 void maps_tab(App& app) {
   side_row(app);
   Settings& settings = edited(app);
+  edit_pages(settings.pages);
   ImGui::InputTextWithHint("##find", "find an option", app.find.data(), app.find.size());
   ImGui::SameLine();
   if (ImGui::SmallButton("reset all")) settings.plan = {};
@@ -245,13 +247,18 @@ void figures(const App& app) {
       return fmt::format("{:.2f} ms", s.stats.milliseconds[static_cast<std::size_t>(which)]);
     });
   };
-  row("plan", "time of make_plan", [](const Side& s) { return fmt::format("{:.1f} us", s.plan_ms * 1e3); });
+  row("plan", "time of make_plan, or of plan_pages",
+      [](const Side& s) { return fmt::format("{:.1f} us", s.plan_ms * 1e3); });
   pass("draw maps", render::Pass::shadow_maps, "drawing the depth maps");
   pass("prefilter", render::Pass::prefilter, "what the filter stores, blurs and sums");
   pass("look-up", render::Pass::mask, "reading the maps for every pixel");
-  row("maps", "texels over all maps", [](const Side& s) {
-    return fmt::format("{} / {:.2f} M", s.plan.map_count, static_cast<double>(s.stats.texels) / 1e6);
-  });
+  row("maps", "texels drawn over all maps; with pages: resident, drawn in this frame, their texels",
+      [](const Side& s) {
+        if (s.pages)
+          return fmt::format("{} pages, {} drawn / {:.2f} M", s.stats.pages, s.stats.pages_drawn,
+                             static_cast<double>(s.stats.texels) / 1e6);
+        return fmt::format("{} / {:.2f} M", s.plan.map_count, static_cast<double>(s.stats.texels) / 1e6);
+      });
   row("memory", "of depth maps and of what the filter keeps", [](const Side& s) {
     return fmt::format("{:.1f} MiB", static_cast<double>(s.stats.map_bytes) / 1048576.0);
   });
@@ -301,7 +308,7 @@ void compare_tab(App& app) {
   ImGui::Separator();
   figures(app);
   if (app.stage == nullptr) return;
-  const auto omitted = app.stage->side(0).plan.omitted();
+  const auto omitted = app.stage->side(0).omitted();
   if (omitted.empty() || !ImGui::TreeNode("omitted by the plan")) return;
   for (const Omission& omission : omitted) {
     const OmissionText text = describe(omission);
@@ -331,7 +338,9 @@ void curves_tab(App& app) {
   plot("prefilter", app.curves.prefilter, "ms", "what the filter stores, blurs and sums");
   plot("look-up", app.curves.lookup, "ms", "reading the maps for every pixel");
   plot("m p95", app.curves.m_p95, "pixels", "aliasing error that 95 % of what is in view stays below");
-  plot("texels drawn", app.curves.texels, "M", "over all maps; cached maps draw none");
+  plot("texels drawn", app.curves.texels, "M", "over all maps or pages; cached ones draw none");
+  if (app.stage != nullptr && app.stage->side(0).pages)
+    plot("pages drawn", app.curves.pages, "", "pages that were not kept from earlier frames");
   if (ImGui::Button("clear")) app.curves = {};
 }
 

@@ -90,17 +90,16 @@ Misclassified misclassified(const FloatImage& mask, std::span<const trace::Verdi
 }
 
 Image checker_picture(const Image& lit, const FloatImage& mask, const FloatImage& positions,
-                      const ShadowPlan& plan, const Camera& camera) {
+                      const std::function<const ShadowMap*(int)>& map_of, const Camera& camera) {
   Image image = lit;
   for (std::size_t i = 0; i < pixels_of(mask); ++i) {
-    const int index = static_cast<int>(mask.values[2 * i + 1]);
+    const ShadowMap* const map = map_of(static_cast<int>(mask.values[2 * i + 1]));
     const float* at = &positions.values[4 * i];
-    if (index < 0 || index >= plan.map_count || !(at[3] > 0.0f)) continue;
-    const ShadowMap& map = plan.map[static_cast<std::size_t>(index)];
+    if (map == nullptr || !(at[3] > 0.0f)) continue;
     const glm::dvec4 clip =
-        map.clip_from_world * glm::dvec4(camera.position + glm::dvec3(at[0], at[1], at[2]), 1.0);
+        map->clip_from_world * glm::dvec4(camera.position + glm::dvec3(at[0], at[1], at[2]), 1.0);
     if (!(clip.w > 0.0)) continue;
-    const glm::dvec2 texel = map.texels().place(glm::dvec2(clip) / clip.w).texel / double{kCheckerTexels};
+    const glm::dvec2 texel = map->texels().place(glm::dvec2(clip) / clip.w).texel / double{kCheckerTexels};
     const bool dark =
         (static_cast<long long>(std::floor(texel.x)) + static_cast<long long>(std::floor(texel.y))) % 2 != 0;
     const Color now{lit.rgba[4 * i], lit.rgba[4 * i + 1], lit.rgba[4 * i + 2]};
@@ -240,6 +239,8 @@ Image heat_legend(int picture_width) {
   return cut;
 }
 
+}  // namespace
+
 Image field_legend(const std::string& title, const std::vector<std::pair<Color, std::string>>& fields,
                    int picture_width) {
   std::vector<render::LegendEntry> entries;
@@ -253,8 +254,6 @@ Image field_legend(const std::string& title, const std::vector<std::pair<Color, 
   render::draw_legend(sheet, title, entries);
   return sheet;
 }
-
-}  // namespace
 
 Image legend(View view, const ShadowPlan& plan, int picture_width) {
   std::vector<std::pair<Color, std::string>> fields;
@@ -285,6 +284,7 @@ Image legend(View view, const ShadowPlan& plan, int picture_width) {
     case View::mask:
     case View::checker:
     case View::truth:
+    case View::kept:  // its legend counts what the frame did
       break;
   }
   return {};

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "canvas.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/plan.hpp"
+#include "gnomon/render/picture.hpp"
 #include "gnomon/scene/image.hpp"
 #include "gnomon/trace/reference.hpp"
 #include "state.hpp"
@@ -31,9 +34,10 @@ struct Misclassified {
 /// The exact shadow as mask_picture() paints one.
 [[nodiscard]] Image truth_picture(int width, int height, std::span<const trace::Verdict> verdicts,
                                   const FloatImage& normals);
-/// `lit`, with every other square of kCheckerTexels texels darkened. `mask`: for the map of each pixel.
+/// `lit`, with every other square of kCheckerTexels texels darkened. `mask`: for the map or page of each
+/// pixel; `map_of`: the texels that an index of the mask names, or nullptr.
 [[nodiscard]] Image checker_picture(const Image& lit, const FloatImage& mask, const FloatImage& positions,
-                                    const ShadowPlan& plan, const Camera& camera);
+                                    const std::function<const ShadowMap*(int)>& map_of, const Camera& camera);
 /// Grey where equal; orange where A is lighter, blue where B is, `gain` times the difference.
 [[nodiscard]] Image difference_picture(const Image& a, const Image& b, double gain);
 
@@ -49,6 +53,10 @@ struct MapPicture {
 
 /// The legend of a view, for the lower left corner of a picture of this width; empty where there is none.
 [[nodiscard]] Image legend(View view, const ShadowPlan& plan, int picture_width);
+/// Colour fields with what they stand for, under a title.
+[[nodiscard]] Image field_legend(const std::string& title,
+                                 const std::vector<std::pair<render::Color, std::string>>& fields,
+                                 int picture_width);
 /// Text on a dark ground, for a corner of the picture.
 [[nodiscard]] Image label(const std::string& text);
 

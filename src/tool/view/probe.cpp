@@ -10,12 +10,13 @@ namespace gnomon::tool::view {
 namespace {
 
 /// Outline of the texel, where its light rays meet the surface's plane.
-std::vector<WorldLine> footprint_of(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec2& texel,
-                                    const glm::dvec3& point, const glm::dvec3& normal) {
+std::vector<WorldLine> footprint_of(const ClipSpace& clip_space, const ShadowMap& map,
+                                    const glm::dvec2& texel, const glm::dvec3& point,
+                                    const glm::dvec3& normal) {
   // Other shapes have no inverse in closed form.
   if (map.shape != &shapes::linear) return {};
   const glm::dmat4 world_from_clip = glm::inverse(map.clip_from_world);
-  const double nearest = plan.clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0 : -1.0;
+  const double nearest = clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0 : -1.0;
   const glm::dvec2 corner = glm::floor(texel);
   std::array<glm::dvec3, 4> on_plane;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -51,7 +52,7 @@ trace::Ray ray_to_light(const trace::Tracer& tracer, const Light& light, const g
 }  // namespace
 
 Probed probe(const trace::Tracer& tracer, const ShadowPlan& plan, const Camera& camera, const Light& light,
-             double x, double y) {
+             double x, double y, const PagePlan* pages) {
   Probed result;
   const CameraAxes axes = camera_axes(camera);
   const double right = camera.left + (camera.right - camera.left) * x / camera.width,
@@ -73,13 +74,16 @@ Probed probe(const trace::Tracer& tracer, const ShadowPlan& plan, const Camera& 
   std::uint8_t stopped = 0;
   tracer.occluded({&sun, 1}, {&stopped, 1});
   result.shadow = stopped != 0;
-  result.map = map_serving(plan, result.point, hit.t);
+  result.map = pages != nullptr ? page_serving(*pages, result.point) : map_serving(plan, result.point, hit.t);
   if (result.map < 0) return result;
-  const ShadowMap& map = plan.map[static_cast<std::size_t>(result.map)];
+  const auto index = static_cast<std::size_t>(result.map);
+  if (pages != nullptr) result.page = pages->pages[index];
+  const ShadowMap& map = result.page ? pages->levels[result.page->level] : plan.map[index];
   result.aliasing = measure_point(map, camera, result.point, result.normal);
   const glm::dvec4 clip = map.clip_from_world * glm::dvec4(result.point, 1.0);
   result.texel = map.texels().place(glm::dvec2(clip) / clip.w).texel;
-  result.footprint = footprint_of(plan, map, result.texel, result.point, result.normal);
+  const ClipSpace& clip_space = pages != nullptr ? pages->clip_space : plan.clip_space;
+  result.footprint = footprint_of(clip_space, map, result.texel, result.point, result.normal);
   return result;
 }
 

@@ -14,6 +14,8 @@
 #include "gnomon/render/probe.hpp"
 #include "gnomon/scene/load.hpp"
 #include "lines.hpp"
+#include "page_aliasing.hpp"
+#include "page_pictures.hpp"
 
 namespace gnomon::tool::view {
 namespace {
@@ -56,7 +58,21 @@ std::string memory_refusal(const PlanOptions& plan, const render::FilterSettings
   return fmt::format("map_size {}: {} such maps do not fit ({})", size, maps, fitting.why);
 }
 
+/// The name of what a side compiles.
+std::string program_text(const render::FilterSettings& filter, bool by_pages) {
+  return (by_pages ? "pages " : "") + render::to_string(filter);
+}
+
 }  // namespace
+
+const ShadowMap* Side::map_of(int index) const noexcept {
+  if (pages) return pages->level_of(index);
+  return index >= 0 && index < plan.map_count ? &plan.map[static_cast<std::size_t>(index)] : nullptr;
+}
+
+int Side::picture_count() const noexcept {
+  return pages ? static_cast<int>(pages->plan().levels.size()) : plan.map_count;
+}
 
 std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles) {
   auto loaded = std::make_shared<Loaded>();
@@ -83,48 +99,75 @@ void Stage::cut() noexcept {
   for (Side& side : sides_) side.history.clear();
 }
 
-bool Stage::is_compiled(const render::FilterSettings& filter) const {
-  return std::find(compiled_.begin(), compiled_.end(), render::to_string(filter)) != compiled_.end();
+bool Stage::is_compiled(const Settings& settings) const {
+  return std::find(compiled_.begin(), compiled_.end(), program_text(settings.filter, settings.pages.on())) !=
+         compiled_.end();
+}
+
+render::PreparedFilter Stage::prepare(const Settings& settings) {
+  if (!is_compiled(settings)) compiled_.push_back(program_text(settings.filter, settings.pages.on()));
+  return settings.pages.on() ? renderer_.prepare_pages(settings.filter) : renderer_.prepare(settings.filter);
 }
 
 bool Stage::compile_ahead() {
   for (const render::Filter* filter : render::all_filters()) {
-    const render::FilterSettings settings = render::default_settings(*filter);
+    Settings settings;
+    settings.filter = render::default_settings(*filter);
     if (is_compiled(settings)) continue;
-    (void)renderer_.prepare(settings);
-    compiled_.push_back(render::to_string(settings));
+    (void)prepare(settings);
     return true;
   }
   return false;
+}
+
+std::string Stage::plan_side(const Settings& settings, const Camera& planned, const Light& light,
+                             std::shared_ptr<const SeenSurfaces>& surfaces, Side& side) {
+  const SceneBounds bounds{loaded_->boxes, loaded_->boxes};
+  const PlanOptions options = plan_options_of(settings);
+  side.pages.reset();
+  side.plan_camera = planned;
+  if (settings.pages.on()) {
+    const LightKind kind = std::holds_alternative<PointLight>(light)  ? LightKind::point
+                           : std::holds_alternative<SpotLight>(light) ? LightKind::spot
+                                                                      : LightKind::sun;
+    if (std::string refusal = page_refusal(settings.pages, settings.filter, options, kind); !refusal.empty())
+      return refusal;
+    if (surfaces == nullptr)
+      surfaces = std::make_shared<const SeenSurfaces>(draw_surfaces(renderer_, planned, settings.layer));
+    side.pages = std::make_shared<FramePages>(
+        PageFrameInput{light, bounds, options, page_options_of(settings.pages)}, surfaces);
+    side.plan = {};
+    side.history.clear();
+    const PagePlan& plan = side.pages->plan();
+    return plan.status == PlanStatus::invalid_input ? invalid_input_text(plan.invalid_field) : std::string();
+  }
+  if (std::string refusal = memory_refusal(options, settings.filter); !refusal.empty()) return refusal;
+  const VisibleDepths depths = settings.visible_depths ? visible_depths(renderer_, planned) : VisibleDepths{};
+  const VisibleDepths* seen = settings.visible_depths ? &depths : nullptr;
+  const auto begin = Clock::now();
+  side.plan = settings.history ? make_plan(planned, light, bounds, options, side.history, seen)
+                               : make_plan(planned, light, bounds, options, seen);
+  side.plan_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  if (side.plan.status == PlanStatus::invalid_input) return invalid_input_text(side.plan.invalid_field);
+  side.m = measure(side.plan, planned, bounds, kCoarse);
+  return {};
 }
 
 std::string Stage::make_plans(const State& state, int width, int height) {
   const Camera eye = camera_of(state, state.eye, loaded_->path, width, height);
   const Camera planned = state.frozen ? camera_of(state, state.frozen, loaded_->path, width, height) : eye;
   const Light light = light_of(state.light, loaded_->scene.bounds_world);
-  const SceneBounds bounds{loaded_->boxes, loaded_->boxes};
   const bool both = state.comparison != Comparison::off && !state.b_is_truth;
   std::array<Side, 2> next = sides_;
+  std::shared_ptr<const SeenSurfaces> surfaces;
   for (int i = 0; i < (both ? 2 : 1); ++i) {
     const Settings& settings = i == 0 ? state.a : state.b;
     Side& side = next[static_cast<std::size_t>(i)];
-    const PlanOptions options = plan_options_of(settings);
-    if (std::string refusal = memory_refusal(options, settings.filter); !refusal.empty()) return refusal;
-    const VisibleDepths depths =
-        settings.visible_depths ? visible_depths(renderer_, planned) : VisibleDepths{};
-    const VisibleDepths* seen = settings.visible_depths ? &depths : nullptr;
-    const auto begin = Clock::now();
-    side.plan = settings.history ? make_plan(planned, light, bounds, options, side.history, seen)
-                                 : make_plan(planned, light, bounds, options, seen);
-    side.plan_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    if (side.plan.status == PlanStatus::invalid_input) return invalid_input_text(side.plan.invalid_field);
-    side.plan_camera = planned;
-    side.m = measure(side.plan, planned, bounds, kCoarse);
+    if (std::string refusal = plan_side(settings, planned, light, surfaces, side); !refusal.empty())
+      return refusal;
     side.drawn = state.frozen ? seen_frozen(side.plan, planned, eye) : side.plan;
     // Throws where a shader does not compile: before anything of the last picture is gone.
-    (void)renderer_.prepare(settings.filter);
-    const std::string name = render::to_string(settings.filter);
-    if (!is_compiled(settings.filter)) compiled_.push_back(name);
+    (void)prepare(settings);
   }
   sides_ = next;
   camera_ = eye;
@@ -135,6 +178,7 @@ std::string Stage::make_plans(const State& state, int width, int height) {
 std::string Stage::draw(const State& state, int width, int height, bool settled) try {
   take_tracer(false);
   if (std::string refusal = make_plans(state, width, height); !refusal.empty()) return refusal;
+  unfinished_ = false;
   for (Canvas* canvas : {&canvas_, &canvas_a_, &canvas_b_}) canvas->resize(width, height);
   wants_truth_ = state.view == View::misclassified || state.view == View::truth ||
                  (state.comparison != Comparison::off && state.b_is_truth);
@@ -154,19 +198,49 @@ std::string Stage::draw(const State& state, int width, int height, bool settled)
   return error.what();
 }
 
+void Stage::draw_pages(const State& state, const Settings& settings, Side& side, bool settled) {
+  const render::PreparedFilter filter = prepare(settings);
+  render::FrameOptions frame = frame_options(state, settings, light_);
+  // Of pages the renderer has the mask alone.
+  frame.aliasing = frame.heat_map = frame.cascade_tint = false;
+  const double map_ms = side.pages->refine(renderer_, filter, frame, settled ? FramePages::kMostRounds : 1);
+  unfinished_ = unfinished_ || (!settled && side.pages->wants_rounds());
+  side.plan_ms = side.pages->plan_ms();
+  side.m = side.pages->measure().m;
+  if (state.frozen) side.pages->rebase_to(camera_.position);
+  side.stats = side.pages->draw(renderer_, camera_, filter, frame);
+  side.stats.milliseconds[static_cast<std::size_t>(render::Pass::shadow_maps)] += map_ms;
+}
+
+Image Stage::side_legend(const State& state, const Side& side) const {
+  if (!side.pages) {
+    return state.view == View::kept ? kept_legend(served_by(side.stats), "maps", camera_.width)
+                                    : legend(state.view, side.plan, camera_.width);
+  }
+  const int level = std::clamp(state.map, 0, std::max(side.picture_count() - 1, 0));
+  return page_legend(state.view, side.pages->plan(), side.pages->drawn(), static_cast<std::size_t>(level),
+                     camera_.width);
+}
+
 void Stage::draw_side(const State& state, const Settings& settings, Side& side, Canvas& canvas,
                       bool settled) {
-  side.stats = renderer_.draw(side.drawn, camera_, renderer_.prepare(settings.filter),
-                              frame_options(state, settings, light_));
+  if (side.pages) {
+    draw_pages(state, settings, side, settled);
+  } else {
+    side.stats =
+        renderer_.draw(side.drawn, camera_, prepare(settings), frame_options(state, settings, light_));
+  }
   side.errors.reset();
   if (wants_truth_) want_truth(settled);
   draw_view(state, side, canvas);
   if (state.frozen && state.view != View::map) {
-    canvas.draw(on_screen(
-        plan_lines(side.plan, side.plan_camera, loaded_->boxes, loaded_->scene.bounds_world, state.drawn),
-        camera_));
+    const Box& scene = loaded_->scene.bounds_world;
+    canvas.draw(on_screen(side.pages
+                              ? page_lines(side.pages->plan(), side.plan_camera, loaded_->boxes, state.drawn)
+                              : plan_lines(side.plan, side.plan_camera, loaded_->boxes, scene, state.drawn),
+                          camera_));
   }
-  if (const Image image = legend(state.view, side.plan, camera_.width); image.width > 0)
+  if (const Image image = side_legend(state, side); image.width > 0)
     canvas.put(image, 0, camera_.height - image.height);
 }
 
@@ -182,10 +256,21 @@ void Stage::draw_view(const State& state, Side& side, Canvas& canvas) {
   switch (state.view) {
     case View::lit:
       return renderer_.copy(Picture::lit, canvas.framebuffer());
-    case View::heat:
-      return renderer_.copy(Picture::heat_map, canvas.framebuffer());
+    case View::heat: {
+      if (!side.pages) return renderer_.copy(Picture::heat_map, canvas.framebuffer());
+      const PageFrameImages images{renderer_.mask(), renderer_.positions(), renderer_.normals()};
+      const PagePlan& plan = side.pages->plan();
+      return canvas.put(page_heat_map(plan, page_aliasing(plan, camera_, images), images), 0, 0);
+    }
     case View::cascades:
-      return renderer_.copy(Picture::cascade_tint, canvas.framebuffer());
+      if (!side.pages) return renderer_.copy(Picture::cascade_tint, canvas.framebuffer());
+      return canvas.put(
+          level_picture(renderer_.image(), renderer_.mask(), renderer_.normals(), side.pages->plan()), 0, 0);
+    case View::kept:
+      return canvas.put(kept_picture(renderer_.mask(), renderer_.normals(),
+                                     side.pages ? served_by(side.pages->plan(), side.pages->drawn())
+                                                : served_by(side.stats)),
+                        0, 0);
     case View::mask:
       return canvas.put(mask_picture(renderer_.mask(), renderer_.normals()), 0, 0);
     case View::misclassified: {
@@ -198,18 +283,25 @@ void Stage::draw_view(const State& state, Side& side, Canvas& canvas) {
       return canvas.put(truth_picture(camera_.width, camera_.height, truth_.verdicts(), renderer_.normals()),
                         0, 0);
     case View::checker:
-      return canvas.put(
-          checker_picture(renderer_.image(), renderer_.mask(), renderer_.positions(), side.plan, camera_), 0,
-          0);
+      return canvas.put(checker_picture(
+                            renderer_.image(), renderer_.mask(), renderer_.positions(),
+                            [&side](int index) { return side.map_of(index); }, camera_),
+                        0, 0);
     case View::map:
-      break;
+      return draw_map_view(state, side, canvas);
   }
-  if (side.plan.map_count == 0)
-    return canvas.put(render::blank_image(camera_.width, camera_.height, {24, 24, 28}), 0, 0);
-  const int map = std::min(state.map, side.plan.map_count - 1);
+}
+
+void Stage::draw_map_view(const State& state, Side& side, Canvas& canvas) {
+  const int count = side.picture_count(), map = std::min(state.map, count - 1);
+  if (count == 0) return canvas.put(render::blank_image(camera_.width, camera_.height, {24, 24, 28}), 0, 0);
   const MapPicture picture =
-      map_picture(renderer_.depth_map(map), side.plan, map, side.plan_camera, loaded_->scene.bounds_world,
-                  loaded_->boxes, camera_.width, camera_.height);
+      side.pages ? level_map_picture(
+                       side.pages->plan(), static_cast<std::size_t>(map), side.pages->drawn(),
+                       [this](std::size_t page) { return renderer_.page_depths(page); }, camera_.width,
+                       camera_.height)
+                 : map_picture(renderer_.depth_map(map), side.plan, map, side.plan_camera,
+                               loaded_->scene.bounds_world, loaded_->boxes, camera_.width, camera_.height);
   canvas.put(picture.image, 0, 0);
   canvas.draw(picture.lines);
 }
@@ -218,6 +310,9 @@ namespace {
 
 /// What the corner of a side says: its filter, warp and maps.
 std::string side_text(const char* name, const Settings& settings, const Side& side) {
+  if (side.pages)
+    return fmt::format("{}: {} pages of {}, {}, {}", name, side.stats.pages, settings.pages.page_texels,
+                       settings.pages.policy->name, render::to_string(settings.filter));
   std::string text =
       fmt::format("{}: {} map{} of {}, {}", name, side.plan.map_count, side.plan.map_count == 1 ? "" : "s",
                   settings.plan.resolution.max_size, render::to_string(settings.filter));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "canvas.hpp"
+#include "frame_pages.hpp"
 #include "gnomon/history.hpp"
 #include "gnomon/metric.hpp"
 #include "gnomon/render/renderer.hpp"
@@ -32,7 +33,7 @@ struct Loaded {
 
 /// One side of a comparison, as it was drawn last.
 struct Side {
-  ShadowPlan plan;     ///< as it was made
+  ShadowPlan plan;     ///< as it was made; without maps where there are pages
   ShadowPlan drawn;    ///< as it was drawn: where the plan's camera is frozen, for another eye
   Camera plan_camera;  ///< that it was made for
   render::FrameStats stats;
@@ -40,6 +41,16 @@ struct Side {
   AliasingStats m;                      ///< over what the plan's camera sees of the boxes
   std::optional<Misclassified> errors;  ///< where the exact shadow is known
   PlanHistory history;
+  std::shared_ptr<FramePages> pages;  ///< in place of maps; nullptr: off
+
+  /// The texels that an index of the mask names; nullptr: none.
+  [[nodiscard]] const ShadowMap* map_of(int index) const noexcept;
+  /// Maps or levels: those that View::map may show.
+  [[nodiscard]] int picture_count() const noexcept;
+  [[nodiscard]] const PagePlan* page_plan() const noexcept { return pages ? &pages->plan() : nullptr; }
+  [[nodiscard]] std::span<const Omission> omitted() const noexcept {
+    return pages ? pages->plan().omitted() : plan.omitted();
+  }
 };
 
 class Stage {
@@ -68,14 +79,22 @@ class Stage {
   [[nodiscard]] const trace::Tracer* tracer() const noexcept { return tracer_.get(); }
   /// Compiles one more of the filters that no state has used yet; false where all are compiled.
   bool compile_ahead();
-  /// True where the filter's programs are compiled already.
-  [[nodiscard]] bool is_compiled(const render::FilterSettings& filter) const;
+  /// True where the filter's programs are compiled already, for pages where the settings have them.
+  [[nodiscard]] bool is_compiled(const Settings& settings) const;
+  /// True where a page policy that reads the picture would refine the last one, once it is settled.
+  [[nodiscard]] bool unfinished() const noexcept { return unfinished_; }
   /// Forgets what plans carry from frame to frame: after a cut.
   void cut() noexcept;
 
  private:
   [[nodiscard]] std::string make_plans(const State& state, int width, int height);
   void draw_side(const State& state, const Settings& settings, Side& side, Canvas& canvas, bool settled);
+  [[nodiscard]] std::string plan_side(const Settings& settings, const Camera& planned, const Light& light,
+                                      std::shared_ptr<const SeenSurfaces>& surfaces, Side& side);
+  void draw_pages(const State& state, const Settings& settings, Side& side, bool settled);
+  [[nodiscard]] render::PreparedFilter prepare(const Settings& settings);
+  [[nodiscard]] Image side_legend(const State& state, const Side& side) const;
+  void draw_map_view(const State& state, Side& side, Canvas& canvas);
   void want_truth(bool settled);
   void draw_view(const State& state, Side& side, Canvas& canvas);
   void compose(const State& state);
@@ -85,13 +104,13 @@ class Stage {
   std::future<std::shared_ptr<const trace::Tracer>> sorting_;
   std::shared_ptr<const trace::Tracer> tracer_;
   render::Renderer renderer_;
-  std::vector<std::string> compiled_;  ///< filters as text
+  std::vector<std::string> compiled_;  ///< filters as text, for pages with a word before
   std::array<Side, 2> sides_;
   Canvas canvas_, canvas_a_, canvas_b_;
   Camera camera_;
   Light light_;
   Truth truth_;
-  bool wants_truth_ = false;
+  bool wants_truth_ = false, unfinished_ = false;
 };
 
 }  // namespace gnomon::tool::view

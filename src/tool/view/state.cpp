@@ -15,10 +15,11 @@ constexpr std::array<Named, kViewCount> kViews{{
     {"heat", "aliasing error m, screen pixels per texel: white is 1, red too coarse, blue finer than needed"},
     {"mask", "visibility as the filter returns it: white lit, black in shadow"},
     {"misclassified", "false light (orange) and false shadow (blue) against exact rays"},
-    {"cascades", "which map serves which part"},
+    {"cascades", "which map serves which part; of pages which level"},
     {"checker", "squares of 8 x 8 texels of the map that serves each point"},
-    {"map", "the depth map itself, with its border, the receivers' body and the casters drawn in"},
+    {"map", "the depth map itself, with its border, the receivers' body and the casters; of pages one level"},
     {"truth", "the exact hard shadow, one ray a pixel"},
+    {"kept", "which maps or pages were kept from earlier frames (blue), and which were drawn (orange)"},
 }};
 constexpr std::array<Named, 3> kComparisons{{
     {"off", "A alone"},
@@ -33,7 +34,7 @@ Settings with(const char* filter, const char* key = nullptr, const char* choice 
   return settings;
 }
 
-constexpr std::array<Preset, 6> kPresets{{
+constexpr std::array<Preset, 7> kPresets{{
     {"defaults", "every option as it is by default", [](State& s) { s.a = {}; }},
     {"one map, no warp against the chosen warp", "what the warp gains at equal texels: drag the line",
      [](State& s) {
@@ -45,6 +46,11 @@ constexpr std::array<Preset, 6> kPresets{{
      }},
     {"stable cascades", "texel-snapped maps, as most engines have them",
      [](State& s) { s.a = with("pcf:radius=2", "fit", "stable"); }},
+    {"pages", "virtual shadow maps: m of at most 1 at what is seen, kept while the camera moves",
+     [](State& s) {
+       s.a = with("pcf", "fit", "stable");
+       s.a.pages.policy = &page_policies::resolution;
+     }},
     {"soft contact shadows", "pcss, whose penumbra grows with the distance from the caster",
      [](State& s) { s.a = with("pcss"); }},
     {"variance shadows", "vsm, to look for light bleeding in the misclassified view",

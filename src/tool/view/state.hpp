@@ -14,6 +14,7 @@
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/default_light.hpp"
+#include "page_setting.hpp"
 
 namespace gnomon::tool::view {
 
@@ -27,8 +28,9 @@ enum class View : std::uint8_t {
   checker,        ///< squares of kCheckerTexels texels on the surfaces
   map,            ///< the depth map itself, with what lies in it
   truth,          ///< the exact hard shadow
+  kept,           ///< which maps or pages were kept from earlier frames, and which were drawn
 };
-inline constexpr int kViewCount = 8;
+inline constexpr int kViewCount = 9;
 inline constexpr int kCheckerTexels = 8;
 
 /// How two settings are compared.
@@ -45,6 +47,7 @@ struct Named {
 /// One side of a comparison: how shadows are planned and filtered.
 struct Settings {
   PlanOptions plan;
+  PageSetting pages;  ///< in place of maps; off by default
   render::FilterSettings filter = render::default_settings(render::filters::pcf);
   render::SplitTransition transition = render::SplitTransition::cut;
   render::DepthLayer layer = render::DepthLayer::front;  ///< that the maps store
@@ -87,7 +90,7 @@ struct State {
   LightState light;
   Settings a, b;
   View view = View::lit;
-  int map = 0;  ///< View::map: which one
+  int map = 0;  ///< View::map: which one; with pages which level
   Comparison comparison = Comparison::off;
   bool b_is_truth = false;  ///< B is the exact hard shadow
   double wipe = 0.5;        ///< share of the picture's width that shows A

@@ -73,8 +73,16 @@ Json options_json(const PlanOptions& options) {
   return json;
 }
 
+Json pages_json(const PageSetting& pages) {
+  return {{"policy", page_policy_name(pages)},
+          {"page_texels", pages.page_texels},
+          {"capacity", pages.capacity},
+          {"target_m", pages.target_m}};
+}
+
 Json settings_json(const Settings& settings) {
   return {{"options", options_json(settings.plan)},
+          {"pages", pages_json(settings.pages)},
           {"filter", render::to_string(settings.filter)},
           {"transition", transition_names()[static_cast<std::size_t>(settings.transition)]},
           {"layer", render::info_of(settings.layer).name},
@@ -202,6 +210,24 @@ std::vector<CameraKey> read_keys(Reader& from, const char* key) {
   return keys;
 }
 
+PageSetting read_pages(const Json& json, const std::string& path) {
+  Reader reader(json, path);
+  PageSetting pages;
+  std::size_t policy = 0;  // off
+  reader.read_name("policy", policy, page_policy_names());
+  pages.policy = page_policy_of(page_policy_names()[policy]);
+  double texels = pages.page_texels, capacity = pages.capacity;
+  reader.read("page_texels", texels, kLeastPageTexels, kMostPageTexels);
+  if (texels != 64.0 && texels != 128.0 && texels != 256.0)
+    reader.refuse("page_texels", fmt::format("{:g} is not 64, 128 or 256", texels));
+  reader.read("capacity", capacity, 1, kMostPoolPages);
+  reader.read("target_m", pages.target_m, 0.0, kMostTargetM);
+  reader.done();
+  pages.page_texels = static_cast<int>(texels);
+  pages.capacity = static_cast<int>(capacity);
+  return pages;
+}
+
 Settings read_settings(const Json& json, const std::string& path) {
   Reader reader(json, path);
   Settings settings;
@@ -212,6 +238,7 @@ Settings read_settings(const Json& json, const std::string& path) {
       throw std::runtime_error(path + "." + error.what());
     }
   }
+  if (const Json* pages = reader.take("pages")) settings.pages = read_pages(*pages, path + ".pages");
   std::string filter;
   reader.read("filter", filter);
   if (!filter.empty()) {
@@ -261,7 +288,7 @@ LightState read_light(const Json& json) {
 void read_rest(Reader& reader, State& state) {
   reader.read_name("view", state.view, names_of(view_names()));
   double map = state.map;
-  reader.read("map", map, 0, kMaxMaps - 1);
+  reader.read("map", map, 0, kMostPageLevels - 1);
   state.map = static_cast<int>(map);
   reader.read_name("comparison", state.comparison, names_of(comparison_names()));
   reader.read("b_is_truth", state.b_is_truth);
@@ -410,6 +437,15 @@ std::string point_word(const glm::dvec3& p) {
   return exact(p.x) + "," + exact(p.y) + "," + exact(p.z);
 }
 
+void add_pages(const PageSetting& pages, std::string& text) {
+  if (!pages.on()) return;
+  const PageSetting none;
+  text += " --pages " + page_policy_name(pages);
+  if (pages.page_texels != none.page_texels) text += fmt::format(" --page-size {}", pages.page_texels);
+  if (pages.capacity != none.capacity) text += fmt::format(" --page-capacity {}", pages.capacity);
+  if (pages.target_m != none.target_m) text += " --page-target " + exact(pages.target_m);
+}
+
 void add_settings(const Settings& settings, std::string& text) {
   const Json now = plan_options_json(settings.plan), none = plan_options_json({});
   for (const auto& [key, value] : now.items()) {
@@ -423,6 +459,7 @@ void add_settings(const Settings& settings, std::string& text) {
   }
   if (const std::string rest = unspoken_options(settings.plan); !rest.empty())
     text += " --options " + quoted(rest);
+  add_pages(settings.pages, text);
   text += " --filter " + quoted(render::to_string(settings.filter));
   if (settings.transition != render::SplitTransition::cut)
     text += " --transition " + std::string(transition_names()[static_cast<std::size_t>(settings.transition)]);

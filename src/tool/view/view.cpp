@@ -31,7 +31,7 @@ struct Request {
   Options options;
   std::string state, size = "1280x720", context = "auto", filter = "pcf", plan_json, out, screenshot, tour,
                      eye, target, path, light = "sun", light_position, light_direction, transition = "cut",
-                     layer = "front", view = "lit";
+                     layer = "front", view = "lit", pages = "off";
   double light_outer_deg = 0.0, light_range = 0.0;
   /// Options that set a part of the state, and whether each is given; on the heap, as their addresses are
   /// kept.
@@ -167,6 +167,7 @@ Options resolved(const Request& request) {
   State& state = options.state;
   resolve_plan(request, state.a.plan);
   state.a.filter = filter_word("--filter", request.filter);
+  resolve_pages(request.pages, state.a.pages);
   state.a.transition = transition_from_name(request.transition);
   state.a.layer = layer_from_name(request.layer);
   // A warped grid is only stable from frame to frame.
@@ -250,6 +251,7 @@ std::vector<Option> setting_options(Request& request) {
       {.name = "--visible-depths",
        .target = &state.a.visible_depths,
        .help = "draw each frame twice, and plan the second for the depths that the first shows"}};
+  const std::vector<Option> of_pages = page_setting_options(request.pages, state.a.pages);
   const std::vector<Option> of_light = light_options(request.light, state.light.sun);
   const std::vector<Option> others{{.name = "--light-position",
                                     .target = &request.light_position,
@@ -283,7 +285,7 @@ std::vector<Option> setting_options(Request& request) {
                                     .target = &request.view,
                                     .help = "what the picture shows: " + any_of_text(views),
                                     .names = views}};
-  for (const auto* part : {&of_picture, &of_light, &others})
+  for (const auto* part : {&of_pages, &of_picture, &of_light, &others})
     options.insert(options.end(), part->begin(), part->end());
   for (Option& option : options) {
     request.settings.emplace_back(option.name, std::make_unique<bool>(false));
@@ -299,11 +301,14 @@ int draw_to_file(const Options& options) {
                options.out.has_parent_path() ? options.out.parent_path() : std::filesystem::path("."));
   const auto context = render::create_context(options.context);
   Stage stage(load(options.state.scene, options.max_triangles));
-  for (const bool settled : {false, true}) {
-    if (settled) stage.finish_truth();
-    const std::string refusal = stage.draw(options.state, options.width, options.height, settled);
+  const auto draw = [&] {
+    const std::string refusal = stage.draw(options.state, options.width, options.height, true);
     if (!refusal.empty()) throw std::runtime_error(refusal);
-    if (!stage.truth_progress()) break;
+  };
+  draw();
+  if (stage.truth_progress()) {
+    stage.finish_truth();
+    draw();
   }
   const Image image = stage.canvas().image();
   render::check_context();

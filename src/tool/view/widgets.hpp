@@ -23,6 +23,8 @@ inline constexpr ImGuiWindowFlags kFixedWindow = ImGuiWindowFlags_NoMove | ImGui
 void edit_plan_field(const PlanField& field, PlanOptions& options);
 /// The filter, and everything that this filter can be set to.
 void edit_filter(render::FilterSettings& settings);
+/// Pages in place of maps: their policy, and with one its options.
+void edit_pages(PageSetting& pages);
 /// The sun on a dome seen from above: its middle is the zenith, its edge the horizon, north (-Z) above.
 void edit_sun_dome(LightPlacement& sun, float side);
 /// A position or direction.

@@ -151,6 +151,7 @@ void add_curves(App& app) {
   app.curves.lookup.add(ms(render::Pass::mask));
   app.curves.m_p95.add(side.m.p95);
   app.curves.texels.add(static_cast<double>(drawn) / 1e6);
+  app.curves.pages.add(side.stats.pages_drawn);
 }
 
 void keep_for_undo(App& app, const std::string& now) {
@@ -256,8 +257,8 @@ class Loop {
   /// The filter's program takes a while to compile: the status line says so for a frame before.
   bool wait_for_filter() {
     const bool both = app_.state.comparison != Comparison::off;
-    const bool unknown = !app_.stage->is_compiled(app_.state.a.filter) ||
-                         (both && !app_.stage->is_compiled(app_.state.b.filter));
+    const bool unknown =
+        !app_.stage->is_compiled(app_.state.a) || (both && !app_.stage->is_compiled(app_.state.b));
     const bool wait = unknown && !app_.compiling;
     app_.compiling = wait;
     return wait;
@@ -281,7 +282,9 @@ class Loop {
     const bool settled = text == shown_.state, has_tracer = app_.stage->tracer() != nullptr;
     const bool same = settled && app_.picture.width == shown_.width && app_.picture.height == shown_.height &&
                       app_.stage.get() == shown_.stage;
-    if (same && !moving && !shows_rays(progress)) {
+    // A page policy that reads the picture takes more rounds once nothing moves.
+    const bool unfinished = same && !shown_.settled && app_.stage->unfinished();
+    if (same && !moving && !shows_rays(progress) && !unfinished) {
       if (!app_.looking && !app_.wiping && !app_.placing) keep_for_undo(app_, text);
       return false;
     }
