@@ -1,4 +1,6 @@
 // Pages in the viewer: their views, what is kept from picture to picture, and what is refused.
+#include <malloc.h>
+
 #include <glm/geometric.hpp>
 
 #include "page_aliasing.hpp"
@@ -219,6 +221,36 @@ TEST(ViewPages, beside_maps_are_compared_under_the_wipe) {
   EXPECT_TRUE(stage().side(0).pages);
   EXPECT_FALSE(stage().side(1).pages);
   EXPECT_GT(stage().side(1).plan.map_count, 0);
+}
+
+TEST(ViewPages, leave_nothing_behind_when_they_go) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer finds leaks by itself";
+#endif
+  const auto switch_to = [](int i) {
+    State state = with_pages(*all_page_policies()[static_cast<std::size_t>(i) % all_page_policies().size()]);
+    if (i % 2 == 0) state.a.pages.policy = nullptr;
+    state.view = i % 3 == 0 ? View::map : View::kept;
+    state.comparison = static_cast<Comparison>(i % 3);
+    state.a.plan.resolution.max_size = state.b.plan.resolution.max_size = 64;
+    EXPECT_EQ(stage().draw(state, 64, 36, i % 2 == 0), "");
+  };
+  // In use, not held back by the allocator; the driver frees pools some frames late.
+  const auto least_in_use = [&switch_to] {
+    constexpr int kPeriod = 30, kPeriods = 3;
+    std::size_t least = ~std::size_t{0};
+    for (int i = 0; i < kPeriods * kPeriod; ++i) {
+      switch_to(i);
+      const struct mallinfo2 info = mallinfo2();
+      least = std::min(least, info.uordblks + info.hblkhd);
+    }
+    return least;
+  };
+  (void)least_in_use();
+  const std::size_t before = least_in_use();
+  // The pages of one frame take 1 MB, and 90 frames lie between.
+  constexpr std::size_t kRoom = 5'000'000;
+  EXPECT_LT(least_in_use(), before + kRoom);
 }
 
 TEST(ViewPages, colours_of_levels_rise_in_brightness) {

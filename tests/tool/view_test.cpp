@@ -345,7 +345,6 @@ TEST(ViewMemory, is_steady_over_five_hundred_switches) {
     state.a.plan.cascades = 1 + i % 3;
     state.comparison = static_cast<Comparison>(i % 3);
     state.a.plan.resolution.max_size = state.b.plan.resolution.max_size = 64;
-    if (i % 5 < 2 && i % 2 == 0) state.a.pages.policy = &page_policies::resolution;
     EXPECT_EQ(stage().draw(state, 64, 36, false), "");
   };
   constexpr int kWarm = 70, kSwitches = 500;
