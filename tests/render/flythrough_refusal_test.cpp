@@ -41,6 +41,14 @@ TEST_F(Flythrough, refuses_bad_input_with_one_line_and_writes_nothing) {
                 {"--context vulkan", "vulkan"},
                 {"--path no_such_path.json", "no_such_path.json"},
                 {"--context glfw builtin:fence", "--context glfw"},
+                {"--pages resoluton", "did you mean 'resolution'?"},
+                {"--pages resolution --page-size 96", "--page-size 96: wants 64, 128 or 256"},
+                {"--page-target 1", "--page-target requires --pages"},
+                {"--pages resolution --filter vsm", "no pages with vsm: stores texels of whole maps"},
+                {"--pages resolution --page-capacity 3", "page_capacity 3: this light needs at least 4"},
+                {"--pages resolution --context glfw", "gnomon view --pages"},
+                {"--pages resolution --history", "--pages: --history is for whole maps"},
+                {"--pages resolution --compare-warps none", "--pages: --compare-warps is for whole maps"},
                 {"--no-such-option", "--no-such-option"}};
   for (const auto& c : kCases) {
     const Outcome outcome = run(c.arguments);

@@ -215,6 +215,43 @@ TEST_F(Flythrough, prints_one_line_of_json_that_says_what_the_table_says) {
   EXPECT_EQ(json["numbers"], (out() / "frames.csv").string());
 }
 
+TEST_F(Flythrough, keeps_pages_from_frame_to_frame_and_counts_them) {
+  // Steps of a metre: most pages stay in view.
+  const fs::path path = folder_ / "steps.json";
+  std::ofstream(path) << R"({"fov_y_deg": 60, "near": 0.1, "far": 200, "keys": [)"
+                         R"({"position": [0, 2, 12], "target": [0, 1, 0]},)"
+                         R"({"position": [0, 2, 11], "target": [0, 1, -1]}]})";
+  const std::string flight =
+      "builtin:hangar --frames 3 --size 96x64 --pages clipmap --page-size 64 --path " + path.string();
+  const Outcome outcome = run(flight + " --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["pages"]["policy"], "clipmap");
+  const std::vector<double> resident = column_of(out() / "frames.csv", "pages"),
+                            drawn = column_of(out() / "frames.csv", "pages_drawn"),
+                            kept = column_of(out() / "frames.csv", "pages_kept");
+  ASSERT_EQ(resident.size(), 3u);
+  EXPECT_EQ(kept[0], 0.0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_GT(resident[i], 8.0);
+    EXPECT_EQ(resident[i], drawn[i] + kept[i]);
+    EXPECT_EQ(json["frames"][i]["pages"]["resident"].get<double>(), resident[i]);
+    EXPECT_EQ(json["frames"][i]["pages"]["kept"].get<double>(), kept[i]);
+    EXPECT_EQ(json["frames"][i]["maps"], 0);
+    EXPECT_GT(json["frames"][i]["m"]["p50"].get<double>(), 0.0);
+  }
+  EXPECT_GT(kept[1] + kept[2], 0.5 * (resident[1] + resident[2]));
+  EXPECT_NEAR(json["summary"]["share_kept"].get<double>(), (kept[1] + kept[2]) / (resident[1] + resident[2]),
+              1e-12);
+  for (const char* kind : {"image", "heat", "levels", "kept"})
+    EXPECT_TRUE(fs::exists(out() / (std::string("frame_0002_") + kind + ".png"))) << kind;
+  // A fit that follows the view keeps none, and the summary says what would.
+  const std::string tight = "builtin:hangar --frames 2 --size 96x64 --pages resolution --page-size 64";
+  const Outcome moving = run(tight);
+  ASSERT_EQ(moving.code, 0) << moving.error;
+  EXPECT_NE(moving.out.find("0.0 % kept from earlier frames; --fit stable"), std::string::npos) << moving.out;
+}
+
 TEST_F(Flythrough, draws_a_scene_without_triangles) {
   const fs::path scene = folder_ / "empty.gltf";
   std::ofstream(scene) << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[]}]})";
@@ -222,6 +259,8 @@ TEST_F(Flythrough, draws_a_scene_without_triangles) {
   EXPECT_EQ(outcome.code, 0) << outcome.error;
   EXPECT_NE(outcome.out.find("0 triangles"), std::string::npos) << outcome.out;
   EXPECT_TRUE(fs::exists(out() / "frame_0001_image.png"));
+  const Outcome pages = run(scene.string() + " --frames 1 --size 64x32 --pages resolution");
+  EXPECT_EQ(pages.code, 0) << pages.error;
 }
 
 TEST_F(Flythrough, draws_the_same_in_four_processes_at_once) {

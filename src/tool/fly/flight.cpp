@@ -19,6 +19,7 @@
 #include "gnomon/scene/load.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"
+#include "page_frame.hpp"
 #include "plan_option.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -64,6 +65,12 @@ void label_cascades(Image& image, const ShadowPlan& plan) {
   const std::string title =
       plan.map_count > 0 ? "shadow maps" : fmt::format("no map: {}", to_string(plan.status));
   render::draw_legend(image, title, {entries.data(), plan.maps().size()});
+}
+
+void draw_legend_text(Image& image, const LegendText& legend) {
+  std::vector<render::LegendEntry> entries;
+  for (const auto& [color, text] : legend.fields) entries.push_back({color, text});
+  render::draw_legend(image, legend.title, entries);
 }
 
 /// Everything a frame needs over the whole flight.
@@ -114,7 +121,29 @@ void save_filter_precision(Studio& studio, const ShadowPlan& plan, int frame, Fr
         fmt::format("{}filter, from the next frame on: {}", row.omitted.empty() ? "" : "; ", left_out);
 }
 
+FrameRow draw_page_frame(Studio& studio, int frame) {
+  const Options& options = studio.options;
+  DrawnPages drawn = draw_with_pages(options, studio.flight, camera_of(options, studio.flight, frame),
+                                     default_light(options.light, studio.flight.scene.bounds_world),
+                                     studio.renderer, studio.filter);
+  drawn.row.frame = frame;
+  if (studio.sheet.wants(frame)) studio.sheet.add(frame, drawn.lit, drawn.heat, drawn.levels);
+  render::draw_heat_legend(drawn.heat);
+  draw_legend_text(drawn.levels, drawn.level_text);
+  draw_legend_text(drawn.kept, drawn.kept_text);
+  const auto write = [&](const char* kind, const Image& image) {
+    write_png(image, options.out / fmt::format("frame_{:04}_{}.png", frame, kind));
+    check_interrupt();
+  };
+  write("image", drawn.lit);
+  write("heat", drawn.heat);
+  write("levels", drawn.levels);
+  write("kept", drawn.kept);
+  return drawn.row;
+}
+
 FrameRow draw_frame(Studio& studio, int frame) {
+  if (studio.options.pages.on()) return draw_page_frame(studio, frame);
   const Options& options = studio.options;
   const Camera camera = camera_of(options, studio.flight, frame);
   const Light light = default_light(options.light, studio.flight.scene.bounds_world);
@@ -134,7 +163,7 @@ FrameRow draw_frame(Studio& studio, int frame) {
   for (std::size_t i = 0; i < timed.plan.maps().size(); ++i)
     row.m_bound[i] = std::max(timed.plan.map[i].m_s_max, timed.plan.map[i].m_t_max);
   row.warps = warps_text(timed.plan);
-  row.omitted = omitted_text(timed.plan, row.stats);
+  row.omitted = omitted_text(timed.plan.omitted(), row.stats);
   save_filter_precision(studio, timed.plan, frame, row);
 
   const Image lit = studio.renderer.image();
@@ -191,6 +220,12 @@ void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
       "undersampled\n",
       rows.size(), s.milliseconds, static_cast<double>(s.slowest_plan_ns) * 1e-3, s.worst_p95,
       s.undersampled * 100.0);
+  if (options.pages.on()) {
+    const PageSummary pages = page_summary(rows);
+    const bool moves = pages.share_kept == 0.0 && rows.size() > 1 && options.plan.fit != Fit::stable;
+    fmt::print("pages:    {:.0f} a frame, {:.1f} % kept from earlier frames{}\n", pages.pages_per_frame,
+               100.0 * pages.share_kept, moves ? "; --fit stable keeps them while the camera moves" : "");
+  }
   fmt::print("pictures: {}\nsheet:    {}\nnumbers:  {}\n", (options.out / "frame_0000_image.png").string(),
              (options.out / "contact_sheet.png").string(), (options.out / "frames.csv").string());
 }
@@ -199,22 +234,31 @@ void print_json(const Options& options, const Flight& flight, const render::Cont
                 const std::vector<FrameRow>& rows) {
   using Json = nlohmann::ordered_json;
   const Summary s = summary_of(rows);
-  const Json json{{"scene", flight.scene.name},
-                  {"instances", flight.scene.instances.size()},
-                  {"triangles", flight.scene.triangle_count()},
-                  {"context", context.description()},
-                  {"software", context.software},
-                  {"filter", render::to_string(options.filter)},
-                  {"options", plan_options_json(options.plan)},
-                  {"summary",
-                   {{"frames", rows.size()},
-                    {"ms", s.milliseconds},
-                    {"slowest_plan_ns", s.slowest_plan_ns},
-                    {"worst_m_p95", s.worst_p95},
-                    {"share_undersampled", s.undersampled}}},
-                  {"sheet", (options.out / "contact_sheet.png").string()},
-                  {"numbers", (options.out / "frames.csv").string()},
-                  {"frames", frames_json(rows)}};
+  Json json{{"scene", flight.scene.name},
+            {"instances", flight.scene.instances.size()},
+            {"triangles", flight.scene.triangle_count()},
+            {"context", context.description()},
+            {"software", context.software},
+            {"filter", render::to_string(options.filter)},
+            {"options", plan_options_json(options.plan)},
+            {"summary",
+             {{"frames", rows.size()},
+              {"ms", s.milliseconds},
+              {"slowest_plan_ns", s.slowest_plan_ns},
+              {"worst_m_p95", s.worst_p95},
+              {"share_undersampled", s.undersampled}}},
+            {"sheet", (options.out / "contact_sheet.png").string()},
+            {"numbers", (options.out / "frames.csv").string()},
+            {"frames", frames_json(rows)}};
+  if (options.pages.on()) {
+    const PageSummary pages = page_summary(rows);
+    json["pages"] = {{"policy", page_policy_name(options.pages)},
+                     {"page_texels", options.pages.page_texels},
+                     {"capacity", options.pages.capacity},
+                     {"target_m", options.pages.target_m}};
+    json["summary"]["pages_per_frame"] = pages.pages_per_frame;
+    json["summary"]["share_kept"] = pages.share_kept;
+  }
   print_line(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -260,7 +304,8 @@ namespace {
 std::vector<FrameRow> draw_frames(Studio& studio, bool software) {
   const Options& options = studio.options;
   const auto write_rows = [&](const std::vector<FrameRow>& rows) {
-    write_csv(rows, options.plan.cascades, software, options.out / "frames.csv");
+    // The first map's columns are the sums over all pages.
+    write_csv(rows, options.pages.on() ? 1 : options.plan.cascades, software, options.out / "frames.csv");
   };
   std::vector<FrameRow> rows;
   try {
@@ -283,6 +328,10 @@ std::vector<FrameRow> draw_frames(Studio& studio, bool software) {
 }
 
 std::string sheet_title(const Options& options) {
+  if (options.pages.on())
+    return fmt::format("{}: pages of {}, {}, {}, {}", options.scene, options.pages.page_texels,
+                       options.pages.policy->name, render::to_string(options.filter),
+                       to_string(options.plan.fit));
   return fmt::format("{}: {} maps of {}, {}{}", options.scene, options.plan.cascades,
                      options.plan.resolution.max_size, render::to_string(options.filter),
                      options.plan.fit == Fit::tight ? "" : fmt::format(", {}", to_string(options.plan.fit)));
@@ -308,17 +357,26 @@ int fly_to_files(const Options& asked, const Flight& flight) {
     }
   }();
   if (!options.json) print_scene(flight, context->info());
-  fit_maps_to_memory(options);
+  if (options.pages.on()) {
+    if (const std::string refusal =
+            page_refusal(options.pages, options.filter, options.plan, options.light.kind);
+        !refusal.empty())
+      throw std::runtime_error(refusal);
+  } else {
+    fit_maps_to_memory(options);
+  }
   check_plans(options, flight);
   make_folder("--out", options.out);
   watch_interrupts();
-  Studio studio{options,
-                flight,
-                render::Renderer(flight.scene),
-                {},
-                ContactSheet(options.frames, options.width, options.height),
-                {}};
-  studio.filter = studio.renderer.prepare(options.filter);
+  Studio studio{
+      options,
+      flight,
+      render::Renderer(flight.scene),
+      {},
+      ContactSheet(options.frames, options.width, options.height, options.pages.on() ? "levels" : "maps"),
+      {}};
+  studio.filter = options.pages.on() ? studio.renderer.prepare_pages(options.filter)
+                                     : studio.renderer.prepare(options.filter);
   const std::vector<FrameRow> rows = draw_frames(studio, context->info().software);
   write_png(studio.sheet.sheet(sheet_title(options)), options.out / "contact_sheet.png");
   if (options.json) {
@@ -333,6 +391,9 @@ int run(Options options) {
   // A folder that cannot be written is found before a scene is loaded for minutes.
   check_folder("--out", options.out);
   const Flight flight = load_flight(options);
+  if (options.pages.on() && options.context == render::ContextKind::glfw)
+    throw std::runtime_error(
+        "--pages: --context glfw draws maps alone; gnomon view --pages shows pages in a window");
   if (options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0)
     choose_technique_of(options, flight);
   if (options.perceptual_resolution) choose_perceptual_maps(options, flight);

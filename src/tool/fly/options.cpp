@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <memory>
 #include <stdexcept>
 
@@ -23,7 +24,8 @@ constexpr int kMaxFrames = 100'000, kMaxSide = 16'384;
 struct Request {
   Options options;
   std::string size = "960x540", context = "auto", filter = "pcf", path, light = "sun", cost_model,
-              out = "out/flythrough", resolution = "given", transition = "cut", layer = "front";
+              out = "out/flythrough", resolution = "given", transition = "cut", layer = "front",
+              pages = "off";
   bool stable = false, split_given = false, lambda_given = false;
   std::vector<std::string> compared_warps;
 };
@@ -56,6 +58,22 @@ void resolve_transition(const Request& request, Options& options) {
   if (options.transition != render::SplitTransition::cut) options.plan.split.overlap = kTransitionShare;
 }
 
+/// Options that mean whole maps.
+void check_beside_pages(const Options& options) {
+  const std::array<std::pair<bool, const char*>, 7> of_maps{{
+      {!options.compared_warps.empty(), "--compare-warps"},
+      {options.history, "--history"},
+      {options.visible_depths, "--visible-depths"},
+      {options.transition != render::SplitTransition::cut, "--transition"},
+      {options.perceptual_resolution, "--resolution perceptual"},
+      {options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0,
+       "--budget-ms and --target-error"},
+      {options.filter_precision > 0.0, "--filter-precision"},
+  }};
+  for (const auto& [given, name] : of_maps)
+    if (given) throw std::runtime_error(fmt::format("--pages: {} is for whole maps", name));
+}
+
 Options resolved(const Request& request) {
   Options options = request.options;
   check_scene_word("scene", options.scene);
@@ -80,6 +98,8 @@ Options resolved(const Request& request) {
   resolve_transition(request, options);
   options.layer = layer_from_name(request.layer);
   resolve_budget(request, options);
+  resolve_pages(request.pages, options.pages);
+  if (options.pages.on()) check_beside_pages(options);
   if (!request.path.empty()) options.path = request.path;
   return options;
 }
@@ -217,6 +237,10 @@ std::vector<Option> filter_options(Request& request) {
        .range = {{0.0, 1e12}}}};
 }
 
+std::vector<Option> page_options(Request& request) {
+  return page_setting_options(request.pages, request.options.pages);
+}
+
 std::vector<Option> sun_options(Request& request) {
   return light_options(request.light, request.options.light);
 }
@@ -228,8 +252,8 @@ namespace gnomon::tool {
 
 std::function<int()> declare_fly(Arguments& arguments) {
   const auto request = std::make_shared<fly::Request>();
-  for (const auto& part :
-       {fly::flight_options, fly::map_options, fly::budget_options, fly::filter_options, fly::sun_options}) {
+  for (const auto& part : {fly::flight_options, fly::map_options, fly::page_options, fly::budget_options,
+                           fly::filter_options, fly::sun_options}) {
     for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
   }
   arguments.footer = fly::prune_footer();

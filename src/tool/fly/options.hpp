@@ -13,6 +13,7 @@
 #include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/study/technique.hpp"
+#include "page_setting.hpp"
 
 namespace gnomon::tool::fly {
 
@@ -29,6 +30,7 @@ struct Options {
   bool json = false;  ///< files and numbers as one line of JSON, in place of text
   render::ContextKind context = render::ContextKind::automatic;
   PlanOptions plan;
+  PageSetting pages;  ///< in place of maps; off by default
   render::FilterSettings filter = render::default_settings(render::filters::pcf);
   /// Other than cut: maps overlap by kTransitionShare of the cascade before the split.
   render::SplitTransition transition = render::SplitTransition::cut;

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "gnomon/render/picture.hpp"
 #include "gnomon/report/csv.hpp"
@@ -70,7 +72,9 @@ std::string header(int cascades, bool software) {
   for (std::size_t p = 0; p < render::kPassCount; ++p) {
     line += fmt::format("{}_{}ms,", to_string(static_cast<Pass>(p)), software ? "software_wall_clock_" : "");
   }
-  line += "maps,texels,m_p50,m_p95,m_max,share_undersampled,pixels_measured,camera_triangles,camera_draws,";
+  line +=
+      "maps,texels,m_p50,m_p95,m_max,share_undersampled,pixels_measured,pages,pages_drawn,pages_kept,camera_"
+      "triangles,camera_draws,";
   for (int i = 0; i < cascades; ++i)
     line += fmt::format(
         "map{0}_triangles,map{0}_draws,map{0}_instances,map{0}_texels,map{0}_age,map{0}_m_bound,", i);
@@ -79,12 +83,20 @@ std::string header(int cascades, bool software) {
   return line + "prefilter_passes,warps,omitted\n";
 }
 
+/// Statistics of pages are those of one map.
+int maps_of(const FrameRow& row) {
+  return row.pages ? 0 : row.stats.map_count;
+}
+
 std::string line_of(const FrameRow& row, int cascades) {
   std::string line = fmt::format("{},{},{},", row.frame, to_string(row.status), row.plan_ns);
   for (const double ms : row.stats.milliseconds) line += fmt::format("{:.3f},", ms);
-  line += fmt::format("{},{},{:.5g},{:.5g},{:.5g},{:.5f},{},", row.stats.map_count, row.stats.texels,
-                      row.aliasing.p50, row.aliasing.p95, row.aliasing.max, row.aliasing.share_undersampled,
-                      row.aliasing.pixels);
+  line +=
+      fmt::format("{},{},{:.5g},{:.5g},{:.5g},{:.5f},{},", maps_of(row), row.stats.texels, row.aliasing.p50,
+                  row.aliasing.p95, row.aliasing.max, row.aliasing.share_undersampled, row.aliasing.pixels);
+  line += row.pages ? fmt::format("{},{},{},", row.pages->resident, row.pages->drawn,
+                                  row.pages->resident - row.pages->drawn)
+                    : ",,,";
   line += fmt::format("{},{},", row.stats.camera.triangles, row.stats.camera.draws);
   for (int i = 0; i < cascades; ++i) {
     const render::MapStats& map = row.stats.map[static_cast<std::size_t>(i)];
@@ -104,12 +116,16 @@ std::string line_of(const FrameRow& row, int cascades) {
 PixelAliasing pixel_aliasing(const FloatImage& aliasing) {
   std::vector<float> m;
   m.reserve(aliasing.values.size() / 4);
-  std::size_t undersampled = 0;
-  for (std::size_t i = 0; i < aliasing.values.size(); i += 4) {
-    if (aliasing.values[i + 3] < 0.0f || !(aliasing.values[i] > 0.0f)) continue;
-    m.push_back(aliasing.values[i]);
-    if (aliasing.values[i] > 1.0f) ++undersampled;
-  }
+  for (std::size_t i = 0; i < aliasing.values.size(); i += 4)
+    m.push_back(aliasing.values[i + 3] < 0.0f ? 0.0f : aliasing.values[i]);
+  return pixel_aliasing(m);
+}
+
+PixelAliasing pixel_aliasing(const std::vector<float>& of_pixels) {
+  std::vector<float> m;
+  m.reserve(of_pixels.size());
+  std::copy_if(of_pixels.begin(), of_pixels.end(), std::back_inserter(m), [](float v) { return v > 0.0f; });
+  const auto undersampled = std::count_if(m.begin(), m.end(), [](float v) { return v > 1.0f; });
   PixelAliasing result;
   result.pixels = m.size();
   if (m.empty()) return result;
@@ -133,9 +149,9 @@ std::string warps_text(const ShadowPlan& plan) {
   return text;
 }
 
-std::string omitted_text(const ShadowPlan& plan, const render::FrameStats& stats) {
+std::string omitted_text(std::span<const Omission> omitted, const render::FrameStats& stats) {
   std::string text;
-  for (const Omission& omission : plan.omitted()) {
+  for (const Omission& omission : omitted) {
     const OmissionText words = describe(omission);
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", words.what.data(), words.why.data());
   }
@@ -151,6 +167,21 @@ std::string omitted_text(const ShadowPlan& plan, const render::FrameStats& stats
                         saved.instances, saved.triangles, saved.texels);
   }
   return text;
+}
+
+PageSummary page_summary(const std::vector<FrameRow>& rows) {
+  PageSummary summary;
+  double resident = 0.0, kept = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].pages) continue;
+    const PageCounts& pages = *rows[i].pages;
+    summary.pages_per_frame += pages.resident / static_cast<double>(rows.size());
+    if (i == 0) continue;  // nothing can be kept yet
+    resident += pages.resident;
+    kept += pages.resident - pages.drawn;
+  }
+  if (resident > 0.0) summary.share_kept = kept / resident;
+  return summary;
 }
 
 void write_csv(const std::vector<FrameRow>& rows, int cascades, bool software,
@@ -173,7 +204,7 @@ nlohmann::ordered_json frames_json(const std::vector<FrameRow>& rows) {
                       {"status", std::string(to_string(row.status))},
                       {"plan_ns", row.plan_ns},
                       {"ms", ms},
-                      {"maps", row.stats.map_count},
+                      {"maps", maps_of(row)},
                       {"texels", row.stats.texels},
                       {"m",
                        {{"p50", row.aliasing.p50},
@@ -184,14 +215,21 @@ nlohmann::ordered_json frames_json(const std::vector<FrameRow>& rows) {
                         {"bounds", bounds}}},
                       {"warps", row.warps},
                       {"omitted", row.omitted}});
+    if (row.pages)
+      frames.back()["pages"] = {{"resident", row.pages->resident},
+                                {"drawn", row.pages->drawn},
+                                {"kept", row.pages->resident - row.pages->drawn},
+                                {"levels", row.pages->levels},
+                                {"target_m", row.pages->target_m}};
   }
   return frames;
 }
 
-ContactSheet::ContactSheet(int frames, int width, int height)
+ContactSheet::ContactSheet(int frames, int width, int height, std::string tints)
     : frames_(frames),
       thumb_width_(std::min(width, kColumnWidth)),
-      thumb_height_(std::max(1, static_cast<int>(std::lround(1.0 * thumb_width_ * height / width)))) {}
+      thumb_height_(std::max(1, static_cast<int>(std::lround(1.0 * thumb_width_ * height / width)))),
+      tints_(std::move(tints)) {}
 
 bool ContactSheet::wants(int frame) const {
   const int columns = std::min(frames_, kMaxColumns);
@@ -210,7 +248,7 @@ void ContactSheet::add(int frame, const Image& lit, const Image& heat, const Ima
 }
 
 Image ContactSheet::sheet(const std::string& title) const {
-  constexpr const char* kRows[3] = {"image", "m", "maps"};
+  const char* const rows[3] = {"image", "m", tints_.c_str()};
   const int count = static_cast<int>(columns_.size());
   const int width = kGap + count * (thumb_width_ + kGap);
   const Heading title_text(title, width);
@@ -221,7 +259,7 @@ Image ContactSheet::sheet(const std::string& title) const {
     const Column& column = columns_[static_cast<std::size_t>(c)];
     for (int r = 0; r < 3; ++r) {
       const int x = kGap + c * (thumb_width_ + kGap), y = heading + r * (thumb_height_ + kGap + kLabel);
-      render::draw_text(sheet, x + kGap, y + kGap, fmt::format("frame {} {}", column.frame, kRows[r]), kInk);
+      render::draw_text(sheet, x + kGap, y + kGap, fmt::format("frame {} {}", column.frame, rows[r]), kInk);
       render::paste(sheet, column.picture[r], x, y + kLabel);
     }
   }

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,16 @@ struct PixelAliasing {
   std::size_t pixels = 0;
 };
 [[nodiscard]] PixelAliasing pixel_aliasing(const FloatImage& aliasing);
+/// The same from m of each pixel; 0 where there is none.
+[[nodiscard]] PixelAliasing pixel_aliasing(const std::vector<float>& m);
+
+/// Pages of a frame.
+struct PageCounts {
+  int resident = 0;
+  int drawn = 0;  ///< of them; the others were kept from earlier frames
+  int levels = 0;
+  double target_m = 0.0;  ///< error that they were opened for; larger than requested where the pool is small
+};
 
 struct FrameRow {
   int frame = 0;
@@ -26,14 +38,22 @@ struct FrameRow {
   std::int64_t plan_ns = 0;
   render::FrameStats stats;
   PixelAliasing aliasing;
-  std::array<double, kMaxMaps> m_bound{};  ///< of each map, over all that is in view
+  std::optional<PageCounts> pages;         ///< in place of maps
+  std::array<double, kMaxMaps> m_bound{};  ///< of each map, over all that is in view; of all pages at once
   std::string warps;                       ///< of each map, with its kappa
   std::string omitted;                     ///< what the plan left out, and why
 };
 
 /// Names and strengths of the maps' warps, and the plan's omissions, as text for a row.
 [[nodiscard]] std::string warps_text(const ShadowPlan& plan);
-[[nodiscard]] std::string omitted_text(const ShadowPlan& plan, const render::FrameStats& stats);
+[[nodiscard]] std::string omitted_text(std::span<const Omission> omitted, const render::FrameStats& stats);
+
+/// Pages over all frames, and how many of those after the first frame were kept from earlier ones.
+struct PageSummary {
+  double pages_per_frame = 0.0;
+  double share_kept = 0.0;  ///< 0 for flights of one frame
+};
+[[nodiscard]] PageSummary page_summary(const std::vector<FrameRow>& rows);
 
 /// Writes the table with columns for `cascades` maps: beside the target first, then renamed. Throws
 /// std::runtime_error.
@@ -46,7 +66,8 @@ void write_csv(const std::vector<FrameRow>& rows, int cascades, bool software,
 /// Small versions of some frames' pictures, evenly chosen: a column per frame, a row per kind of picture.
 class ContactSheet {
  public:
-  ContactSheet(int frames, int width, int height);
+  /// `tints`: name of the last row of pictures.
+  ContactSheet(int frames, int width, int height, std::string tints = "maps");
   /// True where this frame has a column.
   [[nodiscard]] bool wants(int frame) const;
   void add(int frame, const Image& lit, const Image& heat, const Image& tint);
@@ -59,6 +80,7 @@ class ContactSheet {
     Image picture[3];
   };
   int frames_, thumb_width_, thumb_height_;
+  std::string tints_;
   std::vector<Column> columns_;
 };
 

@@ -13,9 +13,9 @@
 #include "gnomon/render/picture.hpp"
 #include "gnomon/render/probe.hpp"
 #include "gnomon/scene/load.hpp"
+#include "level_picture.hpp"
 #include "lines.hpp"
 #include "page_aliasing.hpp"
-#include "page_pictures.hpp"
 
 namespace gnomon::tool::view {
 namespace {
@@ -214,8 +214,9 @@ void Stage::draw_pages(const State& state, const Settings& settings, Side& side,
 
 Image Stage::side_legend(const State& state, const Side& side) const {
   if (!side.pages) {
-    return state.view == View::kept ? kept_legend(served_by(side.stats), "maps", camera_.width)
-                                    : legend(state.view, side.plan, camera_.width);
+    if (state.view != View::kept) return legend(state.view, side.plan, camera_.width);
+    const LegendText text = kept_legend(served_by(side.stats), "maps");
+    return field_legend(text.title, text.fields, camera_.width);
   }
   const int level = std::clamp(state.map, 0, std::max(side.picture_count() - 1, 0));
   return page_legend(state.view, side.pages->plan(), side.pages->drawn(), static_cast<std::size_t>(level),

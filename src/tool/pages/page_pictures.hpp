@@ -1,18 +1,21 @@
-// The views of pages: which level serves what, what was kept, and what lies in a level.
+// Pictures of a frame with pages: which level serves what, and what was kept.
 #pragma once
 
-#include <functional>
+#include <cstdint>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "gnomon/pages.hpp"
+#include "gnomon/render/picture.hpp"
 #include "gnomon/render/renderer.hpp"
-#include "pictures.hpp"
 
-namespace gnomon::tool::view {
+namespace gnomon::tool {
 
 /// How the texels of a map or of a page came into the frame.
 enum class Texels : std::uint8_t { kept, scrolled, drawn };
+[[nodiscard]] render::Color color_of(Texels texels) noexcept;
 
 /// Violet is the coarsest level, yellow the finest.
 [[nodiscard]] render::Color level_color(std::size_t level, std::size_t levels) noexcept;
@@ -33,16 +36,16 @@ struct Served {
 /// By map of the frame.
 [[nodiscard]] std::vector<Served> served_by(const render::FrameStats& stats);
 
-/// Depths of the resident pages of one level, each at its place, with outlines by what was kept.
-[[nodiscard]] MapPicture level_map_picture(const PagePlan& plan, std::size_t level,
-                                           const std::vector<bool>& drawn,
-                                           const std::function<FloatImage(std::size_t)>& depths_of_page,
-                                           int width, int height);
+/// Colours with what they stand for, under a title.
+struct LegendText {
+  std::string title;
+  std::vector<std::pair<render::Color, std::string>> fields;
+};
+/// Of level_picture(): some of the levels where there are many.
+[[nodiscard]] LegendText level_legend(const PagePlan& plan);
+/// Of kept_picture(), with counts; `what`: "maps" or "pages".
+[[nodiscard]] LegendText kept_legend(std::span<const Served> served, const std::string& what);
+/// Of the outlines of one level's pages.
+[[nodiscard]] LegendText resident_legend(const PagePlan& plan, std::size_t level);
 
-/// legend() of a view that shows pages; `level`: that View::map shows.
-[[nodiscard]] Image page_legend(View view, const PagePlan& plan, const std::vector<bool>& drawn,
-                                std::size_t level, int picture_width);
-/// legend() of View::kept; `what`: "maps" or "pages".
-[[nodiscard]] Image kept_legend(std::span<const Served> served, const std::string& what, int picture_width);
-
-}  // namespace gnomon::tool::view
+}  // namespace gnomon::tool
