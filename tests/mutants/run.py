@@ -26,6 +26,8 @@ SUITES = {  # the quick ones first
     "src/render/": DRAWN,
     "shaders/": DRAWN,
     "src/tool/compare/": ["flips_law_test", "compare_test"],
+    "src/tool/pages/": ["view_test", "flythrough_test", "compare_test"],
+    "src/tool/view/": ["view_test", "view_window_test"],
 }
 # What is built beside core, scene and case files, by the folder whose faults need it.
 PARTS = {
@@ -34,6 +36,8 @@ PARTS = {
     "src/render/": ["RENDER", "TRACE"],
     "shaders/": ["RENDER", "TRACE"],
     "src/tool/compare/": ["RENDER", "TRACE", "REPORT", "TOOL"],
+    "src/tool/pages/": ["RENDER", "TRACE", "REPORT", "TOOL"],
+    "src/tool/view/": ["RENDER", "TRACE", "REPORT", "TOOL"],
 }
 ALL_PARTS = ["RENDER", "TRACE", "REPORT", "TOOL", "SAMPLES", "BENCH"]
 PATIENCE = 900  # seconds for one test program: a fault that never ends is caught, too

@@ -52,6 +52,13 @@ struct Pair {
     EXPECT_EQ(whole.pages_drawn, whole.pages);
     EXPECT_EQ(static_cast<std::size_t>(last.pages), frame.pages.size());
     kept += static_cast<std::size_t>(last.pages - last.pages_drawn);
+    int drew = 0;
+    for (std::size_t i = 0; i < frame.pages.size(); ++i) {
+      drew += keeps.drew_page(i) ? 1 : 0;
+      EXPECT_TRUE(redraws.drew_page(i)) << i;
+    }
+    EXPECT_EQ(drew, last.pages_drawn);
+    EXPECT_FALSE(keeps.drew_page(frame.pages.size()));
     all += frame.pages.size();
     std::size_t differ = 0;
     for (std::size_t i = 0; i < frame.pages.size(); ++i) {

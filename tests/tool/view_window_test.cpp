@@ -289,6 +289,47 @@ TEST_F(ViewWindow, goes_through_filters_views_wipe_freeze_and_sizes_without_an_e
   EXPECT_EQ(content_of(log()), "");
 }
 
+TEST_F(ViewWindow, draws_pages_as_the_command_line_does) {
+  std::vector<std::string> words = kSmall;
+  words.insert(words.end(), {"--pages", "clipmap", "--page-size", "64", "--page-target", "1.5"});
+  open(words);
+  const Image lit = picture(1);
+  key("9");
+  const Image kept = picture(2);  // at rest: nothing is drawn
+  EXPECT_GT(different_pixels(lit, kept), 1000u);
+  key("5");
+  const Image levels = picture(3);
+  key("F5");
+  ASSERT_TRUE(wrote("gnomon_view.json"));
+  EXPECT_EQ(different_pixels(levels, headless("gnomon_view.json", levels)), 0u);
+  // The command line that the state stands for.
+  std::vector<std::string> command{"view", "--view", "cascades", "--out", "lv.png", "--context", "osmesa"};
+  command.insert(command.begin() + 1, words.begin(), words.end());
+  *std::find(command.begin(), command.end(), "640x300") =
+      std::to_string(levels.width) + "x" + std::to_string(levels.height);
+  const Finished run = run_gnomon(command);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(different_pixels(levels, read("lv.png")), 0u);
+  // Edges are read from the picture: the last round is that of a picture at rest.
+  key("g");
+  const Image edges = picture(4);
+  EXPECT_GT(different_pixels(levels, edges), 1000u);
+  std::filesystem::remove("gnomon_view.json");
+  key("F5");
+  ASSERT_TRUE(wrote("gnomon_view.json"));
+  // Where a page lies in the pool depends on those before it, and with it the rounding of a look-up.
+  constexpr std::size_t kRounded = 40;
+  EXPECT_LT(different_pixels(edges, headless("gnomon_view.json", edges)), kRounded);
+  // Filters that store texels: the last picture stays.
+  key("f");
+  key("f");  // pcss
+  const Image pcss = picture(5);
+  key("f");  // vsm
+  EXPECT_EQ(different_pixels(pcss, picture(6)), 0u);
+  EXPECT_EQ(close(), 0);
+  EXPECT_EQ(content_of(log()), "") << "warnings, or errors of OpenGL";
+}
+
 TEST_F(ViewWindow, keeps_its_scene_and_state_where_a_file_is_broken) {
   open(kSmall);
   const Image begin = picture(1);

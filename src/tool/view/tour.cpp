@@ -32,7 +32,7 @@ void fly_off(App& app) {
                 from.position + 0.7 * step * ahead};
 }
 
-constexpr std::array<TourStop, 15> kStops{{
+constexpr std::array<TourStop, 17> kStops{{
     {"lit", [](App& app) { to_front(app, Tab::view); }},
     {"help", [](App& app) { app.help = true; }},
     {"heat",
@@ -65,8 +65,26 @@ constexpr std::array<TourStop, 15> kStops{{
        to_front(app, Tab::view);
      }},
     {"truth", [](App& app) { show(app, View::truth); }},
+    {"pages",
+     [](App& app) {
+       app.state.a.pages.policy = &page_policies::resolution;
+       app.state.a.pages.page_texels = 64;
+       app.state.a.plan.fit = Fit::stable;
+       show(app, View::cascades);
+       to_front(app, Tab::maps);
+       app.pointer = in_picture(app, 0.5, 0.7);
+     }},
+    {"kept",
+     [](App& app) {
+       // A step: what it uncovers is drawn.
+       app.pointer = glm::dvec2(-1.0);
+       app.state.path_time += 0.004;
+       show(app, View::kept);
+       to_front(app, Tab::compare);
+     }},
     {"wipe",
      [](App& app) {
+       app.state.path_time = State().path_time;
        presets()[1].set(app.state);
        to_front(app, Tab::compare);
      }},

@@ -218,7 +218,7 @@ class Loop {
     ImGui::Render();
     double panel_ms = ms_since(panel_begin);
     const bool drew = draw_picture(moving);
-    if (app_.wants_picture && !app_.compiling) {
+    if (app_.wants_picture && !app_.compiling && (app_.stage == nullptr || !app_.stage->unfinished())) {
       app_.wants_picture = false;
       save_picture(app_);
     }
