@@ -46,7 +46,7 @@ constexpr std::array<Preset, 7> kPresets{{
      }},
     {"stable cascades", "texel-snapped maps, as most engines have them",
      [](State& s) { s.a = with("pcf:radius=2", "fit", "stable"); }},
-    {"pages", "virtual shadow maps: m of at most 1 at what is seen, kept while the camera moves",
+    {"pages", "virtual shadow maps: m of at most 1 at visible points, kept while the camera moves",
      [](State& s) {
        s.a = with("pcf", "fit", "stable");
        s.a.pages.policy = &page_policies::resolution;
