@@ -192,7 +192,10 @@ void maps_tab(App& app) {
   edit_pages(settings.pages);
   ImGui::InputTextWithHint("##find", "find an option", app.find.data(), app.find.size());
   ImGui::SameLine();
-  if (ImGui::SmallButton("reset all")) settings.plan = {};
+  if (ImGui::SmallButton("reset all")) {
+    settings.plan = {};
+    settings.pages = {};
+  }
   ImGui::BeginChild("options", {0.0f, 0.0f});
   ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.48f);
   for (const PlanField& field : plan_fields()) {
