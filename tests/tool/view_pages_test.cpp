@@ -95,6 +95,13 @@ TEST(ViewPages, are_kept_while_the_camera_moves_over_a_stable_grid) {
   EXPECT_EQ(drawn_pages(), 0u) << "nothing moved";
   EXPECT_EQ(side().stats.pages_drawn, 0);
   EXPECT_LT(share_equal(first, again, 0, kWidth), 0.9) << "orange and blue, beside sky and legend";
+  const auto orange = [](const Image& image) {
+    int count = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) count += image.rgba[i] > image.rgba[i + 2] + 40;
+    return count;
+  };
+  EXPECT_GT(orange(first), 1000);
+  EXPECT_LT(orange(again), 200) << "the legend's field";
   state.eye = CameraKey{stage().camera().position, stage().camera().position + stage().camera().forward};
   state.eye->position += 0.3 * stage().camera().forward;
   state.eye->target += 0.3 * stage().camera().forward;
