@@ -17,6 +17,8 @@ struct PosedInstance {
   glm::dmat4 world_from_object{1.0};  ///< affine
   bool mirrored = false;              ///< as Instance::mirrored
   Box bounds_world;                   ///< of the posed vertices
+  /// Equal in all members.
+  bool operator==(const PosedInstance&) const = default;
 };
 
 /// Vertices that were bent: `count` entries of Pose::positions and Pose::normals from `first` on.
