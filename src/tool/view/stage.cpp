@@ -64,20 +64,13 @@ std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_t
   loaded->scene = load_scene(scene, limits_of_triangles(max_triangles));
   constexpr double kUsualAspect = 16.0 / 9.0;
   loaded->path = default_path(loaded->scene, kUsualAspect);
-  for (const Instance& instance : loaded->scene.instances) loaded->boxes.push_back(instance.bounds_world);
   return loaded;
 }
 
-Stage::Stage(std::shared_ptr<const Loaded> loaded) : loaded_(std::move(loaded)), renderer_(loaded_->scene) {
-  sorting_ = std::async(std::launch::async,
-                        [scene = loaded_] { return std::make_shared<const trace::Tracer>(scene->scene); });
-}
-
-void Stage::take_tracer(bool wait) {
-  if (tracer_ != nullptr || !sorting_.valid()) return;
-  if (!wait && sorting_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  tracer_ = sorting_.get();
-}
+Stage::Stage(std::shared_ptr<const Loaded> loaded)
+    : loaded_(std::move(loaded)),
+      renderer_(loaded_->scene),
+      posed_(std::shared_ptr<const Scene>(loaded_, &loaded_->scene)) {}
 
 void Stage::cut() noexcept {
   for (Side& side : sides_) side.history.clear();
@@ -102,7 +95,7 @@ std::string Stage::make_plans(const State& state, int width, int height) {
   const Camera eye = camera_of(state, state.eye, loaded_->path, width, height);
   const Camera planned = state.frozen ? camera_of(state, state.frozen, loaded_->path, width, height) : eye;
   const Light light = light_of(state.light, loaded_->scene.bounds_world);
-  const SceneBounds bounds{loaded_->boxes, loaded_->boxes};
+  const SceneBounds bounds{posed_.boxes(), posed_.boxes()};
   const bool both = state.comparison != Comparison::off && !state.b_is_truth;
   std::array<Side, 2> next = sides_;
   for (int i = 0; i < (both ? 2 : 1); ++i) {
@@ -133,7 +126,11 @@ std::string Stage::make_plans(const State& state, int width, int height) {
 }
 
 std::string Stage::draw(const State& state, int width, int height, bool settled) try {
-  take_tracer(false);
+  bool moved = false;
+  if (std::string refusal = posed_.follow(state.playing, renderer_, moved); !refusal.empty()) return refusal;
+  if (moved) truth_.stop();
+  posed_.take_tracer(false);
+  if (settled) posed_.begin_tracer();
   if (std::string refusal = make_plans(state, width, height); !refusal.empty()) return refusal;
   for (Canvas* canvas : {&canvas_, &canvas_a_, &canvas_b_}) canvas->resize(width, height);
   wants_truth_ = state.view == View::misclassified || state.view == View::truth ||
@@ -163,7 +160,7 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
   draw_view(state, side, canvas);
   if (state.frozen && state.view != View::map) {
     canvas.draw(on_screen(
-        plan_lines(side.plan, side.plan_camera, loaded_->boxes, loaded_->scene.bounds_world, state.drawn),
+        plan_lines(side.plan, side.plan_camera, posed_.boxes(), loaded_->scene.bounds_world, state.drawn),
         camera_));
   }
   if (const Image image = legend(state.view, side.plan, camera_.width); image.width > 0)
@@ -173,8 +170,8 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
 void Stage::want_truth(bool settled) {
   if (truth_.is_of(camera_, light_)) return;
   truth_.stop();
-  if (!settled || tracer_ == nullptr) return;
-  truth_.begin(tracer_, camera_, light_, renderer_.positions(), renderer_.normals());
+  if (!settled || posed_.tracer() == nullptr) return;
+  truth_.begin(posed_.tracer(), camera_, light_, renderer_.positions(), renderer_.normals());
 }
 
 void Stage::draw_view(const State& state, Side& side, Canvas& canvas) {
@@ -209,7 +206,7 @@ void Stage::draw_view(const State& state, Side& side, Canvas& canvas) {
   const int map = std::min(state.map, side.plan.map_count - 1);
   const MapPicture picture =
       map_picture(renderer_.depth_map(map), side.plan, map, side.plan_camera, loaded_->scene.bounds_world,
-                  loaded_->boxes, camera_.width, camera_.height);
+                  posed_.boxes(), camera_.width, camera_.height);
   canvas.put(picture.image, 0, 0);
   canvas.draw(picture.lines);
 }
@@ -249,10 +246,10 @@ void Stage::compose(const State& state) {
 }
 
 void Stage::finish_truth() {
-  take_tracer(true);
+  posed_.take_tracer(true);
   if (!wants_truth_) return;
-  if (!truth_.is_of(camera_, light_) && tracer_ != nullptr)
-    truth_.begin(tracer_, camera_, light_, renderer_.positions(), renderer_.normals());
+  if (!truth_.is_of(camera_, light_))
+    truth_.begin(posed_.tracer(), camera_, light_, renderer_.positions(), renderer_.normals());
   truth_.finish();
 }
 

@@ -113,6 +113,7 @@ void take_loaded(App& app) {
       app.state.eye.reset();
       app.state.frozen.reset();
       app.state.path.clear();
+      app.state.playing = {};
       app.state.light.spot.reset();
       app.state.light.point.reset();
     }
@@ -135,7 +136,8 @@ bool play(App& app, double seconds) {
     const double turned = state.light.sun.azimuth_deg + seconds * state.motion.sun_degrees_per_second;
     state.light.sun.azimuth_deg = turned - kTurn * std::floor((turned + kHalf) / kTurn);
   }
-  return state.motion.camera || state.motion.sun;
+  const bool animated = play_animation(app, seconds);
+  return state.motion.camera || state.motion.sun || animated;
 }
 
 void add_path_key(App& app) {
@@ -308,6 +310,7 @@ class Loop {
     const bool settled = text == shown_.state, has_tracer = app_.stage->tracer() != nullptr;
     const bool same = settled && app_.picture.width == shown_.width && app_.picture.height == shown_.height &&
                       app_.stage.get() == shown_.stage;
+    if (same && !moving) app_.stage->want_tracer();
     if (same && !moving && !shows_rays(progress)) {
       if (!app_.looking && !app_.wiping && !app_.placing) keep_for_undo(app_, text);
       return false;
