@@ -1,4 +1,4 @@
-// What moves in a scene, and when: keyframes, the nodes they move, skins and morph targets. Plain data.
+// Which parts of a scene move, and when? Keyframes, the nodes they move, skins and morph targets. Plain data.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ struct AnimationSampler {
   std::vector<float> values;
 };
 
-/// What a curve drives.
+/// A curve and its target.
 struct AnimationChannel {
   std::uint32_t sampler = 0;                      ///< index into Animation::samplers
   AnimatedPart part = AnimatedPart::translation;  ///< of the target
