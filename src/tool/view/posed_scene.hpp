@@ -21,7 +21,7 @@ class PosedScene {
   /// Poses the scene and the renderer that holds it as the state says. Returns what is wrong with that, or an
   /// empty text. `moved`: whether anything stands elsewhere than before.
   std::string follow(const Playing& playing, render::Renderer& renderer, bool& moved);
-  /// Of the instances, as posed: they cast and receive.
+  /// Of the instances as posed: they cast and receive.
   [[nodiscard]] const std::vector<Box>& boxes() const noexcept { return boxes_; }
 
   /// Begins to sort the triangles of the present pose, where that is not done or going on.

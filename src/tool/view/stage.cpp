@@ -64,6 +64,7 @@ std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_t
   loaded->scene = load_scene(scene, limits_of_triangles(max_triangles));
   constexpr double kUsualAspect = 16.0 / 9.0;
   loaded->path = default_path(loaded->scene, kUsualAspect);
+  for (const Instance& instance : loaded->scene.instances) loaded->boxes.push_back(instance.bounds_world);
   return loaded;
 }
 

@@ -25,6 +25,7 @@ struct Loaded {
   std::string name;  ///< as State::scene has it
   Scene scene;
   CameraPath path;
+  std::vector<Box> boxes;  ///< of the instances at rest
 };
 /// Throws SceneError.
 [[nodiscard]] std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles);
