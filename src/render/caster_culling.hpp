@@ -23,6 +23,8 @@ struct CullingJob {
   bool reads_everywhere = false;
   /// Maps are peeled: one that changes is drawn whole.
   bool peels = false;
+  /// Bounds of casters that moved since the last frame, before and after.
+  std::span<const Box> moved_world = {};
 };
 
 /// What each rule saved in one frame, and what it drew more to save that.

@@ -64,6 +64,8 @@ void DrawLists::build(const CullingJob& job, const DrawnMaps& drawn, const Camer
   clear();
   PruneSavings saved;
   culling_.count_omissions(job.plan, saved);
+  // Casters moved in maps of earlier plans as well, which are not brought up to date now.
+  if (!job.moved_world.empty() && job.plan.map_count > 0) cache_.forget(job.plan.maps().size());
   for (std::size_t map = 0; map < job.plan.maps().size(); ++map) add_map(job, drawn, map, saved);
   saved_ = saved.net();
   finish(camera);

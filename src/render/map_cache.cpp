@@ -17,11 +17,11 @@ constexpr std::uint64_t kTexelsPerTriangle = 50;
 MapCache::MapCache(const SceneBuffers& scene, CasterCulling& culling)
     : scene_(scene), culling_(culling), draws_(scene.boxes().size()) {
   for (Cached& cached : cached_) cached.holds.resize(scene.boxes().size());
-  for (std::vector<std::uint8_t>& draws : strip_draws_) draws.resize(scene.boxes().size());
+  for (std::vector<std::uint8_t>& draws : part_draws_) draws.resize(scene.boxes().size());
 }
 
-void MapCache::forget() noexcept {
-  for (Cached& cached : cached_) cached.valid = false;
+void MapCache::forget(std::size_t first) noexcept {
+  for (Cached& cached : std::span(cached_).subspan(std::min(first, cached_.size()))) cached.valid = false;
 }
 
 bool MapCache::draws_any() const noexcept {
@@ -66,6 +66,45 @@ MapWork MapCache::hold(const ShadowMap& map, Cached& cached, PruneSavings& saved
   return work;
 }
 
+void MapCache::fill(const ShadowMap& map, const TexelRect& rectangle, Cached& cached,
+                    std::vector<std::uint8_t>& draws, PruneSaving& drawn) {
+  std::fill(draws.begin(), draws.end(), std::uint8_t{0});
+  for (const std::uint32_t instance :
+       culling_.instances_within(rectangle_planes(map, rectangle, kOpenGlZeroToOne))) {
+    if (draws_[instance] == 0) {
+      cached.holds[instance] = 0;  // in the rest of the map, but not here
+    } else if (cached.holds[instance] != 0) {
+      draws[instance] = 1;
+      ++drawn.instances;
+      drawn.triangles += scene_.triangles_of(instance);
+    }
+  }
+}
+
+MapWork MapCache::redraw(const ShadowMap& map, const DirtyTexels& dirty, Cached& cached,
+                         PruneSavings& saved) {
+  MapWork work;
+  PruneSaving drawn;
+  std::uint64_t all_triangles = 0;
+  for (std::uint32_t i = 0; i < draws_.size(); ++i)
+    all_triangles += draws_[i] != 0 ? scene_.triangles_of(i) : 0;
+  for (std::size_t r = 0; r < dirty.count; ++r) {
+    const TexelRect& rectangle = dirty.rectangle[r];
+    fill(map, rectangle, cached, part_draws_[r], drawn);
+    work.add({rectangle, true, part_draws_[r]});
+    work.texels += static_cast<std::uint64_t>(rectangle.width) * static_cast<std::uint64_t>(rectangle.height);
+  }
+  const std::uint64_t spared = texels_of(map) - std::min(work.texels, texels_of(map));
+  if (drawn.triangles > all_triangles + spared / kTexelsPerTriangle) return draw_whole(map, cached);
+  PruneSaving& saving = saved.of(PruneRule::held_maps);
+  work.texels = std::min(work.texels + skip_held(map, cached, saving), texels_of(map));
+  if (draws_any()) work.add({{0, 0, map.width, map.height}, false, draws_});
+  saving.texels += texels_of(map) - work.texels;
+  saved.spent_by(PruneRule::held_maps).instances += drawn.instances;
+  saved.spent_by(PruneRule::held_maps).triangles += drawn.triangles;
+  return work;
+}
+
 MapWork MapCache::scroll(const CullingJob& job, const ShadowMap& map, const MapReuse& moved, Cached& cached,
                          PruneSavings& saved) {
   MapWork work;
@@ -78,18 +117,8 @@ MapWork MapCache::scroll(const CullingJob& job, const ShadowMap& map, const MapR
   }
   for (std::size_t s = 0; s < static_cast<std::size_t>(moved.strip_count); ++s) {
     const TexelRect& strip = moved.strip[s];
-    std::vector<std::uint8_t>& draws = strip_draws_[s];
-    std::fill(draws.begin(), draws.end(), std::uint8_t{0});
-    for (const std::uint32_t instance :
-         culling_.instances_within(rectangle_planes(map, strip, kOpenGlZeroToOne))) {
-      if (draws_[instance] == 0) {
-        cached.holds[instance] = 0;  // in the rest of the map, but not here
-      } else if (cached.holds[instance] != 0) {
-        draws[instance] = 1;
-        ++drawn.instances;
-        drawn.triangles += scene_.triangles_of(instance);
-      }
-    }
+    std::vector<std::uint8_t>& draws = part_draws_[s];
+    fill(map, strip, cached, draws, drawn);
     work.add({strip, true, draws});
     work.texels += static_cast<std::uint64_t>(strip.width) * static_cast<std::uint64_t>(strip.height);
   }
@@ -115,12 +144,15 @@ MapWork MapCache::update(const CachedDraw& draw, PruneSavings& saved) {
   map.clip_from_world = drawn_from_plan * map.clip_from_world;
   map.shape_parameters = parameters_in(drawn_from_plan, *map.shape, map.shape_parameters);
   const bool usable = cached.valid && cached.origin_world == draw.drawn.origin_world;
-  const bool holds = usable && job.prune.has(PruneRule::held_maps) && cached.drawn == drawn &&
-                     (!(job.reads_everywhere || job.peels) || cached.holds == draws_);
-  const MapReuse moved = usable && !holds && !job.peels && job.prune.has(PruneRule::scrolled_maps)
-                             ? reuse(cached.map, map, kOpenGlZeroToOne)
-                             : MapReuse{};
-  MapWork work = holds                               ? hold(map, cached, saved)
+  const bool same = usable && job.prune.has(PruneRule::held_maps) && cached.drawn == drawn &&
+                    (!(job.reads_everywhere || job.peels) || cached.holds == draws_);
+  const DirtyTexels dirty = usable ? dirty_texels(map, job.moved_world) : DirtyTexels{};
+  const bool holds = same && !dirty.whole && !(job.peels && dirty.any());
+  const bool scrolls = usable && !same && !job.peels && job.prune.has(PruneRule::scrolled_maps) &&
+                       !dirty.any() && !dirty_texels(cached.map, job.moved_world).any();
+  const MapReuse moved = scrolls ? reuse(cached.map, map, kOpenGlZeroToOne) : MapReuse{};
+  MapWork work = holds && dirty.any()                ? redraw(map, dirty, cached, saved)
+                 : holds                             ? hold(map, cached, saved)
                  : moved.kind == ReuseKind::scrolled ? scroll(job, map, moved, cached, saved)
                                                      : draw_whole(map, cached);
   cached.valid = true;

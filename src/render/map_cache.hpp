@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "caster_culling.hpp"
+#include "dirty_texels.hpp"
 #include "drawn_maps.hpp"
 #include "gnomon/reuse.hpp"
 
@@ -27,7 +28,8 @@ struct MapMove {
 /// What is to be done with a map: first what it holds is moved, then the parts are drawn. Neither: the map is
 /// as it was.
 struct MapWork {
-  static constexpr std::size_t kMaxParts = 3;  ///< two strips, and what came into reach anywhere
+  /// Two strips or rectangles of moved casters, and what came into reach anywhere.
+  static constexpr std::size_t kMaxParts = DirtyTexels::kMost + 1;
   MapMove move;
   std::array<MapPart, kMaxParts> part;
   std::size_t part_count = 0;
@@ -51,8 +53,8 @@ class MapCache {
   /// `culling` finds the casters of a strip; it must outlive the cache.
   MapCache(const SceneBuffers& scene, CasterCulling& culling);
 
-  /// The maps hold nothing any more.
-  void forget() noexcept;
+  /// The maps from this index on hold nothing any more.
+  void forget(std::size_t first = 0) noexcept;
   /// What to draw so that the map is as if drawn whole. Records what the map holds after that. Valid until
   /// the next call.
   [[nodiscard]] MapWork update(const CachedDraw& draw, PruneSavings& saved);
@@ -70,6 +72,12 @@ class MapCache {
   [[nodiscard]] MapWork draw_whole(const ShadowMap& map, Cached& cached);
   /// For an unchanged map: the casters that it does not hold yet.
   [[nodiscard]] MapWork hold(const ShadowMap& map, Cached& cached, PruneSavings& saved);
+  /// For an unchanged map: rectangles of moved casters, and the casters that the map does not hold yet.
+  [[nodiscard]] MapWork redraw(const ShadowMap& map, const DirtyTexels& dirty, Cached& cached,
+                               PruneSavings& saved);
+  /// What a rectangle is drawn with, once it is cleared: all casters of the map there.
+  void fill(const ShadowMap& map, const TexelRect& rectangle, Cached& cached,
+            std::vector<std::uint8_t>& draws, PruneSaving& drawn);
   /// The strips that came into the map, and casters that the rest of it does not hold yet.
   [[nodiscard]] MapWork scroll(const CullingJob& job, const ShadowMap& map, const MapReuse& moved,
                                Cached& cached, PruneSavings& saved);
@@ -80,7 +88,7 @@ class MapCache {
   const SceneBuffers& scene_;
   CasterCulling& culling_;
   std::vector<std::uint8_t> draws_;  ///< of the map at hand, by instance
-  std::array<std::vector<std::uint8_t>, 2> strip_draws_;
+  std::array<std::vector<std::uint8_t>, DirtyTexels::kMost> part_draws_;
   std::array<Cached, kMaxMaps> cached_;
 };
 

@@ -172,11 +172,68 @@ void Renderer::Impl::take_moved(std::span<const Box> moved_world) {
   moved.insert(moved.end(), moved_world.begin(), moved_world.end());
 }
 
+void Renderer::Impl::forget_moved() noexcept {
+  lists.forget_maps();
+  pages.forget();
+  moved.clear();
+}
+
+void Renderer::Impl::move(std::size_t instance, const Instance& to) {
+  moved.push_back(scene.boxes()[instance]);
+  moved.push_back(to.bounds_world);
+  scene.move(instance, to);
+}
+
 bool Renderer::move_instance(std::size_t instance, const Instance& to) {
   if (instance >= impl_->scene.boxes().size() || to.bounds_world.empty()) return false;
-  impl_->moved.push_back(impl_->scene.boxes()[instance]);
-  impl_->moved.push_back(to.bounds_world);
-  impl_->scene.move(instance, to);
+  impl_->posed = {};
+  impl_->move(instance, to);
+  return true;
+}
+
+bool Renderer::apply_pose(const Pose& pose) {
+  Impl& impl = *impl_;
+  const auto within = [](std::size_t begin, std::size_t count, std::size_t end) {
+    return begin <= end && count <= end - begin;
+  };
+  for (const PosedInstance& at : pose.instances) {
+    if (at.instance >= impl.scene.boxes().size() || at.bounds_world.empty()) return false;
+  }
+  for (const PosedVertices& range : pose.vertices) {
+    if (!within(range.first_vertex, range.count, impl.scene.vertex_count()) ||
+        !within(range.first, range.count, std::min(pose.positions.size(), pose.normals.size())))
+      return false;
+  }
+  const Pose& last = impl.posed;
+  const bool comparable =
+      last.instances.size() == pose.instances.size() && last.vertices.size() == pose.vertices.size();
+  std::vector<bool> bent(pose.instances.empty() ? 0 : impl.scene.boxes().size());
+  for (std::size_t i = 0; i < pose.vertices.size(); ++i) {
+    const PosedVertices& range = pose.vertices[i];
+    const auto positions = std::span(pose.positions).subspan(range.first, range.count),
+               normals = std::span(pose.normals).subspan(range.first, range.count);
+    const auto same = [&](std::span<const glm::vec3> now, const std::vector<glm::vec3>& before) {
+      return comparable && within(last.vertices[i].first, range.count, before.size()) &&
+             std::equal(now.begin(), now.end(),
+                        before.begin() + static_cast<std::ptrdiff_t>(last.vertices[i].first));
+    };
+    if (comparable && last.vertices[i].first_vertex == range.first_vertex &&
+        same(positions, last.positions) && same(normals, last.normals))
+      continue;
+    impl.scene.bend(range.first_vertex, positions, normals);
+    if (range.instance < bent.size()) bent[range.instance] = true;
+  }
+  for (std::size_t i = 0; i < pose.instances.size(); ++i) {
+    const PosedInstance& at = pose.instances[i];
+    const bool rests = comparable && !bent[at.instance] && last.instances[i] == at;
+    if (rests) continue;
+    Instance to;
+    to.world_from_object = at.world_from_object;
+    to.mirrored = at.mirrored;
+    to.bounds_world = at.bounds_world;
+    impl.move(at.instance, to);
+  }
+  impl.posed = pose;
   return true;
 }
 
@@ -184,12 +241,10 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
                           const FrameOptions& options) noexcept {
   Impl& impl = *impl_;
   impl.take_moved(options.moved_world);
-  if (!impl.moved.empty()) {
-    impl.lists.forget_maps();
-    impl.pages.forget();
-    impl.moved.clear();
-  }
+  // A frame without maps brings none up to date: what moved is for the next one, as long as it is worth it.
+  constexpr std::size_t kMostMoved = 4096;
   if (plan.map_count > 0) impl.pages.forget();
+  if (filter.irregular || impl.moved.size() > kMostMoved) impl.forget_moved();
   impl.take_layer(options);
   if (filter.irregular && impl.pixel_lists && impl.pixel_lists->fits(camera.width, camera.height))
     return impl.draw_irregular(plan, camera, filter, options);
@@ -210,8 +265,9 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     impl.upload(block, filtering);
     const DrawnMaps drawn = impl.place_scene(plan, camera.position);
     impl.lists.build({plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
-                      info_of(options.depth_layer).peels},
+                      info_of(options.depth_layer).peels, impl.moved},
                      drawn, camera);
+    if (plan.map_count > 0) impl.moved.clear();
     impl.draw_shadow_maps(plan, drawn, depth_draw(options));
   });
   timed(Pass::surfaces,

@@ -61,6 +61,9 @@ struct Renderer::Impl {
                                       double origin_steps = 1.0);
   /// Adds what the caller says has moved; casters are culled by where they are now.
   void take_moved(std::span<const Box> moved_world);
+  /// The caches hold nothing any more, so that nothing that moved matters.
+  void forget_moved() noexcept;
+  void move(std::size_t instance, const Instance& to);
   void draw_map_part(const DrawnPart& part, const DrawnMap& map, const DepthDraw& how) noexcept;
   void draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
                     const DepthDraw& how) noexcept;
@@ -133,6 +136,7 @@ struct Renderer::Impl {
   PagePool pages;
   std::optional<PixelLists> pixel_lists;  ///< made when they are first prepared
   std::vector<Box> moved;                 ///< bounds of casters before and after, since the last frame
+  Pose posed;                             ///< the last one applied; empty: none, or instances moved since
   Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;
   std::array<glm::ivec2, kMaxMaps> map_size{};  ///< of the last frame

@@ -59,6 +59,9 @@ Texture upload(const Image& image) {
 
 SceneBuffers::SceneBuffers(const Scene& scene)
     : primitives_(scene.primitives),
+      materials_(scene.materials),
+      mirrored_(scene.instances.size()),
+      vertex_count_(scene.positions.size()),
       translation_(scene.instances.size()),
       objects_(scene.instances.size()),
       order_(scene.instances.size()) {
@@ -66,11 +69,12 @@ SceneBuffers::SceneBuffers(const Scene& scene)
     const Instance& instance = scene.instances[i];
     primitive_of_.push_back(instance.primitive);
     boxes_.emplace_back();
+    mirrored_[i] = instance.mirrored;
     move(i, instance);
   }
   upload_vertices(scene);
   upload_images(scene);
-  make_batches(scene);
+  make_batches();
   for (Placement& placement : placement_) placement.buffer = filled_buffer(objects_);
   Box all;
   for (const Box& box : boxes_) {
@@ -90,6 +94,19 @@ void SceneBuffers::move(std::size_t instance, const Instance& to) {
     for (int c = 0; c < 3; ++c) objects_[instance].row[r].value[c] = static_cast<float>(m[c][r]);
   }
   for (Placement& placement : placement_) placement.origin_world.reset();
+  if (mirrored_[instance] == to.mirrored) return;
+  mirrored_[instance] = to.mirrored;
+  make_batches();
+}
+
+void SceneBuffers::bend(std::uint32_t first, std::span<const glm::vec3> positions,
+                        std::span<const glm::vec3> normals) {
+  const auto replace = [first](const Buffer& buffer, std::span<const glm::vec3> values) {
+    glNamedBufferSubData(buffer.name(), static_cast<GLintptr>(first * sizeof(glm::vec3)),
+                         static_cast<GLsizeiptr>(values.size_bytes()), values.data());
+  };
+  replace(positions_, positions);
+  replace(normals_, normals);
 }
 
 void SceneBuffers::upload_vertices(const Scene& scene) {
@@ -140,34 +157,33 @@ GLuint SceneBuffers::sampler_for(const Material& material) {
   return sampler.name();
 }
 
-void SceneBuffers::make_batches(const Scene& scene) {
-  const auto key = [&scene](std::uint32_t i) {
-    const Instance& instance = scene.instances[i];
-    const Primitive& primitive = scene.primitives[instance.primitive];
-    const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
-    return std::tuple(material.alpha_mode != AlphaMode::opaque, primitive.material, instance.mirrored,
-                      instance.primitive, i);
+void SceneBuffers::make_batches() {
+  batches_.clear();
+  const auto key = [this](std::uint32_t i) {
+    const int index = primitive_of(i).material;
+    const Material& material = materials_[static_cast<std::size_t>(index)];
+    return std::tuple(material.alpha_mode != AlphaMode::opaque, index, static_cast<bool>(mirrored_[i]),
+                      primitive_of_[i], i);
   };
   std::iota(order_.begin(), order_.end(), 0u);
   std::sort(order_.begin(), order_.end(),
             [&key](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
 
   for (std::uint32_t n = 0; n < order_.size(); ++n) {
-    const Instance& instance = scene.instances[order_[n]];
-    const int index = scene.primitives[instance.primitive].material;
+    const bool mirrored = mirrored_[order_[n]];
+    const int index = primitive_of(order_[n]).material;
     const auto same_state = [&](std::uint32_t other) {
-      const Instance& o = scene.instances[order_[other]];
-      return scene.primitives[o.primitive].material == index && o.mirrored == instance.mirrored;
+      return primitive_of(order_[other]).material == index && mirrored_[order_[other]] == mirrored;
     };
     if (n > 0 && same_state(n - 1)) {
       batches_.back().end = n + 1;
       continue;
     }
-    const Material& material = scene.materials[static_cast<std::size_t>(index)];
+    const Material& material = materials_[static_cast<std::size_t>(index)];
     Batch batch{.begin = n,
                 .end = n + 1,
                 .double_sided = material.double_sided,
-                .mirrored = instance.mirrored,
+                .mirrored = mirrored,
                 .base_color = material.base_color,
                 .texture = white_.name(),
                 .sampler = sampler_for(material),

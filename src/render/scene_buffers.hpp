@@ -43,6 +43,9 @@ class SceneBuffers {
   void place(Placed placed, const glm::dvec3& origin_world);
   /// Places one instance elsewhere, with other bounds; seen by the next place().
   void move(std::size_t instance, const Instance& to);
+  /// Replaces vertices from `first` on. Their arrays are of one length.
+  void bend(std::uint32_t first, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals);
+  [[nodiscard]] std::size_t vertex_count() const noexcept { return vertex_count_; }
   /// Takes those for the next draws.
   void use(Placed placed) const noexcept;
   /// Distance that loses nothing of a float's precision on this scene, a power of two: 1/16 of its diagonal
@@ -76,10 +79,14 @@ class SceneBuffers {
   };
   void upload_vertices(const Scene& scene);
   void upload_images(const Scene& scene);
-  void make_batches(const Scene& scene);
+  /// Sorts the instances by what they are drawn with.
+  void make_batches();
   [[nodiscard]] GLuint sampler_for(const Material& material);
 
   std::vector<Primitive> primitives_;
+  std::vector<Material> materials_;
+  std::vector<bool> mirrored_;  ///< by instance
+  std::size_t vertex_count_ = 0;
   std::vector<std::uint32_t> primitive_of_;
   std::vector<glm::dvec3> translation_;
   std::vector<Box> boxes_;

@@ -106,6 +106,17 @@ constexpr Rule kMeshopt[] = {{"buffer", Kind::index, "buffers", 0, {}, true},
 constexpr Rule kDraco[] = {{"bufferView", Kind::index, "bufferViews", 0, {}, true},
                            {"attributes", Kind::count_map, "", kMaxInt, {}, true}};
 
+constexpr Rule kChannelTarget[] = {{"node", Kind::index, "nodes"}, {"path", Kind::string, "", 0, {}, true}};
+constexpr Rule kChannel[] = {{"sampler", Kind::count, "", kMaxInt, {}, true},
+                             {"target", Kind::object, "", 0, kChannelTarget, true}};
+constexpr Rule kKeys[] = {{"input", Kind::index, "accessors", 0, {}, true},
+                          {"output", Kind::index, "accessors", 0, {}, true},
+                          {"interpolation", Kind::string}};
+constexpr Rule kAnimation[] = {{"name", Kind::string},
+                               {"channels", Kind::objects, "", 0, kChannel, true},
+                               {"samplers", Kind::objects, "", 0, kKeys, true}};
+constexpr Rule kMorphTarget = {"", Kind::index_map, "accessors"};
+
 struct ArrayRule {
   const char* name;
   std::span<const Rule> rules;
@@ -305,6 +316,33 @@ json checked_meshopt(const json& source, const json& view, const std::string& wh
 
 json checked_draco(const json& source, const json& primitive, const std::string& where) {
   return checked_extension(source, primitive, "KHR_draco_mesh_compression", kDraco, where);
+}
+
+json checked_animation(const json& source, const json& animation, const std::string& where) {
+  return checked_object(source, animation, where, kAnimation);
+}
+
+json checked_morph_targets(const json& source, const json& primitive, const std::string& where) {
+  json out = json::array();
+  const auto targets = primitive.find("targets");
+  if (targets == primitive.end()) return out;
+  expect(targets->is_array(), *targets, where + ".targets", "a list");
+  for (std::size_t i = 0; i < targets->size(); ++i)
+    out.push_back(checked_value(source, (*targets)[i], where + "." + element("targets", i), kMorphTarget));
+  return out;
+}
+
+std::vector<float> checked_weights(const json& owner, const std::string& where) {
+  std::vector<float> out;
+  const auto weights = owner.find("weights");
+  if (weights == owner.end()) return out;
+  expect(weights->is_array(), *weights, where + ".weights", "a list");
+  for (const json& weight : *weights) {
+    const auto value = static_cast<float>(checked_number(weight, where + ".weights"));
+    if (!std::isfinite(value)) throw Refusal(where + ".weights", "is not finite");
+    out.push_back(value);
+  }
+  return out;
 }
 
 json checked_document(const json& source) {

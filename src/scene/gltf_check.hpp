@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::detail {
 
@@ -21,6 +22,14 @@ namespace gnomon::detail {
                                              const std::string& where);
 [[nodiscard]] nlohmann::json checked_draco(const nlohmann::json& source, const nlohmann::json& primitive,
                                            const std::string& where);
+
+/// An animation, a primitive's morph targets and a mesh's or a node's weights, checked like the document.
+/// Throw Refusal.
+[[nodiscard]] nlohmann::json checked_animation(const nlohmann::json& source, const nlohmann::json& animation,
+                                               const std::string& where);
+[[nodiscard]] nlohmann::json checked_morph_targets(const nlohmann::json& source,
+                                                   const nlohmann::json& primitive, const std::string& where);
+[[nodiscard]] std::vector<float> checked_weights(const nlohmann::json& owner, const std::string& where);
 
 /// Whether this build decodes the data of this extension.
 [[nodiscard]] bool decodes(std::string_view extension) noexcept;

@@ -252,6 +252,7 @@ Document open_document(std::span<const std::uint8_t> bytes, SceneFolder& folder,
   decode_draco_primitives(compressed);
   out.images = list_images(source);
   out.transforms = list_transforms(source);
+  out.motion = read_motion_source(source, warnings);
   take_indices(document, source, out);
   build_model(document, out.model);
   for (Bytes& bytes_of_buffer : data) {

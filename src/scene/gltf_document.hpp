@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "files.hpp"
+#include "gltf_motion_source.hpp"
 #include "gnomon/scene/load.hpp"
 
 namespace gnomon::detail {
@@ -37,6 +38,7 @@ struct Document {
   std::vector<std::optional<TextureTransform>> transforms;  // one per material
   std::vector<std::vector<int>> indices;      // accessor of each primitive of each mesh, -1: none
   std::vector<std::vector<bool>> compressed;  // primitives whose data only Draco can read
+  MotionSource motion;                        // empty without animations
 };
 
 /// Throws Refusal.

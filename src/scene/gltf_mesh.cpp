@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "gltf_accessor.hpp"
+#include "gltf_animation.hpp"
 #include "gltf_skin.hpp"
 #include "refusal.hpp"
 #include "triangles.hpp"
@@ -63,12 +64,43 @@ void make_flat(Vertices& vertices, std::vector<std::uint32_t>& triangles) {
   vertices = std::move(flat);
 }
 
+/// Every triangle gets corners of its own, as make_flat gives them to the vertices.
+void make_flat(DeformedMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  const auto spread = [&triangles](auto& values, std::size_t width) {
+    if (values.empty()) return;
+    std::remove_reference_t<decltype(values)> out;
+    out.reserve(triangles.size() * width);
+    for (const std::uint32_t corner : triangles) {
+      const auto first = values.begin() + static_cast<std::ptrdiff_t>(corner * width);
+      out.insert(out.end(), first, first + static_cast<std::ptrdiff_t>(width));
+    }
+    values = std::move(out);
+  };
+  spread(mesh.positions, 1);
+  for (MorphTarget& target : mesh.targets) spread(target.positions, 1);
+  spread(mesh.joints, mesh.influences);
+  spread(mesh.joint_weights, mesh.influences);
+}
+
+void take_influences(Influences influences, DeformedMesh& mesh) {
+  mesh.influences = influences.per_vertex;
+  mesh.joints = std::move(influences.joints);
+  mesh.joint_weights = std::move(influences.weights);
+}
+
+/// That a mesh takes besides its morph targets.
+std::uint64_t numbers_of(const DeformedMesh& mesh) {
+  return 3 * (mesh.positions.size() + mesh.normals.size()) + 2 * mesh.joints.size();
+}
+
 }  // namespace
 
-MeshReader::MeshReader(const Document& document, const NodeTree& tree, const LoadLimits& limits, Scene& scene)
+MeshReader::MeshReader(const Document& document, const NodeTree& tree, const LoadLimits& limits,
+                       MotionReader& motion, Scene& scene)
     : document_(document),
       tree_(tree),
       limits_(limits),
+      motion_(motion),
       scene_(scene),
       vertices_left_(std::min(limits.vertices, kMaxIndex)),
       corners_left_(std::min(limits.triangles, kMaxIndex / 3) * 3),
@@ -92,15 +124,11 @@ std::optional<std::vector<std::uint32_t>> MeshReader::skinned_primitives_of(int 
   const std::size_t vertices = scene_.positions.size(), indices = scene_.indices.size();
   const std::size_t primitives = scene_.primitives.size();
   try {
-    const std::vector<glm::dmat4>& joints = joints_of(shown.skin);
+    const Bending bending{node, &joints_of(shown.skin), motion_.moves_skin(shown.skin)};
     std::vector<std::uint32_t> out;
     for (std::size_t p = 0; p < document_.model.meshes[mesh].primitives.size(); ++p) {
-      // Unlike a plain mesh this is work for each node, so it is held to the same limit.
-      if (++bent_ > limits_.nodes) {
-        throw Refusal(element("nodes", static_cast<std::size_t>(node)),
-                      "takes the scene above " + std::to_string(limits_.nodes) + " skinned primitives");
-      }
-      if (const auto built = build(shown.mesh, p, &joints)) out.push_back(*built);
+      spend_bent(node);
+      if (const auto built = build(shown.mesh, p, &bending)) out.push_back(*built);
     }
     return out;
   } catch (const LeftOut& e) {
@@ -111,7 +139,32 @@ std::optional<std::vector<std::uint32_t>> MeshReader::skinned_primitives_of(int 
     scene_.texcoords.resize(vertices);
     scene_.indices.resize(indices);
     scene_.primitives.resize(primitives);
+    deformed_.erase(deformed_.lower_bound(static_cast<std::uint32_t>(primitives)), deformed_.end());
     return std::nullopt;
+  }
+}
+
+std::vector<std::uint32_t> MeshReader::morphed_primitives_of(int node) {
+  const int mesh = document_.model.nodes[static_cast<std::size_t>(node)].mesh;
+  const Bending bending{node, nullptr, true};
+  std::vector<std::uint32_t> out;
+  for (std::size_t p = 0; p < document_.model.meshes[static_cast<std::size_t>(mesh)].primitives.size(); ++p) {
+    spend_bent(node);
+    if (const auto built = build(mesh, p, &bending)) out.push_back(*built);
+  }
+  return out;
+}
+
+std::optional<DeformedMesh> MeshReader::take_deformed(std::uint32_t primitive) {
+  auto found = deformed_.extract(primitive);
+  return found.empty() ? std::nullopt : std::optional(std::move(found.mapped()));
+}
+
+// Unlike a plain mesh this is work for each node, so it is held to the same limit.
+void MeshReader::spend_bent(int node) {
+  if (++bent_ > limits_.nodes) {
+    throw Refusal(element("nodes", static_cast<std::size_t>(node)),
+                  "takes the scene above " + std::to_string(limits_.nodes) + " skinned primitives");
   }
 }
 
@@ -125,8 +178,7 @@ const std::vector<glm::dmat4>& MeshReader::joints_of(int skin) {
   return it->second;
 }
 
-std::optional<std::uint32_t> MeshReader::build(int mesh, std::size_t primitive,
-                                               const std::vector<glm::dmat4>* joints) {
+std::optional<std::uint32_t> MeshReader::build(int mesh, std::size_t primitive, const Bending* bending) {
   const auto m = static_cast<std::size_t>(mesh);
   const std::string where = element("meshes", m) + "." + element("primitives", primitive);
   const tinygltf::Primitive& source = document_.model.meshes[m].primitives[primitive];
@@ -138,9 +190,10 @@ std::optional<std::uint32_t> MeshReader::build(int mesh, std::size_t primitive,
     warn(scene_.warnings, where, why);
     return std::nullopt;
   }
-  if (joints != nullptr) return build_triangles(mesh, primitive, where, joints);
+  if (bending != nullptr && bending->joints != nullptr)
+    return build_triangles(mesh, primitive, where, bending);
   try {
-    return build_triangles(mesh, primitive, where, nullptr);
+    return build_triangles(mesh, primitive, where, bending);
   } catch (const LeftOut& e) {
     warn(scene_.warnings, where, std::string(e.what()) + ", skipped");
     return std::nullopt;
@@ -148,19 +201,25 @@ std::optional<std::uint32_t> MeshReader::build(int mesh, std::size_t primitive,
 }
 
 std::uint32_t MeshReader::build_triangles(int mesh, std::size_t primitive, const std::string& where,
-                                          const std::vector<glm::dmat4>* joints) {
+                                          const Bending* bending) {
   const tinygltf::Primitive& source =
       document_.model.meshes[static_cast<std::size_t>(mesh)].primitives[primitive];
   const Attributes attributes = attributes_of(source);
-  const auto known = joints == nullptr ? shared_.find(attributes) : shared_.end();
+  const auto known = bending == nullptr ? shared_.find(attributes) : shared_.end();
   if (known != shared_.end()) {
     return store(known->second, read_triangles(mesh, primitive, known->second.count, where), source.material);
   }
   Vertices vertices = read_vertices(attributes, where);
   std::vector<std::uint32_t> triangles = read_triangles(mesh, primitive, vertices.positions.size(), where);
-  if (joints != nullptr) bend(document_.model, source, *joints, vertices, triangles);
-  bool shareable = joints == nullptr && !vertices.normals.empty();
+  std::optional<DeformedMesh> kept;
+  if (bending != nullptr && bending->kept) kept = keep(mesh, primitive, where, *bending, vertices);
+  if (bending != nullptr && bending->joints != nullptr) {
+    Influences influences = bend(document_.model, source, *bending->joints, vertices, triangles);
+    if (kept) take_influences(std::move(influences), *kept);
+  }
+  bool shareable = bending == nullptr && !vertices.normals.empty();
   if (vertices.normals.empty()) {
+    if (kept) make_flat(*kept, triangles);
     vertices_left_ += vertices.positions.size();  // the flat ones are stored in their place
     spend_vertices(triangles.size(), where);
     make_flat(vertices, triangles);
@@ -171,7 +230,50 @@ std::uint32_t MeshReader::build_triangles(int mesh, std::size_t primitive, const
   }
   const Range range = append(vertices);
   if (shareable) shared_[attributes] = range;
-  return store(range, triangles, source.material);
+  const std::uint32_t stored = store(range, triangles, source.material);
+  if (kept) {
+    motion_.budget().spend(numbers_of(*kept), 1, where);
+    kept->first_vertex = range.first;
+    deformed_[stored] = std::move(*kept);
+  }
+  return stored;
+}
+
+DeformedMesh MeshReader::keep(int mesh, std::size_t primitive, const std::string& where,
+                              const Bending& bending, const Vertices& vertices) {
+  DeformedMesh out;
+  out.positions = vertices.positions;
+  out.normals = vertices.normals;
+  if (bending.joints != nullptr)
+    out.skin = motion_.skin_of(document_.model.nodes[static_cast<std::size_t>(bending.node)].skin);
+  const auto first_weight = motion_.weights_of(bending.node);
+  const auto targets = document_.motion.targets.find({mesh, static_cast<int>(primitive)});
+  if (!first_weight || targets == document_.motion.targets.end()) return out;
+  out.first_weight = *first_weight;
+  const std::size_t count = vertices.positions.size();
+  for (std::size_t t = 0; t < targets->second.size(); ++t) {
+    const std::string at = where + "." + element("targets", t);
+    motion_.budget().spend(count, 6, at);
+    out.targets.push_back({read_offsets(targets->second[t].positions, count, "POSITION", at),
+                           vertices.normals.empty()
+                               ? std::vector<glm::vec3>()
+                               : read_offsets(targets->second[t].normals, count, "NORMAL", at)});
+  }
+  return out;
+}
+
+// Offsets that are broken move nothing.
+std::vector<glm::vec3> MeshReader::read_offsets(int accessor, std::size_t count, const char* name,
+                                                const std::string& where) {
+  std::vector<glm::vec3> out;
+  try {
+    out = read_optional<glm::vec3>(accessor, count, name, where);
+  } catch (const Refusal& e) {
+    warn(scene_.warnings, where, std::string(name) + " ignored: " + e.what());
+  }
+  if (std::all_of(out.begin(), out.end(), is_finite)) return out;
+  warn(scene_.warnings, where, std::string(name) + " ignored: has a value that is not finite");
+  return {};
 }
 
 MeshReader::Attributes MeshReader::attributes_of(const tinygltf::Primitive& primitive) const {

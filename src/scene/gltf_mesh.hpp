@@ -21,13 +21,27 @@ struct Vertices {
   std::vector<glm::vec2> texcoords;
 };
 
+class MotionReader;
+
+/// What moves the vertices of a node's mesh, which then are the node's alone.
+struct Bending {
+  int node = 0;
+  const std::vector<glm::dmat4>* joints = nullptr;  // world from mesh at rest; nullptr: no skin
+  bool kept = false;                                // for poses
+};
+
 class MeshReader {
  public:
-  MeshReader(const Document& document, const NodeTree& tree, const LoadLimits& limits, Scene& scene);
+  MeshReader(const Document& document, const NodeTree& tree, const LoadLimits& limits, MotionReader& motion,
+             Scene& scene);
   /// The scene's primitives for this mesh; those left out are missing from it. Throws Refusal.
   [[nodiscard]] const std::vector<std::uint32_t>& primitives_of(int mesh);
   /// A node's mesh bent by its skin, in world space. Nothing where the skin is broken, which is warned of.
   [[nodiscard]] std::optional<std::vector<std::uint32_t>> skinned_primitives_of(int node);
+  /// A node's mesh without skin, with vertices of its own for poses by morph targets.
+  [[nodiscard]] std::vector<std::uint32_t> morphed_primitives_of(int node);
+  /// What the primitive's vertices are made of, where they were kept for poses.
+  [[nodiscard]] std::optional<DeformedMesh> take_deformed(std::uint32_t primitive);
 
  private:
   using Attributes =
@@ -36,9 +50,14 @@ class MeshReader {
     std::uint32_t first, count;
   };
 
-  std::optional<std::uint32_t> build(int mesh, std::size_t primitive, const std::vector<glm::dmat4>* joints);
+  std::optional<std::uint32_t> build(int mesh, std::size_t primitive, const Bending* bending);
   std::uint32_t build_triangles(int mesh, std::size_t primitive, const std::string& where,
-                                const std::vector<glm::dmat4>* joints);
+                                const Bending* bending);
+  void spend_bent(int node);
+  [[nodiscard]] DeformedMesh keep(int mesh, std::size_t primitive, const std::string& where,
+                                  const Bending& bending, const Vertices& vertices);
+  std::vector<glm::vec3> read_offsets(int accessor, std::size_t count, const char* name,
+                                      const std::string& where);
   const std::vector<glm::dmat4>& joints_of(int skin);
   Attributes attributes_of(const tinygltf::Primitive& primitive) const;
   Vertices read_vertices(const Attributes& attributes, const std::string& where);
@@ -53,11 +72,13 @@ class MeshReader {
   const Document& document_;
   const NodeTree& tree_;
   const LoadLimits& limits_;
+  MotionReader& motion_;
   Scene& scene_;
+  std::map<std::uint32_t, DeformedMesh> deformed_;  // by primitive
   std::uint64_t vertices_left_, corners_left_;
   std::vector<std::optional<std::vector<std::uint32_t>>> built_;  // per mesh
   std::map<int, std::vector<glm::dmat4>> joints_;                 // per skin
-  std::uint64_t bent_ = 0;                                        // primitives tried under a skin
+  std::uint64_t bent_ = 0;                                        // primitives tried for one node alone
   std::map<Attributes, Range> shared_;                            // vertex data that several primitives use
 };
 

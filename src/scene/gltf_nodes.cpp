@@ -3,9 +3,8 @@
 #include "gltf_nodes.hpp"
 
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 
+#include "node_matrix.hpp"
 #include "refusal.hpp"
 
 namespace gnomon::detail {
@@ -13,29 +12,6 @@ namespace gnomon::detail {
 namespace {
 
 constexpr int kNoParent = -1;
-
-glm::dmat4 local_transform(const tinygltf::Node& node) {
-  glm::dmat4 out(1.0);
-  if (node.matrix.size() == 16) {
-    for (std::size_t i = 0; i < 16; ++i)
-      out[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
-    // The bottom row of an affine matrix; anything else would be a projection, which no node is.
-    for (int c = 0; c < 4; ++c) out[c][3] = c == 3 ? 1.0 : 0.0;
-    return out;
-  }
-  if (node.rotation.size() == 4) {
-    const glm::dquat q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    const double length = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-    if (length > 0.0 && std::isfinite(length)) out = glm::mat4_cast(q / length);
-  }
-  if (node.scale.size() == 3) {
-    for (int c = 0; c < 3; ++c) out[c] *= node.scale[static_cast<std::size_t>(c)];
-  }
-  if (node.translation.size() == 3) {
-    out[3] = glm::dvec4(node.translation[0], node.translation[1], node.translation[2], 1.0);
-  }
-  return out;
-}
 
 bool is_finite(const glm::dmat4& m) {
   for (int c = 0; c < 4; ++c) {
@@ -101,6 +77,29 @@ std::vector<int> shown_roots(const tinygltf::Model& model, const std::vector<int
 }
 
 }  // namespace
+
+glm::dmat4 local_transform(const tinygltf::Node& node) {
+  glm::dmat4 out(1.0);
+  if (node.matrix.size() == 16) {
+    for (std::size_t i = 0; i < 16; ++i)
+      out[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
+    // The bottom row of an affine matrix; anything else would be a projection, which no node is.
+    for (int c = 0; c < 4; ++c) out[c][3] = c == 3 ? 1.0 : 0.0;
+    return out;
+  }
+  const PlacedNode at = placed(node);
+  return composed(at.translation, at.rotation, at.scale);
+}
+
+PlacedNode placed(const tinygltf::Node& node) {
+  PlacedNode out;
+  const std::vector<double>& r = node.rotation;
+  if (r.size() == 4) out.rotation = glm::dquat(r[3], r[0], r[1], r[2]);
+  if (node.scale.size() == 3) out.scale = {node.scale[0], node.scale[1], node.scale[2]};
+  if (node.translation.size() == 3)
+    out.translation = {node.translation[0], node.translation[1], node.translation[2]};
+  return out;
+}
 
 NodeTree build_node_tree(const tinygltf::Model& model, const LoadLimits& limits,
                          std::vector<std::string>& warnings) {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 #include <utility>
 
+#include "deform.hpp"
 #include "gltf_accessor.hpp"
 #include "refusal.hpp"
 
@@ -14,67 +14,63 @@ namespace gnomon::detail {
 
 namespace {
 
-constexpr int kInfluenceSets = 4;            // JOINTS_0..3, 16 joints per vertex; exporters stop at 8
+constexpr int kInfluenceSets = 4;  // JOINTS_0..3, 16 joints per vertex; exporters stop at 8
+constexpr std::uint32_t kSetWidth = 4;
 constexpr std::uint64_t kMaxJoints = 65536;  // joints are at most 16-bit numbers
 
-struct Influences {
-  std::vector<std::uint32_t> joints;  // four per vertex
-  std::vector<float> weights;
-};
+void check_influences(const Influences& influences, std::size_t joint_count) {
+  for (std::size_t i = 0; i < influences.weights.size(); ++i) {
+    const float weight = influences.weights[i];
+    if (!(weight >= 0.0f) || !std::isfinite(weight))
+      throw LeftOut("has a weight that is negative or not finite");
+    if (weight > 0.0f && influences.joints[i] >= joint_count) {
+      throw LeftOut("names joint " + std::to_string(influences.joints[i]) + " of " +
+                    std::to_string(joint_count));
+    }
+  }
+}
 
-std::vector<Influences> read_influences(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                                        std::size_t vertex_count) {
-  std::vector<Influences> sets;
+/// Sets of four side by side, vertex by vertex.
+template <class T>
+std::vector<T> side_by_side(const std::vector<std::vector<T>>& sets, std::size_t vertex_count) {
+  std::vector<T> out;
+  out.reserve(sets.size() * kSetWidth * vertex_count);
+  for (std::size_t v = 0; v < vertex_count * kSetWidth; v += kSetWidth) {
+    for (const std::vector<T>& set : sets) out.insert(out.end(), &set[v], &set[v] + kSetWidth);
+  }
+  return out;
+}
+
+Influences read_influences(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                           std::size_t vertex_count) {
+  std::vector<std::vector<std::uint32_t>> joint_sets;
+  std::vector<std::vector<float>> weight_sets;
   for (int set = 0; set < kInfluenceSets; ++set) {
     const auto joints = primitive.attributes.find("JOINTS_" + std::to_string(set));
     const auto weights = primitive.attributes.find("WEIGHTS_" + std::to_string(set));
     if (joints == primitive.attributes.end() || weights == primitive.attributes.end()) break;
-    sets.push_back({read_integers(model, joints->second, 4, vertex_count),
-                    read_floats(model, weights->second, 4, vertex_count)});
-    if (sets.back().joints.size() != vertex_count * 4 || sets.back().weights.size() != vertex_count * 4) {
+    joint_sets.push_back(read_integers(model, joints->second, kSetWidth, vertex_count));
+    weight_sets.push_back(read_floats(model, weights->second, kSetWidth, vertex_count));
+    if (joint_sets.back().size() != vertex_count * kSetWidth ||
+        weight_sets.back().size() != vertex_count * kSetWidth) {
       throw LeftOut("joints or weights are fewer than the vertices");
     }
   }
-  if (sets.empty()) throw LeftOut("has a skin but no joints and weights");
-  return sets;
-}
-
-glm::dmat4 blend(const std::vector<Influences>& sets, std::size_t vertex,
-                 const std::vector<glm::dmat4>& joints) {
-  glm::dmat4 sum(0.0);
-  double total = 0.0;
-  for (const Influences& set : sets) {
-    for (std::size_t i = vertex * 4; i < vertex * 4 + 4; ++i) {
-      const double weight = static_cast<double>(set.weights[i]);
-      if (!(weight >= 0.0) || !std::isfinite(weight))
-        throw LeftOut("has a weight that is negative or not finite");
-      if (weight == 0.0) continue;
-      if (set.joints[i] >= joints.size()) {
-        throw LeftOut("names joint " + std::to_string(set.joints[i]) + " of " +
-                      std::to_string(joints.size()));
-      }
-      sum += joints[set.joints[i]] * weight;
-      total += weight;
-    }
+  if (joint_sets.empty()) throw LeftOut("has a skin but no joints and weights");
+  Influences out{static_cast<std::uint32_t>(joint_sets.size() * kSetWidth), {}, {}};
+  if (joint_sets.size() == 1) {
+    out.joints = std::move(joint_sets[0]);
+    out.weights = std::move(weight_sets[0]);
+  } else {
+    out.joints = side_by_side(joint_sets, vertex_count);
+    out.weights = side_by_side(weight_sets, vertex_count);
   }
-  if (total == 0.0) {
-    const std::uint32_t joint = sets[0].joints[vertex * 4];
-    return joints[joint < joints.size() ? joint : 0];
-  }
-  return sum * (1.0 / total);
-}
-
-// The cofactor matrix carries normals like the inverse transpose does, and needs no inverse.
-glm::dvec3 carry_normal(const glm::dmat3& m, const glm::dvec3& n) {
-  const glm::dvec3 carried =
-      glm::cross(m[1], m[2]) * n.x + glm::cross(m[2], m[0]) * n.y + glm::cross(m[0], m[1]) * n.z;
-  return glm::determinant(m) < 0.0 ? -carried : carried;
+  return out;
 }
 
 }  // namespace
 
-std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const tinygltf::Skin& skin,
-                                       const NodeTree& tree) {
+std::vector<glm::dmat4> inverse_binds(const tinygltf::Model& model, const tinygltf::Skin& skin) {
   if (skin.joints.empty() || skin.joints.size() > kMaxJoints) throw LeftOut("has no joints or too many");
   std::vector<float> inverse_bind;
   if (skin.inverseBindMatrices >= 0) {
@@ -94,37 +90,38 @@ std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const tinyg
       if (!std::isfinite(value)) throw LeftOut("has an inverse bind matrix that is not finite");
       joint_from_mesh[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = value;
     }
-    out.push_back(tree.world_from_node[static_cast<std::size_t>(skin.joints[j])] * joint_from_mesh);
+    out.push_back(joint_from_mesh);
   }
   return out;
 }
 
-void bend(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-          const std::vector<glm::dmat4>& joints, Vertices& vertices, std::vector<std::uint32_t>& triangles) {
-  std::vector<Influences> sets;
+std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const tinygltf::Skin& skin,
+                                       const NodeTree& tree) {
+  std::vector<glm::dmat4> out = inverse_binds(model, skin);
+  for (std::size_t j = 0; j < skin.joints.size(); ++j)
+    out[j] = tree.world_from_node[static_cast<std::size_t>(skin.joints[j])] * out[j];
+  return out;
+}
+
+Influences bend(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                const std::vector<glm::dmat4>& joints, Vertices& vertices,
+                std::vector<std::uint32_t>& triangles) {
+  Influences influences;
   try {
-    sets = read_influences(model, primitive, vertices.positions.size());
+    influences = read_influences(model, primitive, vertices.positions.size());
   } catch (const Refusal& e) {
     throw LeftOut(e.what());
   }
-  std::size_t mirrored = 0;
-  for (std::size_t v = 0; v < vertices.positions.size(); ++v) {
-    const glm::dmat4 world = blend(sets, v, joints);
-    const glm::dvec3 position(world * glm::dvec4(glm::dvec3(vertices.positions[v]), 1.0));
-    vertices.positions[v] = glm::vec3(position);
-    if (!std::isfinite(glm::length(glm::dvec3(vertices.positions[v]))))
-      throw LeftOut("carries a vertex to infinity");
-    const glm::dmat3 turn(world);
-    mirrored += glm::determinant(turn) < 0.0 ? 1u : 0u;
-    if (!vertices.normals.empty()) {
-      const glm::dvec3 normal = carry_normal(turn, glm::dvec3(vertices.normals[v]));
-      const double length = glm::length(normal);
-      vertices.normals[v] = length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f);
-    }
+  check_influences(influences, joints.size());
+  const std::size_t mirrored = carry({influences.per_vertex, influences.joints, influences.weights}, joints,
+                                     vertices.positions, vertices.normals);
+  for (const glm::vec3& position : vertices.positions) {
+    if (!std::isfinite(glm::length(glm::dvec3(position)))) throw LeftOut("carries a vertex to infinity");
   }
   if (mirrored * 2 > vertices.positions.size()) {
     for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) std::swap(triangles[i + 1], triangles[i + 2]);
   }
+  return influences;
 }
 
 }  // namespace gnomon::detail

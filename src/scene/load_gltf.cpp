@@ -6,6 +6,8 @@
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
+#include "bounds_of.hpp"
+#include "gltf_animation.hpp"
 #include "gltf_document.hpp"
 #include "gltf_material.hpp"
 #include "gltf_mesh.hpp"
@@ -21,27 +23,11 @@ namespace {
 using detail::element;
 using detail::Refusal;
 
-Box transformed_bounds(const Scene& scene, const Primitive& primitive, const glm::dmat4& world_from_object) {
-  Box box;
-  const std::size_t end = static_cast<std::size_t>(primitive.first_index) + primitive.index_count;
-  for (std::size_t i = primitive.first_index; i < end; ++i) {
-    box.extend(
-        glm::dvec3(world_from_object * glm::dvec4(glm::dvec3(scene.positions[scene.indices[i]]), 1.0)));
-  }
-  return box;
-}
-
-bool is_finite(const Box& box) {
-  bool finite = true;
-  for (int c = 0; c < 3; ++c) finite = finite && std::isfinite(box.min[c]) && std::isfinite(box.max[c]);
-  return finite;
-}
-
 class Placer {
  public:
   Placer(const LoadLimits& limits, Scene& scene) : limits_(limits), scene_(scene) {}
 
-  void place(std::uint32_t primitive, const glm::dmat4& world_from_object, std::size_t node) {
+  std::uint32_t place(std::uint32_t primitive, const glm::dmat4& world_from_object, std::size_t node) {
     triangles_ += scene_.primitives[primitive].index_count / 3;
     if (triangles_ > limits_.triangles) {
       throw Refusal(element("nodes", node),
@@ -55,11 +41,13 @@ class Placer {
     instance.world_from_object = world_from_object;
     instance.primitive = primitive;
     instance.mirrored = glm::determinant(glm::dmat3(world_from_object)) < 0.0;
-    instance.bounds_world = transformed_bounds(scene_, scene_.primitives[primitive], world_from_object);
-    if (!is_finite(instance.bounds_world))
+    instance.bounds_world =
+        detail::transformed_bounds(scene_, scene_.primitives[primitive], world_from_object);
+    if (!detail::is_finite(instance.bounds_world))
       throw Refusal(element("nodes", node), "its vertices are not finite");
     scene_.bounds_world.extend(instance.bounds_world);
     scene_.instances.push_back(instance);
+    return static_cast<std::uint32_t>(scene_.instances.size() - 1);
   }
 
  private:
@@ -109,25 +97,59 @@ void check_size(const detail::Document& document, const detail::NodeTree& tree, 
                              std::to_string(limits.triangles));
 }
 
-void place_nodes(const detail::Document& document, const detail::NodeTree& tree, const LoadLimits& limits,
-                 Scene& scene) {
-  detail::MeshReader meshes(document, tree, limits, scene);
-  Placer placer(limits, scene);
-  for (const int n : tree.shown) {
+/// The scene's nodes with meshes, one after the other.
+class NodePlacer {
+ public:
+  NodePlacer(const detail::Document& document, const detail::NodeTree& tree, const LoadLimits& limits,
+             Scene& scene)
+      : document_(document),
+        tree_(tree),
+        scene_(scene),
+        motion_(document, tree, limits, scene),
+        meshes_(document, tree, limits, motion_, scene),
+        placer_(limits, scene) {}
+
+  void place(int n) {
     const auto index = static_cast<std::size_t>(n);
-    const tinygltf::Node& node = document.model.nodes[index];
-    if (node.mesh < 0) continue;
+    const tinygltf::Node& node = document_.model.nodes[index];
+    if (node.mesh < 0) return;
     if (node.skin >= 0) {
-      if (const auto bent = meshes.skinned_primitives_of(n)) {
-        for (const std::uint32_t primitive : *bent) placer.place(primitive, glm::dmat4(1.0), index);
-        continue;
+      if (const auto bent = meshes_.skinned_primitives_of(n)) {
+        for (const std::uint32_t primitive : *bent)
+          keep_deformed(placer_.place(primitive, glm::dmat4(1.0), index), -1);
+        return;
       }
     }
-    for (const std::uint32_t primitive : meshes.primitives_of(node.mesh)) {
-      placer.place(primitive, tree.world_from_node[index], index);
+    const int moved = motion_.moved_node(n);
+    const glm::dmat4& at = tree_.world_from_node[index];
+    if (motion_.weights_of(n)) {
+      for (const std::uint32_t primitive : meshes_.morphed_primitives_of(n))
+        keep_deformed(placer_.place(primitive, at, index), moved);
+      return;
+    }
+    for (const std::uint32_t primitive : meshes_.primitives_of(node.mesh)) {
+      const std::uint32_t instance = placer_.place(primitive, at, index);
+      if (moved >= 0) scene_.motion.instances.push_back({instance, static_cast<std::uint32_t>(moved)});
     }
   }
-}
+
+ private:
+  /// `moved`: index of the node that places the instance, or -1.
+  void keep_deformed(std::uint32_t instance, int moved) {
+    auto mesh = meshes_.take_deformed(scene_.instances[instance].primitive);
+    if (!mesh) return;
+    mesh->instance = instance;
+    mesh->node = moved;
+    scene_.motion.meshes.push_back(std::move(*mesh));
+  }
+
+  const detail::Document& document_;
+  const detail::NodeTree& tree_;
+  Scene& scene_;
+  detail::MotionReader motion_;
+  detail::MeshReader meshes_;
+  Placer placer_;
+};
 
 }  // namespace
 
@@ -143,7 +165,8 @@ Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& sc
     const Document document = open_document(bytes, files, limits, scene.warnings);
     const NodeTree tree = build_node_tree(document.model, limits, scene.warnings);
     check_size(document, tree, limits);
-    place_nodes(document, tree, limits, scene);
+    NodePlacer placer(document, tree, limits, scene);
+    for (const int node : tree.shown) placer.place(node);
     read_materials(document, files, limits, scene);
     if (files_hash != nullptr) *files_hash = hash_of(bytes, files.hash());
     return scene;

@@ -25,8 +25,12 @@ std::string element(std::string_view kind, std::size_t index) {
 }
 
 void warn(std::vector<std::string>& warnings, const std::string& element, const std::string& what) {
+  warn(warnings, element + ": " + what);
+}
+
+void warn(std::vector<std::string>& warnings, const std::string& line) {
   if (warnings.size() < kWarningCount) {
-    warnings.push_back(one_line(element + ": " + what));
+    warnings.push_back(one_line(line));
   } else if (warnings.size() == kWarningCount) {
     warnings.push_back("more warnings are not shown");
   }

@@ -54,13 +54,13 @@ glm::vec3 face_normal(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c
   return unit_or_up(area_vector(a, b, c));
 }
 
-std::size_t repair_normals(const std::vector<glm::vec3>& positions,
-                           const std::vector<std::uint32_t>& triangles, std::vector<glm::vec3>& normals) {
+std::size_t repair_normals(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles,
+                           std::span<glm::vec3> normals, std::uint32_t first) {
   std::size_t broken = 0;
   for (const glm::vec3& n : normals) broken += is_usable(n) ? 0u : 1u;
   std::vector<glm::dvec3> sums(broken > 0 ? positions.size() : 0, glm::dvec3(0.0));
   for (std::size_t i = 0; broken > 0 && i + 2 < triangles.size(); i += 3) {
-    const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
+    const std::uint32_t a = triangles[i] - first, b = triangles[i + 1] - first, c = triangles[i + 2] - first;
     const glm::dvec3 area = area_vector(positions[a], positions[b], positions[c]);
     for (const std::uint32_t v : {a, b, c}) sums[v] += area;
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,8 @@ namespace gnomon::detail {
 [[nodiscard]] glm::vec3 face_normal(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
 /// Makes every normal unit length. One that is zero or not finite becomes the area-weighted mean of its
-/// triangles. Returns how many were repaired.
-std::size_t repair_normals(const std::vector<glm::vec3>& positions,
-                           const std::vector<std::uint32_t>& triangles, std::vector<glm::vec3>& normals);
+/// triangles, whose corners count from `first`. Returns how many were repaired.
+std::size_t repair_normals(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles,
+                           std::span<glm::vec3> normals, std::uint32_t first = 0);
 
 }  // namespace gnomon::detail

@@ -1,8 +1,10 @@
-// Does any file, taken for glTF or GLB, become a sound scene or a refusal of one line?
+// Does any file, taken for glTF or GLB, become a sound scene, in every pose, or a refusal of one line?
+#include <algorithm>
 #include <cmath>
 
 #include "fuzz.hpp"
 #include "gnomon/scene/load.hpp"
+#include "gnomon/scene/pose.hpp"
 #include "load_memory.hpp"
 
 namespace {
@@ -24,6 +26,7 @@ gnomon::LoadLimits small_limits() {
   limits.triangles = limits.vertices = 20'000;
   limits.pixels = 1 << 16;
   limits.nodes = 1000;
+  limits.animation_numbers = 100'000;
   return limits;
 }
 
@@ -68,6 +71,26 @@ void check_records(const Scene& scene) {
   }
 }
 
+void check_pose(const Scene& scene, int animation, double time_s) {
+  gnomon::Pose pose;
+  require(gnomon::pose(scene, animation, time_s, pose), "a pose");
+  require(pose.positions.size() == pose.normals.size(), "a normal per posed vertex");
+  Scene posed = scene;
+  gnomon::apply_pose(pose, posed);
+  check_arrays(posed);
+  check_records(posed);
+}
+
+void check_poses(const Scene& scene) {
+  constexpr std::size_t kMost = 4;
+  const std::vector<gnomon::Animation>& animations = scene.motion.animations;
+  check_pose(scene, gnomon::kRestPose, 0.0);
+  for (std::size_t i = 0; i < std::min(animations.size(), kMost); ++i) {
+    for (const double share : {0.0, 0.37, 1.0})
+      check_pose(scene, static_cast<int>(i), share * animations[i].duration_s);
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -76,6 +99,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                                         gnomon::fuzz::folder_of_input(), small_limits());
     check_arrays(scene);
     check_records(scene);
+    check_poses(scene);
     for (const std::string& warning : scene.warnings) gnomon::fuzz::require_one_line(warning);
   } catch (const gnomon::SceneError& refusal) {
     gnomon::fuzz::require_one_line(refusal.what());

@@ -137,7 +137,7 @@ TEST(CameraPathFile, saved_and_loaded_again_is_the_same_flight) {
   CameraPath path = path_of({{{0.1, 1e-9, 3e7}, {1.0 / 3.0, 0, 0}}, {{4, 5, 6}, {7, 8, 9}}}, true);
   path.near_depth = 0.123;
   path.far_depth = 4567.8;
-  const TemporaryFolder folder;
+  const WrittenFolder folder;
   save_camera_path(path, folder.path() / "flight.json");
   const CameraPath back = load_camera_path(folder.path() / "flight.json");
   ASSERT_EQ(back.keys.size(), 2u);
@@ -152,7 +152,7 @@ TEST(CameraPathFile, saved_and_loaded_again_is_the_same_flight) {
 }
 
 TEST(CameraPathFile, what_is_wrong_is_named_with_its_file_and_key) {
-  const TemporaryFolder folder;
+  const WrittenFolder folder;
   const std::string key = R"({"position":[0,0,0],"target":[0,0,1]})";
   const std::vector<std::pair<std::string, std::string>> cases{
       {"", "JSON"},

@@ -37,7 +37,7 @@ class Confinement : public ::testing::Test {
       return e.what();
     }
   }
-  TemporaryFolder folder_;
+  WrittenFolder folder_;
 };
 
 TEST_F(Confinement, files_of_the_own_folder_are_read) {

@@ -110,18 +110,18 @@ inline std::string refusal_of(const TestGltf& gltf, const LoadLimits& limits = {
 }
 
 /// A folder of its own that is gone afterwards.
-class TemporaryFolder {
+class WrittenFolder {
  public:
-  TemporaryFolder() {
+  WrittenFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "gnomon_scene_XXXXXX").string();
     path_ = ::mkdtemp(name.data());
   }
-  ~TemporaryFolder() {
+  ~WrittenFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  WrittenFolder(const WrittenFolder&) = delete;
+  WrittenFolder& operator=(const WrittenFolder&) = delete;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     const std::filesystem::path file = path_ / name;

@@ -57,7 +57,7 @@ TEST(Image, encoded_and_decoded_again_is_the_same_picture_with_colour_under_zero
 }
 
 TEST(Image, a_written_png_holds_the_colours_and_no_alpha) {
-  const TemporaryFolder folder;
+  const WrittenFolder folder;
   const Image image = gradient(9, 5);
   write_png(image, folder.path() / "a.png");
   const Image back = decode_image(read_bytes(folder.path() / "a.png"), "a", 45);
@@ -69,7 +69,7 @@ TEST(Image, a_written_png_holds_the_colours_and_no_alpha) {
 }
 
 TEST(Image, writing_where_one_cannot_is_refused_and_leaves_nothing) {
-  const TemporaryFolder folder;
+  const WrittenFolder folder;
   EXPECT_THROW(write_png(gradient(2, 2), folder.path() / "none/a.png"), SceneError);
   EXPECT_THROW(write_png(Image(), folder.path() / "a.png"), SceneError);
   Image short_of_pixels = gradient(4, 4);
@@ -97,7 +97,7 @@ TEST(Image, a_damaged_png_is_refused_wherever_it_is_cut) {
 }
 
 TEST(Image, a_jpeg_is_recognised_by_its_frame_header_and_decoded) {
-  const TemporaryFolder folder;
+  const WrittenFolder folder;
   const std::string file = (folder.path() / "a.jpg").string();
   auto out = OIIO::ImageOutput::create("jpeg");
   ASSERT_TRUE(out && out->open(file, OIIO::ImageSpec(16, 8, 3, OIIO::TypeDesc::UINT8)));
@@ -115,7 +115,7 @@ TEST(Image, a_jpeg_is_recognised_by_its_frame_header_and_decoded) {
   }
 }
 
-std::vector<std::uint8_t> webp(const char* compression, int channels, const TemporaryFolder& folder) {
+std::vector<std::uint8_t> webp(const char* compression, int channels, const WrittenFolder& folder) {
   const std::string file = (folder.path() / "a.webp").string();
   OIIO::ImageSpec spec(16, 8, channels, OIIO::TypeDesc::UINT8);
   spec.attribute("compression", compression);
@@ -128,7 +128,7 @@ std::vector<std::uint8_t> webp(const char* compression, int channels, const Temp
 
 TEST(Image, a_webp_of_each_kind_is_recognised_by_its_header_and_decoded) {
   if (!detail::reads_webp()) GTEST_SKIP() << "this OpenImageIO has no reader of WebP";
-  const TemporaryFolder folder;
+  const WrittenFolder folder;
   for (const auto& [compression, channels] :
        std::vector<std::pair<const char*, int>>{{"webp:80", 3}, {"lossless:100", 3}, {"webp:80", 4}}) {
     const std::vector<std::uint8_t> bytes = webp(compression, channels, folder);
@@ -144,7 +144,7 @@ TEST(Image, a_webp_of_each_kind_is_recognised_by_its_header_and_decoded) {
 
 TEST(Image, a_webp_that_is_animated_or_damaged_is_refused_or_decoded_to_its_size) {
   if (!detail::reads_webp()) GTEST_SKIP() << "this OpenImageIO has no reader of WebP";
-  const TemporaryFolder folder;
+  const WrittenFolder folder;
   std::vector<std::uint8_t> bytes = webp("webp:80", 4, folder);
   ASSERT_EQ(std::string(bytes.begin() + 12, bytes.begin() + 16), "VP8X");
   const std::uint8_t flags = bytes[20];
@@ -162,7 +162,7 @@ TEST(Image, a_webp_that_is_animated_or_damaged_is_refused_or_decoded_to_its_size
 }
 
 TEST(Image, an_exr_holds_its_values_and_channel_names_exactly) {
-  const TemporaryFolder folder;
+  const WrittenFolder folder;
   const std::string file = (folder.path() / "a.exr").string();
   write_exr({2, 2, 2, {0.1f, -1e30f, 1e-30f, 4, 5, 6, 7, 8}, {"m", "depth"}}, file);
   auto in = OIIO::ImageInput::open(file);

@@ -126,7 +126,7 @@ TEST(LoadGltf, a_text_file_with_a_data_uri_is_the_same_scene_as_a_binary_one) {
     "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
     "bufferViews":[{"buffer":0,"byteLength":36}],
     "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
-  const TemporaryFolder folder;
+  const WrittenFolder folder;
   const Scene scene = load_gltf(folder.write("named.gltf", text));
   EXPECT_EQ(scene.name, "named");
   EXPECT_EQ(scene.positions, one_triangle().load().positions);
@@ -134,7 +134,7 @@ TEST(LoadGltf, a_text_file_with_a_data_uri_is_the_same_scene_as_a_binary_one) {
 
 TEST(LoadGltf, a_scene_is_named_builtin_or_by_its_path) {
   EXPECT_EQ(load_scene("builtin:fence").name, "builtin:fence");
-  const TemporaryFolder folder;
+  const WrittenFolder folder;
   EXPECT_EQ(load_scene(folder.write("a.glb", one_triangle().file()).string()).triangle_count(), 1u);
   EXPECT_THROW((void)load_scene("builtin:nothing"), SceneError);
 }

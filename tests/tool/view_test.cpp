@@ -58,6 +58,7 @@ State unusual() {
   state.gain = 7.0;
   state.drawn = {false, false, true, true};
   state.motion = {true, true, 12.0, -5.0};
+  state.playing = {"walk", 1.5, true, -0.5};
   return state;
 }
 

@@ -19,6 +19,7 @@
 #include "gnomon/render/filter.hpp"
 #include "gnomon/render/filter_fit.hpp"
 #include "gnomon/scene/image.hpp"
+#include "gnomon/scene/pose.hpp"
 #include "gnomon/scene/scene.hpp"
 
 namespace gnomon::render {
@@ -105,8 +106,8 @@ struct FrameOptions {
   /// 0..1. Larger: fewer draws, and small shadows disappear.
   double lost_shadow_share = 1e-4;
   /// Bounds of casters that the caller says have changed since the last frame, where they were and where they
-  /// are, world space. Cached maps are drawn whole, cached pages where a box reaches them. Instances moved by
-  /// Renderer::move_instance are known already.
+  /// are, world space. Cached maps and pages are drawn again where a box reaches them. Instances moved by
+  /// Renderer::move_instance and Renderer::apply_pose are known already.
   std::span<const Box> moved_world = {};
 };
 
@@ -179,9 +180,15 @@ class Renderer {
   /// Compiles the filter's program for pages, once. Throws RenderError as prepare, and for filters that store
   /// texels: pages have depths alone (hard, pcf, pcss).
   [[nodiscard]] PreparedFilter prepare_pages(const FilterSettings& settings);
-  /// Places an instance elsewhere: `to.world_from_object` and `to.bounds_world`; all else of it stays. Plans
-  /// must be given its new bounds. False where there is no such instance or its bounds are empty.
+  /// Places an instance elsewhere: `to.world_from_object`, `to.mirrored` and `to.bounds_world`; its primitive
+  /// stays. Plans must be given its new bounds. False where there is no such instance or its bounds are
+  /// empty.
   bool move_instance(std::size_t instance, const Instance& to);
+  /// Places instances and vertices as posed (pose()), by move_instance() where they differ from the last
+  /// pose. Plans must be given the new bounds. The next frames are those of a renderer of the posed scene
+  /// (apply_pose()), bit for bit as long as the scene's diagonal does not pass a power of two. False, and
+  /// nothing moved, where the pose names instances or vertices that the scene does not have.
+  bool apply_pose(const Pose& pose);
   /// The same frame with the pages of a plan: each is drawn with its own casters into a pool. Pages that the
   /// pool holds from earlier frames are not drawn again where `options.prune` has PruneRule::held_maps
   /// (keep_pages); a frame with maps empties the pool. `filter` must come from prepare_pages, and the plan's

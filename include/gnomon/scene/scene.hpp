@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gnomon/bounds.hpp"
+#include "gnomon/scene/animation.hpp"
 
 namespace gnomon {
 
@@ -68,13 +69,14 @@ struct Scene {
   std::vector<Image> images;        ///< of base colours
   std::vector<std::string> warnings;  ///< repairs and omissions of the loader, a line each
   Box bounds_world;                   ///< of all instances; empty for an empty scene
+  SceneMotion motion;                 ///< what pose() moves; empty without animations
 
-  /// Memory of vertices, indices, instances and pictures, bytes.
+  /// Memory of vertices, indices, instances, pictures and animations, bytes.
   [[nodiscard]] std::uint64_t bytes() const noexcept {
     std::uint64_t n = positions.size() * (sizeof(glm::vec3) * 2 + sizeof(glm::vec2)) +
                       indices.size() * sizeof(std::uint32_t) + instances.size() * sizeof(Instance);
     for (const Image& image : images) n += image.rgba.size();
-    return n;
+    return n + motion.bytes();
   }
   /// Triangles drawn in one pass over all instances.
   [[nodiscard]] std::uint64_t triangle_count() const noexcept {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "animation_words.hpp"
 #include "command.hpp"
 #include "frame_plan.hpp"
 #include "gnomon/render/filter.hpp"
@@ -76,7 +77,7 @@ void draw_legend_text(Image& image, const LegendText& legend) {
 /// Everything a frame needs over the whole flight.
 struct Studio {
   const Options& options;
-  const Flight& flight;
+  Flight& flight;
   render::Renderer renderer;
   render::PreparedFilter filter;
   ContactSheet sheet;
@@ -147,6 +148,7 @@ FrameRow draw_frame(Studio& studio, int frame) {
   const Options& options = studio.options;
   const Camera camera = camera_of(options, studio.flight, frame);
   const Light light = default_light(options.light, studio.flight.scene.bounds_world);
+  pose_frame(options, studio.flight, frame, &studio.renderer);
   const VisibleDepths depths = frame_depths(options, studio.renderer, studio.filter, camera);
   const TimedPlan timed = timed_plan(options, studio.flight, light, camera, depths, studio.history);
   FrameRow row;
@@ -183,9 +185,10 @@ FrameRow draw_frame(Studio& studio, int frame) {
 }
 
 /// Every frame's plan once, before anything is written: a flight is refused as a whole.
-void check_plans(const Options& options, const Flight& flight) {
+void check_plans(const Options& options, Flight& flight) {
   for (int frame = 0; frame < options.frames; ++frame) {
     const Camera camera = camera_of(options, flight, frame);
+    pose_frame(options, flight, frame, nullptr);
     const ShadowPlan plan = make_plan(camera, default_light(options.light, flight.scene.bounds_world),
                                       flight.bounds(), options.plan);
     if (plan.status == PlanStatus::invalid_input) {
@@ -271,12 +274,32 @@ Flight load_flight(const Options& options) {
     for (const std::string& warning : flight.scene.warnings) warn(warning);
     flight.path = options.path ? load_camera_path(*options.path)
                                : default_path(flight.scene, 1.0 * options.width / options.height);
+    if (!options.animation.empty()) {
+      flight.animation = find_animation(flight.scene.motion, options.animation);
+      if (flight.animation < 0)
+        throw std::runtime_error(
+            fmt::format("{}: {}", options.scene, no_animation_text(flight.scene.motion, options.animation)));
+    }
     flight.boxes.reserve(flight.scene.instances.size());
     for (const Instance& instance : flight.scene.instances) flight.boxes.push_back(instance.bounds_world);
     return flight;
   } catch (const SceneError& error) {
     throw std::runtime_error(error.what());
   }
+}
+
+void pose_flight(const Options& options, Flight& flight, double seconds, render::Renderer* renderer) {
+  if (flight.animation == kRestPose) return;
+  const Animation& animation = flight.scene.motion.animations[static_cast<std::size_t>(flight.animation)];
+  const double time_s = looped_time(animation, options.animation_start + seconds);
+  (void)pose(flight.scene, flight.animation, time_s, flight.pose);
+  for (const PosedInstance& posed : flight.pose.instances) flight.boxes[posed.instance] = posed.bounds_world;
+  if (renderer != nullptr && !renderer->apply_pose(flight.pose))
+    throw std::runtime_error(fmt::format("{}: the animation's pose does not fit the scene", options.scene));
+}
+
+void pose_frame(const Options& options, Flight& flight, int frame, render::Renderer* renderer) {
+  pose_flight(options, flight, frame / options.animation_fps, renderer);
 }
 
 Camera camera_of(const Options& options, const Flight& flight, int frame) {
@@ -347,7 +370,7 @@ void print_scene(const Flight& flight, const render::ContextInfo& context) {
 
 }  // namespace
 
-int fly_to_files(const Options& asked, const Flight& flight) {
+int fly_to_files(const Options& asked, Flight& flight) {
   Options options = asked;
   const auto context = [&options] {
     try {
@@ -390,7 +413,7 @@ int fly_to_files(const Options& asked, const Flight& flight) {
 int run(Options options) {
   // A folder that cannot be written is found before a scene is loaded for minutes.
   check_folder("--out", options.out);
-  const Flight flight = load_flight(options);
+  Flight flight = load_flight(options);
   if (options.pages.on() && options.context == render::ContextKind::glfw)
     throw std::runtime_error(
         "--pages: --context glfw draws maps alone; gnomon view --pages shows pages in a window");

@@ -6,6 +6,7 @@
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/pose.hpp"
 #include "gnomon/scene/scene.hpp"
 #include "options.hpp"
 
@@ -15,12 +16,20 @@ namespace gnomon::tool::fly {
 struct Flight {
   Scene scene;
   CameraPath path;
-  std::vector<Box> boxes;  ///< of the instances: they cast and receive
+  std::vector<Box> boxes;     ///< of the instances, as posed: they cast and receive
+  int animation = kRestPose;  ///< that the flight plays
+  Pose pose;                  ///< of the frame at hand
   [[nodiscard]] SceneBounds bounds() const noexcept { return {boxes, boxes}; }
 };
 
 /// Loads scene and path. Throws std::runtime_error with what is wrong and where.
 [[nodiscard]] Flight load_flight(const Options& options);
+
+/// Poses the flight's boxes at this time since its first frame, and the renderer where there is one. Nothing
+/// without an animation.
+void pose_flight(const Options& options, Flight& flight, double seconds, render::Renderer* renderer);
+/// The same at a frame of the flight.
+void pose_frame(const Options& options, Flight& flight, int frame, render::Renderer* renderer);
 
 /// The camera of a frame of the flight.
 [[nodiscard]] Camera camera_of(const Options& options, const Flight& flight, int frame);
@@ -39,10 +48,10 @@ void choose_perceptual_maps(Options& options, const Flight& flight);
 void choose_technique_of(Options& options, const Flight& flight);
 
 /// Draws the frames off-screen and writes them. Returns the exit code.
-int fly_to_files(const Options& options, const Flight& flight);
+int fly_to_files(const Options& options, Flight& flight);
 
 /// Opens a window. With --frames, flies the path once, writes what the window showed last and closes; else
 /// the user flies. Returns the exit code.
-int fly_in_window(const Options& options, const Flight& flight);
+int fly_in_window(const Options& options, Flight& flight);
 
 }  // namespace gnomon::tool::fly

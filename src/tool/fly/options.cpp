@@ -53,6 +53,17 @@ void resolve_budget(const Request& request, Options& options) {
         "--resolution perceptual: --budget-ms and --target-error choose the maps already");
 }
 
+// They look at the scene at rest.
+void check_animation(const Options& options) {
+  if (options.animation.empty()) return;
+  if (options.perceptual_resolution)
+    throw std::runtime_error(
+        "--animation: not with --resolution perceptual, which looks at the scene at rest");
+  if (options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0)
+    throw std::runtime_error(
+        "--animation: not with --budget-ms and --target-error, which look at the scene at rest");
+}
+
 void resolve_transition(const Request& request, Options& options) {
   options.transition = transition_from_name(request.transition);
   if (options.transition != render::SplitTransition::cut) options.plan.split.overlap = kTransitionShare;
@@ -100,6 +111,7 @@ Options resolved(const Request& request) {
   resolve_budget(request, options);
   resolve_pages(request.pages, options.pages);
   if (options.pages.on()) check_beside_pages(options);
+  check_animation(options);
   if (!request.path.empty()) options.path = request.path;
   return options;
 }
@@ -137,6 +149,20 @@ std::vector<Option> flight_options(Request& request) {
            .target = &request.path,
            .help = "camera path, a JSON file; without it the scene's own",
            .completion = Completion::files},
+          {.name = "--animation",
+           .target = &options.animation,
+           .help = "animation that the scene plays during the flight, by name or number",
+           .word = "NAME"},
+          {.name = "--animation-fps",
+           .target = &options.animation_fps,
+           .help = "frames in a second of the animation",
+           .range = {{1e-3, 1e6}},
+           .needs = "--animation"},
+          {.name = "--animation-start",
+           .target = &options.animation_start,
+           .help = "time of the first frame within the animation, seconds",
+           .range = {{-1e9, 1e9}},
+           .needs = "--animation"},
           {.name = "--out",
            .target = &request.out,
            .help = "folder for the files",

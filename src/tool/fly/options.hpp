@@ -49,6 +49,10 @@ struct Options {
   bool history = false;
   /// Every frame is drawn twice: the first tells which depths show a surface, the second's maps cover those.
   bool visible_depths = false;
+  /// The animation that the flight plays, by name or number; empty: the scene stays at rest.
+  std::string animation;
+  double animation_fps = 30.0;   ///< frames in a second of the animation
+  double animation_start = 0.0;  ///< time of the first frame, seconds
   LightPlacement light;
   /// What may be left out, of plans and of drawing.
   PruneRules prune;

@@ -28,10 +28,10 @@ constexpr const char* kKeys =
 
 /// What the keys change.
 struct Viewer {
-  Viewer(const Options& from_options, const Flight& over, GLFWwindow* in)
+  Viewer(const Options& from_options, Flight& over, GLFWwindow* in)
       : options(from_options), flight(over), window(in), renderer(over.scene) {}
   Options options;
-  const Flight& flight;
+  Flight& flight;
   GLFWwindow* window;
   Renderer renderer;
   std::size_t warp = 0;    ///< 0: auto, then all_warps()
@@ -40,6 +40,7 @@ struct Viewer {
   CameraKey eye;  ///< where the user is, and what is looked at
   bool on_path = true, mouse_held = false;
   double path_time = 0.0;
+  double seconds = 0.0;  ///< since the first frame, of the animation
   glm::dvec2 mouse{0.0};
   Image legend;
   PlanHistory history;
@@ -174,6 +175,8 @@ void draw(Viewer& viewer, double seconds) {
   width = std::max(width, 16);
   height = std::max(height, 16);
   const Camera camera = next_camera(viewer, width, height, seconds);
+  viewer.seconds += seconds;
+  pose_flight(viewer.options, viewer.flight, viewer.seconds, &viewer.renderer);
   const Light light = default_light(viewer.options.light, viewer.flight.scene.bounds_world);
   const render::PreparedFilter filter = viewer.renderer.prepare(viewer.options.filter);
   const VisibleDepths depths = frame_depths(viewer.options, viewer.renderer, filter, camera);
@@ -217,6 +220,7 @@ void fly_once(Viewer& viewer) {
     viewer.path_time = frames == 1 ? 0.5 : 1.0 * frame / (viewer.flight.path.closed ? frames : frames - 1);
     // Each view in turn, so that a run without hands shows all of them.
     viewer.picture = static_cast<Renderer::Picture>(frame % 3);
+    viewer.seconds = frame / viewer.options.animation_fps;
     draw(viewer, 0.0);
     show_title(viewer, 0.0);
     glfwPollEvents();
@@ -228,7 +232,7 @@ void fly_once(Viewer& viewer) {
 
 }  // namespace
 
-int fly_in_window(const Options& asked, const Flight& flight) {
+int fly_in_window(const Options& asked, Flight& flight) {
   Options options = asked;
   const auto window = [&options] {
     try {

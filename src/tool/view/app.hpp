@@ -95,6 +95,12 @@ struct App {
 
 /// Tabs with every option; changes App::state.
 void draw_panel(App& app);
+/// What chooses and plays the scene's animation; nothing where it has none.
+void playing_part(App& app);
+/// Plays the animation, the first where none is chosen, or pauses it.
+void toggle_playing(App& app);
+/// Takes the animation further; true where it plays.
+bool play_animation(App& app, double seconds);
 /// The status line, the help page, the probe's text and the light's handle.
 void draw_overlay(App& app);
 /// Width of the panel in window units; 0 where it is hidden.

@@ -34,6 +34,7 @@ constexpr KeyHelp kKeys[] = {
     {"drag the light", "move it across the view, with Shift along it"},
     {"L", "hang the spot or point light over the point under the cursor"},
     {"P, O", "fly along the path, turn the sun"},
+    {"Space", "play the scene's animation, or pause it"},
     {"K", "record the camera's way as the path, into a file; K ends it"},
     {"R, Home", "camera of the path"},
     {"Ctrl+C", "copy the command with this picture"},
@@ -132,6 +133,7 @@ void setting_keys(App& app, const Presses& pressed) {
   if (pressed(GLFW_KEY_PAGE_DOWN)) size = std::max(size / 2, kLeastMapSize);
   if (pressed(GLFW_KEY_L)) hang_light(app);
   if (pressed(GLFW_KEY_K)) toggle_path_recording(app);
+  if (pressed(GLFW_KEY_SPACE)) toggle_playing(app);
   if (pressed(GLFW_KEY_O)) state.motion.sun = !state.motion.sun;
   if (pressed(GLFW_KEY_M) && app.stage != nullptr)
     state.map = (state.map + 1) % std::max(app.stage->side(0).picture_count(), 1);

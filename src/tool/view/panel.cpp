@@ -107,6 +107,7 @@ void view_tab(App& app) {
   ImGui::Checkbox("probe under the cursor", &app.probing);
   tooltip("I: the aliasing error, the map and the exact shadow at the point under the cursor");
   ImGui::Separator();
+  playing_part(app);
   camera_part(app);
   ImGui::Separator();
   ImGui::TextUnformatted("presets");

@@ -84,16 +84,10 @@ std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_t
   return loaded;
 }
 
-Stage::Stage(std::shared_ptr<const Loaded> loaded) : loaded_(std::move(loaded)), renderer_(loaded_->scene) {
-  sorting_ = std::async(std::launch::async,
-                        [scene = loaded_] { return std::make_shared<const trace::Tracer>(scene->scene); });
-}
-
-void Stage::take_tracer(bool wait) {
-  if (tracer_ != nullptr || !sorting_.valid()) return;
-  if (!wait && sorting_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  tracer_ = sorting_.get();
-}
+Stage::Stage(std::shared_ptr<const Loaded> loaded)
+    : loaded_(std::move(loaded)),
+      renderer_(loaded_->scene),
+      posed_(std::shared_ptr<const Scene>(loaded_, &loaded_->scene)) {}
 
 void Stage::cut() noexcept {
   for (Side& side : sides_) side.history.clear();
@@ -122,7 +116,7 @@ bool Stage::compile_ahead() {
 
 std::string Stage::plan_side(const Settings& settings, const Camera& planned, const Light& light,
                              std::shared_ptr<const SeenSurfaces>& surfaces, Side& side) {
-  const SceneBounds bounds{loaded_->boxes, loaded_->boxes};
+  const SceneBounds bounds{posed_.boxes(), posed_.boxes()};
   const PlanOptions options = plan_options_of(settings);
   side.pages.reset();
   side.plan_camera = planned;
@@ -176,7 +170,11 @@ std::string Stage::make_plans(const State& state, int width, int height) {
 }
 
 std::string Stage::draw(const State& state, int width, int height, bool settled) try {
-  take_tracer(false);
+  bool moved = false;
+  if (std::string refusal = posed_.follow(state.playing, renderer_, moved); !refusal.empty()) return refusal;
+  if (moved) truth_.stop();
+  posed_.take_tracer(false);
+  if (settled) posed_.begin_tracer();
   if (std::string refusal = make_plans(state, width, height); !refusal.empty()) return refusal;
   unfinished_ = false;
   for (Canvas* canvas : {&canvas_, &canvas_a_, &canvas_b_}) canvas->resize(width, height);
@@ -237,8 +235,8 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
   if (state.frozen && state.view != View::map) {
     const Box& scene = loaded_->scene.bounds_world;
     canvas.draw(on_screen(side.pages
-                              ? page_lines(side.pages->plan(), side.plan_camera, loaded_->boxes, state.drawn)
-                              : plan_lines(side.plan, side.plan_camera, loaded_->boxes, scene, state.drawn),
+                              ? page_lines(side.pages->plan(), side.plan_camera, posed_.boxes(), state.drawn)
+                              : plan_lines(side.plan, side.plan_camera, posed_.boxes(), scene, state.drawn),
                           camera_));
   }
   if (const Image image = side_legend(state, side); image.width > 0)
@@ -248,8 +246,8 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
 void Stage::want_truth(bool settled) {
   if (truth_.is_of(camera_, light_)) return;
   truth_.stop();
-  if (!settled || tracer_ == nullptr) return;
-  truth_.begin(tracer_, camera_, light_, renderer_.positions(), renderer_.normals());
+  if (!settled || posed_.tracer() == nullptr) return;
+  truth_.begin(posed_.tracer(), camera_, light_, renderer_.positions(), renderer_.normals());
 }
 
 void Stage::draw_view(const State& state, Side& side, Canvas& canvas) {
@@ -302,7 +300,7 @@ void Stage::draw_map_view(const State& state, Side& side, Canvas& canvas) {
                        [this](std::size_t page) { return renderer_.page_depths(page); }, camera_.width,
                        camera_.height)
                  : map_picture(renderer_.depth_map(map), side.plan, map, side.plan_camera,
-                               loaded_->scene.bounds_world, loaded_->boxes, camera_.width, camera_.height);
+                               loaded_->scene.bounds_world, posed_.boxes(), camera_.width, camera_.height);
   canvas.put(picture.image, 0, 0);
   canvas.draw(picture.lines);
 }
@@ -345,10 +343,10 @@ void Stage::compose(const State& state) {
 }
 
 void Stage::finish_truth() {
-  take_tracer(true);
+  posed_.take_tracer(true);
   if (!wants_truth_) return;
-  if (!truth_.is_of(camera_, light_) && tracer_ != nullptr)
-    truth_.begin(tracer_, camera_, light_, renderer_.positions(), renderer_.normals());
+  if (!truth_.is_of(camera_, light_))
+    truth_.begin(posed_.tracer(), camera_, light_, renderer_.positions(), renderer_.normals());
   truth_.finish();
 }
 

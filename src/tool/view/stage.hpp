@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +15,7 @@
 #include "gnomon/scene/scene.hpp"
 #include "gnomon/trace/tracer.hpp"
 #include "pictures.hpp"
+#include "posed_scene.hpp"
 #include "state.hpp"
 #include "truth.hpp"
 
@@ -26,7 +26,7 @@ struct Loaded {
   std::string name;  ///< as State::scene has it
   Scene scene;
   CameraPath path;
-  std::vector<Box> boxes;  ///< of the instances: they cast and receive
+  std::vector<Box> boxes;  ///< of the instances at rest
 };
 /// Throws SceneError.
 [[nodiscard]] std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles);
@@ -74,9 +74,11 @@ class Stage {
   /// Rows of exact shadows that are done, of how many; none where none are wanted.
   [[nodiscard]] std::optional<std::array<int, 2>> truth_progress() const;
   /// Takes what the background has finished.
-  void poll() { take_tracer(false); }
-  /// nullptr until the triangles are sorted.
-  [[nodiscard]] const trace::Tracer* tracer() const noexcept { return tracer_.get(); }
+  void poll() { posed_.take_tracer(false); }
+  /// Begins to sort the triangles where they stand now: worth it once they rest.
+  void want_tracer() { posed_.begin_tracer(); }
+  /// nullptr until the triangles are sorted, as they stand now.
+  [[nodiscard]] const trace::Tracer* tracer() const noexcept { return posed_.tracer().get(); }
   /// Compiles one more of the filters that no state has used yet; false where all are compiled.
   bool compile_ahead();
   /// True where the filter's programs are compiled already, for pages where the settings have them.
@@ -98,12 +100,10 @@ class Stage {
   void want_truth(bool settled);
   void draw_view(const State& state, Side& side, Canvas& canvas);
   void compose(const State& state);
-  void take_tracer(bool wait);
 
   std::shared_ptr<const Loaded> loaded_;
-  std::future<std::shared_ptr<const trace::Tracer>> sorting_;
-  std::shared_ptr<const trace::Tracer> tracer_;
   render::Renderer renderer_;
+  PosedScene posed_;
   std::vector<std::string> compiled_;  ///< filters as text, for pages with a word before
   std::array<Side, 2> sides_;
   Canvas canvas_, canvas_a_, canvas_b_;

@@ -77,6 +77,14 @@ struct Motion {
   double sun_degrees_per_second = 10.0;  ///< azimuth
 };
 
+/// The animation that poses the scene.
+struct Playing {
+  std::string animation;  ///< name or number, as find_animation() takes it; empty: the scene is at rest
+  double time_s = 0.0;    ///< it repeats
+  bool on = false;        ///< time goes on, in a window
+  double speed = 1.0;     ///< seconds of the animation in a second, -100..100
+};
+
 /// Half a second each: most of ten minutes.
 inline constexpr std::size_t kMostPathKeys = 1024;
 
@@ -97,6 +105,7 @@ struct State {
   double gain = 4.0;        ///< of the difference picture
   Drawn drawn;
   Motion motion;
+  Playing playing;
 };
 
 /// The light of a state over a scene with these bounds.

@@ -310,6 +310,14 @@ void read_rest(Reader& reader, State& state) {
     fields.read("sun_degrees_per_second", state.motion.sun_degrees_per_second, -360.0, 360.0);
     fields.done();
   }
+  if (const Json* playing = reader.take("playing")) {
+    Reader fields(*playing, "playing");
+    fields.read("animation", state.playing.animation);
+    fields.read("time_s", state.playing.time_s, -1e9, 1e9);
+    fields.read("on", state.playing.on);
+    fields.read("speed", state.playing.speed, -100.0, 100.0);
+    fields.done();
+  }
 }
 
 void check_brackets(std::string_view text) {
@@ -353,6 +361,11 @@ std::string state_text(const State& state) {
                     {"sun", state.motion.sun},
                     {"path_seconds", state.motion.path_seconds},
                     {"sun_degrees_per_second", state.motion.sun_degrees_per_second}};
+  if (const Playing& playing = state.playing; !playing.animation.empty())
+    json["playing"] = {{"animation", playing.animation},
+                       {"time_s", playing.time_s},
+                       {"on", playing.on},
+                       {"speed", playing.speed}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -491,6 +504,11 @@ std::string command_text(const State& state) {
             exact(light.point->range);
   if (state.eye)
     text += " --eye=" + point_word(state.eye->position) + " --target=" + point_word(state.eye->target);
+  if (const Playing& playing = state.playing; !playing.animation.empty()) {
+    text += " --animation " + quoted(playing.animation);
+    if (playing.time_s != 0.0) text += " --animation-time=" + exact(playing.time_s);
+    if (playing.on) text += " --animate=" + exact(playing.speed);
+  }
   if (state.view != View::lit)
     text += " --view " + std::string(view_names()[static_cast<std::size_t>(state.view)].name);
   return text;

@@ -112,6 +112,15 @@ void resolve_camera(const Request& request, State& state) {
   if (state.eye->position == state.eye->target) throw std::runtime_error("--target: must differ from --eye");
 }
 
+void resolve_playing(const Request& request, Playing& playing) {
+  const auto given = [&request](std::string_view name) {
+    return std::any_of(request.settings.begin(), request.settings.end(),
+                       [name](const auto& setting) { return setting.first == name && *setting.second; });
+  };
+  if (playing.animation.empty() && (given("--animate") || given("--animation-time"))) playing.animation = "0";
+  playing.on = given("--animate") && playing.speed != 0.0;
+}
+
 /// The fields that only --options carries, taken from its text; the others are as the command line has them.
 void resolve_plan(const Request& request, PlanOptions& plan) {
   if (request.plan_json.empty()) return;
@@ -176,6 +185,7 @@ Options resolved(const Request& request) {
   set_named("--view", request.view, view_names(), state.view);
   resolve_light(request, state.light);
   resolve_camera(request, state);
+  resolve_playing(request, state.playing);
   return options;
 }
 
@@ -281,6 +291,19 @@ std::vector<Option> setting_options(Request& request) {
                                     .target = &request.path,
                                     .help = "camera path, a JSON file, in place of the scene's own",
                                     .completion = Completion::files},
+                                   {.name = "--animation",
+                                    .target = &state.playing.animation,
+                                    .help = "animation that poses the scene, by name or number",
+                                    .word = "NAME"},
+                                   {.name = "--animation-time",
+                                    .target = &state.playing.time_s,
+                                    .help = "time within the animation, seconds; it repeats",
+                                    .range = {{-1e9, 1e9}}},
+                                   {.name = "--animate",
+                                    .target = &state.playing.speed,
+                                    .help = "play it, the first without --animation, at this speed; "
+                                            "below 0: backwards",
+                                    .range = {{-100.0, 100.0}}},
                                    {.name = "--view",
                                     .target = &request.view,
                                     .help = "what the picture shows: " + any_of_text(views),

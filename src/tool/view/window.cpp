@@ -110,6 +110,7 @@ void take_loaded(App& app) {
       app.state.eye.reset();
       app.state.frozen.reset();
       app.state.path.clear();
+      app.state.playing = {};
       app.state.light.spot.reset();
       app.state.light.point.reset();
     }
@@ -132,7 +133,8 @@ bool play(App& app, double seconds) {
     const double turned = state.light.sun.azimuth_deg + seconds * state.motion.sun_degrees_per_second;
     state.light.sun.azimuth_deg = turned - kTurn * std::floor((turned + kHalf) / kTurn);
   }
-  return state.motion.camera || state.motion.sun;
+  const bool animated = play_animation(app, seconds);
+  return state.motion.camera || state.motion.sun || animated;
 }
 
 void add_curves(App& app) {
@@ -282,6 +284,7 @@ class Loop {
     const bool settled = text == shown_.state, has_tracer = app_.stage->tracer() != nullptr;
     const bool same = settled && app_.picture.width == shown_.width && app_.picture.height == shown_.height &&
                       app_.stage.get() == shown_.stage;
+    if (same && !moving) app_.stage->want_tracer();
     // A page policy that reads the picture takes more rounds once nothing moves.
     const bool unfinished = same && !shown_.settled && app_.stage->unfinished();
     if (same && !moving && !shows_rays(progress) && !unfinished) {

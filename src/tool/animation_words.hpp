@@ -1,0 +1,26 @@
+// How commands name a scene's animations.
+#pragma once
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string>
+
+#include "gnomon/scene/animation.hpp"
+
+namespace gnomon::tool {
+
+/// Why there is no animation of this name or number, and which there are.
+[[nodiscard]] inline std::string no_animation_text(const SceneMotion& motion, const std::string& word) {
+  if (motion.animations.empty()) return fmt::format("animation '{}': the scene has no animations", word);
+  constexpr std::size_t kMostNames = 20;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(motion.animations.size(), kMostNames); ++i) {
+    const std::string& name = motion.animations[i].name;
+    names += fmt::format("{}{}", i == 0 ? "" : ", ", name.empty() ? std::to_string(i) : name);
+  }
+  if (motion.animations.size() > kMostNames) names += ", ...";
+  return fmt::format("animation '{}': the scene has none of this name; it has {}", word, names);
+}
+
+}  // namespace gnomon::tool

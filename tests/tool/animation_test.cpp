@@ -1,0 +1,157 @@
+// Do the programs play animations: the viewer, its exact shadows, and the flight?
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "animated_gltf.hpp"
+#include "gnomon/scene/pose.hpp"
+#include "process.hpp"
+#include "render/shared_context.hpp"
+#include "stage.hpp"
+
+namespace gnomon::tool::view {
+namespace {
+
+using test::Finished;
+using test::run_gnomon;
+
+constexpr int kWidth = 160, kHeight = 90;
+
+/// The animated scene as a file.
+struct SceneFile {
+  test::TemporaryFolder folder;
+  std::string file = folder.write("animated.glb", test::animated_gltf().file());
+  std::string still = folder.write("still.glb", test::one_triangle().file());
+};
+
+State at(const SceneFile& scene, double time_s, View view = View::lit) {
+  State state;
+  state.scene = scene.file;
+  state.view = view;
+  state.a.plan.resolution.max_size = 512;
+  state.playing = {"all", time_s, false, 1.0};
+  return state;
+}
+
+Image picture(Stage& stage, const State& state) {
+  EXPECT_EQ(stage.draw(state, kWidth, kHeight, true), "");
+  if (stage.truth_progress()) {
+    stage.finish_truth();
+    EXPECT_EQ(stage.draw(state, kWidth, kHeight, true), "");
+  }
+  return stage.canvas().image();
+}
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+TEST(Playing, the_picture_is_that_of_the_time_alone) {
+  const SceneFile scene;
+  Stage stage(load(scene.file, LoadLimits{}.triangles));
+  const Image begin = picture(stage, at(scene, 0.0)), middle = picture(stage, at(scene, 1.0));
+  EXPECT_NE(begin.rgba, middle.rgba);
+  EXPECT_EQ(picture(stage, at(scene, 4.0)).rgba, begin.rgba) << "it repeats";
+  EXPECT_EQ(picture(stage, at(scene, 1.0)).rgba, middle.rgba);
+  Stage fresh(load(scene.file, LoadLimits{}.triangles));
+  EXPECT_EQ(picture(fresh, at(scene, 1.0)).rgba, middle.rgba);
+  State rest = at(scene, 1.0);
+  rest.playing = {};
+  const Image at_rest = picture(stage, rest);
+  EXPECT_NE(at_rest.rgba, middle.rgba);
+  Stage untouched(load(scene.file, LoadLimits{}.triangles));
+  EXPECT_EQ(picture(untouched, rest).rgba, at_rest.rgba);
+}
+
+TEST(Playing, exact_shadows_are_those_of_the_pose) {
+  const SceneFile scene;
+  Stage stage(load(scene.file, LoadLimits{}.triangles));
+  const Image begin = picture(stage, at(scene, 0.0, View::truth));
+  for (const double time : {1.6, 2.4}) {
+    EXPECT_NE(picture(stage, at(scene, time, View::truth)).rgba, begin.rgba);
+    (void)picture(stage, at(scene, time, View::misclassified));
+    const auto& errors = stage.side(0).errors;
+    ASSERT_TRUE(errors);
+    EXPECT_GT(errors->decided, 1000u);
+    // Rays against another pose would disagree over the whole shadow of the figures.
+    EXPECT_LT(static_cast<double>(errors->false_light + errors->false_shadow),
+              0.02 * static_cast<double>(errors->decided));
+  }
+}
+
+TEST(Playing, an_animation_that_is_not_there_is_refused_and_the_picture_stays) {
+  const SceneFile scene;
+  Stage stage(load(scene.file, LoadLimits{}.triangles));
+  const Image before = picture(stage, at(scene, 1.0));
+  State other = at(scene, 1.0);
+  other.playing.animation = "run";
+  EXPECT_NE(stage.draw(other, kWidth, kHeight, true).find("it has all"), std::string::npos);
+  EXPECT_EQ(stage.canvas().image().rgba, before.rgba);
+}
+
+TEST(Playing, commands_speak_it) {
+  State state = at(SceneFile(), 1.25);
+  EXPECT_NE(command_text(state).find("--animation all --animation-time=1.25"), std::string::npos);
+  state.playing.on = true;
+  state.playing.speed = -2.0;
+  EXPECT_NE(command_text(state).find("--animate=-2"), std::string::npos);
+  const State back = read_state(state_text(state));
+  EXPECT_EQ(back.playing.animation, "all");
+  EXPECT_EQ(back.playing.speed, -2.0);
+  EXPECT_TRUE(back.playing.on);
+}
+
+TEST(Playing, the_view_command_draws_a_pose) {
+  const SceneFile scene;
+  const auto draw = [&](const char* name, std::vector<std::string> more) {
+    std::vector<std::string> words{"view",   scene.file, "--out",      (scene.folder.path() / name).string(),
+                                   "--size", "160x90",   "--map-size", "256"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Finished run = run_gnomon(words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return content(scene.folder.path() / name);
+  };
+  const std::string rest = draw("rest.png", {}),
+                    one = draw("one.png", {"--animation", "all", "--animation-time", "1"});
+  EXPECT_NE(rest, one);
+  EXPECT_EQ(draw("again.png", {"--animation-time", "5"}), one) << "the first animation, round once";
+  const Finished unknown = run_gnomon({"view", scene.file, "--out", "x.png", "--animation", "run"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("it has all"), std::string::npos);
+  const Finished none = run_gnomon({"view", scene.still, "--out", "x.png", "--animate", "1"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("has no animations"), std::string::npos);
+}
+
+TEST(Playing, the_fly_command_plays_while_it_flies) {
+  const SceneFile scene;
+  const auto fly = [&](const char* name, std::vector<std::string> more) {
+    const auto folder = scene.folder.path() / name;
+    std::vector<std::string> words{"fly", scene.file, "--out", folder.string(), "--frames",
+                                   "2",   "--size",   "96x54", "--map-size",    "256"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Finished run = run_gnomon(words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return std::pair(content(folder / "frame_0000_image.png"), content(folder / "frame_0001_image.png"));
+  };
+  const auto rest = fly("rest", {}), plays = fly("plays", {"--animation", "0", "--animation-fps", "1"});
+  EXPECT_EQ(plays.first, rest.first) << "it begins at rest";
+  EXPECT_NE(plays.second, rest.second);
+  const auto later = fly("later", {"--animation", "all", "--animation-start", "1"});
+  EXPECT_NE(later.first, rest.first);
+  const Finished unknown = run_gnomon({"fly", scene.file, "--animation", "run"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("it has all"), std::string::npos);
+  const Finished budget = run_gnomon({"fly", scene.file, "--animation", "0", "--target-error", "1"});
+  EXPECT_EQ(budget.exit_code, 2);
+  EXPECT_NE(budget.err.find("at rest"), std::string::npos);
+  EXPECT_EQ(run_gnomon({"fly", scene.file, "--animation-fps", "2"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace gnomon::tool::view
