@@ -54,7 +54,7 @@ struct LightOptions {
   bool operator==(const LightOptions&) const = default;
 };
 
-/// What became of one light.
+/// The outcome for one light.
 enum class LightOutcome : std::uint8_t {
   mapped,            ///< it has maps of at least LightOptions::least_size
   below_least_size,  ///< it has smaller maps: the budget does not suffice for all lights
@@ -83,7 +83,7 @@ struct LightMaps {
 /// Writes "what" and "why" of the outcome as two lines of English; no heap.
 [[nodiscard]] OmissionText describe(const LightMaps& maps, const LightOptions& options) noexcept;
 
-/// What plan_lights remembers of one light. Plain data; as made, it remembers nothing.
+/// State that plan_lights keeps of one light. Plain data; as made, it remembers nothing.
 struct LightState {
   Light light;                                  ///< of the frame in which its maps were drawn
   std::int64_t frame = -1;                      ///< that frame; -1: it has no maps

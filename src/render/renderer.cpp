@@ -183,6 +183,7 @@ bool Renderer::move_instance(std::size_t instance, const Instance& to) {
 FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                           const FrameOptions& options) noexcept {
   Impl& impl = *impl_;
+  if (impl.light_pass) impl.light_pass->holds = false;
   impl.take_moved(options.moved_world);
   if (!impl.moved.empty()) {
     impl.lists.forget_maps();
@@ -260,6 +261,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
     return draw(of_light, camera, filter, options);
   of_light.map_count = 1;
   of_light.map[0] = page_map(plan, plan.pages[0]);
+  if (impl.light_pass) impl.light_pass->holds = false;
   FrameStats stats;
   const PassTimer timed{stats, options.time_passes};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

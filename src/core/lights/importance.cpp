@@ -137,16 +137,17 @@ class FaceFinder {
     const double slack = kRounding * (largest_component(c) + largest_component(light_.apex));
     for (int face = 0; face < 6; ++face) {
       const int axis = face / 2;
-      const double reach = kFaceSlope * (face % 2 == 0 ? c[axis] : -c[axis]) + slack;
+      const double distance = face % 2 == 0 ? c[axis] : -c[axis], reach = kFaceSlope * distance + slack;
       const double a = c[(axis + 1) % 3], b = c[(axis + 2) % 3];
       std::uint8_t& sides = inside_[static_cast<std::size_t>(face)];
       sides = static_cast<std::uint8_t>(sides | (reach >= a ? 1 : 0) | (reach >= -a ? 2 : 0) |
-                                        (reach >= b ? 4 : 0) | (reach >= -b ? 8 : 0));
+                                        (reach >= b ? 4 : 0) | (reach >= -b ? 8 : 0) |
+                                        (distance > -slack ? 16 : 0));
     }
   }
   [[nodiscard]] int count() const noexcept {
     int faces = 0;
-    for (const std::uint8_t sides : inside_) faces += sides == 15 ? 1 : 0;
+    for (const std::uint8_t sides : inside_) faces += sides == 31 ? 1 : 0;
     return faces > 0 ? faces : 1;
   }
 
