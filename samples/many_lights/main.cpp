@@ -1,9 +1,11 @@
 // A flight through a scene under many lights whose shadow maps share one pool: plan_lights -> make_plan ->
 // draw.
 //
-// usage: many_lights [SCENE] [FOLDER] [LIGHTS]     builtin:hangar, out/many_lights and 24 where nothing is said
+// usage: many_lights [SCENE] [FOLDER] [LIGHTS]     builtin:hangar, out/many_lights and 24 where nothing is
+// said
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -51,7 +53,7 @@ std::vector<gnomon::LightRequest> place_lights(const gnomon::Scene& scene, int c
   return lights;
 }
 
-/// Candle, lamp and moon.
+/// Warm and cold by turns, and the moon.
 glm::vec3 color_of(const gnomon::Light& light, std::size_t index) {
   if (std::holds_alternative<gnomon::DirectionalLight>(light)) return {0.03f, 0.04f, 0.06f};
   return index % 2 == 0 ? glm::vec3(0.5f, 0.3f, 0.15f) : glm::vec3(0.25f, 0.35f, 0.5f);
@@ -89,6 +91,10 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
   const gnomon::CameraPath path = gnomon::default_path(scene);
   std::vector<gnomon::Box> boxes;
   for (const gnomon::Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
+  // Sorted once: each light reads the boxes near it alone.
+  std::vector<gnomon::CasterBlock> blocks(gnomon::CasterSet::block_count(boxes.size()));
+  std::vector<std::uint32_t> indices(gnomon::CasterSet::index_count(boxes.size()));
+  const gnomon::CasterSet set(boxes, blocks, indices);
   gnomon::render::Renderer renderer(scene);
   const gnomon::render::FilterSettings pcf = gnomon::render::default_settings(gnomon::render::filters::pcf);
   const gnomon::render::PreparedFilter filter = renderer.prepare_lights(pcf);
@@ -104,7 +110,7 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
     // 1. Sizes and places of all lights' maps, and which of them are due.
     const auto begin = std::chrono::steady_clock::now();
     const gnomon::LightPlan plan =
-        gnomon::plan_lights(camera, lights.requests, {boxes, boxes}, options, pool,
+        gnomon::plan_lights(camera, lights.requests, {set, set}, options, pool,
                             {lights.maps, lights.work, lights.places, {}}, &lights.history);
     const double ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
@@ -119,7 +125,7 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
       if (!own.due) continue;
       const gnomon::Light& light = lights.requests[i].light;
       lights.plans[i] = gnomon::make_plan(own.frames > 1 ? gnomon::camera_round(light, camera) : camera,
-                                          light, {boxes, boxes}, gnomon::light_options(options, own));
+                                          light, {set, set}, gnomon::light_options(options, own));
     }
 
     // 3. Draw: the maps of due lights, then a mask and the light of each.

@@ -119,8 +119,12 @@ TEST(LightsLaw, every_light_in_view_has_maps_and_places_never_overlap) {
     if (small_budget(plan)) return;
     require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
     require_places(plan, scene.options);
+    const bool scarce = std::any_of(plan.lights.begin(), plan.lights.end(), [](const LightMaps& maps) {
+      return maps.outcome == LightOutcome::below_least_size;
+    });
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
       const LightMaps& maps = plan.lights[i];
+      require(!scarce || maps.size <= scene.options.least_size, "above the floor while others are below");
       const Light& light = scene.lights[i].light;
       if (maps.outcome == LightOutcome::below_least_size) ++fewer;
       if (maps.map_count == 0) {
@@ -404,6 +408,19 @@ TEST(Lights, a_light_without_casters_or_receivers_is_listed_with_the_reason) {
   EXPECT_EQ(dark.status, PlanStatus::no_caster);
   EXPECT_EQ(dark.lights[0].outcome, LightOutcome::without_caster);
   EXPECT_STREQ(describe(dark.lights[0], {}).why.data(), "no caster lies within the light's range and cone");
+}
+
+TEST(Lights, no_light_grows_above_the_floor_while_another_is_below) {
+  const SizeLadder ladder{16, 1, 3, 1.0};
+  std::vector<LightWork> work{{1.0, 0.0, 0, 6, 0, 3, 0}, {100.0, 0.0, 1, 1, 0, 3, 0}};
+  // One square less than the six maps of the first need; the second could take twelve of them.
+  ASSERT_TRUE(choose_sizes(work, ladder, 7 + 3 + 17, 1.0));
+  EXPECT_EQ(work[0].level, 0);
+  EXPECT_EQ(work[1].level, 1);
+  ASSERT_TRUE(choose_sizes(work, ladder, 7 + 3 + 18 + 12, 1.0));
+  EXPECT_EQ(work[0].level, 1);
+  EXPECT_EQ(work[1].level, 2);
+  EXPECT_FALSE(choose_sizes(work, ladder, 6, 1.0));
 }
 
 TEST(Lights, visible_points_decide_the_share) {
