@@ -1,25 +1,8 @@
 #version 450 core
 // The picture: sun where the mask lets it through, sky everywhere, a little air in the distance.
-#include "common/frame.glsl"
-#include "common/surface.glsl"
-#include "common/sky.glsl"
+#include "common/lit.glsl"
 
-layout(binding = 6) uniform sampler2D mask_image;
 layout(location = 0) out vec4 color_out;  // written through sRGB encoding
-
-vec3 view_ray(vec2 pixel) {
-  vec2 at = vec2(pixel.x * frame.right.w + frame.image_edges.x, pixel.y * frame.up.w + frame.image_edges.z);
-  if (frame.forward.w > 0.5) return frame.forward.xyz;
-  return normalize(frame.forward.xyz + at.x * frame.right.xyz + at.y * frame.up.xyz);
-}
-
-// Falloff of a local light by its cone and range; both end softly.
-float local_light_falloff(vec3 ray, float away) {
-  float range = frame.layer.z;
-  float fade = range > 0.0 ? clamp(1.0 - away / range, 0.0, 1.0) : 1.0;
-  float cone = smoothstep(frame.light_cone.w, mix(frame.light_cone.w, 1.0, 0.1), dot(ray, frame.light_cone.xyz));
-  return (frame.light_cone.w > -1.0 ? cone : 1.0) * fade * (2.0 - fade);
-}
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -30,17 +13,8 @@ void main() {
     color_out = vec4(display_from_scene(sky_color(ray, light)), 1.0);
     return;
   }
-  vec3 ray_of_light = light_at(frame.light_place, s.position);
-  float cosine = max(-dot(s.shading_normal, ray_of_light), 0.0);
-  // Faded where smooth normals still see the sun and their flat triangles no longer do: else triangles show.
-  const float kTerminator = 0.2;
-  bool local = frame.light_place.w > 0.5;
-  float sun = cosine * smoothstep(0.0, kTerminator, cosine) * texelFetch(mask_image, pixel, 0).r;
-  if (local) sun *= local_light_falloff(ray_of_light, length(s.position - frame.light_place.xyz));
   const float kDusk = 0.3;  // share of the sky's light that is left under a local light
-  vec3 color = s.albedo * (kSunColor * sun + (local ? kDusk : 1.0) * sky_ambient(s.shading_normal));
-  const float kHazeAtFar = 0.35;  // share of the horizon's colour at the camera's far plane
-  float haze = kHazeAtFar * smoothstep(0.2, 1.0, s.depth / frame.layer.w);
-  vec3 horizon = sky_color(normalize(vec3(ray.x, 0.02, ray.z)), light);
-  color_out = vec4(display_from_scene(mix(color, horizon, haze)), 1.0);
+  float sky = is_local_light() ? kDusk : 1.0;
+  vec3 color = s.albedo * (kSunColor * light_on(s, pixel) + sky * sky_ambient(s.shading_normal));
+  color_out = vec4(display_from_scene(through_air(color, s, ray, light)), 1.0);
 }

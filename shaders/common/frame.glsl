@@ -22,6 +22,10 @@ layout(std140, binding = 0) uniform Frame {
 
 #ifndef GNOMON_PAGES
 ShadowMap shadow_map(int index) { return frame.maps[index]; }
+#ifdef GNOMON_POOL
+float layer_of_map(int index) { return 0.0; }
+#else
 float layer_of_map(int index) { return float(index); }
+#endif
 #endif
 #endif

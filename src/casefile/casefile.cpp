@@ -69,12 +69,17 @@ Camera camera_from(const json& value) {
       fields.integer("height"));
 }
 
-Light light_from(const json& value) {
+/// `path`: of the light. `more`: keys beside those of its type.
+Light light_from(const json& value, const std::string& path, std::vector<std::string_view> more = {}) {
+  const auto keys = [&](std::vector<std::string_view> known) {
+    known.insert(known.end(), more.begin(), more.end());
+    return known;
+  };
   // The type decides which keys are known.
-  const Fields any(value, "light", {"type", "direction", "position", "outer_deg", "range"});
+  const Fields any(value, path, keys({"type", "direction", "position", "outer_deg", "range"}));
   const std::string type = any.text("type");
   if (type == "directional") {
-    const Fields fields(value, "light", {"type", "direction"});
+    const Fields fields(value, path, keys({"type", "direction"}));
     return DirectionalLight{fields.vector("direction")};
   }
   if (type == "spot") {
@@ -82,10 +87,26 @@ Light light_from(const json& value) {
                      radians(half_open_degrees(any, "outer_deg")), any.number("range")};
   }
   if (type == "point") {
-    const Fields fields(value, "light", {"type", "position", "range"});
+    const Fields fields(value, path, keys({"type", "position", "range"}));
     return PointLight{fields.vector("position"), fields.number("range")};
   }
   any.refuse("type", "is \"" + one_line(type, 40) + "\", not one of directional, spot, point");
+}
+
+std::vector<LightRequest> lights_from(const Fields& fields) {
+  const json& list = fields.at("lights");
+  if (!list.is_array() || list.empty()) fields.refuse("lights", "needs a list of lights");
+  std::vector<LightRequest> lights;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string path = "lights[" + std::to_string(i) + "]";
+    LightRequest request{light_from(list[i], path, {"weight"})};
+    if (list[i].contains("weight")) {
+      if (!list[i].at("weight").is_number()) throw CaseError(path + ".weight: needs a number");
+      request.weight = list[i].at("weight").get<double>();
+    }
+    lights.push_back(request);
+  }
+  return lights;
 }
 
 template <typename Value, typename Set>
@@ -205,6 +226,7 @@ PlanOptions options_from(const json& value) {
   for (const PlanField& field : plan_fields()) known.push_back(field.key);
   for (const auto& [other, key] : kOtherNames) known.push_back(other);
   known.push_back("pages");
+  known.push_back("lights");
   const Fields fields(value, "options", known);
   for (const auto& [other, key] : kOtherNames) {
     if (fields.has(other) && fields.has(key))
@@ -247,6 +269,22 @@ PageOptions pages_from(const json& value) {
   fields.read("fallback", pages.fallback);
   fields.read("least_light_sine", pages.least_light_sine);
   return pages;
+}
+
+LightOptions light_options_from(const json& value) {
+  const Fields fields(value, "options.lights",
+                      {"pool_width", "pool_height", "texel_budget", "least_size", "most_size", "enough_m",
+                       "most_frames", "full_share"});
+  LightOptions options;
+  fields.read("pool_width", options.pool_width);
+  fields.read("pool_height", options.pool_height);
+  fields.read("texel_budget", options.texel_budget);
+  fields.read("least_size", options.least_size);
+  fields.read("most_size", options.most_size);
+  fields.read("enough_m", options.enough_m);
+  fields.read("most_frames", options.most_frames);
+  fields.read("full_share", options.full_share);
+  return options;
 }
 
 /// Visible points: lists of three numbers, or of six with the normal.
@@ -298,21 +336,33 @@ std::string read_text(const std::filesystem::path& file) {
 
 Case read_case(std::string_view json_text) {
   const json value = parse_json(json_text);
-  const Fields fields(value, "",
-                      {"camera", "light", "receivers", "casters", "options", "seen", "seen_feedback"});
+  const Fields fields(
+      value, "", {"camera", "light", "lights", "receivers", "casters", "options", "seen", "seen_feedback"});
   Case result;
   result.camera = camera_from(fields.at("camera"));
-  result.light = light_from(fields.at("light"));
+  if (fields.has("lights")) {
+    if (fields.has("light")) fields.refuse("lights", "stands in place of light: give one of them");
+    result.lights = lights_from(fields);
+    result.light = result.lights[0].light;
+  } else {
+    result.light = light_from(fields.at("light"), "light");
+  }
   result.receivers = fields.boxes("receivers");
   result.casters = fields.boxes("casters");
   if (fields.has("options")) {
     result.options = options_from(fields.at("options"));
     const json& options = fields.at("options");
     if (options.contains("pages")) result.pages = pages_from(options.at("pages"));
+    if (options.contains("lights")) result.light_options = light_options_from(options.at("lights"));
+    if (options.contains("lights") && result.lights.empty())
+      throw CaseError("options.lights: is only read with lights");
+    if (result.pages && !result.lights.empty())
+      throw CaseError("options.pages: are of one light, not of lights");
   }
-  for (const char* key : {"seen", "seen_feedback"}) {
-    if (fields.has(key) && !result.pages) fields.refuse(key, "is only read with options.pages");
-  }
+  if (fields.has("seen") && !result.pages && result.lights.empty())
+    fields.refuse("seen", "is only read with options.pages or lights");
+  if (fields.has("seen_feedback") && !result.pages)
+    fields.refuse("seen_feedback", "is only read with options.pages");
   if (fields.has("seen")) read_seen(fields, result);
   if (fields.has("seen_feedback")) read_feedback(fields, result);
   return result;
@@ -356,6 +406,18 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"pages.trials", "options.pages.trials: must lie in 1..16"},
       {"pages.reach_texels", "options.pages.reach_texels: must lie in 0..page_texels"},
       {"pages.least_light_sine", "options.pages.least_light_sine: must lie in 0..1"},
+      {"light.weight", "light.weight: must lie in 0..1e30"},
+      {"lights", "lights: must be at most 4096"},
+      {"lights.pool_width, lights.pool_height",
+       "options.lights.pool_width, pool_height: must be multiples of most_size up to 65536"},
+      {"lights.texel_budget", "options.lights.texel_budget: is too small for a map of each light"},
+      {"lights.least_size", "options.lights.least_size: must be a power of two up to most_size"},
+      {"lights.most_size",
+       "options.lights.most_size: must be a power of two in 16..16384 that holds filters"},
+      {"lights.enough_m", "options.lights.enough_m: must lie in 0..1e30"},
+      {"lights.most_frames", "options.lights.most_frames: must lie in 1..64"},
+      {"lights.full_share", "options.lights.full_share: must lie above 0 and at most at 1"},
+      {"visible_points", "seen: a point is beyond 1e30"},
       {"seen.points_world", "seen: a point is beyond 1e30"},
       {"seen.normals_world", "seen: a normal is not of length 1"},
       {"seen.feedback", "seen_feedback: needs one number for each point of seen"},

@@ -70,6 +70,11 @@ FloatImage Renderer::mask() const {
   const FrameTargets& t = impl_->targets;
   return read_floats(t.mask, t.width, t.height, GL_RG, {"visibility", "map"});
 }
+FloatImage Renderer::light_sum() const {
+  if (!impl_->light_pass || impl_->light_pass->width == 0) throw RenderError("no frame of many lights yet");
+  const LightPass& pass = *impl_->light_pass;
+  return read_floats(pass.sum, pass.width, pass.height, GL_RGB, {"r", "g", "b"});
+}
 FloatImage Renderer::aliasing() const {
   const FrameTargets& t = impl_->targets;
   return read_floats(t.aliasing, t.width, t.height, GL_RGBA, {"m_max", "m_s", "m_t", "map"});

@@ -240,6 +240,7 @@ bool Renderer::apply_pose(const Pose& pose) {
 FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                           const FrameOptions& options) noexcept {
   Impl& impl = *impl_;
+  if (impl.light_pass) impl.light_pass->holds = false;
   impl.take_moved(options.moved_world);
   // A frame without maps brings none up to date: what moved is for the next one, as long as it is worth it.
   constexpr std::size_t kMostMoved = 4096;
@@ -316,6 +317,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
     return draw(of_light, camera, filter, options);
   of_light.map_count = 1;
   of_light.map[0] = page_map(plan, plan.pages[0]);
+  if (impl.light_pass) impl.light_pass->holds = false;
   FrameStats stats;
   const PassTimer timed{stats, options.time_passes};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

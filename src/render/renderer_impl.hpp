@@ -10,6 +10,7 @@
 #include "frame_block.hpp"
 #include "gl_object.hpp"
 #include "gnomon/render/renderer.hpp"
+#include "light_pass.hpp"
 #include "mask_history.hpp"
 #include "page_pool.hpp"
 #include "pass_timer.hpp"
@@ -104,6 +105,16 @@ struct Renderer::Impl {
   void read_depths(int map, std::span<float> depths) const noexcept;
   /// `of_light`: the plan that says how the light's depths run.
   void draw_pages(const ShadowPlan& of_light, const DepthDraw& how) noexcept;
+  /// Maps of lights that are due, or all where the pool lost them, to be drawn into the pool.
+  void list_pool_maps(const LightPlan& plan, std::span<const DrawnLight> lights,
+                      const glm::dvec3& camera_world, FrameStats& stats);
+  void draw_pool_maps(std::span<const DrawnLight> lights, const DepthDraw& how) noexcept;
+  /// A mask for each light, and what it adds to the sum.
+  void add_lights(const LightPlan& plan, std::span<const DrawnLight> lights, const Camera& camera,
+                  const PreparedFilter& filter, const FrameOptions& options) noexcept;
+  /// The picture from that sum.
+  void draw_sum_of_lights(const Camera& camera, std::span<const DrawnLight> lights,
+                          const FrameOptions& options) noexcept;
   /// `program` writes at least what programs.surfaces writes.
   void draw_surfaces(GLuint fbo, const Program& program) noexcept;
   void draw_mask(const Program& program, bool accumulated) noexcept;
@@ -134,6 +145,7 @@ struct Renderer::Impl {
   DepthLayer drawn_layer = DepthLayer::front;  ///< that maps and pages hold
   double drawn_limit_texels = 0.0;             ///< the same, of DepthLayer::dual
   PagePool pages;
+  std::optional<LightPass> light_pass;    ///< made when many lights are first prepared
   std::optional<PixelLists> pixel_lists;  ///< made when they are first prepared
   std::vector<Box> moved;                 ///< bounds of casters before and after, since the last frame
   Pose posed;                             ///< the last one applied; empty: none, or instances moved since

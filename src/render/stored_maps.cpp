@@ -144,11 +144,24 @@ FilterVariant variant_of(const FilterSettings& settings) noexcept {
   return variant;
 }
 
-Program make_pages_program(const FilterSettings& settings) {
+namespace {
+
+Program make_depth_program(const FilterSettings& settings, const char* shader, const char* refusal) {
   if (settings.filter->info.reads != MapRead::depth)
-    throw RenderError("filter " + std::string(settings.filter->info.name) +
-                      ": stores texels of whole maps, and pages have depths alone");
-  return make_program("fullscreen.vert", "mask_pages.frag", {filter_path(*settings.filter)});
+    throw RenderError("filter " + std::string(settings.filter->info.name) + refusal);
+  return make_program("fullscreen.vert", shader, {filter_path(*settings.filter)});
+}
+
+}  // namespace
+
+Program make_pages_program(const FilterSettings& settings) {
+  return make_depth_program(settings, "mask_pages.frag",
+                            ": stores texels of whole maps, and pages have depths alone");
+}
+
+Program make_lights_program(const FilterSettings& settings) {
+  return make_depth_program(settings, "mask_lights.frag",
+                            ": stores texels of whole maps, and a pool of lights has depths alone");
 }
 
 FilterPrograms make_filter_programs(const FilterSettings& settings) {

@@ -32,13 +32,16 @@ struct FilterVariant {
 /// blurred by store_rows and blur_walk where all maps have one reach, else by store and blur.
 struct FilterPrograms {
   FilterVariant variant;
-  Program mask_pages;  ///< made when pages are first drawn
+  Program mask_pages;   ///< made when pages are first drawn
+  Program mask_lights;  ///< made when many lights are first drawn
   Program mask, mark, store_rows, blur_walk, store, blur, join_mip, depth_max, sum_rows, sum_columns;
 };
 /// Paths of the shaders that the filter takes part in when it is read so, that of the mask first.
 [[nodiscard]] std::vector<std::string_view> filter_shaders(const Filter& filter, MapRead reads);
 /// The mask from pages. Throws RenderError as make_filter_programs, and for filters that store texels.
 [[nodiscard]] Program make_pages_program(const FilterSettings& settings);
+/// The same of one of many lights, from a pool.
+[[nodiscard]] Program make_lights_program(const FilterSettings& settings);
 /// Throws RenderError with shader file and line.
 [[nodiscard]] FilterPrograms make_filter_programs(const FilterSettings& settings);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gnomon/study/technique.hpp"
+#include "support/light_storage.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -121,6 +122,30 @@ TEST(Allocation, pages_are_planned_measured_and_found_without_the_heap) {
     });
   }
   EXPECT_GT(opened, 100u);
+}
+
+TEST(Allocation, many_lights_are_planned_without_the_heap) {
+  int mapped = 0;
+  for_all(50, [&] {
+    const Case c = draw_case();
+    Random random(7);
+    std::vector<glm::dvec3> points = visible_points(c, random, 8, 16);
+    std::vector<LightRequest> lights{{DirectionalLight{c.light}}};
+    for (const glm::dvec3& point : points) lights.push_back({PointLight{point, c.camera.far_depth * unit()}});
+    std::vector<LightState> states(lights.size());
+    LightHistory history{states, 0, {}};
+    LightStorage memory(lights.size(), points.size());
+    const std::uint64_t before = g_allocations;
+    for (int frame = 0; frame < 2; ++frame) {
+      const LightPlan plan =
+          plan_lights(c.camera, lights, c.bounds(), {}, {}, memory.spans(), &history, points);
+      for (const LightMaps& maps : plan.lights) (void)describe(maps, {});
+      mapped += plan.mapped;
+    }
+    const std::uint64_t after = g_allocations;
+    require(after == before, "allocations", after - before);
+  });
+  EXPECT_GT(mapped, 100);
 }
 
 }  // namespace

@@ -40,8 +40,8 @@ std::string included(const std::string& line) {
 }
 
 /// The stages of src/core in the order in which they may include each other.
-constexpr std::array<std::string_view, 9> kStages = {"geometry", "split",   "warp",  "cull", "map",
-                                                     "plan",     "measure", "pages", "study"};
+constexpr std::array<std::string_view, 10> kStages = {"geometry", "split",   "warp",  "cull",   "map",
+                                                      "plan",     "measure", "pages", "lights", "study"};
 
 /// Which stage a path begins with; -1: none.
 int level_of(std::string_view path) {

@@ -104,7 +104,10 @@ TEST(Shaders, pass_the_reference_validator_with_every_filter) {
   for (const Filter* filter : all_filters()) {
     for (const MapRead reads : {filter->info.reads, reads_of(default_settings(*filter))}) {
       std::vector<std::string_view> paths = filter_shaders(*filter, reads);
-      if (reads == MapRead::depth) paths.push_back("mask_pages.frag");
+      if (reads == MapRead::depth) {
+        paths.push_back("mask_pages.frag");
+        paths.push_back("mask_lights.frag");
+      }
       for (const std::string_view path : paths) {
         const std::string extension = std::filesystem::path(path).extension();
         const ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",

@@ -277,5 +277,79 @@ TEST(PlanPages, repeats_are_timed_and_allocate_nothing) {
   EXPECT_GT(timing["median"].get<double>(), 0.0);
 }
 
+std::string lights_case(const std::string& lights, const std::string& rest = "") {
+  return R"({"camera": {"position": [0,5,20], "forward": [0,-0.2,-1], "up": [0,1,0], "fov_y_deg": 60,
+    "aspect": 1.5, "near": 0.1, "far": 100, "width": 960, "height": 640}, "lights": )" +
+         lights +
+         R"(, "receivers": [{"min": [-50,-1,-50], "max": [50,0,50]}, {"min": [-1,0,-1], "max": [1,3,1]}],
+    "casters": [{"min": [-1,0,-1], "max": [1,3,1]}])" +
+         rest + "}";
+}
+const char* const kThreeLights = R"([{"type": "point", "position": [0,5,3], "range": 15, "weight": 2},
+  {"type": "spot", "position": [4,6,0], "direction": [-0.5,-1,0], "outer_deg": 35, "range": 20},
+  {"type": "point", "position": [0,5,60], "range": 5}])";
+
+TEST(PlanLights, prints_sizes_places_and_reasons_by_light) {
+  const Finished finished =
+      plan_of(lights_case(kThreeLights, R"(, "options": {"lights": {"pool_width": 2048}})"));
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const json plan = json::parse(finished.lines().at(0));
+  EXPECT_EQ(plan["status"], "ok");
+  EXPECT_EQ(plan["pool"], json({2048, 4096}));
+  ASSERT_EQ(plan["lights"].size(), 3u);
+  std::int64_t texels = 0;
+  for (const json& light : plan["lights"]) {
+    for (const json& place : light["places"]) {
+      EXPECT_EQ(place[2], light["size"]);
+      texels += place[2].get<std::int64_t>() * place[3].get<std::int64_t>();
+    }
+  }
+  EXPECT_EQ(texels, plan["texels"].get<std::int64_t>());
+  EXPECT_GT(plan["lights"][0]["places"].size(), 1u);
+  EXPECT_EQ(plan["lights"][1]["places"].size(), 1u);
+  EXPECT_EQ(plan["lights"][2]["outcome"], "without_receiver");
+  EXPECT_EQ(plan["lights"][2]["why"], "the light lights no receiver in view");
+}
+
+TEST(PlanLights, bad_lights_are_one_line_that_names_the_key) {
+  struct Entry {
+    const char *lights, *rest, *message;
+  };
+  const Entry entries[] = {
+      {"[]", "", "lights: needs a list of lights"},
+      {"3", "", "lights: needs a list of lights"},
+      {R"([{"type": "point", "position": [0,1,0], "range": 0}])", "", "lights[0].range: must be above 0"},
+      {R"([{"type": "point", "position": [0,1,0], "range": 1, "wieght": 1}])", "",
+       "lights[0].wieght: unknown key"},
+      {R"([{"type": "point", "position": [0,1,0], "range": 1, "weight": "a"}])", "",
+       "lights[0].weight: needs"},
+      {R"([{"type": "point", "position": [0,1,0], "range": 1, "weight": -1}])", "",
+       "lights[0].weight: must lie"},
+      {kThreeLights, R"(, "light": {"type": "directional", "direction": [0,-1,0]})",
+       "lights: stands in place"},
+      {kThreeLights, R"(, "options": {"pages": {}})", "options.pages: are of one light"},
+      {kThreeLights, R"(, "options": {"lights": {"size": 1}})", "options.lights.size: unknown key"},
+      {kThreeLights, R"(, "options": {"lights": {"most_size": 1000}})", "options.lights.most_size: must be"},
+      {kThreeLights, R"(, "options": {"lights": {"pool_width": 1000}})",
+       "options.lights.pool_width, pool_height"},
+      {kThreeLights, R"(, "options": {"lights": {"texel_budget": 0}})",
+       "options.lights.texel_budget: is too"}};
+  for (const Entry& entry : entries) {
+    const Finished finished = plan_of(lights_case(entry.lights, entry.rest));
+    EXPECT_EQ(finished.exit_code, 2) << entry.message;
+    EXPECT_NE(finished.err.find(entry.message), std::string::npos) << finished.err;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+    EXPECT_EQ(finished.out, "");
+  }
+}
+
+TEST(PlanLights, repeats_are_timed_and_allocate_nothing) {
+  std::string text = lights_case(kThreeLights, R"(, "seen": [[0,0,0], [3,0,-9]])");
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const Finished finished = run_gnomon({"plan", "--repeat", "20", "-"}, text + "\n");
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(json::parse(finished.lines().at(0))["plan_ns"]["allocations"], 0);
+}
+
 }  // namespace
 }  // namespace gnomon::test

@@ -13,6 +13,7 @@
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
+#include "gnomon/lights.hpp"
 #include "gnomon/pages.hpp"
 #include "gnomon/plan.hpp"
 
@@ -28,6 +29,9 @@ struct Case {
   /// Visible points for pages, and their normals, empty where the file has none.
   std::vector<glm::dvec3> seen, seen_normals;
   std::vector<std::uint8_t> seen_feedback;  ///< PageFeedback bits of the points, or empty
+  /// The file's "lights": plan_lights in place of make_plan. `light` is the first of them then.
+  std::vector<LightRequest> lights;
+  LightOptions light_options;  ///< options.lights
 
   /// Views into this case: valid while it lives and its lists are not resized.
   [[nodiscard]] SceneBounds bounds() const noexcept { return {casters, receivers}; }

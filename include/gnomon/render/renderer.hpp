@@ -11,6 +11,7 @@
 #include "gnomon/bias.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
+#include "gnomon/lights.hpp"
 #include "gnomon/pages.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/prune.hpp"
@@ -137,11 +138,20 @@ struct FrameStats {
       false;  ///< the mask is exact; false after prepare_irregular: the frame was too large for lists
   int maps_read_back = 0;  ///< by filters that choose for each map from its depths
   int pages = 0;           ///< resident, of a PagePlan
+  int lights_drawn = 0;    ///< of a LightPlan: lights whose maps were drawn; the pool kept those of others
   int pages_drawn = 0;     ///< of them; the others were kept from earlier frames (PruneRule::held_maps)
   /// Depth maps and everything that the filter keeps besides for its look-ups.
   std::uint64_t map_bytes = 0;
   /// Used while maps are filtered, free for other passes after that: images of one layer, lists of tiles.
   std::uint64_t scratch_bytes = 0;
+};
+
+/// One light of Renderer::draw for many lights.
+struct DrawnLight {
+  Light light;  ///< the picture fades out at its cone and range
+  /// Of its maps, as drawn last: of this frame where they are due. nullptr, or no maps: it casts no shadow.
+  const ShadowPlan* plan = nullptr;
+  glm::vec3 color{1.0f};  ///< brightness by channel, >= 0; 1: as bright as the sun of other frames
 };
 
 /// Holds a scene on the GPU and the images of the last frame drawn. The context it was made in must be
@@ -196,6 +206,24 @@ class Renderer {
   /// of the error or of maps is drawn; FrameStats::map[0] is the sum over all pages.
   FrameStats draw(const PagePlan& plan, const Camera& camera, const PreparedFilter& filter,
                   const FrameOptions& options = {}) noexcept;
+
+  /// Compiles the filter's program for many lights, once. Throws RenderError as prepare_pages.
+  [[nodiscard]] PreparedFilter prepare_lights(const FilterSettings& settings);
+  /// Draws the picture of many lights. Maps of due lights are drawn into their places in one pool, those of
+  /// the others stay. Each light then has a mask and adds its light to the picture, in the rectangle of the
+  /// image that its range covers: time grows with lights times pixels, twice over. Lights without a receiver
+  /// in view are skipped. A pool whose texels are lost (other frames in between, another size or depth layer)
+  /// is drawn whole.
+  ///
+  /// `lights`: one for each light of the plan; fewer are drawn as far as they go. `filter` must come from
+  /// prepare_lights, and the plans' border must hold its kernel (set_margin). Maps of other shapes than
+  /// linear, or more than the light has places, count as none. No accumulation, and no picture of the error
+  /// or of maps. Pass::mask is the time of masks and light together; FrameStats::map[0] the sum over all
+  /// maps.
+  FrameStats draw(const LightPlan& plan, std::span<const DrawnLight> lights, const Camera& camera,
+                  const PreparedFilter& filter, const FrameOptions& options = {}) noexcept;
+  /// Channels "r", "g", "b" of the last frame of many lights: what they reflect, without sky and air, linear.
+  [[nodiscard]] FloatImage light_sum() const;
 
   /// The last frame's pictures, rows top to bottom. They, and all that follow, throw RenderError where the
   /// driver has reset the context since.

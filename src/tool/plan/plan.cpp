@@ -6,6 +6,7 @@
 
 #include "case_source.hpp"
 #include "command.hpp"
+#include "lights_plan.hpp"
 #include "output.hpp"
 #include "pages_plan.hpp"
 #include "plan_json.hpp"
@@ -36,11 +37,17 @@ Json timing_json(const PlanTiming& timing) {
           {"allocations", timing.allocations}};
 }
 
-/// The plan of one case, of maps or of pages. Throws CaseError.
+/// The plan of one case, of maps, of pages or of many lights. Throws CaseError.
 Json planned(const Case& input, const std::string& name) {
   const auto refuse = [&](std::string_view field) {
     throw CaseError(name + ": " + invalid_input_text(field));
   };
+  if (!input.lights.empty()) {
+    LightsPlanner planner(input);
+    const LightPlan plan = planner.plan();
+    if (plan.status == PlanStatus::invalid_input) throw CaseError(name + ": " + refusal_of(plan));
+    return lights_json(plan, input);
+  }
   if (!input.pages) {
     const ShadowPlan plan = make_plan(input.camera, input.light, input.bounds(), input.options);
     if (plan.status == PlanStatus::invalid_input) refuse(plan.invalid_field);
@@ -105,6 +112,10 @@ std::function<int()> declare_plan(Arguments& arguments) {
       "column, "
       "row]) in place of \"maps\". \"seen\" lists the visible points, as [x, y, z] or with a normal behind; "
       "without it the receivers' boxes are sampled.\n\n"
+      "A case with \"lights\", a list in place of \"light\", is planned as one pool: size, places, share of "
+      "the "
+      "picture and error of each light's maps, or the reason why it has none. options.lights sets the "
+      "pool.\n\n"
       "--repeat times each plan separately after a warm-up, in nanoseconds, including the reading of the "
       "clock. \"allocations\" is the largest number of heap allocations in one plan.\n\n"
       "Exit: 0 success, even if a case needs no map; 2 bad input, with one line that names the file and key.";

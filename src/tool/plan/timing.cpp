@@ -1,4 +1,5 @@
-// What a plan costs: time and heap allocations of make_plan() or plan_pages() over many runs of one case.
+// What a plan costs: time and heap allocations of make_plan(), plan_pages() or plan_lights() over many runs
+// of one case.
 #include "timing.hpp"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "allocations.hpp"
+#include "lights_plan.hpp"
 #include "pages_plan.hpp"
 #include "progress.hpp"
 
@@ -53,6 +55,11 @@ PlanTiming time_runs(int repeats, Progress& progress, long long steps_before, Pl
 }  // namespace
 
 PlanTiming time_plan(const Case& input, int repeats, Progress& progress, long long steps_before) {
+  if (!input.lights.empty()) {
+    LightsPlanner planner(input);
+    LightPlan plan;
+    return time_runs(repeats, progress, steps_before, [&] { plan = planner.plan(); });
+  }
   if (input.pages) {
     PagePlanner planner(input);
     PagePlan plan;

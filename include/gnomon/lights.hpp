@@ -1,0 +1,183 @@
+// How do many lights share one pool of texels? Sizes, rectangles and a refresh interval for each light's
+// maps.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+
+#include "gnomon/atlas.hpp"
+#include "gnomon/plan.hpp"
+#include "gnomon/reuse.hpp"
+
+namespace gnomon {
+
+/// Most lights of one plan.
+inline constexpr std::size_t kMostLights = 4096;
+/// LightOptions::texel_budget for all texels of the pool.
+inline constexpr std::int64_t kWholePool = std::numeric_limits<std::int64_t>::max();
+
+/// One light of plan_lights.
+struct LightRequest {
+  Light light;          ///< directional, spot or point
+  double weight = 1.0;  ///< counts its error so many times, >= 0: brightness, or what a player looks at
+  /// Its casters moved, or its maps are lost: they are due in this frame. A light that moved itself is
+  /// noticed.
+  bool changed = false;
+};
+
+/// Options of plan_lights besides PlanOptions. Every default suits most scenes.
+struct LightOptions {
+  /// Texels of the pool's sides, multiples of most_size, up to 2^16.
+  int pool_width = 4096, pool_height = 4096;
+  /// Most texels that all maps may have together, at least 1. More than the pool has: the pool.
+  std::int64_t texel_budget = kWholePool;
+  /// Side of the smallest maps, texels, a power of two up to most_size. Smaller ones only where the budget
+  /// does not suffice for all lights: never below least_budget_side, rounded up to a power of two.
+  int least_size = 64;
+  /// Side of the largest maps, texels, a power of two up to kMostMapSize.
+  int most_size = 1024;
+  /// Error m (screen pixels per texel, mean over what the light lights) that suffices, >= 0: a light's maps
+  /// are not enlarged below it. 0: none, the budget is used up.
+  double enough_m = 0.0;
+  /// Most frames from one drawing of a light's maps to the next, 1..kMostCadenceFrames.
+  int most_frames = 8;
+  /// Share of the picture from which on a light is refreshed every frame, in (0, 1]. Each halving below
+  /// doubles the frames in between, up to most_frames.
+  double full_share = 1.0 / 64.0;
+  /// With a history: factor by which a light's last size is favoured, >= 1. Larger: sizes change less often.
+  double keep_gain = 1.5;
+  /// Equal in all members.
+  bool operator==(const LightOptions&) const = default;
+};
+
+/// The outcome for one light.
+enum class LightOutcome : std::uint8_t {
+  mapped,            ///< it has maps of at least LightOptions::least_size
+  below_least_size,  ///< it has smaller maps: the budget does not suffice for all lights
+  without_receiver,  ///< no map: it lights no receiver in view
+  without_caster,    ///< no map: nothing within its range casts shadows
+};
+
+/// The maps of one light in the pool.
+struct LightMaps {
+  LightOutcome outcome = LightOutcome::without_receiver;  ///< why there are maps, or none
+  /// Texels along each side of each map; 0: none. PlanOptions::resolution.max_size of the light's own plan.
+  int size = 0;
+  /// Maps that have a place: cascades of a sun, one for a spot, up to six faces. The light's plan has no
+  /// more.
+  int map_count = 0;
+  /// Places of the maps in the pool, by index of the map in the light's plan; map_count are used.
+  std::array<TexelRect, kMaxMaps> place{};
+  /// Part of the picture that the light may light, in [0, 1]: of the visible points, or of rays through the
+  /// receivers' boxes.
+  double share = 0.0;
+  /// Mean of m over that part at this size, screen pixels per texel.
+  double m = 0.0;
+  int frames = 1;    ///< from one drawing to the next, a power of two unless it is LightOptions::most_frames
+  bool due = false;  ///< plan and draw its maps in this frame
+};
+/// Writes "what" and "why" of the outcome as two lines of English; no heap.
+[[nodiscard]] OmissionText describe(const LightMaps& maps, const LightOptions& options) noexcept;
+
+/// State that plan_lights keeps of one light. Plain data; as made, it remembers nothing.
+struct LightState {
+  Light light;                                  ///< of the frame in which its maps were drawn
+  std::int64_t frame = -1;                      ///< that frame; -1: it has no maps
+  int size = 0, map_count = 0;                  ///< as LightMaps
+  std::array<std::uint32_t, kMaxMaps> place{};  ///< in the pool, in squares of the smallest size
+};
+/// State of plan_lights from frame to frame. Keep one per pool and camera.
+struct LightHistory {
+  /// The caller's, one for each light, in the order of the lights. Move them along with the lights where that
+  /// order changes.
+  std::span<LightState> lights;
+  std::int64_t frame = 0;  ///< of the next plan
+  LightOptions options;    ///< of the last plan: under another pool or other sizes, all places are new
+};
+
+/// Working memory of plan_lights for one light. Plain data without a meaning of its own.
+struct LightWork {
+  double demand, ratio;
+  std::uint32_t light;
+  int maps, level, top, last;
+};
+/// The same for one map in the pool.
+struct LightPlace {
+  std::uint32_t begin, end;
+};
+/// The same for one visible point.
+struct LightPoint {
+  float x, y, z, pixel;
+};
+/// Memory that plan_lights writes to; the caller's. `maps` is as long-lived as the plan.
+struct LightMemory {
+  std::span<LightMaps> maps;     ///< at least as many as lights
+  std::span<LightWork> work;     ///< at least as many as lights
+  std::span<LightPlace> places;  ///< at least kMaxMaps times as many as lights
+  std::span<LightPoint> points;  ///< at least as many as visible points
+};
+
+/// The result of plan_lights.
+struct LightPlan {
+  PlanStatus status = PlanStatus::invalid_input;  ///< whether there are maps, and why not
+  std::string_view invalid_field;                 ///< for invalid_input: which, e.g. "lights.most_size"
+  int invalid_light = -1;                         ///< index of the light that it is about; -1: of none
+  std::span<const LightMaps> lights;              ///< in the order of the requests; empty for invalid_input
+  int pool_width = 0, pool_height = 0;            ///< texels
+  std::int64_t texels = 0;                        ///< of all maps
+  std::int64_t due_texels = 0;                    ///< of the maps that are due
+  int mapped = 0;                                 ///< lights that have maps
+  int due = 0;                                    ///< of them, to be planned and drawn in this frame
+  /// The sum over the lights of weight * share * m: what the sizes minimise.
+  double error = 0.0;
+  /// True where free texels were too scattered for a larger map, so that all maps were placed again.
+  bool repacked = false;
+};
+
+/// Distributes the texels of one pool among lights. Pure: the same input gives the same bits. Allocates
+/// nothing, never throws; broken input, no light too many among it, comes back as PlanStatus::invalid_input.
+///
+/// The error of a light is the mean of m over the part of the picture that it may light, as measure() takes
+/// it: a texel's extent over a pixel's. It is that of a map of the whole cone or face, and falls as one over
+/// the size. A sun's is that of make_plan with `options`. Sizes are powers of two and minimise the sum of
+/// weight * share * m: step by step, that light is enlarged whose error falls most per texel. Every light in
+/// view that has casters gets maps; other lights are listed with the reason.
+///
+/// Maps are placed as in a quadtree, so that any sizes within the budget fit. With a history, sizes and
+/// places change only where that pays, and only some lights are due: those with a large share every frame,
+/// small ones every n-th, a new, moved or changed one at once. Draw all that are due; the history counts them
+/// as drawn.
+///
+/// A light that is due is planned by make_plan with light_options and the camera, or with camera_round for
+/// a light of several frames: its maps must serve what later frames see.
+///
+/// `visible_points_world` (optional, read during the call only): points of surfaces that the camera sees, of
+/// a depth buffer read at every tenth pixel, say. Shares and errors are then those of these points; without,
+/// rays are sampled through the receivers' boxes. Takes time in proportion to lights times points, and to
+/// lights times boxes where these are lists (CasterSet: hardly any).
+///
+/// Based on: Everett, "Generalized Lagrange Multiplier Method for Solving Problems of Optimum Allocation of
+/// Resources", 1963 (steps by gain per cost); Samet, "The Quadtree and Related Hierarchical Data Structures",
+/// 1984 (places).
+[[nodiscard]] LightPlan plan_lights(const Camera& camera, std::span<const LightRequest> lights,
+                                    const SceneBounds& bounds, const PlanOptions& options,
+                                    const LightOptions& light_options, const LightMemory& memory,
+                                    LightHistory* history = nullptr,
+                                    std::span<const glm::dvec3> visible_points_world = {}) noexcept;
+
+/// PlanOptions for the plan of one light of a LightPlan: maps of its size, without a budget of their own.
+[[nodiscard]] PlanOptions light_options(PlanOptions options, const LightMaps& maps) noexcept;
+
+/// A camera that sees all that a spot or point light can light. A plan for it does not follow the viewer, so
+/// that its maps serve any later frame; take its matrices rebased() to the eye. Its errors are not the
+/// viewer's. For a directional light: `camera` itself.
+[[nodiscard]] Camera camera_round(const Light& light, const Camera& camera) noexcept;
+
+/// The pool as an atlas of one light's maps, for atlas_from_clip: its maps have their places, others none.
+[[nodiscard]] Atlas light_atlas(const LightPlan& plan, std::size_t light) noexcept;
+
+}  // namespace gnomon

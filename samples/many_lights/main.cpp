@@ -1,0 +1,158 @@
+// A flight through a scene under many lights whose shadow maps share one pool: plan_lights -> make_plan ->
+// draw.
+//
+// usage: many_lights [SCENE] [FOLDER] [LIGHTS]     builtin:hangar, out/many_lights and 24 where nothing is
+// said
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <gnomon/gnomon.hpp>
+#include <gnomon/render/context.hpp>
+#include <gnomon/render/filter.hpp>
+#include <gnomon/render/renderer.hpp>
+#include <gnomon/scene/camera_path.hpp>
+#include <gnomon/scene/image.hpp>
+#include <gnomon/scene/load.hpp>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFrames = 6, kWidth = 960, kHeight = 540;
+constexpr double kStep = 0.004;  // of the flight, from frame to frame
+
+/// Parts of 0..1 that are even in all directions (Roberts 2018): the same lights in every run.
+double spread(int index, double ratio) {
+  const double at = 0.5 + index * ratio;
+  return at - std::floor(at);
+}
+
+/// Lights over the scene, a third of them spots that look down, and a faint moon.
+std::vector<gnomon::LightRequest> place_lights(const gnomon::Scene& scene, int count) {
+  const gnomon::Box& box = scene.bounds_world;
+  const glm::dvec3 size = box.max - box.min;
+  const double spacing = std::sqrt(size.x * size.z / count);
+  std::vector<gnomon::LightRequest> lights{{gnomon::DirectionalLight{{0.4, -1.0, 0.3}}, 0.1}};
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 at{box.min.x + size.x * spread(i, 0.7548776662), box.min.y + 0.25 * spacing,
+                        box.min.z + size.z * spread(i, 0.5698402910)};
+    if (i % 3 == 0) {
+      lights.push_back({gnomon::SpotLight{
+          at + glm::dvec3(0.0, 0.4 * spacing, 0.0), {0.2, -1.0, 0.1}, 0.7, 2.0 * spacing}});
+    } else {
+      lights.push_back({gnomon::PointLight{at, 1.2 * spacing}});
+    }
+  }
+  return lights;
+}
+
+/// Warm and cold by turns, and the moon.
+glm::vec3 color_of(const gnomon::Light& light, std::size_t index) {
+  if (std::holds_alternative<gnomon::DirectionalLight>(light)) return {0.03f, 0.04f, 0.06f};
+  return index % 2 == 0 ? glm::vec3(0.5f, 0.3f, 0.15f) : glm::vec3(0.25f, 0.35f, 0.5f);
+}
+
+/// The maps of each light, as drawn last, and everything that plan_lights writes to.
+struct Lights {
+  std::vector<gnomon::LightRequest> requests;
+  std::vector<gnomon::ShadowPlan> plans;
+  std::vector<gnomon::LightMaps> maps;
+  std::vector<gnomon::LightWork> work;
+  std::vector<gnomon::LightPlace> places;
+  std::vector<gnomon::LightState> states;
+  gnomon::LightHistory history;
+
+  explicit Lights(std::vector<gnomon::LightRequest> all)
+      : requests(std::move(all)),
+        plans(requests.size()),
+        maps(requests.size()),
+        work(requests.size()),
+        places(gnomon::kMaxMaps * requests.size()),
+        states(requests.size()),
+        history{states, 0, {}} {}
+  [[nodiscard]] std::vector<gnomon::render::DrawnLight> drawn() const {
+    std::vector<gnomon::render::DrawnLight> lights;
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      lights.push_back({requests[i].light, &plans[i], color_of(requests[i].light, i)});
+    return lights;
+  }
+};
+
+int fly(const std::string& scene_name, const fs::path& folder, int count) {
+  const auto context = gnomon::render::create_context(gnomon::render::ContextKind::automatic);
+  const gnomon::Scene scene = gnomon::load_scene(scene_name);
+  const gnomon::CameraPath path = gnomon::default_path(scene);
+  std::vector<gnomon::Box> boxes;
+  for (const gnomon::Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
+  // Sorted once: each light reads the boxes near it alone.
+  std::vector<gnomon::CasterBlock> blocks(gnomon::CasterSet::block_count(boxes.size()));
+  std::vector<std::uint32_t> indices(gnomon::CasterSet::index_count(boxes.size()));
+  const gnomon::CasterSet set(boxes, blocks, indices);
+  gnomon::render::Renderer renderer(scene);
+  const gnomon::render::FilterSettings pcf = gnomon::render::default_settings(gnomon::render::filters::pcf);
+  const gnomon::render::PreparedFilter filter = renderer.prepare_lights(pcf);
+  gnomon::PlanOptions options;
+  gnomon::render::set_margin(pcf, options);
+  const gnomon::LightOptions pool;
+  Lights lights(place_lights(scene, count));
+  fs::create_directories(folder);
+
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const gnomon::Camera camera = path.at(0.3 + kStep * frame, kWidth, kHeight);
+
+    // 1. Sizes and places of all lights' maps, and which of them are due.
+    const auto begin = std::chrono::steady_clock::now();
+    const gnomon::LightPlan plan =
+        gnomon::plan_lights(camera, lights.requests, {set, set}, options, pool,
+                            {lights.maps, lights.work, lights.places, {}}, &lights.history);
+    const double ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    if (plan.status == gnomon::PlanStatus::invalid_input) {
+      std::fprintf(stderr, "many_lights: the plan refuses %s\n", std::string(plan.invalid_field).c_str());
+      return 2;
+    }
+
+    // 2. A plan for each light that is due.
+    for (std::size_t i = 0; i < lights.requests.size(); ++i) {
+      const gnomon::LightMaps& own = plan.lights[i];
+      if (!own.due) continue;
+      const gnomon::Light& light = lights.requests[i].light;
+      lights.plans[i] = gnomon::make_plan(own.frames > 1 ? gnomon::camera_round(light, camera) : camera,
+                                          light, {set, set}, gnomon::light_options(options, own));
+    }
+
+    // 3. Draw: the maps of due lights, then a mask and the light of each.
+    const gnomon::render::FrameStats stats = renderer.draw(plan, lights.drawn(), camera, filter, {});
+    gnomon::write_png(renderer.image(), folder / ("frame_" + std::to_string(frame) + ".png"));
+    std::printf(
+        "frame %d: %d of %zu lights have maps, %d due, %.1f of %.1f million texels drawn, planned in %.2f "
+        "ms\n",
+        frame, plan.mapped, lights.requests.size(), plan.due, static_cast<double>(stats.texels) * 1e-6,
+        static_cast<double>(plan.texels) * 1e-6, ms);
+  }
+  std::printf("pictures: %s\n", folder.string().c_str());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const int count = argc > 3 ? std::atoi(argv[3]) : 24;
+    if (count < 1 || count > 1000) {
+      std::fprintf(stderr, "many_lights: LIGHTS must lie in 1..1000\n");
+      return 2;
+    }
+    return fly(argc > 1 ? argv[1] : "builtin:hangar", argc > 2 ? argv[2] : "out/many_lights", count);
+  } catch (const std::exception& error) {  // files and drivers; planning throws nothing
+    std::fprintf(stderr, "many_lights: %s\n", error.what());
+    return 2;
+  }
+}

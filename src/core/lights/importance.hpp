@@ -1,0 +1,40 @@
+// What a light lights in the view, and what error its maps would have there.
+#pragma once
+
+#include <span>
+
+#include "gnomon/body.hpp"
+#include "gnomon/lights.hpp"
+
+namespace gnomon {
+
+/// What is the same for all lights.
+struct LightView {
+  const Camera& camera;  // far plane finite
+  const SceneBounds& bounds;
+  const PlanOptions& options;
+  CameraAxes axes;
+  Polytope body;  // the frustum, relative to the eye
+  Box box;        // round it
+  bool one_list;  // casters and receivers are the same boxes
+  // Visible points relative to the eye in units of `unit`, a power of two; empty: unknown.
+  std::span<const LightPoint> points;
+  std::span<const glm::dvec3> points_world;
+  double unit;
+};
+/// Fills `memory`, which holds as many as there are points.
+[[nodiscard]] LightView light_view(const Camera& camera, const SceneBounds& bounds,
+                                   const PlanOptions& options, std::span<const glm::dvec3> points_world,
+                                   std::span<LightPoint> memory) noexcept;
+
+/// The importance of one light.
+struct LightImportance {
+  LightOutcome outcome = LightOutcome::without_receiver;  // without maps, or mapped
+  double share = 0.0;                                     // as LightMaps::share
+  double demand = 0.0;  // texels along a side, border apart, for a mean m of 1
+  int seen_maps = 0;    // that the view needs
+  int all_maps = 0;     // that the light's whole range needs
+};
+[[nodiscard]] LightImportance importance_of(const LightView& view, const Light& light) noexcept;
+
+}  // namespace gnomon

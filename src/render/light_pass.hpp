@@ -1,0 +1,36 @@
+// The sum of many lights, and the pool that their maps lie in.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "gl_object.hpp"
+#include "gnomon/lights.hpp"
+#include "gnomon/render/renderer.hpp"
+#include "page_pool.hpp"
+
+namespace gnomon::render {
+
+struct LightPass {
+  LightPass();
+  /// Makes the image of the sum anew where the size differs.
+  void resize(int new_width, int new_height);
+
+  Program add, finish;
+  Texture sum;
+  Framebuffer sum_fbo;
+  int width = 0, height = 0;
+  // What the pool holds.
+  bool holds = false;
+  DepthLayer layer = DepthLayer::front;
+  double limit_texels = 0.0;
+  // Of the frame.
+  std::vector<DrawnPage> maps;        ///< to draw
+  std::vector<std::size_t> light_of;  ///< by map to draw
+};
+
+/// The pixels that a light can light, from the lower left corner; all of them for a sun.
+[[nodiscard]] TexelRect lit_pixels(const Light& light, const Camera& camera) noexcept;
+
+}  // namespace gnomon::render

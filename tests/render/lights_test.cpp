@@ -1,0 +1,162 @@
+// Is the picture of many lights the sum of each one's, with the shadows that its own maps have?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "gnomon/render/renderer.hpp"
+#include "mask_frame.hpp"
+#include "support/light_storage.hpp"
+#include "test_scene.hpp"
+
+namespace gnomon::render {
+namespace {
+
+FilterSettings settings_of(const char* text) {
+  return parse_filter(text).settings;
+}
+
+/// Other points are dark whatever the mask holds.
+bool in_range(const Light& light, const glm::dvec3& point) {
+  if (const auto* lamp = std::get_if<PointLight>(&light))
+    return glm::distance(lamp->position, point) < lamp->range;
+  const auto* spot = std::get_if<SpotLight>(&light);
+  if (spot == nullptr) return true;
+  const glm::dvec3 offset = point - spot->position;
+  return glm::length(offset) < spot->range &&
+         glm::dot(glm::normalize(offset), glm::normalize(spot->direction)) > std::cos(spot->outer_radians);
+}
+
+/// A box on the ground under a weak sun, a spot and two point lights, one of them out of view.
+struct Stage {
+  Scene scene = box_on_ground();
+  Camera camera = camera_on_box(kSize, kSize);
+  std::vector<Box> boxes = boxes_of(scene);
+  std::vector<LightRequest> requests{{DirectionalLight{kSlant}},
+                                     {SpotLight{{-4, 6, 4}, {0.6, -1, -0.5}, 0.6, 20.0}},
+                                     {PointLight{{3, 3, 2}, 9.0}},
+                                     {PointLight{{0, 3, 90}, 5.0}}};
+  Renderer renderer{scene};
+  test::LightStorage memory{requests.size()};
+  std::vector<LightState> states = std::vector<LightState>(requests.size());
+  LightHistory history{states, 0, {}};
+  LightOptions pool;
+  PlanOptions options;
+  LightPlan plan;
+  std::vector<ShadowPlan> own = std::vector<ShadowPlan>(requests.size());
+
+  explicit Stage(const FilterSettings& filter) {
+    pool.pool_width = 2048;
+    pool.pool_height = 1024;
+    pool.most_size = 512;
+    set_margin(filter, options);
+  }
+  void replan() {
+    plan = plan_lights(camera, requests, {boxes, boxes}, options, pool, memory.spans(), &history);
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+      const LightMaps& maps = plan.lights[i];
+      if (!maps.due) continue;
+      const Light& light = requests[i].light;
+      own[i] = make_plan(maps.frames > 1 ? camera_round(light, camera) : camera, light, {boxes, boxes},
+                         light_options(options, maps));
+    }
+  }
+  /// All lights, or one alone.
+  [[nodiscard]] std::vector<DrawnLight> lights(int only = -1) const {
+    std::vector<DrawnLight> drawn;
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+      const bool shines = only < 0 || static_cast<int>(i) == only;
+      drawn.push_back(
+          {requests[i].light, &own[i], glm::vec3(shines ? 0.5f + 0.1f * static_cast<float>(i) : 0.0f)});
+    }
+    return drawn;
+  }
+  FrameStats draw(const FilterSettings& filter, int only = -1) {
+    FrameOptions frame;
+    frame.time_passes = false;
+    return renderer.draw(plan, lights(only), camera, renderer.prepare_lights(filter), frame);
+  }
+};
+
+TEST(LightsRender, the_picture_is_the_sum_of_each_light_alone) {
+  const FilterSettings filter = settings_of("pcf");
+  Stage stage(filter);
+  stage.replan();
+  ASSERT_EQ(stage.plan.mapped, 3);
+  stage.draw(filter);
+  const FloatImage all = stage.renderer.light_sum();
+  std::vector<float> sum(all.values.size(), 0.0f);
+  for (int i = 0; i < 4; ++i) {
+    stage.draw(filter, i);
+    const FloatImage alone = stage.renderer.light_sum();
+    float brightest = 0.0f;
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      sum[k] += alone.values[k];
+      brightest = std::max(brightest, alone.values[k]);
+    }
+    EXPECT_EQ(brightest > 0.01f, i < 3) << i;
+  }
+  for (std::size_t k = 0; k < sum.size(); ++k)
+    ASSERT_NEAR(sum[k], all.values[k], 1e-5f * (1.0f + sum[k])) << k;
+}
+
+TEST(LightsRender, each_mask_is_that_of_the_light_s_own_plan) {
+  for (const char* name : {"hard", "pcf", "pcss"}) {
+    const FilterSettings filter = settings_of(name);
+    Stage stage(filter);
+    stage.replan();
+    for (std::size_t i = 0; i < 3; ++i) {
+      stage.draw(filter, static_cast<int>(i));
+      const FloatImage pooled = stage.renderer.mask();
+      const Frame single = render::draw(stage.renderer, stage.camera, stage.own[i], filter);
+      std::size_t seen = 0, shadowed = 0, other = 0;
+      for (std::size_t k = 0; k < single.pixels(); ++k) {
+        if (!single.surface(k) || !in_range(stage.requests[i].light, single.point(k))) continue;
+        ++seen;
+        shadowed += single.lit(k) < 0.5f;
+        other += std::abs(single.lit(k) - pooled.values[2 * k]) > 0.01f;
+      }
+      EXPECT_GT(seen, 1000u) << name << i;
+      EXPECT_GT(shadowed, 50u) << name << i;
+      // Rounding of another matrix decides a few.
+      EXPECT_LE(other, seen / 500) << name << i;
+    }
+  }
+}
+
+TEST(LightsRender, a_pool_keeps_the_maps_that_are_not_due) {
+  const FilterSettings filter = settings_of("hard");
+  Stage stage(filter);
+  stage.pool.full_share = 1.0;  // only the sun is due in every frame
+  stage.replan();
+  EXPECT_EQ(stage.draw(filter).lights_drawn, 3);
+  const FloatImage first = stage.renderer.light_sum();
+  int kept = 0;
+  for (int frame = 0; frame < 8; ++frame) {
+    stage.replan();
+    const FrameStats stats = stage.draw(filter);
+    EXPECT_EQ(stats.lights_drawn, stage.plan.due);
+    kept += stage.plan.mapped - stage.plan.due;
+    EXPECT_EQ(stage.renderer.light_sum().values, first.values) << frame;
+  }
+  EXPECT_GT(kept, 4);
+  // Another frame takes the texels: all lights are drawn again.
+  render::draw(stage.renderer, stage.camera, stage.own[1], filter);
+  stage.replan();
+  EXPECT_EQ(stage.draw(filter).lights_drawn, 3);
+  EXPECT_EQ(stage.renderer.light_sum().values, first.values);
+}
+
+TEST(LightsRender, filters_that_store_texels_are_refused_and_no_lights_are_dark) {
+  const FilterSettings filter = settings_of("hard");
+  Stage stage(filter);
+  EXPECT_THROW(static_cast<void>(stage.renderer.prepare_lights(settings_of("vsm"))), RenderError);
+  const PreparedFilter prepared = stage.renderer.prepare_lights(filter);
+  stage.renderer.draw(LightPlan{}, {}, stage.camera, prepared);
+  const FloatImage sum = stage.renderer.light_sum();
+  EXPECT_TRUE(std::all_of(sum.values.begin(), sum.values.end(), [](float v) { return v == 0.0f; }));
+}
+
+}  // namespace
+}  // namespace gnomon::render
