@@ -1,4 +1,4 @@
-// How are the visible receivers of a directional light divided among its maps?
+// How are the visible receivers of a light divided among its maps?
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,24 @@ enum class Partition : std::uint8_t {
                      ///< whichever set lowers the objective; up to 5, whatever the number of cascades
   separating_plane,  ///< two maps, parted by a plane parallel to the light where the warped map's texels grow
                      ///< beyond those of a uniform one: warped before it, uniform behind
+  tetrahedron,  ///< point lights: four maps in place of a cube's six, a triangle of directions each; fewer
+                ///< passes and longer texels (up to 9 times a texel's area in the corners, a cube's 5.2).
+                ///< Based on: Liao, "Shadow Mapping for Omnidirectional Light Using Tetrahedron Mapping",
+                ///< GPU Pro, 2010
 };
-// frustum_faces and separating_plane divide only where that lowers the objective, else one map takes all, and
-// the plan lists an omission. Fit::stable, whose grid must not follow the view, keeps view_depth, and a
-// PlanHistory does not steady the parts. Local lights have a partition of their own.
+// frustum_faces and separating_plane divide the receivers of directional lights, and only where that lowers
+// the objective; else one map takes all, and the plan lists an omission. Fit::stable, whose grid must not
+// follow the view, keeps view_depth, and a PlanHistory does not steady the parts. Every other partition
+// leaves a point light the faces of a cube. Spot lights have one cone or a cube.
+
+/// True for the partitions that divide what a directional light lights other than by view depth.
+[[nodiscard]] constexpr bool divides_parallel(Partition partition) noexcept {
+  return partition == Partition::frustum_faces || partition == Partition::separating_plane;
+}
 
 [[nodiscard]] std::string_view to_string(Partition partition) noexcept;
-/// True and `partition` set where `name` is one of view_depth, frustum_faces, separating_plane.
+/// True and `partition` set where `name` is one of view_depth, frustum_faces, separating_plane,
+/// tetrahedron.
 [[nodiscard]] bool partition_from_name(std::string_view name, Partition& partition) noexcept;
 
 /// Share of a warped map's length, from its near end, up to which its texels are smaller than those of a

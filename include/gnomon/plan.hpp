@@ -50,8 +50,8 @@ enum class OmissionKind : std::uint8_t {
   part_without_caster,      ///< of a partition other than by depth; a: depth_begin, b: depth_end
   partition_without_gain,   ///< one map takes all; a: objective of the parts over that of one map
   partition_in_stable_fit,  ///< another partition than view_depth was requested, and Fit::stable takes none
-  face_without_receiver,    ///< of a cube round the light: no visible receiver in it within range and cone
-  face_without_caster,      ///< of a cube round the light: no caster between it and its receivers
+  face_without_receiver,    ///< of a solid round the light: no visible receiver in it within range and cone
+  face_without_caster,      ///< of a solid round the light: no caster between it and its receivers
   resolution_without_gain,  ///< a smaller map meets the requested bound of m; a: bound at full size, b: now
   depth_near_light,         ///< nearer than a to the light nothing casts shadows; b: number of casters there
   option_ignored,           ///< an option that this light or partition has no use for; a: IgnoredOption
@@ -63,7 +63,7 @@ enum class OmissionKind : std::uint8_t {
 };
 /// The option that OmissionKind::option_ignored names.
 enum class IgnoredOption : std::uint8_t {
-  partition,       ///< split.partition: a local light has a partition of its own
+  partition,       ///< split.partition: it divides another kind of light
   split_scheme,    ///< split.scheme: a local light has no cascades
   split_overlap,   ///< split.overlap: only cascades blend
   visible_depths,  ///< the visible depths: a local light has no cascades
@@ -103,7 +103,7 @@ struct ShadowMap {
   glm::dvec4 light_world{0.0, 1.0, 0.0, 0.0};
   /// Index of the requested cascade. Local lights have none: 0 for a spot's single map, and for the faces of
   /// a cube 0 to 5 in the order +x -x +y -y +z -z (of the world for a point light; a wide spot's face 5 looks
-  /// along it). Partition::frustum_faces: the face, in the order left, right, bottom, top, near, far.
+  /// along it). Partition::tetrahedron: 0 looks along -y, 1 to 3 the other ways. Partition::frustum_faces: the face, in the order left, right, bottom, top, near, far.
   /// separating_plane: 0 before the plane, 1 behind.
   int cascade = 0;
   int width = 0, height = 0;  ///< texels; may differ, and from map to map (metric_resolution, texel_budget)

@@ -7,6 +7,7 @@
 layout(binding = 4) uniform usampler2DArray heads;
 layout(binding = 1, rg32f) writeonly uniform image2D mask_image;
 layout(location = 3) uniform int map;
+layout(location = 6) uniform int samples;  // of each pixel; more than 1 are counted when all casters are drawn
 layout(location = 0) flat in vec3 corner[3];  // across the light, as ListedPixel::at
 
 bool is_there(vec3 weights);
@@ -35,7 +36,7 @@ void test_list() {
     next = pixel.next & ~kShadowed;
     if ((pixel.next & kShadowed) != 0u || !shadows(pixel.at)) continue;
     uint before = atomicOr(listed[index].next, kShadowed);
-    if ((before & kShadowed) == 0u)
+    if (samples == 1 && (before & kShadowed) == 0u)
       imageStore(mask_image, ivec2(int(index) % width, int(index) / width), vec4(0.0, float(map), 0.0, 0.0));
   }
 }

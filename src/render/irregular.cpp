@@ -7,10 +7,11 @@
 
 namespace gnomon::render {
 
-PreparedFilter Renderer::prepare_irregular() {
+PreparedFilter Renderer::prepare_irregular(int samples) {
   PreparedFilter prepared = prepare(filters::hard);
   if (!impl_->pixel_lists) impl_->pixel_lists.emplace();
   prepared.irregular = true;
+  prepared.samples = std::clamp(samples, 1, kMostFacetSamples);
   return prepared;
 }
 
@@ -41,7 +42,7 @@ FrameStats Renderer::Impl::draw_irregular(const ShadowPlan& plan, const Camera& 
   targets.add_off_plane();
   timed(Pass::surfaces, [&] { draw_surfaces(targets.off_plane_fbo.name(), pixel_lists->surfaces()); });
   timed(Pass::mask, [&] {
-    pixel_lists->clear({camera.width, camera.height}, size, std::max(plan.map_count, 1));
+    pixel_lists->clear({camera.width, camera.height}, filter.samples, size, std::max(plan.map_count, 1));
     bind_surfaces();
     pixel_lists->list(light_frames(plan, camera, scene.diagonal()), targets.off_plane.name(),
                       targets.mask.name());

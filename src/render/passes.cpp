@@ -13,7 +13,7 @@ namespace {
 
 // Bindings and locations as the shaders state them.
 constexpr GLint kBaseColorLocation = 1, kAlphaCutoffLocation = 2, kClipLocation = 3, kMapLocation = 3,
-                kWrapLocation = 4, kShapeLocation = 7, kSizeLocation = 8;
+                kWrapLocation = 4, kSamplesLocation = 6, kShapeLocation = 7, kSizeLocation = 8;
 constexpr GLuint kPositionUnit = 0, kNormalUnit = 1, kAlbedoUnit = 2, kColorImageUnit = 3, kMaskUnit = 6,
                  kExtraUnit = 7, kNoiseUnit = kColorImageUnit;
 constexpr GLint kSheetLocation = 5;
@@ -174,9 +174,15 @@ void Renderer::Impl::draw_casters_on_lists(const ShadowPlan& plan, bool alpha_te
     for (const DrawnPart& part : lists.parts(i)) {
       draw_casters(
           part, CasterPrograms{pixel_lists->opaque(), pixel_lists->masked(), kWrapLocation},
-          alpha_test_where_masked, [i] { glUniform1i(kMapLocation, i); }, kNoBatchState);
+          alpha_test_where_masked,
+          [i, this] {
+            glUniform1i(kMapLocation, i);
+            glUniform1i(kSamplesLocation, pixel_lists->samples());
+          },
+          kNoBatchState);
     }
   }
+  pixel_lists->average(targets.mask.name());
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                   GL_BUFFER_UPDATE_BARRIER_BIT);
 }

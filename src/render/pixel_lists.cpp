@@ -19,6 +19,7 @@ namespace {
 // Bindings and locations as the shaders state them.
 constexpr GLuint kListedBinding = 1, kFramesBinding = 3, kHeadsUnit = 4, kHeightUnit = 4, kHeadsImage = 0,
                  kMaskImage = 1;
+constexpr GLint kSamplesLocation = 0;
 constexpr std::uint64_t kPixelBytes = 16;
 constexpr std::uint32_t kShadowed = 0x8000'0000u;
 
@@ -36,6 +37,11 @@ glm::dvec3 axis_of(const ShadowMap& map, const glm::dvec3& otherwise) noexcept {
     sum += glm::normalize(way_from_xyw * glm::dvec3(corner, 1.0));
   const double size = glm::length(sum);
   return size > 0.0 && std::isfinite(size) ? sum / size : otherwise;
+}
+
+std::uint64_t entries_of(glm::ivec2 frame, int samples) noexcept {
+  return static_cast<std::uint64_t>(frame.x) * static_cast<std::uint64_t>(frame.y) *
+         static_cast<std::uint64_t>(samples);
 }
 
 }  // namespace
@@ -79,22 +85,24 @@ PixelLists::PixelLists() {
   most_bytes_ = static_cast<std::uint64_t>(std::max<GLint64>(most, 0));
   surfaces_ = make_geometry_program("gbuffer.vert", "gbuffer_heights.geom", "gbuffer_heights.frag");
   list_ = make_compute_program("irregular_list.comp");
+  mean_ = make_compute_program("irregular_mean.comp");
   opaque_ = make_geometry_program("irregular.vert", "irregular.geom", "irregular.frag");
   masked_ = make_geometry_program("irregular.vert", "irregular.geom", "irregular_masked.frag");
   glNamedBufferStorage(frames_.name(), sizeof(LightFrames), nullptr, GL_DYNAMIC_STORAGE_BIT);
 }
 
-bool PixelLists::fits(int width, int height) const noexcept {
-  const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  return pixels < kShadowed && pixels * kPixelBytes <= most_bytes_;
+bool PixelLists::fits(int width, int height, int samples) const noexcept {
+  const std::uint64_t entries = entries_of({width, height}, samples);
+  return entries < kShadowed && entries * kPixelBytes <= most_bytes_;
 }
 
-void PixelLists::clear(glm::ivec2 frame, glm::ivec2 map, int maps) {
-  if (frame != frame_) {
+void PixelLists::clear(glm::ivec2 frame, int samples, glm::ivec2 map, int maps) {
+  if (frame != frame_ || samples != samples_ || !pixels_) {
     frame_ = frame;
+    samples_ = samples;
     pixels_ = make_buffer();
-    const std::uint64_t pixels = static_cast<std::uint64_t>(frame.x) * static_cast<std::uint64_t>(frame.y);
-    glNamedBufferStorage(pixels_.name(), static_cast<GLsizeiptr>(pixels * kPixelBytes), nullptr, 0);
+    glNamedBufferStorage(pixels_.name(), static_cast<GLsizeiptr>(entries_of(frame, samples) * kPixelBytes),
+                         nullptr, 0);
   }
   if (!heads_ || map != map_ || maps > layers_) {
     map_ = map;
@@ -119,9 +127,8 @@ void PixelLists::list(const LightFrames& frames, GLuint heights, GLuint mask) no
   glBindImageTexture(kHeadsImage, heads_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
   glBindImageTexture(kMaskImage, mask, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
   glUseProgram(list_.name());
-  constexpr GLuint kSide = 8;
-  glDispatchCompute((static_cast<GLuint>(frame_.x) + kSide - 1) / kSide,
-                    (static_cast<GLuint>(frame_.y) + kSide - 1) / kSide, 1);
+  glUniform1i(kSamplesLocation, samples_);
+  dispatch();
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                   GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
@@ -135,11 +142,27 @@ void PixelLists::bind(GLuint mask) const noexcept {
   glBindFramebuffer(GL_FRAMEBUFFER, fbo_.name());
 }
 
+void PixelLists::dispatch() const noexcept {
+  constexpr GLuint kSide = 8;
+  glDispatchCompute((static_cast<GLuint>(frame_.x) + kSide - 1) / kSide,
+                    (static_cast<GLuint>(frame_.y) + kSide - 1) / kSide, 1);
+}
+
+void PixelLists::average(GLuint mask) const noexcept {
+  if (samples_ == 1) return;
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kListedBinding, pixels_.name());
+  glBindImageTexture(kMaskImage, mask, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RG32F);
+  glUseProgram(mean_.name());
+  glUniform1i(kSamplesLocation, samples_);
+  dispatch();
+}
+
 std::uint64_t PixelLists::bytes() const noexcept {
   constexpr std::uint64_t kHeadBytes = 4;
-  return kPixelBytes * static_cast<std::uint64_t>(frame_.x) * static_cast<std::uint64_t>(frame_.y) +
-         kHeadBytes * static_cast<std::uint64_t>(map_.x) * static_cast<std::uint64_t>(map_.y) *
-             static_cast<std::uint64_t>(layers_);
+  return kPixelBytes * entries_of(frame_, samples_) + kHeadBytes * static_cast<std::uint64_t>(map_.x) *
+                                                          static_cast<std::uint64_t>(map_.y) *
+                                                          static_cast<std::uint64_t>(layers_);
 }
 
 std::vector<std::uint32_t> PixelLists::lengths() const {
@@ -154,7 +177,7 @@ std::vector<std::uint32_t> PixelLists::lengths() const {
     std::uint32_t next;
   };
   static_assert(sizeof(Entry) == kPixelBytes, "std430");
-  std::vector<Entry> pixels(static_cast<std::size_t>(frame_.x) * static_cast<std::size_t>(frame_.y));
+  std::vector<Entry> pixels(static_cast<std::size_t>(entries_of(frame_, samples_)));
   glGetNamedBufferSubData(pixels_.name(), 0, static_cast<GLsizeiptr>(pixels.size() * sizeof(Entry)),
                           pixels.data());
   std::vector<std::uint32_t> lengths;

@@ -26,7 +26,7 @@ struct LightFrames {
 [[nodiscard]] LightFrames light_frames(const ShadowPlan& plan, const Camera& camera,
                                        double scene_diagonal) noexcept;
 
-/// Programs and memory of the lists. One list per texel, linked through one entry per pixel: no list
+/// Programs and memory of the lists. One list per texel, linked through one entry per sample: no list
 /// overflows.
 class PixelLists {
  public:
@@ -34,31 +34,37 @@ class PixelLists {
   /// shaders.
   PixelLists();
 
-  /// True where the driver can hold an entry for each of so many pixels.
-  [[nodiscard]] bool fits(int width, int height) const noexcept;
-  /// Makes room for the pixels of a frame, and empty lists for texels of maps of at most this size.
-  void clear(glm::ivec2 frame, glm::ivec2 map, int maps);
+  /// True where the driver can hold an entry for each sample of so many pixels.
+  [[nodiscard]] bool fits(int width, int height, int samples) const noexcept;
+  /// Makes room for the pixels of a frame with so many samples each, and empty lists for texels of maps of at
+  /// most this size.
+  void clear(glm::ivec2 frame, int samples, glm::ivec2 map, int maps);
   /// Lists the pixels of the surfaces whose images are bound and whose heights these are, and writes what the
   /// mask is without casters.
   void list(const LightFrames& frames, GLuint heights, GLuint mask) noexcept;
   /// Binds what the casters' programs read and write, and their framebuffer.
   void bind(GLuint mask) const noexcept;
+  /// Once all casters are drawn: of several samples a pixel, the share that light reaches.
+  void average(GLuint mask) const noexcept;
 
   /// Draws surfaces with their heights.
   [[nodiscard]] const Program& surfaces() const noexcept { return surfaces_; }
   [[nodiscard]] const Program& opaque() const noexcept { return opaque_; }
   [[nodiscard]] const Program& masked() const noexcept { return masked_; }
+  [[nodiscard]] int samples() const noexcept { return samples_; }
   [[nodiscard]] std::uint64_t bytes() const noexcept;
   /// Lengths of the lists that are not empty, in no order.
   [[nodiscard]] std::vector<std::uint32_t> lengths() const;
 
  private:
-  Program surfaces_, list_, opaque_, masked_;
+  void dispatch() const noexcept;
+
+  Program surfaces_, list_, opaque_, masked_, mean_;
   Texture heads_;
   Buffer pixels_, frames_ = make_buffer();
   Framebuffer fbo_ = make_framebuffer();
   glm::ivec2 frame_{0}, map_{0};
-  int layers_ = 0;
+  int layers_ = 0, samples_ = 1;
   std::uint64_t most_bytes_ = 0;  ///< of a storage buffer
 };
 

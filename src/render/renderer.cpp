@@ -247,7 +247,8 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   if (plan.map_count > 0) impl.pages.forget();
   if (filter.irregular || impl.moved.size() > kMostMoved) impl.forget_moved();
   impl.take_layer(options);
-  if (filter.irregular && impl.pixel_lists && impl.pixel_lists->fits(camera.width, camera.height))
+  if (filter.irregular && impl.pixel_lists &&
+      impl.pixel_lists->fits(camera.width, camera.height, filter.samples))
     return impl.draw_irregular(plan, camera, filter, options);
   FrameStats stats;
   const PassTimer timed{stats, options.time_passes};

@@ -1,6 +1,7 @@
 // The true shadow at every pixel: which rays are asked, and what is made of their answers.
 #include "gnomon/trace/reference.hpp"
 
+#include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 
@@ -127,6 +128,20 @@ KernelAxes texel_axes(const ShadowMap& map, const glm::dvec3& point, double radi
 KernelAxes world_axes(const Light& light, const glm::dvec3& point, double radius) noexcept {
   const Frame across = frame_across(light_ray(light, point).direction);
   return {radius * across.x, radius * across.y};
+}
+
+KernelAxes facet_axes(const Camera& camera, const SurfacePoint& point) noexcept {
+  const CameraAxes axes = camera_axes(camera);
+  const glm::dvec3 way = point.position - camera.position, ray = camera.orthographic ? axes.forward : way;
+  const double across = glm::dot(point.normal, ray);
+  if (!(across < 0.0)) return {};
+  const double depth = camera.orthographic ? 1.0 : glm::dot(axes.forward, way);
+  const auto half_side = [&](const glm::dvec3& axis, double pixel) {
+    const glm::dvec3 step = axis * (pixel * depth);
+    return 0.5 * (step - ray * std::clamp(glm::dot(point.normal, step) / across, -1.0, 1.0));
+  };
+  return {half_side(axes.right, (camera.right - camera.left) / camera.width),
+          half_side(axes.up, (camera.top - camera.bottom) / camera.height)};
 }
 
 SoftReference filtered_reference(const Tracer& tracer, const SurfacePoints& points, const Light& light,

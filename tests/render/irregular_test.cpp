@@ -133,6 +133,58 @@ TEST_F(Irregular, agrees_with_rays_on_all_built_in_scenes_under_all_lights) {
   EXPECT_GT(shadow, 10'000u);
 }
 
+/// How far a mask is from the mean over facets, on pixels that an edge crosses.
+struct EdgeError {
+  double mean = 0.0;
+  std::size_t pixels = 0, whole_wrong = 0;  ///< wholly lit or dark ones that the mask has otherwise
+};
+EdgeError edge_error(const trace::SoftReference& ideal, const FloatImage& mask) {
+  constexpr float kWhole = 0.002f;
+  EdgeError error;
+  for (std::size_t i = 0; i < ideal.pixels.size(); ++i) {
+    const float truth = ideal.pixels[i], drawn = mask.values[2 * i];
+    if (truth < 0.0f) continue;
+    if (truth <= kWhole || truth >= 1.0f - kWhole) {
+      error.whole_wrong += std::abs(drawn - truth) > 0.5f;
+      continue;
+    }
+    error.mean += std::abs(static_cast<double>(drawn) - static_cast<double>(truth));
+    ++error.pixels;
+  }
+  error.mean /= static_cast<double>(std::max<std::size_t>(error.pixels, 1));
+  return error;
+}
+
+TEST_F(Irregular, samples_over_facets_come_as_close_to_the_ideal_filter_as_they_are_many) {
+  constexpr int kIdealSamples = 1024;
+  for (const char* name : {"city", "fence", "trees"}) {
+    Scene scene = load_builtin(name);
+    const Camera camera = default_path(scene).at(0.5, 120, 68);
+    const Box bounds = scene.bounds_world;
+    for (const LightKind kind : {LightKind::sun, LightKind::point}) {
+      SCOPED_TRACE(std::string(name) + " " + std::string(to_string(kind)));
+      Stage stage(scene, camera, default_light({.kind = kind}, bounds));
+      const trace::Tracer tracer(stage.scene);
+      const trace::SurfacePoints points = trace::surface_points(
+          tracer, camera, stage.light, stage.renderer.positions(), stage.renderer.normals());
+      const trace::SoftReference ideal = trace::filtered_reference(
+          tracer, points, stage.light, trace::KernelShape::box,
+          [&](std::size_t pixel) { return trace::facet_axes(camera, points.pixels[pixel]); }, kIdealSamples);
+      const ShadowPlan plan = stage.plan(plan_options("optimal", 1));
+      double before = 1.0;
+      for (const int samples : {1, 8, 16, 32}) {
+        stage.renderer.draw(plan, camera, stage.renderer.prepare_irregular(samples), mask_only());
+        const EdgeError error = edge_error(ideal, stage.renderer.mask());
+        ASSERT_GT(error.pixels, 30u);
+        EXPECT_LT(error.mean, samples == 1 ? 0.5 : 1.0 / samples) << samples;
+        EXPECT_LT(error.mean, before) << samples;
+        EXPECT_LE(error.whole_wrong, 2u) << samples;
+        before = error.mean;
+      }
+    }
+  }
+}
+
 /// Ground, and triangles of all sizes over it: slivers, specks, some that reach behind the camera and past
 /// the light.
 Scene soup(unsigned seed) {
@@ -262,8 +314,9 @@ TEST_F(Irregular, a_plan_without_maps_leaves_everything_lit) {
 
 TEST_F(Irregular, a_frame_beyond_the_drivers_buffers_is_known_before_it_is_drawn) {
   const PixelLists lists;
-  EXPECT_TRUE(lists.fits(1920, 1080));
-  EXPECT_FALSE(lists.fits(1 << 16, 1 << 16));  // 2^32 pixels: more than an entry can name
+  EXPECT_TRUE(lists.fits(1920, 1080, 1));
+  EXPECT_FALSE(lists.fits(1 << 16, 1 << 16, 1));  // 2^32 pixels: more than an entry can name
+  EXPECT_FALSE(lists.fits(1 << 13, 1 << 13, 64));
 }
 
 }  // namespace

@@ -45,7 +45,11 @@ struct PreparedFilter {
   FilterSettings settings;  ///< that the program is compiled for
   std::size_t program = 0;  ///< index within the renderer
   bool irregular = false;   ///< exact shadows by lists of pixels: Renderer::prepare_irregular
+  int samples = 1;          ///< of a pixel, where `irregular`
 };
+
+/// Most samples of a pixel that Renderer::prepare_irregular takes: a list has 16 bytes for each.
+inline constexpr int kMostFacetSamples = 64;
 
 /// Transition between cascades, over the blend band ShadowMap::overlap (SplitOptions::overlap).
 enum class SplitTransition : std::uint8_t {
@@ -182,7 +186,10 @@ class Renderer {
   /// buffers hold is drawn by `filters::hard` (FrameStats::irregular). Pass::mask is the time of listing,
   /// Pass::shadow_maps that of the casters. No blending between maps, no accumulation. Throws RenderError
   /// where the driver has no storage buffers in fragment shaders.
-  [[nodiscard]] PreparedFilter prepare_irregular();
+  /// `samples`, 1..kMostFacetSamples, others the nearest of these: 1 has the edges of one point per pixel;
+  /// with more the mask is the share of light on the facet that the pixel shows, for as many times the memory
+  /// and work. Based on: Pan et al., "Fast, Sub-pixel Antialiased Shadow Maps", 2009.
+  [[nodiscard]] PreparedFilter prepare_irregular(int samples = 1);
   /// Pixels in each list of the last such frame, in no order; lists without pixels are skipped. Reads them
   /// back; throws RenderError as image().
   [[nodiscard]] std::vector<std::uint32_t> list_lengths() const;

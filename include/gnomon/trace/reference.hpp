@@ -84,6 +84,11 @@ struct KernelAxes {
 /// Two axes of this length across the light at a point, world units.
 [[nodiscard]] KernelAxes world_axes(const Light& light, const glm::dvec3& point, double radius) noexcept;
 
+/// Half a pixel's sides on the plane of its surface, world units: the axes of the box that an image without
+/// staircases averages the light over. Facets that are seen from their edge end at twice their distance; both
+/// zero where there is no surface. Based on: Pan et al., "Fast, Sub-pixel Antialiased Shadow Maps", 2009.
+[[nodiscard]] KernelAxes facet_axes(const Camera& camera, const SurfacePoint& point) noexcept;
+
 /// Samples per pixel of the soft references: stratified, jittered by a hash of pixel and sample, the same in
 /// every run. 16 are good to about 0.03 at the middle of a straight edge's penumbra.
 inline constexpr int kSoftSamples = 16;

@@ -50,7 +50,7 @@ bool same_lens(const Camera& a, const Camera& b) noexcept {
 
 bool keeps_cascades(const Light& light, const PlanOptions& options, bool has_history) noexcept {
   return options.cadence.frames > 1 && has_history && std::holds_alternative<DirectionalLight>(light) &&
-         (options.split.partition == Partition::view_depth || options.fit == Fit::stable) &&
+         (!divides_parallel(options.split.partition) || options.fit == Fit::stable) &&
          options.resolution.max_error == 0.0 && options.resolution.texel_budget == 0;
 }
 

@@ -25,16 +25,20 @@ constexpr double kWidestSingle = 1.4835298641951802;
 // Half angle below which a cone leaves the face behind it dark: 180 degrees less the face's corner, at slope
 // sqrt(2), less the faces' overlap.
 constexpr double kLeavesBackDark = 2.184;
-// Neighbouring faces of a cube share this much, as a slope: rounding in a shader must not open a seam.
+constexpr int kCubeFaces = 6;
+// Neighbouring faces share this much, as a slope: rounding in a shader must not open a seam.
 constexpr double kFaceOverlap = 1.0 / 512.0;
 // Slope of the narrowest cone: narrower ones get a map this wide.
 constexpr double kNarrowest = 1e-6;
 
-/// One frustum of a local light: a whole spot or one face of a cube.
+/// One frustum of a local light: a whole spot, or what one face of a solid round the light shows.
 struct LocalFrustum {
   glm::dvec3 apex;   // relative to the camera
   LightFrame frame;  // z against the frustum's axis
-  double slope;      // the frustum is |x| <= slope * distance, |y| <= slope * distance
+  double slope;      // all of it is |x| <= slope * distance, |y| <= slope * distance
+  std::array<glm::dvec3, kMaxSelectPlanes> side;  // unit, across the axis, outwards
+  std::size_t side_count;
+  double side_slope;  // how far it reaches along each side, per unit of distance
   [[nodiscard]] double distance(const glm::dvec3& point) const noexcept {
     return glm::dot(frame.z, apex - point);
   }
@@ -62,9 +66,36 @@ Plane distance_plane(const LocalFrustum& frustum, double distance) noexcept {
 }
 
 void clip_to_sides(Polytope& body, const LocalFrustum& frustum) noexcept {
-  for (const glm::dvec3& side : {frustum.frame.x, -frustum.frame.x, frustum.frame.y, -frustum.frame.y}) {
-    clip(body, slope_plane(frustum, side, frustum.slope));
+  for (std::size_t i = 0; i < frustum.side_count; ++i)
+    clip(body, slope_plane(frustum, frustum.side[i], frustum.side_slope));
+}
+
+LocalFrustum square_frustum(const glm::dvec3& apex, const LightFrame& frame, double slope) noexcept {
+  return {apex, frame, slope, {frame.x, -frame.x, frame.y, -frame.y}, 4, slope};
+}
+
+// Axes of the faces of a tetrahedron: the first looks down the world's -y, where floors are, the others a
+// third above the horizon.
+constexpr double kThird = 1.0 / 3.0, kBack = 0.9428090415820634;       // sqrt(8 / 9)
+constexpr double kSideways = 0.816496580927726, kAhead = kBack * 0.5;  // sqrt(2 / 3)
+constexpr std::array<glm::dvec3, 4> kTetrahedron = {
+    glm::dvec3(0.0, -1.0, 0.0), glm::dvec3(0.0, kThird, kBack), glm::dvec3(kSideways, kThird, -kAhead),
+    glm::dvec3(-kSideways, kThird, -kAhead)};
+
+/// What the light shows through one face of a tetrahedron: a triangle whose sides are at a slope of sqrt(2)
+/// from the axis, and whose corners are at twice that.
+LocalFrustum triangle_frustum(const glm::dvec3& apex, std::size_t face) noexcept {
+  const glm::dvec3& axis = kTetrahedron[face];
+  const double slope = std::sqrt(2.0) + kFaceOverlap;
+  LocalFrustum frustum{apex, {}, 2.0 * slope, {}, 0, slope};
+  for (std::size_t other = 0; other < kTetrahedron.size(); ++other) {
+    if (other == face) continue;
+    const glm::dvec3 across = kTetrahedron[other] - axis * glm::dot(kTetrahedron[other], axis);
+    frustum.side[frustum.side_count++] = safe_normalize(across, axis);
   }
+  // Rows along a side: the triangle fills more of its rectangle.
+  frustum.frame = frame_along(axis, frustum.side[0]);
+  return frustum;
 }
 
 /// Distance in front of which the frustum shows nothing: where boxes leave it open, a share of the farthest
@@ -154,7 +185,7 @@ TurnedSpace along_view(const PlanContext& c, const LocalFrustum& frustum, const 
 }
 
 MapRequest request_for(const LocalScene& scene, const LocalFrustum& frustum, const Polytope& body, int face,
-                       bool in_cube) noexcept {
+                       bool of_solid) noexcept {
   const PlanContext& c = scene.c;
   const TurnedSpace turned = c.stable
                                  ? TurnedSpace{{frustum.frame, true, frustum.frame.turned(frustum.apex)}, 0.0}
@@ -164,7 +195,7 @@ MapRequest request_for(const LocalScene& scene, const LocalFrustum& frustum, con
   // A turned square is wider by its diagonal.
   request.slope = c.stable ? frustum.slope : frustum.slope * std::sqrt(2.0);
   // Without a warp a face keeps its square: turned, the whole face would need twice the texels.
-  if (in_cube && !c.stable)
+  if (of_solid && !c.stable)
     request.unwarped.axis = {glm::dot(frustum.frame.y, turned.space.frame.x),
                              glm::dot(frustum.frame.y, turned.space.frame.y)};
   double begin = std::numeric_limits<double>::infinity(), end = -begin;
@@ -180,12 +211,12 @@ MapRequest request_for(const LocalScene& scene, const LocalFrustum& frustum, con
   slot.depth_begin = request.begin = clamp_to(begin, c.camera.near_depth, c.camera.far_depth);
   slot.depth_end = request.end = clamp_to(end, slot.depth_begin, c.camera.far_depth);
   request.last = last_map(scene.history, face);
-  if (!in_cube) return request;
+  if (!of_solid) return request;
   request.without_casters = !c.options.prune.has(PruneRule::casterless_faces);
   // A face serves what lies in it: its map has the casters of that, and may show more.
-  const LightFrame& f = frustum.frame;
-  for (const glm::dvec3& side : {f.x, -f.x, f.y, -f.y})
-    slot.select[static_cast<std::size_t>(slot.select_count++)] = slope_plane(frustum, side, frustum.slope);
+  for (std::size_t i = 0; i < frustum.side_count; ++i)
+    slot.select[static_cast<std::size_t>(slot.select_count++)] =
+        slope_plane(frustum, frustum.side[i], frustum.side_slope);
   return request;
 }
 
@@ -198,7 +229,8 @@ ViewedBody viewed_body(const PlanContext& c, const Polytope& body) noexcept {
 
 void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double outer,
                ShadowPlan& plan) noexcept {
-  const LocalFrustum frustum{scene.apex, fixed_frame(direction), max_of(elementary::tan(outer), kNarrowest)};
+  const LocalFrustum frustum =
+      square_frustum(scene.apex, fixed_frame(direction), max_of(elementary::tan(outer), kNarrowest));
   Polytope body = scene.lit;
   clip_to_sides(body, frustum);
   // Four more planes round the cone cut the square's corners off.
@@ -219,42 +251,67 @@ void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double oute
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
 
+/// Adds the map of one face, or says why it has none. True where it has a receiver.
+bool plan_face(const LocalScene& scene, const LocalFrustum& frustum, int face, const Cone* cone, bool dark,
+               ShadowPlan& plan) noexcept {
+  const PruneRules& prune = scene.c.options.prune;
+  Polytope body = scene.lit;
+  if (dark) body.vertex_count = 0;
+  clip_to_sides(body, frustum);
+  if (cone != nullptr) clip_to_cone(body, frustum, *cone);
+  if (!body.empty()) clip_to_distances(scene, body, frustum);
+  clip_part(body, scene.c.bounds.receivers, scene.c.camera.position);
+  if (body.empty() && !dark && !prune.has(PruneRule::empty_faces)) body = whole_face(scene, frustum);
+  if (body.empty()) {
+    omit(plan, {OmissionKind::face_without_receiver, face, 0.0, 0.0, texels_asked(scene.c.options)});
+    return false;
+  }
+  MapRequest request = request_for(scene, frustum, body, face, true);
+  const ViewedBody viewed = viewed_body(scene.c, body);
+  request.viewed = viewed.points();
+  merge(focused_map(scene.c, request),
+        {OmissionKind::face_without_caster, face, 0.0, 0.0, texels_asked(scene.c.options)}, scene.history,
+        plan);
+  return true;
+}
+
+PlanStatus status_of_faces(const ShadowPlan& plan, bool any_receiver) noexcept {
+  if (plan.map_count > 0) return PlanStatus::ok;
+  return any_receiver ? PlanStatus::no_caster : PlanStatus::nothing_visible;
+}
+
 /// Six faces in the order +x -x +y -y +z -z of `base`.
 void plan_cube(const LocalScene& scene, const LightFrame& base, const Cone* cone, ShadowPlan& plan) noexcept {
-  const PruneRules& prune = scene.c.options.prune;
   bool any_receiver = false;
-  for (int face = 0; face < 6; ++face) {
-    const LocalFrustum frustum{scene.apex, face_frame(base, face), 1.0 + kFaceOverlap};
+  for (int face = 0; face < kCubeFaces; ++face) {
     // Face 5 looks along the cone's direction, face 4 away from it.
     const bool dark = cone != nullptr && face == 4 && cone->outer < kLeavesBackDark;
-    Polytope body = scene.lit;
-    if (dark) body.vertex_count = 0;
-    clip_to_sides(body, frustum);
-    if (cone != nullptr && face < 4) clip_to_cone(body, frustum, *cone);
-    if (!body.empty()) clip_to_distances(scene, body, frustum);
-    clip_part(body, scene.c.bounds.receivers, scene.c.camera.position);
-    if (body.empty() && !dark && !prune.has(PruneRule::empty_faces)) body = whole_face(scene, frustum);
-    if (body.empty()) {
-      omit(plan, {OmissionKind::face_without_receiver, face, 0.0, 0.0, texels_asked(scene.c.options)});
-      continue;
-    }
-    any_receiver = true;
-    MapRequest request = request_for(scene, frustum, body, face, true);
-    const ViewedBody viewed = viewed_body(scene.c, body);
-    request.viewed = viewed.points();
-    merge(focused_map(scene.c, request),
-          {OmissionKind::face_without_caster, face, 0.0, 0.0, texels_asked(scene.c.options)}, scene.history,
-          plan);
+    const LocalFrustum frustum = square_frustum(scene.apex, face_frame(base, face), 1.0 + kFaceOverlap);
+    any_receiver |= plan_face(scene, frustum, face, face < 4 ? cone : nullptr, dark, plan);
   }
-  plan.status = plan.map_count > 0 ? PlanStatus::ok
-                : any_receiver     ? PlanStatus::no_caster
-                                   : PlanStatus::nothing_visible;
+  plan.status = status_of_faces(plan, any_receiver);
+}
+
+/// Four faces in the order of kTetrahedron.
+void plan_tetrahedron(const LocalScene& scene, ShadowPlan& plan) noexcept {
+  bool any_receiver = false;
+  for (std::size_t face = 0; face < kTetrahedron.size(); ++face)
+    any_receiver |=
+        plan_face(scene, triangle_frustum(scene.apex, face), static_cast<int>(face), nullptr, false, plan);
+  plan.status = status_of_faces(plan, any_receiver);
+}
+
+/// Whether the light's maps are those of a tetrahedron's faces: a cone has a place of its own in a cube.
+bool takes_tetrahedron(const PlanContext& c, const Light& light) noexcept {
+  return c.options.split.partition == Partition::tetrahedron && std::holds_alternative<PointLight>(light);
 }
 
 /// Lists what was asked for and a local light has no use for.
-void report_ignored(const PlanContext& c, bool has_visible_depths, ShadowPlan& plan) noexcept {
+void report_ignored(const PlanContext& c, const Light& light, bool has_visible_depths,
+                    ShadowPlan& plan) noexcept {
   const PlanOptions& o = c.options;
-  if (o.split.partition != Partition::view_depth) omit(plan, IgnoredOption::partition);
+  if (o.split.partition != Partition::view_depth && !takes_tetrahedron(c, light))
+    omit(plan, IgnoredOption::partition);
   const bool splits = o.split.scheme != SplitScheme::automatic && o.split.scheme != SplitScheme::practical;
   if (splits) omit(plan, IgnoredOption::split_scheme);
   if (o.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
@@ -267,12 +324,14 @@ void report_ignored(const PlanContext& c, bool has_visible_depths, ShadowPlan& p
 void plan_frusta(const LocalScene& scene, const Light& light, ShadowPlan& plan) noexcept {
   plan.map_count = plan.omission_count = 0;
   const PlanOptions& options = scene.c.options;
-  report_ignored(scene.c, scene.c.seen != nullptr && !scene.c.seen->empty(), plan);
+  report_ignored(scene.c, light, scene.c.seen != nullptr && !scene.c.seen->empty(), plan);
   if (scene.c.stable && options.warp.warp != nullptr && !is_unwarped(*options.warp.warp))
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
   if (ignores_shape(scene.c)) omit(plan, IgnoredOption::shape);
   const auto* spot = std::get_if<SpotLight>(&light);
-  if (spot == nullptr) {
+  if (takes_tetrahedron(scene.c, light)) {
+    plan_tetrahedron(scene, plan);
+  } else if (spot == nullptr) {
     plan_cube(scene, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, nullptr, plan);
   } else if (spot->outer_radians < kWidestSingle) {
     plan_cone(scene, plan.light_direction, spot->outer_radians, plan);
@@ -315,7 +374,8 @@ void plan_local(const PlanContext& c, const Light& light, PlanHistory* history, 
     trial.remembers = false;
     const LocalScene equal{trial, scene.warp, scene.apex, scene.range, scene.lit, scene.sizes, nullptr};
     plan_frusta(equal, light, plan);
-    scene.sizes = budgeted_sizes(plan, options, 6, true);
+    const int faces = takes_tetrahedron(c, light) ? static_cast<int>(kTetrahedron.size()) : kCubeFaces;
+    scene.sizes = budgeted_sizes(plan, options, faces, true);
   }
   plan_frusta(scene, light, plan);
 }

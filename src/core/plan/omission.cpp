@@ -42,7 +42,7 @@ void describe_ignored(const Omission& o, OmissionText& text) noexcept {
   };
   constexpr Entry kEntries[] = {
       {"option split.partition",
-       "a local light has a partition of its own: one cone, or the faces of a cube"},
+       "it divides another kind of light: parts of the view a sun's, a tetrahedron a point light's"},
       {"option split.scheme", "a local light has no cascades to divide the view among"},
       {"option split.overlap", "only cascades along the view blend into each other"},
       {"visible depths", "a local light has no cascades to divide the view among"},

@@ -31,10 +31,11 @@ void report_ignored_by_parts(const PlanContext& c, const PlanHistory* history, S
 /// What a stable fit does without, and the status.
 void finish_parallel(const PlanContext& c, ShadowPlan& plan) noexcept {
   const PlanOptions& options = c.options;
-  if (c.stable && options.split.partition != Partition::view_depth)
+  if (c.stable && divides_parallel(options.split.partition))
     omit(plan, {OmissionKind::partition_in_stable_fit, -1, 0.0, 0.0, 0});
   if (c.stable && options.warp.warp != nullptr && !is_unwarped(*options.warp.warp))
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
+  if (options.split.partition == Partition::tetrahedron) omit(plan, IgnoredOption::partition);
   if (ignores_shape(c)) omit(plan, IgnoredOption::shape);
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
@@ -70,7 +71,7 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
   scene.space.frame =
       c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
   c.seen = usable_depths(c, scene.depths, visible);
-  const bool parts = options.split.partition != Partition::view_depth;
+  const bool parts = divides_parallel(options.split.partition);
   const bool follows_points = !c.stable && !parts && !c.keeps && options.fit != Fit::warped_stable;
   const bool ignores_points = !c.seen_points.empty() && !follows_points;
   if (ignores_points) c.seen_points = {};

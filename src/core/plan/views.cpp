@@ -50,7 +50,7 @@ bool place_view(const Camera& camera, const SceneBounds& bounds, const glm::dvec
 /// Options that serve all views alike: a point has one view depth for each, but one place in the world.
 PlanOptions shared_options(PlanOptions options) noexcept {
   options.split.selection = MapSelection::finest;
-  options.split.partition = Partition::view_depth;
+  if (divides_parallel(options.split.partition)) options.split.partition = Partition::view_depth;
   if (options.split.scheme == SplitScheme::optimal) options.split.scheme = SplitScheme::logarithmic;
   return options;
 }
@@ -85,7 +85,7 @@ ShadowPlan plan_views(std::span<const Camera> cameras, const Light& light, const
   }
   for (std::size_t i = 0; i < blind_count; ++i)
     omit(plan, {OmissionKind::view_without_receiver, -1, static_cast<double>(blind[i]), 0.0, 0});
-  if (options.split.partition != Partition::view_depth) omit(plan, IgnoredOption::partition);
+  if (divides_parallel(options.split.partition)) omit(plan, IgnoredOption::partition);
   if (options.cadence.frames > 1) omit(plan, IgnoredOption::cadence);
   return plan;
 }

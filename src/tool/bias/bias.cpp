@@ -84,7 +84,7 @@ Sweep sweep_of(const BiasRequest& request) {
   compared.sun = request.sun;
   Sweep sweep = make_sweep(compared);
   for (const SweepEntry& entry : sweep.entries) {
-    if (entry.irregular)
+    if (entry.irregular())
       throw std::runtime_error("--filter " + request.filter + ": compares no depths, and knows no bias");
   }
   return sweep;

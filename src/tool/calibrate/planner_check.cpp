@@ -129,7 +129,7 @@ std::vector<View> views_of(const std::vector<report::Row>& rows) {
   std::map<std::string, std::size_t> known;
   std::vector<View> views;
   for (const report::Row& row : rows) {
-    if (row.technique.filter == kIrregular) continue;  // no model predicts it: it reads no map
+    if (row.technique.filter.starts_with(kIrregular)) continue;  // no model predicts it: it reads no map
     const std::string name =
         fmt::format("{} {}/{} {} {:g}/{:g} {}x{}", row.scene, row.frame + 1, row.frames, row.light,
                     row.light_elevation_deg, row.light_azimuth_deg, row.width, row.height);

@@ -244,7 +244,7 @@ std::vector<Option> technique_options(CompareRequest& request) {
       {.name = "--cascades", .target = &request.cascades, .help = "numbers of shadow maps along the view"},
       {.name = "--filters",
        .target = &request.filters,
-       .help = "filters, with options as in vsm:radius=3; or all of them; or irregular, for exact shadows",
+       .help = "filters, with options as in vsm:radius=3; all of them, or irregular (exact; :samples=8)",
        .names = names_in(render::all_filters(), {"all", std::string(kIrregular)}),
        .only_names = false},
       {.name = "--layers",

@@ -56,7 +56,16 @@ double light_radius(const render::FilterSettings& filter, const Light& light) no
 
 std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const Planned& plan,
                               const SweepEntry& entry, const std::vector<float>& maps) {
-  if (entry.irregular) return truth.judged;
+  if (entry.irregular_samples == 1) return truth.judged;
+  if (entry.irregular()) {
+    // As many as make the mean's own error small beside that of the most samples a pixel can have.
+    constexpr int kSamples = 256;
+    return trace::filtered_reference(
+               stage.tracer(), truth.points, stage.light(), trace::KernelShape::box,
+               [&](std::size_t pixel) { return trace::facet_axes(truth.camera, truth.points.pixels[pixel]); },
+               kSamples)
+        .pixels;
+  }
   const double light = light_radius(entry.filter, stage.light());
   if (light > 0.0) return trace::area_reference(stage.tracer(), truth.points, stage.light(), light).pixels;
   // Stored texels are blurred by a Gauss that is cut at two deviations, the box's half side: 0.88 of a
@@ -191,10 +200,11 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
   const render::FrameStats stats = plan.draw(truth.camera, frame_options(true));
   const FloatImage mask_image = renderer.mask();
   const std::vector<float> mask = channel(mask_image, 0), maps = channel(mask_image, 1);
-  if (entry.irregular && !stats.irregular)
+  if (entry.irregular() && !stats.irregular)
     throw std::runtime_error(row.technique.name() + ": the driver's storage buffers hold no list of " +
                              std::to_string(row.width) + "x" + std::to_string(row.height) + " pixels");
-  row.truth = entry.irregular                                   ? "hard"
+  row.truth = entry.irregular_samples == 1                      ? "hard"
+              : entry.irregular()                               ? "facet"
               : light_radius(entry.filter, stage.light()) > 0.0 ? "area"
                                                                 : "filtered";
   const std::vector<float> soft = soft_truth(stage, truth, plan, entry, maps);
@@ -204,10 +214,10 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
   row.flips = report::excess_flips(mask_before, mask, truth.judged, truth.judged);
   row.aliasing = report::pixel_aliasing(plan.aliasing(mask_image));
   count_costs(stats, plan, entry, row);
-  if (entry.irregular) {
+  if (entry.irregular()) {
     row.costs.lists = list_lengths(renderer);
     constexpr std::uint64_t kEntryBytes = 16;  // of a list; its texel has as many as one of a depth map
-    row.costs.map_bytes += kEntryBytes * mask.size();
+    row.costs.map_bytes += kEntryBytes * mask.size() * static_cast<std::uint64_t>(entry.irregular_samples);
   }
   row.plan_status = to_string(plan.status());
   for (const Omission& omission : plan.omitted()) {

@@ -28,7 +28,7 @@ class Stage {
   [[nodiscard]] const trace::Tracer& tracer() const noexcept { return *tracer_; }
   [[nodiscard]] render::Renderer& renderer() noexcept { return *renderer_; }
   [[nodiscard]] render::PreparedFilter filter(const SweepEntry& entry) {
-    if (entry.irregular) return renderer_->prepare_irregular();
+    if (entry.irregular()) return renderer_->prepare_irregular(entry.irregular_samples);
     return entry.by_pages() ? renderer_->prepare_pages(entry.filter) : renderer_->prepare(entry.filter);
   }
   [[nodiscard]] SceneBounds bounds() const noexcept { return view_.bounds(); }

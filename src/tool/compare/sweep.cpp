@@ -91,11 +91,28 @@ std::vector<std::string> expanded_layers(const std::vector<std::string>& texts) 
   return names;
 }
 
+/// The samples of a pixel that `irregular` or `irregular:samples=N` says; 0 for other words.
+int irregular_samples(const std::string& text) {
+  constexpr std::string_view kSamples = ":samples=";
+  if (!text.starts_with(kIrregular)) return 0;
+  const std::string_view rest = std::string_view(text).substr(kIrregular.size());
+  if (rest.empty()) return 1;
+  int samples = 0;
+  const char *const begin = rest.data() + std::min(kSamples.size(), rest.size()), *const end = rest.data() +
+                                                                                               rest.size();
+  const auto [last, error] = std::from_chars(begin, end, samples);
+  if (!rest.starts_with(kSamples) || error != std::errc{} || last != end || samples < 1 ||
+      samples > render::kMostFacetSamples)
+    throw std::runtime_error("--filters " + text + ": wants irregular or irregular:samples=N, N from 1 to " +
+                             std::to_string(render::kMostFacetSamples));
+  return samples;
+}
+
 void set_filter(const std::string& text, SweepEntry& entry) {
-  entry.irregular = text == kIrregular;
+  entry.irregular_samples = irregular_samples(text);
   entry.filter =
-      entry.irregular ? render::default_settings(render::filters::hard) : filter_word("--filters", text);
-  entry.technique.filter = entry.irregular ? std::string(kIrregular) : render::to_string(entry.filter);
+      entry.irregular() ? render::default_settings(render::filters::hard) : filter_word("--filters", text);
+  entry.technique.filter = entry.irregular() ? text : render::to_string(entry.filter);
   render::set_margin(entry.filter, entry.plan);
 }
 
@@ -208,9 +225,12 @@ struct Firsts {
 /// True where another entry of the product says the same.
 bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
   const report::Technique& t = entry.technique;
+  const bool is_tetrahedron = entry.plan.split.partition == Partition::tetrahedron;
   // The maps of a lamp follow from its cone and what it lights.
   if (light != LightKind::sun)
-    return t.split != first.split || t.cascades != first.cascades || t.fit != first.fit;
+    return (t.split != first.split && !(is_tetrahedron && light == LightKind::point)) ||
+           t.cascades != first.cascades || t.fit != first.fit;
+  if (is_tetrahedron && t.split != first.split) return true;
   const bool by_depth = entry.plan.split.partition == Partition::view_depth;
   // What is seen bounds one map, too.
   const bool follows_view = entry.visible_depths || entry.visible_points;
@@ -223,7 +243,9 @@ bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
 void drop_unread_layers(std::vector<SweepEntry>& entries, std::vector<std::string>& left_out) {
   const std::string line =
       "--layers skips " + std::string(kIrregular) + ": draws no depth map, and is measured with front alone";
-  const auto unread = [](const SweepEntry& e) { return e.irregular && e.layer != render::DepthLayer::front; };
+  const auto unread = [](const SweepEntry& e) {
+    return e.irregular() && e.layer != render::DepthLayer::front;
+  };
   if (std::erase_if(entries, unread) == 0) return;
   if (entries.empty()) throw std::runtime_error(line + "; nothing is left to measure");
   left_out.push_back(line);
@@ -261,8 +283,9 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
 
 /// The most maps that its plans may have.
 int most_maps(const SweepEntry& entry, LightKind light) noexcept {
-  constexpr int kCubeFaces = 6;
-  if (light != LightKind::sun) return kCubeFaces;
+  constexpr int kCubeFaces = 6, kTetrahedronFaces = 4;
+  if (light != LightKind::sun)
+    return entry.plan.split.partition == Partition::tetrahedron ? kTetrahedronFaces : kCubeFaces;
   return entry.plan.split.partition == Partition::view_depth ? entry.plan.cascades : kMaxMaps;
 }
 
@@ -277,7 +300,7 @@ void set_capacity(SweepEntry& entry, LightKind light) noexcept {
 
 /// What cannot be measured with pages, and why.
 std::optional<NoPages> no_pages(const SweepEntry& entry, LightKind light) {
-  if (entry.irregular) return NoPages{std::string(kIrregular), "lists pixels by whole maps"};
+  if (entry.irregular()) return NoPages{std::string(kIrregular), "lists pixels by whole maps"};
   if (auto why = tool::no_pages(entry.filter, entry.plan, entry.pages.page_texels)) return why;
   const int least = least_pool_pages(light);
   if (entry.pages.capacity < least)

@@ -1,0 +1,24 @@
+// Points of the facet that a pixel shows: its plane, as far as the pixel's square reaches. gnomon::trace::facet_axes is its twin.
+// Based on: Pan et al., "Fast, Sub-pixel Antialiased Shadow Maps", 2009.
+#ifndef GNOMON_COMMON_FACET_GLSL
+#define GNOMON_COMMON_FACET_GLSL
+#include "common/frame.glsl"
+#include "common/surface.glsl"
+
+// Place of a sample in its pixel, from -0.5 to 0.5 along both sides: Roberts' R2 sequence, whose first point is the centre.
+vec2 place_in_pixel(int index) { return fract(0.5 + float(index) * vec2(0.7548776662466927, 0.5698402909980532)) - 0.5; }
+
+// A step of one pixel, moved along the eye's ray onto the surface's plane. A facet that is seen from its edge would reach to
+// infinity: it ends at twice its distance.
+vec3 step_on_plane(Surface s, vec4 side) {
+  bool orthographic = frame.forward.w > 0.5;
+  vec3 step = side.xyz * (side.w * (orthographic ? 1.0 : s.depth)), ray = orthographic ? frame.forward.xyz : s.position;
+  float across = dot(s.normal, ray);
+  return across < 0.0 ? step - ray * clamp(dot(s.normal, step) / across, -1.0, 1.0) : vec3(0.0);
+}
+
+vec3 facet_point(Surface s, int index) {
+  vec2 place = place_in_pixel(index);
+  return s.position + step_on_plane(s, frame.right) * place.x + step_on_plane(s, frame.up) * place.y;
+}
+#endif
