@@ -169,7 +169,8 @@ struct LightPlan {
                                     LightHistory* history = nullptr,
                                     std::span<const glm::dvec3> visible_points_world = {}) noexcept;
 
-/// PlanOptions for the plan of one light of a LightPlan: maps of its size, without a budget of their own.
+/// PlanOptions for the plan of one light of a LightPlan: maps of its size, without a budget of their own. A
+/// point light has the faces of a cube, also with Partition::tetrahedron.
 [[nodiscard]] PlanOptions light_options(PlanOptions options, const LightMaps& maps) noexcept;
 
 /// A camera that sees all that a spot or point light can light. A plan for it does not follow the viewer, so

@@ -62,6 +62,8 @@ PlanOptions reference_options(PlanOptions options, int side) noexcept {
   options.resolution.max_size = side;
   options.resolution.max_error = 0.0;
   options.resolution.texel_budget = 0;
+  // Places are those of a cube's faces.
+  if (options.split.partition == Partition::tetrahedron) options.split.partition = Partition::view_depth;
   return options;
 }
 

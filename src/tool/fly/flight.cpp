@@ -144,11 +144,11 @@ FrameRow draw_page_frame(Studio& studio, int frame) {
 }
 
 FrameRow draw_frame(Studio& studio, int frame) {
-  if (studio.options.pages.on()) return draw_page_frame(studio, frame);
   const Options& options = studio.options;
+  pose_frame(options, studio.flight, frame, &studio.renderer);
+  if (options.pages.on()) return draw_page_frame(studio, frame);
   const Camera camera = camera_of(options, studio.flight, frame);
   const Light light = default_light(options.light, studio.flight.scene.bounds_world);
-  pose_frame(options, studio.flight, frame, &studio.renderer);
   const VisibleDepths depths = frame_depths(options, studio.renderer, studio.filter, camera);
   const TimedPlan timed = timed_plan(options, studio.flight, light, camera, depths, studio.history);
   FrameRow row;
