@@ -106,7 +106,7 @@ bool same_light(const Light& a, const Light& b) noexcept {
 }
 
 int level_of(int side, int least) noexcept {
-  return side > least ? std::bit_width(static_cast<unsigned>(side / least)) - 1 : 0;
+  return side > least ? static_cast<int>(std::bit_width(static_cast<unsigned>(side / least))) - 1 : 0;
 }
 
 /// Frames from one drawing to the next for a light that lights this share of the picture.
