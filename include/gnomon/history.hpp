@@ -62,7 +62,7 @@ struct PlanHistory {
   std::array<double, kMaxMaps + 1> edge{};  ///< view depths between the cascades
   int edge_count = 0;                       ///< entries of `edge` that are used; 0 before the first plan
   std::array<KeptMap, kMaxMaps> kept;       ///< by cascade
-  /// Options of the last frame. Under any others kept maps are planned again, and searches start anew.
+  /// Options of the last frame. Under any others kept maps are planned again, and searches restart.
   PlanOptions options;
 
   /// Events of the last plan; event_count of them are used.
