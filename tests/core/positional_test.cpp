@@ -1,6 +1,7 @@
 // Which plan does a spot or point light get in scenes that one can see through?
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
@@ -277,6 +278,56 @@ TEST(Positional, a_light_on_a_flat_receiver_gets_no_map_of_it) {
   EXPECT_GT(plan.map_count, 0);
   EXPECT_TRUE(finite(plan));
   for (const ShadowMap& map : plan.maps()) EXPECT_GT(map.cascade, 1) << "a face towards +x or -x";
+}
+
+/// All round the light: the camera looks down on a floor from the middle of the room's ceiling.
+Room looked_down_on() {
+  Room room;
+  room.camera = perspective_camera({0, 20, 0}, {0, -1, 0}, {0, 0, 1}, 70 * kDegree, 1.0, 0.2, 60, 512, 512);
+  room.point = {{0.3, 2.0, -0.2}, 30.0};
+  room.casters = {{{-10, 0, -10}, {10, 5, 10}}};
+  return room;
+}
+
+TEST(Positional, a_tetrahedron_shows_with_four_maps_what_a_cube_shows_with_six) {
+  Room room = looked_down_on();
+  const ShadowPlan cube = room.plan(room.point);
+  room.options.split.partition = Partition::tetrahedron;
+  const ShadowPlan plan = room.plan(room.point);
+  EXPECT_EQ(cube.map_count, 6);
+  ASSERT_EQ(plan.map_count, 4);
+  EXPECT_TRUE(finite(plan));
+  for (const ShadowMap& map : plan.maps()) EXPECT_EQ(map.select_plane_count, 3);
+  // Straight down is the first face's, the horizon belongs to the others.
+  EXPECT_EQ(plan.map[0].cascade, 0);
+  EXPECT_EQ(map_serving(plan, room.point.position - glm::dvec3(0, 1.5, 0), 0.0), 0);
+  EXPECT_GT(map_serving(plan, room.point.position + glm::dvec3(1.0, 0.2, 2.0), 0.0), 0);
+  Random random(3);
+  for (int i = 0; i < 4000; ++i) {
+    const glm::dvec3 p{random.between(-10, 10), random.between(0, 5), random.between(-10, 10)};
+    EXPECT_EQ(map_serving(plan, p, 0.0) >= 0, map_serving(cube, p, 0.0) >= 0) << i;
+  }
+}
+
+TEST(Positional, only_point_lights_have_the_maps_of_a_tetrahedron) {
+  Room room = looked_down_on();
+  const auto ignored = [](const ShadowPlan& plan) {
+    const auto omitted = plan.omitted();
+    return std::count_if(omitted.begin(), omitted.end(), [](const Omission& o) {
+      return o.kind == OmissionKind::option_ignored && o.a == static_cast<double>(IgnoredOption::partition);
+    });
+  };
+  const SpotLight wide{{0, 4, -2}, {0, -1, 0}, 120 * kDegree, 30.0};
+  const DirectionalLight sun{{0.2, -1.0, 0.1}};
+  const ShadowPlan wide_before = room.plan(wide), sun_before = room.plan(sun);
+  room.options.split.partition = Partition::tetrahedron;
+  EXPECT_EQ(ignored(room.plan(room.point)), 0);
+  EXPECT_EQ(ignored(room.plan(wide)), 1);
+  EXPECT_EQ(ignored(room.plan(sun)), 1);
+  EXPECT_EQ(room.plan(wide).map_count, wide_before.map_count);
+  EXPECT_EQ(room.plan(sun).map_count, sun_before.map_count);
+  // A pool of many lights has places for a cube's faces.
+  EXPECT_EQ(light_options(room.options, LightMaps{}).split.partition, Partition::view_depth);
 }
 
 }  // namespace
