@@ -54,7 +54,7 @@ void main() {
     listed[index].next = 0u;
     if (s.sky) continue;
     Surface at = s;
-    at.position = facet_point(s, i);
+    at.position = facet_point(s, i, samples);
     at.depth = dot(at.position, frame.forward.xyz);
     vec2 sampled = mask_of(pixel, index, at);
     if (i == 0) mask.y = sampled.y;
