@@ -178,7 +178,7 @@ void Renderer::Impl::add_lights(const LightPlan& plan, std::span<const DrawnLigh
                                 const FrameOptions& options) noexcept {
   const LightPass& pass = *light_pass;
   constexpr std::array<float, 4> kDark{}, kLit{1.0f, -1.0f};
-  // Not through the framebuffer: Mesa forgets a clear that no draw into it follows.
+  // Not through the framebuffer: under Mesa such a clear was seen to be lost where no draw follows it.
   glClearTexImage(pass.sum.name(), 0, GL_RGBA, GL_FLOAT, kDark.data());
   glClearTexImage(targets.mask.name(), 0, GL_RG, GL_FLOAT, kLit.data());
   bind_noise(options.noise);
