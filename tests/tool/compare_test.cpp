@@ -407,6 +407,34 @@ TEST(Compare, irregular_is_a_technique_without_misclassified_pixels_and_with_its
   EXPECT_NE(refused.err.find("irregular"), std::string::npos) << refused.err;
 }
 
+TEST(Compare, samples_over_facets_are_judged_against_the_mean_over_facets) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",     "builtin:fence",
+                                        "--warps",     "optimal",
+                                        "--cascades",  "1",
+                                        "--filters",   "irregular,irregular:samples=8",
+                                        "--frames",    "1",
+                                        "--rounds",    "1",
+                                        "--size",      "64x36",
+                                        "--map-sizes", "64",
+                                        "--context",   "osmesa",
+                                        "--out",       folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  ASSERT_EQ(rows.size(), 2u);
+  const report::Row& facets = rows[1];
+  EXPECT_EQ(facets.technique.filter, "irregular:samples=8");
+  EXPECT_EQ(facets.truth, "facet");
+  EXPECT_GT(facets.errors.mean_error, 0.0);
+  EXPECT_LT(facets.errors.mean_error, 1.0 / 8.0);
+  EXPECT_EQ(facets.costs.map_bytes, 4 * facets.costs.texels + 8u * 16u * 64u * 36u);
+  for (const char* word : {"irregular:samples=0", "irregular:samples=65", "irregular:samples=8x"}) {
+    const Finished refused = run_gnomon({"compare", "builtin:fence", "--filters", word});
+    EXPECT_EQ(refused.exit_code, 2) << word;
+    EXPECT_NE(refused.err.find("N from 1 to 64"), std::string::npos) << refused.err;
+  }
+}
+
 TEST(Compare, refuses_bad_input_before_it_measures) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::vector<std::string>& more) {
