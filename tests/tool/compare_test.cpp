@@ -407,7 +407,7 @@ TEST(Compare, irregular_is_a_technique_without_misclassified_pixels_and_with_its
   EXPECT_NE(refused.err.find("irregular"), std::string::npos) << refused.err;
 }
 
-TEST(Compare, samples_over_facets_are_judged_against_the_mean_over_facets) {
+TEST(Compare, samples_over_facets_are_measured_against_the_mean_over_facets) {
   const TemporaryFolder folder;
   const Finished finished = run_gnomon({"compare",     "builtin:fence",
                                         "--warps",     "optimal",
