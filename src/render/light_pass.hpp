@@ -21,11 +21,11 @@ struct LightPass {
   Texture sum;
   Framebuffer sum_fbo;
   int width = 0, height = 0;
-  // What the pool holds.
+  // Contents of the pool.
   bool holds = false;
   DepthLayer layer = DepthLayer::front;
   double limit_texels = 0.0;
-  // Of the frame.
+  // For one frame.
   std::vector<DrawnPage> maps;        ///< to draw
   std::vector<std::size_t> light_of;  ///< by map to draw
 };

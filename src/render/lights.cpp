@@ -51,7 +51,7 @@ void move_to_place(const ShadowMap& map, const TexelRect& place, bool by_hold, c
   block.interval_size.w = pool.y;
 }
 
-/// What all passes read of one light.
+/// The block that all passes read for one light.
 FrameBlock block_of(const DrawnLight& light, const LightMaps& maps, const Camera& camera,
                     const FrameOptions& options, const glm::ivec2& pool) noexcept {
   const ShadowPlan& plan = plan_of(light, maps);

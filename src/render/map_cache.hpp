@@ -75,7 +75,7 @@ class MapCache {
   /// For an unchanged map: rectangles of moved casters, and the casters that the map does not hold yet.
   [[nodiscard]] MapWork redraw(const ShadowMap& map, const DirtyTexels& dirty, Cached& cached,
                                PruneSavings& saved);
-  /// What a rectangle is drawn with, once it is cleared: all casters of the map there.
+  /// Casters that a cleared rectangle is drawn with: all of the map's there.
   void fill(const ShadowMap& map, const TexelRect& rectangle, Cached& cached,
             std::vector<std::uint8_t>& draws, PruneSaving& drawn);
   /// The strips that came into the map, and casters that the rest of it does not hold yet.

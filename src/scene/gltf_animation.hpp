@@ -48,7 +48,7 @@ class MotionReader {
                     const AnimationSource::Channel& channel, Animation& animation, Known& known);
   int read_sampler(const std::string& where, const AnimationSource& source, std::size_t index,
                    std::uint32_t width, AnimatedPart part, Animation& animation);
-  /// Of the node's mesh; as many as its primitive with most has.
+  /// Targets of the node's mesh; as many as its primitive with most has.
   [[nodiscard]] std::uint32_t target_count(int node) const;
   std::uint32_t first_weight(int node, std::uint32_t count);
   /// Makes SceneMotion::nodes of the nodes that move and of moving skins' joints.

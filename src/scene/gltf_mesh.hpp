@@ -23,7 +23,7 @@ struct Vertices {
 
 class MotionReader;
 
-/// What moves the vertices of a node's mesh, which then are the node's alone.
+/// The mover of a node's vertices, which then are the node's alone.
 struct Bending {
   int node = 0;
   const std::vector<glm::dmat4>* joints = nullptr;  // world from mesh at rest; nullptr: no skin
@@ -40,7 +40,7 @@ class MeshReader {
   [[nodiscard]] std::optional<std::vector<std::uint32_t>> skinned_primitives_of(int node);
   /// A node's mesh without skin, with vertices of its own for poses by morph targets.
   [[nodiscard]] std::vector<std::uint32_t> morphed_primitives_of(int node);
-  /// What the primitive's vertices are made of, where they were kept for poses.
+  /// Source of the primitive's vertices, where it was kept for poses.
   [[nodiscard]] std::optional<DeformedMesh> take_deformed(std::uint32_t primitive);
 
  private:

@@ -1,4 +1,4 @@
-// What does a glTF document say about animations, before any key is read?
+// Which animations does a glTF document name, before any key is read?
 #include "gltf_motion_source.hpp"
 
 #include <nlohmann/json.hpp>

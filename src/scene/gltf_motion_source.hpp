@@ -1,4 +1,4 @@
-// What does a glTF document say about animations, before any key is read?
+// Which animations does a glTF document name, before any key is read?
 #pragma once
 
 #include <map>

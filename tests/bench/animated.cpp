@@ -1,4 +1,4 @@
-// What do kept maps and kept pages redraw while a scene plays its animation, and is anything stale?
+// Which texels do kept maps and kept pages redraw while a scene plays its animation, and is anything stale?
 //
 //     bench_animated [FRAMES] [SCENE.glb...]
 //

@@ -1,4 +1,4 @@
-// What a plan of many lights costs, and what its sizes are worth beside other rules.
+// The cost of a plan of many lights, and the gain of its sizes over other rules.
 //
 //     bench_plan_lights            both
 //     bench_plan_lights --seconds  the times alone
@@ -203,7 +203,7 @@ void print_times(const Town& town) {
 
 constexpr int kMostSize = 2048;
 
-/// What one light's maps are measured to need.
+/// Measured needs of one light's maps.
 struct Measured {
   double weight;  // share of the picture times texels for a mean m of 1
   int maps;

@@ -1,4 +1,4 @@
-// What must hold of every plan of many lights: places, budgets, errors, and what is due when.
+// Laws of every plan of many lights: places, budgets, errors, and what is due when.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -153,7 +153,7 @@ struct FrameStats {
 /// One light of Renderer::draw for many lights.
 struct DrawnLight {
   Light light;  ///< the picture fades out at its cone and range
-  /// Of its maps, as drawn last: of this frame where they are due. nullptr, or no maps: it casts no shadow.
+  /// The plan its maps were drawn by last: this frame's where they are due. nullptr, or no maps: no shadow.
   const ShadowPlan* plan = nullptr;
   glm::vec3 color{1.0f};  ///< brightness by channel, >= 0; 1: as bright as the sun of other frames
 };

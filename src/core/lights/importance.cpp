@@ -1,4 +1,4 @@
-// What a light lights in the view, and what error its maps would have there.
+// Which part of the view does a light light, and which error would its maps have there?
 //
 // The error is the mean over pixels of the mean over depths, evenly spaced in their logarithm: that of
 // measure(), from few rays. A texel of a map with S texels along a side is 2 t d / S wide at the distance d
@@ -241,7 +241,7 @@ double mean_along(const LightView& view, const LocalLight& light, const Box& par
   return hits > 0 ? sum / hits : -1.0;
 }
 
-/// Of a light that no ray and no point met: its body's corners.
+/// For a light that no ray and no point met: its body's corners.
 double mean_of_corners(const LightView& view, const LocalLight& light, const Polytope& body) noexcept {
   double sum = 0.0;
   for (const Polytope::Vertex& v : body.vertices()) {

@@ -1,4 +1,4 @@
-// What a light lights in the view, and what error its maps would have there.
+// Which part of the view does a light light, and which error would its maps have there?
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// What is the same for all lights.
+/// Everything that is the same for all lights.
 struct LightView {
   const Camera& camera;  // far plane finite
   const SceneBounds& bounds;

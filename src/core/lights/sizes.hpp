@@ -17,7 +17,7 @@ struct SizeLadder {
   [[nodiscard]] double inside(int level) const noexcept {
     return static_cast<double>(std::int64_t{least} << level) - 2.0 * border;
   }
-  /// Of one map, in squares of the smallest.
+  /// Area of one map, in squares of the smallest.
   [[nodiscard]] static std::int64_t cells(int level) noexcept { return std::int64_t{1} << (2 * level); }
 };
 

@@ -45,7 +45,7 @@ inline constexpr double kLeastWarpGain = 1e-3;
 /// Whether a warp with this ratio is used.
 [[nodiscard]] bool takes(const Warp& warp, const WarpChoice& choice, double ratio) noexcept;
 
-/// What a map of the body would come to.
+/// Outcome of a map of the body.
 struct FocusedObjective {
   double value;  ///< the plan's objective, up to a factor that is the same for all bodies
   bool warped;   ///< whether the map would take a warp

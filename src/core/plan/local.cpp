@@ -82,7 +82,7 @@ constexpr std::array<glm::dvec3, 4> kTetrahedron = {
     glm::dvec3(0.0, -1.0, 0.0), glm::dvec3(0.0, kThird, kBack), glm::dvec3(kSideways, kThird, -kAhead),
     glm::dvec3(-kSideways, kThird, -kAhead)};
 
-/// What the light shows through one face of a tetrahedron: a triangle whose sides are at a slope of sqrt(2)
+/// The frustum through one face of a tetrahedron: a triangle whose sides are at a slope of sqrt(2)
 /// from the axis, and whose corners are at twice that.
 LocalFrustum triangle_frustum(const glm::dvec3& apex, std::size_t face) noexcept {
   const glm::dvec3& axis = kTetrahedron[face];

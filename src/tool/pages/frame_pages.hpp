@@ -13,7 +13,7 @@
 
 namespace gnomon::tool {
 
-/// What pages are planned for besides the surfaces; the boxes of `bounds` must outlive the pages.
+/// Input of a page plan besides the surfaces; the boxes of `bounds` must outlive the pages.
 struct PageFrameInput {
   Light light;
   SceneBounds bounds;

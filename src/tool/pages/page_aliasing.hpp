@@ -9,7 +9,7 @@
 
 namespace gnomon::tool {
 
-/// What a renderer has of a frame that was drawn with the pages of a plan.
+/// Images of a frame that was drawn with the pages of a plan.
 struct PageFrameImages {
   FloatImage mask, positions, normals;
 };

@@ -56,7 +56,7 @@ Image level_picture(const Image& lit, const FloatImage& mask, const FloatImage& 
     const Color color = level_color(plan.pages[static_cast<std::size_t>(page)].level, plan.levels.size());
     const double luma =
         (0.2126 * lit.rgba[4 * i] + 0.7152 * lit.rgba[4 * i + 1] + 0.0722 * lit.rgba[4 * i + 2]) / 255.0;
-    // Dark pixels keep enough of the colour to be told apart.
+    // Dark pixels keep enough of the colour to differ.
     constexpr double kLeast = 0.45;
     set_pixel(image, i, mixed({0, 0, 0}, color, kLeast + (1.0 - kLeast) * luma));
   }

@@ -23,7 +23,7 @@ enum class Texels : std::uint8_t { kept, scrolled, drawn };
 [[nodiscard]] Image level_picture(const Image& lit, const FloatImage& mask, const FloatImage& normals,
                                   const PagePlan& plan);
 
-/// What serves a pixel, for kept_picture().
+/// The map or page that serves a pixel, for kept_picture().
 struct Served {
   Texels texels = Texels::drawn;
   double fineness = 1.0;  ///< 0: of the coarsest level, 1: of the finest
@@ -41,11 +41,11 @@ struct LegendText {
   std::string title;
   std::vector<std::pair<render::Color, std::string>> fields;
 };
-/// Of level_picture(): some of the levels where there are many.
+/// Legend of level_picture(): some of the levels where there are many.
 [[nodiscard]] LegendText level_legend(const PagePlan& plan);
-/// Of kept_picture(), with counts; `what`: "maps" or "pages".
+/// Legend of kept_picture(), with counts; `what`: "maps" or "pages".
 [[nodiscard]] LegendText kept_legend(std::span<const Served> served, const std::string& what);
-/// Of the outlines of one level's pages.
+/// Legend of the outlines of one level's pages.
 [[nodiscard]] LegendText resident_legend(const PagePlan& plan, std::size_t level);
 
 }  // namespace gnomon::tool

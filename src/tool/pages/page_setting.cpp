@@ -1,4 +1,4 @@
-// How a program is told to draw pages in place of maps, and what cannot be drawn with them.
+// Which settings draw pages in place of maps, and which cannot?
 #include "page_setting.hpp"
 
 #include <fmt/core.h>

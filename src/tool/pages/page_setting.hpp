@@ -1,4 +1,4 @@
-// How a program is told to draw pages in place of maps, and what cannot be drawn with them.
+// Which settings draw pages in place of maps, and which cannot?
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ inline constexpr double kMostTargetM = 1e6;
 /// With a fallback, so that surfaces between the points that were read keep a shadow.
 [[nodiscard]] PageOptions page_options_of(const PageSetting& setting) noexcept;
 
-/// What cannot be drawn with pages, and why.
+/// A setting that pages cannot be drawn with, and the reason.
 struct NoPages {
   std::string what, why;
 };

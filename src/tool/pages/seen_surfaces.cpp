@@ -1,4 +1,4 @@
-// What a drawn frame shows to a page plan: points of its surfaces, and what was reported of each.
+// The surfaces that a page plan is made for: points of a drawn frame, and the feedback on each.
 #include "seen_surfaces.hpp"
 
 #include <algorithm>

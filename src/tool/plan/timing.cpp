@@ -1,4 +1,4 @@
-// What a plan costs: time and heap allocations of make_plan(), plan_pages() or plan_lights() over many runs
+// The cost of a plan: time and heap allocations of make_plan(), plan_pages() or plan_lights() over many runs
 // of one case.
 #include "timing.hpp"
 

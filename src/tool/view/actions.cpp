@@ -1,4 +1,4 @@
-// What the panel and the keys do to the state: scenes and files opened and saved, undo, freezing, recorded
+// Actions of panel and keys on the state: scenes and files opened and saved, undo, freezing, recorded
 // camera paths.
 #include <fmt/core.h>
 #include <imgui.h>

@@ -95,7 +95,7 @@ struct App {
 
 /// Tabs with every option; changes App::state.
 void draw_panel(App& app);
-/// What chooses and plays the scene's animation; nothing where it has none.
+/// Widgets that choose and play the scene's animation; none where it has none.
 void playing_part(App& app);
 /// Plays the animation, the first where none is chosen, or pauses it.
 void toggle_playing(App& app);

@@ -1,4 +1,4 @@
-// What lies in one level of a page plan: its resident pages, each at its place.
+// One level of a page plan as a picture: its resident pages, each at its place.
 #pragma once
 
 #include <functional>

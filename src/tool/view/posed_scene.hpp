@@ -21,14 +21,14 @@ class PosedScene {
   /// Poses the scene and the renderer that holds it as the state says. Returns what is wrong with that, or an
   /// empty text. `moved`: whether anything stands elsewhere than before.
   std::string follow(const Playing& playing, render::Renderer& renderer, bool& moved);
-  /// Of the instances as posed: they cast and receive.
+  /// Boxes of the instances as posed: they cast and receive.
   [[nodiscard]] const std::vector<Box>& boxes() const noexcept { return boxes_; }
 
   /// Begins to sort the triangles of the present pose, where that is not done or going on.
   void begin_tracer();
   /// Takes what the background has finished; `wait`: and finishes the present pose.
   void take_tracer(bool wait);
-  /// Of the present pose; nullptr until its triangles are sorted.
+  /// Rays against the present pose; nullptr until its triangles are sorted.
   [[nodiscard]] const std::shared_ptr<const trace::Tracer>& tracer() const noexcept { return tracer_; }
 
  private:

@@ -199,7 +199,7 @@ std::string Stage::draw(const State& state, int width, int height, bool settled)
 void Stage::draw_pages(const State& state, const Settings& settings, Side& side, bool settled) {
   const render::PreparedFilter filter = prepare(settings);
   render::FrameOptions frame = frame_options(state, settings, light_);
-  // Of pages the renderer has the mask alone.
+  // The renderer draws these pictures of maps alone; those of pages are made of the mask.
   frame.aliasing = frame.heat_map = frame.cascade_tint = false;
   const double map_ms = side.pages->refine(renderer_, filter, frame, settled ? FramePages::kMostRounds : 1);
   unfinished_ = unfinished_ || (!settled && side.pages->wants_rounds());
