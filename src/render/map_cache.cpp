@@ -81,57 +81,47 @@ void MapCache::fill(const ShadowMap& map, const TexelRect& rectangle, Cached& ca
   }
 }
 
-MapWork MapCache::redraw(const ShadowMap& map, const DirtyTexels& dirty, Cached& cached,
-                         PruneSavings& saved) {
+MapWork MapCache::draw_parts(const ShadowMap& map, const Parts& parts, Cached& cached, PruneSavings& saved) {
   MapWork work;
+  work.move = parts.move;
   PruneSaving drawn;
-  std::uint64_t all_triangles = 0;
-  for (std::uint32_t i = 0; i < draws_.size(); ++i)
-    all_triangles += draws_[i] != 0 ? scene_.triangles_of(i) : 0;
-  for (std::size_t r = 0; r < dirty.count; ++r) {
-    const TexelRect& rectangle = dirty.rectangle[r];
-    fill(map, rectangle, cached, part_draws_[r], drawn);
-    work.add({rectangle, true, part_draws_[r]});
+  for (std::size_t i = 0; i < parts.rectangles.size(); ++i) {
+    const TexelRect& rectangle = parts.rectangles[i];
+    fill(map, rectangle, cached, part_draws_[i], drawn);
+    work.add({rectangle, true, part_draws_[i]});
     work.texels += static_cast<std::uint64_t>(rectangle.width) * static_cast<std::uint64_t>(rectangle.height);
   }
+  // Large casters are drawn into every rectangle: not worth it where that takes more than the texels give.
   const std::uint64_t spared = texels_of(map) - std::min(work.texels, texels_of(map));
-  if (drawn.triangles > all_triangles + spared / kTexelsPerTriangle) return draw_whole(map, cached);
-  PruneSaving& saving = saved.of(PruneRule::held_maps);
+  if (drawn.triangles > parts.whole_triangles + spared / kTexelsPerTriangle) return draw_whole(map, cached);
+  PruneSaving& saving = saved.of(parts.rule);
   work.texels = std::min(work.texels + skip_held(map, cached, saving), texels_of(map));
   if (draws_any()) work.add({{0, 0, map.width, map.height}, false, draws_});
   saving.texels += texels_of(map) - work.texels;
-  saved.spent_by(PruneRule::held_maps).instances += drawn.instances;
-  saved.spent_by(PruneRule::held_maps).triangles += drawn.triangles;
+  saved.spent_by(parts.rule).instances += drawn.instances;
+  saved.spent_by(parts.rule).triangles += drawn.triangles;
   return work;
+}
+
+MapWork MapCache::redraw(const ShadowMap& map, const DirtyTexels& dirty, Cached& cached,
+                         PruneSavings& saved) {
+  std::uint64_t all_triangles = 0;
+  for (std::uint32_t i = 0; i < draws_.size(); ++i)
+    all_triangles += draws_[i] != 0 ? scene_.triangles_of(i) : 0;
+  return draw_parts(map, {dirty.rectangles(), {}, PruneRule::held_maps, all_triangles}, cached, saved);
 }
 
 MapWork MapCache::scroll(const CullingJob& job, const ShadowMap& map, const MapReuse& moved, Cached& cached,
                          PruneSavings& saved) {
-  MapWork work;
-  work.move = {moved.shift_x, moved.shift_y, moved.kept};
-  PruneSaving drawn;
   std::uint64_t held_triangles = 0;
   for (std::uint32_t i = 0; i < draws_.size(); ++i) {
     if (job.reads_everywhere && draws_[i] == 0) cached.holds[i] = 0;
     if (draws_[i] != 0 && cached.holds[i] != 0) held_triangles += scene_.triangles_of(i);
   }
-  for (std::size_t s = 0; s < static_cast<std::size_t>(moved.strip_count); ++s) {
-    const TexelRect& strip = moved.strip[s];
-    std::vector<std::uint8_t>& draws = part_draws_[s];
-    fill(map, strip, cached, draws, drawn);
-    work.add({strip, true, draws});
-    work.texels += static_cast<std::uint64_t>(strip.width) * static_cast<std::uint64_t>(strip.height);
-  }
-  // Large casters are drawn into either strip: not worth it where that takes more than the texels give.
-  const std::uint64_t spared = texels_of(map) - std::min(work.texels, texels_of(map));
-  if (drawn.triangles > held_triangles + spared / kTexelsPerTriangle) return draw_whole(map, cached);
-  PruneSaving& saving = saved.of(PruneRule::scrolled_maps);
-  work.texels = std::min(work.texels + skip_held(map, cached, saving), texels_of(map));
-  if (draws_any()) work.add({{0, 0, map.width, map.height}, false, draws_});
-  saving.texels += texels_of(map) - work.texels;
-  saved.spent_by(PruneRule::scrolled_maps).instances += drawn.instances;
-  saved.spent_by(PruneRule::scrolled_maps).triangles += drawn.triangles;
-  return work;
+  const std::span<const TexelRect> strips{moved.strip.data(), static_cast<std::size_t>(moved.strip_count)};
+  return draw_parts(
+      map, {strips, {moved.shift_x, moved.shift_y, moved.kept}, PruneRule::scrolled_maps, held_triangles},
+      cached, saved);
 }
 
 MapWork MapCache::update(const CachedDraw& draw, PruneSavings& saved) {

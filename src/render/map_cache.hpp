@@ -72,6 +72,16 @@ class MapCache {
   [[nodiscard]] MapWork draw_whole(const ShadowMap& map, Cached& cached);
   /// For an unchanged map: the casters that it does not hold yet.
   [[nodiscard]] MapWork hold(const ShadowMap& map, Cached& cached, PruneSavings& saved);
+  /// Rectangles that are drawn anew, and the texels that move before.
+  struct Parts {
+    std::span<const TexelRect> rectangles;
+    MapMove move;
+    PruneRule rule;                 ///< that saves the others
+    std::uint64_t whole_triangles;  ///< that drawing the map whole would take besides
+  };
+  /// Whole where that is cheaper.
+  [[nodiscard]] MapWork draw_parts(const ShadowMap& map, const Parts& parts, Cached& cached,
+                                   PruneSavings& saved);
   /// For an unchanged map: rectangles of moved casters, and the casters that the map does not hold yet.
   [[nodiscard]] MapWork redraw(const ShadowMap& map, const DirtyTexels& dirty, Cached& cached,
                                PruneSavings& saved);

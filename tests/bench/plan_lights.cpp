@@ -7,7 +7,6 @@
 // the mean of m over the lit points of a grid of first hits, summed over the lights by their share of the
 // picture.
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -19,38 +18,11 @@
 #include <string>
 #include <vector>
 
+#include "allocations.hpp"
 #include "gnomon/gnomon.hpp"
 #include "median.hpp"
 #include "support/light_storage.hpp"
 #include "support/seeded_input.hpp"
-
-namespace {
-std::atomic<std::uint64_t> g_allocations{0};
-void* counted(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return counted(size);
-}
-void* operator new[](std::size_t size) {
-  return counted(size);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace gnomon {
 namespace {
@@ -138,13 +110,13 @@ Cost cost_of(int repeats, Work&& work) {
   std::vector<double> times;
   times.reserve(static_cast<std::size_t>(repeats));
   work();
-  const std::uint64_t before = g_allocations;
+  const std::uint64_t before = tool::allocation_count();
   for (int i = 0; i < repeats; ++i) {
     const Clock::time_point from = Clock::now();
     work();
     times.push_back(microseconds(from));
   }
-  const std::uint64_t allocated = g_allocations - before;
+  const std::uint64_t allocated = tool::allocation_count() - before;
   return {*std::min_element(times.begin(), times.end()), median(times), allocated};
 }
 void print(const char* name, const Cost& cost, double beside) {

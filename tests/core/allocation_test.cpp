@@ -1,43 +1,13 @@
 // Does planning and measuring work without the heap?
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
+#include "allocations.hpp"
 #include "gnomon/study/technique.hpp"
 #include "support/light_storage.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
-
-namespace {
-std::atomic<std::uint64_t> g_allocations{0};
-void* counted(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return counted(size);
-}
-void* operator new[](std::size_t size) {
-  return counted(size);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace gnomon::test {
 namespace {
@@ -54,9 +24,9 @@ static_assert(noexcept(choose_technique(any<Camera>(), any<Light>(), any<SceneBo
 static_assert(noexcept(describe(any<Omission>())));
 
 TEST(Allocation, the_counter_counts) {
-  const std::uint64_t before = g_allocations;
+  const std::uint64_t before = tool::allocation_count();
   auto* number = new std::vector<int>(5);
-  EXPECT_EQ(g_allocations - before, 2u);
+  EXPECT_EQ(tool::allocation_count() - before, 2u);
   delete number;
 }
 
@@ -64,12 +34,12 @@ TEST(Allocation, planning_culling_measuring_and_describing_allocate_nothing) {
   for_all(1000, [&] {
     const Case c = draw_case();
     std::vector<std::uint32_t> list(c.casters.size());
-    const std::uint64_t before = g_allocations;
+    const std::uint64_t before = tool::allocation_count();
     const ShadowPlan plan = make_plan(c.camera, DirectionalLight{c.light}, c.bounds(), c.options);
     for (const ShadowMap& map : plan.maps()) (void)cull_casters(map, c.casters, list);
     const AliasingStats stats = measure(plan, c.camera, c.bounds(), {4, 4, 8});
     for (const Omission& omission : plan.omitted()) (void)describe(omission);
-    const std::uint64_t allocated = g_allocations - before;
+    const std::uint64_t allocated = tool::allocation_count() - before;
     require(allocated == 0, "allocations", allocated, "samples", stats.samples);
   });
 }
@@ -81,10 +51,10 @@ TEST(Allocation, choosing_a_technique_allocates_nothing) {
   int tried = 0;
   for_all(10, [&] {
     const Case c = draw_case();
-    const std::uint64_t before = g_allocations;
+    const std::uint64_t before = tool::allocation_count();
     const TechniqueChoice choice =
         choose_technique(c.camera, DirectionalLight{c.light}, c.bounds(), {}, {}, {}, costs, c.options);
-    const std::uint64_t allocated = g_allocations - before;
+    const std::uint64_t allocated = tool::allocation_count() - before;
     require(allocated == 0, "allocations", allocated, "tried", choice.tried);
     tried += choice.tried;
   });
@@ -109,14 +79,14 @@ TEST(Allocation, pages_are_planned_measured_and_found_without_the_heap) {
       options.policy = policy;
       options.capacity = 256;
       options.share = 0.9;
-      const std::uint64_t before = g_allocations;
+      const std::uint64_t before = tool::allocation_count();
       const PagePlan plan = plan_pages(c.camera, DirectionalLight{c.light}, c.bounds(), {points}, {}, options,
                                        {levels, pages, table, work});
       const PageStats stats = measure_pages(plan, c.camera, {points});
       const KeptPages first = keep_pages(plan, {}, slots, slot_table, kept);
       const KeptPages second = keep_pages(plan, c.casters, slots, slot_table, kept);
       for (const Page& page : plan.pages) opened += page_map(plan, page).width > 0;
-      const std::uint64_t after = g_allocations;
+      const std::uint64_t after = tool::allocation_count();
       require(after == before, "allocations", after - before, "samples", stats.m.samples);
       require(first.fits && second.fits, "the pool is too small");
     });
@@ -135,14 +105,14 @@ TEST(Allocation, many_lights_are_planned_without_the_heap) {
     std::vector<LightState> states(lights.size());
     LightHistory history{states, 0, {}};
     LightStorage memory(lights.size(), points.size());
-    const std::uint64_t before = g_allocations;
+    const std::uint64_t before = tool::allocation_count();
     for (int frame = 0; frame < 2; ++frame) {
       const LightPlan plan =
           plan_lights(c.camera, lights, c.bounds(), {}, {}, memory.spans(), &history, points);
       for (const LightMaps& maps : plan.lights) (void)describe(maps, {});
       mapped += plan.mapped;
     }
-    const std::uint64_t after = g_allocations;
+    const std::uint64_t after = tool::allocation_count();
     require(after == before, "allocations", after - before);
   });
   EXPECT_GT(mapped, 100);
