@@ -48,16 +48,17 @@ void main() {
   Surface s = surface_at(pixel);
   uint first = uint(pixel.y * size.x + pixel.x) * uint(samples);
   vec2 mask = vec2(1.0, -1.0);
-  if (!s.sky && samples == 1) mask = mask_of(pixel, first, s);
-  for (int i = 0; i < samples && samples > 1; ++i) {
+  for (int i = 0; i < samples; ++i) {
     uint index = first + uint(i);
     listed[index].next = 0u;
     if (s.sky) continue;
     Surface at = s;
-    at.position = facet_point(s, i, samples);
-    at.depth = dot(at.position, frame.forward.xyz);
+    if (samples > 1) {
+      at.position = facet_point(s, i, samples);
+      at.depth = dot(at.position, frame.forward.xyz);
+    }
     vec2 sampled = mask_of(pixel, index, at);
-    if (i == 0) mask.y = sampled.y;
+    if (i == 0) mask = sampled;
     if (sampled.x == 0.0) listed[index].next = kShadowed;
   }
   imageStore(mask_image, pixel, vec4(mask, 0.0, 0.0));

@@ -10,11 +10,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <new>
 #include <string>
 #include <vector>
 

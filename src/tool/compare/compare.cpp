@@ -17,6 +17,7 @@
 #include "gnomon/report/rows_file.hpp"
 #include "gnomon/scene/load.hpp"
 #include "interrupt.hpp"
+#include "irregular_word.hpp"
 #include "machine.hpp"
 #include "measure.hpp"
 #include "offscreen_context.hpp"

@@ -12,6 +12,7 @@
 #include "command.hpp"
 #include "filter_words.hpp"
 #include "gnomon/render/probe.hpp"
+#include "irregular_word.hpp"
 #include "offscreen_context.hpp"
 #include "page_setting.hpp"
 #include "picture_words.hpp"
@@ -89,23 +90,6 @@ std::vector<std::string> expanded_layers(const std::vector<std::string>& texts) 
     for (const render::DepthLayerInfo& info : render::depth_layers()) names.emplace_back(info.name);
   }
   return names;
-}
-
-/// The samples of a pixel that `irregular` or `irregular:samples=N` says; 0 for other words.
-int irregular_samples(const std::string& text) {
-  constexpr std::string_view kSamples = ":samples=";
-  if (!text.starts_with(kIrregular)) return 0;
-  const std::string_view rest = std::string_view(text).substr(kIrregular.size());
-  if (rest.empty()) return 1;
-  int samples = 0;
-  const char *const begin = rest.data() + std::min(kSamples.size(), rest.size()), *const end = rest.data() +
-                                                                                               rest.size();
-  const auto [last, error] = std::from_chars(begin, end, samples);
-  if (!rest.starts_with(kSamples) || error != std::errc{} || last != end || samples < 1 ||
-      samples > render::kMostFacetSamples)
-    throw std::runtime_error("--filters " + text + ": wants irregular or irregular:samples=N, N from 1 to " +
-                             std::to_string(render::kMostFacetSamples));
-  return samples;
 }
 
 void set_filter(const std::string& text, SweepEntry& entry) {

@@ -35,19 +35,15 @@ struct CompareRequest {
   bool visible_depths = false, visible_points = false;  ///< plan with what a frame shows
 };
 
-/// Word among the filters that stands for exact shadows: render::Renderer::prepare_irregular. Behind it may
-/// follow `:samples=N`.
-inline constexpr std::string_view kIrregular = "irregular";
-
 /// One point of the product, with what the names stand for.
 struct SweepEntry {
   report::Technique technique;
   PlanOptions plan;
   render::FilterSettings filter;                         ///< hard where irregular()
   render::DepthLayer layer = render::DepthLayer::front;  ///< that maps and pages store
-  int irregular_samples = 0;                            ///< of a pixel, by lists (kIrregular); 0: by a filter
-  bool visible_depths = false, visible_points = false;  ///< of the frame, given to the plan
-  PageOptions pages;                                    ///< where by_pages()
+  int irregular_samples = 0;                             ///< of a pixel, by lists; 0: by a filter
+  bool visible_depths = false, visible_points = false;   ///< of the frame, given to the plan
+  PageOptions pages;                                     ///< where by_pages()
 
   /// Drawn by lists of pixels.
   [[nodiscard]] bool irregular() const noexcept { return irregular_samples > 0; }
