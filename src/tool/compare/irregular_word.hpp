@@ -22,8 +22,8 @@ inline constexpr std::string_view kIrregular = "irregular";
   const std::string_view rest = std::string_view(text).substr(kIrregular.size());
   if (rest.empty()) return 1;
   int samples = 0;
-  const char *const begin = rest.data() + std::min(kSamples.size(), rest.size()), *const end = rest.data() +
-                                                                                               rest.size();
+  const char* const begin = rest.data() + std::min(kSamples.size(), rest.size());
+  const char* const end = rest.data() + rest.size();
   const auto [last, error] = std::from_chars(begin, end, samples);
   if (!rest.starts_with(kSamples) || error != std::errc{} || last != end || samples < 1 ||
       samples > render::kMostFacetSamples)
