@@ -135,10 +135,12 @@ bool said_too_near(const Scene& s, const ShadowMap& map, const Real3& q) {
   if (light.w == 0.0) return false;
   const Real3 from_light = q - s.light.apex();
   const auto* spot = std::get_if<SpotLight>(&s.input.light);
-  // Maps of a cube measure along its axes, which lie within 54.8 degrees of every direction of their faces.
-  constexpr Real kCube = 1.75L;
-  const bool cube = spot == nullptr || map.select_plane_count > 0;
-  const Real distance = cube ? length(from_light) / kCube : glm::dot(from_light, s.light.axis());
+  // Maps of a solid's faces measure along their axes, which lie within 54.8 degrees of every direction of a
+  // cube's face, and within 70.6 of a tetrahedron's.
+  constexpr Real kCube = 1.75L, kTetrahedron = 3.02L;
+  const bool solid = spot == nullptr || map.select_plane_count > 0;
+  const Real least_cosine = 1.0L / (map.select_plane_count == 3 ? kTetrahedron : kCube);
+  const Real distance = solid ? length(from_light) * least_cosine : glm::dot(from_light, s.light.axis());
   for (const Omission& o : s.plan.omitted()) {
     if (o.kind == OmissionKind::depth_near_light && o.map == map.cascade && distance < o.a) return true;
   }
