@@ -5,15 +5,16 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "geometry/least_rectangle.hpp"
 #include "geometry/vector.hpp"
 #include "map/border.hpp"
 #include "map/depths.hpp"
+#include "map/gain.hpp"
 #include "map/history.hpp"
 #include "map/record.hpp"
 #include "map/row_shape.hpp"
 #include "map/served.hpp"
 #include "map/size.hpp"
+#include "map/turned.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/registry.hpp"
 
@@ -108,7 +109,7 @@ WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const Li
   const WarpInput& in = question.in;
   if (is_unwarped(request.warp) || c.stable) return in.unwarped;
   const WarpChoice choice = request.warp.choose(in);
-  double ratio = gain_ratio(in, choice);
+  double ratio = gain_ratio(c, request, question, choice);
   if (takes(request.warp, choice, ratio)) ratio = widened_ratio(in, request, body, choice, ratio);
   if (takes(request.warp, choice, ratio)) return choice;
   result.omit({OmissionKind::warp_without_gain, request.slot.cascade, ratio, 0.0, 0});
@@ -117,24 +118,6 @@ WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const Li
   unwarped.gain_ratio = choice.last_ratio > 0.0 ? 1.0 : 0.0;
   unwarped.last_ratio = choice.last_ratio;
   return unwarped;
-}
-
-/// The choice with its rectangle turned to the least area, where that lowers the objective.
-WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) noexcept {
-  const PlaneMap map = plane_map(in.body, choice);
-  std::array<glm::dvec2, kMaxBodyPoints> image;
-  std::size_t count = 0;
-  for (const WarpInput::Point& p : in.body) image[count++] = map.image(p.x, p.y);
-  const glm::dvec2 side = least_rectangle_side({image.data(), count});
-  WarpChoice turned = choice;
-  turned.row_a = side;
-  turned.row_b = {-side.y, side.x};
-  // What the warp has measured is of its own rectangle.
-  turned.gain_ratio = turned.last_ratio = 0.0;
-  // Without perspective the area is the objective.
-  if (in.flat()) return turned;
-  PlaneError error(in);
-  return error.value(turned) < error.value(choice) * (1.0 - kLeastWarpGain) ? turned : choice;
 }
 
 /// The best map of the plane, or the steady way there.

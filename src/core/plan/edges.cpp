@@ -6,6 +6,7 @@
 
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "map/gain.hpp"
 #include "map/history.hpp"
 #include "plan/cascades.hpp"
 #include "plan/split_table.hpp"
@@ -78,19 +79,27 @@ double simple_error(const PlanContext& c, const ParallelScene& scene, double beg
   return warp_error(in, warped ? warps::lispsm.choose(in).kappa : 0.0).value(in.objective);
 }
 
+/// What all maps together come to.
+struct JointObjective {
+  double value = 0.0;
+  int maps = 0, warped = 0;  // maps with a body, and how many of them would take a warp
+};
+
 /// The objective of all maps together by the error itself, with LiSPSM in the place of a warp that takes a
-/// longer search; warped where any of them would be.
-FocusedObjective exact_objective(const PlanContext& c, const ParallelScene& asked,
-                                 std::span<const double> edges) noexcept {
+/// longer search.
+JointObjective exact_objective(const PlanContext& c, const ParallelScene& asked,
+                               std::span<const double> edges) noexcept {
   const bool searched = &asked.warp == &warps::optimal;
   const ParallelScene scene{asked.body, asked.depths, asked.space, searched ? warps::lispsm : asked.warp};
-  FocusedObjective total{0.0, false};
+  JointObjective total;
   for (std::size_t m = 0; m + 1 < edges.size(); ++m) {
     Polytope part = between(c, scene.body, edges[m], edges[m + 1]);
     clip_part(part, c.bounds.receivers, c.camera.position);
     if (part.empty()) continue;
     const FocusedObjective one = focused_objective(c, request_for(scene, part, edges[m], edges[m + 1]));
-    total = {joined(c.options.warp.objective, total.value, one.value), total.warped || one.warped};
+    total.value = joined(c.options.warp.objective, total.value, one.value);
+    ++total.maps;
+    total.warped += one.warped ? 1 : 0;
   }
   return total;
 }
@@ -98,7 +107,7 @@ FocusedObjective exact_objective(const PlanContext& c, const ParallelScene& aske
 /// Edges, and what the maps between them come to.
 struct JudgedEdges {
   std::array<double, kMaxMaps + 1> depth;
-  FocusedObjective objective;
+  JointObjective objective;
 };
 
 /// The best edges by the simplified error, from those that `edges` gives.
@@ -119,20 +128,27 @@ JudgedEdges searched_edges(const PlanContext& c, const ParallelScene& scene,
   return result;
 }
 
+/// Whether the maps bear out a search that reckoned with a warp. More maps take a warp that is searched for
+/// than the one that stands for it.
+bool borne_out(const ParallelScene& scene, const JointObjective& found) noexcept {
+  return &scene.warp == &warps::optimal ? found.warped > 0 : 2 * found.warped > found.maps;
+}
+
 void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double> edges) noexcept {
   if (edges.size() < 3 || !(edges.front() > 0.0 && edges.back() > edges.front())) return;
   JudgedEdges best = searched_edges(c, scene, edges);
-  const auto take = [&] { std::copy_n(best.depth.begin(), edges.size(), edges.begin()); };
   // The search goes by a simplified error; what counts is the exact one.
-  const FocusedObjective given = exact_objective(c, scene, edges);
-  const bool warped = best.objective.warped || is_unwarped(scene.warp);
-  if (best.objective.value < given.value) take();
-  if (warped || given.warped) return;
-  // No map takes the warp that the search reckoned with.
+  JointObjective least = exact_objective(c, scene, edges);
+  const auto take_better = [&] {
+    if (!(best.objective.value < least.value)) return;
+    least = best.objective;
+    std::copy_n(best.depth.begin(), edges.size(), edges.begin());
+  };
+  take_better();
+  if (is_unwarped(scene.warp) || borne_out(scene, least)) return;
   const ParallelScene plain{scene.body, scene.depths, scene.space, warps::none};
-  const double least = min_of(best.objective.value, given.value);
   best = searched_edges(c, plain, edges);
-  if (best.objective.value < least) take();
+  take_better();
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
-#include "map/light_body.hpp"
+#include "map/gain.hpp"
 
 namespace gnomon {
 namespace {

@@ -11,7 +11,7 @@
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
-#include "map/light_body.hpp"
+#include "map/gain.hpp"
 #include "measure/log_histogram.hpp"
 #include "measure/measure_grid.hpp"
 #include "measure/metric_kernel.hpp"

@@ -188,6 +188,12 @@ inline Vector mirrored(const Vector& step, const Vector& eye, const Vector& sum,
   const Vector across = minus(step, eye, dot(eye, step));
   return minus(across, sum, twice * dot(sum, across));
 }
+/// Twice the inverse of the squared length of a sum of rays; 0 where they oppose each other: less than twice
+/// would flatten the pixel.
+inline double mirror_factor(double sum_squared) noexcept {
+  const double twice = 2.0 / max_of(sum_squared, kOpposed);
+  return sum_squared > kOpposed ? twice : 0.0;
+}
 inline double extent(const PixelTerms& t, const Vector& p, double size) noexcept {
   const double depth = t.forward.x * p.x + t.forward.y * p.y + t.forward.z * p.z;
   return min_of(max_of(depth, t.depth_begin), t.depth_most) * size;
@@ -206,7 +212,7 @@ GNOMON_WIDE void find_parallel(const PixelTerms& terms, PixelLanes& l) noexcept 
   for (std::size_t i = 0; i < n; ++i) {
     const Vector p{l.x[i], l.y[i], l.z[i]};
     const Vector eye = eye_ray(t, p), sum{eye.x, eye.y, eye.z - 1.0};
-    const double twice = 2.0 / max_of(dot(sum, sum), kOpposed), scale = extent(t, p, l.size[i]);
+    const double twice = mirror_factor(dot(sum, sum)), scale = extent(t, p, l.size[i]);
     const Vector a = mirrored(right, eye, sum, twice), b = mirrored(up, eye, sum, twice);
     const double xx = a.x * scale, yx = a.y * scale, xy = b.x * scale, yy = b.y * scale;
     l.xx[i] = xx;
@@ -231,7 +237,7 @@ GNOMON_WIDE void find_local(const PixelTerms& terms, PixelLanes& l) noexcept {
     const Vector eye = eye_ray(t, p);
     const Vector sum{eye.x + scaled.x * per_length, eye.y + scaled.y * per_length,
                      eye.z + scaled.z * per_length};
-    const double twice = 2.0 / max_of(dot(sum, sum), kOpposed), scale = extent(t, p, l.size[i]);
+    const double twice = mirror_factor(dot(sum, sum)), scale = extent(t, p, l.size[i]);
     const Vector a = mirrored(right, eye, sum, twice), b = mirrored(up, eye, sum, twice);
     const double distance = -from.z, h = inverse_or_0(distance), x = from.x * h, y = from.y * h,
                  unit = scale * h;
