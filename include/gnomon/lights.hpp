@@ -101,17 +101,25 @@ struct LightHistory {
 
 /// Working memory of plan_lights for one light. Plain data without a meaning of its own.
 struct LightWork {
-  double demand, ratio;
-  std::uint32_t light;
-  int maps, level, top, last;
+  double demand;        ///< error times the side of its maps without borders, texels
+  double ratio;         ///< error saved per texel by the next step
+  std::uint32_t light;  ///< index into the lights
+  int maps;             ///< how many it draws
+  int level;            ///< of their size: the smallest doubled so many times
+  int top;              ///< largest level
+  int last;             ///< level in the last plan
 };
 /// The same for one map in the pool.
 struct LightPlace {
-  std::uint32_t begin, end;
+  std::uint32_t begin;  ///< first square of the smallest maps' grid
+  std::uint32_t end;    ///< one past the last
 };
 /// The same for one visible point.
 struct LightPoint {
-  float x, y, z, pixel;
+  float x;      ///< world space, from the eye, in a unit that all points share
+  float y;      ///< world space, from the eye, in a unit that all points share
+  float z;      ///< world space, from the eye, in a unit that all points share
+  float pixel;  ///< 1 / the width of a pixel there, in the same unit
 };
 /// Memory that plan_lights writes to; the caller's. `maps` is as long-lived as the plan.
 struct LightMemory {

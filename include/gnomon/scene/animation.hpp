@@ -42,9 +42,9 @@ struct AnimationChannel {
 
 /// One animation of a file. Without channels it moves nothing, and its duration is 0.
 struct Animation {
-  std::string name;         ///< as in the file; may be empty
-  double duration_s = 0.0;  ///< time of the last key of all channels, seconds
-  std::vector<AnimationSampler> samplers;
+  std::string name;                        ///< as in the file; may be empty
+  double duration_s = 0.0;                 ///< time of the last key of all channels, seconds
+  std::vector<AnimationSampler> samplers;  ///< of all channels, which name theirs by its index
   std::vector<AnimationChannel> channels;  ///< at most one for each part of a target
 };
 
