@@ -106,8 +106,9 @@ void check_points(const SeededInput& in, const ShadowPlan& plan, std::uint64_t s
       return fail(totals, seed, in, "a visible receiver lies outside its map");
     std::size_t count = 0;
     if (index >= 0) count = cull_casters(plan.map[static_cast<std::size_t>(index)], in.casters, list);
-    // What depths the caller called unseen gets no shadow.
-    if (index < 0 && in.visible != nullptr) continue;
+    // What depths the caller called unseen gets no shadow, or what happens to lie in a part's map.
+    const bool unseen = in.visible != nullptr && !(depth >= in.visible->min && depth <= in.visible->max);
+    if (unseen || (index < 0 && in.visible != nullptr)) continue;
     for (std::size_t k = 0; k < in.casters.size(); ++k) {
       // A caster that is only touched may be lost to rounding.
       if (!(crossed(in.casters[k], p, -plan.light_direction, 1e-6 * camera.far_depth) > 0.0)) continue;
@@ -171,6 +172,10 @@ void check_case(std::uint64_t seed, SeededInput& in, Totals& totals) {
     ratio = measured(measure(plan, in.camera, in.bounds(), kFine), chosen.warp.objective) /
             measured(measure(unwarped, in.camera, in.bounds(), kFine), chosen.warp.objective);
   }
+  // Maps shrink until they just meet the bound of the error that pays.
+  const bool shrunk = chosen.warp.objective != Objective::storage &&
+                      measured(with, chosen.warp.objective) <= chosen.resolution.prune_error;
+  if (shrunk) return;
   const auto k = static_cast<std::size_t>(chosen.warp.objective);
   if (!(ratio <= totals.worst[k])) {
     totals.worst[k] = ratio;

@@ -28,6 +28,12 @@ bool sides_differ(const ViewInLight& view, double factor) noexcept {
   return max_of(view.pixel_x, view.pixel_y) > factor * min_of(view.pixel_x, view.pixel_y);
 }
 
+/// Whether an edge of the image is far enough off the view for rays to fan out wide.
+bool wide(const ViewInLight& view) noexcept {
+  return max_of(max_of(std::abs(view.image_left), std::abs(view.image_right)),
+                max_of(std::abs(view.image_bottom), std::abs(view.image_top))) >= kWideSlope;
+}
+
 double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
   if (choice.gain_ratio > 0.0) return choice.gain_ratio;
   const bool along_y = !in.light.perspective && choice.axis.x == 0.0 && choice.centre == 0.0 &&
@@ -38,12 +44,9 @@ double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
     // A gain by the simplified weights above this factor is one by the exact error, too: they differ by the
     // obliquity of the view rays alone, where pixels are square and rays do not fan out wide.
     constexpr double kCertainRatio = 0.25;
-    const ViewInLight& view = in.view;
-    const double edge = max_of(max_of(std::abs(view.image_left), std::abs(view.image_right)),
-                               max_of(std::abs(view.image_bottom), std::abs(view.image_top)));
     const double with = warp_error(in, choice.kappa).value(in.objective);
     const double plain = warp_error(in, 0.0).value(in.objective);
-    if (with < kCertainRatio * plain && edge < kWideSlope && !sides_differ(view, kSquare))
+    if (with < kCertainRatio * plain && !wide(in.view) && !sides_differ(in.view, kSquare))
       return with / plain;
   }
   return sampled_ratio(in, choice, false, 0);
@@ -91,15 +94,18 @@ double inner_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
   if (!usable(in.body, choice, in.most_stretch)) return std::numeric_limits<double>::infinity();
   const double ratio = first_ratio(in, choice);
   if (in.orthographic || !(ratio < 1.0)) return ratio;
-  // The 95th percentile of so few points is off by up to a fifth, and where rays fan out wide the worst texel
+  // The 95th percentile of so few points is off by up to a third, and where rays fan out wide the worst texel
   // lies between them: a gain below that must show in other points, too. Where the light comes to meet the
   // eye the worst texel may lie anywhere inside.
-  constexpr double kSure = 0.8;
+  constexpr double kSure = 0.6;
+  // Where they fan out wide, another 96 points are off as well.
+  const double unsure = in.objective == Objective::p95 && wide(in.view) ? 1.15 : 1.0;
   const bool opposed = in.cos_gamma < kOpposedCosine && choice.kappa > 0.0;
   const bool exact =
       in.objective != Objective::p95 && !in.light.perspective && !(in.tan_half_fov > kWideSlope);
-  if (!opposed && (exact || !(ratio > kSure))) return ratio * turned_pixels(in, choice);
-  return max_of(ratio, sampled_ratio(in, choice, true, 1)) * turned_pixels(in, choice);
+  const double turned = turned_pixels(in, choice);
+  if (!opposed && (exact || !(ratio > kSure))) return ratio * turned;
+  return max_of(ratio, sampled_ratio(in, choice, true, 1)) * turned * unsure;
 }
 
 }  // namespace
@@ -123,13 +129,13 @@ FocusedObjective focused_objective(const PlanContext& c, const MapRequest& reque
   PlaneError error(in);
   const double inner = error.value(in.unwarped);
   const double without = inner * border_factor(c, request, question, in.unwarped);
-  if (in.is_unwarped(choice)) return {without, false};
+  if (in.is_unwarped(choice)) return {without, without};
   const double ratio = gain_ratio(c, request, question, choice);
-  if (!takes(request.warp, choice, ratio)) return {without, false};
+  if (!takes(request.warp, choice, ratio)) return {without, without};
   const bool rotated = c.options.fit == Fit::rotated;
   const WarpChoice drawn = rotated ? turned_to_least_area(in, choice) : choice;
   const double with = drawn.gain_ratio > 0.0 ? drawn.gain_ratio * inner : error.value(drawn);
-  return {with * border_factor(c, request, question, drawn), true};
+  return {with * border_factor(c, request, question, drawn), without};
 }
 
 PlaneMap focused_plane(const PlanContext& c, const MapRequest& request) noexcept {

@@ -17,8 +17,8 @@ inline constexpr double kLeastWarpGain = 1e-3;
 
 /// Outcome of a map of the body.
 struct FocusedObjective {
-  double value;  ///< the plan's objective, up to a factor that is the same for all bodies
-  bool warped;   ///< whether the map would take a warp
+  double value;     ///< the plan's objective, up to a factor that is the same for all bodies
+  double unwarped;  ///< the same without a warp
 };
 /// The objective of the map that focused_map would make.
 [[nodiscard]] FocusedObjective focused_objective(const PlanContext& c, const MapRequest& request) noexcept;

@@ -82,7 +82,7 @@ double simple_error(const PlanContext& c, const ParallelScene& scene, double beg
 /// What all maps together come to.
 struct JointObjective {
   double value = 0.0;
-  int maps = 0, warped = 0;  // maps with a body, and how many of them would take a warp
+  double unwarped = 0.0;  // without any warp
 };
 
 /// The objective of all maps together by the error itself, with LiSPSM in the place of a warp that takes a
@@ -97,9 +97,8 @@ JointObjective exact_objective(const PlanContext& c, const ParallelScene& asked,
     clip_part(part, c.bounds.receivers, c.camera.position);
     if (part.empty()) continue;
     const FocusedObjective one = focused_objective(c, request_for(scene, part, edges[m], edges[m + 1]));
-    total.value = joined(c.options.warp.objective, total.value, one.value);
-    ++total.maps;
-    total.warped += one.warped ? 1 : 0;
+    total = {joined(c.options.warp.objective, total.value, one.value),
+             joined(c.options.warp.objective, total.unwarped, one.unwarped)};
   }
   return total;
 }
@@ -128,12 +127,6 @@ JudgedEdges searched_edges(const PlanContext& c, const ParallelScene& scene,
   return result;
 }
 
-/// Whether the maps bear out a search that reckoned with a warp. More maps take a warp that is searched for
-/// than the one that stands for it.
-bool borne_out(const ParallelScene& scene, const JointObjective& found) noexcept {
-  return &scene.warp == &warps::optimal ? found.warped > 0 : 2 * found.warped > found.maps;
-}
-
 void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double> edges) noexcept {
   if (edges.size() < 3 || !(edges.front() > 0.0 && edges.back() > edges.front())) return;
   JudgedEdges best = searched_edges(c, scene, edges);
@@ -145,7 +138,10 @@ void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double
     std::copy_n(best.depth.begin(), edges.size(), edges.begin());
   };
   take_better();
-  if (is_unwarped(scene.warp) || borne_out(scene, least)) return;
+  // Edges searched for a warp that gains little may be worse than edges searched without one. A warp that is
+  // searched for gains more than the one that stands for it.
+  const double gains_enough = &scene.warp == &warps::optimal ? 0.99 : 0.7;
+  if (is_unwarped(scene.warp) || least.value < gains_enough * least.unwarped) return;
   const ParallelScene plain{scene.body, scene.depths, scene.space, warps::none};
   best = searched_edges(c, plain, edges);
   take_better();

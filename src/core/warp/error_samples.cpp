@@ -39,32 +39,11 @@ struct InverseDepthBound {
 };
 
 /// The bounds of all faces: `least` from those that have the eye inside, `most` from those that have it
-/// outside. Faces through the eye are the image's own edges.
+/// outside. Rays on the outer side of a face through the eye, where its `edge` is negative, miss the body.
 struct InverseDepthBounds {
-  std::array<InverseDepthBound, kMaxFaces> least, most;
-  std::size_t least_count = 0, most_count = 0;
+  std::array<InverseDepthBound, kMaxFaces> least, most, edge;
+  std::size_t least_count = 0, most_count = 0, edge_count = 0;
 };
-
-InverseDepthBounds inverse_depth_bounds(const Polytope& body, const ViewInLight& view,
-                                        double near_depth) noexcept {
-  InverseDepthBounds bounds;
-  for (int f = 0; f < body.face_count; ++f) {
-    const Plane& plane = body.plane[static_cast<std::size_t>(f)];
-    // Faces nearer to the eye than rounding can tell pass through it.
-    constexpr double kThroughEye = 1e-9;
-    if (std::abs(plane.offset) <= kThroughEye * near_depth) continue;
-    const double inverse = -1.0 / plane.offset;
-    const InverseDepthBound bound{glm::dot(plane.normal, view.forward) * inverse,
-                                  glm::dot(plane.normal, view.right) * inverse,
-                                  glm::dot(plane.normal, view.up) * inverse};
-    if (plane.offset > 0.0) {
-      bounds.least[bounds.least_count++] = bound;
-    } else {
-      bounds.most[bounds.most_count++] = bound;
-    }
-  }
-  return bounds;
-}
 
 struct ImageRange {
   double left, right, bottom, top;
@@ -81,6 +60,39 @@ ImageRange shown(const WarpInput& input) noexcept {
   }
   return {max_of(r.left, view.image_left), min_of(r.right, view.image_right),
           max_of(r.bottom, view.image_bottom), min_of(r.top, view.image_top)};
+}
+
+/// Whether the face, which is through the eye, is an edge of the image or beyond: none of its rays miss.
+bool holds(const InverseDepthBound& edge, const ImageRange& image) noexcept {
+  constexpr double kRounding = 1e-9;
+  for (const double x : {image.left, image.right}) {
+    for (const double y : {image.bottom, image.top}) {
+      const double size = std::abs(edge.at) + std::abs(edge.per_x * x) + std::abs(edge.per_y * y);
+      if (edge.at + edge.per_x * x + edge.per_y * y < -kRounding * size) return false;
+    }
+  }
+  return true;
+}
+
+InverseDepthBounds inverse_depth_bounds(const Polytope& body, const ViewInLight& view, double near_depth,
+                                        const ImageRange& image) noexcept {
+  InverseDepthBounds bounds;
+  for (int f = 0; f < body.face_count; ++f) {
+    const Plane& plane = body.plane[static_cast<std::size_t>(f)];
+    const glm::dvec3 slopes{glm::dot(plane.normal, view.forward), glm::dot(plane.normal, view.right),
+                            glm::dot(plane.normal, view.up)};
+    // Faces nearer to the eye than rounding can tell pass through it.
+    constexpr double kThroughEye = 1e-9;
+    if (std::abs(plane.offset) <= kThroughEye * near_depth) {
+      const InverseDepthBound edge{slopes.x, slopes.y, slopes.z};
+      if (!holds(edge, image)) bounds.edge[bounds.edge_count++] = edge;
+      continue;
+    }
+    const glm::dvec3 bound = slopes * (-1.0 / plane.offset);
+    auto& side = plane.offset > 0.0 ? bounds.least : bounds.most;
+    side[plane.offset > 0.0 ? bounds.least_count++ : bounds.most_count++] = {bound.x, bound.y, bound.z};
+  }
+  return bounds;
 }
 
 /// Rays through the image, 1 / depth where each is inside the body, and from that the depth where it enters
@@ -107,6 +119,11 @@ GNOMON_WIDE void find_rays(const ImageRange& image, const EvenRays& even, const 
     const InverseDepthBound b = bounds.most[k];
     for (std::size_t i = 0; i < kRays; ++i)
       rays.most[i] = min_of(rays.most[i], b.at + b.per_x * rays.x[i] + b.per_y * rays.y[i]);
+  }
+  for (std::size_t k = 0; k < bounds.edge_count; ++k) {
+    const InverseDepthBound b = bounds.edge[k];
+    for (std::size_t i = 0; i < kRays; ++i)
+      rays.most[i] = b.at + b.per_x * rays.x[i] + b.per_y * rays.y[i] < 0.0 ? 0.0 : rays.most[i];
   }
   for (std::size_t i = 0; i < kRays; ++i) {
     const double least = rays.least[i], beyond = rays.most[i];
@@ -290,9 +307,11 @@ void add_faces(const Polytope& body, double size, PixelLanes& lanes) noexcept {
 }
 
 void add_visible_points(const WarpInput& input, int set, PixelLanes& lanes) noexcept {
-  const InverseDepthBounds bounds = inverse_depth_bounds(*input.polytope, input.view, input.depth_begin);
+  const ImageRange image = shown(input);
+  const InverseDepthBounds bounds =
+      inverse_depth_bounds(*input.polytope, input.view, input.depth_begin, image);
   Rays rays;
-  find_rays(shown(input), kEvenRays[static_cast<std::size_t>(set)], bounds, 1.0 / input.depth_begin, rays);
+  find_rays(image, kEvenRays[static_cast<std::size_t>(set)], bounds, 1.0 / input.depth_begin, rays);
   double total = 0.0;
   for (const double length : rays.length) total += length;
   if (!(total > 0.0 && total < std::numeric_limits<double>::infinity())) return;

@@ -320,9 +320,9 @@ void compare_maps(const Case& input, const ShadowPlan& with, int a, const Shadow
                                  : Real(m.storage) / m0.storage;
   } else {
     Random random(3);
-    // With the band that the map shares with the cascade before it, which warps count as well.
-    const std::vector<Real3> points = seen_points(
-        view, input.receivers[0], warped.depth_begin - warped.overlap, warped.depth_end, 400, random);
+    // In the band before that the cascade before it serves as well.
+    const std::vector<Real3> points =
+        seen_points(view, input.receivers[0], warped.depth_begin, warped.depth_end, 400, random);
     const BodyError e = body_error(view, light, RelativeMap(with, warped, view), warped, points);
     const BodyError e0 =
         body_error(view, light, RelativeMap(without, without.map[ib], view), without.map[ib], points);
