@@ -239,6 +239,31 @@ struct KeptPages {
                                    std::span<PageSlot> slots, std::span<std::uint32_t> table,
                                    std::span<KeptPage> out) noexcept;
 
+/// What hold_sun decided.
+struct HeldSun {
+  glm::dvec3 direction{0.0};  ///< to plan with: the held one, or the sun's own, with the bits of the argument
+  /// Largest error of the points read before the decision, screen pixels. Where the sun is held, it holds for
+  /// all points that are not capped.
+  double error_pixels = 0.0;
+  double turned_pixels = 0.0;       ///< error of the point that turned it, above the bound; 0: none did
+  std::uint64_t points_capped = 0;  ///< read, but not judged: least_light_sine
+};
+/// Keeps the direction of a sun that turns until a shadow edge could lie more than `most_pixels` from its
+/// true place, then takes the sun's own. Pages of stable levels keep their bits under a held direction; a
+/// turn draws all of them. A point's error is how far the shadow of the farthest place in `casters` along its
+/// light ray moves on the plane of its surface, as the camera sees it: nearer casters err less.
+///
+/// `held`: the direction of the last frame; any without length, or at a right angle or more to `sun`, gives
+/// `sun`. `casters`: bounds of all casters; broken ones do not hold. `seen`: points, and normals where known;
+/// else surfaces that face the half vector. Without points it does not hold, as nothing bounds the error.
+/// `most_pixels`: 0 never holds, larger holds longer; a quarter is below what a texel of m = 1 can show.
+/// `least_light_sine`: as PageOptions::least_light_sine; edges on surfaces that the light grazes more are not
+/// bounded. Penumbrae that a filter widens count as the edge. Allocates nothing; takes time in proportion to
+/// the points.
+[[nodiscard]] HeldSun hold_sun(const glm::dvec3& held, const glm::dvec3& sun, const Camera& camera,
+                               const Box& casters, const SeenPoints& seen, double most_pixels = 0.25,
+                               double least_light_sine = 0.05) noexcept;
+
 /// The error over the points that a page plan serves.
 struct PageStats {
   AliasingStats m;                ///< of m_max; storage is that of the pages, borders included
