@@ -239,14 +239,14 @@ struct KeptPages {
                                    std::span<PageSlot> slots, std::span<std::uint32_t> table,
                                    std::span<KeptPage> out) noexcept;
 
-/// What hold_sun decided.
+/// The decision of hold_sun.
 struct HeldSun {
   glm::dvec3 direction{0.0};  ///< to plan with: the held one, or the sun's own, with the bits of the argument
   /// Largest error of the points read before the decision, screen pixels. Where the sun is held, it holds for
   /// all points that are not capped.
   double error_pixels = 0.0;
   double turned_pixels = 0.0;       ///< error of the point that turned it, above the bound; 0: none did
-  std::uint64_t points_capped = 0;  ///< read, but not judged: least_light_sine
+  std::uint64_t points_capped = 0;  ///< read, but not evaluated: least_light_sine
 };
 /// Keeps the direction of a sun that turns until a shadow edge could lie more than `most_pixels` from its
 /// true place, then takes the sun's own. Pages of stable levels keep their bits under a held direction; a

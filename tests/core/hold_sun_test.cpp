@@ -98,7 +98,7 @@ TEST(HoldSun, what_has_no_bound_is_not_held) {
   EXPECT_EQ(hold_sun(held, sun, ground.camera, ground.casters, {broken}).direction, sun);
 }
 
-TEST(HoldSun, surfaces_that_the_light_grazes_are_counted_and_not_judged) {
+TEST(HoldSun, surfaces_that_the_light_grazes_are_counted_and_not_evaluated) {
   const Ground ground;
   const glm::dvec3 held{1.0, -0.01, 0.0}, sun{1.0, -0.011, 0.0};
   const HeldSun kept = ground.hold(held, sun);
