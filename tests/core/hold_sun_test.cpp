@@ -106,8 +106,7 @@ TEST(HoldSun, surfaces_that_the_light_grazes_are_counted_and_not_evaluated) {
   EXPECT_EQ(kept.points_capped, ground.points.size());
 }
 
-TEST(HoldSun, a_sun_of_a_quarter_degree_a_minute_draws_a_tenth_of_the_pages_at_most) {
-  const Ground ground;
+void expect_few_pages(const Ground& ground) {
   const std::vector<Box> boxes = {ground.casters};
   PlanOptions plan_options;
   plan_options.fit = Fit::stable;
@@ -145,6 +144,14 @@ TEST(HoldSun, a_sun_of_a_quarter_degree_a_minute_draws_a_tenth_of_the_pages_at_m
     else
       EXPECT_GT(share, 0.9);
   }
+}
+
+TEST(HoldSun, a_sun_of_a_quarter_degree_a_minute_draws_a_tenth_of_the_pages_at_most) {
+  const Ground ground;
+  expect_few_pages(ground);
+  Ground towers;
+  towers.casters = {{-600, 0, -160}, {600, 100, 200}};
+  expect_few_pages(towers);
 }
 
 }  // namespace
