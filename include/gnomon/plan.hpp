@@ -60,6 +60,9 @@ enum class OmissionKind : std::uint8_t {
   points_left_coarser,      ///< of plan_pages: PageOptions::share left them to coarser pages; a: how many
   points_beyond_levels,     ///< of plan_pages: the deepest level does not suffice for them; a: how many
   shape_without_gain,       ///< a: error along the warp with the shape over that without; 1: it has no use
+  plane_without_receiver,   ///< no visible receiver near it, or the light lies in it; a: index in warp.planes
+  plane_without_caster,     ///< no caster can reach its receivers; a: index in warp.planes
+  cascade_on_planes,        ///< maps of warp.planes serve all of it; a: depth_begin, b: depth_end
 };
 /// The option that OmissionKind::option_ignored names.
 enum class IgnoredOption : std::uint8_t {
@@ -73,6 +76,7 @@ enum class IgnoredOption : std::uint8_t {
   cadence,         ///< cadence: needs a history and cascades of a fixed number and size
   visible_points,  ///< the visible points: a local light's maps, kept or stable maps do not follow them
   shape,           ///< warp.shape: stable, rotated and remembered maps have linear texels
+  planes,  ///< warp.planes: needs a directional light, one view, depths as partition, tight or rotated
 };
 /// One entry of ShadowPlan::omitted.
 struct Omission {
@@ -103,8 +107,9 @@ struct ShadowMap {
   glm::dvec4 light_world{0.0, 1.0, 0.0, 0.0};
   /// Index of the requested cascade. Local lights have none: 0 for a spot's single map, and for the faces of
   /// a cube 0 to 5 in the order +x -x +y -y +z -z (of the world for a point light; a wide spot's face 5 looks
-  /// along it). Partition::tetrahedron: 0 looks along -y, 1 to 3 the other ways. Partition::frustum_faces: the face, in the order left, right, bottom, top, near, far.
-  /// separating_plane: 0 before the plane, 1 behind.
+  /// along it). Partition::tetrahedron: 0 looks along -y, 1 to 3 the other ways. Partition::frustum_faces:
+  /// the face, in the order left, right, bottom, top, near, far. separating_plane: 0 before the plane, 1
+  /// behind.
   int cascade = 0;
   int width = 0, height = 0;  ///< texels; may differ, and from map to map (metric_resolution, texel_budget)
   const Shape* shape = &shapes::linear;  ///< how the texels lie on the projected square; never nullptr
@@ -122,9 +127,10 @@ struct ShadowMap {
   /// lies where dot(xyz, p_world) + w >= 0 of all of them. World space, unit normals.
   std::array<glm::dvec4, kMaxCullPlanes> cull_planes;
   int cull_plane_count = 0;  ///< entries of cull_planes that are used
-  /// Planes parallel to the light that part this map's receivers from the other maps': the map serves a point
-  /// only where dot(xyz, p_world) + w >= 0 for all of them. World space, unit normals; none where depth or
-  /// their own extent separates the maps.
+  /// Planes that part this map's receivers from the other maps': the map serves a point only where
+  /// dot(xyz, p_world) + w >= 0 for all of them. World space, unit normals; none where depth or their own
+  /// extent separates the maps. Parallel to the light, but for those of WarpOptions::planes and of cascades
+  /// beside them.
   std::array<glm::dvec4, kMaxSelectPlanes> select_planes{};
   int select_plane_count = 0;  ///< entries of select_planes that are used
   SnapKey snap_key;            ///< of Fit::stable: equal keys mean an identical grid
@@ -173,8 +179,8 @@ struct ShadowPlan {
   /// Of the options: in texels of the map at each point, for those who compute it per point.
   BiasOptions bias;
   /// How a point finds its map: false, by its view depth (maps do not overlap in depth); true, for local
-  /// lights and for receivers parted by planes: the first map that holds it (map_holds), at any depth. A
-  /// point that no map holds is lit.
+  /// lights, for receivers parted by planes and with maps of WarpOptions::planes: the first map that holds it
+  /// (map_holds), at any depth. A point that no map holds is lit.
   bool select_by_map = false;
   /// With select_by_map: several maps may hold a point. The one with the most texels per area across the
   /// light there serves it (SplitOptions::selection), not the first. Equal ones: the first.
@@ -187,7 +193,7 @@ struct ShadowPlan {
   Records<Omission, kMaxOmissions> omission;  ///< the first omission_count are used, the others unset
   int omission_count = 0;                     ///< may exceed kMaxOmissions
 
-  /// The maps to draw, by cascade.
+  /// The maps to draw: those of WarpOptions::planes, then by cascade.
   [[nodiscard]] std::span<const ShadowMap> maps() const noexcept {
     return {map.data(), static_cast<std::size_t>(map_count)};
   }

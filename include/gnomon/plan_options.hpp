@@ -1,7 +1,9 @@
 // Which options does make_plan take? Grouped by the question that each group decides.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 
 #include "gnomon/bias.hpp"
 #include "gnomon/bounds.hpp"
@@ -54,6 +56,20 @@ struct ResolutionOptions {
   bool operator==(const ResolutionOptions&) const = default;
 };
 
+/// Most planes of WarpOptions::planes.
+inline constexpr int kMaxWarpPlanes = 3;
+
+/// A plane with receivers that matter: a floor, a table top, a wall.
+struct WarpPlane {
+  glm::dvec3 point_world{0.0};       ///< any point on it
+  glm::dvec3 normal{0.0, 1.0, 0.0};  ///< world axes, any length above 0, to either side
+  /// How far receivers may lie off the plane, to each side, world units. 0, the default: there is no plane.
+  /// More takes in rough ground and low objects, whose texels are then no longer one pixel each.
+  double thickness = 0.0;
+  /// Equal in all members.
+  bool operator==(const WarpPlane&) const = default;
+};
+
 /// Which perspective warp a map gets, and what it is chosen by.
 struct WarpOptions {
   /// The warp; nullptr lets the plan choose the one with the largest measured gain. Fit::stable has none.
@@ -70,6 +86,17 @@ struct WarpOptions {
   /// stays in the map, with larger texels. An empty box, the default, means none.
   Box focus;
   double focus_weight = 4.0;  ///< 1..1e6
+  /// Planes that get a map each, besides the cascades, in which every texel is one pixel's image on the plane
+  /// (warps::plane_optimal); default none. Receivers near a plane take its map and all others the cascades,
+  /// so that each plane costs one more map to draw. A plane without receiver or caster in view gets none. The
+  /// map's `cascade` is PlanOptions::cascades plus the plane's index, which must be below kMaxMaps.
+  std::array<WarpPlane, kMaxWarpPlanes> planes{};
+  /// True where there is a plane.
+  [[nodiscard]] bool has_planes() const noexcept {
+    for (const WarpPlane& plane : planes)
+      if (plane.thickness != 0.0) return true;
+    return false;
+  }
   /// Equal in all members.
   bool operator==(const WarpOptions&) const = default;
 };

@@ -90,6 +90,9 @@ struct WarpInput {
   double pseudo_near = 0.0;  ///< view depth from which error counts; 0: everywhere
   /// 1 + kappa length of the strongest warp that a map can take: beyond it the plan drops the warp.
   double most_stretch = 1e9;
+  /// The plane that plane_optimal serves, along the light frame's axes; nullptr: the body's face that lies
+  /// largest under the light.
+  const Plane* receiver = nullptr;
   /// Where a search may begin, in place of at everything; nullptr: nothing is known.
   const WarpStart* start = nullptr;
 

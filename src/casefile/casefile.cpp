@@ -155,6 +155,20 @@ BiasOptions bias_from(const json& value) {
   return bias;
 }
 
+WarpPlanes planes_from(const Fields& fields, std::string_view key) {
+  WarpPlanes planes{};
+  const json& list = fields.at(key);
+  if (!list.is_array()) fields.refuse(key, "is no list of planes");
+  if (list.size() > planes.size())
+    fields.refuse(key, "holds more than " + std::to_string(planes.size()) + " planes");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Fields plane(list[i], fields.path_of(key) + "[" + std::to_string(i) + "]",
+                       {"point", "normal", "thickness"});
+    planes[i] = {plane.vector("point"), plane.vector("normal"), plane.positive("thickness")};
+  }
+  return planes;
+}
+
 /// Other names of a field, which must not stand beside it.
 constexpr std::array<std::array<std::string_view, 2>, 2> kOtherNames{
     {{"pseudo_near", "near_hint"}, {"stable", "fit"}}};
@@ -187,6 +201,8 @@ void read_field(const Fields& fields, std::string_view key, const PlanField& fie
           const std::vector<double> depths = fields.numbers(key);
           if (depths.size() > place(options).size()) fields.refuse(key, "holds too many depths");
           std::copy(depths.begin(), depths.end(), place(options).begin());
+        } else if constexpr (std::is_same_v<Place, PlanMember<WarpPlanes>>) {
+          place(options) = planes_from(fields, key);
         } else {
           fields.read(key, place(options));
           if constexpr (std::is_same_v<Place, PlanMember<double>>) {

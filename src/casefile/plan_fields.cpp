@@ -95,6 +95,9 @@ std::string prune_of(const PlanOptions& options) {
 
 std::vector<PlanField> make_fields() {
   static const std::string kCascades = "must lie in 1.." + std::to_string(kMaxMaps);
+  static const std::string kPlanes =
+      "needs finite points, normals with a length, and cascades plus planes up to " +
+      std::to_string(kMaxMaps);
   return {
       {"map_size", "texels along each side of a map", GNOMON_AT(int, resolution.max_size),
        "options.resolution.max_size", "must lie in 4..16384", kLeastMapSize, kMostMapSize},
@@ -123,6 +126,8 @@ std::vector<PlanField> make_fields() {
        "options.warp.focus", "must be a box of finite numbers"},
       {"focus_weight", "weight of the error in focus", GNOMON_AT(double, warp.focus_weight),
        "options.warp.focus_weight", "must lie in 1..1e6", 1.0, 1e6},
+      {"planes", "planes that get a map each, one texel per pixel on them",
+       GNOMON_AT(WarpPlanes, warp.planes), "options.warp.planes", kPlanes},
       {"texel_budget", "texels that all maps share; 0: map_size decides",
        GNOMON_AT(std::int64_t, resolution.texel_budget), "options.resolution.texel_budget",
        "must be 0, or hold the least maps: 16 x 16, or four filter radii"},

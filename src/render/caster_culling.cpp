@@ -44,8 +44,10 @@ std::size_t planes_of_what_is_read(const CullingJob& job, const ShadowMap& map,
 std::optional<PruneRule> rule_of(OmissionKind kind) noexcept {
   switch (kind) {
     case OmissionKind::cascade_without_receiver:
+    case OmissionKind::cascade_on_planes:
       return PruneRule::empty_cascades;
     case OmissionKind::cascade_without_caster:
+    case OmissionKind::plane_without_caster:
       return PruneRule::casterless_cascades;
     case OmissionKind::face_without_receiver:
       return PruneRule::empty_faces;

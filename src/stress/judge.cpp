@@ -214,6 +214,12 @@ const char* kind_name(OmissionKind kind) {
       return "points beyond the deepest level";
     case OmissionKind::shape_without_gain:
       return "shape without gain";
+    case OmissionKind::plane_without_receiver:
+      return "plane without receiver";
+    case OmissionKind::plane_without_caster:
+      return "plane without caster";
+    case OmissionKind::cascade_on_planes:
+      return "cascade on planes";
     case OmissionKind::option_ignored:
       return "option without use";
   }

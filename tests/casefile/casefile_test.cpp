@@ -90,9 +90,8 @@ TEST(CaseFile, finds_every_registered_warp_by_name) {
 }
 
 TEST(CaseFile, reads_partitions_and_takes_the_separating_plane_as_a_warp_too) {
-  for (const Partition partition :
-       {Partition::view_depth, Partition::frustum_faces, Partition::separating_plane,
-        Partition::tetrahedron}) {
+  for (const Partition partition : {Partition::view_depth, Partition::frustum_faces,
+                                    Partition::separating_plane, Partition::tetrahedron}) {
     const std::string options = R"({"partition": ")" + std::string(to_string(partition)) + R"("})";
     EXPECT_EQ(read_case(text_with(kSun, options)).options.split.partition, partition);
   }
@@ -115,6 +114,22 @@ TEST(CaseFile, reads_given_splits) {
   EXPECT_THROW((void)read_case(text_with(kSun, R"({"given_splits": 4})")), CaseError);
   EXPECT_THROW((void)read_case(text_with(kSun, R"({"given_splits": ["4"]})")), CaseError);
   EXPECT_THROW((void)read_case(text_with(kSun, R"({"given_splits": [1,2,3,4,5,6,7,8]})")), CaseError);
+}
+
+TEST(CaseFile, reads_planes_that_get_a_map_each) {
+  const WarpPlanes planes =
+      read_case(text_with(kSun, R"({"planes": [{"point": [0, 1, 2], "normal": [0, 2, 0], "thickness": 0.25},
+                                               {"point": [9, 0, 0], "normal": [1, 0, 0], "thickness": 0.5}]})"))
+          .options.warp.planes;
+  EXPECT_EQ(planes[0], (WarpPlane{{0, 1, 2}, {0, 2, 0}, 0.25}));
+  EXPECT_EQ(planes[1], (WarpPlane{{9, 0, 0}, {1, 0, 0}, 0.5}));
+  EXPECT_EQ(planes[2], WarpPlane{});
+  for (const char* broken : {R"({"planes": {}})", R"({"planes": [1]})",
+                             R"({"planes": [{"point": [0, 1, 2], "normal": [0, 2, 0]}]})",
+                             R"({"planes": [{"point": [0, 1, 2], "normal": [0, 2, 0], "thickness": 0}]})",
+                             R"({"planes": [{"point": [0, 1], "normal": [0, 2, 0], "thickness": 1}]})"}) {
+    EXPECT_THROW((void)read_case(text_with(kSun, broken)), CaseError) << broken;
+  }
 }
 
 TEST(CaseFile, reads_a_target_a_budget_and_the_whole_clip_space) {

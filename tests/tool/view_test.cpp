@@ -41,6 +41,7 @@ State unusual() {
   state.a.plan.split.given[0] = 3.5;
   state.a.plan.split.given[1] = 14.25;
   state.a.plan.warp.focus = Box{{-1, 0, -2}, {1, 3, 2}};
+  state.a.plan.warp.planes[0] = {{1, 0, 2}, {0.5, 1, 0}, 0.125};
   state.a.plan.bias.slope_texels = 1.25;
   state.a.plan.clip_space.reversed_z = true;
   state.a.plan.cadence.largest_turn = 0.125;
@@ -70,6 +71,7 @@ TEST(ViewState, reads_back_what_it_wrote) {
   const State back = read_state(state_text(unusual()));
   EXPECT_EQ(back.a.plan.split.given[1], 14.25);
   EXPECT_EQ(back.a.plan.warp.focus.max.y, 3.0);
+  EXPECT_EQ(back.a.plan.warp.planes, unusual().a.plan.warp.planes);
   EXPECT_TRUE(back.a.plan.clip_space.reversed_z);
   EXPECT_NEAR(back.a.plan.cadence.largest_turn, 0.125, 1e-15);
   EXPECT_EQ(back.b.filter.format, render::TexelFormat::fp16);

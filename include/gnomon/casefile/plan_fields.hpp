@@ -31,13 +31,17 @@ struct PlanChoice {
 /// SplitOptions::given.
 using SplitDepths = std::array<double, kMaxMaps - 1>;
 
+/// WarpOptions::planes.
+using WarpPlanes = std::array<WarpPlane, kMaxWarpPlanes>;
+
 /// One key of "options" in a case file.
 struct PlanField {
   std::string_view key;      ///< also of the command line, where it is --key with dashes
   std::string_view summary;  ///< half a line for help
-  /// Place, and by it the type of the value. SplitDepths reads a list of numbers.
+  /// Place, and by it the type of the value. SplitDepths reads a list of numbers, WarpPlanes
+  /// a list of planes.
   std::variant<PlanMember<bool>, PlanMember<int>, PlanMember<std::int64_t>, PlanMember<double>, PlanChoice,
-               PlanMember<Box>, PlanMember<BiasOptions>, PlanMember<ClipSpace>, PlanMember<SplitDepths>>
+               PlanMember<Box>, PlanMember<BiasOptions>, PlanMember<ClipSpace>, PlanMember<SplitDepths>, PlanMember<WarpPlanes>>
       place;
   /// Its name in ShadowPlan::invalid_field, and the values that it may have; empty where no value is refused.
   std::string_view invalid_field = {}, must = {};

@@ -73,6 +73,7 @@ struct MapRequest {
   // alone.
   const Polytope* all_receivers = nullptr;
   double room = 0.0;  // of the body round the slice's frustum, world units: the map is kept over frames
+  const Plane* receiver = nullptr;  // as WarpInput::receiver, relative to the camera and in world axes
   std::span<const ViewedPoint> viewed = {};  // of several views, for the body's vertices; empty: one view
 };
 

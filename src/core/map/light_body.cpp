@@ -209,6 +209,10 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, cons
   in.orthographic = c.camera.orthographic;
   in.objective = c.options.warp.objective;
   in.polytope = &body_light;
+  if (request.receiver != nullptr) {
+    receiver = {frame.turned(request.receiver->normal), request.receiver->offset};
+    in.receiver = &receiver;
+  }
   in.focus = &focus;
   in.focus_weight = c.options.warp.focus_weight;
   in.light = space;

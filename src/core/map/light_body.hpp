@@ -23,6 +23,7 @@ struct LightBody {
 /// How a warp is asked about a body, with everything that the question refers to.
 struct WarpQuestion {
   Polytope focus, body_light;
+  Plane receiver;           // along the frame's axes, where the request has one
   LightBody judged;         // where there is a focus
   const LightBody& points;  // as warps judge them
   WarpInput in;

@@ -31,6 +31,7 @@ PlanOptions base_options(const PlanOptions& options, bool stable, const PagePlan
   base.fit = stable ? Fit::stable : Fit::tight;
   base.warp = options.warp;
   if (stable || base.warp.warp == nullptr) base.warp.warp = &warps::none;
+  base.warp.planes = {};
   base.bias = options.bias;
   base.clip_space = options.clip_space;
   base.prune = options.prune.without(PruneRule::metric_resolution);
@@ -353,6 +354,9 @@ PlanStatus plan_base(const Light& light, const SceneBounds& bounds, const PlanOp
     if (about_maps || omission.kind == OmissionKind::depth_near_light)
       out.omission[static_cast<std::size_t>(out.omission_count++)] = omission;
   }
+  if (options.warp.has_planes())
+    out.omission[static_cast<std::size_t>(out.omission_count++)] = {
+        OmissionKind::option_ignored, -1, static_cast<double>(IgnoredOption::planes), 0.0, 0};
   if (plan.status != PlanStatus::ok) return plan.status;
   c.base_count = plan.map_count;
   c.select_by_map = plan.select_by_map;

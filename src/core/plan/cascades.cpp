@@ -10,6 +10,7 @@
 #include "map/shared_views.hpp"
 #include "plan/cadence.hpp"
 #include "plan/points.hpp"
+#include "plan/receiver_planes.hpp"
 
 namespace gnomon {
 namespace {
@@ -67,9 +68,11 @@ void fill_with_frusta(const PlanContext& c, double begin, double end, Slice& sli
 }
 
 /// Depths in front of `begin` that a cascade shows besides its own: none where the one before it ends sooner.
-double overlap_before(const PlanContext& c, const ShadowPlan& plan, double begin) noexcept {
-  // A point takes the finest map, not two.
-  if (plan.map_count == 0 || c.options.split.selection == MapSelection::finest) return 0.0;
+double overlap_before(const PlanContext& c, const ParallelScene& scene, const ShadowPlan& plan,
+                      double begin) noexcept {
+  // A point takes the finest map, or the first that holds it, not two.
+  const bool one_map = c.options.split.selection == MapSelection::finest || scene.planes != nullptr;
+  if (plan.map_count == 0 || one_map) return 0.0;
   const ShadowMap& before = plan.map[static_cast<std::size_t>(plan.map_count - 1)];
   return before.depth_end == begin ? c.options.split.overlap * (begin - before.depth_begin) : 0.0;
 }
@@ -86,7 +89,7 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   if (!slice.wanted) return;
   slice.begin = holds_nothing ? from : seen.begin;
   slice.end = holds_nothing ? to : seen.end;
-  slice.overlap = overlap_before(c, plan, slice.begin);
+  slice.overlap = overlap_before(c, scene, plan, slice.begin);
   if (holds_nothing) {
     fill_with_frusta(c, slice.begin - slice.overlap, slice.end, slice);
   } else if (slice.overlap > 0.0) {
@@ -124,6 +127,12 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
   Slice slice;
   if (keeps) slice.room = room_for_motion(c, between.end);
   slice_between(c, scene, plan, between.begin, between.end, slice);
+  const bool on_planes = scene.planes != nullptr && slice.wanted && !slice.body.empty() &&
+                         c.options.prune.has(PruneRule::empty_cascades) && scene.planes->serve(slice.body);
+  if (on_planes) {
+    omit(plan, {OmissionKind::cascade_on_planes, cascade, slice.begin, slice.end, texels_asked(c.options)});
+    return;
+  }
   if (!slice.wanted) {
     omit(plan, {OmissionKind::cascade_without_receiver, cascade, between.begin, between.end,
                 texels_asked(c.options)});

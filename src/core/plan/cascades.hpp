@@ -10,12 +10,15 @@
 
 namespace gnomon {
 
+struct PlaneMaps;
+
 /// Parallel light and the receivers in view.
 struct ParallelScene {
   const Polytope& body;  // everything in view that receives, relative to the camera
   DepthRange depths;     // of the body
   LightSpace space;
-  const Warp& warp;  // the one asked for, or the default
+  const Warp& warp;                   // the one asked for, or the default
+  const PlaneMaps* planes = nullptr;  // maps that serve receivers before any cascade; nullptr: there are none
 };
 
 /// The view depths of a body.

@@ -69,6 +69,17 @@ bool usable_splits(const PlanOptions& o) noexcept {
   return true;
 }
 
+bool usable_planes(const PlanOptions& o) noexcept {
+  for (std::size_t i = 0; i < o.warp.planes.size(); ++i) {
+    const WarpPlane& plane = o.warp.planes[i];
+    if (plane.thickness == 0.0) continue;
+    if (!(plane.thickness > 0.0 && plane.thickness <= kLargest)) return false;
+    if (!usable(plane.point_world) || !is_direction(plane.normal)) return false;
+    if (o.cascades + static_cast<int>(i) >= kMaxMaps) return false;
+  }
+  return true;
+}
+
 bool usable_budget(const PlanOptions& o, const Light& light) noexcept {
   if (o.resolution.texel_budget == 0) return true;
   const std::int64_t least = std::int64_t{least_budget_side(o)} * least_budget_side(o);
@@ -98,6 +109,7 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
   if (!(o.filter.world >= 0.0 && o.filter.world <= kLargest)) return "options.filter.world";
   if (!usable(o.warp.focus)) return "options.warp.focus";
   if (!(o.warp.focus_weight >= 1.0 && o.warp.focus_weight <= 1e6)) return "options.warp.focus_weight";
+  if (!usable_planes(o)) return "options.warp.planes";
   if (o.resolution.stable_size_steps < 1 || o.resolution.stable_size_steps > 1024)
     return "options.resolution.stable_size_steps";
   const CadenceOptions& cadence = o.cadence;

@@ -315,6 +315,7 @@ void report_ignored(const PlanContext& c, const Light& light, bool has_visible_d
   const bool splits = o.split.scheme != SplitScheme::automatic && o.split.scheme != SplitScheme::practical;
   if (splits) omit(plan, IgnoredOption::split_scheme);
   if (o.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
+  if (o.warp.has_planes()) omit(plan, IgnoredOption::planes);
   if (o.split.selection == MapSelection::finest) omit(plan, IgnoredOption::selection);
   if (has_visible_depths) omit(plan, IgnoredOption::visible_depths);
   if (!c.seen_points.empty()) omit(plan, IgnoredOption::visible_points);

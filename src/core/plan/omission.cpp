@@ -51,7 +51,10 @@ void describe_ignored(const Omission& o, OmissionText& text) noexcept {
       {"option split.selection", "only cascades can be chosen among by view depth"},
       {"option cadence", "it needs a history, a directional light, and cascades of a fixed number and size"},
       {"visible points", "local lights, stable fits, parts and kept maps do not follow them"},
-      {"option warp.shape", "it needs a tight fit without a history"}};
+      {"option warp.shape", "it needs a tight fit without a history"},
+      {"option warp.planes",
+       "it needs a directional light, one view, partition view_depth, and a tight or rotated fit without a "
+       "texel budget"}};
   const auto at = static_cast<std::size_t>(o.a);
   if (at >= std::size(kEntries)) return;
   std::snprintf(text.what.data(), text.what.size(), "%s", kEntries[at].what);
@@ -137,6 +140,18 @@ OmissionText describe(const Omission& o) noexcept {
     case OmissionKind::shape_without_gain:
       what("shape of map %d", o.map);
       why("the error along the warp with it is %.4g of that without", o.a);
+      break;
+    case OmissionKind::plane_without_receiver:
+      what("map of plane %.0f", o.a);
+      why("no visible receiver lies near the plane, or the light lies in it");
+      break;
+    case OmissionKind::plane_without_caster:
+      what("map of plane %.0f", o.a);
+      why("no caster can reach the receivers near the plane");
+      break;
+    case OmissionKind::cascade_on_planes:
+      what("cascade %d", o.map);
+      why("maps of planes serve all receivers between depths %g and %g", o.a, o.b);
       break;
     case OmissionKind::option_ignored:
       describe_ignored(o, text);

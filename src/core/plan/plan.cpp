@@ -14,6 +14,7 @@
 #include "plan/input.hpp"
 #include "plan/local.hpp"
 #include "plan/parts.hpp"
+#include "plan/receiver_planes.hpp"
 #include "warp/registry.hpp"
 
 namespace gnomon {
@@ -37,6 +38,7 @@ void finish_parallel(const PlanContext& c, ShadowPlan& plan) noexcept {
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
   if (options.split.partition == Partition::tetrahedron) omit(plan, IgnoredOption::partition);
   if (ignores_shape(c)) omit(plan, IgnoredOption::shape);
+  if (options.warp.has_planes() && !takes_planes(c)) omit(plan, IgnoredOption::planes);
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
 
@@ -53,6 +55,26 @@ Polytope visible_receivers(const PlanContext& c) noexcept {
   const Polytope nearer =
       received(frustum_slice(c.camera, c.axes, c.camera.near_depth, min_of(2.0 * end, c.camera.far_depth)));
   return nearer.empty() ? body : nearer;
+}
+
+void plan_along_view(const PlanContext& c, const ParallelScene& scene, PlanHistory* history,
+                     ShadowPlan& plan) noexcept {
+  const ResolutionOptions& resolution = c.options.resolution;
+  if (resolution.max_error > 0.0 || resolution.texel_budget > 0) {
+    plan_within(c, scene, history, plan);
+  } else {
+    plan_cascades(c, scene, c.options.cascades, equal_sizes(resolution.max_size), history, plan);
+  }
+}
+
+/// Out of line: a plan without planes need not make room for their maps.
+[[gnu::noinline]] void plan_with_planes(const PlanContext& c, const ParallelScene& scene,
+                                        PlanHistory* history, ShadowPlan& plan) noexcept {
+  const PlaneMaps planes = plane_maps(c, scene);
+  const ParallelScene rest{scene.body, scene.depths, scene.space, scene.warp,
+                           planes.count > 0 ? &planes : nullptr};
+  plan_along_view(c, rest, history, plan);
+  add_plane_maps(c, planes, plan);
 }
 
 void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleDepths* visible,
@@ -84,13 +106,13 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
     return finish_parallel(c, plan);
   }
   plan.select_by_map = plan.select_finest = options.split.selection == MapSelection::finest;
-  if (options.resolution.max_error > 0.0 || options.resolution.texel_budget > 0) {
-    plan_within(c, scene, history, plan);
+  if (takes_planes(c)) {
+    plan_with_planes(c, scene, history, plan);
   } else {
-    plan_cascades(c, scene, options.cascades, equal_sizes(options.resolution.max_size), history, plan);
+    plan_along_view(c, scene, history, plan);
   }
   if (ignores_points) omit(plan, IgnoredOption::visible_points);
-  if (plan.select_finest && options.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
+  if (plan.select_by_map && options.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
   finish_parallel(c, plan);
 }
 

@@ -1,7 +1,7 @@
 // Plane-optimal: on one receiver plane, every texel is exactly one pixel's image.
 // Based on: Chong and Gortler, "A Lixel for Every Pixel", 2004. The plane is the body's face
 // that lies largest under the light among those that the viewer sees from inside: the ground, for most
-// scenes.
+// scenes; or one that the caller chose.
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -85,7 +85,8 @@ const Plane* receiver_plane(const WarpInput& input) noexcept {
 }
 
 WarpChoice choose(const WarpInput& input) noexcept {
-  const Plane* plane = input.orthographic ? nullptr : receiver_plane(input);
+  const Plane* chosen = input.receiver != nullptr ? input.receiver : receiver_plane(input);
+  const Plane* plane = input.orthographic ? nullptr : chosen;
   if (plane == nullptr) return input.unwarped;
   const LightLinear face = light_linear(input.light, plane->normal, plane->offset);
   const glm::dvec3 n = face.slope;

@@ -388,6 +388,21 @@ void draw_map(Dice& dice, const Stage& s, Json& o) {
   }
 }
 
+/// Planes near what is seen, of any direction.
+void draw_planes(Dice& dice, const Stage& s, Json& o) {
+  const int count = std::min(1 + dice.pick(3), 8 - o.value("cascades", 4));
+  Json planes = Json::array();
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 seen = seen_place(dice, s, 1.0), point = clamped(seen, seen).min;
+    const glm::dvec3 normal = dice.chance(0.3) ? glm::dvec3(0.0, 1.0, 0.0) : dice.vector();
+    if (!(glm::length(normal) > 0.0)) continue;
+    planes.push_back({{"point", {point.x, point.y, point.z}},
+                      {"normal", {normal.x, normal.y, normal.z}},
+                      {"thickness", std::clamp(s.far_depth * dice.power(-30.0, 2.0), 1e-30, kLargest)}});
+  }
+  if (!planes.empty()) o["planes"] = planes;
+}
+
 void draw_rest(Dice& dice, Json& o) {
   static constexpr std::string_view kSets[] = {"all", "none", "exact"};
   if (dice.chance(0.4)) o["prune"] = dice.name(kSets);
@@ -436,6 +451,7 @@ Json draw_case(std::uint64_t seed, std::uint64_t number) {
   draw_warp(dice, stage, options);
   draw_map(dice, stage, options);
   draw_rest(dice, options);
+  if (stage.parallel && dice.chance(0.1)) draw_planes(dice, stage, options);
   value["options"] = options;
   return value;
 }

@@ -62,6 +62,15 @@ Json structured_options(const PlanOptions& options) {
       if (std::isfinite(depth)) depths.push_back(depth);
     json["given_splits"] = depths;
   }
+  if (options.warp.has_planes()) {
+    Json planes = Json::array();
+    for (const WarpPlane& plane : options.warp.planes)
+      if (plane.thickness != 0.0)
+        planes.push_back({{"point", vector_json(plane.point_world)},
+                          {"normal", vector_json(plane.normal)},
+                          {"thickness", plane.thickness}});
+    json["planes"] = planes;
+  }
   if (bias_json(options.bias) != bias_json(none.bias)) json["bias"] = bias_json(options.bias);
   if (options.clip_space != none.clip_space) json["clip_space"] = clip_space_json(options.clip_space);
   return json;

@@ -115,6 +115,23 @@ void edit_focus(Box& focus) {
   edit_vector("focus max", focus.max, speed_of(focus.max.x - focus.min.x), "largest corner, world units");
 }
 
+void edit_planes(WarpPlanes& planes) {
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    WarpPlane& plane = planes[i];
+    bool on = plane.thickness != 0.0;
+    if (ImGui::Checkbox(fmt::format("plane {}", i + 1).c_str(), &on)) plane.thickness = on ? 0.05 : 0.0;
+    tooltip("a map of its own for receivers near this plane: one texel per pixel on it");
+    if (!on) continue;
+    const auto label = [i](const char* what) { return fmt::format("{} {}", what, i + 1); };
+    edit_vector(label("point").c_str(), plane.point_world, 0.05, "any point on the plane, world units");
+    const glm::dvec3 before = plane.normal;
+    edit_vector(label("normal").c_str(), plane.normal, 0.01, "across the plane, of any length above 0");
+    if (plane.normal == glm::dvec3(0.0)) plane.normal = before;
+    edit_double(label("thickness").c_str(), plane.thickness, speed_of(plane.thickness), 1e-9, 1e30);
+    tooltip("how far receivers may lie off the plane, to each side, world units");
+  }
+}
+
 void edit_splits(const PlanOptions& options, SplitDepths& given) {
   if (options.split.scheme != SplitScheme::given) return;
   for (int i = 0; i + 1 < options.cascades; ++i) {
@@ -224,6 +241,8 @@ void edit_plan_field(const PlanField& field, PlanOptions& options) {
           edit_clip_space(place(options));
         } else if constexpr (std::is_same_v<Place, PlanMember<SplitDepths>>) {
           edit_splits(options, place(options));
+        } else if constexpr (std::is_same_v<Place, PlanMember<WarpPlanes>>) {
+          edit_planes(place(options));
         } else {
           edit_plain(field, place(options), place(none));
         }
