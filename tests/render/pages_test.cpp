@@ -93,7 +93,7 @@ TEST(PagesRender, pages_store_the_layer_of_their_own_two_surfaces) {
 
 TEST(PagesRender, pages_of_one_level_are_that_level_drawn_whole) {
   Stage stage;
-  for (const char* name : {"hard", "pcf:radius=2", "pcf:radius=5", "pcss:radius=6"}) {
+  for (const char* name : {"hard", "pcf:radius=2", "pcf:radius=5", "pcss:radius=6", "smrt:radius=6"}) {
     SCOPED_TRACE(name);
     const FilterSettings filter = settings_of(name);
     PageOptions pages;

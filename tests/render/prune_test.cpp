@@ -63,6 +63,7 @@ void fly(Pair& pair, std::uint64_t seed, int frames, Tally& tally) {
                                 "vsm:radius=2",
                                 "hard",
                                 "pcss",
+                                "smrt",
                                 "savsm",
                                 "lvsm:placement=1",
                                 "esm",

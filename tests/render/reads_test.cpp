@@ -44,7 +44,7 @@ Names maps_read(const Filter& filter) {
   if (&filter == &filters::pcf_tent || &filter == &filters::revectorized) return {"shadow_depth"};
   if (&filter == &filters::hard) return {"shadow_depth"};
   if (&filter == &filters::pcf) return {"shadow_compare", "shadow_depth"};
-  if (&filter == &filters::pcss) return {"shadow_depth"};
+  if (&filter == &filters::pcss || &filter == &filters::smrt) return {"shadow_depth"};
   if (&filter == &filters::esm) return {"shadow_stored", "shadow_depth", "shadow_depth_max"};
   if (filter.info.reads == MapRead::summed) return {"shadow_sums"};
   return {"shadow_stored"};
