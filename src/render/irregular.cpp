@@ -48,7 +48,7 @@ FrameStats Renderer::Impl::draw_irregular(const ShadowPlan& plan, const Camera& 
                       targets.mask.name());
   });
   timed(Pass::shadow_maps, [&] { draw_casters_on_lists(plan, options.prune.has(PruneRule::alpha_test)); });
-  draw_pictures(timed, options);
+  draw_pictures(timed, options, [&] { draw_shade(); });
   count_work(plan, stats);
   stats.irregular = true;
   stats.map_bytes = pixel_lists->bytes();

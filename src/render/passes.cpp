@@ -382,6 +382,24 @@ void Renderer::Impl::draw_shade() noexcept {
   glDisable(GL_FRAMEBUFFER_SRGB);
 }
 
+void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn,
+                                        const Camera& camera) {
+  panes->resize(camera.width, camera.height);
+  panes->draw_maps(plan, drawn, {maps.width, maps.height});
+  panes->bind_maps(camera.position);
+  glBindTextureUnit(kMaskUnit, targets.mask.name());
+  fullscreen(panes->fbo(), panes->transmittance_program());
+}
+
+void Renderer::Impl::draw_shade_behind_panes(const FrameBlock& block, const glm::dvec3& camera_world) {
+  glBindTextureUnit(kMaskUnit, targets.mask.name());
+  glBindTextureUnit(kExtraUnit, panes->image().name());
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  fullscreen(targets.color_fbo.name(), panes->shade_program());
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  panes->draw_over(targets, block.clip_from_camera_relative, camera_world);
+}
+
 void Renderer::Impl::draw_aliasing() noexcept {
   glBindTextureUnit(kMaskUnit, targets.mask.name());
   fullscreen(targets.aliasing_fbo.name(), programs.aliasing);

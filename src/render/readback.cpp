@@ -75,6 +75,11 @@ FloatImage Renderer::light_sum() const {
   const LightPass& pass = *impl_->light_pass;
   return read_floats(pass.sum, pass.width, pass.height, GL_RGB, {"r", "g", "b"});
 }
+FloatImage Renderer::transmittance() const {
+  if (!impl_->panes || !impl_->panes->image()) throw RenderError("no frame with panes yet");
+  const FrameTargets& t = impl_->targets;
+  return read_floats(impl_->panes->image(), t.width, t.height, GL_RGB, {"r", "g", "b"});
+}
 FloatImage Renderer::aliasing() const {
   const FrameTargets& t = impl_->targets;
   return read_floats(t.aliasing, t.width, t.height, GL_RGBA, {"m_max", "m_s", "m_t", "map"});

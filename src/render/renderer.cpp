@@ -54,6 +54,8 @@ std::string_view to_string(Pass pass) noexcept {
       return "heat_map";
     case Pass::cascade_tint:
       return "cascade_tint";
+    case Pass::panes:
+      return "panes";
   }
   return "";
 }
@@ -132,8 +134,9 @@ DrawnMaps Renderer::Impl::place_scene(const ShadowPlan& plan, const glm::dvec3& 
   return drawn;
 }
 
-void Renderer::Impl::draw_pictures(const PassTimer& timed, const FrameOptions& options) noexcept {
-  timed(Pass::shade, [&] { draw_shade(); });
+void Renderer::Impl::draw_pictures(const PassTimer& timed, const FrameOptions& options,
+                                   const std::function<void()>& shade) noexcept {
+  timed(Pass::shade, shade);
   if (options.aliasing) timed(Pass::aliasing, [&] { draw_aliasing(); });
   if (options.aliasing && options.heat_map) timed(Pass::heat_map, [&] { draw_heat_map(); });
   if (options.cascade_tint) timed(Pass::cascade_tint, [&] { draw_cascade_tint(); });
@@ -237,6 +240,11 @@ bool Renderer::apply_pose(const Pose& pose) {
   return true;
 }
 
+void Renderer::add_panes(const Scene& panes) {
+  impl_->panes.reset();
+  if (!panes.instances.empty()) impl_->panes.emplace(panes);
+}
+
 FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                           const FrameOptions& options) noexcept {
   Impl& impl = *impl_;
@@ -263,9 +271,10 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   const FrameBlock block =
       frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur, curves);
   fit_options(filter.settings, plan, filtering);
+  DrawnMaps drawn;
   timed(Pass::shadow_maps, [&] {
     impl.upload(block, filtering);
-    const DrawnMaps drawn = impl.place_scene(plan, camera.position);
+    drawn = impl.place_scene(plan, camera.position);
     impl.lists.build({plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
                       info_of(options.depth_layer).peels, impl.moved},
                      drawn, camera);
@@ -283,7 +292,12 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     impl.draw_mask(impl.filter_programs[filter.program].mask, accumulated);
   });
   if (accumulated) timed(Pass::accumulate, [&] { impl.draw_accumulated(camera, options, block); });
-  impl.draw_pictures(timed, options);
+  if (impl.panes) {
+    timed(Pass::panes, [&] { impl.draw_transmittance(plan, drawn, camera); });
+  }
+  impl.draw_pictures(timed, options, [&] {
+    impl.panes ? impl.draw_shade_behind_panes(block, camera.position) : impl.draw_shade();
+  });
   impl.count_work(plan, stats);
   if (options.time_passes) {
     stats.filtered_texels = impl.stored.take_filtered_texels();
@@ -293,7 +307,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   }
   stats.prefilter_passes = impl.stored.passes();
   stats.maps_read_back = impl.maps_read_back;
-  stats.map_bytes = impl.maps.bytes() + impl.stored.bytes();
+  stats.map_bytes = impl.maps.bytes() + impl.stored.bytes() + (impl.panes ? impl.panes->bytes() : 0);
   stats.scratch_bytes = impl.stored.scratch_bytes() + impl.depth_peel.bytes();
   return stats;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "light_pass.hpp"
 #include "mask_history.hpp"
 #include "page_pool.hpp"
+#include "pane_pass.hpp"
 #include "pass_timer.hpp"
 #include "pixel_lists.hpp"
 #include "scene_buffers.hpp"
@@ -88,7 +90,8 @@ struct Renderer::Impl {
                             const FrameOptions& options) noexcept;
   void draw_casters_on_lists(const ShadowPlan& plan, bool alpha_test_where_masked) noexcept;
   /// The pictures that are drawn once the mask is there.
-  void draw_pictures(const PassTimer& timed, const FrameOptions& options) noexcept;
+  void draw_pictures(const PassTimer& timed, const FrameOptions& options,
+                     const std::function<void()>& shade) noexcept;
   /// Of the draw lists; peeled maps draw them twice.
   [[nodiscard]] MapStats work_of_map(int map) const noexcept;
   /// What the draw lists of this plan held.
@@ -122,6 +125,10 @@ struct Renderer::Impl {
   /// Makes the noise tile at the first frame that reads it.
   void bind_noise(SampleNoise noise) noexcept;
   void draw_shade() noexcept;
+  /// What the panes leave of the light at each pixel, once the mask is there.
+  void draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera);
+  /// The picture in that light, behind the panes.
+  void draw_shade_behind_panes(const FrameBlock& block, const glm::dvec3& camera_world);
   void draw_aliasing() noexcept;
   void draw_heat_map() noexcept;
   void draw_cascade_tint() noexcept;
@@ -146,6 +153,7 @@ struct Renderer::Impl {
   double drawn_limit_texels = 0.0;             ///< the same, of DepthLayer::dual
   PagePool pages;
   std::optional<LightPass> light_pass;    ///< made when many lights are first prepared
+  std::optional<PanePass> panes;          ///< made by Renderer::add_panes
   std::optional<PixelLists> pixel_lists;  ///< made when they are first prepared
   std::vector<Box> moved;                 ///< bounds of casters before and after, since the last frame
   Pose posed;                             ///< the last one applied; empty: none, or instances moved since

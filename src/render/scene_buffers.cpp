@@ -189,6 +189,8 @@ void SceneBuffers::make_batches() {
                 .sampler = sampler_for(material),
                 .wrap_u = material.wrap_u,
                 .wrap_v = material.wrap_v};
+    batch.alpha_mode = material.alpha_mode;
+    batch.transmission = material.transmission;
     batch.masked = material.alpha_mode != AlphaMode::opaque;
     if (batch.masked) batch.alpha_cutoff = material.alpha_cutoff;
     if (material.base_color_image >= 0) {

@@ -20,6 +20,8 @@ struct Batch {
   bool masked = false, double_sided = false, mirrored = false;
   glm::vec4 base_color{1.0f};
   float alpha_cutoff = -1.0f;  ///< nothing is below it
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float transmission = 0.0f;
   GLuint texture = 0, sampler = 0;
   TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;  ///< as the sampler's
 };

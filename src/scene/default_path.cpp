@@ -57,6 +57,16 @@ CameraPath hangar_flight() {
                  {{11.0, 4.5, 8.0}, {-2.0, 2.0, 24.0}}});
 }
 
+CameraPath glass_flight() {
+  return flight(0.1, 120.0,
+                {{{-11.0, 3.0, -9.0}, {0.0, 0.6, -1.0}},
+                 {{-6.0, 2.2, -9.5}, {0.0, 0.8, -1.0}},
+                 {{0.0, 1.8, -8.0}, {1.0, 0.8, 0.0}},
+                 {{6.0, 2.0, -7.0}, {1.0, 0.6, 0.5}},
+                 {{10.0, 2.6, -1.0}, {0.0, 0.4, 0.0}},
+                 {{11.0, 4.5, 7.0}, {0.0, 0.5, -1.5}}});
+}
+
 CameraPath trees_flight() {
   return flight(0.2, 180.0,
                 {{{-56.0, 2.2, 0.0}, {-36.0, 2.4, -1.0}},
@@ -208,6 +218,7 @@ CameraPath default_path(const Scene& scene, double aspect) {
   const std::string_view name = scene.name;
   if (name == "builtin:city") return city_flight();
   if (name == "builtin:fence") return fence_flight();
+  if (name == "builtin:glass") return glass_flight();
   if (name == "builtin:hangar") return hangar_flight();
   if (name == "builtin:terrain") return terrain_flight();
   if (name == "builtin:trees") return trees_flight();

@@ -170,6 +170,35 @@ std::vector<std::optional<TextureTransform>> list_transforms(const json& source)
   return out;
 }
 
+/// The factor of KHR_materials_transmission; a broken one counts as none.
+float transmission(const json& material, const std::string& where, std::vector<std::string>& warnings) {
+  const json* extensions = find_object(material, "extensions");
+  const json* found =
+      extensions == nullptr ? nullptr : find_object(*extensions, "KHR_materials_transmission");
+  if (found == nullptr) {
+    if (extensions != nullptr && extensions->contains("KHR_materials_transmission"))
+      warn(warnings, where, "KHR_materials_transmission is no object; nothing shines through");
+    return 0.0f;
+  }
+  if (found->contains("transmissionTexture"))
+    warn(warnings, where, "its transmission's picture is not read; the factor holds everywhere");
+  const auto factor = found->find("transmissionFactor");
+  if (factor == found->end()) return 0.0f;
+  if (factor->is_number() && factor->get<double>() >= 0.0 && factor->get<double>() <= 1.0)
+    return factor->get<float>();
+  warn(warnings, where, "transmissionFactor is not a number from 0 to 1; nothing shines through");
+  return 0.0f;
+}
+
+std::vector<float> list_transmissions(const json& source, std::vector<std::string>& warnings) {
+  std::vector<float> out;
+  const auto materials = source.find("materials");
+  if (materials == source.end()) return out;
+  for (const json& material : *materials)
+    out.push_back(transmission(material, element("materials", out.size()), warnings));
+  return out;
+}
+
 bool has_data(const json& accessor) {
   return accessor.contains("bufferView") || accessor.contains("sparse");
 }
@@ -252,6 +281,7 @@ Document open_document(std::span<const std::uint8_t> bytes, SceneFolder& folder,
   decode_draco_primitives(compressed);
   out.images = list_images(source);
   out.transforms = list_transforms(source);
+  out.transmissions = list_transmissions(source, warnings);
   out.motion = read_motion_source(source, warnings);
   take_indices(document, source, out);
   build_model(document, out.model);

@@ -71,6 +71,7 @@ Material to_material(const Document& document, std::size_t index, ImageReader& i
   for (std::size_t c = 0; c < 4 && c < base.baseColorFactor.size(); ++c) {
     out.base_color[static_cast<int>(c)] = static_cast<float>(std::clamp(base.baseColorFactor[c], 0.0, 1.0));
   }
+  if (index < document.transmissions.size()) out.transmission = document.transmissions[index];
   if (source.alphaMode == "MASK") out.alpha_mode = AlphaMode::mask;
   if (source.alphaMode == "BLEND") out.alpha_mode = AlphaMode::blend;
   if (out.alpha_mode == AlphaMode::mask)

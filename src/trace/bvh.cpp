@@ -197,7 +197,7 @@ void Bvh::walk(const Ray& ray, double& end, Accept&& accept) const noexcept {
       if (triangle == ray.except) continue;
       const Crossing at = crossing(sheared, triangles_.corners[triangle]);
       if (!at.hit || at.t < ray.begin || at.t > end || !triangles_.is_there(triangle, at.b1, at.b2)) continue;
-      if (accept(triangle, at.t)) return;
+      if (accept(triangle, at.t, at.b1, at.b2)) return;
     }
   }
 }
@@ -205,7 +205,7 @@ void Bvh::walk(const Ray& ray, double& end, Accept&& accept) const noexcept {
 bool Bvh::occluded(const Ray& ray) const noexcept {
   bool found = false;
   double end = ray.end;
-  walk(ray, end, [&found](std::uint32_t, double) { return found = true; });
+  walk(ray, end, [&found](std::uint32_t, double, double, double) { return found = true; });
   return found;
 }
 
@@ -219,7 +219,7 @@ Hit Bvh::filled(std::uint32_t triangle, double t) const noexcept {
 Hit Bvh::first_hit(const Ray& ray) const noexcept {
   std::uint32_t best = kNoTriangle;
   double end = ray.end;
-  walk(ray, end, [&](std::uint32_t triangle, double t) {
+  walk(ray, end, [&](std::uint32_t triangle, double t, double, double) {
     best = triangle;
     end = t;
     return false;
@@ -227,10 +227,18 @@ Hit Bvh::first_hit(const Ray& ray) const noexcept {
   return best == kNoTriangle ? Hit{} : filled(best, end);
 }
 
+void Bvh::each_hit(const Ray& ray, const std::function<void(std::uint32_t, double, double)>& meet) const {
+  double end = ray.end;
+  walk(ray, end, [&](std::uint32_t triangle, double, double b1, double b2) {
+    meet(triangle, b1, b2);
+    return false;
+  });
+}
+
 Hit Bvh::hit_nearest_to(const Ray& ray, double t) const noexcept {
   std::uint32_t best = kNoTriangle;
   double end = ray.end, at = 0.0;
-  walk(ray, end, [&](std::uint32_t triangle, double found) {
+  walk(ray, end, [&](std::uint32_t triangle, double found, double, double) {
     if (best == kNoTriangle || std::abs(found - t) < std::abs(at - t)) {
       best = triangle;
       at = found;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "gnomon/trace/tracer.hpp"
@@ -19,6 +20,9 @@ class Bvh {
   [[nodiscard]] bool occluded(const Ray& ray) const noexcept;
   [[nodiscard]] Hit first_hit(const Ray& ray) const noexcept;
   [[nodiscard]] Hit hit_nearest_to(const Ray& ray, double t) const noexcept;
+  /// Calls meet(triangle, b1, b2) for every triangle on the ray, in no order; b1 and b2 weigh its second and
+  /// third corner there. A triangle on its edge counts as met, so that two may share a point.
+  void each_hit(const Ray& ray, const std::function<void(std::uint32_t, double, double)>& meet) const;
 
  private:
   struct Node {
@@ -28,8 +32,8 @@ class Bvh {
   };
   struct Build;
 
-  /// Calls accept(triangle, t) for every triangle that the ray meets, boxes in no order; `end` may be lowered
-  /// in between. Stops where accept answers true.
+  /// Calls accept(triangle, t, b1, b2) for every triangle that the ray meets, boxes in no order; `end` may be
+  /// lowered in between. Stops where accept answers true.
   template <class Accept>
   void walk(const Ray& ray, double& end, Accept&& accept) const noexcept;
   [[nodiscard]] Hit filled(std::uint32_t triangle, double t) const noexcept;

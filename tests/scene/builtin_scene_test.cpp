@@ -10,6 +10,7 @@
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/caster_work.hpp"
 #include "gnomon/scene/load.hpp"
+#include "gnomon/scene/translucent.hpp"
 #include "gtest/gtest.h"
 
 namespace gnomon::test {
@@ -30,7 +31,8 @@ class Builtin : public ::testing::TestWithParam<std::string> {
 bool is_sheet(const Scene& scene, const Primitive& primitive) {
   static const std::set<std::string> kSheets{"grass", "meadow", "concrete", "asphalt"};
   const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
-  return kSheets.contains(material.name) || material.alpha_mode == AlphaMode::mask;
+  return kSheets.contains(material.name) || material.alpha_mode == AlphaMode::mask ||
+         is_translucent(material);
 }
 
 TEST_P(Builtin, loads_without_a_warning_and_lies_on_the_ground) {
@@ -181,7 +183,7 @@ TEST(BuiltinScenes, the_list_names_each_once_and_each_loads_by_its_name) {
     EXPECT_FALSE(scene.summary.empty());
     names.insert(scene.name);
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"city", "fence", "hangar", "terrain", "trees"}));
+  EXPECT_EQ(names, (std::set<std::string_view>{"city", "fence", "glass", "hangar", "terrain", "trees"}));
   EXPECT_THROW((void)build_glb("nowhere"), SceneError);
   EXPECT_THROW((void)build_glb(""), SceneError);
 }

@@ -1,6 +1,7 @@
 // Base colour, alpha and pictures of glTF materials.
 #include "gltf_text.hpp"
 #include "gnomon/scene/image.hpp"
+#include "gnomon/scene/translucent.hpp"
 #include "image_formats.hpp"
 
 namespace gnomon::test {
@@ -53,6 +54,53 @@ TEST(GltfMaterial, colour_alpha_and_sides_are_read) {
   EXPECT_EQ(material.alpha_mode, AlphaMode::mask);
   EXPECT_FLOAT_EQ(material.alpha_cutoff, 0.3f);
   EXPECT_TRUE(material.double_sided);
+}
+
+TEST(GltfMaterial, transmission_is_read_and_a_broken_one_is_none_with_a_line) {
+  const auto with_extension = [](const json& extension) {
+    return with_material({{"extensions", {{"KHR_materials_transmission", extension}}}}).load();
+  };
+  EXPECT_EQ(with_material({{"name", "solid"}}).load().materials[0].transmission, 0.0f);
+  EXPECT_EQ(with_extension(json::object()).materials[0].transmission, 0.0f);
+  EXPECT_FLOAT_EQ(with_extension({{"transmissionFactor", 0.75}}).materials[0].transmission, 0.75f);
+  for (const json& broken : {json("much"), json(-0.5), json(1.5), json(nullptr)}) {
+    const Scene scene = with_extension({{"transmissionFactor", broken}});
+    EXPECT_EQ(scene.materials[0].transmission, 0.0f) << broken;
+    ASSERT_EQ(scene.warnings.size(), 1u) << broken;
+    EXPECT_NE(scene.warnings[0].find("transmissionFactor"), std::string::npos) << scene.warnings[0];
+  }
+  for (const json& broken : {json("x"), json(nullptr), json::array({1})}) {
+    const Scene scene = with_extension(broken);
+    EXPECT_EQ(scene.materials[0].transmission, 0.0f) << broken;
+    EXPECT_EQ(scene.warnings.size(), 1u) << broken;
+  }
+  const Scene textured =
+      with_extension({{"transmissionFactor", 0.5}, {"transmissionTexture", {{"index", 0}}}});
+  EXPECT_FLOAT_EQ(textured.materials[0].transmission, 0.5f);
+  EXPECT_EQ(textured.warnings.size(), 1u);
+}
+
+TEST(GltfMaterial, panes_are_parted_from_the_rest) {
+  TestGltf gltf = with_material({{"name", "glass"}, {"alphaMode", "BLEND"}});
+  gltf.show({{"attributes", {{"POSITION", 0}}}});
+  const Scene scene = gltf.load();
+  const TranslucentParts parts = split_translucent(scene);
+  ASSERT_EQ(scene.instances.size(), 2u);
+  ASSERT_EQ(parts.opaque.instances.size(), 1u);
+  ASSERT_EQ(parts.panes.instances.size(), 1u);
+  EXPECT_EQ(parts.panes.instances[0].primitive, scene.instances[0].primitive);
+  EXPECT_FALSE(parts.panes.bounds_world.empty());
+}
+
+TEST(GltfMaterial, what_passes_is_what_alpha_leaves_and_the_coloured_share_of_the_rest) {
+  Material material;
+  material.transmission = 0.5f;
+  EXPECT_EQ(transmittance(material, {1.0f, 0.5f, 0.0f, 0.2f}), glm::vec3(0.5f, 0.25f, 0.0f));
+  material.alpha_mode = AlphaMode::blend;
+  EXPECT_EQ(transmittance(material, {1.0f, 0.5f, 0.0f, 0.5f}), glm::vec3(0.75f, 0.625f, 0.5f));
+  material.alpha_mode = AlphaMode::mask;
+  EXPECT_EQ(transmittance(material, {1.0f, 0.5f, 0.0f, 0.25f}), glm::vec3(1.0f));
+  EXPECT_EQ(transmittance(material, {1.0f, 0.5f, 0.0f, 0.75f}), glm::vec3(0.5f, 0.25f, 0.0f));
 }
 
 TEST(GltfMaterial, an_embedded_picture_arrives_with_its_wrapping_and_unmultiplied_colour) {

@@ -35,9 +35,10 @@ enum class Pass : std::uint8_t {
   shade,
   aliasing,
   heat_map,
-  cascade_tint
+  cascade_tint,
+  panes
 };
-inline constexpr std::size_t kPassCount = 9;
+inline constexpr std::size_t kPassCount = 10;
 [[nodiscard]] std::string_view to_string(Pass pass) noexcept;
 
 /// A filter whose program is compiled; only Renderer::prepare and its relatives make one.
@@ -178,6 +179,18 @@ class Renderer {
   /// reallocated when the frame or the maps grow.
   FrameStats draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                   const FrameOptions& options = {}) noexcept;
+
+  /// Panes that colour the light which passes them (split_translucent): frames of a ShadowPlan draw maps of
+  /// what they absorb beside the shadow maps, multiply the light with what is left of it, and show the panes
+  /// before the picture. The renderer's scene is then the opaque part; plans take both parts' boxes as
+  /// casters. Surfaces behind all panes, or among two, get the product of what is before them; among more,
+  /// the middle of what moments allow. Panes stay where they are under apply_pose() and move_instance().
+  /// Frames of pages, of many lights, and with exact shadows, and maps whose shape bends lines have no panes.
+  /// A scene without instances takes them away. Throws RenderError. Costs 40 bytes for each texel of the
+  /// maps.
+  void add_panes(const Scene& panes);
+  /// Channels "r", "g", "b" of the last frame with panes: the share of the light that passes them, 0..1.
+  [[nodiscard]] FloatImage transmittance() const;
 
   /// Exact hard shadows in place of a filter: an irregular z-buffer. The pixels of a frame are listed by the
   /// texels of the plan's maps, and each caster's triangle is tested against the pixels of the texels that it

@@ -24,7 +24,8 @@ struct Image {
 /// How a texture coordinate outside [0,1] is read.
 enum class TextureWrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
-/// Meaning of alpha. `blend` surfaces are drawn and cast shadows like opaque ones with a cutoff of 0.5.
+/// Meaning of alpha. `blend` surfaces are drawn and cast shadows like opaque ones with a cutoff of 0.5, but
+/// for those that split_translucent() parts from the scene.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 /// The look of a surface, as far as light and shadow need it.
@@ -36,6 +37,9 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;                                ///< which fragments are there
   float alpha_cutoff = 0.5f;  ///< a fragment below it is not there (mask and blend)
   bool double_sided = false;  ///< back faces are drawn, too
+  /// Share of the light that passes the surface, coloured by base_color, 0..1: the factor of
+  /// KHR_materials_transmission. Counts in split_translucent() alone.
+  float transmission = 0.0f;
 };
 
 /// A run of triangles with one material. `first_index` and `index_count` count entries of Scene::indices; the

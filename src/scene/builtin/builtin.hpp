@@ -7,6 +7,7 @@ namespace gnomon::detail {
 
 [[nodiscard]] std::string build_city();
 [[nodiscard]] std::string build_fence();
+[[nodiscard]] std::string build_glass();
 [[nodiscard]] std::string build_hangar();
 [[nodiscard]] std::string build_terrain();
 [[nodiscard]] std::string build_trees();

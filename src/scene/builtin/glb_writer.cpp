@@ -41,6 +41,26 @@ int GlbWriter::material(const std::string& name, const glm::dvec3& color) {
   return static_cast<int>(model_.materials.size() - 1);
 }
 
+int GlbWriter::glass_material(const std::string& name, const glm::dvec3& color, double transmission) {
+  const int index = material(name, color);
+  tinygltf::Material& out = model_.materials.back();
+  constexpr const char* kExtension = "KHR_materials_transmission";
+  out.extensions[kExtension] =
+      tinygltf::Value(tinygltf::Value::Object{{"transmissionFactor", tinygltf::Value(transmission)}});
+  out.doubleSided = true;
+  if (model_.extensionsUsed.empty()) model_.extensionsUsed.emplace_back(kExtension);
+  return index;
+}
+
+int GlbWriter::blend_material(const std::string& name, const glm::dvec3& color, double alpha) {
+  const int index = material(name, color);
+  tinygltf::Material& out = model_.materials.back();
+  out.pbrMetallicRoughness.baseColorFactor[3] = alpha;
+  out.alphaMode = "BLEND";
+  out.doubleSided = true;
+  return index;
+}
+
 int GlbWriter::mask_material(const std::string& name, const glm::dvec3& color, const Image& picture) {
   const std::vector<std::uint8_t> png = encode_png(picture);
   tinygltf::Image image;

@@ -19,6 +19,10 @@ class GlbWriter {
   explicit GlbWriter(const std::string& scene_name);
   /// `color` is linear. Returns the material's number.
   int material(const std::string& name, const glm::dvec3& color);
+  /// Lets so much of the light through, coloured; double sided.
+  int glass_material(const std::string& name, const glm::dvec3& color, double transmission);
+  /// Covers this share, and lets the rest of the light through; double sided.
+  int blend_material(const std::string& name, const glm::dvec3& color, double alpha);
   /// A cut-out: double sided, alpha from `picture` with a cutoff of one half.
   int mask_material(const std::string& name, const glm::dvec3& color, const Image& picture);
   using Part = std::pair<const MeshBuilder*, int>;  // triangles and their material

@@ -1,0 +1,35 @@
+// Which surfaces of a scene let light through, and how much of it?
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "gnomon/scene/scene.hpp"
+
+namespace gnomon {
+
+/// True where light may pass: AlphaMode::blend, or a transmission above 0.
+[[nodiscard]] inline bool is_translucent(const Material& material) noexcept {
+  return material.alpha_mode == AlphaMode::blend || material.transmission > 0.0f;
+}
+
+/// Share of each colour's light that passes the material where its base colour times its picture is `color`
+/// (linear, alpha behind), 0..1: all of it beside what alpha covers, and the transmission times the colour
+/// where it covers. A surface that AlphaMode::mask cuts out lets all pass. No refraction: light keeps its
+/// way.
+[[nodiscard]] inline glm::vec3 transmittance(const Material& material, const glm::vec4& color) noexcept {
+  const bool cut_out = material.alpha_mode == AlphaMode::mask && color.a < material.alpha_cutoff;
+  const float covered = cut_out ? 0.0f : material.alpha_mode == AlphaMode::blend ? color.a : 1.0f;
+  return glm::vec3(1.0f - covered) + glm::vec3(color) * (covered * material.transmission);
+}
+
+/// A scene in two, which share materials and pictures by their indices.
+struct TranslucentParts {
+  Scene opaque;  ///< without the panes
+  Scene panes;   ///< instances with translucent materials; no instance where there are none
+};
+/// Parts the panes from the rest. Vertices and pictures are in both: twice the memory. Animations stay with
+/// neither: pose the scene first (apply_pose()).
+[[nodiscard]] TranslucentParts split_translucent(const Scene& scene);
+
+}  // namespace gnomon

@@ -1,0 +1,226 @@
+// What panes absorb on the light's way to each pixel.
+// Based on: Muenstermann, Krumpen, Klein, Peters, "Moment-Based Order-Independent Transparency", 2018
+// (moments of absorbance along a ray, summed by blending); Peters, Klein, "Moment Shadow Mapping", 2015 (what
+// four moments say of the share in front).
+#include "pane_pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+#include "program.hpp"
+
+namespace gnomon::render {
+namespace {
+
+// Bindings and locations as the shaders state them.
+constexpr GLuint kColorImageUnit = 3, kMomentsUnit = 3, kPlacesUnit = 5, kAbsorbanceUnit = 7;
+constexpr GLint kBaseColor = 1, kAlphaCutoff = 2, kClip = 3, kLook = 4, kLight = 5, kRange = 6, kDrawn = 7;
+
+Texture sums(GLenum format, const glm::ivec2& size, int layers) {
+  Texture texture = make_texture(GL_TEXTURE_2D_ARRAY);
+  glTextureStorage3D(texture.name(), 1, format, size.x, size.y, layers);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glTextureParameteri(texture.name(), filter, GL_LINEAR);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    glTextureParameteri(texture.name(), wrap, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+/// Corners of a box.
+std::array<glm::dvec3, 8> corners_of(const Box& box) noexcept {
+  std::array<glm::dvec3, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i)
+    corners[i] = {(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                  (i & 4) != 0 ? box.max.z : box.min.z};
+  return corners;
+}
+
+}  // namespace
+
+PanePass::PanePass(const Scene& panes)
+    : panes_(panes),
+      map_program_(make_program("pane.vert", "pane_map.frag")),
+      transmittance_program_(make_program("fullscreen.vert", "transmittance.frag")),
+      shade_program_(make_program("fullscreen.vert", "shade_panes.frag")),
+      over_program_(make_program("pane.vert", "pane.frag")),
+      order_(make_buffer()),
+      map_fbo_(make_framebuffer()),
+      over_fbo_(make_framebuffer()) {
+  const std::span<const std::uint32_t> order = panes_.order();
+  glNamedBufferStorage(order_.name(), static_cast<GLsizeiptr>(std::max<std::size_t>(order.size_bytes(), 16)),
+                       nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferSubData(order_.name(), 0, static_cast<GLsizeiptr>(order.size_bytes()), order.data());
+  panes_.set_object_index_buffer(order_.name());
+  constexpr std::array<GLenum, 3> kAll{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+  glNamedFramebufferDrawBuffers(map_fbo_.name(), 3, kAll.data());
+}
+
+std::uint64_t PanePass::bytes() const noexcept {
+  constexpr std::uint64_t kTexelBytes = 40;
+  return kTexelBytes * static_cast<std::uint64_t>(layer_size_.x) * static_cast<std::uint64_t>(layer_size_.y) *
+         static_cast<std::uint64_t>(layers_);
+}
+
+void PanePass::fit(const glm::ivec2& layer_size, int layers) {
+  if (layer_size == layer_size_ && layers <= layers_) return;
+  layer_size_ = layer_size;
+  layers_ = layers;
+  absorbance_ = sums(GL_RGBA16F, layer_size, layers);
+  moments_ = sums(GL_RGBA32F, layer_size, layers);
+  places_ = sums(GL_RGBA32F, layer_size, layers);
+}
+
+void PanePass::resize(int width, int height) {
+  if (image_size_ == glm::ivec2(width, height)) return;
+  image_size_ = {width, height};
+  image_ = pixel_image(GL_RGBA32F, width, height);
+  image_fbo_ = make_framebuffer();
+  glNamedFramebufferTexture(image_fbo_.name(), GL_COLOR_ATTACHMENT0, image_.name(), 0);
+}
+
+PanePass::Rectangle PanePass::reached(const DrawnMap& map, const glm::dvec3& origin_world) const noexcept {
+  const glm::dvec2 size(map.width, map.height);
+  glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+  for (const Box& box : panes_.boxes()) {
+    if (box.empty()) continue;
+    for (const glm::dvec3& corner : corners_of(box)) {
+      const glm::dvec4 clip = glm::dmat4(map.clip_from_position) * glm::dvec4(corner - origin_world, 1.0);
+      // Behind a warp's or a lamp's centre a box may be anywhere.
+      if (!(clip.w > 0.0)) return {{0, 0}, {map.width, map.height}};
+      const glm::dvec2 texel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size;
+      low = glm::min(low, texel);
+      high = glm::max(high, texel);
+    }
+  }
+  // A texel more on each side is empty, so that bilinear reads at an edge find nothing beyond it.
+  low = glm::clamp(low - 1.0, glm::dvec2(0.0), size);
+  high = glm::clamp(high + 1.0, glm::dvec2(0.0), size);
+  return {glm::ivec2(glm::floor(low)), glm::ivec2(glm::ceil(high))};
+}
+
+void PanePass::set_light(const ShadowMap& map, const glm::dvec3& origin_world) const noexcept {
+  const bool local = map.light_world.w != 0.0;
+  const glm::dvec3 light =
+      local ? glm::dvec3(map.light_world) - origin_world : -glm::normalize(glm::dvec3(map.light_world));
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Box& box : panes_.boxes()) {
+    if (box.empty()) continue;
+    for (const glm::dvec3& corner : corners_of(box)) {
+      const glm::dvec3 at = corner - origin_world;
+      const double away = local ? glm::distance(at, light) : glm::dot(at, light);
+      low = std::min(low, away);
+      high = std::max(high, away);
+    }
+    // A box round the light, or beside it, is nearer than its corners.
+    if (local)
+      low = std::min(low,
+                     glm::distance(glm::clamp(light, box.min - origin_world, box.max - origin_world), light));
+  }
+  // A single pane may lie across the light; the range is divided by.
+  constexpr double kRounding = 1e-6, kLeast = 1e-30;
+  const double room = kRounding * (std::abs(low) + std::abs(high)) + kLeast;
+  glUniform4f(kLight, static_cast<float>(light.x), static_cast<float>(light.y), static_cast<float>(light.z),
+              local ? 1.0f : 0.0f);
+  glUniform2f(kRange, static_cast<float>(low - room), static_cast<float>(high + room));
+}
+
+void PanePass::draw_all(GLint matrix_location, const glm::mat4& clip_from_position) const noexcept {
+  glUniformMatrix4fv(matrix_location, 1, GL_FALSE, &clip_from_position[0][0]);
+  const std::span<const std::uint32_t> order = panes_.order();
+  for (const Batch& batch : panes_.batches()) {
+    glBindTextureUnit(kColorImageUnit, batch.texture);
+    glBindSampler(kColorImageUnit, batch.sampler);
+    glUniform4fv(kBaseColor, 1, &batch.base_color.x);
+    glUniform1f(kAlphaCutoff, batch.alpha_cutoff);
+    glUniform2f(kLook, batch.transmission, static_cast<float>(batch.alpha_mode));
+    for (std::uint32_t i = batch.begin; i < batch.end; ++i) {
+      const Primitive& primitive = panes_.primitive_of(order[i]);
+      const auto offset = static_cast<std::uintptr_t>(primitive.first_index) * sizeof(std::uint32_t);
+      glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(primitive.index_count),
+                                          GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset), 1, i);
+    }
+  }
+  glBindSampler(kColorImageUnit, 0);
+}
+
+void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const glm::ivec2& layer_size) {
+  drawn_.fill(glm::vec4(0.0f));
+  if (plan.map_count == 0) return;
+  fit(layer_size, plan.map_count);
+  light_world_ = plan.map[0].light_world;
+  panes_.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
+  panes_.use(SceneBuffers::Placed::for_maps);
+  glBindVertexArray(panes_.vertex_array());
+  glUseProgram(map_program_.name());
+  set_light(plan.map[0], drawn.origin_world);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_SCISSOR_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  // Panes before the nearest caster absorb as well.
+  glEnable(GL_DEPTH_CLAMP);
+  constexpr std::array<float, 4> kNothing{};
+  for (int i = 0; i < plan.map_count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const DrawnMap& map = drawn.map[at];
+    const Rectangle rect = reached(map, drawn.origin_world);
+    if (map.bent || rect.empty()) continue;
+    drawn_[at] = {rect.low, rect.high};
+    glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT0, absorbance_.name(), 0, i);
+    glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT1, moments_.name(), 0, i);
+    glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT2, places_.name(), 0, i);
+    glBindFramebuffer(GL_FRAMEBUFFER, map_fbo_.name());
+    glViewport(0, 0, map.width, map.height);
+    glScissor(rect.low.x, rect.low.y, rect.high.x - rect.low.x, rect.high.y - rect.low.y);
+    for (const GLint target : {0, 1, 2})
+      glClearNamedFramebufferfv(map_fbo_.name(), GL_COLOR, target, kNothing.data());
+    draw_all(kClip, map.clip_from_position);
+  }
+  glDisable(GL_DEPTH_CLAMP);
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void PanePass::bind_maps(const glm::dvec3& camera_world) noexcept {
+  const std::pair<GLuint, GLuint> images[] = {
+      {kMomentsUnit, moments_.name()}, {kPlacesUnit, places_.name()}, {kAbsorbanceUnit, absorbance_.name()}};
+  for (const auto& [unit, texture] : images) {
+    glBindTextureUnit(unit, texture);
+    glBindSampler(unit, 0);
+  }
+  glUseProgram(transmittance_program_.name());
+  ShadowMap map;
+  map.light_world = light_world_;
+  if (light_world_ != glm::dvec4(0.0)) set_light(map, camera_world);
+  glUniform4fv(kDrawn, kMaxMaps, &drawn_[0].x);
+}
+
+void PanePass::draw_over(const FrameTargets& targets, const glm::mat4& clip_from_camera_relative,
+                         const glm::dvec3& camera_world) {
+  glNamedFramebufferTexture(over_fbo_.name(), GL_COLOR_ATTACHMENT0, targets.color.name(), 0);
+  glNamedFramebufferTexture(over_fbo_.name(), GL_DEPTH_ATTACHMENT, targets.depth.name(), 0);
+  glBindFramebuffer(GL_FRAMEBUFFER, over_fbo_.name());
+  glViewport(0, 0, targets.width, targets.height);
+  panes_.place(SceneBuffers::Placed::for_camera, camera_world);
+  panes_.use(SceneBuffers::Placed::for_camera);
+  glBindVertexArray(panes_.vertex_array());
+  glUseProgram(over_program_.name());
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  glDepthMask(GL_FALSE);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ZERO, GL_SRC_COLOR);
+  draw_all(kClip, clip_from_camera_relative);
+  glDisable(GL_BLEND);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_DEPTH_TEST);
+}
+
+}  // namespace gnomon::render

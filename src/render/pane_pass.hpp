@@ -1,0 +1,58 @@
+// What panes absorb on the light's way to each pixel: maps of absorbance beside the shadow maps, and the
+// image that is read from them.
+#pragma once
+
+#include <array>
+
+#include "drawn_maps.hpp"
+#include "gl_object.hpp"
+#include "gnomon/plan.hpp"
+#include "scene_buffers.hpp"
+#include "target.hpp"
+
+namespace gnomon::render {
+
+class PanePass {
+ public:
+  /// Throws RenderError.
+  explicit PanePass(const Scene& panes);
+
+  /// Draws the panes into a layer for each map; `layer_size`: of the shadow maps' layers, texels. Maps that
+  /// no pane reaches, and maps whose shape bends lines, take none.
+  void draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const glm::ivec2& layer_size);
+  /// For a full-screen pass: the program's images and uniforms. `camera_world`: where positions are from.
+  void bind_maps(const glm::dvec3& camera_world) noexcept;
+  /// Multiplies the picture with the panes before its surfaces.
+  void draw_over(const FrameTargets& targets, const glm::mat4& clip_from_camera_relative,
+                 const glm::dvec3& camera_world);
+  /// Makes the image anew where its size differs.
+  void resize(int width, int height);
+
+  [[nodiscard]] const Program& transmittance_program() const noexcept { return transmittance_program_; }
+  [[nodiscard]] const Program& shade_program() const noexcept { return shade_program_; }
+  [[nodiscard]] GLuint fbo() const noexcept { return image_fbo_.name(); }
+  [[nodiscard]] const Texture& image() const noexcept { return image_; }
+  [[nodiscard]] std::uint64_t bytes() const noexcept;
+
+ private:
+  struct Rectangle {
+    glm::ivec2 low{0}, high{0};
+    [[nodiscard]] bool empty() const noexcept { return low.x >= high.x || low.y >= high.y; }
+  };
+  [[nodiscard]] Rectangle reached(const DrawnMap& map, const glm::dvec3& origin_world) const noexcept;
+  void fit(const glm::ivec2& layer_size, int layers);
+  void set_light(const ShadowMap& map, const glm::dvec3& origin_world) const noexcept;
+  void draw_all(GLint matrix_location, const glm::mat4& clip_from_position) const noexcept;
+
+  SceneBuffers panes_;
+  Program map_program_, transmittance_program_, shade_program_, over_program_;
+  Buffer order_;
+  Texture absorbance_, moments_, places_, image_;
+  Framebuffer map_fbo_, image_fbo_, over_fbo_;
+  glm::ivec2 layer_size_{0}, image_size_{0};
+  int layers_ = 0;
+  std::array<glm::vec4, kMaxMaps> drawn_{};
+  glm::dvec4 light_world_{0.0};
+};
+
+}  // namespace gnomon::render

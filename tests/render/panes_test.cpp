@@ -1,0 +1,219 @@
+// Is the light behind panes what rays through the panes say, under any light, warp and number of panes?
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "gnomon/trace/transmittance.hpp"
+#include "mask_frame.hpp"
+#include "shared_context.hpp"
+
+namespace gnomon::render {
+namespace {
+
+class Panes : public testing::Test {
+ protected:
+  void SetUp() override { (void)shared_context(); }
+};
+
+Material glass(const glm::vec3& color, float transmission) {
+  Material material;
+  material.base_color = glm::vec4(color, 1.0f);
+  material.transmission = transmission;
+  return material;
+}
+
+Material smoke(float alpha) {
+  Material material;
+  material.alpha_mode = AlphaMode::blend;
+  material.base_color = glm::vec4(1.0f, 1.0f, 1.0f, alpha);
+  return material;
+}
+
+/// Level panes over the ground of box_on_ground, some above the others.
+Scene panes_over_ground(int count) {
+  Scene scene = empty_scene();
+  const glm::vec3 tints[] = {{0.9f, 0.2f, 0.1f}, {0.2f, 0.8f, 0.3f}, {0.3f, 0.4f, 1.0f}, {0.9f, 0.8f, 0.3f}};
+  for (int i = 0; i < count; ++i) {
+    const int material =
+        i == 3 ? add_material(scene, smoke(0.4f)) : add_material(scene, glass(tints[i], 0.8f));
+    const float x = -3.0f + static_cast<float>(i), y = 3.0f + 0.7f * static_cast<float>(i);
+    add_quad(scene, {x, y, 3.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f}, material);
+  }
+  return scene;
+}
+
+struct Judged {
+  double mean = 0.0, worst_inside = 0.0;
+  std::size_t coloured = 0;
+};
+
+/// The image against rays. Pixels whose neighbours, as far as a texel is wide, differ in truth are edges, and
+/// count in the mean alone.
+Judged judged(const Scene& opaque, const Scene& panes, const Light& light, const PlanOptions& options,
+              bool panes_are_casters = true) {
+  const Camera camera = camera_on_box(kSize, kSize);
+  std::vector<Box> boxes = boxes_of(opaque);
+  if (panes_are_casters)
+    for (const Box& box : boxes_of(panes)) boxes.push_back(box);
+  Renderer renderer(opaque);
+  renderer.add_panes(panes);
+  const ShadowPlan plan = make_plan(camera, light, {boxes, boxes}, options);
+  EXPECT_EQ(plan.status, PlanStatus::ok);
+  const Frame frame = draw(renderer, camera, plan, filters::hard);
+  const FloatImage image = renderer.transmittance();
+  const trace::Tracer tracer(opaque);
+  const trace::SurfacePoints points =
+      trace::surface_points(tracer, camera, light, frame.positions, frame.normals);
+  const trace::PaneReference truth = trace::pane_reference(trace::PaneTracer(panes), points, light);
+  Judged result;
+  std::size_t counted = 0;
+  for (int y = 2; y + 2 < kSize; ++y)
+    for (int x = 2; x + 2 < kSize; ++x) {
+      const auto i = static_cast<std::size_t>(y * kSize + x);
+      if (points.pixels[i].state != trace::PixelState::facing) continue;
+      const glm::dvec3 found(image.values[3 * i], image.values[3 * i + 1], image.values[3 * i + 2]);
+      const glm::dvec3 off = glm::abs(found - truth.pixels[i]);
+      const double error = (off.x + off.y + off.z) / 3.0;
+      result.mean += error;
+      ++counted;
+      result.coloured += truth.pixels[i] != glm::dvec3(1.0) ? 1 : 0;
+      bool edge = false;
+      for (int dy = -2; dy <= 2; ++dy)
+        for (int dx = -2; dx <= 2; ++dx) {
+          const auto j = static_cast<std::size_t>((y + dy) * kSize + x + dx);
+          edge = edge || points.pixels[j].state != trace::PixelState::facing ||
+                 truth.pixels[j] != truth.pixels[i];
+        }
+      if (!edge) result.worst_inside = std::max(result.worst_inside, error);
+    }
+  result.mean /= static_cast<double>(counted);
+  return result;
+}
+
+PlanOptions plan_options(const char* warp, int cascades) {
+  PlanOptions options;
+  options.resolution.max_size = 512;
+  options.cascades = cascades;
+  options.warp.warp = find_warp(warp);
+  set_margin(default_settings(filters::hard), options);
+  return options;
+}
+
+TEST_F(Panes, light_behind_panes_is_the_product_of_what_they_let_through) {
+  const Scene opaque = box_on_ground();
+  for (const int count : {1, 2, 3, 4})
+    for (const char* warp : {"none", "optimal"})
+      for (const int cascades : {1, 3}) {
+        const Judged j =
+            judged(opaque, panes_over_ground(count), DirectionalLight{kSlant}, plan_options(warp, cascades));
+        EXPECT_GT(j.coloured, 500u);
+        // Single precision, and the mask's map where two meet.
+        EXPECT_LT(j.worst_inside, 0.005) << count << " " << warp << " " << cascades;
+        EXPECT_LT(j.mean, 0.004) << count << " " << warp << " " << cascades;
+      }
+}
+
+TEST_F(Panes, panes_nearer_to_the_light_than_every_caster_of_the_plan_tint_as_well) {
+  const Judged j = judged(box_on_ground(), panes_over_ground(3), DirectionalLight{{0.02, -1.0, 0.01}},
+                          plan_options("none", 1), false);
+  EXPECT_GT(j.coloured, 500u);
+  EXPECT_LT(j.worst_inside, 0.005);
+}
+
+TEST_F(Panes, local_lights_shine_through_them_as_well) {
+  const Scene opaque = box_on_ground();
+  for (const Light& light : {Light{PointLight{{0.5, 9.0, 0.5}, 60.0}},
+                             Light{SpotLight{{0.5, 9.0, 0.5}, {0.0, -1.0, 0.0}, 0.9, 60.0}}}) {
+    const Judged j = judged(opaque, panes_over_ground(3), light, plan_options("none", 1));
+    EXPECT_GT(j.coloured, 500u);
+    EXPECT_LT(j.worst_inside, 0.005);
+    EXPECT_LT(j.mean, 0.004);
+  }
+}
+
+TEST_F(Panes, a_receiver_between_two_panes_has_the_light_of_the_one_before_it) {
+  // A shelf below the first pane, above the second.
+  Scene opaque = box_on_ground();
+  add_quad(opaque, {-3.0f, 4.0f, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f});
+  for (const glm::vec3& second : {glm::vec3(0.8f, 0.5f, 0.5f), glm::vec3(0.1f, 0.3f, 0.9f)}) {
+    Scene panes = empty_scene();
+    const int upper = add_material(panes, glass({0.8f, 0.5f, 0.5f}, 0.9f)),
+              lower = add_material(panes, glass(second, 0.9f));
+    add_quad(panes, {-3.0f, 5.0f, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f}, upper);
+    add_quad(panes, {-3.0f, 3.0f, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f}, lower);
+    const Judged j = judged(opaque, panes, DirectionalLight{kSlant}, plan_options("none", 1));
+    EXPECT_GT(j.coloured, 500u);
+    EXPECT_LT(j.worst_inside, 0.01) << second.b;
+  }
+}
+
+TEST_F(Panes, a_receiver_among_many_panes_has_nearly_the_light_of_those_before_it) {
+  Scene opaque = box_on_ground();
+  add_quad(opaque, {-3.0f, 4.0f, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f});
+  Scene panes = empty_scene();
+  const int tint = add_material(panes, glass({0.9f, 0.7f, 0.6f}, 0.95f));
+  for (const float y : {5.5f, 5.0f, 4.5f, 3.5f, 3.0f, 2.7f})
+    add_quad(panes, {-3.0f, y, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f}, tint);
+  const Judged j = judged(opaque, panes, DirectionalLight{kSlant}, plan_options("none", 1));
+  EXPECT_LT(j.worst_inside, 0.2);
+  EXPECT_LT(j.mean, 0.02);
+}
+
+TEST_F(Panes, nothing_of_a_frame_with_panes_is_left_in_the_next_one_without) {
+  const Scene scene = box_on_ground();
+  const Camera camera = camera_on_box(kSize, kSize);
+  const ShadowPlan plan = plan_for(scene, camera, kSlant, plan_options("optimal", 2));
+  Renderer plain(scene), tinted(scene);
+  for (const Filter* filter : all_filters()) {
+    tinted.add_panes(panes_over_ground(3));
+    const Frame with = draw(tinted, camera, plan, *filter);
+    const Frame without = draw(plain, camera, plan, *filter);
+    EXPECT_EQ(with.mask.values, without.mask.values) << filter->info.name;
+    tinted.add_panes(empty_scene());
+    (void)draw(tinted, camera, plan, *filter);
+    EXPECT_EQ(tinted.image().rgba, plain.image().rgba) << filter->info.name;
+  }
+}
+
+TEST_F(Panes, without_panes_no_bit_changes) {
+  const Scene scene = box_on_ground();
+  const Camera camera = camera_on_box(kSize, kSize);
+  const ShadowPlan plan = plan_for(scene, camera, kSlant, plan_options("optimal", 2));
+  Renderer plain(scene), emptied(scene);
+  emptied.add_panes(panes_over_ground(2));
+  emptied.add_panes(empty_scene());
+  (void)draw(plain, camera, plan, filters::pcf);
+  (void)draw(emptied, camera, plan, filters::pcf);
+  EXPECT_EQ(plain.image().rgba, emptied.image().rgba);
+  EXPECT_EQ(plain.mask().values, emptied.mask().values);
+  EXPECT_THROW((void)emptied.transmittance(), RenderError);
+}
+
+TEST_F(Panes, the_picture_shows_coloured_light_on_the_ground) {
+  const Scene opaque = box_on_ground(), panes = panes_over_ground(1);
+  const Camera camera = camera_on_box(kSize, kSize);
+  std::vector<Box> boxes = boxes_of(opaque);
+  for (const Box& box : boxes_of(panes)) boxes.push_back(box);
+  const ShadowPlan plan =
+      make_plan(camera, DirectionalLight{kSlant}, {boxes, boxes}, plan_options("none", 1));
+  Renderer renderer(opaque);
+  (void)draw(renderer, camera, plan, filters::hard);
+  const Image before = renderer.image();
+  renderer.add_panes(panes);
+  (void)draw(renderer, camera, plan, filters::hard);
+  const Image after = renderer.image();
+  const FloatImage light = renderer.transmittance(), mask = renderer.mask();
+  std::size_t redder = 0, coloured = 0;
+  for (std::size_t i = 0; i < light.values.size() / 3; ++i) {
+    const bool behind = light.values[3 * i] > 2.0f * light.values[3 * i + 2] && mask.values[2 * i] > 0.5f;
+    if (!behind) continue;
+    ++coloured;
+    redder += after.rgba[4 * i] - after.rgba[4 * i + 2] > before.rgba[4 * i] - before.rgba[4 * i + 2] + 20;
+  }
+  EXPECT_GT(coloured, 500u);
+  EXPECT_GT(redder, coloured * 9 / 10);
+}
+
+}  // namespace
+}  // namespace gnomon::render
