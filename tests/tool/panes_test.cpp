@@ -2,11 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "gnomon/scene/image.hpp"
 #include "small_sweep.hpp"
 
 namespace gnomon::test {
@@ -43,6 +47,29 @@ TEST(PanesCommand, a_scene_without_panes_costs_nothing) {
     EXPECT_EQ(row.at("mean_error"), 0.0);
     EXPECT_EQ(row.at("panes_ms"), 0.0);
   }
+}
+
+TEST(PanesCommand, the_viewer_shows_tinted_light_where_the_word_says_so_and_a_hard_shadow_else) {
+  const auto picture = [](const std::vector<std::string>& more) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "gnomon_panes_view.png";
+    std::vector<std::string> words{"view", "builtin:glass", "--size", "160x90", "--map-size",
+                                   "256",  "--context",     "osmesa", "--out",  file.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    const Finished finished = run_gnomon(words);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    std::ifstream stream(file, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    std::filesystem::remove(file);
+    return decode_image({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, "view",
+                        1u << 20);
+  };
+  const Image solid = picture({}), tinted = picture({"--panes"});
+  ASSERT_EQ(solid.rgba.size(), tinted.rgba.size());
+  std::size_t brighter = 0;
+  for (std::size_t i = 0; i < solid.rgba.size(); i += 4)
+    brighter += tinted.rgba[i] + tinted.rgba[i + 1] + tinted.rgba[i + 2] >
+                solid.rgba[i] + solid.rgba[i + 1] + solid.rgba[i + 2] + 30;
+  EXPECT_GT(brighter, solid.rgba.size() / 4 / 20) << "light that panes stopped before";
 }
 
 TEST(PanesCommand, refuses_what_is_no_scene_in_one_line) {

@@ -30,6 +30,7 @@ std::size_t colors_of(const Image& image) {
 State unusual() {
   State state = hangar();
   state.eye = CameraKey{{1.5, 2.25, 3.0}, {-4.0, 1.0 / 3.0, 0.1}};
+  state.panes = true;
   state.frozen = CameraKey{{1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}};
   state.path = {{{0.0, 1.0, 2.0}, {3.0, 4.0, 5.0}}, {{1.0, 1.0, 2.5}, {3.0, 4.0, 5.0}}};
   state.fov_y_deg = 41.5;
@@ -73,6 +74,7 @@ TEST(ViewState, reads_back_what_it_wrote) {
   EXPECT_EQ(back.a.plan.warp.focus.max.y, 3.0);
   EXPECT_EQ(back.a.plan.warp.planes, unusual().a.plan.warp.planes);
   EXPECT_TRUE(back.a.plan.clip_space.reversed_z);
+  EXPECT_TRUE(back.panes);
   EXPECT_NEAR(back.a.plan.cadence.largest_turn, 0.125, 1e-15);
   EXPECT_EQ(back.b.filter.format, render::TexelFormat::fp16);
   EXPECT_EQ(back.b.layer, render::DepthLayer::midpoint);

@@ -52,14 +52,15 @@ void open_scene(App& app, const std::string& scene) {
   if (app.loading.valid()) return show_message(app, "still loading " + app.loading_name, true);
   app.loading_name = scene;
   app.loading_since = ImGui::GetTime();
-  app.loading = std::async(std::launch::async, load, scene, app.options.max_triangles);
+  app.loading = std::async(std::launch::async, load, scene, app.options.max_triangles, app.state.panes);
 }
 
 void set_state(App& app, const State& state) {
   const std::string scene = app.stage != nullptr ? app.stage->loaded().name : app.state.scene;
+  const bool panes = app.stage != nullptr ? app.stage->loaded().parted : app.state.panes;
   app.state = state;
   if (app.stage != nullptr) app.stage->cut();
-  if (state.scene != scene) open_scene(app, state.scene);
+  if (state.scene != scene || state.panes != panes) open_scene(app, state.scene);
 }
 
 void open_file(App& app, const std::string& file) {

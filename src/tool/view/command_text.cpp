@@ -72,6 +72,7 @@ void add_settings(const Settings& settings, std::string& text) {
 
 std::string command_text(const State& state) {
   std::string text = "gnomon view " + quoted(state.scene);
+  if (state.panes) text += " --panes";
   add_settings(state.a, text);
   const LightState& light = state.light;
   const LightPlacement none;

@@ -291,7 +291,9 @@ void handle_input(App& app, double seconds) {
     control_keys(app, pressed);
     function_keys(app, pressed);
     setting_keys(app, pressed);
-    if (app.stage != nullptr && !ImGui::GetIO().KeyCtrl) steer(app, pressed, seconds);
+    // In a slow frame Ctrl may be up again while Q still counts as down: whoever quits does not move.
+    const bool quits = glfwWindowShouldClose(app.window) != GLFW_FALSE;
+    if (app.stage != nullptr && !quits && !ImGui::GetIO().KeyCtrl) steer(app, pressed, seconds);
   }
   app.presses.clear();
   if (app.stage != nullptr) mouse(app);

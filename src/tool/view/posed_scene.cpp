@@ -9,8 +9,8 @@
 
 namespace gnomon::tool::view {
 
-PosedScene::PosedScene(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {
-  for (const Instance& instance : scene_->instances) boxes_.push_back(instance.bounds_world);
+PosedScene::PosedScene(std::shared_ptr<const Scene> scene, std::vector<Box> boxes)
+    : scene_(std::move(scene)), boxes_(std::move(boxes)) {
   begin_tracer();
 }
 

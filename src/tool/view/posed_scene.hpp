@@ -15,8 +15,9 @@ namespace gnomon::tool::view {
 
 class PosedScene {
  public:
-  /// Begins to sort the triangles for rays in the background.
-  explicit PosedScene(std::shared_ptr<const Scene> scene);
+  /// Begins to sort the triangles for rays in the background. `boxes`: of the scene's instances at rest, and
+  /// of things beside it that cast.
+  PosedScene(std::shared_ptr<const Scene> scene, std::vector<Box> boxes);
 
   /// Poses the scene and the renderer that holds it as the state says. Returns what is wrong with that, or an
   /// empty text. `moved`: whether anything stands elsewhere than before.

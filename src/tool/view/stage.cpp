@@ -13,6 +13,7 @@
 #include "gnomon/render/picture.hpp"
 #include "gnomon/render/probe.hpp"
 #include "gnomon/scene/load.hpp"
+#include "gnomon/scene/translucent.hpp"
 #include "level_picture.hpp"
 #include "lines.hpp"
 #include "page_aliasing.hpp"
@@ -74,20 +75,29 @@ int Side::picture_count() const noexcept {
   return pages ? static_cast<int>(pages->plan().levels.size()) : plan.map_count;
 }
 
-std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles) {
+std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles, bool panes) {
   auto loaded = std::make_shared<Loaded>();
   loaded->name = scene;
   loaded->scene = load_scene(scene, limits_of_triangles(max_triangles));
   constexpr double kUsualAspect = 16.0 / 9.0;
   loaded->path = default_path(loaded->scene, kUsualAspect);
-  for (const Instance& instance : loaded->scene.instances) loaded->boxes.push_back(instance.bounds_world);
+  loaded->parted = panes;
+  if (panes) {
+    TranslucentParts parts = split_translucent(loaded->scene);
+    loaded->scene = std::move(parts.opaque);
+    loaded->panes = std::move(parts.panes);
+  }
+  for (const Scene* part : {&loaded->scene, &loaded->panes})
+    for (const Instance& instance : part->instances) loaded->boxes.push_back(instance.bounds_world);
   return loaded;
 }
 
 Stage::Stage(std::shared_ptr<const Loaded> loaded)
     : loaded_(std::move(loaded)),
       renderer_(loaded_->scene),
-      posed_(std::shared_ptr<const Scene>(loaded_, &loaded_->scene)) {}
+      posed_(std::shared_ptr<const Scene>(loaded_, &loaded_->scene), loaded_->boxes) {
+  if (loaded_->parted) renderer_.add_panes(loaded_->panes);
+}
 
 void Stage::cut() noexcept {
   for (Side& side : sides_) side.history.clear();

@@ -24,12 +24,15 @@ namespace gnomon::tool::view {
 /// A scene as it was loaded; needs no context, so that any thread may load it.
 struct Loaded {
   std::string name;  ///< as State::scene has it
-  Scene scene;
+  Scene scene;       ///< where `parted` without its panes
+  Scene panes;
+  bool parted = false;
   CameraPath path;
-  std::vector<Box> boxes;  ///< of the instances at rest
+  std::vector<Box> boxes;  ///< of the instances at rest, and of panes behind them
 };
-/// Throws SceneError.
-[[nodiscard]] std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles);
+/// `panes`: parts them from the scene, which then has no animations. Throws SceneError.
+[[nodiscard]] std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles,
+                                                 bool panes = false);
 
 /// One side of a comparison, as it was drawn last.
 struct Side {

@@ -90,6 +90,7 @@ inline constexpr std::size_t kMostPathKeys = 1024;
 
 struct State {
   std::string scene = "builtin:city";
+  bool panes = false;               ///< translucent surfaces tint light in place of stopping it
   std::optional<CameraKey> eye;     ///< none: the path at `path_time`
   std::vector<CameraKey> path;      ///< recorded; empty: the scene's path
   double path_time = 0.5;           ///< 0..1

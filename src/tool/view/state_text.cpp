@@ -349,6 +349,7 @@ void check_brackets(std::string_view text) {
 
 std::string state_text(const State& state) {
   Json json{{kVersionKey, kVersion}, {"scene", state.scene}, {"path_time", state.path_time}};
+  if (state.panes) json["panes"] = true;
   if (state.eye) json["eye"] = key_json(*state.eye);
   if (state.frozen) json["frozen"] = key_json(*state.frozen);
   for (const CameraKey& key : state.path) json["path"].push_back(key_json(key));
@@ -393,6 +394,7 @@ State read_state(std::string_view text) {
   if (version != kVersion) reader.refuse(kVersionKey, "is missing: this is no state of the viewer");
   State state;
   reader.read("scene", state.scene);
+  reader.read("panes", state.panes);
   reader.read("path_time", state.path_time, 0.0, 1.0);
   state.eye = read_key(reader, "eye");
   state.frozen = read_key(reader, "frozen");

@@ -229,6 +229,9 @@ std::vector<Option> run_options(Request& request) {
        .target = &options.ui_scale,
        .help = "size of text and widgets; 0: as the display has it",
        .range = {{0.0, 8.0}}},
+      {.name = "--panes",
+       .target = &options.state.panes,
+       .help = "let translucent surfaces tint the light, as docs/panes.md says; they rest"},
       max_triangles_option(options.max_triangles)};
 }
 
@@ -323,7 +326,7 @@ int draw_to_file(const Options& options) {
   check_folder("--out",
                options.out.has_parent_path() ? options.out.parent_path() : std::filesystem::path("."));
   const auto context = render::create_context(options.context);
-  Stage stage(load(options.state.scene, options.max_triangles));
+  Stage stage(load(options.state.scene, options.max_triangles, options.state.panes));
   const auto draw = [&] {
     const std::string refusal = stage.draw(options.state, options.width, options.height, true);
     if (!refusal.empty()) throw std::runtime_error(refusal);
