@@ -13,7 +13,7 @@
 #   our own libraries are still found.
 set(GNOMON_TEST_ENVIRONMENT
   "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0"
-  "ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:intercept_tls_get_addr=0"
+  "ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:intercept_tls_get_addr=0:malloc_context_size=12"
   "UBSAN_OPTIONS=print_stacktrace=1"
   "LP_NUM_THREADS=1")
 
