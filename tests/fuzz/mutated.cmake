@@ -3,10 +3,16 @@
 find_package(nlohmann_json REQUIRED)
 set(fuzz ${CMAKE_CURRENT_LIST_DIR})
 
+# What all of them share.
+add_library(gnomon_mutate OBJECT ${fuzz}/mutated_main.cpp ${fuzz}/mutate.cpp)
+gnomon_test_options(gnomon_mutate)
+target_link_libraries(gnomon_mutate PRIVATE nlohmann_json::nlohmann_json)
+target_include_directories(gnomon_mutate PRIVATE ${fuzz})
+
 # gnomon_mutated(NAME SEEDS file... LIBS target... [SOURCES file...]): the program mutated_NAME, from NAME_fuzz.cpp.
 function(gnomon_mutated name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SEEDS;LIBS;SOURCES")
-  add_executable(mutated_${name} ${fuzz}/mutated_main.cpp ${fuzz}/mutate.cpp ${fuzz}/${name}_fuzz.cpp ${arg_SOURCES})
+  add_executable(mutated_${name} $<TARGET_OBJECTS:gnomon_mutate> ${fuzz}/${name}_fuzz.cpp ${arg_SOURCES})
   gnomon_target(mutated_${name})
   target_link_libraries(mutated_${name} PRIVATE ${arg_LIBS} nlohmann_json::nlohmann_json)
   target_include_directories(mutated_${name} PRIVATE ${fuzz} ${PROJECT_SOURCE_DIR}/src/scene

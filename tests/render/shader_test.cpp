@@ -91,6 +91,9 @@ std::string validated(const ComposedShader& shader, const std::string& stage,
 
 TEST(Shaders, pass_the_reference_validator_with_every_filter) {
   if (std::string_view(GLSLANG_VALIDATOR).empty()) GTEST_SKIP() << "glslangValidator is not installed";
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the validator's verdict on the same text is the release build's test";
+#endif
   std::size_t checked = 0;
   for (const ShaderFile& file : shader_files()) {
     const std::string path(file.path);
