@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "gnomon/report/row.hpp"
 #include "gnomon/scene/image.hpp"
 #include "process.hpp"
 
@@ -367,6 +368,84 @@ TEST_F(ViewWindow, ends_by_itself_with_its_screenshot) {
   const Finished missing = run_gnomon({"view", "/no/such/scene.glb", "--exit-after", "3"});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_NE(missing.err.find("/no/such/scene.glb"), std::string::npos) << missing.err;
+}
+
+TEST_F(ViewWindow, flies_a_benchmark_and_shows_what_it_showed_before) {
+  std::vector<std::string> words = kSmall;
+  words.insert(words.end(), {"--frames", "5"});
+  open(words);
+  const Image begin = picture(1);
+  key("F7");
+  ASSERT_TRUE(wrote("gnomon_benchmark_0001.csv"));
+  EXPECT_EQ(different_pixels(begin, picture(2)), 0u);
+  EXPECT_EQ(close(), 0);
+  EXPECT_EQ(content_of(log()), "");
+  const std::string rows = content_of("gnomon_benchmark_0001.csv");
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 6) << rows;
+}
+
+TEST_F(ViewWindow, flies_a_benchmark_by_itself_and_refuses_what_it_cannot_write) {
+  std::vector<std::string> words = kSmall;
+  words.insert(words.begin(), "view");
+  words.insert(words.end(), {"--frames", "3", "--benchmark", "rows.csv"});
+  const Finished run = run_gnomon(words);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("rows.csv: 3 frames, "), std::string::npos) << run.out;
+  const std::string rows = content_of("rows.csv");
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 4) << rows;
+  words.back() = "rows.csv/rows.csv";
+  const Finished no_folder = run_gnomon(words);
+  EXPECT_EQ(no_folder.exit_code, 2);
+  EXPECT_NE(no_folder.err.find("rows.csv"), std::string::npos) << no_folder.err;
+  EXPECT_EQ(content_of("rows.csv"), rows);
+  words.back() = "more.csv";
+  words.insert(words.end(), {"--out", "picture.png"});
+  EXPECT_EQ(run_gnomon(words).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists("more.csv"));
+}
+
+/// A result of `gnomon compare` as its file of rows has it.
+std::string result_line(const char* filter, int cascades, double ms, double wrong) {
+  report::Row row;
+  row.index = static_cast<std::uint64_t>(cascades);
+  row.scene = "builtin:hangar";
+  row.width = 64;
+  row.height = 64;
+  row.light = "sun";
+  row.technique = {"none", "uniform", "tight", filter, cascades, 256};
+  row.plan_status = "ok";
+  row.truth = "filtered";
+  row.errors.false_lit = wrong;
+  row.times.total_ms = {ms, ms, ms};
+  row.times.baseline_ms = 1.0;
+  return report::to_json_line(row) + "\n";
+}
+
+TEST_F(ViewWindow, loads_the_technique_that_is_clicked_in_the_results) {
+  // So far apart that the present setting moves no axis: the first lies in the lower left corner.
+  (void)folder_.write("results.jsonl", result_line("vsm", 3, 1e-3, 1e-6) + result_line("pcf", 2, 1e3, 1.0));
+  std::vector<std::string> words = kSmall;
+  words.back() = "900x720";
+  words.insert(words.end(), {"--results", "results.jsonl"});
+  open(words);
+  (void)picture(1);
+  key("F5");
+  ASSERT_TRUE(wrote("gnomon_view.json"));
+  drive({"mousemove", "--window", window_, "13", "340"});
+  (void)picture(2);  // a frame in which the cursor is there
+  drive({"click", "1"});
+  (void)picture(3);
+  std::filesystem::remove("gnomon_view.json");
+  key("F5");
+  ASSERT_TRUE(wrote("gnomon_view.json"));
+  const std::string state = content_of("gnomon_view.json");
+  EXPECT_NE(state.find("\"filter\": \"vsm"), std::string::npos) << state;
+  EXPECT_NE(state.find("\"cascades\": 3"), std::string::npos) << state;
+  EXPECT_EQ(close(), 0);
+  EXPECT_EQ(content_of(log()), "");
+  const Finished broken = run_gnomon({"view", "builtin:hangar", "--results", "nowhere", "--exit-after", "3"});
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_NE(broken.err.find("nowhere"), std::string::npos) << broken.err;
 }
 
 }  // namespace

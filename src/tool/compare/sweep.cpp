@@ -273,15 +273,6 @@ int most_maps(const SweepEntry& entry, LightKind light) noexcept {
   return entry.plan.split.partition == Partition::view_depth ? entry.plan.cascades : kMaxMaps;
 }
 
-/// As many pages as the texels of the technique's maps hold, borders included.
-void set_capacity(SweepEntry& entry, LightKind light) noexcept {
-  const double slot = entry.pages.page_texels + 2.0 * std::ceil(entry.plan.filter.texels);
-  const double side = entry.plan.resolution.max_size;
-  const int maps = light == LightKind::sun ? entry.technique.cascades : light == LightKind::spot ? 1 : 6;
-  entry.pages.capacity =
-      static_cast<int>(std::clamp(maps * side * side / (slot * slot), 0.0, double{kMostPages}));
-}
-
 /// What cannot be measured with pages, and why.
 std::optional<NoPages> no_pages(const SweepEntry& entry, LightKind light) {
   if (entry.irregular()) return NoPages{std::string(kIrregular), "lists pixels by whole maps"};
@@ -335,7 +326,7 @@ std::vector<SweepEntry> page_product_of(const CompareRequest& request, LightKind
   multiply(entries, parse_numbers("--map-sizes", request.map_sizes, kMinMapSize, kMaxMapSize), set_size);
   for (SweepEntry& entry : entries) {
     if (entry.pages.policy->octaves) set_fit("stable", entry);  // its levels are stable whatever the fit
-    set_capacity(entry, light);
+    entry.pages.capacity = page_capacity(entry, light);
   }
   std::vector<NoPages> none;
   std::erase_if(entries, [&](const SweepEntry& entry) {
@@ -373,7 +364,7 @@ std::string fit_to_memory(SweepEntry& entry, const Sweep& sweep) {
   if (fitting.size == 0) throw std::runtime_error(name + ": no map fits (" + fitting.why + ")");
   if (fitting.size == wanted) return {};
   set_size(fitting.size, entry);
-  if (entry.by_pages()) set_capacity(entry, sweep.light.kind);
+  if (entry.by_pages()) entry.pages.capacity = page_capacity(entry, sweep.light.kind);
   return name + ": maps of " + std::to_string(wanted) + " do not fit (" + fitting.why + "): maps of " +
          std::to_string(fitting.size);
 }
@@ -432,6 +423,13 @@ std::vector<std::string> split_lists(const std::vector<std::string>& lists) {
     }
   }
   return elements;
+}
+
+int page_capacity(const SweepEntry& entry, LightKind light) noexcept {
+  const double slot = entry.pages.page_texels + 2.0 * std::ceil(entry.plan.filter.texels);
+  const double side = entry.plan.resolution.max_size;
+  const int maps = light == LightKind::sun ? entry.technique.cascades : light == LightKind::spot ? 1 : 6;
+  return static_cast<int>(std::clamp(maps * side * side / (slot * slot), 0.0, double{kMostPages}));
 }
 
 SweepEntry sweep_entry(const report::Technique& technique) {

@@ -83,7 +83,11 @@ struct Sweep {
 /// it is measured with. Returns a line for each. Throws std::runtime_error where not even the least fit.
 std::vector<std::string> fit_to_memory(Sweep& sweep);
 
-/// What a technique's names stand for. Throws std::runtime_error where one of them means nothing.
+/// As many pages as the texels of the entry's maps hold under this light, borders included.
+[[nodiscard]] int page_capacity(const SweepEntry& entry, LightKind light) noexcept;
+
+/// What a technique's names stand for, but the capacity of its pages. Throws std::runtime_error where one of
+/// them means nothing.
 [[nodiscard]] SweepEntry sweep_entry(const report::Technique& technique);
 
 /// What the lists take, for the end of the help.

@@ -64,6 +64,8 @@ void set_state(App& app, const State& state) {
 }
 
 void open_file(App& app, const std::string& file) {
+  if (std::filesystem::is_directory(file) || std::filesystem::path(file).extension() == ".jsonl")
+    return open_results(app, file);
   if (!std::filesystem::path(file).extension().string().starts_with(".json")) return open_scene(app, file);
   try {
     set_state(app, load_state(file));
@@ -104,6 +106,47 @@ void toggle_path_recording(App& app) {
   } catch (const std::exception& error) {
     show_message(app, error.what(), true);
   }
+}
+
+void toggle_benchmark(App& app, const std::filesystem::path& file) {
+  if (app.stage == nullptr) return;
+  if (app.benchmark) {
+    const State before = app.benchmark->before();
+    app.benchmark.reset();
+    set_state(app, before);
+    return show_message(app, "the benchmark was ended; nothing is written", false);
+  }
+  const std::filesystem::path to = file.empty() ? free_name("gnomon_benchmark_{:04}.csv") : file;
+  app.stage->cut();
+  app.benchmark.emplace(app.state, app.options.frames, to, app.renderer);
+}
+
+bool place_benchmark(App& app) {
+  if (!app.benchmark) return false;
+  app.state = app.benchmark->next();
+  show_message(app,
+               fmt::format("benchmark: frame {} of {}; F7 ends it", app.benchmark->frame() + 1,
+                           app.benchmark->frames()),
+               false);
+  return true;
+}
+
+void take_benchmark(App& app) {
+  if (!app.refusal.empty()) {
+    set_state(app, app.benchmark->before());
+    app.benchmark.reset();
+    return show_message(app, "benchmark: " + app.refusal, true);
+  }
+  app.benchmark->take(*app.stage, app.frame_ms);
+  if (!app.benchmark->done()) return;
+  const Benchmark ended = std::move(*app.benchmark);
+  app.benchmark.reset();
+  set_state(app, ended.before());
+  const std::string why = save_text(ended.text(), ended.file());
+  if (!why.empty()) return show_message(app, ended.file().string() + ": " + why, true);
+  show_message(app,
+               fmt::format("wrote {}: {}", std::filesystem::absolute(ended.file()).string(), ended.summary()),
+               false);
 }
 
 State spoken_state(const App& app) {

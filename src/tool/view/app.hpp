@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "benchmark.hpp"
 #include "options.hpp"
 #include "probe.hpp"
 #include "session.hpp"
 #include "stage.hpp"
+#include "sweep_results.hpp"
 
 struct GLFWwindow;
 
@@ -37,7 +39,22 @@ struct Curve {
 };
 /// Figures of side A over the frames that were drawn.
 struct Curves {
-  Curve plan, maps, prefilter, lookup, m_p95, texels, pages;
+  Curve plan, maps, prefilter, lookup, m_p95, texels, pages, flips;
+};
+
+/// The time of side A against hard shadows from one unwarped map, over rounds while nothing else happens.
+struct Gauge {
+  static constexpr int kRounds = 5, kDrawsOfRound = 4;  ///< of each two draws, the first warms up
+  std::vector<double> ms, baseline_ms;                  ///< a value a round
+  int draws = 0;                                        ///< done
+  [[nodiscard]] bool done() const noexcept { return draws >= kRounds * kDrawsOfRound; }
+  /// Ratio of the medians; 0 before the first round has ended.
+  [[nodiscard]] double ratio() const;
+};
+
+/// A measured setting in the chart of results.
+struct ChartPlace {
+  double ratio = 0.0, wrong = 0.0;
 };
 
 /// A rectangle of the framebuffer, pixels from its upper left corner.
@@ -89,6 +106,13 @@ struct App {
   double frame_ms = 0.0, panel_ms = 0.0;
   bool compiling = false;  ///< a filter is compiled after this frame
   Curves curves;
+  bool shimmering = true;               ///< is counted while the tab of curves is seen
+  std::optional<SweepResults> results;  ///< of `gnomon compare`, shown in the tab of curves
+  std::string results_folder = "out/compare";
+  Gauge gauge;                         ///< of the state that is shown
+  std::vector<ChartPlace> been;        ///< where settings before were
+  std::optional<Benchmark> benchmark;  ///< while one runs
+  std::string renderer;                ///< GL_RENDERER
   Session session;
   std::optional<glm::dvec2> pointer;  ///< of the tour, framebuffer pixels
 };
@@ -99,6 +123,22 @@ void draw_panel(App& app);
 void playing_part(App& app);
 /// Plays the animation, the first where none is chosen, or pauses it.
 void toggle_playing(App& app);
+/// The results of `gnomon compare` as a chart with the present setting in it; a click loads a technique.
+void results_part(App& app);
+/// Reads results; what is wrong with them is a message, and the last ones stay.
+void open_results(App& app, const std::string& path);
+/// True where the chart is seen, so that the present setting is to be measured.
+[[nodiscard]] bool shows_results(const App& app);
+/// Draws one of the gauge's frames; false where all are done.
+bool gauge_frame(App& app);
+/// The picture changed: the gauge starts again.
+void restart_gauge(App& app);
+/// Begins a benchmark into `file`, or into the first free name; ends one that runs, without a file.
+void toggle_benchmark(App& app, const std::filesystem::path& file = {});
+/// Puts the benchmark's next frame into the state; false where none runs.
+bool place_benchmark(App& app);
+/// Takes the figures of the frame that was drawn; after the last one writes the file.
+void take_benchmark(App& app);
 /// Takes the animation further; true where it plays.
 bool play_animation(App& app, double seconds);
 /// The status line, the help page, the probe's text and the light's handle.
@@ -145,7 +185,8 @@ void set_state(App& app, const State& state);
 struct TourStop {
   const char* name;  ///< of the picture's file
   void (*set)(App& app);
-  int moving_frames = 0;  ///< under a turning sun, before the picture is taken
+  int moving_frames = 0;       ///< under a turning sun, before the picture is taken
+  bool needs_results = false;  ///< of `gnomon compare`; skipped without them
 };
 [[nodiscard]] std::span<const TourStop> tour_stops() noexcept;
 

@@ -23,6 +23,7 @@ constexpr KeyHelp kKeys[] = {
     {"F4", "change A or B in the panel"},
     {"F5, F9", "save the state file, open it"},
     {"F6", "arrows and Enter move in the panel, and again in the scene"},
+    {"F7", "benchmark: fly along the path, and write a row of figures for each frame"},
     {"F11, F12", "record pictures, save one picture"},
     {"V, F", "next warp, next filter; with Shift the one before"},
     {"G", "pages: off, next policy; with Shift the one before"},
@@ -157,6 +158,7 @@ void function_keys(App& app, const Presses& pressed) {
   if (pressed(GLFW_KEY_F5)) save_state(app, app.state_file);
   if (pressed(GLFW_KEY_F9)) open_file(app, app.state_file);
   if (pressed(GLFW_KEY_F6)) ImGui::GetIO().ConfigFlags ^= ImGuiConfigFlags_NavEnableKeyboard;
+  if (pressed(GLFW_KEY_F7)) toggle_benchmark(app);
   if (pressed(GLFW_KEY_F11)) app.recording = !app.recording;
   if (pressed(GLFW_KEY_F12)) app.wants_picture = true;
   if (pressed(GLFW_KEY_I)) app.probing = !app.probing;

@@ -17,6 +17,9 @@ struct Options {
   std::filesystem::path out;         ///< not empty: the picture goes there, and no window opens
   std::filesystem::path screenshot;  ///< not empty: what the window shows last goes there
   std::filesystem::path tour;        ///< not empty: the tour's pictures go into this folder
+  std::filesystem::path benchmark;   ///< not empty: a flight's figures go there, and the window closes
+  int frames = 120;                  ///< of the benchmark
+  std::string results;               ///< of `gnomon compare`, to be shown; empty: none
   render::ContextKind context = render::ContextKind::automatic;  ///< of `out`
   int exit_after = 0;                                            ///< frames; 0: until the window is closed
   double ui_scale = 0.0;  ///< of text and widgets; 0: as the display has it

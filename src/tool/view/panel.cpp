@@ -345,7 +345,20 @@ void curves_tab(App& app) {
   plot("texels drawn", app.curves.texels, "M", "over all maps or pages; cached ones draw none");
   if (app.stage != nullptr && app.stage->side(0).pages)
     plot("pages drawn", app.curves.pages, "", "pages that were not kept from earlier frames");
+  plot("shimmering", app.curves.flips, "%",
+       "pixels whose shadow flips from the plan of the frame before to this one, at the same points of a "
+       "light "
+       "and a scene at rest");
   if (ImGui::Button("clear")) app.curves = {};
+  ImGui::SameLine();
+  ImGui::Checkbox("count shimmering", &app.shimmering);
+  tooltip("each frame is drawn with the plan before as well; not with pages");
+}
+
+void curves_and_results(App& app) {
+  if (app.results) results_part(app);
+  if (ImGui::CollapsingHeader("last frames", ImGuiTreeNodeFlags_DefaultOpen)) curves_tab(app);
+  if (!app.results) results_part(app);
 }
 
 void scene_part(App& app) {
@@ -364,7 +377,7 @@ void scene_part(App& app) {
       if (ImGui::Selectable(scene.c_str())) open_scene(app, scene);
     ImGui::EndCombo();
   }
-  ImGui::TextWrapped("Or drop a .gltf, .glb or state file on the window.");
+  ImGui::TextWrapped("Or drop a .gltf, .glb, state file or folder of results on the window.");
 }
 
 void file_tab(App& app) {
@@ -393,6 +406,9 @@ void file_tab(App& app) {
   ImGui::PopTextWrapPos();
   if (ImGui::Button("copy command")) ImGui::SetClipboardText(command.c_str());
   ImGui::Separator();
+  if (ImGui::Button("benchmark (F7)")) toggle_benchmark(app);
+  tooltip("a flight along the path in fixed steps; a row of figures for each frame goes into a CSV file");
+  ImGui::SameLine();
   if (ImGui::Button("picture (F12)")) app.wants_picture = true;
   ImGui::SameLine();
   ImGui::Checkbox("record (F11)", &app.recording);
@@ -413,7 +429,7 @@ void tabs(App& app) {
                                                                      edit_filter(edited(a).filter);
                                                                    },
                                                                    compare_tab,
-                                                                   curves_tab,
+                                                                   curves_and_results,
                                                                    file_tab};
   const bool select = app.select_tab;
   const Tab wanted = app.tab;

@@ -89,6 +89,16 @@ Misclassified misclassified(const FloatImage& mask, std::span<const trace::Verdi
   return result;
 }
 
+double flips_between(const FloatImage& before, const FloatImage& after) {
+  std::size_t pixels = 0, flips = 0;
+  for (std::size_t i = 0; i < std::min(pixels_of(before), pixels_of(after)); ++i) {
+    if (before.values[2 * i + 1] < 0.0f || after.values[2 * i + 1] < 0.0f) continue;
+    ++pixels;
+    flips += std::abs(first_channel(before, i) - first_channel(after, i)) > 0.5 ? 1 : 0;
+  }
+  return pixels == 0 ? 0.0 : static_cast<double>(flips) / static_cast<double>(pixels);
+}
+
 Image checker_picture(const Image& lit, const FloatImage& mask, const FloatImage& positions,
                       const std::function<const ShadowMap*(int)>& map_of, const Camera& camera) {
   Image image = lit;

@@ -31,6 +31,9 @@ struct Misclassified {
 [[nodiscard]] Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdict> verdicts,
                                           const FloatImage& normals);
 [[nodiscard]] Misclassified misclassified(const FloatImage& mask, std::span<const trace::Verdict> verdicts);
+/// Share of pixels whose visibility differs by more than half between two masks of one camera; a pixel that
+/// only one of them serves does not count.
+[[nodiscard]] double flips_between(const FloatImage& before, const FloatImage& after);
 /// The exact shadow as mask_picture() paints one.
 [[nodiscard]] Image truth_picture(int width, int height, std::span<const trace::Verdict> verdicts,
                                   const FloatImage& normals);

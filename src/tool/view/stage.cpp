@@ -113,15 +113,46 @@ render::PreparedFilter Stage::prepare(const Settings& settings) {
   return settings.pages.on() ? renderer_.prepare_pages(settings.filter) : renderer_.prepare(settings.filter);
 }
 
-bool Stage::compile_ahead() {
+bool Stage::compile_ahead(bool by_pages) {
   for (const render::Filter* filter : render::all_filters()) {
     Settings settings;
     settings.filter = render::default_settings(*filter);
-    if (is_compiled(settings)) continue;
+    if (by_pages) settings.pages.policy = &page_policies::resolution;
+    if (is_compiled(settings) ||
+        (by_pages &&
+         no_pages(settings.filter, plan_options_of(settings), settings.pages.page_texels).has_value()))
+      continue;
     (void)prepare(settings);
     return true;
   }
   return false;
+}
+
+double Stage::time_frame(const State& state, Timed what) {
+  render::FrameOptions frame = frame_options(state, state.a, light_);
+  frame.prune = prune_rules_of(PruneSource::this_frame);
+  frame.aliasing = frame.heat_map = frame.cascade_tint = false;
+  render::FrameStats stats;
+  double plan_ms = sides_[0].plan_ms;
+  if (what == Timed::baseline) {
+    PlanOptions options;
+    options.cascades = 1;
+    options.warp.warp = &warps::none;
+    options.resolution.max_size = state.a.plan.resolution.max_size;
+    options.prune = options.prune.without(PruneRule::metric_resolution);
+    frame.depth_layer = render::DepthLayer::front;
+    const auto begin = Clock::now();
+    const ShadowPlan plan = make_plan(camera_, light_, {posed_.boxes(), posed_.boxes()}, options);
+    plan_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    stats = renderer_.draw(plan, camera_, renderer_.prepare(render::filters::hard), frame);
+  } else if (sides_[0].pages) {
+    stats = sides_[0].pages->draw(renderer_, camera_, prepare(state.a), frame);
+  } else {
+    stats = renderer_.draw(sides_[0].drawn, camera_, prepare(state.a), frame);
+  }
+  for (const render::Pass pass : {render::Pass::shadow_maps, render::Pass::prefilter, render::Pass::mask})
+    plan_ms += stats.milliseconds[static_cast<std::size_t>(pass)];
+  return plan_ms;
 }
 
 std::string Stage::plan_side(const Settings& settings, const Camera& planned, const Light& light,
@@ -185,13 +216,19 @@ std::string Stage::draw(const State& state, int width, int height, bool settled)
   if (moved) truth_.stop();
   posed_.take_tracer(false);
   if (settled) posed_.begin_tracer();
+  const Side before = counts_flips_ ? sides_[0] : Side();
+  const std::string light_before = light_text(light_);
   if (std::string refusal = make_plans(state, width, height); !refusal.empty()) return refusal;
   unfinished_ = false;
   for (Canvas* canvas : {&canvas_, &canvas_a_, &canvas_b_}) canvas->resize(width, height);
-  wants_truth_ = state.view == View::misclassified || state.view == View::truth ||
+  wants_truth_ = state.view == View::misclassified || state.view == View::truth || counts_errors_ ||
                  (state.comparison != Comparison::off && state.b_is_truth);
   if (!wants_truth_) truth_.stop();
+  std::optional<FloatImage> mask_before;
+  if (!moved && light_before == light_text(light_)) mask_before = mask_of_plan_before(state, before);
   draw_side(state, state.a, sides_[0], canvas_a_, settled);
+  sides_[0].flips.reset();
+  if (mask_before) sides_[0].flips = flips_between(*mask_before, renderer_.mask());
   if (state.comparison != Comparison::off) {
     if (state.b_is_truth) {
       canvas_b_.put(truth_picture(width, height, truth_.verdicts(), renderer_.normals()), 0, 0);
@@ -204,6 +241,15 @@ std::string Stage::draw(const State& state, int width, int height, bool settled)
   return {};
 } catch (const std::runtime_error& error) {
   return error.what();
+}
+
+std::optional<FloatImage> Stage::mask_of_plan_before(const State& state, const Side& before) {
+  if (!counts_flips_ || before.plan.map_count == 0 || before.pages || sides_[0].pages || state.frozen)
+    return {};
+  render::FrameOptions frame = frame_options(state, state.a, light_);
+  frame.aliasing = frame.heat_map = frame.cascade_tint = false;
+  renderer_.draw(seen_frozen(before.plan, before.plan_camera, camera_), camera_, prepare(state.a), frame);
+  return renderer_.mask();
 }
 
 void Stage::draw_pages(const State& state, const Settings& settings, Side& side, bool settled) {
@@ -241,6 +287,7 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
   }
   side.errors.reset();
   if (wants_truth_) want_truth(settled);
+  if (wants_truth_ && truth_.done()) side.errors = misclassified(renderer_.mask(), truth_.verdicts());
   draw_view(state, side, canvas);
   if (state.frozen && state.view != View::map) {
     const Box& scene = loaded_->scene.bounds_world;
@@ -285,7 +332,6 @@ void Stage::draw_view(const State& state, Side& side, Canvas& canvas) {
     case View::misclassified: {
       const FloatImage mask = renderer_.mask();
       const auto verdicts = truth_.verdicts();
-      if (truth_.done()) side.errors = misclassified(mask, verdicts);
       return canvas.put(misclassified_picture(mask, verdicts, renderer_.normals()), 0, 0);
     }
     case View::truth:

@@ -43,6 +43,8 @@ struct Side {
   double plan_ms = 0.0;
   AliasingStats m;                      ///< over what the plan's camera sees of the boxes
   std::optional<Misclassified> errors;  ///< where the exact shadow is known
+  /// Share of pixels that the step from the plan before to this one flips, 0..1; see Stage::count_flips().
+  std::optional<double> flips;
   PlanHistory history;
   std::shared_ptr<FramePages> pages;  ///< in place of maps; nullptr: off
 
@@ -69,6 +71,19 @@ class Stage {
   std::string draw(const State& state, int width, int height, bool settled);
   /// Waits for the exact shadows of the last picture, if it shows any; draw() then shows all of them.
   void finish_truth();
+  /// From the next draw on, misclassified pixels are counted in every view, as far as exact shadows are
+  /// there.
+  void count_errors(bool wanted) noexcept { counts_errors_ = wanted; }
+  /// From the next draw on, the shimmering of side A's maps is counted: each frame is drawn with the plan
+  /// before as well, for the same camera. Not counted where the light or the scene moved, with pages, and
+  /// where the plan's camera is frozen.
+  void count_flips(bool wanted) noexcept { counts_flips_ = wanted; }
+  /// What time_frame() draws: side A, or what its times are compared with, hard shadows from one unwarped
+  /// map.
+  enum class Timed : std::uint8_t { side_a, baseline };
+  /// Draws the last state once more, with nothing kept from earlier frames, and leaves the picture alone.
+  /// Milliseconds of planning, maps, prefilter and look-up.
+  [[nodiscard]] double time_frame(const State& state, Timed what);
 
   [[nodiscard]] const Canvas& canvas() const noexcept { return canvas_; }
   [[nodiscard]] const Side& side(int which) const noexcept { return sides_[static_cast<std::size_t>(which)]; }
@@ -82,8 +97,9 @@ class Stage {
   void want_tracer() { posed_.begin_tracer(); }
   /// nullptr until the triangles are sorted, as they stand now.
   [[nodiscard]] const trace::Tracer* tracer() const noexcept { return posed_.tracer().get(); }
-  /// Compiles one more of the filters that no state has used yet; false where all are compiled.
-  bool compile_ahead();
+  /// Compiles one more of the filters that no state has used yet, for maps or for pages; false where all are
+  /// compiled.
+  bool compile_ahead(bool by_pages);
   /// True where the filter's programs are compiled already, for pages where the settings have them.
   [[nodiscard]] bool is_compiled(const Settings& settings) const;
   /// True where a page policy that reads the picture would refine the last one, once it is settled.
@@ -96,6 +112,7 @@ class Stage {
   void draw_side(const State& state, const Settings& settings, Side& side, Canvas& canvas, bool settled);
   [[nodiscard]] std::string plan_side(const Settings& settings, const Camera& planned, const Light& light,
                                       std::shared_ptr<const SeenSurfaces>& surfaces, Side& side);
+  [[nodiscard]] std::optional<FloatImage> mask_of_plan_before(const State& state, const Side& before);
   void draw_pages(const State& state, const Settings& settings, Side& side, bool settled);
   [[nodiscard]] render::PreparedFilter prepare(const Settings& settings);
   [[nodiscard]] Image side_legend(const State& state, const Side& side) const;
@@ -113,7 +130,7 @@ class Stage {
   Camera camera_;
   Light light_;
   Truth truth_;
-  bool wants_truth_ = false, unfinished_ = false;
+  bool wants_truth_ = false, unfinished_ = false, counts_errors_ = false, counts_flips_ = false;
 };
 
 }  // namespace gnomon::tool::view

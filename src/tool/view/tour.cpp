@@ -32,7 +32,7 @@ void fly_off(App& app) {
                 from.position + 0.7 * step * ahead};
 }
 
-constexpr std::array<TourStop, 17> kStops{{
+constexpr std::array<TourStop, 18> kStops{{
     {"lit", [](App& app) { to_front(app, Tab::view); }},
     {"help", [](App& app) { app.help = true; }},
     {"heat",
@@ -111,6 +111,7 @@ constexpr std::array<TourStop, 17> kStops{{
        to_front(app, Tab::curves);
      },
      40},
+    {.name = "results", .set = [](App& app) { to_front(app, Tab::curves); }, .needs_results = true},
     {"local_light",
      [](App& app) {
        app.state.light.sun.kind = LightKind::spot;

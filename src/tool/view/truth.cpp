@@ -17,17 +17,10 @@ std::string text_of(const glm::dvec3& v) {
 
 /// All that the exact shadow depends on besides the scene.
 std::string picture_of(const Camera& camera, const Light& light) {
-  std::string text =
-      text_of(camera.position) + text_of(camera.forward) +
-      fmt::format("{} {} {} {} {} {} {} {}", camera.left, camera.right, camera.bottom, camera.top,
-                  camera.near_depth, camera.far_depth, camera.width, camera.height);
-  if (const auto* sun = std::get_if<DirectionalLight>(&light))
-    return text + " sun " + text_of(sun->direction);
-  if (const auto* spot = std::get_if<SpotLight>(&light))
-    return text + " spot " + text_of(spot->position) + text_of(spot->direction) +
-           fmt::format("{} {}", spot->outer_radians, spot->range);
-  const auto& point = std::get<PointLight>(light);
-  return text + " point " + text_of(point.position) + fmt::format("{}", point.range);
+  return text_of(camera.position) + text_of(camera.forward) +
+         fmt::format("{} {} {} {} {} {} {} {}", camera.left, camera.right, camera.bottom, camera.top,
+                     camera.near_depth, camera.far_depth, camera.width, camera.height) +
+         light_text(light);
 }
 
 FloatImage rows_of(const FloatImage& image, int begin, int end) {
@@ -40,6 +33,15 @@ FloatImage rows_of(const FloatImage& image, int begin, int end) {
 }
 
 }  // namespace
+
+std::string light_text(const Light& light) {
+  if (const auto* sun = std::get_if<DirectionalLight>(&light)) return " sun " + text_of(sun->direction);
+  if (const auto* spot = std::get_if<SpotLight>(&light))
+    return " spot " + text_of(spot->position) + text_of(spot->direction) +
+           fmt::format("{} {}", spot->outer_radians, spot->range);
+  const auto& point = std::get<PointLight>(light);
+  return " point " + text_of(point.position) + fmt::format("{}", point.range);
+}
 
 bool Truth::is_of(const Camera& camera, const Light& light) const {
   return picture_ == picture_of(camera, light);

@@ -14,6 +14,9 @@
 
 namespace gnomon::tool::view {
 
+/// Equal for equal lights alone.
+[[nodiscard]] std::string light_text(const Light& light);
+
 class Truth {
  public:
   Truth() = default;

@@ -30,8 +30,8 @@ constexpr int kLeastSide = 16, kMostSide = 16'384;
 struct Request {
   Options options;
   std::string state, size = "1280x720", context = "auto", filter = "pcf", plan_json, out, screenshot, tour,
-                     eye, target, path, light = "sun", light_position, light_direction, transition = "cut",
-                     layer = "front", view = "lit", pages = "off";
+                     benchmark, eye, target, path, light = "sun", light_position, light_direction,
+                     transition = "cut", layer = "front", view = "lit", pages = "off";
   double light_outer_deg = 0.0, light_range = 0.0;
   /// Options that set a part of the state, and whether each is given; on the heap, as their addresses are
   /// kept.
@@ -159,6 +159,9 @@ Options resolved(const Request& request) {
   options.out = request.out;
   options.screenshot = request.screenshot;
   options.tour = request.tour;
+  options.benchmark = request.benchmark;
+  if (!request.out.empty() && !(request.benchmark.empty() && options.results.empty()))
+    throw std::runtime_error("--out opens no window, which --benchmark and --results need");
   options.context = offscreen_context(request.context);
   if (!request.state.empty()) {
     for (const auto& [name, given] : request.settings)
@@ -224,6 +227,15 @@ std::vector<Option> run_options(Request& request) {
        .target = &request.tour,
        .help =
            "go through all views and panels, write a picture of the window of each into this folder, and end",
+       .completion = Completion::folders},
+      {.name = "--benchmark",
+       .target = &request.benchmark,
+       .help = "fly along the path, write each frame's figures to this CSV file, and end",
+       .completion = Completion::files},
+      {.name = "--frames", .target = &options.frames, .help = "frames of --benchmark", .range = {{1, 1e6}}},
+      {.name = "--results",
+       .target = &options.results,
+       .help = "show these results of gnomon compare, and where the present setting lies among them",
        .completion = Completion::folders},
       {.name = "--ui-scale",
        .target = &options.ui_scale,

@@ -154,6 +154,7 @@ void add_curves(App& app) {
   app.curves.m_p95.add(side.m.p95);
   app.curves.texels.add(static_cast<double>(drawn) / 1e6);
   app.curves.pages.add(side.stats.pages_drawn);
+  if (side.flips) app.curves.flips.add(100.0 * *side.flips);
 }
 
 void keep_for_undo(App& app, const std::string& now) {
@@ -191,7 +192,7 @@ struct Shown {
   std::string state;
   int width = 0, height = 0, truth_rows = -1;
   const Stage* stage = nullptr;
-  bool settled = false, has_tracer = false;
+  bool settled = false, has_tracer = false, counts = false;
   Clock::time_point when;
 };
 
@@ -212,7 +213,7 @@ class Loop {
     begin_widgets();
     handle_input(app_, seconds);
     app_.picture = picture_area(app_);  // a key may have hidden the panel
-    const bool moving = play(app_, seconds);
+    const bool moving = place_benchmark(app_) || play(app_, seconds);
     record_path(app_, seconds);
     const auto panel_begin = Clock::now();
     draw_panel(app_);
@@ -220,6 +221,7 @@ class Loop {
     ImGui::Render();
     double panel_ms = ms_since(panel_begin);
     const bool drew = draw_picture(moving);
+    if (app_.benchmark && drew && !app_.compiling) take_benchmark(app_);
     if (app_.wants_picture && !app_.compiling && (app_.stage == nullptr || !app_.stage->unfinished())) {
       app_.wants_picture = false;
       save_picture(app_);
@@ -236,8 +238,10 @@ class Loop {
       show_message(app_, fmt::format("OpenGL error {}", error), true);
     if (app_.stage == nullptr || app_.loading.valid()) return kRaysSeconds;
     if (drew || moving) return 0.0;
+    // The rays first: they take the cores that a software driver would be timed on.
     const auto progress = app_.stage->truth_progress();
-    return progress && (*progress)[0] < (*progress)[1] ? kRaysSeconds : kRestSeconds;
+    if (progress && (*progress)[0] < (*progress)[1]) return kRaysSeconds;
+    return shows_results(app_) && gauge_frame(app_) ? 0.0 : kRestSeconds;
   }
 
  private:
@@ -282,8 +286,11 @@ class Loop {
     const std::string text = state_text(app_.state);
     const auto progress = app_.stage->truth_progress();
     const bool settled = text == shown_.state, has_tracer = app_.stage->tracer() != nullptr;
-    const bool same = settled && app_.picture.width == shown_.width && app_.picture.height == shown_.height &&
-                      app_.stage.get() == shown_.stage;
+    const bool counts = shows_results(app_);
+    app_.stage->count_errors(counts);
+    app_.stage->count_flips(app_.panel && app_.tab == Tab::curves && app_.shimmering && !app_.benchmark);
+    const bool same = settled && counts == shown_.counts && app_.picture.width == shown_.width &&
+                      app_.picture.height == shown_.height && app_.stage.get() == shown_.stage;
     if (same && !moving) app_.stage->want_tracer();
     // A page policy that reads the picture takes more rounds once nothing moves.
     const bool unfinished = same && !shown_.settled && app_.stage->unfinished();
@@ -292,12 +299,19 @@ class Loop {
       return false;
     }
     if (wait_for_filter()) return true;
+    if (!same) restart_gauge(app_);
     const auto begin = Clock::now();
     app_.refusal = app_.stage->draw(app_.state, app_.picture.width, app_.picture.height, settled);
     app_.frame_ms = ms_since(begin);
-    shown_ = {
-        text,    app_.picture.width, app_.picture.height, progress ? (*progress)[0] : -1, app_.stage.get(),
-        settled, has_tracer,         Clock::now()};
+    shown_ = {text,
+              app_.picture.width,
+              app_.picture.height,
+              progress ? (*progress)[0] : -1,
+              app_.stage.get(),
+              settled,
+              has_tracer,
+              counts,
+              Clock::now()};
     if (app_.refusal.empty() && !(same && progress)) add_curves(app_);
     if (app_.recording) record(app_);
     show_title();
@@ -319,9 +333,21 @@ class Loop {
   Clock::time_point before_ = Clock::now();
 };
 
+/// No person is at this window.
+bool is_driven(const Options& options) {
+  return options.exit_after > 0 || !options.tour.empty() || !options.benchmark.empty();
+}
+
+/// Filters that nobody has used yet are compiled while nobody waits: those of maps or of pages, whichever the
+/// state draws, then the others. False where all are compiled.
+bool compile_one_ahead(App& app) {
+  const bool pages = app.state.a.pages.on();
+  return app.stage->compile_ahead(pages) || app.stage->compile_ahead(!pages);
+}
+
 void run_loop(App& app, Loop& loop) {
   int frames = 0;
-  bool ahead = true;
+  bool ahead = true, flown = false;
   while (glfwWindowShouldClose(app.window) == GLFW_FALSE) {
     const double rest = loop.frame();
     const bool last =
@@ -330,10 +356,14 @@ void run_loop(App& app, Loop& loop) {
       write_png(window_image(app.window_width, app.window_height), app.options.screenshot);
     glfwSwapBuffers(app.window);
     const bool no_scene = app.stage == nullptr && !app.loading.valid() && app.message_is_error;
-    if (last || (no_scene && app.options.exit_after > 0)) break;
-    // Filters that nobody asked for yet are compiled while nobody waits.
+    if (last || (no_scene && is_driven(app.options))) break;
+    if (!app.options.benchmark.empty() && app.stage != nullptr) {
+      if (flown && !app.benchmark) break;
+      if (!flown) toggle_benchmark(app, app.options.benchmark);
+      flown = true;
+    }
     const bool idle = rest == kRestSeconds;
-    if (idle && ahead && app.options.exit_after == 0) ahead = app.stage->compile_ahead();
+    if (idle && ahead && !is_driven(app.options)) ahead = compile_one_ahead(app);
     if (rest > 0.0 && !(idle && ahead)) {
       glfwWaitEventsTimeout(rest);
     } else {
@@ -360,7 +390,9 @@ void run_tour(App& app, Loop& loop) {
   };
   app.pointer = glm::dvec2(-1.0);
   settle();
+  std::size_t pictures = 0;
   for (const TourStop& stop : tour_stops()) {
+    if (stop.needs_results && !app.results) continue;
     stop.set(app);
     settle();
     if (stop.moving_frames > 0) {
@@ -376,13 +408,13 @@ void run_tour(App& app, Loop& loop) {
     write_png(window_image(app.window_width, app.window_height),
               app.options.tour / (std::string(stop.name) + ".png"));
     glfwSwapBuffers(app.window);
+    ++pictures;
   }
-  fmt::print("{} pictures in {}\n", tour_stops().size(), app.options.tour.string());
+  fmt::print("{} pictures in {}\n", pictures, app.options.tour.string());
 }
 
 void close_session(const App& app) {
-  // A window that a program drives is nobody's session.
-  if (app.options.exit_after > 0 || !app.options.tour.empty()) return;
+  if (is_driven(app.options)) return;
   for (const std::string& why :
        {save_session(app.session, session_file()), save_text(state_text(app.state), last_state_file())})
     if (!why.empty()) warn("the session is not kept: " + why);
@@ -392,6 +424,8 @@ void close_session(const App& app) {
 
 int open_window(const Options& options) {
   if (!options.tour.empty()) check_folder("--tour", options.tour);
+  if (!options.benchmark.empty())
+    check_folder("--benchmark", options.benchmark.has_parent_path() ? options.benchmark.parent_path() : ".");
   const auto window = [&options] {
     try {
       return render::create_window(options.width, options.height, "gnomon view");
@@ -401,12 +435,20 @@ int open_window(const Options& options) {
   }();
   App app(options);
   app.window = window->handle();
+  app.renderer = window->info().renderer;
+  app.panel = options.benchmark.empty();  // the picture alone
   app.session = load_session(session_file());
   glfwSetWindowUserPointer(app.window, &app);
   glfwSetDropCallback(app.window, on_drop);
   glfwSetWindowSizeLimits(app.window, 64, 64, GLFW_DONT_CARE, GLFW_DONT_CARE);
   Widgets widgets(app.window);
   open_scene(app, options.state.scene);
+  if (!options.results.empty()) {
+    app.results = read_sweep_results(options.results);
+    app.results_folder = options.results;
+    app.tab = Tab::curves;
+    app.select_tab = true;
+  }
   Loop loop(app, widgets);
   if (options.tour.empty()) {
     run_loop(app, loop);
@@ -414,10 +456,12 @@ int open_window(const Options& options) {
     run_tour(app, loop);
   }
   if (app.loading.valid()) app.loading.wait();
-  const bool failed = app.stage == nullptr && app.message_is_error;
+  const bool flown = !options.benchmark.empty();
+  const bool failed = app.message_is_error && (app.stage == nullptr || flown);
   app.stage.reset();  // while its context is current
   close_session(app);
-  if (failed && options.exit_after > 0) throw std::runtime_error(app.message);
+  if (failed && is_driven(options)) throw std::runtime_error(app.message);
+  if (flown && glfwWindowShouldClose(app.window) == GLFW_FALSE) fmt::print("{}\n", app.message);
   return 0;
 }
 
