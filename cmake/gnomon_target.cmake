@@ -16,6 +16,14 @@ function(gnomon_target name)
   endif()
 endfunction()
 
+# In a folder whose sources the optimizer is not worth its time for: beside the libraries that they call, they take little
+# of a run, and under the sanitizers they are compiled in half the time without it. Fuzzing runs them over and over.
+macro(gnomon_unoptimized_under_sanitizers)
+  if(GNOMON_SANITIZE AND NOT GNOMON_FUZZ)
+    add_compile_options(-O0)
+  endif()
+endmacro()
+
 # gnomon_library(NAME SOURCES... [HEADERS header...] [VISIBLE header...]): the static library gnomon_NAME with its alias
 # gnomon::NAME. Its public headers are those of include/gnomon/NAME (for the core, of include/gnomon itself).
 #   HEADERS  public headers of other libraries that these include for plain types alone: installed with this one, too.
