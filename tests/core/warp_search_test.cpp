@@ -7,6 +7,7 @@
 #include "gnomon/gnomon.hpp"
 #include "support/seeded_input.hpp"
 #include "warp/along_view.hpp"
+#include "warp/error_samples.hpp"
 #include "warp/formulas.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/row_search.hpp"
@@ -43,6 +44,31 @@ Camera street(double near_depth = 0.5) {
 const std::vector<Box> kGround = {{{-150, -1, -190}, {150, 0, 20}}};
 
 int looked = 0;
+
+TEST(WarpSearch, visible_points_lie_in_the_body_also_beside_a_face_through_the_eye) {
+  // The ground ends at the height of the eye, and a rolled camera sees beyond its edge on one side.
+  for (const glm::dvec3 up : {glm::dvec3{0, 1, 0}, glm::dvec3{1, 2, 0}, glm::dvec3{-1, 1, 0}}) {
+    const Camera camera = perspective_camera({0, 2, 0}, {0.1, 0, -1}, up, 1.0, 1.5, 0.5, 200.0, 960, 640);
+    looked = 0;
+    ASSERT_EQ(show(camera, {0.1, -1, -0.3}, {{{-150, -3, -190}, {150, 2, 20}}}, Objective::p95,
+                   [](const WarpInput& input) {
+                     PixelLanes lanes;
+                     for (const int set : {0, 1}) add_visible_points(input, set, lanes);
+                     ASSERT_GT(lanes.count, 50u);
+                     for (std::size_t i = 0; i < lanes.count; ++i) {
+                       const glm::dvec3 point{lanes.x[i], lanes.y[i], lanes.z[i]};
+                       for (int f = 0; f < input.polytope->face_count; ++f) {
+                         const Plane& plane = input.polytope->plane[static_cast<std::size_t>(f)];
+                         EXPECT_GE(glm::dot(plane.normal, point) + plane.offset, -1e-6 * glm::length(point))
+                             << f;
+                       }
+                     }
+                     ++looked;
+                   }),
+              1);
+    EXPECT_EQ(looked, 1);
+  }
+}
 
 TEST(WarpSearch, a_body_with_a_corner_of_which_nothing_is_known_is_no_ground_for_a_warp) {
   // At a slope of 1e30 rounding leaves a pixel no area across its ray.
