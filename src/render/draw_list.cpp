@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "gnomon/reuse.hpp"
+
 namespace gnomon::render {
 namespace {
 
@@ -34,6 +36,29 @@ std::array<ViewPlane, 6> view_planes(const Camera& camera, const CameraAxes& axe
           ViewPlane{axes.forward, -camera.near_depth}, ViewPlane{-axes.forward, camera.far_depth}};
 }
 
+/// What a rectangle of a map shows, a texel wider for rounding; without the rule no planes.
+class PartPlanes {
+ public:
+  PartPlanes(PruneRules prune, const ShadowMap& map, const TexelRect& rectangle,
+             const ClipSpace& clip_space) {
+    const std::array<glm::dvec4, 5> sides = rectangle_planes(map, rectangle, clip_space);
+    take(prune, map, sides);
+  }
+  PartPlanes(PruneRules prune, const ShadowMap& map, std::span<const glm::dvec4> planes) {
+    take(prune, map, planes);
+  }
+  [[nodiscard]] std::span<const glm::dvec4> planes() const { return {planes_.data(), count_}; }
+
+ private:
+  void take(PruneRules prune, const ShadowMap& map, std::span<const glm::dvec4> planes) {
+    if (!prune.has(PruneRule::caster_clusters)) return;
+    const double texel = std::max(map.texel_world_max.x, map.texel_world_max.y);
+    for (const glm::dvec4& plane : planes) planes_[count_++] = plane + glm::dvec4(0.0, 0.0, 0.0, texel);
+  }
+  std::array<glm::dvec4, kMaxCullPlanes> planes_{};
+  std::size_t count_ = 0;
+};
+
 bool wholly_outside(const Box& box, const glm::dvec3& origin, const ViewPlane& plane) {
   double reach = plane.offset;
   for (int c = 0; c < 3; ++c) {
@@ -45,7 +70,7 @@ bool wholly_outside(const Box& box, const glm::dvec3& origin, const ViewPlane& p
 
 }  // namespace
 
-DrawLists::DrawLists(const SceneBuffers& scene)
+DrawLists::DrawLists(SceneBuffers& scene)
     : scene_(scene), culling_(scene), cache_(scene, culling_), visible_(scene.order().size()) {
   commands_.reserve(scene.order().size());
   objects_.reserve(scene.order().size() * 2);
@@ -80,7 +105,9 @@ void DrawLists::build_uncached(const CullingJob& job, const Camera& camera) {
     const ShadowMap& of = job.plan.map[map];
     DrawnPart& part = parts_[map][part_count_[map]++];
     part = {{0, 0, of.width, of.height}, false, ranges_.size(), 0};
-    add_view(culling_.casters_of(job, of, saved), stats_[map]);
+    const std::span<const std::uint8_t> casters = culling_.casters_of(job, of, saved);
+    add_view(casters, stats_[map], PartPlanes(job.prune, of, part.rectangle, job.plan.clip_space).planes(),
+             saved.of(PruneRule::caster_clusters));
     part.end = ranges_.size();
     stats_[map].texels = texels_of(of);
   }
@@ -88,9 +115,9 @@ void DrawLists::build_uncached(const CullingJob& job, const Camera& camera) {
   finish(camera);
 }
 
-void DrawLists::build_pages(std::span<const DrawnPage> pages, const Camera& camera) {
+void DrawLists::build_pages(std::span<const DrawnPage> pages, const Camera& camera, PruneRules prune) {
   clear();
-  saved_ = {};
+  PruneSavings saved;
   MapStats& stats = stats_.front();
   std::vector<std::uint8_t> draws(visible_.size());
   for (const DrawnPage& page : pages) {
@@ -98,12 +125,14 @@ void DrawLists::build_pages(std::span<const DrawnPage> pages, const Camera& came
     std::fill(draws.begin(), draws.end(), std::uint8_t{0});
     for (const std::uint32_t instance : culling_.instances_within(planes)) draws[instance] = 1;
     DrawnPart part{page.place, false, ranges_.size(), 0};
-    add_view(draws, stats);
+    add_view(draws, stats, PartPlanes(prune, page.map, planes).planes(),
+             saved.of(PruneRule::caster_clusters));
     part.end = ranges_.size();
     page_parts_.push_back(part);
     stats.texels +=
         static_cast<std::uint64_t>(page.place.width) * static_cast<std::uint64_t>(page.place.height);
   }
+  saved_ = saved.net();
   finish(camera);
 }
 
@@ -112,7 +141,8 @@ void DrawLists::finish(const Camera& camera) {
   MapStats& of_camera = stats_.back();
   of_camera = {};
   mark_visible(camera);
-  add_view(visible_, of_camera);
+  PruneSaving none;
+  add_view(visible_, of_camera, {}, none);
   of_camera.texels = static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
   send(object_buffer_, object_capacity_, objects_);
   send(command_buffer_, command_capacity_, commands_);
@@ -123,12 +153,14 @@ void DrawLists::finish(const Camera& camera) {
 void DrawLists::add_map(const CullingJob& job, const DrawnMaps& drawn, std::size_t map, PruneSavings& saved) {
   const std::span<const std::uint8_t> casters = culling_.casters_of(job, job.plan.map[map], saved);
   const MapWork work = cache_.update({job, drawn, map, casters}, saved);
+  const ShadowMap as_drawn = drawn_form(job.plan, map);
   MapStats& stats = stats_[map];
   move_[map] = work.move;
   for (const MapPart& part : work.parts()) {
     DrawnPart& at = parts_[map][part_count_[map]++];
     at = {part.rectangle, part.clear, ranges_.size(), 0};
-    add_view(part.draws, stats);
+    add_view(part.draws, stats, PartPlanes(job.prune, as_drawn, part.rectangle, kOpenGlZeroToOne).planes(),
+             saved.of(PruneRule::caster_clusters));
     at.end = ranges_.size();
   }
   stats.texels = work.texels;
@@ -147,7 +179,31 @@ void DrawLists::mark_visible(const Camera& camera) {
   }
 }
 
-void DrawLists::add_view(std::span<const std::uint8_t> draws, MapStats& stats) {
+bool DrawLists::add_parts(std::uint32_t instance, MapStats& stats, std::span<const glm::dvec4> planes,
+                          PruneSaving& saved) {
+  const std::uint32_t primitive = scene_.primitive_index(instance);
+  if (planes.empty() || !scene_.clusters().has(primitive)) return false;
+  const std::span<const IndexRun> runs =
+      scene_.clusters().within(primitive, scene_.world_from_object(instance), planes);
+  std::uint32_t indices = 0;
+  for (const IndexRun& run : runs) indices += run.index_count;
+  const std::uint32_t whole = scene_.primitive_of(instance).index_count;
+  // Less than a tenth fewer is not worth the commands.
+  if (indices > whole - whole / 10) return false;
+  saved.triangles += (whole - indices) / 3;
+  saved.instances += runs.empty() ? 1 : 0;
+  if (runs.empty()) return true;
+  const auto object = static_cast<std::uint32_t>(objects_.size());
+  objects_.push_back(instance);
+  for (const IndexRun& run : runs) commands_.push_back({run.index_count, 1, run.first_index, 0, object});
+  stats.draws += static_cast<int>(runs.size());
+  ++stats.instances;
+  stats.triangles += indices / 3;
+  return true;
+}
+
+void DrawLists::add_view(std::span<const std::uint8_t> draws, MapStats& stats,
+                         std::span<const glm::dvec4> planes, PruneSaving& saved) {
   const std::span<const Batch> batches = scene_.batches();
   for (std::uint32_t b = 0; b < batches.size(); ++b) {
     BatchRange range{b, static_cast<std::uint32_t>(commands_.size()), 0};
@@ -155,6 +211,10 @@ void DrawLists::add_view(std::span<const std::uint8_t> draws, MapStats& stats) {
     for (std::uint32_t n = batches[b].begin; n < batches[b].end; ++n) {
       const std::uint32_t instance = scene_.order()[n];
       if (draws[instance] == 0) continue;
+      if (add_parts(instance, stats, planes, saved)) {
+        previous = ~0u;
+        continue;
+      }
       const Primitive& primitive = scene_.primitive_of(instance);
       if (scene_.primitive_index(instance) != previous) {
         previous = scene_.primitive_index(instance);

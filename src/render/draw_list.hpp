@@ -33,7 +33,7 @@ struct DrawnPart {
 /// buffer that changes between passes makes the driver wait for the pass before.
 class DrawLists {
  public:
-  explicit DrawLists(const SceneBuffers& scene);
+  explicit DrawLists(SceneBuffers& scene);
 
   /// Rebuilds and uploads everything for this frame.
   void build(const CullingJob& job, const DrawnMaps& drawn, const Camera& camera);
@@ -41,7 +41,7 @@ class DrawLists {
   /// they are.
   void build_uncached(const CullingJob& job, const Camera& camera);
   /// The same with pages in place of maps: one part for each, see page_part.
-  void build_pages(std::span<const DrawnPage> pages, const Camera& camera);
+  void build_pages(std::span<const DrawnPage> pages, const Camera& camera, PruneRules prune);
   /// What is drawn into one page, by index.
   [[nodiscard]] const DrawnPart& page_part(std::size_t page) const noexcept { return page_parts_[page]; }
   /// Casters are culled by the scene's boxes as they are now.
@@ -74,14 +74,19 @@ class DrawLists {
 
  private:
   void add_map(const CullingJob& job, const DrawnMaps& drawn, std::size_t map, PruneSavings& saved);
-  void add_view(std::span<const std::uint8_t> draws, MapStats& stats);
+  /// `planes`: large casters are drawn within them, and what that saves is counted; none: drawn whole.
+  void add_view(std::span<const std::uint8_t> draws, MapStats& stats, std::span<const glm::dvec4> planes,
+                PruneSaving& saved);
+  /// The parts of a caster within planes, where that is less than all of it; false: it is to be drawn whole.
+  bool add_parts(std::uint32_t instance, MapStats& stats, std::span<const glm::dvec4> planes,
+                 PruneSaving& saved);
   void mark_visible(const Camera& camera);
   /// Empties all lists, those of pages too.
   void clear();
   /// The camera's own list, and all lists to the GPU.
   void finish(const Camera& camera);
 
-  const SceneBuffers& scene_;
+  SceneBuffers& scene_;  ///< whose clusters have scratch of their own
   CasterCulling culling_;
   MapCache cache_;
   std::array<PruneSaving, kPruneRuleCount> saved_{};

@@ -254,7 +254,7 @@ FrameStats Renderer::draw(const LightPlan& plan, std::span<const DrawnLight> lig
     impl.upload(frame_block({}, camera, options, 1, 1, BlurSides{}, DepthCurves{}), FilterBlock{});
     static_cast<void>(impl.place_scene({}, camera.position));
     impl.list_pool_maps(plan, lights, camera.position, stats);
-    impl.lists.build_pages(pass.maps, camera);
+    impl.lists.build_pages(pass.maps, camera, options.prune);
     impl.draw_pool_maps(lights, {options.prune.has(PruneRule::alpha_test), options.depth_layer,
                                  std::max(options.dual_limit_texels, 0.0)});
   });
@@ -268,6 +268,7 @@ FrameStats Renderer::draw(const LightPlan& plan, std::span<const DrawnLight> lig
   stats.map_count = 1;
   stats.map[0] = impl.work_of_map(0);
   stats.texels = stats.map[0].texels;
+  stats.saved = impl.lists.saved();
   stats.camera = impl.lists.camera_stats();
   stats.map_bytes = impl.maps.bytes();
   return stats;

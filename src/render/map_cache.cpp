@@ -14,6 +14,14 @@ constexpr std::uint64_t kTexelsPerTriangle = 50;
 
 }  // namespace
 
+ShadowMap drawn_form(const ShadowPlan& plan, std::size_t index) noexcept {
+  ShadowMap map = plan.map[index];
+  const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
+  map.clip_from_world = drawn_from_plan * map.clip_from_world;
+  map.shape_parameters = parameters_in(drawn_from_plan, *map.shape, map.shape_parameters);
+  return map;
+}
+
 MapCache::MapCache(const SceneBuffers& scene, CasterCulling& culling)
     : scene_(scene), culling_(culling), draws_(scene.boxes().size()) {
   for (Cached& cached : cached_) cached.holds.resize(scene.boxes().size());
@@ -129,10 +137,7 @@ MapWork MapCache::update(const CachedDraw& draw, PruneSavings& saved) {
   draws_.assign(draw.casters.begin(), draw.casters.end());
   Cached& cached = cached_[draw.index];
   const DrawnMap& drawn = draw.drawn.map[draw.index];
-  ShadowMap map = job.plan.map[draw.index];
-  const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(job.plan.clip_space);
-  map.clip_from_world = drawn_from_plan * map.clip_from_world;
-  map.shape_parameters = parameters_in(drawn_from_plan, *map.shape, map.shape_parameters);
+  const ShadowMap map = drawn_form(job.plan, draw.index);
   const bool usable = cached.valid && cached.origin_world == draw.drawn.origin_world;
   const bool same = usable && job.prune.has(PruneRule::held_maps) && cached.drawn == drawn &&
                     (!(job.reads_everywhere || job.peels) || cached.holds == draws_);

@@ -48,6 +48,9 @@ struct CachedDraw {
   std::span<const std::uint8_t> casters;
 };
 
+/// A map of the plan in the clip space that the renderer draws in, kOpenGlZeroToOne.
+[[nodiscard]] ShadowMap drawn_form(const ShadowPlan& plan, std::size_t index) noexcept;
+
 class MapCache {
  public:
   /// `culling` finds the casters of a strip; it must outlive the cache.

@@ -359,7 +359,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
     impl.pages.build(plan,
                      {drawn.origin_world, alpha_test, options.prune.has(PruneRule::held_maps), impl.moved});
     impl.moved.clear();
-    impl.lists.build_pages(impl.pages.pages(), camera);
+    impl.lists.build_pages(impl.pages.pages(), camera, options.prune);
     impl.draw_pages(of_light, depth_draw(options));
   });
   timed(Pass::surfaces,
@@ -373,6 +373,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   stats.map_count = 1;
   stats.map[0] = impl.work_of_map(0);
   stats.texels = stats.map[0].texels;
+  stats.saved = impl.lists.saved();
   stats.camera = impl.lists.camera_stats();
   stats.map_bytes = impl.maps.bytes();
   stats.pages = static_cast<int>(plan.pages.size());

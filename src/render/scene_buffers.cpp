@@ -59,6 +59,7 @@ Texture upload(const Image& image) {
 
 SceneBuffers::SceneBuffers(const Scene& scene)
     : primitives_(scene.primitives),
+      clusters_(scene),
       materials_(scene.materials),
       mirrored_(scene.instances.size()),
       vertex_count_(scene.positions.size()),
@@ -99,12 +100,22 @@ void SceneBuffers::move(std::size_t instance, const Instance& to) {
   make_batches();
 }
 
+glm::dmat4 SceneBuffers::world_from_object(std::uint32_t instance) const noexcept {
+  glm::dmat4 m(1.0);
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) m[c][r] = static_cast<double>(objects_[instance].row[r].value[c]);
+  }
+  m[3] = glm::dvec4(translation_[instance], 1.0);
+  return m;
+}
+
 void SceneBuffers::bend(std::uint32_t first, std::span<const glm::vec3> positions,
                         std::span<const glm::vec3> normals) {
   const auto replace = [first](const Buffer& buffer, std::span<const glm::vec3> values) {
     glNamedBufferSubData(buffer.name(), static_cast<GLintptr>(first * sizeof(glm::vec3)),
                          static_cast<GLsizeiptr>(values.size_bytes()), values.data());
   };
+  clusters_.forget(first, positions.size());
   replace(positions_, positions);
   replace(normals_, normals);
 }
@@ -113,7 +124,9 @@ void SceneBuffers::upload_vertices(const Scene& scene) {
   positions_ = filled_buffer(scene.positions);
   normals_ = filled_buffer(scene.normals);
   texcoords_ = filled_buffer(scene.texcoords);
-  indices_ = filled_buffer(scene.indices);
+  std::vector<std::uint32_t> indices = scene.indices;
+  indices.insert(indices.end(), clusters_.sorted_indices().begin(), clusters_.sorted_indices().end());
+  indices_ = filled_buffer(indices);
   vertex_array_ = make_vertex_array();
   const GLuint vao = vertex_array_.name();
   glVertexArrayElementBuffer(vao, indices_.name());

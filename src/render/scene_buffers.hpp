@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "caster_clusters.hpp"
 #include "gl_object.hpp"
 #include "gnomon/scene/scene.hpp"
 
@@ -58,10 +59,14 @@ class SceneBuffers {
 
   [[nodiscard]] std::span<const std::uint32_t> order() const noexcept { return order_; }
   [[nodiscard]] std::span<const Batch> batches() const noexcept { return batches_; }
+  /// Parts of large casters, for maps: their runs are of this scene's index buffer.
+  [[nodiscard]] CasterClusters& clusters() noexcept { return clusters_; }
   [[nodiscard]] std::span<const Box> boxes() const noexcept { return boxes_; }
   [[nodiscard]] const Primitive& primitive_of(std::uint32_t instance) const noexcept {
     return primitives_[primitive_of_[instance]];
   }
+  /// As shaders have it, whose upper part is rounded to single precision.
+  [[nodiscard]] glm::dmat4 world_from_object(std::uint32_t instance) const noexcept;
   [[nodiscard]] std::uint64_t triangles_of(std::uint32_t instance) const noexcept {
     return primitive_of(instance).index_count / 3;
   }
@@ -86,6 +91,7 @@ class SceneBuffers {
   [[nodiscard]] GLuint sampler_for(const Material& material);
 
   std::vector<Primitive> primitives_;
+  CasterClusters clusters_;
   std::vector<Material> materials_;
   std::vector<bool> mirrored_;  ///< by instance
   std::size_t vertex_count_ = 0;
