@@ -58,7 +58,7 @@ State unusual() {
   state.b_is_truth = true;
   state.wipe = 0.25;
   state.gain = 7.0;
-  state.drawn = {false, false, true, true};
+  state.drawn = {false, false, true, true, true};
   state.motion = {true, true, 12.0, -5.0};
   state.playing = {"walk", 1.5, true, -0.5};
   return state;
@@ -312,6 +312,32 @@ TEST(ViewProbe, reports_the_m_of_the_heat_map) {
   up.position = {0.0, 1000.0, 0.0};
   up.forward = {0.0, 1.0, 0.0};
   EXPECT_FALSE(probe(*stage().tracer(), side.plan, up, stage().light(), kWidth / 2.0, kHeight / 2.0).hit);
+}
+
+TEST(ViewLines, of_culling_lie_in_the_scene_and_on_the_inner_side_of_every_plane) {
+  const State state = hangar();
+  ASSERT_EQ(stage().draw(state, kWidth, kHeight, true), "");
+  const Box& scene = stage().loaded().scene.bounds_world;
+  const double size = glm::length(scene.max - scene.min);
+  std::size_t cut = 0;
+  for (const ShadowMap& map : stage().side(0).plan.maps()) {
+    const std::vector<WorldLine> lines = culling_lines(map, scene, {255, 0, 0, 255});
+    ASSERT_GE(lines.size(), 6u);
+    for (const WorldLine& line : lines) {
+      for (const glm::dvec3& end : {line.from, line.to}) {
+        for (int axis = 0; axis < 3; ++axis) {
+          EXPECT_GE(end[axis], scene.min[axis] - 1e-9 * size);
+          EXPECT_LE(end[axis], scene.max[axis] + 1e-9 * size);
+        }
+        for (int i = 0; i < map.cull_plane_count; ++i) {
+          const double inside = glm::dot(map.cull_planes[static_cast<std::size_t>(i)], glm::dvec4(end, 1.0));
+          EXPECT_GE(inside, -1e-9 * size);
+          cut += inside < 1e-9 * size ? 1 : 0;
+        }
+      }
+    }
+  }
+  EXPECT_GT(cut, 10u) << "edges on the planes themselves";
 }
 
 TEST(ViewLines, behind_the_eye_are_cut) {

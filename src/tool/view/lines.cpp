@@ -140,6 +140,18 @@ std::vector<WorldLine> body_lines(const ShadowMap& map, const Camera& camera, co
   return lines;
 }
 
+std::vector<WorldLine> culling_lines(const ShadowMap& map, const Box& scene, const glm::u8vec4& color) {
+  std::vector<WorldLine> lines;
+  if (scene.empty()) return lines;
+  Polytope within = box_polytope(scene);
+  for (int i = 0; i < map.cull_plane_count; ++i) {
+    const glm::dvec4& plane = map.cull_planes[static_cast<std::size_t>(i)];
+    clip(within, Plane{glm::dvec3(plane), plane.w});
+  }
+  add_polytope(within, glm::dvec3(0.0), color, lines);
+  return lines;
+}
+
 std::vector<WorldLine> plan_lines(const ShadowPlan& plan, const Camera& frozen, const std::vector<Box>& boxes,
                                   const Box& scene, const Drawn& drawn) {
   std::vector<WorldLine> lines;
@@ -150,6 +162,10 @@ std::vector<WorldLine> plan_lines(const ShadowPlan& plan, const Camera& frozen, 
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
     const glm::u8vec4 color = colors[i];
     if (drawn.maps) add_map_volume(plan.clip_space, plan.map[i], color, lines);
+    if (drawn.culling) {
+      const std::vector<WorldLine> within = culling_lines(plan.map[i], scene, color);
+      lines.insert(lines.end(), within.begin(), within.end());
+    }
     if (!drawn.bodies) continue;
     const std::vector<WorldLine> body = body_lines(plan.map[i], frozen, scene, color);
     lines.insert(lines.end(), body.begin(), body.end());

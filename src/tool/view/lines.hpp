@@ -36,6 +36,9 @@ struct WorldLine {
 [[nodiscard]] std::vector<WorldLine> body_lines(const ShadowMap& map, const Camera& camera, const Box& scene,
                                                 const glm::u8vec4& color);
 
+/// Edges of what a map's casters are culled to, of the scene's box; none where the planes leave nothing.
+[[nodiscard]] std::vector<WorldLine> culling_lines(const ShadowMap& map, const Box& scene,
+                                                   const glm::u8vec4& color);
 /// A plan made for the camera `frozen` as a renderer may draw it with another one: each map serves the depths
 /// of the frozen view that it was planned for, wherever the new camera stands.
 [[nodiscard]] ShadowPlan seen_frozen(ShadowPlan plan, const Camera& frozen, const Camera& camera) noexcept;

@@ -55,6 +55,9 @@ void drawn_switches(Drawn& drawn) {
   ImGui::Checkbox("maps", &drawn.maps);
   tooltip("the volume that each map shows");
   ImGui::SameLine();
+  ImGui::Checkbox("culling", &drawn.culling);
+  tooltip("the part of the scene within the planes that each map's casters are culled by");
+  ImGui::SameLine();
   ImGui::Checkbox("casters", &drawn.casters);
   tooltip("boxes of casters: in the colour of the first map that draws them; grey: culled");
 }

@@ -67,6 +67,7 @@ struct Drawn {
   bool frustum = true;   ///< the frozen camera's frustum, with the splits
   bool bodies = true;    ///< the receivers' body of each map
   bool maps = false;     ///< the volume of each map
+  bool culling = false;  ///< the part of the scene within the planes that each map's casters are culled by
   bool casters = false;  ///< the boxes of drawn and of culled casters
 };
 

@@ -308,6 +308,7 @@ void read_rest(Reader& reader, State& state) {
     fields.read("frustum", state.drawn.frustum);
     fields.read("bodies", state.drawn.bodies);
     fields.read("maps", state.drawn.maps);
+    fields.read("culling", state.drawn.culling);
     fields.read("casters", state.drawn.casters);
     fields.done();
   }
@@ -366,6 +367,7 @@ std::string state_text(const State& state) {
   json["drawn"] = {{"frustum", state.drawn.frustum},
                    {"bodies", state.drawn.bodies},
                    {"maps", state.drawn.maps},
+                   {"culling", state.drawn.culling},
                    {"casters", state.drawn.casters}};
   json["motion"] = {{"camera", state.motion.camera},
                     {"sun", state.motion.sun},
