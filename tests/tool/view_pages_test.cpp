@@ -127,6 +127,27 @@ TEST(ViewPages, that_read_the_picture_are_refined_once_it_is_settled) {
   }
 }
 
+TEST(ViewPages, are_kept_while_a_turning_sun_is_held) {
+  State state = with_pages();
+  state.a.plan.fit = Fit::stable;
+  state.motion.hold_sun_pixels = 0.5;
+  stage().cut();
+  ASSERT_EQ(stage().draw(state, kWidth, kHeight, false), "");
+  const glm::dvec3 held = std::get<DirectionalLight>(stage().light()).direction;
+  state.light.sun.azimuth_deg += 1e-3;
+  ASSERT_EQ(stage().draw(state, kWidth, kHeight, false), "");
+  EXPECT_EQ(drawn_pages(), 0u);
+  EXPECT_EQ(std::get<DirectionalLight>(stage().light()).direction, held);
+  state.light.sun.azimuth_deg += 5.0;
+  ASSERT_EQ(stage().draw(state, kWidth, kHeight, false), "");
+  EXPECT_EQ(drawn_pages(), side().pages->plan().pages.size()) << "so far it is not held";
+  EXPECT_NE(std::get<DirectionalLight>(stage().light()).direction, held);
+  state.motion.hold_sun_pixels = 0.0;
+  state.light.sun.azimuth_deg += 1e-3;
+  ASSERT_EQ(stage().draw(state, kWidth, kHeight, false), "");
+  EXPECT_EQ(drawn_pages(), side().pages->plan().pages.size());
+}
+
 TEST(ViewPages, that_no_filter_or_pool_serves_leave_the_last_picture) {
   const Image good = picture(with_pages());
   const auto refused = [&](auto&& change, const std::string& why) {
@@ -214,7 +235,7 @@ TEST(ViewPages, of_a_frozen_plan_stay_while_the_eye_moves) {
     EXPECT_EQ(side().pages->plan().pages[i].column, pages[i].column);
   EXPECT_EQ(side().pages->plan().origin_world, stage().camera().position);
   for (const Drawn& drawn : {Drawn{true, false, false, false}, Drawn{false, false, true, false},
-                             Drawn{false, false, false, true}}) {
+                             Drawn{false, false, false, false, true}}) {
     state.drawn = drawn;
     EXPECT_LT(share_equal(picture(state), bare, 0, kWidth), 1.0);
   }

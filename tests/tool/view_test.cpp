@@ -59,7 +59,7 @@ State unusual() {
   state.wipe = 0.25;
   state.gain = 7.0;
   state.drawn = {false, false, true, true, true};
-  state.motion = {true, true, 12.0, -5.0};
+  state.motion = {true, true, 12.0, -5.0, 0.5};
   state.playing = {"walk", 1.5, true, -0.5};
   return state;
 }
@@ -229,8 +229,8 @@ TEST(ViewPicture, with_a_frozen_plan_keeps_its_maps_while_the_eye_moves) {
   for (std::size_t i = 0; i < plan.maps().size(); ++i)
     EXPECT_EQ(stage().side(0).plan.map[i].clip_from_world, plan.map[i].clip_from_world);
   const Image bare = stage().canvas().image();
-  for (int lines = 0; lines < 4; ++lines) {
-    state.drawn = {lines == 0, lines == 1, lines == 2, lines == 3};
+  for (int lines = 0; lines < 5; ++lines) {
+    state.drawn = {lines == 0, lines == 1, lines == 2, lines == 3, lines == 4};
     EXPECT_LT(share_equal(picture(state), bare, 0, kWidth), 1.0) << lines;
   }
 }

@@ -187,6 +187,14 @@ void light_tab(App& app) {
                     nullptr, nullptr, "%.3g");
   app.state.motion.sun_degrees_per_second =
       std::clamp(app.state.motion.sun_degrees_per_second, -360.0, 360.0);
+  constexpr double kOff = 0.0, kMostHold = kMostHoldPixels;
+  double& hold = app.state.motion.hold_sun_pixels;
+  ImGui::SliderScalar("hold the sun", ImGuiDataType_Double, &hold, &kOff, &kMostHold,
+                      hold > 0.0 ? "%.2f pixels" : "off",
+                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  tooltip(
+      "keep the direction of a turning sun, and with it pages and stable maps, until a shadow edge could err "
+      "by so much");
   if (ImGui::Button("reset light")) light = {};
 }
 

@@ -188,13 +188,31 @@ std::string Stage::plan_side(const Settings& settings, const Camera& planned, co
   return {};
 }
 
+Light Stage::held_light(const State& state, const Camera& camera,
+                        std::shared_ptr<const SeenSurfaces>& surfaces) {
+  Light light = light_of(state.light, loaded_->scene.bounds_world);
+  auto* const sun = std::get_if<DirectionalLight>(&light);
+  const bool holds = sun != nullptr && state.motion.hold_sun_pixels > 0.0;
+  if (holds && held_sun_ != glm::dvec3(0.0) && sun->direction != held_sun_) {
+    if (surfaces == nullptr)
+      surfaces = std::make_shared<const SeenSurfaces>(draw_surfaces(renderer_, camera, state.a.layer));
+    Box casters;
+    for (const Box& box : posed_.boxes()) casters.extend(box);
+    sun->direction = hold_sun(held_sun_, sun->direction, camera, casters,
+                              {surfaces->points, surfaces->normals}, state.motion.hold_sun_pixels)
+                         .direction;
+  }
+  held_sun_ = holds ? sun->direction : glm::dvec3(0.0);
+  return light;
+}
+
 std::string Stage::make_plans(const State& state, int width, int height) {
   const Camera eye = camera_of(state, state.eye, loaded_->path, width, height);
   const Camera planned = state.frozen ? camera_of(state, state.frozen, loaded_->path, width, height) : eye;
-  const Light light = light_of(state.light, loaded_->scene.bounds_world);
+  std::shared_ptr<const SeenSurfaces> surfaces;
+  const Light light = held_light(state, planned, surfaces);
   const bool both = state.comparison != Comparison::off && !state.b_is_truth;
   std::array<Side, 2> next = sides_;
-  std::shared_ptr<const SeenSurfaces> surfaces;
   for (int i = 0; i < (both ? 2 : 1); ++i) {
     const Settings& settings = i == 0 ? state.a : state.b;
     Side& side = next[static_cast<std::size_t>(i)];

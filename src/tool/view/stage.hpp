@@ -110,6 +110,9 @@ class Stage {
  private:
   [[nodiscard]] std::string make_plans(const State& state, int width, int height);
   void draw_side(const State& state, const Settings& settings, Side& side, Canvas& canvas, bool settled);
+  /// The sun as the state holds it, for this camera; draws `surfaces` where it needs them.
+  [[nodiscard]] Light held_light(const State& state, const Camera& camera,
+                                 std::shared_ptr<const SeenSurfaces>& surfaces);
   [[nodiscard]] std::string plan_side(const Settings& settings, const Camera& planned, const Light& light,
                                       std::shared_ptr<const SeenSurfaces>& surfaces, Side& side);
   [[nodiscard]] std::optional<FloatImage> mask_of_plan_before(const State& state, const Side& before);
@@ -129,6 +132,7 @@ class Stage {
   Canvas canvas_, canvas_a_, canvas_b_;
   Camera camera_;
   Light light_;
+  glm::dvec3 held_sun_{0.0};  ///< of the last frame; no length: none is held
   Truth truth_;
   bool wants_truth_ = false, unfinished_ = false, counts_errors_ = false, counts_flips_ = false;
 };

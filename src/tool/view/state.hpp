@@ -76,7 +76,12 @@ struct Motion {
   bool camera = false, sun = false;
   double path_seconds = 30.0;            ///< of one flight along the scene's path
   double sun_degrees_per_second = 10.0;  ///< azimuth
+  /// A sun that turns is held until a shadow edge could err by more screen pixels, so that maps and pages are
+  /// kept meanwhile (hold_sun). 0: each frame has its own.
+  double hold_sun_pixels = 0.0;
 };
+
+inline constexpr double kMostHoldPixels = 64.0;
 
 /// The animation that poses the scene.
 struct Playing {

@@ -318,6 +318,7 @@ void read_rest(Reader& reader, State& state) {
     fields.read("sun", state.motion.sun);
     fields.read("path_seconds", state.motion.path_seconds, 1.0, 3600.0);
     fields.read("sun_degrees_per_second", state.motion.sun_degrees_per_second, -360.0, 360.0);
+    fields.read("hold_sun_pixels", state.motion.hold_sun_pixels, 0.0, kMostHoldPixels);
     fields.done();
   }
   if (const Json* playing = reader.take("playing")) {
@@ -372,7 +373,8 @@ std::string state_text(const State& state) {
   json["motion"] = {{"camera", state.motion.camera},
                     {"sun", state.motion.sun},
                     {"path_seconds", state.motion.path_seconds},
-                    {"sun_degrees_per_second", state.motion.sun_degrees_per_second}};
+                    {"sun_degrees_per_second", state.motion.sun_degrees_per_second},
+                    {"hold_sun_pixels", state.motion.hold_sun_pixels}};
   if (const Playing& playing = state.playing; !playing.animation.empty())
     json["playing"] = {{"animation", playing.animation},
                        {"time_s", playing.time_s},
