@@ -399,9 +399,16 @@ TEST_F(ViewWindow, flies_a_benchmark_by_itself_and_refuses_what_it_cannot_write)
   EXPECT_NE(no_folder.err.find("rows.csv"), std::string::npos) << no_folder.err;
   EXPECT_EQ(content_of("rows.csv"), rows);
   words.back() = "more.csv";
-  words.insert(words.end(), {"--out", "picture.png"});
-  EXPECT_EQ(run_gnomon(words).exit_code, 2);
-  EXPECT_FALSE(std::filesystem::exists("more.csv"));
+  for (const std::vector<std::string>& other :
+       {std::vector<std::string>{"--out", "picture.png"}, std::vector<std::string>{"--tour", "tour"}}) {
+    std::vector<std::string> both = words;
+    both.insert(both.end(), other.begin(), other.end());
+    const Finished refused = run_gnomon(both);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("--benchmark"), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists("more.csv"));
+    EXPECT_FALSE(std::filesystem::exists(other.back()));
+  }
 }
 
 /// A result of `gnomon compare` as its file of rows has it.

@@ -130,7 +130,13 @@ struct MapStats {
 
 /// Work of one frame.
 struct FrameStats {
-  std::array<double, kPassCount> milliseconds{};     ///< by Pass; 0 where not drawn or not timed
+  std::array<double, kPassCount> milliseconds{};  ///< by Pass; 0 where not drawn or not timed
+  /// The time of one pass, milliseconds.
+  [[nodiscard]] double ms(Pass pass) const noexcept { return milliseconds[static_cast<std::size_t>(pass)]; }
+  /// The time of shadows after their plan: maps, prefilter and look-up, milliseconds.
+  [[nodiscard]] double shadow_ms() const noexcept {
+    return ms(Pass::shadow_maps) + ms(Pass::prefilter) + ms(Pass::mask);
+  }
   std::array<MapStats, kMaxMaps> map{};              ///< by index of the map in the plan
   int map_count = 0;                                 ///< entries of `map` that are used
   MapStats camera;                                   ///< the surfaces pass; its texels are pixels

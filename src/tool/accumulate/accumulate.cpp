@@ -106,11 +106,8 @@ class Run {
     const FloatImage mask = stage_.renderer().mask();
     DrawnMask drawn;
     for (std::size_t i = 0; i < mask.values.size(); i += 2) drawn.lit.push_back(mask.values[i]);
-    const auto ms = [&stats](render::Pass pass) {
-      return stats.milliseconds[static_cast<std::size_t>(pass)];
-    };
-    drawn.mask_ms = ms(render::Pass::mask);
-    drawn.accumulate_ms = ms(render::Pass::accumulate);
+    drawn.mask_ms = stats.ms(render::Pass::mask);
+    drawn.accumulate_ms = stats.ms(render::Pass::accumulate);
     return drawn;
   }
 

@@ -125,10 +125,6 @@ void count_savings(const render::FrameStats& stats, PruneSource source, report::
   }
 }
 
-double milliseconds(const render::FrameStats& stats, Pass pass) {
-  return stats.milliseconds[static_cast<std::size_t>(pass)];
-}
-
 /// Samples of one technique over the rounds.
 struct Samples {
   std::vector<double> plan_ns, depth_ms, prefilter_ms, shade_ms, total_ms;
@@ -154,12 +150,10 @@ void time_visit(Planned& plan, const Camera& camera, Samples* samples) {
   samples->plan_ns.push_back(plan_time);
   for (int i = 0; i < kDraws; ++i) {
     const render::FrameStats stats = plan.draw(camera, options);
-    const double depth = milliseconds(stats, Pass::shadow_maps),
-                 prefilter = milliseconds(stats, Pass::prefilter), shade = milliseconds(stats, Pass::mask);
-    samples->depth_ms.push_back(depth);
-    samples->prefilter_ms.push_back(prefilter);
-    samples->shade_ms.push_back(shade);
-    samples->total_ms.push_back(plan_time * kMillisecondsPerNanosecond + depth + prefilter + shade);
+    samples->depth_ms.push_back(stats.ms(Pass::shadow_maps));
+    samples->prefilter_ms.push_back(stats.ms(Pass::prefilter));
+    samples->shade_ms.push_back(stats.ms(Pass::mask));
+    samples->total_ms.push_back(plan_time * kMillisecondsPerNanosecond + stats.shadow_ms());
   }
   render::check_context();
 }

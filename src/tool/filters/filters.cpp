@@ -30,14 +30,6 @@ struct Measured {
   render::FrameStats stats;
 };
 
-/// What a filter answers for: maps drawn, stored and blurred, and read at every pixel.
-double shadow_milliseconds(const render::FrameStats& stats) {
-  double sum = 0.0;
-  for (const render::Pass pass : {render::Pass::shadow_maps, render::Pass::prefilter, render::Pass::mask})
-    sum += stats.milliseconds[static_cast<std::size_t>(pass)];
-  return sum;
-}
-
 /// Every filter with every blur; `hard`, which has none, comes first.
 std::vector<Measured> runs_of(const std::vector<FilterSettings>& filters) {
   std::vector<Measured> runs{{filter_from("hard"), {}, {}}};
@@ -157,7 +149,7 @@ void print_filter_cost(const FiltersRequest& request) {
         // Images are made anew where the filter before had others: the first of two draws pays for that.
         (void)stage.draw(run.settings, camera, map_size);
         run.stats = stage.draw(run.settings, camera, map_size);
-        run.milliseconds.push_back(shadow_milliseconds(run.stats));
+        run.milliseconds.push_back(run.stats.shadow_ms());
       }
     }
     for (const Measured& run : runs) print_line(cost_row(map_size, run, runs[0], request.json));

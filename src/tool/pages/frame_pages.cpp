@@ -53,7 +53,7 @@ double FramePages::refine(render::Renderer& renderer, const render::PreparedFilt
   std::vector<float> before;
   for (int round = 0; round < rounds && wants_rounds_ && now_->plan.status == PlanStatus::ok; ++round) {
     const render::FrameStats stats = draw(renderer, seen_->camera, filter, options);
-    map_ms += stats.milliseconds[static_cast<std::size_t>(render::Pass::shadow_maps)];
+    map_ms += stats.ms(render::Pass::shadow_maps);
     for (std::size_t i = 0; i < drawn_.size(); ++i) {
       if (drawn_[i]) drawn_before_.push_back(page_map(now_->plan, now_->plan.pages[i]).clip_from_world);
     }

@@ -45,12 +45,6 @@ Sweep sweep_of(const PanesRequest& request) {
   return make_sweep(compared);
 }
 
-double milliseconds(const render::FrameStats& stats, std::initializer_list<render::Pass> passes) {
-  double sum = 0.0;
-  for (const render::Pass pass : passes) sum += stats.milliseconds[static_cast<std::size_t>(pass)];
-  return sum;
-}
-
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
@@ -138,9 +132,8 @@ void measure_scene(const PanesRequest& request, const Sweep& sweep, const std::s
         const ShadowPlan plan = make_plan(camera, view.light(), view.bounds(), sweep.entries[f].plan);
         const render::FrameStats stats = renderer.draw(plan, camera, filters[f], options);
         if (round == 0) continue;  // warms up
-        shadows[f].push_back(
-            milliseconds(stats, {render::Pass::shadow_maps, render::Pass::prefilter, render::Pass::mask}));
-        if (f == 0) panes_ms.push_back(milliseconds(stats, {render::Pass::panes}));
+        shadows[f].push_back(stats.shadow_ms());
+        if (f == 0) panes_ms.push_back(stats.ms(render::Pass::panes));
       }
     }
     row.panes_ms = median(panes_ms);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "benchmark.hpp"
+#include "gauge.hpp"
 #include "options.hpp"
 #include "probe.hpp"
 #include "session.hpp"
@@ -40,16 +41,6 @@ struct Curve {
 /// Figures of side A over the frames that were drawn.
 struct Curves {
   Curve plan, maps, prefilter, lookup, m_p95, texels, pages, flips;
-};
-
-/// The time of side A against hard shadows from one unwarped map, over rounds while nothing else happens.
-struct Gauge {
-  static constexpr int kRounds = 5, kDrawsOfRound = 4;  ///< of each two draws, the first warms up
-  std::vector<double> ms, baseline_ms;                  ///< a value a round
-  int draws = 0;                                        ///< done
-  [[nodiscard]] bool done() const noexcept { return draws >= kRounds * kDrawsOfRound; }
-  /// Ratio of the medians; 0 before the first round has ended.
-  [[nodiscard]] double ratio() const;
 };
 
 /// A measured setting in the chart of results.
@@ -125,7 +116,7 @@ void playing_part(App& app);
 void toggle_playing(App& app);
 /// The results of `gnomon compare` as a chart with the present setting in it; a click loads a technique.
 void results_part(App& app);
-/// Reads results; what is wrong with them is a message, and the last ones stay.
+/// Reads results and shows their tab. Throws report::ReportError, in which case the last ones stay.
 void open_results(App& app, const std::string& path);
 /// True where the chart is seen, so that the present setting is to be measured.
 [[nodiscard]] bool shows_results(const App& app);

@@ -12,15 +12,6 @@
 namespace gnomon::tool::view {
 namespace {
 
-double ms_of(const Side& side, render::Pass pass) {
-  return side.stats.milliseconds[static_cast<std::size_t>(pass)];
-}
-
-double total_of(const Side& side) {
-  return side.plan_ms + ms_of(side, render::Pass::shadow_maps) + ms_of(side, render::Pass::prefilter) +
-         ms_of(side, render::Pass::mask);
-}
-
 std::string row_of(const Side& side) {
   std::uint64_t draws = 0, triangles = 0;
   for (int i = 0; i < side.stats.map_count; ++i) {
@@ -28,11 +19,11 @@ std::string row_of(const Side& side) {
     triangles += side.stats.map[static_cast<std::size_t>(i)].triangles;
   }
   return fmt::format("{:.1f},{:.3f},{:.3f},{:.3f},{:.3f},{:.5g},{:.5g},{:.5g},{},{},{},{},{},{},{}",
-                     side.plan_ms * 1e3, ms_of(side, render::Pass::shadow_maps),
-                     ms_of(side, render::Pass::prefilter), ms_of(side, render::Pass::mask), total_of(side),
-                     side.m.p50, side.m.p95, side.m.max, side.pages ? 0 : side.plan.map_count,
-                     side.stats.pages, side.stats.pages_drawn, side.stats.texels, draws, triangles,
-                     side.stats.map_bytes);
+                     side.plan_ms * 1e3, side.stats.ms(render::Pass::shadow_maps),
+                     side.stats.ms(render::Pass::prefilter), side.stats.ms(render::Pass::mask),
+                     side.plan_ms + side.stats.shadow_ms(), side.m.p50, side.m.p95, side.m.max,
+                     side.pages ? 0 : side.plan.map_count, side.stats.pages, side.stats.pages_drawn,
+                     side.stats.texels, draws, triangles, side.stats.map_bytes);
 }
 
 }  // namespace
@@ -48,11 +39,7 @@ State Benchmark::next() const {
   state.eye.reset();
   state.frozen.reset();
   state.path_time = share;
-  if (from_.motion.sun) {
-    constexpr double kTurn = 360.0, kHalf = 180.0;
-    const double turned = from_.light.sun.azimuth_deg + seconds * from_.motion.sun_degrees_per_second;
-    state.light.sun.azimuth_deg = turned - kTurn * std::floor((turned + kHalf) / kTurn);
-  }
+  if (from_.motion.sun) turn_sun(state, seconds);
   if (from_.playing.on) state.playing.time_s = from_.playing.time_s + seconds * from_.playing.speed;
   return state;
 }
@@ -66,14 +53,14 @@ void Benchmark::take(const Stage& stage, double frame_ms) {
                          static_cast<double>(frame_ - 1) / frames_, row_of(stage.side(side)), frame_ms,
                          camera.width, camera.height, report::csv_field(stage.loaded().name),
                          report::csv_field(renderer_));
-  total_ms_.push_back(total_of(stage.side(0)));
+  total_ms_.push_back(stage.side(0).plan_ms + stage.side(0).stats.shadow_ms());
 }
 
 std::string Benchmark::text() const {
   // Wall clock after the driver has finished; on software OpenGL its timer queries do not count the work.
-  return "frame,side,path_time,plan_us,maps_ms,prefilter_ms,lookup_ms,shadows_ms,m_p50,m_p95,m_max,maps,"
-         "pages,"
-         "pages_drawn,texels,draws,triangles,map_bytes,frame_ms,width,height,scene,renderer\n" +
+  return "frame,side,path_time,plan_us,maps_ms,prefilter_ms,lookup_ms,shadows_ms,m_p50,m_p95,m_max,"
+         "maps,pages,pages_drawn,texels,draws,triangles,map_bytes,"
+         "frame_ms,width,height,scene,renderer\n" +
          rows_;
 }
 

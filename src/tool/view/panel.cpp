@@ -258,9 +258,7 @@ void figures(const App& app) {
     figure_row(name, help, text(app.stage->side(0)), both ? text(app.stage->side(1)) : std::string());
   };
   const auto pass = [&](const char* name, render::Pass which, const char* help) {
-    row(name, help, [which](const Side& s) {
-      return fmt::format("{:.2f} ms", s.stats.milliseconds[static_cast<std::size_t>(which)]);
-    });
+    row(name, help, [which](const Side& s) { return fmt::format("{:.2f} ms", s.stats.ms(which)); });
   };
   row("plan", "time of make_plan, or of plan_pages",
       [](const Side& s) { return fmt::format("{:.1f} us", s.plan_ms * 1e3); });

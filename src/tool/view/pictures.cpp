@@ -8,8 +8,10 @@
 #include <cmath>
 
 #include "gnomon/render/picture.hpp"
+#include "gnomon/report/errors.hpp"
 #include "lines.hpp"
 #include "picture_colors.hpp"
+#include "seen_surfaces.hpp"
 
 namespace gnomon::tool::view {
 namespace {
@@ -90,13 +92,13 @@ Misclassified misclassified(const FloatImage& mask, std::span<const trace::Verdi
 }
 
 double flips_between(const FloatImage& before, const FloatImage& after) {
-  std::size_t pixels = 0, flips = 0;
-  for (std::size_t i = 0; i < std::min(pixels_of(before), pixels_of(after)); ++i) {
-    if (before.values[2 * i + 1] < 0.0f || after.values[2 * i + 1] < 0.0f) continue;
-    ++pixels;
-    flips += std::abs(first_channel(before, i) - first_channel(after, i)) > 0.5 ? 1 : 0;
-  }
-  return pixels == 0 ? 0.0 : static_cast<double>(flips) / static_cast<double>(pixels);
+  // Neither the light nor the eye moved between them: the truth is the same wherever a map serves.
+  const auto truth_of = [](const FloatImage& mask) {
+    std::vector<float> truth(pixels_of(mask));
+    for (std::size_t i = 0; i < truth.size(); ++i) truth[i] = mask.values[2 * i + 1] < 0.0f ? -1.0f : 1.0f;
+    return truth;
+  };
+  return report::excess_flips(lit_of(before), lit_of(after), truth_of(before), truth_of(after));
 }
 
 Image checker_picture(const Image& lit, const FloatImage& mask, const FloatImage& positions,

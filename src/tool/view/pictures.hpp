@@ -32,7 +32,7 @@ struct Misclassified {
                                           const FloatImage& normals);
 [[nodiscard]] Misclassified misclassified(const FloatImage& mask, std::span<const trace::Verdict> verdicts);
 /// Share of pixels whose visibility differs by more than half between two masks of one camera; a pixel that
-/// only one of them serves does not count.
+/// only one of them serves does not count. Both have one size.
 [[nodiscard]] double flips_between(const FloatImage& before, const FloatImage& after);
 /// The exact shadow as mask_picture() paints one.
 [[nodiscard]] Image truth_picture(int width, int height, std::span<const trace::Verdict> verdicts,

@@ -9,7 +9,6 @@
 #include <exception>
 
 #include "app.hpp"
-#include "gnomon/report/statistics.hpp"
 #include "widgets.hpp"
 
 namespace gnomon::tool::view {
@@ -124,7 +123,7 @@ void load_technique(App& app, const report::Technique& technique) {
   }
 }
 
-/// Of side A; a ratio or a share that is not there yet is 0 or negative.
+/// Where side A stands. Ratio 0: not measured yet; wrong below 0: the exact shadow is not there yet.
 ChartPlace present(const App& app) {
   const auto& errors = app.stage->side(0).errors;
   const double wrong = errors && errors->decided > 0
@@ -154,9 +153,8 @@ void chart_part(App& app, const SceneResults& results) {
   }
   list.PopClipRect();
   ImGui::TextWrapped(
-      "Across: shadow time in times of one unwarped map with hard shadows. Up: misclassified pixels. Green: "
-      "the "
-      "front. Yellow: side A here and now.");
+      "Across: shadow time in times of one unwarped map with hard shadows. Up: misclassified pixels. "
+      "Green: the front. Yellow: side A here and now.");
   if (now.ratio > 0.0 && now.wrong >= 0.0)
     ImGui::Text("now: %.3g x, %.3g %% misclassified", now.ratio, 100.0 * now.wrong);
   else
@@ -170,12 +168,6 @@ void chart_part(App& app, const SceneResults& results) {
 }
 
 }  // namespace
-
-double Gauge::ratio() const {
-  if (ms.empty() || baseline_ms.empty()) return 0.0;
-  const double base = report::median(baseline_ms);
-  return base > 0.0 ? report::median(ms) / base : 0.0;
-}
 
 bool shows_results(const App& app) {
   return app.panel && app.tab == Tab::curves && app.results && app.stage != nullptr && !app.benchmark &&
@@ -195,25 +187,17 @@ bool gauge_frame(App& app) {
   Gauge& gauge = app.gauge;
   // Frames of this view live on the one before, which the gauge's own would replace.
   if (gauge.done() || app.state.view == View::kept || !app.refusal.empty()) return false;
-  const bool baseline = gauge.draws % Gauge::kDrawsOfRound < Gauge::kDrawsOfRound / 2,
-             counts = gauge.draws % 2 == 1;
-  const double ms =
-      app.stage->time_frame(app.state, baseline ? Stage::Timed::baseline : Stage::Timed::side_a);
-  if (counts) (baseline ? gauge.baseline_ms : gauge.ms).push_back(ms);
-  ++gauge.draws;
+  gauge.take(app.stage->time_frame(app.state,
+                                   gauge.wants_baseline() ? Stage::Timed::baseline : Stage::Timed::side_a));
   return true;
 }
 
 void open_results(App& app, const std::string& path) {
-  try {
-    app.results = read_sweep_results(path);
-    app.results_folder = path;
-    app.been.clear();
-    app.tab = Tab::curves;
-    app.select_tab = true;
-  } catch (const std::exception& error) {
-    show_message(app, error.what(), true);
-  }
+  app.results = read_sweep_results(path);
+  app.results_folder = path;
+  app.been.clear();
+  app.tab = Tab::curves;
+  app.select_tab = true;
 }
 
 void results_part(App& app) {
@@ -221,7 +205,11 @@ void results_part(App& app) {
   ImGui::InputText("results", &app.results_folder);
   tooltip("folder that gnomon compare --out wrote; a click on one of its points loads that technique");
   ImGui::SameLine();
-  if (ImGui::Button("open##results")) open_results(app, app.results_folder);
+  if (ImGui::Button("open##results")) try {
+      open_results(app, app.results_folder);
+    } catch (const std::exception& error) {
+      show_message(app, error.what(), true);
+    }
   if (!app.results || app.stage == nullptr) return;
   if (const SceneResults* results = results_of(*app.results, app.state.scene)) {
     chart_part(app, *results);

@@ -150,9 +150,7 @@ double Stage::time_frame(const State& state, Timed what) {
   } else {
     stats = renderer_.draw(sides_[0].drawn, camera_, prepare(state.a), frame);
   }
-  for (const render::Pass pass : {render::Pass::shadow_maps, render::Pass::prefilter, render::Pass::mask})
-    plan_ms += stats.milliseconds[static_cast<std::size_t>(pass)];
-  return plan_ms;
+  return plan_ms + stats.shadow_ms();
 }
 
 std::string Stage::plan_side(const Settings& settings, const Camera& planned, const Light& light,

@@ -86,6 +86,12 @@ Light light_of(const LightState& light, const Box& scene) noexcept {
   return default_light(light.sun, scene);
 }
 
+void turn_sun(State& state, double seconds) noexcept {
+  constexpr double kTurn = 360.0, kHalf = 180.0;
+  const double turned = state.light.sun.azimuth_deg + seconds * state.motion.sun_degrees_per_second;
+  state.light.sun.azimuth_deg = turned - kTurn * std::floor((turned + kHalf) / kTurn);
+}
+
 CameraPath path_of(const State& state, const CameraPath& scenes) {
   CameraPath path = scenes;
   if (!state.path.empty()) {

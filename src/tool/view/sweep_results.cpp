@@ -38,7 +38,6 @@ SweepResults read_sweep_results(const std::filesystem::path& path) {
   const report::Summary summary = report::summarize(rows);
   const report::Row& row = rows.front();
   SweepResults results;
-  results.folder = path.string();
   results.measured = fmt::format("{} x {}, {}", row.width, row.height, row.machine.renderer);
   // The first stands for all scenes together.
   for (std::size_t scene = 1; scene < summary.scenes.size(); ++scene) {

@@ -25,7 +25,6 @@ struct SceneResults {
 };
 
 struct SweepResults {
-  std::string folder;                ///< that they were read from
   std::string measured;              ///< picture size, renderer
   std::vector<SceneResults> scenes;  ///< each with at least one point
 };

@@ -162,6 +162,8 @@ Options resolved(const Request& request) {
   options.benchmark = request.benchmark;
   if (!request.out.empty() && !(request.benchmark.empty() && options.results.empty()))
     throw std::runtime_error("--out opens no window, which --benchmark and --results need");
+  if (!request.benchmark.empty() && !request.tour.empty())
+    throw std::runtime_error("--benchmark and --tour: give one of them, each ends by itself");
   options.context = offscreen_context(request.context);
   if (!request.state.empty()) {
     for (const auto& [name, given] : request.settings)

@@ -128,29 +128,22 @@ bool play(App& app, double seconds) {
   State& state = app.state;
   if (state.motion.camera)
     state.path_time = std::fmod(state.path_time + seconds / state.motion.path_seconds, 1.0);
-  if (state.motion.sun && state.light.sun.kind == LightKind::sun) {
-    constexpr double kTurn = 360.0, kHalf = 180.0;
-    const double turned = state.light.sun.azimuth_deg + seconds * state.motion.sun_degrees_per_second;
-    state.light.sun.azimuth_deg = turned - kTurn * std::floor((turned + kHalf) / kTurn);
-  }
+  if (state.motion.sun && state.light.sun.kind == LightKind::sun) turn_sun(state, seconds);
   const bool animated = play_animation(app, seconds);
   return state.motion.camera || state.motion.sun || animated;
 }
 
 void add_curves(App& app) {
   const Side& side = app.stage->side(0);
-  const auto ms = [&side](render::Pass pass) {
-    return side.stats.milliseconds[static_cast<std::size_t>(pass)];
-  };
   std::uint64_t drawn = 0;
   for (int i = 0; i < side.stats.map_count; ++i) {
     const render::MapStats& map = side.stats.map[static_cast<std::size_t>(i)];
     drawn += map.held ? 0 : map.texels;
   }
   app.curves.plan.add(side.plan_ms * 1e3);
-  app.curves.maps.add(ms(render::Pass::shadow_maps));
-  app.curves.prefilter.add(ms(render::Pass::prefilter));
-  app.curves.lookup.add(ms(render::Pass::mask));
+  app.curves.maps.add(side.stats.ms(render::Pass::shadow_maps));
+  app.curves.prefilter.add(side.stats.ms(render::Pass::prefilter));
+  app.curves.lookup.add(side.stats.ms(render::Pass::mask));
   app.curves.m_p95.add(side.m.p95);
   app.curves.texels.add(static_cast<double>(drawn) / 1e6);
   app.curves.pages.add(side.stats.pages_drawn);
@@ -443,12 +436,7 @@ int open_window(const Options& options) {
   glfwSetWindowSizeLimits(app.window, 64, 64, GLFW_DONT_CARE, GLFW_DONT_CARE);
   Widgets widgets(app.window);
   open_scene(app, options.state.scene);
-  if (!options.results.empty()) {
-    app.results = read_sweep_results(options.results);
-    app.results_folder = options.results;
-    app.tab = Tab::curves;
-    app.select_tab = true;
-  }
+  if (!options.results.empty()) open_results(app, options.results);
   Loop loop(app, widgets);
   if (options.tour.empty()) {
     run_loop(app, loop);
