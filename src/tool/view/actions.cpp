@@ -64,10 +64,12 @@ void set_state(App& app, const State& state) {
 }
 
 void open_file(App& app, const std::string& file) {
-  if (std::filesystem::is_directory(file) || std::filesystem::path(file).extension() == ".jsonl")
-    return open_results(app, file);
-  if (!std::filesystem::path(file).extension().string().starts_with(".json")) return open_scene(app, file);
+  const bool results =
+      std::filesystem::is_directory(file) || std::filesystem::path(file).extension() == ".jsonl";
+  if (!results && !std::filesystem::path(file).extension().string().starts_with(".json"))
+    return open_scene(app, file);
   try {
+    if (results) return open_results(app, file);
     set_state(app, load_state(file));
     app.state_file = file;
     show_message(app, "opened " + shown_name(file), false);

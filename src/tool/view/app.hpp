@@ -76,7 +76,7 @@ struct App {
   double message_until = 0.0;
   std::string refusal;  ///< why the present state is not the one that is shown; empty: it is
 
-  std::vector<KeyPress> presses;  ///< since the last frame
+  std::vector<KeyPress> presses;  ///< that no frame has taken yet
   bool panel = true, help = false, probing = true, recording = false;
   int recorded = 0;
   std::optional<CameraPath> recorded_path;  ///< that the camera's places are added to

@@ -44,7 +44,19 @@ constexpr KeyHelp kKeys[] = {
     {"Esc", "close this page; nothing is lost"},
 };
 
-/// Presses since the last frame. ImGui 1.86 forgets a key that goes down and up between two frames, which are
+/// The presses of one frame: up to a key that went down twice, whose second press is the next frame's.
+std::vector<KeyPress> take_presses(std::vector<KeyPress>& waiting) {
+  auto end = waiting.begin();
+  const auto repeats = [&](const KeyPress& press) {
+    return std::any_of(waiting.begin(), end, [&](const KeyPress& one) { return one.key == press.key; });
+  };
+  while (end != waiting.end() && !repeats(*end)) ++end;
+  std::vector<KeyPress> now(waiting.begin(), end);
+  waiting.erase(waiting.begin(), end);
+  return now;
+}
+
+/// Presses of one frame. ImGui 1.86 forgets a key that goes down and up between two frames, which are
 /// half a second apart in software.
 class Presses {
  public:
@@ -288,7 +300,8 @@ std::span<const KeyHelp> key_help() noexcept {
 }
 
 void handle_input(App& app, double seconds) {
-  const Presses pressed(app.presses);
+  const std::vector<KeyPress> presses = take_presses(app.presses);
+  const Presses pressed(presses);
   if (!ImGui::GetIO().WantTextInput) {
     control_keys(app, pressed);
     function_keys(app, pressed);
@@ -297,7 +310,6 @@ void handle_input(App& app, double seconds) {
     const bool quits = glfwWindowShouldClose(app.window) != GLFW_FALSE;
     if (app.stage != nullptr && !quits && !ImGui::GetIO().KeyCtrl) steer(app, pressed, seconds);
   }
-  app.presses.clear();
   if (app.stage != nullptr) mouse(app);
 }
 
