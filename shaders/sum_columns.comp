@@ -1,7 +1,11 @@
 #version 450 core
 // Summed-area table, second half: rows of sums, added up along y.
 layout(local_size_x = 32) in;
+#if GNOMON_CHANNELS > 2
+layout(binding = 0, rgba32ui) uniform uimage2DArray sums;
+#else
 layout(binding = 0, rg32ui) uniform uimage2DArray sums;
+#endif
 layout(location = 0) uniform int map;
 
 void main() {

@@ -4,7 +4,11 @@
 #include "common/stored.glsl"
 
 layout(local_size_x = 32) in;
+#if GNOMON_CHANNELS > 2
+layout(binding = 0, rgba32ui) writeonly uniform uimage2DArray sums;
+#else
 layout(binding = 0, rg32ui) writeonly uniform uimage2DArray sums;
+#endif
 
 void main() {
   int y = int(gl_GlobalInvocationID.x);

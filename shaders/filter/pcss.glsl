@@ -2,13 +2,7 @@
 // the kernel. Distances are world units along the light, whatever the map's warp.
 #include "library/compare.glsl"
 #include "library/disc.glsl"
-
-// Radius of the light's disc as the kernel sees it, across the light at the receiver, when what blocks is `away` from it.
-// Options: angle in degrees of a directional light; radius of a local light.
-float penumbra_radius(ShadowLookup at, ShadowOptions options, float away) {
-  if (at.light_distance == 0.0) return tan(0.5 * radians(options.value[0])) * away;
-  return options.value[1] * away / max(at.light_distance - away, 0.01 * at.light_distance);
-}
+#include "library/penumbra.glsl"
 
 // The disc of that radius in texels, at least one and at most the kernel's own.
 mat2 disc_of(ShadowLookup at, float radius_world) {

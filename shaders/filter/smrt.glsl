@@ -2,13 +2,7 @@
 // stretch of the ray is blocked by what the map stores in it, or by what joins casters above and below the ray.
 #include "library/compare.glsl"
 #include "library/disc.glsl"
-
-// Distance across the light from the ray to the disc's middle where it is `away` from the receiver, as texels at the
-// receiver see it. Options: angle in degrees of a directional light; radius of a local light.
-float spread_at(ShadowLookup at, ShadowOptions options, float away) {
-  if (at.light_distance == 0.0) return tan(0.5 * radians(options.value[0])) * away;
-  return options.value[1] * away / max(at.light_distance - away, 0.01 * at.light_distance);
-}
+#include "library/penumbra.glsl"
 
 // Where that reaches the kernel's radius, which bounds the march; beyond it the ray keeps to its last texel.
 vec2 within_kernel(ShadowLookup at, vec2 offset) {
@@ -31,7 +25,7 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
   // Most points have no caster at all, and casters lie at a few distances.
   const int kSearched = 16;
   float reach = max(distance_to_depth(at, 0.0), 0.0), nearest = reach, farthest = 0.0;
-  float search = spread_at(at, options, reach);
+  float search = penumbra_radius(at, options, reach);
   bool any = false;
   for (int i = 0; i < kSearched; ++i) {
     vec2 offset = within_kernel(at, at.texels_per_world * (search * vogel_radius(i, kSearched) * direction));
@@ -55,7 +49,7 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
       float begin = k == 0 ? 0.0 : mix(nearest, farthest, float(k - 1) / float(steps - 1));
       float end = k == 0 && steps > 1 ? nearest : mix(nearest, farthest, float(k) / float(max(steps - 1, 1)));
       float away = mix(begin, end, inside);
-      float caster = caster_at(depth_map, at, within_kernel(at, at.texels_per_world * (spread_at(at, options, away) * aim)));
+      float caster = caster_at(depth_map, at, within_kernel(at, at.texels_per_world * (penumbra_radius(at, options, away) * aim)));
       bool beyond = k + 1 < steps && caster >= end, before = caster < begin;
       // From under one caster to above another: through what joins them.
       bool crossed = under && before && caster >= 0.0;

@@ -4,7 +4,7 @@
 #define GNOMON_LIBRARY_FETCH_SUMMED_GLSL
 #include "library/lookup.glsl"
 
-// Two channels at most.
+// Four channels at most.
 ShadowTexel fetch_summed(usampler2DArray sums, ShadowLookup at, float steps_per_one) {
   // The box is cut at whole texels: the sum of the inner box, plus its edge texels weighted by their share.
   ivec2 last = textureSize(sums, 0).xy - 1;

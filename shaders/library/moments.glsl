@@ -2,6 +2,40 @@
 // u = 2 depth - 1: odd and even moments then part, and numbers stay small.
 #ifndef GNOMON_LIBRARY_MOMENTS_GLSL
 #define GNOMON_LIBRARY_MOMENTS_GLSL
+#include "library/lookup.glsl"
+
+// In formats of 0..1 the moments go through a change of basis that makes use of all steps (Peters 2017): of the odd ones
+// and of the even ones, whose ranges over -1..1 it maps to 0..1.
+ShadowTexel store_four_moments(float depth, ShadowOptions options) {
+  float u = 2.0 * depth - 1.0, u2 = u * u;
+  vec4 b = vec4(u, u2, u2 * u, u2 * u2);
+  if (options.unsigned_unit) {
+    b = vec4(0.5 + 1.5 * b.x - 2.0 * b.z, 4.0 * (b.y - b.w), 0.5 + 0.8660254 * b.x - 0.3849002 * b.z,
+             0.5 * (b.y + b.w));
+  }
+  ShadowTexel texel;
+  texel.v[0] = b;
+  return texel;
+}
+
+// The moments of a stored texel, moved by a share towards those of depths spread out: what is stored has been rounded, and
+// may be no moments at all.
+vec4 moments_of(ShadowTexel texel, ShadowOptions options, float bias, float roundings) {
+  vec4 b = texel.v[0];
+  if (options.unsigned_unit) {
+    vec2 odd = b.xz - 0.5;
+    b = vec4(-0.33333333 * odd.x + 1.7320508 * odd.y, 0.125 * b.y + b.w, -0.75 * odd.x + 1.2990381 * odd.y,
+             b.w - 0.125 * b.y);
+  }
+  return mix(b, vec4(0.0, 0.375, 0.0, 0.375), max(bias, roundings * options.rounding));
+}
+
+// On a slanted plane half of the kernel lies in front of the point: the bound would be right, and dark.
+float receiver_of_moments(ShadowLookup at, vec2 box) {
+  const float kSlant = 0.5;
+  return 2.0 * min(at.depth - kSlant * dot(abs(at.depth_gradient), box), 1.0) - 1.0;
+}
+
 // Least share in front of u, for any support: Hamburger's problem. Also returns the other two depths, z, of the
 // extreme distribution, for the bound below.
 float share_in_front(vec4 b, float u, out vec2 z) {

@@ -41,6 +41,7 @@ class Composer {
         define("GNOMON_READS_SLOPE", choice_.reads_slope ? 1 : 0);
         define("GNOMON_MEAN", choice_.mean ? 1 : 0);
         define("GNOMON_REACH", choice_.reach);
+        define("GNOMON_CHANNELS", choice_.channels);
         mark_line(line + 1, number);
       }
       return;

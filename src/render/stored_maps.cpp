@@ -57,7 +57,7 @@ GLenum internal_format(TexelFormat format, int channels) noexcept {
                                      {GL_R16F, GL_RG16F, GL_RGBA16F},
                                      {GL_R16, GL_RG16, GL_RGBA16},
                                      {GL_R8, GL_RG8, GL_RGBA8},
-                                     {GL_RG32UI, GL_RG32UI, GL_RG32UI}};
+                                     {GL_RG32UI, GL_RG32UI, GL_RGBA32UI}};
   return kFormats[static_cast<std::size_t>(format)][channels <= 2 ? channels - 1 : 2];
 }
 
@@ -75,6 +75,7 @@ int bytes_of(GLenum format) noexcept {
     case GL_RG32UI:
       return 8;
     case GL_RGBA32F:
+    case GL_RGBA32UI:
       return 16;
     default:
       return 4;
@@ -132,7 +133,8 @@ std::vector<std::string_view> filter_shaders(const Filter& filter, MapRead reads
 
 FilterVariant variant_of(const FilterSettings& settings) noexcept {
   const Filter& filter = *settings.filter;
-  FilterVariant variant{&filter, shadow_vectors(settings), reads_of(settings), false, 0};
+  FilterVariant variant{&filter, shadow_vectors(settings), reads_of(settings), false, 0, 1};
+  if (filter.info.channels != nullptr) variant.channels = filter.info.channels(settings);
   if (filter.info.reads == MapRead::depth) return variant;
   variant.reads_slope = filter.hooks.reads_slope != nullptr && filter.hooks.reads_slope(settings);
   if (filter.info.reads == MapRead::summed) return variant;
@@ -168,8 +170,9 @@ FilterPrograms make_filter_programs(const FilterSettings& settings) {
   FilterPrograms programs;
   programs.variant = variant_of(settings);
   const bool any_reach = programs.variant.reach == FilterVariant::kAnyReach;
-  ShaderChoice choice{filter_path(*settings.filter), programs.variant.vectors, programs.variant.reads_slope,
-                      programs.variant.reads == MapRead::filtered, std::max(programs.variant.reach, 0)};
+  ShaderChoice choice{filter_path(*settings.filter),       programs.variant.vectors,
+                      programs.variant.reads_slope,        programs.variant.reads == MapRead::filtered,
+                      std::max(programs.variant.reach, 0), programs.variant.channels};
   const std::vector<std::string_view> paths = filter_shaders(*settings.filter, programs.variant.reads);
   programs.mask = make_program("fullscreen.vert", paths.front(), choice);
   const auto make = [&](Program& program, std::string_view path) {
@@ -342,7 +345,7 @@ void StoredMaps::join_mips(const FilterPrograms& programs, const StoreJob& job, 
 }
 
 void StoredMaps::sum_map(const FilterPrograms& programs, GLint map, const StoreJob& job) {
-  glBindImageTexture(kSumsImage, stored_[0].name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_RG32UI);
+  glBindImageTexture(kSumsImage, stored_[0].name(), 0, GL_TRUE, 0, GL_READ_WRITE, shape_.format);
   glUseProgram(programs.sum_rows.name());
   glUniform1i(kMapLocation, map);
   glDispatchCompute(groups_of(job.layer_height, kRowsPerGroup), 1, 1);

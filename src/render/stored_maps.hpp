@@ -23,7 +23,8 @@ struct FilterVariant {
   int vectors = 1;
   MapRead reads = MapRead::depth;  ///< reads_of
   bool reads_slope = false;
-  int reach = 0;  ///< of the blur that all maps have; kAnyReach: read from the block for each map
+  int reach = 0;     ///< of the blur that all maps have; kAnyReach: read from the block for each map
+  int channels = 1;  ///< of a stored texel
   bool operator==(const FilterVariant&) const = default;
 };
 [[nodiscard]] FilterVariant variant_of(const FilterSettings& settings) noexcept;

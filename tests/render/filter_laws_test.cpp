@@ -162,15 +162,16 @@ TEST(FilterLaws, no_texel_makes_a_visibility_that_is_not_between_0_and_1) {
 }
 
 TEST(FilterLaws, moving_the_map_by_whole_texels_moves_the_results_along) {
-  const TestMap map = random_map(kSide, kSide, 13);
+  // The widest default kernel reaches 12.5 texels, and stays inside of both maps.
+  constexpr int kWide = 48, kRim = 16, kRight = 3, kUp = 2;
+  const TestMap map = random_map(kWide, kWide, 13);
   TestMap moved = map;
-  constexpr int kRight = 3, kUp = 2;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      moved.depth[static_cast<std::size_t>(y * kSide + x)] = static_cast<float>(map.at(x - kRight, y - kUp));
+  for (int y = 0; y < kWide; ++y) {
+    for (int x = 0; x < kWide; ++x) {
+      moved.depth[static_cast<std::size_t>(y * kWide + x)] = static_cast<float>(map.at(x - kRight, y - kUp));
     }
   }
-  const std::vector<Question> questions = random_questions(map, 256, 14, 12);
+  const std::vector<Question> questions = random_questions(map, 256, 14, kRim);
   std::vector<Question> along = questions;
   for (Question& q : along) q.position += glm::vec2(kRight, kUp);
   for (const FilterSettings& settings : variants()) {

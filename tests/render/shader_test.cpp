@@ -153,6 +153,8 @@ ShadowMap shadow_map(int index) { return engine.engine_maps[index]; }
     text += "#include \"library/fetch_" + std::string(reads) + ".glsl\"\n";
     text += filter.info.reads == MapRead::summed
                 ? "layout(binding = 24) uniform usampler2DArray engine_stored;\n"
+                  "ShadowTexel shadow_mean(ShadowLookup at) { return fetch_summed(engine_stored, at, "
+                  "1048576.0); }\n"
                 : "layout(binding = 24) uniform sampler2DArray engine_stored[GNOMON_SHADOW_VECTORS];\n";
     const std::string more = filter.info.reads == MapRead::joined   ? ", 16, options"
                              : filter.info.reads == MapRead::summed ? ", 1048576.0"

@@ -77,6 +77,9 @@ using StoredTexel = std::array<double, kMaxChannels>;
 struct FilterLookup {
   /// Depth of the texel at column x, row y; 1 outside of the map, where everything is lit.
   std::function<double(int x, int y)> map_depth;
+  /// The mean stored texel over a box of these half sides, in texels, round `position`: MapRead::summed
+  /// alone. Empty: the texel that the lookup was given stands in.
+  std::function<StoredTexel(const glm::dvec2& half_sides)> mean_of_box;
   /// Largest depth within the kernel of the stored texels, for filters that need it.
   double depth_max = 1.0;
   glm::dvec2 position{0.0};          ///< in texels: the centre of texel i is at i + 0.5

@@ -1,7 +1,8 @@
-// Sample patterns.
+// Sample patterns, and the size of penumbras.
 #include "filter_parts.hpp"
 
 #include <array>
+#include <numbers>
 
 namespace gnomon::render {
 namespace {
@@ -24,6 +25,11 @@ glm::dvec2 poisson_point(int i, double angle) noexcept {
   const glm::dvec2 p = kPoissonPoints[static_cast<std::size_t>(i) % kPoissonPoints.size()];
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * p.x - s * p.y, s * p.x + c * p.y};
+}
+
+double penumbra_radius(const FilterSettings& settings, double away, double light_distance) noexcept {
+  if (light_distance == 0.0) return std::tan(0.5 * settings.option[0] * std::numbers::pi / 180.0) * away;
+  return settings.option[1] * away / std::max(light_distance - away, 0.01 * light_distance);
 }
 
 }  // namespace gnomon::render

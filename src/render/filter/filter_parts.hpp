@@ -43,6 +43,16 @@ namespace gnomon::render {
   return slope == 0.0 ? 0.0 : (lookup.ray.x - z * lookup.ray.y) / slope;
 }
 
+/// Options of the filters of a light with a size, which lists them first and in this order.
+inline constexpr FilterOption kLightAngle{
+    "angle_deg", 2.0, 0.01, 60.0, "apparent diameter of a directional light, degrees; the sun has 0.53"};
+inline constexpr FilterOption kLightRadius{"light_radius", 0.25, 1e-6, 1e6,
+                                           "radius of a local light, world units"};
+/// penumbra.glsl: radius of the light's disc seen through a point `away` from the receiver, across the light
+/// at the receiver, world units.
+[[nodiscard]] double penumbra_radius(const FilterSettings& settings, double away,
+                                     double light_distance) noexcept;
+
 /// Options of the filters whose shadows fade in over a length along the light.
 inline constexpr FilterOption kFalloffWorld{
     "falloff_world", 0.0, 0.0, 1e6,

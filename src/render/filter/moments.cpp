@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace gnomon::render {
 
@@ -43,6 +45,37 @@ double share_in_front_bounded(const Moments& b, double u) noexcept {
   const double free_weight =
       (b[2] - b[1] * u - b[0] + u) / ((free_at + 1.0) * (free_at - u) * (free_at - 1.0));
   return free_at < u ? first + free_weight : first;
+}
+
+StoredTexel store_four_moments(double depth, const FilterSettings& settings) noexcept {
+  const double u = 2.0 * depth - 1.0, u2 = u * u;
+  const Moments b{u, u2, u2 * u, u2 * u2};
+  if (!is_unsigned_unit(settings.format)) return {b[0], b[1], b[2], b[3]};
+  return {0.5 + 1.5 * b[0] - 2.0 * b[2], 4.0 * (b[1] - b[3]),
+          0.5 + 0.86602540378443865 * b[0] - 0.38490017945975052 * b[2], 0.5 * (b[1] + b[3])};
+}
+
+Moments moments_of(const StoredTexel& texel, const FilterSettings& settings, double bias) noexcept {
+  Moments b{texel[0], texel[1], texel[2], texel[3]};
+  if (is_unsigned_unit(settings.format)) {
+    const double x = texel[0] - 0.5, z = texel[2] - 0.5;
+    b = {-x / 3.0 + 1.7320508075688772 * z, 0.125 * texel[1] + texel[3], -0.75 * x + 1.299038105676658 * z,
+         texel[3] - 0.125 * texel[1]};
+  }
+  // Below these shares the rounded moments of a flat kernel may be no moments at all (20 000 random kernels).
+  const bool coarse = is_unsigned_unit(settings.format) && settings.format != TexelFormat::uint32;
+  const double least = (coarse ? 8.0 : 64.0) * rounding_of(settings.format);
+  constexpr Moments kSpreadOut{0.0, 0.375, 0.0, 0.375};  // the widest distribution whose moments are these
+  const double share = std::max(bias, least);
+  for (std::size_t i = 0; i < b.size(); ++i) b[i] += share * (kSpreadOut[i] - b[i]);
+  return b;
+}
+
+double receiver_of_moments(const FilterLookup& lookup, const glm::dvec2& box) noexcept {
+  // On a slanted plane half of the kernel lies in front of the point: the bound would be right, and dark.
+  constexpr double kSlant = 0.5;
+  const double slant = kSlant * glm::dot(glm::abs(lookup.depth_gradient), box);
+  return 2.0 * std::min(lookup.depth - slant, 1.0) - 1.0;
 }
 
 }  // namespace gnomon::render

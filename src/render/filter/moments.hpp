@@ -1,8 +1,11 @@
-// The moment problem that moment shadow maps rest on. shaders/library/moments.glsl mirrors it.
+// The moment problem that moment shadow maps rest on, and how their moments are stored.
+// shaders/library/moments.glsl mirrors it.
 #pragma once
 
 #include <array>
 #include <glm/vec2.hpp>
+
+#include "gnomon/render/filter.hpp"
 
 namespace gnomon::render {
 
@@ -19,5 +22,16 @@ struct ShareInFront {
 
 /// The same where all depths are known to lie in [-1, 1]: at least as large.
 [[nodiscard]] double share_in_front_bounded(const Moments& b, double u) noexcept;
+
+/// The four moments of u = 2 depth - 1. In formats of 0..1 they go through a change of basis that makes use
+/// of all steps (Peters 2017, whose linear part it is).
+[[nodiscard]] StoredTexel store_four_moments(double depth, const FilterSettings& settings) noexcept;
+/// The moments of a stored texel, moved by a share of `bias` towards those of depths spread out: what is
+/// stored has been rounded, and may be no moments at all. Never less than what the format's rounding needs.
+[[nodiscard]] Moments moments_of(const StoredTexel& texel, const FilterSettings& settings,
+                                 double bias) noexcept;
+/// The receiver as depths are stored, less the part of a slanted plane that lies in front of it within a box
+/// of these half sides, texels.
+[[nodiscard]] double receiver_of_moments(const FilterLookup& lookup, const glm::dvec2& box) noexcept;
 
 }  // namespace gnomon::render

@@ -4,25 +4,18 @@
 // The light's size is an angle for parallel light and a radius for lights with a position. Distances are
 // taken along the light in world units and turned back into texels by the map's derivatives at the point, so
 // that cascades and warps have the same penumbra. FilterSettings::radius is the widest kernel.
-#include <numbers>
-
 #include "filter_parts.hpp"
 
 namespace gnomon::render {
 namespace {
 
 constexpr FilterOption kOptions[] = {
-    {"angle_deg", 2.0, 0.01, 60.0, "apparent diameter of a directional light, degrees; the sun has 0.53"},
-    {"light_radius", 0.25, 1e-6, 1e6, "radius of a local light, world units"},
+    kLightAngle,
+    kLightRadius,
     {"search_samples", 16, 1, 64, "depths read by the blocker search"},
     {"samples", 32, 1, 64, "samples of the kernel, four comparisons each"},
     {"rotate", 1, 0, 1, "1 rotates the samples per pixel: noise instead of banding; 0 does not"},
 };
-
-double penumbra_radius(const FilterSettings& settings, double away, double light_distance) noexcept {
-  if (light_distance == 0.0) return std::tan(0.5 * settings.option[0] * std::numbers::pi / 180.0) * away;
-  return settings.option[1] * away / std::max(light_distance - away, 0.01 * light_distance);
-}
 
 double widest_column(const glm::dmat2& m) noexcept {
   return std::sqrt(std::max(glm::dot(m[0], m[0]), glm::dot(m[1], m[1])));

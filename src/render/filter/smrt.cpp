@@ -6,25 +6,18 @@
 // that there are none. A ray is cut into stretches there; each reads one texel, and what that stores blocks
 // where it lies in the stretch. A ray that leaves the underside of one caster for the upper side of another
 // went through what joins them: a wall that the light grazes.
-#include <numbers>
-
 #include "filter_parts.hpp"
 
 namespace gnomon::render {
 namespace {
 
 constexpr FilterOption kOptions[] = {
-    {"angle_deg", 2.0, 0.01, 60.0, "apparent diameter of a directional light, degrees; the sun has 0.53"},
-    {"light_radius", 0.25, 1e-6, 1e6, "radius of a local light, world units"},
+    kLightAngle,
+    kLightRadius,
     {"rays", 16, 1, 64, "rays to the light: more have less noise, at their price"},
     {"steps", 4, 1, 64, "texels read along a ray: more keep thin casters apart, at their price"},
     {"rotate", 1, 0, 1, "1 turns and shifts the rays per pixel: noise instead of banding; 0 does not"},
 };
-
-double penumbra_radius(const FilterSettings& settings, double away, double light_distance) noexcept {
-  if (light_distance == 0.0) return std::tan(0.5 * settings.option[0] * std::numbers::pi / 180.0) * away;
-  return settings.option[1] * away / std::max(light_distance - away, 0.01 * light_distance);
-}
 
 glm::dvec2 within_kernel(const FilterLookup& lookup, const glm::dvec2& offset) noexcept {
   const glm::dmat2& disc = lookup.disc;

@@ -68,20 +68,22 @@ void main() {
 constexpr const char* kAskSummed = R"(
 #include "library/fetch_summed.glsl"
 layout(binding = 8) uniform usampler2DArray sums;
+ShadowTexel shadow_mean(ShadowLookup at) { return fetch_summed(sums, at, filtering.sums.x); }
 void main() {
   ShadowLookup at = question();
-  answer = vec4(shadow_visibility(fetch_summed(sums, at, filtering.sums.x), depth_map, depth_max, at,
-                                  shadow_options(0)));
+  answer = vec4(shadow_visibility(shadow_mean(at), depth_map, depth_max, at, shadow_options(0)));
 }
 )";
 constexpr const char* kAskTexels = R"(
+ShadowTexel texel;
+ShadowTexel shadow_mean(ShadowLookup at) { return texel; }
 void main() {
-  ShadowTexel texel;
   for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) texel.v[i] = texelFetch(texels, ivec2(gl_FragCoord.x, i), 0);
   answer = vec4(shadow_visibility(texel, depth_map, depth_max, question(), shadow_options(0)));
 }
 )";
 constexpr const char* kStore = R"(
+ShadowTexel shadow_mean(ShadowLookup at) { return shadow_nothing(shadow_options(0)); }
 layout(location = 1) uniform int vector;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);

@@ -65,8 +65,10 @@ class Reference {
   [[nodiscard]] StoredTexel rounded(StoredTexel texel) const noexcept;
   void join(StoredTexel& sum, const StoredTexel& texel, double weight) const;
   [[nodiscard]] StoredTexel nothing() const;
-  [[nodiscard]] StoredTexel mean_of_box(const glm::dvec2& position) const;
-  [[nodiscard]] double value(const StoredTexel& texel, const Question& question) const;
+  [[nodiscard]] StoredTexel mean_of_box(const glm::dvec2& position, const glm::dvec2& half_sides) const;
+  /// `change`: added to every further texel that the lookup finds.
+  [[nodiscard]] double value(const StoredTexel& texel, const Question& question,
+                             const StoredTexel& change) const;
 
   FilterSettings settings_;
   const TestMap& map_;

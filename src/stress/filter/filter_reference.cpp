@@ -109,9 +109,10 @@ StoredTexel Reference::nothing() const {
                                                         : StoredTexel{};
 }
 
-StoredTexel Reference::mean_of_box(const glm::dvec2& position) const {
-  const double steps = filter_block(settings_, {}).sums.x, half = settings_.radius + 0.5;
-  const glm::dvec2 low = position - half, high = position + half;
+StoredTexel Reference::mean_of_box(const glm::dvec2& position, const glm::dvec2& half_sides) const {
+  const double steps = filter_block(settings_, {}).sums.x;
+  const auto channels = static_cast<std::size_t>(settings_.filter->info.channels(settings_));
+  const glm::dvec2 low = position - half_sides, high = position + half_sides;
   const auto overlap = [](int i, double a, double b) {
     return std::clamp(std::min(b, i + 1.0) - std::max(a, 1.0 * i), 0.0, 1.0);
   };
@@ -122,7 +123,7 @@ StoredTexel Reference::mean_of_box(const glm::dvec2& position) const {
       if (x < 0 || y < 0 || x >= map_.width || y >= map_.height) continue;
       const double share = overlap(x, low.x, high.x) * overlap(y, low.y, high.y);
       const StoredTexel texel = stored(x, y);
-      for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t i = 0; i < channels; ++i) {
         const double kept = std::clamp(texel[i], 0.0, 1.0);
         sum[i] += share * (exact_ ? kept : std::floor(kept * steps + 0.5) / steps);
       }
@@ -135,7 +136,8 @@ StoredTexel Reference::mean_of_box(const glm::dvec2& position) const {
 
 StoredTexel Reference::texel(const glm::dvec2& position) const {
   if (settings_.filter->info.reads == MapRead::depth) return {};
-  if (settings_.filter->info.reads == MapRead::summed) return mean_of_box(position);
+  if (settings_.filter->info.reads == MapRead::summed)
+    return mean_of_box(position, glm::dvec2(settings_.radius + 0.5));
   const glm::dvec2 first{std::floor(position.x - 0.5), std::floor(position.y - 0.5)};
   const glm::dvec2 part = position - 0.5 - first;
   StoredTexel sum = nothing();
@@ -150,12 +152,18 @@ StoredTexel Reference::texel(const glm::dvec2& position) const {
   return sum;
 }
 
-double Reference::value(const StoredTexel& texel, const Question& question) const {
-  return settings_.filter->reference.visibility(texel, lookup_of(settings_, map_, question), settings_);
+double Reference::value(const StoredTexel& texel, const Question& question, const StoredTexel& change) const {
+  FilterLookup lookup = lookup_of(settings_, map_, question);
+  lookup.mean_of_box = [&](const glm::dvec2& half_sides) {
+    StoredTexel mean = mean_of_box(question.position, half_sides);
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += change[i];
+    return mean;
+  };
+  return settings_.filter->reference.visibility(texel, lookup, settings_);
 }
 
 double Reference::answer(const Question& question) const {
-  return value(texel(question.position), question);
+  return value(texel(question.position), question, {});
 }
 
 double Reference::bound(const Question& question) const {
@@ -163,10 +171,12 @@ double Reference::bound(const Question& question) const {
   constexpr double kSumRounding = 2.0 * 65.0 * 0x1p-24, kDepthRounding = 4.0 * 0x1p-24,
                    kResultRounding = 1e-5;
   const StoredTexel here = texel(question.position);
-  const double known = value(here, question);
+  const double known = value(here, question, {});
   double sum = kResultRounding;
-  const auto add = [&](const StoredTexel& changed, const Question& asked) {
-    sum += std::abs(value(changed, asked) - known);
+  const auto add = [&](const StoredTexel& change, const Question& asked) {
+    StoredTexel changed = here;
+    for (std::size_t i = 0; i < changed.size(); ++i) changed[i] += change[i];
+    sum += std::abs(value(changed, asked, change) - known);
   };
   const int channels =
       settings_.filter->info.channels == nullptr ? 0 : settings_.filter->info.channels(settings_);
@@ -185,15 +195,15 @@ double Reference::bound(const Question& question) const {
     const double change =
         size * (2.0 * rounding_of(settings_.format) + kSumRounding) + spread * weights + step;
     for (const double sign : {-1.0, 1.0}) {
-      StoredTexel changed = here;
-      changed[i] += sign * change;
+      StoredTexel changed{};
+      changed[i] = sign * change;
       add(changed, question);
     }
   }
   for (const double sign : {-1.0, 1.0}) {
     Question moved = question;
     moved.depth += static_cast<float>(sign * kDepthRounding);
-    add(here, moved);
+    add({}, moved);
   }
   return sum;
 }
