@@ -109,7 +109,7 @@ struct ShadowMap {
   /// a cube 0 to 5 in the order +x -x +y -y +z -z (of the world for a point light; a wide spot's face 5 looks
   /// along it). Partition::tetrahedron: 0 looks along -y, 1 to 3 the other ways. Partition::frustum_faces:
   /// the face, in the order left, right, bottom, top, near, far. separating_plane: 0 before the plane, 1
-  /// behind.
+  /// behind. receiver_clusters: the cluster, in the order of their division.
   int cascade = 0;
   int width = 0, height = 0;  ///< texels; may differ, and from map to map (metric_resolution, texel_budget)
   const Shape* shape = &shapes::linear;  ///< how the texels lie on the projected square; never nullptr

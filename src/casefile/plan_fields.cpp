@@ -139,7 +139,7 @@ std::vector<PlanField> make_fields() {
        PlanChoice{split_range_names, set_split_range, split_range_of}},
       {"partition", "what divides the receivers among the maps",
        GNOMON_CHOICE(split.partition, partition_from_name, "view_depth", "frustum_faces", "separating_plane",
-                     "tetrahedron")},
+                     "tetrahedron", "receiver_clusters")},
       {"warp", "perspective warp of the maps", PlanChoice{warp_names, set_warp, warp_of}},
       {"shape", "how texels lie along the warp", PlanChoice{shape_names, set_shape, shape_of}},
       {"objective", "error that the warp lowers",

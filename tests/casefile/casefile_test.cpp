@@ -90,8 +90,9 @@ TEST(CaseFile, finds_every_registered_warp_by_name) {
 }
 
 TEST(CaseFile, reads_partitions_and_takes_the_separating_plane_as_a_warp_too) {
-  for (const Partition partition : {Partition::view_depth, Partition::frustum_faces,
-                                    Partition::separating_plane, Partition::tetrahedron}) {
+  for (const Partition partition :
+       {Partition::view_depth, Partition::frustum_faces, Partition::separating_plane, Partition::tetrahedron,
+        Partition::receiver_clusters}) {
     const std::string options = R"({"partition": ")" + std::string(to_string(partition)) + R"("})";
     EXPECT_EQ(read_case(text_with(kSun, options)).options.split.partition, partition);
   }

@@ -98,7 +98,8 @@ TEST(Split, every_partition_has_the_name_that_case_files_use) {
       {Partition::view_depth, "view_depth"},
       {Partition::frustum_faces, "frustum_faces"},
       {Partition::separating_plane, "separating_plane"},
-      {Partition::tetrahedron, "tetrahedron"}};
+      {Partition::tetrahedron, "tetrahedron"},
+      {Partition::receiver_clusters, "receiver_clusters"}};
   for (const auto& [partition, name] : kNames) {
     EXPECT_EQ(to_string(partition), name);
     Partition found = partition == Partition::view_depth ? Partition::frustum_faces : Partition::view_depth;

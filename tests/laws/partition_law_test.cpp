@@ -14,12 +14,13 @@
 namespace gnomon::test {
 namespace {
 
-constexpr std::array kDivided = {Partition::frustum_faces, Partition::separating_plane};
+constexpr std::array kDivided = {Partition::frustum_faces, Partition::separating_plane,
+                                 Partition::receiver_clusters};
 
 Case draw_divided() {
   Case c = draw_case();
   c.options.fit = chance(0.3) ? Fit::rotated : Fit::tight;
-  c.options.split.partition = kDivided[static_cast<std::size_t>(pick(2))];
+  c.options.split.partition = kDivided[static_cast<std::size_t>(pick(3))];
   return c;
 }
 

@@ -1,4 +1,4 @@
-// Divides the receivers by the faces of the camera's frustum, or by a plane where warping ends.
+// Divides the receivers by the faces of the camera's frustum, by a plane where warping ends, or by clusters.
 // Based on: Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006 (frustum faces);
 // Mikkelsen, "Separating-plane perspective shadow mapping", 2007.
 #include "plan/parts.hpp"
@@ -14,71 +14,17 @@
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "map/gain.hpp"
+#include "plan/clusters.hpp"
+#include "plan/part.hpp"
 
 namespace gnomon {
 namespace {
 
-// A convex body with six faces shows at most five of them from any side.
-constexpr int kMaxParts = 5;
 constexpr int kFrustumFaces = 6;
 // Sine below which a face lies along the light: nothing enters by it.
 constexpr double kAlongLight = 1e-9;
-// Parts overlap by this much of the body's distance, and of the camera's from the origin of the world: a
-// point must not fall between three of them by rounding.
-constexpr double kOverlap = 1e-12, kPositionRounding = 1e-14;
 // Dividing must gain this much, or it would come and go with the last bits of the input.
 constexpr double kLeastGain = 1e-3;
-
-struct Part {
-  Polytope body;
-  std::array<Plane, kMaxSelectPlanes> plane;  // relative to the camera
-  int plane_count = 0;
-  int index = 0;
-  LightFrame frame;
-  const Warp* warp;
-  double begin, end;  // view depths
-};
-
-struct Parts {
-  std::array<Part, kMaxParts> part;
-  int count = 0;
-  double objective = 0.0;
-  bool no_place = false;  // a plane was looked for, and none has both maps equally dense
-};
-
-MapRequest request_of(const Part& part) noexcept {
-  LightSpace space;
-  space.frame = part.frame;
-  return {{}, part.body, space, *part.warp, part.begin, part.end, {}, 0.0, 0.0, 0.0, false, {}};
-}
-
-/// Cuts the part's depths to its body's.
-void narrow_depths(const PlanContext& c, Part& part) noexcept {
-  const DepthRange depths = depths_of(part.body, c.axes.forward);
-  part.begin = max_of(part.begin, min_of(depths.begin, part.end));
-  part.end = clamp_to(depths.end, part.begin, part.end);
-}
-
-/// Adds what of `body` is inside the part's planes, where anything is.
-void add_part(const PlanContext& c, const Polytope& body, Part part, Parts& parts) noexcept {
-  double farthest = 0.0;
-  for (const Polytope::Vertex& v : body.vertices())
-    farthest = max_of(farthest, largest_component(v.position));
-  const double overlap = kOverlap * farthest + kPositionRounding * largest_component(c.camera.position);
-  part.body = body;
-  for (int i = 0; i < part.plane_count; ++i) {
-    Plane& plane = part.plane[static_cast<std::size_t>(i)];
-    plane.offset += overlap;
-    clip(part.body, plane);
-  }
-  if (part.plane_count > 0) clip_part(part.body, c.bounds.receivers, c.camera.position);
-  if (part.body.empty()) return;
-  if (part.plane_count > 0) narrow_depths(c, part);
-  const double objective = focused_objective(c, request_of(part)).value;
-  parts.objective = c.options.warp.objective == Objective::storage ? parts.objective + objective
-                                                                   : max_of(parts.objective, objective);
-  parts.part[static_cast<std::size_t>(parts.count++)] = part;
-}
 
 /// Across the light, towards where a face gets deeper: there its texels may grow.
 LightFrame frame_of_face(const PlanContext& c, const ParallelScene& scene, const Plane& face) noexcept {
@@ -230,12 +176,12 @@ Parts separated_parts(const PlanContext& c, const ParallelScene& scene, const Po
   return parts;
 }
 
-/// The objective of as many cascades as a plane makes parts, each warped.
-double two_cascades(const PlanContext& c, const ParallelScene& scene, const Polytope& body, double begin,
-                    double end) noexcept {
-  const CascadeEdges edges = cascade_edges(c, scene, 2, {});
+/// The objective of so many cascades, each warped.
+double cascades_objective(const PlanContext& c, const ParallelScene& scene, const Polytope& body,
+                          double begin, double end, int count) noexcept {
+  const CascadeEdges edges = cascade_edges(c, scene, count, {});
   Parts cascades;
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(edges.count); ++i) {
     Part part;
     part.begin = max_of(begin, edges.depth[i]);
     part.end = min_of(end, edges.depth[i + 1]);
@@ -249,8 +195,22 @@ double two_cascades(const PlanContext& c, const ParallelScene& scene, const Poly
   return cascades.count > 0 ? cascades.objective : std::numeric_limits<double>::infinity();
 }
 
+/// How many cascades a partition must be better than; 0: none.
+int rival_cascades(const PlanContext& c) noexcept {
+  switch (c.options.split.partition) {
+    case Partition::separating_plane:
+      return 2;
+    case Partition::receiver_clusters:
+      return c.options.cascades > 1 ? c.options.cascades : 0;
+    default:
+      return 0;
+  }
+}
+
 Parts divided(const PlanContext& c, const ParallelScene& scene, const Polytope& body, double begin,
               double end) noexcept {
+  if (c.options.split.partition == Partition::receiver_clusters)
+    return receiver_clusters(c, scene, body, begin, end);
   // Without perspective one map's texels are right everywhere.
   if (c.camera.orthographic) return {};
   if (c.options.split.partition == Partition::separating_plane)
@@ -293,12 +253,13 @@ void plan_parts(const PlanContext& c, const ParallelScene& scene, ShadowPlan& pl
   add_part(c, body, all, whole);
   const Parts parts = divided(c, scene, body, begin, end);
   const bool gains = parts.count > 1 && parts.objective < whole.objective * (1.0 - kLeastGain);
-  if ((gains || parts.no_place) && c.options.split.partition == Partition::separating_plane) {
-    const double cascades = two_cascades(c, scene, body, begin, end);
+  const bool clusters = c.options.split.partition == Partition::receiver_clusters;
+  if (const int rivals = rival_cascades(c); rivals > 0 && (gains || parts.no_place || clusters)) {
+    const double cascades = cascades_objective(c, scene, body, begin, end, rivals);
     const double beaten = gains ? parts.objective : whole.objective * (1.0 - kLeastGain);
     if (cascades < beaten) {
       // As many maps, and better ones.
-      plan_cascades(c, scene, 2, equal_sizes(c.options.resolution.max_size), nullptr, plan);
+      plan_cascades(c, scene, rivals, equal_sizes(c.options.resolution.max_size), nullptr, plan);
       omit(plan, {OmissionKind::partition_without_gain, -1, beaten / cascades, 0.0, 0});
       return;
     }

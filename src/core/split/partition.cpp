@@ -8,8 +8,8 @@
 namespace gnomon {
 namespace {
 
-constexpr std::array<std::string_view, 4> kPartitionNames = {"view_depth", "frustum_faces",
-                                                             "separating_plane", "tetrahedron"};
+constexpr std::array<std::string_view, 5> kPartitionNames = {
+    "view_depth", "frustum_faces", "separating_plane", "tetrahedron", "receiver_clusters"};
 
 }  // namespace
 

@@ -348,7 +348,8 @@ void draw_split(Dice& dice, const Stage& s, Json& o) {
   static constexpr std::string_view kRanges[] = {"auto", "receivers", "camera"};
   if (dice.chance(0.4)) o["split_range"] = dice.name(kRanges);
   if (dice.chance(0.2)) o["split_overlap"] = dice.chance(0.2) ? 1.0 : dice.unit();
-  static constexpr std::string_view kPartitions[] = {"frustum_faces", "separating_plane", "tetrahedron"};
+  static constexpr std::string_view kPartitions[] = {"frustum_faces", "separating_plane", "tetrahedron",
+                                                     "receiver_clusters"};
   if (dice.chance(0.2)) o["partition"] = dice.name(kPartitions);
 }
 

@@ -216,10 +216,12 @@ bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
            t.cascades != first.cascades || t.fit != first.fit;
   if (is_tetrahedron && t.split != first.split) return true;
   const bool by_depth = entry.plan.split.partition == Partition::view_depth;
+  const bool as_many = by_depth || entry.plan.split.partition == Partition::receiver_clusters;
   // What is seen bounds one map, too.
   const bool follows_view = entry.visible_depths || entry.visible_points;
   if (by_depth && t.cascades == 1 && t.split != first.split && !follows_view) return true;
-  if (!by_depth && t.cascades != first.cascades) return true;
+  if (as_many && !by_depth && t.cascades == 1) return true;
+  if (!as_many && t.cascades != first.cascades) return true;
   return t.fit == "stable" && (!by_depth || (t.warp != "none" && t.warp != first.warp));
 }
 
@@ -400,8 +402,8 @@ std::string compare_footer() {
 }
 
 std::vector<std::string> split_names() {
-  return {"auto",    "uniform",    "logarithmic",   "practical",       "pseudo_near",
-          "optimal", "view_depth", "frustum_faces", "separating_plane"};
+  return {"auto",    "uniform",    "logarithmic",   "practical",        "pseudo_near",
+          "optimal", "view_depth", "frustum_faces", "separating_plane", "receiver_clusters"};
 }
 
 std::vector<std::string> split_lists(const std::vector<std::string>& lists) {

@@ -1,0 +1,34 @@
+// One part of the receivers of parallel light, with a map of its own, and what several parts cost together.
+#pragma once
+
+#include <array>
+
+#include "gnomon/plan.hpp"
+#include "plan/cascades.hpp"
+
+namespace gnomon {
+
+struct Part {
+  Polytope body;
+  std::array<Plane, kMaxSelectPlanes> plane;  // relative to the camera
+  int plane_count = 0;
+  int index = 0;
+  LightFrame frame;
+  const Warp* warp;
+  double begin, end;  // view depths
+};
+
+struct Parts {
+  std::array<Part, kMaxMaps> part;
+  int count = 0;
+  double objective = 0.0;
+  bool no_place = false;  // a plane was looked for, and none has both maps equally dense
+};
+
+[[nodiscard]] MapRequest request_of(const Part& part) noexcept;
+/// Cuts the part's depths to its body's.
+void narrow_depths(const PlanContext& c, Part& part) noexcept;
+/// Adds what of `body` is inside the part's planes, where anything is.
+void add_part(const PlanContext& c, const Polytope& body, Part part, Parts& parts) noexcept;
+
+}  // namespace gnomon
