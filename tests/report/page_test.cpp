@@ -204,6 +204,21 @@ TEST(Page, holds_every_technique_of_every_scene_and_of_all_together) {
   EXPECT_EQ(count(text_of(reported.folder.path() / "frames.csv"), "\n"), 21u);
 }
 
+TEST(Page, draws_the_time_to_an_error_of_a_filter_that_has_one_technique_alone) {
+  const Reported reported({sample_row()});
+  const std::string chart = text_of(reported.folder.path() / "charts/time_to_error_all.svg");
+  const std::size_t path = chart.find("<path class=\"line");
+  ASSERT_NE(path, std::string::npos) << chart;
+  // From the error that it reaches to the end of the axis: two places.
+  const std::size_t data = chart.find(" d=\"", path) + 4;
+  double from_x = 0.0, from_y = 0.0, to_x = 0.0, to_y = 0.0;
+  ASSERT_EQ(std::sscanf(chart.c_str() + data, "M%lf,%lfL%lf,%lf", &from_x, &from_y, &to_x, &to_y), 4)
+      << chart.substr(data, 60);
+  EXPECT_GT(from_x, to_x + 10.0);
+  EXPECT_EQ(from_y, to_y);
+  EXPECT_EQ(count(chart, "class=\"mark "), 1u);
+}
+
 TEST(Page, loads_nothing_and_lets_only_its_own_script_run) {
   const std::string page = Reported(sample_rows(1, 3)).page;
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);

@@ -75,24 +75,29 @@ Chart error_time_chart(const Summary& summary, std::size_t scene) {
 
 Chart time_to_error_chart(const Summary& summary, std::size_t scene) {
   const std::size_t error = measure_index(kDefaultError), cost = measure_index(kDefaultCost);
-  Chart chart("Time to reach an error: " + summary.scenes[scene], axis_of(summary, scene, error),
-              axis_of(summary, scene, cost));
+  const Axis errors = axis_of(summary, scene, error);
+  Chart chart("Time to reach an error: " + summary.scenes[scene], errors, axis_of(summary, scene, cost));
   for (std::size_t f = 0; f < summary.filters.size(); ++f) {
     std::vector<Choice> choices;
+    std::vector<std::size_t> techniques;
     for (std::size_t t = 0; t < summary.techniques.size(); ++t) {
       const Cell& cell = summary.cells[scene][t];
-      if (cell.measured && summary.techniques[t].filter == summary.filters[f])
-        choices.push_back({cell.values[cost], measures()[error].shown(cell.values[error])});
+      if (!cell.measured || summary.techniques[t].filter != summary.filters[f]) continue;
+      choices.push_back({cell.values[cost], measures()[error].shown(cell.values[error])});
+      techniques.push_back(t);
     }
-    double largest = 0.0;
-    for (const Choice& choice : choices) largest = std::max(largest, choice.error);
+    const std::vector<std::size_t> front = pareto_front(choices);
     // The cheapest serves every error above its own; below it the next is needed.
     std::vector<Point> points;
-    for (const std::size_t i : pareto_front(choices)) {
-      points.push_back({points.empty() ? largest : points.back().x, choices[i].cost});
+    for (const std::size_t i : front) {
+      points.push_back({points.empty() ? errors.high : points.back().x, choices[i].cost});
       points.push_back({choices[i].error, choices[i].cost});
     }
     chart.line(points, f, "line", summary.filters[f]);
+    for (const std::size_t i : front)
+      chart.mark({choices[i].error, choices[i].cost}, f,
+                 place_in(summary.kinds, summary.techniques[techniques[i]].kind()),
+                 tip_of(summary, scene, techniques[i]), techniques[i]);
     chart.legend_color(summary.filters[f], f);
   }
   return chart;
