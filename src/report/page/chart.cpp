@@ -223,7 +223,7 @@ std::string Chart::embedded(std::string_view id) const {
 std::string Chart::standalone() const {
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + coordinate(kWidth) + "\" height=\"" +
          coordinate(kHeight) + "\" viewBox=\"0 0 " + coordinate(kWidth) + " " + coordinate(kHeight) +
-         "\">\n" + kStyle + body() + "</svg>\n";
+         "\">\n" + kStyle + "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + body() + "</svg>\n";
 }
 
 }  // namespace gnomon::report
