@@ -60,6 +60,25 @@ TEST(Positional, a_spot_that_looks_away_from_the_view_or_ends_before_it_shows_no
   EXPECT_EQ(room.plan(room.point).status, PlanStatus::nothing_visible);
 }
 
+TEST(Positional, maps_begin_where_the_light_reaches_towards_an_eye_beyond_its_range) {
+  Room room;
+  room.receivers = {{{-100, -1, -100}, {100, 0, 100}}};
+  room.casters = {{{-2, 0, -2}, {2, 3, 2}}};
+  room.point = {{0, 1, 0}, 10.0};
+  const glm::dvec3 eye{15, 1, 15};  // 21.2 units away; the cube round the range begins 7.1 from it
+  room.camera =
+      perspective_camera(eye, room.point.position - eye, {0, 1, 0}, 60 * kDegree, 1.5, 0.2, 60, 960, 640);
+  const double reach = glm::length(eye - room.point.position) - room.point.range;
+  ShadowPlan plan = room.plan(room.point);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  for (const ShadowMap& map : plan.maps()) EXPECT_GE(map.depth_begin, reach * (1.0 - 1e-6));
+  // An eye within the range sees lit points from its near plane on.
+  room.point.range = 30.0;
+  plan = room.plan(room.point);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  EXPECT_LT(plan.map[0].depth_begin, reach);
+}
+
 TEST(Positional, receivers_that_nothing_can_shadow_need_no_map) {
   Room room;
   room.casters = {{{-1, 9, -1}, {1, 10, 1}}, Box{}};  // above the spot

@@ -168,8 +168,8 @@ void hold(bool parallel, int cases, int least_bodies) {
   EXPECT_GT(search_worst.back(), 0.0);
   EXPECT_LT(search_worst[search_worst.size() * 98 / 100], kSearchApart);
   EXPECT_LE(100 * weaker_as_good, along_bodies) << "strengths along the view that a weaker one equals";
-  // Logarithms, by objective; four seeds gave no less than a quarter more. Less: a stage of the search is
-  // idle.
+  // Logarithms, by objective: four deviations of so many cases below the mean of 150 seeds. Less: a stage of
+  // the search is idle.
   const std::array<double, 3> least_gain =
       parallel ? std::array{0.17, 0.11, 0.09} : std::array{0.27, 0.17, 0.15};
   for (std::size_t i = 0; i < worst.size(); ++i) {
@@ -183,11 +183,11 @@ void hold(bool parallel, int cases, int least_bodies) {
 }
 
 TEST(BestWarpLaw, under_parallel_light_no_registered_warp_is_better_than_optimal) {
-  hold(true, 1500, 500);
+  hold(true, 3000, 1000);
 }
 
 TEST(BestWarpLaw, under_local_lights_no_registered_warp_is_better_than_optimal) {
-  hold(false, 1500, 100);
+  hold(false, 6000, 400);
 }
 
 }  // namespace

@@ -245,7 +245,7 @@ TEST(MotionLaw, a_search_from_the_last_result_finds_what_one_from_nothing_finds_
   for (const Objective objective : {Objective::storage, Objective::max, Objective::p95}) {
     std::vector<double> all, early, late;
     int searches = 0;
-    for_all(5, [&] {
+    for_all(12, [&] {
       Walk w = draw_walk();
       w.options.warp.warp = &kFollow;
       w.options.warp.objective = objective;

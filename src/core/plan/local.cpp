@@ -98,6 +98,18 @@ LocalFrustum triangle_frustum(const glm::dvec3& apex, std::size_t face) noexcept
   return frustum;
 }
 
+/// Cuts off what lies nearer to an eye beyond the range than the light reaches: the cube round the range goes
+/// on to there, and its nearest points would decide the error.
+void clip_towards_eye(LocalScene& scene) noexcept {
+  const double distance = glm::length(scene.apex);
+  // Rounding of the range must not cut what is lit.
+  constexpr double kRoom = 1.0 + 1e-9;
+  const double reach = scene.range * kRoom;
+  if (!(distance > reach)) return;
+  const glm::dvec3 from_eye = scene.apex / distance;
+  clip(scene.lit, Plane{from_eye, reach - distance});
+}
+
 /// Distance in front of which the frustum shows nothing: where boxes leave it open, a share of the farthest
 /// lit distance; where receivers are known to be nearer, theirs.
 double nearest_shown(const LocalScene& scene, const LocalFrustum& frustum, const Polytope& body,
@@ -362,6 +374,7 @@ void plan_local(const PlanContext& c, const Light& light, PlanHistory* history, 
   constexpr double kLeastRange = 1e-12;
   if (scene.range <= kLeastRange * largest_component(scene.apex)) scene.lit.vertex_count = 0;
   clip(scene.lit, Box{scene.apex - glm::dvec3(scene.range), scene.apex + glm::dvec3(scene.range)});
+  clip_towards_eye(scene);
   if (!scene.lit.empty()) clip(scene.lit, visible_bounds(scene.lit, c.bounds.receivers, camera.position));
   plan.light_direction = spot != nullptr ? safe_normalize(spot->direction, {0.0, -1.0, 0.0})
                                          : safe_normalize(-scene.apex, c.axes.forward);

@@ -140,7 +140,7 @@ void improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) 
   }
   error.count_all();
   // Nearer than this, a part of the samples does not tell; a bound does.
-  constexpr double kNear = 1.3;
+  constexpr double kNear = 1.6;
   const double enough = bound ? best.value : value[0] * kNear;
   for (std::size_t i = 1; i < count; ++i) {
     if (!(value[i] < enough)) continue;

@@ -63,9 +63,21 @@ const Plane* receiver_plane(const WarpInput& input) noexcept {
   constexpr double kLeastShare = 1e-9;
   double any_face = 0.0;
   for (const double a : area) any_face = max_of(any_face, std::abs(a));
-  // Of faces whose areas differ by rounding alone the one nearest to the eye is taken, on any machine and
-  // however the world is turned.
+  // All faces of a body that is a point or a line are rounding.
+  constexpr double kNoArea = 1e-13;
+  double farthest = 0.0;
+  for (const WarpInput::Point& p : input.body)
+    farthest = max_of(farthest, max_of(std::abs(p.x), std::abs(p.y)));
+  if (!(any_face > kNoArea * farthest * farthest)) return nullptr;
+  // Faces whose areas differ by rounding alone are told apart by what turning the world leaves alone: the one
+  // nearest to the eye, then the one that faces up or right in the picture.
   constexpr double kSame = 1e-6;
+  const auto comes_first = [&](const Plane& one, const Plane& other) {
+    const double nearer = other.offset - one.offset;
+    if (std::abs(nearer) > kSame * other.offset) return nearer > 0.0;
+    const double up = glm::dot(input.view.up, one.normal - other.normal);
+    return std::abs(up) > kSame ? up > 0.0 : glm::dot(input.view.right, one.normal - other.normal) > kSame;
+  };
   const Plane* best = nullptr;
   double largest = 0.0;
   for (int f = 0; f < body.face_count; ++f) {
@@ -77,7 +89,7 @@ const Plane* receiver_plane(const WarpInput& input) noexcept {
     const double size = std::abs(area[index]);
     if (!(size > kLeastShare * any_face)) continue;
     const bool same = best != nullptr && std::abs(size - largest) <= kSame * largest;
-    if (same ? !(plane.offset < best->offset * (1.0 - kSame)) : !(size > largest)) continue;
+    if (same ? !comes_first(plane, *best) : !(size > largest)) continue;
     largest = size;
     best = &plane;
   }
