@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
@@ -84,6 +85,19 @@ TEST(ReceiverClusters, hold_every_island_in_as_many_maps_as_were_requested) {
       const glm::dvec3 top{0.5 * (box.min.x + box.max.x), box.max.y, 0.5 * (box.min.z + box.max.z)};
       EXPECT_GE(map_serving(plan, top, top.z), 0) << cascades << " at " << top.z;
     }
+  }
+}
+
+TEST(ReceiverClusters, save_texels_where_many_islands_share_few_maps) {
+  std::vector<Box> boxes;
+  for (int i = 0; i < 12; ++i) {
+    const double z = 30.0 + 20.0 * (i % 6), x = (i * 5 % 12 - 5.5) * 0.12 * z;
+    boxes.push_back({{x - 3, 0, z - 3}, {x + 3, 3, z + 3}});
+  }
+  Scene scene(boxes);
+  for (const auto& [cascades, share] : {std::pair{4, 0.9}, {8, 0.5}}) {
+    scene.options.cascades = cascades;
+    EXPECT_LT(scene.storage(scene.plan()), share * scene.storage(scene.cascades())) << cascades;
   }
 }
 

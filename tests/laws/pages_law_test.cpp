@@ -169,7 +169,10 @@ TEST(PagesLaw, the_pool_is_never_exceeded_and_no_point_loses_its_page) {
     small.options.policy = all_page_policies()[static_cast<std::size_t>(pick(5))];
     PageStorage memory(small.options.capacity, scene.points.size());
     const PagePlan plan = small.plan(memory);
-    require(plan.status == PlanStatus::ok, "refused", plan.invalid_field);
+    const bool directional = std::holds_alternative<DirectionalLight>(scene.light);
+    // A policy may leave out what lies on the rim of a cone, and that may be all.
+    if (!directional && plan.status == PlanStatus::nothing_visible) return;
+    require(plan.status == PlanStatus::ok, to_string(plan.status), plan.invalid_field);
     require(plan.pages.size() <= static_cast<std::size_t>(small.options.capacity), "pages",
             plan.pages.size());
     const bool told = std::any_of(plan.omitted().begin(), plan.omitted().end(),
@@ -179,7 +182,6 @@ TEST(PagesLaw, the_pool_is_never_exceeded_and_no_point_loses_its_page) {
     std::uint64_t served = 0;
     for (const glm::dvec3& point : scene.points) served += page_serving(plan, point) >= 0;
     require(served >= plan.points, "served", served, "of", plan.points);
-    const bool directional = std::holds_alternative<DirectionalLight>(scene.light);
     require(!directional || plan.points == whole.points, "points", plan.points, "of", whole.points);
   });
   EXPECT_GT(coarsened, 20);

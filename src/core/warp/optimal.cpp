@@ -118,19 +118,17 @@ struct Judged {
   double value;
 };
 
-/// The best of the registry's other warps where it is better than `best`. Most are sorted out by a part of
-/// the samples.
+/// The best of the registry's other warps where it is better than `best`.
 void improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) noexcept {
   std::array<WarpChoice, 2 * kWarpLanes> choice;
   std::array<double, 2 * kWarpLanes> value;
   std::size_t count = 0;
-  choice[count++] = best.choice;
   for (const Warp* other : all_warps()) {
     if (other->choose == choose_optimal || count == choice.size()) continue;
     const WarpChoice found = other->choose(input);
     if (!input.is_unwarped(found)) choice[count++] = found;
   }
-  const bool bound = error.count_some();
+  error.count_bound();
   for (std::size_t first = 0; first < count; first += kWarpLanes) {
     ChoiceLanes lanes;
     LaneValues values;
@@ -139,11 +137,8 @@ void improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) 
     for (std::size_t i = 0; i < kWarpLanes && first + i < count; ++i) value[first + i] = values[i];
   }
   error.count_all();
-  // Nearer than this, a part of the samples does not tell; a bound does.
-  constexpr double kNear = 1.6;
-  const double enough = bound ? best.value : value[0] * kNear;
-  for (std::size_t i = 1; i < count; ++i) {
-    if (!(value[i] < enough)) continue;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(value[i] < best.value)) continue;
     const double exact = error.value(choice[i]);
     if (less(exact, best.value) && usable(input.body, choice[i], input.most_stretch))
       best = {choice[i], exact};

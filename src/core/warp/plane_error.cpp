@@ -61,14 +61,11 @@ std::size_t PlaneError::above(std::size_t samples) const noexcept {
   return wanted < kMostAbove ? wanted : kMostAbove;
 }
 
-bool PlaneError::count_some() noexcept {
-  // Visible points are even over the image from the first on; else the vertices come first.
-  constexpr std::size_t kSome = 48;
-  const bool bound = share_ == 0.0;
-  const std::size_t some = bound ? corners_.count : kSome;
-  if (all_ > some) sample_.count = some;
+void PlaneError::count_bound() noexcept {
+  // Of a percentile no part of the points is a bound.
+  if (share_ != 0.0) return;
+  sample_.count = all_ < corners_.count ? all_ : corners_.count;
   above_ = above(sample_.count);
-  return bound;
 }
 
 void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool searched, int set) noexcept {

@@ -59,9 +59,9 @@ class PlaneError {
     above_ = above(all_);
     sample_.fill_lanes();
   }
-  /// From now on counts a part of the points: to sort out what is far off. Returns true where the objective
-  /// there is never above the objective at all points.
-  bool count_some() noexcept;
+  /// From now on counts the vertices alone, where the objective there is never above the objective at all
+  /// points.
+  void count_bound() noexcept;
   /// The body's vertices: few points that bound the error nearly everywhere.
   [[nodiscard]] const PixelLanes& corners() const noexcept { return corners_; }
   [[nodiscard]] const BodyLanes& body() const noexcept { return body_; }
