@@ -73,8 +73,10 @@ struct Extents {
   constexpr double kLeast = 1e-150;
   const double inverse = 1.0 / (determinant + kLeast);
   const auto over_determinant = [&](double v) { return determinant > 0.0 ? v * inverse : kInfinite; };
-  return {over_determinant(largest), largest > 0.0 ? 1.0 / (largest + kLeast) : kInfinite,
-          over_determinant(std::sqrt(j.yy * j.yy + j.yx * j.yx)),
+  const double longest = over_determinant(largest);
+  const double shortest = largest > 0.0 ? 1.0 / (largest + kLeast) : kInfinite;
+  // Of a square texel rounding would make the shortest the longer.
+  return {longest, min_of(shortest, longest), over_determinant(std::sqrt(j.yy * j.yy + j.yx * j.yx)),
           over_determinant(std::sqrt(j.xx * j.xx + j.xy * j.xy))};
 }
 
