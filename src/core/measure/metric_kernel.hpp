@@ -75,7 +75,7 @@ struct Extents {
   const auto over_determinant = [&](double v) { return determinant > 0.0 ? v * inverse : kInfinite; };
   const double longest = over_determinant(largest);
   const double shortest = largest > 0.0 ? 1.0 / (largest + kLeast) : kInfinite;
-  // Of a square texel rounding would make the shortest the longer.
+  // Rounding would make the shortest extent of a square texel the longer.
   return {longest, min_of(shortest, longest), over_determinant(std::sqrt(j.yy * j.yy + j.yx * j.yx)),
           over_determinant(std::sqrt(j.xx * j.xx + j.xy * j.xy))};
 }

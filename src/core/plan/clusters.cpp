@@ -22,11 +22,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Cluster {
   std::array<Plane, kMaxSelectPlanes> plane;  // relative to the camera
   int plane_count = 0;
-  double cost = 0.0;  // the objective of its map without a warp
-  Plane cut;          // its halves are inside this plane and outside of it
-  double halves[2] = {kInfinity, kInfinity};
-
-  [[nodiscard]] bool divisible() const noexcept { return halves[0] < kInfinity; }
+  double cost = 0.0;          // the objective of its map without a warp
+  Plane cut;                  // its halves are inside this plane and outside of it
+  double halved = kInfinity;  // the objective of both; infinite where no cut lowers it
 };
 
 /// Everything that is divided.
@@ -85,7 +83,7 @@ void weigh(const Divided& all, Cluster& cluster) noexcept {
   Part part = all.part;
   part.body = body_of(all, cluster);
   cluster.cost = cost_of(all, part);
-  cluster.halves[0] = cluster.halves[1] = kInfinity;
+  cluster.halved = kInfinity;
   if (part.body.empty() || cluster.plane_count == kMaxSelectPlanes) return;
   const Polytope body = part.body;
   double least = cluster.cost;
@@ -100,10 +98,8 @@ void weigh(const Divided& all, Cluster& cluster) noexcept {
     const double cost = all.together(halves[0], halves[1]);
     // Both sides must hold something: else the cut is for nothing.
     if (!(cost < least) || halves[0] == 0.0 || halves[1] == 0.0) return;
-    least = cost;
+    least = cluster.halved = cost;
     cluster.cut = cut;
-    cluster.halves[0] = halves[0];
-    cluster.halves[1] = halves[1];
   });
 }
 
@@ -114,14 +110,12 @@ int best_to_halve(const Divided& all, std::span<const Cluster> clusters) noexcep
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     const Cluster& one = clusters[i];
     // Where the largest counts, halving any but the worst is for nothing.
-    const double gain = !all.sums         ? one.cost
-                        : one.divisible() ? one.cost - (one.halves[0] + one.halves[1])
-                                          : 0.0;
+    const double gain = all.sums ? one.cost - one.halved : one.cost;
     if (!(gain > most)) continue;
     most = gain;
     best = static_cast<int>(i);
   }
-  return best >= 0 && clusters[static_cast<std::size_t>(best)].divisible() ? best : -1;
+  return best >= 0 && clusters[static_cast<std::size_t>(best)].halved < kInfinity ? best : -1;
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ std::size_t PlaneError::above(std::size_t samples) const noexcept {
 }
 
 void PlaneError::count_bound() noexcept {
-  // Of a percentile no part of the points is a bound.
+  // No part of the points bounds a percentile.
   if (share_ != 0.0) return;
   sample_.count = all_ < corners_.count ? all_ : corners_.count;
   above_ = above(sample_.count);

@@ -47,7 +47,7 @@ double share_in_front_bounded(const Moments& b, double u) noexcept {
   return free_at < u ? first + free_weight : first;
 }
 
-StoredTexel store_four_moments(double depth, const FilterSettings& settings) noexcept {
+StoredTexel store_four_moments(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
   const double u = 2.0 * depth - 1.0, u2 = u * u;
   const Moments b{u, u2, u2 * u, u2 * u2};
   if (!is_unsigned_unit(settings.format)) return {b[0], b[1], b[2], b[3]};

@@ -25,7 +25,8 @@ struct ShareInFront {
 
 /// The four moments of u = 2 depth - 1. In formats of 0..1 they go through a change of basis that makes use
 /// of all steps (Peters 2017, whose linear part it is).
-[[nodiscard]] StoredTexel store_four_moments(double depth, const FilterSettings& settings) noexcept;
+[[nodiscard]] StoredTexel store_four_moments(double depth, const glm::dvec2& slope,
+                                             const FilterSettings& settings) noexcept;
 /// The moments of a stored texel, moved by a share of `bias` towards those of depths spread out: what is
 /// stored has been rounded, and may be no moments at all. Never less than what the format's rounding needs.
 [[nodiscard]] Moments moments_of(const StoredTexel& texel, const FilterSettings& settings,

@@ -21,10 +21,6 @@ int channels(const FilterSettings&) noexcept {
   return 4;
 }
 
-StoredTexel store(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
-  return store_four_moments(depth, settings);
-}
-
 double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
   const Moments b = moments_of(texel, settings, settings.option[2]);
   const double u = receiver_of_moments(lookup, lookup.box);
@@ -56,7 +52,7 @@ const Filter filters::msm{
         {
             .tolerance = 0.01,  // what the bias lets through under a contact of a tenth of the depth range
             .contact = 0.1,
-            .store = store,
+            .store = store_four_moments,
             .visibility = visibility,
         },
 };

@@ -28,10 +28,6 @@ int channels(const FilterSettings&) noexcept {
   return 4;
 }
 
-StoredTexel store(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
-  return store_four_moments(depth, settings);
-}
-
 /// Half sides of the box that has the variance of the penumbra's disc, no wider than the widest kernel.
 glm::dvec2 penumbra_box(const FilterLookup& lookup, double radius_world) noexcept {
   constexpr double kDiscToBox = 0.8660254037844386;  // sqrt(3) / 2
@@ -82,7 +78,7 @@ const Filter filters::mssm{
         {
             .tolerance = 0.01,  // what the bias lets through under a contact of a tenth of the depth range
             .contact = 0.1,
-            .store = store,
+            .store = store_four_moments,
             .visibility = visibility,
         },
 };

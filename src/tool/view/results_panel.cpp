@@ -205,11 +205,13 @@ void results_part(App& app) {
   ImGui::InputText("results", &app.results_folder);
   tooltip("folder that gnomon compare --out wrote; a click on one of its points loads that technique");
   ImGui::SameLine();
-  if (ImGui::Button("open##results")) try {
+  if (ImGui::Button("open##results")) {
+    try {
       open_results(app, app.results_folder);
     } catch (const std::exception& error) {
       show_message(app, error.what(), true);
     }
+  }
   if (!app.results || app.stage == nullptr) return;
   if (const SceneResults* results = results_of(*app.results, app.state.scene)) {
     chart_part(app, *results);

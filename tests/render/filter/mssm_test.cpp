@@ -64,14 +64,24 @@ TEST(MssmFilter, keeps_to_the_widest_kernel) {
   EXPECT_NEAR(narrow, 0.96 * 11.0, 1.0);
 }
 
-TEST(MssmFilter, widens_for_local_lights_as_pcss_does) {
-  FilterSettings soft = settings_from("mssm:light_radius=0.5,radius=32,bleed=0"),
-                 pcss = settings_from("pcss:light_radius=0.5,radius=32");
-  for (const double away : {0.5, 1.0, 2.0}) {
-    for (const double distance : {3.0, 8.0}) {
-      EXPECT_EQ(soft.filter->info.penumbra_radius_world(soft, away, distance),
-                pcss.filter->info.penumbra_radius_world(pcss, away, distance));
-    }
+TEST(MssmFilter, widens_for_local_lights_by_the_ratio_of_distances) {
+  // A receiver 8 units from a light of radius 0.5, all of its kernel under a blocker.
+  const FilterSettings settings = settings_from("mssm:light_radius=0.5,radius=32");
+  const TestMap map = edge_map(128, 0.0);
+  for (const double away : {1.0, 2.0, 4.0}) {
+    FilterLookup lookup = lookup_of(settings, map, {{64.0f, 64.0f}, kReceiver, {}, 0.0f});
+    lookup.light_distance = 8.0;
+    const StoredTexel blocker =
+        filters::mssm.reference.store(kReceiver - away / kTestDepthRange, glm::dvec2(0.0), settings);
+    double half_side = 0.0;
+    lookup.mean_of_box = [&](const glm::dvec2& half_sides) {
+      half_side = half_sides.x;
+      EXPECT_EQ(half_sides.x, half_sides.y);
+      return blocker;
+    };
+    EXPECT_LT(filters::mssm.reference.visibility(blocker, lookup, settings), 0.01);
+    const double disc = 0.5 * away / (8.0 - away) * kTestTexelsPerWorld;
+    EXPECT_NEAR(half_side, std::max(0.866 * disc, 0.5), 0.01 * disc) << away;
   }
 }
 
