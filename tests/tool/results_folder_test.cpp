@@ -198,18 +198,20 @@ class LostDriver {
 TEST(LostContext, ends_a_sweep_with_one_line_and_keeps_the_rows_before) {
   std::size_t fewest = kSmallRows, most = 0;
   for (const int after : {0, 10, 30}) {  // of 45 questions or so
+    SCOPED_TRACE("after " + std::to_string(after));
     const TemporaryFolder folder;
     {
       const LostDriver lost(after);
       const Finished finished = run_gnomon(small_sweep(folder.path()));
-      EXPECT_EQ(finished.exit_code, 2) << after;
+      EXPECT_EQ(finished.exit_code, 2) << finished.err;
       expect_one_line(finished.err, "the OpenGL context was lost");
     }
     expect_beginning_of_whole(folder.path());
     const std::size_t rows = report::read_rows(folder.path()).size();
     fewest = std::min(fewest, rows);
     most = std::max(most, rows);
-    EXPECT_EQ(run_gnomon(small_sweep(folder.path(), {"--resume"})).exit_code, 0);
+    const Finished resumed = run_gnomon(small_sweep(folder.path(), {"--resume"}));
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
     EXPECT_EQ(lasting(folder.path()), lasting(whole()));
   }
   EXPECT_EQ(fewest, 0u) << "lost in the first frame";
