@@ -7,7 +7,7 @@
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 32) out;
 layout(location = 0) in vec2 texcoord[];
-layout(location = 7) uniform vec4 shape;  // as shaped_point takes it
+layout(location = 7) uniform mat4 shape;  // as shaped_point takes it
 layout(location = 8) uniform vec2 size;   // of the map, texels
 layout(location = 0) flat out vec4 corner[3];
 layout(location = 3) flat out vec2 texcoord_out[3];

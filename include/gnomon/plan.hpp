@@ -59,7 +59,7 @@ enum class OmissionKind : std::uint8_t {
   pages_coarsened,          ///< of plan_pages: the pool is too small; a: requested error, b: planned error
   points_left_coarser,      ///< of plan_pages: PageOptions::share left them to coarser pages; a: how many
   points_beyond_levels,     ///< of plan_pages: the deepest level does not suffice for them; a: how many
-  shape_without_gain,       ///< a: error along the warp with the shape over that without; 1: it has no use
+  shape_without_gain,       ///< a: the error that the shape lowers, over that without it; 1: it has no use
   plane_without_receiver,   ///< no visible receiver near it, or the light lies in it; a: index in warp.planes
   plane_without_caster,     ///< no caster can reach its receivers; a: index in warp.planes
   cascade_on_planes,        ///< maps of warp.planes serve all of it; a: depth_begin, b: depth_end
@@ -75,7 +75,7 @@ enum class IgnoredOption : std::uint8_t {
   selection,       ///< split.selection: only cascades are chosen among by view depth
   cadence,         ///< cadence: needs a history and cascades of a fixed number and size
   visible_points,  ///< the visible points: a local light's maps, kept or stable maps do not follow them
-  shape,           ///< warp.shape: stable, rotated and remembered maps have linear texels
+  shape,           ///< warp.shape: see there for the maps that have linear texels whatever it says
   planes,  ///< warp.planes: needs a directional light, one view, depths as partition, tight or rotated
 };
 /// One entry of ShadowPlan::omitted.

@@ -78,7 +78,10 @@ struct WarpOptions {
   /// warp's perspective leaves, and is drawn by bounding rectangles, which costs time. Taken where it lowers
   /// the error of a map whose rows lie across its warp; linear elsewhere, and with fits other than tight or
   /// with a history. With it, a `warp` of nullptr is psm, which it goes best with, where both together lower
-  /// the objective. nullptr counts as linear.
+  /// the objective. `rectilinear` makes columns and rows narrow where visible points need it; maps are linear
+  /// without such points, for local lights, with several views, kernels in world units, sizes that follow the
+  /// error, and fits other than tight or a history. Receivers that are not among the points get texels up to
+  /// 16 times longer. nullptr counts as linear.
   const Shape* shape = &shapes::linear;
   /// The error that a warp must lower to be used.
   Objective objective = Objective::storage;

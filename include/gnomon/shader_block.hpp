@@ -19,7 +19,7 @@ struct ShaderMap {
   glm::mat4 clip_from_point;
   glm::vec4 interval_size;  ///< view depths served (begin, end), width and height in texels
   std::array<glm::vec4, kMaxSelectPlanes> select_planes;  ///< relative to the origin; (0, 0, 0, 1): unused
-  glm::vec4 shape;   ///< place of ShadowMap::shape in shapes.def, then its parameters
+  glm::mat4 shape;                                        ///< shader_shape()
   glm::vec4 kernel;  ///< filter margin in texels, half blur in texels, width of the blend band, depth curve
 };
 
@@ -59,8 +59,8 @@ struct ShaderLayers {
 };
 
 /// A map's shape as shaders read it: its place in shapes.def, then its parameters in the clip space that they
-/// look the map up in.
-[[nodiscard]] glm::vec4 shader_shape(const ShadowMap& map, const glm::dmat4& lookup_from_map) noexcept;
+/// look the map up in, column by column.
+[[nodiscard]] glm::mat4 shader_shape(const ShadowMap& map, const glm::dmat4& lookup_from_map) noexcept;
 /// How a point finds its map, as `layer.w` of ShaderBlock has it: 0 by view depth, 1 select_by_map, 2
 /// select_finest.
 [[nodiscard]] float shader_selection(const ShadowPlan& plan) noexcept;

@@ -12,9 +12,27 @@
 
 namespace gnomon {
 
-/// Numbers that a shape is set by; what they mean is the shape's own. At most three, so that shaders get them
-/// in one vector.
-using ShapeParameters = std::array<double, 3>;
+/// Numbers that a shape is set by; what they mean is the shape's own. All 0: linear texels. At most fifteen,
+/// so that shaders get them in one matrix, behind the shape's place in shapes.def.
+using ShapeParameters = std::array<double, 15>;
+
+/// Strips that TexelNeeds has along either axis.
+inline constexpr std::size_t kNeedStrips = 64;
+
+/// Where along both axes of a map its receivers that are seen need short texels.
+struct TexelNeeds {
+  /// Over equal strips of the map without its margin, from ndc -1 on: the longest that a texel of one size is
+  /// there along the axis, pixels or any other unit; 0: nothing is seen there.
+  std::array<double, kNeedStrips> x{}, y{};
+  int margin_texels = 0;  ///< along each side; its texels keep their size
+};
+
+/// A shape that was set by TexelNeeds.
+struct ServingShape {
+  ShapeParameters parameters{};  ///< of the shape
+  glm::dvec2 left{1.0};  ///< the largest need along x and y over the largest with linear texels, 1 or below
+  glm::dvec2 longest{1.0};  ///< the longest texel anywhere along x and y over a linear one, 1 or above
+};
 
 /// A place in a map, and how it moves with the point in normalized device coordinates.
 struct ShapedPoint {
@@ -53,6 +71,11 @@ struct Shape {
   ShapeParameters (*undoing)(double log_growth) noexcept;
   /// Parameters of the same shape seen in a mirror: over ndc x (`x`), ndc y (`y`) of the other sign.
   ShapeParameters (*mirrored)(const ShapeParameters& parameters, bool x, bool y) noexcept;
+  /// How many of the parameters it has; the others are 0.
+  int parameter_count = 0;
+  /// Parameters under which the largest of the needs is as small as it gets; nullptr for shapes that do not
+  /// follow visible points. Needs without a number above 0 give linear texels.
+  ServingShape (*serving)(const TexelNeeds& needs) noexcept = nullptr;
 };
 
 /// Logarithm of the largest growth of w that a shape undoes. Beyond it, places near the far end are rounding

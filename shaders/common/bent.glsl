@@ -4,7 +4,7 @@
 #include "library/shape.glsl"
 #include "common/turn.glsl"
 
-layout(location = 7) uniform vec4 shape;  // as shaped_point takes it
+layout(location = 7) uniform mat4 shape;  // as shaped_point takes it
 layout(location = 8) uniform vec2 size;   // of the map, texels
 layout(location = 0) flat in vec4 corner[3];  // clip space
 

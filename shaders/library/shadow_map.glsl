@@ -8,7 +8,7 @@ struct ShadowMap {
   mat4 clip_from_point;   // z 0 near the light .. w
   vec4 interval_size;     // depth_begin, depth_end: view depths served; width, height: texels
   vec4 select_planes[4];  // serves points with dot(xyz, point) + w >= 0 for all; (0, 0, 0, 1) where unused
-  vec4 shape;             // as shaped_point takes it
+  mat4 shape;             // as shaped_point takes it
   vec4 kernel;            // filter margin in texels; blur that the stored texels went through, as half a box, texels; overlap; depth curve
 };
 

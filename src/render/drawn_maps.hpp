@@ -12,7 +12,7 @@ namespace gnomon::render {
 struct DrawnMap {
   glm::mat4 clip_from_position{1.0f};
   int width = 0, height = 0;
-  glm::vec4 shape{0.0f};  ///< as shaders take it
+  glm::mat4 shape{0.0f};  ///< as shaders take it
   bool bent = false;      ///< the shape bends lines: triangles are drawn by bounding rectangles
   bool operator==(const DrawnMap&) const = default;
 };

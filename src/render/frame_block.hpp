@@ -16,7 +16,7 @@ struct MapBlock {
   glm::mat4 clip_from_camera_relative;
   glm::vec4 interval_size;
   std::array<glm::vec4, kMaxSelectPlanes> select_planes;
-  glm::vec4 shape;
+  glm::mat4 shape;
   glm::vec4 kernel;
 };
 
@@ -25,7 +25,7 @@ struct FrameBlock {
   glm::vec4 right, up, forward, image_edges, light, light_place, light_cone, bias, layer, selection;
   std::array<MapBlock, kMaxMaps> maps;
 };
-static_assert(sizeof(FrameBlock) == 64 + 10 * 16 + kMaxMaps * (112 + 16 * kMaxSelectPlanes),
+static_assert(sizeof(FrameBlock) == 64 + 10 * 16 + kMaxMaps * (160 + 16 * kMaxSelectPlanes),
               "std140 has no padding here");
 
 /// Any clip space of a plan to the one that all passes draw in.

@@ -153,7 +153,7 @@ void Renderer::Impl::draw_bent_casters(const DrawnPart& part, const DrawnMap& ma
   if (!bent) return;
   const auto set_place = [&] {
     glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
-    glUniform4fv(kShapeLocation, 1, &map.shape.x);
+    glUniformMatrix4fv(kShapeLocation, 1, GL_FALSE, &map.shape[0][0]);
     glUniform2f(kSizeLocation, static_cast<float>(map.width), static_cast<float>(map.height));
   };
   draw_casters(part, CasterPrograms{bent->opaque, bent->masked}, alpha_test_where_masked, set_place,

@@ -19,6 +19,7 @@
 #include "gnomon/reuse.hpp"
 #include "gnomon/shader_block.hpp"
 #include "support/near.hpp"
+#include "support/texel_needs.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -64,6 +65,9 @@ std::vector<TexelGrid> grids() {
   for (const Shape* shape : all_shapes()) {
     for (const double growth : {0.0, 0.1, 2.0, -3.0, 5.0})
       all.push_back({640, 384, shape, shape->undoing(growth)});
+    if (shape->serving == nullptr) continue;
+    for (const double place : {0.0, 0.3, 0.95})
+      all.push_back({640, 384, shape, shape->serving(needs_round(place, 1.0 - place, 9)).parameters});
   }
   all.push_back({640, 384, &kBent, {0.2, 0.0, 0.0}});
   return all;
@@ -157,7 +161,8 @@ TEST(Shape, every_place_comes_back_from_its_texel) {
 
 TEST(Shape, a_mirrored_shape_has_the_same_texels) {
   for (const Shape* shape : all_shapes()) {
-    const ShapeParameters p = shape->undoing(3.0);
+    const ShapeParameters p =
+        shape->serving != nullptr ? shape->serving(needs_round(0.2, 0.7, 9)).parameters : shape->undoing(3.0);
     const TexelGrid grid{640, 384, shape, p};
     for (const bool mirror_x : {false, true}) {
       for (const bool mirror_y : {false, true}) {
@@ -312,10 +317,16 @@ TEST(Shape, a_bent_map_is_never_scrolled_and_its_rectangles_hold_all_they_show) 
 
 TEST(Shape, shaders_get_the_place_in_the_list_and_the_parameters) {
   ShadowMap map;
-  map.shape_parameters = {1.0, 2.0, 3.0};
   for (std::size_t i = 0; i < all_shapes().size(); ++i) {
     map.shape = all_shapes()[i];
-    EXPECT_EQ(shader_shape(map, glm::dmat4(1.0)), glm::vec4(static_cast<float>(i), 1.0f, 2.0f, 3.0f));
+    map.shape_parameters = {};
+    for (int k = 0; k < map.shape->parameter_count; ++k)
+      map.shape_parameters[static_cast<std::size_t>(k)] = k + 1;
+    const glm::mat4 shape = shader_shape(map, glm::dmat4(1.0));
+    EXPECT_EQ(shape[0][0], static_cast<float>(i));
+    for (int k = 1; k < 16; ++k)
+      EXPECT_EQ(shape[k / 4][k % 4],
+                static_cast<float>(map.shape_parameters[static_cast<std::size_t>(k - 1)]));
   }
 }
 

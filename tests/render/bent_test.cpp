@@ -10,6 +10,7 @@
 
 #include "gnomon/metric.hpp"
 #include "mask_frame.hpp"
+#include "support/texel_needs.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -28,6 +29,18 @@ PlanOptions one_map(const Shape& shape, int size = 256) {
 
 ShadowPlan bent_plan(const Scene& scene, const Camera& camera, int size = 256) {
   return plan_for(scene, camera, kLight, one_map(shapes::logarithmic, size));
+}
+
+/// Columns and rows that are narrow round two places.
+ShadowPlan rectilinear(ShadowPlan plan) {
+  ShadowMap& map = plan.map[0];
+  map.shape = &shapes::rectilinear;
+  map.shape_parameters =
+      shapes::rectilinear.serving(test::needs_round(0.6, 0.3, map.filter_margin_texels)).parameters;
+  return plan;
+}
+ShadowPlan rectilinear_plan(const Scene& scene, const Camera& camera, int size = 256) {
+  return rectilinear(plan_for(scene, camera, kLight, one_map(shapes::linear, size)));
 }
 
 FloatImage depths_of(Renderer& renderer, const ShadowPlan& plan, const Camera& camera) {
@@ -110,33 +123,36 @@ TEST(BentMaps, hold_the_depth_of_the_ground_at_each_texels_centre) {
   const Scene scene = box_on_ground();
   const Camera camera = camera_on_box(kSize, kSize);
   Renderer renderer(scene);
-  const ShadowPlan plan = bent_plan(scene, camera);
-  ASSERT_EQ(plan.map_count, 1);
-  const ShadowMap& map = plan.map[0];
-  ASSERT_EQ(map.shape, &shapes::logarithmic);
-  const FloatImage depth = depths_of(renderer, plan, camera);
-  const glm::dmat4 world_from_clip = glm::inverse(map.clip_from_world);
-  std::size_t ground = 0;
-  for (int y = 0; y < depth.height; ++y) {
-    for (int x = 0; x < depth.width; ++x) {
-      const glm::dvec2 ndc = map.texels().ndc_of({x + 0.5, y + 0.5});
-      const auto at = [&](double z) {
-        const glm::dvec4 h = world_from_clip * glm::dvec4(ndc, z, 1.0);
-        return glm::dvec3(h) / h.w;
-      };
-      const glm::dvec3 a = at(-1.0), b = at(1.0), p = a + (b - a) * (a.y / (a.y - b.y));
-      const glm::dvec4 h = map.clip_from_world * glm::dvec4(p, 1.0);
-      const double expected = 0.5 * h.z / h.w + 0.5;
-      if (std::max(std::abs(p.x), std::abs(p.z)) > 19.0 || expected > 0.999) continue;
-      const glm::dvec3 rim(0.2);
-      if (hits_box(p, -plan.light_direction, glm::dvec3(kBoxMin) - rim, glm::dvec3(kBoxMax) + rim)) continue;
-      // Positions, the matrix and the shape's inverse in single precision.
-      ASSERT_NEAR(depth.values[static_cast<std::size_t>(y * depth.width + x)], expected, 2e-5)
-          << x << " " << y;
-      ++ground;
+  const ShadowPlan logarithmic = bent_plan(scene, camera);
+  ASSERT_EQ(logarithmic.map[0].shape, &shapes::logarithmic);
+  for (const ShadowPlan& plan : {logarithmic, rectilinear_plan(scene, camera)}) {
+    ASSERT_EQ(plan.map_count, 1);
+    const ShadowMap& map = plan.map[0];
+    const FloatImage depth = depths_of(renderer, plan, camera);
+    const glm::dmat4 world_from_clip = glm::inverse(map.clip_from_world);
+    std::size_t ground = 0;
+    for (int y = 0; y < depth.height; ++y) {
+      for (int x = 0; x < depth.width; ++x) {
+        const glm::dvec2 ndc = map.texels().ndc_of({x + 0.5, y + 0.5});
+        const auto at = [&](double z) {
+          const glm::dvec4 h = world_from_clip * glm::dvec4(ndc, z, 1.0);
+          return glm::dvec3(h) / h.w;
+        };
+        const glm::dvec3 a = at(-1.0), b = at(1.0), p = a + (b - a) * (a.y / (a.y - b.y));
+        const glm::dvec4 h = map.clip_from_world * glm::dvec4(p, 1.0);
+        const double expected = 0.5 * h.z / h.w + 0.5;
+        if (std::max(std::abs(p.x), std::abs(p.z)) > 19.0 || expected > 0.999) continue;
+        const glm::dvec3 rim(0.2);
+        if (hits_box(p, -plan.light_direction, glm::dvec3(kBoxMin) - rim, glm::dvec3(kBoxMax) + rim))
+          continue;
+        // Positions, the matrix and the shape's inverse in single precision.
+        ASSERT_NEAR(depth.values[static_cast<std::size_t>(y * depth.width + x)], expected, 2e-5)
+            << x << " " << y;
+        ++ground;
+      }
     }
+    EXPECT_GT(ground, 20'000u) << map.shape->name;
   }
-  EXPECT_GT(ground, 20'000u);
 }
 
 TEST(BentMaps, leave_no_crack_between_triangles) {
@@ -155,26 +171,28 @@ TEST(BentMaps, leave_no_crack_between_triangles) {
   add_mesh(scene, corners);
   const Camera camera = camera_on_box(kSize, kSize);
   Renderer renderer(scene);
-  const ShadowPlan plan = bent_plan(scene, camera, 1024);
-  ASSERT_EQ(plan.map_count, 1);
-  ASSERT_EQ(plan.map[0].shape, &shapes::logarithmic);
-  const FloatImage depth = depths_of(renderer, plan, camera);
-  const glm::dmat4 world_from_clip = glm::inverse(plan.map[0].clip_from_world);
-  std::size_t inside = 0, holes = 0;
-  for (int y = 0; y < depth.height; ++y) {
-    for (int x = 0; x < depth.width; ++x) {
-      const glm::dvec2 ndc = plan.map[0].texels().ndc_of({x + 0.5, y + 0.5});
-      const glm::dvec4 h = world_from_clip * glm::dvec4(ndc, 0.0, 1.0);
-      const glm::dvec3 a = glm::dvec3(h) / h.w;
-      const glm::dvec3 p = a - plan.light_direction * (a.y / plan.light_direction.y);
-      const glm::dvec4 at = plan.map[0].clip_from_world * glm::dvec4(p, 1.0);
-      if (glm::length(p) > 58.0 || std::abs(at.z / at.w) > 0.999) continue;
-      ++inside;
-      holes += depth.values[static_cast<std::size_t>(y * depth.width + x)] == 1.0f ? 1 : 0;
+  const ShadowPlan logarithmic = bent_plan(scene, camera, 1024);
+  ASSERT_EQ(logarithmic.map[0].shape, &shapes::logarithmic);
+  for (const ShadowPlan& plan : {logarithmic, rectilinear_plan(scene, camera, 1024)}) {
+    ASSERT_EQ(plan.map_count, 1);
+    const FloatImage depth = depths_of(renderer, plan, camera);
+    const glm::dmat4 world_from_clip = glm::inverse(plan.map[0].clip_from_world);
+    std::size_t inside = 0, holes = 0;
+    for (int y = 0; y < depth.height; ++y) {
+      for (int x = 0; x < depth.width; ++x) {
+        const glm::dvec2 ndc = plan.map[0].texels().ndc_of({x + 0.5, y + 0.5});
+        const glm::dvec4 h = world_from_clip * glm::dvec4(ndc, 0.0, 1.0);
+        const glm::dvec3 a = glm::dvec3(h) / h.w;
+        const glm::dvec3 p = a - plan.light_direction * (a.y / plan.light_direction.y);
+        const glm::dvec4 at = plan.map[0].clip_from_world * glm::dvec4(p, 1.0);
+        if (glm::length(p) > 58.0 || std::abs(at.z / at.w) > 0.999) continue;
+        ++inside;
+        holes += depth.values[static_cast<std::size_t>(y * depth.width + x)] == 1.0f ? 1 : 0;
+      }
     }
+    EXPECT_GT(inside, 500'000u) << plan.map[0].shape->name;
+    EXPECT_EQ(holes, 0u) << plan.map[0].shape->name;
   }
-  EXPECT_GT(inside, 500'000u);
-  EXPECT_EQ(holes, 0u);
 }
 
 TEST(BentMaps, a_caster_that_crosses_the_centre_of_projection_is_drawn_where_it_is) {
@@ -277,31 +295,37 @@ TEST(BentMaps, every_filter_reads_them) {
   const Scene scene = box_on_ground();
   const Camera camera = camera_on_box(kSize, kSize);
   Renderer renderer(scene);
+  const auto error_with = [&](const ShadowPlan& plan, const Filter& filter) {
+    const Frame frame = draw(renderer, camera, plan, filter);
+    double sum = 0.0;
+    std::size_t judged = 0;
+    for (std::size_t i = 0; i < frame.pixels(); ++i) {
+      if (!frame.surface(i) || glm::dot(frame.normal(i), plan.light_direction) > -0.1) continue;
+      const double truth =
+          frame.point(i).y < 0.01 && hits_box(frame.point(i), -plan.light_direction, kBoxMin, kBoxMax) ? 0.0
+                                                                                                       : 1.0;
+      sum += std::abs(frame.lit(i) - truth);
+      ++judged;
+    }
+    EXPECT_GT(judged, frame.pixels() / 2);
+    return sum / static_cast<double>(judged);
+  };
   for (const Filter* filter : all_filters()) {
-    const auto error_of = [&](const Shape& shape) {
+    const auto plan_of = [&](const Shape& shape) {
       PlanOptions options = one_map(shape, 512);
       set_margin(default_settings(*filter), options);
       const ShadowPlan plan = plan_for(scene, camera, kLight, options);
       EXPECT_EQ(plan.map[0].shape, &shape);
-      const Frame frame = draw(renderer, camera, plan, *filter);
-      double sum = 0.0;
-      std::size_t judged = 0;
-      for (std::size_t i = 0; i < frame.pixels(); ++i) {
-        if (!frame.surface(i) || glm::dot(frame.normal(i), plan.light_direction) > -0.1) continue;
-        const double truth =
-            frame.point(i).y < 0.01 && hits_box(frame.point(i), -plan.light_direction, kBoxMin, kBoxMax)
-                ? 0.0
-                : 1.0;
-        sum += std::abs(frame.lit(i) - truth);
-        ++judged;
-      }
-      EXPECT_GT(judged, frame.pixels() / 2);
-      return sum / static_cast<double>(judged);
+      return plan;
     };
-    const double linear = error_of(shapes::linear), bent = error_of(shapes::logarithmic);
-    // Penumbras of the default kernels; texels near the box are larger or smaller than the linear ones.
-    EXPECT_LT(bent, 0.06) << filter->info.name;
-    EXPECT_LT(bent, 2.0 * linear + 0.01) << filter->info.name;
+    const ShadowPlan straight = plan_of(shapes::linear);
+    const double linear = error_with(straight, *filter);
+    for (const ShadowPlan& plan : {plan_of(shapes::logarithmic), rectilinear(straight)}) {
+      const double bent = error_with(plan, *filter);
+      // Penumbras of the default kernels; texels near the box are larger or smaller than the linear ones.
+      EXPECT_LT(bent, 0.06) << filter->info.name << " " << plan.map[0].shape->name;
+      EXPECT_LT(bent, 2.0 * linear + 0.01) << filter->info.name << " " << plan.map[0].shape->name;
+    }
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "program.hpp"
 #include "shared_context.hpp"
+#include "support/texel_needs.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -20,9 +21,8 @@ constexpr int kSide = 33;  // places tried along either axis
 /// `value`, four floats of a shaped point, at kSide x kSide places over the square.
 std::vector<std::array<float, 4>> drawn(const std::string& value, float index, const TexelGrid& grid) {
   const glm::dvec2 size = grid.size();
-  const ShapeParameters& q = grid.parameters;
   const std::string text =
-      "#version 450 core\n#include \"library/shape.glsl\"\nlayout(location = 0) uniform vec4 shape;\n"
+      "#version 450 core\n#include \"library/shape.glsl\"\nlayout(location = 0) uniform mat4 shape;\n"
       "layout(location = 1) uniform vec2 size;\nlayout(location = 0) out vec4 answer;\nvoid main() {\n"
       "  vec2 ndc = (gl_FragCoord.xy - 0.5) / " +
       std::to_string(kSide - 1) +
@@ -39,8 +39,10 @@ std::vector<std::array<float, 4>> drawn(const std::string& value, float index, c
   glViewport(0, 0, kSide, kSide);
   glDisable(GL_DEPTH_TEST);
   glUseProgram(program.name());
-  glProgramUniform4f(program.name(), 0, index, static_cast<float>(q[0]), static_cast<float>(q[1]),
-                     static_cast<float>(q[2]));
+  std::array<float, 16> shape{index};
+  std::transform(grid.parameters.begin(), grid.parameters.end(), shape.begin() + 1,
+                 [](double parameter) { return static_cast<float>(parameter); });
+  glProgramUniformMatrix4fv(program.name(), 0, 1, GL_FALSE, shape.data());
   glProgramUniform2f(program.name(), 1, static_cast<float>(size.x), static_cast<float>(size.y));
   glBindVertexArray(vertices);
   glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -57,6 +59,19 @@ std::vector<std::array<float, 4>> drawn(const std::string& value, float index, c
 /// Growths of w that shapes undo: none, little, much either way, more than they can.
 constexpr std::array kGrowths{0.0, 0.004, 0.02, 1.0, 6.0, -6.0, 20.0};
 
+/// Every shape by its place in the registry, with the parameters of each growth and of what is seen.
+std::vector<std::pair<std::size_t, ShapeParameters>> tried() {
+  std::vector<std::pair<std::size_t, ShapeParameters>> all;
+  for (std::size_t s = 0; s < all_shapes().size(); ++s) {
+    const Shape& shape = *all_shapes()[s];
+    for (const double growth : kGrowths) all.emplace_back(s, shape.undoing(growth));
+    if (shape.serving == nullptr) continue;
+    for (const double place : {0.0, 0.4, 1.0})
+      all.emplace_back(s, shape.serving(test::needs_round(place, 1.0 - place, 7)).parameters);
+  }
+  return all;
+}
+
 /// Floats of some hundred texels after a few operations, near the end where the shape draws them apart, and a
 /// logarithm's rounding over a growth that is little.
 double rounding(const ShapedPoint& p, const TexelGrid& grid) {
@@ -66,35 +81,31 @@ double rounding(const ShapedPoint& p, const TexelGrid& grid) {
 }
 
 TEST(ShapeLaw, shaders_place_texels_where_the_core_does) {
-  for (std::size_t s = 0; s < all_shapes().size(); ++s) {
-    for (const double growth : kGrowths) {
-      // What the shader is given.
-      ShapeParameters q = all_shapes()[s]->undoing(growth);
-      for (double& value : q) value = static_cast<double>(static_cast<float>(value));
-      const TexelGrid grid{640, 384, all_shapes()[s], q};
-      const auto places = drawn("vec4(p.texel, ndc_of_texel(shape, size, size * (ndc * 0.5 + 0.5)))",
-                                static_cast<float>(s), grid);
-      const auto slopes =
-          drawn("vec4(p.texel_from_ndc[0], p.texel_from_ndc[1])", static_cast<float>(s), grid);
-      for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
-          const glm::dvec2 ndc = glm::dvec2(x, y) / (kSide - 1.0) * 2.0 - 1.0;
-          const ShapedPoint p = grid.place(ndc);
-          const glm::dvec2 back = grid.ndc_of(grid.size() * (ndc * 0.5 + 0.5));
-          const auto at = static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);
-          // exp and log of single precision.
-          constexpr double kRelative = 1e-5;
-          const double inverse = 1e-6 + 2.5e-7 / std::max(std::abs(q[0]), 1.0 / 128.0);
-          for (int i = 0; i < 2; ++i) {
-            ASSERT_NEAR(places[at][static_cast<std::size_t>(i)], p.texel[i], rounding(p, grid))
-                << grid.shape->name << " " << growth;
-            ASSERT_NEAR(places[at][static_cast<std::size_t>(2 + i)], back[i], inverse)
-                << grid.shape->name << " " << growth;
-            for (int j = 0; j < 2; ++j) {
-              const double slope = p.texel_from_ndc[i][j];
-              ASSERT_NEAR(slopes[at][static_cast<std::size_t>(2 * i + j)], slope, 1e-3 + kRelative * slope)
-                  << grid.shape->name << " " << growth;
-            }
+  for (auto [s, q] : tried()) {
+    // What the shader is given.
+    for (double& value : q) value = static_cast<double>(static_cast<float>(value));
+    const TexelGrid grid{640, 384, all_shapes()[s], q};
+    const auto places = drawn("vec4(p.texel, ndc_of_texel(shape, size, size * (ndc * 0.5 + 0.5)))",
+                              static_cast<float>(s), grid);
+    const auto slopes = drawn("vec4(p.texel_from_ndc[0], p.texel_from_ndc[1])", static_cast<float>(s), grid);
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const glm::dvec2 ndc = glm::dvec2(x, y) / (kSide - 1.0) * 2.0 - 1.0;
+        const ShapedPoint p = grid.place(ndc);
+        const glm::dvec2 back = grid.ndc_of(grid.size() * (ndc * 0.5 + 0.5));
+        const auto at = static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);
+        // exp and log of single precision.
+        constexpr double kRelative = 1e-5;
+        const double inverse = 1e-6 + 2.5e-7 / std::max(std::abs(q[0]), 1.0 / 128.0);
+        for (int i = 0; i < 2; ++i) {
+          ASSERT_NEAR(places[at][static_cast<std::size_t>(i)], p.texel[i], rounding(p, grid))
+              << grid.shape->name << " " << q[0];
+          ASSERT_NEAR(places[at][static_cast<std::size_t>(2 + i)], back[i], inverse)
+              << grid.shape->name << " " << q[0];
+          for (int j = 0; j < 2; ++j) {
+            const double slope = p.texel_from_ndc[i][j];
+            ASSERT_NEAR(slopes[at][static_cast<std::size_t>(2 * i + j)], slope, 1e-3 + kRelative * slope)
+                << grid.shape->name << " " << q[0];
           }
         }
       }

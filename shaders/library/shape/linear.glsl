@@ -3,9 +3,9 @@
 #define GNOMON_LIBRARY_SHAPE_LINEAR_GLSL
 #include "library/shaped_point.glsl"
 
-ShapedPoint place_linear(vec3 parameters, vec2 size, vec2 ndc) {
+ShapedPoint place_linear(vec2 size, vec2 ndc) {
   return ShapedPoint((ndc * 0.5 + 0.5) * size, mat2(0.5 * size.x, 0.0, 0.0, 0.5 * size.y));
 }
 
-vec2 ndc_of_linear(vec3 parameters, vec2 size, vec2 texel) { return texel / size * 2.0 - 1.0; }
+vec2 ndc_of_linear(vec2 size, vec2 texel) { return texel / size * 2.0 - 1.0; }
 #endif

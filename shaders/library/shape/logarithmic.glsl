@@ -4,14 +4,14 @@
 #include "library/shaped_point.glsl"
 
 // Logarithm of w at the far end of the square over w at its near end; 0: straight. As in C++.
-float logarithmic_growth(vec3 parameters) {
+float logarithmic_growth(mat4 shape) {
   const float kStraight = 1.0 / 128.0, kMostLogGrowth = 9.0;
-  float growth = clamp(parameters.x, -kMostLogGrowth, kMostLogGrowth);
-  return abs(parameters.x) >= kStraight ? growth : 0.0;
+  float growth = clamp(shape[0].y, -kMostLogGrowth, kMostLogGrowth);
+  return abs(shape[0].y) >= kStraight ? growth : 0.0;
 }
 
-ShapedPoint place_logarithmic(vec3 parameters, vec2 size, vec2 ndc) {
-  float growth = logarithmic_growth(parameters), share = ndc.y * 0.5 + 0.5, slope = 1.0;
+ShapedPoint place_logarithmic(mat4 shape, vec2 size, vec2 ndc) {
+  float growth = logarithmic_growth(shape), share = ndc.y * 0.5 + 0.5, slope = 1.0;
   if (growth != 0.0) {
     // 1 / w over its value at the near end, summed from the end where it is least: near that end it is all difference.
     float last = exp(-growth), c = 1.0 - last, inside = clamp(ndc.y, -1.0, 1.0);
@@ -22,8 +22,8 @@ ShapedPoint place_logarithmic(vec3 parameters, vec2 size, vec2 ndc) {
   return ShapedPoint(vec2(ndc.x * 0.5 + 0.5, share) * size, mat2(0.5 * size.x, 0.0, 0.0, 0.5 * size.y * slope));
 }
 
-vec2 ndc_of_logarithmic(vec3 parameters, vec2 size, vec2 texel) {
-  float growth = logarithmic_growth(parameters);
+vec2 ndc_of_logarithmic(mat4 shape, vec2 size, vec2 texel) {
+  float growth = logarithmic_growth(shape);
   vec2 share = texel / size;
   if (growth != 0.0) {
     float last = exp(-growth), c = 1.0 - last, inside = clamp(share.y, 0.0, 1.0), inverse_w = exp(-growth * inside);

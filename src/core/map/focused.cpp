@@ -12,6 +12,7 @@
 #include "map/history.hpp"
 #include "map/record.hpp"
 #include "map/row_shape.hpp"
+#include "map/seen_texels.hpp"
 #include "map/served.hpp"
 #include "map/size.hpp"
 #include "map/turned.hpp"
@@ -149,7 +150,7 @@ double objective_of(const PlanContext& c, const TexelsNeeded& needed) noexcept {
 /// none.
 void shape_rows(const PlanContext& c, const MapRequest& request, const LightBody& body, MapResult& result,
                 Fitted& fitted) noexcept {
-  if (requested_shape(c.options).affine || ignores_shape(c)) return;
+  if (!undoes_warps(requested_shape(c.options)) || ignores_shape(c)) return;
   const int map = request.slot.cascade;
   fitted.rows = row_shape(c, fitted.plane, 0.0);
   TexelsNeeded shaped = fitted.needed;
@@ -317,9 +318,11 @@ MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept 
                  static_cast<double>(fitted.heights.too_near), 0});
   map.depth_range_world = depth_range(request, fitted);
   const glm::dmat4 gl_from_relative = clip_from_light(map, fitted) * request.space.light_from_relative();
-  complete_record(c, request,
-                  {body, fitted.plane, fitted.swept, fitted.needed, fitted.rows, obliquity, gl_from_relative},
-                  map);
+  const glm::dvec2 longest = serve_seen(c, request, gl_from_relative, result);
+  complete_record(
+      c, request,
+      {body, fitted.plane, fitted.swept, fitted.needed, fitted.rows, obliquity, gl_from_relative, longest},
+      map);
   if (c.stable) write_snap_key(fitted, map);
   result.gl_from_world = world_matrix(gl_from_relative, c.camera.position);
   if (kept) {

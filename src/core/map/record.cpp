@@ -105,9 +105,10 @@ void write_texels(const PlanContext& c, const MapRequest& request, const MapPart
   map.texel_world = map.texel_world_max =
       texel_extent_world(parts.gl_from_relative, map.texels(),
                          space.perspective ? safe_normalize(travel, -space.frame.z) : -space.frame.z, centre);
-  if (space.perspective || parts.plane.choice.kappa != 0.0) {
+  if (space.perspective || parts.plane.choice.kappa != 0.0 || parts.longest != glm::dvec2(1.0)) {
     const glm::dvec2 longest = longest_sides(space, parts.body, parts.plane, parts.rows) /
-                               (glm::dvec2(map.width, map.height) - 2.0 * map.filter_margin_texels);
+                               (glm::dvec2(map.width, map.height) - 2.0 * map.filter_margin_texels) *
+                               parts.longest;
     map.texel_world_max = {max_of(map.texel_world.x, longest.x), max_of(map.texel_world.y, longest.y)};
   }
   const double texel = max_of(map.texel_world.x, map.texel_world.y);
@@ -155,9 +156,9 @@ void complete_record(const PlanContext& c, const MapRequest& request, const MapP
   map.shape_parameters =
       parameters_in(clip_from_gl_clip(c.options.clip_space), *map.shape, map.shape_parameters);
   const glm::dvec2 inside = glm::dvec2(map.width, map.height) - 2.0 * map.filter_margin_texels;
-  map.m_s_max = parts.needed.sides.x / inside.x;
-  map.m_t_max = parts.needed.sides.y / inside.y;
-  map.m_max = parts.needed.bound(inside, parts.obliquity);
+  map.m_s_max = parts.needed.sides.x / inside.x * parts.longest.x;
+  map.m_t_max = parts.needed.sides.y / inside.y * parts.longest.y;
+  map.m_max = parts.needed.bound(inside / parts.longest, parts.obliquity);
   map.storage = map.m_s_max * map.m_t_max * static_cast<double>(map.width) * map.height /
                 (static_cast<double>(c.camera.width) * c.camera.height);
 }

@@ -16,6 +16,7 @@ struct MapParts {
   const RowShape& rows;
   double obliquity;
   const glm::dmat4& gl_from_relative;
+  glm::dvec2 longest{1.0};  // texels of the shape along x and y over those that plane and rows give, at most
 };
 
 /// Fills in `map`, whose size, border and shape, of OpenGL's clip space, are set.

@@ -8,6 +8,7 @@
 
 #include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
+#include "map/seen_texels.hpp"
 #include "warp/registry.hpp"
 
 namespace gnomon {
@@ -41,14 +42,16 @@ double RowShape::lengthening(const PlaneMap& plane, double x, double y) const no
 }
 
 bool ignores_shape(const PlanContext& c) noexcept {
-  return !requested_shape(c.options).affine && (c.options.fit != Fit::tight || c.remembers);
+  const Shape& shape = requested_shape(c.options);
+  if (shape.serving != nullptr) return !follows_seen(c);
+  return !shape.affine && (c.options.fit != Fit::tight || c.remembers);
 }
 
 RowShape row_shape(const PlanContext& c, const PlaneMap& plane, double border) noexcept {
   const Shape& shape = requested_shape(c.options);
   const glm::dvec2 row = plane.choice.row_b;
-  if (shape.affine || ignores_shape(c) || !(plane.choice.kappa > 0.0) || row.x != 0.0 || !(row.y > 0.0) ||
-      plane.choice.row_a != glm::dvec2(1.0, 0.0))
+  if (!undoes_warps(shape) || ignores_shape(c) || !(plane.choice.kappa > 0.0) || row.x != 0.0 ||
+      !(row.y > 0.0) || plane.choice.row_a != glm::dvec2(1.0, 0.0))
     return {};
   const double near = inverse_w(plane, plane.b_min), far = inverse_w(plane, plane.b_max);
   if (!(far > 0.0) || !(near > far)) return {};
@@ -58,7 +61,7 @@ RowShape row_shape(const PlanContext& c, const PlaneMap& plane, double border) n
 }
 
 void limit_to_shape(const PlanContext& c, std::span<const WarpInput::Point> body, PlaneMap& plane) noexcept {
-  if (requested_shape(c.options).affine || ignores_shape(c)) return;
+  if (!undoes_warps(requested_shape(c.options)) || ignores_shape(c)) return;
   const double most = elementary::exp(kMostOverBody);
   if (!(plane.stretch > most)) return;
   WarpChoice choice = plane.choice;

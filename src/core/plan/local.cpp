@@ -330,7 +330,6 @@ void report_ignored(const PlanContext& c, const Light& light, bool has_visible_d
   if (o.warp.has_planes()) omit(plan, IgnoredOption::planes);
   if (o.split.selection == MapSelection::finest) omit(plan, IgnoredOption::selection);
   if (has_visible_depths) omit(plan, IgnoredOption::visible_depths);
-  if (!c.seen_points.empty()) omit(plan, IgnoredOption::visible_points);
 }
 
 /// Replaces the plan's maps.

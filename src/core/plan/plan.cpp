@@ -182,7 +182,9 @@ void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bou
     plan_parallel(context, *sun, visible.depths, history, plan);
   } else {
     context.seen = visible.depths;
+    context.seen_points = {};
     plan_local(context, light, history, plan);
+    if (!visible.points_world.empty()) omit(plan, IgnoredOption::visible_points);
   }
   if (options.cadence.frames > 1 && !context.keeps) omit(plan, IgnoredOption::cadence);
 }

@@ -9,7 +9,7 @@
 namespace gnomon {
 namespace {
 
-static_assert(sizeof(ShaderMap) == 112 + 16 * kMaxSelectPlanes && sizeof(ShaderBlock) % 16 == 0,
+static_assert(sizeof(ShaderMap) == 160 + 16 * kMaxSelectPlanes && sizeof(ShaderBlock) % 16 == 0,
               "matrices and vectors of four have no padding under std140 and std430");
 
 /// The plan's clip space to the one for look-ups: -1..1 along the texture's columns and rows, z 0 near the
@@ -58,12 +58,14 @@ ShaderMap shader_map(const ShadowMap& map, const glm::dmat4& lookup_from_map, co
 
 }  // namespace
 
-glm::vec4 shader_shape(const ShadowMap& map, const glm::dmat4& lookup_from_map) noexcept {
+glm::mat4 shader_shape(const ShadowMap& map, const glm::dmat4& lookup_from_map) noexcept {
   const std::span<const Shape* const> all = all_shapes();
   const auto place = std::find(all.begin(), all.end(), map.shape) - all.begin();
   const ShapeParameters p = parameters_in(lookup_from_map, *map.shape, map.shape_parameters);
-  return {static_cast<float>(place), static_cast<float>(p[0]), static_cast<float>(p[1]),
-          static_cast<float>(p[2])};
+  glm::mat4 shape(static_cast<float>(place));
+  for (int i = 0; i < static_cast<int>(p.size()); ++i)
+    shape[(i + 1) / 4][(i + 1) % 4] = static_cast<float>(p[static_cast<std::size_t>(i)]);
+  return shape;
 }
 
 // As map_serving of shaders/library/select_map.glsl takes it.

@@ -33,9 +33,13 @@ const Shape& requested_shape(const PlanOptions& options) noexcept {
   return options.warp.shape != nullptr ? *options.warp.shape : shapes::linear;
 }
 
+bool undoes_warps(const Shape& shape) noexcept {
+  return !shape.affine && shape.serving == nullptr;
+}
+
 const Warp& requested_warp(const PlanOptions& options) noexcept {
   if (options.warp.warp != nullptr) return *options.warp.warp;
-  return requested_shape(options).affine ? warps::optimal : warps::psm;
+  return undoes_warps(requested_shape(options)) ? warps::psm : warps::optimal;
 }
 
 bool is_unwarped(const Warp& warp) noexcept {

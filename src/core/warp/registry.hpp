@@ -8,6 +8,8 @@ namespace gnomon {
 
 /// The shape that the options name.
 [[nodiscard]] const Shape& requested_shape(const PlanOptions& options) noexcept;
+/// True for a shape that undoes what warps do along the view.
+[[nodiscard]] bool undoes_warps(const Shape& shape) noexcept;
 /// The warp that the options name, and the default one where they name none: of a shape that undoes the
 /// viewer's perspective along the view, the whole of that perspective.
 [[nodiscard]] const Warp& requested_warp(const PlanOptions& options) noexcept;

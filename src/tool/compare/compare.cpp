@@ -225,7 +225,7 @@ std::vector<Option> technique_options(CompareRequest& request) {
        .only_names = false},
       {.name = "--shapes",
        .target = &request.shapes,
-       .help = "how texels lie along the warp, or all; with warps other than none",
+       .help = "how texels lie, or all; rectilinear plans with the points that a frame shows",
        .names = names_in(all_shapes(), {"all"}),
        .only_names = false},
       {.name = "--splits",

@@ -120,16 +120,17 @@ void set_warp(const std::string& text, SweepEntry& entry) {
     refuse_name("--shapes", text.substr(colon + 1), names_in(all_shapes(), {"all"}));
 }
 
-/// Warps with shapes: `lispsm:logarithmic`. Without a warp there is nothing that a shape could undo.
+/// Warps with shapes: `lispsm:logarithmic`. Without a warp only shapes that follow what is seen are of use.
 std::vector<std::string> with_shapes(const std::vector<std::string>& warps,
                                      const std::vector<std::string>& shapes) {
   std::vector<std::string> both;
   for (const std::string& warp : warps) {
     for (const std::string& shape : shapes) {
-      if (find_shape(shape) == nullptr) refuse_name("--shapes", shape, names_in(all_shapes(), {"all"}));
-      if (shape == "linear")
+      const Shape* const known = find_shape(shape);
+      if (known == nullptr) refuse_name("--shapes", shape, names_in(all_shapes(), {"all"}));
+      if (known->affine)
         both.push_back(warp);
-      else if (warp != "none")
+      else if (warp != "none" || known->serving != nullptr)
         both.push_back(warp + ":" + shape);
     }
   }
@@ -147,7 +148,9 @@ void set_split(const std::string& text, SweepEntry& entry) {
   };
   if (has_suffix(":finest")) entry.plan.split.selection = MapSelection::finest;
   entry.visible_depths = has_suffix(":visible_depths");
-  entry.visible_points = has_suffix(":visible_points");
+  // Set before: a shape that follows what is seen needs it.
+  const bool follows_seen = entry.plan.warp.shape != nullptr && entry.plan.warp.shape->serving != nullptr;
+  entry.visible_points = has_suffix(":visible_points") || follows_seen;
   const bool is_partition = partition_from_name(name, entry.plan.split.partition);
   if (!split_scheme_from_name(name, entry.plan.split.scheme) && (!is_partition || name == "view_depth"))
     refuse_name("--splits", text, split_names());
@@ -248,7 +251,7 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
   const std::vector<std::string> warps =
       with_shapes(expanded(request.warps, all_warps()), expanded(request.shapes, all_shapes()));
   if (warps.empty())
-    throw std::runtime_error("--shapes: warp none is always linear, and no other warp is given");
+    throw std::runtime_error("--shapes: logarithmic needs a warp other than none, and no other is given");
   multiply(entries, expanded(request.filters, render::all_filters()), set_filter);
   multiply(entries, expanded_layers(request.layers), set_layer);
   drop_unread_layers(entries, left_out);

@@ -101,9 +101,10 @@ Json map_json(const ShadowPlan& plan, int index, const Case& input) {
       {"m", stats_of(measure_map(plan, index, input.camera, input.bounds()))},
   };
   if (map.shape != &shapes::linear) {
-    const ShapeParameters& p = map.shape_parameters;
-    result["shape"] = {{"name", std::string(map.shape->name)},
-                       {"parameters", {number(p[0]), number(p[1]), number(p[2])}}};
+    Json parameters = Json::array();
+    for (int i = 0; i < map.shape->parameter_count; ++i)
+      parameters.push_back(number(map.shape_parameters[static_cast<std::size_t>(i)]));
+    result["shape"] = {{"name", std::string(map.shape->name)}, {"parameters", std::move(parameters)}};
   }
   return result;
 }

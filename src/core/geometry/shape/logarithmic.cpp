@@ -68,11 +68,11 @@ ShapeRectangle ndc_bounds(const ShapeParameters& parameters, const glm::dvec2& s
 }
 
 ShapeParameters undoing(double log_growth) noexcept {
-  return {growth_of({log_growth, 0.0, 0.0}), 0.0, 0.0};
+  return {growth_of({log_growth})};
 }
 
 ShapeParameters mirrored(const ShapeParameters& parameters, bool, bool y) noexcept {
-  return {y ? -parameters[0] : parameters[0], parameters[1], parameters[2]};
+  return {y ? -parameters[0] : parameters[0]};
 }
 
 }  // namespace
@@ -81,6 +81,6 @@ const Shape logarithmic{"logarithmic", "rows by the logarithm of the warp's w: e
                         false,         place,
                         ndc_of,        texel_bounds,
                         ndc_bounds,    undoing,
-                        mirrored};
+                        mirrored,      1};
 
 }  // namespace gnomon::shapes
