@@ -75,12 +75,13 @@ void main() {
   }
   vec2 low, high;
   bound_polygon(low, high);
-  low = shaped_point(shape, size, max(low, -1.0)).texel - kSlack;
-  high = shaped_point(shape, size, min(high, 1.0)).texel + kSlack;
+  vec4 bounds = texel_bounds(shape, size, max(low, -1.0), min(high, 1.0));
+  low = bounds.xy - kSlack;
+  high = bounds.zw + kSlack;
   const float kThin = 3.0, kRows = 4.0;  // texels across that cost no more than a slab; texels along of a slab
   const int kMostSlabs = 8;
   float first = floor(low.y), rows = ceil(high.y) - first;
-  int slabs = high.x - low.x > kThin ? clamp(int(rows / kRows), 1, kMostSlabs) : 1;
+  int slabs = high.x - low.x > kThin && rows_stay_rows(shape) ? clamp(int(rows / kRows), 1, kMostSlabs) : 1;
   if (slabs == 1) {
     emit_rectangle(low, high);
     return;

@@ -81,7 +81,9 @@ struct WarpOptions {
   /// the objective. `rectilinear` makes columns and rows narrow where visible points need it; maps are linear
   /// without such points, for local lights, with several views, kernels in world units, sizes that follow the
   /// error, and fits other than tight or a history. Receivers that are not among the points get texels up to
-  /// 16 times longer. nullptr counts as linear.
+  /// 16 times longer. `paraboloid` evens out the angles between a local light's texels, without a warp, with
+  /// a tight fit, no history, and sizes that do not follow the error; directional lights have linear texels.
+  /// nullptr counts as linear.
   const Shape* shape = &shapes::linear;
   /// The error that a warp must lower to be used.
   Objective objective = Objective::storage;

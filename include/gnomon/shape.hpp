@@ -45,6 +45,13 @@ struct ShapeRectangle {
   glm::dvec2 low, high;  ///< corners
 };
 
+/// A shape that was fitted to a local light's rays.
+struct RoundShape {
+  ShapeParameters parameters{};  ///< of the shape
+  ShapeRectangle slopes;         ///< that the square -1..1 has to show, margin included
+  glm::dvec2 longest{1.0};       ///< bound of texels along x and y over those of even slopes
+};
+
 /// One entry of the registry shapes.def. `size`: width and height of the map in texels. Either texel
 /// coordinate grows with the ndc coordinate of the same name. Every function takes any finite place; off the
 /// square -1..1 the shape goes on as its formula does, or along its tangent where the formula ends.
@@ -76,6 +83,10 @@ struct Shape {
   /// Parameters under which the largest of the needs is as small as it gets; nullptr for shapes that do not
   /// follow visible points. Needs without a number above 0 give linear texels.
   ServingShape (*serving)(const TexelNeeds& needs) noexcept = nullptr;
+  /// Parameters for a local light's rays; nullptr for shapes that do not follow them. `slopes`: those off the
+  /// light's axis that receivers have, none empty; `size`: of the map, texels, more than two margins.
+  RoundShape (*round)(const ShapeRectangle& slopes, const glm::dvec2& size,
+                      int margin_texels) noexcept = nullptr;
 };
 
 /// Logarithm of the largest growth of w that a shape undoes. Beyond it, places near the far end are rounding

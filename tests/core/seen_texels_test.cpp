@@ -12,8 +12,8 @@
 #include "gnomon/bias.hpp"
 #include "gnomon/gnomon.hpp"
 #include "gnomon/metric.hpp"
+#include "support/fitted_shapes.hpp"
 #include "support/near.hpp"
-#include "support/texel_needs.hpp"
 
 namespace gnomon::test {
 namespace {

@@ -354,7 +354,7 @@ TEST(Compare, shapes_are_rows_beside_the_warps_with_an_even_error) {
                                         "--out",       folder.path().string()});
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   const std::vector<report::Row> rows = report::read_rows(folder.path());
-  // Without a warp there is none to undo.
+  // Without a warp there is none to undo, and parallel rays have no angles to even out.
   ASSERT_EQ(rows.size(), 5u);
   EXPECT_EQ(rows[1].technique.warp, "none:rectilinear");
   EXPECT_EQ(rows[2].technique.warp, "psm");
@@ -364,6 +364,16 @@ TEST(Compare, shapes_are_rows_beside_the_warps_with_an_even_error) {
   EXPECT_LT(rows[3].aliasing.p95, 0.5 * rows[2].aliasing.p95);
   for (const std::size_t bent : {1u, 3u, 4u})
     EXPECT_LT(rows[bent].errors.false_lit + rows[bent].errors.false_shadow, 0.02);
+}
+
+TEST(Compare, shapes_that_a_light_has_no_use_for_are_refused_where_nothing_else_is_left) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon(
+      {"compare", "builtin:fence", "--shapes", "paraboloid", "--out", (folder.path() / "none").string()});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_NE(finished.err.find("--shapes: this light's maps take none of them"), std::string::npos)
+      << finished.err;
+  EXPECT_FALSE(fs::exists(folder.path() / "none"));
 }
 
 TEST(Compare, refuses_bad_input_before_it_measures) {

@@ -11,6 +11,7 @@
 #include "map/gain.hpp"
 #include "map/history.hpp"
 #include "map/record.hpp"
+#include "map/round_texels.hpp"
 #include "map/row_shape.hpp"
 #include "map/seen_texels.hpp"
 #include "map/served.hpp"
@@ -40,6 +41,7 @@ struct Fitted {
   HeightRange heights;
   RowShape rows;
   BorderedPlane bordered;  // where the rows are bent
+  RoundTexels round;
 };
 
 /// The border as a share of the rectangle's side; the wider of both.
@@ -49,6 +51,7 @@ double border_of_body(const ShadowMap& map) noexcept {
 }
 
 MapBorder border_of_body(const ShadowMap& map, const Fitted& fitted) noexcept {
+  if (fitted.round.used) return {fitted.round.border};
   return {border_of_body(map), fitted.bordered.log_w};
 }
 
@@ -150,7 +153,7 @@ double objective_of(const PlanContext& c, const TexelsNeeded& needed) noexcept {
 /// none.
 void shape_rows(const PlanContext& c, const MapRequest& request, const LightBody& body, MapResult& result,
                 Fitted& fitted) noexcept {
-  if (!undoes_warps(requested_shape(c.options)) || ignores_shape(c)) return;
+  if (!undoes_warps(requested_shape(c.options)) || keeps_linear_texels(c)) return;
   const int map = request.slot.cascade;
   fitted.rows = row_shape(c, fitted.plane, 0.0);
   TexelsNeeded shaped = fitted.needed;
@@ -198,6 +201,7 @@ void border_rows(const PlanContext& c, const LightBody& body, MapResult& result,
 glm::dmat4 clip_from_light(const ShadowMap& map, const Fitted& fitted) noexcept {
   const glm::dvec2 border = static_cast<double>(map.filter_margin_texels) / glm::dvec2(map.width, map.height);
   if (fitted.rows.bent()) return clip_from_light(fitted.bordered.plane, fitted.depths, {border.x, 0.0});
+  if (fitted.round.used) return clip_from_light(fitted.round.plane, fitted.depths, 0.0);
   return clip_from_light(fitted.plane, fitted.depths, border);
 }
 
@@ -261,6 +265,7 @@ void fit(const PlanContext& c, const MapRequest& request, const LightBody& body,
   map.height = size.height;
   map.filter_margin_texels = size.border;
   border_rows(c, body, result, fitted);
+  fitted.round = round_texels(c, request, body, fitted.plane, result);
   const std::int64_t saved =
       std::int64_t{request.slot.width} * request.slot.height - std::int64_t{size.width} * size.height;
   if (saved > 0) {
@@ -318,7 +323,7 @@ MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept 
                  static_cast<double>(fitted.heights.too_near), 0});
   map.depth_range_world = depth_range(request, fitted);
   const glm::dmat4 gl_from_relative = clip_from_light(map, fitted) * request.space.light_from_relative();
-  const glm::dvec2 longest = serve_seen(c, request, gl_from_relative, result);
+  const glm::dvec2 longest = serve_seen(c, request, gl_from_relative, result) * fitted.round.longest;
   complete_record(
       c, request,
       {body, fitted.plane, fitted.swept, fitted.needed, fitted.rows, obliquity, gl_from_relative, longest},

@@ -41,16 +41,25 @@ double RowShape::lengthening(const PlaneMap& plane, double x, double y) const no
   return 0.5 / p.texel_from_ndc[1][1];
 }
 
-bool ignores_shape(const PlanContext& c) noexcept {
+bool ignores_shape(const PlanContext& c, bool local_light) noexcept {
   const Shape& shape = requested_shape(c.options);
-  if (shape.serving != nullptr) return !follows_seen(c);
-  return !shape.affine && (c.options.fit != Fit::tight || c.remembers);
+  if (shape.serving != nullptr) return local_light || !follows_seen(c);
+  if (shape.round != nullptr && (!local_light || sizes_follow_error(c))) return true;
+  return !shape.affine && keeps_linear_texels(c);
+}
+
+bool keeps_linear_texels(const PlanContext& c) noexcept {
+  return c.options.fit != Fit::tight || c.remembers;
+}
+
+bool sizes_follow_error(const PlanContext& c) noexcept {
+  return c.options.resolution.max_error > 0.0 || c.options.resolution.texel_budget > 0;
 }
 
 RowShape row_shape(const PlanContext& c, const PlaneMap& plane, double border) noexcept {
   const Shape& shape = requested_shape(c.options);
   const glm::dvec2 row = plane.choice.row_b;
-  if (!undoes_warps(shape) || ignores_shape(c) || !(plane.choice.kappa > 0.0) || row.x != 0.0 ||
+  if (!undoes_warps(shape) || keeps_linear_texels(c) || !(plane.choice.kappa > 0.0) || row.x != 0.0 ||
       !(row.y > 0.0) || plane.choice.row_a != glm::dvec2(1.0, 0.0))
     return {};
   const double near = inverse_w(plane, plane.b_min), far = inverse_w(plane, plane.b_max);
@@ -61,7 +70,7 @@ RowShape row_shape(const PlanContext& c, const PlaneMap& plane, double border) n
 }
 
 void limit_to_shape(const PlanContext& c, std::span<const WarpInput::Point> body, PlaneMap& plane) noexcept {
-  if (!undoes_warps(requested_shape(c.options)) || ignores_shape(c)) return;
+  if (!undoes_warps(requested_shape(c.options)) || keeps_linear_texels(c)) return;
   const double most = elementary::exp(kMostOverBody);
   if (!(plane.stretch > most)) return;
   WarpChoice choice = plane.choice;

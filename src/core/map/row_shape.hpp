@@ -17,8 +17,13 @@ struct RowShape {
   [[nodiscard]] double lengthening(const PlaneMap& plane, double x, double y) const noexcept;
 };
 
+/// True of plans whose maps are kept or turned: no shape is fitted to those.
+[[nodiscard]] bool keeps_linear_texels(const PlanContext& c) noexcept;
+/// True of plans whose maps are as large as their error requires, or share a budget by it: it is reckoned for
+/// texels of one size.
+[[nodiscard]] bool sizes_follow_error(const PlanContext& c) noexcept;
 /// True where a shape was requested that maps of this plan cannot have.
-[[nodiscard]] bool ignores_shape(const PlanContext& c) noexcept;
+[[nodiscard]] bool ignores_shape(const PlanContext& c, bool local_light) noexcept;
 
 /// Linear where the requested shape is of no use to a map of this plane. `border`: share of the map's height
 /// that it keeps free at either end.

@@ -8,6 +8,7 @@
 
 #include "geometry/jacobian.hpp"
 #include "geometry/vector.hpp"
+#include "map/row_shape.hpp"
 #include "map/size.hpp"
 #include "warp/registry.hpp"
 
@@ -93,16 +94,19 @@ TexelNeeds without_extremes(const Seen& seen, double share) noexcept {
 }  // namespace
 
 bool follows_seen(const PlanContext& c) noexcept {
-  const ResolutionOptions& resolution = c.options.resolution;
-  return requested_shape(c.options).serving != nullptr && !c.seen_points.empty() && !c.remembers &&
-         c.views.empty() && c.options.fit == Fit::tight && c.options.filter.world == 0.0 &&
-         resolution.max_error == 0.0 && resolution.texel_budget == 0;
+  return requested_shape(c.options).serving != nullptr && !c.seen_points.empty() && c.views.empty() &&
+         c.options.filter.world == 0.0 && !keeps_linear_texels(c) && !sizes_follow_error(c);
 }
 
 glm::dvec2 serve_seen(const PlanContext& c, const MapRequest& request, const glm::dmat4& gl_from_relative,
                       MapResult& result) noexcept {
   if (!follows_seen(c)) return glm::dvec2(1.0);
   ShadowMap& map = result.map;
+  if (map.width < request.slot.width || map.height < request.slot.height) {
+    // Smaller as its error is small everywhere, which it would not stay.
+    result.omit({OmissionKind::shape_without_gain, map.cascade, 1.0, 0.0, 0});
+    return glm::dvec2(1.0);
+  }
   const Shape& shape = requested_shape(c.options);
   Seen seen;
   seen.needs.margin_texels = map.filter_margin_texels;

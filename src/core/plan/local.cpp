@@ -339,7 +339,7 @@ void plan_frusta(const LocalScene& scene, const Light& light, ShadowPlan& plan) 
   report_ignored(scene.c, light, scene.c.seen != nullptr && !scene.c.seen->empty(), plan);
   if (scene.c.stable && options.warp.warp != nullptr && !is_unwarped(*options.warp.warp))
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
-  if (ignores_shape(scene.c)) omit(plan, IgnoredOption::shape);
+  if (ignores_shape(scene.c, true)) omit(plan, IgnoredOption::shape);
   const auto* spot = std::get_if<SpotLight>(&light);
   if (takes_tetrahedron(scene.c, light)) {
     plan_tetrahedron(scene, plan);

@@ -52,8 +52,8 @@ void describe_ignored(const Omission& o, OmissionText& text) noexcept {
       {"option cadence", "it needs a history, a directional light, and cascades of a fixed number and size"},
       {"visible points", "local lights, stable fits, parts and kept maps do not follow them"},
       {"option warp.shape",
-       "it needs a tight fit without a history; rectilinear also visible points, one view, fixed sizes and "
-       "kernels in texels"},
+       "it needs a tight fit, no history; rectilinear visible points, one view, fixed sizes, kernels in "
+       "texels; paraboloid a local light"},
       {"option warp.planes",
        "it needs a directional light, one view, partition view_depth, and a tight or rotated fit without a "
        "texel budget"}};

@@ -37,7 +37,7 @@ void finish_parallel(const PlanContext& c, ShadowPlan& plan) noexcept {
   if (c.stable && options.warp.warp != nullptr && !is_unwarped(*options.warp.warp))
     omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
   if (options.split.partition == Partition::tetrahedron) omit(plan, IgnoredOption::partition);
-  if (ignores_shape(c)) omit(plan, IgnoredOption::shape);
+  if (ignores_shape(c, false)) omit(plan, IgnoredOption::shape);
   if (options.warp.has_planes() && !takes_planes(c)) omit(plan, IgnoredOption::planes);
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }

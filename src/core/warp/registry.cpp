@@ -34,11 +34,12 @@ const Shape& requested_shape(const PlanOptions& options) noexcept {
 }
 
 bool undoes_warps(const Shape& shape) noexcept {
-  return !shape.affine && shape.serving == nullptr;
+  return !shape.affine && shape.serving == nullptr && shape.round == nullptr;
 }
 
 const Warp& requested_warp(const PlanOptions& options) noexcept {
   if (options.warp.warp != nullptr) return *options.warp.warp;
+  if (requested_shape(options).round != nullptr) return warps::none;
   return undoes_warps(requested_shape(options)) ? warps::psm : warps::optimal;
 }
 

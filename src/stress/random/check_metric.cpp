@@ -38,7 +38,7 @@ ExactError exact_error(const View& v, const LightAt& light, const RelativeMap& e
                          per_pixel(v, p, normal, v.up, (Real(c.top) - c.bottom) / c.height)};
   const Real4x4& m = exact.matrix();
   const Real4 clip = m * Real4(p, 1.0L), error = exact.world_error(p);
-  Real j[2][2];
+  Real j[2][2], of_ndc[2][2];
   Real worst = error.w / std::abs(clip.w);
   for (int axis = 0; axis < 2; ++axis) {
     const Real ndc = clip[axis] / clip.w, side = 0.5L * (axis == 0 ? map.width : map.height);
@@ -51,7 +51,19 @@ ExactError exact_error(const View& v, const LightAt& light, const RelativeMap& e
     const Real3 row_w(m[0][3], m[1][3], m[2][3]);
     const Real off = turned * length(row_w) / clip.w * side + 0x1p-50L * length(size);
     worst = std::max(worst, off / length(row));
-    for (int k = 0; k < 2; ++k) j[axis][k] = glm::dot(row, step[k]);
+    for (int k = 0; k < 2; ++k) of_ndc[axis][k] = glm::dot(row, step[k]);
+  }
+  // From linear texels to the shape's.
+  const glm::dmat2 shaped =
+      map.texels()
+          .place({static_cast<double>(clip.x / clip.w), static_cast<double>(clip.y / clip.w)})
+          .texel_from_ndc;
+  const Real sides[2] = {0.5L * map.width, 0.5L * map.height};
+  for (int axis = 0; axis < 2; ++axis) {
+    for (int k = 0; k < 2; ++k)
+      j[axis][k] = map.shape->affine ? of_ndc[axis][k]
+                                     : shaped[0][axis] / sides[0] * of_ndc[0][k] +
+                                           shaped[1][axis] / sides[1] * of_ndc[1][k];
   }
   ExactError out;
   const Real det = std::abs(j[0][0] * j[1][1] - j[0][1] * j[1][0]);
@@ -279,7 +291,7 @@ bool for_warps(const nlohmann::ordered_json& value, nlohmann::ordered_json& out,
   if (options.value("stable", false) || options.value("fit", "tight") != "tight") return false;
   if (options.contains("filter_radius_world")) return false;
   for (const char* key : {"target_m", "texel_budget", "partition", "selection", "focus", "focus_weight",
-                          "near_hint", "pseudo_near"})
+                          "near_hint", "pseudo_near", "shape"})
     options.erase(key);
   if (options.value("split", "auto") == "optimal") options["split"] = "logarithmic";
   options["prune"] = "exact";

@@ -102,6 +102,26 @@ std::string_view kind_for(const Scene& s, std::string_view parallel, std::string
   return s.light.parallel() ? parallel : local;
 }
 
+/// How many texels a place lies inside the filter margin along an axis, below 0: outside, and what is not
+/// known of that.
+struct Inside {
+  Real texels, error;
+};
+Inside inside_margin(const ShadowMap& map, const Shown& shown, int axis) {
+  const Real size = axis == 0 ? map.width : map.height;
+  if (map.shape->affine)
+    return {0.5L * size * (1.0L - std::abs(shown.ndc(axis))) - map.filter_margin_texels,
+            0.5L * size * shown.ndc_error(axis)};
+  const glm::dvec2 ndc(static_cast<double>(shown.ndc(0)), static_cast<double>(shown.ndc(1)));
+  const ShapedPoint at = map.texels().place(ndc);
+  const Real texel = at.texel[axis];
+  // The shape's own arithmetic, in doubles.
+  constexpr Real kShape = 1e-11L;
+  return {std::min(texel, size - texel) - map.filter_margin_texels,
+          std::abs(Real(at.texel_from_ndc[0][axis])) * (shown.ndc_error(0) + kShape) +
+              std::abs(Real(at.texel_from_ndc[1][axis])) * (shown.ndc_error(1) + kShape)};
+}
+
 /// Clip coordinates against the map's border, off the filter margin, and its depths.
 void check_receiver(const Scene& s, int index, const Real3& p, Report& report) {
   const auto k = static_cast<std::size_t>(index);
@@ -114,13 +134,13 @@ void check_receiver(const Scene& s, int index, const Real3& p, Report& report) {
     return;
   }
   for (int axis = 0; axis < 2; ++axis) {
-    const Real size = axis == 0 ? map.width : map.height;
-    const Real inner = 1.0L - (2.0L * map.filter_margin_texels - kQuarterTexel) / size;
-    const Real beyond = std::abs(shown.ndc(axis)) - inner - shown.ndc_error(axis);
+    const Inside inside = inside_margin(map, shown, axis);
+    const Real beyond = -inside.texels - 0.5L * kQuarterTexel - inside.error;
     if (beyond > 0.0L)
-      report.add("receiver_outside_map", static_cast<double>(beyond * 0.5L * size),
-                 name(map) + ": " + (axis == 0 ? "x" : "y") + " is " + number(shown.ndc(axis)) +
-                     ", not within " + number(inner) + at(s, p));
+      report.add("receiver_outside_map", static_cast<double>(beyond),
+                 name(map) + ": " + (axis == 0 ? "x" : "y") + " is " + number(shown.ndc(axis)) + ", " +
+                     number(beyond) + " texels into the margin of " +
+                     std::to_string(map.filter_margin_texels) + at(s, p));
   }
   const Real deep = std::abs(shown.ndc(2)) - 1.0L - shown.ndc_error(2) - kDepthStep;
   if (deep > 0.0L)
@@ -268,9 +288,8 @@ void check_by_map(const Scene& s, const Real3& p, Report& report) {
   const ShadowMap& map = s.plan.map[static_cast<std::size_t>(index)];
   const Shown shown = s.maps[static_cast<std::size_t>(index)].show(p);
   for (int axis = 0; axis < 2; ++axis) {
-    const Real size = axis == 0 ? map.width : map.height;
-    const Real inner = 1.0L - 2.0L * map.filter_margin_texels / size;
-    if (!(std::abs(shown.ndc(axis)) + shown.ndc_error(axis) < inner)) return;
+    const Inside inside = inside_margin(map, shown, axis);
+    if (!(inside.texels > inside.error)) return;
   }
   if (!s.view.clearly_sees(p)) return;
   for (const Blocker& blocker : blockers(s, p, 4)) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gnomon/prune.hpp"
+#include "gnomon/shape.hpp"
 #include "gnomon/warp.hpp"
 #include "random.hpp"
 
@@ -363,6 +364,9 @@ void draw_warp(Dice& dice, const Stage& s, Json& o) {
     o["focus"] = json(draw_receiver(dice, s));
     if (dice.chance(0.7)) o["focus_weight"] = dice.power(0.0, 19.9);
   }
+  if (dice.chance(0.15))
+    o["shape"] = std::string(
+        all_shapes()[static_cast<std::size_t>(dice.pick(static_cast<int>(all_shapes().size())))]->name);
 }
 
 void draw_map(Dice& dice, const Stage& s, Json& o) {

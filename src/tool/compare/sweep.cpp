@@ -120,7 +120,7 @@ void set_warp(const std::string& text, SweepEntry& entry) {
     refuse_name("--shapes", text.substr(colon + 1), names_in(all_shapes(), {"all"}));
 }
 
-/// Warps with shapes: `lispsm:logarithmic`. Without a warp only shapes that follow what is seen are of use.
+/// Warps with shapes: `lispsm:logarithmic`. Without a warp only shapes that do not undo one are of use.
 std::vector<std::string> with_shapes(const std::vector<std::string>& warps,
                                      const std::vector<std::string>& shapes) {
   std::vector<std::string> both;
@@ -130,7 +130,7 @@ std::vector<std::string> with_shapes(const std::vector<std::string>& warps,
       if (known == nullptr) refuse_name("--shapes", shape, names_in(all_shapes(), {"all"}));
       if (known->affine)
         both.push_back(warp);
-      else if (warp != "none" || known->serving != nullptr)
+      else if (warp != "none" || known->serving != nullptr || known->round != nullptr)
         both.push_back(warp + ":" + shape);
     }
   }
@@ -209,6 +209,12 @@ struct Firsts {
   int cascades = 1;
 };
 
+/// True for a shape that this light's maps do not take: they would be linear.
+bool is_useless(const Shape* shape, LightKind light) noexcept {
+  if (shape == nullptr) return false;
+  return light == LightKind::sun ? shape->round != nullptr : shape->serving != nullptr;
+}
+
 /// True where another entry of the product says the same.
 bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
   const report::Technique& t = entry.technique;
@@ -266,7 +272,10 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
   Firsts first{splits.front(), warps.front(), entries.front().technique.fit,
                entries.front().technique.cascades};
   if (std::find(warps.begin(), warps.end(), "none") != warps.end()) first.warp = "none";
-  std::erase_if(entries, [&](const SweepEntry& entry) { return is_double(entry, first, light); });
+  std::erase_if(entries, [&](const SweepEntry& entry) {
+    return is_useless(entry.plan.warp.shape, light) || is_double(entry, first, light);
+  });
+  if (entries.empty()) throw std::runtime_error("--shapes: this light's maps take none of them");
   return entries;
 }
 
