@@ -28,10 +28,24 @@ bool sides_differ(const ViewInLight& view, double factor) noexcept {
   return max_of(view.pixel_x, view.pixel_y) > factor * min_of(view.pixel_x, view.pixel_y);
 }
 
-/// Whether an edge of the image is far enough off the view for rays to fan out wide.
-bool wide(const ViewInLight& view) noexcept {
+/// Slope of the edge of the image that is farthest off the view.
+double widest_slope(const ViewInLight& view) noexcept {
   return max_of(max_of(std::abs(view.image_left), std::abs(view.image_right)),
-                max_of(std::abs(view.image_bottom), std::abs(view.image_top))) >= kWideSlope;
+                max_of(std::abs(view.image_bottom), std::abs(view.image_top)));
+}
+
+/// Whether rays fan out wide.
+bool wide(const ViewInLight& view) noexcept {
+  return widest_slope(view) >= kWideSlope;
+}
+
+/// How far texels lean, over their width, at most over the body. Under a view's perspective no farther than
+/// its rays: more comes of a warp that makes a body narrow by shearing it.
+double most_lean(const WarpInput& in, double kappa) noexcept {
+  double lean = 0.0;
+  for (const WarpInput::Point& p : in.body)
+    lean = max_of(lean, std::abs(kappa * (p.x - in.centre)) / (1.0 + kappa * (p.y - in.y_min)));
+  return lean;
 }
 
 double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
@@ -46,7 +60,8 @@ double first_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
     constexpr double kCertainRatio = 0.25;
     const double with = warp_error(in, choice.kappa).value(in.objective);
     const double plain = warp_error(in, 0.0).value(in.objective);
-    if (with < kCertainRatio * plain && !wide(in.view) && !sides_differ(in.view, kSquare))
+    if (with < kCertainRatio * plain && !wide(in.view) && !sides_differ(in.view, kSquare) &&
+        most_lean(in, choice.kappa) < kWideSlope)
       return with / plain;
   }
   return sampled_ratio(in, choice, false, 0);
@@ -92,6 +107,9 @@ double border_ratio(const PlanContext& c, const MapRequest& request, const WarpQ
 /// gain_ratio without borders.
 double inner_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
   if (!usable(in.body, choice, in.most_stretch)) return std::numeric_limits<double>::infinity();
+  // A tenth of a degree off a half space: of a thousand samples none says what its rays meet.
+  constexpr double kTooWide = 500.0;
+  if (!in.orthographic && widest_slope(in.view) > kTooWide) return 1.0;
   const double ratio = first_ratio(in, choice);
   if (in.orthographic || !(ratio < 1.0)) return ratio;
   // The 95th percentile of so few points is off by up to a third, and where rays fan out wide the worst texel
