@@ -40,7 +40,7 @@ struct Fitted {
   TexelsNeeded needed;
   HeightRange heights;
   RowShape rows;
-  BorderedPlane bordered;  // where the rows are bent
+  BorderedPlane bordered;  // where rows are bent or texels round
   RoundTexels round;
 };
 
@@ -201,7 +201,7 @@ void border_rows(const PlanContext& c, const LightBody& body, MapResult& result,
 glm::dmat4 clip_from_light(const ShadowMap& map, const Fitted& fitted) noexcept {
   const glm::dvec2 border = static_cast<double>(map.filter_margin_texels) / glm::dvec2(map.width, map.height);
   if (fitted.rows.bent()) return clip_from_light(fitted.bordered.plane, fitted.depths, {border.x, 0.0});
-  if (fitted.round.used) return clip_from_light(fitted.round.plane, fitted.depths, 0.0);
+  if (fitted.round.used) return clip_from_light(fitted.bordered.plane, fitted.depths, 0.0);
   return clip_from_light(fitted.plane, fitted.depths, border);
 }
 
@@ -265,7 +265,8 @@ void fit(const PlanContext& c, const MapRequest& request, const LightBody& body,
   map.height = size.height;
   map.filter_margin_texels = size.border;
   border_rows(c, body, result, fitted);
-  fitted.round = round_texels(c, request, body, fitted.plane, result);
+  if (requested_shape(c.options).round != nullptr)
+    fitted.round = round_texels(c, request, body, fitted.plane, result, fitted.bordered.plane);
   const std::int64_t saved =
       std::int64_t{request.slot.width} * request.slot.height - std::int64_t{size.width} * size.height;
   if (saved > 0) {
@@ -323,7 +324,9 @@ MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept 
                  static_cast<double>(fitted.heights.too_near), 0});
   map.depth_range_world = depth_range(request, fitted);
   const glm::dmat4 gl_from_relative = clip_from_light(map, fitted) * request.space.light_from_relative();
-  const glm::dvec2 longest = serve_seen(c, request, gl_from_relative, result) * fitted.round.longest;
+  glm::dvec2 longest = fitted.round.longest;
+  if (requested_shape(c.options).serving != nullptr)
+    longest = serve_seen(c, request, gl_from_relative, result);
   complete_record(
       c, request,
       {body, fitted.plane, fitted.swept, fitted.needed, fitted.rows, obliquity, gl_from_relative, longest},

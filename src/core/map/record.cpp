@@ -153,8 +153,9 @@ void complete_record(const PlanContext& c, const MapRequest& request, const MapP
   map.light_world =
       space.perspective ? glm::dvec4(apex + c.camera.position, 1.0) : glm::dvec4(space.frame.z, 0.0);
   write_texels(c, request, parts, map);
-  map.shape_parameters =
-      parameters_in(clip_from_gl_clip(c.options.clip_space), *map.shape, map.shape_parameters);
+  if (!map.shape->affine)
+    map.shape_parameters =
+        parameters_in(clip_from_gl_clip(c.options.clip_space), *map.shape, map.shape_parameters);
   const glm::dvec2 inside = glm::dvec2(map.width, map.height) - 2.0 * map.filter_margin_texels;
   map.m_s_max = parts.needed.sides.x / inside.x * parts.longest.x;
   map.m_t_max = parts.needed.sides.y / inside.y * parts.longest.y;

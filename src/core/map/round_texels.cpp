@@ -48,31 +48,31 @@ double length_over(const PixelLanes& samples, const PlaneMap& plane, const Texel
 }  // namespace
 
 RoundTexels round_texels(const PlanContext& c, const MapRequest& request, const LightBody& body,
-                         const PlaneMap& plane, MapResult& result) noexcept {
+                         const PlaneMap& plane, MapResult& result, PlaneMap& whole) noexcept {
   RoundTexels texels;
   const Shape& shape = requested_shape(c.options);
-  if (shape.round == nullptr || !request.space.perspective || keeps_linear_texels(c) || sizes_follow_error(c))
-    return texels;
+  if (!request.space.perspective || keeps_linear_texels(c) || sizes_follow_error(c)) return texels;
   ShadowMap& map = result.map;
   // A map that is smaller as its error is small everywhere would not keep it so.
-  const bool whole = map.width >= request.slot.width && map.height >= request.slot.height;
-  const bool unwarped = whole && plane.choice.kappa == 0.0 && plane.choice.row_a == glm::dvec2(1.0, 0.0) &&
+  const bool full = map.width >= request.slot.width && map.height >= request.slot.height;
+  const bool unwarped = full && plane.choice.kappa == 0.0 && plane.choice.row_a == glm::dvec2(1.0, 0.0) &&
                         plane.choice.row_b == glm::dvec2(0.0, 1.0);
   double ratio = 1.0;
+  ShapeParameters parameters{};
   if (unwarped) {
     const glm::dvec2 first = first_slopes(plane), size(map.width, map.height);
     const ShapeRectangle slopes{first + glm::dvec2(plane.a_min, plane.b_min),
                                 first + glm::dvec2(plane.a_max, plane.b_max)};
     const RoundShape round = shape.round(slopes, size, map.filter_margin_texels);
-    texels.plane = plane;
-    texels.plane.a_min = round.slopes.low.x - first.x;
-    texels.plane.a_max = round.slopes.high.x - first.x;
-    texels.plane.b_min = round.slopes.low.y - first.y;
-    texels.plane.b_max = round.slopes.high.y - first.y;
+    parameters = round.parameters;
+    whole = plane;
+    whole.a_min = round.slopes.low.x - first.x;
+    whole.a_max = round.slopes.high.x - first.x;
+    whole.b_min = round.slopes.low.y - first.y;
+    whole.b_max = round.slopes.high.y - first.y;
     const glm::dvec2 beyond =
         glm::max(slopes.low - round.slopes.low, round.slopes.high - slopes.high) / (slopes.high - slopes.low);
     texels.border = max_of(beyond.x, beyond.y);
-    texels.parameters = round.parameters;
     texels.longest = round.longest;
     // By storage as well: the one worst texel, in a corner, says little of the others.
     const bool longest = c.options.warp.objective == Objective::max;
@@ -81,9 +81,9 @@ RoundTexels round_texels(const PlanContext& c, const MapRequest& request, const 
     const PlaneError error(question.in, true);
     const int margin = 2 * map.filter_margin_texels;
     if (error.counted().count > 0)
-      ratio = length_over(error.counted(), texels.plane, {map.width, map.height, &shape, round.parameters},
-                          longest) /
-              length_over(error.counted(), plane, {map.width - margin, map.height - margin}, longest);
+      ratio =
+          length_over(error.counted(), whole, {map.width, map.height, &shape, round.parameters}, longest) /
+          length_over(error.counted(), plane, {map.width - margin, map.height - margin}, longest);
   }
   texels.used = ratio < 1.0 - kLeastWarpGain;
   if (!texels.used) {
@@ -91,7 +91,7 @@ RoundTexels round_texels(const PlanContext& c, const MapRequest& request, const 
     return {};
   }
   map.shape = &shape;
-  map.shape_parameters = texels.parameters;
+  map.shape_parameters = parameters;
   return texels;
 }
 

@@ -37,7 +37,7 @@ void texels_needed(const RowShape& rows, std::span<const WarpInput::Point> body,
 /// The plane with a border along y in its rectangle, as rows of the shape leave it, and the parameters.
 struct BorderedPlane {
   PlaneMap plane;
-  ShapeParameters parameters{};
+  ShapeParameters parameters;
   double log_w = 0.0;  // logarithm of w's growth over the border at either end
 };
 [[nodiscard]] BorderedPlane with_border(const RowShape& rows, const PlaneMap& plane, double border) noexcept;

@@ -29,14 +29,6 @@ const Warp* find_warp(std::string_view name) noexcept {
   return nullptr;
 }
 
-const Shape& requested_shape(const PlanOptions& options) noexcept {
-  return options.warp.shape != nullptr ? *options.warp.shape : shapes::linear;
-}
-
-bool undoes_warps(const Shape& shape) noexcept {
-  return !shape.affine && shape.serving == nullptr && shape.round == nullptr;
-}
-
 const Warp& requested_warp(const PlanOptions& options) noexcept {
   if (options.warp.warp != nullptr) return *options.warp.warp;
   if (requested_shape(options).round != nullptr) return warps::none;

@@ -7,9 +7,13 @@
 namespace gnomon {
 
 /// The shape that the options name.
-[[nodiscard]] const Shape& requested_shape(const PlanOptions& options) noexcept;
+[[nodiscard]] inline const Shape& requested_shape(const PlanOptions& options) noexcept {
+  return options.warp.shape != nullptr ? *options.warp.shape : shapes::linear;
+}
 /// True for a shape that undoes what warps do along the view.
-[[nodiscard]] bool undoes_warps(const Shape& shape) noexcept;
+[[nodiscard]] inline bool undoes_warps(const Shape& shape) noexcept {
+  return !shape.affine && shape.serving == nullptr && shape.round == nullptr;
+}
 /// The warp that the options name, and the default one where they name none: of a shape that undoes the
 /// viewer's perspective along the view, the whole of that perspective.
 [[nodiscard]] const Warp& requested_warp(const PlanOptions& options) noexcept;
