@@ -8,18 +8,6 @@
 namespace gnomon::render {
 namespace {
 
-/// Sends `values`, growing the buffer by halves so that a flight soon stops allocating.
-template <class T>
-void send(Buffer& buffer, std::size_t& capacity, const std::vector<T>& values) {
-  if (values.size() > capacity || !buffer) {
-    capacity = std::max<std::size_t>(values.size() + values.size() / 2, 64);
-    buffer = make_buffer();
-    glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(capacity * sizeof(T)), nullptr,
-                         GL_DYNAMIC_STORAGE_BIT);
-  }
-  glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data());
-}
-
 struct ViewPlane {
   glm::dvec3 normal;
   double offset;
@@ -144,10 +132,10 @@ void DrawLists::finish(const Camera& camera) {
   PruneSaving none;
   add_view(visible_, of_camera, {}, none);
   of_camera.texels = static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
-  send(object_buffer_, object_capacity_, objects_);
-  send(command_buffer_, command_capacity_, commands_);
+  send_growing(object_buffer_, object_capacity_, objects_);
+  send_growing(command_buffer_, command_capacity_, commands_);
   scene_.set_object_index_buffer(object_buffer_.name());
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_.name());
+  bind_commands();
 }
 
 void DrawLists::add_map(const CullingJob& job, const DrawnMaps& drawn, std::size_t map, PruneSavings& saved) {
@@ -230,6 +218,10 @@ void DrawLists::add_view(std::span<const std::uint8_t> draws, MapStats& stats,
     range.end = static_cast<std::uint32_t>(commands_.size());
     if (range.end > range.begin) ranges_.push_back(range);
   }
+}
+
+void DrawLists::bind_commands() const noexcept {
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_.name());
 }
 
 void DrawLists::draw(std::uint32_t begin, std::uint32_t end) const noexcept {

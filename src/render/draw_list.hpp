@@ -1,6 +1,7 @@
 // Which instances each view of a frame draws, as indirect draw commands.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -16,6 +17,18 @@
 #include "scene_buffers.hpp"
 
 namespace gnomon::render {
+
+/// Sends `values`, growing the buffer by halves so that a flight soon stops allocating.
+template <class T>
+void send_growing(Buffer& buffer, std::size_t& capacity, const std::vector<T>& values) {
+  if (values.size() > capacity || !buffer) {
+    capacity = std::max<std::size_t>(values.size() + values.size() / 2, 64);
+    buffer = make_buffer();
+    glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(capacity * sizeof(T)), nullptr,
+                         GL_DYNAMIC_STORAGE_BIT);
+  }
+  glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data());
+}
 
 /// Commands [begin, end) of DrawLists' buffer, drawn with the state of one batch.
 struct BatchRange {
@@ -68,6 +81,12 @@ class DrawLists {
   }
   [[nodiscard]] const std::array<PruneSaving, kPruneRuleCount>& saved() const noexcept { return saved_; }
   [[nodiscard]] const MapStats& camera_stats() const noexcept { return stats_.back(); }
+
+  /// What the commands of BatchRange are, and the instances that they draw from `base_instance` on.
+  [[nodiscard]] std::span<const DrawCommand> commands() const noexcept { return commands_; }
+  [[nodiscard]] std::span<const std::uint32_t> objects() const noexcept { return objects_; }
+  /// Makes them those that draws take; build() does, too.
+  void bind_commands() const noexcept;
 
   /// Draws commands [begin, end) with the state that is bound.
   void draw(std::uint32_t begin, std::uint32_t end) const noexcept;

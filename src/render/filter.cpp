@@ -123,6 +123,8 @@ double bytes_per_texel(const FilterSettings& settings) noexcept {
               stored = channels > 2 ? (channels + 3) / 4 * 4 : channels;
     bytes += stored * bytes_per_channel(settings.format) * (settings.mipmap ? kMipChain : 1.0);
   }
+  constexpr double kOutlineBytes = 2.0;
+  if (filter.info.draws_silhouettes) bytes += kOutlineBytes;
   return bytes + (filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings)
                       ? kMaxPyramid
                       : 0.0);

@@ -364,6 +364,7 @@ void Renderer::Impl::draw_mask(const Program& program, bool accumulated) noexcep
   glBindTextureUnit(kDepthUnit, maps.depth.name());
   glBindSampler(kDepthUnit, maps.plain_sampler.name());
   stored.bind();
+  if (drew_silhouettes) silhouettes->bind();
   fullscreen(accumulated ? history.single_fbo() : targets.mask_fbo.name(), program);
   glBindSampler(kExtraUnit, 0);  // shared with the depth pyramid
 }

@@ -102,6 +102,8 @@ void Renderer::Impl::fit_maps(const ShadowPlan& plan) {
 PreparedFilter Renderer::prepare(const FilterSettings& settings) {
   auto& known = impl_->filter_programs;
   const FilterVariant variant = variant_of(settings);
+  if (settings.filter->info.draws_silhouettes && !impl_->silhouettes)
+    impl_->silhouettes.emplace(impl_->scene);
   const auto found =
       std::find_if(known.begin(), known.end(), [&](const FilterPrograms& p) { return p.variant == variant; });
   if (found != known.end()) return {settings, static_cast<std::size_t>(found - known.begin())};
@@ -168,6 +170,13 @@ void Renderer::Impl::take_layer(const FrameOptions& options) noexcept {
   if (same) return;
   lists.forget_maps();
   pages.forget();
+}
+
+void Renderer::Impl::take_silhouettes(const FilterSettings& settings) {
+  const bool wanted = settings.filter->info.draws_silhouettes && silhouettes;
+  const bool lost = wanted && silhouettes->fit(maps);
+  if (lost || (wanted && !drew_silhouettes)) lists.forget_maps();
+  drew_silhouettes = wanted;
 }
 
 void Renderer::Impl::take_moved(std::span<const Box> moved_world) {
@@ -263,6 +272,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   impl.targets.resize(camera.width, camera.height);
   impl.fit_maps(plan);
+  impl.take_silhouettes(filter.settings);
   const BlurSides blur = blur_sides(filter.settings, plan);
   FilterBlock filtering = filter_block(filter.settings, blur);
   const DepthCurves curves = depth_curves(plan);
@@ -276,10 +286,12 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     impl.upload(block, filtering);
     drawn = impl.place_scene(plan, camera.position);
     impl.lists.build({plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
-                      info_of(options.depth_layer).peels, impl.moved},
+                      info_of(options.depth_layer).peels || impl.drew_silhouettes, impl.moved},
                      drawn, camera);
     if (plan.map_count > 0) impl.moved.clear();
     impl.draw_shadow_maps(plan, drawn, depth_draw(options));
+    if (impl.drew_silhouettes)
+      impl.silhouettes->draw(impl.scene, impl.lists, impl.maps, drawn, impl.map_count);
   });
   timed(Pass::surfaces,
         [&] { impl.draw_surfaces(impl.targets.surfaces_fbo.name(), impl.programs.surfaces); });
@@ -309,6 +321,10 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   stats.maps_read_back = impl.maps_read_back;
   stats.map_bytes = impl.maps.bytes() + impl.stored.bytes() + (impl.panes ? impl.panes->bytes() : 0);
   stats.scratch_bytes = impl.stored.scratch_bytes() + impl.depth_peel.bytes();
+  if (impl.drew_silhouettes) {
+    stats.map_bytes += impl.silhouettes->bytes();
+    stats.scratch_bytes += impl.silhouettes->scratch_bytes();
+  }
   return stats;
 }
 

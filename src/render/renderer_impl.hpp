@@ -18,6 +18,7 @@
 #include "pass_timer.hpp"
 #include "pixel_lists.hpp"
 #include "scene_buffers.hpp"
+#include "silhouettes.hpp"
 #include "stored_maps.hpp"
 #include "target.hpp"
 
@@ -85,6 +86,8 @@ struct Renderer::Impl {
                     SetPlace&& set_place, SetBatch&& set_batch) noexcept;
   /// Takes the layer for the next maps; those of another one are not reused.
   void take_layer(const FrameOptions& options) noexcept;
+  /// Makes room for the outlines that the filter reads. Maps drawn without them are not reused.
+  void take_silhouettes(const FilterSettings& settings);
   /// The frame with exact shadows: pixels are listed, and casters are tested against them.
   FrameStats draw_irregular(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                             const FrameOptions& options) noexcept;
@@ -151,6 +154,8 @@ struct Renderer::Impl {
   DepthPeel depth_peel;
   DepthLayer drawn_layer = DepthLayer::front;  ///< that maps and pages hold
   double drawn_limit_texels = 0.0;             ///< the same, of DepthLayer::dual
+  std::optional<Silhouettes> silhouettes;      ///< made when a filter that reads them is first prepared
+  bool drew_silhouettes = false;               ///< into the maps that are held
   PagePool pages;
   std::optional<LightPass> light_pass;    ///< made when many lights are first prepared
   std::optional<PanePass> panes;          ///< made by Renderer::add_panes

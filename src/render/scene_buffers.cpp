@@ -148,6 +148,21 @@ void SceneBuffers::set_object_index_buffer(GLuint buffer) const noexcept {
   glVertexArrayVertexBuffer(vertex_array_.name(), kObjectIndex, buffer, 0, sizeof(std::uint32_t));
 }
 
+std::vector<glm::vec3> SceneBuffers::read_positions() const {
+  std::vector<glm::vec3> positions(vertex_count_);
+  glGetNamedBufferSubData(positions_.name(), 0, static_cast<GLsizeiptr>(positions.size() * sizeof(glm::vec3)),
+                          positions.data());
+  return positions;
+}
+
+std::vector<std::uint32_t> SceneBuffers::read_indices(const Primitive& primitive) const {
+  std::vector<std::uint32_t> indices(primitive.index_count);
+  glGetNamedBufferSubData(indices_.name(),
+                          static_cast<GLintptr>(primitive.first_index * sizeof(std::uint32_t)),
+                          static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data());
+  return indices;
+}
+
 void SceneBuffers::upload_images(const Scene& scene) {
   textures_.reserve(scene.images.size());
   for (const Image& image : scene.images) {

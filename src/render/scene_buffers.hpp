@@ -74,6 +74,11 @@ class SceneBuffers {
     return primitive_of_[instance];
   }
   [[nodiscard]] GLuint vertex_array() const noexcept { return vertex_array_.name(); }
+  /// As uploaded, or bent since; waits for the driver.
+  [[nodiscard]] std::vector<glm::vec3> read_positions() const;
+  [[nodiscard]] std::vector<std::uint32_t> read_indices(const Primitive& primitive) const;
+  [[nodiscard]] std::span<const Primitive> primitives() const noexcept { return primitives_; }
+  [[nodiscard]] GLuint index_buffer() const noexcept { return indices_.name(); }
   /// The vertex attribute that says which object a vertex belongs to comes from this buffer.
   void set_object_index_buffer(GLuint buffer) const noexcept;
 

@@ -148,22 +148,24 @@ FilterVariant variant_of(const FilterSettings& settings) noexcept {
 
 namespace {
 
-Program make_depth_program(const FilterSettings& settings, const char* shader, const char* refusal) {
-  if (settings.filter->info.reads != MapRead::depth)
-    throw RenderError("filter " + std::string(settings.filter->info.name) + refusal);
+Program make_depth_program(const FilterSettings& settings, const char* shader, const char* place) {
+  const FilterInfo& info = settings.filter->info;
+  if (info.reads != MapRead::depth || info.draws_silhouettes) {
+    throw RenderError("filter " + std::string(info.name) + ": " +
+                      (info.draws_silhouettes ? "reads outlines beside" : "stores texels of") +
+                      " whole maps, and " + place + " depths alone");
+  }
   return make_program("fullscreen.vert", shader, {filter_path(*settings.filter)});
 }
 
 }  // namespace
 
 Program make_pages_program(const FilterSettings& settings) {
-  return make_depth_program(settings, "mask_pages.frag",
-                            ": stores texels of whole maps, and pages have depths alone");
+  return make_depth_program(settings, "mask_pages.frag", "pages have");
 }
 
 Program make_lights_program(const FilterSettings& settings) {
-  return make_depth_program(settings, "mask_lights.frag",
-                            ": stores texels of whole maps, and a pool of lights has depths alone");
+  return make_depth_program(settings, "mask_lights.frag", "a pool of lights has");
 }
 
 FilterPrograms make_filter_programs(const FilterSettings& settings) {

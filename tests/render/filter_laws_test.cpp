@@ -168,7 +168,9 @@ TEST(FilterLaws, moving_the_map_by_whole_texels_moves_the_results_along) {
   TestMap moved = map;
   for (int y = 0; y < kWide; ++y) {
     for (int x = 0; x < kWide; ++x) {
-      moved.depth[static_cast<std::size_t>(y * kWide + x)] = static_cast<float>(map.at(x - kRight, y - kUp));
+      const auto at = static_cast<std::size_t>(y * kWide + x);
+      moved.depth[at] = static_cast<float>(map.at(x - kRight, y - kUp));
+      moved.silhouette[at] = glm::vec2(map.silhouette_at(x - kRight, y - kUp));
     }
   }
   const std::vector<Question> questions = random_questions(map, 256, 14, kRim);

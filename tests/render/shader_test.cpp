@@ -109,7 +109,7 @@ TEST(Shaders, pass_the_reference_validator_with_every_filter) {
   for (const Filter* filter : all_filters()) {
     for (const MapRead reads : {filter->info.reads, reads_of(default_settings(*filter))}) {
       std::vector<std::string_view> paths = filter_shaders(*filter, reads);
-      if (reads == MapRead::depth) {
+      if (reads == MapRead::depth && !filter->info.draws_silhouettes) {
         paths.push_back("mask_pages.frag");
         paths.push_back("mask_lights.frag");
       }
@@ -148,6 +148,12 @@ ShadowMap shadow_map(int index) { return engine.engine_maps[index]; }
   const std::string_view reads = filter.info.reads == MapRead::filtered ? "filtered"
                                  : filter.info.reads == MapRead::joined ? "joined"
                                                                         : "summed";
+  if (filter.info.draws_silhouettes) {
+    text +=
+        "layout(binding = 24) uniform sampler2DArray engine_points;\n"
+        "vec2 shadow_silhouette(ShadowLookup at, vec2 texel) {\n"
+        "  return textureLod(engine_points, vec3((texel + 0.5) / at.layer_size, at.layer), 0.0).rg;\n}\n";
+  }
   std::string visible = "shadow_visibility(engine_compare, engine_depth, at, options)";
   if (filter.info.reads != MapRead::depth) {
     text += "#include \"library/fetch_" + std::string(reads) + ".glsl\"\n";

@@ -80,6 +80,10 @@ struct FilterLookup {
   /// The mean stored texel over a box of these half sides, in texels, round `position`: MapRead::summed
   /// alone. Empty: the texel that the lookup was given stands in.
   std::function<StoredTexel(const glm::dvec2& half_sides)> mean_of_box;
+  /// A point of the casters' outline in the square between the centres of texels (x, y) and (x + 1, y + 1),
+  /// as a share of its sides; (0.5, 0.5) where none crosses it. Empty: (0.5, 0.5) everywhere. For
+  /// FilterInfo::draws_silhouettes.
+  std::function<glm::dvec2(int x, int y)> silhouette;
   /// Largest depth within the kernel of the stored texels, for filters that need it.
   double depth_max = 1.0;
   glm::dvec2 position{0.0};          ///< in texels: the centre of texel i is at i + 0.5
@@ -117,6 +121,9 @@ struct FilterInfo {
   bool has_kernel = true;       ///< false: the nearest texel alone, whatever the radius says
   /// How far from the point the lookup itself reads the depth map, in texels, beyond the kernel's box.
   double lookup_reach_texels = 1.0;
+  /// True if the lookup reads FilterLookup::silhouette: renderers then draw the casters' outlines after each
+  /// map, which is redrawn whole whenever it changes. For MapRead::depth, and not for pages or many lights.
+  bool draws_silhouettes = false;
   /// Which of `options` says how many terms or layers are stored, each in channels of its own; -1: none.
   int terms_option = -1;
   /// A cheaper filter of the same family, usable where its results match (filter_fit.hpp). nullptr: none.

@@ -46,6 +46,12 @@ ShadowLookup question() {
 }
 )";
 constexpr const char* kAskDepth = R"(
+layout(binding = 8) uniform sampler2DArray points;
+vec2 shadow_silhouette(ShadowLookup at, vec2 texel) {
+  ivec2 place = ivec2(texel);
+  bool inside = all(greaterThanEqual(place, ivec2(0))) && all(lessThan(place, textureSize(points, 0).xy));
+  return inside ? texelFetch(points, ivec3(place, 0), 0).rg : vec2(0.5);
+}
 void main() { answer = vec4(shadow_visibility(compare_map, depth_map, question(), shadow_options(0))); }
 )";
 constexpr const char* kAskFiltered = R"(
@@ -180,6 +186,17 @@ struct BoundBlock {
   }
 };
 
+/// One texel that says (0.5, 0.5) where the map has none.
+Texture silhouettes_of(const TestMap& map) {
+  Texture texture = make_texture(GL_TEXTURE_2D_ARRAY);
+  const bool any = !map.silhouette.empty();
+  glTextureStorage3D(texture.name(), 1, GL_RG32F, any ? map.width : 1, any ? map.height : 1, 1);
+  constexpr glm::vec2 kMiddle{0.5f};
+  glTextureSubImage3D(texture.name(), 0, 0, 0, 0, any ? map.width : 1, any ? map.height : 1, 1, GL_RG,
+                      GL_FLOAT, any ? map.silhouette.data() : &kMiddle);
+  return texture;
+}
+
 std::vector<float> first_of(const Row& row) {
   std::vector<float> out;
   for (const auto& v : row) out.push_back(v[0]);
@@ -193,10 +210,20 @@ double TestMap::at(int x, int y) const noexcept {
   return inside ? depth[static_cast<std::size_t>(y * width + x)] : 1.0;
 }
 
+glm::dvec2 TestMap::silhouette_at(int x, int y) const noexcept {
+  const bool inside = x >= 0 && y >= 0 && x < width && y < height && !silhouette.empty();
+  return inside ? glm::dvec2(silhouette[static_cast<std::size_t>(y * width + x)]) : glm::dvec2(0.5);
+}
+
 TestMap random_map(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
-  TestMap map{width, height, {}};
+  TestMap map{width, height, {}, {}};
   for (int i = 0; i < width * height; ++i) map.depth.push_back(static_cast<float>(random() % 257) / 256.0f);
+  for (int i = 0; i < width * height; ++i) {
+    const auto both = static_cast<unsigned>(random());
+    map.silhouette.emplace_back(static_cast<float>(both % 65) / 64.0f,
+                                static_cast<float>(both / 65 % 65) / 64.0f);
+  }
   return map;
 }
 
@@ -233,6 +260,8 @@ std::vector<float> ask_shader(const FilterSettings& settings, const TestMap& map
   glBindSampler(kCompareUnit, targets.compare_sampler.name());
   glBindSampler(kDepthUnit, targets.plain_sampler.name());
   stored.bind();
+  const Texture points = silhouettes_of(map);
+  if (settings.filter->info.draws_silhouettes) glBindTextureUnit(kStoredUnit, points.name());
   return first_of(asker.ask());
 }
 

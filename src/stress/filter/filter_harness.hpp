@@ -12,7 +12,9 @@ namespace gnomon::render {
 struct TestMap {
   int width = 0, height = 0;
   std::vector<float> depth;
+  std::vector<glm::vec2> silhouette = {};                ///< FilterLookup::silhouette; empty: none anywhere
   [[nodiscard]] double at(int x, int y) const noexcept;  ///< 1 outside
+  [[nodiscard]] glm::dvec2 silhouette_at(int x, int y) const noexcept;
 };
 struct Question {
   glm::vec2 position{0.0f};

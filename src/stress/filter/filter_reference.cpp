@@ -26,6 +26,7 @@ double smaller_step(double before, double here, double after) {
 FilterLookup lookup_of(const FilterSettings& settings, const TestMap& map, const Question& q) {
   FilterLookup lookup;
   lookup.map_depth = [&map](int x, int y) { return map.at(x, y); };
+  lookup.silhouette = [&map](int x, int y) { return map.silhouette_at(x, y); };
   lookup.position = q.position;
   lookup.depth = q.depth;
   lookup.depth_gradient = q.depth_gradient;

@@ -32,6 +32,9 @@ std::optional<NoPages> no_pages(const render::FilterSettings& filter, const Plan
   if (filter.filter->info.reads != render::MapRead::depth)
     return NoPages{std::string(filter.filter->info.name),
                    "stores texels of whole maps, and pages have depths alone"};
+  if (filter.filter->info.draws_silhouettes)
+    return NoPages{std::string(filter.filter->info.name),
+                   "reads outlines beside whole maps, and pages have depths alone"};
   if (filter.unit == render::KernelUnit::world)
     return NoPages{render::to_string(filter), "kernel in world units, which no page border holds"};
   if (plan.filter.texels > 0.25 * page_texels)
