@@ -24,5 +24,8 @@ void main() {
     }
     shadow_join(sum, next, tap_weight(map, abs(i)), options);
   }
+#ifdef SHADOW_PACKS
+  sum = shadow_pack(sum, options);
+#endif
   for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) texel_out[i] = sum.v[i];
 }

@@ -18,5 +18,8 @@ void main() {
     for (int k = 0; k < GNOMON_SHADOW_VECTORS; ++k) next.v[k] = texelFetch(stored[k], ivec3(at, map), 0);
     shadow_join(sum, next, 0.25, options);
   }
+#ifdef SHADOW_PACKS
+  sum = shadow_pack(sum, options);
+#endif
   for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) texel_out[i] = sum.v[i];
 }

@@ -21,5 +21,8 @@ void main() {
     before = here;
     here = after;
   }
+#ifdef SHADOW_PACKS
+  sum = shadow_pack(sum, options);
+#endif
   for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) texel_out[i] = sum.v[i];
 }

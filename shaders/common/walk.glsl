@@ -27,6 +27,9 @@ vec4 joined(vec4 window[kSide], float weights[GNOMON_REACH + 1], ShadowOptions o
     next.v[0] = window[i];
     shadow_join(sum, next, weights[abs(i - kReach)], options);
   }
+#ifdef SHADOW_PACKS
+  sum = shadow_pack(sum, options);
+#endif
   return sum.v[0];
 #endif
 }

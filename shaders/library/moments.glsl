@@ -18,6 +18,40 @@ ShadowTexel store_four_moments(float depth, ShadowOptions options) {
   return texel;
 }
 
+// The widest distribution whose moments are these.
+const vec4 kSpreadOut = vec4(0.0, 0.375, 0.0, 0.375);
+
+// Four moments as four numbers of 0..1 that may be rounded apart and still are moments: the two depths of the only
+// distribution of two depths with the first three, the share of the farther one, and the root of where the fourth lies
+// between the least and the largest that depths of -1..1 allow. After Peters 2017, "Non-linearly quantized moment shadow maps".
+vec2 range_of_fourth(vec2 z, float share) {
+  vec2 z2 = z * z;
+  float mean = mix(z.x, z.y, share), second = mix(z2.x, z2.y, share), third = mix(z.x * z2.x, z.y * z2.y, share);
+  float most = second - (mean - third) * (mean - third) / max(1.0 - second, 1e-7);
+  float least = mix(z2.x * z2.x, z2.y * z2.y, share);
+  return vec2(least, max(most, least));
+}
+
+vec4 packed_moments(vec4 b) {
+  const float kFlat = 8.0 / 16777216.0;  // a variance that is all rounding: one depth
+  float mean = clamp(b.x, -1.0, 1.0), variance = b.y - mean * mean;
+  if (!(variance > kFlat)) return vec4(vec2(0.5 * mean + 0.5), 0.5, 0.0);
+  float half_skew = 0.5 * (b.z - mean * (3.0 * b.y - 2.0 * mean * mean)) / variance;
+  float root = sqrt(half_skew * half_skew + variance);
+  float away = half_skew + (half_skew > 0.0 ? root : -root), near = -variance / away;
+  vec2 z = clamp(mean + vec2(min(away, near), max(away, near)), -1.0, 1.0);
+  float share = clamp((mean - z.x) / max(z.y - z.x, 1e-7), 0.0, 1.0);
+  vec2 range = range_of_fourth(z, share);
+  float spread = clamp((b.w - range.x) / max(range.y - range.x, 1e-7), 0.0, 1.0);
+  return vec4(0.5 * z + 0.5, share, sqrt(spread));
+}
+
+vec4 unpacked_moments(vec4 stored) {
+  vec2 z = 2.0 * stored.xy - 1.0, z2 = z * z, range = range_of_fourth(z, stored.z);
+  return vec4(mix(z.x, z.y, stored.z), mix(z2.x, z2.y, stored.z), mix(z.x * z2.x, z.y * z2.y, stored.z),
+              mix(range.x, range.y, stored.w * stored.w));
+}
+
 // The moments of a stored texel, moved by a share towards those of depths spread out: what is stored has been rounded, and
 // may be no moments at all.
 vec4 moments_of(ShadowTexel texel, ShadowOptions options, float bias, float roundings) {
@@ -27,7 +61,7 @@ vec4 moments_of(ShadowTexel texel, ShadowOptions options, float bias, float roun
     b = vec4(-0.33333333 * odd.x + 1.7320508 * odd.y, 0.125 * b.y + b.w, -0.75 * odd.x + 1.2990381 * odd.y,
              b.w - 0.125 * b.y);
   }
-  return mix(b, vec4(0.0, 0.375, 0.0, 0.375), max(bias, roundings * options.rounding));
+  return mix(b, kSpreadOut, max(bias, roundings * options.rounding));
 }
 
 // On a slanted plane half of the kernel lies in front of the point: the bound would be right, and dark.

@@ -22,9 +22,12 @@ struct FormatData {
   double rounding;
 };
 constexpr FormatData kFormats[] = {
-    {TexelFormat::fp32, "fp32", 4, 0x1p-24},           {TexelFormat::fp16, "fp16", 2, 0x1p-11},
-    {TexelFormat::unorm16, "unorm16", 2, 0.5 / 65535}, {TexelFormat::unorm8, "unorm8", 1, 0.5 / 255},
+    {TexelFormat::fp32, "fp32", 4, 0x1p-24},
+    {TexelFormat::fp16, "fp16", 2, 0x1p-11},
+    {TexelFormat::unorm16, "unorm16", 2, 0.5 / 65535},
+    {TexelFormat::unorm8, "unorm8", 1, 0.5 / 255},
     {TexelFormat::uint32, "uint32", 4, 0x1p-24},
+    {TexelFormat::nonlinear16, "nonlinear16", 2, 0.5 / 65535},
 };
 const FormatData& data_of(TexelFormat format) noexcept {
   return kFormats[static_cast<std::size_t>(format)];
@@ -62,7 +65,7 @@ double rounding_of(TexelFormat format) noexcept {
 }
 
 bool is_unsigned_unit(TexelFormat format) noexcept {
-  return format == TexelFormat::unorm16 || format == TexelFormat::unorm8 || format == TexelFormat::uint32;
+  return format != TexelFormat::fp32 && format != TexelFormat::fp16;
 }
 
 double rounded_to(TexelFormat format, double value) noexcept {
@@ -76,6 +79,7 @@ double rounded_to(TexelFormat format, double value) noexcept {
     case TexelFormat::fp16:
       return rounded_to_float(value, 11, 65504.0, 0x1p-24);
     case TexelFormat::unorm16:
+    case TexelFormat::nonlinear16:
       return steps(65535.0);
     case TexelFormat::unorm8:
       return steps(255.0);

@@ -53,11 +53,9 @@ std::string_view mask_path(MapRead reads) noexcept {
 
 GLenum internal_format(TexelFormat format, int channels) noexcept {
   // By format, then 1, 2 or 4 channels: textures of three cannot be drawn into.
-  constexpr GLenum kFormats[5][3] = {{GL_R32F, GL_RG32F, GL_RGBA32F},
-                                     {GL_R16F, GL_RG16F, GL_RGBA16F},
-                                     {GL_R16, GL_RG16, GL_RGBA16},
-                                     {GL_R8, GL_RG8, GL_RGBA8},
-                                     {GL_RG32UI, GL_RG32UI, GL_RGBA32UI}};
+  constexpr GLenum kFormats[6][3] = {{GL_R32F, GL_RG32F, GL_RGBA32F},     {GL_R16F, GL_RG16F, GL_RGBA16F},
+                                     {GL_R16, GL_RG16, GL_RGBA16},        {GL_R8, GL_RG8, GL_RGBA8},
+                                     {GL_RG32UI, GL_RG32UI, GL_RGBA32UI}, {GL_R16, GL_RG16, GL_RGBA16}};
   return kFormats[static_cast<std::size_t>(format)][channels <= 2 ? channels - 1 : 2];
 }
 

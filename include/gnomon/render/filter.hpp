@@ -34,7 +34,9 @@ struct FilterOption {
 };
 
 /// Number format of a channel of a stored texel.
-enum class TexelFormat : std::uint8_t { fp32, fp16, unorm16, unorm8, uint32 };
+/// nonlinear16: as unorm16, and the filter stores other numbers, whose means are nothing
+/// (FilterReference::pack).
+enum class TexelFormat : std::uint8_t { fp32, fp16, unorm16, unorm8, uint32, nonlinear16 };
 [[nodiscard]] std::string_view to_string(TexelFormat format) noexcept;
 [[nodiscard]] int bytes_per_channel(TexelFormat format) noexcept;
 /// True where only numbers in [0, 1] can be stored.
@@ -156,6 +158,8 @@ struct FilterReference {
                const FilterSettings& settings) noexcept = nullptr;
   /// The sum of no texels, to which join() adds.
   StoredTexel (*nothing)(const FilterSettings& settings) noexcept = nullptr;
+  /// shadow_pack: the texel to store for a sum that join() made. nullptr: the sum itself.
+  StoredTexel (*pack)(const StoredTexel& sum, const FilterSettings& settings) noexcept = nullptr;
   /// shadow_visibility: 1 lit .. 0 in shadow. `texel`: what was stored, over the kernel; unused by
   /// MapRead::depth.
   double (*visibility)(const StoredTexel& texel, const FilterLookup& lookup,
@@ -213,8 +217,8 @@ struct ParsedFilter {
   std::string error;        ///< empty where the text was understood
 };
 /// Reads "NAME" or "NAME:KEY=VALUE,KEY=VALUE": keys are radius, unit (texels, world), blur (box, gauss),
-/// format (fp32, fp16, unorm16, unorm8, uint32), mipmap (0, 1), anisotropy, and the filter's own options.
-/// Example: "esm:c=40,radius=3,format=fp32".
+/// format (fp32, fp16, unorm16, unorm8, uint32, nonlinear16), mipmap (0, 1), anisotropy, and the filter's own
+/// options. Example: "esm:c=40,radius=3,format=fp32".
 [[nodiscard]] ParsedFilter parse_filter(std::string_view text);
 /// The text that parse_filter reads back to the same settings; defaults are not written.
 [[nodiscard]] std::string to_string(const FilterSettings& settings);

@@ -53,11 +53,12 @@ void add(StoredTexel& sum, const StoredTexel& texel, double weight, const Filter
 }
 
 StoredTexel rounded(StoredTexel texel, const FilterSettings& s) noexcept {
+  if (s.filter->reference.pack != nullptr) texel = s.filter->reference.pack(texel, s);
   for (double& channel : texel) channel = rounded_to(s.format, channel);
   return texel;
 }
 
-/// As the passes store it: blurred along x, rounded, blurred along y, rounded.
+/// As the passes store it, blurred along x, rounded, blurred along y, rounded, and as lookups read that.
 StoredTexel stored_at(const Map& map, int x, int y, const FilterSettings& s) noexcept {
   const StoredTexel none =
       s.filter->reference.nothing != nullptr ? s.filter->reference.nothing(s) : StoredTexel{};
@@ -69,7 +70,10 @@ StoredTexel stored_at(const Map& map, int x, int y, const FilterSettings& s) noe
       add(row, s.filter->reference.store(map.depth(x + i, y + j), map.slope(x + i, y + j), s), weight(i), s);
     add(sum, rounded(row, s), weight(j), s);
   }
-  return rounded(sum, s);
+  if (s.filter->reference.pack == nullptr) return rounded(sum, s);
+  StoredTexel read = none;
+  add(read, rounded(sum, s), 1.0, s);
+  return read;
 }
 
 bool is_empty(const Map& map, int x, int y) noexcept {

@@ -47,12 +47,65 @@ double share_in_front_bounded(const Moments& b, double u) noexcept {
   return free_at < u ? first + free_weight : first;
 }
 
+namespace {
+
+struct FourthMoment {
+  double least, most;
+};
+
+FourthMoment range_of_fourth(double near, double far, double share) noexcept {
+  const auto mean_of = [share](double a, double b) { return a + share * (b - a); };
+  const double near2 = near * near, far2 = far * far;
+  const double first = mean_of(near, far), second = mean_of(near2, far2),
+               third = mean_of(near * near2, far * far2);
+  const double most = second - (first - third) * (first - third) / std::max(1.0 - second, 1e-7);
+  const double least = mean_of(near2 * near2, far2 * far2);
+  return {least, std::max(most, least)};
+}
+
+}  // namespace
+
+StoredTexel packed_moments(const Moments& b) noexcept {
+  constexpr double kFlat = 8.0 * 0x1p-24;  // a variance that is all rounding of floats: one depth
+  const double mean = std::clamp(b[0], -1.0, 1.0), variance = b[1] - mean * mean;
+  if (!(variance > kFlat)) return {0.5 * mean + 0.5, 0.5 * mean + 0.5, 0.5, 0.0};
+  const double half_skew = 0.5 * (b[2] - mean * (3.0 * b[1] - 2.0 * mean * mean)) / variance;
+  const double root = std::sqrt(half_skew * half_skew + variance);
+  const double away = half_skew + (half_skew > 0.0 ? root : -root), toward = -variance / away;
+  const double near = std::clamp(mean + std::min(away, toward), -1.0, 1.0),
+               far = std::clamp(mean + std::max(away, toward), -1.0, 1.0);
+  const double share = std::clamp((mean - near) / std::max(far - near, 1e-7), 0.0, 1.0);
+  const FourthMoment fourth = range_of_fourth(near, far, share);
+  const double spread = (b[3] - fourth.least) / std::max(fourth.most - fourth.least, 1e-7);
+  return {0.5 * near + 0.5, 0.5 * far + 0.5, share, std::sqrt(std::clamp(spread, 0.0, 1.0))};
+}
+
+Moments unpacked_moments(const StoredTexel& stored) noexcept {
+  const double near = 2.0 * stored[0] - 1.0, far = 2.0 * stored[1] - 1.0, share = stored[2];
+  const FourthMoment fourth = range_of_fourth(near, far, share);
+  Moments b{};
+  double a = 1.0, z = 1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    a *= near;
+    z *= far;
+    b[i] = a + share * (z - a);
+  }
+  b[3] = fourth.least + stored[3] * stored[3] * (fourth.most - fourth.least);
+  return b;
+}
+
 StoredTexel store_four_moments(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
   const double u = 2.0 * depth - 1.0, u2 = u * u;
   const Moments b{u, u2, u2 * u, u2 * u2};
   if (!is_unsigned_unit(settings.format)) return {b[0], b[1], b[2], b[3]};
   return {0.5 + 1.5 * b[0] - 2.0 * b[2], 4.0 * (b[1] - b[3]),
           0.5 + 0.86602540378443865 * b[0] - 0.38490017945975052 * b[2], 0.5 * (b[1] + b[3])};
+}
+
+Moments spread_by(double share, Moments b) noexcept {
+  constexpr Moments kSpreadOut{0.0, 0.375, 0.0, 0.375};  // the widest distribution whose moments are these
+  for (std::size_t i = 0; i < b.size(); ++i) b[i] += share * (kSpreadOut[i] - b[i]);
+  return b;
 }
 
 Moments moments_of(const StoredTexel& texel, const FilterSettings& settings, double bias) noexcept {
@@ -65,10 +118,7 @@ Moments moments_of(const StoredTexel& texel, const FilterSettings& settings, dou
   // Below these shares the rounded moments of a flat kernel may be no moments at all (20 000 random kernels).
   const bool coarse = is_unsigned_unit(settings.format) && settings.format != TexelFormat::uint32;
   const double least = (coarse ? 8.0 : 64.0) * rounding_of(settings.format);
-  constexpr Moments kSpreadOut{0.0, 0.375, 0.0, 0.375};  // the widest distribution whose moments are these
-  const double share = std::max(bias, least);
-  for (std::size_t i = 0; i < b.size(); ++i) b[i] += share * (kSpreadOut[i] - b[i]);
-  return b;
+  return spread_by(std::max(bias, least), b);
 }
 
 double receiver_of_moments(const FilterLookup& lookup, const glm::dvec2& box) noexcept {

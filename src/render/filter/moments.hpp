@@ -27,6 +27,14 @@ struct ShareInFront {
 /// of all steps (Peters 2017, whose linear part it is).
 [[nodiscard]] StoredTexel store_four_moments(double depth, const glm::dvec2& slope,
                                              const FilterSettings& settings) noexcept;
+/// Four moments as four numbers of 0..1 that may be rounded apart and still are moments: the two depths of
+/// the only distribution of two depths with the first three, the share of the farther one, and the root of
+/// where the fourth lies between the least and the largest that depths of -1..1 allow (after Peters 2017).
+[[nodiscard]] StoredTexel packed_moments(const Moments& b) noexcept;
+[[nodiscard]] Moments unpacked_moments(const StoredTexel& stored) noexcept;
+
+/// Moved by a share towards those of depths spread out.
+[[nodiscard]] Moments spread_by(double share, Moments b) noexcept;
 /// The moments of a stored texel, moved by a share of `bias` towards those of depths spread out: what is
 /// stored has been rounded, and may be no moments at all. Never less than what the format's rounding needs.
 [[nodiscard]] Moments moments_of(const StoredTexel& texel, const FilterSettings& settings,

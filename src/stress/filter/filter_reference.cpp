@@ -94,6 +94,7 @@ StoredTexel Reference::stored(int x, int y) const {
 }
 
 StoredTexel Reference::rounded(StoredTexel texel) const noexcept {
+  if (settings_.filter->reference.pack != nullptr) texel = settings_.filter->reference.pack(texel, settings_);
   if (exact_) return texel;
   for (double& channel : texel) channel = rounded_to(settings_.format, channel);
   return texel;

@@ -32,6 +32,11 @@ double light_behind(const FilterSettings& settings, double behind) {
     if (filter.reference.store != nullptr) {
       texel = filter.reference.store(occluder, glm::dvec2(0.0), settings);
       for (double& channel : texel) channel = render::rounded_to(settings.format, channel);
+      if (filter.reference.pack != nullptr) {
+        render::StoredTexel read = filter.reference.nothing(settings);
+        filter.reference.join(read, texel, 1.0, settings);
+        texel = read;
+      }
     }
     most = std::max(most, filter.reference.visibility(texel, lookup, settings));
   }
