@@ -43,6 +43,7 @@ Names active(const Program& program, GLenum interface) {
 Names maps_read(const Filter& filter) {
   if (&filter == &filters::pcf_tent || &filter == &filters::revectorized) return {"shadow_depth"};
   if (&filter == &filters::hard) return {"shadow_depth"};
+  if (&filter == &filters::silhouette) return {"shadow_depth", "shadow_points"};
   if (&filter == &filters::pcf) return {"shadow_compare", "shadow_depth"};
   if (&filter == &filters::pcss || &filter == &filters::smrt) return {"shadow_depth"};
   if (&filter == &filters::esm) return {"shadow_stored", "shadow_depth", "shadow_depth_max"};
