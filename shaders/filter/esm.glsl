@@ -4,7 +4,7 @@
 #include "library/compare.glsl"
 #include "library/depth_max.glsl"
 
-// Options: c, fallback, epsilon.
+// Options: c, fallback, epsilon, both of the fall-off, failures.
 #if GNOMON_MEAN
 #include "library/mean.glsl"
 
@@ -70,6 +70,7 @@ float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DAr
   if (fallback == kLargestDepth) {
     fails = depth + allowed / c + kPyramidReach * dot(rise, at.box) < depth_max_in(depth_max, at, at.box);
   }
+  if (options.value[5] > 0.5) return fails ? 0.0 : 1.0;
   float lit = fails ? compare_2x2(depth_map, at, at.texel) : exp(log_lit);  // not-a-number is lit
   return lit < 1.0 ? max(lit, 0.0) : 1.0;
 }

@@ -30,6 +30,7 @@ constexpr FilterOption kOptions[] = {
      "visibility above 1 that still counts as valid; beyond it the fallback is used"},
     kFalloffWorld,
     falloff_kernel(4.0),
+    {"failures", 0.0, 0.0, 1.0, "1 shows where the mean fails by `fallback`, dark, in place of shadows"},
 };
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
 
@@ -41,6 +42,7 @@ constexpr double kMaxPlainC = 160.0;
 void settle(FilterSettings& settings) noexcept {
   if (settings.format != TexelFormat::fp32) settings.option[0] = std::min(settings.option[0], kMaxC16);
   settings.option[1] = std::round(settings.option[1]);
+  settings.option[5] = std::round(settings.option[5]);
 }
 
 void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
@@ -100,6 +102,7 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
   bool fails = fallback == 1.0 && log_lit > allowed;
   if (fallback == 2.0)
     fails = depth + allowed / c + kPyramidReach * glm::dot(rise, lookup.box) < lookup.depth_max;
+  if (settings.option[5] > 0.5) return fails ? 0.0 : 1.0;
   return saturate(fails ? compare_2x2(lookup, lookup.position) : std::exp(log_lit));
 }
 

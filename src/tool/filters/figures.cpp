@@ -3,12 +3,12 @@
 #include "figures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "gnomon/bias.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
 
@@ -29,12 +29,19 @@ CameraOf along_path(const FilterStage& stage, double at) {
       [path = default_path(stage.scene()), at](int width, int height) { return path.at(at, width, height); };
 }
 
-/// Draws every filter, adds its picture, and answers what each pixel sees of the light.
+/// Draws every filter, adds its picture, and answers what each pixel sees of the light. `exact`: to compare
+/// it with; empty: with nothing.
 std::vector<float> draw_panel(Figure& figure, FilterStage& stage, const std::string& filter,
-                              const CameraOf& camera, const FigureSize& size, int map_size) {
+                              const CameraOf& camera, const FigureSize& size, int map_size,
+                              const std::vector<float>& exact = {}) {
   stage.draw(filter_from(filter), camera(size.width, size.height), map_size);
   figure.panels.push_back({filter, stage.renderer().image()});
-  return stage.visibility();
+  const std::vector<float> lit = stage.visibility();
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const bool served = lit[i] >= 0.0f && exact[i] >= 0.0f;
+    figure.panels.back().off.push_back(served ? lit[i] - exact[i] : 0.0f);
+  }
+  return lit;
 }
 
 /// Mean of the light beyond that of `compared`, over the pixels that are wholly dark in truth.
@@ -55,7 +62,7 @@ void compare(Figure& figure, FilterStage& stage, const std::vector<std::string>&
   const std::vector<float> exact = true_visibility(stage, camera, size);
   std::vector<float> compared;
   for (const std::string& filter : filters) {
-    const std::vector<float> lit = draw_panel(figure, stage, filter, camera, size, map_size);
+    const std::vector<float> lit = draw_panel(figure, stage, filter, camera, size, map_size, exact);
     if (compared.empty()) compared = lit;
     figure.rows.push_back({filter, {rms(lit, exact), leaked(lit, compared, exact)}});
   }
@@ -97,62 +104,57 @@ Image enlarged(const Image& image, int factor) {
   return result;
 }
 
-/// Depths of the map in a kernel, as a classification reads them.
-struct Kernel {
-  double mean = 0.0;     ///< of exp(c (depth - receiver's))
-  double largest = 0.0;  ///< depth
+/// Pixels that face the light on which the mean of an exponential map fails, as its own shader says.
+struct Failures {
+  double percent = 0.0;
+  Image shown;  // those in red
 };
-Kernel kernel_at(const FloatImage& depth, const glm::dvec3& at, int radius, double c) {
-  const int side = 2 * radius + 1, column = static_cast<int>(std::floor(at.x)),
-            row = static_cast<int>(std::floor(at.y));
-  Kernel kernel;
-  for (int k = 0; k < side * side; ++k) {
-    const int x = std::clamp(column - radius + k % side, 0, depth.width - 1);
-    const int y = std::clamp(row - radius + k / side, 0, depth.height - 1);
-    const double z = depth.values[static_cast<std::size_t>(y * depth.width + x)];
-    kernel.mean += std::exp(c * (z - at.z)) / (side * side);
-    kernel.largest = std::max(kernel.largest, z);
+Failures failures_of(FilterStage& stage, const Camera& camera, const FigureSize& size,
+                     const std::string& settings) {
+  constexpr std::array<std::uint8_t, 3> kRed{230, 30, 30};
+  stage.draw(filter_from(settings), camera, size.wide_map / 2);
+  Failures failures{0.0, stage.renderer().image()};
+  stage.draw(filter_from(settings + ",failures=1"), camera, size.wide_map / 2);
+  const FloatImage normals = stage.renderer().normals();
+  const std::vector<float> holds = stage.visibility();
+  double count = 0.0;
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    const float* n = &normals.values[4 * i];
+    if (holds[i] < 0.0f || glm::dot(stage.plan().light_direction, glm::dvec3(n[0], n[1], n[2])) >= 0.0)
+      continue;
+    count += 1.0;
+    if (holds[i] > 0.5f) continue;
+    failures.percent += 1.0;
+    std::copy(kRed.begin(), kRed.end(), failures.shown.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
   }
-  return kernel;
+  failures.percent *= 100.0 / std::max(count, 1.0);
+  return failures;
 }
 
-/// Shares of the pixels that face the light, where a texel of the kernel lies behind the receiver by enough:
-/// by the mean of the exponentials or by the largest depth; and by the bare inequality, that any texel does.
-struct Failures {
-  double threshold = 0.0, depth_max = 0.0, bare = 0.0;
-};
-Failures failures_of(const FilterStage& stage, const Camera& camera, int radius, double c) {
-  constexpr double kEpsilon = 0.02;  // of the answer above 1: the filter's own default
-  const FloatImage depth = stage.renderer().depth_map(0), points = stage.renderer().positions();
-  const FloatImage normals = stage.renderer().normals();
+/// Radius of a disc as large as a pixel's footprint in the map, texels: the median over the pixels that a map
+/// serves. A box and a disc of equal variance.
+double footprint_radius(const FilterStage& stage, const Camera& camera) {
+  constexpr double kSideOfRadius = 1.7320508075688772;
+  const FloatImage points = stage.renderer().positions();
   const std::vector<float> lit = stage.visibility();
-  const ShadowPlan& plan = stage.plan();
-  Receiver receiver{plan.map[0].clip_from_world, {depth.width, depth.height}, plan.light_direction, {}, {}};
-  Failures failures;
-  double count = 0.0;
-  for (std::size_t i = 0; i < lit.size(); ++i) {
-    const float *n = &normals.values[4 * i], *p = &points.values[4 * i];
-    receiver.normal = {n[0], n[1], n[2]};
-    receiver.point = camera.position + glm::dvec3(p[0], p[1], p[2]);
-    if (lit[i] < 0.0f || glm::dot(receiver.light_direction, receiver.normal) >= 0.0) continue;
-    const glm::dvec4 h = receiver.clip_from_world * glm::dvec4(receiver.point, 1.0);
-    const glm::dvec3 at{(h.x / h.w * 0.5 + 0.5) * depth.width, (h.y / h.w * 0.5 + 0.5) * depth.height,
-                        h.z / h.w};
-    const Kernel kernel = kernel_at(depth, at, radius, c);
-    // As the filter does: the rise of the receiver's own plane is no failure, nor are a texel's worth of
-    // bias.
-    const glm::dvec2 rise = glm::abs(receiver_plane(receiver).gradient), s = c * (radius + 0.5) * rise;
-    const auto mean_over = [](double half) { return half > 1e-3 ? std::sinh(half) / half : 1.0; };
-    const double allowed = std::log(1.0 + kEpsilon) + c * (rise.x + rise.y);
-    const double plane = mean_over(std::min(s.x, 300.0)) * mean_over(std::min(s.y, 300.0));
-    failures.threshold += std::log(kernel.mean / plane) > allowed ? 1.0 : 0.0;
-    failures.depth_max += at.z + (allowed + s.x + s.y) / c < kernel.largest ? 1.0 : 0.0;
-    failures.bare += at.z + std::log(1.0 + kEpsilon) / c < kernel.largest ? 1.0 : 0.0;
-    count += 1.0;
+  const ShadowMap& map = stage.plan().map[0];
+  const auto texel_of = [&](std::size_t i) {
+    const float* p = &points.values[4 * i];
+    const glm::dvec4 h =
+        map.clip_from_world * glm::dvec4(camera.position + glm::dvec3(p[0], p[1], p[2]), 1.0);
+    return 0.5 * glm::dvec2(h) / h.w * glm::dvec2(map.width, map.height);
+  };
+  std::vector<double> radii;
+  const auto width = static_cast<std::size_t>(points.width);
+  for (std::size_t i = 0; i + width < lit.size(); ++i) {
+    if (lit[i] < 0.0f || lit[i + 1] < 0.0f || lit[i + width] < 0.0f) continue;
+    const glm::dvec2 here = texel_of(i), x = texel_of(i + 1) - here, y = texel_of(i + width) - here;
+    radii.push_back(std::sqrt(std::abs(x.x * y.y - x.y * y.x)) / kSideOfRadius);
   }
-  count = std::max(count, 1.0);
-  return {100.0 * failures.threshold / count, 100.0 * failures.depth_max / count,
-          100.0 * failures.bare / count};
+  if (radii.empty()) return 0.5;
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return std::clamp(*middle, 0.5, render::kMaxRadiusTexels);
 }
 
 }  // namespace
@@ -162,6 +164,33 @@ double Figure::value(const std::string& label, std::size_t column) const {
     if (row.label == label) return row.values.at(column);
   }
   throw std::out_of_range(name + " has no row " + label);
+}
+
+Figure::Window Figure::worst_window() const {
+  constexpr int kShare = 5;
+  const auto compared =
+      std::find_if(panels.begin(), panels.end(), [](const Panel& panel) { return !panel.off.empty(); });
+  if (compared == panels.end()) return {};
+  const int width = compared->image.width, height = compared->image.height;
+  Window worst{0, 0, std::max(width / kShare, 1), std::max(height / kShare, 1)};
+  double most = -1.0;
+  for (int y = 0; y + worst.height <= height; y += std::max(worst.height / 2, 1)) {
+    for (int x = 0; x + worst.width <= width; x += std::max(worst.width / 2, 1)) {
+      double sum = 0.0;
+      for (const Panel& panel : panels) {
+        for (std::size_t i = 0; i < panel.off.size(); ++i) {
+          const int column = static_cast<int>(i) % width, row = static_cast<int>(i) / width;
+          const bool inside = column >= x && column < x + worst.width && row >= y && row < y + worst.height;
+          sum += inside ? std::abs(panel.off[i]) : 0.0;
+        }
+      }
+      if (sum <= most) continue;
+      most = sum;
+      worst.x = x;
+      worst.y = y;
+    }
+  }
+  return worst;
 }
 
 double rms(const std::vector<float>& a, const std::vector<float>& b) {
@@ -204,7 +233,8 @@ Figure convolution_orders(const FigureSize& size) {
   FilterStage stage(contact_scene(false), kSunElevation, kSunBehindBars);
   const std::vector<float> exact = true_visibility(stage, contact_camera, size);
   const auto add = [&](const std::string& filter) {
-    const std::vector<float> lit = draw_panel(figure, stage, filter, contact_camera, size, size.narrow_map);
+    const std::vector<float> lit =
+        draw_panel(figure, stage, filter, contact_camera, size, size.narrow_map, exact);
     figure.rows.push_back({filter, {rms(lit, exact), render::bytes_per_texel(filter_from(filter))}});
   };
   add("pcf:radius=2");
@@ -215,6 +245,8 @@ Figure convolution_orders(const FigureSize& size) {
       add("convolution:radius=2,order=" + std::to_string(order) + "," + way);
   }
   add("convolution:radius=2");
+  for (const char* format : {"unorm8", "fp32"})
+    add(std::string("convolution:radius=2,attenuation=0,format=") + format);
   return figure;
 }
 
@@ -271,20 +303,43 @@ Figure overlaps(const FigureSize& size) {
   return figure;
 }
 
+Figure half_resolution(const FigureSize& size) {
+  Figure figure{"half_resolution",
+                "Kernels as wide out of maps of half the resolution",
+                {"filter", "RMS to the truth", "at half the resolution"},
+                {},
+                {}};
+  FilterStage contact(contact_scene(true), kSunElevation, kSunBehindBars);
+  const std::vector<float> exact = true_visibility(contact, contact_camera, size);
+  for (const char* filter : {"pcf", "power_cdf", "vsm", "esm"}) {
+    Figure::Row row{filter, {}};
+    // Five texels, and two and a half of twice the width.
+    for (const auto& [radius, map_size] :
+         {std::pair(":radius=2", size.narrow_map), std::pair(":radius=0.75", size.narrow_map / 2)}) {
+      const std::string settings = std::string(filter) + radius;
+      row.values.push_back(
+          rms(draw_panel(figure, contact, settings, contact_camera, size, map_size, exact), exact));
+      figure.panels.back().caption += " of " + std::to_string(map_size) + " texels";
+    }
+    figure.rows.push_back(row);
+  }
+  return figure;
+}
+
 Figure bits(const FigureSize& size) {
-  Figure figure{"bits", "16 bits a channel against 32", {"filter", "RMS to 32 bits"}, {}, {}};
+  Figure figure{"bits", "16 bits a channel and less against 32", {"filter", "RMS to 32 bits"}, {}, {}};
   FilterStage trees = scene_stage("builtin:trees");
   const CameraOf camera = along_path(trees, 0.3);
-  for (const char* name : {"power_cdf", "vsm", "esm", "lvsm", "evsm4", "msm"}) {
+  for (const char* name : {"power_cdf", "vsm", "esm", "lvsm", "evsm4", "msm", "convolution"}) {
     const render::Filter& filter = *render::find_filter(name);
     const std::string text = std::string(name) + ":radius=2";
     const std::vector<float> full =
         draw_panel(figure, trees, text + ",format=fp32", camera, size, size.wide_map);
     for (const render::TexelFormat format : filter.info.formats) {
-      if (render::bytes_per_channel(format) != 2) continue;
+      if (render::bytes_per_channel(format) > 2) continue;
       const std::string shorter = text + ",format=" + std::string(to_string(format));
       figure.rows.push_back(
-          {shorter, {rms(draw_panel(figure, trees, shorter, camera, size, size.wide_map), full)}});
+          {shorter, {rms(draw_panel(figure, trees, shorter, camera, size, size.wide_map, full), full)}});
     }
   }
   return figure;
@@ -310,22 +365,26 @@ Figure one_scene(const std::string& scene, const FigureSize& size) {
 }
 
 Figure exponential_failures(const FigureSize& size) {
-  constexpr double kExponent = 80.0;  // the paper's
   Figure figure{"exponential_failures",
                 "ESM: percentage of pixels whose kernel holds a texel behind the receiver (c = 80)",
-                {"scene, blur", "by threshold", "by largest depth",
-                 "by largest depth, slant and bias counted as failure"},
+                {"scene, blur", "by threshold", "by largest depth"},
                 {},
                 {}};
   for (const char* name : {"builtin:fence", "builtin:trees"}) {
     FilterStage stage(load_scene(name), 38.0, 140.0);
     const Camera camera = default_path(stage.scene()).at(0.25, size.width, size.height);
-    stage.draw(filter_from("hard"), camera, size.wide_map / 2);
     for (int radius = 0; radius <= 3; ++radius) {
-      const Failures f = failures_of(stage, camera, radius, kExponent);
-      const std::string side = std::to_string(2 * radius + 1);
-      figure.rows.push_back(
-          {std::string(name) + ", " + side + "x" + side, {f.threshold, f.depth_max, f.bare}});
+      const std::string side = std::to_string(2 * radius + 1), blur = side + "x" + side;
+      Figure::Row row{std::string(name) + ", " + blur, {}};
+      for (const char* fallback : {"1", "2"}) {
+        const Failures failures = failures_of(
+            stage, camera, size,
+            "esm:c=80,falloff_kernel=0,radius=" + std::to_string(radius) + ",fallback=" + fallback);
+        row.values.push_back(failures.percent);
+        figure.panels.push_back(
+            {row.label + (fallback[0] == '1' ? " by threshold" : " by largest depth"), failures.shown});
+      }
+      figure.rows.push_back(row);
     }
   }
   return figure;
@@ -342,14 +401,19 @@ Figure matching_samples(const FigureSize& size) {
                                    "esm:radius=1,mipmap=1,c=80,anisotropy=16"};
   for (int count = 1; count <= 64; count *= 2)
     filters.push_back("pcf:pattern=1,radius=4,samples=" + std::to_string(count));
+  constexpr const char* kOfFootprint = "pcf:pattern=1,samples=64, radius of the footprint";
+  filters.emplace_back(kOfFootprint);
   for (const std::string& filter : filters) figure.rows.push_back({filter, {}});
   for (const double elevation_deg : {80.0, 38.0}) {
     FilterStage stage(grating_scene(), elevation_deg, 250.0);
     const CameraOf camera = [](int width, int height) { return grating_camera(4.0, width, height); };
     const std::vector<float> exact = true_visibility(stage, camera, size);
+    stage.draw(filter_from("hard"), camera(size.width, size.height), size.wide_map);
+    const std::string of_footprint = "pcf:pattern=1,samples=64,radius=" +
+                                     std::to_string(footprint_radius(stage, camera(size.width, size.height)));
     for (Figure::Row& row : figure.rows) {
-      stage.draw(filter_from(row.label), camera(size.width, size.height), size.wide_map);
-      row.values.push_back(rms(stage.visibility(), exact));
+      const std::string filter = row.label == kOfFootprint ? of_footprint : row.label;
+      row.values.push_back(rms(draw_panel(figure, stage, filter, camera, size, size.wide_map, exact), exact));
     }
   }
   return figure;

@@ -20,6 +20,7 @@ struct FigureSize {
 struct Panel {
   std::string caption;
   Image image;
+  std::vector<float> off = {};  ///< light beyond that of the truth, by pixel; empty: not compared
 };
 
 struct Figure {
@@ -32,6 +33,12 @@ struct Figure {
   std::vector<Row> rows;
   std::vector<Panel> panels;
 
+  /// The rectangle of the pictures, a fifth of their sides, in which the panels differ from the truth by
+  /// most.
+  struct Window {
+    int x = 0, y = 0, width = 0, height = 0;  ///< pixels from the upper left corner; 0: nothing compared
+  };
+  [[nodiscard]] Window worst_window() const;
   /// The value of the first row of this label. Throws std::out_of_range.
   [[nodiscard]] double value(const std::string& label, std::size_t column = 0) const;
 };
@@ -57,6 +64,8 @@ using CameraOf = std::function<Camera(int width, int height)>;
 // After Gumbau et al., "Improving Shadow Map Filtering with Statistical Analysis", 2011: figures 3 and 2.
 [[nodiscard]] Figure contacts(const FigureSize& size);
 [[nodiscard]] Figure overlaps(const FigureSize& size);
+/// Power law, variance and exponentials out of maps of half the resolution, with kernels as wide.
+[[nodiscard]] Figure half_resolution(const FigureSize& size);
 [[nodiscard]] Figure bits(const FigureSize& size);
 /// All filters on one scene.
 [[nodiscard]] Figure one_scene(const std::string& scene, const FigureSize& size);
