@@ -1,5 +1,5 @@
 // Moment shadow maps (Peters, Klein 2015): four moments of the kernel's depths bound the share that is lit. A texel stores
-// their means (GNOMON_MEAN, the default), or what tells more in 16 bits and has no means: see packed_moments.
+// their means (GNOMON_MEAN, the default), or what 16 bits round without harm and has no means: see packed_moments.
 #ifndef GNOMON_MEAN
 #define GNOMON_MEAN 1
 #endif

@@ -17,8 +17,8 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
   vec4 lit = vec4(lit_at_centre(depth_map, at, own), lit_at_centre(depth_map, at, own + vec2(1.0, 0.0)),
                   lit_at_centre(depth_map, at, own + vec2(0.0, 1.0)), lit_at_centre(depth_map, at, own + vec2(1.0)));
   if (all(equal(lit, lit.xxxx))) return lit.x;
-  // Lines run from the point to the neighbours' points: one to either side, one up, one down. Of each pair the one on the
-  // point's side of the middle decides.
+  // Lines run from the point to the neighbours' points: one to either side, one up, one down. The one of each
+  // pair that lies on the point's side of the middle decides.
   vec2 middle = shadow_silhouette(at, own);
   vec2 side = vec2(part.x < middle.x ? -1.0 : 1.0, part.y < middle.y ? -1.0 : 1.0);
   vec2 beside = shadow_silhouette(at, own + vec2(side.x, 0.0)) + vec2(side.x, 0.0) - middle;

@@ -129,6 +129,8 @@ std::vector<KeyLine> keys_of(const Filter& filter) {
 std::string stored_text(const Filter& filter) {
   const FilterSettings settings = default_settings(filter);
   const std::string bytes = number_text(bytes_per_texel(settings)) + " bytes a texel";
+  if (filter.info.draws_silhouettes)
+    return "Stores points of outlines beside the depth map: " + bytes + ".\n";
   if (filter.info.channels == nullptr) return "Stores the depth map alone: " + bytes + ".\n";
   const int channels = filter.info.channels(settings);
   return "Stores " + std::to_string(channels) + (channels == 1 ? " channel of " : " channels of ") +

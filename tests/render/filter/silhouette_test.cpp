@@ -43,7 +43,7 @@ TEST(CasterEdges, of_open_sheets_and_of_three_triangles_have_one_corner_twice) {
   for (std::size_t i = 0; i < fan.size(); i += 4) EXPECT_EQ(fan[i], fan[i + 3]);
 }
 
-TEST(CasterEdges, leave_out_triangles_without_area_and_take_nothing) {
+TEST(CasterEdges, skip_triangles_without_area_and_take_nothing) {
   EXPECT_TRUE(edges_of({}).empty());
   EXPECT_TRUE(edges_of({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}}).empty());
 }
