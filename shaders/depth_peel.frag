@@ -4,4 +4,5 @@
 
 void main() {
   if (is_peeled_off()) discard;
+  gl_FragDepth = fragment_depth();
 }

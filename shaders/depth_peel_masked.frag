@@ -7,4 +7,5 @@ layout(location = 0) in vec2 texcoord;
 
 void main() {
   if (is_peeled_off() || is_cut_out(texcoord)) discard;
+  gl_FragDepth = fragment_depth();
 }

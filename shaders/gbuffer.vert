@@ -10,6 +10,7 @@ layout(location = 3) in uint object_index;
 layout(location = 0) out vec3 position_out;
 layout(location = 1) out vec3 normal_out;
 layout(location = 2) out vec2 texcoord_out;
+layout(location = 3) flat out uint object_out;
 
 void main() {
   vec3 position = relative_from_object(object_index, position_object);
@@ -17,4 +18,5 @@ void main() {
   position_out = position;
   normal_out = world_normal_from_object(object_index, normal_object);
   texcoord_out = texcoord;
+  object_out = object_index;
 }

@@ -6,6 +6,7 @@
 
 layout(location = 7) uniform mat4 shape;  // as shaped_point takes it
 layout(location = 8) uniform vec2 size;   // of the map, texels
+layout(location = 10) uniform float even_scale;  // as common/even_depth.glsl has it
 layout(location = 0) flat in vec4 corner[3];  // clip space
 
 // Weights of the corners where the ray through the texel's centre meets the triangle, as they are before the map's projection.
@@ -21,9 +22,9 @@ vec3 covered() {
   if (sum == 0.0) discard;
   weights /= sum;
   float w = dot(weights, vec3(corner[0].w, corner[1].w, corner[2].w));
-  float depth = dot(weights, vec3(corner[0].z, corner[1].z, corner[2].z)) / w;
+  float z = dot(weights, vec3(corner[0].z, corner[1].z, corner[2].z)), depth = z / w;
   if (!(w > 0.0 && depth >= 0.0 && depth <= 1.0)) discard;
-  gl_FragDepth = depth;
+  gl_FragDepth = even_scale > 0.0 ? clamp(z * even_scale, 0.0, 1.0) : depth;
   return weights;
 }
 #endif

@@ -18,6 +18,11 @@ layout(location = 4) flat in vec3 plane_point;
 // along triangles that pass the camera closely.
 layout(location = 3) out float height_out;
 #endif
+#ifdef GNOMON_IDENTIFIED
+#include "common/identifier.glsl"
+layout(location = 3) flat in uint object;
+layout(location = 3) out uint identifier_out;
+#endif
 
 void main() {
   // Derivatives come before any discard.
@@ -39,6 +44,9 @@ void main() {
 #ifdef GNOMON_HEIGHTS
   float side = dot(plane_normal, geometric) < 0.0 ? -1.0 : 1.0;
   height_out = side * dot(plane_normal, position - plane_point);
+#endif
+#ifdef GNOMON_IDENTIFIED
+  identifier_out = identifier_of(object);
 #endif
 }
 #endif

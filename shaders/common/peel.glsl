@@ -1,6 +1,8 @@
 // Does a fragment lie behind the first surface of its texel? The second surface is what is left in front.
 #ifndef GNOMON_COMMON_PEEL_GLSL
 #define GNOMON_COMMON_PEEL_GLSL
+#include "common/even_depth.glsl"
+
 layout(binding = 5) uniform sampler2DArray first_surface;
 // Casters without thickness: each of their surfaces is its own second one.
 layout(location = 5) uniform bool sheet;
@@ -9,6 +11,7 @@ bool is_peeled_off() {
   // Surfaces that rounding alone parts are one: the rasterizer's depth is good to a few units of 2^-24.
   const float kRounding = 4.0 / 16777216.0;
   float first = texelFetch(first_surface, ivec3(gl_FragCoord.xy, 0), 0).r;
-  return sheet ? gl_FragCoord.z < first - kRounding : gl_FragCoord.z <= first + kRounding;
+  float own = fragment_depth();
+  return sheet ? own < first - kRounding : own <= first + kRounding;
 }
 #endif

@@ -72,7 +72,7 @@ void set_kernel(inout ShadowLookup at, ShadowMap map, ShadowKernel kernel, mat2 
 
 // The same lookup with depths as stored texels have them, linear in distance under local lights.
 ShadowLookup stored_lookup(ShadowLookup at, ShadowMap map) {
-  float curve = map.kernel.w;
+  float curve = max(map.kernel.w, 0.0);
   float depth = min(at.depth, 1.0);  // what lies beyond the far plane would pass the curve's pole
   float scale = 1.0 + (1.0 - depth) * curve;
   at.depth = linear_depth(depth, curve);
@@ -117,7 +117,8 @@ ShadowLookup shadow_lookup(ShadowMap map, float layer, vec2 layer_size, ShadowSu
   at.texels_per_world =
       mat2(dot(p.d_texel_x, a), dot(p.d_texel_y, a), dot(p.d_texel_x, b), dot(p.d_texel_y, b));
   mat4 m = map.clip_from_point;
-  at.ray = vec4(p.ndc.z * p.w, p.w, dot(matrix_row(m, 2), light), dot(matrix_row(m, 3), light));
+  at.ray = even_scale_of(map) > 0.0 ? vec4(p.ndc.z, 1.0, along_light, 0.0)
+                                    : vec4(p.ndc.z * p.w, p.w, dot(matrix_row(m, 2), light), dot(matrix_row(m, 3), light));
   at.light_distance = s.light.w == 0.0 ? 0.0 : length(position - s.light.xyz);
   at.box = vec2(0.5);
   at.disc = mat2(0.5);

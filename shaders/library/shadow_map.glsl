@@ -9,13 +9,16 @@ struct ShadowMap {
   vec4 interval_size;     // depth_begin, depth_end: view depths served; width, height: texels
   vec4 select_planes[4];  // serves points with dot(xyz, point) + w >= 0 for all; (0, 0, 0, 1) where unused
   mat4 shape;             // as shaped_point takes it
-  vec4 kernel;            // filter margin in texels; blur that the stored texels went through, as half a box, texels; overlap; depth curve
+  vec4 kernel;            // filter margin in texels; blur that the stored texels went through, as half a box, texels; overlap; depth curve, or minus even_scale
 };
 
 ShadowMap shadow_map(int index);
 
+// The map's depths are clip z times this, even along the light; 0: clip z over w.
+float even_scale_of(ShadowMap map) { return max(-map.kernel.w, 0.0); }
+
 struct MapPoint {
-  vec3 ndc;        // x, y in -1..1, z in 0..1
+  vec3 ndc;        // x, y in -1..1, z in 0..1 as the map stores it
   vec2 texel;
   float w;
   vec3 d_texel_x;  // gradients over the position: of the texel coordinates ...
@@ -39,6 +42,11 @@ MapPoint map_point(ShadowMap map, vec3 position) {
   p.d_texel_x = over_x * d[0].x + over_y * d[1].x;
   p.d_texel_y = over_x * d[0].y + over_y * d[1].y;
   p.d_depth = (matrix_row(m, 2) - p.ndc.z * w_row) / h.w;
+  float even = even_scale_of(map);
+  if (even > 0.0) {
+    p.ndc.z = h.z * even;
+    p.d_depth = matrix_row(m, 2) * even;
+  }
   return p;
 }
 

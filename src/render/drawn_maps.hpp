@@ -12,8 +12,9 @@ namespace gnomon::render {
 struct DrawnMap {
   glm::mat4 clip_from_position{1.0f};
   int width = 0, height = 0;
-  glm::mat4 shape{0.0f};  ///< as shaders take it
-  bool bent = false;      ///< the shape bends lines: triangles are drawn by bounding rectangles
+  glm::mat4 shape{0.0f};    ///< as shaders take it
+  bool bent = false;        ///< the shape bends lines: triangles are drawn by bounding rectangles
+  float even_scale = 0.0f;  ///< of clip z to depths that are even along the light; 0: divided by w
   bool operator==(const DrawnMap&) const = default;
 };
 struct DrawnMaps {

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "frame_block.hpp"
+
 namespace gnomon::render {
 namespace {
 
@@ -101,14 +103,33 @@ double depth_curve(const ShadowPlan& plan, const ShadowMap& map) noexcept {
   return std::isfinite(curve) ? std::max(curve, 0.0) : 0.0;
 }
 
-DepthCurves depth_curves(const ShadowPlan& plan) noexcept {
+double even_depth_scale(const ShadowPlan& plan, const ShadowMap& map) noexcept {
+  const glm::dmat4 world_from_clip =
+      glm::inverse(drawn_from_plan_clip(plan.clip_space) * map.clip_from_world);
+  double largest = 0.0;
+  for (const glm::dvec2& corner :
+       {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
+    // On the far plane clip z is w, of which the inverse has the reciprocal.
+    const double z = 1.0 / (world_from_clip * glm::dvec4(corner, 1.0, 1.0)).w;
+    if (!(z > 0.0)) return 0.0;
+    largest = std::max(largest, z);
+  }
+  const double scale = 1.0 / largest;
+  return std::isfinite(scale) ? scale : 0.0;
+}
+
+DepthCurves depth_curves(const ShadowPlan& plan, bool even) noexcept {
   DepthCurves curves{};
-  for (std::size_t i = 0; i < plan.maps().size(); ++i) curves[i] = depth_curve(plan, plan.map[i]);
+  for (std::size_t i = 0; i < plan.maps().size(); ++i) {
+    const double scale = even ? even_depth_scale(plan, plan.map[i]) : 0.0;
+    curves[i] = scale > 0.0 ? -scale : depth_curve(plan, plan.map[i]);
+  }
   return curves;
 }
 
 void set_depth_curves(const DepthCurves& curves, FilterBlock& block) noexcept {
-  for (std::size_t i = 0; i < curves.size(); ++i) block.depth_curve[i].x = static_cast<float>(curves[i]);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    block.depth_curve[i].x = static_cast<float>(std::max(curves[i], 0.0));
 }
 
 FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides) noexcept {

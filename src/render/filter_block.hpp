@@ -49,8 +49,14 @@ void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& b
 }
 /// The curve of a map: far over near distance less 1 along its middle ray for a lamp, 0 for parallel light.
 [[nodiscard]] double depth_curve(const ShadowPlan& plan, const ShadowMap& map) noexcept;
+/// What makes a map's depths even along the light: clip z times this, in the clip space that maps are drawn
+/// in. It is 1 over the largest clip z on the far plane; 0 for a map without an inverse, whose depths are
+/// divided by w.
+[[nodiscard]] double even_depth_scale(const ShadowPlan& plan, const ShadowMap& map) noexcept;
+/// Curves, or minus even_depth_scale of maps with even depths: as ShadowMap of
+/// shaders/library/shadow_map.glsl has them.
 using DepthCurves = std::array<double, kMaxMaps>;
-[[nodiscard]] DepthCurves depth_curves(const ShadowPlan& plan) noexcept;
+[[nodiscard]] DepthCurves depth_curves(const ShadowPlan& plan, bool even = false) noexcept;
 void set_depth_curves(const DepthCurves& curves, FilterBlock& block) noexcept;
 
 /// Options of each map of a plan.

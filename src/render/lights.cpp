@@ -239,7 +239,7 @@ FrameStats Renderer::draw(const LightPlan& plan, std::span<const DrawnLight> lig
   impl.lists.forget_maps();
   impl.pages.forget();
   impl.history.forget();  // each mask is of one light
-  impl.take_layer(options);
+  impl.take_layer(options.depth_layer, options.dual_limit_texels);
   FrameStats stats;
   const PassTimer timed{stats, options.time_passes};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

@@ -13,7 +13,8 @@ namespace {
 
 // Bindings and locations as the shaders state them.
 constexpr GLint kBaseColorLocation = 1, kAlphaCutoffLocation = 2, kClipLocation = 3, kMapLocation = 3,
-                kWrapLocation = 4, kSamplesLocation = 6, kShapeLocation = 7, kSizeLocation = 8;
+                kWrapLocation = 4, kSamplesLocation = 6, kShapeLocation = 7, kSizeLocation = 8,
+                kEvenScaleLocation = 10;
 constexpr GLuint kPositionUnit = 0, kNormalUnit = 1, kAlbedoUnit = 2, kColorImageUnit = 3, kMaskUnit = 6,
                  kExtraUnit = 7, kNoiseUnit = kColorImageUnit;
 constexpr GLint kSheetLocation = 5;
@@ -41,12 +42,15 @@ constexpr auto kNoBatchState = [](const Batch&) {};
 
 PeeledDepth DepthDraw::peeled(const ShadowPlan& plan, const ShadowMap& map) const noexcept {
   const double texel = std::max(map.texel_world.x, map.texel_world.y), range = map.depth_range_world;
-  return {layer, depth_curve(plan, map), range > 0.0 ? dual_limit_texels * texel / range : 0.0};
+  return {layer, even_scale > 0.0f ? 0.0 : depth_curve(plan, map),
+          range > 0.0 ? dual_limit_texels * texel / range : 0.0};
 }
 
 CommonPrograms::CommonPrograms()
     : depth(make_program("depth.vert", "depth.frag")),
       depth_masked(make_program("depth.vert", "depth_masked.frag")),
+      depth_even(make_program("depth.vert", "depth_even.frag")),
+      depth_even_masked(make_program("depth.vert", "depth_even_masked.frag")),
       surfaces(make_program("gbuffer.vert", "gbuffer.frag")),
       accumulate(make_program("fullscreen.vert", "accumulate.frag")),
       shade(make_program("fullscreen.vert", "shade.frag")),
@@ -113,8 +117,13 @@ void Renderer::Impl::draw_casters(const DrawnPart& part, const CasterPrograms& b
 
 void Renderer::Impl::draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
                                   const DepthDraw& how) noexcept {
-  const auto set_place = [&] { glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]); };
-  const CasterPrograms both_sides{programs.depth, programs.depth_masked};
+  const bool even = how.even_scale > 0.0f;
+  const auto set_place = [&] {
+    glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]);
+    if (even) glUniform1f(kEvenScaleLocation, how.even_scale);
+  };
+  CasterPrograms both_sides{even ? programs.depth_even : programs.depth,
+                            even ? programs.depth_even_masked : programs.depth_masked};
   // Both sides cast: open and thin things have one side only, and the truth knows no sides.
   if (how.layer != DepthLayer::back) {
     draw_casters(part, both_sides, how.alpha_test_where_masked, set_place, kNoBatchState);
@@ -122,11 +131,11 @@ void Renderer::Impl::draw_casters(const DrawnPart& part, const glm::mat4& clip_f
   }
   const bool mirrored = is_mirrored(clip_from_position);
   glCullFace(GL_FRONT);
-  draw_casters(part, CasterPrograms{programs.depth, programs.depth_masked, -1, true},
-               how.alpha_test_where_masked, set_place, [mirrored](const Batch& batch) {
-                 is_sheet(batch) ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
-                 glFrontFace(batch.mirrored != mirrored ? GL_CW : GL_CCW);
-               });
+  both_sides.apart = true;
+  draw_casters(part, both_sides, how.alpha_test_where_masked, set_place, [mirrored](const Batch& batch) {
+    is_sheet(batch) ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
+    glFrontFace(batch.mirrored != mirrored ? GL_CW : GL_CCW);
+  });
   glCullFace(GL_BACK);
   glDisable(GL_CULL_FACE);
 }
@@ -135,7 +144,10 @@ void Renderer::Impl::draw_casters_behind(const DrawnPart& part, const glm::mat4&
                                          const DepthDraw& how) noexcept {
   draw_casters(
       part, CasterPrograms{depth_peel.opaque(), depth_peel.masked(), -1, true}, how.alpha_test_where_masked,
-      [&] { glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]); },
+      [&] {
+        glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]);
+        glUniform1f(kEvenScaleLocation, how.even_scale);
+      },
       [](const Batch& batch) { glUniform1i(kSheetLocation, is_sheet(batch) ? 1 : 0); });
 }
 
@@ -155,9 +167,17 @@ void Renderer::Impl::draw_bent_casters(const DrawnPart& part, const DrawnMap& ma
     glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
     glUniformMatrix4fv(kShapeLocation, 1, GL_FALSE, &map.shape[0][0]);
     glUniform2f(kSizeLocation, static_cast<float>(map.width), static_cast<float>(map.height));
+    glUniform1f(kEvenScaleLocation, map.even_scale);
   };
   draw_casters(part, CasterPrograms{bent->opaque, bent->masked}, alpha_test_where_masked, set_place,
                kNoBatchState);
+}
+
+void Renderer::Impl::draw_identified_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
+                                             bool alpha_test_where_masked) noexcept {
+  draw_casters(
+      part, CasterPrograms{identifiers->opaque(), identifiers->masked()}, alpha_test_where_masked,
+      [&] { glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]); }, kNoBatchState);
 }
 
 void Renderer::Impl::draw_casters_on_lists(const ShadowPlan& plan, bool alpha_test_where_masked) noexcept {
@@ -202,14 +222,16 @@ void Renderer::Impl::draw_shadow_maps(const ShadowPlan& plan, const DrawnMaps& d
   for (int i = 0; i < map_count; ++i) {
     if (lists.parts(i).empty()) continue;
     const DrawnMap& map = drawn.map[static_cast<std::size_t>(i)];
+    DepthDraw of_map = how;
+    of_map.even_scale = map.even_scale;
     glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0, i);
     glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
     glViewport(0, 0, map.width, map.height);
     for (const DrawnPart& part : lists.parts(i)) {
-      draw_map_part(part, map, how);
+      draw_map_part(part, map, of_map);
       if (info_of(how.layer).peels && !map.bent)
-        peel(part, part.rectangle, i, map.clip_from_position, how,
-             how.peeled(plan, plan.map[static_cast<std::size_t>(i)]));
+        peel(part, part.rectangle, i, map.clip_from_position, of_map,
+             of_map.peeled(plan, plan.map[static_cast<std::size_t>(i)]));
     }
   }
   glDisable(GL_SCISSOR_TEST);

@@ -149,7 +149,7 @@ std::vector<DrawnDepths> Renderer::drawn_depths(const FilterSettings& settings,
   for (int i = 0; i < std::min(plan.map_count, impl_->map_count); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const ShadowMap& map = plan.map[at];
-    const double curve = depth_curve(plan, map);
+    const double curve = impl_->drawn_linear ? 0.0 : depth_curve(plan, map);
     std::vector<float> depths = depth_map(i).values;
     if (curve > 0.0)
       for (float& depth : depths) depth = static_cast<float>(linear_depth(depth, curve));

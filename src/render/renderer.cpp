@@ -162,11 +162,12 @@ void Renderer::Impl::count_work(const ShadowPlan& plan, FrameStats& stats) const
   stats.camera = lists.camera_stats();
 }
 
-void Renderer::Impl::take_layer(const FrameOptions& options) noexcept {
-  const bool same = options.depth_layer == drawn_layer &&
-                    (drawn_layer != DepthLayer::dual || options.dual_limit_texels == drawn_limit_texels);
-  drawn_layer = options.depth_layer;
-  drawn_limit_texels = options.dual_limit_texels;
+void Renderer::Impl::take_layer(DepthLayer layer, double dual_limit_texels, bool linear) noexcept {
+  const bool same = layer == drawn_layer && linear == drawn_linear &&
+                    (drawn_layer != DepthLayer::dual || dual_limit_texels == drawn_limit_texels);
+  drawn_layer = layer;
+  drawn_limit_texels = dual_limit_texels;
+  drawn_linear = linear;
   if (same) return;
   lists.forget_maps();
   pages.forget();
@@ -263,7 +264,11 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   constexpr std::size_t kMostMoved = 4096;
   if (plan.map_count > 0) impl.pages.forget();
   if (filter.irregular || impl.moved.size() > kMostMoved) impl.forget_moved();
-  impl.take_layer(options);
+  const bool identified = impl.takes_identifiers(plan, filter);
+  impl.take_layer(identified ? DepthLayer::front : options.depth_layer, options.dual_limit_texels,
+                  options.linear_depth && !identified);
+  impl.take_identifiers(identified ? std::optional(filter.identifiers->of) : std::nullopt);
+  if (identified) return impl.draw_identified(plan, camera, filter, options);
   if (filter.irregular && impl.pixel_lists &&
       impl.pixel_lists->fits(camera.width, camera.height, filter.samples))
     return impl.draw_irregular(plan, camera, filter, options);
@@ -275,7 +280,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   impl.take_silhouettes(filter.settings);
   const BlurSides blur = blur_sides(filter.settings, plan);
   FilterBlock filtering = filter_block(filter.settings, blur);
-  const DepthCurves curves = depth_curves(plan);
+  const DepthCurves curves = depth_curves(plan, options.linear_depth);
   set_depth_curves(curves, filtering);
   filtering.sums.w = options.receiver_plane ? 0.0f : 1.0f;
   const FrameBlock block =
@@ -285,6 +290,8 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   timed(Pass::shadow_maps, [&] {
     impl.upload(block, filtering);
     drawn = impl.place_scene(plan, camera.position);
+    for (std::size_t i = 0; i < plan.maps().size(); ++i)
+      drawn.map[i].even_scale = static_cast<float>(std::max(-curves[i], 0.0));
     impl.lists.build({plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
                       info_of(options.depth_layer).peels || impl.drew_silhouettes, impl.moved},
                      drawn, camera);
@@ -358,7 +365,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   impl.lists.forget_maps();
   impl.history.forget();  // the mask is this frame's alone
   impl.map_count = 0;
-  impl.take_layer(options);
+  impl.take_layer(options.depth_layer, options.dual_limit_texels);
   const BlurSides blur{};
   const DepthCurves curves = depth_curves(of_light);
   FilterBlock filtering = filter_block(filter.settings, blur);

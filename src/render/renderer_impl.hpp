@@ -11,6 +11,7 @@
 #include "frame_block.hpp"
 #include "gl_object.hpp"
 #include "gnomon/render/renderer.hpp"
+#include "identifier_pass.hpp"
 #include "light_pass.hpp"
 #include "mask_history.hpp"
 #include "page_pool.hpp"
@@ -26,7 +27,8 @@ namespace gnomon::render {
 
 /// Programs that no filter takes part in.
 struct CommonPrograms {
-  Program depth, depth_masked, surfaces, accumulate, shade, aliasing, heat, tint;
+  Program depth, depth_masked, depth_even, depth_even_masked, surfaces, accumulate, shade, aliasing, heat,
+      tint;
   CommonPrograms();
 };
 
@@ -49,6 +51,7 @@ struct DepthDraw {
   bool alpha_test_where_masked = true;
   DepthLayer layer = DepthLayer::front;
   double dual_limit_texels = 0.0;
+  float even_scale = 0.0f;  ///< DrawnMap::even_scale of the map that is drawn
   /// What a peeled map of the plan stores.
   [[nodiscard]] PeeledDepth peeled(const ShadowPlan& plan, const ShadowMap& map) const noexcept;
 };
@@ -85,13 +88,23 @@ struct Renderer::Impl {
   void draw_casters(const DrawnPart& part, const CasterPrograms& by, bool alpha_test_where_masked,
                     SetPlace&& set_place, SetBatch&& set_batch) noexcept;
   /// Takes the layer for the next maps; those of another one are not reused.
-  void take_layer(const FrameOptions& options) noexcept;
+  void take_layer(DepthLayer layer, double dual_limit_texels, bool linear = false) noexcept;
   /// Makes room for the outlines that the filter reads. Maps drawn without them are not reused.
   void take_silhouettes(const FilterSettings& settings);
   /// The frame with exact shadows: pixels are listed, and casters are tested against them.
   FrameStats draw_irregular(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                             const FrameOptions& options) noexcept;
   void draw_casters_on_lists(const ShadowPlan& plan, bool alpha_test_where_masked) noexcept;
+  /// Whether the frame's shadows are found by identifiers.
+  [[nodiscard]] bool takes_identifiers(const ShadowPlan& plan, const PreparedFilter& filter) const noexcept;
+  /// Takes what the next maps number; those that number something else are not reused.
+  void take_identifiers(std::optional<IdentifierOf> of) noexcept;
+  /// The frame with shadows by identifiers.
+  FrameStats draw_identified(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
+                             const FrameOptions& options) noexcept;
+  void draw_identified_maps(const DrawnMaps& drawn, bool alpha_test_where_masked) noexcept;
+  void draw_identified_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
+                               bool alpha_test_where_masked) noexcept;
   /// The pictures that are drawn once the mask is there.
   void draw_pictures(const PassTimer& timed, const FrameOptions& options,
                      const std::function<void()>& shade) noexcept;
@@ -152,16 +165,19 @@ struct Renderer::Impl {
   Texture noise_tile;  ///< blue noise
   MapTargets maps;
   DepthPeel depth_peel;
-  DepthLayer drawn_layer = DepthLayer::front;  ///< that maps and pages hold
-  double drawn_limit_texels = 0.0;             ///< the same, of DepthLayer::dual
-  std::optional<Silhouettes> silhouettes;      ///< made when a filter that reads them is first prepared
-  bool drew_silhouettes = false;               ///< into the maps that are held
+  DepthLayer drawn_layer = DepthLayer::front;     ///< that maps and pages hold
+  double drawn_limit_texels = 0.0;                ///< the same, of DepthLayer::dual
+  bool drawn_linear = false;                      ///< their depths are even along the light
+  std::optional<IdentifierOf> drawn_identifiers;  ///< that the last frame's maps hold
+  std::optional<Silhouettes> silhouettes;         ///< made when a filter that reads them is first prepared
+  bool drew_silhouettes = false;                  ///< into the maps that are held
   PagePool pages;
-  std::optional<LightPass> light_pass;    ///< made when many lights are first prepared
-  std::optional<PanePass> panes;          ///< made by Renderer::add_panes
-  std::optional<PixelLists> pixel_lists;  ///< made when they are first prepared
-  std::vector<Box> moved;                 ///< bounds of casters before and after, since the last frame
-  Pose posed;                             ///< the last one applied; empty: none, or instances moved since
+  std::optional<LightPass> light_pass;        ///< made when many lights are first prepared
+  std::optional<PanePass> panes;              ///< made by Renderer::add_panes
+  std::optional<PixelLists> pixel_lists;      ///< made when they are first prepared
+  std::optional<IdentifierPass> identifiers;  ///< the same
+  std::vector<Box> moved;                     ///< bounds of casters before and after, since the last frame
+  Pose posed;                                 ///< the last one applied; empty: none, or instances moved since
   Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;
   std::array<glm::ivec2, kMaxMaps> map_size{};  ///< of the last frame

@@ -64,6 +64,7 @@ void FrameTargets::resize(int new_width, int new_height) {
   tint = pixel_image(GL_SRGB8_ALPHA8, width, height);
   surfaces_fbo = surfaces_framebuffer(nullptr);
   off_plane = {};
+  identifier = {};
   mask_fbo = framebuffer_of(mask);
   color_fbo = framebuffer_of(color);
   aliasing_fbo = framebuffer_of(aliasing);
@@ -87,6 +88,12 @@ void FrameTargets::add_off_plane() {
   if (off_plane) return;
   off_plane = pixel_image(GL_R32F, width, height);
   off_plane_fbo = surfaces_framebuffer(&off_plane);
+}
+
+void FrameTargets::add_identifiers() {
+  if (identifier) return;
+  identifier = pixel_image(GL_R32UI, width, height);
+  identified_fbo = surfaces_framebuffer(&identifier);
 }
 
 MapTargets::MapTargets()

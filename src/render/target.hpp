@@ -21,13 +21,17 @@ struct FrameTargets {
   Texture position, normal, albedo, depth, mask, color, aliasing, heat, tint;
   Framebuffer surfaces_fbo, mask_fbo, color_fbo, aliasing_fbo, heat_fbo, tint_fbo;
 
-  Texture off_plane;          ///< heights of positions over their triangles' planes; made by add_off_plane
-  Framebuffer off_plane_fbo;  ///< surfaces_fbo with those
+  Texture off_plane;           ///< heights of positions over their triangles' planes; made by add_off_plane
+  Framebuffer off_plane_fbo;   ///< surfaces_fbo with those
+  Texture identifier;          ///< numbers of what pixels show; made by add_identifiers
+  Framebuffer identified_fbo;  ///< surfaces_fbo with those
 
   /// Makes all images anew where the size differs.
   void resize(int new_width, int new_height);
   /// Makes the image of heights where there is none of this size.
   void add_off_plane();
+  /// The same of identifiers.
+  void add_identifiers();
 
  private:
   /// `fourth`: nullptr, or an image more that is drawn into.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,12 +42,30 @@ enum class Pass : std::uint8_t {
 inline constexpr std::size_t kPassCount = 10;
 [[nodiscard]] std::string_view to_string(Pass pass) noexcept;
 
+/// What Renderer::prepare_identifiers numbers.
+enum class IdentifierOf : std::uint8_t {
+  instance,  ///< instances of the scene: nothing of an instance shadows another part of it
+  triangle,  ///< triangles of instances
+};
+
+/// A shadow test by who is nearest to the light, in place of how near: no depth is compared, and no bias is
+/// needed. Based on: Hourcade, Nicolas, "Algorithms for Antialiased Cast Shadows", 1985.
+struct IdentifierTest {
+  IdentifierOf of = IdentifierOf::instance;  ///< what a map's texel names
+  /// A surface is lit where its texel holds its own identifier, or one at most so many texels to either side
+  /// does, 0..kMostIdentifierNeighbours. Larger: less false shadow where a texel shows several triangles, and
+  /// shadows that shrink by as many texels.
+  int neighbours = 0;
+};
+inline constexpr int kMostIdentifierNeighbours = 4;
+
 /// A filter whose program is compiled; only Renderer::prepare and its relatives make one.
 struct PreparedFilter {
   FilterSettings settings;  ///< that the program is compiled for
   std::size_t program = 0;  ///< index within the renderer
   bool irregular = false;   ///< exact shadows by lists of pixels: Renderer::prepare_irregular
   int samples = 1;          ///< of a pixel, where `irregular`
+  std::optional<IdentifierTest> identifiers = {};  ///< shadows by them: Renderer::prepare_identifiers
 };
 
 /// Most samples of a pixel that Renderer::prepare_irregular takes: a list has 16 bytes for each.
@@ -94,6 +113,13 @@ struct FrameOptions {
   /// DepthLayer::dual: the farthest that it stores behind the first surface, in texels at the centre of the
   /// map's body, >= 0. Larger: less acne, wider gaps at contacts.
   double dual_limit_texels = 4.0;
+  /// Maps store depths that grow evenly along each ray of the light, under local lights and warps too: z of
+  /// clip space without the division by w, over its largest in the map (even_depth_scale). A float then has
+  /// the same steps near the light and far from it. Casters write their depth in the fragment shader, which
+  /// takes longer. Frames of pages and of many lights, and shadows by identifiers, store depths divided by w.
+  /// Based on: Brabec, Annen, Seidel, "Practical Shadow Mapping", 2002; Martin, Tan, "Anti-aliasing and
+  /// Continuity with Trapezoidal Shadow Maps", 2004.
+  bool linear_depth = false;
   /// Filters compare each texel with the receiver's plane at that texel. False: with the receiver's own
   /// depth, as look-ups without the plane do; BiasOptions must then cover the slope over the whole kernel.
   bool receiver_plane = true;
@@ -147,10 +173,11 @@ struct FrameStats {
   std::uint64_t filtered_texels = 0;
   bool irregular =
       false;  ///< the mask is exact; false after prepare_irregular: the frame was too large for lists
-  int maps_read_back = 0;  ///< by filters that choose for each map from its depths
-  int pages = 0;           ///< resident, of a PagePlan
-  int lights_drawn = 0;    ///< of a LightPlan: lights whose maps were drawn; the pool kept those of others
-  int pages_drawn = 0;     ///< of them; the others were kept from earlier frames (PruneRule::held_maps)
+  bool identified = false;  ///< the mask is by identifiers; false after prepare_identifiers: maps are bent
+  int maps_read_back = 0;   ///< by filters that choose for each map from its depths
+  int pages = 0;            ///< resident, of a PagePlan
+  int lights_drawn = 0;     ///< of a LightPlan: lights whose maps were drawn; the pool kept those of others
+  int pages_drawn = 0;      ///< of them; the others were kept from earlier frames (PruneRule::held_maps)
   /// Depth maps and everything that the filter keeps besides for its look-ups.
   std::uint64_t map_bytes = 0;
   /// Used while maps are filtered, free for other passes after that: images of one layer, lists of tiles.
@@ -212,6 +239,14 @@ class Renderer {
   /// Pixels in each list of the last such frame, in no order; lists without pixels are skipped. Reads them
   /// back; throws RenderError as image().
   [[nodiscard]] std::vector<std::uint32_t> list_lengths() const;
+
+  /// Hard shadows by identifiers in place of depths: maps hold the number of the caster that the light sees
+  /// first, and a surface is lit where that is its own. FrameOptions::depth_layer has no effect, and
+  /// BiasOptions but for the normal offset has none. A frame whose maps have a shape that bends lines is
+  /// drawn by `filters::hard` (FrameStats::identified). Frames of pages and of many lights do not take it; no
+  /// accumulation, no panes. Maps that change are drawn whole. Costs 4 bytes for each texel more. Throws
+  /// RenderError where the driver has no storage buffers in fragment shaders.
+  [[nodiscard]] PreparedFilter prepare_identifiers(const IdentifierTest& test = {});
 
   /// Compiles the filter's program for pages, once. Throws RenderError as prepare, and for filters that store
   /// texels: pages have depths alone (hard, pcf, pcss).

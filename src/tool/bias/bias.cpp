@@ -148,13 +148,18 @@ double contact_gap(const Planned& plan, const Stage& stage, const FrameTruth& tr
   return gap;
 }
 
+/// The layer, as in --layers.
+std::string layer_name(const SweepEntry& entry) {
+  return entry.technique.layer.empty() ? "front" : entry.technique.layer;
+}
+
 void print_row(const std::string& scene, const SweepEntry& entry, const NamedBias& bias,
                const report::MaskErrors& errors, double gap, bool json) {
-  const std::string layer(render::info_of(entry.layer).name), name(bias.name);
+  const std::string layer = layer_name(entry), name(bias.name);
   if (json) {
     print_line(nlohmann::ordered_json{
         {"scene", scene},
-        {"filter", render::to_string(entry.filter)},
+        {"filter", entry.technique.filter},
         {"layer", layer},
         {"bias", name},
         {"false_shadow", errors.false_shadow},
@@ -194,7 +199,7 @@ void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::st
       if (request.out.empty()) continue;
       const std::string name =
           std::filesystem::path(scene.substr(scene.find_last_of(":/") + 1)).stem().string() + "_" +
-          std::string(render::info_of(entry.layer).name) + "_" + std::string(bias.name);
+          layer_name(entry) + "_" + std::string(bias.name);
       write_png(stage.renderer().image(), std::filesystem::path(request.out) / (name + ".png"));
     }
   }
@@ -220,7 +225,7 @@ int run_bias(const BiasRequest& request) {
 std::vector<Option> map_options(BiasRequest& request) {
   return {{.name = "--layers",
            .target = &request.layers,
-           .help = "depths that the maps store, or all",
+           .help = "depths that the maps store, or all; :linear behind one makes them even along the light",
            .names = layer_names({"all"}),
            .only_names = false},
           {.name = "--biases",

@@ -16,6 +16,7 @@
 #include "gnomon/report/page.hpp"
 #include "gnomon/report/rows_file.hpp"
 #include "gnomon/scene/load.hpp"
+#include "identifier_word.hpp"
 #include "interrupt.hpp"
 #include "irregular_word.hpp"
 #include "machine.hpp"
@@ -245,8 +246,8 @@ std::vector<Option> technique_options(CompareRequest& request) {
       {.name = "--cascades", .target = &request.cascades, .help = "numbers of shadow maps along the view"},
       {.name = "--filters",
        .target = &request.filters,
-       .help = "filters, with options as in vsm:radius=3; all of them, or irregular (exact; :samples=8)",
-       .names = names_in(render::all_filters(), {"all", std::string(kIrregular)}),
+       .help = "filters, with options as in vsm:radius=3; all, irregular (exact; :samples=8), identifiers",
+       .names = names_in(render::all_filters(), {"all", std::string(kIrregular), std::string(kIdentifiers)}),
        .only_names = false},
       {.name = "--layers",
        .target = &request.layers,

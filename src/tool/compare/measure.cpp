@@ -96,6 +96,9 @@ report::ListLengths list_lengths(const render::Renderer& renderer) {
   return {sum / static_cast<double>(lengths.size()), lengths[high], lengths.back()};
 }
 
+/// Of a texel, beside its depth.
+constexpr std::uint64_t kIdentifierBytes = 4;
+
 void count_costs(const render::FrameStats& stats, const Planned& plan, const SweepEntry& entry,
                  report::Row& row) {
   row.costs.maps = plan.map_count();
@@ -110,6 +113,7 @@ void count_costs(const render::FrameStats& stats, const Planned& plan, const Swe
   row.costs.map_bytes =
       static_cast<std::uint64_t>(static_cast<double>(stats.texels) * render::bytes_per_texel(entry.filter)) +
       plan.table_bytes();
+  if (entry.identifiers) row.costs.map_bytes += kIdentifierBytes * stats.texels;
 }
 
 /// What the rules of one source saved, in their order.

@@ -29,6 +29,7 @@ class Stage {
   [[nodiscard]] render::Renderer& renderer() noexcept { return *renderer_; }
   [[nodiscard]] render::PreparedFilter filter(const SweepEntry& entry) {
     if (entry.irregular()) return renderer_->prepare_irregular(entry.irregular_samples);
+    if (entry.identifiers) return renderer_->prepare_identifiers(*entry.identifiers);
     return entry.by_pages() ? renderer_->prepare_pages(entry.filter) : renderer_->prepare(entry.filter);
   }
   [[nodiscard]] SceneBounds bounds() const noexcept { return view_.bounds(); }

@@ -12,6 +12,7 @@
 #include "command.hpp"
 #include "filter_words.hpp"
 #include "gnomon/render/probe.hpp"
+#include "identifier_word.hpp"
 #include "irregular_word.hpp"
 #include "offscreen_context.hpp"
 #include "page_setting.hpp"
@@ -94,17 +95,21 @@ std::vector<std::string> expanded_layers(const std::vector<std::string>& texts) 
 
 void set_filter(const std::string& text, SweepEntry& entry) {
   entry.irregular_samples = irregular_samples(text);
-  entry.filter =
-      entry.irregular() ? render::default_settings(render::filters::hard) : filter_word("--filters", text);
-  entry.technique.filter = entry.irregular() ? text : render::to_string(entry.filter);
+  entry.identifiers = identifier_test(text);
+  const bool no_filter = entry.irregular() || entry.identifiers;
+  entry.filter = no_filter ? render::default_settings(render::filters::hard) : filter_word("--filters", text);
+  entry.technique.filter = no_filter ? text : render::to_string(entry.filter);
   render::set_margin(entry.filter, entry.plan);
 }
 
 void set_layer(const std::string& text, SweepEntry& entry) {
-  const render::DepthLayerInfo* const info = render::find_depth_layer(text);
-  if (info == nullptr) refuse_name("--layers", text, layer_names());
+  constexpr std::string_view kLinear = ":linear";
+  entry.linear_depth = text.ends_with(kLinear);
+  const std::string layer = text.substr(0, text.size() - (entry.linear_depth ? kLinear.size() : 0));
+  const render::DepthLayerInfo* const info = render::find_depth_layer(layer);
+  if (info == nullptr) refuse_name("--layers", layer, layer_names());
   entry.layer = info->layer;
-  entry.technique.layer = info->layer == render::DepthLayer::front ? "" : text;
+  entry.technique.layer = text == render::depth_layers().front().name ? "" : text;
 }
 
 void set_warp(const std::string& text, SweepEntry& entry) {
@@ -234,16 +239,30 @@ bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
   return t.fit == "stable" && (!by_depth || (t.warp != "none" && t.warp != first.warp));
 }
 
-/// Removes entries whose filter cannot read their layer; `left_out` gets a line for each.
-void drop_unread_layers(std::vector<SweepEntry>& entries, std::vector<std::string>& left_out) {
+/// Removes entries whose maps hold no identifiers; `left_out` gets a line for them.
+void drop_bent_identifiers(std::vector<SweepEntry>& entries, std::vector<std::string>& left_out) {
   const std::string line =
-      "--layers skips " + std::string(kIrregular) + ": draws no depth map, and is measured with front alone";
-  const auto unread = [](const SweepEntry& e) {
-    return e.irregular() && e.layer != render::DepthLayer::front;
+      "--shapes skips " + std::string(kIdentifiers) + ": maps that bend lines hold depths alone";
+  const auto bent = [](const SweepEntry& e) {
+    return e.identifiers && e.plan.warp.shape != nullptr && !e.plan.warp.shape->affine;
   };
-  if (std::erase_if(entries, unread) == 0) return;
+  if (std::erase_if(entries, bent) == 0) return;
   if (entries.empty()) throw std::runtime_error(line + "; nothing is left to measure");
   left_out.push_back(line);
+}
+
+/// Removes entries whose filter cannot read their layer; `left_out` gets a line for each.
+void drop_unread_layers(std::vector<SweepEntry>& entries, std::vector<std::string>& left_out) {
+  const auto drop = [&](std::string_view word, const std::string& why, const auto& is) {
+    const std::string line =
+        "--layers skips " + std::string(word) + ": " + why + ", and is measured with front alone";
+    const auto unread = [&](const SweepEntry& e) { return is(e) && !e.technique.layer.empty(); };
+    if (std::erase_if(entries, unread) == 0) return;
+    if (entries.empty()) throw std::runtime_error(line + "; nothing is left to measure");
+    left_out.push_back(line);
+  };
+  drop(kIrregular, "draws no depth map", [](const SweepEntry& e) { return e.irregular(); });
+  drop(kIdentifiers, "compares no depth", [](const SweepEntry& e) { return e.identifiers.has_value(); });
 }
 
 std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind light,
@@ -263,6 +282,7 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
   drop_unread_layers(entries, left_out);
   multiply(entries, split_lists(request.fits), set_fit);
   multiply(entries, warps, set_warp);
+  drop_bent_identifiers(entries, left_out);
   multiply(entries, splits, set_split);
   for (SweepEntry& entry : entries) {
     if (entry.plan.split.scheme == SplitScheme::pseudo_near) entry.plan.split.pseudo_near = request.near_hint;
@@ -290,6 +310,8 @@ int most_maps(const SweepEntry& entry, LightKind light) noexcept {
 /// What cannot be measured with pages, and why.
 std::optional<NoPages> no_pages(const SweepEntry& entry, LightKind light) {
   if (entry.irregular()) return NoPages{std::string(kIrregular), "lists pixels by whole maps"};
+  if (entry.linear_depth) return NoPages{entry.technique.layer, "pages store depths divided by w"};
+  if (entry.identifiers) return NoPages{std::string(kIdentifiers), "numbers what whole maps see"};
   if (auto why = tool::no_pages(entry.filter, entry.plan, entry.pages.page_texels)) return why;
   const int least = least_pool_pages(light);
   if (entry.pages.capacity < least)
@@ -407,10 +429,16 @@ std::string compare_footer() {
          ".\nPages: " + any_of_text(names_in(all_page_policies())) +
          ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "
          "that reads depths in texels; the others are named and skipped. docs/pages.md explains them." +
-         "\nLayers: " + any_of_text(layer_names()) + ". gnomon bias and docs/bias.md compare them." +
+         "\nLayers: " + any_of_text(layer_names()) +
+         ", each with :linear behind it for depths even along the light. gnomon bias and docs/bias.md "
+         "compare "
+         "them." +
          "\nFilters: " + any_of_text(names_in(render::all_filters())) +
          ". gnomon filters NAME prints the options of one. " + std::string(kIrregular) +
-         " takes no filter: casters are tested against each pixel, for exact hard shadows at their price.\n";
+         " takes no filter: casters are tested against each pixel, for exact hard shadows at their price. " +
+         std::string(kIdentifiers) +
+         " compares who is nearest in place of how near; :of=triangle numbers triangles in place of "
+         "instances, neighbours=1 takes the texels around as well.\n";
 }
 
 std::vector<std::string> split_names() {

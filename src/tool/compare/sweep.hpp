@@ -1,6 +1,7 @@
 // The product of techniques that `gnomon compare` goes through.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,8 +40,10 @@ struct CompareRequest {
 struct SweepEntry {
   report::Technique technique;
   PlanOptions plan;
-  render::FilterSettings filter;                         ///< hard where irregular()
+  render::FilterSettings filter;                         ///< hard where irregular(), or with identifiers
+  std::optional<render::IdentifierTest> identifiers;     ///< shadows by them in place of a filter
   render::DepthLayer layer = render::DepthLayer::front;  ///< that maps and pages store
+  bool linear_depth = false;                             ///< the same depths, even along the light
   int irregular_samples = 0;                             ///< of a pixel, by lists; 0: by a filter
   bool visible_depths = false, visible_points = false;   ///< of the frame, given to the plan
   PageOptions pages;                                     ///< where by_pages()
