@@ -40,12 +40,45 @@ TEST(Bias, table_shows_the_acne_of_the_first_surface_and_that_other_layers_lack_
   EXPECT_LT(false_shadow("dual", "zero"), 0.02);
 }
 
+TEST(Bias, identifiers_need_no_bias_where_nothing_shadows_itself) {
+  const auto false_shadow = [](const char* filter, const char* layers) {
+    const Finished finished =
+        run_gnomon({"bias", "builtin:terrain", "--size", "96x54", "--map-size", "256", "--filter", filter,
+                    "--layers", layers, "--biases", "zero", "--context", "osmesa", "--json"});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return json::parse(finished.out).at("false_shadow").get<double>();
+  };
+  const double by_depth = false_shadow("hard", "front"), by_instance = false_shadow("identifiers", "front");
+  EXPECT_GT(by_depth, 0.2);
+  EXPECT_LT(by_instance, 0.1 * by_depth);
+  EXPECT_LE(false_shadow("identifiers:neighbours=1", "front"), by_instance);
+  EXPECT_GT(false_shadow("identifiers:of=triangle", "front"), by_instance);
+}
+
+TEST(Bias, linear_depths_are_a_row_beside_their_layer) {
+  const Finished finished =
+      run_gnomon({"bias", "builtin:hangar", "--light", "point", "--size", "64x36", "--map-size", "256",
+                  "--layers", "front,front:linear", "--biases", "zero,default", "--context", "osmesa", "--json"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  std::map<std::string, int> rows;
+  std::istringstream lines(finished.out);
+  for (std::string line; std::getline(lines, line);) ++rows[json::parse(line).at("layer").get<std::string>()];
+  EXPECT_EQ(rows, (std::map<std::string, int>{{"front", 2}, {"front:linear", 2}}));
+}
+
 TEST(Bias, refuses_bad_input_in_one_line) {
   const std::vector<std::vector<std::string>> bad = {
       {"bias", "builtin:nowhere"},
       {"bias", "--layers", "front,behind"},
       {"bias", "--biases", "none"},
       {"bias", "--filter", "irregular"},
+      {"bias", "--filter", "identifiers:of=object"},
+      {"bias", "--filter", "identifiers:neighbours=9"},
+      {"bias", "--filter", "identifiers:"},
+      {"bias", "--filter", "identifiers", "--layers", "back"},
+      {"bias", "--layers", "front:even"},
+      {"compare", "builtin:fence", "--layers", "front:linear", "--filters", "identifiers"},
+      {"compare", "builtin:fence", "--warps", "optimal", "--shapes", "logarithmic", "--filters", "identifiers"},
       {"bias", "--filter", "blur"},
       {"bias", "--warp", "bent"},
       {"bias", "--cascades", "9"},
@@ -65,8 +98,8 @@ TEST(CompareLayers, every_layer_has_a_row_and_irregular_is_measured_once) {
   const Finished finished = run_gnomon({"compare",     "builtin:fence",
                                         "--warps",     "none",
                                         "--cascades",  "1",
-                                        "--filters",   "hard,irregular",
-                                        "--layers",    "all",
+                                        "--filters",   "hard,irregular,identifiers:of=triangle",
+                                        "--layers",    "all,front:linear",
                                         "--frames",    "1",
                                         "--size",      "64x36",
                                         "--rounds",    "1",
@@ -76,13 +109,15 @@ TEST(CompareLayers, every_layer_has_a_row_and_irregular_is_measured_once) {
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_NE(finished.err.find("--layers skips irregular"), std::string::npos) << finished.err;
   const std::vector<report::Row> rows = report::read_rows(folder.path());
-  ASSERT_EQ(rows.size(), render::kDepthLayerCount + 1);
+  EXPECT_NE(finished.err.find("--layers skips identifiers"), std::string::npos) << finished.err;
+  ASSERT_EQ(rows.size(), render::kDepthLayerCount + 3);
   std::map<std::string, report::Row> by_layer;
   for (const report::Row& row : rows) {
     EXPECT_GT(row.times.total_ms.median, 0.0);
     if (row.technique.filter == "hard") by_layer[row.technique.layer] = row;
   }
-  ASSERT_EQ(by_layer.size(), render::kDepthLayerCount);
+  ASSERT_EQ(by_layer.size(), render::kDepthLayerCount + 1);
+  EXPECT_EQ(by_layer.at("front:linear").costs.triangles, by_layer.at("").costs.triangles);
   const report::Row& front = by_layer.at("");
   EXPECT_EQ(front.technique.name().find("layer"), std::string::npos);
   for (const char* layer : {"back", "second", "midpoint", "dual"}) {

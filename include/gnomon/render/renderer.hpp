@@ -42,7 +42,7 @@ enum class Pass : std::uint8_t {
 inline constexpr std::size_t kPassCount = 10;
 [[nodiscard]] std::string_view to_string(Pass pass) noexcept;
 
-/// What Renderer::prepare_identifiers numbers.
+/// The things that Renderer::prepare_identifiers numbers.
 enum class IdentifierOf : std::uint8_t {
   instance,  ///< instances of the scene: nothing of an instance shadows another part of it
   triangle,  ///< triangles of instances
