@@ -161,7 +161,9 @@ TEST_F(LinearDepth, every_filter_finds_the_shadow_of_a_solid_in_every_layer) {
         PlanOptions options;
         options.resolution.max_size = 128;
         options.cascades = 1;
-        options.warp.warp = find_warp("optimal");
+        // Exponents of stored texels are shares of the map's range, which even depths of a warped map use in
+        // part.
+        options.warp.warp = find_warp(filter->info.reads == MapRead::depth ? "optimal" : "none");
         set_margin(default_settings(*filter), options);
         const std::vector<Box> boxes = boxes_of(scene);
         const ShadowPlan plan = make_plan(camera, kLights[l], {boxes, boxes}, options);
