@@ -56,9 +56,9 @@ TEST(Bias, identifiers_need_no_bias_where_nothing_shadows_itself) {
 }
 
 TEST(Bias, linear_depths_are_a_row_beside_their_layer) {
-  const Finished finished =
-      run_gnomon({"bias", "builtin:hangar", "--light", "point", "--size", "64x36", "--map-size", "256",
-                  "--layers", "front,front:linear", "--biases", "zero,default", "--context", "osmesa", "--json"});
+  const Finished finished = run_gnomon({"bias", "builtin:hangar", "--light", "point", "--size", "64x36",
+                                        "--map-size", "256", "--layers", "front,front:linear", "--biases",
+                                        "zero,default", "--context", "osmesa", "--json"});
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   std::map<std::string, int> rows;
   std::istringstream lines(finished.out);
@@ -78,7 +78,8 @@ TEST(Bias, refuses_bad_input_in_one_line) {
       {"bias", "--filter", "identifiers", "--layers", "back"},
       {"bias", "--layers", "front:even"},
       {"compare", "builtin:fence", "--layers", "front:linear", "--filters", "identifiers"},
-      {"compare", "builtin:fence", "--warps", "optimal", "--shapes", "logarithmic", "--filters", "identifiers"},
+      {"compare", "builtin:fence", "--warps", "optimal", "--shapes", "logarithmic", "--filters",
+       "identifiers"},
       {"bias", "--filter", "blur"},
       {"bias", "--warp", "bent"},
       {"bias", "--cascades", "9"},
