@@ -55,6 +55,15 @@ float log_mean_over(float s) {
   return s < 0.5 ? s * s * (1.0 / 6.0 - s * s / 180.0) : s + log((1.0 - exp(-2.0 * s)) / (2.0 * s));
 }
 
+// Depth along the light of a texel's longest side, as stored.
+float depth_of_texel_side(ShadowLookup at) {
+  mat2 m = at.texels_per_world;
+  float side = max(length(vec2(m[0].x, m[1].x)), length(vec2(m[0].y, m[1].y))) / abs(m[0].x * m[1].y - m[1].x * m[0].y);
+  float depth = min(at.depth, 1.0), map_depth = depth_from_linear(depth, at.depth_curve);
+  float scale = 1.0 + (1.0 - map_depth) * at.depth_curve;
+  return side * abs((at.ray.z - map_depth * at.ray.w) / at.ray.y) * (1.0 + at.depth_curve) / (scale * scale);
+}
+
 float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DArray depth_max, ShadowLookup at,
                         ShadowOptions options) {
   const float kThreshold = 1.0, kLargestDepth = 2.0;
@@ -63,8 +72,9 @@ float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DAr
   vec2 rise = abs(at.depth_gradient);
   float log_lit = c * (soft_maximum(texel, c) - depth) - log_mean_over(c * rise.x * at.box.x) - log_mean_over(c * rise.y * at.box.y);
   // The mean holds only where no texel of the kernel lies behind the receiver by more than slope bias and normal offset
-  // lift it off its plane, up to half a texel of its rise each.
-  float allowed = log(1.0 + epsilon) + c * (rise.x + rise.y);
+  // lift it off its plane, up to half a texel of its rise each, and constant bias, by a share of a texel.
+  const float kConstantBias = 0.1;  // texels: twice gnomon::BiasOptions' own
+  float allowed = log(1.0 + epsilon) + c * (rise.x + rise.y + kConstantBias * depth_of_texel_side(at));
   bool fails = fallback == kThreshold && log_lit > allowed;
   const float kPyramidReach = 5.0;  // of its texels from the point, in half sides of the kernel
   if (fallback == kLargestDepth) {

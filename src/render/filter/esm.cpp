@@ -88,6 +88,14 @@ double log_mean_over(double s) noexcept {
                      : s + std::log((1.0 - std::exp(-2.0 * s)) / (2.0 * s));
 }
 
+/// Depth along the light of a texel's longest side.
+double depth_of_texel_side(const FilterLookup& lookup) noexcept {
+  const glm::dmat2& m = lookup.texels_per_world;
+  const double side = std::max(std::hypot(m[0].x, m[1].x), std::hypot(m[0].y, m[1].y)) /
+                      std::abs(m[0].x * m[1].y - m[1].x * m[0].y);
+  return side * std::abs((lookup.ray.z - std::min(lookup.depth, 1.0) * lookup.ray.w) / lookup.ray.y);
+}
+
 double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
   const double c = settings.option[0], fallback = settings.option[1], epsilon = settings.option[2];
   const double depth = std::min(lookup.depth, 1.0) - rounding_of(settings.format);
@@ -95,8 +103,11 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
   const glm::dvec2 rise = glm::abs(lookup.depth_gradient);
   const double plane = log_mean_over(c * rise.x * lookup.box.x) + log_mean_over(c * rise.y * lookup.box.y);
   const double log_lit = c * (stored - depth) - plane;
-  // Slope bias and normal offset lift receivers off their plane by up to half a texel of its rise each.
-  const double allowed = std::log(1.0 + epsilon) + c * (rise.x + rise.y);
+  // Slope bias and normal offset lift receivers off their plane by up to half a texel of its rise each,
+  // constant bias by a share of a texel.
+  constexpr double kConstantBias = 0.1;  // texels: twice BiasOptions' own
+  const double allowed =
+      std::log(1.0 + epsilon) + c * (rise.x + rise.y + kConstantBias * depth_of_texel_side(lookup));
   // The pyramid's texels reach less than five half sides of the kernel from the point.
   constexpr double kPyramidReach = 5.0;
   bool fails = fallback == 1.0 && log_lit > allowed;
