@@ -3,8 +3,9 @@
 // The texel's corners are centres of the depth map's texels. An outline that all four hide leaves none.
 layout(binding = 5) uniform sampler2DArray depth_map;
 layout(location = 5) uniform int layer;
+layout(location = 10) uniform float even_scale;  // as common/even_depth.glsl has it
 layout(location = 0) flat in vec4 segment;
-layout(location = 1) flat in vec2 depths;
+layout(location = 1) flat in vec4 depths;
 layout(location = 0) out vec2 point;
 
 bool is_inside(vec2 p) { return all(greaterThanEqual(p, vec2(0.0))) && all(lessThanEqual(p, vec2(1.0))); }
@@ -39,7 +40,9 @@ void main() {
     t = rising < 0.0 ? falling : falling < 0.0 ? rising : 0.5 * (rising + falling);
   }
   const float kRounding = 4.0 / 16777216.0;  // the rasterizer's depth is good to a few units of 2^-24
+  // Straight over the map: depth over w, and 1 over w.
   float depth = mix(depths.x, depths.y, t);
+  if (even_scale > 0.0) depth = clamp(depth * even_scale / mix(depths.z, depths.w, t), 0.0, 1.0);
   if (depth > farthest_corner() + kRounding) discard;
   point = mix(a, b, t) * (254.0 / 255.0);  // so that the middle is a number of 8 bits
   gl_FragDepth = depth;

@@ -6,7 +6,7 @@ layout(lines_adjacency) in;
 layout(triangle_strip, max_vertices = 4) out;
 layout(location = 4) uniform vec2 size;  // of the map, texels
 layout(location = 0) flat out vec4 segment;  // both ends, texels of the map of points
-layout(location = 1) flat out vec2 depths;   // of both ends
+layout(location = 1) flat out vec4 depths;   // of both ends, and 1 over their w
 
 // Positive and negative on either side of the plane through the light and the edge.
 float side_of(vec3 a, vec3 b, vec3 point) { return dot(a, cross(b - a, point - a)); }
@@ -38,7 +38,7 @@ void main() {
   vec2 along = run > 0.0 ? (q - p) * (kHalfDiagonal / run) : vec2(kHalfDiagonal, 0.0), across = vec2(-along.y, along.x);
   for (int i = 0; i < 4; ++i) {
     segment = vec4(p, q);
-    depths = vec2(begin.z / begin.w, end.z / end.w);
+    depths = vec4(begin.z / begin.w, end.z / end.w, 1.0 / begin.w, 1.0 / end.w);
     vec2 texel = ((i & 1) == 0 ? p - along : q + along) + ((i & 2) == 0 ? across : -across);
     gl_Position = vec4(texel / size * 2.0 - 1.0, 0.0, 1.0);
     EmitVertex();

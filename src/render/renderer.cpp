@@ -268,7 +268,10 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   impl.take_layer(identified ? DepthLayer::front : options.depth_layer, options.dual_limit_texels,
                   options.linear_depth && !identified);
   impl.take_identifiers(identified ? std::optional(filter.identifiers->of) : std::nullopt);
-  if (identified) return impl.draw_identified(plan, camera, filter, options);
+  if (identified) {
+    impl.drew_silhouettes = false;
+    return impl.draw_identified(plan, camera, filter, options);
+  }
   if (filter.irregular && impl.pixel_lists &&
       impl.pixel_lists->fits(camera.width, camera.height, filter.samples))
     return impl.draw_irregular(plan, camera, filter, options);

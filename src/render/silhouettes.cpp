@@ -10,7 +10,8 @@
 namespace gnomon::render {
 namespace {
 
-constexpr GLint kClipLocation = 3, kSizeLocation = 4, kLayerLocation = 5;  // as the shaders state them
+// As the shaders state them.
+constexpr GLint kClipLocation = 3, kSizeLocation = 4, kLayerLocation = 5, kEvenScaleLocation = 10;
 constexpr std::array<float, 4> kMiddle{127.0f / 255.0f, 127.0f / 255.0f, 0.0f, 0.0f};
 
 }  // namespace
@@ -106,6 +107,7 @@ void Silhouettes::draw(const SceneBuffers& scene, const DrawLists& lists, const 
     glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
     glUniform2f(kSizeLocation, static_cast<float>(map.width), static_cast<float>(map.height));
     glUniform1i(kLayerLocation, i);
+    glUniform1f(kEvenScaleLocation, map.even_scale);
     glMultiDrawElementsIndirect(GL_LINES_ADJACENCY, GL_UNSIGNED_INT,
                                 reinterpret_cast<const void*>(begin[at] * sizeof(DrawCommand)),
                                 static_cast<GLsizei>(begin[at + 1] - begin[at]), 0);

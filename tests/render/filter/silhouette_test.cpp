@@ -187,6 +187,10 @@ TEST(SilhouettePass, serves_lights_whose_rays_spread) {
   const int exact = wrong_pixels(draw(renderer, camera, plan, filters::silhouette), world_from_box, light);
   EXPECT_GT(hard, 300);
   EXPECT_LT(exact, hard / 8);
+  FrameOptions even;
+  even.linear_depth = true;
+  const Frame of_even = draw(renderer, camera, plan, default_settings(filters::silhouette), even);
+  EXPECT_LT(wrong_pixels(of_even, world_from_box, light), hard / 8) << "depths even along the light";
 }
 
 TEST(SilhouettePass, follows_casters_that_move_and_maps_that_were_drawn_without_it) {
