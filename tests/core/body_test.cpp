@@ -54,6 +54,20 @@ std::string malformed(const Polytope& body) {
   return euler == 2 ? "" : "Euler characteristic";
 }
 
+/// Empty where both bodies have the same vertices, edges and faces, to the last bit.
+std::string difference(const Polytope& a, const Polytope& b) {
+  if (a.vertex_count != b.vertex_count || a.face_count != b.face_count) return "counts";
+  for (std::size_t i = 0; i < a.vertices().size(); ++i) {
+    if (a.vertex[i].position != b.vertex[i].position) return "position";
+    if (a.vertex[i].neighbour != b.vertex[i].neighbour || a.vertex[i].face != b.vertex[i].face)
+      return "edges";
+  }
+  for (std::size_t f = 0; f < static_cast<std::size_t>(a.face_count); ++f) {
+    if (a.plane[f].normal != b.plane[f].normal || a.plane[f].offset != b.plane[f].offset) return "planes";
+  }
+  return "";
+}
+
 /// Vertices of the intersection of half spaces, by trying all triples of planes.
 std::vector<glm::dvec3> brute_vertices(const std::vector<Plane>& planes, double tolerance) {
   std::vector<glm::dvec3> found;
@@ -285,6 +299,27 @@ TEST(BodyProperty,
     }
   });
   EXPECT_GT(inside, 200u);
+}
+
+// It asks all vertices about both faces across an axis at once.
+TEST(BodyProperty, a_box_cuts_as_its_planes_do_one_after_another) {
+  int cut = 0;
+  for_all(1500, [&] {
+    Polytope body = box_polytope(cube(1.0));
+    const int before = pick(4);
+    for (int i = 0; i < before; ++i) clip(body, draw_plane(0.7));
+    if (body.empty()) return;
+    Box box;
+    box.extend({between(-1, 1), between(-1, 1), between(-1, 1)});
+    box.extend({between(-1, 1), between(-1, 1), between(-1, 1)});
+    Polytope by_planes = body;
+    clip(body, box);
+    for (const Plane& plane : box_planes(box)) clip(by_planes, plane);
+    if (body.empty() && by_planes.empty()) return;
+    require(difference(body, by_planes).empty(), difference(body, by_planes));
+    ++cut;
+  });
+  EXPECT_GT(cut, 500);
 }
 
 TEST(BodyProperty, any_number_of_planes_never_exceeds_the_storage_and_never_cuts_into_the_body) {

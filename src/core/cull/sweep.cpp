@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/pair.hpp"
 #include "geometry/vector.hpp"
 
 namespace gnomon {
@@ -19,8 +20,12 @@ void sweep(const Polytope& body, const glm::dvec4& light, double margin_world, c
            SweptBody& swept) noexcept {
   swept.plane_count = swept_planes(body, light, swept.plane);
   double farthest = max_of(largest_component(eye_world), light.w * largest_component(glm::dvec3(light)));
-  for (const Polytope::Vertex& v : body.vertices())
-    farthest = max_of(farthest, largest_component(v.position));
+  Pair xy(0.0);
+  for (const Polytope::Vertex& v : body.vertices()) {
+    xy = max_of(xy, abs(Pair::from(&v.position.x)));
+    farthest = max_of(farthest, std::abs(v.position.z));
+  }
+  farthest = max_of(farthest, max_of(xy.low(), xy.high()));
   // A caster that touches the body counts, whatever rounding makes of the touch.
   const double slack = margin_world + kPositionRounding * farthest;
   for (int i = 0; i < swept.plane_count; ++i) swept.plane[static_cast<std::size_t>(i)].offset += slack;

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "geometry/pair.hpp"
+
 namespace gnomon {
 
 [[nodiscard]] inline bool is_finite(const glm::dvec3& v) noexcept {
@@ -20,8 +22,10 @@ namespace gnomon {
 [[nodiscard]] inline glm::dvec3 safe_normalize(const glm::dvec3& v, const glm::dvec3& fallback) noexcept {
   const double scale = largest_component(v);
   if (!(scale > 0.0)) return fallback;
-  const glm::dvec3 scaled = v / scale;
-  return scaled / std::sqrt(glm::dot(scaled, scaled));
+  const Pair xy = Pair(v.x, v.y) / Pair(scale);
+  const double x = xy.low(), y = xy.high(), z = v.z / scale, length = std::sqrt(x * x + y * y + z * z);
+  const Pair unit_xy = xy / Pair(length);
+  return {unit_xy.low(), unit_xy.high(), z / length};
 }
 
 /// The world axis that makes the largest angle with `v`.

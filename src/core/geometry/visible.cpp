@@ -224,15 +224,14 @@ void for_each_box(const Boxes& boxes, Use&& use) noexcept {
   }
 }
 
-/// Whether more than one box holds anything.
+}  // namespace
+
 bool several(const Boxes& boxes) noexcept {
   if (boxes.size() < 2) return false;
   int count = 0;
   for_each_box(boxes, [&](const Box&) { return ++count < 2; });
   return count == 2;
 }
-
-}  // namespace
 
 Box visible_bounds(const Polytope& region, const Boxes& boxes, const glm::dvec3& origin) noexcept {
   if (!several(boxes)) {
@@ -255,8 +254,30 @@ void clip_part(Polytope& part, const Boxes& boxes, const glm::dvec3& origin) noe
   if (!part.empty() && several(boxes)) clip(part, visible_bounds(part, boxes, origin));
 }
 
+namespace {
+
+/// casters_inside of a single box, by the same sums.
+CasterReach box_inside(std::span<const Plane> planes, const Box& world, const glm::dvec3& origin,
+                       const glm::dvec3& up) noexcept {
+  const CasterReach none{{}, -kInfinity, false};
+  if (world.empty()) return none;
+  const Box box = without_signed_zeros(relative_to(world, origin));
+  const double corner[3][2] = {{box.min.x, box.max.x}, {box.min.y, box.max.y}, {box.min.z, box.max.z}};
+  const auto reach = [&](const glm::dvec3& n) {
+    return corner[0][n.x > 0.0] * n.x + corner[1][n.y > 0.0] * n.y + corner[2][n.z > 0.0] * n.z;
+  };
+  for (const Plane& plane : planes.first(std::min<std::size_t>(planes.size(), 32))) {
+    const double inward = reach(plane.normal);
+    if (inward + plane.offset < -kTouching * (std::abs(inward) + std::abs(plane.offset))) return none;
+  }
+  return {box, reach(up) + 0.0, true};
+}
+
+}  // namespace
+
 CasterReach casters_inside(std::span<const Plane> planes, const Boxes& casters, const glm::dvec3& origin,
                            const glm::dvec3& up) noexcept {
+  if (casters.list().size() == 1) return box_inside(planes, casters.list()[0], origin, up);
   ReachQuery query(up);
   BoxWalk walk(planes, casters, origin, query);
   walk_down(walk, casters);

@@ -17,6 +17,9 @@ namespace gnomon {
 [[nodiscard]] Box visible_bounds(const Polytope& region, const Boxes& boxes,
                                  const glm::dvec3& origin) noexcept;
 
+/// Whether more than one box holds anything.
+[[nodiscard]] bool several(const Boxes& boxes) noexcept;
+
 /// For a part of a region that visible_bounds has clipped: clips it by the bounds of what it holds itself,
 /// which are smaller where there are several boxes.
 void clip_part(Polytope& part, const Boxes& boxes, const glm::dvec3& origin) noexcept;
