@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <new>
 
 #include "gnomon/history.hpp"
 #include "gnomon/plan.hpp"
@@ -77,10 +78,11 @@ struct MapRequest {
   std::span<const ViewedPoint> viewed = {};  // of several views, for the body's vertices; empty: one view
 };
 
-/// One map, and what happened while it was fitted.
+/// One map, and what happened while it was fitted. The map's record is made where it will stay: records are
+/// long to copy.
 struct MapResult {
+  ShadowMap& map;
   bool drawn = false;  // false: no caster can reach the body
-  ShadowMap map;
   glm::dmat4 gl_from_world{1.0};
   SearchedWarp searched;
   std::array<Omission, 4> omission;
@@ -88,6 +90,12 @@ struct MapResult {
   bool has_event = false;
   PlanEvent event;
 
+  explicit MapResult(ShadowMap& at) noexcept : map(*::new (static_cast<void*>(&at)) ShadowMap) {}
+  MapResult(const MapResult&) = delete;
+  MapResult& operator=(const MapResult&) = delete;
+  [[nodiscard]] std::span<const Omission> omissions() const noexcept {
+    return {omission.data(), static_cast<std::size_t>(omission_count)};
+  }
   void omit(const Omission& o) noexcept {
     if (omission_count < static_cast<int>(omission.size()))
       omission[static_cast<std::size_t>(omission_count++)] = o;
@@ -99,8 +107,8 @@ struct MapResult {
 };
 
 /// The smallest map round the body, warped where that gains; with a history the steady way there.
-[[nodiscard]] MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept;
+void focused_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept;
 /// Parallel light: a map whose texel grid does not move with the camera.
-[[nodiscard]] MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept;
+void stable_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept;
 
 }  // namespace gnomon

@@ -7,8 +7,10 @@
 #include <limits>
 
 #include "geometry/elementary.hpp"
+#include "geometry/pair.hpp"
 #include "geometry/vector.hpp"
 #include "map/border.hpp"
+#include "warp/point_pair.hpp"
 
 namespace gnomon {
 namespace {
@@ -25,67 +27,105 @@ constexpr double kSteepestFace = 1e-6;
 // for.
 constexpr double kLooseNear = 0x1p-10;
 
-double lowest(const LightBody& body) noexcept {
-  double z = body.point[0].z;
-  for (const WarpInput::Point& p : body.points()) z = min_of(z, p.z);
-  return z;
-}
-
 /// The heights of faces over the light plane: `at` + slope_x x + slope_y y.
 template <std::size_t count>
 struct Faces {
   std::array<double, count> at{}, slope_x{}, slope_y{};
 };
 
-/// Of a point of the body: 1 / w at the near side of its border, how far the border reaches in the light
+/// Of two points of the body: 1 / w at the near side of their border, how far the border reaches in the light
 /// plane.
 struct Bordered {
-  double inverse_w, margin;
+  Pair inverse_w, margin;
 };
 
-/// Of rows that undo the warp: the same texels are the same growth of w anywhere.
-Bordered bordered_rows(const PlaneMap& map, const MapBorder& border, const WarpInput::Point& p) noexcept {
-  const double kappa = map.choice.kappa, w = map.w(p.x, p.y), growth = elementary::expm1(border.log_w);
-  const double across = std::abs(p.x * map.choice.axis.y - p.y * map.choice.axis.x - map.choice.centre);
-  const double margin_across = border.share * (map.a_max - map.a_min) * w * (1.0 + growth);
-  const double margin_along = growth * w / kappa;
-  return {(1.0 + growth) / w, margin_across + margin_along * (1.0 + kappa * across / w)};
+/// What a warp's w is at points, and how far they lie beside its axis.
+struct WarpedPlace {
+  Pair w, across;
+};
+WarpedPlace warped_place(const PlaneMap& map, const PointPair& p) noexcept {
+  const WarpChoice& choice = map.choice;
+  const Pair axis_x(choice.axis.x), axis_y(choice.axis.y);
+  return {Pair(1.0) + Pair(choice.kappa) * (p.x * axis_x + p.y * axis_y - Pair(map.u_min)),
+          abs(p.x * axis_y - p.y * axis_x - Pair(choice.centre))};
 }
 
-Bordered bordered(const PlaneMap& map, double margin_image, const WarpInput::Point& p) noexcept {
-  const double kappa = map.choice.kappa;
-  if (kappa == 0.0) return {1.0, 2.0 * margin_image};
-  const double w = map.w(p.x, p.y);
+/// Of rows that undo the warp: the same texels are the same growth of w anywhere.
+Bordered bordered_rows(const PlaneMap& map, const MapBorder& border, double growth,
+                       const PointPair& p) noexcept {
+  const Pair one(1.0), kappa(map.choice.kappa);
+  const auto [w, across] = warped_place(map, p);
+  const Pair margin_across = Pair(border.share * (map.a_max - map.a_min)) * w * Pair(1.0 + growth);
+  const Pair margin_along = Pair(growth) * w / kappa;
+  return {Pair(1.0 + growth) / w, margin_across + margin_along * (one + kappa * across / w)};
+}
+
+Bordered bordered(const PlaneMap& map, double margin_image, const PointPair& p) noexcept {
+  const Pair one(1.0), kappa(map.choice.kappa), margin(margin_image);
+  const auto [w, across] = warped_place(map, p);
   // A move by the border in the image is at most this one in the light plane: across, texels grow with w
   // and lean with the distance from the centre; along, with its square.
-  const double across = std::abs(p.x * map.choice.axis.y - p.y * map.choice.axis.x - map.choice.centre);
-  const double margin_along = margin_image * w * w / map.stretch;
+  const Pair margin_along = margin * w * w / Pair(map.stretch);
   // The border reaches towards smaller w, too; it never halves it for a border a filter can ask for.
-  return {1.0 / max_of(w - kappa * margin_along, 0.5 * w),
-          margin_image * w + margin_along * (1.0 + kappa * across / w)};
+  return {one / max_of(w - kappa * margin_along, Pair(0.5) * w),
+          margin * w + margin_along * (one + kappa * across / w)};
+}
+
+double larger(Pair p) noexcept {
+  return max_of(p.low(), p.high());
+}
+
+/// highest_over without a warp, where 1 / w is 1 and the border reaches as far everywhere.
+template <std::size_t count>
+double highest_unwarped(const FittedPlane& f, double bottom, const Faces<count>& faces,
+                        const std::array<double, count>& steepest) noexcept {
+  const double margin = 2.0 * border_in_image(f.plane, f.border.share);
+  std::array<Pair, count> at, slope_x, slope_y, highest;
+  for (std::size_t k = 0; k < count; ++k) {
+    at[k] = Pair(faces.at[k]);
+    slope_x[k] = Pair(faces.slope_x[k]);
+    slope_y[k] = Pair(faces.slope_y[k]);
+    highest[k] = Pair(-std::numeric_limits<double>::infinity());
+  }
+  for_each_two(f.body.points(), [&](const PointPair& p) {
+    for (std::size_t k = 0; k < count; ++k)
+      highest[k] = max_of(highest[k], at[k] + slope_x[k] * p.x + slope_y[k] * p.y);
+  });
+  // What is added to all alike may come last: rounding keeps their order.
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < count; ++k)
+    least = min_of(least, max_of(0.0, larger(highest[k]) + steepest[k] * margin - bottom));
+  return max_of(least, max_of(0.0, f.body.bounds.z_max - bottom));
 }
 
 /// Largest (z - bottom) / w over the body and its border, of the body itself or, where that is more, of the
 /// face on which it is least.
 template <std::size_t count>
 double highest_over(const FittedPlane& f, double bottom, const Faces<count>& faces) noexcept {
-  const double margin_image = border_in_image(f.plane, f.border.share);
-  std::array<double, count> steepest, highest{};
+  std::array<double, count> steepest;
   for (std::size_t k = 0; k < count; ++k)
     steepest[k] = std::sqrt(faces.slope_x[k] * faces.slope_x[k] + faces.slope_y[k] * faces.slope_y[k]);
-  double of_body = 0.0;
-  for (const WarpInput::Point& p : f.body.points()) {
+  const bool rows = f.border.log_w > 0.0;
+  if (!rows && f.plane.choice.kappa == 0.0) return highest_unwarped(f, bottom, faces, steepest);
+  const double margin_image = border_in_image(f.plane, f.border.share);
+  const double growth = rows ? elementary::expm1(f.border.log_w) : 0.0;
+  std::array<Pair, count> highest;
+  highest.fill(Pair(0.0));
+  Pair of_body(0.0);
+  const Pair low(bottom);
+  for_each_two(f.body.points(), [&](const PointPair& p) {
     const Bordered b =
-        f.border.log_w > 0.0 ? bordered_rows(f.plane, f.border, p) : bordered(f.plane, margin_image, p);
-    of_body = max_of(of_body, (p.z - bottom) * b.inverse_w);
+        rows ? bordered_rows(f.plane, f.border, growth, p) : bordered(f.plane, margin_image, p);
+    of_body = max_of(of_body, (p.z - low) * b.inverse_w);
     for (std::size_t k = 0; k < count; ++k) {
-      const double z = faces.at[k] + faces.slope_x[k] * p.x + faces.slope_y[k] * p.y + steepest[k] * b.margin;
-      highest[k] = max_of(highest[k], (z - bottom) * b.inverse_w);
+      const Pair z = Pair(faces.at[k]) + Pair(faces.slope_x[k]) * p.x + Pair(faces.slope_y[k]) * p.y +
+                     Pair(steepest[k]) * b.margin;
+      highest[k] = max_of(highest[k], (z - low) * b.inverse_w);
     }
-  }
-  double least = highest[0];
-  for (const double h : highest) least = min_of(least, h);
-  return max_of(least, of_body);
+  });
+  double least = larger(highest[0]);
+  for (const Pair& h : highest) least = min_of(least, larger(h));
+  return max_of(least, larger(of_body));
 }
 
 /// Upper bound of (z - bottom) / w over every caster point above the body: along parallel light, the casters'
@@ -118,10 +158,9 @@ HeightRange parallel_heights(const PlanContext& c, const MapRequest& request, co
   range.has_casters = reach.any;
   if (!reach.any) {
     // A map for no caster at all is as deep as its receivers.
-    reach = {bounds_of(request.body), -std::numeric_limits<double>::infinity(), false};
-    for (const WarpInput::Point& p : f.body.points()) reach.top = max_of(reach.top, p.z);
+    reach = {bounds_of(request.body), f.body.bounds.z_max, false};
   }
-  range.bottom = lowest(f.body);
+  range.bottom = f.body.bounds.z_min;
   if (!c.options.prune.has(PruneRule::light_depths)) {
     const CasterReach all = casters_inside({}, c.bounds.casters, c.camera.position, frame.z);
     if (all.any) reach = all;
@@ -188,8 +227,10 @@ void sweep_for(const PlanContext& c, const MapRequest& request, const LightBody&
   double reach = border_in_image(plane, border.share) * growth;
   if (border.log_w > 0.0) {
     reach = 0.0;
-    for (const WarpInput::Point& p : body.points())
-      reach = max_of(reach, bordered_rows(plane, border, p).margin);
+    const double growth_of_w = elementary::expm1(border.log_w);
+    for_each_two(body.points(), [&](const PointPair& p) {
+      reach = max_of(reach, larger(bordered_rows(plane, border, growth_of_w, p).margin));
+    });
   }
   reach *= body.farthest;
   const glm::dvec4 light = request.space.light();

@@ -69,8 +69,7 @@ void widen_for_floats(const MapRequest& request, const LightBody& body, PlaneMap
   }
   // Of the image, per unit of relative rounding. At most these, w being 1 at least, which hardly any
   // rectangle is too narrow for.
-  double across = 0.0;
-  for (const WarpInput::Point& p : body.points()) across = max_of(across, largest_component({p.x, p.y, p.z}));
+  double across = body.bounds.distance;
   double along = across * map.stretch;
   const auto least = [&](const glm::dvec2& row) {
     return max_of(kLeastSide, kLeastOfOffset * (std::abs(row.x) * across + std::abs(row.y) * along));
@@ -88,8 +87,7 @@ void widen_for_floats(const MapRequest& request, const LightBody& body, PlaneMap
 }
 
 /// How much longer the rectangle's sides become by that; 1: not at all.
-glm::dvec2 widening(const MapRequest& request, const LightBody& body, const WarpChoice& choice) noexcept {
-  const PlaneMap map = plane_map(body.points(), choice);
+glm::dvec2 widening(const MapRequest& request, const LightBody& body, const PlaneMap& map) noexcept {
   PlaneMap wide = map;
   widen_for_floats(request, body, wide);
   return {(wide.a_max - wide.a_min) / (map.a_max - map.a_min),
@@ -99,29 +97,32 @@ glm::dvec2 widening(const MapRequest& request, const LightBody& body, const Warp
 /// The objective's ratio where the warp's rectangle is widened: the warp's by as much as it may lose by that,
 /// the other by as little.
 double widened_ratio(const WarpInput& in, const MapRequest& request, const LightBody& body,
-                     const WarpChoice& choice, double ratio) noexcept {
-  const glm::dvec2 warped = widening(request, body, choice);
+                     const PlaneMap& plane, double ratio) noexcept {
+  const glm::dvec2 warped = widening(request, body, plane);
   if (warped == glm::dvec2(1.0)) return ratio;
-  const glm::dvec2 unwarped = widening(request, body, in.unwarped);
+  const glm::dvec2 unwarped = widening(request, body, body.under(in.unwarped));
   if (in.objective == Objective::storage) return ratio * (warped.x * warped.y) / (unwarped.x * unwarped.y);
   return ratio * max_of(warped.x, warped.y) / min_of(unwarped.x, unwarped.y);
 }
 
-/// The warp's answer, measured, and used only where it lowers the objective.
-WarpChoice chosen_warp(const PlanContext& c, const MapRequest& request, const LightBody& body,
-                       const WarpQuestion& question, MapResult& result) noexcept {
+/// The warp's answer, measured, and used only where it lowers the objective; its plane.
+PlaneMap chosen_warp(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                     const WarpQuestion& question, MapResult& result) noexcept {
   const WarpInput& in = question.in;
-  if (is_unwarped(request.warp) || c.stable) return in.unwarped;
+  if (is_unwarped(request.warp) || c.stable) return question.points.under(in.unwarped);
   const WarpChoice choice = request.warp.choose(in);
   double ratio = gain_ratio(c, request, question, choice);
-  if (takes(request.warp, choice, ratio)) ratio = widened_ratio(in, request, body, choice, ratio);
-  if (takes(request.warp, choice, ratio)) return choice;
+  if (takes(request.warp, choice, ratio)) {
+    const PlaneMap plane = question.points.under(choice);
+    ratio = widened_ratio(in, request, body, &question.points == &body ? plane : body.under(choice), ratio);
+    if (takes(request.warp, choice, ratio)) return plane;
+  }
   result.omit({OmissionKind::warp_without_gain, request.slot.cascade, ratio, 0.0, 0});
   result.map.warp = &warps::none;
   WarpChoice unwarped = in.unwarped;
   unwarped.gain_ratio = choice.last_ratio > 0.0 ? 1.0 : 0.0;
   unwarped.last_ratio = choice.last_ratio;
-  return unwarped;
+  return question.points.under(unwarped);
 }
 
 /// The best map of the plane, or the steady way there.
@@ -129,16 +130,16 @@ PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const Lig
                       MapResult& result) noexcept {
   const bool steady = c.remembers && !c.stable && c.options.fit != Fit::warped_stable;
   const bool warped = !is_unwarped(request.warp) && !c.stable;
-  if (!warped && c.options.fit != Fit::rotated && !steady) return plane_map(body.points(), request.unwarped);
+  if (!warped && c.options.fit != Fit::rotated && !steady) return body.under(request.unwarped);
   WarpQuestion question(c, request, body);
   WarpStart start;
   const bool follows = steady && warped && request.warp.follows_start;
   if (follows && find_start(c, request, question, start)) question.in.start = &start;
-  WarpChoice choice = chosen_warp(c, request, body, question, result);
-  if (follows) result.searched = searched_warp(c, request, question, choice);
-  if (c.options.fit == Fit::rotated) choice = turned_to_least_area(question.in, choice);
-  if (steady) return steady_plane(c, request, question, choice, result);
-  PlaneMap plane = plane_map(question.in.body, choice);
+  PlaneMap plane = chosen_warp(c, request, body, question, result);
+  if (follows) result.searched = searched_warp(c, request, question, plane.choice);
+  if (c.options.fit == Fit::rotated)
+    plane = question.points.under(turned_to_least_area(question.in, plane.choice));
+  if (steady) return steady_plane(c, request, question, plane.choice, result);
   limit_to_shape(c, question.in.body, plane);
   return plane;
 }
@@ -160,7 +161,7 @@ void shape_rows(const PlanContext& c, const MapRequest& request, const LightBody
   texels_needed(fitted.rows, body.points(), fitted.plane, shaped);
   const double along = shaped.sides.y / fitted.needed.sides.y;
   if (c.options.warp.warp == nullptr && fitted.plane.choice.kappa > 0.0) {
-    PlaneMap flat = plane_map(body.points(), request.unwarped);
+    PlaneMap flat = body.under(request.unwarped);
     widen_for_floats(request, body, flat);
     TexelsNeeded plain;
     texels_needed(body.points(), flat, pixels_per_slope(c.camera), plain);
@@ -219,6 +220,7 @@ LightBody whole_frustum(const MapRequest& request, const LightBody& body) noexce
     whole.point[static_cast<std::size_t>(whole.count++)] = {
         (i & 1) ? request.slope : -request.slope, (i & 2) ? request.slope : -request.slope, height, depth};
   }
+  whole.bounds = bounds_of(whole.points());
   return whole;
 }
 
@@ -306,8 +308,7 @@ void write_snap_key(const Fitted& fitted, ShadowMap& map) noexcept {
 
 }  // namespace
 
-MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept {
-  MapResult result;
+void focused_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept {
   ShadowMap& map = result.map;
   begin_record(c, request, map);
   if (c.stable) map.warp = &warps::none;
@@ -317,7 +318,7 @@ MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept 
   Fitted fitted;
   const bool kept = kept_from_before(c, request, body, map, fitted);
   if (!kept) fit(c, request, body, obliquity, result, fitted);
-  if (!fitted.heights.has_casters && !request.without_casters) return result;
+  if (!fitted.heights.has_casters && !request.without_casters) return;
   result.drawn = true;
   if (fitted.heights.too_near > 0)
     result.omit({OmissionKind::depth_near_light, request.slot.cascade, fitted.heights.nearest,
@@ -332,14 +333,13 @@ MapResult focused_map(const PlanContext& c, const MapRequest& request) noexcept 
       {body, fitted.plane, fitted.swept, fitted.needed, fitted.rows, obliquity, gl_from_relative, longest},
       map);
   if (c.stable) write_snap_key(fitted, map);
-  result.gl_from_world = world_matrix(gl_from_relative, c.camera.position);
+  if (c.remembers) result.gl_from_world = world_matrix(gl_from_relative, c.camera.position);
   if (kept) {
     map.warp = map.kappa > 0.0 ? &request.warp : &warps::none;
     // The very bits of the last frame: what is drawn stays as it is.
     result.gl_from_world = request.last->gl_from_world;
     map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * result.gl_from_world;
   }
-  return result;
 }
 
 }  // namespace gnomon

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/pair.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "map/border.hpp"
@@ -39,12 +40,15 @@ ViewInLight view_in_light(const PlanContext& c, const LightFrame& frame) noexcep
           (camera.top - camera.bottom) / camera.height};
 }
 
-/// The body with vertices and faces along the frame's axes.
-void turn(const Polytope& body, const LightFrame& frame, Polytope& out) noexcept {
+/// The body with vertices and faces along the frame's axes. `turned`: the vertices along them where they are
+/// known, else empty.
+void turn(const Polytope& body, const LightFrame& frame, std::span<const WarpInput::Point> turned,
+          Polytope& out) noexcept {
   out = body;
-  for (int i = 0; i < body.vertex_count; ++i) {
-    out.vertex[static_cast<std::size_t>(i)].position =
-        frame.turned(body.vertex[static_cast<std::size_t>(i)].position);
+  for (std::size_t i = 0; i < body.vertices().size(); ++i) {
+    glm::dvec3& position = out.vertex[i].position;
+    position = turned.empty() ? frame.turned(body.vertex[i].position)
+                              : glm::dvec3(turned[i].x, turned[i].y, turned[i].z);
   }
   for (int f = 0; f < body.face_count; ++f) {
     out.plane[static_cast<std::size_t>(f)].normal =
@@ -70,12 +74,44 @@ double counted_from(const PlanContext& c, const MapRequest& request) noexcept {
   return band > 0.0 ? max_of(hint, request.begin + band) : hint;
 }
 
+/// Under parallel light, where the error of all vertices counts: false, and nothing is added, where a vertex
+/// lies before `pseudo_near`, or there is no room.
+bool add_two_by_two(const PlanContext& c, const LightFrame& frame, const Polytope& body, double least,
+                    double pseudo_near, LightBody& out) noexcept {
+  const std::span<const Polytope::Vertex> vertices = body.vertices();
+  if (static_cast<std::size_t>(out.count) + vertices.size() + 1 > out.point.size()) return false;
+  const glm::dvec3& f = c.axes.forward;
+  const Pair x_x(frame.x.x), x_y(frame.x.y), x_z(frame.x.z), y_x(frame.y.x), y_y(frame.y.y), y_z(frame.y.z);
+  const Pair z_x(frame.z.x), z_y(frame.z.y), z_z(frame.z.z), f_x(f.x), f_y(f.y), f_z(f.z), floor(least);
+  Pair nearest(std::numeric_limits<double>::infinity());
+  WarpInput::Point* to = &out.point[static_cast<std::size_t>(out.count)];
+  for (std::size_t i = 0; i < vertices.size(); i += 2, to += 2) {
+    const glm::dvec3& p = vertices[i].position;
+    const glm::dvec3& q = vertices[i + 1 < vertices.size() ? i + 1 : i].position;
+    const Pair p_xy = Pair::from(&p.x), q_xy = Pair::from(&q.x);
+    const Pair x = lows(p_xy, q_xy), y = highs(p_xy, q_xy), z(p.z, q.z);
+    const Pair light_x = x * x_x + y * x_y + z * x_z, light_y = x * y_x + y * y_y + z * y_z;
+    const Pair light_z = x * z_x + y * z_y + z * z_z, depth = x * f_x + y * f_y + z * f_z;
+    nearest = min_of(nearest, depth);
+    const Pair counted = c.camera.orthographic ? Pair(1.0) : max_of(floor, depth);
+    lows(light_x, light_y).to(&to[0].x);
+    lows(light_z, counted).to(&to[0].z);
+    highs(light_x, light_y).to(&to[1].x);
+    highs(light_z, counted).to(&to[1].z);
+  }
+  if (!c.camera.orthographic && min_of(nearest.low(), nearest.high()) < pseudo_near) return false;
+  out.count += body.vertex_count;
+  return true;
+}
+
 void add_vertices(const PlanContext& c, const MapRequest& request, const Polytope& body, double nearest,
                   LightBody& out) noexcept {
   const double pseudo_near = counted_from(c, request);
   // Receivers in the room for motion are served from the slice's begin on.
   const double begin = request.room > 0.0 ? request.begin : 0.0;
   const double least = max_of(max_of(c.camera.near_depth, pseudo_near), begin);
+  if (!request.space.perspective && add_two_by_two(c, request.space.frame, body, least, pseudo_near, out))
+    return;
   const auto add = [&](const glm::dvec3& position, bool counts) {
     if (out.count == kMaxBodyPoints) return;
     WarpInput::Point& p = out.point[static_cast<std::size_t>(out.count++)];
@@ -133,7 +169,7 @@ void hold_to_frustum(const MapRequest& request, LightBody& body) noexcept {
 /// The strongest warp that a map of this light can take: the ratio of its texels' lengths at both ends.
 double most_stretch(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
   if (!request.space.perspective) return kStrongest;
-  const PlaneMap plane = plane_map(body.points(), request.unwarped);
+  const PlaneMap plane = body.under(request.unwarped);
   const double share = border_share(c, request, body, plane);
   const double border =
       static_cast<double>(border_texels(c.options, request.slot.width, share)) / request.slot.width;
@@ -147,6 +183,7 @@ LightBody in_light_space(const PlanContext& c, const MapRequest& request) noexce
   const LightSpace& space = request.space;
   if (!space.perspective) {
     add_body(c, request, 0.0, body);
+    body.bounds = bounds_of(body.points());
     return body;
   }
   body.nearest = std::numeric_limits<double>::infinity();
@@ -159,6 +196,7 @@ LightBody in_light_space(const PlanContext& c, const MapRequest& request) noexce
   body.nearest = max_of(body.nearest, kLeastNearShare * body.farthest);
   add_body(c, request, body.nearest, body);
   hold_to_frustum(request, body);
+  body.bounds = bounds_of(body.points());
   return body;
 }
 
@@ -172,21 +210,21 @@ LightBody judged_body(const PlanContext& c, const MapRequest& request, Polytope&
   for (int i = 0; i < points.count; ++i)
     points.point[static_cast<std::size_t>(i)].depth *= c.options.warp.focus_weight;
   add_vertices(c, request, focus, points.nearest, points);
+  points.bounds = bounds_of(points.points());
   return points;
 }
 
 WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept
     : points(c.options.warp.focus.empty() ? body : judged = judged_body(c, request, focus)), in{} {
   const LightFrame& frame = request.space.frame;
-  turn(request.body, frame, body_light);
-  if (!focus.empty()) turn(Polytope(focus), frame, focus);
+  // Parallel light's points are the vertices, and those of a focus or a cut behind them.
+  const bool known = !request.space.perspective && request.viewed.empty();
+  turn(request.body, frame, known ? points.points() : std::span<const WarpInput::Point>(), body_light);
+  if (!focus.empty()) turn(Polytope(focus), frame, {}, focus);
   in.body = points.points();
-  in.y_min = in.y_max = points.point[0].y;
+  in.y_min = points.bounds.y_min;
+  in.y_max = points.bounds.y_max;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const WarpInput::Point& p : in.body) {
-    in.y_min = min_of(in.y_min, p.y);
-    in.y_max = max_of(in.y_max, p.y);
-  }
   const Polytope::Vertex* first = &request.body.vertex[0];
   for (const Polytope::Vertex& v : request.body.vertices()) {
     const double depth = glm::dot(c.axes.forward, v.position);

@@ -13,9 +13,14 @@ namespace gnomon {
 struct LightBody {
   std::array<WarpInput::Point, kMaxBodyPoints> point;
   int count = 0;
+  PointBounds bounds;                    // of the points
   double nearest = 1.0, farthest = 1.0;  // distances along a local light's axis
   [[nodiscard]] std::span<const WarpInput::Point> points() const noexcept {
     return {point.data(), static_cast<std::size_t>(count)};
+  }
+  /// Their map, as plane_map.
+  [[nodiscard]] PlaneMap under(const WarpChoice& choice) const noexcept {
+    return plane_map(points(), bounds, choice);
   }
 };
 [[nodiscard]] LightBody in_light_space(const PlanContext& c, const MapRequest& request) noexcept;

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "geometry/matrix.hpp"
+#include "geometry/pair.hpp"
 #include "geometry/vector.hpp"
 #include "map/size.hpp"
 
@@ -23,6 +24,34 @@ void write_planes(const PlanContext& c, const SweptBody& swept, ShadowMap& map) 
   map.cull_plane_count = swept.plane_count;
 }
 
+/// What longest_sides takes of a point of the body; the distance is 1 for parallel light.
+struct Corner {
+  glm::dvec2 v, on_plane;
+  double w, distance, v_length, length;
+};
+
+/// The largest square of (Wi Vj + Wj Vi) / 2 over all pairs of corners, under parallel light.
+double square_of_pairs(const std::array<Corner, kMaxBodyPoints>& corner, std::size_t count) noexcept {
+  // One more, of nothing, so that every pair of neighbours may be asked at once.
+  std::array<double, kMaxBodyPoints + 1> v_x, v_y, w;
+  for (std::size_t i = 0; i < count; ++i) {
+    v_x[i] = corner[i].v.x;
+    v_y[i] = corner[i].v.y;
+    w[i] = corner[i].w;
+  }
+  v_x[count] = v_y[count] = w[count] = 0.0;
+  Pair most(0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Pair x_i(v_x[i]), y_i(v_y[i]), w_i(w[i]);
+    for (std::size_t j = i; j < count; j += 2) {
+      const Pair w_j = Pair::from(&w[j]);
+      const Pair x = Pair::from(&v_x[j]) * w_i + x_i * w_j, y = Pair::from(&v_y[j]) * w_i + y_i * w_j;
+      most = max_of(most, x * x + y * y);
+    }
+  }
+  return max_of(most.low(), most.high()) * 0.25;
+}
+
 /// Bounds of the extents across the light that the rectangle's sides have anywhere on the body. They need not
 /// be largest at a vertex: under a warp not where the body is wide, under a local light not off its axis.
 ///
@@ -35,11 +64,7 @@ void write_planes(const PlanContext& c, const SweptBody& swept, ShadowMap& map) 
 /// is bounded from below in the same way.
 glm::dvec2 longest_sides(const LightSpace& space, const LightBody& body, const PlaneMap& plane,
                          const RowShape& rows) noexcept {
-  struct Corner {
-    glm::dvec2 v, on_plane;
-    double w, distance, v_length, length;
-  };
-  Corner corner[kMaxBodyPoints];
+  std::array<Corner, kMaxBodyPoints> corner;
   const WarpChoice& choice = plane.choice;
   const glm::dvec2 axis = choice.axis;
   const double area = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
@@ -66,7 +91,8 @@ glm::dvec2 longest_sides(const LightSpace& space, const LightBody& body, const P
       here.length = d * std::sqrt(1.0 + glm::dot(at, at));
     }
     // As a rule one vertex has the largest of both: no pair exceeds it.
-    if (!space.perspective && most_w * most_v <= square) return std::sqrt(square);
+    if (!space.perspective)
+      return std::sqrt(most_w * most_v <= square ? square : square_of_pairs(corner, count));
     double least_cosine = 1.0, most_cosine = -1.0;
     square = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -78,14 +104,12 @@ glm::dvec2 longest_sides(const LightSpace& space, const LightBody& body, const P
         const glm::dvec2 both = b.v * a.w + a.v * b.w;
         const double inverse = 1.0 / (a.distance + b.distance);
         square = max_of(square, glm::dot(both, both) * (inverse * inverse));
-        if (!space.perspective) continue;
         const double cosine = (glm::dot(a.v, b.on_plane) + glm::dot(b.v, a.on_plane)) /
                               (a.v_length * b.length + b.v_length * a.length);
         least_cosine = min_of(least_cosine, cosine);
         most_cosine = max_of(most_cosine, cosine);
       }
     }
-    if (!space.perspective) return std::sqrt(square);
     const double cosine = max_of(0.0, max_of(least_cosine, -most_cosine));
     return std::sqrt(square * max_of(0.0, 1.0 - cosine * cosine));
   };
@@ -117,6 +141,14 @@ void write_texels(const PlanContext& c, const MapRequest& request, const MapPart
                     bias.normal_offset_texels * texel};
 }
 
+/// The matrix in the plan's clip space.
+glm::dmat4 clip_from_gl(const ClipSpace& target, const glm::dmat4& gl_from_relative) noexcept {
+  const bool same = target.ndc_depth == NdcDepth::minus_one_to_one && !target.reversed_z && !target.y_down &&
+                    target.handedness == Handedness::right;
+  // What a product with 1 makes of it: no zero has a sign.
+  return same ? gl_from_relative + 0.0 : clip_from_gl_clip(target) * gl_from_relative;
+}
+
 }  // namespace
 
 glm::dmat4 world_matrix(const glm::dmat4& from_relative, const glm::dvec3& eye_world) noexcept {
@@ -142,10 +174,9 @@ void begin_record(const PlanContext& c, const MapRequest& request, ShadowMap& ma
 
 void complete_record(const PlanContext& c, const MapRequest& request, const MapParts& parts,
                      ShadowMap& map) noexcept {
-  write_planes(c, parts.swept, map);
   map.kappa = parts.plane.choice.kappa;
   const LightSpace& space = request.space;
-  const glm::dmat4 from_relative = clip_from_gl_clip(c.options.clip_space) * parts.gl_from_relative;
+  const glm::dmat4 from_relative = clip_from_gl(c.options.clip_space, parts.gl_from_relative);
   map.clip_from_camera_relative = glm::mat4(from_relative);
   map.clip_from_world = world_matrix(from_relative, c.camera.position);
   const glm::dvec3 apex =
@@ -153,6 +184,7 @@ void complete_record(const PlanContext& c, const MapRequest& request, const MapP
   map.light_world =
       space.perspective ? glm::dvec4(apex + c.camera.position, 1.0) : glm::dvec4(space.frame.z, 0.0);
   write_texels(c, request, parts, map);
+  write_planes(c, parts.swept, map);
   if (!map.shape->affine)
     map.shape_parameters =
         parameters_in(clip_from_gl_clip(c.options.clip_space), *map.shape, map.shape_parameters);

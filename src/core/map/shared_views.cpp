@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "map/size.hpp"
@@ -88,8 +89,7 @@ DepthRange depths_seen(std::span<const SharedView> views) noexcept {
 Polytope receivers_between(const SharedView& view, double begin, double end) noexcept {
   Polytope part = view.body;
   const double at_eye = glm::dot(view.axes.forward, view.eye);
-  clip(part, Plane{view.axes.forward, -(begin + at_eye)});
-  clip(part, Plane{-view.axes.forward, end + at_eye});
+  clip_to_slab(part, view.axes.forward, begin + at_eye, end + at_eye);
   return part;
 }
 

@@ -118,15 +118,14 @@ glm::dmat4 clip_from_grid(const glm::dvec2& centre, double half, const LightDept
 
 }  // namespace
 
-MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
-  MapResult result;
+void stable_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept {
   ShadowMap& map = result.map;
   begin_record(c, request, map);
   map.warp = &warps::none;
   const Grid grid = grid_of(c, request, map);
   const LightBody body = in_light_space(c, request);
   const glm::dvec2 centre = grid.centre - glm::dvec2(grid.eye);  // relative to the camera
-  PlaneMap plane = plane_map(body.points(), {});
+  PlaneMap plane = body.under({});
   plane.a_min = centre.x - grid.half;
   plane.a_max = centre.x + grid.half;
   plane.b_min = centre.y - plane.u_min - grid.half;
@@ -138,7 +137,7 @@ MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
   SweptBody swept;
   sweep(served.request().body, light, grid.texel * map.filter_margin_texels, c.camera.position, swept);
   const HeightRange heights = height_range(c, served.request(), {served.points(), plane, swept, {border}});
-  if (!heights.has_casters && !request.without_casters) return result;
+  if (!heights.has_casters && !request.without_casters) return;
   result.drawn = true;
   const LightDepths still_depths = snapped_depths(grid, heights, map.snap_key);
   const LightDepths depths{still_depths.bottom - grid.eye.z, still_depths.height};
@@ -152,7 +151,6 @@ MapResult stable_map(const PlanContext& c, const MapRequest& request) noexcept {
   // Of the key alone: the same key, the same bits, and what was drawn stays as it is.
   result.gl_from_world = clip_from_grid(grid.centre, grid.half, still_depths) * turn;
   map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * result.gl_from_world;
-  return result;
 }
 
 }  // namespace gnomon

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "gnomon/reuse.hpp"
@@ -15,56 +16,71 @@
 namespace gnomon {
 namespace {
 
-/// The part of the scene's body between two depths that holds receivers.
-void receivers_between(const PlanContext& c, const ParallelScene& scene, double begin, double end,
-                       Polytope& part) noexcept {
+/// Whether a cut of the scene's body at `begin` takes anything off it: not what is rounding of depths.
+bool cuts_front(const ParallelScene& scene, double begin) noexcept {
+  constexpr double kRounding = 1e-14;
+  return begin - scene.depths.begin > kRounding * max_of(begin, scene.depths.end - begin);
+}
+
+/// The part of the scene's body between two depths that holds receivers: the body itself, or `part`.
+const Polytope& receivers_between(const PlanContext& c, const ParallelScene& scene, double begin, double end,
+                                  Polytope& part) noexcept {
   if (cut_from_afar(c, scene.depths.end, end)) {
     const double from = max_of(begin, scene.depths.begin);
     part = frustum_slice(c.camera, c.axes, min_of(from, end), end);
     if (from > end) part.vertex_count = 0;
     clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
-    return;
+    return part;
   }
+  const bool whole = !cuts_front(scene, begin) && !(end < scene.depths.end);
+  if (whole && !several(c.bounds.receivers)) return scene.body;
   part = scene.body;
-  if (begin > scene.depths.begin) clip(part, Plane{c.axes.forward, -begin});
-  if (end < scene.depths.end) clip(part, Plane{-c.axes.forward, end});
+  if (!whole) clip_to_slab(part, c.axes.forward, begin, end);
   clip_part(part, c.bounds.receivers, c.camera.position);
+  return part;
 }
 
 /// The receivers of one cascade, and the depths that its map serves.
 struct Slice {
-  Polytope body;
+  Polytope own;  // storage of the body, where it is not the scene's
+  const Polytope* body = &own;
   double begin = 0.0, end = 0.0;  // without the blend band
   double overlap = 0.0;
   double room = 0.0;  // for motion, world units
   bool wanted = false;
   ViewedBody viewed;  // of several cameras
+
+  Slice() noexcept = default;
+  Slice(const Slice&) = delete;
+  Slice& operator=(const Slice&) = delete;
 };
 
 /// The receivers between two depths, of all cameras.
 void fill_body(const PlanContext& c, const ParallelScene& scene, double begin, double end,
                Slice& slice) noexcept {
+  slice.body = &slice.own;
   if (slice.room > 0.0) {
-    slice.body = receivers_with_room(c, begin, end, slice.room);
+    slice.own = receivers_with_room(c, begin, end, slice.room);
     return;
   }
   if (c.views.empty()) {
-    receivers_between(c, scene, begin, end, slice.body);
+    slice.body = &receivers_between(c, scene, begin, end, slice.own);
     return;
   }
   slice.viewed = viewed_between(c, begin, end);
-  slice.body = slice.viewed.hull;
+  slice.body = &slice.viewed.hull;
 }
 
 /// All that the cameras' frusta hold between two depths, where no receiver is.
 void fill_with_frusta(const PlanContext& c, double begin, double end, Slice& slice) noexcept {
+  slice.body = &slice.own;
   if (c.views.empty()) {
-    slice.body = frustum_slice(c.camera, c.axes, begin, end);
+    slice.own = frustum_slice(c.camera, c.axes, begin, end);
     return;
   }
   std::array<Polytope, kMaxViews> frusta;
   for (std::size_t i = 0; i < c.views.size(); ++i) frusta[i] = view_slice(c.views[i], begin, end);
-  slice.body = hull_of({frusta.data(), c.views.size()});
+  slice.own = hull_of({frusta.data(), c.views.size()});
 }
 
 /// Depths in front of `begin` that a cascade shows besides its own: none where the one before it ends sooner.
@@ -84,7 +100,7 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   // A single depth is a slice only where it is all there is.
   const bool covered = from == to && plan.map_count > 0;
   if (!seen.empty() && !covered) fill_body(c, scene, seen.begin, seen.end, slice);
-  const bool holds_nothing = slice.body.empty();
+  const bool holds_nothing = slice.body->empty();
   slice.wanted = !holds_nothing || (!c.options.prune.has(PruneRule::empty_cascades) && from < to);
   if (!slice.wanted) return;
   slice.begin = holds_nothing ? from : seen.begin;
@@ -95,8 +111,10 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   } else if (slice.overlap > 0.0) {
     fill_body(c, scene, slice.begin - slice.overlap, slice.end, slice);
   }
-  if (!c.seen_points.empty())
-    clip_to_points(c, scene.space.frame, slice.begin - slice.overlap, slice.end, slice.body);
+  if (c.seen_points.empty()) return;
+  if (slice.body != &slice.own) slice.own = *slice.body;
+  slice.body = &slice.own;
+  clip_to_points(c, scene.space.frame, slice.begin - slice.overlap, slice.end, slice.own);
 }
 
 /// Adds a map of an earlier frame, for this frame's eye.
@@ -127,8 +145,8 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
   Slice slice;
   if (keeps) slice.room = room_for_motion(c, between.end);
   slice_between(c, scene, plan, between.begin, between.end, slice);
-  const bool on_planes = scene.planes != nullptr && slice.wanted && !slice.body.empty() &&
-                         c.options.prune.has(PruneRule::empty_cascades) && scene.planes->serve(slice.body);
+  const bool on_planes = scene.planes != nullptr && slice.wanted && !slice.body->empty() &&
+                         c.options.prune.has(PruneRule::empty_cascades) && scene.planes->serve(*slice.body);
   if (on_planes) {
     omit(plan, {OmissionKind::cascade_on_planes, cascade, slice.begin, slice.end, texels_asked(c.options)});
     return;
@@ -138,7 +156,7 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
                 texels_asked(c.options)});
     return;
   }
-  MapRequest request = request_for(scene, slice.body, slice.begin - slice.overlap, slice.end);
+  MapRequest request = request_for(scene, *slice.body, slice.begin - slice.overlap, slice.end);
   request.slot.cascade = cascade;
   request.slot.width = size.width;
   request.slot.height = size.height;
@@ -153,7 +171,12 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
   if (plan.select_finest) request.all_receivers = moving.empty() ? &scene.body : &moving;
   request.viewed = slice.viewed.points();
   request.room = slice.room;
-  const MapResult result = c.stable ? stable_map(c, request) : focused_map(c, request);
+  MapResult result(next_map(plan));
+  if (c.stable) {
+    stable_map(c, request, result);
+  } else {
+    focused_map(c, request, result);
+  }
   if (keeps) history->kept[static_cast<std::size_t>(cascade)] = kept_from(c, result, history->frame);
   merge(result,
         {OmissionKind::cascade_without_caster, cascade, slice.begin, slice.end, texels_asked(c.options)},

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/pair.hpp"
+#include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "map/gain.hpp"
@@ -49,8 +51,7 @@ Polytope between(const PlanContext& c, const Polytope& body, double from, double
     part.vertex_count = 0;
     return part;
   }
-  clip(part, Plane{c.axes.forward, -range.begin});
-  clip(part, Plane{-c.axes.forward, range.end});
+  clip_to_slab(part, c.axes.forward, range.begin, range.end);
   return part;
 }
 
@@ -150,12 +151,19 @@ void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double
 }  // namespace
 
 DepthRange depths_of(const Polytope& body, const glm::dvec3& forward) noexcept {
-  DepthRange depths{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const Polytope::Vertex& v : body.vertices()) {
-    const double depth = glm::dot(forward, v.position);
-    depths = {min_of(depths.begin, depth), max_of(depths.end, depth)};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::span<const Polytope::Vertex> vertices = body.vertices();
+  const Pair f_x(forward.x), f_y(forward.y), f_z(forward.z);
+  Pair low(kInfinity), high(-kInfinity);
+  for (std::size_t i = 0; i < vertices.size(); i += 2) {
+    const glm::dvec3& p = vertices[i].position;
+    const glm::dvec3& q = vertices[i + 1 < vertices.size() ? i + 1 : i].position;
+    const Pair p_xy = Pair::from(&p.x), q_xy = Pair::from(&q.x);
+    const Pair depth = f_x * lows(p_xy, q_xy) + f_y * highs(p_xy, q_xy) + f_z * Pair(p.z, q.z);
+    low = min_of(low, depth);
+    high = max_of(high, depth);
   }
-  return depths;
+  return {min_of(low.low(), low.high()), max_of(high.low(), high.high())};
 }
 
 const VisibleDepths* usable_depths(const PlanContext& c, const DepthRange& body,

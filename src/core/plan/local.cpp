@@ -258,7 +258,8 @@ void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double oute
   MapRequest request = request_for(scene, frustum, body, 0, false);
   const ViewedBody viewed = viewed_body(scene.c, body);
   request.viewed = viewed.points();
-  const MapResult result = focused_map(scene.c, request);
+  MapResult result(next_map(plan));
+  focused_map(scene.c, request, result);
   if (result.drawn) merge(result, {}, scene.history, plan);
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
@@ -281,9 +282,10 @@ bool plan_face(const LocalScene& scene, const LocalFrustum& frustum, int face, c
   MapRequest request = request_for(scene, frustum, body, face, true);
   const ViewedBody viewed = viewed_body(scene.c, body);
   request.viewed = viewed.points();
-  merge(focused_map(scene.c, request),
-        {OmissionKind::face_without_caster, face, 0.0, 0.0, texels_asked(scene.c.options)}, scene.history,
-        plan);
+  MapResult result(next_map(plan));
+  focused_map(scene.c, request, result);
+  merge(result, {OmissionKind::face_without_caster, face, 0.0, 0.0, texels_asked(scene.c.options)},
+        scene.history, plan);
   return true;
 }
 

@@ -26,8 +26,8 @@ void merge(const MapResult& result, const Omission& missing, PlanHistory* histor
     return;
   }
   const ShadowMap& map = result.map;
-  plan.map[static_cast<std::size_t>(plan.map_count++)] = map;
-  for (int i = 0; i < result.omission_count; ++i) omit(plan, result.omission[static_cast<std::size_t>(i)]);
+  ++plan.map_count;
+  for (const Omission& o : result.omissions()) omit(plan, o);
   if (history == nullptr) return;
   if (result.has_event && history->event_count < kMaxMaps)
     history->event[static_cast<std::size_t>(history->event_count++)] = result.event;

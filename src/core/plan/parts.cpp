@@ -11,6 +11,7 @@
 
 #include "geometry/elementary.hpp"
 #include "geometry/light_axes.hpp"
+#include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "map/gain.hpp"
@@ -230,7 +231,9 @@ void plan_part(const PlanContext& c, const Part& part, ShadowPlan& plan) noexcep
   request.slot.select = part.plane;
   request.slot.select_count = part.plane_count;
   request.without_casters = !c.options.prune.has(PruneRule::casterless_cascades);
-  merge(focused_map(c, request),
+  MapResult result(next_map(plan));
+  focused_map(c, request, result);
+  merge(result,
         {OmissionKind::part_without_caster, part.index, part.begin, part.end, texels_asked(c.options)},
         nullptr, plan);
 }
@@ -242,8 +245,7 @@ void plan_parts(const PlanContext& c, const ParallelScene& scene, ShadowPlan& pl
   for (int i = 0; i < range.omission_count; ++i) omit(plan, range.omission[static_cast<std::size_t>(i)]);
   const double begin = range.depth[0], end = range.depth[1];
   Polytope body = scene.body;
-  clip(body, Plane{c.axes.forward, -begin});
-  clip(body, Plane{-c.axes.forward, end});
+  clip_to_slab(body, c.axes.forward, begin, end);
   Parts whole;
   Part all;
   all.begin = begin;

@@ -42,20 +42,28 @@ void finish_parallel(const PlanContext& c, ShadowPlan& plan) noexcept {
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
 
-Polytope visible_receivers(const PlanContext& c) noexcept {
-  const auto received = [&](Polytope body) {
-    clip(body, visible_bounds(body, c.bounds.receivers, c.camera.position));
-    return body;
-  };
-  Polytope body = received(view_body(c));
-  if (body.empty()) return body;
-  const double end = depths_of(body, c.axes.forward).end;
-  if (!cut_from_afar(c, c.camera.far_depth, end)) return body;
-  // Twice the depth has room for the first cut's rounding.
-  const Polytope nearer =
-      received(frustum_slice(c.camera, c.axes, c.camera.near_depth, min_of(2.0 * end, c.camera.far_depth)));
-  return nearer.empty() ? body : nearer;
-}
+/// What of the receivers is in view, and its depths.
+struct VisibleReceivers {
+  Polytope body;
+  DepthRange depths{};  // where there is a body
+
+  explicit VisibleReceivers(const PlanContext& c) noexcept : body(view_body(c)) {
+    const auto receive = [&](Polytope& part) {
+      clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
+    };
+    receive(body);
+    if (body.empty()) return;
+    depths = depths_of(body, c.axes.forward);
+    if (!cut_from_afar(c, c.camera.far_depth, depths.end)) return;
+    // Twice the depth has room for the first cut's rounding.
+    Polytope nearer =
+        frustum_slice(c.camera, c.axes, c.camera.near_depth, min_of(2.0 * depths.end, c.camera.far_depth));
+    receive(nearer);
+    if (nearer.empty()) return;
+    body = nearer;
+    depths = depths_of(body, c.axes.forward);
+  }
+};
 
 void plan_along_view(const PlanContext& c, const ParallelScene& scene, PlanHistory* history,
                      ShadowPlan& plan) noexcept {
@@ -81,17 +89,19 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
                    PlanHistory* history, ShadowPlan& plan) noexcept {
   const PlanOptions& options = c.options;
   plan.light_direction = safe_normalize(light.direction, {0.0, -1.0, 0.0});
-  Polytope body = visible_receivers(c);
-  if (body.empty()) {
+  // Roots and quotients that wait for each other: before the receivers, which do not wait for them.
+  const LightFrame frame =
+      c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
+  const VisibleReceivers visible_receivers(c);
+  if (visible_receivers.body.empty()) {
     plan.status = PlanStatus::nothing_visible;
     return;
   }
-  ParallelScene scene{body,
-                      c.views.empty() ? depths_of(body, c.axes.forward) : depths_seen(c.views),
+  ParallelScene scene{visible_receivers.body,
+                      c.views.empty() ? visible_receivers.depths : depths_seen(c.views),
                       {},
                       requested_warp(options)};
-  scene.space.frame =
-      c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
+  scene.space.frame = frame;
   c.seen = usable_depths(c, scene.depths, visible);
   const bool parts = divides_parallel(options.split.partition);
   const bool follows_points = !c.stable && !parts && !c.keeps && options.fit != Fit::warped_stable;
@@ -131,12 +141,12 @@ struct Visible {
 };
 
 /// The context that input and options give, and the plan's fields that need no map.
-PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const PlanOptions& options,
-                       bool remembers, ShadowPlan& plan) noexcept {
+PlanContext begin_plan(const Camera& camera, const CameraAxes& axes, const SceneBounds& bounds,
+                       const PlanOptions& options, bool remembers, ShadowPlan& plan) noexcept {
   plan.origin_world = camera.position;
   plan.clip_space = options.clip_space;
   plan.bias = options.bias;
-  PlanContext context{camera, bounds, options, camera_axes(camera)};
+  PlanContext context{camera, bounds, options, axes};
   context.stable = options.fit == Fit::stable;
   context.error_bound = error_bound(options, remembers);
   context.remembers = remembers;
@@ -156,6 +166,8 @@ void remember_options(const PlanOptions& options, PlanHistory& history) noexcept
 void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
                 const PlanOptions& options, PlanHistory* history, const Visible& visible,
                 ShadowPlan& plan) noexcept {
+  // Of any input, while that is still looked at.
+  const CameraAxes axes = camera_axes(camera);
   plan.invalid_field =
       first_invalid_field(camera, light, bounds, options, visible.depths, visible.points_world);
   if (!plan.invalid_field.empty()) return;
@@ -163,7 +175,7 @@ void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bou
     plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible, plan);
     return;
   }
-  PlanContext context = begin_plan(camera, bounds, options, history != nullptr, plan);
+  PlanContext context = begin_plan(camera, axes, bounds, options, history != nullptr, plan);
   context.keeps = keeps_cascades(light, options, history != nullptr);
   context.seen_points = visible.points_world;
   if (history != nullptr) {
@@ -194,7 +206,7 @@ void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bou
 ShadowPlan plan_shared(std::span<const SharedView> views, const Camera& mean, const Light& light,
                        const SceneBounds& bounds, const PlanOptions& options) noexcept {
   ShadowPlan plan;
-  PlanContext context = begin_plan(mean, bounds, options, false, plan);
+  PlanContext context = begin_plan(mean, camera_axes(mean), bounds, options, false, plan);
   context.views = views;
   if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
     plan_parallel(context, *sun, nullptr, nullptr, plan);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "plan/points.hpp"
@@ -57,8 +58,7 @@ void fill(const PlanContext& c, const ParallelScene& scene, const WarpPlane& wan
     slab.body.vertex_count = 0;
     return;
   }
-  clip(slab.body, {c.axes.forward, -covered.begin});
-  clip(slab.body, {-c.axes.forward, covered.end});
+  clip_to_slab(slab.body, c.axes.forward, covered.begin, covered.end);
   if (slab.body.empty()) return;
   // A point's depth where its light ray meets the plane, which rises by this from the eye on.
   const double slope = glm::dot(c.axes.forward, light_direction) / facing;
@@ -79,7 +79,8 @@ void fill(const PlanContext& c, const ParallelScene& scene, const WarpPlane& wan
     clip_to_points(c, scene.space.frame, slab.depths.begin, slab.depths.end, slab.body);
 }
 
-MapResult map_of(const PlanContext& c, const ParallelScene& scene, const Slab& slab, int index) noexcept {
+void fit_map(const PlanContext& c, const ParallelScene& scene, const Slab& slab, int index,
+             MapResult& result) noexcept {
   MapRequest request{
       {},  slab.body, scene.space, warps::plane_optimal, slab.depths.begin, slab.depths.end, {}, 0.0, 0.0,
       0.0, false,     {}};
@@ -91,7 +92,7 @@ MapResult map_of(const PlanContext& c, const ParallelScene& scene, const Slab& s
   request.slot.select = slab.sides.plane;
   request.slot.select_count = slab.sides.count;
   request.without_casters = !c.options.prune.has(PruneRule::casterless_cascades);
-  return focused_map(c, request);
+  focused_map(c, request, result);
 }
 
 void select(ShadowMap& map, const glm::dvec4& plane_world) noexcept {
@@ -126,12 +127,16 @@ PlaneMaps plane_maps(const PlanContext& context, const ParallelScene& scene) noe
       continue;
     }
     const auto at = static_cast<std::size_t>(maps.count);
-    maps.map[at] = map_of(c, scene, slab, i);
+    MapResult result(maps.map[at]);
+    fit_map(c, scene, slab, i, result);
     maps.sides[at] = slab.sides;
-    if (maps.map[at].drawn)
-      ++maps.count;
-    else
+    if (!result.drawn) {
       leave_out(OmissionKind::plane_without_caster);
+      continue;
+    }
+    ++maps.count;
+    for (const Omission& o : result.omissions())
+      maps.of_maps[static_cast<std::size_t>(maps.of_maps_count++)] = o;
   }
   return maps;
 }
@@ -163,10 +168,9 @@ void add_plane_maps(const PlanContext& c, const PlaneMaps& planes, ShadowPlan& p
   }
   for (int i = plan.map_count; i-- > 0;)
     plan.map[static_cast<std::size_t>(i + planes.count)] = plan.map[static_cast<std::size_t>(i)];
-  const int cascades = plan.map_count;
-  plan.map_count = 0;
-  for (int i = 0; i < planes.count; ++i) merge(planes.map[static_cast<std::size_t>(i)], {}, nullptr, plan);
-  plan.map_count += cascades;
+  std::copy_n(planes.map.begin(), planes.count, plan.map.data());
+  plan.map_count += planes.count;
+  for (int i = 0; i < planes.of_maps_count; ++i) omit(plan, planes.of_maps[static_cast<std::size_t>(i)]);
   plan.select_by_map = true;
 }
 

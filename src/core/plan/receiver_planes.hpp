@@ -13,11 +13,13 @@ struct PlaneMaps {
     int count = 0;
     [[nodiscard]] bool hold(const Polytope& body) const noexcept;
   };
-  std::array<MapResult, kMaxWarpPlanes> map;
+  std::array<ShadowMap, kMaxWarpPlanes> map;
   std::array<Sides, kMaxWarpPlanes> sides;
   int count = 0;
   std::array<Omission, kMaxWarpPlanes> omission;  // planes without a map
   int omission_count = 0;
+  std::array<Omission, 4 * kMaxWarpPlanes> of_maps;  // what was left out of the maps
+  int of_maps_count = 0;
 
   /// True where one of the maps serves the whole body.
   [[nodiscard]] bool serve(const Polytope& body) const noexcept;

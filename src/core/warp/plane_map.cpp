@@ -3,12 +3,13 @@
 // so that kappa = 0 is the orthographic map and nothing tends to infinity.
 #include "warp/plane_map.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/pair.hpp"
 #include "geometry/vector.hpp"
+#include "warp/point_pair.hpp"
 
 namespace gnomon {
 namespace {
@@ -50,35 +51,84 @@ double border_in_image(const PlaneMap& map, double border) noexcept {
 }
 
 PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& choice) noexcept {
-  PlaneMap map{};
-  map.choice = choice;
-  const glm::dvec2 axis = choice.axis;
+  return plane_map(body, bounds_of(body), choice);
+}
+
+PointBounds bounds_of(std::span<const WarpInput::Point> body) noexcept {
+  Pair xy_low = Pair::from(&body[0].x), xy_high = xy_low, z_low = Pair::from(&body[0].z), z_high = z_low;
+  for (const WarpInput::Point& p : body.subspan(1)) {
+    const Pair xy = Pair::from(&p.x), z = Pair::from(&p.z);  // and depth, for nothing
+    xy_low = min_of(xy_low, xy);
+    xy_high = max_of(xy_high, xy);
+    z_low = min_of(z_low, z);
+    z_high = max_of(z_high, z);
+  }
+  PointBounds b{xy_low.low(), xy_high.low(), xy_low.high(), xy_high.high(), z_low.low(), z_high.low(), 0.0};
+  b.distance =
+      max_of(largest_component({b.x_min, b.y_min, b.z_min}), largest_component({b.x_max, b.y_max, b.z_max}));
+  return b;
+}
+
+namespace {
+
+/// The rectangle round the image of a body that no warp bends and no row turns: its bounds.
+bool is_plain(const WarpChoice& choice) noexcept {
+  return choice.kappa == 0.0 && choice.axis == glm::dvec2(0.0, 1.0) && choice.centre == 0.0 &&
+         choice.row_a == glm::dvec2(1.0, 0.0) && choice.row_b == glm::dvec2(0.0, 1.0);
+}
+
+/// Sets the rectangle round the image, and what w depends on.
+void enclose(std::span<const WarpInput::Point> body, PlaneMap& map) noexcept {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double u_min = kInfinity, u_max = -kInfinity, z_min = kInfinity, z_max = -kInfinity, distance = 0.0;
-  for (const WarpInput::Point& p : body) {
-    const double u = p.x * axis.x + p.y * axis.y;
-    u_min = min_of(u_min, u);
-    u_max = max_of(u_max, u);
-    z_min = min_of(z_min, p.z);
-    z_max = max_of(z_max, p.z);
-    distance = max_of(distance, largest_component({p.x, p.y, p.z}));
-  }
-  map.u_min = u_min;
-  map.length = u_max - u_min;
+  const WarpChoice& choice = map.choice;
+  const Pair axis_x(choice.axis.x), axis_y(choice.axis.y);
+  Pair low(kInfinity), high(-kInfinity);
+  for_each_two(body, [&](const PointPair& p) {
+    const Pair u = p.x * axis_x + p.y * axis_y;
+    low = min_of(low, u);
+    high = max_of(high, u);
+  });
+  map.u_min = min_of(low.low(), low.high());
+  map.length = max_of(high.low(), high.high()) - map.u_min;
   map.stretch = 1.0 + choice.kappa * map.length;
-  map.a_min = map.b_min = kInfinity;
-  map.a_max = map.b_max = -kInfinity;
-  for (const WarpInput::Point& p : body) {
-    const glm::dvec2 image = map.image(p.x, p.y);
-    const double a = choice.row_a.x * image.x + choice.row_a.y * image.y;
-    const double b = choice.row_b.x * image.x + choice.row_b.y * image.y;
-    map.a_min = min_of(map.a_min, a);
-    map.a_max = max_of(map.a_max, a);
-    map.b_min = min_of(map.b_min, b);
-    map.b_max = max_of(map.b_max, b);
+  const Pair one(1.0), kappa(choice.kappa), u_min(map.u_min), stretch(map.stretch), centre(choice.centre);
+  const Pair a_x(choice.row_a.x), a_y(choice.row_a.y), b_x(choice.row_b.x), b_y(choice.row_b.y);
+  Pair a_low(kInfinity), a_high(-kInfinity), b_low = a_low, b_high = a_high;
+  for_each_two(body, [&](const PointPair& p) {
+    const Pair u = p.x * axis_x + p.y * axis_y - u_min, inverse = one / (one + kappa * u);
+    const Pair x = (p.x * axis_y - p.y * axis_x - centre) * inverse, y = u * stretch * inverse;
+    const Pair a = a_x * x + a_y * y, b = b_x * x + b_y * y;
+    a_low = min_of(a_low, a);
+    a_high = max_of(a_high, a);
+    b_low = min_of(b_low, b);
+    b_high = max_of(b_high, b);
+  });
+  map.a_min = min_of(a_low.low(), a_low.high());
+  map.a_max = max_of(a_high.low(), a_high.high());
+  map.b_min = min_of(b_low.low(), b_low.high());
+  map.b_max = max_of(b_high.low(), b_high.high());
+}
+
+}  // namespace
+
+PlaneMap plane_map(std::span<const WarpInput::Point> body, const PointBounds& bounds,
+                   const WarpChoice& choice) noexcept {
+  PlaneMap map;
+  map.choice = choice;
+  if (is_plain(choice)) {
+    map.u_min = bounds.y_min;
+    map.length = bounds.y_max - bounds.y_min;
+    map.stretch = 1.0;
+    map.a_min = bounds.x_min;
+    map.a_max = bounds.x_max;
+    map.b_min = 0.0;
+    map.b_max = map.length;
+  } else {
+    enclose(body, map);
   }
-  const double extent = max_of(max_of(map.a_max - map.a_min, map.b_max - map.b_min), z_max - z_min);
-  const double least = least_extent(extent, distance);
+  const double extent =
+      max_of(max_of(map.a_max - map.a_min, map.b_max - map.b_min), bounds.z_max - bounds.z_min);
+  const double least = least_extent(extent, bounds.distance);
   widen(map.a_min, map.a_max, least);
   widen(map.b_min, map.b_max, least);
   return map;
@@ -110,15 +160,15 @@ bool usable(std::span<const WarpInput::Point> body, const WarpChoice& choice, do
   // A body shorter along the axis than this much of its other extents, or of its distance, has its length
   // from rounding, and a warp's strength from it would be noise.
   constexpr double kShortest = 1e-6, kShortestOfDistance = 1e-9;
-  const PlaneMap map = plane_map(body, choice);
-  double farthest = 0.0, distance = 0.0;
+  const PointBounds bounds = bounds_of(body);
+  const PlaneMap map = plane_map(body, bounds, choice);
+  double farthest = 0.0;
   for (const WarpInput::Point& p : body) {
     if (std::isfinite(p.depth)) farthest = max_of(farthest, p.depth);
-    distance = max_of(distance, largest_component({p.x, p.y, p.z}));
   }
   const double extent = max_of(map.a_max - map.a_min, map.b_max - map.b_min);
   return map.length > kShortest * extent && map.length > kShortestOfDistance * farthest &&
-         map.stretch <= most_stretch && choice.kappa * distance <= kMostKappaDistance;
+         map.stretch <= most_stretch && choice.kappa * bounds.distance <= kMostKappaDistance;
 }
 
 void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane, double pixels_per_slope,
@@ -132,37 +182,61 @@ void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane
   const glm::dvec2 side{(plane.a_max - plane.a_min) * pixels_per_slope,
                         (plane.b_max - plane.b_min) * pixels_per_slope};
   // Without a warp all texels are alike, and pixels smallest at the nearest vertex.
-  const auto nearer = [](const WarpInput::Point& p, const WarpInput::Point& q) { return p.depth < q.depth; };
-  if (choice.kappa == 0.0) body = {std::min_element(body.begin(), body.end(), nearer), 1};
-  needed.count = 0;
-  double a_max = 0.0, b_max = 0.0;
-  for (const WarpInput::Point& p : body) {
-    const double w = plane.w(p.x, p.y);
-    const double lean = choice.kappa * (p.x * axis.y - p.y * axis.x - choice.centre) / w;
-    const double along = w * w / plane.stretch;  // of one unit of the image's Y
-    const auto extent = [&](const glm::dvec2& image) {
-      const double u = along * image.y;
-      return glm::dvec2(w * image.x + lean * u, u);
-    };
-    const glm::dvec2 a = extent(per_a) / p.depth, b = extent(per_b) / p.depth;
-    a_max = max_of(a_max, glm::dot(a, a));
-    b_max = max_of(b_max, glm::dot(b, b));
-    if (needed.count < kMaxBodyPoints)
-      needed.vertex[static_cast<std::size_t>(needed.count++)] = {a * side.x, b * side.y};
+  WarpInput::Point nearest = body[0];
+  if (choice.kappa == 0.0) {
+    for (const WarpInput::Point& p : body) nearest.depth = min_of(nearest.depth, p.depth);
+    body = {&nearest, 1};
   }
-  needed.sides = {std::sqrt(a_max) * side.x, std::sqrt(b_max) * side.y};
+  const Pair one(1.0), axis_x(axis.x), axis_y(axis.y), kappa(choice.kappa), centre(choice.centre);
+  const Pair u_min(plane.u_min), stretch(plane.stretch), side_a(side.x), side_b(side.y);
+  Pair a_max(0.0), b_max(0.0);
+  std::size_t at = 0;
+  for_each_two(body, [&](const PointPair& p) {
+    const Pair w = one + kappa * (p.x * axis_x + p.y * axis_y - u_min);
+    const Pair lean = kappa * (p.x * axis_y - p.y * axis_x - centre) / w;
+    const Pair along = w * w / stretch;  // of one unit of the image's Y
+    // Extents of a step of the image at both points, over their depths.
+    const auto extent = [&](const glm::dvec2& image, Pair& x, Pair& y) {
+      const Pair u = along * Pair(image.y);
+      x = (w * Pair(image.x) + lean * u) / p.depth;
+      y = u / p.depth;
+    };
+    Pair a_x, a_y, b_x, b_y;
+    extent(per_a, a_x, a_y);
+    extent(per_b, b_x, b_y);
+    a_max = max_of(a_max, a_x * a_x + a_y * a_y);
+    b_max = max_of(b_max, b_x * b_x + b_y * b_y);
+    a_x = a_x * side_a;
+    a_y = a_y * side_a;
+    b_x = b_x * side_b;
+    b_y = b_y * side_b;
+    TexelsNeeded::Vertex* const to = &needed.vertex[at];
+    lows(a_x, a_y).to(&to[0].a.x);
+    lows(b_x, b_y).to(&to[0].b.x);
+    highs(a_x, a_y).to(&to[1].a.x);
+    highs(b_x, b_y).to(&to[1].b.x);
+    at += 2;
+  });
+  needed.count = static_cast<int>(body.size());
+  needed.sides = {std::sqrt(max_of(a_max.low(), a_max.high())) * side.x,
+                  std::sqrt(max_of(b_max.low(), b_max.high())) * side.y};
 }
 
 double TexelsNeeded::bound(const glm::dvec2& inside, double obliquity) const noexcept {
-  double longest = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+  const Pair half_of(0.5), inside_x(inside.x), inside_y(inside.y), zero(0.0);
+  Pair longest(0.0);
+  for (std::size_t i = 0, end = static_cast<std::size_t>(count); i < end; i += 2) {
     // Largest singular value of the texel's two sides.
-    const glm::dvec2 a = vertex[i].a / inside.x, b = vertex[i].b / inside.y;
-    const double half = 0.5 * (glm::dot(a, a) + glm::dot(b, b)), area = std::abs(a.x * b.y - a.y * b.x);
-    const double spread = (half - area) * (half + area);
-    longest = max_of(longest, half + std::sqrt(max_of(spread, 0.0)));
+    const Vertex &p = vertex[i], &q = vertex[i + 1 < end ? i + 1 : i];
+    const Pair p_a = Pair::from(&p.a.x), q_a = Pair::from(&q.a.x);
+    const Pair p_b = Pair::from(&p.b.x), q_b = Pair::from(&q.b.x);
+    const Pair a_x = lows(p_a, q_a) / inside_x, a_y = highs(p_a, q_a) / inside_x;
+    const Pair b_x = lows(p_b, q_b) / inside_y, b_y = highs(p_b, q_b) / inside_y;
+    const Pair half = half_of * (a_x * a_x + a_y * a_y + (b_x * b_x + b_y * b_y));
+    const Pair area = abs(a_x * b_y - a_y * b_x), spread = (half - area) * (half + area);
+    longest = max_of(longest, half + sqrt(max_of(spread, zero)));
   }
-  return std::sqrt(longest) * obliquity;
+  return std::sqrt(max_of(longest.low(), longest.high())) * obliquity;
 }
 
 double share_per_unit(const PlaneMap& map, std::span<const WarpInput::Point> body) noexcept {

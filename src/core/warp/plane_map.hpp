@@ -14,6 +14,14 @@ namespace gnomon {
 inline constexpr int kMaxBodyPoints = 64;
 static_assert(kMaxBodyPoints >= kMaxVertices);
 
+/// How far a body's points go.
+struct PointBounds {
+  double x_min, x_max, y_min, y_max, z_min, z_max;
+  double distance;  ///< the largest of their coordinates, without sign
+};
+/// Of one point or more.
+[[nodiscard]] PointBounds bounds_of(std::span<const WarpInput::Point> body) noexcept;
+
 /// A warp's map of the light plane with the rectangle round the body's image, before the border that filters
 /// need.
 struct PlaneMap {
@@ -48,6 +56,9 @@ void grow(PlaneMap& map, double share) noexcept;
 /// The smallest rectangle that holds the body's image. Flat and single-point bodies get an extent of 1e-6 of
 /// the largest one.
 [[nodiscard]] PlaneMap plane_map(std::span<const WarpInput::Point> body, const WarpChoice& choice) noexcept;
+/// The same, of points whose bounds are known.
+[[nodiscard]] PlaneMap plane_map(std::span<const WarpInput::Point> body, const PointBounds& bounds,
+                                 const WarpChoice& choice) noexcept;
 
 /// Depths along the light in the light frame: from `bottom` upwards, with (z - bottom) / w between 0 and
 /// `height`.
