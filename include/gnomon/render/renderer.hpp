@@ -57,7 +57,7 @@ struct IdentifierTest {
   /// shadows that shrink by as many texels.
   int neighbours = 0;
 };
-inline constexpr int kMostIdentifierNeighbours = 4;
+inline constexpr int kMostIdentifierNeighbours = 4;  ///< of IdentifierTest::neighbours
 
 /// A filter whose program is compiled; only Renderer::prepare and its relatives make one.
 struct PreparedFilter {

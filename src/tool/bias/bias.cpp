@@ -210,6 +210,7 @@ int run_bias(const BiasRequest& request) {
   for (const std::string& scene : request.scenes) check_scene_word("SCENE", scene);
   const std::vector<NamedBias> biases = chosen_biases(request.biases);
   const Sweep sweep = sweep_of(request);
+  for (const std::string& line : sweep.left_out) warn(line);
   watch_interrupts();
   if (!request.out.empty()) make_folder("--out", request.out);
   const auto context = render::create_context(sweep.context);
@@ -235,7 +236,7 @@ std::vector<Option> map_options(BiasRequest& request) {
            .only_names = false},
           {.name = "--filter",
            .target = &request.filter,
-           .help = "filter that reads the maps, with options as in pcf:radius=2",
+           .help = "filter that reads the maps, with options as in pcf:radius=2; or identifiers",
            .names = names_in(render::all_filters()),
            .only_names = false},
           {.name = "--warp",
