@@ -15,6 +15,7 @@
 #include "gnomon/history.hpp"
 #include "gnomon/jitter.hpp"
 #include "gnomon/light.hpp"
+#include "gnomon/light_clusters.hpp"
 #include "gnomon/lights.hpp"
 #include "gnomon/metric.hpp"
 #include "gnomon/pages.hpp"

@@ -20,7 +20,15 @@ layout(std140, binding = 0) uniform Frame {
   ShadowMap maps[kMaxMaps];
 } frame;
 
-#ifndef GNOMON_PAGES
+// Where the numbers of the light stand: of one of many, or of the frame's.
+#ifdef GNOMON_CLUSTERS
+#include "common/own_light.glsl"
+#define lit_by own_light
+#else
+#define lit_by frame
+#endif
+
+#if !defined(GNOMON_PAGES) && !defined(GNOMON_CLUSTERS)
 ShadowMap shadow_map(int index) { return frame.maps[index]; }
 #ifdef GNOMON_POOL
 float layer_of_map(int index) { return 0.0; }

@@ -15,23 +15,31 @@ vec3 view_ray(vec2 pixel) {
 
 // Falloff of a local light by its cone and range; both end softly.
 float local_light_falloff(vec3 ray, float away) {
-  float range = frame.layer.z;
+  float range = lit_by.layer.z;
   float fade = range > 0.0 ? clamp(1.0 - away / range, 0.0, 1.0) : 1.0;
-  float cone = smoothstep(frame.light_cone.w, mix(frame.light_cone.w, 1.0, 0.1), dot(ray, frame.light_cone.xyz));
-  return (frame.light_cone.w > -1.0 ? cone : 1.0) * fade * (2.0 - fade);
+  float cone = smoothstep(lit_by.light_cone.w, mix(lit_by.light_cone.w, 1.0, 0.1), dot(ray, lit_by.light_cone.xyz));
+  return (lit_by.light_cone.w > -1.0 ? cone : 1.0) * fade * (2.0 - fade);
 }
 
-bool is_local_light() { return frame.light_place.w > 0.5; }
+bool is_local_light() { return lit_by.light_place.w > 0.5; }
 
-float light_on(Surface s, ivec2 pixel) {
-  vec3 ray_of_light = light_at(frame.light_place, s.position);
+// 1 for a sun.
+float falloff_at(Surface s) {
+  vec3 ray_of_light = light_at(lit_by.light_place, s.position);
+  return is_local_light() ? local_light_falloff(ray_of_light, length(s.position - lit_by.light_place.xyz)) : 1.0;
+}
+
+// `lit`: of the mask, 1 lit .. 0 in shadow.
+float light_on(Surface s, float lit) {
+  vec3 ray_of_light = light_at(lit_by.light_place, s.position);
   float cosine = max(-dot(s.shading_normal, ray_of_light), 0.0);
   // Faded where smooth normals still see the sun and their flat triangles no longer do: else triangles show.
   const float kTerminator = 0.2;
-  float sun = cosine * smoothstep(0.0, kTerminator, cosine) * texelFetch(mask_image, pixel, 0).r;
-  if (is_local_light()) sun *= local_light_falloff(ray_of_light, length(s.position - frame.light_place.xyz));
+  float sun = cosine * smoothstep(0.0, kTerminator, cosine) * lit;
+  if (is_local_light()) sun *= local_light_falloff(ray_of_light, length(s.position - lit_by.light_place.xyz));
   return sun;
 }
+float light_on(Surface s, ivec2 pixel) { return light_on(s, texelFetch(mask_image, pixel, 0).r); }
 
 // A little air in the distance.
 vec3 through_air(vec3 color, Surface s, vec3 ray, vec3 light) {

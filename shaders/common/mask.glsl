@@ -41,35 +41,33 @@ float frame_noise() {
 
 float visibility_through(int index, Surface s, float noise) {
   ShadowMap map = shadow_map(index);
-  ShadowLookup at = shadow_lookup(map, layer_of_map(index), frame.layer.xy, ShadowSurface(s.position, s.normal, frame.light_place),
-                                  frame.bias);
+  ShadowLookup at = shadow_lookup(map, layer_of_map(index), lit_by.layer.xy, ShadowSurface(s.position, s.normal, lit_by.light_place),
+                                  lit_by.bias);
   if (filtering.sums.w > 0.5) at.depth_gradient = vec2(0.0);
   ShadowKernel kernel = ShadowKernel(filtering.kernel.x, filtering.kernel.y > 0.5, filtering.kernel.z > 0.5);
   set_kernel(at, map, kernel, kernel.minify ? texels_per_pixel(map, s) : mat2(0.0));
   at.rotation = 6.2831853 * noise;
-#ifdef GNOMON_PAGES
+#if defined(GNOMON_PAGES) || defined(GNOMON_CLUSTERS)
   return visibility(at, map, shadow_options(0));
 #else
   return visibility(at, map, shadow_options(index));
 #endif
 }
 
-void main() {
+// Share of the light that reaches the surface, and the map that it comes from.
+vec2 mask_of(Surface s) {
   const float kBlend = 1.0, kDither = 2.0;  // SplitTransition
-  Surface s = surface_at(ivec2(gl_FragCoord.xy));
-  mask = vec2(1.0, -1.0);
-  if (s.sky) return;
-  int count = int(frame.light.w);
-  bool by_hold = frame.selection.x > 0.5;
-  vec3 light = light_at(frame.light_place, s.position);
+  int count = int(lit_by.light.w);
+  bool by_hold = lit_by.selection.x > 0.5;
+  vec3 light = light_at(lit_by.light_place, s.position);
 #ifdef GNOMON_PAGES
   int map = page_serving(s.position, int(page_counts.x), page_counts.y - 1u);
 #else
-  int map = map_serving(s.position, s.depth, light, frame.selection.x, count);
+  int map = map_serving(s.position, s.depth, light, lit_by.selection.x, count);
 #endif
   bool faces_light = dot(s.normal, light) < 0.0;
-  mask = vec2(faces_light || count == 0 ? 1.0 : 0.0, float(map));
-  if (map < 0 || !faces_light) return;
+  vec2 mask = vec2(faces_light || count == 0 ? 1.0 : 0.0, float(map));
+  if (map < 0 || !faces_light) return mask;
   float noise = frame_noise();
   float next_share = 0.0;
   if (frame.selection.y > 0.5 && !by_hold && map + 1 < count) {
@@ -79,5 +77,13 @@ void main() {
   if (next_share < 1.0) mask.x = visibility_through(map, s, noise);
   if (next_share > 0.0) mask.x = mix(mask.x, visibility_through(map + 1, s, noise), next_share);
   if (next_share == 1.0) mask.y = float(map + 1);
+  return mask;
 }
+
+#ifndef GNOMON_CLUSTERS
+void main() {
+  Surface s = surface_at(ivec2(gl_FragCoord.xy));
+  mask = s.sky ? vec2(1.0, -1.0) : mask_of(s);
+}
+#endif
 #endif

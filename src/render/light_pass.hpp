@@ -8,6 +8,7 @@
 #include "gl_object.hpp"
 #include "gnomon/lights.hpp"
 #include "gnomon/render/renderer.hpp"
+#include "light_lists.hpp"
 #include "page_pool.hpp"
 
 namespace gnomon::render {
@@ -20,6 +21,7 @@ struct LightPass {
   Program add, finish;
   Texture sum;
   Framebuffer sum_fbo;
+  Framebuffer mask_and_sum_fbo;
   int width = 0, height = 0;
   // Contents of the pool.
   bool holds = false;
@@ -28,6 +30,7 @@ struct LightPass {
   // For one frame.
   std::vector<DrawnPage> maps;        ///< to draw
   std::vector<std::size_t> light_of;  ///< by map to draw
+  LightLists lists;
 };
 
 /// The pixels that a light can light, from the lower left corner; all of them for a sun.

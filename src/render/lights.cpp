@@ -51,6 +51,14 @@ void move_to_place(const ShadowMap& map, const TexelRect& place, bool by_hold, c
   block.interval_size.w = pool.y;
 }
 
+/// It adds nothing to the picture.
+bool is_dark(const LightMaps& maps, const DrawnLight& light) noexcept {
+  const auto* spot = std::get_if<SpotLight>(&light.light);
+  const auto* point = std::get_if<PointLight>(&light.light);
+  const bool reaches = spot != nullptr ? spot->range > 0.0 : point == nullptr || point->range > 0.0;
+  return maps.outcome == LightOutcome::without_receiver || light.color == glm::vec3(0.0f) || !reaches;
+}
+
 /// The block that all passes read for one light.
 FrameBlock block_of(const DrawnLight& light, const LightMaps& maps, const Camera& camera,
                     const FrameOptions& options, const glm::ivec2& pool) noexcept {
@@ -84,6 +92,10 @@ void LightPass::resize(int new_width, int new_height) {
   sum = pixel_image(GL_RGBA32F, width, height);
   sum_fbo = make_framebuffer();
   glNamedFramebufferTexture(sum_fbo.name(), GL_COLOR_ATTACHMENT0, sum.name(), 0);
+  mask_and_sum_fbo = make_framebuffer();
+  glNamedFramebufferTexture(mask_and_sum_fbo.name(), GL_COLOR_ATTACHMENT1, sum.name(), 0);
+  constexpr std::array<GLenum, 2> kBoth{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  glNamedFramebufferDrawBuffers(mask_and_sum_fbo.name(), 2, kBoth.data());
 }
 
 TexelRect lit_pixels(const Light& light, const Camera& camera) noexcept {
@@ -121,6 +133,8 @@ PreparedFilter Renderer::prepare_lights(const FilterSettings& settings) {
   const PreparedFilter prepared = prepare(settings);
   Program& program = impl_->filter_programs[prepared.program].mask_lights;
   if (!program) program = make_lights_program(settings);
+  Program& clustered = impl_->filter_programs[prepared.program].shade_clusters;
+  if (!clustered && LightLists::are_supported()) clustered = make_clusters_program(settings);
   if (!impl_->light_pass) impl_->light_pass.emplace();
   return prepared;
 }
@@ -173,22 +187,42 @@ void Renderer::Impl::draw_pool_maps(std::span<const DrawnLight> lights, const De
   glDisable(GL_SCISSOR_TEST);
 }
 
-void Renderer::Impl::add_lights(const LightPlan& plan, std::span<const DrawnLight> lights,
-                                const Camera& camera, const PreparedFilter& filter,
-                                const FrameOptions& options) noexcept {
+bool Renderer::Impl::add_clustered_lights(const LightPlan& plan, std::span<const DrawnLight> lights,
+                                          const Camera& camera, const PreparedFilter& filter,
+                                          const FrameOptions& options) {
+  const Program& program = filter_programs[filter.program].shade_clusters;
+  if (!program || options.light_clusters.tile_pixels == 0) return false;
+  LightPass& pass = *light_pass;
+  pass.lists.clear();
+  for (std::size_t i = 0; i < std::min(lights.size(), plan.lights.size()); ++i) {
+    if (is_dark(plan.lights[i], lights[i])) continue;
+    pass.lists.add(lights[i].light,
+                   block_of(lights[i], plan.lights[i], camera, options, {maps.width, maps.height}),
+                   lights[i].color);
+  }
+  if (!pass.lists.send(camera, options.light_clusters)) return false;
+  FilterBlock filtering = filter_block(filter.settings, BlurSides{});
+  filtering.sums.w = options.receiver_plane ? 0.0f : 1.0f;
+  upload(frame_block({}, camera, options, maps.width, maps.height, BlurSides{}, DepthCurves{}), filtering);
+  glNamedFramebufferTexture(pass.mask_and_sum_fbo.name(), GL_COLOR_ATTACHMENT0, targets.mask.name(), 0);
+  draw_mask(program, pass.mask_and_sum_fbo.name());
+  return true;
+}
+
+void Renderer::Impl::add_each_light(const LightPlan& plan, std::span<const DrawnLight> lights,
+                                    const Camera& camera, const PreparedFilter& filter,
+                                    const FrameOptions& options) noexcept {
   const LightPass& pass = *light_pass;
   constexpr std::array<float, 4> kDark{}, kLit{1.0f, -1.0f};
   // Not through the framebuffer: under Mesa such a clear was seen to be lost where no draw follows it.
   glClearTexImage(pass.sum.name(), 0, GL_RGBA, GL_FLOAT, kDark.data());
   glClearTexImage(targets.mask.name(), 0, GL_RG, GL_FLOAT, kLit.data());
-  bind_noise(options.noise);
   glEnable(GL_SCISSOR_TEST);
   for (std::size_t i = 0; i < std::min(lights.size(), plan.lights.size()); ++i) {
     const LightMaps& own = plan.lights[i];
     const DrawnLight& light = lights[i];
     const TexelRect part = lit_pixels(light.light, camera);
-    const bool dark = light.color == glm::vec3(0.0f);
-    if (own.outcome == LightOutcome::without_receiver || part.empty() || dark) continue;
+    if (is_dark(own, light) || part.empty()) continue;
     const ShadowPlan& of_light = plan_of(light, own);
     FilterBlock filtering = filter_block(filter.settings, BlurSides{});
     set_depth_curves(depth_curves(of_light), filtering);
@@ -196,7 +230,7 @@ void Renderer::Impl::add_lights(const LightPlan& plan, std::span<const DrawnLigh
     fit_options(filter.settings, of_light, filtering);
     upload(block_of(light, own, camera, options, {maps.width, maps.height}), filtering);
     glScissor(part.x, part.y, part.width, part.height);
-    draw_mask(filter_programs[filter.program].mask_lights, false);
+    draw_mask(filter_programs[filter.program].mask_lights, targets.mask_fbo.name());
     glBindTextureUnit(kMaskUnit, targets.mask.name());
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
@@ -206,6 +240,14 @@ void Renderer::Impl::add_lights(const LightPlan& plan, std::span<const DrawnLigh
     glDisable(GL_BLEND);
   }
   glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::Impl::add_lights(const LightPlan& plan, std::span<const DrawnLight> lights,
+                                const Camera& camera, const PreparedFilter& filter,
+                                const FrameOptions& options) noexcept {
+  bind_noise(options.noise);
+  if (!add_clustered_lights(plan, lights, camera, filter, options))
+    add_each_light(plan, lights, camera, filter, options);
 }
 
 void Renderer::Impl::draw_sum_of_lights(const Camera& camera, std::span<const DrawnLight> lights,

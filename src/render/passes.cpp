@@ -380,14 +380,14 @@ void Renderer::Impl::bind_noise(SampleNoise noise) noexcept {
   glBindSampler(kNoiseUnit, 0);
 }
 
-void Renderer::Impl::draw_mask(const Program& program, bool accumulated) noexcept {
+void Renderer::Impl::draw_mask(const Program& program, GLuint fbo) noexcept {
   glBindTextureUnit(kCompareUnit, maps.depth.name());
   glBindSampler(kCompareUnit, maps.compare_sampler.name());
   glBindTextureUnit(kDepthUnit, maps.depth.name());
   glBindSampler(kDepthUnit, maps.plain_sampler.name());
   stored.bind();
   if (drew_silhouettes) silhouettes->bind();
-  fullscreen(accumulated ? history.single_fbo() : targets.mask_fbo.name(), program);
+  fullscreen(fbo, program);
   glBindSampler(kExtraUnit, 0);  // shared with the depth pyramid
 }
 

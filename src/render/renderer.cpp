@@ -311,7 +311,8 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   accumulated ? impl.history.resize(camera.width, camera.height) : impl.history.forget();
   timed(Pass::mask, [&] {
     impl.bind_noise(options.noise);
-    impl.draw_mask(impl.filter_programs[filter.program].mask, accumulated);
+    impl.draw_mask(impl.filter_programs[filter.program].mask,
+                   accumulated ? impl.history.single_fbo() : impl.targets.mask_fbo.name());
   });
   if (accumulated) timed(Pass::accumulate, [&] { impl.draw_accumulated(camera, options, block); });
   if (impl.panes) {
@@ -393,7 +394,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   timed(Pass::mask, [&] {
     impl.pages.bind();
     impl.bind_noise(options.noise);
-    impl.draw_mask(impl.filter_programs[filter.program].mask_pages, false);
+    impl.draw_mask(impl.filter_programs[filter.program].mask_pages, impl.targets.mask_fbo.name());
   });
   timed(Pass::shade, [&] { impl.draw_shade(); });
   stats.map_count = 1;

@@ -128,15 +128,21 @@ struct Renderer::Impl {
   void list_pool_maps(const LightPlan& plan, std::span<const DrawnLight> lights,
                       const glm::dvec3& camera_world, FrameStats& stats);
   void draw_pool_maps(std::span<const DrawnLight> lights, const DepthDraw& how) noexcept;
-  /// A mask for each light, and what it adds to the sum.
+  /// The sum of all lights: in one pass by clusters, else by a mask for each.
   void add_lights(const LightPlan& plan, std::span<const DrawnLight> lights, const Camera& camera,
                   const PreparedFilter& filter, const FrameOptions& options) noexcept;
+  /// False, with nothing drawn, where lists cannot be made or are not wanted.
+  [[nodiscard]] bool add_clustered_lights(const LightPlan& plan, std::span<const DrawnLight> lights,
+                                          const Camera& camera, const PreparedFilter& filter,
+                                          const FrameOptions& options);
+  void add_each_light(const LightPlan& plan, std::span<const DrawnLight> lights, const Camera& camera,
+                      const PreparedFilter& filter, const FrameOptions& options) noexcept;
   /// The picture from that sum.
   void draw_sum_of_lights(const Camera& camera, std::span<const DrawnLight> lights,
                           const FrameOptions& options) noexcept;
   /// `program` writes at least what programs.surfaces writes.
   void draw_surfaces(GLuint fbo, const Program& program) noexcept;
-  void draw_mask(const Program& program, bool accumulated) noexcept;
+  void draw_mask(const Program& program, GLuint fbo) noexcept;
   void draw_accumulated(const Camera& camera, const FrameOptions& options, const FrameBlock& block) noexcept;
   /// Makes the noise tile at the first frame that reads it.
   void bind_noise(SampleNoise noise) noexcept;

@@ -166,6 +166,10 @@ Program make_lights_program(const FilterSettings& settings) {
   return make_depth_program(settings, "mask_lights.frag", "a pool of lights has");
 }
 
+Program make_clusters_program(const FilterSettings& settings) {
+  return make_depth_program(settings, "shade_clusters.frag", "a pool of lights has");
+}
+
 FilterPrograms make_filter_programs(const FilterSettings& settings) {
   FilterPrograms programs;
   programs.variant = variant_of(settings);

@@ -33,8 +33,9 @@ struct FilterVariant {
 /// blurred by store_rows and blur_walk where all maps have one reach, else by store and blur.
 struct FilterPrograms {
   FilterVariant variant;
-  Program mask_pages;   ///< made when pages are first drawn
-  Program mask_lights;  ///< made when many lights are first drawn
+  Program mask_pages;      ///< made when pages are first drawn
+  Program mask_lights;     ///< made when many lights are first drawn
+  Program shade_clusters;  ///< the same
   Program mask, mark, store_rows, blur_walk, store, blur, join_mip, depth_max, sum_rows, sum_columns;
 };
 /// Paths of the shaders that the filter takes part in when it is read so, that of the mask first.
@@ -43,6 +44,8 @@ struct FilterPrograms {
 [[nodiscard]] Program make_pages_program(const FilterSettings& settings);
 /// The same of one of many lights, from a pool.
 [[nodiscard]] Program make_lights_program(const FilterSettings& settings);
+/// The mask and the light of all of them, by clusters.
+[[nodiscard]] Program make_clusters_program(const FilterSettings& settings);
 /// Throws RenderError with shader file and line.
 [[nodiscard]] FilterPrograms make_filter_programs(const FilterSettings& settings);
 

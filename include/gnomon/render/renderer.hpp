@@ -12,6 +12,7 @@
 #include "gnomon/bias.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
+#include "gnomon/light_clusters.hpp"
 #include "gnomon/lights.hpp"
 #include "gnomon/pages.hpp"
 #include "gnomon/plan.hpp"
@@ -137,6 +138,10 @@ struct FrameOptions {
   /// PruneRule::small_casters: the most texels of a map, as a share of all, that omitted casters may cover,
   /// 0..1. Larger: fewer draws, and small shadows disappear.
   double lost_shadow_share = 1e-4;
+  /// Frames of many lights: clusters of the image, each with a list of the lights that reach it. With a
+  /// tile_pixels of 0 every light has passes of its own, as where the driver has no storage buffers in
+  /// fragment shaders.
+  ClusterOptions light_clusters;
   /// Bounds of casters that the caller says have changed since the last frame, where they were and where they
   /// are, world space. Cached maps and pages are drawn again where a box reaches them. Instances moved by
   /// Renderer::move_instance and Renderer::apply_pose are known already.
@@ -271,15 +276,16 @@ class Renderer {
   /// Compiles the filter's program for many lights, once. Throws RenderError as prepare_pages.
   [[nodiscard]] PreparedFilter prepare_lights(const FilterSettings& settings);
   /// Draws the picture of many lights. Maps of due lights are drawn into their places in one pool, those of
-  /// the others stay. Each light then has a mask and adds its light to the picture, in the rectangle of the
-  /// image that its range covers: time grows with lights times pixels, twice over. Lights without a receiver
-  /// in view are skipped. A pool whose texels are lost (other frames in between, another size or depth layer)
-  /// is drawn whole.
+  /// the others stay. Then one pass over the image adds up the light of those that reach a pixel's cluster
+  /// (cluster_lights, FrameOptions::light_clusters), each through its shadow. Lights without a receiver in
+  /// view, and local lights whose range is not above 0, are skipped. A pool whose texels are lost (other
+  /// frames in between, another size or depth layer) is drawn whole.
   ///
   /// `lights`: one for each light of the plan; fewer are drawn as far as they go. `filter` must come from
   /// prepare_lights, and the plans' border must hold its kernel (set_margin). Maps of other shapes than
   /// linear, or more than the light has places, count as none. No accumulation, and no picture of the error
-  /// or of maps. Pass::mask is the time of masks and light together; FrameStats::map[0] the sum over all
+  /// or of maps. mask() is that of the last light that reaches the pixel. Pass::mask is the time of masks and
+  /// light together; FrameStats::map[0] the sum over all
   /// maps.
   FrameStats draw(const LightPlan& plan, std::span<const DrawnLight> lights, const Camera& camera,
                   const PreparedFilter& filter, const FrameOptions& options = {}) noexcept;
