@@ -27,6 +27,17 @@ struct LightRequest {
   /// Its casters moved, or its maps are lost: they are due in this frame. A light that moved itself is
   /// noticed.
   bool changed = false;
+  /// Work of drawing all its maps once, >= 0, as far as known: LightOptions::millisecond_budget counts it.
+  double draws = 0.0, triangles = 0.0;
+};
+
+/// Costs of drawing maps on one machine, milliseconds, all >= 0: DrawingCosts of study/technique.hpp,
+/// which `gnomon calibrate` measures.
+struct LightCosts {
+  double per_map = 0.0, per_megatexel = 0.0;          ///< of maps, by their number and size
+  double per_kilodraw = 0.0, per_megatriangle = 0.0;  ///< of LightRequest::draws and triangles
+  /// Equal in all members.
+  bool operator==(const LightCosts&) const = default;
 };
 
 /// Options of plan_lights besides PlanOptions. Every default suits most scenes.
@@ -35,6 +46,15 @@ struct LightOptions {
   int pool_width = 4096, pool_height = 4096;
   /// Most texels that all maps may have together, at least 1. More than the pool has: the pool.
   std::int64_t texel_budget = kWholePool;
+  /// Most pages that all maps may cover together, >= 0; 0: no such budget. With one, maps have at least
+  /// page_texels along each side, so that none shares a page.
+  int page_budget = 0;
+  int page_texels = 128;  ///< side of a page, a power of two up to most_size; read with a page_budget alone
+  /// Most milliseconds per frame that drawing the maps may take by `costs`, >= 0; 0: no such budget. Counted
+  /// in the mean over frames: maps of a light that is due every n-th frame cost an n-th. Frames with new or
+  /// moved lights cost more (LightPlan::due_milliseconds).
+  double millisecond_budget = 0.0;
+  LightCosts costs;  ///< of millisecond_budget; LightPlan has the sums in any case
   /// Side of the smallest maps, texels, a power of two up to most_size. Smaller ones only where the budget
   /// does not suffice for all lights: never below least_budget_side, rounded up to a power of two.
   int least_size = 64;
@@ -97,6 +117,7 @@ struct LightHistory {
   std::span<LightState> lights;
   std::int64_t frame = 0;  ///< of the next plan
   LightOptions options;    ///< of the last plan: under another pool or other sizes, all places are new
+  int least_side = 0;      ///< of the last plan, texels: what places are counted in
 };
 
 /// Working memory of plan_lights for one light. Plain data without a meaning of its own.
@@ -108,6 +129,9 @@ struct LightWork {
   int level;            ///< of their size: the smallest doubled so many times
   int top;              ///< largest level
   int last;             ///< level in the last plan
+  double price = 0.0;   ///< milliseconds per frame for each square of the smallest size, of all its maps
+  double fixed = 0.0;   ///< the same whatever the size
+  int other = 0;        ///< level of another choice
 };
 /// The same for one map in the pool.
 struct LightPlace {
@@ -138,6 +162,9 @@ struct LightPlan {
   int pool_width = 0, pool_height = 0;            ///< texels
   std::int64_t texels = 0;                        ///< of all maps
   std::int64_t due_texels = 0;                    ///< of the maps that are due
+  std::int64_t pages = 0;                         ///< of all maps; 0 without LightOptions::page_budget
+  double milliseconds = 0.0;                      ///< by LightOptions::costs, per frame in the mean
+  double due_milliseconds = 0.0;                  ///< the same, of what is due in this frame
   int mapped = 0;                                 ///< lights that have maps
   int due = 0;                                    ///< of them, to be planned and drawn in this frame
   /// The sum over the lights of weight * share * m: what the sizes minimise.
@@ -159,6 +186,10 @@ struct LightPlan {
 /// places change only where that pays, and only some lights are due: those with a large share every frame,
 /// small ones every n-th, a new, moved or changed one at once. Draw all that are due; the history counts them
 /// as drawn.
+///
+/// Budgets of texels, pages and milliseconds hold together. Where milliseconds decide, that light is enlarged
+/// whose error falls most per millisecond. A budget in which not even the smallest maps of all lights fit is
+/// refused.
 ///
 /// A light that is due is planned by make_plan with light_options and the camera, or with camera_round for
 /// a light of several frames: its maps must serve what later frames see.

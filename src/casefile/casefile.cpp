@@ -99,11 +99,15 @@ std::vector<LightRequest> lights_from(const Fields& fields) {
   std::vector<LightRequest> lights;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string path = "lights[" + std::to_string(i) + "]";
-    LightRequest request{light_from(list[i], path, {"weight"})};
-    if (list[i].contains("weight")) {
-      if (!list[i].at("weight").is_number()) throw CaseError(path + ".weight: needs a number");
-      request.weight = list[i].at("weight").get<double>();
-    }
+    LightRequest request{light_from(list[i], path, {"weight", "draws", "triangles"})};
+    const auto read = [&](const char* key, double& value) {
+      if (!list[i].contains(key)) return;
+      if (!list[i].at(key).is_number()) throw CaseError(path + "." + key + ": needs a number");
+      value = list[i].at(key).get<double>();
+    };
+    read("weight", request.weight);
+    read("draws", request.draws);
+    read("triangles", request.triangles);
     lights.push_back(request);
   }
   return lights;
@@ -287,14 +291,30 @@ PageOptions pages_from(const json& value) {
   return pages;
 }
 
+LightCosts light_costs_from(const json& value) {
+  const Fields fields(value, "options.lights.costs",
+                      {"per_map", "per_megatexel", "per_kilodraw", "per_megatriangle"});
+  LightCosts costs;
+  fields.read("per_map", costs.per_map);
+  fields.read("per_megatexel", costs.per_megatexel);
+  fields.read("per_kilodraw", costs.per_kilodraw);
+  fields.read("per_megatriangle", costs.per_megatriangle);
+  return costs;
+}
+
 LightOptions light_options_from(const json& value) {
-  const Fields fields(value, "options.lights",
-                      {"pool_width", "pool_height", "texel_budget", "least_size", "most_size", "enough_m",
-                       "most_frames", "full_share"});
+  const Fields fields(
+      value, "options.lights",
+      {"pool_width", "pool_height", "texel_budget", "page_budget", "page_texels", "millisecond_budget",
+       "costs", "least_size", "most_size", "enough_m", "most_frames", "full_share"});
   LightOptions options;
   fields.read("pool_width", options.pool_width);
   fields.read("pool_height", options.pool_height);
   fields.read("texel_budget", options.texel_budget);
+  fields.read("page_budget", options.page_budget);
+  fields.read("page_texels", options.page_texels);
+  fields.read("millisecond_budget", options.millisecond_budget);
+  if (value.contains("costs")) options.costs = light_costs_from(value.at("costs"));
   fields.read("least_size", options.least_size);
   fields.read("most_size", options.most_size);
   fields.read("enough_m", options.enough_m);
@@ -423,10 +443,17 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"pages.reach_texels", "options.pages.reach_texels: must lie in 0..page_texels"},
       {"pages.least_light_sine", "options.pages.least_light_sine: must lie in 0..1"},
       {"light.weight", "light.weight: must lie in 0..1e30"},
+      {"light.draws", "light.draws: must lie in 0..1e30"},
+      {"light.triangles", "light.triangles: must lie in 0..1e30"},
       {"lights", "lights: must be at most 4096"},
       {"lights.pool_width, lights.pool_height",
        "options.lights.pool_width, pool_height: must be multiples of most_size up to 65536"},
       {"lights.texel_budget", "options.lights.texel_budget: is too small for a map of each light"},
+      {"lights.page_budget", "options.lights.page_budget: is too small for a page of each map"},
+      {"lights.page_texels", "options.lights.page_texels: must be a power of two up to most_size"},
+      {"lights.millisecond_budget",
+       "options.lights.millisecond_budget: is too small for the least maps of all lights"},
+      {"lights.costs", "options.lights.costs: must lie in 0..1e30"},
       {"lights.least_size", "options.lights.least_size: must be a power of two up to most_size"},
       {"lights.most_size",
        "options.lights.most_size: must be a power of two in 16..16384 that holds filters"},

@@ -106,7 +106,35 @@ void require_places(const LightPlan& plan, const LightOptions& options) {
 }
 
 bool small_budget(const LightPlan& plan) {
-  return plan.invalid_field == "lights.texel_budget";
+  return plan.invalid_field == "lights.texel_budget" || plan.invalid_field == "lights.page_budget" ||
+         plan.invalid_field == "lights.millisecond_budget";
+}
+
+/// Prices of about a millisecond per map of 1024 texels, in any proportion.
+LightCosts draw_costs() {
+  return {between(0.0, 0.1), between(0.01, 3.0), between(0.0, 2.0), between(0.0, 2.0)};
+}
+void draw_work_of_lights(Scene& scene) {
+  for (LightRequest& light : scene.lights) {
+    light.draws = std::floor(between(0.0, 100.0));
+    light.triangles = std::floor(between(0.0, 1e5));
+  }
+}
+
+/// The price of a plan, light by light, as the header states it.
+double milliseconds_of(const Scene& scene, const LightPlan& plan) {
+  const LightCosts& costs = scene.options.costs;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+    const LightMaps& maps = plan.lights[i];
+    if (maps.map_count == 0) continue;
+    const double texels = static_cast<double>(maps.size) * maps.size * maps.map_count;
+    sum += (costs.per_map * maps.map_count + costs.per_megatexel * texels * 1e-6 +
+            costs.per_kilodraw * scene.lights[i].draws * 1e-3 +
+            costs.per_megatriangle * scene.lights[i].triangles * 1e-6) /
+           maps.frames;
+  }
+  return sum;
 }
 
 TEST(LightsLaw, every_light_in_view_has_maps_and_places_never_overlap) {
@@ -211,6 +239,82 @@ TEST(LightsLaw, more_texels_never_raise_the_error) {
   EXPECT_GT(compared, 1000);
 }
 
+TEST(LightsLaw, budgets_of_pages_and_milliseconds_are_kept_and_no_light_starves) {
+  int by_pages = 0, by_time = 0;
+  for_all(500, [&] {
+    Scene scene = draw_scene(60);
+    draw_work_of_lights(scene);
+    scene.options.costs = draw_costs();
+    const bool pages = chance(0.5);
+    if (pages) {
+      scene.options.page_texels = 16 << pick(5);
+      scene.options.page_budget = 1 + static_cast<int>(std::exp2(between(0.0, 12.0)));
+    }
+    if (!pages || chance(0.3)) scene.options.millisecond_budget = std::exp2(between(-6.0, 5.0));
+    LightStorage memory(scene.lights.size());
+    const LightPlan plan = scene.plan(memory);
+    if (small_budget(plan)) return;
+    require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
+    require_places(plan, scene.options);
+    const double milliseconds = milliseconds_of(scene, plan);
+    require(std::abs(plan.milliseconds - milliseconds) <= 1e-9 * (1.0 + milliseconds), "another sum",
+            plan.milliseconds, milliseconds);
+    if (pages) {
+      std::int64_t covered = 0;
+      for (const LightMaps& maps : plan.lights) {
+        if (maps.map_count == 0) continue;
+        require(maps.size % scene.options.page_texels == 0, "shares a page", maps.size);
+        const std::int64_t across = maps.size / scene.options.page_texels;
+        covered += across * across * maps.map_count;
+      }
+      require(covered <= scene.options.page_budget, "above the budget of pages", covered);
+      require(covered == plan.pages, "pages counted", covered, plan.pages);
+      by_pages += plan.mapped > 1;
+    }
+    if (scene.options.millisecond_budget > 0.0) {
+      require(plan.milliseconds <= scene.options.millisecond_budget, "above the budget of milliseconds",
+              plan.milliseconds, scene.options.millisecond_budget);
+      by_time += plan.mapped > 1;
+    }
+    for (const LightMaps& maps : plan.lights) {
+      const bool mapped =
+          maps.outcome == LightOutcome::mapped || maps.outcome == LightOutcome::below_least_size;
+      require(mapped == (maps.map_count > 0 && maps.size > 0), "starves");
+    }
+  });
+  EXPECT_GT(by_pages, 50);
+  EXPECT_GT(by_time, 50);
+}
+
+TEST(LightsLaw, more_pages_or_milliseconds_never_raise_the_error) {
+  int pages_compared = 0, time_compared = 0, gained = 0;
+  for_all(150, [&] {
+    Scene scene = draw_scene(60);
+    draw_work_of_lights(scene);
+    scene.options.costs = draw_costs();
+    const bool pages = chance(0.4);
+    scene.options.page_texels = 16 << pick(4);
+    double last = std::numeric_limits<double>::infinity(), first = 0.0;
+    LightStorage memory(scene.lights.size());
+    for (double budget = pages ? 16.0 : 0.02; budget < (pages ? 5e4 : 300.0); budget *= between(1.02, 1.6)) {
+      if (pages)
+        scene.options.page_budget = static_cast<int>(budget);
+      else
+        scene.options.millisecond_budget = budget;
+      const LightPlan plan = scene.plan(memory);
+      if (plan.status != PlanStatus::ok) continue;
+      require(plan.error <= last * (1.0 + 1e-9), "budget", budget, "error", plan.error, "before", last);
+      if (first == 0.0) first = plan.error;
+      last = plan.error;
+      ++(pages ? pages_compared : time_compared);
+    }
+    gained += first > 1.1 * last;
+  });
+  EXPECT_GT(pages_compared, 300);
+  EXPECT_GT(time_compared, 1000);
+  EXPECT_GT(gained, 80);
+}
+
 /// Demands and maps of lights, from a seed.
 std::vector<LightWork> draw_work(int count, const SizeLadder& ladder) {
   std::vector<LightWork> work;
@@ -230,12 +334,14 @@ double error_of(const std::vector<LightWork>& work, const SizeLadder& ladder) {
 
 /// The least error of all sizes from the floor to the top.
 double brute_force(const std::vector<LightWork>& work, const SizeLadder& ladder, std::size_t from,
-                   std::int64_t cells, double error, double best) {
-  if (cells < 0 || error >= best) return best;
+                   const SizeBudget& left, double error, double best) {
+  if (left.cells < 0 || left.milliseconds < 0.0 || error >= best) return best;
   if (from == work.size()) return error;
   for (int level = ladder.top; level >= ladder.floor; --level) {
-    best = brute_force(work, ladder, from + 1, cells - work[from].maps * SizeLadder::cells(level),
-                       error + work[from].demand / ladder.inside(level), best);
+    const auto squares = static_cast<double>(SizeLadder::cells(level));
+    const SizeBudget rest{left.cells - work[from].maps * SizeLadder::cells(level),
+                          left.milliseconds - work[from].fixed - work[from].price * squares};
+    best = brute_force(work, ladder, from + 1, rest, error + work[from].demand / ladder.inside(level), best);
   }
   return best;
 }
@@ -247,10 +353,10 @@ TEST(LightsLaw, eight_lights_are_within_five_percent_of_all_sizes_tried) {
   for_all(150, [&] {
     std::vector<LightWork> work = draw_work(8, ladder);
     const auto cells = static_cast<std::int64_t>(std::exp2(between(9.0, 16.0)));
-    if (!choose_sizes(work, ladder, cells, 1.0)) return;
+    if (!choose_sizes(work, ladder, {cells}, 1.0)) return;
     if (std::any_of(work.begin(), work.end(), [&](const LightWork& l) { return l.level < ladder.floor; }))
       return;
-    const double best = brute_force(work, ladder, 0, cells, 0.0, std::numeric_limits<double>::infinity());
+    const double best = brute_force(work, ladder, 0, {cells}, 0.0, std::numeric_limits<double>::infinity());
     const double ratio = error_of(work, ladder) / best;
     worst = std::max(worst, ratio);
     require(ratio <= 1.05, "error over the best", ratio);
@@ -260,12 +366,43 @@ TEST(LightsLaw, eight_lights_are_within_five_percent_of_all_sizes_tried) {
   RecordProperty("worst", std::to_string(worst));
 }
 
+TEST(LightsLaw, eight_lights_in_a_budget_of_milliseconds_are_within_five_percent_of_all_sizes_tried) {
+  const SizeLadder ladder{16, 2, 6, 1.0};
+  int compared = 0, scarce = 0;
+  double worst = 0.0;
+  for_all(150, [&] {
+    std::vector<LightWork> work = draw_work(8, ladder);
+    for (LightWork& light : work) {
+      // Lights that are due less often cost less.
+      light.price = 1e-3 * light.maps / (1 << pick(4));
+      light.fixed = between(0.0, 0.05);
+    }
+    const SizeBudget budget{static_cast<std::int64_t>(std::exp2(between(11.0, 17.0))),
+                            std::exp2(between(-1.0, 6.0))};
+    if (!choose_sizes(work, ladder, budget, 1.0)) return;
+    if (std::any_of(work.begin(), work.end(), [&](const LightWork& l) { return l.level < ladder.floor; }))
+      return;
+    require(gnomon::milliseconds_of(work) <= budget.milliseconds, "above the budget");
+    const double best = brute_force(work, ladder, 0, budget, 0.0, std::numeric_limits<double>::infinity());
+    const double ratio = error_of(work, ladder) / best;
+    worst = std::max(worst, ratio);
+    require(ratio <= 1.05, "error over the best", ratio);
+    ++compared;
+    std::vector<LightWork> free = work;
+    scarce += choose_sizes(free, ladder, {budget.cells}, 1.0) &&
+              error_of(free, ladder) < 0.99 * error_of(work, ladder);
+  });
+  EXPECT_GT(compared, 80);
+  EXPECT_GT(scarce, 20) << "cases in which time decides";
+  RecordProperty("worst", std::to_string(worst));
+}
+
 TEST(LightsLaw, many_lights_are_no_worse_than_equal_sizes) {
   const SizeLadder ladder{16, 0, 6, 1.0};
   for_all(100, [&] {
     std::vector<LightWork> work = draw_work(20 + pick(100), ladder);
     const auto cells = static_cast<std::int64_t>(std::exp2(between(11.0, 17.0)));
-    if (!choose_sizes(work, ladder, cells, 1.0)) return;
+    if (!choose_sizes(work, ladder, {cells}, 1.0)) return;
     std::vector<LightWork> equal = work;
     std::int64_t used = 0, maps = 0;
     for (const LightWork& light : work) {
@@ -375,6 +512,35 @@ TEST(Lights, broken_input_comes_back_as_a_status) {
             "lights.texel_budget");
   EXPECT_EQ(status({{good}}, with([](LightOptions& o) { o.texel_budget = 100; })).invalid_field,
             "lights.texel_budget");
+  EXPECT_EQ(status({{good}}, with([](LightOptions& o) { o.page_budget = -1; })).invalid_field,
+            "lights.page_budget");
+  EXPECT_EQ(status({{good}}, with([](LightOptions& o) { o.page_budget = 2; })).invalid_field,
+            "lights.page_budget")
+      << "six faces want six pages";
+  EXPECT_EQ(status({{good}}, with([](LightOptions& o) {
+                     o.page_budget = 100;
+                     o.page_texels = 100;
+                   }))
+                .invalid_field,
+            "lights.page_texels");
+  EXPECT_EQ(status({{good}}, with([](LightOptions& o) {
+                     o.page_budget = 100;
+                     o.page_texels = 2048;
+                   }))
+                .invalid_field,
+            "lights.page_texels");
+  EXPECT_EQ(status({{good}}, with([](LightOptions& o) { o.millisecond_budget = kNan; })).invalid_field,
+            "lights.millisecond_budget");
+  EXPECT_EQ(status({{good}}, with([](LightOptions& o) {
+                     o.millisecond_budget = 0.001;
+                     o.costs.per_map = 1.0;
+                   }))
+                .invalid_field,
+            "lights.millisecond_budget");
+  EXPECT_EQ(status({{good}}, with([](LightOptions& o) { o.costs.per_megatexel = -1.0; })).invalid_field,
+            "lights.costs");
+  EXPECT_EQ(status({{good, 1.0, false, kNan}}).invalid_field, "light.draws");
+  EXPECT_EQ(status({{good, 1.0, false, 1.0, -1.0}}).invalid_field, "light.triangles");
   EXPECT_EQ(status({{good}}, with([](LightOptions& o) { o.pool_width = 1000; })).invalid_field,
             "lights.pool_width, lights.pool_height");
   EXPECT_EQ(status({{good}}, with([](LightOptions& o) { o.pool_height = 0; })).invalid_field,
@@ -414,13 +580,13 @@ TEST(Lights, no_light_grows_above_the_floor_while_another_is_below) {
   const SizeLadder ladder{16, 1, 3, 1.0};
   std::vector<LightWork> work{{1.0, 0.0, 0, 6, 0, 3, 0}, {100.0, 0.0, 1, 1, 0, 3, 0}};
   // One square less than the six maps of the first need; the second could take twelve of them.
-  ASSERT_TRUE(choose_sizes(work, ladder, 7 + 3 + 17, 1.0));
+  ASSERT_TRUE(choose_sizes(work, ladder, {7 + 3 + 17}, 1.0));
   EXPECT_EQ(work[0].level, 0);
   EXPECT_EQ(work[1].level, 1);
-  ASSERT_TRUE(choose_sizes(work, ladder, 7 + 3 + 18 + 12, 1.0));
+  ASSERT_TRUE(choose_sizes(work, ladder, {7 + 3 + 18 + 12}, 1.0));
   EXPECT_EQ(work[0].level, 1);
   EXPECT_EQ(work[1].level, 2);
-  EXPECT_FALSE(choose_sizes(work, ladder, 6, 1.0));
+  EXPECT_FALSE(choose_sizes(work, ladder, {6}, 1.0));
 }
 
 TEST(Lights, visible_points_decide_the_share) {

@@ -311,6 +311,23 @@ TEST(PlanLights, prints_sizes_places_and_reasons_by_light) {
   EXPECT_EQ(plan["lights"][2]["why"], "the light lights no receiver in view");
 }
 
+TEST(PlanLights, budgets_of_pages_and_milliseconds_are_read_and_kept) {
+  const auto plan_with = [](const std::string& options) {
+    const Finished finished =
+        plan_of(lights_case(kThreeLights, R"(, "options": {"lights": {)" + options + "}"));
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return json::parse(finished.lines().at(0));
+  };
+  const json pages = plan_with(R"("page_budget": 40, "page_texels": 128)");
+  EXPECT_LE(pages["pages"].get<int>(), 40);
+  EXPECT_EQ(pages["pages"].get<int>() * 128 * 128, pages["texels"].get<std::int64_t>());
+  const std::string costs = R"("costs": {"per_map": 0.01, "per_megatexel": 1.0})";
+  const json free = plan_with(costs), timed = plan_with(R"("millisecond_budget": 0.5, )" + costs);
+  EXPECT_GT(free["milliseconds"].get<double>(), 0.5);
+  EXPECT_LE(timed["milliseconds"].get<double>(), 0.5);
+  EXPECT_LT(timed["texels"].get<std::int64_t>(), free["texels"].get<std::int64_t>());
+}
+
 TEST(PlanLights, bad_lights_are_one_line_that_names_the_key) {
   struct Entry {
     const char *lights, *rest, *message;
@@ -333,7 +350,18 @@ TEST(PlanLights, bad_lights_are_one_line_that_names_the_key) {
       {kThreeLights, R"(, "options": {"lights": {"pool_width": 1000}})",
        "options.lights.pool_width, pool_height"},
       {kThreeLights, R"(, "options": {"lights": {"texel_budget": 0}})",
-       "options.lights.texel_budget: is too"}};
+       "options.lights.texel_budget: is too"},
+      {kThreeLights, R"(, "options": {"lights": {"page_budget": 1}})", "options.lights.page_budget: is too"},
+      {kThreeLights, R"(, "options": {"lights": {"page_budget": 64, "page_texels": 100}})",
+       "options.lights.page_texels: must be a power of two"},
+      {kThreeLights, R"(, "options": {"lights": {"millisecond_budget": 0.1, "costs": {"per_map": 5}}})",
+       "options.lights.millisecond_budget: is too"},
+      {kThreeLights, R"(, "options": {"lights": {"costs": {"per_map": -5}}})",
+       "options.lights.costs: must lie"},
+      {kThreeLights, R"(, "options": {"lights": {"costs": {"per_page": 5}}})",
+       "options.lights.costs.per_page: unknown key"},
+      {R"([{"type": "point", "position": [0,1,0], "range": 1, "draws": -1}])", "",
+       "lights[0].draws: must lie"}};
   for (const Entry& entry : entries) {
     const Finished finished = plan_of(lights_case(entry.lights, entry.rest));
     EXPECT_EQ(finished.exit_code, 2) << entry.message;

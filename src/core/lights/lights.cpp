@@ -24,22 +24,35 @@ bool power_of_two(int value) noexcept {
 }
 
 /// The side of the smallest maps that any budget leads to.
-int smallest_side(const PlanOptions& options) noexcept {
-  return static_cast<int>(std::bit_ceil(static_cast<unsigned>(least_budget_side(options))));
+int smallest_side(const PlanOptions& options, const LightOptions& o) noexcept {
+  const int side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(least_budget_side(options))));
+  return o.page_budget > 0 ? std::max(side, o.page_texels) : side;
+}
+
+std::string_view invalid_budgets(const LightOptions& o) noexcept {
+  const LightCosts& costs = o.costs;
+  if (o.texel_budget < 1) return "lights.texel_budget";
+  if (o.page_budget < 0) return "lights.page_budget";
+  if (o.page_budget > 0 && (!power_of_two(o.page_texels) || o.page_texels > o.most_size))
+    return "lights.page_texels";
+  if (!(o.millisecond_budget >= 0.0 && o.millisecond_budget <= kLargest)) return "lights.millisecond_budget";
+  for (const double cost : {costs.per_map, costs.per_megatexel, costs.per_kilodraw, costs.per_megatriangle})
+    if (!(cost >= 0.0 && cost <= kLargest)) return "lights.costs";
+  return {};
 }
 
 std::string_view invalid_options(const LightOptions& o, const PlanOptions& options) noexcept {
   // Before its sides are computed from it.
   if (!(options.filter.texels >= 0.0 && options.filter.texels <= 0.25 * kMostMapSize))
     return "options.filter.texels";
-  if (!power_of_two(o.most_size) || o.most_size > kMostMapSize || o.most_size < smallest_side(options))
+  if (!power_of_two(o.most_size) || o.most_size > kMostMapSize || o.most_size < least_budget_side(options))
     return "lights.most_size";
   if (!power_of_two(o.least_size) || o.least_size > o.most_size) return "lights.least_size";
   for (const int side : {o.pool_width, o.pool_height}) {
     if (side < 1 || side > kMostPoolSide || side % o.most_size != 0)
       return "lights.pool_width, lights.pool_height";
   }
-  if (o.texel_budget < 1) return "lights.texel_budget";
+  if (const std::string_view field = invalid_budgets(o); !field.empty()) return field;
   if (!(o.enough_m >= 0.0 && o.enough_m <= kLargest)) return "lights.enough_m";
   if (o.most_frames < 1 || o.most_frames > kMostCadenceFrames) return "lights.most_frames";
   if (!(o.full_share > 0.0 && o.full_share <= 1.0)) return "lights.full_share";
@@ -67,6 +80,13 @@ PlanOptions reference_options(PlanOptions options, int side) noexcept {
   return options;
 }
 
+std::string_view invalid_request(const LightRequest& request) noexcept {
+  const auto counts = [](double v) { return v >= 0.0 && v <= kLargest; };
+  if (!counts(request.weight)) return "light.weight";
+  if (!counts(request.draws)) return "light.draws";
+  return counts(request.triangles) ? std::string_view{} : "light.triangles";
+}
+
 /// The first broken input; `plan` takes its name.
 bool refuse(const Camera& camera, std::span<const LightRequest> lights, const SceneBounds& bounds,
             const PlanOptions& options, std::span<const glm::dvec3> points, LightPlan& plan) noexcept {
@@ -79,8 +99,7 @@ bool refuse(const Camera& camera, std::span<const LightRequest> lights, const Sc
   for (std::size_t i = 0; i < lights.size(); ++i) {
     // Boxes and points may be many: they are read once.
     plan.invalid_field = first_invalid_field(camera, lights[i].light, SceneBounds{}, options, nullptr);
-    if (plan.invalid_field.empty() && !(lights[i].weight >= 0.0 && lights[i].weight <= kLargest))
-      plan.invalid_field = "light.weight";
+    if (plan.invalid_field.empty()) plan.invalid_field = invalid_request(lights[i]);
     if (plan.invalid_field.empty()) continue;
     plan.invalid_light = static_cast<int>(i);
     return true;
@@ -129,8 +148,8 @@ class LightPlanner {
   }
 
   void weigh(const LightView& view) noexcept;
-  /// False where the budget is too small for any sizes.
-  [[nodiscard]] bool size() noexcept;
+  /// The budget that is too small for any sizes; empty where none is.
+  [[nodiscard]] std::string_view size() noexcept;
   void place() noexcept;
   void finish() noexcept;
 
@@ -149,6 +168,11 @@ class LightPlanner {
   [[nodiscard]] bool stays(const LightWork& light) const noexcept {
     const LightState* last = last_of(light.light);
     return last != nullptr && last->size == maps_of(light).size && last->map_count == light.maps;
+  }
+  /// Of one drawing of its maps, whatever their size.
+  [[nodiscard]] double fixed_milliseconds(const LightRequest& request, int maps) const noexcept {
+    return options_.costs.per_map * maps + 1e-3 * options_.costs.per_kilodraw * request.draws +
+           1e-6 * options_.costs.per_megatriangle * request.triangles;
   }
   [[nodiscard]] bool place_all(bool keep) noexcept;
   [[nodiscard]] bool due(const LightWork& light) const noexcept;
@@ -183,20 +207,34 @@ void LightPlanner::weigh(const LightView& view) noexcept {
       for (top = 0; top < ladder_.top && maps.m > options_.enough_m * ladder_.inside(top);) ++top;
     }
     const LightState* last = last_of(i);
+    const double square = static_cast<double>(ladder_.least) * ladder_.least;
     memory_.work[count_++] = {request.weight * found.share * maps.m,
                               0.0,
                               i,
                               maps.map_count,
                               0,
                               top,
-                              last != nullptr ? level_of(last->size, ladder_.least) : 0};
+                              last != nullptr ? level_of(last->size, ladder_.least) : 0,
+                              1e-6 * options_.costs.per_megatexel * square * maps.map_count / maps.frames,
+                              fixed_milliseconds(request, maps.map_count) / maps.frames};
   }
 }
 
-bool LightPlanner::size() noexcept {
+std::string_view LightPlanner::size() noexcept {
   const std::int64_t square = std::int64_t{ladder_.least} * ladder_.least;
-  const std::int64_t cells = std::min<std::int64_t>(options_.texel_budget / square, grid_.squares());
-  if (!choose_sizes(mapped(), ladder_, cells, options_.keep_gain)) return false;
+  SizeBudget budget{std::min<std::int64_t>(options_.texel_budget / square, grid_.squares())};
+  const std::int64_t page = std::int64_t{options_.page_texels} * options_.page_texels;
+  if (options_.page_budget > 0) budget.cells = std::min(budget.cells, options_.page_budget * page / square);
+  // Sums in another order are off by less.
+  constexpr double kRounding = 1e-12;
+  if (options_.millisecond_budget > 0.0)
+    budget.milliseconds = options_.millisecond_budget * (1.0 - kRounding);
+  if (!choose_sizes(mapped(), ladder_, budget, options_.keep_gain)) {
+    std::int64_t maps = 0;
+    for (const LightWork& light : mapped()) maps += light.maps;
+    if (maps <= budget.cells) return "lights.millisecond_budget";
+    return options_.page_budget > 0 ? "lights.page_budget" : "lights.texel_budget";
+  }
   for (const LightWork& light : mapped()) {
     LightMaps& maps = maps_of(light);
     maps.size = ladder_.least << light.level;
@@ -205,7 +243,9 @@ bool LightPlanner::size() noexcept {
     plan_.texels += std::int64_t{maps.size} * maps.size * light.maps;
     plan_.error += lights_[light.light].weight * maps.share * maps.m;
   }
-  return true;
+  plan_.milliseconds = milliseconds_of(mapped());
+  if (options_.page_budget > 0) plan_.pages = plan_.texels / page;
+  return {};
 }
 
 /// Keeps maps of the same size where they are, and places the others largest first. False where what is kept
@@ -289,6 +329,8 @@ void LightPlanner::finish() noexcept {
     if (maps.due) {
       ++plan_.due;
       plan_.due_texels += std::int64_t{maps.size} * maps.size * light.maps;
+      plan_.due_milliseconds +=
+          (light.fixed + light.price * static_cast<double>(SizeLadder::cells(light.level))) * maps.frames;
     }
     if (history_ == nullptr || !maps.due) continue;
     LightState& state = history_->lights[i];
@@ -305,13 +347,14 @@ void LightPlanner::finish() noexcept {
   if (history_ == nullptr) return;
   ++history_->frame;
   history_->options = options_;
+  history_->least_side = ladder_.least;
 }
 
 /// Places of another pool are none of this one.
 void forget_other_pool(const LightOptions& now, int least, LightHistory& history) noexcept {
   const LightOptions& last = history.options;
   bool other = now.pool_width != last.pool_width || now.pool_height != last.pool_height ||
-               now.most_size != last.most_size;
+               now.most_size != last.most_size || history.least_side != least;
   for (const LightState& state : history.lights) {
     if (state.frame < 0) continue;
     other = other || state.size < least || state.size > now.most_size || state.frame >= history.frame ||
@@ -330,7 +373,7 @@ LightPlan plan_lights(const Camera& camera, std::span<const LightRequest> lights
   LightPlan plan;
   plan.invalid_field = invalid_options(light_options, options);
   if (!plan.invalid_field.empty()) return plan;
-  const int least = smallest_side(options);
+  const int least = smallest_side(options, light_options);
   const PlanOptions reference = reference_options(options, least);
   if (refuse(camera, lights, bounds, reference, visible_points_world, plan)) return plan;
   plan.invalid_field = invalid_memory(memory, history, lights.size(), visible_points_world.size());
@@ -343,9 +386,9 @@ LightPlan plan_lights(const Camera& camera, std::span<const LightRequest> lights
                           level_of(light_options.most_size, least), std::ceil(options.filter.texels)};
   LightPlanner planner(lights, light_options, ladder, memory, history, plan);
   planner.weigh(light_view(finite, bounds, reference, visible_points_world, memory.points));
-  if (!planner.size()) {
+  if (const std::string_view too_small = planner.size(); !too_small.empty()) {
     plan = {};
-    plan.invalid_field = "lights.texel_budget";
+    plan.invalid_field = too_small;
     return plan;
   }
   planner.place();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace gnomon {
@@ -17,20 +18,54 @@ constexpr int kMostLevels = 11;
 // Searches that take longer keep the best sizes found until then.
 constexpr int kMostTrials = 4096;
 
-void set_ratio(LightWork& light, const SizeLadder& ladder, double keep_gain) noexcept {
+/// What a step counts: texels, or the time they take.
+enum class StepUnit : std::uint8_t { cells, milliseconds };
+
+/// How steps are ordered.
+struct StepOrder {
+  StepUnit unit = StepUnit::cells;
+  double keep_gain = 1.0;
+};
+
+/// From a light's level to the next one.
+struct Step {
+  double ratio = 0.0, gain = 0.0;
+  std::int64_t cells = 0;
+  double milliseconds = 0.0;
+  [[nodiscard]] double cost(StepUnit unit) const noexcept {
+    return unit == StepUnit::cells ? static_cast<double>(cells) : milliseconds;
+  }
+  [[nodiscard]] bool fits(const SizeBudget& left) const noexcept {
+    return cells <= left.cells && milliseconds <= left.milliseconds;
+  }
+};
+
+SizeBudget without(SizeBudget left, const Step& step) noexcept {
+  left.cells -= step.cells;
+  left.milliseconds -= step.milliseconds;
+  return left;
+}
+
+Step step_of(const LightWork& light, const SizeLadder& ladder, const StepOrder& order) noexcept {
+  Step step;
   const double gain =
       light.demand * (1.0 / ladder.inside(light.level) - 1.0 / ladder.inside(light.level + 1));
-  const double cells =
-      static_cast<double>(SizeLadder::cells(light.level + 1) - SizeLadder::cells(light.level));
-  light.ratio = gain / (cells * light.maps) * (light.level + 1 <= light.last ? keep_gain : 1.0);
+  const std::int64_t squares = SizeLadder::cells(light.level + 1) - SizeLadder::cells(light.level);
+  step.cells = light.maps * squares;
+  step.milliseconds = light.price * static_cast<double>(squares);
+  const double kept = light.level + 1 <= light.last ? order.keep_gain : 1.0;
+  step.ratio = order.unit == StepUnit::cells ? gain / (static_cast<double>(squares) * light.maps) * kept
+                                             : gain / step.milliseconds * kept;
+  step.gain = step.ratio * step.cost(order.unit);
+  return step;
 }
 
 /// The best levels of few lights: branch and bound, by what the remaining lights gain where a part of a step
 /// can be taken.
 class FewLights {
  public:
-  FewLights(std::span<LightWork> lights, const SizeLadder& ladder, int top, double keep_gain) noexcept
-      : lights_(lights) {
+  FewLights(std::span<LightWork> lights, const SizeLadder& ladder, int top, const StepOrder& order) noexcept
+      : lights_(lights), unit_(order.unit) {
     // Expensive lights first: they decide what is left for the others.
     std::sort(lights.begin(), lights.end(), [](const LightWork& a, const LightWork& b) {
       return a.demand * a.maps != b.demand * b.maps ? a.demand * a.maps > b.demand * b.maps
@@ -39,61 +74,59 @@ class FewLights {
     for (std::size_t i = 0; i < lights.size(); ++i) {
       LightWork at = lights[i];
       first_[i] = at.level;
-      for (; at.level < std::min(top, at.top); ++at.level) {
-        set_ratio(at, ladder, keep_gain);
-        const std::int64_t cost = at.maps * (SizeLadder::cells(at.level + 1) - SizeLadder::cells(at.level));
-        steps_[step_count_++] = {at.ratio, at.ratio * static_cast<double>(cost), cost, i, at.level};
-      }
+      for (; at.level < std::min(top, at.top); ++at.level)
+        steps_[step_count_++] = {step_of(at, ladder, order), i, at.level};
       end_[i] = at.level;
     }
     std::sort(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(step_count_),
-              [](const Step& a, const Step& b) {
-                if (a.ratio != b.ratio) return a.ratio > b.ratio;
+              [](const LightStep& a, const LightStep& b) {
+                if (a.step.ratio != b.step.ratio) return a.step.ratio > b.step.ratio;
                 return a.light != b.light ? a.light < b.light : a.level < b.level;
               });
     for (std::size_t i = 0; i < step_count_; ++i)
       of_light_[steps_[i].light][static_cast<std::size_t>(steps_[i].level - first_[steps_[i].light])] = i;
   }
 
-  /// Raises the levels by steps of no more than `cells` together.
-  void search(std::int64_t cells) noexcept {
+  /// Raises the levels by steps of no more than the budget together.
+  void search(const SizeBudget& budget) noexcept {
     for (std::size_t i = 0; i < lights_.size(); ++i) chosen_[i] = best_[i] = first_[i];
-    take_greedily(cells);
-    visit(0, cells, 0.0);
+    take_greedily(budget);
+    visit(0, budget, 0.0);
     for (std::size_t i = 0; i < lights_.size(); ++i) lights_[i].level = best_[i];
   }
 
  private:
-  struct Step {
-    double ratio, gain;
-    std::int64_t cost;
-    std::size_t light;
-    int level;  // before it
+  struct LightStep {
+    Step step;
+    std::size_t light = 0;
+    int level = 0;  // before it
   };
 
-  void take_greedily(std::int64_t cells) noexcept {
+  void take_greedily(SizeBudget left) noexcept {
     best_gain_ = 0.0;
     for (std::size_t i = 0; i < step_count_; ++i) {
-      const Step& step = steps_[i];
-      if (best_[step.light] != step.level || step.cost > cells) continue;
-      cells -= step.cost;
-      ++best_[step.light];
-      best_gain_ += step.gain;
+      const LightStep& next = steps_[i];
+      if (best_[next.light] != next.level || !next.step.fits(left)) continue;
+      left = without(left, next.step);
+      ++best_[next.light];
+      best_gain_ += next.step.gain;
     }
   }
   /// No levels of the lights from `light` on gain more.
-  [[nodiscard]] double bound(std::size_t light, std::int64_t cells) const noexcept {
-    double gain = 0.0;
+  [[nodiscard]] double bound(std::size_t light, const SizeBudget& budget) const noexcept {
+    double gain = 0.0,
+           left = unit_ == StepUnit::cells ? static_cast<double>(budget.cells) : budget.milliseconds;
     for (std::size_t i = 0; i < step_count_; ++i) {
-      const Step& step = steps_[i];
-      if (step.light < light) continue;
-      if (step.cost > cells) return gain + step.ratio * static_cast<double>(cells);
-      cells -= step.cost;
-      gain += step.gain;
+      const LightStep& next = steps_[i];
+      if (next.light < light) continue;
+      const double cost = next.step.cost(unit_);
+      if (cost > left) return gain + next.step.ratio * left;
+      left -= cost;
+      gain += next.step.gain;
     }
     return gain;
   }
-  void visit(std::size_t light, std::int64_t cells, double gain) noexcept {
+  void visit(std::size_t light, const SizeBudget& left, double gain) noexcept {
     if (light == lights_.size()) {
       if (gain <= best_gain_) return;
       best_gain_ = gain;
@@ -102,20 +135,20 @@ class FewLights {
     }
     struct Child {
       double bound, gain;
-      std::int64_t cells;
+      SizeBudget left;
       int level;
     };
     std::array<Child, kMostLevels> children;
     std::size_t count = 0;
-    Child next{0.0, gain, cells, first_[light]};
+    Child next{0.0, gain, left, first_[light]};
     for (;;) {
-      next.bound = next.gain + bound(light + 1, next.cells);
+      next.bound = next.gain + bound(light + 1, next.left);
       children[count++] = next;
       const auto taken = static_cast<std::size_t>(next.level - first_[light]);
       if (next.level >= end_[light]) break;
-      const Step& step = steps_[of_light_[light][taken]];
-      if (step.cost > next.cells) break;
-      next = {0.0, next.gain + step.gain, next.cells - step.cost, next.level + 1};
+      const Step& step = steps_[of_light_[light][taken]].step;
+      if (!step.fits(next.left)) break;
+      next = {0.0, next.gain + step.gain, without(next.left, step), next.level + 1};
     }
     // The most promising level first.
     for (std::size_t i = 1; i < count; ++i) {
@@ -127,12 +160,13 @@ class FewLights {
     for (std::size_t i = 0; i < count; ++i) {
       if (!(children[i].bound > best_gain_ * kRounding) || ++trials_ > kMostTrials) return;
       chosen_[light] = children[i].level;
-      visit(light + 1, children[i].cells, children[i].gain);
+      visit(light + 1, children[i].left, children[i].gain);
     }
   }
 
   std::span<LightWork> lights_;
-  std::array<Step, kFewLights * kMostLevels> steps_;
+  StepUnit unit_;
+  std::array<LightStep, kFewLights * kMostLevels> steps_;
   std::size_t step_count_ = 0;
   std::array<std::array<std::size_t, kMostLevels>, kFewLights> of_light_;
   std::array<int, kFewLights> first_, end_, chosen_, best_;
@@ -145,59 +179,92 @@ bool behind(const LightWork& a, const LightWork& b) noexcept {
   return a.ratio != b.ratio ? a.ratio < b.ratio : a.light > b.light;
 }
 
-/// Raises levels up to `top` while cells are left, and returns what is left. The lights are in no order then.
-std::int64_t raise(std::span<LightWork> lights, const SizeLadder& ladder, int top, std::int64_t cells,
-                   double keep_gain) noexcept {
+std::int64_t cells_of(std::span<const LightWork> lights) noexcept {
+  std::int64_t cells = 0;
+  for (const LightWork& light : lights) cells += light.maps * SizeLadder::cells(light.level);
+  return cells;
+}
+
+/// Raises levels up to `top` within the budget of all maps. The lights are in no order then.
+void raise(std::span<LightWork> lights, const SizeLadder& ladder, int top, const SizeBudget& budget,
+           const StepOrder& order) noexcept {
+  SizeBudget left{budget.cells - cells_of(lights), budget.milliseconds - milliseconds_of(lights)};
   if (lights.size() <= kFewLights) {
-    std::int64_t before = 0, after = 0;
-    for (const LightWork& light : lights) before += light.maps * SizeLadder::cells(light.level);
-    FewLights(lights, ladder, top, keep_gain).search(cells);
-    for (const LightWork& light : lights) after += light.maps * SizeLadder::cells(light.level);
-    return cells - (after - before);
+    FewLights(lights, ladder, top, order).search(left);
+    return;
   }
   const auto first = lights.begin();
   auto end = first;
   for (LightWork& light : lights) {
     if (light.level >= std::min(top, light.top)) continue;
-    set_ratio(light, ladder, keep_gain);
+    light.ratio = step_of(light, ladder, order).ratio;
     std::swap(light, *end++);
   }
   std::make_heap(first, end, behind);
   while (end != first) {
     std::pop_heap(first, end, behind);
     LightWork& light = *(end - 1);
-    const std::int64_t cost =
-        light.maps * (SizeLadder::cells(light.level + 1) - SizeLadder::cells(light.level));
-    if (cost > cells) {
+    const Step step = step_of(light, ladder, order);
+    if (!step.fits(left)) {
       --end;
       continue;
     }
-    cells -= cost;
+    left = without(left, step);
     if (++light.level >= std::min(top, light.top)) {
       --end;
       continue;
     }
-    set_ratio(light, ladder, keep_gain);
+    light.ratio = step_of(light, ladder, order).ratio;
     std::push_heap(first, end, behind);
   }
-  return cells;
+}
+
+void choose(std::span<LightWork> lights, const SizeLadder& ladder, const SizeBudget& budget,
+            const StepOrder& order) noexcept {
+  for (LightWork& light : lights) light.level = 0;
+  // No light above the floor before all are at it: else more cells could take from one to lift another.
+  raise(lights, ladder, ladder.floor, budget, order);
+  const bool all = std::all_of(lights.begin(), lights.end(), [&](const LightWork& light) {
+    return light.level >= std::min(ladder.floor, light.top);
+  });
+  if (all) raise(lights, ladder, ladder.top, budget, order);
+}
+
+double error_of(std::span<const LightWork> lights, const SizeLadder& ladder) noexcept {
+  double error = 0.0;
+  for (const LightWork& light : lights) error += light.demand / ladder.inside(light.level);
+  return error;
+}
+
+/// Within a budget of milliseconds, from the levels that a budget of cells alone leads to.
+void choose_by_time(std::span<LightWork> lights, const SizeLadder& ladder, const SizeBudget& budget,
+                    double keep_gain) noexcept {
+  const bool priced =
+      std::all_of(lights.begin(), lights.end(), [](const LightWork& l) { return l.price > 0.0; });
+  const bool fits = milliseconds_of(lights) <= budget.milliseconds;
+  if (!priced) return;  // texels take no time
+  const double error = error_of(lights, ladder);
+  for (LightWork& light : lights) light.other = light.level;
+  choose(lights, ladder, budget, {StepUnit::milliseconds, keep_gain});
+  if (!fits || error_of(lights, ladder) < error) return;
+  for (LightWork& light : lights) light.level = light.other;
 }
 
 }  // namespace
 
-bool choose_sizes(std::span<LightWork> lights, const SizeLadder& ladder, std::int64_t cells,
+double milliseconds_of(std::span<const LightWork> lights) noexcept {
+  double sum = 0.0;
+  for (const LightWork& light : lights)
+    sum += light.fixed + light.price * static_cast<double>(SizeLadder::cells(light.level));
+  return sum;
+}
+
+bool choose_sizes(std::span<LightWork> lights, const SizeLadder& ladder, const SizeBudget& budget,
                   double keep_gain) noexcept {
-  for (LightWork& light : lights) {
-    light.level = 0;
-    cells -= light.maps;
-  }
-  if (cells < 0) return false;
-  // No light above the floor before all are at it: else more cells could take from one to lift another.
-  cells = raise(lights, ladder, ladder.floor, cells, keep_gain);
-  const bool all = std::all_of(lights.begin(), lights.end(), [&](const LightWork& light) {
-    return light.level >= std::min(ladder.floor, light.top);
-  });
-  if (all) raise(lights, ladder, ladder.top, cells, keep_gain);
+  for (LightWork& light : lights) light.level = 0;
+  if (cells_of(lights) > budget.cells || milliseconds_of(lights) > budget.milliseconds) return false;
+  choose(lights, ladder, {budget.cells}, {StepUnit::cells, keep_gain});
+  if (std::isfinite(budget.milliseconds)) choose_by_time(lights, ladder, budget, keep_gain);
   std::sort(lights.begin(), lights.end(),
             [](const LightWork& a, const LightWork& b) { return a.light < b.light; });
   return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "gnomon/lights.hpp"
@@ -21,17 +22,29 @@ struct SizeLadder {
   [[nodiscard]] static std::int64_t cells(int level) noexcept { return std::int64_t{1} << (2 * level); }
 };
 
-/// Sets the levels of all lights, within `cells` squares of the smallest size, and orders them by their
-/// light. `demand` is that of LightImportance times weight and share. Each light's `top` bounds its level,
-/// and up to `last` its steps count `keep_gain` times. False, without levels, where not even the smallest
-/// maps fit.
+/// What all maps may take together.
+struct SizeBudget {
+  std::int64_t cells = 0;  // squares of the smallest size
+  double milliseconds = std::numeric_limits<double>::infinity();
+};
+
+/// Sets the levels of all lights within the budget, and orders them by their light. `demand` is that of
+/// LightImportance times weight and share. Each light's `top` bounds its level, and up to `last` its steps
+/// count `keep_gain` times. False, without levels, where not even the smallest maps fit.
 ///
 /// Each step doubles one light's maps: that whose error falls most per texel. Steps of one light gain ever
 /// less, so that no order of steps gains more from the same texels; only the last texels, too few for the
 /// next step, go to steps that gain less. More cells never make the sum of errors larger: up to the first
 /// step that fits into the larger budget alone both orders are the same, and that step gains more than all
 /// that the smaller budget has left.
-[[nodiscard]] bool choose_sizes(std::span<LightWork> lights, const SizeLadder& ladder, std::int64_t cells,
-                                double keep_gain) noexcept;
+///
+/// Where those sizes take too many milliseconds, steps come by what they gain per millisecond, and the same
+/// holds for these. Where they do not, the better of both choices is taken: more milliseconds never make the
+/// sum larger.
+[[nodiscard]] bool choose_sizes(std::span<LightWork> lights, const SizeLadder& ladder,
+                                const SizeBudget& budget, double keep_gain) noexcept;
+
+/// Milliseconds per frame of all lights at their levels.
+[[nodiscard]] double milliseconds_of(std::span<const LightWork> lights) noexcept;
 
 }  // namespace gnomon

@@ -60,6 +60,8 @@ Json lights_json(const LightPlan& plan, const Case& input) {
   if (plan.status != PlanStatus::ok) result["reason"] = reason_of(plan.status);
   result["pool"] = {plan.pool_width, plan.pool_height};
   result["texels"] = plan.texels;
+  if (plan.pages > 0) result["pages"] = plan.pages;
+  if (plan.milliseconds > 0.0) result["milliseconds"] = number(plan.milliseconds);
   result["error"] = number(plan.error);
   result["lights"] = Json::array();
   for (const LightMaps& maps : plan.lights) result["lights"].push_back(light_json(maps, input.light_options));
