@@ -43,7 +43,7 @@ struct LightClusters {
   PlanStatus status = PlanStatus::invalid_input;  ///< ok, or invalid_input
   std::string_view invalid_field;                 ///< for invalid_input: which, e.g. "clusters.tile_pixels"
   int columns = 0, rows = 0, slices = 0;          ///< clusters along the image's sides and along depth
-  int tile_pixels = 0;  ///< of these clusters: more than asked for where the memory holds no finer ones
+  int tile_pixels = 0;  ///< of these clusters: larger than the option where the memory holds no finer ones
   /// Slice of a surface: floor(depth_scale * log2(view depth) + depth_offset), of the view depth itself for
   /// an orthographic camera, clamped to 0..slices - 1.
   double depth_scale = 0.0;
@@ -70,7 +70,7 @@ struct LightClusters {
 /// half as many until it does; a single cluster of all lights always fits.
 ///
 /// Slices are even in the logarithm of depth, over the last thousandfold of the depths that local lights
-/// reach (orthographic: even in depth).
+/// reach (orthographic: even in depth). The last one holds everything beyond.
 ///
 /// Based on: Olsson, Billeter, Assarsson, "Clustered Deferred and Forward Shading", 2012.
 [[nodiscard]] LightClusters cluster_lights(const Camera& camera, std::span<const Light> lights,

@@ -128,7 +128,7 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
                                           light, {set, set}, gnomon::light_options(options, own));
     }
 
-    // 3. Draw: the maps of due lights, then a mask and the light of each.
+    // 3. Draw: the maps of due lights, then the sum of all light.
     const gnomon::render::FrameStats stats = renderer.draw(plan, lights.drawn(), camera, filter, {});
     gnomon::write_png(renderer.image(), folder / ("frame_" + std::to_string(frame) + ".png"));
     std::printf(

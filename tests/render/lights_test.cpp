@@ -52,6 +52,13 @@ struct Stage {
     pool.most_size = 512;
     set_margin(filter, options);
   }
+  /// Makes room for requests that were added.
+  void grow() {
+    memory = test::LightStorage(requests.size());
+    states.assign(requests.size(), {});
+    history = {states, 0, {}};
+    own.resize(requests.size());
+  }
   void replan() {
     plan = plan_lights(camera, requests, {boxes, boxes}, options, pool, memory.spans(), &history);
     for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -72,8 +79,9 @@ struct Stage {
     }
     return drawn;
   }
-  FrameStats draw(const FilterSettings& filter, int only = -1) {
+  FrameStats draw(const FilterSettings& filter, int only = -1, const ClusterOptions& clusters = {}) {
     FrameOptions frame;
+    frame.light_clusters = clusters;
     frame.time_passes = false;
     return renderer.draw(plan, lights(only), camera, renderer.prepare_lights(filter), frame);
   }
@@ -99,6 +107,54 @@ TEST(LightsRender, the_picture_is_the_sum_of_each_light_alone) {
   }
   for (std::size_t k = 0; k < sum.size(); ++k)
     ASSERT_NEAR(sum[k], all.values[k], 1e-5f * (1.0f + sum[k])) << k;
+}
+
+TEST(LightsRender, clusters_give_the_bits_of_a_walk_over_all_lights) {
+  for (const char* name : {"hard", "pcf"}) {
+    const FilterSettings filter = settings_of(name);
+    Stage stage(filter);
+    // The eye within a light, a light behind the eye, and many small ones.
+    stage.requests.push_back({PointLight{stage.camera.position, 6.0}});
+    const glm::dvec3 forward = camera_axes(stage.camera).forward;
+    stage.requests.push_back({PointLight{stage.camera.position - 8.0 * forward, 3.0}});
+    for (int i = 0; i < 40; ++i)
+      stage.requests.push_back({PointLight{{-8.0 + 2.0 * (i % 8), 1.0, -4.0 + 2.0 * (i / 8)}, 2.5}});
+    stage.grow();
+    stage.replan();
+    ASSERT_GT(stage.plan.mapped, 20);
+    constexpr ClusterOptions kAll{1 << 16, 1}, kEach{0, 1};
+    stage.draw(filter, -1, kAll);
+    const FloatImage all = stage.renderer.light_sum(), mask = stage.renderer.mask();
+    for (const ClusterOptions& clusters : {ClusterOptions{}, ClusterOptions{8, 40}, ClusterOptions{64, 1}}) {
+      stage.draw(filter, -1, clusters);
+      EXPECT_EQ(stage.renderer.light_sum().values, all.values) << clusters.tile_pixels;
+      EXPECT_EQ(stage.renderer.mask().values, mask.values) << clusters.tile_pixels;
+    }
+    stage.draw(filter, -1, kEach);
+    const FloatImage each = stage.renderer.light_sum();
+    for (std::size_t k = 0; k < all.values.size(); ++k)
+      ASSERT_NEAR(each.values[k], all.values[k], 1e-5f * (1.0f + all.values[k])) << k;
+  }
+}
+
+TEST(LightsRender, lights_without_a_range_light_nothing) {
+  const FilterSettings filter = settings_of("hard");
+  Stage stage(filter);
+  stage.replan();
+  stage.draw(filter);
+  const FloatImage before = stage.renderer.light_sum();
+  std::vector<DrawnLight> lights = stage.lights();
+  // Another light than the plan was made for, in the place of the last one, which is out of view.
+  lights[3].light = PointLight{{0, 1, 0}, 0.0};
+  FrameOptions frame;
+  frame.time_passes = false;
+  for (const int tile : {32, 0}) {
+    frame.light_clusters.tile_pixels = tile;
+    stage.renderer.draw(stage.plan, lights, stage.camera, stage.renderer.prepare_lights(filter), frame);
+    const FloatImage after = stage.renderer.light_sum();
+    for (std::size_t k = 0; k < before.values.size(); ++k)
+      ASSERT_NEAR(after.values[k], before.values[k], 1e-5f * (1.0f + before.values[k])) << tile;
+  }
 }
 
 TEST(LightsRender, each_mask_is_that_of_the_light_s_own_plan) {

@@ -71,14 +71,16 @@ struct Slices {
   Slices(const Camera& camera, double deepest, int slice_count) noexcept
       : count(slice_count), orthographic(camera.orthographic) {
     const double far_depth = std::min(camera.far_depth, std::max(deepest, camera.near_depth));
+    // The last slice is for surfaces beyond all local lights.
+    const double steps = std::max(count - 1.0 - 2.0 * kSliceSlack, 0.0);
     if (orthographic) {
-      scale = far_depth > camera.near_depth ? count / (far_depth - camera.near_depth) : 0.0;
+      scale = far_depth > camera.near_depth ? steps / (far_depth - camera.near_depth) : 0.0;
       offset = -scale * camera.near_depth;
       return;
     }
     const double first = std::max(camera.near_depth, far_depth / kDepthRatio);
     const double octaves = std::log2(far_depth / first);
-    scale = octaves > 1e-6 ? count / octaves : 0.0;
+    scale = octaves > 1e-6 ? steps / octaves : 0.0;
     offset = -scale * std::log2(first);
   }
   /// Not clamped.

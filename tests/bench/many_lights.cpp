@@ -1,0 +1,182 @@
+// What lists of lights by clusters save in the look-up of many lights, and how long the lists are.
+//
+//     bench_many_lights [SCENE] [ROUNDS]     builtin:hangar and 9
+//
+// Each round draws a frame in every way, one after the other, so that all meet the same load.
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "gnomon/gnomon.hpp"
+#include "gnomon/render/context.hpp"
+#include "gnomon/render/renderer.hpp"
+#include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/load.hpp"
+#include "median.hpp"
+#include "quiet.hpp"
+
+namespace gnomon {
+namespace {
+
+constexpr int kWidth = 480, kHeight = 270;
+constexpr ClusterOptions kAll{1 << 16, 1};
+
+/// As samples/many_lights places them: even in the plane, a third of them spots, and a faint moon.
+std::vector<LightRequest> place_lights(const Scene& scene, int count) {
+  const auto spread = [](int index, double ratio) {
+    const double at = 0.5 + index * ratio;
+    return at - std::floor(at);
+  };
+  const Box& box = scene.bounds_world;
+  const glm::dvec3 size = box.max - box.min;
+  const double spacing = std::sqrt(size.x * size.z / count);
+  std::vector<LightRequest> lights{{DirectionalLight{{0.4, -1.0, 0.3}}, 0.1}};
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 at{box.min.x + size.x * spread(i, 0.7548776662), box.min.y + 0.25 * spacing,
+                        box.min.z + size.z * spread(i, 0.5698402910)};
+    if (i % 3 == 0) {
+      lights.push_back(
+          {SpotLight{at + glm::dvec3(0.0, 0.4 * spacing, 0.0), {0.2, -1.0, 0.1}, 0.7, 2.0 * spacing}});
+    } else {
+      lights.push_back({PointLight{at, 1.2 * spacing}});
+    }
+  }
+  return lights;
+}
+
+/// The lights of a frame, planned once.
+struct Lights {
+  std::vector<LightRequest> requests;
+  std::vector<ShadowPlan> plans;
+  std::vector<LightMaps> maps;
+  std::vector<LightWork> work;
+  std::vector<LightPlace> places;
+  LightPlan plan;
+  std::vector<render::DrawnLight> drawn;
+
+  Lights(std::vector<LightRequest> all, const Camera& camera, const std::vector<Box>& boxes,
+         const PlanOptions& options)
+      : requests(std::move(all)),
+        plans(requests.size()),
+        maps(requests.size()),
+        work(requests.size()),
+        places(kMaxMaps * requests.size()) {
+    plan = plan_lights(camera, requests, {boxes, boxes}, options, {}, {maps, work, places, {}});
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+      if (plan.lights[i].map_count > 0)
+        plans[i] =
+            make_plan(camera, requests[i].light, {boxes, boxes}, light_options(options, plan.lights[i]));
+      drawn.push_back({requests[i].light, &plans[i], glm::vec3(0.3f)});
+      maps[i].due = false;  // the look-up alone is of interest
+    }
+  }
+  /// Those that the renderer lists.
+  [[nodiscard]] std::vector<Light> listed() const {
+    std::vector<Light> lights;
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      if (plan.lights[i].outcome != LightOutcome::without_receiver) lights.push_back(requests[i].light);
+    return lights;
+  }
+};
+
+struct Lists {
+  std::vector<std::uint32_t> begin, lights = std::vector<std::uint32_t>(1 << 22);
+  std::vector<ClusterEntry> work = std::vector<ClusterEntry>(1 << 22);
+  [[nodiscard]] LightClusters make(const Camera& camera, const std::vector<Light>& of,
+                                   const ClusterOptions& options) {
+    begin.resize(cluster_count(camera, options) + 1);
+    return cluster_lights(camera, of, options, {begin, lights, work});
+  }
+};
+
+/// Mean length of the list that a surface's pixel reads.
+double mean_length(const LightClusters& clusters, const FloatImage& positions, const FloatImage& normals) {
+  double sum = 0.0, pixels = 0.0;
+  for (int y = 0; y < positions.height; ++y) {
+    for (int x = 0; x < positions.width; ++x) {
+      const std::size_t i = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(positions.width) +
+                                 static_cast<std::size_t>(x));
+      if (!(normals.values[i + 3] > 0.0f)) continue;
+      const std::size_t at = cluster_at(clusters, x, positions.height - 1 - y, positions.values[i + 3]);
+      sum += clusters.begin[at + 1] - clusters.begin[at];
+      pixels += 1.0;
+    }
+  }
+  return pixels > 0.0 ? sum / pixels : 0.0;
+}
+
+double list_ms(const Camera& camera, const std::vector<Light>& lights, const ClusterOptions& options,
+               Lists& lists) {
+  std::vector<double> times;
+  for (int i = 0; i < 21; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    static_cast<void>(lists.make(camera, lights, options));
+    times.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+  }
+  return *std::min_element(times.begin(), times.end());
+}
+
+void measure(render::Renderer& renderer, const Scene& scene, const std::vector<Box>& boxes,
+             const Camera& camera, int count, int rounds) {
+  const render::FilterSettings pcf = render::default_settings(render::filters::pcf);
+  PlanOptions options;
+  render::set_margin(pcf, options);
+  const Lights lights(place_lights(scene, count), camera, boxes, options);
+  const std::vector<Light> listed = lights.listed();
+  struct Way {
+    const char* name;
+    ClusterOptions options;
+    std::vector<double> ms{};
+  };
+  std::vector<Way> ways{{"a pass each", {0, 1}}, {"all in one pass", kAll},    {"32 px, 24 slices", {32, 24}},
+                        {"16 px, 24", {16, 24}}, {"64 px, 24", {64, 24}},      {"32 px, 12", {32, 12}},
+                        {"32 px, 48", {32, 48}}, {"32 px, 1 (tiles)", {32, 1}}};
+  const render::PreparedFilter filter = renderer.prepare_lights(pcf);
+  render::FrameOptions frame = quiet();
+  for (int round = -1; round < rounds; ++round) {  // the first one warms up
+    for (Way& way : ways) {
+      frame.light_clusters = way.options;
+      const double ms =
+          renderer.draw(lights.plan, lights.drawn, camera, filter, frame).ms(render::Pass::mask);
+      if (round >= 0) way.ms.push_back(ms);
+    }
+  }
+  const FloatImage positions = renderer.positions(), normals = renderer.normals();
+  Camera large = camera;
+  large.width = 1920;
+  large.height = 1080;
+  Lists lists;
+  for (const Way& way : ways) {
+    std::printf("%6d %6zu  %-18s %8.1f ms  %5.2f", count, listed.size(), way.name, median(way.ms),
+                median(way.ms) / median(ways[0].ms));
+    if (way.options.tile_pixels > 0) {
+      std::printf("  %6.2f lights a pixel  lists %.3f ms",
+                  mean_length(lists.make(camera, listed, way.options), positions, normals),
+                  list_ms(camera, listed, way.options, lists));
+      std::printf(", at 1920 x 1080 %.3f ms", list_ms(large, listed, way.options, lists));
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+}  // namespace gnomon
+
+int main(int argc, char** argv) {
+  using namespace gnomon;
+  const auto context = render::create_context(render::ContextKind::automatic);
+  const Scene scene = load_scene(argc > 1 ? argv[1] : "builtin:hangar");
+  const int rounds = argc > 2 ? std::max(std::atoi(argv[2]), 1) : 9;
+  const Camera camera = default_path(scene).at(0.3, kWidth, kHeight);
+  std::vector<Box> boxes;
+  for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
+  render::Renderer renderer(scene);
+  std::printf("lights listed  way                      mask   of a pass each\n");
+  for (const int count : {24, 64, 256}) measure(renderer, scene, boxes, camera, count, rounds);
+  return 0;
+}
