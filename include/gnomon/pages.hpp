@@ -212,18 +212,21 @@ struct PageSlot {
   glm::dmat4 clip_from_world{0.0};  ///< of the page_map that was drawn into it
   int texels = 0;                   ///< along each side of the slot
   std::uint64_t used = 0;           ///< count of the last keep_pages that used it; 0: it holds nothing
+  bool behind = false;  ///< a caster of `moving_world` reached it since its moving casters were last drawn
 };
 /// Where one page of a plan lies in a pool.
 struct KeptPage {
   std::uint32_t slot = 0;  ///< of the pool, in place of Page::slot
   bool draw = true;        ///< false: the slot holds the page already
+  bool compose = false;    ///< only its moving casters are to be drawn, over its static ones; `draw` is false
 };
 /// Counts of keep_pages.
 struct KeptPages {
-  bool fits = false;          ///< false: the pool or the memory is too small, and nothing was changed
-  std::uint64_t kept = 0;     ///< pages that are not drawn
-  std::uint64_t drawn = 0;    ///< pages to draw
-  std::uint64_t touched = 0;  ///< slots whose pages a moved caster touched, resident or not
+  bool fits = false;           ///< false: the pool or the memory is too small, and nothing was changed
+  std::uint64_t kept = 0;      ///< pages that are not drawn
+  std::uint64_t drawn = 0;     ///< pages to draw
+  std::uint64_t composed = 0;  ///< pages of which moving casters alone are to be drawn
+  std::uint64_t touched = 0;   ///< slots whose pages a caster of `moved_world` touched, resident or not
 };
 /// Finds the pages of a plan that a pool still holds, and a slot for each of the others: empty ones first,
 /// then the least recently used. A page is kept where its matrix and size have the same bits and no moved
@@ -233,11 +236,13 @@ struct KeptPages {
 /// `moved_world`: bounds of casters that changed since the last call, where they were and where they are.
 /// `slots`: the pool, at least as many as pages; the caller's from call to call, and emptied where texels are
 /// lost or the scene changes otherwise. `table`: working memory, page_table_size(slots.size()) entries.
-/// `out`: one for each page of the plan. Allocates nothing. Takes time in proportion to slots and moved
-/// bounds.
+/// `out`: one for each page of the plan. `moving_world`: the same bounds of casters that are drawn apart,
+/// over a second copy of the page that holds the static casters alone. They empty no slot; the pages that
+/// they reach are composed (KeptPage::compose), those outside of the plan once they come back. Allocates
+/// nothing. Takes time in proportion to slots and moved bounds.
 [[nodiscard]] KeptPages keep_pages(const PagePlan& plan, std::span<const Box> moved_world,
                                    std::span<PageSlot> slots, std::span<std::uint32_t> table,
-                                   std::span<KeptPage> out) noexcept;
+                                   std::span<KeptPage> out, std::span<const Box> moving_world = {}) noexcept;
 
 /// The decision of hold_sun.
 struct HeldSun {

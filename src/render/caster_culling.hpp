@@ -25,6 +25,11 @@ struct CullingJob {
   bool peels = false;
   /// Bounds of casters that moved since the last frame, before and after.
   std::span<const Box> moved_world = {};
+  /// The same of places where static casters came or went; they have maps of their own where `moves` is not
+  /// empty.
+  std::span<const Box> static_moved_world = {};
+  /// By instance: 1 where it moves. Empty: casters are not told apart.
+  std::span<const std::uint8_t> moves = {};
 };
 
 /// What each rule saved in one frame, and what it drew more to save that.

@@ -8,6 +8,8 @@
 namespace gnomon::render {
 namespace {
 
+constexpr GLuint kCopiesBinding = 1;  // as shaders/copy_depth.vert states it
+
 struct ViewPlane {
   glm::dvec3 normal;
   double offset;
@@ -69,7 +71,12 @@ void DrawLists::clear() {
   commands_.clear();
   ranges_.clear();
   page_parts_.clear();
+  moving_parts_.clear();
+  copies_.clear();
+  copy_layers_.clear();
+  any_apart_ = false;
   part_count_.fill(0);
+  beneath_.fill({});
   stats_.fill({});
 }
 
@@ -103,25 +110,52 @@ void DrawLists::build_uncached(const CullingJob& job, const Camera& camera) {
   finish(camera);
 }
 
-void DrawLists::build_pages(std::span<const DrawnPage> pages, const Camera& camera, PruneRules prune) {
+void DrawLists::build_pages(std::span<const DrawnPage> pages, const Camera& camera, PruneRules prune,
+                            std::span<const std::uint8_t> moves) {
   clear();
   PruneSavings saved;
   MapStats& stats = stats_.front();
-  std::vector<std::uint8_t> draws(visible_.size());
+  std::vector<std::uint8_t> draws(visible_.size()), over(visible_.size());
   for (const DrawnPage& page : pages) {
     const std::span planes(page.map.cull_planes.data(), static_cast<std::size_t>(page.map.cull_plane_count));
     std::fill(draws.begin(), draws.end(), std::uint8_t{0});
-    for (const std::uint32_t instance : culling_.instances_within(planes)) draws[instance] = 1;
-    DrawnPart part{page.place, false, ranges_.size(), 0};
-    add_view(draws, stats, PartPlanes(prune, page.map, planes).planes(),
-             saved.of(PruneRule::caster_clusters));
-    part.end = ranges_.size();
-    page_parts_.push_back(part);
+    std::fill(over.begin(), over.end(), std::uint8_t{0});
+    for (const std::uint32_t instance : culling_.instances_within(planes)) {
+      if (!moves.empty() && moves[instance] != 0) {
+        over[instance] = 1;
+      } else if (!page.composed) {
+        draws[instance] = 1;
+      } else {
+        ++saved.of(PruneRule::static_casters).instances;
+        saved.of(PruneRule::static_casters).triangles += scene_.triangles_of(instance);
+      }
+    }
+    const auto list = [&](std::span<const std::uint8_t> casters) {
+      DrawnPart part{page.place, false, ranges_.size(), 0};
+      add_view(casters, stats, PartPlanes(prune, page.map, planes).planes(),
+               saved.of(PruneRule::caster_clusters));
+      part.end = ranges_.size();
+      return part;
+    };
+    page_parts_.push_back(list(draws));
+    moving_parts_.push_back(list(over));
+    const bool apart = page.composed || DrawLists::draws(moving_parts_.back());
+    any_apart_ = any_apart_ || apart;
+    // A composed page without static depths of its own shows static casters alone.
+    if (apart && (!page.composed || page.has_beneath)) {
+      copies_.push_back({page.place.x, page.place.y, page.place.width, page.place.height});
+      copy_layers_.push_back(page.layer);
+    }
     stats.texels +=
         static_cast<std::uint64_t>(page.place.width) * static_cast<std::uint64_t>(page.place.height);
   }
   saved_ = saved.net();
   finish(camera);
+}
+
+DrawLists::Copies DrawLists::page_copies(int layer) const noexcept {
+  const auto [begin, end] = std::equal_range(copy_layers_.begin(), copy_layers_.end(), layer);
+  return {static_cast<std::size_t>(begin - copy_layers_.begin()), static_cast<std::size_t>(end - begin)};
 }
 
 void DrawLists::finish(const Camera& camera) {
@@ -134,27 +168,51 @@ void DrawLists::finish(const Camera& camera) {
   of_camera.texels = static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
   send_growing(object_buffer_, object_capacity_, objects_);
   send_growing(command_buffer_, command_capacity_, commands_);
+  if (!copies_.empty()) {
+    send_growing(copy_buffer_, copy_capacity_, copies_);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kCopiesBinding, copy_buffer_.name());
+  }
   scene_.set_object_index_buffer(object_buffer_.name());
   bind_commands();
 }
 
 void DrawLists::add_map(const CullingJob& job, const DrawnMaps& drawn, std::size_t map, PruneSavings& saved) {
   const std::span<const std::uint8_t> casters = culling_.casters_of(job, job.plan.map[map], saved);
-  const MapWork work = cache_.update({job, drawn, map, casters}, saved);
+  const LayeredWork layered = cache_.update({job, drawn, map, casters}, saved);
+  const MapWork& work = layered.map;
   const ShadowMap as_drawn = drawn_form(job.plan, map);
   MapStats& stats = stats_[map];
-  move_[map] = work.move;
-  for (const MapPart& part : work.parts()) {
-    DrawnPart& at = parts_[map][part_count_[map]++];
-    at = {part.rectangle, part.clear, ranges_.size(), 0};
-    add_view(part.draws, stats, PartPlanes(job.prune, as_drawn, part.rectangle, kOpenGlZeroToOne).planes(),
-             saved.of(PruneRule::caster_clusters));
-    at.end = ranges_.size();
+  if (!job.moves.empty()) {
+    Beneath& beneath = beneath_[map];
+    beneath.used = true;
+    beneath.adopts = layered.adopts;
+    beneath.move = layered.beneath.move;
+    for (const MapPart& part : layered.beneath.parts())
+      beneath.part[beneath.part_count++] = listed(job, as_drawn, part, stats, saved);
+    beneath.copies_whole =
+        work.copies.size() == 1 && work.copies[0] == TexelRect{0, 0, as_drawn.width, as_drawn.height};
+    beneath.copies = {copies_.size(), beneath.copies_whole ? 0 : work.copies.size()};
+    for (const TexelRect& copy : work.copies) {
+      if (!beneath.copies_whole) copies_.push_back({copy.x, copy.y, copy.width, copy.height});
+      stats.copied += static_cast<std::uint64_t>(copy.width) * static_cast<std::uint64_t>(copy.height);
+    }
   }
+  move_[map] = work.move;
+  for (const MapPart& part : work.parts())
+    parts_[map][part_count_[map]++] = listed(job, as_drawn, part, stats, saved);
   stats.texels = work.texels;
-  stats.held = work.parts().empty();
-  stats.scrolled = work.move.any();
+  stats.held = !work.any();
+  stats.scrolled = work.move.any() || layered.beneath.move.any();
   stats.age = work.age;
+}
+
+DrawnPart DrawLists::listed(const CullingJob& job, const ShadowMap& as_drawn, const MapPart& part,
+                            MapStats& stats, PruneSavings& saved) {
+  DrawnPart at{part.rectangle, part.clear, ranges_.size(), 0};
+  add_view(part.draws, stats, PartPlanes(job.prune, as_drawn, part.rectangle, kOpenGlZeroToOne).planes(),
+           saved.of(PruneRule::caster_clusters));
+  at.end = ranges_.size();
+  return at;
 }
 
 void DrawLists::mark_visible(const Camera& camera) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
@@ -53,10 +54,17 @@ class DrawLists {
   /// The same without the cache: one part for each map, with all of its casters. The maps' depths stay as
   /// they are.
   void build_uncached(const CullingJob& job, const Camera& camera);
-  /// The same with pages in place of maps: one part for each, see page_part.
-  void build_pages(std::span<const DrawnPage> pages, const Camera& camera, PruneRules prune);
-  /// What is drawn into one page, by index.
+  /// The same with pages in place of maps: one part for each, see page_part. `moves`: by instance, 1 where it
+  /// is drawn apart, see moving_part; empty: none is.
+  void build_pages(std::span<const DrawnPage> pages, const Camera& camera, PruneRules prune,
+                   std::span<const std::uint8_t> moves = {});
+  /// What is drawn into one page, by index: its static casters, none where it is composed.
   [[nodiscard]] const DrawnPart& page_part(std::size_t page) const noexcept { return page_parts_[page]; }
+  /// Its moving casters.
+  [[nodiscard]] const DrawnPart& moving_part(std::size_t page) const noexcept { return moving_parts_[page]; }
+  [[nodiscard]] static bool draws(const DrawnPart& part) noexcept { return part.end > part.begin; }
+  /// Whether any page of the last build_pages() is composed or has moving casters.
+  [[nodiscard]] bool any_apart() const noexcept { return any_apart_; }
   /// Casters are culled by the scene's boxes as they are now.
   void rebuild_casters() { culling_.rebuild(); }
   /// The maps hold nothing any more: the next build() draws them whole.
@@ -65,6 +73,26 @@ class DrawLists {
   /// What a map holds that is to be moved, before anything of it is drawn.
   [[nodiscard]] const MapMove& move(int index) const noexcept {
     return move_[static_cast<std::size_t>(index)];
+  }
+  /// Rectangles of static depths, by their places in a buffer that is bound for shaders/copy_depth.vert.
+  struct Copies {
+    std::size_t first = 0, count = 0;
+  };
+  /// Of a layer of pages: those of all pages that are composed or have moving casters.
+  [[nodiscard]] Copies page_copies(int layer) const noexcept;
+  /// What is done with the map of static casters beneath a map; everything else comes after that.
+  struct Beneath {
+    bool used = false;    ///< false: there is none, and nothing to do
+    bool adopts = false;  ///< first it becomes a copy of the map
+    MapMove move;
+    std::array<DrawnPart, MapWork::kMaxParts> part{};
+    std::size_t part_count = 0;
+    bool copies_whole = false;  ///< all of it goes to the map
+    Copies copies;              ///< that go to the map
+    [[nodiscard]] std::span<const DrawnPart> parts() const noexcept { return {part.data(), part_count}; }
+  };
+  [[nodiscard]] const Beneath& beneath(int index) const noexcept {
+    return beneath_[static_cast<std::size_t>(index)];
   }
   [[nodiscard]] std::span<const DrawnPart> parts(int index) const noexcept {
     const auto map = static_cast<std::size_t>(index);
@@ -92,6 +120,9 @@ class DrawLists {
   void draw(std::uint32_t begin, std::uint32_t end) const noexcept;
 
  private:
+  /// Lists one part of a map, whose casters its planes cull.
+  DrawnPart listed(const CullingJob& job, const ShadowMap& as_drawn, const MapPart& part, MapStats& stats,
+                   PruneSavings& saved);
   void add_map(const CullingJob& job, const DrawnMaps& drawn, std::size_t map, PruneSavings& saved);
   /// `planes`: large casters are drawn within them, and what that saves is counted; none: drawn whole.
   void add_view(std::span<const std::uint8_t> draws, MapStats& stats, std::span<const glm::dvec4> planes,
@@ -112,15 +143,19 @@ class DrawLists {
   std::array<MapMove, kMaxMaps> move_{};
   std::array<std::array<DrawnPart, MapWork::kMaxParts>, kMaxMaps> parts_{};
   std::array<std::size_t, kMaxMaps> part_count_{};
-  std::vector<DrawnPart> page_parts_;
+  std::array<Beneath, kMaxMaps> beneath_{};
+  std::vector<DrawnPart> page_parts_, moving_parts_;
+  std::vector<glm::ivec4> copies_;  ///< x, y, width, height
+  std::vector<int> copy_layers_;    ///< of pages: of each of copies_, ascending
+  bool any_apart_ = false;
   std::vector<std::uint8_t> visible_;   ///< scratch: by instance
   std::vector<std::uint32_t> objects_;  ///< object of each drawn instance, all views one after the other
   std::vector<DrawCommand> commands_;
   std::vector<BatchRange> ranges_;
   std::size_t camera_begin_ = 0;                ///< of ranges_, whose last are the camera's
   std::array<MapStats, kMaxMaps + 1> stats_{};  ///< the camera's last
-  Buffer object_buffer_, command_buffer_;
-  std::size_t object_capacity_ = 0, command_capacity_ = 0;
+  Buffer object_buffer_, command_buffer_, copy_buffer_;
+  std::size_t object_capacity_ = 0, command_capacity_ = 0, copy_capacity_ = 0;
 };
 
 }  // namespace gnomon::render

@@ -277,7 +277,7 @@ FrameStats Renderer::draw(const LightPlan& plan, std::span<const DrawnLight> lig
     return draw(ShadowPlan{}, camera, filter, options);
   LightPass& pass = *impl.light_pass;
   impl.take_moved(options.moved_world);
-  impl.moved.clear();
+  impl.movers.forget_changes();
   impl.lists.forget_maps();
   impl.pages.forget();
   impl.history.forget();  // each mask is of one light

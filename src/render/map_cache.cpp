@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "frame_block.hpp"
 
@@ -24,12 +25,13 @@ ShadowMap drawn_form(const ShadowPlan& plan, std::size_t index) noexcept {
 
 MapCache::MapCache(const SceneBuffers& scene, CasterCulling& culling)
     : scene_(scene), culling_(culling), draws_(scene.boxes().size()) {
-  for (Cached& cached : cached_) cached.holds.resize(scene.boxes().size());
+  for (std::array<Cached, kMaxMaps>* maps : {&cached_, &beneath_})
+    for (Cached& cached : *maps) cached.holds.resize(scene.boxes().size());
   for (std::vector<std::uint8_t>& draws : part_draws_) draws.resize(scene.boxes().size());
 }
 
 void MapCache::forget(std::size_t first) noexcept {
-  for (Cached& cached : std::span(cached_).subspan(std::min(first, cached_.size()))) cached.valid = false;
+  for (std::size_t i = first; i < cached_.size(); ++i) cached_[i].valid = beneath_[i].valid = false;
 }
 
 bool MapCache::draws_any() const noexcept {
@@ -132,19 +134,18 @@ MapWork MapCache::scroll(const CullingJob& job, const ShadowMap& map, const MapR
       cached, saved);
 }
 
-MapWork MapCache::update(const CachedDraw& draw, PruneSavings& saved) {
+MapWork MapCache::bring_up(const CachedDraw& draw, std::span<const Box> moved_world, Cached& cached,
+                           PruneSavings& saved) {
   const CullingJob& job = draw.job;
-  draws_.assign(draw.casters.begin(), draw.casters.end());
-  Cached& cached = cached_[draw.index];
   const DrawnMap& drawn = draw.drawn.map[draw.index];
   const ShadowMap map = drawn_form(job.plan, draw.index);
   const bool usable = cached.valid && cached.origin_world == draw.drawn.origin_world;
   const bool same = usable && job.prune.has(PruneRule::held_maps) && cached.drawn == drawn &&
                     (!(job.reads_everywhere || job.peels) || cached.holds == draws_);
-  const DirtyTexels dirty = usable ? dirty_texels(map, job.moved_world) : DirtyTexels{};
+  const DirtyTexels dirty = usable ? dirty_texels(map, moved_world, MapWork::kMostRedrawn) : DirtyTexels{};
   const bool holds = same && !dirty.whole && !(job.peels && dirty.any());
   const bool scrolls = usable && !same && !job.peels && job.prune.has(PruneRule::scrolled_maps) &&
-                       !dirty.any() && !dirty_texels(cached.map, job.moved_world).any();
+                       !dirty.any() && !dirty_texels(cached.map, moved_world, MapWork::kMostRedrawn).any();
   const MapReuse moved = scrolls ? reuse(cached.map, map, kOpenGlZeroToOne) : MapReuse{};
   MapWork work = holds && dirty.any()                ? redraw(map, dirty, cached, saved)
                  : holds                             ? hold(map, cached, saved)
@@ -155,6 +156,121 @@ MapWork MapCache::update(const CachedDraw& draw, PruneSavings& saved) {
   cached.drawn = drawn;
   cached.map = map;
   work.age = ++cached.age;
+  return work;
+}
+
+std::span<const Box> MapCache::adoption_bounds(const CullingJob& job) {
+  adopted_.assign(job.moved_world.begin(), job.moved_world.end());
+  for (std::size_t i = 0; i < job.moves.size(); ++i)
+    if (job.moves[i] != 0) adopted_.push_back(scene_.boxes()[i]);
+  return adopted_;
+}
+
+void MapCache::draw_over(const CachedDraw& draw, const ShadowMap& map, Cached& cached, PruneSavings& saved) {
+  for (std::uint32_t i = 0; i < over_.size(); ++i) {
+    if (draw.job.moves[i] == 0) continue;
+    // In the rest of the map, but not where it is copied.
+    if (cached.holds[i] != 0 && may_touch(map, scene_.boxes()[i], copied_.rectangles())) cached.holds[i] = 0;
+    if (draw.casters[i] == 0) continue;
+    if (cached.holds[i] != 0) {
+      ++saved.of(PruneRule::held_maps).instances;
+      saved.of(PruneRule::held_maps).triangles += scene_.triangles_of(i);
+    } else {
+      over_[i] = cached.holds[i] = 1;
+    }
+  }
+  count_static(draw, map, saved);
+}
+
+void MapCache::count_static(const CachedDraw& draw, const ShadowMap& map, PruneSavings& saved) {
+  const DirtyTexels redrawn = dirty_texels(map, draw.job.moved_world, MapWork::kMostRedrawn);
+  for (const TexelRect& rectangle : redrawn.rectangles()) {
+    for (const std::uint32_t i :
+         culling_.instances_within(rectangle_planes(map, rectangle, kOpenGlZeroToOne))) {
+      if (draw.job.moves[i] != 0 || draw.casters[i] == 0 || over_[i] != 0) continue;
+      for (PruneSaving* of : {&saved.of(PruneRule::static_casters), &saved.spent_by(PruneRule::held_maps)}) {
+        ++of->instances;
+        of->triangles += scene_.triangles_of(i);
+      }
+    }
+  }
+}
+
+LayeredWork MapCache::compose(const CachedDraw& draw, PruneSavings& saved) {
+  const CullingJob& job = draw.job;
+  Cached &cached = cached_[draw.index], &beneath = beneath_[draw.index];
+  const ShadowMap map = drawn_form(job.plan, draw.index);
+  LayeredWork work;
+  work.adopts = !beneath.valid && cached.valid;
+  if (work.adopts) beneath = cached;
+  draws_.assign(draw.casters.begin(), draw.casters.end());
+  for (std::size_t i = 0; i < draws_.size(); ++i) {
+    if (job.moves[i] != 0) draws_[i] = beneath.holds[i] = 0;
+  }
+  work.beneath = bring_up(draw, work.adopts ? adoption_bounds(job) : job.static_moved_world, beneath, saved);
+  const bool drawn_whole = work.beneath.age == 0;
+  work.adopts = work.adopts && !drawn_whole;
+  const bool same =
+      cached.valid && cached.origin_world == beneath.origin_world && cached.drawn == beneath.drawn &&
+      !drawn_whole && !work.beneath.move.any() &&
+      (!job.reads_everywhere || std::equal(cached.holds.begin(), cached.holds.end(), draw.casters.begin()));
+  copied_ = same ? dirty_texels(map, job.moved_world, DirtyTexels::kMost) : DirtyTexels{};
+  const bool whole = !same || copied_.whole;
+  // Static casters that came into reach are drawn into both maps.
+  over_.assign(draws_.size(), 0);
+  const std::span<const MapPart> parts = work.beneath.parts();
+  if (!whole && !parts.empty() && !parts.back().clear)
+    std::copy(parts.back().draws.begin(), parts.back().draws.end(), over_.begin());
+  for (std::size_t i = 0; i < over_.size(); ++i) {
+    if (whole || job.moves[i] == 0) cached.holds[i] = beneath.holds[i];
+  }
+  if (!whole) {
+    draw_over(draw, map, cached, saved);
+  } else {
+    copied_.rectangle[0] = {0, 0, map.width, map.height};
+    copied_.count = 1;
+    for (std::size_t i = 0; i < over_.size(); ++i) {
+      if (job.moves[i] != 0) over_[i] = cached.holds[i] = draw.casters[i];
+    }
+  }
+  cached.valid = true;
+  cached.origin_world = beneath.origin_world;
+  cached.drawn = beneath.drawn;
+  cached.map = beneath.map;
+  cached.age = beneath.age;
+  finish(work, whole, map, saved);
+  return work;
+}
+
+void MapCache::finish(LayeredWork& work, bool whole, const ShadowMap& map, PruneSavings& saved) {
+  const bool draws = std::any_of(over_.begin(), over_.end(), [](std::uint8_t d) { return d != 0; });
+  work.map.copies = copied_.rectangles();
+  if (draws) work.map.add({{0, 0, map.width, map.height}, false, over_});
+  work.map.age = work.beneath.age;
+  double texels = static_cast<double>(work.beneath.texels);
+  if (!whole) {
+    for (const TexelRect& copied : work.map.copies) texels += 1.0 * copied.width * copied.height;
+  } else {
+    for (std::uint32_t i = 0; i < over_.size(); ++i) {
+      const std::optional<TexelExtent> extent =
+          over_[i] != 0 ? extent_in_map(map, scene_.boxes()[i]) : TexelExtent{0.0, 0.0};
+      texels += extent ? extent->area() : static_cast<double>(texels_of(map));
+    }
+  }
+  work.map.texels = std::min(static_cast<std::uint64_t>(std::ceil(texels)), texels_of(map));
+  PruneSaving& saving = saved.of(work.beneath.move.any() ? PruneRule::scrolled_maps : PruneRule::held_maps);
+  saving.texels -= std::min(saving.texels, work.map.texels - std::min(work.map.texels, work.beneath.texels));
+  const bool was_counted = work.beneath.part_count == 0 && !work.beneath.move.any();
+  if (was_counted && work.map.any()) saving.maps -= std::min<std::uint64_t>(saving.maps, 1);
+}
+
+LayeredWork MapCache::update(const CachedDraw& draw, PruneSavings& saved) {
+  const CullingJob& job = draw.job;
+  if (!job.moves.empty()) return compose(draw, saved);
+  beneath_[draw.index].valid = false;
+  draws_.assign(draw.casters.begin(), draw.casters.end());
+  LayeredWork work;
+  work.map = bring_up(draw, job.moved_world, cached_[draw.index], saved);
   return work;
 }
 

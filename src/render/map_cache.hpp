@@ -25,12 +25,15 @@ struct MapMove {
   TexelRect kept;
   [[nodiscard]] bool any() const noexcept { return shift_x != 0 || shift_y != 0; }
 };
-/// What is to be done with a map: first what it holds is moved, then the parts are drawn. Neither: the map is
-/// as it was.
+/// What is to be done with a map: first what it holds is moved, then rectangles are copied from the map of
+/// its static casters, then the parts are drawn. None of them: the map is as it was.
 struct MapWork {
+  /// Rectangles in which all casters are drawn again; each costs draws.
+  static constexpr std::size_t kMostRedrawn = 4;
   /// Two strips or rectangles of moved casters, and what came into reach anywhere.
-  static constexpr std::size_t kMaxParts = DirtyTexels::kMost + 1;
+  static constexpr std::size_t kMaxParts = kMostRedrawn + 1;
   MapMove move;
+  std::span<const TexelRect> copies;
   std::array<MapPart, kMaxParts> part;
   std::size_t part_count = 0;
   std::uint64_t texels = 0;  ///< that drawing touches, at most
@@ -38,6 +41,14 @@ struct MapWork {
 
   [[nodiscard]] std::span<const MapPart> parts() const noexcept { return {part.data(), part_count}; }
   void add(const MapPart& of) noexcept { part[part_count++] = of; }
+  [[nodiscard]] bool any() const noexcept { return move.any() || !copies.empty() || part_count > 0; }
+};
+/// The same where static casters have a map of their own beneath that of all casters.
+struct LayeredWork {
+  /// The map beneath begins as a copy of the map of all casters.
+  bool adopts = false;
+  MapWork beneath;  ///< nothing to do where no caster moves
+  MapWork map;
 };
 
 /// A frame's map, and what culling left of its casters.
@@ -60,7 +71,7 @@ class MapCache {
   void forget(std::size_t first = 0) noexcept;
   /// What to draw so that the map is as if drawn whole. Records what the map holds after that. Valid until
   /// the next call.
-  [[nodiscard]] MapWork update(const CachedDraw& draw, PruneSavings& saved);
+  [[nodiscard]] LayeredWork update(const CachedDraw& draw, PruneSavings& saved);
 
  private:
   struct Cached {
@@ -71,6 +82,19 @@ class MapCache {
     ShadowMap map;                    ///< in the clip space that it was drawn in
     std::vector<std::uint8_t> holds;  ///< by instance
   };
+  /// Brings a map up to date by the casters in draws_. `moved_world`: bounds where any of them changed.
+  [[nodiscard]] MapWork bring_up(const CachedDraw& draw, std::span<const Box> moved_world, Cached& cached,
+                                 PruneSavings& saved);
+  /// The same with static casters beneath and moving ones on top.
+  [[nodiscard]] LayeredWork compose(const CachedDraw& draw, PruneSavings& saved);
+  /// Where the map beneath, which was that of all casters, changes once these move.
+  [[nodiscard]] std::span<const Box> adoption_bounds(const CullingJob& job);
+  /// Marks the moving casters to draw over the copies, in over_, and forgets those that copies erase.
+  void draw_over(const CachedDraw& draw, const ShadowMap& map, Cached& cached, PruneSavings& saved);
+  /// Counts the static casters that would be drawn again without the rule.
+  void count_static(const CachedDraw& draw, const ShadowMap& map, PruneSavings& saved);
+  /// Lists the copies and what is drawn over them, and counts.
+  void finish(LayeredWork& work, bool whole, const ShadowMap& map, PruneSavings& saved);
   // `map`: in the clip space that it is drawn in.
   [[nodiscard]] MapWork draw_whole(const ShadowMap& map, Cached& cached);
   /// For an unchanged map: the casters that it does not hold yet.
@@ -85,7 +109,7 @@ class MapCache {
   /// Whole where that is cheaper.
   [[nodiscard]] MapWork draw_parts(const ShadowMap& map, const Parts& parts, Cached& cached,
                                    PruneSavings& saved);
-  /// For an unchanged map: rectangles of moved casters, and the casters that the map does not hold yet.
+  /// For an unchanged map: rectangles of moved casters, and the casters that it does not hold yet.
   [[nodiscard]] MapWork redraw(const ShadowMap& map, const DirtyTexels& dirty, Cached& cached,
                                PruneSavings& saved);
   /// Casters that a cleared rectangle is drawn with: all of the map's there.
@@ -101,8 +125,11 @@ class MapCache {
   const SceneBuffers& scene_;
   CasterCulling& culling_;
   std::vector<std::uint8_t> draws_;  ///< of the map at hand, by instance
-  std::array<std::vector<std::uint8_t>, DirtyTexels::kMost> part_draws_;
-  std::array<Cached, kMaxMaps> cached_;
+  std::array<std::vector<std::uint8_t>, MapWork::kMostRedrawn> part_draws_;
+  std::vector<std::uint8_t> over_;  ///< moving casters, and static ones that came into reach, by instance
+  std::vector<Box> adopted_;        ///< scratch of adoption_bounds
+  DirtyTexels copied_;
+  std::array<Cached, kMaxMaps> cached_, beneath_;  ///< of all casters, and of static ones
 };
 
 }  // namespace gnomon::render

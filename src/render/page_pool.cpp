@@ -43,6 +43,8 @@ PagePool::Extent PagePool::fit(const PagePlan& plan) noexcept {
   slot_texels_ = plan.slot_texels();
   extent_ = {kPagesAcross * slot_texels_, std::max(1, (pages + pages / 4 + kPerLayer - 1) / kPerLayer)};
   slots_.resize(static_cast<std::size_t>(extent_.layers * kPerLayer));
+  beneath_.resize(slots_.size());
+  lost_.resize(slots_.size());
   scratch_.resize(page_table_size(static_cast<int>(slots_.size())));
   return extent_;
 }
@@ -60,16 +62,29 @@ DrawnPage PagePool::place_of(std::size_t page) const noexcept {
   DrawnPage place;
   place.layer = static_cast<int>(kept_[page].slot) / kPerLayer;
   place.place = rectangle(kept_[page].slot);
+  place.slot = kept_[page].slot;
+  place.composed = kept_[page].compose;
+  place.has_beneath = beneath_[place.slot] != 0;
   return place;
 }
 
 void PagePool::build(const PagePlan& plan, const PageFrame& frame) {
   // Drawn relative to another origin, texels differ by rounding.
   if (frame.origin_world != origin_world_ || frame.alpha_test != alpha_test_) forget();
+  // Slots with both kinds of casters do not say so without the rule. Pages keep their places in any case: in
+  // another one texels differ by rounding.
+  if (frame.apart != apart_) std::fill(lost_.begin(), lost_.end(), std::uint8_t{1});
   origin_world_ = frame.origin_world;
   alpha_test_ = frame.alpha_test;
+  apart_ = frame.apart;
   kept_.resize(plan.pages.size());
-  (void)keep_pages(plan, frame.moved_world, slots_, scratch_, kept_);  // fit() made room
+  // fit() made room.
+  (void)keep_pages(plan, frame.static_moved_world, slots_, scratch_, kept_, frame.moved_world);
+  for (KeptPage& page : kept_) {
+    if (lost_[page.slot] == 0 && !(page.compose && !apart_)) continue;
+    page.draw = true;
+    page.compose = false;
+  }
   const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
   pages_.clear();
   records_.clear();
@@ -90,8 +105,11 @@ void PagePool::build(const PagePlan& plan, const PageFrame& frame) {
                                   counted_from(plan.origin_world)),
                         {page.level, static_cast<std::uint32_t>(page.column),
                          static_cast<std::uint32_t>(page.row), static_cast<std::uint32_t>(drawn.layer)}});
-    if (frame.keeps && !kept_[i].draw) continue;
-    held[kept_[i].slot] = 0;
+    if (frame.keeps && !kept_[i].draw && !kept_[i].compose) continue;
+    if (!kept_[i].compose) {
+      held[kept_[i].slot] = 0;
+      beneath_[kept_[i].slot] = lost_[kept_[i].slot] = 0;
+    }
     drew_[i] = true;
     drawn.clip_from_position = glm::mat4(drawn_from_plan * counted_from(frame.origin_world));
     pages_.push_back(drawn);

@@ -18,6 +18,9 @@ struct DrawnPage {
   glm::mat4 clip_from_position{1.0f};
   int layer = 0;
   TexelRect place{};  ///< in the layer, border included
+  std::uint32_t slot = 0;
+  bool composed = false;     ///< moving casters alone are drawn, over the static ones
+  bool has_beneath = false;  ///< static casters have depths of their own in this slot
 };
 
 /// What decides about pages besides their plan.
@@ -25,7 +28,9 @@ struct PageFrame {
   glm::dvec3 origin_world{0.0};  ///< what casters are drawn relative to
   bool alpha_test = false;       ///< where materials are masked alone
   bool keeps = false;            ///< draws what the pool does not hold; else every page
-  std::span<const Box> moved_world = {};
+  bool apart = false;            ///< moving casters are drawn over static ones; else a page is drawn whole
+  /// Bounds of casters that changed, before and after: where static ones came or went, and of moving ones.
+  std::span<const Box> static_moved_world = {}, moved_world = {};
 };
 
 /// Pages side by side in the layers of one depth array, kept from frame to frame.
@@ -51,6 +56,8 @@ class PagePool {
   [[nodiscard]] std::size_t resident() const noexcept { return records_.size(); }
   /// False where a page of the last plan was kept from an earlier one, and beyond resident().
   [[nodiscard]] bool drew(std::size_t page) const noexcept { return page < drew_.size() && drew_[page]; }
+  /// From now on static casters have depths of their own in a slot, until its page is drawn again.
+  void add_beneath(std::uint32_t slot) noexcept { beneath_[slot] = 1; }
   /// Binds the tables where shaders/common/pages.glsl reads them.
   void bind() const noexcept;
 
@@ -71,12 +78,13 @@ class PagePool {
   Extent extent_;
   int slot_texels_ = 0;
   glm::dvec3 origin_world_{0.0};
-  bool alpha_test_ = false;
+  bool alpha_test_ = false, apart_ = false;
   std::vector<PageSlot> slots_;
   std::vector<std::uint32_t> scratch_;
   std::vector<KeptPage> kept_;
-  std::vector<bool> fresh_;  ///< by layer
-  std::vector<bool> drew_;   ///< by page of the last plan
+  std::vector<std::uint8_t> beneath_, lost_;  ///< by slot; lost: its texels are not those of its page
+  std::vector<bool> fresh_;                   ///< by layer
+  std::vector<bool> drew_;                    ///< by page of the last plan
   std::vector<DrawnPage> pages_;
   std::vector<Level> levels_;
   std::vector<Record> records_;

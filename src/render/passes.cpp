@@ -51,6 +51,7 @@ CommonPrograms::CommonPrograms()
       depth_masked(make_program("depth.vert", "depth_masked.frag")),
       depth_even(make_program("depth.vert", "depth_even.frag")),
       depth_even_masked(make_program("depth.vert", "depth_even_masked.frag")),
+      copy_depth(make_program("copy_depth.vert", "copy_depth.frag")),
       surfaces(make_program("gbuffer.vert", "gbuffer.frag")),
       accumulate(make_program("fullscreen.vert", "accumulate.frag")),
       shade(make_program("fullscreen.vert", "shade.frag")),
@@ -212,21 +213,24 @@ void Renderer::Impl::draw_shadow_maps(const ShadowPlan& plan, const DrawnMaps& d
   // All moves before the first draw: a copy waits for what is being drawn into its image.
   for (int i = 0; i < map_count; ++i) {
     const MapMove& move = lists.move(i);
-    if (move.any()) maps.move(i, move.kept, move.shift_x, move.shift_y);
+    if (move.any()) maps.move(MapTargets::Of::all, i, move.kept, move.shift_x, move.shift_y);
   }
+  draw_static_maps(drawn, how);
   glBindVertexArray(scene.vertex_array());
   scene.use(SceneBuffers::Placed::for_maps);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_CULL_FACE);
   for (int i = 0; i < map_count; ++i) {
-    if (lists.parts(i).empty()) continue;
+    const DrawLists::Copies& copies = lists.beneath(i).copies;
+    if (lists.parts(i).empty() && copies.count == 0) continue;
     const DrawnMap& map = drawn.map[static_cast<std::size_t>(i)];
     DepthDraw of_map = how;
     of_map.even_scale = map.even_scale;
     glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0, i);
     glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
     glViewport(0, 0, map.width, map.height);
+    copy_static(copies, i, {map.width, map.height});
     for (const DrawnPart& part : lists.parts(i)) {
       draw_map_part(part, map, of_map);
       if (info_of(how.layer).peels && !map.bent)
@@ -245,16 +249,20 @@ void Renderer::Impl::draw_pages(const ShadowPlan& of_light, const DepthDraw& how
   glDisable(GL_CULL_FACE);
   constexpr float kFarthest = 1.0f;
   const auto clear = [&] { glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest); };
+  draw_static_pages(how);
   int layer = -1;
   const std::span<const DrawnPage> drawn = pages.pages();
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const bool fresh = pages.is_fresh(drawn[i].layer);
+    const bool moving = lists.draws(lists.moving_part(i));
+    const bool apart = moving || drawn[i].composed;
+    const bool fresh = !lists.any_apart() && pages.is_fresh(drawn[i].layer);
     if (drawn[i].layer != layer) {
       layer = drawn[i].layer;
       glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0, layer);
       glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
       glDisable(GL_SCISSOR_TEST);
       if (fresh) clear();
+      copy_static(lists.page_copies(layer), layer, {maps.width, maps.height});
       glEnable(GL_SCISSOR_TEST);
     }
     const TexelRect& at = drawn[i].place;
@@ -262,8 +270,8 @@ void Renderer::Impl::draw_pages(const ShadowPlan& of_light, const DepthDraw& how
     // page.
     glScissor(at.x, at.y, at.width, at.height);
     glViewport(at.x, at.y, at.width, at.height);
-    if (!fresh) clear();
-    draw_casters(lists.page_part(i), drawn[i].clip_from_position, how);
+    if (!fresh && !apart) clear();
+    draw_casters(apart ? lists.moving_part(i) : lists.page_part(i), drawn[i].clip_from_position, how);
     if (!info_of(how.layer).peels) continue;
     peel(lists.page_part(i), at, layer, drawn[i].clip_from_position, how, how.peeled(of_light, drawn[i].map));
     glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());

@@ -63,6 +63,7 @@ std::string_view to_string(Pass pass) noexcept {
 Renderer::Impl::Impl(const Scene& from_scene)
     : scene(from_scene),
       lists(scene),
+      movers(scene.boxes().size()),
       frame_buffer(make_buffer()),
       filter_buffer(make_buffer()),
       no_vertices(make_vertex_array()) {
@@ -181,19 +182,27 @@ void Renderer::Impl::take_silhouettes(const FilterSettings& settings) {
 }
 
 void Renderer::Impl::take_moved(std::span<const Box> moved_world) {
-  if (!moved.empty()) lists.rebuild_casters();
-  moved.insert(moved.end(), moved_world.begin(), moved_world.end());
+  if (!movers.changed_world().empty()) lists.rebuild_casters();
+  movers.add(moved_world);
+}
+
+bool Renderer::Impl::tells_apart(const FrameOptions& options) const noexcept {
+  return options.prune.has(PruneRule::static_casters) && options.prune.has(PruneRule::held_maps) &&
+         !info_of(options.depth_layer).peels && !drew_silhouettes;
+}
+
+std::span<const std::uint8_t> Renderer::Impl::moves(const FrameOptions& options) const noexcept {
+  return tells_apart(options) && movers.any() ? movers.moves() : std::span<const std::uint8_t>{};
 }
 
 void Renderer::Impl::forget_moved() noexcept {
   lists.forget_maps();
   pages.forget();
-  moved.clear();
+  movers.forget_changes();
 }
 
 void Renderer::Impl::move(std::size_t instance, const Instance& to) {
-  moved.push_back(scene.boxes()[instance]);
-  moved.push_back(to.bounds_world);
+  movers.move(instance, scene.boxes()[instance], to.bounds_world);
   scene.move(instance, to);
 }
 
@@ -263,7 +272,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   // A frame without maps brings none up to date: what moved is for the next one, as long as it is worth it.
   constexpr std::size_t kMostMoved = 4096;
   if (plan.map_count > 0) impl.pages.forget();
-  if (filter.irregular || impl.moved.size() > kMostMoved) impl.forget_moved();
+  if (filter.irregular || impl.movers.changed_world().size() > kMostMoved) impl.forget_moved();
   const bool identified = impl.takes_identifiers(plan, filter);
   impl.take_layer(identified ? DepthLayer::front : options.depth_layer, options.dual_limit_texels,
                   options.linear_depth && !identified);
@@ -296,9 +305,10 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     for (std::size_t i = 0; i < plan.maps().size(); ++i)
       drawn.map[i].even_scale = static_cast<float>(std::max(-curves[i], 0.0));
     impl.lists.build({plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
-                      info_of(options.depth_layer).peels || impl.drew_silhouettes, impl.moved},
+                      info_of(options.depth_layer).peels || impl.drew_silhouettes, impl.movers.changed_world(),
+                      impl.movers.static_changed_world(), impl.moves(options)},
                      drawn, camera);
-    if (plan.map_count > 0) impl.moved.clear();
+    if (plan.map_count > 0) impl.movers.finish_frame(impl.scene.boxes());
     impl.draw_shadow_maps(plan, drawn, depth_draw(options));
     if (impl.drew_silhouettes)
       impl.silhouettes->draw(impl.scene, impl.lists, impl.maps, drawn, impl.map_count);
@@ -383,10 +393,11 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
     const DrawnMaps drawn = impl.place_scene({}, camera.position, kOriginSteps);
     impl.take_moved(options.moved_world);
     const bool alpha_test = options.prune.has(PruneRule::alpha_test);
-    impl.pages.build(plan,
-                     {drawn.origin_world, alpha_test, options.prune.has(PruneRule::held_maps), impl.moved});
-    impl.moved.clear();
-    impl.lists.build_pages(impl.pages.pages(), camera, options.prune);
+    impl.pages.build(
+        plan, {drawn.origin_world, alpha_test, options.prune.has(PruneRule::held_maps),
+               impl.tells_apart(options), impl.movers.static_changed_world(), impl.movers.changed_world()});
+    impl.lists.build_pages(impl.pages.pages(), camera, options.prune, impl.moves(options));
+    impl.movers.finish_frame(impl.scene.boxes());
     impl.draw_pages(of_light, depth_draw(options));
   });
   timed(Pass::surfaces,
@@ -405,6 +416,8 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   stats.map_bytes = impl.maps.bytes();
   stats.pages = static_cast<int>(plan.pages.size());
   stats.pages_drawn = static_cast<int>(impl.pages.pages().size());
+  stats.pages_composed = static_cast<int>(std::count_if(impl.pages.pages().begin(), impl.pages.pages().end(),
+                                                        [](const DrawnPage& page) { return page.composed; }));
   PruneSaving& held = stats.saved[static_cast<std::size_t>(PruneRule::held_maps)];
   held.maps = static_cast<std::uint64_t>(stats.pages - stats.pages_drawn);
   held.texels = held.maps * static_cast<std::uint64_t>(plan.slot_texels()) *

@@ -14,6 +14,7 @@
 #include "identifier_pass.hpp"
 #include "light_pass.hpp"
 #include "mask_history.hpp"
+#include "moving_casters.hpp"
 #include "page_pool.hpp"
 #include "pane_pass.hpp"
 #include "pass_timer.hpp"
@@ -27,8 +28,8 @@ namespace gnomon::render {
 
 /// Programs that no filter takes part in.
 struct CommonPrograms {
-  Program depth, depth_masked, depth_even, depth_even_masked, surfaces, accumulate, shade, aliasing, heat,
-      tint;
+  Program depth, depth_masked, depth_even, depth_even_masked, copy_depth, surfaces, accumulate, shade, aliasing,
+      heat, tint;
   CommonPrograms();
 };
 
@@ -70,6 +71,10 @@ struct Renderer::Impl {
   void take_moved(std::span<const Box> moved_world);
   /// The caches hold nothing any more, so that nothing that moved matters.
   void forget_moved() noexcept;
+  /// Whether static casters have depths of their own in this frame.
+  [[nodiscard]] bool tells_apart(const FrameOptions& options) const noexcept;
+  /// By instance, 1 where it moves; nothing where no caster is drawn apart.
+  [[nodiscard]] std::span<const std::uint8_t> moves(const FrameOptions& options) const noexcept;
   void move(std::size_t instance, const Instance& to);
   void draw_map_part(const DrawnPart& part, const DrawnMap& map, const DepthDraw& how) noexcept;
   void draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
@@ -113,6 +118,12 @@ struct Renderer::Impl {
   /// What the draw lists of this plan held.
   void count_work(const ShadowPlan& plan, FrameStats& stats) const noexcept;
   void draw_shadow_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const DepthDraw& how) noexcept;
+  /// Brings the maps of static casters up to date; whole copies go to the maps of all casters.
+  void draw_static_maps(const DrawnMaps& drawn, const DepthDraw& how) noexcept;
+  /// Draws static depths into the layer that is attached; the viewport is left as it is here.
+  void copy_static(const DrawLists::Copies& copies, int layer, glm::ivec2 viewport) noexcept;
+  /// The same for pages: those that hold both kinds, before moving casters are drawn.
+  void draw_static_pages(const DepthDraw& how) noexcept;
   /// `block`: with the options that the filter chooses for each map, on return.
   void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block,
                  bool unread_tiles) noexcept;
@@ -182,7 +193,7 @@ struct Renderer::Impl {
   std::optional<PanePass> panes;              ///< made by Renderer::add_panes
   std::optional<PixelLists> pixel_lists;      ///< made when they are first prepared
   std::optional<IdentifierPass> identifiers;  ///< the same
-  std::vector<Box> moved;                     ///< bounds of casters before and after, since the last frame
+  MovingCasters movers;
   Pose posed;                                 ///< the last one applied; empty: none, or instances moved since
   Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;

@@ -106,27 +106,43 @@ MapTargets::MapTargets()
 std::uint64_t MapTargets::bytes() const noexcept {
   constexpr std::uint64_t kDepthBytes = 4;
   return kDepthBytes * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) *
-         static_cast<std::uint64_t>(layers + (scratch ? 1 : 0));
+         static_cast<std::uint64_t>(layers * (beneath ? 2 : 1) + (scratch ? 1 : 0));
 }
 
 bool MapTargets::fit(int new_width, int new_height, int new_layers) {
   const bool same_size = width == new_width && height == new_height;
   if (same_size && layers >= new_layers) return false;
   const int kept_layers = same_size ? layers : 0;
-  const Texture before = std::move(depth);
   width = new_width;
   height = new_height;
   layers = std::max(layers, new_layers);
-  depth = depth_layers(width, height, layers);
-  if (kept_layers > 0)
-    glCopyImageSubData(before.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, depth.name(), GL_TEXTURE_2D_ARRAY, 0,
-                       0, 0, 0, width, height, kept_layers);
+  const auto grow = [&](Texture& image) {
+    const Texture before = std::move(image);
+    image = depth_layers(width, height, layers);
+    if (kept_layers > 0 && before)
+      glCopyImageSubData(before.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, image.name(), GL_TEXTURE_2D_ARRAY, 0,
+                         0, 0, 0, width, height, kept_layers);
+  };
+  grow(depth);
+  if (!same_size) beneath = {};
+  if (beneath) grow(beneath);
   scratch = {};
   fbo = depth_framebuffer();
   return !same_size;
 }
 
-void MapTargets::move(int layer, const TexelRect& to, int shift_x, int shift_y) noexcept {
+void MapTargets::add_beneath() {
+  if (!beneath) beneath = depth_layers(width, height, layers);
+}
+
+void MapTargets::copy(Of into_which, int layer, const TexelRect& at) const noexcept {
+  const Texture &from = into_which == Of::all ? beneath : depth,
+                &into = into_which == Of::all ? depth : beneath;
+  glCopyImageSubData(from.name(), GL_TEXTURE_2D_ARRAY, 0, at.x, at.y, layer, into.name(), GL_TEXTURE_2D_ARRAY,
+                     0, at.x, at.y, layer, at.width, at.height, 1);
+}
+
+void MapTargets::move(Of which, int layer, const TexelRect& to, int shift_x, int shift_y) noexcept {
   if (!scratch) scratch = depth_layers(width, height, 1);
   // By way of another image: within one, source and destination would overlap.
   const auto copy = [&to](GLuint from, int from_x, int from_y, int from_layer, GLuint into, int x, int y,
@@ -134,8 +150,9 @@ void MapTargets::move(int layer, const TexelRect& to, int shift_x, int shift_y) 
     glCopyImageSubData(from, GL_TEXTURE_2D_ARRAY, 0, from_x, from_y, from_layer, into, GL_TEXTURE_2D_ARRAY, 0,
                        x, y, z, to.width, to.height, 1);
   };
-  copy(depth.name(), to.x - shift_x, to.y - shift_y, layer, scratch.name(), 0, 0, 0);
-  copy(scratch.name(), 0, 0, 0, depth.name(), to.x, to.y, layer);
+  const GLuint image = which == Of::all ? depth.name() : beneath.name();
+  copy(image, to.x - shift_x, to.y - shift_y, layer, scratch.name(), 0, 0, 0);
+  copy(scratch.name(), 0, 0, 0, image, to.x, to.y, layer);
 }
 
 }  // namespace gnomon::render

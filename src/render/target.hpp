@@ -43,16 +43,24 @@ struct MapTargets {
   int width = 0, height = 0, layers = 0;
   Texture depth;
   Texture scratch;  ///< one layer, made by the first move()
+  Texture beneath;  ///< static casters alone, layer by layer; made by add_beneath()
   Framebuffer fbo;
   Sampler compare_sampler;  ///< compares, bilinear
   Sampler plain_sampler;    ///< reads depths, nearest
+
+  /// Depths of all casters, or of static ones alone.
+  enum class Of : std::uint8_t { all, static_casters };
 
   MapTargets();
   /// Grows to hold maps of this size; never shrinks the number of layers. More layers of the same size keep
   /// what they hold. True where all maps are new.
   bool fit(int new_width, int new_height, int new_layers);
   /// Copies what lies in the rectangle of a layer, once moved by `shift`, from where it is now.
-  void move(int layer, const TexelRect& to, int shift_x, int shift_y) noexcept;
+  void move(Of which, int layer, const TexelRect& to, int shift_x, int shift_y) noexcept;
+  /// Makes room for the depths of static casters, where there is none.
+  void add_beneath();
+  /// Copies a rectangle of a layer into these depths from the others.
+  void copy(Of into_which, int layer, const TexelRect& at) const noexcept;
   [[nodiscard]] std::uint64_t bytes() const noexcept;
 };
 

@@ -3,10 +3,16 @@
 //     bench_animated [FRAMES] [SCENE.glb...]
 //
 // FRAMES (default 600) at 60 Hz of each scene's first animation, under a sun and a camera that flies, or
-// rests, once by four stable maps of 512 and once by pages of policy clipmap. Every frame is compared with
-// one that draws everything: texels of maps and pixels of the mask that differ are stale. "changed": texels
-// that are others than in the frame before, where a map lies as it lay, and of pages all those of any
-// such page.
+// rests, once by four stable maps of 512 and once by pages of policy clipmap. Three renderers draw each frame
+// by turns: one that keeps static casters apart (PruneRule::static_casters), one that keeps maps and pages
+// without that rule, and one that draws everything. Texels of maps and pixels of the mask in which the first
+// two differ from the third are stale.
+//
+// In percent of the texels that drawing everything takes: "drawn", by the rule; "exact", those that a caster
+// which moved covers now or covered in the frame before, hidden or not, or all of a map that lies elsewhere
+// than it lay; "changed", those that are others than in the frame before; of pages all texels of any such
+// page. Then, per frame with the rule, without it and all: triangles in the
+// mean, and milliseconds of the shadow map pass in the median. The first frame draws everything: not counted.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -20,6 +26,7 @@
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/pose.hpp"
+#include "median.hpp"
 #include "page_storage.hpp"
 
 namespace gnomon {
@@ -27,16 +34,96 @@ namespace {
 
 constexpr int kWidth = 480, kHeight = 270;
 
+/// What one renderer did over all frames.
+struct Work {
+  std::uint64_t texels = 0, triangles = 0;
+  std::vector<double> ms;
+
+  void add(const render::FrameStats& stats) {
+    texels += stats.texels;
+    for (int map = 0; map < stats.map_count; ++map)
+      triangles += stats.map[static_cast<std::size_t>(map)].triangles;
+    ms.push_back(stats.ms(render::Pass::shadow_maps));
+  }
+};
+
 struct Sums {
-  std::uint64_t drawn = 0, all = 0, changed = 0, stale = 0, pixels = 0;
-  double drawn_ms = 0.0, all_ms = 0.0;
+  Work apart, kept, all;
+  std::uint64_t exact = 0, changed = 0, stale = 0, pixels = 0;
+
+  void add(const render::FrameStats& by_rule, const render::FrameStats& without,
+           const render::FrameStats& whole) {
+    apart.add(by_rule);
+    kept.add(without);
+    all.add(whole);
+  }
+};
+
+/// The casters that moved between two frames, and nothing else.
+class MovedAlone {
+ public:
+  explicit MovedAlone(const Scene& scene) : renderer_(scene) {
+    Pose any;
+    (void)pose(scene, 0, 0.0, any);
+    std::vector<bool> listed(scene.instances.size());
+    for (const PosedInstance& at : any.instances) listed[at.instance] = true;
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+      if (listed[i]) continue;
+      Instance point = scene.instances[i];
+      hide(point.world_from_object, point.bounds_world);
+      (void)renderer_.move_instance(i, point);
+    }
+  }
+  /// Texels of the plan's maps that those casters cover which differ between two poses, in either of them.
+  std::uint64_t covered(const ShadowPlan& plan, const Camera& camera, const Pose& before, const Pose& now,
+                        const std::vector<bool>& same_map) {
+    const std::vector<std::vector<float>> then = depths(plan, camera, before, now),
+                                          here = depths(plan, camera, now, before);
+    std::uint64_t count = 0;
+    for (std::size_t map = 0; map < here.size(); ++map) {
+      for (std::size_t i = 0; i < here[map].size(); ++i)
+        count += !same_map[map] || here[map][i] < 1.0f || then[map][i] < 1.0f;
+    }
+    return count;
+  }
+
+ private:
+  static void hide(glm::dmat4& world_from_object, Box& bounds) {
+    for (int column = 0; column < 3; ++column) world_from_object[column] = glm::dvec4(0.0);
+    bounds = {glm::dvec3(world_from_object[3]), glm::dvec3(world_from_object[3])};
+  }
+  std::vector<std::vector<float>> depths(const ShadowPlan& plan, const Camera& camera, const Pose& at,
+                                         const Pose& other) {
+    Pose shown = at;
+    for (std::size_t i = 0; i < shown.instances.size(); ++i) {
+      bool moved = !(at.instances[i] == other.instances[i]);
+      for (std::size_t v = 0; v < at.vertices.size(); ++v) {
+        const PosedVertices& range = at.vertices[v];
+        if (range.instance != at.instances[i].instance) continue;
+        for (std::size_t k = 0; k < range.count; ++k)
+          moved = moved || at.positions[range.first + k] != other.positions[range.first + k];
+      }
+      if (!moved) hide(shown.instances[i].world_from_object, shown.instances[i].bounds_world);
+    }
+    (void)renderer_.apply_pose(shown);
+    render::FrameOptions options;
+    options.prune = kPruneNothing;
+    options.aliasing = options.heat_map = options.cascade_tint = options.time_passes = false;
+    renderer_.draw(plan, camera, renderer_.prepare(render::filters::hard), options);
+    std::vector<std::vector<float>> all;
+    for (int map = 0; map < plan.map_count; ++map) all.push_back(renderer_.depth_map(map).values);
+    return all;
+  }
+  render::Renderer renderer_;
 };
 
 struct Playing {
   Scene scene, posed;
   CameraPath path;
   Light light;
-  render::Renderer keeps, redraws;
+  render::Renderer apart, keeps, redraws;
+  MovedAlone moved;
+  Pose at, before;
   std::vector<Box> boxes;
 
   explicit Playing(const Scene& of)
@@ -44,13 +131,15 @@ struct Playing {
         posed(of),
         path(default_path(of)),
         light(default_light({}, of.bounds_world)),
+        apart(of),
         keeps(of),
-        redraws(of) {}
+        redraws(of),
+        moved(of) {}
   void go(int frame) {
-    Pose at;
+    before = at;
     (void)pose(scene, 0, looped_time(scene.motion.animations.at(0), frame / 60.0), at);
-    (void)keeps.apply_pose(at);
-    (void)redraws.apply_pose(at);
+    if (frame == 0) before = at;
+    for (render::Renderer* renderer : {&apart, &keeps, &redraws}) (void)renderer->apply_pose(at);
     apply_pose(at, posed);
     boxes.clear();
     for (const Instance& instance : posed.instances) boxes.push_back(instance.bounds_world);
@@ -60,22 +149,21 @@ struct Playing {
   }
 };
 
-double map_ms(const render::FrameStats& stats) {
-  return stats.milliseconds[static_cast<std::size_t>(render::Pass::shadow_maps)];
-}
-
 std::uint64_t differing(const std::vector<float>& a, const std::vector<float>& b) {
   std::uint64_t count = a.size() == b.size() ? 0 : a.size();
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) count += a[i] != b[i];
   return count;
 }
 
-render::FrameOptions drawing(bool keeps) {
+enum class Keeping : std::uint8_t { apart, maps, nothing };
+
+render::FrameOptions drawing(Keeping keeping) {
   render::FrameOptions options;
   options.aliasing = options.heat_map = options.cascade_tint = false;
   // All casters: kept maps may hold some that the frame's plan culls, where no look-up reads.
   options.prune = exact_prune_rules().without(PruneRule::swept_casters);
-  if (!keeps) options.prune = options.prune.without(PruneRule::held_maps).without(PruneRule::scrolled_maps);
+  if (keeping != Keeping::apart) options.prune = options.prune.without(PruneRule::static_casters);
+  if (keeping == Keeping::nothing) options.prune = options.prune.without(PruneRule::held_maps);
   return options;
 }
 
@@ -91,7 +179,8 @@ PlanOptions plan_options(const render::FilterSettings& filter) {
 Sums maps(Playing& playing, int frames, bool flies) {
   const render::FilterSettings filter = render::default_settings(render::filters::pcf);
   const PlanOptions options = plan_options(filter);
-  const render::PreparedFilter with = playing.keeps.prepare(filter), whole = playing.redraws.prepare(filter);
+  const render::PreparedFilter prepared = playing.apart.prepare(filter), with = playing.keeps.prepare(filter),
+                               whole = playing.redraws.prepare(filter);
   Sums sums;
   ShadowPlan before;
   std::vector<std::vector<float>> depths(kMaxMaps);
@@ -99,22 +188,25 @@ Sums maps(Playing& playing, int frames, bool flies) {
     playing.go(frame);
     const Camera camera = playing.camera(frame, flies);
     const ShadowPlan plan = make_plan(camera, playing.light, {playing.boxes, playing.boxes}, options);
-    const render::FrameStats kept = playing.keeps.draw(plan, camera, with, drawing(true));
-    const render::FrameStats all = playing.redraws.draw(plan, camera, whole, drawing(false));
-    sums.drawn += kept.texels;
-    sums.all += all.texels;
-    sums.drawn_ms += map_ms(kept);
-    sums.all_ms += map_ms(all);
+    const render::FrameStats apart = playing.apart.draw(plan, camera, prepared, drawing(Keeping::apart)),
+                             kept = playing.keeps.draw(plan, camera, with, drawing(Keeping::maps)),
+                             all = playing.redraws.draw(plan, camera, whole, drawing(Keeping::nothing));
+    const bool counts = frame > 0;
+    if (counts) sums.add(apart, kept, all);
+    std::vector<bool> same;
     for (int map = 0; map < plan.map_count; ++map) {
       const auto i = static_cast<std::size_t>(map);
       std::vector<float> now = playing.redraws.depth_map(map).values;
+      sums.stale += differing(playing.apart.depth_map(map).values, now);
       sums.stale += differing(playing.keeps.depth_map(map).values, now);
-      const bool same =
-          map < before.map_count && before.map[i].clip_from_world == plan.map[i].clip_from_world;
-      sums.changed += same ? differing(depths[i], now) : now.size();
+      same.push_back(map < before.map_count && before.map[i].clip_from_world == plan.map[i].clip_from_world);
+      if (counts) sums.changed += same.back() ? differing(depths[i], now) : now.size();
       depths[i] = std::move(now);
     }
-    sums.pixels += differing(playing.keeps.mask().values, playing.redraws.mask().values);
+    if (counts) sums.exact += playing.moved.covered(plan, camera, playing.before, playing.at, same);
+    const std::vector<float> mask = playing.redraws.mask().values;
+    sums.pixels +=
+        differing(playing.apart.mask().values, mask) + differing(playing.keeps.mask().values, mask);
     before = plan;
   }
   return sums;
@@ -137,7 +229,7 @@ Sums pages(Playing& playing, int frames, bool flies) {
   for (int frame = 0; frame < frames; ++frame) {
     playing.go(frame);
     const Camera camera = playing.camera(frame, flies);
-    playing.redraws.draw(ShadowPlan{}, camera, playing.redraws.prepare(filter), drawing(true));
+    playing.redraws.draw(ShadowPlan{}, camera, playing.redraws.prepare(filter), drawing(Keeping::nothing));
     const FloatImage at = playing.redraws.positions();
     std::vector<glm::dvec3> points;
     for (std::size_t i = 0; i < at.values.size(); i += 4 * 11) {
@@ -146,39 +238,47 @@ Sums pages(Playing& playing, int frames, bool flies) {
     }
     const PagePlan plan = plan_pages(camera, playing.light, {playing.boxes, playing.boxes}, {points}, options,
                                      of_pages, memory.spans());
-    const render::FrameStats kept =
-        playing.keeps.draw(plan, camera, playing.keeps.prepare_pages(filter), drawing(true));
-    const render::FrameStats all =
-        playing.redraws.draw(plan, camera, playing.redraws.prepare_pages(filter), drawing(false));
-    sums.drawn += kept.texels;
-    sums.all += all.texels;
-    sums.drawn_ms += map_ms(kept);
-    sums.all_ms += map_ms(all);
+    const auto draw = [&](render::Renderer& by, Keeping keeping) {
+      return by.draw(plan, camera, by.prepare_pages(filter), drawing(keeping));
+    };
+    const render::FrameStats apart = draw(playing.apart, Keeping::apart),
+                             kept = draw(playing.keeps, Keeping::maps),
+                             all = draw(playing.redraws, Keeping::nothing);
+    const bool counts = frame > 0;
+    if (counts) sums.add(apart, kept, all);
     now.clear();
     for (std::size_t i = 0; i < plan.pages.size(); ++i) {
       now.push_back({page_map(plan, plan.pages[i]).clip_from_world, playing.redraws.page_depths(i).values});
+      sums.stale += differing(playing.apart.page_depths(i).values, now.back().depths);
       sums.stale += differing(playing.keeps.page_depths(i).values, now.back().depths);
       const auto same = std::find_if(before.begin(), before.end(), [&](const Drawn& page) {
         return page.clip_from_world == now.back().clip_from_world;
       });
       const std::uint64_t size = now.back().depths.size();
       const std::uint64_t differs = same == before.end() ? size : differing(same->depths, now.back().depths);
-      sums.changed += differs > 0 ? size : 0;
+      if (counts) sums.changed += differs > 0 ? size : 0;
     }
     std::swap(before, now);
-    sums.pixels += differing(playing.keeps.mask().values, playing.redraws.mask().values);
+    const std::vector<float> mask = playing.redraws.mask().values;
+    sums.pixels +=
+        differing(playing.apart.mask().values, mask) + differing(playing.keeps.mask().values, mask);
   }
   return sums;
 }
 
 void print(const char* what, const Sums& sums, int frames) {
   const auto share = [&](std::uint64_t texels) {
-    return 100.0 * static_cast<double>(texels) / static_cast<double>(std::max<std::uint64_t>(sums.all, 1));
+    return 100.0 * static_cast<double>(texels) /
+           static_cast<double>(std::max<std::uint64_t>(sums.all.texels, 1));
   };
-  std::printf("| %s | %.2f | ", what, share(sums.drawn));
-  sums.changed > 0 ? std::printf("%.2f", share(sums.changed)) : std::printf("-");
-  std::printf(" | %.2f | %.2f | %llu | %llu |\n", sums.drawn_ms / frames, sums.all_ms / frames,
+  const auto mean = [&](auto sum) { return static_cast<double>(sum) / std::max(frames - 1, 1); };
+  std::printf("| %s | %.2f | %.2f | ", what, share(sums.apart.texels), share(sums.kept.texels));
+  sums.exact > 0 ? std::printf("%.2f", share(sums.exact)) : std::printf("-");
+  std::printf(" | %.2f | %.0f | %.0f | %.0f | %.2f | %.2f | %.2f | %llu | %llu |\n", share(sums.changed),
+              mean(sums.apart.triangles), mean(sums.kept.triangles), mean(sums.all.triangles),
+              median(sums.apart.ms), median(sums.kept.ms), median(sums.all.ms),
               static_cast<unsigned long long>(sums.stale), static_cast<unsigned long long>(sums.pixels));
+  std::fflush(stdout);
 }
 
 void run(const std::string& name, const Scene& scene, int frames) {
@@ -188,7 +288,9 @@ void run(const std::string& name, const Scene& scene, int frames) {
   }
   Playing playing(scene);
   std::printf("\n%s, %d frames of '%s'\n", name.c_str(), frames, scene.motion.animations[0].name.c_str());
-  std::printf("| | texels drawn, %% | changed, %% | kept, ms | all, ms | stale texels | stale pixels |\n");
+  std::printf(
+      "| | drawn, %% | without | exact | changed | triangles | without | all | ms | without | all | stale "
+      "texels | stale pixels |\n");
   print("maps, camera at rest", maps(playing, frames, false), frames);
   print("maps, camera flies", maps(playing, frames, true), frames);
   print("pages, camera at rest", pages(playing, frames, false), frames);

@@ -167,6 +167,41 @@ TEST(KeepPages, a_caster_that_moves_up_to_an_edge_of_a_page_is_drawn_into_it) {
   EXPECT_FALSE(street.kept[middle].draw) << "beside it";
 }
 
+TEST(KeepPages, a_moving_caster_composes_the_pages_that_a_static_one_would_redraw) {
+  Street by_moved, by_moving;
+  const PagePlan plan = by_moved.plan(0.0);
+  (void)by_moved.keep(plan);
+  (void)by_moving.keep(plan);
+  const std::vector<Box> moved{by_moved.boxes[2], Box{{3.5, 0, -40}, {5.5, 6, -38}}, Box{}};
+  const KeptPages drawn = by_moved.keep(plan, moved);
+  ASSERT_GT(drawn.drawn, 0u);
+  const auto moving = [&](const PagePlan& of, std::span<const Box> boxes) {
+    return keep_pages(of, {}, by_moving.slots, by_moving.table, by_moving.kept, boxes);
+  };
+  KeptPages composed = moving(plan, moved);
+  EXPECT_EQ(composed.composed, drawn.drawn);
+  EXPECT_EQ(composed.drawn, 0u);
+  EXPECT_EQ(composed.kept + composed.composed, plan.pages.size());
+  for (std::size_t i = 0; i < plan.pages.size(); ++i) {
+    EXPECT_EQ(by_moving.kept[i].compose, by_moved.kept[i].draw) << i;
+    EXPECT_FALSE(by_moving.kept[i].draw) << i;
+  }
+  EXPECT_EQ(moving(plan, {}).composed, 0u) << "moved once";
+  // Out of the plan while it moves: composed when it comes back, once.
+  const PagePlan away = by_moved.plan(150.0);
+  (void)moving(away, {});
+  (void)moving(away, moved);
+  const PagePlan back = by_moved.plan(0.0);
+  composed = moving(back, {});
+  EXPECT_EQ(composed.composed, drawn.drawn);
+  EXPECT_EQ(composed.drawn, 0u);
+  EXPECT_EQ(moving(back, {}).composed, 0u);
+  // A static caster that moves there as well empties them, and nothing of the moving one is left to do.
+  const KeptPages both = keep_pages(back, moved, by_moving.slots, by_moving.table, by_moving.kept, moved);
+  EXPECT_EQ(both.drawn, drawn.drawn);
+  EXPECT_EQ(both.composed, 0u);
+}
+
 TEST(KeepPages, a_page_out_of_the_plan_goes_stale_as_well) {
   Street street;
   const PagePlan plan = street.plan(0.0);

@@ -39,7 +39,8 @@ TEST(Prune, rules_are_read_by_name) {
 }
 
 TEST(Prune, only_cached_and_scrolled_maps_draw_from_the_last_frame) {
-  const PruneRules cached = kPruneNothing.with(PruneRule::held_maps).with(PruneRule::scrolled_maps);
+  const PruneRules cached =
+      kPruneNothing.with(PruneRule::held_maps).with(PruneRule::scrolled_maps).with(PruneRule::static_casters);
   EXPECT_EQ(prune_rules_of(PruneSource::last_frame), cached);
   EXPECT_EQ(prune_rules_of(PruneSource::this_frame).bits, PruneRules::kAll & ~cached.bits);
 }

@@ -154,6 +154,7 @@ struct MapStats {
   std::uint32_t draws = 0;      ///< draw commands: runs of instances of one primitive
   std::uint64_t triangles = 0;  ///< drawn
   std::uint64_t texels = 0;     ///< rasterized into: width times height; of cached maps, those redrawn
+  std::uint64_t copied = 0;     ///< texels copied from static casters' depths (PruneRule::static_casters)
   bool held = false;            ///< cached: nothing drawn, nothing filtered
   bool scrolled = false;        ///< moved by whole texels and drawn where it was not in the map before
   int age = 0;                  ///< frames since all of it was drawn
@@ -183,6 +184,8 @@ struct FrameStats {
   int pages = 0;            ///< resident, of a PagePlan
   int lights_drawn = 0;     ///< of a LightPlan: lights whose maps were drawn; the pool kept those of others
   int pages_drawn = 0;      ///< of them; the others were kept from earlier frames (PruneRule::held_maps)
+  /// Of pages_drawn: moving casters alone, over static ones (PruneRule::static_casters).
+  int pages_composed = 0;
   /// Depth maps and everything that the filter keeps besides for its look-ups.
   std::uint64_t map_bytes = 0;
   /// Used while maps are filtered, free for other passes after that: images of one layer, lists of tiles.

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "geometry/matrix.hpp"
 #include "gnomon/pages.hpp"
@@ -97,19 +98,26 @@ class HeldSlots {
   std::span<std::uint32_t> table_;
 };
 
-/// Empties the slots that a moved caster reaches; returns how many.
-std::uint64_t empty_touched(std::span<const Box> moved, std::span<PageSlot> slots) noexcept {
+/// Empties the slots that a moved static caster reaches, and marks those that a moving one reaches; returns
+/// how many it emptied.
+std::uint64_t empty_touched(std::span<const Box> moved, std::span<const Box> moving,
+                            std::span<PageSlot> slots) noexcept {
   std::uint64_t touched = 0;
-  if (moved.empty()) return touched;
+  if (moved.empty() && moving.empty()) return touched;
   for (PageSlot& slot : slots) {
     if (slot.used == 0) continue;
     const PageSides sides(slot.clip_from_world);
-    const bool reached = std::any_of(moved.begin(), moved.end(), [&](const Box& box) {
-      return !box.empty() && sides.may_hold(box) && outline_may_reach(slot.clip_from_world, box);
-    });
-    if (!reached) continue;
-    slot.used = 0;
-    ++touched;
+    const auto reached_by = [&](std::span<const Box> boxes) {
+      return std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) {
+        return !box.empty() && sides.may_hold(box) && outline_may_reach(slot.clip_from_world, box);
+      });
+    };
+    if (reached_by(moved)) {
+      slot.used = 0;
+      ++touched;
+    } else if (!slot.behind) {
+      slot.behind = reached_by(moving);
+    }
   }
   return touched;
 }
@@ -117,7 +125,8 @@ std::uint64_t empty_touched(std::span<const Box> moved, std::span<PageSlot> slot
 }  // namespace
 
 KeptPages keep_pages(const PagePlan& plan, std::span<const Box> moved_world, std::span<PageSlot> slots,
-                     std::span<std::uint32_t> table, std::span<KeptPage> out) noexcept {
+                     std::span<std::uint32_t> table, std::span<KeptPage> out,
+                     std::span<const Box> moving_world) noexcept {
   KeptPages kept;
   const std::size_t pages = plan.pages.size();
   const bool countable = slots.size() <= 2 * static_cast<std::size_t>(kMostPages);
@@ -125,19 +134,21 @@ KeptPages keep_pages(const PagePlan& plan, std::span<const Box> moved_world, std
       table.size() < page_table_size(static_cast<int>(slots.size())))
     return kept;
   kept.fits = true;
-  kept.touched = empty_touched(moved_world, slots);
+  kept.touched = empty_touched(moved_world, moving_world, slots);
   std::uint64_t now = 0;
   for (const PageSlot& slot : slots) now = std::max(now, slot.used);
   ++now;
   const HeldSlots held(slots, table);
   for (std::size_t i = 0; i < pages; ++i) {
     const std::int64_t slot = held.find(page_map(plan, plan.pages[i]).clip_from_world, plan.slot_texels());
-    out[i] = {static_cast<std::uint32_t>(slot < 0 ? 0 : slot), slot < 0};
+    out[i] = {static_cast<std::uint32_t>(slot < 0 ? 0 : slot), slot < 0, false};
     if (slot < 0) continue;
-    slots[static_cast<std::size_t>(slot)].used = now;
-    ++kept.kept;
+    PageSlot& at = slots[static_cast<std::size_t>(slot)];
+    at.used = now;
+    out[i].compose = std::exchange(at.behind, false);
+    ++(out[i].compose ? kept.composed : kept.kept);
   }
-  kept.drawn = pages - kept.kept;
+  kept.drawn = pages - kept.kept - kept.composed;
   if (kept.drawn == 0) return kept;
   // The table has been read: now the slots that are free, the longest unused first.
   std::size_t free = 0;
@@ -152,7 +163,7 @@ KeptPages keep_pages(const PagePlan& plan, std::span<const Box> moved_world, std
   for (std::size_t i = 0; i < pages; ++i) {
     if (!out[i].draw) continue;
     out[i].slot = table[next++];
-    slots[out[i].slot] = {page_map(plan, plan.pages[i]).clip_from_world, plan.slot_texels(), now};
+    slots[out[i].slot] = {page_map(plan, plan.pages[i]).clip_from_world, plan.slot_texels(), now, false};
   }
   return kept;
 }

@@ -1,0 +1,88 @@
+// The depths of static casters, beneath those of moving ones: what is drawn into them, and what is copied.
+#include "renderer_impl.hpp"
+
+namespace gnomon::render {
+namespace {
+
+constexpr float kFarthest = 1.0f;
+// Locations as shaders/copy_depth.* state them.
+constexpr GLint kLayerLocation = 0, kFirstLocation = 1, kSizeLocation = 2;
+
+}  // namespace
+
+void Renderer::Impl::draw_static_maps(const DrawnMaps& drawn, const DepthDraw& how) noexcept {
+  const auto each = [&](auto&& act) {
+    for (int i = 0; i < map_count; ++i)
+      if (lists.beneath(i).used) act(i, lists.beneath(i));
+  };
+  // Copies and draws by turns would wait for each other, map by map.
+  each([&](int i, const DrawLists::Beneath& beneath) {
+    maps.add_beneath();
+    if (beneath.adopts) maps.copy(MapTargets::Of::static_casters, i, {0, 0, maps.width, maps.height});
+    const MapMove& move = beneath.move;
+    if (move.any()) maps.move(MapTargets::Of::static_casters, i, move.kept, move.shift_x, move.shift_y);
+  });
+  glBindVertexArray(scene.vertex_array());
+  scene.use(SceneBuffers::Placed::for_maps);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_CULL_FACE);
+  each([&](int i, const DrawLists::Beneath& beneath) {
+    if (beneath.parts().empty()) return;
+    const DrawnMap& map = drawn.map[static_cast<std::size_t>(i)];
+    glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.beneath.name(), 0, i);
+    glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
+    glViewport(0, 0, map.width, map.height);
+    DepthDraw of_map = how;
+    of_map.even_scale = map.even_scale;
+    for (const DrawnPart& part : beneath.parts()) draw_map_part(part, map, of_map);
+  });
+  glDisable(GL_SCISSOR_TEST);
+  each([&](int i, const DrawLists::Beneath& beneath) {
+    if (beneath.copies_whole) maps.copy(MapTargets::Of::all, i, {0, 0, maps.width, maps.height});
+  });
+}
+
+void Renderer::Impl::copy_static(const DrawLists::Copies& copies, int layer, glm::ivec2 viewport) noexcept {
+  if (copies.count == 0) return;
+  glDisable(GL_SCISSOR_TEST);
+  glViewport(0, 0, viewport.x, viewport.y);
+  glBindTextureUnit(kDepthUnit, maps.beneath.name());
+  glBindSampler(kDepthUnit, maps.plain_sampler.name());
+  glUseProgram(programs.copy_depth.name());
+  glUniform1i(kLayerLocation, layer);
+  glUniform1i(kFirstLocation, static_cast<GLint>(copies.first));
+  glUniform2f(kSizeLocation, static_cast<GLfloat>(viewport.x), static_cast<GLfloat>(viewport.y));
+  glBindVertexArray(no_vertices.name());
+  glDepthFunc(GL_ALWAYS);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(copies.count));
+  glDepthFunc(GL_LESS);
+  glBindVertexArray(scene.vertex_array());
+}
+
+void Renderer::Impl::draw_static_pages(const DepthDraw& how) noexcept {
+  if (!lists.any_apart()) return;
+  maps.add_beneath();
+  const std::span<const DrawnPage> drawn = pages.pages();
+  glEnable(GL_SCISSOR_TEST);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const DrawnPage& page = drawn[i];
+    if (page.composed || !lists.draws(lists.moving_part(i))) continue;
+    glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.beneath.name(), 0, page.layer);
+    glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
+    const TexelRect& at = page.place;
+    glScissor(at.x, at.y, at.width, at.height);
+    glViewport(at.x, at.y, at.width, at.height);
+    glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest);
+    draw_casters(lists.page_part(i), page.clip_from_position, how);
+    pages.add_beneath(page.slot);
+  }
+  glDisable(GL_SCISSOR_TEST);
+  for (const DrawnPage& page : drawn) {
+    if (!page.composed || page.has_beneath) continue;
+    maps.copy(MapTargets::Of::static_casters, page.layer, page.place);
+    pages.add_beneath(page.slot);
+  }
+}
+
+}  // namespace gnomon::render
