@@ -49,8 +49,7 @@ std::uint64_t MapCache::skip_held(const ShadowMap& map, Cached& cached, PruneSav
       continue;
     }
     cached.holds[i] = 1;
-    const std::optional<TexelExtent> extent = extent_in_map(map, scene_.boxes()[i]);
-    texels += extent ? extent->area() : static_cast<double>(texels_of(map));
+    texels += texels_shown(map, i);
   }
   return std::min(static_cast<std::uint64_t>(std::ceil(texels)), texels_of(map));
 }
@@ -166,20 +165,31 @@ std::span<const Box> MapCache::adoption_bounds(const CullingJob& job) {
   return adopted_;
 }
 
-void MapCache::draw_over(const CachedDraw& draw, const ShadowMap& map, Cached& cached, PruneSavings& saved) {
+double MapCache::texels_shown(const ShadowMap& map, std::uint32_t instance) const noexcept {
+  const std::optional<TexelExtent> extent = extent_in_map(map, scene_.boxes()[instance]);
+  return extent ? extent->area() : static_cast<double>(texels_of(map));
+}
+
+double MapCache::draw_over(const CachedDraw& draw, const ShadowMap& map, Cached& cached,
+                           PruneSavings& saved) {
+  double texels = 0.0;
+  for (const TexelRect& copied : copied_.rectangles()) texels += 1.0 * copied.width * copied.height;
   for (std::uint32_t i = 0; i < over_.size(); ++i) {
     if (draw.job.moves[i] == 0) continue;
     // In the rest of the map, but not where it is copied.
-    if (cached.holds[i] != 0 && may_touch(map, scene_.boxes()[i], copied_.rectangles())) cached.holds[i] = 0;
+    const bool erased = may_touch(map, scene_.boxes()[i], copied_.rectangles());
+    if (erased) cached.holds[i] = 0;
     if (draw.casters[i] == 0) continue;
     if (cached.holds[i] != 0) {
       ++saved.of(PruneRule::held_maps).instances;
       saved.of(PruneRule::held_maps).triangles += scene_.triangles_of(i);
-    } else {
-      over_[i] = cached.holds[i] = 1;
+      continue;
     }
+    over_[i] = cached.holds[i] = 1;
+    if (!erased) texels += texels_shown(map, i);
   }
   count_static(draw, map, saved);
+  return texels;
 }
 
 void MapCache::count_static(const CachedDraw& draw, const ShadowMap& map, PruneSavings& saved) {
@@ -224,13 +234,16 @@ LayeredWork MapCache::compose(const CachedDraw& draw, PruneSavings& saved) {
   for (std::size_t i = 0; i < over_.size(); ++i) {
     if (whole || job.moves[i] == 0) cached.holds[i] = beneath.holds[i];
   }
+  double texels = 0.0;
   if (!whole) {
-    draw_over(draw, map, cached, saved);
+    texels = draw_over(draw, map, cached, saved);
   } else {
     copied_.rectangle[0] = {0, 0, map.width, map.height};
     copied_.count = 1;
-    for (std::size_t i = 0; i < over_.size(); ++i) {
-      if (job.moves[i] != 0) over_[i] = cached.holds[i] = draw.casters[i];
+    for (std::uint32_t i = 0; i < over_.size(); ++i) {
+      if (job.moves[i] == 0 || draw.casters[i] == 0) continue;
+      over_[i] = cached.holds[i] = 1;
+      texels += texels_shown(map, i);
     }
   }
   cached.valid = true;
@@ -238,25 +251,16 @@ LayeredWork MapCache::compose(const CachedDraw& draw, PruneSavings& saved) {
   cached.drawn = beneath.drawn;
   cached.map = beneath.map;
   cached.age = beneath.age;
-  finish(work, whole, map, saved);
+  finish(work, texels, map, saved);
   return work;
 }
 
-void MapCache::finish(LayeredWork& work, bool whole, const ShadowMap& map, PruneSavings& saved) {
+void MapCache::finish(LayeredWork& work, double texels, const ShadowMap& map, PruneSavings& saved) {
   const bool draws = std::any_of(over_.begin(), over_.end(), [](std::uint8_t d) { return d != 0; });
   work.map.copies = copied_.rectangles();
   if (draws) work.map.add({{0, 0, map.width, map.height}, false, over_});
   work.map.age = work.beneath.age;
-  double texels = static_cast<double>(work.beneath.texels);
-  if (!whole) {
-    for (const TexelRect& copied : work.map.copies) texels += 1.0 * copied.width * copied.height;
-  } else {
-    for (std::uint32_t i = 0; i < over_.size(); ++i) {
-      const std::optional<TexelExtent> extent =
-          over_[i] != 0 ? extent_in_map(map, scene_.boxes()[i]) : TexelExtent{0.0, 0.0};
-      texels += extent ? extent->area() : static_cast<double>(texels_of(map));
-    }
-  }
+  texels += static_cast<double>(work.beneath.texels);
   work.map.texels = std::min(static_cast<std::uint64_t>(std::ceil(texels)), texels_of(map));
   PruneSaving& saving = saved.of(work.beneath.move.any() ? PruneRule::scrolled_maps : PruneRule::held_maps);
   saving.texels -= std::min(saving.texels, work.map.texels - std::min(work.map.texels, work.beneath.texels));

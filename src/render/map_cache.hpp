@@ -89,12 +89,14 @@ class MapCache {
   [[nodiscard]] LayeredWork compose(const CachedDraw& draw, PruneSavings& saved);
   /// Where the map beneath, which was that of all casters, changes once these move.
   [[nodiscard]] std::span<const Box> adoption_bounds(const CullingJob& job);
-  /// Marks the moving casters to draw over the copies, in over_, and forgets those that copies erase.
-  void draw_over(const CachedDraw& draw, const ShadowMap& map, Cached& cached, PruneSavings& saved);
+  /// Marks the moving casters to draw over the copies, in over_, and forgets those that copies erase. Returns
+  /// how many texels they and the copies touch at most.
+  double draw_over(const CachedDraw& draw, const ShadowMap& map, Cached& cached, PruneSavings& saved);
   /// Counts the static casters that would be drawn again without the rule.
   void count_static(const CachedDraw& draw, const ShadowMap& map, PruneSavings& saved);
   /// Lists the copies and what is drawn over them, and counts.
-  void finish(LayeredWork& work, bool whole, const ShadowMap& map, PruneSavings& saved);
+  void finish(LayeredWork& work, double texels, const ShadowMap& map, PruneSavings& saved);
+  [[nodiscard]] double texels_shown(const ShadowMap& map, std::uint32_t instance) const noexcept;
   // `map`: in the clip space that it is drawn in.
   [[nodiscard]] MapWork draw_whole(const ShadowMap& map, Cached& cached);
   /// For an unchanged map: the casters that it does not hold yet.

@@ -55,7 +55,8 @@ void Renderer::Impl::copy_static(const DrawLists::Copies& copies, int layer, glm
   glUniform2f(kSizeLocation, static_cast<GLfloat>(viewport.x), static_cast<GLfloat>(viewport.y));
   glBindVertexArray(no_vertices.name());
   glDepthFunc(GL_ALWAYS);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(copies.count));
+  constexpr GLsizei kCorners = 6;
+  glDrawArrays(GL_TRIANGLES, 0, kCorners * static_cast<GLsizei>(copies.count));
   glDepthFunc(GL_LESS);
   glBindVertexArray(scene.vertex_array());
 }
