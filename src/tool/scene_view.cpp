@@ -22,6 +22,11 @@ SceneView::SceneView(const std::string& scene, const LightPlacement& light, cons
   for (const Instance& instance : scene_.instances) boxes_.push_back(instance.bounds_world);
 }
 
+void SceneView::take(const Pose& pose) {
+  apply_pose(pose, scene_);
+  for (const PosedInstance& posed : pose.instances) boxes_[posed.instance] = posed.bounds_world;
+}
+
 Camera SceneView::camera(int frame, int frames, int width, int height) const noexcept {
   return path_.at(time_of(frame, frames), width, height);
 }

@@ -8,6 +8,7 @@
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/load.hpp"
+#include "gnomon/scene/pose.hpp"
 #include "gnomon/scene/scene.hpp"
 #include "gnomon/study/technique.hpp"
 
@@ -21,6 +22,8 @@ class SceneView {
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
   [[nodiscard]] const Light& light() const noexcept { return light_; }
   [[nodiscard]] SceneBounds bounds() const noexcept { return {boxes_, boxes_}; }
+  /// Places what a pose of this scene moves, but the light, which stays. bounds() follow in place.
+  void take(const Pose& pose);
   /// Of each instance, as bounds() has them.
   [[nodiscard]] const std::vector<CasterWork>& work() const noexcept { return work_; }
   /// The frame's place is the middle of one of `frames` equal parts of the flight: its ends are often at

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "animated_gltf.hpp"
+#include "gnomon/report/rows_file.hpp"
 #include "gnomon/scene/pose.hpp"
 #include "process.hpp"
 #include "render/shared_context.hpp"
@@ -151,6 +152,51 @@ TEST(Playing, the_fly_command_plays_while_it_flies) {
   EXPECT_EQ(budget.exit_code, 2);
   EXPECT_NE(budget.err.find("at rest"), std::string::npos);
   EXPECT_EQ(run_gnomon({"fly", scene.file, "--animation-fps", "2"}).exit_code, 2);
+}
+
+TEST(Playing, the_compare_command_measures_each_frame_in_its_pose) {
+  const SceneFile scene;
+  const auto compare = [&](const char* name, std::vector<std::string> more) {
+    const auto folder = scene.folder.path() / name;
+    std::vector<std::string> words{
+        "compare",  scene.file,  "--warps", "none",   "--cascades",   "2",           "--filters",
+        "hard,pcf", "--frames",  "3",       "--size", "160x90",       "--map-sizes", "1024",
+        "--rounds", "1",         "--fits",  "stable", "--pages",      "clipmap",     "--page-sizes",
+        "64",       "--context", "osmesa",  "--out",  folder.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    const Finished run = run_gnomon(words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return report::read_rows(folder);
+  };
+  const std::vector<report::Row> rest = compare("rest", {}), plays = compare("plays", {"--animation", "all"});
+  ASSERT_EQ(rest.size(), 12u);
+  ASSERT_EQ(plays.size(), rest.size());
+  bool saved = false;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    EXPECT_EQ(rest[i].animation, "");
+    EXPECT_EQ(plays[i].animation, "all");
+    // Four seconds in three parts, each frame in the middle of one.
+    EXPECT_DOUBLE_EQ(plays[i].animation_time_s, 4.0 * (plays[i].frame + 0.5) / 3.0);
+    EXPECT_NE(plays[i].key(), rest[i].key());
+    EXPECT_EQ(plays[i].plan_status, "ok");
+    // Rays against another pose would disagree over the whole shadow of the figures.
+    EXPECT_LT(plays[i].errors.false_lit + plays[i].errors.false_shadow, 0.03) << plays[i].technique.name();
+    EXPECT_NE(plays[i].errors.mean_error, rest[i].errors.mean_error) << "another pose, another error";
+    EXPECT_LT(plays[i].flips, 0.03) << plays[i].technique.name();
+    for (const report::LeftOut& l : plays[i].left_out) saved = saved || l.rule == "held_maps";
+  }
+  EXPECT_TRUE(saved);
+  // What it is resumed with finds its rows again.
+  const std::vector<report::Row> again = compare("plays", {"--animation", "all", "--resume"});
+  EXPECT_EQ(again.size(), plays.size());
+  const Finished unknown = run_gnomon(
+      {"compare", scene.file, "--animation", "run", "--out", (scene.folder.path() / "none").string()});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("it has all"), std::string::npos) << unknown.err;
+  EXPECT_FALSE(std::filesystem::exists(scene.folder.path() / "none"));
+  const Finished none = run_gnomon({"compare", "builtin:fence", scene.file, "--animation", "all"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("builtin:fence: "), std::string::npos) << none.err;
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ struct Costs {
   int maps = 0;                                                       ///< drawn
   std::uint64_t draws = 0, triangles = 0, texels = 0, map_bytes = 0;  ///< over all maps
   std::uint64_t filtered_texels = 0;                                  ///< stored and blurred by the filter
-  ListLengths lists = {};                                             ///< of technique "irregular" and its samples alone
+  ListLengths lists = {};  ///< of technique "irregular" and its samples alone
 };
 
 /// One omission of the plan, or the savings of one prune rule.
@@ -94,10 +94,12 @@ struct Row {
   int frame = 0, frames = 1, width = 0, height = 0;  ///< index, count, pixels
   std::string light;  ///< "sun", "spot" or "point", in the direction of elevation and azimuth
   double light_elevation_deg = 0.0, light_azimuth_deg = 0.0;  ///< degrees
-  Technique technique;                                        ///< how the shadow was made
-  std::string plan_status;                                    ///< name of the PlanStatus
-  std::string truth;                   ///< what mean_error is against: "filtered", "area", "hard" or "facet"
-  MaskErrors errors;                   ///< against the truth
+  std::string animation = {};     ///< of the scene that plays, by name or number; empty: the scene is at rest
+  double animation_time_s = 0.0;  ///< of the frame's pose, seconds
+  Technique technique;            ///< how the shadow was made
+  std::string plan_status;        ///< name of the PlanStatus
+  std::string truth;              ///< what mean_error is against: "filtered", "area", "hard" or "facet"
+  MaskErrors errors;              ///< against the truth
   std::uint64_t undecided_pixels = 0;  ///< undecided by the geometry, not counted in `errors`
   double flips = 0.0;                  ///< excess flips per pixel over one step of a 60 Hz viewer
   PixelAliasing aliasing;              ///< over the pixels of the frame

@@ -258,11 +258,12 @@ std::string section_method(const PageInput& input) {
     machines.insert(m.renderer + " through " + m.context + (m.software ? ", drawn by the CPU" : "") + "; " +
                     m.cpu + ", " + std::to_string(m.cores) + " cores; gnomon " + m.version +
                     "; rays: " + m.rays);
-    settings.insert(std::to_string(row.width) + "x" + std::to_string(row.height) + " pixels, " +
-                    std::to_string(row.frames) + " frames, " + row.light + " at " +
-                    short_number(row.light_elevation_deg) + " degrees elevation and " +
-                    short_number(row.light_azimuth_deg) + " azimuth, " + std::to_string(row.times.rounds) +
-                    " rounds");
+    settings.insert(
+        std::to_string(row.width) + "x" + std::to_string(row.height) + " pixels, " +
+        std::to_string(row.frames) + " frames, " + row.light + " at " +
+        short_number(row.light_elevation_deg) + " degrees elevation and " +
+        short_number(row.light_azimuth_deg) + " azimuth, " + std::to_string(row.times.rounds) + " rounds" +
+        (row.animation.empty() ? "" : ", animation '" + row.animation + "' plays in " + row.scene));
     low = std::min(low, m.load);
     high = std::max(high, m.load);
   }

@@ -99,15 +99,18 @@ Json machine_json(const Machine& m) {
 
 /// What was measured, without what came out.
 Json settings_json(const Row& row) {
-  return {{"scene", row.scene},
-          {"frame", row.frame},
-          {"frames", row.frames},
-          {"width", row.width},
-          {"height", row.height},
-          {"light", row.light},
-          {"light_elevation_deg", row.light_elevation_deg},
-          {"light_azimuth_deg", row.light_azimuth_deg},
-          {"technique", to_json(row.technique)}};
+  Json json{{"scene", row.scene},
+            {"frame", row.frame},
+            {"frames", row.frames},
+            {"width", row.width},
+            {"height", row.height},
+            {"light", row.light},
+            {"light_elevation_deg", row.light_elevation_deg},
+            {"light_azimuth_deg", row.light_azimuth_deg},
+            {"technique", to_json(row.technique)}};
+  // Rows of scenes at rest keep the key that they had before scenes could move.
+  if (!row.animation.empty()) json["animation"] = row.animation;
+  return json;
 }
 
 /// All but times and machine.
@@ -115,6 +118,7 @@ Json lasting_json(const Row& row) {
   Json json{{"schema", kSchema}, {"index", row.index}};
   json.update(settings_json(row));
   json["scene_hash"] = row.scene_hash;
+  if (!row.animation.empty()) json["animation_time_s"] = row.animation_time_s;
   json["plan_status"] = row.plan_status;
   json["errors"] = errors_json(row);
   json["m"] = aliasing_json(row.aliasing);
@@ -212,6 +216,10 @@ void results_from(const Json& json, Row& row) {
   for (const Json& l : json.at("left_out")) {
     LeftOut left{l.at("what").get<std::string>(), l.at("why").get<std::string>(),
                  whole_from<std::int64_t>(l.at("saves_texels"))};
+    if (json.contains("animation")) {
+      json.at("animation").get_to(row.animation);
+      row.animation_time_s = real_from(json.at("animation_time_s"));
+    }
     // Rows of an earlier version have none.
     if (l.contains("rule")) {
       l.at("rule").get_to(left.rule);

@@ -11,6 +11,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "animation_words.hpp"
 #include "command.hpp"
 #include "frame_pictures.hpp"
 #include "gnomon/report/page.hpp"
@@ -50,6 +51,7 @@ report::Row empty_row(const Sweep& sweep, std::size_t scene, int frame, std::siz
   row.light = to_string(sweep.light.kind);
   row.light_elevation_deg = sweep.light.elevation_deg;
   row.light_azimuth_deg = sweep.light.azimuth_deg;
+  row.animation = sweep.animation;
   row.technique = sweep.entries[entry].technique;
   return row;
 }
@@ -65,6 +67,16 @@ std::vector<Task> tasks_of(const Sweep& sweep, std::size_t scene, int frame,
     tasks.push_back({entry, std::move(row)});
   }
   return tasks;
+}
+
+/// Throws std::runtime_error where a scene has no animation of that name.
+void check_animations(const Sweep& sweep) {
+  if (sweep.animation.empty()) return;
+  for (const std::string& name : sweep.scenes) {
+    const Scene scene = load_scene(name, limits_of_triangles(sweep.max_triangles));
+    if (find_animation(scene.motion, sweep.animation) < 0)
+      throw std::runtime_error(name + ": " + no_animation_text(scene.motion, sweep.animation));
+  }
 }
 
 /// What each scene's files hold. A scene that cannot be loaded is found now and not after an hour.
@@ -161,6 +173,7 @@ class Run {
         measure_times(stage, truth.camera, entries, sweep_.baseline, sweep_.rounds, [this] { step(1); });
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       tasks[i].row.scene_hash = hashes_[scene];
+      tasks[i].row.animation_time_s = stage.animation_seconds(frame);
       tasks[i].row.times = times[i];
       tasks[i].row.machine = machine_;
       tasks[i].row.machine.load = current_load();
@@ -186,6 +199,7 @@ Compared compare(const CompareRequest& request) {
   std::optional<report::ResultsLock> lock;  // before rows are read: another process may be writing them
   if (fs::is_directory(sweep.out)) lock.emplace(sweep.out);
   const std::vector<std::string> hashes = hashes_of(sweep);
+  check_animations(sweep);
   std::set<std::string> known = known_keys(sweep, hashes);
   const std::unique_ptr<render::Context> context = render::create_context(sweep.context);
   for (const std::string& line : sweep.left_out) warn(line);
@@ -275,6 +289,10 @@ std::vector<Option> measuring_options(CompareRequest& request) {
            .target = &request.frames,
            .help = "frames along the scene's camera path",
            .range = {{1, 100'000}}},
+          {.name = "--animation",
+           .target = &request.animation,
+           .help = "animation that the scenes play, by name or number; its frames are spread over it",
+           .word = "NAME"},
           {.name = "--rounds",
            .target = &request.rounds,
            .help = "timings of each technique per frame",

@@ -129,6 +129,25 @@ void count_savings(const render::FrameStats& stats, PruneSource source, report::
   }
 }
 
+/// What the frame's camera shows of the scene as it is posed, and its hard shadow.
+void trace_frame(Stage& stage, const SweepEntry& entry, FrameTruth& truth) {
+  render::Renderer& renderer = stage.renderer();
+  renderer.draw(stage.plan(entry, truth.camera), truth.camera, stage.filter(entry), frame_options(false));
+  truth.points = trace::surface_points(stage.tracer(), truth.camera, stage.light(), renderer.positions(),
+                                       renderer.normals());
+  truth.hard = trace::hard_reference(stage.tracer(), truth.points, stage.light());
+}
+
+std::vector<float> judged(const trace::HardReference& hard) {
+  std::vector<float> values;
+  values.reserve(hard.pixels.size());
+  for (const trace::Verdict verdict : hard.pixels)
+    values.push_back(verdict == trace::Verdict::lit      ? 1.0f
+                     : verdict == trace::Verdict::shadow ? 0.0f
+                                                         : -1.0f);
+  return values;
+}
+
 /// Samples of one technique over the rounds.
 struct Samples {
   std::vector<double> plan_ns, depth_ms, prefilter_ms, shade_ms, total_ms;
@@ -166,35 +185,40 @@ void time_visit(Planned& plan, const Camera& camera, Samples* samples) {
 
 FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry) {
   FrameTruth truth;
+  truth.frame = frame;
   truth.camera = stage.camera(frame);
   truth.before = stage.camera_before(frame);
-  stage.see(truth.camera, truth.before);
-  render::Renderer& renderer = stage.renderer();
-  renderer.draw(stage.plan(entry, truth.camera), truth.camera, stage.filter(entry), frame_options(false));
-  truth.points = trace::surface_points(stage.tracer(), truth.camera, stage.light(), renderer.positions(),
-                                       renderer.normals());
-  truth.hard = trace::hard_reference(stage.tracer(), truth.points, stage.light());
-  truth.judged.reserve(truth.hard.pixels.size());
-  for (const trace::Verdict verdict : truth.hard.pixels) {
-    truth.undecided += verdict == trace::Verdict::undecided ? 1 : 0;
-    truth.judged.push_back(verdict == trace::Verdict::lit      ? 1.0f
-                           : verdict == trace::Verdict::shadow ? 0.0f
-                                                               : -1.0f);
+  stage.see(frame);
+  if (stage.plays()) {
+    stage.go_to(frame, Stage::At::before);
+    stage.retrace();
+    trace_frame(stage, entry, truth);
+    truth.judged_before = judged(truth.hard);
+    stage.go_to(frame, Stage::At::frame);
+    stage.retrace();
   }
+  trace_frame(stage, entry, truth);
+  truth.judged = judged(truth.hard);
+  if (!stage.plays()) truth.judged_before = truth.judged;
+  truth.undecided = static_cast<std::uint64_t>(
+      std::count(truth.hard.pixels.begin(), truth.hard.pixels.end(), trace::Verdict::undecided));
   return truth;
 }
 
 void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, report::Row& row,
                     Seen* seen) {
   render::Renderer& renderer = stage.renderer();
-  Planned before(stage, entry, truth.before), plan(stage, entry, truth.camera);
-  if (plan.status() == PlanStatus::invalid_input)
-    throw std::runtime_error(row.scene + ", " + row.technique.name() + ": the plan refuses " +
-                             std::string(plan.invalid_field()));
+  stage.go_to(truth.frame, Stage::At::before);
+  Planned before(stage, entry, truth.before);
   before.seen_by(truth.camera);
   before.draw(truth.camera, frame_options(false));
   const std::vector<float> mask_before = channel(renderer.mask(), 0);
 
+  stage.go_to(truth.frame, Stage::At::frame);
+  Planned plan(stage, entry, truth.camera);
+  if (plan.status() == PlanStatus::invalid_input)
+    throw std::runtime_error(row.scene + ", " + row.technique.name() + ": the plan refuses " +
+                             std::string(plan.invalid_field()));
   const render::FrameStats stats = plan.draw(truth.camera, frame_options(true));
   const FloatImage mask_image = renderer.mask();
   const std::vector<float> mask = channel(mask_image, 0), maps = channel(mask_image, 1);
@@ -208,8 +232,7 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
   const std::vector<float> soft = soft_truth(stage, truth, plan, entry, maps);
   row.errors = report::mask_errors(mask, truth.judged, soft);
   row.undecided_pixels = truth.undecided;
-  // Scene and light stand still, so the truth at a world point does, too.
-  row.flips = report::excess_flips(mask_before, mask, truth.judged, truth.judged);
+  row.flips = report::excess_flips(mask_before, mask, truth.judged_before, truth.judged);
   row.aliasing = report::pixel_aliasing(plan.aliasing(mask_image));
   count_costs(stats, plan, entry, row);
   if (entry.irregular()) {
@@ -228,7 +251,9 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
   if (entry.plan.fit == Fit::tight) return;
   render::FrameOptions all_rules = frame_options(false);
   all_rules.prune = {};
+  stage.go_to(truth.frame, Stage::At::before);
   before.draw(truth.camera, all_rules);
+  stage.go_to(truth.frame, Stage::At::frame);
   count_savings(plan.draw(truth.camera, all_rules), PruneSource::last_frame, row);
 }
 

@@ -4,18 +4,50 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <stdexcept>
+
+#include "animation_words.hpp"
 
 namespace gnomon::tool {
 
 Stage::Stage(const Sweep& sweep, const std::string& scene)
     : sweep_(sweep), view_(scene, sweep.light, limits_of_triangles(sweep.max_triangles)) {
-  tracer_ = std::make_unique<trace::Tracer>(view_.scene());
+  if (!sweep.animation.empty()) {
+    animation_ = find_animation(view_.scene().motion, sweep.animation);
+    if (animation_ < 0)
+      throw std::runtime_error(scene + ": " + no_animation_text(view_.scene().motion, sweep.animation));
+    at_rest_ = view_.scene();
+  }
+  retrace();
   renderer_ = std::make_unique<render::Renderer>(view_.scene());
+}
+
+void Stage::retrace() {
+  tracer_ = std::make_unique<trace::Tracer>(view_.scene());
+}
+
+double Stage::animation_seconds(int frame) const noexcept {
+  if (!plays()) return 0.0;
+  const Animation& played = at_rest_.motion.animations[static_cast<std::size_t>(animation_)];
+  // The middle of one of so many equal parts, as along the camera path.
+  return played.duration_s * (frame + 0.5) / sweep_.frames;
+}
+
+void Stage::go_to(int frame, At at) {
+  at_ = at;
+  if (!plays()) return;
+  constexpr double kViewerSeconds = 1.0 / 60.0;
+  const Animation& played = at_rest_.motion.animations[static_cast<std::size_t>(animation_)];
+  const double seconds = animation_seconds(frame) - (at == At::before ? kViewerSeconds : 0.0);
+  (void)pose(at_rest_, animation_, looped_time(played, seconds), pose_);
+  view_.take(pose_);
+  if (!renderer_->apply_pose(pose_)) throw std::runtime_error("the animation's pose does not fit the scene");
 }
 
 const Stage::View* Stage::view(const Camera& camera) const noexcept {
   const auto view = std::find_if(views_.begin(), views_.end(), [&](const View& v) {
-    return v.camera.position == camera.position && v.camera.forward == camera.forward;
+    return (v.at == at_ || !plays()) && v.camera.position == camera.position &&
+           v.camera.forward == camera.forward;
   });
   return view == views_.end() ? nullptr : &*view;
 }
@@ -28,14 +60,17 @@ ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const noex
       entry.visible_points ? std::span<const glm::dvec3>(view->points) : std::span<const glm::dvec3>());
 }
 
-void Stage::see(const Camera& camera, const Camera& before) {
+void Stage::see(int frame) {
   views_.clear();
   const bool asked = std::any_of(sweep_.entries.begin(), sweep_.entries.end(), [](const SweepEntry& entry) {
     return entry.visible_depths || entry.visible_points || entry.by_pages();
   });
-  if (!asked) return;
-  views_.push_back(seen_by(camera));
-  views_.push_back(seen_by(before));
+  if (asked) {
+    go_to(frame, At::before);
+    views_.push_back(seen_by(camera_before(frame)));
+  }
+  go_to(frame, At::frame);
+  if (asked) views_.push_back(seen_by(camera(frame)));
 }
 
 Stage::View Stage::seen_by(const Camera& camera) {
@@ -45,6 +80,7 @@ Stage::View Stage::seen_by(const Camera& camera) {
   const FloatImage positions = renderer_->positions();
   const auto channels = static_cast<std::size_t>(positions.channels);
   View view;
+  view.at = at_;
   view.camera = camera;
   // Channels x, y, z relative to the camera, and depth: 0 for the sky.
   for (std::size_t i = 0; i + channels <= positions.values.size(); i += channels) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gnomon/render/renderer.hpp"
+#include "gnomon/scene/pose.hpp"
 #include "gnomon/trace/reference.hpp"
 #include "scene_view.hpp"
 #include "seen_surfaces.hpp"
@@ -15,13 +16,25 @@ namespace gnomon::tool {
 
 class Stage {
  public:
-  /// Throws SceneError, RenderError, TraceError.
+  /// Throws SceneError, RenderError, TraceError, and std::runtime_error where the scene has no such
+  /// animation.
   Stage(const Sweep& sweep, const std::string& scene);
+
+  /// One frame of a sweep, and what a viewer at 60 Hz saw before it.
+  enum class At : std::uint8_t { before, frame };
+  /// Poses the scene as it stands then, for draws and plans. Nothing where it plays no animation.
+  void go_to(int frame, At at);
+  /// Rays see the scene as posed last.
+  void retrace();
+  [[nodiscard]] bool plays() const noexcept { return animation_ != kRestPose; }
 
   /// With what `camera` shows, where the entry asks for it: see() must have been called for it.
   [[nodiscard]] ShadowPlan plan(const SweepEntry& entry, const Camera& camera) const noexcept;
-  /// Draws what both cameras of a frame show, for plans that are given it. Forgets earlier frames.
-  void see(const Camera& camera, const Camera& before);
+  /// Draws what both cameras of a frame show, for plans that are given it. Forgets earlier frames. The scene
+  /// is left as it stands in the frame.
+  void see(int frame);
+  /// Time within the animation of a frame's pose; 0 where none plays.
+  [[nodiscard]] double animation_seconds(int frame) const noexcept;
   [[nodiscard]] Camera camera(int frame) const noexcept;
   [[nodiscard]] Camera camera_before(int frame) const noexcept;
   [[nodiscard]] const Light& light() const noexcept { return view_.light(); }
@@ -36,6 +49,7 @@ class Stage {
 
   /// What a camera shows.
   struct View {
+    At at = At::frame;
     Camera camera;
     VisibleDepths depths;
     std::vector<glm::dvec3> points;
@@ -51,6 +65,10 @@ class Stage {
   const Sweep& sweep_;
   std::vector<View> views_;
   SceneView view_;
+  At at_ = At::frame;
+  int animation_ = kRestPose;
+  Scene at_rest_;  ///< empty where no animation plays
+  Pose pose_;
   std::unique_ptr<trace::Tracer> tracer_;
   std::unique_ptr<render::Renderer> renderer_;
 };

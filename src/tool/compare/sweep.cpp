@@ -501,6 +501,7 @@ Sweep make_sweep(const CompareRequest& request) {
   sweep.light = request.sun;
   if (!light_kind_from_name(request.light, sweep.light.kind))
     refuse("--light", request.light, "sun, spot or point");
+  sweep.animation = request.animation;
   sweep.out = request.out;
   sweep.resume = request.resume;
   sweep.map_memory_mib = request.map_memory_mib;

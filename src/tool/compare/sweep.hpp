@@ -28,6 +28,7 @@ struct CompareRequest {
   double page_target = 0.0;  ///< error m that pages are opened for; 0: the least that the pool holds
   std::string size = "480x270", shard = "1/1", context = "auto", out = "out/compare";
   std::string light = "sun";
+  std::string animation;        ///< that scenes play, by name or number; empty: at rest
   LightPlacement sun;           ///< its kind is that of `light`
   double near_hint = 0.0;       ///< of split pseudo_near: view depth from which error counts
   double map_memory_mib = 0.0;  ///< that a technique's maps may take; 0: what there is
@@ -63,6 +64,7 @@ struct Sweep {
   std::size_t shard = 0, shards = 1;
   render::ContextKind context = render::ContextKind::automatic;
   LightPlacement light;
+  std::string animation;
   std::string out;
   double map_memory_mib = 0.0;
   std::uint64_t max_triangles = 0;
