@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
 #include "support/golden.hpp"
 #include "support/near.hpp"
+#include "warp/formulas.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -98,6 +100,14 @@ TEST(StorageGolden, lloyds_fall_off_has_the_strengths_of_his_thesis) {
     const double theta = number(row.at("theta_deg")) * std::numbers::pi / 180.0;
     const double gamma = number(row.at("gamma_deg")) * std::numbers::pi / 180.0;
     const Profile profile(1.0, row.at("alpha"), std::tan(theta), gamma);
+    EXPECT_NEAR(lloyd_eta(gamma, theta), number(row.at("eta_lloyd_linear")), kFormula) << row.dump();
+    // The strength of either way to let the parameter fall off.
+    for (const std::string way : {"linear", "cos"}) {
+      const double eta = number(row.at("eta_lloyd_" + way));
+      EXPECT_NEAR(kappa_length_from_eta(eta, row.at("alpha")) / number(row.at("W")),
+                  1.0 / number(row.at("n_lloyd_" + way)), kFormula)
+          << way << row.dump();
+    }
     const double kappa = warps::lispsm_lloyd.choose(profile.in).kappa, n = number(row.at("n_lloyd_linear"));
     if (std::isinf(n)) {
       EXPECT_EQ(kappa, 0.0) << row.dump();
@@ -141,6 +151,8 @@ TEST(StorageGolden, every_strength_of_the_page_has_its_storage_and_its_errors) {
     const double ratio = at("n_closed").m_t / warp_error(profile.in, 0.0).m_t;
     const double uniform_t = number(row.at("S_uniform")) / number(row.at("alpha"));
     EXPECT_CLOSE(ratio * uniform_t, number(row.at("Mt_closed")), kFormula) << row.dump();
+    const double across = at("n_closed").m_s / warp_error(profile.in, 0.0).m_s;
+    EXPECT_CLOSE(across * number(row.at("alpha")), number(row.at("Ms_closed")), kFormula) << row.dump();
     if (kappa > 0.0) ++closed;
   }
   EXPECT_GT(closed, 20);
