@@ -291,7 +291,7 @@ std::vector<Option> measuring_options(CompareRequest& request) {
            .range = {{1, 100'000}}},
           {.name = "--animation",
            .target = &request.animation,
-           .help = "animation that the scenes play, by name or number; its frames are spread over it",
+           .help = "animation that the scenes play while frames pass, by name or number",
            .word = "NAME"},
           {.name = "--rounds",
            .target = &request.rounds,
