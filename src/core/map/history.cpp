@@ -16,6 +16,7 @@
 #include "map/border.hpp"
 #include "map/record.hpp"
 #include "warp/plane_error.hpp"
+#include "warp/plane_map.hpp"
 
 namespace gnomon {
 namespace {
@@ -215,8 +216,18 @@ bool is_near_best(const WarpInput& in, const WarpChoice& last, const WarpChoice&
   // A goal that is held back by the camera's motion is worse than the best.
   const bool measured = best.last_ratio > 0.0 && best.gain_ratio > 0.0 && goal.kappa == best.kappa;
   if (measured) return best.last_ratio <= best.gain_ratio * kNear;
-  PlaneError error(in);
-  return error.value(last) <= error.value(goal) * kNear;
+  if (in.objective == Objective::p95) {
+    PlaneError error(in);
+    return error.value(last) <= error.value(goal) * kNear;
+  }
+  // Two maps so much alike are told apart by what vertices need.
+  const auto objective = [&](const WarpChoice& choice) {
+    TexelsNeeded needed;
+    texels_needed(in.body, plane_map(in.body, choice), 1.0, needed);
+    const glm::dvec2 sides = needed.sides;
+    return in.objective == Objective::storage ? sides.x * sides.y : max_of(sides.x, sides.y);
+  };
+  return objective(last) <= objective(goal) * kNear;
 }
 
 /// A walk from the last frame's map to the best one.
@@ -276,6 +287,8 @@ class SteadyWay {
 // Frames from one search that begins from nothing to the next, of one map; those of several maps are spread.
 constexpr std::int64_t kSearchEvery = 16;
 constexpr std::int64_t kSearchApart = 4;
+// And to the next round the last frame's result.
+constexpr std::int64_t kSearchNearEvery = 2;
 
 }  // namespace
 
@@ -292,8 +305,12 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
   };
   if (!choice_of(last.xyw_from_world, start.best)) return false;
   start.best.gain_ratio = last.gain_ratio;
-  // Searches round the same place would find better ones for ever, and move texels under a still camera.
-  start.moved = !c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward;
+  // Searches round the same place would find better ones for ever, and move texels under a still camera. One
+  // frame's motion moves the best warp little: where a search takes long, the maps take turns.
+  const bool turn =
+      in.objective == Objective::storage || (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
+  start.moved =
+      turn && (!c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward);
   start.has_map = remembered(request) && choice_of(request.last->gl_from_world, start.map);
   return true;
 }
