@@ -1,6 +1,7 @@
 // What searches over warps are made of: the error at samples, strengths along the view, rows from fans.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "warp/along_view.hpp"
 #include "warp/error_samples.hpp"
 #include "warp/formulas.hpp"
+#include "warp/lanes.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/row_search.hpp"
 
@@ -179,6 +181,37 @@ TEST(WarpSearch, a_wall_along_the_light_is_a_line_at_any_angle_to_the_view) {
     });
   }
   EXPECT_EQ(looked, 6);
+}
+
+TEST(WarpSearch, the_first_lane_within_rounding_of_the_least_is_taken) {
+  constexpr float kSame = 1.0F - 1e-5F;
+  std::array<float, 16> values{};
+  for (std::size_t least = 0; least < values.size(); ++least) {
+    for (std::size_t l = 0; l < values.size(); ++l) values[l] = l == least ? 1.0F : 2.0F;
+    EXPECT_EQ(first_of_least_lane(values, kSame), least);
+    values[least / 2] = 1.0F + 5e-6F;
+    EXPECT_EQ(first_of_least_lane(values, kSame), least / 2);
+  }
+}
+
+// A percentile's search counts the samples near the worst: the map that was valued last must not be taken for
+// another one, nor the samples for all of them.
+TEST(WarpSearch, samples_near_the_worst_are_those_of_the_map_in_question) {
+  const int maps = show(street(), {0.1, -1, -0.3}, kGround, Objective::p95, [](const WarpInput& in) {
+    const WarpChoice warped = warps::lispsm.choose(in);
+    PlaneError fresh(in, true), used(in, true);
+    fresh.count_worst(warped);
+    (void)used.value(in.unwarped);
+    used.count_worst(warped);
+    EXPECT_LT(used.counted().count, std::size_t{96});
+    ASSERT_EQ(used.counted().count, fresh.counted().count);
+    for (std::size_t i = 0; i < used.counted().count; ++i)
+      EXPECT_EQ(used.counted().x[i], fresh.counted().x[i]);
+    const double of_part = used.value(warped);
+    used.count_all();
+    EXPECT_EQ(of_part, used.value(warped));
+  });
+  EXPECT_EQ(maps, 1);
 }
 
 }  // namespace

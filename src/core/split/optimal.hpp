@@ -30,29 +30,38 @@ void search_splits(std::span<double> edges, const Cost& cost, const Joined& join
     depth[static_cast<std::size_t>(i)] =
         i == kSplitSteps ? f : n * elementary::pow(f / n, static_cast<double>(i) / kSplitSteps);
   }
+  // What the given edges come to: no part of a better division costs as much.
+  double given = cost(edges[0], edges[1]);
+  for (std::size_t m = 1; m + 1 < edges.size(); ++m) given = joined(given, cost(edges[m], edges[m + 1]));
   // best[m][j]: least cost of m + 1 maps over the depths up to j; from[m][j]: where the last of them begins.
   std::array<std::array<double, kSplitSteps + 1>, kMaxMaps> best;
   std::array<std::array<int, kSplitSteps + 1>, kMaxMaps> from{};
-  for (auto& row : best) row.fill(std::numeric_limits<double>::infinity());
-  // What the given edges come to; a map that costs more alone is in no better division, nor is a longer one.
-  double given = cost(edges[0], edges[1]);
-  for (std::size_t m = 1; m + 1 < edges.size(); ++m) given = joined(given, cost(edges[m], edges[m + 1]));
+  for (auto& row : best) row.fill(given);
+  const auto last = static_cast<std::size_t>(maps - 1);
   for (int i = 0; i < kSplitSteps; ++i) {
+    const auto begin = static_cast<std::size_t>(i);
+    double inside = 0.0;  // of a shorter interval, than which a longer one costs no less
     for (int j = i + 1; j <= kSplitSteps; ++j) {
-      const auto to = static_cast<std::size_t>(j);
-      const double one = cost(depth[static_cast<std::size_t>(i)], depth[to]);
-      if (one > given) break;
-      if (i == 0) best[0][to] = one;
-      for (std::size_t m = 1; m < static_cast<std::size_t>(maps); ++m) {
-        const double total = joined(best[m - 1][static_cast<std::size_t>(i)], one);
-        if (i == 0 || !(total < best[m][to])) continue;
-        best[m][to] = total;
-        from[m][to] = i;
+      const auto end = static_cast<std::size_t>(j);
+      // The last map ends at the end, and no other does.
+      const std::size_t first = i == 0 ? 0 : j < kSplitSteps ? 1 : last;
+      const std::size_t beyond = i == 0 ? (j < kSplitSteps ? 1 : 0) : j < kSplitSteps ? last : last + 1;
+      const auto total = [&](std::size_t m, double one) {
+        return m == 0 ? one : joined(best[m - 1][begin], one);
+      };
+      bool may_help = false;
+      for (std::size_t m = first; m < beyond; ++m) may_help = may_help || total(m, inside) < best[m][end];
+      if (!may_help) continue;
+      inside = cost(depth[begin], depth[end]);
+      if (!(inside < given)) break;
+      for (std::size_t m = first; m < beyond; ++m) {
+        if (!(total(m, inside) < best[m][end])) continue;
+        best[m][end] = total(m, inside);
+        from[m][end] = i;
       }
     }
   }
-  if (!(best[static_cast<std::size_t>(maps - 1)][kSplitSteps] < std::numeric_limits<double>::infinity()))
-    return;
+  if (!(best[last][kSplitSteps] < given)) return;
   int at = kSplitSteps;
   for (int m = maps - 1; m > 0; --m) {
     at = from[static_cast<std::size_t>(m)][static_cast<std::size_t>(at)];
@@ -64,7 +73,7 @@ void search_splits(std::span<double> edges, const Cost& cost, const Joined& join
 /// depth: the cost of two neighbours has one valley.
 template <typename Cost, typename Joined>
 void refine_splits(std::span<double> edges, const Cost& cost, const Joined& joined) noexcept {
-  constexpr int kRounds = 2, kTrials = 5;
+  constexpr int kRounds = 2, kTrials = 3;
   const double n = edges.front(), f = edges.back();
   if (edges.size() < 3 || !(n > 0.0 && f > n)) return;
   for (int round = 0; round < kRounds; ++round) {

@@ -7,6 +7,7 @@
 
 #include "geometry/vector.hpp"
 #include "geometry/wide.hpp"
+#include "warp/lanes.hpp"
 
 namespace gnomon {
 namespace {
@@ -22,6 +23,31 @@ constexpr double kTie = 1e-9;            // gains below this are rounding: the w
 // A factor 4 in sixteen steps and a bit, two of those in as many, and again: to a thousandth.
 constexpr int kRefinements = 3;
 constexpr std::array<double, kRefinements> kRefineFactors = {1.0849624, 1.0096416, 1.0011294};
+
+// Of the quick search: no warp and strengths a factor apart, as kappa times length; then factors between two
+// of those, an eighth of the way apart.
+constexpr float kQuickFactor = 2.2F, kQuickEighth = 1.1035628F, kQuickFirst = 0.4775F;
+constexpr std::size_t kQuick = 16;
+constexpr std::array<float, kQuick> powers(float first, float factor) noexcept {
+  std::array<float, kQuick> result{};
+  for (float& power : result) {
+    power = first;
+    first *= factor;
+  }
+  return result;
+}
+constexpr std::array<float, kQuick> quick_reaches() noexcept {
+  std::array<float, kQuick> reaches = powers(static_cast<float>(kWeakest) / kQuickFactor, kQuickFactor);
+  reaches[0] = 0.0F;
+  return reaches;
+}
+constexpr std::array<float, kQuick> kQuickReaches = quick_reaches();
+constexpr std::array<float, kQuick> kQuickFactors = powers(kQuickFirst, kQuickEighth);
+
+std::size_t first_of_least(const std::array<float, kQuick>& value) noexcept {
+  constexpr float kSame = 1.0F - 1e-5F;  // gains below this are rounding
+  return first_of_least_lane(value, kSame);
+}
 
 }  // namespace
 
@@ -115,20 +141,78 @@ AlongViewBest AlongView::coarse() noexcept {
 AlongViewBest AlongView::best() noexcept {
   begin();
   if (!(length_ > 0.0)) return {0.0, unwarped()};
-  const AlongViewBest fine = refined(coarse(), kRefineFactors.size());
+  const AlongViewBest fine = refined(coarse());
   return {weakest_as_good(fine), fine.value};
 }
 
 AlongViewBest AlongView::quick() noexcept {
   begin();
   if (count_ == 0 || !(length_ > 0.0)) return {0.0, unwarped()};
-  return refined(coarse(), 1);
+  double widest = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) widest = max_of(widest, std::abs(x_[i]));
+  const double scale_x = widest > 0.0 ? widest : length_;
+  const double per_x = 1.0 / scale_x, per_length = 1.0 / length_;
+  Shares shares;
+  for (std::size_t i = 0; i < count_; ++i) {
+    shares.x[i] = static_cast<float>(x_[i] * per_x);
+    shares.y[i] = static_cast<float>((y_[i] - y_min_) * per_length);
+    shares.per_depth[i] = static_cast<float>(per_depth_[i] * nearest_);
+  }
+  shares.wider = static_cast<float>(scale_x * per_length);
+  QuickStrengths value;
+  find_quick(shares, kQuickReaches, value);
+  const std::size_t coarse = first_of_least(value);
+  float best = kQuickReaches[coarse], least = value[coarse];
+  const float middle = coarse > 0 ? best : 0.5F * kQuickReaches[1];
+  QuickStrengths reach;
+  for (std::size_t l = 0; l < kAtOnce; ++l) reach[l] = middle * kQuickFactors[l];
+  find_quick(shares, reach, value);
+  const std::size_t fine = first_of_least(value);
+  if (value[fine] < least) {
+    best = reach[fine];
+    least = value[fine];
+  }
+  const double per_pixel = 1.0 / nearest_, texel = length_ * per_pixel;
+  const double scale = objective_ == Objective::storage ? texel * scale_x * per_pixel : texel;
+  return {static_cast<double>(best) * per_length, static_cast<double>(least) * scale};
 }
 
-AlongViewBest AlongView::refined(AlongViewBest best, std::size_t rounds) noexcept {
+/// As find, in single precision and over shares of the body's extents.
+GNOMON_WIDE void AlongView::find_quick(const Shares& shares, const QuickStrengths& reach,
+                                       QuickStrengths& value) const noexcept {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const auto min_of = [](float a, float b) { return a < b ? a : b; };
+  const auto max_of = [](float a, float b) { return a > b ? a : b; };
+  const std::size_t strengths = strengths_ & ~(kAtOnce - 1);
+  const bool storage = objective_ == Objective::storage;
+  const float wider = shares.wider;
+  alignas(64) QuickStrengths k, left, right, most, most2;
+  for (std::size_t l = 0; l < strengths; ++l) {
+    k[l] = reach[l];
+    left[l] = kInfinity;
+    right[l] = -kInfinity;
+    most[l] = most2[l] = 0.0F;
+  }
+  for (std::size_t i = 0; i < count_; ++i) {
+    const float x = shares.x[i], y = shares.y[i], per_depth = shares.per_depth[i];
+    for (std::size_t l = 0; l < strengths; ++l) {
+      const float w = 1.0F + k[l] * y, image = x / w, r = w * per_depth;
+      left[l] = min_of(left[l], image);
+      right[l] = max_of(right[l], image);
+      most[l] = max_of(most[l], r);
+      most2[l] = max_of(most2[l], w * r);
+    }
+  }
+  for (std::size_t l = 0; l < strengths; ++l) {
+    const float s = (right[l] - left[l]) * most[l], t = most2[l] / (1.0F + k[l]);
+    const float product = s * t, across = s * wider, larger = max_of(across, t);
+    value[l] = storage ? product : larger;
+  }
+}
+
+AlongViewBest AlongView::refined(AlongViewBest best) noexcept {
   double middle = best.kappa > 0.0 ? best.kappa : 0.5 * kWeakest / length_;
-  for (std::size_t round = 0; round < rounds; ++round) {
-    const double factor = kRefineFactors[round];
+  for (const double factor : kRefineFactors) {
     // Half of the strengths below the middle, half above.
     Strengths kappa;
     const double root = std::sqrt(factor);

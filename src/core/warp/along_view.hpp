@@ -23,7 +23,7 @@ class AlongView {
   void add(double x, double y, double depth) noexcept;
   /// The weakest of the best strengths; 0 where no warp is better.
   [[nodiscard]] AlongViewBest best() noexcept;
-  /// The best strength and its value, to some hundredths: in half the time.
+  /// The best strength and its value, to some hundredths: in a fraction of the time.
   [[nodiscard]] AlongViewBest quick() noexcept;
   /// Without a warp.
   [[nodiscard]] double unwarped() noexcept;
@@ -35,9 +35,17 @@ class AlongView {
   void find(const Strengths& kappa) noexcept;
   void begin() noexcept;
   [[nodiscard]] AlongViewBest coarse() noexcept;
-  /// Closer by a factor of the list in each round.
-  [[nodiscard]] AlongViewBest refined(AlongViewBest best, std::size_t rounds) noexcept;
+  /// Closer in each round.
+  [[nodiscard]] AlongViewBest refined(AlongViewBest best) noexcept;
   [[nodiscard]] double weakest_as_good(const AlongViewBest& best) noexcept;
+  using QuickStrengths = std::array<float, kAtOnce>;
+  /// The points: x over the largest, y over the length, the nearest depth over theirs; and how much wider
+  /// than long the body is.
+  struct Shares {
+    std::array<float, kMaxBodyPoints> x, y, per_depth;
+    float wider;
+  };
+  void find_quick(const Shares& shares, const QuickStrengths& reach, QuickStrengths& value) const noexcept;
 
   std::size_t strengths_;  // kAtOnce, but not known when this is compiled: as in lane_range
   Objective objective_;

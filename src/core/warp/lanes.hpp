@@ -18,6 +18,21 @@ inline constexpr std::size_t kWarpLanes = 8;
   return x / (x * x + kNothing);
 }
 
+/// The first lane whose number is the least but for rounding: times `same`, a little below 1, no more than
+/// that. Numbers that are none are passed over; the last lane where there is no other.
+[[nodiscard]] inline std::size_t first_of_least_lane(const std::array<float, 16>& v, float same) noexcept {
+  const auto less = [&](std::size_t i, std::size_t k) { return v[i] < v[k] ? v[i] : v[k]; };
+  // Halves against halves: four steps that wait for each other, where one after another would be fifteen.
+  std::array<float, 8> by8;
+  for (std::size_t l = 0; l < 8; ++l) by8[l] = less(l, l + 8);
+  const auto less8 = [&](std::size_t i, std::size_t k) { return by8[i] < by8[k] ? by8[i] : by8[k]; };
+  const float a = less8(0, 4), b = less8(1, 5), c = less8(2, 6), d = less8(3, 7);
+  const float ac = a < c ? a : c, bd = b < d ? b : d, least = ac < bd ? ac : bd;
+  std::size_t first = 0;
+  while (first + 1 < v.size() && !(v[first] * same <= least)) ++first;
+  return first;
+}
+
 struct LaneRange {
   double low, high;
 };

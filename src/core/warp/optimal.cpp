@@ -35,62 +35,62 @@ constexpr std::size_t kLanes = RowLanes::kCount;
 // Half a right angle.
 constexpr double kEighth = 0.7853981633974483;
 
-/// A step of a search, as shares of its radius: along the fall-off and across it.
-struct Step {
-  double along, across;
-};
-// The middle, a ring of half the radius, and one of all of it.
-constexpr std::array<Step, kLanes> kRings = {{{0.0, 0.0},
-                                              {0.45, 0.217},
-                                              {0.111, 0.487},
-                                              {-0.312, 0.391},
-                                              {-0.5, 0.0},
-                                              {-0.312, -0.391},
-                                              {0.111, -0.487},
-                                              {0.45, -0.217},
-                                              {1, 0},
-                                              {0.707, 0.707},
-                                              {0, 1},
-                                              {-0.707, 0.707},
-                                              {-1, 0},
-                                              {-0.707, -0.707},
-                                              {0, -1},
-                                              {0.707, -0.707}}};
+// Steps of a search, as shares of its radius, along the fall-off and across it: the middle, a ring of half
+// the radius, and one of all of it.
+constexpr RowLanes::Numbers kAlong = {0.0F, 0.45F,  0.111F, -0.312F, -0.5F, -0.312F, 0.111F, 0.45F,
+                                      1.0F, 0.707F, 0.0F,   -0.707F, -1.0F, -0.707F, 0.0F,   0.707F};
+constexpr RowLanes::Numbers kAcross = {0.0F, 0.217F, 0.487F, 0.391F, 0.0F, -0.391F, -0.487F, -0.217F,
+                                       0.0F, 0.707F, 1.0F,   0.707F, 0.0F, -0.707F, -1.0F,   -0.707F};
 
 double length_of(const FallOff& f) noexcept {
   return std::sqrt(f.x * f.x + f.y * f.y);
 }
 
+/// Fall-offs to begin at, as shares of one that goes by the ratio of depths.
+struct Starts {
+  RowLanes::Numbers x, y;
+};
+// Along the view, and a third aside of it as the best rows are turned and their fall-off with them.
+constexpr Starts kParallelStarts = {
+    {0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.35F, -0.35F, 0.6F, -0.6F, 0.3F, -0.3F, 0.2F},
+    {0.0F, 1.0F, 0.6F, 1.4F, 2.0F, -0.5F, 0.35F, 0.2625F, 0.455F, 0.94F, 0.94F, 0.6F, 0.6F, 0.4F, 0.4F,
+     1.2F}};
+// Those that together come nearest to the best of many (bench_starts), beside what pixels cover, which takes
+// the last three places.
+constexpr Starts kLocalByStorage = {{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.141F, -0.141F, 0.173F, -0.173F, 0.135F,
+                                     -0.135F, 0.031F, -0.031F, 0.0F, 0.0F, 0.0F},
+                                    {0.0F, 0.52F, 0.12F, -0.12F, -0.2F, 0.141F, 0.141F, -0.1F, -0.1F, 0.502F,
+                                     0.502F, 0.116F, 0.116F, 0.0F, 0.0F, 0.0F}};
+constexpr Starts kLocalByWorst = {{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.242F, -0.242F, 0.116F, -0.116F, 0.085F,
+                                   -0.085F, 0.135F, -0.135F, 0.0F, 0.0F, 0.0F},
+                                  {0.0F, 0.6F, 0.12F, -0.2F, -0.44F, -0.14F, -0.14F, -0.031F, -0.031F, 0.085F,
+                                   0.085F, 0.502F, 0.502F, 0.0F, 0.0F, 0.0F}};
+
 /// The best of these fall-offs by the corners, each with the best of rows all round.
 RowChoice best_start(RowSearch& search, const WarpInput& input) noexcept {
+  const bool local = input.light.perspective;
   // The best stretch over the body, as a share of its ratio of depths: what 200 random cameras took, at the
   // median.
-  const double share = input.objective == Objective::p95 ? 0.65 : 0.55;
-  const double ratio = search.ahead(share).y;
-  const FallOff fit = input.light.perspective ? search.fitted() : FallOff{0.0, 0.35 * ratio};
-  // Along the view, a third aside of it as the best rows are turned and their fall-off with them, and near
-  // what pixels cover.
-  const std::array<FallOff, kLanes> starts = {{{0.0, 0.0},
-                                               {0.0, ratio},
-                                               {0.0, 0.6 * ratio},
-                                               {0.0, 1.4 * ratio},
-                                               {0.0, 2.0 * ratio},
-                                               {0.0, -0.5 * ratio},
-                                               fit,
-                                               {0.75 * fit.x, 0.75 * fit.y},
-                                               {1.3 * fit.x, 1.3 * fit.y},
-                                               {0.35 * ratio, 0.94 * ratio},
-                                               {-0.35 * ratio, 0.94 * ratio},
-                                               {0.6 * ratio, 0.6 * ratio},
-                                               {-0.6 * ratio, 0.6 * ratio},
-                                               {0.3 * ratio, 0.4 * ratio},
-                                               {-0.3 * ratio, 0.4 * ratio},
-                                               {0.2 * ratio, 1.2 * ratio}}};
+  const double share = local ? 1.0 : input.objective == Objective::p95 ? 0.65 : 0.55;
+  const auto ratio = static_cast<float>(search.ahead(share).y);
+  const Starts& local_starts = input.objective == Objective::storage ? kLocalByStorage : kLocalByWorst;
+  const Starts& starts = local ? local_starts : kParallelStarts;
   // Two fans of four from an edge of the image on, that meet in a right angle.
   constexpr double kCosine = 0.8314696123025452, kSine = 0.5555702330196022;  // of three sixteenths of pi
   RowLanes lanes;
-  for (std::size_t l = 0; l < kLanes; ++l)
-    lanes.set(l, {starts[l], {kCosine, kSine}, {-kSine, kCosine}, 0.0});
+  lanes.fill({{}, {kCosine, kSine}, {-kSine, kCosine}, 0.0});
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    lanes.x[l] = starts.x[l] * ratio;
+    lanes.y[l] = starts.y[l] * ratio;
+  }
+  if (local) {
+    const FallOff fit = search.fitted();
+    constexpr std::array<double, 3> kFits = {1.0, 0.75, 1.3};
+    for (std::size_t i = 0; i < kFits.size(); ++i) {
+      lanes.x[kLanes - 1 - i] = static_cast<float>(kFits[i] * fit.x);
+      lanes.y[kLanes - 1 - i] = static_cast<float>(kFits[i] * fit.y);
+    }
+  }
   search.find_rows(0.5 * kEighth, lanes);
   return lanes.best();
 }
@@ -100,11 +100,13 @@ RowChoice best_around(RowSearch& search, const RowChoice& best, double radius, d
   const double length = length_of(best.fall_off);
   const double x = length > 0.0 ? best.fall_off.x / length : 0.0;
   const double y = length > 0.0 ? best.fall_off.y / length : 1.0;
+  const auto along_x = static_cast<float>(x * radius), along_y = static_cast<float>(y * radius);
+  const auto at_x = static_cast<float>(best.fall_off.x), at_y = static_cast<float>(best.fall_off.y);
   RowLanes lanes;
+  lanes.fill(best);
   for (std::size_t l = 0; l < kLanes; ++l) {
-    const double along = kRings[l].along * radius, across = kRings[l].across * radius;
-    const FallOff at{best.fall_off.x + along * x - across * y, best.fall_off.y + along * y + across * x};
-    lanes.set(l, {at, best.row_a, best.row_b, 0.0});
+    lanes.x[l] = at_x + (kAlong[l] * along_x - kAcross[l] * along_y);
+    lanes.y[l] = at_y + (kAlong[l] * along_y + kAcross[l] * along_x);
   }
   search.find_rows(fan, lanes);
   const RowChoice found = lanes.best();
@@ -120,22 +122,19 @@ struct Judged {
 
 /// The best of the registry's other warps where it is better than `best`.
 void improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) noexcept {
-  std::array<WarpChoice, 2 * kWarpLanes> choice;
-  std::array<double, 2 * kWarpLanes> value;
+  std::array<WarpChoice, kWarpLanes> choice;
   std::size_t count = 0;
   for (const Warp* other : all_warps()) {
     if (other->choose == choose_optimal || count == choice.size()) continue;
     const WarpChoice found = other->choose(input);
     if (!input.is_unwarped(found)) choice[count++] = found;
   }
+  if (count == 0) return;
+  ChoiceLanes lanes;
+  for (std::size_t i = 0; i < kWarpLanes; ++i) lanes.set(i, choice[i < count ? i : 0]);
   error.count_bound();
-  for (std::size_t first = 0; first < count; first += kWarpLanes) {
-    ChoiceLanes lanes;
-    LaneValues values;
-    for (std::size_t i = 0; i < kWarpLanes; ++i) lanes.set(i, choice[first + i < count ? first + i : 0]);
-    error.values(lanes, values);
-    for (std::size_t i = 0; i < kWarpLanes && first + i < count; ++i) value[first + i] = values[i];
-  }
+  LaneValues value;
+  error.values(lanes, value);
   error.count_all();
   for (std::size_t i = 0; i < count; ++i) {
     if (!(value[i] < best.value)) continue;
@@ -143,6 +142,13 @@ void improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) 
     if (less(exact, best.value) && usable(input.body, choice[i], input.most_stretch))
       best = {choice[i], exact};
   }
+}
+
+/// From now on the search counts the samples near the worst under `choice`.
+void count_near_worst(RowSearch& search, PlaneError& error, const WarpChoice& choice) noexcept {
+  error.count_worst(choice);
+  search.count(error.counted());
+  error.count_all();
 }
 
 /// Where a search by the objective itself tries sixteen places at once: over the fall-off and how far both
@@ -199,9 +205,7 @@ class Polish {
 /// Fall-off and the rows' leaning from `start` on, by the objective at the samples near the worst.
 Judged polished(RowSearch& search, PlaneError& error, const Judged& start, int rounds,
                 double reach) noexcept {
-  error.count_worst(start.choice);
-  search.count(error.counted());
-  error.count_all();
+  count_near_worst(search, error, start.choice);
   const RowChoice from = search.rows_of(start.choice);
   const auto leaning = [](const glm::dvec2& row, double by) {
     return glm::dvec2(row.x - row.y * by, row.y + row.x * by);
@@ -226,27 +230,33 @@ Judged polished(RowSearch& search, PlaneError& error, const Judged& start, int r
   return less(end.value, start.value) ? end : start;
 }
 
-/// The best fall-off with its rows by the corners, and by storage then by all samples.
-RowChoice searched(RowSearch& search, const PlaneError& error, const WarpInput& input) noexcept {
+/// The best fall-off with its rows, from the best start on: by the samples, or, where the corners' surrogate
+/// only hints at the objective, by the corners.
+RowChoice searched(RowSearch& search, PlaneError& error, const WarpInput& input) noexcept {
   RowChoice rows = best_start(search, input);
   double radius = max_of(0.2, 0.16 * length_of(rows.fall_off)), fan = 0.15;
+  const bool storage = input.objective == Objective::storage;
+  if (storage) {
+    count_near_worst(search, error, search.choice(rows));
+    rows.value = std::numeric_limits<double>::infinity();
+  }
   // A round that gains much goes on nearly as wide; one that gains little is the last.
   // Under a local light the starts are farther off.
-  const int least_rounds = input.light.perspective ? 4 : 2;
-  constexpr int kMostRounds = 6;
-  constexpr double kMuch = 0.5, kLittle = 0.7;
+  constexpr int kByStorage = 3, kLocal = 4, kWorst = 2, kPercentile = 1, kMostRounds = 6;
+  const int least_rounds = storage                             ? kByStorage
+                           : input.light.perspective           ? kLocal
+                           : input.objective == Objective::p95 ? kPercentile
+                                                               : kWorst;
+  constexpr double kMuch = 0.5, kLittle = 0.7, kNearlyAsWide = 0.8, kCloser = 0.45, kFanCloser = 0.5;
   for (int round = 1; round <= kMostRounds; ++round) {
     const double before = rows.value;
     rows = best_around(search, rows, radius, fan);
-    const bool gains_much = rows.value < kMuch * before;
-    radius *= gains_much ? 0.8 : 0.45;
-    fan *= gains_much ? 0.8 : 0.5;
+    const bool gains_much = std::isfinite(before) && rows.value < kMuch * before;
+    radius *= gains_much ? kNearlyAsWide : kCloser;
+    fan *= gains_much ? kNearlyAsWide : kFanCloser;
     if (round >= least_rounds && !(rows.value < kLittle * before)) break;
   }
-  if (input.objective != Objective::storage) return rows;
-  search.count(error.counted());
-  rows.value = std::numeric_limits<double>::infinity();
-  return best_around(search, rows, radius, fan);
+  return rows;
 }
 
 WarpChoice judged_choice(const WarpInput& input, const Judged& best, double without) noexcept {
@@ -260,9 +270,7 @@ WarpChoice judged_choice(const WarpInput& input, const Judged& best, double with
 Judged refined(RowSearch& search, PlaneError& error, const WarpInput& input, const Judged& start) noexcept {
   if (input.objective != Objective::storage)
     return polished(search, error, start, kFollowingRounds, kFollowingReach);
-  error.count_worst(start.choice);
-  search.count(error.counted());
-  error.count_all();
+  count_near_worst(search, error, start.choice);
   RowChoice rows = search.rows_of(start.choice);
   rows.value = std::numeric_limits<double>::infinity();
   const WarpChoice found = search.choice(best_around(search, rows, kFollowingRadius, kFollowingFan));
@@ -303,8 +311,8 @@ WarpChoice choose_optimal(const WarpInput& input) noexcept {
   improve_by_others(input, error, best);
   if (!search.line() && input.objective != Objective::storage) {
     // The corners only hint at a percentile, and their surrogate at the worst texel.
-    constexpr int kWorst = 4, kPercentile = 3;
-    best = polished(search, error, best, input.objective == Objective::p95 ? kPercentile : kWorst, 1.0);
+    constexpr int kRounds = 4;
+    best = polished(search, error, best, kRounds, 1.0);
   }
   return judged_choice(input, best, without);
 }

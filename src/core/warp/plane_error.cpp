@@ -2,6 +2,7 @@
 // Based on: Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006, as a Jacobian.
 #include "warp/plane_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -16,6 +17,11 @@ namespace gnomon {
 namespace {
 
 constexpr double kShareAbove95 = 0.05;
+
+bool same_map(const WarpChoice& a, const WarpChoice& b) noexcept {
+  return a.kappa == b.kappa && a.axis == b.axis && a.centre == b.centre && a.row_a == b.row_a &&
+         a.row_b == b.row_b;
+}
 
 }  // namespace
 
@@ -47,11 +53,8 @@ PlaneError::PlaneError(const WarpInput& input, bool searched, int set) noexcept
   const Polytope &body = from_pseudo_near(*input.polytope, counted), *focus = input.focus;
   if (focus != nullptr) focus = &from_pseudo_near(*focus, counted_focus);
   const bool focused = focus != nullptr && !focus->empty();
-  // First, as there may be no room for all.
-  if (focused) add_vertices(*focus, 1.0, corners_);
-  add_vertices(body, focused ? input.focus_weight : 1.0, corners_);
-  find_pixels(input, corners_);
   add_samples(body, focused ? focus : nullptr, searched, set);
+  find_corners(body, focused ? focus : nullptr);
   all_ = sample_.count;
   above_ = above(all_);
 }
@@ -97,32 +100,55 @@ void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool s
   complete_ = find_pixels(input_, sample_) >= vertices;
 }
 
+void PlaneError::find_corners(const Polytope& body, const Polytope* focus) noexcept {
+  // First, as there may be no room for all.
+  if (focus != nullptr) add_vertices(*focus, 1.0, corners_);
+  add_vertices(body, focus != nullptr ? input_.focus_weight : 1.0, corners_);
+  // Of a percentile's samples, and of those that lack a vertex, corners are no part.
+  if (share_ != 0.0 || !complete_) {
+    find_pixels(input_, corners_);
+    return;
+  }
+  const std::size_t n = whole_lanes(corners_.count);
+  const auto copy = [n](const auto& from, auto& to) { std::copy_n(from.begin(), n, to.begin()); };
+  copy(sample_.x, corners_.x);
+  copy(sample_.y, corners_.y);
+  copy(sample_.xx, corners_.xx);
+  copy(sample_.xy, corners_.xy);
+  copy(sample_.yx, corners_.yx);
+  copy(sample_.yy, corners_.yy);
+  copy(sample_.inverse_determinant, corners_.inverse_determinant);
+}
+
 void PlaneError::count_worst(const WarpChoice& choice) noexcept {
   const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
   // Without an area there is no error.
   if (sample_.count == 0 || rows == 0.0 || choice.kappa * distance_ > kMostKappaDistance) return;
-  find_rows(choice);
-  constexpr double kNearWorst = 0.25;  // of the square: half the error
+  // Of the squares. A percentile may come to rest farther below its first value.
   const bool storage = input_.objective == Objective::storage;
+  const double near_worst = storage ? 0.4 : 0.25;
   double most_x = 0.0, most_y = 0.0;
-  if (share_ > 0.0) {
-    most_x = worst_squared();
-    for (std::size_t i = 0; i < all_; ++i) row_y_[i] = 0.0;
+  if (storage) {
+    find_rows(choice);
+    const std::size_t n = whole_lanes(all_);
+    most_x = lane_range(row_x_.data(), n, lanes_).high;
+    most_y = lane_range(row_y_.data(), n, lanes_).high;
   } else {
-    for (std::size_t i = 0; i < all_; ++i) {
-      if (!storage) row_x_[i] = row_y_[i] = row_x_[i] + row_y_[i];
-      most_x = max_of(most_x, row_x_[i]);
-      most_y = max_of(most_y, row_y_[i]);
-    }
+    // Mostly it was asked for last.
+    const bool known = worst_ > 0.0 && same_map(choice, valued_);
+    if (!known && !std::isfinite(value(choice))) return;
+    most_x = worst_;
+    for (std::size_t i = 0; i < all_; ++i) row_y_[i] = 0.0;
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < all_; ++i) {
-    if (!(row_x_[i] > kNearWorst * most_x || row_y_[i] > kNearWorst * most_y)) continue;
+    if (!(row_x_[i] > near_worst * most_x || row_y_[i] > near_worst * most_y)) continue;
     for (auto* lane : {&sample_.x, &sample_.y, &sample_.xx, &sample_.xy, &sample_.yx, &sample_.yy,
                        &sample_.inverse_determinant})
       std::swap((*lane)[kept], (*lane)[i]);
     ++kept;
   }
+  worst_ = 0.0;
   // The lanes past the last kept one hold points, too, and may as well count.
   if (kept > 0) sample_.count = kept;
 }
@@ -143,6 +169,8 @@ double PlaneError::value(const WarpChoice& choice) noexcept {
     return std::numeric_limits<double>::infinity();
   find_rows(choice);
   const double squared = input_.objective == Objective::storage ? storage_squared() : worst_squared();
+  valued_ = choice;
+  worst_ = sample_.count == all_ ? squared : 0.0;
   return squared < std::numeric_limits<double>::infinity() ? std::sqrt(squared)
                                                            : std::numeric_limits<double>::infinity();
 }

@@ -59,8 +59,8 @@ class PlaneError {
     above_ = above(all_);
     sample_.fill_lanes();
   }
-  /// From now on counts the vertices alone, where the objective there is never above the objective at all
-  /// points.
+  /// From now on counts some points alone, at first the vertices, where the objective there is never above
+  /// the objective at all points.
   void count_bound() noexcept;
   /// The body's vertices: few points that bound the error nearly everywhere.
   [[nodiscard]] const PixelLanes& corners() const noexcept { return corners_; }
@@ -72,6 +72,7 @@ class PlaneError {
  private:
   [[nodiscard]] const Polytope& from_pseudo_near(const Polytope& body, Polytope& counted) const noexcept;
   void add_samples(const Polytope& body, const Polytope* focus, bool searched, int set) noexcept;
+  void find_corners(const Polytope& body, const Polytope* focus) noexcept;
   void find_rows(const WarpChoice& choice) noexcept;
   [[nodiscard]] std::size_t above(std::size_t samples) const noexcept;
   struct ExtentLanes;
@@ -97,6 +98,8 @@ class PlaneError {
   // Of d(texel)/d(pixel) under the choice last asked for: squared lengths of its rows over the square of its
   // determinant, and the inverse of that. Before, the body's image.
   alignas(64) std::array<double, kMaxSamples> row_x_, row_y_, inverse_;
+  WarpChoice valued_;
+  double worst_ = 0.0;  // square of the value under that choice, by all samples; 0: not known
 };
 
 }  // namespace gnomon

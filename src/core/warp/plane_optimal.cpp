@@ -18,32 +18,28 @@ struct Linear2 {
   double at_origin;
 };
 
-/// Area of each face in the light plane, from the edges of its polygon (twice, and signed by the winding).
+/// Area of each face in the light plane, twice: a fan of triangles from any of its vertices to its edges.
 std::array<double, kMaxFaces> areas_across_light(const WarpInput& input) noexcept {
   const Polytope& body = *input.polytope;
   std::array<double, kMaxFaces> area{};
-  for (int f = 0; f < body.face_count; ++f) {
-    int start = -1;
-    for (int i = 0; i < body.vertex_count && start < 0; ++i) {
-      const Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(i)];
-      if (v.face[0] == f || v.face[1] == f || v.face[2] == f) start = i;
-    }
-    if (start < 0) continue;
-    // Round the polygon: at each vertex, on along the edge of this face that does not lead back.
-    int from = -1, at = start;
-    for (int step = 0; step < body.vertex_count; ++step) {
-      const Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(at)];
-      int next = -1;
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (v.face[k] != f && v.neighbour[k] != from) next = v.neighbour[k];
+  std::array<glm::dvec2, kMaxVertices> point;
+  std::array<glm::dvec2, kMaxFaces> hub;
+  for (int i = 0; i < body.vertex_count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const glm::dvec3 p = input.light.project(body.vertex[at].position);
+    point[at] = {p.x, p.y};
+    for (const std::uint8_t f : body.vertex[at].face) hub[f] = point[at];
+  }
+  for (int i = 0; i < body.vertex_count; ++i) {
+    const Polytope::Vertex& v = body.vertex[static_cast<std::size_t>(i)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (v.neighbour[k] < i) continue;
+      // Neighbour k lies along the edge of the two other faces.
+      const glm::dvec2 p = point[static_cast<std::size_t>(i)], q = point[v.neighbour[k]];
+      for (const std::uint8_t f : {v.face[(k + 1) % 3], v.face[(k + 2) % 3]}) {
+        const glm::dvec2 a = p - hub[f], b = q - hub[f];
+        area[f] += std::abs(a.x * b.y - a.y * b.x);
       }
-      if (next < 0) break;
-      const glm::dvec3 p = input.light.project(v.position);
-      const glm::dvec3 q = input.light.project(body.vertex[static_cast<std::size_t>(next)].position);
-      area[static_cast<std::size_t>(f)] += p.x * q.y - p.y * q.x;
-      from = at;
-      at = next;
-      if (at == start) break;
     }
   }
   return area;
@@ -62,7 +58,7 @@ const Plane* receiver_plane(const WarpInput& input) noexcept {
   // Less of the largest face is a face that was cut away to a line, and rounding.
   constexpr double kLeastShare = 1e-9;
   double any_face = 0.0;
-  for (const double a : area) any_face = max_of(any_face, std::abs(a));
+  for (const double a : area) any_face = max_of(any_face, a);
   // All faces of a body that is a point or a line are rounding.
   constexpr double kNoArea = 1e-13;
   double farthest = 0.0;
@@ -86,7 +82,7 @@ const Plane* receiver_plane(const WarpInput& input) noexcept {
     // The light and the eye, which is the origin, both on the inner side.
     const double towards_light = glm::dot(plane.normal, glm::dvec3(light)) + plane.offset * light.w;
     if (!(towards_light > 0.0 && plane.offset > 0.0)) continue;
-    const double size = std::abs(area[index]);
+    const double size = area[index];
     if (!(size > kLeastShare * any_face)) continue;
     const bool same = best != nullptr && std::abs(size - largest) <= kSame * largest;
     if (same ? !comes_first(plane, *best) : !(size > largest)) continue;

@@ -38,6 +38,7 @@ constexpr float max_of(float a, float b) noexcept {
 /// Cosine and sine of a small angle.
 struct Turn {
   float cosine, sine;
+  constexpr Turn() noexcept : cosine(1.0F), sine(0.0F) {}
   explicit constexpr Turn(float angle) noexcept : cosine(0.0F), sine(0.0F) {
     const float square = angle * angle;
     cosine = 1.0F - square * (0.5F - square * (1.0F / 24.0F - square * (1.0F / 720.0F)));
@@ -56,10 +57,17 @@ void RowLanes::set(std::size_t lane, const RowChoice& rows) noexcept {
   b_y[lane] = static_cast<float>(rows.row_b.y);
 }
 
+void RowLanes::fill(const RowChoice& rows) noexcept {
+  x.fill(static_cast<float>(rows.fall_off.x));
+  y.fill(static_cast<float>(rows.fall_off.y));
+  a_x.fill(static_cast<float>(rows.row_a.x));
+  a_y.fill(static_cast<float>(rows.row_a.y));
+  b_x.fill(static_cast<float>(rows.row_b.x));
+  b_y.fill(static_cast<float>(rows.row_b.y));
+}
+
 std::size_t RowLanes::least() const noexcept {
-  std::size_t least = 0;
-  for (std::size_t l = 1; l < kCount; ++l) least = value[l] < value[least] * kTie ? l : least;
-  return least;
+  return first_of_least_lane(value, kTie);
 }
 
 RowChoice RowLanes::best() const noexcept {
@@ -144,13 +152,14 @@ RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
   count(corners_);
 }
 
-void RowSearch::count(const PixelLanes& samples) noexcept {
+GNOMON_WIDE void RowSearch::count(const PixelLanes& samples) noexcept {
   samples_ = samples.count;
   above_ = error_.above();
   const double scale_x = 1.0 / extent_.x, scale_y = 1.0 / extent_.y, area = extent_.x * extent_.y;
-  const std::size_t n = samples_;
-  alignas(64) std::array<double, PixelLanes::kMost> xx, xy, yy;
-  double most = 0.0;
+  const double origin_x = origin_.x, origin_y = origin_.y;
+  // The lanes past the last sample hold copies of the first.
+  const std::size_t n = whole_lanes(samples_);
+  alignas(64) std::array<double, PixelLanes::kMost> xx, xy, yy, sum;
   for (std::size_t i = 0; i < n; ++i) {
     const double inverse = samples.inverse_determinant[i] * area;
     const double ax = samples.xx[i] * scale_x * inverse, ay = samples.xy[i] * scale_x * inverse;
@@ -158,18 +167,19 @@ void RowSearch::count(const PixelLanes& samples) noexcept {
     xx[i] = ax * ax + ay * ay;
     xy[i] = ax * bx + ay * by;
     yy[i] = bx * bx + by * by;
-    most = max_of(most, xx[i] + yy[i]);
+    sum[i] = xx[i] + yy[i];
   }
+  const double most = n > 0 ? lane_range(sum.data(), n, lanes_).high : 0.0;
   // Relative to the largest: what is far below it plays no part.
   constexpr double kLeast = 1e-280;
-  const double scale = most > kLeast ? 1.0 / most : 0.0;
+  const double scale = most > kLeast ? 1.0 / most : 0.0, area_scale = area * scale;
   for (std::size_t i = 0; i < n; ++i) {
-    x_[i] = static_cast<float>((samples.x[i] - origin_.x) * scale_x);
-    y_[i] = static_cast<float>((samples.y[i] - origin_.y) * scale_y);
+    x_[i] = static_cast<float>((samples.x[i] - origin_x) * scale_x);
+    y_[i] = static_cast<float>((samples.y[i] - origin_y) * scale_y);
     xx_[i] = static_cast<float>(xx[i] * scale);
     xy_[i] = static_cast<float>(xy[i] * scale);
     yy_[i] = static_cast<float>(yy[i] * scale);
-    inverse_[i] = static_cast<float>(samples.inverse_determinant[i] * area * scale);
+    inverse_[i] = static_cast<float>(samples.inverse_determinant[i] * area_scale);
   }
 }
 
@@ -341,14 +351,15 @@ void RowSearch::fit(const RowLanes& candidates, double step, Maps<Directions>& m
 
 // For one sample and candidate: the form of a row's squared extent, of which the side across and the area are
 // left out.
-#define GNOMON_FORM                                                                      \
-  const float w = m.w_x[l] * x + m.w_y[l] * y + m.w_1[l], w2 = w * w;                    \
-  const float ax = m.turn_x[l] * y + m.first_x[l], ay = m.second_x[l] - m.turn_x[l] * x; \
-  const float bx = m.turn_y[l] * y + m.first_y[l], by = m.second_y[l] - m.turn_y[l] * x; \
-  const float jx = ax * at_xx + ay * at_xy, jy = ax * at_xy + ay * at_yy;                \
-  const float kx = bx * at_xx + by * at_xy, ky = bx * at_xy + by * at_yy;                \
-  const float xx = (ax * jx + ay * jy) * w2, xy = (bx * jx + by * jy) * w2;              \
-  const float yy = (bx * kx + by * ky) * w2
+#define GNOMON_FORM(at, k)                                                                           \
+  const float w##k = m.w_x[l] * at.x + m.w_y[l] * at.y + m.w_1[l], square##k = w##k * w##k;          \
+  const float ax##k = m.turn_x[l] * at.y + m.first_x[l], ay##k = m.second_x[l] - m.turn_x[l] * at.x; \
+  const float bx##k = m.turn_y[l] * at.y + m.first_y[l], by##k = m.second_y[l] - m.turn_y[l] * at.x; \
+  const float jx##k = ax##k * at.xx + ay##k * at.xy, jy##k = ax##k * at.xy + ay##k * at.yy;          \
+  const float kx##k = bx##k * at.xx + by##k * at.xy, ky##k = bx##k * at.xy + by##k * at.yy;          \
+  const float xx##k = (ax##k * jx##k + ay##k * jy##k) * square##k;                                   \
+  const float xy##k = (bx##k * jx##k + by##k * jy##k) * square##k;                                   \
+  const float yy##k = (bx##k * kx##k + by##k * ky##k) * square##k
 
 GNOMON_WIDE void RowSearch::find_products(Maps<kFan>& maps) const noexcept {
   Maps<kFan>& __restrict m = maps;
@@ -358,12 +369,16 @@ GNOMON_WIDE void RowSearch::find_products(Maps<kFan>& maps) const noexcept {
   for (std::size_t d = 0; d < 2 * kFan; ++d) {
     for (std::size_t l = 0; l < lanes; ++l) most[d][l] = 0.0F;
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    const float x = x_[i], y = y_[i], at_xx = xx_[i], at_xy = xy_[i], at_yy = yy_[i];
+  // Two at a time: half as many numbers of the candidates to fetch.
+  for (std::size_t i = 0; i < n; i += 2) {
+    const Form f0 = form_at(i), f1 = form_at(i + 1);
     for (std::size_t l = 0; l < lanes; ++l) {
-      GNOMON_FORM;
+      GNOMON_FORM(f0, 0);
+      GNOMON_FORM(f1, 1);
       for (std::size_t d = 0; d < 2 * kFan; ++d) {
-        most[d][l] = max_of(most[d][l], m.xx[d][l] * xx + m.xy[d][l] * xy + m.yy[d][l] * yy);
+        const float v0 = m.xx[d][l] * xx0 + m.xy[d][l] * xy0 + m.yy[d][l] * yy0;
+        const float v1 = m.xx[d][l] * xx1 + m.xy[d][l] * xy1 + m.yy[d][l] * yy1;
+        most[d][l] = max_of(most[d][l], max_of(v0, v1));
       }
     }
   }
@@ -382,9 +397,7 @@ GNOMON_WIDE void RowSearch::find_products(Maps<kFan>& maps) const noexcept {
 GNOMON_WIDE void RowSearch::find_sums(Maps<kFan>& maps) const noexcept {
   Maps<kFan>& __restrict m = maps;
   const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1), n = samples_;
-  alignas(64) std::array<Numbers, 2 * kFan> extent;
   alignas(64) std::array<Numbers, kFan * kFan> product;
-  alignas(64) Numbers area;
   for (std::size_t a = 0; a < kFan; ++a) {
     for (std::size_t b = 0; b < kFan; ++b) {
       for (std::size_t l = 0; l < lanes; ++l) {
@@ -395,22 +408,35 @@ GNOMON_WIDE void RowSearch::find_sums(Maps<kFan>& maps) const noexcept {
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const float x = x_[i], y = y_[i], at_xx = xx_[i], at_xy = xy_[i], at_yy = yy_[i], inverse = inverse_[i];
+    const Form at = form_at(i);
     for (std::size_t l = 0; l < lanes; ++l) {
-      GNOMON_FORM;
-      const float root = min_of(w2 * w * inverse * m.area[l], kFar);
-      area[l] = root * root;
-      for (std::size_t d = 0; d < 2 * kFan; ++d)
-        extent[d][l] = min_of(m.xx[d][l] * xx + m.xy[d][l] * xy + m.yy[d][l] * yy, kFar);
-    }
-    for (std::size_t a = 0; a < kFan; ++a) {
-      for (std::size_t b = 0; b < kFan; ++b) {
-        for (std::size_t l = 0; l < lanes; ++l) {
-          const float sum = m.side[a][l] * extent[kFan + b][l] + m.side[kFan + b][l] * extent[a][l];
-          const float squares = sum * sum - product[a * kFan + b][l] * area[l];
-          m.pair[a * kFan + b][l] = max_of(m.pair[a * kFan + b][l], squares);
-        }
-      }
+      GNOMON_FORM(at, 0);
+      const float root = min_of(square0 * w0 * at.inverse * m.area[l], kFar), area = root * root;
+#define GNOMON_EXTENT(d) \
+  const float e##d = min_of(m.xx[d][l] * xx0 + m.xy[d][l] * xy0 + m.yy[d][l] * yy0, kFar)
+      GNOMON_EXTENT(0);
+      GNOMON_EXTENT(1);
+      GNOMON_EXTENT(2);
+      GNOMON_EXTENT(3);
+      GNOMON_EXTENT(4);
+      GNOMON_EXTENT(5);
+      GNOMON_EXTENT(6);
+      GNOMON_EXTENT(7);
+#undef GNOMON_EXTENT
+#define GNOMON_PAIR(a, b)                                        \
+  {                                                              \
+    const std::size_t k = (a)*kFan + (b)-kFan;                   \
+    const float sum = m.side[a][l] * e##b + m.side[b][l] * e##a; \
+    const float squares = sum * sum - product[k][l] * area;      \
+    m.pair[k][l] = max_of(m.pair[k][l], squares);                \
+  }
+#define GNOMON_PAIRS(a) GNOMON_PAIR(a, 4) GNOMON_PAIR(a, 5) GNOMON_PAIR(a, 6) GNOMON_PAIR(a, 7)
+      GNOMON_PAIRS(0)
+      GNOMON_PAIRS(1)
+      GNOMON_PAIRS(2)
+      GNOMON_PAIRS(3)
+#undef GNOMON_PAIRS
+#undef GNOMON_PAIR
     }
   }
 }
@@ -425,42 +451,69 @@ GNOMON_WIDE void RowSearch::find_rows(double step, RowLanes& candidates) noexcep
   } else {
     find_sums(m);
   }
+  pick_rows(step, m, c);
+}
+
+/// The best pair of each candidate.
+GNOMON_WIDE void RowSearch::pick_rows(double step, const Maps<kFan>& maps,
+                                      RowLanes& candidates) const noexcept {
+  const Maps<kFan>& __restrict m = maps;
+  RowLanes& __restrict c = candidates;
   const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
-  // Of the sine of the angle between the rows, which goes by how far apart they are in their fans.
-  alignas(64) std::array<Numbers, 2 * kFan - 1> factor;
-  for (std::size_t k = 0; k < factor.size(); ++k) {
-    const Turn turn((static_cast<float>(k) - static_cast<float>(kFan - 1)) * static_cast<float>(step));
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const float straight = c.a_x[l] * c.b_x[l] + c.a_y[l] * c.b_y[l];
-      const float sine = (c.a_x[l] * c.b_y[l] - c.a_y[l] * c.b_x[l]) * turn.cosine + straight * turn.sine;
-      const float sine2 = sine * sine, per_sine2 = 1.0F / max_of(sine2, kLeastSine2);
-      factor[k][l] = sine2 > kLeastSine2 ? per_sine2 * per_sine2 : kWidest;
-    }
-  }
-  alignas(64) Numbers best, best_a, best_b;
+  std::array<Turn, 2 * kFan - 1> turn;
+  for (std::size_t k = 0; k < turn.size(); ++k)
+    turn[k] = Turn((static_cast<float>(k) - static_cast<float>(kFan - 1)) * static_cast<float>(step));
   for (std::size_t l = 0; l < lanes; ++l) {
-    best[l] = kInfinity;
-    best_a[l] = best_b[l] = 0.0F;
+    const float across = c.a_x[l] * c.b_y[l] - c.a_y[l] * c.b_x[l];
+    const float straight = c.a_x[l] * c.b_x[l] + c.a_y[l] * c.b_y[l];
+    // Of the sine of the angle between the rows, which goes by how far apart they are in their fans.
+#define GNOMON_FACTOR(k)                                                   \
+  const float sine##k = across * turn[k].cosine + straight * turn[k].sine; \
+  const float square##k = sine##k * sine##k;                               \
+  const float per##k = 1.0F / max_of(square##k, kLeastSine2);              \
+  const float factor##k = square##k > kLeastSine2 ? per##k * per##k : kWidest
+    GNOMON_FACTOR(0);
+    GNOMON_FACTOR(1);
+    GNOMON_FACTOR(2);
+    GNOMON_FACTOR(3);
+    GNOMON_FACTOR(4);
+    GNOMON_FACTOR(5);
+    GNOMON_FACTOR(6);
+#undef GNOMON_FACTOR
+    float best = kInfinity, a_x = m.unit_x[0][l], a_y = m.unit_y[0][l];
+    float b_x = m.unit_x[kFan][l], b_y = m.unit_y[kFan][l];
+#define GNOMON_PAIR(a, b, apart)                                   \
+  {                                                                \
+    const float value = m.pair[(a)*kFan + (b)][l] * factor##apart; \
+    const bool better = value < best * RowLanes::kTie;             \
+    best = better ? value : best;                                  \
+    a_x = better ? m.unit_x[a][l] : a_x;                           \
+    a_y = better ? m.unit_y[a][l] : a_y;                           \
+    b_x = better ? m.unit_x[kFan + (b)][l] : b_x;                  \
+    b_y = better ? m.unit_y[kFan + (b)][l] : b_y;                  \
   }
-  for (std::size_t a = 0; a < kFan; ++a) {
-    for (std::size_t b = 0; b < kFan; ++b) {
-      const auto at_a = static_cast<float>(a), at_b = static_cast<float>(b);
-      for (std::size_t l = 0; l < lanes; ++l) {
-        const float value = m.pair[a * kFan + b][l] * factor[kFan - 1 + b - a][l];
-        const bool better = value < best[l] * RowLanes::kTie;
-        best[l] = better ? value : best[l];
-        best_a[l] = better ? at_a : best_a[l];
-        best_b[l] = better ? at_b : best_b[l];
-      }
-    }
-  }
-  for (std::size_t l = 0; l < kAtOnce; ++l) {
-    const auto a = static_cast<std::size_t>(best_a[l]), b = kFan + static_cast<std::size_t>(best_b[l]);
-    c.a_x[l] = m.unit_x[a][l];
-    c.a_y[l] = m.unit_y[a][l];
-    c.b_x[l] = m.unit_x[b][l];
-    c.b_y[l] = m.unit_y[b][l];
-    c.value[l] = best[l];
+    GNOMON_PAIR(0, 0, 3)
+    GNOMON_PAIR(0, 1, 4)
+    GNOMON_PAIR(0, 2, 5)
+    GNOMON_PAIR(0, 3, 6)
+    GNOMON_PAIR(1, 0, 2)
+    GNOMON_PAIR(1, 1, 3)
+    GNOMON_PAIR(1, 2, 4)
+    GNOMON_PAIR(1, 3, 5)
+    GNOMON_PAIR(2, 0, 1)
+    GNOMON_PAIR(2, 1, 2)
+    GNOMON_PAIR(2, 2, 3)
+    GNOMON_PAIR(2, 3, 4)
+    GNOMON_PAIR(3, 0, 0)
+    GNOMON_PAIR(3, 1, 1)
+    GNOMON_PAIR(3, 2, 2)
+    GNOMON_PAIR(3, 3, 3)
+#undef GNOMON_PAIR
+    c.a_x[l] = a_x;
+    c.a_y[l] = a_y;
+    c.b_x[l] = b_x;
+    c.b_y[l] = b_y;
+    c.value[l] = best;
   }
 }
 
@@ -473,26 +526,37 @@ GNOMON_WIDE void RowSearch::find_worst(Maps<1>& maps, RowLanes& candidates) cons
   // The largest few, largest first.
   alignas(64) std::array<Numbers, PlaneError::kMostAbove + 1> top;
   alignas(64) Numbers half_a, half_b, texel, usable;
+  // The gradient of each row's coordinate, as those of X and Y.
+  alignas(64) Numbers turn_a, first_a, second_a, turn_b, first_b, second_b;
   for (std::size_t l = 0; l < lanes; ++l) {
-    const float sine = m.unit_x[0][l] * m.unit_y[1][l] - m.unit_y[0][l] * m.unit_x[1][l], sine2 = sine * sine;
+    const float x_a = m.unit_x[0][l], y_a = m.unit_y[0][l], x_b = m.unit_x[1][l], y_b = m.unit_y[1][l];
+    const float sine = x_a * y_b - y_a * x_b, sine2 = sine * sine;
     const float per = 1.0F / max_of(sine2, kLeastSine2);
     usable[l] = sine2 > kLeastSine2 ? 1.0F : 0.0F;
     half_a[l] = 0.5F * m.side[0][l] * per;
     half_b[l] = 0.5F * m.side[1][l] * per;
     texel[l] = std::sqrt(m.side[0][l] * m.side[1][l] * per) * m.area[l];
+    turn_a[l] = x_a * m.turn_x[l] + y_a * m.turn_y[l];
+    first_a[l] = x_a * m.first_x[l] + y_a * m.first_y[l];
+    second_a[l] = x_a * m.second_x[l] + y_a * m.second_y[l];
+    turn_b[l] = x_b * m.turn_x[l] + y_b * m.turn_y[l];
+    first_b[l] = x_b * m.first_x[l] + y_b * m.first_y[l];
+    second_b[l] = x_b * m.second_x[l] + y_b * m.second_y[l];
     for (auto& level : top) level[l] = 0.0F;
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const float x = x_[i], y = y_[i], at_xx = xx_[i], at_xy = xy_[i], at_yy = yy_[i], inverse = inverse_[i];
+    const Form at = form_at(i);
+    const float twice = 2.0F * at.xy;
     for (std::size_t l = 0; l < lanes; ++l) {
-      GNOMON_FORM;
-      const float extent_a = min_of(m.xx[0][l] * xx + m.xy[0][l] * xy + m.yy[0][l] * yy, kFar);
-      const float extent_b = min_of(m.xx[1][l] * xx + m.xy[1][l] * xy + m.yy[1][l] * yy, kFar);
+      const float w = m.w_x[l] * at.x + m.w_y[l] * at.y + m.w_1[l], w2 = w * w;
+      const float ax = turn_a[l] * at.y + first_a[l], ay = second_a[l] - turn_a[l] * at.x;
+      const float bx = turn_b[l] * at.y + first_b[l], by = second_b[l] - turn_b[l] * at.x;
+      const float extent_a = min_of((ax * (ax * at.xx + ay * twice) + ay * ay * at.yy) * w2, kFar);
+      const float extent_b = min_of((bx * (bx * at.xx + by * twice) + by * by * at.yy) * w2, kFar);
       const float half = half_a[l] * extent_b + half_b[l] * extent_a;
-      const float area = min_of(std::abs(texel[l] * w2 * w * inverse), kFar);
+      const float area = min_of(std::abs(texel[l] * w2 * w * at.inverse), kFar);
       const float spread = (half - area) * (half + area);
-      const float square = half + std::sqrt(max_of(spread, 0.0F));
-      float rest = square;
+      float rest = half + std::sqrt(max_of(spread, 0.0F));
       for (auto& level : top) {
         const float next = min_of(level[l], rest);
         level[l] = max_of(level[l], rest);

@@ -28,6 +28,7 @@ struct RowLanes {
   alignas(64) Numbers a_x, a_y, b_x, b_y;  // rows
   alignas(64) Numbers value;
   void set(std::size_t lane, const RowChoice& rows) noexcept;
+  void fill(const RowChoice& rows) noexcept;
   // Gains below this are rounding: the first of two that mirror each other is taken, wherever the world
   // stands and whatever its unit.
   static constexpr float kTie = 1.0F - 1e-5F;
@@ -83,7 +84,16 @@ class RowSearch {
   void fit(const RowLanes& candidates, double step, Maps<Directions>& maps) const noexcept;
   void find_products(Maps<4>& maps) const noexcept;
   void find_sums(Maps<4>& maps) const noexcept;
+  void pick_rows(double step, const Maps<4>& maps, RowLanes& candidates) const noexcept;
   void find_worst(Maps<1>& maps, RowLanes& candidates) const noexcept;
+  /// A sample's numbers, of which loops keep copies: what they write might be these, for all that the
+  /// compiler knows.
+  struct Form {
+    float x, y, xx, xy, yy, inverse;
+  };
+  [[nodiscard]] Form form_at(std::size_t i) const noexcept {
+    return {x_[i], y_[i], xx_[i], xy_[i], yy_[i], inverse_[i]};
+  }
 
   // Always the same, but not known when this is compiled: as in lane_range.
   std::size_t lanes_, fall_offs_;
