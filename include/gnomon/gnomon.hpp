@@ -11,6 +11,7 @@
 #include "gnomon/camera.hpp"
 #include "gnomon/caster_set.hpp"
 #include "gnomon/clip_space.hpp"
+#include "gnomon/coarse_depths.hpp"
 #include "gnomon/fit.hpp"
 #include "gnomon/history.hpp"
 #include "gnomon/jitter.hpp"
