@@ -77,16 +77,20 @@ void DrawLists::clear() {
   any_apart_ = false;
   part_count_.fill(0);
   beneath_.fill({});
+  layered_count_ = 0;
+  layered_draws_ = 0;
   stats_.fill({});
 }
 
-void DrawLists::build(const CullingJob& job, const DrawnMaps& drawn, const Camera& camera) {
+void DrawLists::build(const CullingJob& job, const DrawnMaps& drawn, const Camera& camera,
+                      const LayeredRule& rule) {
   clear();
   PruneSavings saved;
   culling_.count_omissions(job.plan, saved);
   // Casters moved in maps of earlier plans as well, which are not brought up to date now.
   if (!job.moved_world.empty() && job.plan.map_count > 0) cache_.forget(job.plan.maps().size());
   for (std::size_t map = 0; map < job.plan.maps().size(); ++map) add_map(job, drawn, map, saved);
+  join_maps(job, drawn, rule);
   saved_ = saved.net();
   finish(camera);
 }
@@ -213,6 +217,94 @@ DrawnPart DrawLists::listed(const CullingJob& job, const ShadowMap& as_drawn, co
            saved.of(PruneRule::caster_clusters));
   at.end = ranges_.size();
   return at;
+}
+
+bool DrawLists::is_layered(int index) const noexcept {
+  const std::span<const int> maps = layered_maps();
+  return std::find(maps.begin(), maps.end(), index) != maps.end();
+}
+
+bool DrawLists::is_drawn_whole(std::size_t map, const DrawnMap& as) const noexcept {
+  const DrawnPart& part = parts_[map].front();
+  return part_count_[map] == 1 && part.clear && part.rectangle.width == as.width &&
+         part.rectangle.height == as.height && !as.bent && !(as.even_scale > 0.0f);
+}
+
+void DrawLists::join_maps(const CullingJob& job, const DrawnMaps& drawn, const LayeredRule& rule) {
+  if (rule.passes == MapPasses::each || job.peels || scene_.order().size() >> kMapShift != 0) return;
+  // One viewport, and where faces are culled one winding. Maps of other sizes by gl_ViewportIndex would lose
+  // bits: a driver may transform to it in other steps.
+  const auto alike = [&](const DrawnMap& a, const DrawnMap& b) {
+    return a.width == b.width && a.height == b.height &&
+           (!rule.one_winding || is_mirrored(a.clip_from_position) == is_mirrored(b.clip_from_position));
+  };
+  const auto join_with = [&](const DrawnMap& one) {
+    layered_count_ = 0;
+    for (std::size_t map = 0; map < job.plan.maps().size(); ++map) {
+      if (is_drawn_whole(map, drawn.map[map]) && alike(drawn.map[map], one))
+        layered_[layered_count_++] = static_cast<int>(map);
+    }
+    return layered_count_;
+  };
+  std::size_t most = 0, best = 0;
+  for (std::size_t map = 0; map < job.plan.maps().size(); ++map) {
+    const std::size_t count = join_with(drawn.map[map]);
+    if (count > most) best = map;
+    most = std::max(most, count);
+  }
+  if (most > 0) join_with(drawn.map[best]);
+  std::uint32_t draws_each = 0;
+  for (const int map : layered_maps()) draws_each += stats_[static_cast<std::size_t>(map)].draws;
+  const std::size_t commands = commands_.size(), objects = objects_.size(), ranges = ranges_.size();
+  if (layered_count_ > 1) {
+    layered_draws_ = add_joined();
+    if (rule.passes == MapPasses::layered || one_pass_is_faster(draws_each, layered_draws_, rule.software))
+      return;
+  }
+  commands_.resize(commands);
+  objects_.resize(objects);
+  ranges_.resize(ranges);
+  layered_count_ = 0;
+  layered_draws_ = 0;
+}
+
+std::uint32_t DrawLists::add_joined() {
+  const std::size_t first_command = commands_.size(), first_range = ranges_.size();
+  std::array<std::size_t, kMaxMaps> next{};  // of each map's ranges
+  for (std::size_t i = 0; i < layered_count_; ++i)
+    next[i] = parts_[static_cast<std::size_t>(layered_[i])][0].begin;
+  for (std::uint32_t b = 0; b < scene_.batches().size(); ++b) {
+    joining_.clear();
+    for (std::size_t i = 0; i < layered_count_; ++i) {
+      const auto map = static_cast<std::uint32_t>(layered_[i]);
+      if (next[i] == parts_[map][0].end || ranges_[next[i]].batch != b) continue;
+      const BatchRange& range = ranges_[next[i]++];
+      for (std::uint32_t c = range.begin; c < range.end; ++c) joining_.push_back({commands_[c], map});
+    }
+    if (joining_.empty()) continue;
+    std::stable_sort(joining_.begin(), joining_.end(), [](const MapCommand& a, const MapCommand& z) {
+      return a.command.first_index != z.command.first_index ? a.command.first_index < z.command.first_index
+                                                            : a.command.index_count < z.command.index_count;
+    });
+    BatchRange joined{b, static_cast<std::uint32_t>(commands_.size()), 0};
+    for (const auto& [command, map] : joining_) {
+      const bool same = commands_.size() > joined.begin &&
+                        commands_.back().first_index == command.first_index &&
+                        commands_.back().index_count == command.index_count;
+      if (!same)
+        commands_.push_back(
+            {command.index_count, 0, command.first_index, 0, static_cast<std::uint32_t>(objects_.size())});
+      commands_.back().instance_count += command.instance_count;
+      for (std::uint32_t k = 0; k < command.instance_count; ++k) {
+        const std::uint32_t object = objects_[command.base_instance + k];
+        objects_.push_back(object | map << kMapShift);
+      }
+    }
+    joined.end = static_cast<std::uint32_t>(commands_.size());
+    ranges_.push_back(joined);
+  }
+  layered_part_ = {{}, false, first_range, ranges_.size()};
+  return static_cast<std::uint32_t>(commands_.size() - first_command);
 }
 
 void DrawLists::mark_visible(const Camera& camera) {

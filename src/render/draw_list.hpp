@@ -13,6 +13,7 @@
 #include "gnomon/camera.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/renderer.hpp"
+#include "layered_maps.hpp"
 #include "map_cache.hpp"
 #include "page_pool.hpp"
 #include "scene_buffers.hpp"
@@ -50,7 +51,8 @@ class DrawLists {
   explicit DrawLists(SceneBuffers& scene);
 
   /// Rebuilds and uploads everything for this frame.
-  void build(const CullingJob& job, const DrawnMaps& drawn, const Camera& camera);
+  void build(const CullingJob& job, const DrawnMaps& drawn, const Camera& camera,
+             const LayeredRule& rule = {});
   /// The same without the cache: one part for each map, with all of its casters. The maps' depths stay as
   /// they are.
   void build_uncached(const CullingJob& job, const Camera& camera);
@@ -101,6 +103,14 @@ class DrawLists {
   [[nodiscard]] std::span<const BatchRange> ranges(const DrawnPart& part) const noexcept {
     return {ranges_.data() + part.begin, part.end - part.begin};
   }
+  /// Maps that one pass draws, by their indices; none, or two and more.
+  [[nodiscard]] std::span<const int> layered_maps() const noexcept {
+    return {layered_.data(), layered_count_};
+  }
+  [[nodiscard]] bool is_layered(int index) const noexcept;
+  /// What that pass draws.
+  [[nodiscard]] const DrawnPart& layered_part() const noexcept { return layered_part_; }
+  [[nodiscard]] std::uint32_t layered_draws() const noexcept { return layered_draws_; }
   [[nodiscard]] std::span<const BatchRange> camera() const noexcept {
     return std::span(ranges_).subspan(camera_begin_);
   }
@@ -130,6 +140,13 @@ class DrawLists {
   /// The parts of a caster within planes, where that is less than all of it; false: it is to be drawn whole.
   bool add_parts(std::uint32_t instance, MapStats& stats, std::span<const glm::dvec4> planes,
                  PruneSaving& saved);
+  /// In one part, cleared before; no map whose shape bends lines, or whose depths are linear.
+  [[nodiscard]] bool is_drawn_whole(std::size_t map, const DrawnMap& as) const noexcept;
+  /// Finds the maps that one pass may draw, and makes its list where the rule wants it.
+  void join_maps(const CullingJob& job, const DrawnMaps& drawn, const LayeredRule& rule);
+  /// One list of the maps' own: runs of one primitive become one command over instances and maps. Returns how
+  /// many commands.
+  std::uint32_t add_joined();
   void mark_visible(const Camera& camera);
   /// Empties all lists, those of pages too.
   void clear();
@@ -148,6 +165,15 @@ class DrawLists {
   std::vector<glm::ivec4> copies_;  ///< x, y, width, height
   std::vector<int> copy_layers_;    ///< of pages: of each of copies_, ascending
   bool any_apart_ = false;
+  std::array<int, kMaxMaps> layered_{};
+  std::size_t layered_count_ = 0;
+  DrawnPart layered_part_;
+  std::uint32_t layered_draws_ = 0;
+  struct MapCommand {
+    DrawCommand command;
+    std::uint32_t map;
+  };
+  std::vector<MapCommand> joining_;     ///< scratch: of one batch
   std::vector<std::uint8_t> visible_;   ///< scratch: by instance
   std::vector<std::uint32_t> objects_;  ///< object of each drawn instance, all views one after the other
   std::vector<DrawCommand> commands_;

@@ -2,11 +2,16 @@
 #include "drawn_maps.hpp"
 
 #include <glm/common.hpp>
+#include <glm/matrix.hpp>
 
 #include "frame_block.hpp"
 #include "gnomon/shader_block.hpp"
 
 namespace gnomon::render {
+
+bool is_mirrored(const glm::mat4& clip_from_position) noexcept {
+  return glm::determinant(glm::dmat4(clip_from_position)) > 0.0;
+}
 
 DrawnMaps drawn_maps(const ShadowPlan& plan, const glm::dvec3& camera_world, double step) noexcept {
   DrawnMaps drawn;

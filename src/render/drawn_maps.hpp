@@ -21,6 +21,8 @@ struct DrawnMaps {
   glm::dvec3 origin_world{0.0};
   std::array<DrawnMap, kMaxMaps> map;
 };
+/// Whether the map shows the scene as a mirror does. Its depth grows away from the light in either case.
+[[nodiscard]] bool is_mirrored(const glm::mat4& clip_from_position) noexcept;
 /// `step`: the origin is the camera's position to the nearest multiple of it, so that it stays where it is
 /// while the camera moves a little, and with it every bit of a map that does.
 [[nodiscard]] DrawnMaps drawn_maps(const ShadowPlan& plan, const glm::dvec3& camera_world,

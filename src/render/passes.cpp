@@ -1,7 +1,6 @@
 // What each pass of a frame binds and draws.
 #include <algorithm>
 #include <array>
-#include <glm/matrix.hpp>
 #include <vector>
 
 #include "blue_noise.hpp"
@@ -14,7 +13,7 @@ namespace {
 // Bindings and locations as the shaders state them.
 constexpr GLint kBaseColorLocation = 1, kAlphaCutoffLocation = 2, kClipLocation = 3, kMapLocation = 3,
                 kWrapLocation = 4, kSamplesLocation = 6, kShapeLocation = 7, kSizeLocation = 8,
-                kEvenScaleLocation = 10;
+                kEvenScaleLocation = 10, kClipOfMapsLocation = 10;
 constexpr GLuint kPositionUnit = 0, kNormalUnit = 1, kAlbedoUnit = 2, kColorImageUnit = 3, kMaskUnit = 6,
                  kExtraUnit = 7, kNoiseUnit = kColorImageUnit;
 constexpr GLint kSheetLocation = 5;
@@ -29,11 +28,6 @@ void bind_material(const Batch& batch) noexcept {
 /// A caster without thickness: see DepthLayer.
 bool is_sheet(const Batch& batch) noexcept {
   return batch.double_sided || batch.masked;
-}
-
-/// Whether the map shows the scene as a mirror does. Its depth grows away from the light in either case.
-bool is_mirrored(const glm::mat4& clip_from_position) noexcept {
-  return glm::determinant(glm::dmat4(clip_from_position)) > 0.0;
 }
 
 constexpr auto kNoBatchState = [](const Batch&) {};
@@ -116,29 +110,60 @@ void Renderer::Impl::draw_casters(const DrawnPart& part, const CasterPrograms& b
   }
 }
 
+template <class SetPlace>
+void Renderer::Impl::draw_layer(const DrawnPart& part, const CasterPrograms& by, bool mirrored,
+                                const DepthDraw& how, SetPlace&& set_place) noexcept {
+  // Both sides cast: open and thin things have one side only, and the truth knows no sides.
+  if (how.layer != DepthLayer::back) {
+    draw_casters(part, by, how.alpha_test_where_masked, set_place, kNoBatchState);
+    return;
+  }
+  glCullFace(GL_FRONT);
+  draw_casters(part, CasterPrograms{by.opaque, by.masked, -1, true}, how.alpha_test_where_masked, set_place,
+               [mirrored](const Batch& batch) {
+                 is_sheet(batch) ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
+                 glFrontFace(batch.mirrored != mirrored ? GL_CW : GL_CCW);
+               });
+  glCullFace(GL_BACK);
+  glDisable(GL_CULL_FACE);
+}
+
 void Renderer::Impl::draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
                                   const DepthDraw& how) noexcept {
   const bool even = how.even_scale > 0.0f;
-  const auto set_place = [&] {
+  const CasterPrograms by{even ? programs.depth_even : programs.depth,
+                          even ? programs.depth_even_masked : programs.depth_masked};
+  draw_layer(part, by, is_mirrored(clip_from_position), how, [&] {
     glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &clip_from_position[0][0]);
     if (even) glUniform1f(kEvenScaleLocation, how.even_scale);
-  };
-  CasterPrograms both_sides{even ? programs.depth_even : programs.depth,
-                            even ? programs.depth_even_masked : programs.depth_masked};
-  // Both sides cast: open and thin things have one side only, and the truth knows no sides.
-  if (how.layer != DepthLayer::back) {
-    draw_casters(part, both_sides, how.alpha_test_where_masked, set_place, kNoBatchState);
-    return;
-  }
-  const bool mirrored = is_mirrored(clip_from_position);
-  glCullFace(GL_FRONT);
-  both_sides.apart = true;
-  draw_casters(part, both_sides, how.alpha_test_where_masked, set_place, [mirrored](const Batch& batch) {
-    is_sheet(batch) ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
-    glFrontFace(batch.mirrored != mirrored ? GL_CW : GL_CCW);
   });
-  glCullFace(GL_BACK);
-  glDisable(GL_CULL_FACE);
+}
+
+void Renderer::Impl::draw_layered_maps(const DrawnMaps& drawn, const DepthDraw& how) noexcept {
+  const std::span<const int> joined = lists.layered_maps();
+  if (joined.empty()) return;
+  std::array<glm::mat4, kMaxMaps> clip_of_maps;
+  for (std::size_t i = 0; i < clip_of_maps.size(); ++i) clip_of_maps[i] = drawn.map[i].clip_from_position;
+  const DrawnMap& first = drawn.map[static_cast<std::size_t>(joined.front())];
+  glDisable(GL_SCISSOR_TEST);
+  glViewport(0, 0, first.width, first.height);
+  constexpr float kFarthest = 1.0f;
+  const GLuint fbo = layered->fbo.name();
+  glNamedFramebufferTexture(fbo, GL_DEPTH_ATTACHMENT, maps.depth.name(), 0);
+  glBindFramebuffer(GL_FRAMEBUFFER, fbo);
+  if (joined.size() == static_cast<std::size_t>(maps.layers)) {
+    glClearNamedFramebufferfv(fbo, GL_DEPTH, 0, &kFarthest);
+  } else {
+    // A clear of the framebuffer would take kept maps along.
+    for (const int map : joined)
+      glClearTexSubImage(maps.depth.name(), 0, 0, 0, map, maps.width, maps.height, 1, GL_DEPTH_COMPONENT,
+                         GL_FLOAT, &kFarthest);
+  }
+  draw_layer(lists.layered_part(), CasterPrograms{layered->opaque, layered->masked},
+             is_mirrored(first.clip_from_position), how, [&] {
+               glUniformMatrix4fv(kClipOfMapsLocation, static_cast<GLsizei>(clip_of_maps.size()), GL_FALSE,
+                                  &clip_of_maps[0][0][0]);
+             });
 }
 
 void Renderer::Impl::draw_casters_behind(const DrawnPart& part, const glm::mat4& clip_from_position,
@@ -221,9 +246,10 @@ void Renderer::Impl::draw_shadow_maps(const ShadowPlan& plan, const DrawnMaps& d
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_CULL_FACE);
+  draw_layered_maps(drawn, how);
   for (int i = 0; i < map_count; ++i) {
     const DrawLists::Copies& copies = lists.beneath(i).copies;
-    if (lists.parts(i).empty() && copies.count == 0) continue;
+    if ((lists.parts(i).empty() && copies.count == 0) || lists.is_layered(i)) continue;
     const DrawnMap& map = drawn.map[static_cast<std::size_t>(i)];
     DepthDraw of_map = how;
     of_map.even_scale = map.even_scale;

@@ -98,6 +98,20 @@ void forget_errors() {
 
 }  // namespace
 
+std::string layer_extension() {
+  GLint count = 0;
+  glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+  std::string found;
+  for (GLint i = 0; i < count; ++i) {
+    const auto* text = reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)));
+    if (text == nullptr) continue;
+    const std::string_view name = text;
+    if (name == "GL_ARB_shader_viewport_layer_array") return std::string(name);
+    if (name == "GL_AMD_vertex_shader_layer") found = name;
+  }
+  return found;
+}
+
 bool memory_takes_maps(int map_size, int maps, double bytes_per_texel) {
   // A software driver takes what it is asked for, and the machine ends the program that has taken too much.
   const double bytes = bytes_per_texel * maps * map_size * map_size, free = free_memory_bytes();
@@ -150,6 +164,7 @@ Probe probe_driver() {
     probe.limits.push_back({name, value});
   }
   judge_timers(probe);
+  probe.layers = layer_extension();
   return probe;
 }
 

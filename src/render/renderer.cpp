@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "context/backend.hpp"
+#include "gnomon/render/probe.hpp"
 #include "pass_timer.hpp"
 #include "program.hpp"
 #include "renderer_impl.hpp"
@@ -70,6 +72,9 @@ Renderer::Impl::Impl(const Scene& from_scene)
   glNamedBufferStorage(frame_buffer.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(filter_buffer.name(), sizeof(FilterBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
   targets.resize(1, 1);
+  can_layer = !layer_extension().empty();
+  const auto* driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  software = driver != nullptr && is_software(driver);
 }
 
 Renderer::Renderer(const Scene& scene) {
@@ -145,6 +150,22 @@ void Renderer::Impl::draw_pictures(const PassTimer& timed, const FrameOptions& o
   if (options.cascade_tint) timed(Pass::cascade_tint, [&] { draw_cascade_tint(); });
 }
 
+LayeredRule Renderer::Impl::layered_rule(const FrameOptions& options) noexcept {
+  const bool wanted =
+      options.map_passes == MapPasses::layered || (options.map_passes == MapPasses::automatic && !software);
+  if (!wanted || !can_layer || info_of(options.depth_layer).peels) return {};
+  if (!layered) {
+    try {
+      layered.emplace();
+    } catch (const RenderError&) {
+      can_layer =
+          false;  // the driver names the extension and its compiler refuses it, or the context is lost
+      return {};
+    }
+  }
+  return {options.map_passes, options.depth_layer == DepthLayer::back, software};
+}
+
 MapStats Renderer::Impl::work_of_map(int map) const noexcept {
   MapStats work = lists.map_stats(map);
   if (!info_of(drawn_layer).peels) return work;
@@ -161,6 +182,8 @@ void Renderer::Impl::count_work(const ShadowPlan& plan, FrameStats& stats) const
   }
   stats.saved = lists.saved();
   stats.camera = lists.camera_stats();
+  stats.layered_maps = static_cast<int>(lists.layered_maps().size());
+  stats.layered_draws = lists.layered_draws();
 }
 
 void Renderer::Impl::take_layer(DepthLayer layer, double dual_limit_texels, bool linear) noexcept {
@@ -307,7 +330,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     impl.lists.build({plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
                       info_of(options.depth_layer).peels || impl.drew_silhouettes, impl.movers.changed_world(),
                       impl.movers.static_changed_world(), impl.moves(options)},
-                     drawn, camera);
+                     drawn, camera, impl.layered_rule(options));
     if (plan.map_count > 0) impl.movers.finish_frame(impl.scene.boxes());
     impl.draw_shadow_maps(plan, drawn, depth_draw(options));
     if (impl.drew_silhouettes)

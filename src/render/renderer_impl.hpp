@@ -12,6 +12,7 @@
 #include "gl_object.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "identifier_pass.hpp"
+#include "layered_maps.hpp"
 #include "light_pass.hpp"
 #include "mask_history.hpp"
 #include "moving_casters.hpp"
@@ -79,6 +80,14 @@ struct Renderer::Impl {
   void draw_map_part(const DrawnPart& part, const DrawnMap& map, const DepthDraw& how) noexcept;
   void draw_casters(const DrawnPart& part, const glm::mat4& clip_from_position,
                     const DepthDraw& how) noexcept;
+  /// Culls the faces that the layer does not store; `mirrored`: is_mirrored() of what `set_place` sets.
+  template <class SetPlace>
+  void draw_layer(const DrawnPart& part, const CasterPrograms& by, bool mirrored, const DepthDraw& how,
+                  SetPlace&& set_place) noexcept;
+  /// The maps that the draw lists joined, in one pass.
+  void draw_layered_maps(const DrawnMaps& drawn, const DepthDraw& how) noexcept;
+  /// What the context and the options allow; compiles the programs with the first frame that needs them.
+  [[nodiscard]] LayeredRule layered_rule(const FrameOptions& options) noexcept;
   /// Into a map whose shape bends lines: the first surface, whatever the layer.
   void draw_bent_casters(const DrawnPart& part, const DrawnMap& map, bool alpha_test_where_masked) noexcept;
   /// Draws what lies behind the first surface, which DepthPeel::begin() took.
@@ -175,6 +184,8 @@ struct Renderer::Impl {
   DrawLists lists;
   CommonPrograms programs;
   std::optional<BentPrograms> bent;  ///< none until a map needs them, and where the context was lost by then
+  std::optional<LayeredPrograms> layered;    ///< likewise
+  bool can_layer = false, software = false;  ///< of the context
   std::vector<FilterPrograms> filter_programs;
   StoredMaps stored;
   FrameTargets targets;

@@ -34,6 +34,18 @@ inline void read_picture_size(const std::string& text, int least, int most, int&
   return name == "dither" ? render::SplitTransition::dither : render::SplitTransition::cut;
 }
 
+/// --map-passes of a command that draws maps; `name` is one of its names.
+[[nodiscard]] inline Option map_passes_option(std::string& name) {
+  return {.name = "--map-passes",
+          .target = &name,
+          .help = "how maps are drawn: one pass for each, or one layered pass for all where the driver can",
+          .names = {"auto", "each", "layered"}};
+}
+[[nodiscard]] inline render::MapPasses map_passes_from_name(const std::string& name) {
+  if (name == "each") return render::MapPasses::each;
+  return name == "layered" ? render::MapPasses::layered : render::MapPasses::automatic;
+}
+
 /// Names of the depth layers behind those of `before`, in their order.
 [[nodiscard]] inline std::vector<std::string> layer_names(std::vector<std::string> before = {}) {
   for (const render::DepthLayerInfo& info : render::depth_layers()) before.emplace_back(info.name);

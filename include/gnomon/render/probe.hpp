@@ -21,9 +21,15 @@ struct Probe {
   bool timers_trusted = false;
   std::string timers_why;                ///< one line, with both times
   double timer_ms = 0.0, wall_ms = 0.0;  ///< of the same pass
+  /// Extension by which a vertex shader draws into several layers of an array (MapPasses::layered), as the
+  /// driver names it; empty: none.
+  std::string layers;
 };
 /// Draws for some 50 ms in the context that is current. Throws RenderError.
 [[nodiscard]] Probe probe_driver();
+
+/// Probe::layers alone, of the context that is current.
+[[nodiscard]] std::string layer_extension();
 
 /// Whether the driver gives `maps` maps of this size and so many bytes a texel, and, where it draws in
 /// software, whether that much memory is free. Allocates images of that size for a moment, in the current

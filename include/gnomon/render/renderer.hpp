@@ -102,6 +102,13 @@ struct Accumulation {
   bool restart = false;  ///< forgets the history
 };
 
+/// How the maps of a plan are drawn. Every bit of their depths is the same.
+enum class MapPasses : std::uint8_t {
+  each,       ///< one pass for each map
+  layered,    ///< one pass for all maps of one size that are drawn whole, if the driver can (Probe::layers)
+  automatic,  ///< the one expected to be faster; software drivers: each (docs/performance.md)
+};
+
 /// Pictures to draw besides the lit one.
 struct FrameOptions {
   SplitTransition transition = SplitTransition::cut;  ///< between cascades
@@ -121,6 +128,9 @@ struct FrameOptions {
   /// Based on: Brabec, Annen, Seidel, "Practical Shadow Mapping", 2002; Martin, Tan, "Anti-aliasing and
   /// Continuity with Trapezoidal Shadow Maps", 2004.
   bool linear_depth = false;
+  /// How maps of a ShadowPlan are drawn. Maps of which only parts are drawn, that are peeled, whose shape
+  /// bends lines, or whose depths are linear have a pass of their own in any case.
+  MapPasses map_passes = MapPasses::automatic;
   /// Filters compare each texel with the receiver's plane at that texel. False: with the receiver's own
   /// depth, as look-ups without the plane do; BiasOptions must then cover the slope over the whole kernel.
   bool receiver_plane = true;
@@ -174,7 +184,9 @@ struct FrameStats {
   MapStats camera;                                   ///< the surfaces pass; its texels are pixels
   std::uint64_t texels = 0;                          ///< over all maps
   std::array<PruneSaving, kPruneRuleCount> saved{};  ///< by PruneRule, the plan's own included
-  int prefilter_passes = 0;  ///< over all maps: what the filter stores, blurs, sums and shrinks
+  int layered_maps = 0;                              ///< drawn in one pass (MapPasses)
+  std::uint32_t layered_draws = 0;  ///< draw commands of that pass; MapStats::draws are those without it
+  int prefilter_passes = 0;         ///< over all maps: what the filter stores, blurs, sums and shrinks
   /// Texels that the filter stored and blurred, in whole tiles; needs FrameOptions::time_passes, else 0.
   std::uint64_t filtered_texels = 0;
   bool irregular =

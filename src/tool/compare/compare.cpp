@@ -297,6 +297,7 @@ std::vector<Option> measuring_options(CompareRequest& request) {
            .target = &request.rounds,
            .help = "timings of each technique per frame",
            .range = {{1, 10'000}}},
+          map_passes_option(request.map_passes),
           {.name = "--visible-depths",
            .target = &request.visible_depths,
            .help = "plan with the view depths that the frame shows"},

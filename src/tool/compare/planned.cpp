@@ -34,6 +34,7 @@ void Planned::seen_by(const Camera& after) {
 render::FrameStats Planned::draw(const Camera& camera, render::FrameOptions options) {
   options.depth_layer = entry_.layer;
   options.linear_depth = entry_.linear_depth;
+  options.map_passes = entry_.map_passes;
   const render::PreparedFilter filter = stage_.filter(entry_);
   return by_pages() ? pages_->draw(stage_.renderer(), camera, filter, options)
                     : stage_.renderer().draw(maps_, camera, filter, options);

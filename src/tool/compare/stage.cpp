@@ -52,8 +52,15 @@ const Stage::View* Stage::view(const Camera& camera) const noexcept {
   return view == views_.end() ? nullptr : &*view;
 }
 
-ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const noexcept {
+ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const {
   const View* const view = this->view(camera);
+  if (entry.coarse_depths) {
+    // Once for each plan, as an engine has to: the time of a plan holds it.
+    const VisibleDepths depths = coarse_.depths(view_.scene(), camera);
+    return make_plan(camera, view_.light(), view_.bounds(), entry.plan, &depths,
+                     entry.visible_points && view != nullptr ? std::span<const glm::dvec3>(view->points)
+                                                             : std::span<const glm::dvec3>());
+  }
   if (view == nullptr) return make_plan(camera, view_.light(), view_.bounds(), entry.plan);
   return make_plan(
       camera, view_.light(), view_.bounds(), entry.plan, entry.visible_depths ? &view->depths : nullptr,

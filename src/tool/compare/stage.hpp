@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gnomon/render/renderer.hpp"
+#include "gnomon/scene/coarse_view.hpp"
 #include "gnomon/scene/pose.hpp"
 #include "gnomon/trace/reference.hpp"
 #include "scene_view.hpp"
@@ -29,7 +30,7 @@ class Stage {
   [[nodiscard]] bool plays() const noexcept { return animation_ != kRestPose; }
 
   /// With what `camera` shows, where the entry asks for it: see() must have been called for it.
-  [[nodiscard]] ShadowPlan plan(const SweepEntry& entry, const Camera& camera) const noexcept;
+  [[nodiscard]] ShadowPlan plan(const SweepEntry& entry, const Camera& camera) const;
   /// Draws what both cameras of a frame show, for plans that are given it. Forgets earlier frames. The scene
   /// is left as it stands in the frame.
   void see(int frame);
@@ -63,6 +64,7 @@ class Stage {
   [[nodiscard]] View seen_by(const Camera& camera);
 
   const Sweep& sweep_;
+  mutable CoarseView coarse_;  ///< scratch
   std::vector<View> views_;
   SceneView view_;
   At at_ = At::frame;

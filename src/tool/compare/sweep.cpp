@@ -153,6 +153,9 @@ void set_split(const std::string& text, SweepEntry& entry) {
   };
   if (has_suffix(":finest")) entry.plan.split.selection = MapSelection::finest;
   entry.visible_depths = has_suffix(":visible_depths");
+  entry.coarse_depths = has_suffix(":coarse_depths");
+  if (entry.visible_depths && entry.coarse_depths)
+    throw std::runtime_error("--splits " + text + ": a plan takes visible depths from one source");
   // Set before: a shape that follows what is seen needs it.
   const bool follows_seen = entry.plan.warp.shape != nullptr && entry.plan.warp.shape->serving != nullptr;
   entry.visible_points = has_suffix(":visible_points") || follows_seen;
@@ -232,7 +235,7 @@ bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
   const bool by_depth = entry.plan.split.partition == Partition::view_depth;
   const bool as_many = by_depth || entry.plan.split.partition == Partition::receiver_clusters;
   // What is seen bounds one map, too.
-  const bool follows_view = entry.visible_depths || entry.visible_points;
+  const bool follows_view = entry.visible_depths || entry.coarse_depths || entry.visible_points;
   if (by_depth && t.cascades == 1 && t.split != first.split && !follows_view) return true;
   if (as_many && !by_depth && t.cascades == 1) return true;
   if (!as_many && t.cascades != first.cascades) return true;
@@ -425,7 +428,7 @@ std::string compare_footer() {
          "with exact rays.\n\n"
          "Warps: " +
          any_of_text(names_in(all_warps(), {"auto"})) + ".\nSplits: " + any_of_text(split_names()) +
-         ", each with :finest, :visible_depths or :visible_points behind it" +
+         ", each with :finest, :visible_depths, :coarse_depths or :visible_points behind it" +
          ".\nPages: " + any_of_text(names_in(all_page_policies())) +
          ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "
          "that reads depths in texels; the others are named and skipped. docs/pages.md explains them." +
@@ -520,6 +523,7 @@ Sweep make_sweep(const CompareRequest& request) {
   sweep.entries = without_doubles(std::move(sweep.entries));
   sweep.baseline =
       sweep_entry({"none", "uniform", "tight", "hard", 1, sweep.entries.front().technique.map_size});
+  for (SweepEntry& entry : sweep.entries) entry.map_passes = map_passes_from_name(request.map_passes);
   return sweep;
 }
 

@@ -26,7 +26,7 @@ struct CompareRequest {
   std::vector<std::string> pages, page_sizes{"128"};  ///< policies beside the maps; none: maps alone
   std::vector<std::string> layers{"front"};           ///< depth layers
   double page_target = 0.0;  ///< error m that pages are opened for; 0: the least that the pool holds
-  std::string size = "480x270", shard = "1/1", context = "auto", out = "out/compare";
+  std::string size = "480x270", shard = "1/1", context = "auto", out = "out/compare", map_passes = "auto";
   std::string light = "sun";
   std::string animation;        ///< that scenes play, by name or number; empty: at rest
   LightPlacement sun;           ///< its kind is that of `light`
@@ -44,10 +44,12 @@ struct SweepEntry {
   render::FilterSettings filter;                         ///< hard where irregular(), or with identifiers
   std::optional<render::IdentifierTest> identifiers;     ///< shadows by them in place of a filter
   render::DepthLayer layer = render::DepthLayer::front;  ///< that maps and pages store
-  bool linear_depth = false;                             ///< the same depths, even along the light
-  int irregular_samples = 0;                             ///< of a pixel, by lists; 0: by a filter
-  bool visible_depths = false, visible_points = false;   ///< of the frame, given to the plan
-  PageOptions pages;                                     ///< where by_pages()
+  render::MapPasses map_passes = render::MapPasses::automatic;  ///< changes time alone: no part of the name
+  bool linear_depth = false;                                    ///< the same depths, even along the light
+  int irregular_samples = 0;                                    ///< of a pixel, by lists; 0: by a filter
+  bool visible_depths = false, visible_points = false;          ///< of the frame, given to the plan
+  bool coarse_depths = false;  ///< of a coarse pass on the CPU, given to the plan
+  PageOptions pages;           ///< where by_pages()
 
   /// Drawn by lists of pixels.
   [[nodiscard]] bool irregular() const noexcept { return irregular_samples > 0; }
@@ -99,7 +101,8 @@ std::vector<std::string> fit_to_memory(Sweep& sweep);
 [[nodiscard]] std::string compare_footer();
 
 /// Schemes and partitions that --splits takes. Behind each may follow `:finest` (MapSelection),
-/// `:visible_depths` and `:visible_points` (what the frame shows is given to the plan).
+/// `:visible_depths` and `:visible_points` (what the frame shows is given to the plan), or `:coarse_depths`
+/// (what a coarse pass on the CPU finds).
 [[nodiscard]] std::vector<std::string> split_names();
 
 /// Elements of lists with commas; an element of the form `key=value` without a colon belongs to the one

@@ -38,6 +38,7 @@ Json context_json(render::ContextKind kind) {
                              {"why", probe.timers_why},
                              {"timer_ms", probe.timer_ms},
                              {"wall_ms", probe.wall_ms}};
+    json["layers"] = probe.layers;
   } catch (const render::RenderError& error) {
     json["works"] = false;
     json["why"] = error.what();
@@ -86,6 +87,8 @@ void print_context(const Json& c) {
   print_line(std::string("  timer queries: ") +
              (timers["trusted"].get<bool>() ? "can be trusted: " : "not trusted: ") +
              timers["why"].get<std::string>());
+  const auto layers = c["layers"].get<std::string>();
+  print_line("  maps in one pass: " + (layers.empty() ? "no, the driver has no extension for it" : layers));
 }
 
 /// Exit code 0 where a context was found, else 2.

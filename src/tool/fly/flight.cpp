@@ -149,7 +149,7 @@ FrameRow draw_frame(Studio& studio, int frame) {
   if (options.pages.on()) return draw_page_frame(studio, frame);
   const Camera camera = camera_of(options, studio.flight, frame);
   const Light light = default_light(options.light, studio.flight.scene.bounds_world);
-  const VisibleDepths depths = frame_depths(options, studio.renderer, studio.filter, camera);
+  const VisibleDepths depths = frame_depths(options, studio.flight, studio.renderer, studio.filter, camera);
   const TimedPlan timed = timed_plan(options, studio.flight, light, camera, depths, studio.history);
   FrameRow row;
   row.frame = frame;
@@ -158,6 +158,7 @@ FrameRow draw_frame(Studio& studio, int frame) {
   render::FrameOptions drawn;
   drawn.transition = options.transition;
   drawn.depth_layer = options.layer;
+  drawn.map_passes = options.map_passes;
   drawn.light = &light;
   drawn.prune = options.prune;
   row.stats = studio.renderer.draw(timed.plan, camera, studio.filter, drawn);

@@ -1,6 +1,8 @@
 // The plan of one frame of a flight, with what the options look at besides the camera.
 #include "frame_plan.hpp"
 
+#include "gnomon/scene/coarse_view.hpp"
+
 namespace gnomon::tool::fly {
 namespace {
 
@@ -17,8 +19,9 @@ VisibleDepths depths_shown(const render::Renderer& renderer) {
 
 }  // namespace
 
-VisibleDepths frame_depths(const Options& options, render::Renderer& renderer,
+VisibleDepths frame_depths(const Options& options, const Flight& flight, render::Renderer& renderer,
                            const render::PreparedFilter& filter, const Camera& camera) {
+  if (options.coarse_depths) return CoarseView().depths(flight.scene, camera);
   if (!options.visible_depths) return {};
   render::FrameOptions surfaces;
   surfaces.aliasing = surfaces.heat_map = surfaces.cascade_tint = surfaces.time_passes = false;

@@ -9,10 +9,11 @@
 
 namespace gnomon::tool::fly {
 
-/// The view depths that the camera sees, found by drawing its surfaces and no map; empty where the options do
-/// not ask for them, which plans take for unknown.
-[[nodiscard]] VisibleDepths frame_depths(const Options& options, render::Renderer& renderer,
-                                         const render::PreparedFilter& filter, const Camera& camera);
+/// The view depths that the camera sees, found by drawing its surfaces and no map, or by a coarse pass; empty
+/// where the options do not ask for them, which plans take for unknown.
+[[nodiscard]] VisibleDepths frame_depths(const Options& options, const Flight& flight,
+                                         render::Renderer& renderer, const render::PreparedFilter& filter,
+                                         const Camera& camera);
 
 /// By the history where the options ask for one, which is taken one frame further.
 [[nodiscard]] ShadowPlan plan_frame(const Options& options, const Flight& flight, const Light& light,

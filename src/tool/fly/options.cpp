@@ -25,7 +25,7 @@ struct Request {
   Options options;
   std::string size = "960x540", context = "auto", filter = "pcf", path, light = "sun", cost_model,
               out = "out/flythrough", resolution = "given", transition = "cut", layer = "front",
-              pages = "off";
+              map_passes = "auto", pages = "off";
   bool stable = false, split_given = false, lambda_given = false;
   std::vector<std::string> compared_warps;
 };
@@ -56,6 +56,8 @@ void resolve_budget(const Request& request, Options& options) {
 // They look at the scene at rest.
 void check_animation(const Options& options) {
   if (options.animation.empty()) return;
+  if (options.coarse_depths)
+    throw std::runtime_error("--animation: not with --coarse-depths, which looks at the scene at rest");
   if (options.perceptual_resolution)
     throw std::runtime_error(
         "--animation: not with --resolution perceptual, which looks at the scene at rest");
@@ -71,10 +73,11 @@ void resolve_transition(const Request& request, Options& options) {
 
 /// Options that mean whole maps.
 void check_beside_pages(const Options& options) {
-  const std::array<std::pair<bool, const char*>, 7> of_maps{{
+  const std::array<std::pair<bool, const char*>, 8> of_maps{{
       {!options.compared_warps.empty(), "--compare-warps"},
       {options.history, "--history"},
       {options.visible_depths, "--visible-depths"},
+      {options.coarse_depths, "--coarse-depths"},
       {options.transition != render::SplitTransition::cut, "--transition"},
       {options.perceptual_resolution, "--resolution perceptual"},
       {options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0,
@@ -107,7 +110,10 @@ Options resolved(const Request& request) {
   options.prune = options.plan.prune;
   resolve_resolution(request, options);
   resolve_transition(request, options);
+  if (options.visible_depths && options.coarse_depths)
+    throw std::runtime_error("--coarse-depths: not with --visible-depths, which reads the depths of a frame");
   options.layer = layer_from_name(request.layer);
+  options.map_passes = map_passes_from_name(request.map_passes);
   resolve_budget(request, options);
   resolve_pages(request.pages, options.pages);
   if (options.pages.on()) check_beside_pages(options);
@@ -207,12 +213,16 @@ std::vector<Option> map_options(Request& request) {
        .help = "transition between cascades: cut; blend or dither over the last tenth of each",
        .names = transition_names()},
       layer_option(request.layer),
+      map_passes_option(request.map_passes),
       {.name = "--history",
        .target = &request.options.history,
        .help = "change texel density smoothly from frame to frame; for paths of many frames"},
       {.name = "--visible-depths",
        .target = &request.options.visible_depths,
        .help = "draw each frame twice, and plan the second for the depths that the first shows"},
+      {.name = "--coarse-depths",
+       .target = &request.options.coarse_depths,
+       .help = "plan each frame for the depths that a coarse pass on the CPU finds visible"},
       prune_option(plan)};
 }
 

@@ -35,6 +35,7 @@ struct Options {
   /// Other than cut: maps overlap by kTransitionShare of the cascade before the split.
   render::SplitTransition transition = render::SplitTransition::cut;
   render::DepthLayer layer = render::DepthLayer::front;  ///< that the maps store
+  render::MapPasses map_passes = render::MapPasses::automatic;
   /// Steps of 8 bits by which the filter's answers may differ where it stores less than it was asked to; 0:
   /// it stores all of it.
   double filter_precision = 0.0;
@@ -49,6 +50,8 @@ struct Options {
   bool history = false;
   /// Every frame is drawn twice: the first tells which depths show a surface, the second's maps cover those.
   bool visible_depths = false;
+  /// The same without a frame drawn before: by a coarse pass on the CPU.
+  bool coarse_depths = false;
   /// The animation that the flight plays, by name or number; empty: the scene stays at rest.
   std::string animation;
   double animation_fps = 30.0;   ///< frames in a second of the animation

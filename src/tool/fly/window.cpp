@@ -179,11 +179,12 @@ void draw(Viewer& viewer, double seconds) {
   pose_flight(viewer.options, viewer.flight, viewer.seconds, &viewer.renderer);
   const Light light = default_light(viewer.options.light, viewer.flight.scene.bounds_world);
   const render::PreparedFilter filter = viewer.renderer.prepare(viewer.options.filter);
-  const VisibleDepths depths = frame_depths(viewer.options, viewer.renderer, filter, camera);
+  const VisibleDepths depths = frame_depths(viewer.options, viewer.flight, viewer.renderer, filter, camera);
   const ShadowPlan plan = plan_frame(viewer.options, viewer.flight, light, camera, depths, viewer.history);
   render::FrameOptions frame;
   frame.transition = viewer.options.transition;
   frame.depth_layer = viewer.options.layer;
+  frame.map_passes = viewer.options.map_passes;
   frame.time_passes = false;
   frame.light = &light;
   frame.prune = viewer.options.prune;
