@@ -47,7 +47,12 @@ float visibility_through(int index, Surface s, float noise) {
   ShadowKernel kernel = ShadowKernel(filtering.kernel.x, filtering.kernel.y > 0.5, filtering.kernel.z > 0.5);
   set_kernel(at, map, kernel, kernel.minify ? texels_per_pixel(map, s) : mat2(0.0));
   at.rotation = 6.2831853 * noise;
-#if defined(GNOMON_PAGES) || defined(GNOMON_CLUSTERS)
+#if defined(GNOMON_PAGES)
+  ShadowOptions options = shadow_options(0);
+  for (int i = 0; i < 4 * kOptionVectors; ++i)
+    options.value[i] = page_filters[page_records[index].key.x].options[i / 4][i & 3];
+  return visibility(at, map, options);
+#elif defined(GNOMON_CLUSTERS)
   return visibility(at, map, shadow_options(0));
 #else
   return visibility(at, map, shadow_options(index));

@@ -16,6 +16,12 @@ layout(std430, binding = 4) readonly buffer PageTable {
   uint page_entries[];
 };
 
+struct PageFilter {
+  vec4 options[4];  // FilterSettings::option of the level
+  vec4 curve;       // depth curve of its stored texels; 0
+};
+layout(std430, binding = 5) readonly buffer PageFilters { PageFilter page_filters[]; };
+
 PageLevel page_level(int index) { return page_levels[index]; }
 uvec4 page_key(uint page) { return page_records[page].key; }
 uint page_table(uint at) { return page_entries[at]; }
@@ -24,6 +30,7 @@ ShadowMap shadow_map(int index) {
   ShadowMap map = frame.maps[0];
   map.clip_from_point = page_records[index].clip_from_point;
   map.interval_size.zw = frame.layer.xy;
+  map.kernel.w = page_filters[page_records[index].key.x].curve.x;
   return map;
 }
 float layer_of_map(int index) { return float(page_records[index].key.w); }

@@ -12,13 +12,21 @@ ShadowTexel shadow_mean(ShadowLookup at) {
 }
 
 layout(binding = 5) uniform sampler2DArray depth_map;
+#ifdef GNOMON_PAGES
+#include "common/page_slot.glsl"
+ivec4 place() { return slot; }
+int layer() { return slot_layer; }
+#else
 layout(location = 0) uniform int map;
+ivec4 place() { return ivec4(0, 0, textureSize(depth_map, 0).xy); }
+int layer() { return map; }
+#endif
 
-// Outside of the layer nothing casts.
+// Outside of the layer, or of the page, nothing casts.
 float depth_at(ivec2 texel) {
-  ivec2 size = textureSize(depth_map, 0).xy;
-  bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
-  return inside ? linear_depth(texelFetch(depth_map, ivec3(texel, map), 0).r, filtering.depth_curve[map].x) : 1.0;
+  ivec4 inside_of = place();
+  bool inside = all(greaterThanEqual(texel, inside_of.xy)) && all(lessThan(texel, inside_of.xy + inside_of.zw));
+  return inside ? linear_depth(texelFetch(depth_map, ivec3(texel, layer()), 0).r, filtering.depth_curve[map].x) : 1.0;
 }
 
 float smaller_step(float before, float here, float after) {

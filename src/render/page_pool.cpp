@@ -89,6 +89,8 @@ void PagePool::build(const PagePlan& plan, const PageFrame& frame) {
   pages_.clear();
   records_.clear();
   drew_.assign(plan.pages.size(), false);
+  ++builds_;
+  drawn_in_.resize(slots_.size());
   std::vector<std::uint8_t> held(slots_.size());
   std::transform(slots_.begin(), slots_.end(), held.begin(),
                  [](const PageSlot& slot) { return slot.used != 0; });
@@ -111,6 +113,7 @@ void PagePool::build(const PagePlan& plan, const PageFrame& frame) {
       beneath_[kept_[i].slot] = lost_[kept_[i].slot] = 0;
     }
     drew_[i] = true;
+    drawn_in_[kept_[i].slot] = builds_;
     drawn.clip_from_position = glm::mat4(drawn_from_plan * counted_from(frame.origin_world));
     pages_.push_back(drawn);
   }

@@ -1,6 +1,7 @@
 // The pages of a frame on the GPU: where each lies in the pool, and the tables that shaders find them by.
 #pragma once
 
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 #include <span>
@@ -58,6 +59,14 @@ class PagePool {
   [[nodiscard]] bool drew(std::size_t page) const noexcept { return page < drew_.size() && drew_[page]; }
   /// From now on static casters have depths of their own in a slot, until its page is drawn again.
   void add_beneath(std::uint32_t slot) noexcept { beneath_[slot] = 1; }
+  [[nodiscard]] const Extent& extent() const noexcept { return extent_; }
+  [[nodiscard]] int slot_texels() const noexcept { return slot_texels_; }
+  [[nodiscard]] std::size_t slot_count() const noexcept { return slots_.size(); }
+  /// Of a page of the last plan; its index must be below resident().
+  [[nodiscard]] std::size_t slot_of(std::size_t page) const noexcept { return kept_[page].slot; }
+  [[nodiscard]] std::size_t level_of(std::size_t page) const noexcept { return records_[page].key.x; }
+  /// Which build(), counted from 1, drew what its slot holds.
+  [[nodiscard]] std::uint64_t drawn_in(std::size_t page) const noexcept { return drawn_in_[slot_of(page)]; }
   /// Binds the tables where shaders/common/pages.glsl reads them.
   void bind() const noexcept;
 
@@ -84,7 +93,9 @@ class PagePool {
   std::vector<KeptPage> kept_;
   std::vector<std::uint8_t> beneath_, lost_;  ///< by slot; lost: its texels are not those of its page
   std::vector<bool> fresh_;                   ///< by layer
-  std::vector<bool> drew_;                    ///< by page of the last plan
+  std::uint64_t builds_ = 0;
+  std::vector<std::uint64_t> drawn_in_;  ///< by slot
+  std::vector<bool> drew_;               ///< by page of the last plan
   std::vector<DrawnPage> pages_;
   std::vector<Level> levels_;
   std::vector<Record> records_;

@@ -414,12 +414,12 @@ void Renderer::Impl::bind_noise(SampleNoise noise) noexcept {
   glBindSampler(kNoiseUnit, 0);
 }
 
-void Renderer::Impl::draw_mask(const Program& program, GLuint fbo) noexcept {
+void Renderer::Impl::draw_mask(const Program& program, GLuint fbo, bool from_pages) noexcept {
   glBindTextureUnit(kCompareUnit, maps.depth.name());
   glBindSampler(kCompareUnit, maps.compare_sampler.name());
   glBindTextureUnit(kDepthUnit, maps.depth.name());
   glBindSampler(kDepthUnit, maps.plain_sampler.name());
-  stored.bind();
+  from_pages ? stored_pages.bind() : stored.bind();
   if (drew_silhouettes) silhouettes->bind();
   fullscreen(fbo, program);
   glBindSampler(kExtraUnit, 0);  // shared with the depth pyramid

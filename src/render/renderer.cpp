@@ -374,8 +374,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
 
 PreparedFilter Renderer::prepare_pages(const FilterSettings& settings) {
   const PreparedFilter prepared = prepare(settings);
-  Program& program = impl_->filter_programs[prepared.program].mask_pages;
-  if (!program) program = make_pages_program(settings);
+  make_pages_programs(settings, impl_->filter_programs[prepared.program]);
   return prepared;
 }
 
@@ -403,7 +402,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   impl.history.forget();  // the mask is this frame's alone
   impl.map_count = 0;
   impl.take_layer(options.depth_layer, options.dual_limit_texels);
-  const BlurSides blur{};
+  const BlurSides blur = blur_sides(filter.settings, of_light);
   const DepthCurves curves = depth_curves(of_light);
   FilterBlock filtering = filter_block(filter.settings, blur);
   set_depth_curves(curves, filtering);
@@ -425,10 +424,16 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   });
   timed(Pass::surfaces,
         [&] { impl.draw_surfaces(impl.targets.surfaces_fbo.name(), impl.programs.surfaces); });
+  const FilterPrograms& programs = impl.filter_programs[filter.program];
+  timed(Pass::prefilter, [&] {
+    impl.stored_pages.send_levels(plan, filter.settings);
+    impl.stored_pages.build(programs, filter.settings, filtering, impl.filter_buffer.name(), impl.pages,
+                            impl.maps.depth.name());
+  });
   timed(Pass::mask, [&] {
     impl.pages.bind();
     impl.bind_noise(options.noise);
-    impl.draw_mask(impl.filter_programs[filter.program].mask_pages, impl.targets.mask_fbo.name());
+    impl.draw_mask(programs.mask_pages, impl.targets.mask_fbo.name(), true);
   });
   timed(Pass::shade, [&] { impl.draw_shade(); });
   stats.map_count = 1;
@@ -436,7 +441,10 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   stats.texels = stats.map[0].texels;
   stats.saved = impl.lists.saved();
   stats.camera = impl.lists.camera_stats();
-  stats.map_bytes = impl.maps.bytes();
+  stats.prefilter_passes = impl.stored_pages.passes();
+  stats.filtered_texels = impl.stored_pages.filtered_texels();
+  stats.map_bytes = impl.maps.bytes() + impl.stored_pages.bytes();
+  stats.scratch_bytes = impl.stored_pages.scratch_bytes() + impl.depth_peel.bytes();
   stats.pages = static_cast<int>(plan.pages.size());
   stats.pages_drawn = static_cast<int>(impl.pages.pages().size());
   stats.pages_composed = static_cast<int>(std::count_if(impl.pages.pages().begin(), impl.pages.pages().end(),

@@ -23,14 +23,15 @@
 #include "scene_buffers.hpp"
 #include "silhouettes.hpp"
 #include "stored_maps.hpp"
+#include "stored_pages.hpp"
 #include "target.hpp"
 
 namespace gnomon::render {
 
 /// Programs that no filter takes part in.
 struct CommonPrograms {
-  Program depth, depth_masked, depth_even, depth_even_masked, copy_depth, surfaces, accumulate, shade, aliasing,
-      heat, tint;
+  Program depth, depth_masked, depth_even, depth_even_masked, copy_depth, surfaces, accumulate, shade,
+      aliasing, heat, tint;
   CommonPrograms();
 };
 
@@ -162,7 +163,7 @@ struct Renderer::Impl {
                           const FrameOptions& options) noexcept;
   /// `program` writes at least what programs.surfaces writes.
   void draw_surfaces(GLuint fbo, const Program& program) noexcept;
-  void draw_mask(const Program& program, GLuint fbo) noexcept;
+  void draw_mask(const Program& program, GLuint fbo, bool from_pages = false) noexcept;
   void draw_accumulated(const Camera& camera, const FrameOptions& options, const FrameBlock& block) noexcept;
   /// Makes the noise tile at the first frame that reads it.
   void bind_noise(SampleNoise noise) noexcept;
@@ -200,12 +201,13 @@ struct Renderer::Impl {
   std::optional<Silhouettes> silhouettes;         ///< made when a filter that reads them is first prepared
   bool drew_silhouettes = false;                  ///< into the maps that are held
   PagePool pages;
+  StoredPages stored_pages;
   std::optional<LightPass> light_pass;        ///< made when many lights are first prepared
   std::optional<PanePass> panes;              ///< made by Renderer::add_panes
   std::optional<PixelLists> pixel_lists;      ///< made when they are first prepared
   std::optional<IdentifierPass> identifiers;  ///< the same
   MovingCasters movers;
-  Pose posed;                                 ///< the last one applied; empty: none, or instances moved since
+  Pose posed;  ///< the last one applied; empty: none, or instances moved since
   Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;
   std::array<glm::ivec2, kMaxMaps> map_size{};  ///< of the last frame

@@ -8,7 +8,9 @@
 #include <string_view>
 
 #include "gnomon/render/error.hpp"
+#include "gnomon/render/page_filter.hpp"
 #include "program.hpp"
+#include "stored_images.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -51,71 +53,28 @@ std::string_view mask_path(MapRead reads) noexcept {
   return "";
 }
 
-GLenum internal_format(TexelFormat format, int channels) noexcept {
-  // By format, then 1, 2 or 4 channels: textures of three cannot be drawn into.
-  constexpr GLenum kFormats[6][3] = {{GL_R32F, GL_RG32F, GL_RGBA32F},     {GL_R16F, GL_RG16F, GL_RGBA16F},
-                                     {GL_R16, GL_RG16, GL_RGBA16},        {GL_R8, GL_RG8, GL_RGBA8},
-                                     {GL_RG32UI, GL_RG32UI, GL_RGBA32UI}, {GL_R16, GL_RG16, GL_RGBA16}};
-  return kFormats[static_cast<std::size_t>(format)][channels <= 2 ? channels - 1 : 2];
-}
-
-int bytes_of(GLenum format) noexcept {
-  switch (format) {
-    case GL_R8:
-      return 1;
-    case GL_R16F:
-    case GL_R16:
-    case GL_RG8:
-      return 2;
-    case GL_RG32F:
-    case GL_RGBA16F:
-    case GL_RGBA16:
-    case GL_RG32UI:
-      return 8;
-    case GL_RGBA32F:
-    case GL_RGBA32UI:
-      return 16;
+std::string_view pages_mask_path(MapRead reads) noexcept {
+  switch (reads) {
+    case MapRead::filtered:
+      return "mask_pages_filtered.frag";
+    case MapRead::joined:
+      return "mask_pages_joined.frag";
     default:
-      return 4;
+      return "mask_pages.frag";
   }
-}
-
-Texture array_image(GLenum format, int levels, int width, int height, int layers, std::uint64_t& bytes) {
-  Texture texture = make_texture(GL_TEXTURE_2D_ARRAY);
-  glTextureStorage3D(texture.name(), levels, format, width, height, layers);
-  for (int level = 0; level < levels; ++level) {
-    bytes += static_cast<std::uint64_t>(std::max(width >> level, 1)) *
-             static_cast<std::uint64_t>(std::max(height >> level, 1)) * static_cast<std::uint64_t>(layers) *
-             static_cast<std::uint64_t>(bytes_of(format));
-  }
-  return texture;
 }
 
 int full_chain(int width, int height) noexcept {
   return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(width, height))));
 }
 
-void attach(const Framebuffer& fbo, const std::vector<Texture>& images, GLint level, GLint layer) {
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    glNamedFramebufferTextureLayer(fbo.name(), static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i),
-                                   images[i].name(), level, layer);
-  }
-}
-
-void draw_into_all(const Framebuffer& fbo, std::size_t images) {
-  std::array<GLenum, kMaxChannels / 4> buffers{};
-  for (std::size_t i = 0; i < images; ++i) buffers[i] = static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i);
-  glNamedFramebufferDrawBuffers(fbo.name(), static_cast<GLsizei>(images), buffers.data());
-}
-
-void bind_images(const std::vector<Texture>& images, const Sampler& sampler) {
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    glBindTextureUnit(static_cast<GLuint>(kStoredUnit + i), images[i].name());
-    glBindSampler(static_cast<GLuint>(kStoredUnit + i), sampler.name());
-  }
-}
-
 }  // namespace
+
+std::vector<std::string_view> pages_shaders(MapRead reads) {
+  if (reads == MapRead::depth) return {"mask_pages.frag"};
+  if (reads == MapRead::summed) return {};
+  return {pages_mask_path(reads), "store_page.frag", "blur_page.frag"};
+}
 
 std::vector<std::string_view> filter_shaders(const Filter& filter, MapRead reads) {
   std::vector<std::string_view> paths{mask_path(reads)};
@@ -158,8 +117,19 @@ Program make_depth_program(const FilterSettings& settings, const char* shader, c
 
 }  // namespace
 
-Program make_pages_program(const FilterSettings& settings) {
-  return make_depth_program(settings, "mask_pages.frag", "pages have");
+void make_pages_programs(const FilterSettings& settings, FilterPrograms& programs) {
+  const std::string_view refusal = page_filter_refusal(settings);
+  if (!refusal.empty())
+    throw RenderError("filter " + std::string(settings.filter->info.name) + ": " + std::string(refusal));
+  if (programs.mask_pages) return;
+  const FilterVariant& variant = programs.variant;
+  const bool mean = variant.reads == MapRead::filtered;
+  const ShaderChoice choice{filter_path(*settings.filter), variant.vectors, variant.reads_slope, mean,
+                            std::max(variant.reach, 0),    variant.channels};
+  programs.mask_pages = make_program("fullscreen.vert", pages_mask_path(variant.reads), choice);
+  if (variant.reads == MapRead::depth) return;
+  programs.store_page = make_program("fullscreen.vert", "store_page.frag", choice);
+  programs.blur_page = make_program("fullscreen.vert", "blur_page.frag", choice);
 }
 
 Program make_lights_program(const FilterSettings& settings) {
@@ -216,7 +186,7 @@ bool StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& setti
   wanted.layers = std::max(static_cast<int>(job.map_size.size()), 1);
   wanted.levels = job.mipmaps ? full_chain(job.layer_width, job.layer_height) : 1;
   wanted.vectors = stores ? programs.variant.vectors : 0;
-  wanted.format = stores ? internal_format(settings.format, filter.info.channels(settings)) : 0;
+  wanted.format = stores ? stored_format(settings) : 0;
   wanted.scratch = blurred;
   wanted.walks = static_cast<bool>(programs.store_rows);
   wanted.depth_max = filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings);
@@ -242,7 +212,7 @@ bool StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& setti
   scratch_fbo_ = make_framebuffer();
   draw_into_all(stored_fbo_, std::max<std::size_t>(stored_.size(), 1));
   draw_into_all(scratch_fbo_, std::max<std::size_t>(scratch_.size(), 1));
-  attach(scratch_fbo_, scratch_, 0, 0);
+  attach_images(scratch_fbo_, scratch_, 0, 0);
   return true;
 }
 
@@ -263,7 +233,7 @@ void StoredMaps::draw(GLuint fbo, glm::ivec2 size) {
 }
 
 void StoredMaps::blur_map(const FilterPrograms& programs, GLint map, bool blurred) {
-  attach(stored_fbo_, stored_, 0, map);
+  attach_images(stored_fbo_, stored_, 0, map);
   tiles_.list(map, viewport_, programs.variant.reach);  // counts them; the passes look at the states
   tiles_.bind_for_reads();
   glUseProgram(programs.store.name());
@@ -338,7 +308,7 @@ void StoredMaps::join_mips(const FilterPrograms& programs, const StoreJob& job, 
         glTextureParameteri(image.name(), GL_TEXTURE_BASE_LEVEL, level - 1);
         glTextureParameteri(image.name(), GL_TEXTURE_MAX_LEVEL, level - 1);
       }
-      attach(stored_fbo_, stored_, level, map);
+      attach_images(stored_fbo_, stored_, level, map);
       draw(stored_fbo_.name(), {std::max(shape_.width >> level, 1), std::max(shape_.height >> level, 1)});
     }
   }

@@ -33,16 +33,20 @@ struct FilterVariant {
 /// blurred by store_rows and blur_walk where all maps have one reach, else by store and blur.
 struct FilterPrograms {
   FilterVariant variant;
-  Program mask_pages;      ///< made when pages are first drawn
-  Program mask_lights;     ///< made when many lights are first drawn
-  Program shade_clusters;  ///< the same
+  /// Made when pages are first drawn; the last two where the filter stores texels.
+  Program mask_pages, store_page, blur_page;
+  Program mask_lights, shade_clusters;  ///< made when many lights are first drawn
   Program mask, mark, store_rows, blur_walk, store, blur, join_mip, depth_max, sum_rows, sum_columns;
 };
 /// Paths of the shaders that the filter takes part in when it is read so, that of the mask first.
 [[nodiscard]] std::vector<std::string_view> filter_shaders(const Filter& filter, MapRead reads);
-/// The mask from pages. Throws RenderError as make_filter_programs, and for filters that store texels.
-[[nodiscard]] Program make_pages_program(const FilterSettings& settings);
-/// The same of one of many lights, from a pool.
+/// The same for pages.
+[[nodiscard]] std::vector<std::string_view> pages_shaders(MapRead reads);
+/// Adds the programs for pages, once. Throws RenderError as make_filter_programs, and for
+/// page_filter_refusal.
+void make_pages_programs(const FilterSettings& settings, FilterPrograms& programs);
+/// The mask of one of many lights, from a pool. Throws RenderError as make_filter_programs, and for filters
+/// that store texels.
 [[nodiscard]] Program make_lights_program(const FilterSettings& settings);
 /// The mask and the light of all of them, by clusters.
 [[nodiscard]] Program make_clusters_program(const FilterSettings& settings);

@@ -1,12 +1,14 @@
 // Misclassified pixels of pages and of four cascades at equal texels, over the built-in scenes, against rays.
 //
-//     bench_page_frames [FOLDER]   FOLDER: for pictures of masks, and of pages by level
-#include <chrono>
+//     bench_page_frames [FOLDER [FILTER...]]   FOLDER: for pictures of masks, and of pages by level; - for
+//     none.
+//                                              FILTER: as `gnomon compare --filters` takes them; default hard
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gnomon/render/context.hpp"
@@ -17,6 +19,7 @@
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/trace/reference.hpp"
+#include "median.hpp"
 #include "page_storage.hpp"
 #include "quiet.hpp"
 
@@ -88,21 +91,41 @@ Image picture(const FloatImage& mask, const PagePlan* plan) {
   return image;
 }
 
-double milliseconds(const render::FrameStats& stats) {
-  return stats.milliseconds[static_cast<std::size_t>(render::Pass::shadow_maps)] +
-         stats.milliseconds[static_cast<std::size_t>(render::Pass::mask)];
+/// Milliseconds of maps, prefilter and look-up: all drawn, and with what is kept from the last frame.
+struct Times {
+  double all = 0.0, prefilter = 0.0, kept = 0.0;
+};
+
+/// Draws some frames and times the middle one of each kind; the mask is that of the last.
+template <class Draw>
+std::pair<Times, render::FrameStats> timed(Draw&& draw) {
+  std::vector<double> all, prefilter, kept;
+  render::FrameStats drawn;
+  render::FrameOptions options = quiet();
+  for (int frame = 0; frame < 8; ++frame) {
+    const bool keeps = frame > 4;
+    options.prune = keeps ? default_prune_rules() : default_prune_rules().without(PruneRule::held_maps);
+    const render::FrameStats stats = draw(options);
+    if (frame < 2) continue;  // shaders are compiled by first use
+    (keeps ? kept : all).push_back(stats.shadow_ms());
+    if (keeps) continue;
+    prefilter.push_back(stats.ms(render::Pass::prefilter));
+    drawn = stats;
+  }
+  return {{median(all), median(prefilter), median(kept)}, drawn};
 }
 
-void print(const std::string& scene, const char* technique, const render::FrameStats& stats, double wrong) {
-  std::printf("%-10s %-22s %9.2f %10.3f %9.1f\n", scene.c_str(), technique,
-              static_cast<double>(stats.texels) / (kWidth * kHeight), wrong, milliseconds(stats));
+void print(const std::string& scene, const std::string& filter, const char* technique,
+           const std::pair<Times, render::FrameStats>& drawn, double wrong) {
+  std::printf("%-8s %-12s %-22s %9.2f %10.3f %9.1f %9.1f %9.1f\n", scene.c_str(), filter.c_str(), technique,
+              static_cast<double>(drawn.second.texels) / (kWidth * kHeight), wrong, drawn.first.all,
+              drawn.first.prefilter, drawn.first.kept);
   std::fflush(stdout);
 }
 
 /// Four cascades of this size, and pages of as many texels.
 void compare(Frame& frame, const std::string& name, int map_size, PageStorage& memory,
-             const std::string& folder) {
-  const render::FilterSettings filter = render::default_settings(render::filters::hard);
+             const std::string& folder, const render::FilterSettings& filter) {
   PlanOptions options;
   options.resolution.max_size = map_size;
   render::set_margin(filter, options);
@@ -112,10 +135,12 @@ void compare(Frame& frame, const std::string& name, int map_size, PageStorage& m
     const ShadowPlan plan =
         make_plan(frame.camera, frame.light, frame.bounds(), options, nullptr,
                   points ? std::span<const glm::dvec3>(frame.points) : std::span<const glm::dvec3>());
-    const render::FrameStats stats =
-        frame.renderer.draw(plan, frame.camera, frame.renderer.prepare(filter), quiet());
+    const auto stats = timed([&](const render::FrameOptions& frame_options) {
+      return frame.renderer.draw(plan, frame.camera, frame.renderer.prepare(filter), frame_options);
+    });
     const FloatImage mask = frame.renderer.mask();
-    print(name, points ? "four cascades, points" : "four cascades", stats, frame.misclassified(mask));
+    print(name, render::to_string(filter), points ? "four cascades, points" : "four cascades", stats,
+          frame.misclassified(mask));
     if (!folder.empty() && points) save(stem + "cascades.png", picture(mask, nullptr));
   }
   for (const bool normals : {false, true}) {
@@ -132,10 +157,12 @@ void compare(Frame& frame, const std::string& name, int map_size, PageStorage& m
       std::printf("%s: no pages: %s\n", name.c_str(), std::string(plan.invalid_field).c_str());
       continue;
     }
-    const render::FrameStats stats =
-        frame.renderer.draw(plan, frame.camera, frame.renderer.prepare_pages(filter), quiet());
+    const auto stats = timed([&](const render::FrameOptions& frame_options) {
+      return frame.renderer.draw(plan, frame.camera, frame.renderer.prepare_pages(filter), frame_options);
+    });
     const FloatImage mask = frame.renderer.mask();
-    print(name, normals ? "pages, normals" : "pages", stats, frame.misclassified(mask));
+    print(name, render::to_string(filter), normals ? "pages, normals" : "pages", stats,
+          frame.misclassified(mask));
     if (folder.empty()) continue;
     save(stem + (normals ? "pages_normals.png" : "pages.png"), picture(mask, nullptr));
     save(stem + (normals ? "levels_normals.png" : "levels.png"), picture(mask, &plan));
@@ -146,14 +173,27 @@ void compare(Frame& frame, const std::string& name, int map_size, PageStorage& m
 }  // namespace gnomon
 
 int main(int argc, char** argv) {
-  const std::string folder = argc > 1 ? argv[1] : "";
+  const std::string folder = argc > 1 && std::string(argv[1]) != "-" ? argv[1] : "";
   if (!folder.empty()) std::filesystem::create_directories(folder);
+  std::vector<gnomon::render::FilterSettings> filters;
+  for (int i = 2; i < argc; ++i) {
+    const gnomon::render::ParsedFilter parsed = gnomon::render::parse_filter(argv[i]);
+    if (!parsed.error.empty()) {
+      std::fprintf(stderr, "%s\n", parsed.error.c_str());
+      return 2;
+    }
+    filters.push_back(parsed.settings);
+  }
+  if (filters.empty()) filters.push_back(gnomon::render::default_settings(gnomon::render::filters::hard));
   const auto context = gnomon::render::create_context();
-  std::printf("%-10s %-22s %9s %10s %9s\n", "scene", "technique", "texels/px", "wrong, %", "ms");
+  std::printf("%-8s %-12s %-22s %9s %10s %9s %9s %9s\n", "scene", "filter", "technique", "texels/px",
+              "wrong, %", "ms", "prefilter", "kept, ms");
   gnomon::PageStorage memory(1 << 14, std::size_t{gnomon::kWidth} * gnomon::kHeight);
   for (const gnomon::BuiltinScene& scene : gnomon::builtin_scenes()) {
     const std::string name(scene.name);
     gnomon::Frame frame(name, 0.5);
-    for (const int map_size : {512, 1024}) gnomon::compare(frame, name, map_size, memory, folder);
+    for (const int map_size : {512, 1024})
+      for (const gnomon::render::FilterSettings& filter : filters)
+        gnomon::compare(frame, name, map_size, memory, folder, filter);
   }
 }

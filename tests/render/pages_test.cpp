@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/render/page_filter.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "mask_frame.hpp"
 #include "page_storage.hpp"
@@ -166,13 +167,109 @@ TEST(PagesRender, shadows_are_those_of_the_box_but_for_a_texel) {
   }
 }
 
-TEST(PagesRender, filters_that_store_texels_are_refused_by_name) {
+TEST(PagesRender, filters_that_want_more_than_a_page_holds_are_refused_by_name) {
   Stage stage;
-  try {
-    (void)stage.renderer.prepare_pages(settings_of("vsm"));
-    FAIL() << "not refused";
-  } catch (const RenderError& error) {
-    EXPECT_NE(std::string(error.what()).find("vsm"), std::string::npos) << error.what();
+  for (const char* text : {"savsm", "mssm", "vsm:mipmap=1", "esm:fallback=2", "lvsm:placement=1"}) {
+    SCOPED_TRACE(text);
+    const ParsedFilter parsed = parse_filter(text);
+    ASSERT_EQ(parsed.error, "");
+    EXPECT_FALSE(page_filter_refusal(parsed.settings).empty());
+    try {
+      (void)stage.renderer.prepare_pages(parsed.settings);
+      FAIL() << "not refused";
+    } catch (const RenderError& error) {
+      const std::string name(parsed.settings.filter->info.name);
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  }
+}
+
+/// The plan's one level as the only map.
+ShadowPlan whole_level(const Stage& stage, const PagePlan& plan) {
+  ShadowPlan whole = make_plan(stage.camera, stage.light, {stage.boxes, stage.boxes});
+  whole.map_count = 1;
+  const double begin = whole.map[0].depth_begin;
+  whole.map[0] = plan.levels[0];
+  whole.map[0].depth_begin = begin;
+  whole.map[0].depth_end = stage.camera.far_depth;
+  return whole;
+}
+
+TEST(PagesRender, stored_texels_of_pages_are_those_of_the_level_drawn_whole) {
+  Stage stage;
+  for (const Filter* filter : all_filters()) {
+    if (filter->info.reads != MapRead::filtered && filter->info.reads != MapRead::joined) continue;
+    for (const double radius : {0.0, 1.5, 4.0}) {
+      // The passes are the same for all filters: one of them tries all radii.
+      if (radius != 1.5 && filter != &filters::vsm) continue;
+      FilterSettings settings = default_settings(*filter);
+      settings.radius = radius;
+      SCOPED_TRACE(to_string(settings));
+      ASSERT_EQ(page_filter_refusal(settings), "");
+      PageOptions pages;
+      pages.policy = &page_policies::queried;  // its first frame has one level
+      pages.page_texels = 64;
+      pages.target_m = 2.0;
+      const PagePlan plan = stage.plan(settings, pages);
+      ASSERT_EQ(plan.levels.size(), 1u);
+      ASSERT_GT(plan.pages.size(), 20u);
+      const FloatImage by_pages = stage.mask(plan, settings);
+      const Frame by_map = render::draw(stage.renderer, stage.camera, whole_level(stage, plan), settings);
+      std::size_t differ = 0, dark = 0;
+      for (const std::size_t i : stage.pixels) {
+        differ += std::abs(by_pages.values[2 * i] - by_map.lit(i)) > 0.02f;
+        dark += by_map.lit(i) < 0.5f;
+      }
+      EXPECT_LE(differ, stage.pixels.size() / 500);
+      EXPECT_GT(dark, 300u);
+    }
+  }
+}
+
+TEST(PagesRender, a_border_without_room_for_the_blur_leaves_seams) {
+  // A border without room for the blur must show: else the test above would prove nothing.
+  Stage stage;
+  const FilterSettings settings = settings_of("vsm:radius=4");
+  PageOptions pages;
+  pages.policy = &page_policies::queried;
+  pages.page_texels = 64;
+  pages.target_m = 2.0;
+  PlanOptions narrow;
+  narrow.filter.texels = 0.0;
+  const PagePlan plan = plan_pages(stage.camera, stage.light, {stage.boxes, stage.boxes}, {stage.points},
+                                   narrow, pages, stage.memory.spans());
+  ASSERT_EQ(plan.border_texels, 0);
+  const FloatImage by_pages = stage.mask(plan, settings);
+  const Frame by_map = render::draw(stage.renderer, stage.camera, whole_level(stage, plan), settings);
+  std::size_t differ = 0;
+  for (const std::size_t i : stage.pixels) differ += std::abs(by_pages.values[2 * i] - by_map.lit(i)) > 0.02f;
+  EXPECT_GT(differ, stage.pixels.size() / 200);
+}
+
+TEST(PagesRender, levels_and_faces_with_stored_texels_have_the_box_s_shadow) {
+  Stage stage;
+  for (const Light& light : {Light{DirectionalLight{kSlant}}, Light{PointLight{{-4.0, 6.0, 3.0}, 60.0}},
+                             Light{SpotLight{{-4.0, 6.0, 3.0}, {0.5, -0.8, -0.3}, 0.9, 60.0}}}) {
+    stage.light = light;
+    for (const char* name : {"vsm", "esm", "evsm4"}) {
+      SCOPED_TRACE(name);
+      const FilterSettings settings = settings_of(name);
+      PageOptions pages;
+      pages.page_texels = 64;
+      const PagePlan plan = stage.plan(settings, pages);
+      ASSERT_EQ(plan.status, PlanStatus::ok);
+      ASSERT_GT(plan.levels.size(), 1u);
+      const FloatImage stored = stage.mask(plan, settings);
+      const FilterSettings compared = settings_of("pcf:radius=1");
+      const FloatImage exact = stage.mask(stage.plan(compared, pages), compared);
+      std::size_t wrong = 0, dark = 0;
+      for (const std::size_t i : stage.pixels) {
+        wrong += (stored.values[2 * i] > 0.5f) != (exact.values[2 * i] > 0.5f);
+        dark += exact.values[2 * i] < 0.5f;
+      }
+      EXPECT_GT(dark, 300u);
+      EXPECT_LE(wrong, stage.pixels.size() / 40);
+    }
   }
 }
 

@@ -110,9 +110,12 @@ TEST(Shaders, pass_the_reference_validator_with_every_filter) {
     for (const MapRead reads : {filter->info.reads, reads_of(default_settings(*filter))}) {
       std::vector<std::string_view> paths = filter_shaders(*filter, reads);
       if (reads == MapRead::depth && !filter->info.draws_silhouettes) {
-        paths.push_back("mask_pages.frag");
         paths.push_back("mask_lights.frag");
+        paths.push_back("shade_clusters.frag");
       }
+      const std::vector<std::string_view> of_pages =
+          filter->info.draws_silhouettes ? std::vector<std::string_view>{} : pages_shaders(reads);
+      paths.insert(paths.end(), of_pages.begin(), of_pages.end());
       for (const std::string_view path : paths) {
         const std::string extension = std::filesystem::path(path).extension();
         const ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",

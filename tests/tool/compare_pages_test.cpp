@@ -32,9 +32,9 @@ std::string text_of(const fs::path& file) {
 TEST(ComparePages, every_policy_is_measured_beside_the_map_of_as_many_texels) {
   const TemporaryFolder folder;
   const Finished finished = run_gnomon(
-      page_sweep(folder.path(), {"--filters", "hard,pcf,vsm", "--pages", "all", "--page-sizes", "64"}));
+      page_sweep(folder.path(), {"--filters", "hard,pcf,savsm", "--pages", "all", "--page-sizes", "64"}));
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_NE(finished.err.find("--pages skips vsm: stores texels of whole maps"), std::string::npos)
+  EXPECT_NE(finished.err.find("--pages skips savsm: sums up the texels of whole maps"), std::string::npos)
       << finished.err;
   const std::vector<report::Row> rows = report::read_rows(folder.path());
   const std::size_t policies = all_page_policies().size();
@@ -102,7 +102,10 @@ TEST(ComparePages, what_pages_cannot_do_is_refused_in_one_line) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-      {{"--filters", "vsm,esm", "--pages", "resolution"}, "skips vsm, esm: stores texels of whole maps"},
+      {{"--filters", "savsm,mssm", "--pages", "resolution"},
+       "skips savsm, mssm: sums up the texels of whole maps"},
+      {{"--filters", "vsm:mipmap=1", "--pages", "resolution"}, "mip-maps, which pages do not have"},
+      {{"--filters", "esm:fallback=2", "--pages", "resolution"}, "reads the largest depths of whole maps"},
       {{"--filters", "pcf:radius=0.1,unit=world", "--pages", "resolution"}, "kernel in world units"},
       {{"--filters", "pcf:radius=20", "--pages", "resolution", "--page-sizes", "64"},
        "more than a quarter of a page"},

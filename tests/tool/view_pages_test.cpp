@@ -157,8 +157,8 @@ TEST(ViewPages, that_no_filter_or_pool_serves_leave_the_last_picture) {
     EXPECT_EQ(share_equal(stage().canvas().image(), good, 0, kWidth), 1.0) << why;
     EXPECT_TRUE(side().pages) << why;
   };
-  refused([](State& s) { s.a.filter = render::parse_filter("vsm").settings; },
-          "no pages with vsm: stores texels of whole maps, and pages have depths alone");
+  refused([](State& s) { s.a.filter = render::parse_filter("savsm").settings; },
+          "no pages with savsm: sums up the texels of whole maps, which no page holds");
   refused([](State& s) { s.a.filter = render::parse_filter("pcf:radius=0.1,unit=world").settings; },
           "no pages with pcf:radius=0.1,unit=world: kernel in world units, which no page border holds");
   refused([](State& s) { s.a.pages.capacity = 3; }, "page_capacity 3: this light needs at least 4 pages");

@@ -268,8 +268,8 @@ class Renderer {
   /// RenderError where the driver has no storage buffers in fragment shaders.
   [[nodiscard]] PreparedFilter prepare_identifiers(const IdentifierTest& test = {});
 
-  /// Compiles the filter's program for pages, once. Throws RenderError as prepare, and for filters that store
-  /// texels: pages have depths alone (hard, pcf, pcss).
+  /// Compiles the filter's programs for pages, once. Throws RenderError as prepare, and with the words of
+  /// page_filter_refusal. Filters that store texels do so within each page's slot, once for each drawing.
   [[nodiscard]] PreparedFilter prepare_pages(const FilterSettings& settings);
   /// Places an instance elsewhere: `to.world_from_object`, `to.mirrored` and `to.bounds_world`; its primitive
   /// stays. Plans must be given its new bounds. False where there is no such instance or its bounds are

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "gnomon/render/page_filter.hpp"
 #include "gnomon/render/probe.hpp"
 
 namespace gnomon::tool {
@@ -29,12 +30,8 @@ std::optional<NoPages> no_pages(const render::FilterSettings& filter, const Plan
                                 int page_texels) {
   if (!plan.warp.shape->affine)
     return NoPages{std::string(plan.warp.shape->name), "bends lines, and pages have linear texels"};
-  if (filter.filter->info.reads != render::MapRead::depth)
-    return NoPages{std::string(filter.filter->info.name),
-                   "stores texels of whole maps, and pages have depths alone"};
-  if (filter.filter->info.draws_silhouettes)
-    return NoPages{std::string(filter.filter->info.name),
-                   "reads outlines beside whole maps, and pages have depths alone"};
+  if (const std::string_view why = render::page_filter_refusal(filter); !why.empty())
+    return NoPages{render::to_string(filter), std::string(why)};
   if (filter.unit == render::KernelUnit::world)
     return NoPages{render::to_string(filter), "kernel in world units, which no page border holds"};
   if (plan.filter.texels > 0.25 * page_texels)
@@ -55,13 +52,14 @@ std::string page_refusal(const PageSetting& setting, const render::FilterSetting
   if (const int least = least_pool_pages(light); setting.capacity < least)
     return fmt::format("page_capacity {}: this light needs at least {} pages", setting.capacity, least);
   // As the renderer lays a pool out, but for the quarter that it grows by.
-  constexpr double kSurelyThere = 256.0 * 1024 * 1024, kDepthBytes = 4.0;
+  constexpr double kSurelyThere = 256.0 * 1024 * 1024;
+  const double bytes = render::bytes_per_texel(filter);
   constexpr int kPagesAcross = 8;
   const int slot = setting.page_texels + 2 * static_cast<int>(std::ceil(plan.filter.texels));
-  if (kDepthBytes * slot * slot * setting.capacity <= kSurelyThere) return {};
+  if (bytes * slot * slot * setting.capacity <= kSurelyThere) return {};
   const int side = kPagesAcross * slot,
             layers = (setting.capacity + kPagesAcross * kPagesAcross - 1) / (kPagesAcross * kPagesAcross);
-  const render::FittingMaps fitting = render::largest_maps(side, layers, kDepthBytes, 0.0);
+  const render::FittingMaps fitting = render::largest_maps(side, layers, bytes, 0.0);
   if (fitting.size >= side) return {};
   return fmt::format("page_capacity {}: so many pages do not fit ({})", setting.capacity, fitting.why);
 }

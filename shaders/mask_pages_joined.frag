@@ -1,0 +1,13 @@
+#version 450 core
+// The shadow mask from pages, by a filter that reads stored texels that only the filter itself may put together.
+#define GNOMON_PAGES
+#include "common/pages.glsl"
+#include "common/mask.glsl"
+#include "library/fetch_joined.glsl"
+
+layout(binding = 8) uniform sampler2DArray shadow_stored[GNOMON_SHADOW_VECTORS];
+
+float visibility(ShadowLookup question, ShadowMap map, ShadowOptions options) {
+  ShadowLookup at = stored_lookup(question, map);
+  return shadow_visibility(fetch_joined(shadow_stored, at, int(filtering.sums.z), options), shadow_depth, shadow_depth_max, at, options);
+}
