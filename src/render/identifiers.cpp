@@ -69,9 +69,9 @@ FrameStats Renderer::Impl::draw_identified(const ShadowPlan& plan, const Camera&
   timed(Pass::shadow_maps, [&] {
     upload(block, filter_block(filter.settings, blur));
     const DrawnMaps drawn = place_scene(plan, camera.position);
-    lists.build(
-        {plan, prune, 0.0, kReadsEverywhere, kDrawnWhole, movers.changed_world(), movers.static_changed_world(), {}},
-        drawn, camera);
+    lists.build({plan, prune, 0.0, kReadsEverywhere, kDrawnWhole, movers.changed_world(),
+                 movers.static_changed_world()},
+                drawn, camera);
     if (plan.map_count > 0) movers.finish_frame(scene.boxes());
     draw_identified_maps(drawn, options.prune.has(PruneRule::alpha_test));
   });

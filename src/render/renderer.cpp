@@ -329,8 +329,8 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     for (std::size_t i = 0; i < plan.maps().size(); ++i)
       drawn.map[i].even_scale = static_cast<float>(std::max(-curves[i], 0.0));
     impl.lists.build({plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
-                      info_of(options.depth_layer).peels || impl.drew_silhouettes, impl.movers.changed_world(),
-                      impl.movers.static_changed_world(), impl.moves(options)},
+                      info_of(options.depth_layer).peels || impl.drew_silhouettes,
+                      impl.movers.changed_world(), impl.movers.static_changed_world(), impl.moves(options)},
                      drawn, camera, impl.layered_rule(options));
     if (plan.map_count > 0) impl.movers.finish_frame(impl.scene.boxes());
     impl.draw_shadow_maps(plan, drawn, depth_draw(options));
