@@ -37,9 +37,8 @@ TEST(ShaderText, names_file_and_line_of_an_include_that_is_missing) {
 TEST(ShaderText, includes_a_file_once) {
   const ComposedShader shader = compose_shader_text(
       "twice.frag", "#version 450 core\n#include \"common/frame.glsl\"\n#include \"common/frame.glsl\"\n");
-  // Its own, frame.glsl, the map's record, and the shapes: two files, and one for each.
-  EXPECT_EQ(shader.files.size(), 5u + all_shapes().size());
-
+  // Its own, frame.glsl, the map's record, one of many lights, and the shapes: two files, and one for each.
+  EXPECT_EQ(shader.files.size(), 6u + all_shapes().size());
   EXPECT_EQ(shader.text.find("uniform Frame"), shader.text.rfind("uniform Frame"));
 }
 

@@ -314,7 +314,7 @@ TEST(PlanLights, prints_sizes_places_and_reasons_by_light) {
 TEST(PlanLights, budgets_of_pages_and_milliseconds_are_read_and_kept) {
   const auto plan_with = [](const std::string& options) {
     const Finished finished =
-        plan_of(lights_case(kThreeLights, R"(, "options": {"lights": {)" + options + "}"));
+        plan_of(lights_case(kThreeLights, R"(, "options": {"lights": {)" + options + "}}"));
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
     return json::parse(finished.lines().at(0));
   };

@@ -188,7 +188,7 @@ void Cutter::by(std::size_t axis, const Box& box, const Box& own, double size) n
   static_assert(sizeof(Polytope::Vertex) == kStride * sizeof(double));
   const double* value = &body_.vertex[0].position.x + axis;
   for (std::size_t i = 0; i < places_; i += 2, value += 2 * kStride) {
-    const Pair two(value[0], value[kStride]);
+    const Pair two(value[0], value[i + 1 < places_ ? kStride : 0]);  // behind the last place lies nothing
     below_low |= VertexSet{below(two - at_low, least_low)} << i;
     above_high |= VertexSet{below(at_high - two, least_high)} << i;
   }
