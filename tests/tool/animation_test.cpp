@@ -180,7 +180,10 @@ TEST(Playing, the_compare_command_measures_each_frame_in_its_pose) {
     EXPECT_NE(plays[i].key(), rest[i].key());
     EXPECT_EQ(plays[i].plan_status, "ok");
     // Rays against another pose would disagree over the whole shadow of the figures.
-    EXPECT_LT(plays[i].errors.false_lit + plays[i].errors.false_shadow, 0.03) << plays[i].technique.name();
+    constexpr double kOtherShadows = 0.005;
+    EXPECT_LT(plays[i].errors.false_lit + plays[i].errors.false_shadow,
+              rest[i].errors.false_lit + rest[i].errors.false_shadow + kOtherShadows)
+        << plays[i].technique.name();
     EXPECT_NE(plays[i].errors.mean_error, rest[i].errors.mean_error) << "another pose, another error";
     EXPECT_LT(plays[i].flips, 0.03) << plays[i].technique.name();
     for (const report::LeftOut& l : plays[i].left_out) saved = saved || l.rule == "held_maps";
