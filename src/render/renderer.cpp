@@ -211,8 +211,7 @@ void Renderer::Impl::take_moved(std::span<const Box> moved_world) {
 
 bool Renderer::Impl::tells_apart(const FrameOptions& options) const noexcept {
   return options.prune.has(PruneRule::static_casters) && options.prune.has(PruneRule::held_maps) &&
-         !info_of(options.depth_layer).peels && !drew_silhouettes &&
-         scene.triangles() >= options.static_caster_triangles;
+         !info_of(options.depth_layer).peels && !drew_silhouettes;
 }
 
 std::span<const std::uint8_t> Renderer::Impl::moves(const FrameOptions& options) const noexcept {

@@ -69,7 +69,6 @@ SceneBuffers::SceneBuffers(const Scene& scene)
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     primitive_of_.push_back(instance.primitive);
-    triangles_ += primitives_[instance.primitive].index_count / 3;
     boxes_.emplace_back();
     mirrored_[i] = instance.mirrored;
     move(i, instance);

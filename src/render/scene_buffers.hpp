@@ -70,8 +70,6 @@ class SceneBuffers {
   [[nodiscard]] std::uint64_t triangles_of(std::uint32_t instance) const noexcept {
     return primitive_of(instance).index_count / 3;
   }
-  /// Of all instances.
-  [[nodiscard]] std::uint64_t triangles() const noexcept { return triangles_; }
   [[nodiscard]] std::uint32_t primitive_index(std::uint32_t instance) const noexcept {
     return primitive_of_[instance];
   }
@@ -103,7 +101,6 @@ class SceneBuffers {
   std::vector<bool> mirrored_;  ///< by instance
   std::size_t vertex_count_ = 0;
   std::vector<std::uint32_t> primitive_of_;
-  std::uint64_t triangles_ = 0;
   std::vector<glm::dvec3> translation_;
   std::vector<Box> boxes_;
   std::vector<Object> objects_;

@@ -160,7 +160,6 @@ enum class Keeping : std::uint8_t { apart, maps, nothing };
 render::FrameOptions drawing(Keeping keeping) {
   render::FrameOptions options;
   options.aliasing = options.heat_map = options.cascade_tint = false;
-  options.static_caster_triangles = 0;
   // All casters: kept maps may hold some that the frame's plan culls, where no look-up reads.
   options.prune = exact_prune_rules().without(PruneRule::swept_casters);
   if (keeping != Keeping::apart) options.prune = options.prune.without(PruneRule::static_casters);

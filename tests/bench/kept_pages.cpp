@@ -293,9 +293,7 @@ void walk(Flight& flight, const PagePolicy& policy) {
   // Both begin with an empty pool: in another slot a page's texels differ by rounding.
   render::Renderer one(flight.scene), other(flight.scene);
   const render::PreparedFilter hard = one.prepare_pages(filter), hard_of_other = other.prepare_pages(filter);
-  render::FrameOptions with_rule = quiet();
-  with_rule.static_caster_triangles = 0;
-  render::FrameOptions together = with_rule;
+  render::FrameOptions together = quiet();
   together.prune = together.prune.without(PruneRule::static_casters);
   PlanOptions options;
   const PageOptions pages = page_options(policy, filter, options);
@@ -308,7 +306,7 @@ void walk(Flight& flight, const PagePolicy& policy) {
     for (std::size_t i = 0; i < plan.pages.size(); ++i) texels.push_back(one.page_depths(i).values);
     return texels;
   };
-  one.draw(plan, camera, hard, with_rule);
+  one.draw(plan, camera, hard, quiet());
   other.draw(plan, camera, hard_of_other, together);
   std::vector<std::vector<float>> before = texels_of_pages();
   const std::size_t walker = walker_of(flight, camera);
@@ -323,7 +321,7 @@ void walk(Flight& flight, const PagePolicy& policy) {
     at.bounds_world = {at.bounds_world.min + by, at.bounds_world.max + by};
     one.move_instance(walker, at);
     other.move_instance(walker, at);
-    apart.add(one.draw(plan, camera, hard, with_rule));
+    apart.add(one.draw(plan, camera, hard, quiet()));
     whole.add(other.draw(plan, camera, hard_of_other, together));
     std::vector<std::vector<float>> after = texels_of_pages();
     for (std::size_t i = 0; i < after.size(); ++i) {
@@ -334,8 +332,9 @@ void walk(Flight& flight, const PagePolicy& policy) {
   }
   const auto mean = [](auto sum) { return static_cast<double>(sum) / kSteps; };
   std::printf(
-      "%-9s %-11s an instance walks: %.1f of %zu pages drawn in a frame, %.1f change; %.1f composed, "
-      "%.0f triangles, %.2f ms (without static_casters %.1f drawn, %.0f triangles, %.2f ms); %zu stale\n",
+      "%-9s %-11s an instance walks: %.1f of %zu pages drawn in a frame, %.1f change; %.1f composed, %.0f "
+      "triangles, "
+      "%.2f ms (without static_casters %.1f drawn, %.0f triangles, %.2f ms); %zu stale\n",
       std::filesystem::path(flight.name).stem().c_str(), std::string(policy.name).c_str(), mean(apart.drawn),
       plan.pages.size(), mean(changed), mean(apart.composed), mean(apart.triangles), median(apart.ms),
       mean(whole.drawn), mean(whole.triangles), median(whole.ms), stale);

@@ -48,7 +48,6 @@ struct Pair {
     const ShadowPlan plan = make_plan(camera, light, {boxes, boxes}, with);
     FrameOptions draw;
     draw.aliasing = draw.heat_map = draw.cascade_tint = draw.time_passes = false;
-    draw.static_caster_triangles = 0;
     draw.prune = exact_prune_rules();
     last = keeps.draw(plan, camera, keeps.prepare(filter), draw);
     draw.prune = draw.prune.without(PruneRule::held_maps).without(PruneRule::scrolled_maps);
@@ -192,7 +191,6 @@ TEST(Animation, kept_pages_of_a_flight_have_no_stale_texel) {
     ASSERT_EQ(plan.status, PlanStatus::ok);
     FrameOptions options;
     options.time_passes = false;
-    options.static_caster_triangles = 0;
     const FrameStats stats = pair.keeps.draw(plan, camera, pair.keeps.prepare_pages(filter), options);
     options.prune = options.prune.without(PruneRule::held_maps);
     pair.redraws.draw(plan, camera, pair.redraws.prepare_pages(filter), options);

@@ -64,7 +64,6 @@ struct Pair {
     pages.policy = &page_policies::clipmap;
     drawing.aliasing = drawing.heat_map = drawing.cascade_tint = drawing.time_passes = false;
     drawing.prune = kKeeping;
-    drawing.static_caster_triangles = 0;
   }
   void place(std::size_t instance, const Instance& at) {
     scene.instances[instance] = at;

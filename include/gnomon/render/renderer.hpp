@@ -148,9 +148,6 @@ struct FrameOptions {
   /// PruneRule::small_casters: the most texels of a map, as a share of all, that omitted casters may cover,
   /// 0..1. Larger: fewer draws, and small shadows disappear.
   double lost_shadow_share = 1e-4;
-  /// PruneRule::static_casters: scenes of fewer triangles do not keep static casters apart, as their depths
-  /// are drawn again in less time than they are copied. 0: all scenes do.
-  std::uint64_t static_caster_triangles = 32768;
   /// Frames of many lights: clusters of the image, each with a list of the lights that reach it. With a
   /// tile_pixels of 0 every light has passes of its own, as where the driver has no storage buffers in
   /// fragment shaders.
