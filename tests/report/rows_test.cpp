@@ -42,6 +42,20 @@ TEST(Rows, lengths_of_lists_come_back_where_there_are_lists) {
   EXPECT_EQ(back.costs.lists.most, 40u);
 }
 
+TEST(Rows, a_moving_scene_comes_back_with_its_animation_and_instant) {
+  Row row = sample_row();
+  EXPECT_EQ(to_json_line(row).find("\"animation"), std::string::npos);
+  row.animation = "Walk";
+  row.animation_time_s = 1.25;
+  for (const bool left_out : {true, false}) {
+    if (!left_out) row.left_out.clear();
+    const Row back = row_from_json(to_json_line(row), "here");
+    EXPECT_EQ(back.animation, "Walk");
+    EXPECT_EQ(back.animation_time_s, 1.25);
+    EXPECT_EQ(to_json_line(back), to_json_line(row));
+  }
+}
+
 TEST(Rows, infinite_aliasing_and_strange_names_survive) {
   Row row = sample_row();
   row.aliasing.max = std::numeric_limits<double>::infinity();

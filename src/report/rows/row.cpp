@@ -213,13 +213,14 @@ void results_from(const Json& json, Row& row) {
     row.costs.lists = {real_from(l.at("mean")), whole_from<std::uint64_t>(l.at("p99")),
                        whole_from<std::uint64_t>(l.at("most"))};
   }
+  // Rows of scenes at rest have none.
+  if (json.contains("animation")) {
+    json.at("animation").get_to(row.animation);
+    row.animation_time_s = real_from(json.at("animation_time_s"));
+  }
   for (const Json& l : json.at("left_out")) {
     LeftOut left{l.at("what").get<std::string>(), l.at("why").get<std::string>(),
                  whole_from<std::int64_t>(l.at("saves_texels"))};
-    if (json.contains("animation")) {
-      json.at("animation").get_to(row.animation);
-      row.animation_time_s = real_from(json.at("animation_time_s"));
-    }
     // Rows of an earlier version have none.
     if (l.contains("rule")) {
       l.at("rule").get_to(left.rule);
