@@ -10,6 +10,7 @@
 #include "geometry/pair.hpp"
 #include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
+#include "geometry/vertex_pair.hpp"
 
 namespace gnomon {
 namespace {
@@ -139,19 +140,16 @@ void Cutter::by(const Plane& plane) noexcept {
 
 void Cutter::between(const glm::dvec3& normal, double begin, double end) noexcept {
   if (kept_ == 0) return;
-  const Pair n_x(normal.x), n_y(normal.y), n_z(normal.z);
+  const DotPair along_normal(normal);
   double along[kMaxVertices];
   static_assert(kMaxVertices % 2 == 0);
   Pair low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < places_; i += 2) {
-    const glm::dvec3& p = body_.vertex[i].position;
-    const glm::dvec3& q = body_.vertex[i + 1 < places_ ? i + 1 : i].position;
-    const Pair p_xy = Pair::from(&p.x), q_xy = Pair::from(&q.x);
-    const Pair two = n_x * lows(p_xy, q_xy) + n_y * highs(p_xy, q_xy) + n_z * Pair(p.z, q.z);
+  for_each_two({body_.vertex.data(), places_}, [&](std::size_t i, const VertexPair& vertices) {
+    const Pair two = along_normal(vertices);
     low = min_of(low, two);
     high = max_of(high, two);
     two.to(&along[i]);
-  }
+  });
   const double least = min_of(low.low(), low.high()), most = max_of(high.low(), high.high());
   const auto limit = [](double at, double lowest, double highest) {
     return -kClipTolerance * max_of(max_of(std::abs(at), highest), -lowest);

@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/pair.hpp"
 #include "geometry/vector.hpp"
+#include "geometry/vertex_pair.hpp"
 #include "geometry/visible.hpp"
 #include "map/border.hpp"
 #include "map/turned.hpp"
@@ -80,25 +80,21 @@ bool add_two_by_two(const PlanContext& c, const LightFrame& frame, const Polytop
                     double pseudo_near, LightBody& out) noexcept {
   const std::span<const Polytope::Vertex> vertices = body.vertices();
   if (static_cast<std::size_t>(out.count) + vertices.size() + 1 > out.point.size()) return false;
-  const glm::dvec3& f = c.axes.forward;
-  const Pair x_x(frame.x.x), x_y(frame.x.y), x_z(frame.x.z), y_x(frame.y.x), y_y(frame.y.y), y_z(frame.y.z);
-  const Pair z_x(frame.z.x), z_y(frame.z.y), z_z(frame.z.z), f_x(f.x), f_y(f.y), f_z(f.z), floor(least);
+  const DotPair along_x(frame.x), along_y(frame.y), along_z(frame.z), along_view(c.axes.forward);
+  const Pair floor(least);
   Pair nearest(std::numeric_limits<double>::infinity());
-  WarpInput::Point* to = &out.point[static_cast<std::size_t>(out.count)];
-  for (std::size_t i = 0; i < vertices.size(); i += 2, to += 2) {
-    const glm::dvec3& p = vertices[i].position;
-    const glm::dvec3& q = vertices[i + 1 < vertices.size() ? i + 1 : i].position;
-    const Pair p_xy = Pair::from(&p.x), q_xy = Pair::from(&q.x);
-    const Pair x = lows(p_xy, q_xy), y = highs(p_xy, q_xy), z(p.z, q.z);
-    const Pair light_x = x * x_x + y * x_y + z * x_z, light_y = x * y_x + y * y_y + z * y_z;
-    const Pair light_z = x * z_x + y * z_y + z * z_z, depth = x * f_x + y * f_y + z * f_z;
+  WarpInput::Point* first = &out.point[static_cast<std::size_t>(out.count)];
+  for_each_two(vertices, [&](std::size_t i, const VertexPair& two) {
+    WarpInput::Point* to = first + i;
+    const Pair light_x = along_x(two), light_y = along_y(two), light_z = along_z(two);
+    const Pair depth = along_view(two);
     nearest = min_of(nearest, depth);
     const Pair counted = c.camera.orthographic ? Pair(1.0) : max_of(floor, depth);
     lows(light_x, light_y).to(&to[0].x);
     lows(light_z, counted).to(&to[0].z);
     highs(light_x, light_y).to(&to[1].x);
     highs(light_z, counted).to(&to[1].z);
-  }
+  });
   if (!c.camera.orthographic && min_of(nearest.low(), nearest.high()) < pseudo_near) return false;
   out.count += body.vertex_count;
   return true;

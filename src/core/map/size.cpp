@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/pair.hpp"
 #include "geometry/vector.hpp"
+#include "geometry/vertex_pair.hpp"
 #include "map/border.hpp"
 #include "map/shared_views.hpp"
 
@@ -41,18 +41,13 @@ double pixel_obliquity(const PlanContext& c, const Polytope& body) noexcept {
     for (const SharedView& view : c.views) longest = max_of(longest, longest_ray(view.camera));
     return std::sqrt(longest);
   }
-  const glm::dvec3& f = c.axes.forward;
-  const Pair f_x(f.x), f_y(f.y), f_z(f.z), near_depth(c.camera.near_depth);
-  const std::span<const Polytope::Vertex> vertices = body.vertices();
+  const DotPair along_view(c.axes.forward);
+  const Pair near_depth(c.camera.near_depth);
   Pair most(1.0);
-  for (std::size_t i = 0; i < vertices.size(); i += 2) {
-    const glm::dvec3& p = vertices[i].position;
-    const glm::dvec3& q = vertices[i + 1 < vertices.size() ? i + 1 : i].position;
-    const Pair p_xy = Pair::from(&p.x), q_xy = Pair::from(&q.x);
-    const Pair x = lows(p_xy, q_xy), y = highs(p_xy, q_xy), z(p.z, q.z);
-    const Pair depth = max_of(f_x * x + f_y * y + f_z * z, near_depth);
-    most = max_of(most, (x * x + y * y + z * z) / (depth * depth));
-  }
+  for_each_two(body.vertices(), [&](std::size_t, const VertexPair& two) {
+    const Pair depth = max_of(along_view(two), near_depth);
+    most = max_of(most, (two.x * two.x + two.y * two.y + two.z * two.z) / (depth * depth));
+  });
   // Rounding beside the eye may tilt a ray beyond the image's corners.
   return std::sqrt(min_of(max_of(most.low(), most.high()), longest_ray(c.camera)));
 }

@@ -4,9 +4,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/pair.hpp"
 #include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
+#include "geometry/vertex_pair.hpp"
 #include "geometry/visible.hpp"
 #include "map/gain.hpp"
 #include "map/history.hpp"
@@ -152,17 +152,13 @@ void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double
 
 DepthRange depths_of(const Polytope& body, const glm::dvec3& forward) noexcept {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const std::span<const Polytope::Vertex> vertices = body.vertices();
-  const Pair f_x(forward.x), f_y(forward.y), f_z(forward.z);
+  const DotPair along_view(forward);
   Pair low(kInfinity), high(-kInfinity);
-  for (std::size_t i = 0; i < vertices.size(); i += 2) {
-    const glm::dvec3& p = vertices[i].position;
-    const glm::dvec3& q = vertices[i + 1 < vertices.size() ? i + 1 : i].position;
-    const Pair p_xy = Pair::from(&p.x), q_xy = Pair::from(&q.x);
-    const Pair depth = f_x * lows(p_xy, q_xy) + f_y * highs(p_xy, q_xy) + f_z * Pair(p.z, q.z);
+  for_each_two(body.vertices(), [&](std::size_t, const VertexPair& two) {
+    const Pair depth = along_view(two);
     low = min_of(low, depth);
     high = max_of(high, depth);
-  }
+  });
   return {min_of(low.low(), low.high()), max_of(high.low(), high.high())};
 }
 
