@@ -89,9 +89,6 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
                    PlanHistory* history, ShadowPlan& plan) noexcept {
   const PlanOptions& options = c.options;
   plan.light_direction = safe_normalize(light.direction, {0.0, -1.0, 0.0});
-  // Roots and quotients that wait for each other: before the receivers, which do not wait for them.
-  const LightFrame frame =
-      c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
   const VisibleReceivers visible_receivers(c);
   if (visible_receivers.body.empty()) {
     plan.status = PlanStatus::nothing_visible;
@@ -101,7 +98,8 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
                       c.views.empty() ? visible_receivers.depths : depths_seen(c.views),
                       {},
                       requested_warp(options)};
-  scene.space.frame = frame;
+  scene.space.frame =
+      c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
   c.seen = usable_depths(c, scene.depths, visible);
   const bool parts = divides_parallel(options.split.partition);
   const bool follows_points = !c.stable && !parts && !c.keeps && options.fit != Fit::warped_stable;
@@ -141,12 +139,12 @@ struct Visible {
 };
 
 /// The context that input and options give, and the plan's fields that need no map.
-PlanContext begin_plan(const Camera& camera, const CameraAxes& axes, const SceneBounds& bounds,
-                       const PlanOptions& options, bool remembers, ShadowPlan& plan) noexcept {
+PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const PlanOptions& options,
+                       bool remembers, ShadowPlan& plan) noexcept {
   plan.origin_world = camera.position;
   plan.clip_space = options.clip_space;
   plan.bias = options.bias;
-  PlanContext context{camera, bounds, options, axes};
+  PlanContext context{camera, bounds, options, camera_axes(camera)};
   context.stable = options.fit == Fit::stable;
   context.error_bound = error_bound(options, remembers);
   context.remembers = remembers;
@@ -166,8 +164,6 @@ void remember_options(const PlanOptions& options, PlanHistory& history) noexcept
 void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
                 const PlanOptions& options, PlanHistory* history, const Visible& visible,
                 ShadowPlan& plan) noexcept {
-  // Of any input, while that is still looked at.
-  const CameraAxes axes = camera_axes(camera);
   plan.invalid_field =
       first_invalid_field(camera, light, bounds, options, visible.depths, visible.points_world);
   if (!plan.invalid_field.empty()) return;
@@ -175,7 +171,7 @@ void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bou
     plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible, plan);
     return;
   }
-  PlanContext context = begin_plan(camera, axes, bounds, options, history != nullptr, plan);
+  PlanContext context = begin_plan(camera, bounds, options, history != nullptr, plan);
   context.keeps = keeps_cascades(light, options, history != nullptr);
   context.seen_points = visible.points_world;
   if (history != nullptr) {
@@ -206,7 +202,7 @@ void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bou
 ShadowPlan plan_shared(std::span<const SharedView> views, const Camera& mean, const Light& light,
                        const SceneBounds& bounds, const PlanOptions& options) noexcept {
   ShadowPlan plan;
-  PlanContext context = begin_plan(mean, camera_axes(mean), bounds, options, false, plan);
+  PlanContext context = begin_plan(mean, bounds, options, false, plan);
   context.views = views;
   if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
     plan_parallel(context, *sun, nullptr, nullptr, plan);
