@@ -131,7 +131,7 @@ struct LightWork {
   int last;             ///< level in the last plan
   double price = 0.0;   ///< milliseconds per frame for each square of the smallest size, of all its maps
   double fixed = 0.0;   ///< the same whatever the size
-  int other = 0;        ///< level of another choice
+  int other = 0;        ///< level that the budget of texels alone would give
 };
 /// The same for one map in the pool.
 struct LightPlace {

@@ -54,7 +54,7 @@ struct WarpStart {
   WarpChoice best;       ///< what the last frame's search returned, with its gain_ratio
   WarpChoice map;        ///< the map that was drawn, which changes in small steps only
   bool has_map = false;  ///< `map` can be drawn again
-  bool moved = true;     ///< to be searched round `best`, as camera or light moved since
+  bool search = true;    ///< the search is to go on round `best`; false: `best` still is the best
 };
 
 /// The body as a warp sees it. The light plane's x and y (light_space.hpp) span the map; y runs along the

@@ -20,6 +20,10 @@ namespace gnomon {
 /// plane.
 inline constexpr double kTouching = 1e-12;
 
+/// A bit each of a word says which planes are still asked. Planes beyond these are not: more boxes count as
+/// inside, none is lost.
+inline constexpr std::size_t kMostPlanes = 32;
+
 /// A box in lane `lane`.
 [[nodiscard]] inline Box lane_box(const CasterBlock& block, std::size_t lane) noexcept {
   return {{block.min[0][lane], block.min[1][lane], block.min[2][lane]},
@@ -169,7 +173,7 @@ template <typename Query>
 class BoxWalk {
  public:
   BoxWalk(std::span<const Plane> planes, const Boxes& boxes, const glm::dvec3& origin, Query& query) noexcept
-      : planes_(planes.first(std::min<std::size_t>(planes.size(), 32))),
+      : planes_(planes.first(std::min(planes.size(), kMostPlanes))),
         boxes_(boxes),
         origin_(origin),
         query_(query) {}
@@ -184,7 +188,7 @@ class BoxWalk {
     finest_ = finest;
     across_ = across;
     const std::size_t count = planes_.size();
-    const std::uint32_t asked = count == 32 ? ~0u : (1u << count) - 1u;
+    const std::uint32_t asked = count == kMostPlanes ? ~0u : (1u << count) - 1u;
     if (const CasterSet* set = boxes_.set(); set != nullptr) {
       if (set->level_count() > 0) visit(*set, set->level_count() - 1, 0, asked);
       return;
@@ -193,7 +197,7 @@ class BoxWalk {
     CasterBlock block;
     for (std::size_t begin = 0; begin < list.size(); begin += kLanes) {
       set_relative(list.subspan(begin, std::min(kLanes, list.size() - begin)), origin_, block);
-      std::array<std::uint8_t, 32> open;
+      std::array<std::uint8_t, kMostPlanes> open;
       (void)judge(block, true, asked, open);
     }
   }
@@ -204,7 +208,7 @@ class BoxWalk {
 
   /// Tells the query of the block's lanes; returns those to look below.
   [[nodiscard]] Below judge(const CasterBlock& block, bool leaf, std::uint32_t asked,
-                            std::array<std::uint8_t, 32>& open) noexcept {
+                            std::array<std::uint8_t, kMostPlanes>& open) noexcept {
     std::uint32_t kept = block.occupied;
     if (kept != 0) kept &= query_.wanted(block);
     std::uint32_t across = 0;
@@ -235,7 +239,7 @@ class BoxWalk {
   void visit(const CasterSet& set, std::size_t level, std::size_t at, std::uint32_t asked) noexcept {
     CasterBlock block;
     set_relative(set.block(level, at), origin_, block);
-    std::array<std::uint8_t, 32> open;
+    std::array<std::uint8_t, kMostPlanes> open;
     const Below below = judge(block, level == 0, asked, open);
     if (level <= finest_) return;
     // What was found below one child may leave nothing to ask of the next.

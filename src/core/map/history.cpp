@@ -309,7 +309,7 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
   // frame's motion moves the best warp little: where a search takes long, the maps take turns.
   const bool turn =
       in.objective == Objective::storage || (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
-  start.moved =
+  start.search =
       turn && (!c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward);
   start.has_map = remembered(request) && choice_of(request.last->gl_from_world, start.map);
   return true;

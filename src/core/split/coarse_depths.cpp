@@ -89,9 +89,9 @@ Interval columns_between(const Polygon& polygon, double low, double high) noexce
 }
 
 /// Nearness over a polygon's plane, as far as its corners bear it out.
-class Plane {
+class NearnessPlane {
  public:
-  explicit Plane(const Polygon& polygon) noexcept {
+  explicit NearnessPlane(const Polygon& polygon) noexcept {
     for (int i = 0; i < polygon.count; ++i) {
       const ImagePoint& p = polygon.corner[static_cast<std::size_t>(i)];
       x_.add(p.x);
@@ -286,7 +286,7 @@ void CoarsePass::cover(CoarseTile& tile, std::uint64_t pixels, float depth) noex
 }
 
 void CoarsePass::cover(const Polygon& polygon) noexcept {
-  const Plane plane(polygon);
+  const NearnessPlane plane(polygon);
   const Range rows = range_of(plane.y().low / kTile, plane.y().high / kTile, rows_);
   for (int row = rows.begin; row < rows.end; ++row) {
     // Pixels whose centres lie within, row by row.
@@ -356,7 +356,7 @@ void CoarsePass::show(const CoarseTile& tile, double nearest, double farthest) n
 }
 
 void CoarsePass::show(const Polygon& polygon) noexcept {
-  const Plane plane(polygon);
+  const NearnessPlane plane(polygon);
   const Range rows =
       range_of((plane.y().low - kPixelRounding) / kTile, (plane.y().high + kPixelRounding) / kTile, rows_);
   for (int row = rows.begin; row < rows.end; ++row) {

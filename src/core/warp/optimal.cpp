@@ -283,7 +283,7 @@ bool follow(const WarpInput& input, PlaneError& error, WarpChoice& choice) noexc
   const WarpStart& start = *input.start;
   const double without = error.value(input.unwarped), expected = without * start.best.gain_ratio;
   Judged best{start.best, error.value(start.best)};
-  if (start.moved) {
+  if (start.search) {
     RowSearch search(input, error);
     if (search.line()) return false;
     best = refined(search, error, input, best);

@@ -349,6 +349,9 @@ void RowSearch::fit(const RowLanes& candidates, double step, Maps<Directions>& m
   find_sides(maps);
 }
 
+// Macros write out what the loops over lanes do for each of a few directions: of arrays there, or of inner
+// loops over them, compilers keep nothing in registers and vectorize no lane.
+
 // For one sample and candidate: the form of a row's squared extent, of which the side across and the area are
 // left out.
 #define GNOMON_FORM(at, k)                                                                           \
