@@ -1,7 +1,6 @@
 // Which instances each view of a frame draws, as indirect draw commands.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec4.hpp>
@@ -10,6 +9,7 @@
 
 #include "caster_culling.hpp"
 #include "drawn_maps.hpp"
+#include "gl_object.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/renderer.hpp"
@@ -19,18 +19,6 @@
 #include "scene_buffers.hpp"
 
 namespace gnomon::render {
-
-/// Sends `values`, growing the buffer by halves so that a flight soon stops allocating.
-template <class T>
-void send_growing(Buffer& buffer, std::size_t& capacity, const std::vector<T>& values) {
-  if (values.size() > capacity || !buffer) {
-    capacity = std::max<std::size_t>(values.size() + values.size() / 2, 64);
-    buffer = make_buffer();
-    glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(capacity * sizeof(T)), nullptr,
-                         GL_DYNAMIC_STORAGE_BIT);
-  }
-  glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data());
-}
 
 /// Commands [begin, end) of DrawLists' buffer, drawn with the state of one batch.
 struct BatchRange {

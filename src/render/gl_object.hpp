@@ -3,7 +3,12 @@
 
 #include <glad/gl.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace gnomon::render {
 
@@ -65,6 +70,37 @@ using Program = GlObject<detail::delete_program>;
   GLuint name = 0;
   glCreateBuffers(1, &name);
   return Buffer(name);
+}
+/// A buffer that holds `parts` one behind the other. Parts of it can be sent again.
+[[nodiscard]] inline Buffer filled_buffer(std::initializer_list<std::span<const std::byte>> parts) {
+  std::size_t bytes = 0;
+  for (const std::span<const std::byte>& part : parts) bytes += part.size();
+  Buffer buffer = make_buffer();
+  // A buffer of no bytes is an error; what is empty still has its buffers.
+  glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 16)), nullptr,
+                       GL_DYNAMIC_STORAGE_BIT);
+  GLintptr at = 0;
+  for (const std::span<const std::byte>& part : parts) {
+    const auto size = static_cast<GLsizeiptr>(part.size());
+    glNamedBufferSubData(buffer.name(), at, size, part.data());
+    at += size;
+  }
+  return buffer;
+}
+template <class T>
+[[nodiscard]] Buffer filled_buffer(const std::vector<T>& values) {
+  return filled_buffer({std::as_bytes(std::span(values))});
+}
+/// Sends `values`, growing the buffer by halves so that a flight soon stops allocating.
+template <class T>
+void send_growing(Buffer& buffer, std::size_t& capacity, const std::vector<T>& values) {
+  if (values.size() > capacity || !buffer) {
+    capacity = std::max<std::size_t>(values.size() + values.size() / 2, 64);
+    buffer = make_buffer();
+    glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(capacity * sizeof(T)), nullptr,
+                         GL_DYNAMIC_STORAGE_BIT);
+  }
+  glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data());
 }
 [[nodiscard]] inline Texture make_texture(GLenum target) {
   GLuint name = 0;

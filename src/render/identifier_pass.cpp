@@ -25,11 +25,8 @@ Buffer first_triangles(const SceneBuffers& scene) {
   if (count > kMost)
     throw RenderError("identifiers: the instances have " + std::to_string(count) +
                       " triangles, more than 32 bits can number");
-  first.push_back(static_cast<std::uint32_t>(count));  // a buffer of no bytes is an error
-  Buffer buffer = make_buffer();
-  glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(first.size() * sizeof first.front()),
-                       first.data(), 0);
-  return buffer;
+  first.push_back(static_cast<std::uint32_t>(count));
+  return filled_buffer(first);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "light_lists.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace gnomon::render {
 namespace {
@@ -18,28 +17,6 @@ struct ClusterHeader {
   glm::ivec4 size;
   glm::vec4 depth;
 };
-
-struct Part {
-  const void* data;
-  std::size_t bytes;
-};
-
-/// One buffer of two parts.
-void send_parts(Buffer& buffer, GLuint binding, const Part& first, const Part& second = {nullptr, 0}) {
-  buffer = make_buffer();
-  const std::size_t bytes = std::max<std::size_t>(first.bytes + second.bytes, 16);
-  glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
-  glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(first.bytes), first.data);
-  if (second.bytes > 0)
-    glNamedBufferSubData(buffer.name(), static_cast<GLintptr>(first.bytes),
-                         static_cast<GLsizeiptr>(second.bytes), second.data);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
-}
-
-template <class T>
-Part part_of(std::span<const T> values) noexcept {
-  return {values.data(), values.size_bytes()};
-}
 
 }  // namespace
 
@@ -83,10 +60,17 @@ bool LightLists::send(const Camera& camera, const ClusterOptions& options) {
   const ClusterHeader header{{clusters.columns, clusters.rows, clusters.slices, clusters.tile_pixels},
                              glm::vec4(glm::dvec4(clusters.depth_scale, clusters.depth_offset,
                                                   clusters.orthographic ? 1.0 : 0.0, 0.0))};
-  send_parts(own_buffer_, kLightBinding, part_of(std::span<const OwnLight>(own_)));
-  send_parts(map_buffer_, kMapBinding, part_of(std::span<const MapBlock>(maps_)));
-  send_parts(begin_buffer_, kBeginBinding, {&header, sizeof header}, part_of(clusters.begin));
-  send_parts(list_buffer_, kListBinding, part_of(clusters.lights));
+  own_buffer_ = filled_buffer(own_);
+  map_buffer_ = filled_buffer(maps_);
+  begin_buffer_ = filled_buffer({std::as_bytes(std::span(&header, 1)), std::as_bytes(clusters.begin)});
+  list_buffer_ = filled_buffer({std::as_bytes(clusters.lights)});
+  const auto bind = [](GLuint binding, const Buffer& buffer) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
+  };
+  bind(kLightBinding, own_buffer_);
+  bind(kMapBinding, map_buffer_);
+  bind(kBeginBinding, begin_buffer_);
+  bind(kListBinding, list_buffer_);
   return true;
 }
 

@@ -19,7 +19,6 @@ class LightLists {
   void clear() noexcept;
   /// Adds a light: `block` is the one that a frame of it alone would have.
   void add(const Light& light, const FrameBlock& block, const glm::vec3& color);
-  [[nodiscard]] bool empty() const noexcept { return lights_.empty(); }
   /// Sends everything and binds it where shade_clusters.frag reads it. False, with nothing bound, where
   /// lists cannot be made.
   [[nodiscard]] bool send(const Camera& camera, const ClusterOptions& options);

@@ -14,14 +14,6 @@ constexpr GLuint kLevelBinding = 2, kRecordBinding = 3, kTableBinding = 4;
 // Pages along each side of a layer: drivers take at least 2048 layers, of at least 16384 texels.
 constexpr int kPagesAcross = 8, kPerLayer = kPagesAcross * kPagesAcross;
 
-template <class T>
-void send(Buffer& buffer, const std::vector<T>& values) {
-  buffer = make_buffer();
-  const std::size_t bytes = std::max<std::size_t>(values.size() * sizeof(T), 16);
-  glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
-  glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data());
-}
-
 /// From the clip space of a page, -1..1 over its slot, to that of the layer it lies in.
 glm::dmat4 layer_from_slot(const TexelRect& place, int side) {
   glm::dmat4 into(1.0);
@@ -145,9 +137,9 @@ void PagePool::send_tables(const PagePlan& plan) {
   table_ = {static_cast<std::uint32_t>(plan.levels.size()), static_cast<std::uint32_t>(plan.table.size()),
             static_cast<std::uint32_t>(plan.border_texels), 0};
   table_.insert(table_.end(), plan.table.begin(), plan.table.end());
-  send(level_buffer_, levels_);
-  send(record_buffer_, records_);
-  send(table_buffer_, table_);
+  level_buffer_ = filled_buffer(levels_);
+  record_buffer_ = filled_buffer(records_);
+  table_buffer_ = filled_buffer(table_);
 }
 
 void PagePool::bind() const noexcept {

@@ -46,13 +46,9 @@ PanePass::PanePass(const Scene& panes)
       transmittance_program_(make_program("fullscreen.vert", "transmittance.frag")),
       shade_program_(make_program("fullscreen.vert", "shade_panes.frag")),
       over_program_(make_program("pane.vert", "pane.frag")),
-      order_(make_buffer()),
+      order_(filled_buffer({std::as_bytes(panes_.order())})),
       map_fbo_(make_framebuffer()),
       over_fbo_(make_framebuffer()) {
-  const std::span<const std::uint32_t> order = panes_.order();
-  glNamedBufferStorage(order_.name(), static_cast<GLsizeiptr>(std::max<std::size_t>(order.size_bytes(), 16)),
-                       nullptr, GL_DYNAMIC_STORAGE_BIT);
-  glNamedBufferSubData(order_.name(), 0, static_cast<GLsizeiptr>(order.size_bytes()), order.data());
   panes_.set_object_index_buffer(order_.name());
   constexpr std::array<GLenum, 3> kAll{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
   glNamedFramebufferDrawBuffers(map_fbo_.name(), 3, kAll.data());

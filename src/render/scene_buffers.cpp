@@ -17,16 +17,6 @@ namespace {
 constexpr GLuint kPosition = 0, kNormal = 1, kTexcoord = 2, kObjectIndex = 3;  // as in the vertex shaders
 constexpr GLuint kObjectsBinding = 0;
 
-template <class T>
-Buffer filled_buffer(const std::vector<T>& values) {
-  Buffer buffer = make_buffer();
-  // A buffer of no bytes is an error; an empty scene still has its buffers.
-  const std::size_t bytes = std::max<std::size_t>(values.size() * sizeof(T), 16);
-  glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
-  glNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data());
-  return buffer;
-}
-
 GLint gl_wrap(TextureWrap wrap) {
   switch (wrap) {
     case TextureWrap::mirrored_repeat:

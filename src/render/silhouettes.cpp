@@ -25,9 +25,7 @@ Silhouettes::Silhouettes(const SceneBuffers& scene)
     edges_of_.push_back({static_cast<std::uint32_t>(all.size()), static_cast<std::uint32_t>(edges.size())});
     all.insert(all.end(), edges.begin(), edges.end());
   }
-  if (all.empty()) all.resize(4);  // a buffer of no bytes is an error
-  edges_ = make_buffer();
-  glNamedBufferStorage(edges_.name(), static_cast<GLsizeiptr>(all.size() * sizeof(all[0])), all.data(), 0);
+  edges_ = filled_buffer(all);
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
     glSamplerParameteri(sampler_.name(), wrap, GL_CLAMP_TO_BORDER);
   glSamplerParameteri(sampler_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);

@@ -55,11 +55,7 @@ void StoredPages::send_levels(const PagePlan& plan, const FilterSettings& settin
     std::copy_n(block.options.begin(), kOptionVectors, values.options.begin());
     levels_.push_back(values);
   }
-  level_buffer_ = make_buffer();
-  const auto bytes = static_cast<GLsizeiptr>(std::max<std::size_t>(levels_.size(), 1) * sizeof(LevelValues));
-  glNamedBufferStorage(level_buffer_.name(), bytes, nullptr, GL_DYNAMIC_STORAGE_BIT);
-  glNamedBufferSubData(level_buffer_.name(), 0, static_cast<GLsizeiptr>(levels_.size() * sizeof(LevelValues)),
-                       levels_.data());
+  level_buffer_ = filled_buffer(levels_);
 }
 
 void StoredPages::fit(const Shape& wanted) {
