@@ -21,8 +21,8 @@ struct CullingJob {
   /// A lookup may read beyond the map's filter margin, or depends on the whole map: casters that no receiver
   /// needs count, too.
   bool reads_everywhere = false;
-  /// Maps are peeled: one that changes is drawn whole.
-  bool peels = false;
+  /// A map that changes in part is drawn whole: what it stores beside its depths is made from all of it.
+  bool redraws_whole = false;
   /// Bounds of casters that moved since the last frame, before and after.
   std::span<const Box> moved_world = {};
   /// The same of places where static casters came or went; they have maps of their own where `moves` is not

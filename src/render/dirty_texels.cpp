@@ -132,13 +132,24 @@ void add(const TexelRect& image, std::size_t most, DirtyTexels& out) noexcept {
   add(both, most, out);
 }
 
-}  // namespace
+/// Adds the image of a box by its outline: in bands of rows, those of all boxes beginning at the same rows,
+/// so that those of a box before and after join.
+void add_bands(const Image& image, const TexelRect& bounds, const glm::dvec2& size,
+               DirtyTexels& out) noexcept {
+  constexpr int kBands = 8;
+  const int height = static_cast<int>(std::bit_ceil(static_cast<unsigned>(bounds.height / kBands + 1)));
+  for (int row = bounds.y / height * height; row < bounds.y + bounds.height; row += height) {
+    const int first = std::max(row, bounds.y), end = std::min(row + height, bounds.y + bounds.height);
+    const TexelRect band = band_of(image, first, end, size);
+    if (!band.empty()) add(band, DirtyTexels::kMost, out);
+  }
+}
 
-DirtyTexels dirty_texels(const ShadowMap& map, std::span<const Box> moved_world, std::size_t most) noexcept {
+/// Calls `add_image` with the image of each box, its bounds in texels and the map's size.
+template <typename AddImage>
+DirtyTexels dirty_texels(const ShadowMap& map, std::span<const Box> moved_world,
+                         AddImage&& add_image) noexcept {
   const glm::dvec2 size(map.width, map.height);
-  // Each band is compared with all rectangles.
-  constexpr std::size_t kMostOutlined = 128;
-  const bool outlined = most == DirtyTexels::kMost && moved_world.size() <= kMostOutlined;
   DirtyTexels out;
   for (const Box& box : moved_world) {
     Image image;
@@ -151,20 +162,28 @@ DirtyTexels dirty_texels(const ShadowMap& map, std::span<const Box> moved_world,
     if (reach == Reach::none) continue;
     const TexelRect bounds = bounds_of(image, size);
     if (bounds.empty()) continue;
-    if (!outlined) {
-      add(bounds, most, out);
-      continue;
-    }
-    // Bands of all boxes begin at the same rows, so that those of a box before and after join.
-    constexpr int kBands = 8;
-    const int height = static_cast<int>(std::bit_ceil(static_cast<unsigned>(bounds.height / kBands + 1)));
-    for (int row = bounds.y / height * height; row < bounds.y + bounds.height; row += height) {
-      const int first = std::max(row, bounds.y), end = std::min(row + height, bounds.y + bounds.height);
-      const TexelRect band = band_of(image, first, end, size);
-      if (!band.empty()) add(band, most, out);
-    }
+    add_image(image, bounds, size, out);
   }
   return out;
+}
+
+}  // namespace
+
+DirtyTexels dirty_bounds(const ShadowMap& map, std::span<const Box> moved_world) noexcept {
+  return dirty_texels(map, moved_world,
+                      [](const Image&, const TexelRect& bounds, const glm::dvec2&, DirtyTexels& out) {
+                        add(bounds, DirtyTexels::kMostBounds, out);
+                      });
+}
+
+DirtyTexels dirty_outlines(const ShadowMap& map, std::span<const Box> moved_world) noexcept {
+  // Each band is compared with all rectangles.
+  constexpr std::size_t kMostOutlined = 128;
+  if (moved_world.size() <= kMostOutlined) return dirty_texels(map, moved_world, add_bands);
+  return dirty_texels(map, moved_world,
+                      [](const Image&, const TexelRect& bounds, const glm::dvec2&, DirtyTexels& out) {
+                        add(bounds, DirtyTexels::kMost, out);
+                      });
 }
 
 bool may_touch(const ShadowMap& map, const Box& box, std::span<const TexelRect> rectangles) noexcept {

@@ -14,7 +14,7 @@ namespace gnomon::render {
 
 /// A few rectangles that hold the images of all moved boxes, with room for rounding.
 struct DirtyTexels {
-  static constexpr std::size_t kMost = 64;
+  static constexpr std::size_t kMostBounds = 4, kMost = 64;
   std::array<TexelRect, kMost> rectangle{};
   std::size_t count = 0;
   bool whole = false;  ///< any texel of the map may have changed
@@ -23,10 +23,11 @@ struct DirtyTexels {
   [[nodiscard]] std::span<const TexelRect> rectangles() const noexcept { return {rectangle.data(), count}; }
 };
 
-/// `moved_world`: where casters were and where they are. Empty boxes change nothing. `most`: rectangles, 1 to
-/// kMost; with kMost they follow the outlines of the boxes' images, with fewer their bounds.
-[[nodiscard]] DirtyTexels dirty_texels(const ShadowMap& map, std::span<const Box> moved_world,
-                                       std::size_t most) noexcept;
+/// Up to kMostBounds rectangles round the images of whole boxes, for what costs by the rectangle.
+/// `moved_world`: where casters were and where they are; empty boxes change nothing.
+[[nodiscard]] DirtyTexels dirty_bounds(const ShadowMap& map, std::span<const Box> moved_world) noexcept;
+/// Up to kMost rectangles that follow the images' outlines, for what costs by the texel.
+[[nodiscard]] DirtyTexels dirty_outlines(const ShadowMap& map, std::span<const Box> moved_world) noexcept;
 
 /// False where no texel of the rectangles can show the box.
 [[nodiscard]] bool may_touch(const ShadowMap& map, const Box& box,

@@ -231,7 +231,7 @@ bool DrawLists::is_drawn_whole(std::size_t map, const DrawnMap& as) const noexce
 }
 
 void DrawLists::join_maps(const CullingJob& job, const DrawnMaps& drawn, const LayeredRule& rule) {
-  if (rule.passes == MapPasses::each || job.peels || scene_.order().size() >> kMapShift != 0) return;
+  if (rule.passes == MapPasses::each || job.redraws_whole || scene_.order().size() >> kMapShift != 0) return;
   // One viewport, and where faces are culled one winding. Maps of other sizes by gl_ViewportIndex would lose
   // bits: a driver may transform to it in other steps.
   const auto alike = [&](const DrawnMap& a, const DrawnMap& b) {

@@ -140,11 +140,11 @@ MapWork MapCache::bring_up(const CachedDraw& draw, std::span<const Box> moved_wo
   const ShadowMap map = drawn_form(job.plan, draw.index);
   const bool usable = cached.valid && cached.origin_world == draw.drawn.origin_world;
   const bool same = usable && job.prune.has(PruneRule::held_maps) && cached.drawn == drawn &&
-                    (!(job.reads_everywhere || job.peels) || cached.holds == draws_);
-  const DirtyTexels dirty = usable ? dirty_texels(map, moved_world, MapWork::kMostRedrawn) : DirtyTexels{};
-  const bool holds = same && !dirty.whole && !(job.peels && dirty.any());
-  const bool scrolls = usable && !same && !job.peels && job.prune.has(PruneRule::scrolled_maps) &&
-                       !dirty.any() && !dirty_texels(cached.map, moved_world, MapWork::kMostRedrawn).any();
+                    (!(job.reads_everywhere || job.redraws_whole) || cached.holds == draws_);
+  const DirtyTexels dirty = usable ? dirty_bounds(map, moved_world) : DirtyTexels{};
+  const bool holds = same && !dirty.whole && !(job.redraws_whole && dirty.any());
+  const bool scrolls = usable && !same && !job.redraws_whole && job.prune.has(PruneRule::scrolled_maps) &&
+                       !dirty.any() && !dirty_bounds(cached.map, moved_world).any();
   const MapReuse moved = scrolls ? reuse(cached.map, map, kOpenGlZeroToOne) : MapReuse{};
   MapWork work = holds && dirty.any()                ? redraw(map, dirty, cached, saved)
                  : holds                             ? hold(map, cached, saved)
@@ -193,7 +193,7 @@ double MapCache::draw_over(const CachedDraw& draw, const ShadowMap& map, Cached&
 }
 
 void MapCache::count_static(const CachedDraw& draw, const ShadowMap& map, PruneSavings& saved) {
-  const DirtyTexels redrawn = dirty_texels(map, draw.job.moved_world, MapWork::kMostRedrawn);
+  const DirtyTexels redrawn = dirty_bounds(map, draw.job.moved_world);
   for (const TexelRect& rectangle : redrawn.rectangles()) {
     for (const std::uint32_t i :
          culling_.instances_within(rectangle_planes(map, rectangle, kOpenGlZeroToOne))) {
@@ -224,7 +224,7 @@ LayeredWork MapCache::compose(const CachedDraw& draw, PruneSavings& saved) {
       cached.valid && cached.origin_world == beneath.origin_world && cached.drawn == beneath.drawn &&
       !drawn_whole && !work.beneath.move.any() &&
       (!job.reads_everywhere || std::equal(cached.holds.begin(), cached.holds.end(), draw.casters.begin()));
-  copied_ = same ? dirty_texels(map, job.moved_world, DirtyTexels::kMost) : DirtyTexels{};
+  copied_ = same ? dirty_outlines(map, job.moved_world) : DirtyTexels{};
   const bool whole = !same || copied_.whole;
   // Static casters that came into reach are drawn into both maps.
   over_.assign(draws_.size(), 0);

@@ -29,7 +29,7 @@ struct MapMove {
 /// its static casters, then the parts are drawn. None of them: the map is as it was.
 struct MapWork {
   /// Rectangles in which all casters are drawn again; each costs draws.
-  static constexpr std::size_t kMostRedrawn = 4;
+  static constexpr std::size_t kMostRedrawn = DirtyTexels::kMostBounds;
   /// Two strips or rectangles of moved casters, and what came into reach anywhere.
   static constexpr std::size_t kMaxParts = kMostRedrawn + 1;
   MapMove move;

@@ -34,6 +34,12 @@ constexpr auto kNoBatchState = [](const Batch&) {};
 
 }  // namespace
 
+DepthDraw DepthDraw::of(const DrawnMap& map) const noexcept {
+  DepthDraw how = *this;
+  how.even_scale = map.even_scale;
+  return how;
+}
+
 PeeledDepth DepthDraw::peeled(const ShadowPlan& plan, const ShadowMap& map) const noexcept {
   const double texel = std::max(map.texel_world.x, map.texel_world.y), range = map.depth_range_world;
   return {layer, even_scale > 0.0f ? 0.0 : depth_curve(plan, map),
@@ -251,8 +257,7 @@ void Renderer::Impl::draw_shadow_maps(const ShadowPlan& plan, const DrawnMaps& d
     const DrawLists::Copies& copies = lists.beneath(i).copies;
     if ((lists.parts(i).empty() && copies.count == 0) || lists.is_layered(i)) continue;
     const DrawnMap& map = drawn.map[static_cast<std::size_t>(i)];
-    DepthDraw of_map = how;
-    of_map.even_scale = map.even_scale;
+    const DepthDraw of_map = how.of(map);
     glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0, i);
     glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
     glViewport(0, 0, map.width, map.height);

@@ -158,8 +158,8 @@ LayeredRule Renderer::Impl::layered_rule(const FrameOptions& options) noexcept {
     try {
       layered.emplace();
     } catch (const RenderError&) {
-      can_layer =
-          false;  // the driver names the extension and its compiler refuses it, or the context is lost
+      // The driver names the extension and its compiler refuses it, or the context is lost.
+      can_layer = false;
       return {};
     }
   }

@@ -55,6 +55,8 @@ struct DepthDraw {
   DepthLayer layer = DepthLayer::front;
   double dual_limit_texels = 0.0;
   float even_scale = 0.0f;  ///< DrawnMap::even_scale of the map that is drawn
+  /// The same for one map.
+  [[nodiscard]] DepthDraw of(const DrawnMap& map) const noexcept;
   /// What a peeled map of the plan stores.
   [[nodiscard]] PeeledDepth peeled(const ShadowPlan& plan, const ShadowMap& map) const noexcept;
 };

@@ -33,8 +33,7 @@ void Renderer::Impl::draw_static_maps(const DrawnMaps& drawn, const DepthDraw& h
     glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.beneath.name(), 0, i);
     glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
     glViewport(0, 0, map.width, map.height);
-    DepthDraw of_map = how;
-    of_map.even_scale = map.even_scale;
+    const DepthDraw of_map = how.of(map);
     for (const DrawnPart& part : beneath.parts()) draw_map_part(part, map, of_map);
   });
   glDisable(GL_SCISSOR_TEST);

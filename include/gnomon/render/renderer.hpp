@@ -196,8 +196,7 @@ struct FrameStats {
   int pages = 0;            ///< resident, of a PagePlan
   int lights_drawn = 0;     ///< of a LightPlan: lights whose maps were drawn; the pool kept those of others
   int pages_drawn = 0;      ///< of them; the others were kept from earlier frames (PruneRule::held_maps)
-  /// Of pages_drawn: moving casters alone, over static ones (PruneRule::static_casters).
-  int pages_composed = 0;
+  int pages_composed = 0;   ///< of pages_drawn: only moving casters drawn (PruneRule::static_casters)
   /// Depth maps and everything that the filter keeps besides for its look-ups.
   std::uint64_t map_bytes = 0;
   /// Used while maps are filtered, free for other passes after that: images of one layer, lists of tiles.
@@ -300,8 +299,7 @@ class Renderer {
   /// prepare_lights, and the plans' border must hold its kernel (set_margin). Maps of other shapes than
   /// linear, or more than the light has places, count as none. No accumulation, and no picture of the error
   /// or of maps. mask() is that of the last light that reaches the pixel. Pass::mask is the time of masks and
-  /// light together; FrameStats::map[0] the sum over all
-  /// maps.
+  /// light together, FrameStats::map[0] the sum over all maps.
   FrameStats draw(const LightPlan& plan, std::span<const DrawnLight> lights, const Camera& camera,
                   const PreparedFilter& filter, const FrameOptions& options = {}) noexcept;
   /// Channels "r", "g", "b" of the last frame of many lights: what they reflect, without sky and air, linear.
