@@ -12,6 +12,7 @@
 
 #include "support/property.hpp"
 #include "support/random_case.hpp"
+#include "support/same_body.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -52,20 +53,6 @@ std::string malformed(const Polytope& body) {
   // Three edges at each vertex: E = 3 V / 2.
   const int euler = body.vertex_count - 3 * body.vertex_count / 2 + static_cast<int>(faces.size());
   return euler == 2 ? "" : "Euler characteristic";
-}
-
-/// Empty where both bodies have the same vertices, edges and faces, to the last bit.
-std::string difference(const Polytope& a, const Polytope& b) {
-  if (a.vertex_count != b.vertex_count || a.face_count != b.face_count) return "counts";
-  for (std::size_t i = 0; i < a.vertices().size(); ++i) {
-    if (a.vertex[i].position != b.vertex[i].position) return "position";
-    if (a.vertex[i].neighbour != b.vertex[i].neighbour || a.vertex[i].face != b.vertex[i].face)
-      return "edges";
-  }
-  for (std::size_t f = 0; f < static_cast<std::size_t>(a.face_count); ++f) {
-    if (a.plane[f].normal != b.plane[f].normal || a.plane[f].offset != b.plane[f].offset) return "planes";
-  }
-  return "";
 }
 
 /// Vertices of the intersection of half spaces, by trying all triples of planes.

@@ -87,21 +87,6 @@ struct Pair {
   Renderer surfaces_{scene};
 };
 
-Scene boxes_on_ground() {
-  Scene scene = box_on_ground();
-  for (int i = 0; i < 12; ++i) {
-    const auto x = static_cast<float>(-9 + 6 * (i % 4)), z = static_cast<float>(-14 + 7 * (i / 4));
-    add_box(scene, {x, 0.0f, z}, {x + 1.0f, 1.0f + 0.3f * static_cast<float>(i), z + 0.7f});
-  }
-  return scene;
-}
-
-Camera going(int frame) {
-  Camera camera = camera_on_box(96, 96);
-  camera.position += glm::dvec3(0.06, 0.01, -0.11) * static_cast<double>(frame);
-  return camera;
-}
-
 TEST(KeptPages, a_flight_has_no_stale_texel_under_any_policy_and_light) {
   const std::vector<Light> lights{DirectionalLight{kSlant}, PointLight{{-4.0, 6.0, 3.0}, 60.0},
                                   SpotLight{{-4.0, 6.0, 3.0}, {0.5, -0.8, -0.3}, 0.9, 60.0}};

@@ -54,9 +54,19 @@ bool has_casters(const Renderer& renderer, int map) {
   return false;
 }
 
+/// Four maps of one size, under the sun.
+ShadowPlan four_maps(const Scene& scene, const Camera& camera) {
+  PlanOptions options;
+  options.cascades = 4;
+  options.resolution.max_size = 128;
+  options.prune = kPruneNothing;
+  return plan_for(scene, camera, {0.4, -0.8, -0.3}, options);
+}
+
 class SinglePass : public testing::Test {
  protected:
   void SetUp() override {
+    // Without that there is no such pass to test; renderers then draw each map by itself.
     if (layer_extension().empty()) GTEST_SKIP() << "the driver does not write gl_Layer in vertex shaders";
   }
 };
@@ -134,11 +144,7 @@ TEST_F(SinglePass, one_command_draws_a_primitive_into_all_its_maps) {
     scene.bounds_world.extend(other.bounds_world);
   }
   const Camera camera = camera_on_box(kWidth, kHeight);
-  PlanOptions options;
-  options.cascades = 4;
-  options.resolution.max_size = 128;
-  options.prune = kPruneNothing;
-  const ShadowPlan plan = plan_for(scene, camera, {0.4, -0.8, -0.3}, options);
+  const ShadowPlan plan = four_maps(scene, camera);
   ASSERT_EQ(plan.map_count, 4);
   Renderer renderer(scene);
   const FrameStats stats =
@@ -183,11 +189,7 @@ TEST_F(SinglePass, kept_and_scrolled_maps_are_left_to_passes_of_their_own) {
 TEST_F(SinglePass, maps_beside_kept_ones_are_cleared_and_kept_ones_are_not) {
   const Scene scene = box_on_ground();
   const Camera camera = camera_on_box(kWidth, kHeight);
-  PlanOptions options;
-  options.cascades = 4;
-  options.resolution.max_size = 128;
-  options.prune = kPruneNothing;
-  ShadowPlan plan = plan_for(scene, camera, {0.4, -0.8, -0.3}, options);
+  ShadowPlan plan = four_maps(scene, camera);
   ASSERT_EQ(plan.map_count, 4);
   Renderer joined(scene), each(scene);
   const auto draw = [&] {
@@ -246,11 +248,7 @@ TEST_F(SinglePass, peeled_maps_bent_maps_and_single_maps_have_passes_of_their_ow
 TEST_F(SinglePass, maps_of_the_most_frequent_size_are_joined) {
   const Scene scene = box_on_ground();
   const Camera camera = camera_on_box(kWidth, kHeight);
-  PlanOptions options;
-  options.cascades = 4;
-  options.resolution.max_size = 128;
-  options.prune = kPruneNothing;
-  ShadowPlan plan = plan_for(scene, camera, {0.4, -0.8, -0.3}, options);
+  ShadowPlan plan = four_maps(scene, camera);
   ASSERT_EQ(plan.map_count, 4);
   Renderer joined(scene), each(scene);
   const auto draw = [&] {

@@ -21,21 +21,6 @@ constexpr std::uint64_t kBoxTriangles = 12;
 constexpr PruneRules kKeeping = exact_prune_rules().without(PruneRule::swept_casters);
 constexpr PruneRules kRedrawing = kKeeping.without(PruneRule::held_maps);
 
-Scene boxes_on_ground() {
-  Scene scene = box_on_ground();
-  for (int i = 0; i < 12; ++i) {
-    const auto x = static_cast<float>(-9 + 6 * (i % 4)), z = static_cast<float>(-14 + 7 * (i / 4));
-    add_box(scene, {x, 0.0f, z}, {x + 1.0f, 1.0f + 0.3f * static_cast<float>(i), z + 0.7f});
-  }
-  return scene;
-}
-
-Camera going(double frame) {
-  Camera camera = camera_on_box(96, 96);
-  camera.position += glm::dvec3(0.06, 0.01, -0.11) * frame;
-  return camera;
-}
-
 std::vector<Light> all_lights() {
   return {DirectionalLight{kSlant}, SpotLight{{-4.0, 6.0, 3.0}, {0.5, -0.8, -0.3}, 0.9, 60.0},
           PointLight{{-4.0, 6.0, 3.0}, 60.0}};

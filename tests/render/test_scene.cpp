@@ -76,6 +76,15 @@ Scene box_on_ground() {
   return scene;
 }
 
+Scene boxes_on_ground() {
+  Scene scene = box_on_ground();
+  for (int i = 0; i < 12; ++i) {
+    const auto x = static_cast<float>(-9 + 6 * (i % 4)), z = static_cast<float>(-14 + 7 * (i / 4));
+    add_box(scene, {x, 0.0f, z}, {x + 1.0f, 1.0f + 0.3f * static_cast<float>(i), z + 0.7f});
+  }
+  return scene;
+}
+
 bool hits_box(const glm::dvec3& point, const glm::dvec3& to_light, const glm::dvec3& min,
               const glm::dvec3& max) {
   if (min.x > max.x || min.y > max.y || min.z > max.z) return false;  // shrunk to nothing
@@ -102,6 +111,12 @@ Camera camera_on_box(int width, int height) {
   const glm::dvec3 eye{4.5, 6.0, 9.0}, target{-0.3, 0.5, 0.0};
   return perspective_camera(eye, target - eye, {0, 1, 0}, 0.9, 1.0 * width / height, 0.5, 60.0, width,
                             height);
+}
+
+Camera going(double frame) {
+  Camera camera = camera_on_box(96, 96);
+  camera.position += glm::dvec3(0.06, 0.01, -0.11) * frame;
+  return camera;
 }
 
 ShadowPlan plan_for(const Scene& scene, const Camera& camera, const glm::dvec3& light_direction,

@@ -26,6 +26,8 @@ void add_box(Scene& scene, const glm::vec3& min, const glm::vec3& max);
 /// Ground of 40 x 40 units at y = 0 and one box standing on it.
 inline constexpr glm::vec3 kBoxMin{-1.5f, 0.0f, -1.0f}, kBoxMax{1.0f, 2.5f, 1.5f};
 [[nodiscard]] Scene box_on_ground();
+/// The same with twelve boxes more.
+[[nodiscard]] Scene boxes_on_ground();
 
 /// Does the ray from `point` towards the light meet the box? Never one that was shrunk to nothing.
 [[nodiscard]] bool hits_box(const glm::dvec3& point, const glm::dvec3& to_light, const glm::dvec3& min,
@@ -34,6 +36,8 @@ inline constexpr glm::vec3 kBoxMin{-1.5f, 0.0f, -1.0f}, kBoxMax{1.0f, 2.5f, 1.5f
 [[nodiscard]] std::vector<Box> boxes_of(const Scene& scene);
 /// Looks at the box of box_on_ground from some way off.
 [[nodiscard]] Camera camera_on_box(int width, int height);
+/// The same of 96 x 96 pixels, as it goes past the boxes.
+[[nodiscard]] Camera going(double frame);
 [[nodiscard]] ShadowPlan plan_for(const Scene& scene, const Camera& camera, const glm::dvec3& light_direction,
                                   const PlanOptions& options);
 
