@@ -167,9 +167,8 @@ int run(const Request& request) {
               request.width, request.height, request.frames,
               static_cast<unsigned long long>(request.triangles));
   std::printf(
-      "| scene | pixels | not held | near | far | coarse, CPU ms | drawn and read, CPU ms | m p95: none | "
-      "coarse "
-      "| read |\n|--|--|--|--|--|--|--|--|--|--|\n");
+      "| scene | pixels | not held | near | far | coarse, CPU ms | drawn and read, CPU ms "
+      "| m p95: none | coarse | read |\n|--|--|--|--|--|--|--|--|--|--|\n");
   std::size_t outside = 0;
   for (const std::string& name : request.scenes) {
     const Figures f = Scenery(request, name).measure();

@@ -332,9 +332,8 @@ void walk(Flight& flight, const PagePolicy& policy) {
   }
   const auto mean = [](auto sum) { return static_cast<double>(sum) / kSteps; };
   std::printf(
-      "%-9s %-11s an instance walks: %.1f of %zu pages drawn in a frame, %.1f change; %.1f composed, %.0f "
-      "triangles, "
-      "%.2f ms (without static_casters %.1f drawn, %.0f triangles, %.2f ms); %zu stale\n",
+      "%-9s %-11s an instance walks: %.1f of %zu pages drawn in a frame, %.1f change; %.1f composed, "
+      "%.0f triangles, %.2f ms (without static_casters %.1f drawn, %.0f triangles, %.2f ms); %zu stale\n",
       std::filesystem::path(flight.name).stem().c_str(), std::string(policy.name).c_str(), mean(apart.drawn),
       plan.pages.size(), mean(changed), mean(apart.composed), mean(apart.triangles), median(apart.ms),
       mean(whole.drawn), mean(whole.triangles), median(whole.ms), stale);

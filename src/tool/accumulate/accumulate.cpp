@@ -124,19 +124,19 @@ class Run {
 };
 
 double misclassified(const std::vector<float>& mask, const FrameTruth& truth) {
-  const report::MaskErrors errors = report::mask_errors(mask, truth.judged, truth.judged);
+  const report::MaskErrors errors = report::mask_errors(mask, truth.lit, truth.lit);
   return errors.false_lit + errors.false_shadow;
 }
 
 /// Pixels that are wrong with accumulation and right without, as a share of those that are decided.
 double ghosting(const std::vector<float>& accumulated, const std::vector<float>& single,
                 const FrameTruth& truth) {
-  const auto wrong = [](float lit, float judged) { return (lit > 0.5f) != (judged > 0.5f); };
+  const auto wrong = [](float lit, float exact) { return (lit > 0.5f) != (exact > 0.5f); };
   std::uint64_t decided = 0, ghosts = 0;
   for (std::size_t i = 0; i < accumulated.size(); ++i) {
-    if (truth.judged[i] < 0.0f) continue;
+    if (truth.lit[i] < 0.0f) continue;
     ++decided;
-    ghosts += wrong(accumulated[i], truth.judged[i]) && !wrong(single[i], truth.judged[i]) ? 1 : 0;
+    ghosts += wrong(accumulated[i], truth.lit[i]) && !wrong(single[i], truth.lit[i]) ? 1 : 0;
   }
   return decided == 0 ? 0.0 : static_cast<double>(ghosts) / static_cast<double>(decided);
 }
@@ -197,7 +197,7 @@ void measure_rest(const AccumulateRequest& request, Run& run, const Camera& came
       row.frames = drawn;
       row.wrong = misclassified(now.lit, truth);
       row.to_first = first > 0.0 ? row.wrong / first : -1.0;
-      row.flips = report::excess_flips(now.lit, next.lit, truth.judged, truth.judged);
+      row.flips = report::excess_flips(now.lit, next.lit, truth.lit, truth.lit);
       row.mask_ms = now.mask_ms;
       row.accumulate_ms = now.accumulate_ms;
       progress.clear();

@@ -99,9 +99,9 @@ glm::dvec3 light_direction(const Light& light, const glm::dvec3& point) {
 /// From each pixel in shadow to the nearest thing that shadows it, world units along the light; below zero:
 /// lit.
 std::vector<double> blocker_distances(const Stage& stage, const FrameTruth& truth) {
-  std::vector<double> distances(truth.judged.size(), -1.0);
+  std::vector<double> distances(truth.lit.size(), -1.0);
   for (std::size_t i = 0; i < distances.size(); ++i) {
-    if (truth.judged[i] != 0.0f) continue;
+    if (truth.lit[i] != 0.0f) continue;
     const trace::SurfacePoint& point = truth.points.pixels[i];
     trace::Ray ray;
     ray.origin = point.position;
@@ -194,7 +194,7 @@ void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::st
       const FloatImage mask = stage.renderer().mask();
       std::vector<float> lit;
       for (std::size_t i = 0; i < mask.values.size(); i += 2) lit.push_back(mask.values[i]);
-      print_row(scene, entry, bias, report::mask_errors(lit, truth.judged, truth.judged),
+      print_row(scene, entry, bias, report::mask_errors(lit, truth.lit, truth.lit),
                 contact_gap(plan, stage, truth, mask, blocker), request.json);
       if (request.out.empty()) continue;
       const std::string name =

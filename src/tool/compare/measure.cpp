@@ -56,7 +56,7 @@ double light_radius(const render::FilterSettings& filter, const Light& light) no
 
 std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const Planned& plan,
                               const SweepEntry& entry, const std::vector<float>& maps) {
-  if (entry.irregular_samples == 1) return truth.judged;
+  if (entry.irregular_samples == 1) return truth.lit;
   if (entry.irregular()) {
     // As many as make the mean's own error small beside that of the most samples a pixel can have.
     constexpr int kSamples = 256;
@@ -96,7 +96,7 @@ report::ListLengths list_lengths(const render::Renderer& renderer) {
   return {sum / static_cast<double>(lengths.size()), lengths[high], lengths.back()};
 }
 
-/// Of a texel, beside its depth.
+/// Bytes of an identifier in each texel, beside its depth.
 constexpr std::uint64_t kIdentifierBytes = 4;
 
 void count_costs(const render::FrameStats& stats, const Planned& plan, const SweepEntry& entry,
@@ -138,7 +138,8 @@ void trace_frame(Stage& stage, const SweepEntry& entry, FrameTruth& truth) {
   truth.hard = trace::hard_reference(stage.tracer(), truth.points, stage.light());
 }
 
-std::vector<float> judged(const trace::HardReference& hard) {
+/// 1 lit, 0 in shadow, -1 undecided.
+std::vector<float> values_of(const trace::HardReference& hard) {
   std::vector<float> values;
   values.reserve(hard.pixels.size());
   for (const trace::Verdict verdict : hard.pixels)
@@ -193,13 +194,13 @@ FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry) {
     stage.go_to(frame, Stage::At::before);
     stage.retrace();
     trace_frame(stage, entry, truth);
-    truth.judged_before = judged(truth.hard);
+    truth.lit_before = values_of(truth.hard);
     stage.go_to(frame, Stage::At::frame);
     stage.retrace();
   }
   trace_frame(stage, entry, truth);
-  truth.judged = judged(truth.hard);
-  if (!stage.plays()) truth.judged_before = truth.judged;
+  truth.lit = values_of(truth.hard);
+  if (!stage.plays()) truth.lit_before = truth.lit;
   truth.undecided = static_cast<std::uint64_t>(
       std::count(truth.hard.pixels.begin(), truth.hard.pixels.end(), trace::Verdict::undecided));
   return truth;
@@ -230,9 +231,9 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
               : light_radius(entry.filter, stage.light()) > 0.0 ? "area"
                                                                 : "filtered";
   const std::vector<float> soft = soft_truth(stage, truth, plan, entry, maps);
-  row.errors = report::mask_errors(mask, truth.judged, soft);
+  row.errors = report::mask_errors(mask, truth.lit, soft);
   row.undecided_pixels = truth.undecided;
-  row.flips = report::excess_flips(mask_before, mask, truth.judged_before, truth.judged);
+  row.flips = report::excess_flips(mask_before, mask, truth.lit_before, truth.lit);
   row.aliasing = report::pixel_aliasing(plan.aliasing(mask_image));
   count_costs(stats, plan, entry, row);
   if (entry.irregular()) {

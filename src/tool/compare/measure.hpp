@@ -9,15 +9,15 @@
 
 namespace gnomon::tool {
 
-/// What all techniques of a frame are judged by.
+/// What all techniques of a frame are compared with.
 struct FrameTruth {
   int frame = 0;
   Camera camera, before;
   trace::SurfacePoints points;
   trace::HardReference hard;
-  std::vector<float> judged;  ///< the hard answer as 1 and 0, -1 where there is none
+  std::vector<float> lit;  ///< the hard answer as 1 and 0, -1 where there is none
   /// The same one step of a viewer earlier, through the same pixels; equal where the scene is at rest.
-  std::vector<float> judged_before;
+  std::vector<float> lit_before;
   std::uint64_t undecided = 0;
 };
 /// Draws the frame once with `entry` to learn what is seen, and traces it.

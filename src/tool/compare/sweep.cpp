@@ -422,10 +422,8 @@ std::vector<std::string> fit_to_memory(Sweep& sweep) {
 
 std::string compare_footer() {
   return "Lists take commas or spaces. Every combination of the lists is measured once. Each result is on "
-         "the "
-         "disk before the next frame begins: after a crash, --resume continues. Errors compare the shadow "
-         "mask "
-         "with exact rays.\n\n"
+         "the disk before the next frame begins: after a crash, --resume continues. Errors compare the "
+         "shadow mask with exact rays.\n\n"
          "Warps: " +
          any_of_text(names_in(all_warps(), {"auto"})) + ".\nSplits: " + any_of_text(split_names()) +
          ", each with :finest, :visible_depths, :coarse_depths or :visible_points behind it" +
@@ -434,8 +432,7 @@ std::string compare_footer() {
          "that reads depths in texels; the others are named and skipped. docs/pages.md explains them." +
          "\nLayers: " + any_of_text(layer_names()) +
          ", each with :linear behind it for depths even along the light. gnomon bias and docs/bias.md "
-         "compare "
-         "them." +
+         "compare them." +
          "\nFilters: " + any_of_text(names_in(render::all_filters())) +
          ". gnomon filters NAME prints the options of one. " + std::string(kIrregular) +
          " takes no filter: casters are tested against each pixel, for exact hard shadows at their price. " +

@@ -105,12 +105,10 @@ std::string table_of(const Figure& figure) {
 void write_filter_gallery(const std::string& folder, const std::string& scene) {
   make_folder("--gallery", folder);
   std::string text =
-      "# Shadow filters\n\nTruth: the mean of 4 x 4 hard samples a pixel out of a map of 4096 texels. Below "
-      "each "
-      "picture: the\nframed part enlarged, and the difference to the truth (where 32 bits are compared with "
-      "fewer: "
-      "to\n32 bits), red too light, blue too dark. The frame is where the pictures of a strip differ by "
-      "most.\n";
+      "# Shadow filters\n\n"
+      "Truth: the mean of 4 x 4 hard samples a pixel out of a map of 4096 texels. Below each picture: the\n"
+      "framed part enlarged, and the difference to the truth (where 32 bits are compared with fewer: to\n"
+      "32 bits), red too light, blue too dark. The frame is where the pictures of a strip differ by most.\n";
   const auto add = [&](const Figure& figure) {
     text += "\n## " + figure.title + "\n\n" + table_of(figure);
     if (figure.panels.empty()) return;
