@@ -166,6 +166,9 @@ std::vector<PlanField> make_fields() {
        "options.resolution.prune_error", "must be at least 1e-9"},
       {"bias", "how far depths are moved off the surface", GNOMON_AT(BiasOptions, bias), "options.bias",
        "every value must be 0 or above"},
+      {"light_near_share", "where maps of a local light begin, of the farthest receiver's distance",
+       GNOMON_AT(double, light_near_share), "options.light_near_share", "must lie in 1e-7..0.5",
+       kLeastLightNearShare, kMostLightNearShare},
       {"clip_space", "clip space of the matrices", GNOMON_AT(ClipSpace, clip_space)}};
 }
 

@@ -119,6 +119,9 @@ TEST(PlanInput, every_broken_field_is_named) {
       {"options.split.overlap", [](Input& i) { i.options.split.overlap = kNan; }},
       {"options.split.face_slices", [](Input& i) { i.options.split.face_slices = 0; }},
       {"options.split.face_slices", [](Input& i) { i.options.split.face_slices = kMaxMaps + 1; }},
+      {"options.light_near_share", [](Input& i) { i.options.light_near_share = 0.0; }},
+      {"options.light_near_share", [](Input& i) { i.options.light_near_share = 0.51; }},
+      {"options.light_near_share", [](Input& i) { i.options.light_near_share = kNan; }},
       {"options.split.given", [](Input& i) { i.give_splits({}); }},
       {"options.split.given",
        [](Input& i) {

@@ -113,6 +113,8 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
   if (!usable_planes(o)) return "options.warp.planes";
   if (o.resolution.stable_size_steps < 1 || o.resolution.stable_size_steps > 1024)
     return "options.resolution.stable_size_steps";
+  if (!(o.light_near_share >= kLeastLightNearShare && o.light_near_share <= kMostLightNearShare))
+    return "options.light_near_share";
   const CadenceOptions& cadence = o.cadence;
   if (cadence.frames < 1 || cadence.frames > kMostCadenceFrames) return "options.cadence.frames";
   if (!(cadence.largest_step >= 0.0 && cadence.largest_step <= kLargest))
