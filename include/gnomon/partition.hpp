@@ -9,7 +9,8 @@ namespace gnomon {
 enum class Partition : std::uint8_t {
   view_depth,        ///< cascades along the view (split.hpp)
   frustum_faces,     ///< a map for each face of the camera's frustum that the light enters by, or leaves by:
-                     ///< whichever set lowers the objective; up to 5, whatever the number of cascades
+                     ///< whichever set lowers the objective; up to 5, whatever the number of cascades, and up
+                     ///< to kMaxMaps with SplitOptions::face_slices
   separating_plane,  ///< two maps, parted by a plane parallel to the light where the warped map's texels grow
                      ///< beyond those of a uniform one: warped before it, uniform behind
   tetrahedron,  ///< point lights: four maps in place of a cube's six, a triangle of directions each; fewer

@@ -63,6 +63,7 @@ enum class OmissionKind : std::uint8_t {
   plane_without_receiver,   ///< no visible receiver near it, or the light lies in it; a: index in warp.planes
   plane_without_caster,     ///< no caster can reach its receivers; a: index in warp.planes
   cascade_on_planes,        ///< maps of warp.planes serve all of it; a: depth_begin, b: depth_end
+  faces_less_divided,       ///< no map is left for a slice that pays; a: slices of that face, b: face_slices
 };
 /// The option that OmissionKind::option_ignored names.
 enum class IgnoredOption : std::uint8_t {
@@ -108,8 +109,9 @@ struct ShadowMap {
   /// Index of the requested cascade. Local lights have none: 0 for a spot's single map, and for the faces of
   /// a cube 0 to 5 in the order +x -x +y -y +z -z (of the world for a point light; a wide spot's face 5 looks
   /// along it). Partition::tetrahedron: 0 looks along -y, 1 to 3 the other ways. Partition::frustum_faces:
-  /// the face, in the order left, right, bottom, top, near, far. separating_plane: 0 before the plane, 1
-  /// behind. receiver_clusters: the cluster, in the order of their division.
+  /// the face, in the order left, right, bottom, top, near, far; with SplitOptions::face_slices above 1
+  /// counted through all slices, by face in that order, the nearest first. separating_plane: 0 before the
+  /// plane, 1 behind. receiver_clusters: the cluster, in the order of their division.
   int cascade = 0;
   int width = 0, height = 0;  ///< texels; may differ, and from map to map (metric_resolution, texel_budget)
   const Shape* shape = &shapes::linear;  ///< how the texels lie on the projected square; never nullptr

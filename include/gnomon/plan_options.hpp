@@ -26,6 +26,10 @@ inline constexpr double kLeastError = 1e-9;
 /// Sides of maps that the plan sizes are multiples of this: a tile that rasterizers handle well.
 inline constexpr int kSizeStep = 16;
 
+/// Bounds of PlanOptions::light_near_share: nearer, no depth has any precision; farther, the map begins in
+/// the middle of what it shows.
+inline constexpr double kLeastLightNearShare = 1e-7, kMostLightNearShare = 0.5;
+
 /// Most frames between two plans of a cascade: in more, a map outlives what it was planned for.
 inline constexpr int kMostCadenceFrames = 64;
 
@@ -158,6 +162,12 @@ struct PlanOptions {
   FilterExtent filter;
   /// How far depths are moved off the surface, in texels (bias.hpp).
   BiasOptions bias;
+  /// Local lights: distance at which maps begin, over that of the farthest receiver, where the scene's boxes
+  /// leave it open, as those of a room that holds its light do; kLeastLightNearShare..kMostLightNearShare.
+  /// Nearer casters then cast no shadow; nearer boxes that do not hold the light are still shown. At 2^-13 a
+  /// float's steps of depth are as long as texels at the far end, and such rooms have acne: 2^-10 keeps clear
+  /// of that. Depths that are linear along the light stand 2^-17 (docs/bias.md).
+  double light_near_share = 0x1p-10;
   /// Clip space of the matrices in the plan.
   ClipSpace clip_space;
   /// Work that may be omitted: by default such that no pixel changes. PruneRules::all() adds the bounded

@@ -68,8 +68,16 @@ struct SplitOptions {
   /// depths are widened to all receivers in the map, and a look-up evaluates every map. There is no blend
   /// band. Based on: Zhang, Zaprjagaev, Bentham, "Practical Cascaded Shadow Maps", ShaderX7, 2009.
   MapSelection selection = MapSelection::view_depth;
-  /// Division of the receivers among the maps. Partitions other than view_depth ignore cascades and splits.
+  /// Division of the receivers among the maps. Partitions other than view_depth ignore cascades and splits,
+  /// but for face_slices.
   Partition partition = Partition::view_depth;
+  /// Partition::frustum_faces: most slices along the view that each of the frustum's four side faces is
+  /// divided into, each with a map of its own, 1..kMaxMaps; default 1: a map for each face. More slices need
+  /// fewer texels for the same error and cost a pass each. `scheme` divides the depths at the face; automatic
+  /// and optimal count as logarithmic. A face has fewer where another one does not lower the objective, or
+  /// where the plan has kMaxMaps maps already: the face that gains the most gets the next slice, and the plan
+  /// lists an omission. Based on: Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006.
+  int face_slices = 1;
 
   /// The value of `given` where none is given: infinities.
   [[nodiscard]] static constexpr std::array<double, kMaxMaps - 1> endless_splits() noexcept {

@@ -140,6 +140,8 @@ std::vector<PlanField> make_fields() {
       {"partition", "what divides the receivers among the maps",
        GNOMON_CHOICE(split.partition, partition_from_name, "view_depth", "frustum_faces", "separating_plane",
                      "tetrahedron", "receiver_clusters")},
+      {"face_slices", "most slices along the view of a side face; of partition frustum_faces",
+       GNOMON_AT(int, split.face_slices), "options.split.face_slices", kCascades, 1, kMaxMaps},
       {"warp", "perspective warp of the maps", PlanChoice{warp_names, set_warp, warp_of}},
       {"shape", "how texels lie along the warp", PlanChoice{shape_names, set_shape, shape_of}},
       {"objective", "error that the warp lowers",
@@ -164,6 +166,9 @@ std::vector<PlanField> make_fields() {
        "options.resolution.prune_error", "must be at least 1e-9"},
       {"bias", "how far depths are moved off the surface", GNOMON_AT(BiasOptions, bias), "options.bias",
        "every value must be 0 or above"},
+      {"light_near_share", "where maps of a local light begin, of the farthest receiver's distance",
+       GNOMON_AT(double, light_near_share), "options.light_near_share", "must lie in 1e-7..0.5",
+       kLeastLightNearShare, kMostLightNearShare},
       {"clip_space", "clip space of the matrices", GNOMON_AT(ClipSpace, clip_space)}};
 }
 

@@ -220,6 +220,8 @@ const char* kind_name(OmissionKind kind) {
       return "plane without caster";
     case OmissionKind::cascade_on_planes:
       return "cascade on planes";
+    case OmissionKind::faces_less_divided:
+      return "faces less divided";
     case OmissionKind::option_ignored:
       return "option without use";
   }

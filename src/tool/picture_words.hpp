@@ -34,12 +34,16 @@ inline void read_picture_size(const std::string& text, int least, int most, int&
   return name == "dither" ? render::SplitTransition::dither : render::SplitTransition::cut;
 }
 
-/// --map-passes of a command that draws maps; `name` is one of its names.
+/// In the order of render::MapPasses.
+[[nodiscard]] inline std::vector<std::string> map_passes_names() {
+  return {"each", "layered", "auto"};
+}
+/// --map-passes of a command that draws maps; `name` is one of map_passes_names().
 [[nodiscard]] inline Option map_passes_option(std::string& name) {
   return {.name = "--map-passes",
           .target = &name,
           .help = "how maps are drawn: one pass for each, or one layered pass for all where the driver can",
-          .names = {"auto", "each", "layered"}};
+          .names = map_passes_names()};
 }
 [[nodiscard]] inline render::MapPasses map_passes_from_name(const std::string& name) {
   if (name == "each") return render::MapPasses::each;

@@ -105,6 +105,17 @@ TEST(CaseFile, reads_partitions_and_takes_the_separating_plane_as_a_warp_too) {
   EXPECT_THROW((void)read_case(text_with(kSun, R"({"partition": "faces"})")), CaseError);
 }
 
+TEST(CaseFile, reads_slices_of_frustum_faces_and_where_maps_of_a_local_light_begin) {
+  const PlanOptions options =
+      read_case(
+          text_with(kSun, R"({"partition": "frustum_faces", "face_slices": 3, "light_near_share": 1e-5})"))
+          .options;
+  EXPECT_EQ(options.split.face_slices, 3);
+  EXPECT_EQ(options.light_near_share, 1e-5);
+  EXPECT_EQ(read_case(text_with(kSun, "{}")).options.split.face_slices, 1);
+  EXPECT_THROW((void)read_case(text_with(kSun, R"({"face_slices": 1.5})")), CaseError);
+}
+
 TEST(CaseFile, reads_given_splits) {
   const Case input = read_case(text_with(kSun, R"({"cascades": 3, "given_splits": [4, 9.5]})"));
   EXPECT_EQ(input.options.split.scheme, SplitScheme::given);

@@ -22,7 +22,8 @@ constexpr OmissionKind kKinds[] = {
     OmissionKind::view_without_receiver,    OmissionKind::pages_coarsened,
     OmissionKind::points_left_coarser,      OmissionKind::points_beyond_levels,
     OmissionKind::shape_without_gain,       OmissionKind::plane_without_receiver,
-    OmissionKind::plane_without_caster,     OmissionKind::cascade_on_planes};
+    OmissionKind::plane_without_caster,     OmissionKind::cascade_on_planes,
+    OmissionKind::faces_less_divided};
 
 TEST(Omission, the_list_above_holds_every_kind) {
   for (std::size_t i = 0; i < std::size(kKinds); ++i) EXPECT_EQ(static_cast<std::size_t>(kKinds[i]), i);

@@ -117,6 +117,11 @@ TEST(PlanInput, every_broken_field_is_named) {
       {"options.resolution.prune_error", [](Input& i) { i.options.resolution.prune_error = 1e-320; }},
       {"options.split.overlap", [](Input& i) { i.options.split.overlap = -0.1; }},
       {"options.split.overlap", [](Input& i) { i.options.split.overlap = kNan; }},
+      {"options.split.face_slices", [](Input& i) { i.options.split.face_slices = 0; }},
+      {"options.split.face_slices", [](Input& i) { i.options.split.face_slices = kMaxMaps + 1; }},
+      {"options.light_near_share", [](Input& i) { i.options.light_near_share = 0.0; }},
+      {"options.light_near_share", [](Input& i) { i.options.light_near_share = 0.51; }},
+      {"options.light_near_share", [](Input& i) { i.options.light_near_share = kNan; }},
       {"options.split.given", [](Input& i) { i.give_splits({}); }},
       {"options.split.given",
        [](Input& i) {

@@ -242,21 +242,26 @@ TEST(PruneLocalLight, a_room_in_one_box_with_its_light_has_depths_over_a_thousan
   lamp.boxes = lamp.casters = {{{-5, 0, -4}, {5, 3, 4}}};
   const glm::dvec3 place{0.3, 2.0, -0.4};
   lamp.light = SpotLight{place, {0.1, -0.3, -1.0}, 1.0, 30.0};
-  const ShadowPlan plan = lamp.plan();
-  ASSERT_EQ(plan.status, PlanStatus::ok);
-  ASSERT_EQ(plan.map_count, 1);
-  EXPECT_TRUE(std::any_of(plan.omitted().begin(), plan.omitted().end(),
-                          [](const Omission& o) { return o.kind == OmissionKind::depth_near_light; }));
-  const glm::dvec3 axis = glm::normalize(glm::dvec3(0.1, -0.3, -1.0));
-  double nearest = 100.0, farthest = 0.0;
-  for (double away = 1e-5; away < 100.0; away *= 1.01) {
-    const glm::dvec4 clip = plan.map[0].clip_from_world * glm::dvec4(place + axis * away, 1.0);
-    if (!(clip.w > 0.0 && std::abs(clip.z) <= clip.w)) continue;
-    nearest = std::min(nearest, away);
-    farthest = std::max(farthest, away);
+  EXPECT_EQ(lamp.options.light_near_share, 1.0 / 1024.0);
+  // Linear depths allow less.
+  for (const double share : {lamp.options.light_near_share, 0x1p-17, 0x1p-6}) {
+    lamp.options.light_near_share = share;
+    const ShadowPlan plan = lamp.plan();
+    ASSERT_EQ(plan.status, PlanStatus::ok);
+    ASSERT_EQ(plan.map_count, 1);
+    EXPECT_TRUE(std::any_of(plan.omitted().begin(), plan.omitted().end(),
+                            [](const Omission& o) { return o.kind == OmissionKind::depth_near_light; }));
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(0.1, -0.3, -1.0));
+    double nearest = 100.0, farthest = 0.0;
+    for (double away = 1e-6; away < 100.0; away *= 1.01) {
+      const glm::dvec4 clip = plan.map[0].clip_from_world * glm::dvec4(place + axis * away, 1.0);
+      if (!(clip.w > 0.0 && std::abs(clip.z) <= clip.w)) continue;
+      nearest = std::min(nearest, away);
+      farthest = std::max(farthest, away);
+    }
+    EXPECT_GT(nearest, farthest * share * 0.5);
+    EXPECT_LT(nearest, farthest * share * 5.0);
   }
-  EXPECT_GT(nearest, farthest / 2000.0);
-  EXPECT_LT(nearest, farthest / 200.0);
 }
 
 }  // namespace

@@ -64,8 +64,9 @@ void add_options(PlanOptions& o, Fields& f) {
   f.real.insert(f.real.end(), {&o.resolution.max_error, &o.resolution.prune_error, &o.split.overlap,
                                &o.split.lambda, &o.split.pseudo_near, &o.warp.focus_weight, &o.filter.texels,
                                &o.filter.world, &o.bias.constant_texels, &o.bias.slope_texels,
-                               &o.bias.normal_offset_texels, &o.bias.max_slope});
-  f.whole.insert(f.whole.end(), {&o.resolution.max_size, &o.cascades, &o.resolution.stable_size_steps});
+                               &o.bias.normal_offset_texels, &o.bias.max_slope, &o.light_near_share});
+  f.whole.insert(f.whole.end(), {&o.resolution.max_size, &o.cascades, &o.resolution.stable_size_steps,
+                                 &o.split.face_slices});
   f.flag.insert(f.flag.end(), {&o.clip_space.reversed_z, &o.clip_space.y_down});
   f.add_name(o.split.partition);
   f.add_name(o.split.scheme);

@@ -21,6 +21,7 @@ Case draw_divided() {
   Case c = draw_case();
   c.options.fit = chance(0.3) ? Fit::rotated : Fit::tight;
   c.options.split.partition = kDivided[static_cast<std::size_t>(pick(3))];
+  c.options.split.face_slices = 1 + pick(kMaxMaps);
   return c;
 }
 
@@ -42,7 +43,7 @@ TEST(PartitionLaw, the_first_map_whose_planes_hold_a_visible_receiver_point_show
   int divided = 0;
   for_all(600, [&] {
     const Case c = draw_divided();
-    RC_LOG() << c << to_string(c.options.split.partition);
+    RC_LOG() << c << to_string(c.options.split.partition) << " slices " << c.options.split.face_slices;
     const ShadowPlan plan = c.plan();
     if (plan.status != PlanStatus::ok || !plan.select_by_map) return;
     ++divided;
@@ -162,6 +163,48 @@ TEST(PartitionLaw, no_partition_makes_its_objective_worse_than_one_uniform_map_w
     }
   });
   EXPECT_GT(divided, 200);
+}
+
+TEST(PartitionLaw, slices_of_the_frustums_faces_make_the_objective_no_worse_when_measured) {
+  constexpr MeasureGrid kGrid{40, 40, 64}, kFine{100, 100, 200};
+  constexpr std::uint64_t kEnough = 400;
+  int more = 0;
+  double ratios = 0.0;
+  for_all(300, [&] {
+    Case c = draw_case({.max_depth_ratio = 1e3, .max_boxes = 1});
+    const double f = c.camera.far_depth;
+    const glm::dvec3 at = point_at(c.camera, between(-1, 1), between(-1, 1), f * unit());
+    const glm::dvec3 half(f * std::exp2(between(-4, 2)));
+    c.receivers = c.casters = {{at - half, at + half}};
+    c.options.fit = Fit::tight;
+    c.options.prune = c.options.prune.without(PruneRule::metric_resolution);
+    c.options.split.pseudo_near = c.options.filter.world = 0.0;
+    if (c.options.warp.warp != nullptr && !c.options.warp.warp->drop_without_gain)
+      c.options.warp.warp = nullptr;
+    c.options.split.partition = Partition::frustum_faces;
+    Case whole = c;
+    c.options.split.face_slices = 2 + pick(kMaxMaps - 1);
+    RC_LOG() << c << "slices " << c.options.split.face_slices;
+    const ShadowPlan plan = c.plan(), before = whole.plan();
+    if (plan.map_count <= before.map_count) return;
+    require(plan.map_count <= kMaxMaps, "maps", plan.map_count);
+    const AliasingStats without = measure(before, c.camera, c.bounds(), kGrid);
+    if (without.samples < kEnough) return;
+    const auto measured_by = [&](const ShadowPlan& p, const MeasureGrid& grid) {
+      return measured(measure(p, c.camera, c.bounds(), grid), c.options.warp.objective);
+    };
+    double one = measured(without, c.options.warp.objective), many = measured_by(plan, kGrid);
+    if (!(many <= one * kJudged)) {
+      one = measured_by(before, kFine);
+      many = measured_by(plan, kFine);
+    }
+    require(many <= one * kJudged, to_string(c.options.warp.objective), many, "with slices, without", one);
+    ++more;
+    ratios += many / one;
+  });
+  EXPECT_GT(more, 60);
+  // And they pay.
+  EXPECT_LT(ratios, 0.8 * more);
 }
 
 }  // namespace

@@ -50,6 +50,24 @@ TEST(Figures, more_cascades_and_warps_need_less_storage) {
       }
     }
   }
+  // Overhead the one face that the light enters by is divided as cascades are; behind, three of four side
+  // faces.
+  for (const Warp* warp : {&warps::none, &warps::optimal}) {
+    const auto &faces = line_of(figure.overhead, Partition::frustum_faces, warp).points,
+               &cascades = line_of(figure.overhead, Partition::view_depth, warp).points;
+    ASSERT_EQ(faces.size(), cascades.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      EXPECT_EQ(faces[i].maps, cascades[i].maps);
+      EXPECT_NEAR(faces[i].storage / cascades[i].storage, 1.0, 0.02) << i;
+    }
+    const auto& behind = line_of(figure.behind, Partition::frustum_faces, warp).points;
+    ASSERT_EQ(behind.size(), 2u);
+    // Five faces pay with warps alone.
+    EXPECT_EQ(behind[0].maps, warp == &warps::none ? 1 : 5);
+    EXPECT_EQ(behind[1].maps, kMaxMaps);
+    EXPECT_LT(behind[1].storage, 0.9 * behind[0].storage);
+    EXPECT_GT(behind[1].storage, line_of(figure.behind, Partition::view_depth, warp).points.back().storage);
+  }
   // Overhead one warped map needs about far over near, an unwarped one its square; the logarithmic map bounds
   // them all.
   const double limit = line_of(figure.overhead, Partition::view_depth, nullptr).points.front().storage;

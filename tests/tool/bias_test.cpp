@@ -84,6 +84,8 @@ TEST(Bias, refuses_bad_input_in_one_line) {
       {"bias", "--warp", "bent"},
       {"bias", "--cascades", "9"},
       {"bias", "--size", "10"},
+      {"bias", "--light-near-share", "0"},
+      {"bias", "--light-near-share", "0.6"},
       {"compare", "builtin:fence", "--layers", "middle"},
       {"compare", "builtin:fence", "--layers", "back,dual", "--filters", "irregular"},
   };

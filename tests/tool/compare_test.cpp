@@ -111,6 +111,34 @@ TEST(Compare, plans_with_the_finest_map_and_with_what_the_frame_shows) {
   EXPECT_NE(refused.err.find("auto:best"), std::string::npos) << refused.err;
 }
 
+TEST(Compare, divides_the_faces_of_the_frustum_further) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",     "builtin:hangar",
+                                        "--warps",     "none",
+                                        "--splits",    "frustum_faces,frustum_faces:slices=2",
+                                        "--cascades",  "4",
+                                        "--filters",   "hard",
+                                        "--frames",    "1",
+                                        "--size",      "96x54",
+                                        "--map-sizes", "512",
+                                        "--rounds",    "1",
+                                        "--context",   "osmesa",
+                                        "--out",       folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[1].technique.split, "frustum_faces:slices=2");
+  EXPECT_GT(rows[1].costs.maps, rows[0].costs.maps);
+  EXPECT_LE(rows[1].aliasing.p95, rows[0].aliasing.p95);
+  EXPECT_LT(rows[1].aliasing.p50, rows[0].aliasing.p50);
+  for (const char* bad : {"frustum_faces:slices=0", "frustum_faces:slices=9", "frustum_faces:slices=x",
+                          "frustum_faces:slices=", "auto:slices=2", "separating_plane:slices=2"}) {
+    const Finished refused = run_gnomon({"compare", "builtin:hangar", "--splits", bad});
+    EXPECT_EQ(refused.exit_code, 2) << bad;
+    EXPECT_NE(refused.err.find(bad), std::string::npos) << refused.err;
+  }
+}
+
 TEST(Compare, says_the_same_in_every_run_but_for_times) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_gnomon(small_sweep(folder.path())).exit_code, 0);

@@ -107,7 +107,18 @@ TEST(ViewResults, become_the_settings_that_were_measured) {
   EXPECT_GT(of_pages.pages.capacity, 2 * 1024 * 1024 / (80 * 80));
   EXPECT_LT(of_pages.pages.capacity, 2 * 1024 * 1024 / (64 * 64));
   EXPECT_EQ(of_pages.layer, render::DepthLayer::midpoint);
-  for (const Settings& settings : {good, of_pages}) {
+  Technique numbered = kCheap;
+  numbered.filter = "identifiers:of=triangle,neighbours=1";
+  const Settings by_identifiers = settings_of(numbered, LightKind::sun);
+  ASSERT_TRUE(by_identifiers.identifiers);
+  EXPECT_EQ(by_identifiers.identifiers->of, render::IdentifierOf::triangle);
+  Technique even = kCheap;
+  even.layer = "front:linear";
+  even.split = "frustum_faces:slices=2";
+  const Settings linear = settings_of(even, LightKind::sun);
+  EXPECT_TRUE(linear.linear_depth);
+  EXPECT_EQ(linear.plan.split.face_slices, 2);
+  for (const Settings& settings : {good, of_pages, by_identifiers, linear}) {
     State state = hangar();
     state.a = settings;
     EXPECT_EQ(state_text(read_state(state_text(state))), state_text(state));

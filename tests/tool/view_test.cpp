@@ -50,6 +50,9 @@ State unusual() {
   state.b.filter = render::parse_filter("evsm4:radius=3,format=fp16").settings;
   state.b.transition = render::SplitTransition::dither;
   state.b.layer = render::DepthLayer::midpoint;
+  state.b.identifiers = render::IdentifierTest{render::IdentifierOf::triangle, 2};
+  state.b.linear_depth = true;
+  state.b.map_passes = render::MapPasses::layered;
   state.b.pages = {&page_policies::tiled, 256, 77, 2.5};
   state.b.history = state.b.visible_depths = true;
   state.view = View::checker;
@@ -78,6 +81,12 @@ TEST(ViewState, reads_back_what_it_wrote) {
   EXPECT_NEAR(back.a.plan.cadence.largest_turn, 0.125, 1e-15);
   EXPECT_EQ(back.b.filter.format, render::TexelFormat::fp16);
   EXPECT_EQ(back.b.layer, render::DepthLayer::midpoint);
+  ASSERT_TRUE(back.b.identifiers);
+  EXPECT_EQ(back.b.identifiers->of, render::IdentifierOf::triangle);
+  EXPECT_EQ(back.b.identifiers->neighbours, 2);
+  EXPECT_TRUE(back.b.linear_depth);
+  EXPECT_EQ(back.b.map_passes, render::MapPasses::layered);
+  EXPECT_FALSE(back.a.identifiers);
   EXPECT_EQ(back.b.pages, unusual().b.pages);
   EXPECT_EQ(back.light.spot->range, 55.5);
   ASSERT_EQ(back.path.size(), 2u);
@@ -119,6 +128,10 @@ TEST(ViewState, that_is_broken_is_refused_with_the_key) {
   EXPECT_EQ(refusal(with("\"page_texels\": 256", "\"page_texels\": 96")),
             "b.pages.page_texels: 96 is not 64, 128 or 256");
   EXPECT_EQ(refusal(with("\"capacity\": 77", "\"capacity\": 0")), "b.pages.capacity: 0 is not in 1..65536");
+  EXPECT_TRUE(refusal(with("\"triangle\"", "\"triangles\"")).starts_with("b.identifiers: is \"triangles\""));
+  EXPECT_EQ(refusal(with("\"identifier_neighbours\": 2", "\"identifier_neighbours\": 1.5")),
+            "b.identifier_neighbours: 1.5 is not a whole number");
+  EXPECT_TRUE(refusal(with("\"layered\"", "\"layers\"")).starts_with("b.map_passes: is \"layers\""));
   EXPECT_TRUE(refusal(with("\"checker\"", "\"chequer\"")).find("did you mean 'checker'") !=
               std::string::npos);
   EXPECT_TRUE(refusal(with("\"position\": [\n", "\"position\": [\"a\",\n")).find("needs three numbers") !=
@@ -145,6 +158,15 @@ TEST(ViewState, is_a_command_that_names_what_is_not_the_default) {
   EXPECT_NE(command.find("cadence_turn_deg"), std::string::npos) << command;
   EXPECT_NE(command.find(" --layer back"), std::string::npos) << command;
   EXPECT_NE(command.find("--eye=1,2,3 --target=0,0,-1 --view heat"), std::string::npos) << command;
+  state = hangar();
+  state.a.linear_depth = true;
+  state.a.map_passes = render::MapPasses::each;
+  state.a.identifiers = render::IdentifierTest{};
+  EXPECT_EQ(
+      command_text(state),
+      "gnomon view builtin:hangar --map-size 256 --filter identifiers --linear-depth --map-passes each");
+  state.a.identifiers = render::IdentifierTest{render::IdentifierOf::triangle, 3};
+  EXPECT_NE(command_text(state).find(" --filter identifiers:of=triangle,neighbours=3 "), std::string::npos);
 }
 
 TEST(ViewPicture, of_every_view_shows_something_else) {
@@ -173,6 +195,37 @@ TEST(ViewPicture, of_the_scene_is_the_renderers) {
   renderer.draw(make_plan(camera, light, {boxes, boxes}, plan_options_of(state.a)), camera,
                 renderer.prepare(state.a.filter), frame);
   EXPECT_EQ(share_equal(image, renderer.image(), 0, kWidth), 1.0);
+}
+
+TEST(ViewPicture, by_identifiers_is_the_renderers) {
+  State state = hangar();
+  state.view = View::mask;
+  const Image by_filter = picture(state);
+  for (const render::IdentifierOf of : {render::IdentifierOf::instance, render::IdentifierOf::triangle}) {
+    state.a.identifiers = render::IdentifierTest{of, 1};
+    const Image image = picture(state);
+    EXPECT_LT(share_equal(image, by_filter, 0, kWidth), 0.99);
+    EXPECT_TRUE(stage().side(0).stats.identified);
+    render::Renderer renderer(stage().loaded().scene);
+    const Camera camera = stage().camera();
+    renderer.draw(stage().side(0).plan, camera, renderer.prepare_identifiers({of, 1}));
+    EXPECT_EQ(share_equal(image, mask_picture(renderer.mask(), renderer.normals()), 0, kWidth), 1.0);
+  }
+}
+
+TEST(ViewPicture, takes_linear_depths_and_layered_passes) {
+  State state = hangar();
+  state.light.sun.kind = LightKind::point;
+  state.view = View::map;
+  const Image divided = picture(state);
+  state.a.linear_depth = true;
+  EXPECT_LT(share_equal(picture(state), divided, 0, kWidth), 0.9);
+  // The depths are the same bits, in whatever passes.
+  state.a.linear_depth = false;
+  for (const render::MapPasses passes : {render::MapPasses::each, render::MapPasses::layered}) {
+    state.a.map_passes = passes;
+    EXPECT_EQ(share_equal(picture(state), divided, 0, kWidth), 1.0);
+  }
 }
 
 TEST(ViewPicture, of_a_wipe_has_a_on_the_left_and_b_on_the_right) {
@@ -247,6 +300,18 @@ TEST(ViewPicture, stays_as_it_was_where_the_state_is_refused) {
   refused([](State& s) { s.a.plan.cascades = 0; }, "cascades");
   refused([](State& s) { s.a.plan.resolution.max_size = 1; }, "map_size");
   refused([](State& s) { s.a.plan.cadence.largest_step = -1.0; }, "cadence_step");
+  refused(
+      [](State& s) {
+        s.a.pages.policy = &page_policies::resolution;
+        s.a.identifiers = render::IdentifierTest{};
+      },
+      "identifiers");
+  refused(
+      [](State& s) {
+        s.a.pages.policy = &page_policies::resolution;
+        s.a.linear_depth = true;
+      },
+      "linear_depth");
   refused(
       [](State& s) {
         s.light.sun.kind = LightKind::point;

@@ -16,7 +16,7 @@ struct StorageFigure {
   /// How one line divides the view, and whether it warps.
   struct Scheme {
     const char* name;     ///< as in the legend
-    Partition partition;  ///< view_depth: logarithmic splits
+    Partition partition;  ///< view_depth: logarithmic splits; frustum_faces: side faces in logarithmic slices
     const Warp* warp;     ///< of each map; nullptr: the limit of one logarithmic perspective map
   };
   /// Storage by number of maps.
@@ -25,6 +25,8 @@ struct StorageFigure {
     double storage;  ///< texels per screen pixel at which no texel covers more than one pixel
   };
   /// A scheme's line, by increasing number of maps; one point where the number is not to choose.
+  /// frustum_faces has a point for each number of slices (SplitOptions::face_slices) that gives another number
+  /// of maps.
   struct Line {
     Scheme scheme;              ///< that the points are of
     std::vector<Point> points;  ///< at least one

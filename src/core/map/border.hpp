@@ -5,11 +5,9 @@
 
 namespace gnomon {
 
-/// Nearest distance from a local light that its maps show, over the farthest, where the scene's boxes leave
-/// it open: nearer, depth loses its precision to the first step away from the light. At 2^-13 a float's steps
-/// are as long as texels at the far end, and rooms that hold the light inside their box have acne. What is
-/// known to be nearer is still shown, down to kLeastNearShare.
-inline constexpr double kNearShare = 0x1p-10, kLeastNearShare = 1e-7;
+/// Nearest distance from a local light that its maps show, over the farthest: what is known to be nearer than
+/// PlanOptions::light_near_share is still shown, down to this.
+inline constexpr double kLeastNearShare = kLeastLightNearShare;
 
 /// Under a local light the border of a warped map may reach no farther than where the far end's texels are
 /// this much longer again: beyond lies the warp's horizon.

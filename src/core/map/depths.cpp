@@ -178,7 +178,8 @@ HeightRange perspective_heights(const PlanContext& c, const MapRequest& request,
       frame.x * request.space.apex.x + frame.y * request.space.apex.y + frame.z * request.space.apex.z;
   HeightRange range;
   double far_distance = f.body.farthest * (1.0 + kDepthPadding);
-  const double least = kLeastNearShare * f.body.farthest, stand_in = kNearShare * f.body.farthest;
+  const double least = kLeastNearShare * f.body.farthest,
+               stand_in = c.options.light_near_share * f.body.farthest;
   const NearBoxes casters = nearest_inside(f.swept.planes(), request.body, c.bounds.casters,
                                            c.camera.position, frame.z, apex, least);
   range.has_casters = casters.too_near > 0 || casters.nearest < std::numeric_limits<double>::infinity();

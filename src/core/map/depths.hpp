@@ -32,7 +32,7 @@ struct HeightRange {
   double nearest = 0.0;      ///< local light: distance from which on the map shows casters
 };
 
-/// Distances at least kNearShare of the farthest, unless boxes are known to be nearer.
+/// Distances at least PlanOptions::light_near_share of the farthest, unless boxes are known to be nearer.
 [[nodiscard]] HeightRange height_range(const PlanContext& c, const MapRequest& request,
                                        const FittedPlane& fitted) noexcept;
 

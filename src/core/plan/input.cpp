@@ -96,6 +96,7 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
     return "options.resolution.max_size";
   if (o.cascades < 1 || o.cascades > kMaxMaps) return "options.cascades";
   if (!(o.split.lambda >= 0.0 && o.split.lambda <= 1.0)) return "options.split.lambda";
+  if (o.split.face_slices < 1 || o.split.face_slices > kMaxMaps) return "options.split.face_slices";
   if (!(o.split.overlap >= 0.0 && o.split.overlap <= 1.0)) return "options.split.overlap";
   if (!(o.resolution.max_error >= 0.0 && o.resolution.max_error <= kLargest))
     return "options.resolution.max_error";
@@ -112,6 +113,8 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
   if (!usable_planes(o)) return "options.warp.planes";
   if (o.resolution.stable_size_steps < 1 || o.resolution.stable_size_steps > 1024)
     return "options.resolution.stable_size_steps";
+  if (!(o.light_near_share >= kLeastLightNearShare && o.light_near_share <= kMostLightNearShare))
+    return "options.light_near_share";
   const CadenceOptions& cadence = o.cadence;
   if (cadence.frames < 1 || cadence.frames > kMostCadenceFrames) return "options.cadence.frames";
   if (!(cadence.largest_step >= 0.0 && cadence.largest_step <= kLargest))

@@ -114,7 +114,7 @@ void clip_towards_eye(LocalScene& scene) noexcept {
 /// lit distance; where receivers are known to be nearer, theirs.
 double nearest_shown(const LocalScene& scene, const LocalFrustum& frustum, const Polytope& body,
                      double farthest) noexcept {
-  const double stand_in = kNearShare * farthest;
+  const double stand_in = scene.c.options.light_near_share * farthest;
   const NearBoxes boxes = nearest_inside({body.plane.data(), static_cast<std::size_t>(body.face_count)}, body,
                                          scene.c.bounds.receivers, scene.c.camera.position, frustum.frame.z,
                                          frustum.apex, kLeastNearShare * farthest);

@@ -155,6 +155,10 @@ OmissionText describe(const Omission& o) noexcept {
       what("cascade %d", o.map);
       why("maps of planes serve all receivers between depths %g and %g", o.a, o.b);
       break;
+    case OmissionKind::faces_less_divided:
+      what("slices of frustum faces");
+      why("a plan has %d maps at most: a face stays at %.0f of up to %.0f slices", kMaxMaps, o.a, o.b);
+      break;
     case OmissionKind::option_ignored:
       describe_ignored(o, text);
       break;

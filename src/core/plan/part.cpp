@@ -40,9 +40,9 @@ void add_part(const PlanContext& c, const Polytope& body, Part part, Parts& part
   if (part.plane_count > 0) clip_part(part.body, c.bounds.receivers, c.camera.position);
   if (part.body.empty()) return;
   if (part.plane_count > 0) narrow_depths(c, part);
-  const double objective = focused_objective(c, request_of(part)).value;
-  parts.objective = c.options.warp.objective == Objective::storage ? parts.objective + objective
-                                                                   : max_of(parts.objective, objective);
+  part.objective = focused_objective(c, request_of(part)).value;
+  parts.objective = c.options.warp.objective == Objective::storage ? parts.objective + part.objective
+                                                                   : max_of(parts.objective, part.objective);
   parts.part[static_cast<std::size_t>(parts.count++)] = part;
 }
 

@@ -1,6 +1,5 @@
 // Divides the receivers by the faces of the camera's frustum, by a plane where warping ends, or by clusters.
-// Based on: Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006 (frustum faces);
-// Mikkelsen, "Separating-plane perspective shadow mapping", 2007.
+// Based on: Mikkelsen, "Separating-plane perspective shadow mapping", 2007.
 #include "plan/parts.hpp"
 
 #include <array>
@@ -16,61 +15,11 @@
 #include "geometry/visible.hpp"
 #include "map/gain.hpp"
 #include "plan/clusters.hpp"
+#include "plan/faces.hpp"
 #include "plan/part.hpp"
 
 namespace gnomon {
 namespace {
-
-constexpr int kFrustumFaces = 6;
-// Sine below which a face lies along the light: nothing enters by it.
-constexpr double kAlongLight = 1e-9;
-// Dividing must gain this much, or it would come and go with the last bits of the input.
-constexpr double kLeastGain = 1e-3;
-
-/// Across the light, towards where a face gets deeper: there its texels may grow.
-LightFrame frame_of_face(const PlanContext& c, const ParallelScene& scene, const Plane& face) noexcept {
-  const glm::dvec3 light_direction = -scene.space.frame.z;
-  const double facing = glm::dot(face.normal, light_direction);
-  const glm::dvec3 deeper =
-      c.axes.forward - face.normal * (glm::dot(c.axes.forward, light_direction) / facing);
-  // Faces across the view have one depth, and what is left is rounding.
-  constexpr double kLevel = 1e-6;
-  return largest_component(deeper) > kLevel ? frame_along(light_direction, deeper) : scene.space.frame;
-}
-
-/// One part for each face that the light enters the frustum by (sign 1) or leaves it by (sign -1). A point is
-/// the part of the face that a ray of light through it meets last on its way in, first on its way out: of two
-/// faces that is decided by a plane through their common edge, parallel to the light.
-Parts face_parts(const PlanContext& c, const ParallelScene& scene, const Polytope& body, double begin,
-                 double end, double sign) noexcept {
-  Parts parts;
-  const Polytope frustum = frustum_slice(c.camera, c.axes, begin, end);
-  std::array<double, kFrustumFaces> facing;
-  for (std::size_t f = 0; f < facing.size(); ++f)
-    facing[f] = -sign * glm::dot(frustum.plane[f].normal, scene.space.frame.z);
-  for (int f = 0; f < kFrustumFaces; ++f) {
-    const auto face = static_cast<std::size_t>(f);
-    if (!(facing[face] > kAlongLight)) continue;
-    Part part;
-    part.begin = begin;
-    part.end = end;
-    part.index = f;
-    part.frame = frame_of_face(c, scene, frustum.plane[face]);
-    part.warp = &scene.warp;
-    for (std::size_t other = 0; other < facing.size(); ++other) {
-      // Opposite faces, which come in pairs, share no edge.
-      if (other / 2 == face / 2 || !(facing[other] > kAlongLight)) continue;
-      const glm::dvec3 normal =
-          frustum.plane[other].normal * facing[face] - frustum.plane[face].normal * facing[other];
-      const double offset =
-          frustum.plane[other].offset * facing[face] - frustum.plane[face].offset * facing[other];
-      const double length = glm::length(normal);
-      part.plane[static_cast<std::size_t>(part.plane_count++)] = {normal / length, offset / length};
-    }
-    add_part(c, body, part, parts);
-  }
-  return parts;
-}
 
 /// A body parted by a plane across the direction that its warp grows in.
 struct Separation {
@@ -216,10 +165,7 @@ Parts divided(const PlanContext& c, const ParallelScene& scene, const Polytope& 
   if (c.camera.orthographic) return {};
   if (c.options.split.partition == Partition::separating_plane)
     return separated_parts(c, scene, body, begin, end);
-  Parts entered = face_parts(c, scene, body, begin, end, 1.0);
-  const Parts left = face_parts(c, scene, body, begin, end, -1.0);
-  const bool leaves_better = left.count > 0 && (entered.count == 0 || left.objective < entered.objective);
-  return leaves_better ? left : entered;
+  return frustum_faces(c, scene, body, begin, end);
 }
 
 void plan_part(const PlanContext& c, const Part& part, ShadowPlan& plan) noexcept {
@@ -269,6 +215,10 @@ void plan_parts(const PlanContext& c, const ParallelScene& scene, ShadowPlan& pl
   if (!gains) {
     const double ratio = parts.count > 1 ? parts.objective / whole.objective : 1.0;
     omit(plan, {OmissionKind::partition_without_gain, -1, ratio, 0.0, 0});
+  }
+  if (gains && parts.most_maps) {
+    const double fewest = parts.fewest_slices, asked = c.options.split.face_slices;
+    omit(plan, {OmissionKind::faces_less_divided, -1, fewest, asked, 0});
   }
   plan.select_by_map = gains;
   const Parts& chosen = gains ? parts : whole;

@@ -53,11 +53,14 @@ StorageFigure::Line storage_line(const StorageFigure::Scheme& scheme, const View
   PlanOptions options = plain_options(scheme.warp);
   options.split.scheme = SplitScheme::logarithmic;
   options.split.partition = scheme.partition;
-  // Other partitions choose the number themselves.
-  const int most = scheme.partition == Partition::view_depth ? kMaxMaps : 1;
-  for (int maps = 1; maps <= most; ++maps) {
-    options.cascades = maps;
+  // A separating plane parts two maps.
+  const int most = scheme.partition == Partition::separating_plane ? 1 : kMaxMaps;
+  for (int count = 1; count <= most; ++count) {
+    // Cascades, or slices of each face.
+    options.cascades = options.split.face_slices = count;
     const ShadowPlan plan = make_plan(view.camera, light, view.bounds(), options);
+    // More slices than maps change nothing.
+    if (count > 1 && plan.map_count == line.points.back().maps) break;
     line.points.push_back({plan.map_count, measure(plan, view.camera, view.bounds()).storage});
   }
   return line;

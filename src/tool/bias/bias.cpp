@@ -21,6 +21,7 @@
 #include "offscreen_context.hpp"
 #include "output.hpp"
 #include "picture_words.hpp"
+#include "plan_option.hpp"
 #include "scene_words.hpp"
 
 namespace gnomon::tool {
@@ -45,6 +46,7 @@ struct BiasRequest {
   std::vector<std::string> scenes, layers{"all"}, biases{"all"};
   std::string filter = "hard", warp = "none", light = "sun", size = "480x270", context = "auto", out;
   int map_size = 1024, cascades = 1;
+  PlanOptions plan;  // its light_near_share alone
   LightPlacement sun;
   bool json = false;
 };
@@ -83,7 +85,8 @@ Sweep sweep_of(const BiasRequest& request) {
   compared.light = request.light;
   compared.sun = request.sun;
   Sweep sweep = make_sweep(compared);
-  for (const SweepEntry& entry : sweep.entries) {
+  for (SweepEntry& entry : sweep.entries) {
+    entry.plan.light_near_share = request.plan.light_near_share;
     if (entry.irregular())
       throw std::runtime_error("--filter " + request.filter + ": compares no depths, and knows no bias");
   }
@@ -251,7 +254,8 @@ std::vector<Option> map_options(BiasRequest& request) {
           {.name = "--map-size",
            .target = &request.map_size,
            .help = "texels along each side of a map",
-           .range = {{64, 16384}}}};
+           .range = {{64, 16384}}},
+          plan_option("light_near_share", request.plan)};
 }
 
 }  // namespace

@@ -142,6 +142,22 @@ std::vector<std::string> with_shapes(const std::vector<std::string>& warps,
   return both;
 }
 
+/// Takes `:slices=K` off a split's word, where it has one.
+std::optional<int> face_slices(const std::string& text, std::string& name) {
+  constexpr std::string_view kSlices = ":slices=";
+  const std::size_t at = name.find(kSlices);
+  if (at == std::string::npos) return std::nullopt;
+  const std::size_t begin = at + kSlices.size(), end = std::min(name.find(':', begin), name.size());
+  int count = 0;
+  const auto [rest, error] = std::from_chars(name.data() + begin, name.data() + end, count);
+  const bool whole = error == std::errc() && rest == name.data() + end;
+  if (!whole || count < 1 || count > kMaxMaps)
+    throw std::runtime_error("--splits " + text + ": slices must be a whole number from 1 to " +
+                             std::to_string(kMaxMaps));
+  name.erase(at, end - at);
+  return count;
+}
+
 void set_split(const std::string& text, SweepEntry& entry) {
   entry.technique.split = text;
   std::string name = text;
@@ -159,7 +175,11 @@ void set_split(const std::string& text, SweepEntry& entry) {
   // Set before: a shape that follows what is seen needs it.
   const bool follows_seen = entry.plan.warp.shape != nullptr && entry.plan.warp.shape->serving != nullptr;
   entry.visible_points = has_suffix(":visible_points") || follows_seen;
+  const std::optional<int> slices = face_slices(text, name);
   const bool is_partition = partition_from_name(name, entry.plan.split.partition);
+  if (slices && (!is_partition || entry.plan.split.partition != Partition::frustum_faces))
+    throw std::runtime_error("--splits " + text + ": only frustum_faces has slices");
+  entry.plan.split.face_slices = slices.value_or(1);
   if (!split_scheme_from_name(name, entry.plan.split.scheme) && (!is_partition || name == "view_depth"))
     refuse_name("--splits", text, split_names());
 }
@@ -426,7 +446,8 @@ std::string compare_footer() {
          "shadow mask with exact rays.\n\n"
          "Warps: " +
          any_of_text(names_in(all_warps(), {"auto"})) + ".\nSplits: " + any_of_text(split_names()) +
-         ", each with :finest, :visible_depths, :coarse_depths or :visible_points behind it" +
+         ", each with :finest, :visible_depths, :coarse_depths or :visible_points behind it, and "
+         "frustum_faces with :slices=K for up to K maps along each side face" +
          ".\nPages: " + any_of_text(names_in(all_page_policies())) +
          ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "
          "that reads depths in texels; the others are named and skipped. docs/pages.md explains them." +

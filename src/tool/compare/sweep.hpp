@@ -102,7 +102,7 @@ std::vector<std::string> fit_to_memory(Sweep& sweep);
 
 /// Schemes and partitions that --splits takes. Behind each may follow `:finest` (MapSelection),
 /// `:visible_depths` and `:visible_points` (what the frame shows is given to the plan), or `:coarse_depths`
-/// (what a coarse pass on the CPU finds).
+/// (what a coarse pass on the CPU finds); behind frustum_faces `:slices=K` (SplitOptions::face_slices).
 [[nodiscard]] std::vector<std::string> split_names();
 
 /// Elements of lists with commas; an element of the form `key=value` without a colon belongs to the one

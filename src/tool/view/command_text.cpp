@@ -59,11 +59,14 @@ void add_settings(const Settings& settings, std::string& text) {
   if (const std::string rest = unspoken_options(settings.plan); !rest.empty())
     text += " --options " + quoted(rest);
   add_pages(settings.pages, text);
-  text += " --filter " + quoted(render::to_string(settings.filter));
+  text += " --filter " + quoted(filter_text(settings));
   if (settings.transition != render::SplitTransition::cut)
     text += " --transition " + std::string(transition_names()[static_cast<std::size_t>(settings.transition)]);
   if (settings.layer != render::DepthLayer::front)
     text += " --layer " + std::string(render::info_of(settings.layer).name);
+  if (settings.linear_depth) text += " --linear-depth";
+  if (settings.map_passes != render::MapPasses::automatic)
+    text += " --map-passes " + map_passes_names()[static_cast<std::size_t>(settings.map_passes)];
   if (settings.history) text += " --history";
   if (settings.visible_depths) text += " --visible-depths";
 }

@@ -137,7 +137,10 @@ void setting_keys(App& app, const Presses& pressed) {
   int& cascades = settings.plan.cascades;
   int& size = settings.plan.resolution.max_size;
   if (pressed(GLFW_KEY_V)) next_warp(settings.plan, step);
-  if (pressed(GLFW_KEY_F)) next_filter(settings.filter, render::all_filters(), step);
+  if (pressed(GLFW_KEY_F)) {
+    next_filter(settings.filter, render::all_filters(), step);
+    settings.identifiers.reset();
+  }
   if (pressed(GLFW_KEY_G)) next_policy(settings.pages, step);
   if (pressed(GLFW_KEY_T)) settings.plan.fit = settings.plan.fit == Fit::stable ? Fit::tight : Fit::stable;
   if (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD)) cascades = std::min(cascades + 1, kMaxMaps);

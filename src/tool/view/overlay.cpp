@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app.hpp"
+#include "identifier_word.hpp"
 #include "widgets.hpp"
 
 namespace gnomon::tool::view {
@@ -24,7 +25,9 @@ ImVec2 in_window(const App& app, const glm::dvec2& pixel) {
 std::string waiting_text(const App& app) {
   if (app.loading.valid())
     return fmt::format("loading {} ... {:.1f} s", app.loading_name, ImGui::GetTime() - app.loading_since);
-  if (app.compiling) return fmt::format("compiling {} ...", app.state.a.filter.filter->info.name);
+  if (app.compiling)
+    return fmt::format("compiling {} ...",
+                       app.state.a.identifiers ? kIdentifiers : app.state.a.filter.filter->info.name);
   if (app.stage == nullptr) return "compiling shaders ...";
   if (const auto progress = app.stage->truth_progress(); progress && (*progress)[0] < (*progress)[1]) {
     return app.stage->tracer() == nullptr

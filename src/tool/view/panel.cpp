@@ -12,6 +12,7 @@
 #include "app.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/scene/load.hpp"
+#include "identifier_word.hpp"
 #include "picture_words.hpp"
 #include "widgets.hpp"
 
@@ -224,6 +225,12 @@ void maps_tab(App& app) {
     int layer = static_cast<int>(settings.layer);
     if (choose("layer", layer, layer_names())) settings.layer = static_cast<render::DepthLayer>(layer);
     tooltip("the depth that the maps store: the first surface, the back, the second, or what lies between");
+    ImGui::Checkbox("linear_depth", &settings.linear_depth);
+    tooltip("stored depths grow evenly along the light: for maps that begin close to a local light");
+    int passes = static_cast<int>(settings.map_passes);
+    if (choose("map_passes", passes, map_passes_names()))
+      settings.map_passes = static_cast<render::MapPasses>(passes);
+    tooltip("one pass for each map, or one layered pass for all of one size; the depths are the same");
     ImGui::Checkbox("history", &settings.history);
     tooltip("texel density changes smoothly from frame to frame");
     ImGui::Checkbox("visible_depths", &settings.visible_depths);
@@ -231,6 +238,24 @@ void maps_tab(App& app) {
   }
   ImGui::PopItemWidth();
   ImGui::EndChild();
+}
+
+/// What reads the maps: identifiers, or else the filter.
+void edit_reader(Settings& settings) {
+  int at = static_cast<int>(identifier_index(settings.identifiers));
+  int neighbours = settings.identifiers ? settings.identifiers->neighbours : 0;
+  if (choose("identifiers", at, identifier_names(),
+             {"the filter reads depths", "lit is what belongs to the instance that its texel names: no bias",
+              "lit is what belongs to the triangle that its texel names"}))
+    settings.identifiers = identifier_test(static_cast<std::size_t>(at), neighbours);
+  tooltip("shadows by who is nearest to the light, in place of how near; docs/bias.md");
+  ImGui::Separator();
+  if (!settings.identifiers) return edit_filter(settings.filter);
+  ImGui::SliderInt("neighbours", &neighbours, 0, render::kMostIdentifierNeighbours, "%d",
+                   ImGuiSliderFlags_AlwaysClamp);
+  settings.identifiers->neighbours = neighbours;
+  tooltip("texels to either side that count as well: less false shadow, smaller shadows");
+  ImGui::TextWrapped("No filter reads the maps. Only the normal offset of the bias has an effect.");
 }
 
 void figure_row(const char* name, const char* help, const std::string& a, const std::string& b) {
@@ -435,7 +460,7 @@ void tabs(App& app) {
                                                                    maps_tab,
                                                                    [](App& a) {
                                                                      side_row(a);
-                                                                     edit_filter(edited(a).filter);
+                                                                     edit_reader(edited(a));
                                                                    },
                                                                    compare_tab,
                                                                    curves_and_results,

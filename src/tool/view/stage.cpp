@@ -14,6 +14,7 @@
 #include "gnomon/render/probe.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/scene/translucent.hpp"
+#include "identifier_word.hpp"
 #include "level_picture.hpp"
 #include "lines.hpp"
 #include "page_aliasing.hpp"
@@ -30,6 +31,8 @@ render::FrameOptions frame_options(const State& state, const Settings& settings,
   render::FrameOptions frame;
   frame.transition = settings.transition;
   frame.depth_layer = settings.layer;
+  frame.linear_depth = settings.linear_depth;
+  frame.map_passes = settings.map_passes;
   frame.light = &light;
   frame.prune = settings.plan.prune;
   frame.aliasing = frame.heat_map = state.view == View::heat;
@@ -48,20 +51,29 @@ VisibleDepths visible_depths(render::Renderer& renderer, const Camera& camera) {
   return depths;
 }
 
+/// What a page does not hold, and why; empty: pages can have the settings.
+std::string refusal_of_pages(const Settings& settings) {
+  if (settings.identifiers)
+    return fmt::format("no pages with {}: they number what whole maps see", kIdentifiers);
+  if (settings.linear_depth) return "no pages with linear_depth: pages store depths divided by w";
+  return {};
+}
+
 /// Refuses maps that memory does not take, before a driver is asked for them. Empty: they fit.
-std::string memory_refusal(const PlanOptions& plan, const render::FilterSettings& filter) {
+std::string memory_refusal(const PlanOptions& plan, const Settings& settings) {
   constexpr double kSurelyThere = 256.0 * 1024 * 1024;
   const int maps = plan.cascades, size = plan.resolution.max_size;
-  const double bytes = 1.0 * size * size * maps * render::bytes_per_texel(filter);
-  if (bytes <= kSurelyThere) return {};
-  const render::FittingMaps fitting = render::largest_maps(size, maps, render::bytes_per_texel(filter), 0.0);
+  constexpr double kDepthAndNumber = 8.0;
+  const double texel = settings.identifiers ? kDepthAndNumber : render::bytes_per_texel(settings.filter);
+  if (1.0 * size * size * maps * texel <= kSurelyThere) return {};
+  const render::FittingMaps fitting = render::largest_maps(size, maps, texel, 0.0);
   if (fitting.size >= size) return {};
   return fmt::format("map_size {}: {} such maps do not fit ({})", size, maps, fitting.why);
 }
 
 /// The name of what a side compiles.
-std::string program_text(const render::FilterSettings& filter, bool by_pages) {
-  return (by_pages ? "pages " : "") + render::to_string(filter);
+std::string program_text(const Settings& settings) {
+  return (settings.pages.on() ? "pages " : "") + filter_text(settings);
 }
 
 }  // namespace
@@ -104,12 +116,12 @@ void Stage::cut() noexcept {
 }
 
 bool Stage::is_compiled(const Settings& settings) const {
-  return std::find(compiled_.begin(), compiled_.end(), program_text(settings.filter, settings.pages.on())) !=
-         compiled_.end();
+  return std::find(compiled_.begin(), compiled_.end(), program_text(settings)) != compiled_.end();
 }
 
 render::PreparedFilter Stage::prepare(const Settings& settings) {
-  if (!is_compiled(settings)) compiled_.push_back(program_text(settings.filter, settings.pages.on()));
+  if (!is_compiled(settings)) compiled_.push_back(program_text(settings));
+  if (settings.identifiers) return renderer_.prepare_identifiers(*settings.identifiers);
   return settings.pages.on() ? renderer_.prepare_pages(settings.filter) : renderer_.prepare(settings.filter);
 }
 
@@ -141,6 +153,8 @@ double Stage::time_frame(const State& state, Timed what) {
     options.resolution.max_size = state.a.plan.resolution.max_size;
     options.prune = options.prune.without(PruneRule::metric_resolution);
     frame.depth_layer = render::DepthLayer::front;
+    frame.linear_depth = false;
+    frame.map_passes = render::MapPasses::automatic;
     const auto begin = Clock::now();
     const ShadowPlan plan = make_plan(camera_, light_, {posed_.boxes(), posed_.boxes()}, options);
     plan_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -163,6 +177,7 @@ std::string Stage::plan_side(const Settings& settings, const Camera& planned, co
     const LightKind kind = std::holds_alternative<PointLight>(light)  ? LightKind::point
                            : std::holds_alternative<SpotLight>(light) ? LightKind::spot
                                                                       : LightKind::sun;
+    if (std::string refusal = refusal_of_pages(settings); !refusal.empty()) return refusal;
     if (std::string refusal = page_refusal(settings.pages, settings.filter, options, kind); !refusal.empty())
       return refusal;
     if (surfaces == nullptr)
@@ -174,7 +189,7 @@ std::string Stage::plan_side(const Settings& settings, const Camera& planned, co
     const PagePlan& plan = side.pages->plan();
     return plan.status == PlanStatus::invalid_input ? invalid_input_text(plan.invalid_field) : std::string();
   }
-  if (std::string refusal = memory_refusal(options, settings.filter); !refusal.empty()) return refusal;
+  if (std::string refusal = memory_refusal(options, settings); !refusal.empty()) return refusal;
   const VisibleDepths depths = settings.visible_depths ? visible_depths(renderer_, planned) : VisibleDepths{};
   const VisibleDepths* seen = settings.visible_depths ? &depths : nullptr;
   const auto begin = Clock::now();
@@ -386,7 +401,7 @@ std::string side_text(const char* name, const Settings& settings, const Side& si
                        settings.pages.policy->name, render::to_string(settings.filter));
   std::string text =
       fmt::format("{}: {} map{} of {}, {}", name, side.plan.map_count, side.plan.map_count == 1 ? "" : "s",
-                  settings.plan.resolution.max_size, render::to_string(settings.filter));
+                  settings.plan.resolution.max_size, filter_text(settings));
   if (side.plan.map_count > 0) text += fmt::format(", warp {}", side.plan.map[0].warp->name);
   return text;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "identifier_word.hpp"
 #include "plan_option.hpp"
 
 namespace gnomon::tool::view {
@@ -112,9 +113,15 @@ Camera camera_of(const State& state, const std::optional<CameraKey>& key, const 
   return camera;
 }
 
+std::string filter_text(const Settings& settings) {
+  return settings.identifiers ? to_string(*settings.identifiers) : render::to_string(settings.filter);
+}
+
 PlanOptions plan_options_of(const Settings& settings) noexcept {
   PlanOptions options = settings.plan;
-  render::set_margin(settings.filter, options);
+  // Identifiers read one texel, as hard shadows do.
+  render::set_margin(settings.identifiers ? render::default_settings(render::filters::hard) : settings.filter,
+                     options);
   return options;
 }
 

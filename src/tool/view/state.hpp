@@ -50,7 +50,10 @@ struct Settings {
   PageSetting pages;  ///< in place of maps; off by default
   render::FilterSettings filter = render::default_settings(render::filters::pcf);
   render::SplitTransition transition = render::SplitTransition::cut;
+  std::optional<render::IdentifierTest> identifiers;     ///< in place of the filter; none: off
   render::DepthLayer layer = render::DepthLayer::front;  ///< that the maps store
+  bool linear_depth = false;                             ///< the maps' depths grow evenly along the light
+  render::MapPasses map_passes = render::MapPasses::automatic;
   bool history = false;         ///< texel density changes smoothly from frame to frame
   bool visible_depths = false;  ///< each frame is drawn twice, the second for the depths that the first shows
 };
@@ -124,6 +127,8 @@ void turn_sun(State& state, double seconds) noexcept;
 /// The camera of a state; `key`: State::eye or State::frozen.
 [[nodiscard]] Camera camera_of(const State& state, const std::optional<CameraKey>& key,
                                const CameraPath& scenes, int width, int height);
+/// The filter that reads the maps, or the identifiers, as a command line has them.
+[[nodiscard]] std::string filter_text(const Settings& settings);
 /// The plan's options with the border that the filter needs.
 [[nodiscard]] PlanOptions plan_options_of(const Settings& settings) noexcept;
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "gnomon/casefile/casefile.hpp"
+#include "identifier_word.hpp"
 #include "nearest_name.hpp"
 #include "option_words.hpp"
 #include "picture_words.hpp"
@@ -94,7 +95,11 @@ Json settings_json(const Settings& settings) {
           {"pages", pages_json(settings.pages)},
           {"filter", render::to_string(settings.filter)},
           {"transition", transition_names()[static_cast<std::size_t>(settings.transition)]},
+          {"identifiers", identifier_names()[identifier_index(settings.identifiers)]},
+          {"identifier_neighbours", settings.identifiers ? settings.identifiers->neighbours : 0},
           {"layer", render::info_of(settings.layer).name},
+          {"linear_depth", settings.linear_depth},
+          {"map_passes", map_passes_names()[static_cast<std::size_t>(settings.map_passes)]},
           {"history", settings.history},
           {"visible_depths", settings.visible_depths}};
 }
@@ -219,6 +224,16 @@ std::vector<CameraKey> read_keys(Reader& from, const char* key) {
   return keys;
 }
 
+std::optional<render::IdentifierTest> read_identifiers(Reader& reader) {
+  std::size_t of = 0;  // off
+  reader.read_name("identifiers", of, identifier_names());
+  double neighbours = 0.0;
+  reader.read("identifier_neighbours", neighbours, 0, render::kMostIdentifierNeighbours);
+  if (neighbours != std::floor(neighbours))
+    reader.refuse("identifier_neighbours", fmt::format("{:g} is not a whole number", neighbours));
+  return identifier_test(of, static_cast<int>(neighbours));
+}
+
 PageSetting read_pages(const Json& json, const std::string& path) {
   Reader reader(json, path);
   PageSetting pages;
@@ -256,7 +271,10 @@ Settings read_settings(const Json& json, const std::string& path) {
     settings.filter = parsed.settings;
   }
   reader.read_name("transition", settings.transition, transition_names());
+  settings.identifiers = read_identifiers(reader);
   reader.read_name("layer", settings.layer, layer_names());
+  reader.read("linear_depth", settings.linear_depth);
+  reader.read_name("map_passes", settings.map_passes, map_passes_names());
   reader.read("history", settings.history);
   reader.read("visible_depths", settings.visible_depths);
   reader.done();

@@ -58,17 +58,15 @@ Settings settings_of(const report::Technique& technique, LightKind light) {
   SweepEntry entry = sweep_entry(technique);
   if (entry.irregular())
     throw std::runtime_error(technique.filter + ": lists of pixels are drawn by gnomon compare alone");
-  if (entry.identifiers)
-    throw std::runtime_error(technique.filter + ": identifiers are drawn by gnomon compare alone");
-  if (entry.linear_depth)
-    throw std::runtime_error(technique.layer + ": linear depths are drawn by gnomon compare alone");
   if (entry.visible_points)
     throw std::runtime_error(technique.split + ": visible points are planned for by gnomon compare alone");
   Settings settings;
   settings.plan = entry.plan;
   settings.plan.filter = PlanOptions().filter;  // the viewer adds the filter's border itself
   settings.filter = entry.filter;
+  settings.identifiers = entry.identifiers;
   settings.layer = entry.layer;
+  settings.linear_depth = entry.linear_depth;
   settings.visible_depths = entry.visible_depths;
   if (entry.by_pages())
     settings.pages = {entry.pages.policy, entry.pages.page_texels,

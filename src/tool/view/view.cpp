@@ -13,6 +13,7 @@
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
+#include "identifier_word.hpp"
 #include "offscreen_context.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -31,7 +32,7 @@ struct Request {
   Options options;
   std::string state, size = "1280x720", context = "auto", filter = "pcf", plan_json, out, screenshot, tour,
                      benchmark, eye, target, path, light = "sun", light_position, light_direction,
-                     transition = "cut", layer = "front", view = "lit", pages = "off";
+                     transition = "cut", layer = "front", map_passes = "auto", view = "lit", pages = "off";
   double light_outer_deg = 0.0, light_range = 0.0;
   /// Options that set a part of the state, and whether each is given; on the heap, as their addresses are
   /// kept.
@@ -180,10 +181,12 @@ Options resolved(const Request& request) {
   if (!request.state.empty()) return options;
   State& state = options.state;
   resolve_plan(request, state.a.plan);
-  state.a.filter = filter_word("--filter", request.filter);
+  state.a.identifiers = identifier_test(request.filter, "--filter");
+  if (!state.a.identifiers) state.a.filter = filter_word("--filter", request.filter);
   resolve_pages(request.pages, state.a.pages);
   state.a.transition = transition_from_name(request.transition);
   state.a.layer = layer_from_name(request.layer);
+  state.a.map_passes = map_passes_from_name(request.map_passes);
   // A warped grid is only stable from frame to frame.
   if (state.a.plan.fit == Fit::warped_stable) state.a.history = true;
   state.b = state.a;
@@ -264,7 +267,8 @@ std::vector<Option> setting_options(Request& request) {
        .word = "JSON"},
       {.name = "--filter",
        .target = &request.filter,
-       .help = "shadow filter, with options as in pcf:radius=2,unit=texels; gnomon filters lists all",
+       .help = "shadow filter, with options as in pcf:radius=2,unit=texels; gnomon filters lists all; or "
+               "identifiers, as in identifiers:of=triangle,neighbours=1",
        .names = names_in(render::all_filters()),
        .only_names = false},
       {.name = "--transition",
@@ -272,6 +276,10 @@ std::vector<Option> setting_options(Request& request) {
        .help = "transition between cascades, over --split-overlap",
        .names = transition_names()},
       layer_option(request.layer),
+      {.name = "--linear-depth",
+       .target = &state.a.linear_depth,
+       .help = "store depths that grow evenly along the light; docs/bias.md says when they pay"},
+      map_passes_option(request.map_passes),
       {.name = "--history",
        .target = &state.a.history,
        .help = "change texel density smoothly from frame to frame"},

@@ -21,8 +21,12 @@ bool edit_double(const char* label, double& value, double speed, double least, d
                  const char* format = "%.4g") {
   const double before = value;
   const bool bounded = least < most;
+  // What spans decades is set by its ratio.
+  constexpr double kDecades = 1e4;
+  const ImGuiSliderFlags scale =
+      least > 0.0 && most > kDecades * least ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
   const bool changed = bounded ? ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &least, &most,
-                                                     format, ImGuiSliderFlags_AlwaysClamp)
+                                                     format, ImGuiSliderFlags_AlwaysClamp | scale)
                                : ImGui::DragScalar(label, ImGuiDataType_Double, &value,
                                                    static_cast<float>(speed), nullptr, nullptr, format);
   if (!std::isfinite(value)) value = before;

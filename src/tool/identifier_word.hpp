@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gnomon/render/renderer.hpp"
 
@@ -16,8 +17,9 @@ namespace gnomon::tool {
 inline constexpr std::string_view kIdentifiers = "identifiers";
 
 /// The test that `identifiers:of=triangle,neighbours=1` says; none for other words. Throws std::runtime_error
-/// where an option is none.
-[[nodiscard]] inline std::optional<render::IdentifierTest> identifier_test(const std::string& text) {
+/// that names the command's option where an option of the word is none.
+[[nodiscard]] inline std::optional<render::IdentifierTest> identifier_test(
+    const std::string& text, std::string_view option_name = "--filters") {
   const std::size_t colon = text.find(':');
   if (text.substr(0, colon) != kIdentifiers) return std::nullopt;
   render::IdentifierTest test;
@@ -37,10 +39,35 @@ inline constexpr std::string_view kIdentifiers = "identifiers";
   }
   if (!known)
     throw std::runtime_error(
-        "--filters " + text +
+        std::string(option_name) + " " + text +
         ": wants identifiers, with of=instance or of=triangle and neighbours=N, N from 0 to " +
         std::to_string(render::kMostIdentifierNeighbours));
   return test;
+}
+
+/// What shadows go by in place of depths, by identifier_index(): nothing, or an IdentifierOf.
+[[nodiscard]] inline std::vector<std::string> identifier_names() {
+  return {"off", "instance", "triangle"};
+}
+[[nodiscard]] inline std::size_t identifier_index(
+    const std::optional<render::IdentifierTest>& test) noexcept {
+  return test ? 1 + static_cast<std::size_t>(test->of) : 0;
+}
+/// The test of a name's index.
+[[nodiscard]] inline std::optional<render::IdentifierTest> identifier_test(std::size_t index,
+                                                                           int neighbours) {
+  if (index == 0) return std::nullopt;
+  return render::IdentifierTest{static_cast<render::IdentifierOf>(index - 1), neighbours};
+}
+
+/// The word that identifier_test() reads back to the same test.
+[[nodiscard]] inline std::string to_string(const render::IdentifierTest& test) {
+  std::string text(kIdentifiers);
+  if (test.of == render::IdentifierOf::triangle) text += ":of=triangle";
+  if (test.neighbours > 0)
+    text += (test.of == render::IdentifierOf::triangle ? ",neighbours=" : ":neighbours=") +
+            std::to_string(test.neighbours);
+  return text;
 }
 
 }  // namespace gnomon::tool
