@@ -52,7 +52,7 @@ void main() {
   vec4 h = map.clip_from_point * vec4(s.position, 1.0);
   vec2 texel = shaped_point(map.shape, map.interval_size.zw, h.xy / h.w).texel;
   if (any(lessThan(texel, drawn[index].xy + 0.5)) || any(greaterThan(texel, drawn[index].zw - 0.5))) return;
-  vec3 at = vec3(texel / frame.layer.xy, layer_of_map(index));
+  vec3 at = vec3(texel / vec2(textureSize(pane_absorbance, 0).xy), layer_of_map(index));
   vec3 absorbed = textureLod(pane_absorbance, at, 0.0).rgb;
   vec4 places = textureLod(pane_places, at, 0.0);
   const float kNothing = 1e-6;

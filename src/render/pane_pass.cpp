@@ -17,7 +17,9 @@ namespace {
 
 // Bindings and locations as the shaders state them.
 constexpr GLuint kColorImageUnit = 3, kMomentsUnit = 3, kPlacesUnit = 5, kAbsorbanceUnit = 7;
-constexpr GLint kBaseColor = 1, kAlphaCutoff = 2, kClip = 3, kLook = 4, kLight = 5, kRange = 6, kDrawn = 7;
+constexpr GLint kBaseColor = 1, kAlphaCutoff = 2, kClip = 3, kLook = 4, kLight = 5, kRange = 6, kDrawn = 7,
+                kMap = 3, kSamples = 6;
+constexpr GLuint kAbsorbedBinding = 2;
 
 Texture sums(GLenum format, const glm::ivec2& size, int layers) {
   Texture texture = make_texture(GL_TEXTURE_2D_ARRAY);
@@ -27,6 +29,12 @@ Texture sums(GLenum format, const glm::ivec2& size, int layers) {
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
     glTextureParameteri(texture.name(), wrap, GL_CLAMP_TO_EDGE);
   return texture;
+}
+
+glm::ivec2 largest_of(const ShadowPlan& plan) noexcept {
+  glm::ivec2 size(1);
+  for (const ShadowMap& map : plan.maps()) size = glm::max(size, glm::ivec2(map.width, map.height));
+  return size;
 }
 
 /// Corners of a box.
@@ -54,19 +62,28 @@ PanePass::PanePass(const Scene& panes)
   glNamedFramebufferDrawBuffers(map_fbo_.name(), 3, kAll.data());
 }
 
+PanePass::Listed::Listed()
+    : sums(make_geometry_program("irregular.vert", "irregular.geom", "irregular_pane.frag")),
+      transmittance(make_program("fullscreen.vert", "transmittance_listed.frag")) {}
+
+void PanePass::prepare_listed() {
+  if (!listed_) listed_.emplace();
+}
+
 std::uint64_t PanePass::bytes() const noexcept {
   constexpr std::uint64_t kTexelBytes = 40;
-  return kTexelBytes * static_cast<std::uint64_t>(layer_size_.x) * static_cast<std::uint64_t>(layer_size_.y) *
+  const std::uint64_t listed = listed_ ? listed_->bytes : 0;
+  return listed + kTexelBytes * static_cast<std::uint64_t>(layer_size_.x) * static_cast<std::uint64_t>(layer_size_.y) *
          static_cast<std::uint64_t>(layers_);
 }
 
 void PanePass::fit(const glm::ivec2& layer_size, int layers) {
-  if (layer_size == layer_size_ && layers <= layers_) return;
-  layer_size_ = layer_size;
-  layers_ = layers;
-  absorbance_ = sums(GL_RGBA16F, layer_size, layers);
-  moments_ = sums(GL_RGBA32F, layer_size, layers);
-  places_ = sums(GL_RGBA32F, layer_size, layers);
+  if (glm::max(layer_size, layer_size_) == layer_size_ && layers <= layers_) return;
+  layer_size_ = glm::max(layer_size, layer_size_);
+  layers_ = std::max(layers, layers_);
+  absorbance_ = sums(GL_RGBA16F, layer_size_, layers_);
+  moments_ = sums(GL_RGBA32F, layer_size_, layers_);
+  places_ = sums(GL_RGBA32F, layer_size_, layers_);
 }
 
 void PanePass::resize(int width, int height) {
@@ -123,8 +140,7 @@ void PanePass::set_light(const ShadowMap& map, const glm::dvec3& origin_world) c
   glUniform2f(kRange, static_cast<float>(low - room), static_cast<float>(high + room));
 }
 
-void PanePass::draw_all(GLint matrix_location, const glm::mat4& clip_from_position) const noexcept {
-  glUniformMatrix4fv(matrix_location, 1, GL_FALSE, &clip_from_position[0][0]);
+void PanePass::draw_all() const noexcept {
   const std::span<const std::uint32_t> order = panes_.order();
   for (const Batch& batch : panes_.batches()) {
     glBindTextureUnit(kColorImageUnit, batch.texture);
@@ -142,10 +158,10 @@ void PanePass::draw_all(GLint matrix_location, const glm::mat4& clip_from_positi
   glBindSampler(kColorImageUnit, 0);
 }
 
-void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const glm::ivec2& layer_size) {
+void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn) {
   drawn_.fill(glm::vec4(0.0f));
   if (plan.map_count == 0) return;
-  fit(layer_size, plan.map_count);
+  fit(largest_of(plan), plan.map_count);
   light_world_ = plan.map[0].light_world;
   panes_.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
   panes_.use(SceneBuffers::Placed::for_maps);
@@ -174,11 +190,42 @@ void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const g
     glScissor(rect.low.x, rect.low.y, rect.high.x - rect.low.x, rect.high.y - rect.low.y);
     for (const GLint target : {0, 1, 2})
       glClearNamedFramebufferfv(map_fbo_.name(), GL_COLOR, target, kNothing.data());
-    draw_all(kClip, map.clip_from_position);
+    glUniformMatrix4fv(kClip, 1, GL_FALSE, &map.clip_from_position[0][0]);
+    draw_all();
   }
   glDisable(GL_DEPTH_CLAMP);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
+}
+
+void PanePass::draw_listed(const ShadowPlan& plan, const glm::dvec3& camera_world, const PixelLists& lists) {
+  const std::uint64_t bytes = 3 * sizeof(std::uint32_t) * lists.entries();
+  if (bytes != listed_->bytes) {
+    listed_->absorbed = make_buffer();
+    glNamedBufferStorage(listed_->absorbed.name(), static_cast<GLsizeiptr>(bytes), nullptr, 0);
+    listed_->bytes = bytes;
+  }
+  constexpr GLuint kNothing = 0;
+  glClearNamedBufferData(listed_->absorbed.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &kNothing);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kAbsorbedBinding, listed_->absorbed.name());
+  panes_.place(SceneBuffers::Placed::for_camera, camera_world);
+  panes_.use(SceneBuffers::Placed::for_camera);
+  glBindVertexArray(panes_.vertex_array());
+  glUseProgram(listed_->sums.name());
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_SCISSOR_TEST);
+  const DrawnMaps seen = drawn_maps(plan, camera_world, panes_.origin_step());
+  for (int i = 0; i < plan.map_count; ++i) {
+    const DrawnMap& map = seen.map[static_cast<std::size_t>(i)];
+    if (!map.bent && reached(map, seen.origin_world).empty()) continue;
+    glViewport(0, 0, map.width, map.height);
+    glUniform1i(kMap, i);
+    draw_all();
+  }
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glUseProgram(listed_->transmittance.name());
+  glUniform1i(kSamples, lists.samples());
 }
 
 void PanePass::bind_maps(const glm::dvec3& camera_world) noexcept {
@@ -212,7 +259,8 @@ void PanePass::draw_over(const FrameTargets& targets, const glm::mat4& clip_from
   glEnable(GL_FRAMEBUFFER_SRGB);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ZERO, GL_SRC_COLOR);
-  draw_all(kClip, clip_from_camera_relative);
+  glUniformMatrix4fv(kClip, 1, GL_FALSE, &clip_from_camera_relative[0][0]);
+  draw_all();
   glDisable(GL_BLEND);
   glDisable(GL_FRAMEBUFFER_SRGB);
   glDepthMask(GL_TRUE);

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "drawn_maps.hpp"
 #include "gl_object.hpp"
 #include "gnomon/plan.hpp"
+#include "pixel_lists.hpp"
 #include "scene_buffers.hpp"
 #include "target.hpp"
 
@@ -17,9 +19,14 @@ class PanePass {
   /// Throws RenderError.
   explicit PanePass(const Scene& panes);
 
-  /// Draws the panes into a layer for each map; `layer_size`: of the shadow maps' layers, texels. Maps that
-  /// no pane reaches, and maps whose shape bends lines, take none.
-  void draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const glm::ivec2& layer_size);
+  /// Compiles the programs of draw_listed(), once. Throws RenderError.
+  void prepare_listed();
+  /// Draws the panes into a layer for each map. Maps that no pane reaches, and maps whose shape bends lines,
+  /// take none.
+  void draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn);
+  /// Sums up what panes absorb before each listed sample of a frame, exactly. The frame's block is that of the
+  /// plan; only after prepare_listed().
+  void draw_listed(const ShadowPlan& plan, const glm::dvec3& camera_world, const PixelLists& lists);
   /// For a full-screen pass: the program's images and uniforms. `camera_world`: where positions are from.
   void bind_maps(const glm::dvec3& camera_world) noexcept;
   /// Multiplies the picture with the panes before its surfaces.
@@ -29,6 +36,8 @@ class PanePass {
   void resize(int width, int height);
 
   [[nodiscard]] const Program& transmittance_program() const noexcept { return transmittance_program_; }
+  /// Makes the image from what draw_listed() left.
+  [[nodiscard]] const Program& listed_program() const noexcept { return listed_->transmittance; }
   [[nodiscard]] const Program& shade_program() const noexcept { return shade_program_; }
   [[nodiscard]] GLuint fbo() const noexcept { return image_fbo_.name(); }
   [[nodiscard]] const Texture& image() const noexcept { return image_; }
@@ -39,13 +48,21 @@ class PanePass {
     glm::ivec2 low{0}, high{0};
     [[nodiscard]] bool empty() const noexcept { return low.x >= high.x || low.y >= high.y; }
   };
+  struct Listed {
+    Listed();
+    Program sums, transmittance;
+    Buffer absorbed = make_buffer();  ///< red, green, blue of each sample
+    std::uint64_t bytes = 0;
+  };
   [[nodiscard]] Rectangle reached(const DrawnMap& map, const glm::dvec3& origin_world) const noexcept;
   void fit(const glm::ivec2& layer_size, int layers);
   void set_light(const ShadowMap& map, const glm::dvec3& origin_world) const noexcept;
-  void draw_all(GLint matrix_location, const glm::mat4& clip_from_position) const noexcept;
+  /// By the program that is in use, whose uniforms besides the materials' are set.
+  void draw_all() const noexcept;
 
   SceneBuffers panes_;
   Program map_program_, transmittance_program_, shade_program_, over_program_;
+  std::optional<Listed> listed_;
   Buffer order_;
   Texture absorbance_, moments_, places_, image_;
   Framebuffer map_fbo_, image_fbo_, over_fbo_;

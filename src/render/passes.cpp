@@ -437,29 +437,37 @@ void Renderer::Impl::draw_accumulated(const Camera& camera, const FrameOptions& 
   history.keep(camera, block);
 }
 
-void Renderer::Impl::draw_shade() noexcept {
+void Renderer::Impl::draw_plain_shade() noexcept {
   glBindTextureUnit(kMaskUnit, targets.mask.name());
   glEnable(GL_FRAMEBUFFER_SRGB);
   fullscreen(targets.color_fbo.name(), programs.shade);
   glDisable(GL_FRAMEBUFFER_SRGB);
 }
 
-void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn,
-                                        const Camera& camera) {
-  panes->resize(camera.width, camera.height);
-  panes->draw_maps(plan, drawn, {maps.width, maps.height});
-  panes->bind_maps(camera.position);
-  glBindTextureUnit(kMaskUnit, targets.mask.name());
-  fullscreen(panes->fbo(), panes->transmittance_program());
-}
-
-void Renderer::Impl::draw_shade_behind_panes(const FrameBlock& block, const glm::dvec3& camera_world) {
+void Renderer::Impl::draw_shade(const FrameBlock& block, const glm::dvec3& camera_world) {
+  if (!panes) return draw_plain_shade();
   glBindTextureUnit(kMaskUnit, targets.mask.name());
   glBindTextureUnit(kExtraUnit, panes->image().name());
   glEnable(GL_FRAMEBUFFER_SRGB);
   fullscreen(targets.color_fbo.name(), panes->shade_program());
   glDisable(GL_FRAMEBUFFER_SRGB);
   panes->draw_over(targets, block.clip_from_camera_relative, camera_world);
+}
+
+void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn,
+                                        const Camera& camera) {
+  panes->resize(camera.width, camera.height);
+  panes->draw_maps(plan, drawn);
+  panes->bind_maps(camera.position);
+  glBindTextureUnit(kMaskUnit, targets.mask.name());
+  fullscreen(panes->fbo(), panes->transmittance_program());
+}
+
+void Renderer::Impl::draw_listed_transmittance(const ShadowPlan& plan, const Camera& camera) {
+  panes->resize(camera.width, camera.height);
+  pixel_lists->bind(targets.mask.name());
+  panes->draw_listed(plan, camera.position, *pixel_lists);
+  fullscreen(panes->fbo(), panes->listed_program());
 }
 
 void Renderer::Impl::draw_aliasing() noexcept {

@@ -284,7 +284,9 @@ bool Renderer::apply_pose(const Pose& pose) {
 
 void Renderer::add_panes(const Scene& panes) {
   impl_->panes.reset();
-  if (!panes.instances.empty()) impl_->panes.emplace(panes);
+  if (panes.instances.empty()) return;
+  impl_->panes.emplace(panes);
+  if (impl_->pixel_lists) impl_->panes->prepare_listed();
 }
 
 FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
@@ -351,9 +353,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   if (impl.panes) {
     timed(Pass::panes, [&] { impl.draw_transmittance(plan, drawn, camera); });
   }
-  impl.draw_pictures(timed, options, [&] {
-    impl.panes ? impl.draw_shade_behind_panes(block, camera.position) : impl.draw_shade();
-  });
+  impl.draw_pictures(timed, options, [&] { impl.draw_shade(block, camera.position); });
   impl.count_work(plan, stats);
   if (options.time_passes) {
     stats.filtered_texels = impl.stored.take_filtered_texels();
@@ -435,7 +435,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
     impl.bind_noise(options.noise);
     impl.draw_mask(programs.mask_pages, impl.targets.mask_fbo.name(), true);
   });
-  timed(Pass::shade, [&] { impl.draw_shade(); });
+  timed(Pass::shade, [&] { impl.draw_plain_shade(); });
   stats.map_count = 1;
   stats.map[0] = impl.work_of_map(0);
   stats.texels = stats.map[0].texels;

@@ -169,11 +169,14 @@ struct Renderer::Impl {
   void draw_accumulated(const Camera& camera, const FrameOptions& options, const FrameBlock& block) noexcept;
   /// Makes the noise tile at the first frame that reads it.
   void bind_noise(SampleNoise noise) noexcept;
-  void draw_shade() noexcept;
-  /// What the panes leave of the light at each pixel, once the mask is there.
+  /// The picture without panes.
+  void draw_plain_shade() noexcept;
+  /// The picture; with panes, in the light that they leave, and behind them.
+  void draw_shade(const FrameBlock& block, const glm::dvec3& camera_world);
+  /// What the panes leave of the light at each pixel, once the mask is there. `drawn`: of the plan's maps.
   void draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera);
-  /// The picture in that light, behind the panes.
-  void draw_shade_behind_panes(const FrameBlock& block, const glm::dvec3& camera_world);
+  /// The same exactly, once the pixels are listed.
+  void draw_listed_transmittance(const ShadowPlan& plan, const Camera& camera);
   void draw_aliasing() noexcept;
   void draw_heat_map() noexcept;
   void draw_cascade_tint() noexcept;

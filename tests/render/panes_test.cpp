@@ -48,23 +48,27 @@ struct Judged {
   std::size_t coloured = 0;
 };
 
-/// The image against rays. Pixels whose neighbours, as far as a texel is wide, differ in truth are edges, and
-/// count in the mean alone.
-Judged judged(const Scene& opaque, const Scene& panes, const Light& light, const PlanOptions& options,
-              bool panes_are_casters = true) {
-  const Camera camera = camera_on_box(kSize, kSize);
+/// Boxes of both parts, which plans take as casters.
+std::vector<Box> all_boxes(const Scene& opaque, const Scene& panes) {
   std::vector<Box> boxes = boxes_of(opaque);
-  if (panes_are_casters)
-    for (const Box& box : boxes_of(panes)) boxes.push_back(box);
-  Renderer renderer(opaque);
-  renderer.add_panes(panes);
-  const ShadowPlan plan = make_plan(camera, light, {boxes, boxes}, options);
-  EXPECT_EQ(plan.status, PlanStatus::ok);
-  const Frame frame = draw(renderer, camera, plan, filters::hard);
+  for (const Box& box : boxes_of(panes)) boxes.push_back(box);
+  return boxes;
+}
+
+FrameOptions plain_options() {
+  FrameOptions options;
+  options.aliasing = options.heat_map = options.cascade_tint = options.time_passes = false;
+  return options;
+}
+
+/// The last frame's image against rays. Pixels whose neighbours, as far as a texel is wide, differ in truth are
+/// edges, and count in the mean alone.
+Judged judged(const Renderer& renderer, const Camera& camera, const Scene& opaque, const Scene& panes,
+              const Light& light) {
   const FloatImage image = renderer.transmittance();
   const trace::Tracer tracer(opaque);
   const trace::SurfacePoints points =
-      trace::surface_points(tracer, camera, light, frame.positions, frame.normals);
+      trace::surface_points(tracer, camera, light, renderer.positions(), renderer.normals());
   const trace::PaneReference truth = trace::pane_reference(trace::PaneTracer(panes), points, light);
   Judged result;
   std::size_t counted = 0;
@@ -89,6 +93,18 @@ Judged judged(const Scene& opaque, const Scene& panes, const Light& light, const
     }
   result.mean /= static_cast<double>(counted);
   return result;
+}
+
+Judged judged(const Scene& opaque, const Scene& panes, const Light& light, const PlanOptions& options,
+              bool panes_are_casters = true) {
+  const Camera camera = camera_on_box(kSize, kSize);
+  const std::vector<Box> boxes = panes_are_casters ? all_boxes(opaque, panes) : boxes_of(opaque);
+  Renderer renderer(opaque);
+  renderer.add_panes(panes);
+  const ShadowPlan plan = make_plan(camera, light, {boxes, boxes}, options);
+  EXPECT_EQ(plan.status, PlanStatus::ok);
+  (void)draw(renderer, camera, plan, filters::hard);
+  return judged(renderer, camera, opaque, panes, light);
 }
 
 PlanOptions plan_options(const char* warp, int cascades) {
@@ -158,6 +174,77 @@ TEST_F(Panes, a_receiver_among_many_panes_has_nearly_the_light_of_those_before_i
   const Judged j = judged(opaque, panes, DirectionalLight{kSlant}, plan_options("none", 1));
   EXPECT_LT(j.worst_inside, 0.2);
   EXPECT_LT(j.mean, 0.02);
+}
+
+/// Panes at heights on both sides of a shelf, the last of them of smoke.
+Scene panes_round_shelf(Scene& opaque) {
+  add_quad(opaque, {-3.0f, 4.0f, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f});
+  Scene panes = empty_scene();
+  const int tints[] = {add_material(panes, glass({0.9f, 0.7f, 0.6f}, 0.95f)),
+                       add_material(panes, glass({0.5f, 0.8f, 0.9f}, 0.9f)), add_material(panes, smoke(0.4f))};
+  int i = 0;
+  for (const float y : {5.5f, 5.0f, 4.5f, 3.5f, 3.0f, 2.7f})
+    add_quad(panes, {-3.0f, y, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f}, tints[i++ % 3]);
+  return panes;
+}
+
+TEST_F(Panes, exact_shadows_have_exactly_the_light_of_any_number_of_panes) {
+  Scene opaque = box_on_ground();
+  const Scene panes = panes_round_shelf(opaque);
+  const std::vector<Box> boxes = all_boxes(opaque, panes);
+  const Camera camera = camera_on_box(kSize, kSize);
+  Renderer renderer(opaque);
+  renderer.add_panes(panes);
+  const PreparedFilter exact = renderer.prepare_irregular();
+  for (const Light& light : {Light{DirectionalLight{kSlant}}, Light{PointLight{{0.5, 9.0, 0.5}, 60.0}}})
+    for (const Shape* shape : {&shapes::linear, &shapes::logarithmic}) {
+      PlanOptions options = plan_options("none", 2);
+      options.warp.shape = shape;
+      const ShadowPlan plan = make_plan(camera, light, {boxes, boxes}, options);
+      ASSERT_EQ(plan.status, PlanStatus::ok);
+      ASSERT_TRUE(renderer.draw(plan, camera, exact, plain_options()).irregular);
+      const Judged j = judged(renderer, camera, opaque, panes, light);
+      EXPECT_GT(j.coloured, 1000u);
+      // Single precision, and six roundings to whole steps.
+      EXPECT_LT(j.worst_inside, 1e-4) << shape->name;
+      // Edges are those of the rays too: single pixels where both are rounded.
+      EXPECT_LT(j.mean, 1e-4) << shape->name;
+    }
+}
+
+TEST_F(Panes, samples_of_exact_shadows_are_weighed_by_the_light_that_they_get) {
+  const Scene opaque = box_on_ground(), panes = panes_over_ground(4);
+  const std::vector<Box> boxes = all_boxes(opaque, panes);
+  const Camera camera = camera_on_box(kSize, kSize);
+  const DirectionalLight light{kSlant};
+  const ShadowPlan plan = make_plan(camera, light, {boxes, boxes}, plan_options("none", 1));
+  Renderer renderer(opaque);
+  const PreparedFilter first = renderer.prepare_irregular(16);
+  renderer.add_panes(panes);  // after the filter: either order is fine
+  renderer.draw(plan, camera, first, plain_options());
+  const Judged sixteen = judged(renderer, camera, opaque, panes, light);
+  EXPECT_LT(sixteen.worst_inside, 1e-4);
+  const FloatImage mean = renderer.transmittance();
+  renderer.draw(plan, camera, renderer.prepare_irregular(1), plain_options());
+  const FloatImage centre = renderer.transmittance();
+  std::size_t softened = 0;
+  for (std::size_t i = 0; i < mean.values.size(); ++i)
+    softened += std::abs(mean.values[i] - centre.values[i]) > 0.05f ? 1 : 0;
+  EXPECT_GT(softened, 100u) << "edges are as wide as a pixel";
+}
+
+TEST_F(Panes, shadows_by_identifiers_are_tinted_as_well) {
+  const Scene opaque = box_on_ground(), panes = panes_over_ground(3);
+  const std::vector<Box> boxes = all_boxes(opaque, panes);
+  const Camera camera = camera_on_box(kSize, kSize);
+  const DirectionalLight light{kSlant};
+  Renderer renderer(opaque);
+  renderer.add_panes(panes);
+  const ShadowPlan plan = make_plan(camera, light, {boxes, boxes}, plan_options("none", 2));
+  ASSERT_TRUE(renderer.draw(plan, camera, renderer.prepare_identifiers(), plain_options()).identified);
+  const Judged j = judged(renderer, camera, opaque, panes, light);
+  EXPECT_GT(j.coloured, 500u);
+  EXPECT_LT(j.worst_inside, 0.005);
 }
 
 TEST_F(Panes, nothing_of_a_frame_with_panes_is_left_in_the_next_one_without) {

@@ -236,10 +236,10 @@ class Renderer {
   /// what they absorb beside the shadow maps, multiply the light with what is left of it, and show the panes
   /// before the picture. The renderer's scene is then the opaque part; plans take both parts' boxes as
   /// casters. Surfaces behind all panes, or among two, get the product of what is before them; among more,
-  /// the middle of what moments allow. Panes stay where they are under apply_pose() and move_instance().
-  /// Frames of pages, of many lights, and with exact shadows, and maps whose shape bends lines have no panes.
-  /// A scene without instances takes them away. Throws RenderError. Costs 40 bytes for each texel of the
-  /// maps.
+  /// the middle of what moments allow. With exact shadows (prepare_irregular) all are exact. Panes stay where
+  /// they are under apply_pose() and move_instance(). Frames of pages and of many lights, and maps whose
+  /// shape bends lines have no panes. A scene without instances takes them away. Throws RenderError. Costs 40
+  /// bytes for each texel of the maps; with exact shadows 12 for each sample instead.
   void add_panes(const Scene& panes);
   /// Channels "r", "g", "b" of the last frame with panes: the share of the light that passes them, 0..1.
   [[nodiscard]] FloatImage transmittance() const;
@@ -263,7 +263,7 @@ class Renderer {
   /// first, and a surface is lit where that is its own. FrameOptions::depth_layer has no effect, and
   /// BiasOptions but for the normal offset has none. A frame whose maps have a shape that bends lines is
   /// drawn by `filters::hard` (FrameStats::identified). Frames of pages and of many lights do not take it; no
-  /// accumulation, no panes. Maps that change are drawn whole. Costs 4 bytes for each texel more. Throws
+  /// accumulation. Maps that change are drawn whole. Costs 4 bytes for each texel more. Throws
   /// RenderError where the driver has no storage buffers in fragment shaders.
   [[nodiscard]] PreparedFilter prepare_identifiers(const IdentifierTest& test = {});
 
