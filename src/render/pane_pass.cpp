@@ -52,11 +52,13 @@ PanePass::PanePass(const Scene& panes)
     : panes_(panes),
       map_program_(make_program("pane.vert", "pane_map.frag")),
       transmittance_program_(make_program("fullscreen.vert", "transmittance.frag")),
+      add_light_program_(make_program("fullscreen.vert", "shade_light_panes.frag")),
       shade_program_(make_program("fullscreen.vert", "shade_panes.frag")),
       over_program_(make_program("pane.vert", "pane.frag")),
       order_(filled_buffer({std::as_bytes(panes_.order())})),
       map_fbo_(make_framebuffer()),
-      over_fbo_(make_framebuffer()) {
+      over_fbo_(make_framebuffer()),
+      shown_(panes_.boxes().size(), 1) {
   panes_.set_object_index_buffer(order_.name());
   constexpr std::array<GLenum, 3> kAll{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
   glNamedFramebufferDrawBuffers(map_fbo_.name(), 3, kAll.data());
@@ -73,8 +75,8 @@ void PanePass::prepare_listed() {
 std::uint64_t PanePass::bytes() const noexcept {
   constexpr std::uint64_t kTexelBytes = 40;
   const std::uint64_t listed = listed_ ? listed_->bytes : 0;
-  return listed + kTexelBytes * static_cast<std::uint64_t>(layer_size_.x) * static_cast<std::uint64_t>(layer_size_.y) *
-         static_cast<std::uint64_t>(layers_);
+  return listed + kTexelBytes * static_cast<std::uint64_t>(layer_size_.x) *
+                      static_cast<std::uint64_t>(layer_size_.y) * static_cast<std::uint64_t>(layers_);
 }
 
 void PanePass::fit(const glm::ivec2& layer_size, int layers) {
@@ -97,8 +99,9 @@ void PanePass::resize(int width, int height) {
 PanePass::Rectangle PanePass::reached(const DrawnMap& map, const glm::dvec3& origin_world) const noexcept {
   const glm::dvec2 size(map.width, map.height);
   glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
-  for (const Box& box : panes_.boxes()) {
-    if (box.empty()) continue;
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    const Box& box = panes_.boxes()[i];
+    if (shown_[i] == 0 || box.empty()) continue;
     for (const glm::dvec3& corner : corners_of(box)) {
       const glm::dvec4 clip = glm::dmat4(map.clip_from_position) * glm::dvec4(corner - origin_world, 1.0);
       // Behind a warp's or a lamp's centre a box may be anywhere.
@@ -112,6 +115,23 @@ PanePass::Rectangle PanePass::reached(const DrawnMap& map, const glm::dvec3& ori
   low = glm::clamp(low - 1.0, glm::dvec2(0.0), size);
   high = glm::clamp(high + 1.0, glm::dvec2(0.0), size);
   return {glm::ivec2(glm::floor(low)), glm::ivec2(glm::ceil(high))};
+}
+
+void PanePass::show_within(const glm::dvec4& light_world, double range) {
+  const bool bounded = light_world.w != 0.0 && range > 0.0;
+  const glm::dvec3 at(light_world);
+  shown_.resize(panes_.boxes().size());
+  std::transform(panes_.boxes().begin(), panes_.boxes().end(), shown_.begin(), [&](const Box& box) {
+    return !bounded || (!box.empty() && glm::distance(glm::clamp(at, box.min, box.max), at) < range);
+  });
+}
+
+bool PanePass::tint(const ShadowPlan& plan, const DrawnMaps& drawn, double range) {
+  if (plan.map_count == 0) return false;
+  show_within(plan.map[0].light_world, range);
+  for (int i = 0; i < plan.map_count; ++i)
+    if (!reached(drawn.map[static_cast<std::size_t>(i)], drawn.origin_world).empty()) return true;
+  return false;
 }
 
 void PanePass::set_light(const ShadowMap& map, const glm::dvec3& origin_world) const noexcept {
@@ -149,6 +169,7 @@ void PanePass::draw_all() const noexcept {
     glUniform1f(kAlphaCutoff, batch.alpha_cutoff);
     glUniform2f(kLook, batch.transmission, static_cast<float>(batch.alpha_mode));
     for (std::uint32_t i = batch.begin; i < batch.end; ++i) {
+      if (shown_[order[i]] == 0) continue;
       const Primitive& primitive = panes_.primitive_of(order[i]);
       const auto offset = static_cast<std::uintptr_t>(primitive.first_index) * sizeof(std::uint32_t);
       glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(primitive.index_count),
@@ -158,9 +179,10 @@ void PanePass::draw_all() const noexcept {
   glBindSampler(kColorImageUnit, 0);
 }
 
-void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn) {
+void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, double range) {
   drawn_.fill(glm::vec4(0.0f));
   if (plan.map_count == 0) return;
+  show_within(plan.map[0].light_world, range);
   fit(largest_of(plan), plan.map_count);
   light_world_ = plan.map[0].light_world;
   panes_.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
@@ -208,6 +230,7 @@ void PanePass::draw_listed(const ShadowPlan& plan, const glm::dvec3& camera_worl
   constexpr GLuint kNothing = 0;
   glClearNamedBufferData(listed_->absorbed.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &kNothing);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kAbsorbedBinding, listed_->absorbed.name());
+  std::fill(shown_.begin(), shown_.end(), std::uint8_t{1});
   panes_.place(SceneBuffers::Placed::for_camera, camera_world);
   panes_.use(SceneBuffers::Placed::for_camera);
   glBindVertexArray(panes_.vertex_array());
@@ -248,6 +271,7 @@ void PanePass::draw_over(const FrameTargets& targets, const glm::mat4& clip_from
   glNamedFramebufferTexture(over_fbo_.name(), GL_DEPTH_ATTACHMENT, targets.depth.name(), 0);
   glBindFramebuffer(GL_FRAMEBUFFER, over_fbo_.name());
   glViewport(0, 0, targets.width, targets.height);
+  std::fill(shown_.begin(), shown_.end(), std::uint8_t{1});
   panes_.place(SceneBuffers::Placed::for_camera, camera_world);
   panes_.use(SceneBuffers::Placed::for_camera);
   glBindVertexArray(panes_.vertex_array());

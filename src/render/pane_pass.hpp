@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "drawn_maps.hpp"
 #include "gl_object.hpp"
@@ -22,10 +23,12 @@ class PanePass {
   /// Compiles the programs of draw_listed(), once. Throws RenderError.
   void prepare_listed();
   /// Draws the panes into a layer for each map. Maps that no pane reaches, and maps whose shape bends lines,
-  /// take none.
-  void draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn);
-  /// Sums up what panes absorb before each listed sample of a frame, exactly. The frame's block is that of the
-  /// plan; only after prepare_listed().
+  /// take none. `range`: as tint() takes it.
+  void draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, double range = 0.0);
+  /// Whether panes tint what a light lights: some lie in its maps and within its range, 0: none.
+  [[nodiscard]] bool tint(const ShadowPlan& plan, const DrawnMaps& drawn, double range);
+  /// Sums up what panes absorb before each listed sample of a frame, exactly. The frame's block is that of
+  /// the plan; only after prepare_listed().
   void draw_listed(const ShadowPlan& plan, const glm::dvec3& camera_world, const PixelLists& lists);
   /// For a full-screen pass: the program's images and uniforms. `camera_world`: where positions are from.
   void bind_maps(const glm::dvec3& camera_world) noexcept;
@@ -38,6 +41,7 @@ class PanePass {
   [[nodiscard]] const Program& transmittance_program() const noexcept { return transmittance_program_; }
   /// Makes the image from what draw_listed() left.
   [[nodiscard]] const Program& listed_program() const noexcept { return listed_->transmittance; }
+  [[nodiscard]] const Program& add_light_program() const noexcept { return add_light_program_; }
   [[nodiscard]] const Program& shade_program() const noexcept { return shade_program_; }
   [[nodiscard]] GLuint fbo() const noexcept { return image_fbo_.name(); }
   [[nodiscard]] const Texture& image() const noexcept { return image_; }
@@ -54,20 +58,24 @@ class PanePass {
     Buffer absorbed = make_buffer();  ///< red, green, blue of each sample
     std::uint64_t bytes = 0;
   };
+  /// Texels of a map that the shown panes reach.
   [[nodiscard]] Rectangle reached(const DrawnMap& map, const glm::dvec3& origin_world) const noexcept;
+  /// Shows the panes within a local light's range.
+  void show_within(const glm::dvec4& light_world, double range);
   void fit(const glm::ivec2& layer_size, int layers);
   void set_light(const ShadowMap& map, const glm::dvec3& origin_world) const noexcept;
   /// By the program that is in use, whose uniforms besides the materials' are set.
   void draw_all() const noexcept;
 
   SceneBuffers panes_;
-  Program map_program_, transmittance_program_, shade_program_, over_program_;
+  Program map_program_, transmittance_program_, add_light_program_, shade_program_, over_program_;
   std::optional<Listed> listed_;
   Buffer order_;
   Texture absorbance_, moments_, places_, image_;
   Framebuffer map_fbo_, image_fbo_, over_fbo_;
   glm::ivec2 layer_size_{0}, image_size_{0};
   int layers_ = 0;
+  std::vector<std::uint8_t> shown_;  ///< by instance: drawn into the maps at hand
   std::array<glm::vec4, kMaxMaps> drawn_{};
   glm::dvec4 light_world_{0.0};
 };

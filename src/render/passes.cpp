@@ -456,11 +456,20 @@ void Renderer::Impl::draw_shade(const FrameBlock& block, const glm::dvec3& camer
 
 void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn,
                                         const Camera& camera) {
+  constexpr double kAnyRange = 0.0;
+  draw_transmittance(plan, drawn, camera, {0, 0, camera.width, camera.height}, kAnyRange);
+}
+
+void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera,
+                                        const TexelRect& part, double range) {
   panes->resize(camera.width, camera.height);
-  panes->draw_maps(plan, drawn);
+  panes->draw_maps(plan, drawn, range);
   panes->bind_maps(camera.position);
   glBindTextureUnit(kMaskUnit, targets.mask.name());
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(part.x, part.y, part.width, part.height);
   fullscreen(panes->fbo(), panes->transmittance_program());
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void Renderer::Impl::draw_listed_transmittance(const ShadowPlan& plan, const Camera& camera) {

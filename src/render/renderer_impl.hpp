@@ -158,11 +158,14 @@ struct Renderer::Impl {
   [[nodiscard]] bool add_clustered_lights(const LightPlan& plan, std::span<const DrawnLight> lights,
                                           const Camera& camera, const PreparedFilter& filter,
                                           const FrameOptions& options);
-  void add_each_light(const LightPlan& plan, std::span<const DrawnLight> lights, const Camera& camera,
-                      const PreparedFilter& filter, const FrameOptions& options) noexcept;
-  /// The picture from that sum.
+  /// Adds one light to the sum, through a mask of its own; `tinted`: panes colour it.
+  void add_light(const LightMaps& maps, const DrawnLight& light, bool tinted, const Camera& camera,
+                 const PreparedFilter& filter, const FrameOptions& options);
+  /// Finds the lights that panes tint.
+  void mark_tinted(const LightPlan& plan, std::span<const DrawnLight> lights, const Camera& camera);
+  /// The picture from that sum, behind panes.
   void draw_sum_of_lights(const Camera& camera, std::span<const DrawnLight> lights,
-                          const FrameOptions& options) noexcept;
+                          const FrameOptions& options);
   /// `program` writes at least what programs.surfaces writes.
   void draw_surfaces(GLuint fbo, const Program& program) noexcept;
   void draw_mask(const Program& program, GLuint fbo, bool from_pages = false) noexcept;
@@ -175,6 +178,9 @@ struct Renderer::Impl {
   void draw_shade(const FrameBlock& block, const glm::dvec3& camera_world);
   /// What the panes leave of the light at each pixel, once the mask is there. `drawn`: of the plan's maps.
   void draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera);
+  /// The same of a light with this range, 0: none, for a part of the image.
+  void draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera,
+                          const TexelRect& part, double range);
   /// The same exactly, once the pixels are listed.
   void draw_listed_transmittance(const ShadowPlan& plan, const Camera& camera);
   void draw_aliasing() noexcept;

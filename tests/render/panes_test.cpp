@@ -7,6 +7,7 @@
 #include "gnomon/trace/transmittance.hpp"
 #include "mask_frame.hpp"
 #include "shared_context.hpp"
+#include "support/light_storage.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -61,8 +62,8 @@ FrameOptions plain_options() {
   return options;
 }
 
-/// The last frame's image against rays. Pixels whose neighbours, as far as a texel is wide, differ in truth are
-/// edges, and count in the mean alone.
+/// The last frame's image against rays. Pixels whose neighbours, as far as a texel is wide, differ in truth
+/// are edges, and count in the mean alone.
 Judged judged(const Renderer& renderer, const Camera& camera, const Scene& opaque, const Scene& panes,
               const Light& light) {
   const FloatImage image = renderer.transmittance();
@@ -181,7 +182,8 @@ Scene panes_round_shelf(Scene& opaque) {
   add_quad(opaque, {-3.0f, 4.0f, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f});
   Scene panes = empty_scene();
   const int tints[] = {add_material(panes, glass({0.9f, 0.7f, 0.6f}, 0.95f)),
-                       add_material(panes, glass({0.5f, 0.8f, 0.9f}, 0.9f)), add_material(panes, smoke(0.4f))};
+                       add_material(panes, glass({0.5f, 0.8f, 0.9f}, 0.9f)),
+                       add_material(panes, smoke(0.4f))};
   int i = 0;
   for (const float y : {5.5f, 5.0f, 4.5f, 3.5f, 3.0f, 2.7f})
     add_quad(panes, {-3.0f, y, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f}, tints[i++ % 3]);
@@ -245,6 +247,84 @@ TEST_F(Panes, shadows_by_identifiers_are_tinted_as_well) {
   const Judged j = judged(renderer, camera, opaque, panes, light);
   EXPECT_GT(j.coloured, 500u);
   EXPECT_LT(j.worst_inside, 0.005);
+}
+
+/// A weak sun, a spot and point lights over a box, some of them where no pane is.
+struct ManyLights {
+  Scene opaque = box_on_ground(), panes = panes_over_ground(3);
+  Camera camera = camera_on_box(kSize, kSize);
+  std::vector<Box> boxes = all_boxes(opaque, panes);
+  std::vector<LightRequest> requests{{DirectionalLight{kSlant}},
+                                     {SpotLight{{-2, 8, 3}, {0.3, -1, -0.3}, 0.6, 20.0}},
+                                     {PointLight{{1.0, 7.5, 0.5}, 12.0}},
+                                     {PointLight{{4.0, 1.0, 2.0}, 2.0}},
+                                     {PointLight{{-6.0, 1.5, 2.0}, 2.5}}};
+  test::LightStorage memory{requests.size()};
+  PlanOptions options = plan_options("none", 1);
+  LightPlan plan;
+  std::vector<ShadowPlan> own;
+
+  ManyLights() {
+    LightOptions pool;
+    pool.pool_width = pool.pool_height = 2048;
+    pool.most_size = 512;
+    pool.least_size = 256;
+    plan = plan_lights(camera, requests, {boxes, boxes}, options, pool, memory.spans(), nullptr);
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      own.push_back(
+          make_plan(camera, requests[i].light, {boxes, boxes}, light_options(options, plan.lights[i])));
+  }
+  /// The sum of all lights, or of one alone.
+  FloatImage sum(Renderer& renderer, int only, const ClusterOptions& clusters, FrameStats* stats = nullptr) {
+    std::vector<DrawnLight> lights;
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      lights.push_back(
+          {requests[i].light, &own[i], glm::vec3(only < 0 || only == static_cast<int>(i) ? 0.5f : 0.0f)});
+    FrameOptions frame = plain_options();
+    frame.light_clusters = clusters;
+    const FrameStats drawn =
+        renderer.draw(plan, lights, camera, renderer.prepare_lights(default_settings(filters::hard)), frame);
+    if (stats != nullptr) *stats = drawn;
+    return renderer.light_sum();
+  }
+};
+
+TEST_F(Panes, many_lights_are_tinted_each_by_the_panes_before_it) {
+  ManyLights lights;
+  ASSERT_EQ(lights.plan.status, PlanStatus::ok);
+  ASSERT_EQ(lights.plan.mapped, 5);
+  Renderer plain(lights.opaque), tinted(lights.opaque);
+  tinted.add_panes(lights.panes);
+  const trace::Tracer tracer(lights.opaque);
+  const trace::PaneTracer panes(lights.panes);
+  // What rays leave of each light alone.
+  std::vector<double> truth;
+  for (std::size_t i = 0; i < lights.requests.size(); ++i) {
+    const FloatImage alone = lights.sum(plain, static_cast<int>(i), {});
+    const trace::SurfacePoints points = trace::surface_points(tracer, lights.camera, lights.requests[i].light,
+                                                              plain.positions(), plain.normals());
+    const trace::PaneReference left = trace::pane_reference(panes, points, lights.requests[i].light);
+    truth.resize(alone.values.size());
+    for (std::size_t k = 0; k < truth.size(); ++k)
+      truth[k] += alone.values[k] * left.pixels[k / 3][static_cast<int>(k % 3)];
+  }
+  for (const ClusterOptions& clusters : {ClusterOptions{}, ClusterOptions{0, 1}}) {
+    FrameStats stats;
+    const FloatImage found = lights.sum(tinted, -1, clusters, &stats);
+    EXPECT_EQ(stats.lights_tinted, 3) << "the sun, the spot and one lamp";
+    const FloatImage untinted = lights.sum(plain, -1, clusters);
+    double error = 0.0, light = 0.0, tint = 0.0;
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+      error += std::abs(found.values[k] - truth[k]);
+      light += truth[k];
+      tint += untinted.values[k] - truth[k];
+    }
+    EXPECT_GT(tint, 0.05 * light);
+    EXPECT_LT(error, 0.004 * light) << clusters.tile_pixels;
+  }
+  // Panes gone, nothing is left of them.
+  tinted.add_panes(empty_scene());
+  EXPECT_EQ(lights.sum(tinted, -1, {}).values, lights.sum(plain, -1, {}).values);
 }
 
 TEST_F(Panes, nothing_of_a_frame_with_panes_is_left_in_the_next_one_without) {

@@ -195,6 +195,7 @@ struct FrameStats {
   int maps_read_back = 0;   ///< by filters that choose for each map from its depths
   int pages = 0;            ///< resident, of a PagePlan
   int lights_drawn = 0;     ///< of a LightPlan: lights whose maps were drawn; the pool kept those of others
+  int lights_tinted = 0;    ///< of a LightPlan: lights that panes tint, each added by a pass of its own
   int pages_drawn = 0;      ///< of them; the others were kept from earlier frames (PruneRule::held_maps)
   int pages_composed = 0;   ///< of pages_drawn: only moving casters drawn (PruneRule::static_casters)
   /// Depth maps and everything that the filter keeps besides for its look-ups.
@@ -237,11 +238,13 @@ class Renderer {
   /// before the picture. The renderer's scene is then the opaque part; plans take both parts' boxes as
   /// casters. Surfaces behind all panes, or among two, get the product of what is before them; among more,
   /// the middle of what moments allow. With exact shadows (prepare_irregular) all are exact. Panes stay where
-  /// they are under apply_pose() and move_instance(). Frames of pages and of many lights, and maps whose
-  /// shape bends lines have no panes. A scene without instances takes them away. Throws RenderError. Costs 40
+  /// they are under apply_pose() and move_instance(). Frames of pages, and maps whose shape bends lines have no
+  /// panes. Of many lights, each that panes tint draws its pane maps in every frame, in a mask pass of its
+  /// own (FrameStats::lights_tinted, Pass::mask). A scene without instances takes them away. Throws RenderError. Costs 40
   /// bytes for each texel of the maps; with exact shadows 12 for each sample instead.
   void add_panes(const Scene& panes);
-  /// Channels "r", "g", "b" of the last frame with panes: the share of the light that passes them, 0..1.
+  /// Channels "r", "g", "b" of the last frame with panes: the share of the light that passes them, 0..1. Of
+  /// many lights: that of the last one that panes tint, where it lights.
   [[nodiscard]] FloatImage transmittance() const;
 
   /// Exact hard shadows in place of a filter: an irregular z-buffer. The pixels of a frame are listed by the
