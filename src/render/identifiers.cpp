@@ -82,7 +82,7 @@ FrameStats Renderer::Impl::draw_identified(const ShadowPlan& plan, const Camera&
     identifiers->bind(targets.identifier.name(), test.neighbours);
     fullscreen(targets.mask_fbo.name(), identifiers->mask());
   });
-  if (panes) timed(Pass::panes, [&] { draw_transmittance(plan, drawn, camera); });
+  if (panes) timed(Pass::panes, [&] { draw_transmittance(plan, drawn, camera, options, stats); });
   draw_pictures(timed, options, [&] { draw_shade(block, camera.position); });
   count_work(plan, stats);
   stats.identified = true;

@@ -46,7 +46,34 @@ std::array<glm::dvec3, 8> corners_of(const Box& box) noexcept {
   return corners;
 }
 
+/// Texels of a map that boxes reach.
+template <class Rectangle>
+Rectangle reached(const DrawnMap& map, const glm::dvec3& origin_world, std::span<const Box> boxes) noexcept {
+  const glm::dvec2 size(map.width, map.height);
+  glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+  for (const Box& box : boxes) {
+    if (box.empty()) continue;
+    for (const glm::dvec3& corner : corners_of(box)) {
+      const glm::dvec4 clip = glm::dmat4(map.clip_from_position) * glm::dvec4(corner - origin_world, 1.0);
+      // Behind a warp's or a lamp's centre a box may be anywhere.
+      if (!(clip.w > 0.0)) return {{0, 0}, {map.width, map.height}};
+      const glm::dvec2 texel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size;
+      low = glm::min(low, texel);
+      high = glm::max(high, texel);
+    }
+  }
+  // A texel more on each side is empty, so that bilinear reads at an edge find nothing beyond it.
+  low = glm::clamp(low - 1.0, glm::dvec2(0.0), size);
+  high = glm::clamp(high + 1.0, glm::dvec2(0.0), size);
+  return {glm::ivec2(glm::floor(low)), glm::ivec2(glm::ceil(high))};
+}
+
 }  // namespace
+
+std::uint64_t PanePass::Rectangle::area() const noexcept {
+  return empty() ? 0
+                 : static_cast<std::uint64_t>(high.x - low.x) * static_cast<std::uint64_t>(high.y - low.y);
+}
 
 PanePass::PanePass(const Scene& panes)
     : panes_(panes),
@@ -83,6 +110,7 @@ void PanePass::fit(const glm::ivec2& layer_size, int layers) {
   if (glm::max(layer_size, layer_size_) == layer_size_ && layers <= layers_) return;
   layer_size_ = glm::max(layer_size, layer_size_);
   layers_ = std::max(layers, layers_);
+  held_ = {};
   absorbance_ = sums(GL_RGBA16F, layer_size_, layers_);
   moments_ = sums(GL_RGBA32F, layer_size_, layers_);
   places_ = sums(GL_RGBA32F, layer_size_, layers_);
@@ -96,68 +124,77 @@ void PanePass::resize(int width, int height) {
   glNamedFramebufferTexture(image_fbo_.name(), GL_COLOR_ATTACHMENT0, image_.name(), 0);
 }
 
-PanePass::Rectangle PanePass::reached(const DrawnMap& map, const glm::dvec3& origin_world) const noexcept {
-  const glm::dvec2 size(map.width, map.height);
-  glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
-  for (std::size_t i = 0; i < shown_.size(); ++i) {
-    const Box& box = panes_.boxes()[i];
-    if (shown_[i] == 0 || box.empty()) continue;
-    for (const glm::dvec3& corner : corners_of(box)) {
-      const glm::dvec4 clip = glm::dmat4(map.clip_from_position) * glm::dvec4(corner - origin_world, 1.0);
-      // Behind a warp's or a lamp's centre a box may be anywhere.
-      if (!(clip.w > 0.0)) return {{0, 0}, {map.width, map.height}};
-      const glm::dvec2 texel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size;
-      low = glm::min(low, texel);
-      high = glm::max(high, texel);
-    }
+void PanePass::move(std::size_t instance, const Instance& to) {
+  // More than that, and the maps are drawn anew.
+  constexpr std::size_t kMostChanged = 4096;
+  if (changed_world_.size() < kMostChanged) {
+    changed_world_.push_back(panes_.boxes()[instance]);
+    changed_world_.push_back(to.bounds_world);
+  } else {
+    held_ = {};
   }
-  // A texel more on each side is empty, so that bilinear reads at an edge find nothing beyond it.
-  low = glm::clamp(low - 1.0, glm::dvec2(0.0), size);
-  high = glm::clamp(high + 1.0, glm::dvec2(0.0), size);
-  return {glm::ivec2(glm::floor(low)), glm::ivec2(glm::ceil(high))};
+  const std::vector<std::uint32_t> order(panes_.order().begin(), panes_.order().end());
+  panes_.move(instance, to);
+  if (std::equal(order.begin(), order.end(), panes_.order().begin(), panes_.order().end())) return;
+  // A pane became its own mirror image. Sums are rounded in the order of drawing.
+  order_ = filled_buffer({std::as_bytes(panes_.order())});
+  panes_.set_object_index_buffer(order_.name());
+  held_ = {};
 }
 
 void PanePass::show_within(const glm::dvec4& light_world, double range) {
   const bool bounded = light_world.w != 0.0 && range > 0.0;
   const glm::dvec3 at(light_world);
-  shown_.resize(panes_.boxes().size());
-  std::transform(panes_.boxes().begin(), panes_.boxes().end(), shown_.begin(), [&](const Box& box) {
-    return !bounded || (!box.empty() && glm::distance(glm::clamp(at, box.min, box.max), at) < range);
-  });
+  const std::span<const Box> boxes = panes_.boxes();
+  shown_world_.clear();
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Box& box = boxes[i];
+    shown_[i] = !bounded || (!box.empty() && glm::distance(glm::clamp(at, box.min, box.max), at) < range);
+    if (shown_[i] != 0) shown_world_.push_back(box);
+  }
 }
 
 bool PanePass::tint(const ShadowPlan& plan, const DrawnMaps& drawn, double range) {
   if (plan.map_count == 0) return false;
   show_within(plan.map[0].light_world, range);
-  for (int i = 0; i < plan.map_count; ++i)
-    if (!reached(drawn.map[static_cast<std::size_t>(i)], drawn.origin_world).empty()) return true;
+  for (int i = 0; i < plan.map_count; ++i) {
+    const DrawnMap& map = drawn.map[static_cast<std::size_t>(i)];
+    if (!reached<Rectangle>(map, drawn.origin_world, shown_world_).empty()) return true;
+  }
   return false;
 }
 
-void PanePass::set_light(const ShadowMap& map, const glm::dvec3& origin_world) const noexcept {
-  const bool local = map.light_world.w != 0.0;
-  const glm::dvec3 light =
-      local ? glm::dvec3(map.light_world) - origin_world : -glm::normalize(glm::dvec3(map.light_world));
+glm::dvec2 PanePass::range_along(const glm::dvec4& light_world) const noexcept {
+  const bool local = light_world.w != 0.0;
+  const glm::dvec3 light = local ? glm::dvec3(light_world) : -glm::normalize(glm::dvec3(light_world));
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Box& box : panes_.boxes()) {
     if (box.empty()) continue;
     for (const glm::dvec3& corner : corners_of(box)) {
-      const glm::dvec3 at = corner - origin_world;
-      const double away = local ? glm::distance(at, light) : glm::dot(at, light);
+      const double away = local ? glm::distance(corner, light) : glm::dot(corner, light);
       low = std::min(low, away);
       high = std::max(high, away);
     }
     // A box round the light, or beside it, is nearer than its corners.
-    if (local)
-      low = std::min(low,
-                     glm::distance(glm::clamp(light, box.min - origin_world, box.max - origin_world), light));
+    if (local) low = std::min(low, glm::distance(glm::clamp(light, box.min, box.max), light));
   }
+  if (!(low <= high)) return {0.0, 1.0};
   // A single pane may lie across the light; the range is divided by.
   constexpr double kRounding = 1e-6, kLeast = 1e-30;
-  const double room = kRounding * (std::abs(low) + std::abs(high)) + kLeast;
+  const double extent = std::max(high - low, kRounding * (std::abs(low) + std::abs(high)) + kLeast);
+  constexpr double kSteps = 16.0;
+  const double step = std::exp2(std::ceil(std::log2(extent))) / kSteps;
+  return {(std::floor(low / step) - 1.0) * step, (std::ceil(high / step) + 1.0) * step};
+}
+
+void PanePass::set_light(const glm::dvec3& origin_world) const noexcept {
+  const bool local = light_world_.w != 0.0;
+  const glm::dvec3 light =
+      local ? glm::dvec3(light_world_) - origin_world : -glm::normalize(glm::dvec3(light_world_));
+  const glm::dvec2 range = range_world_ - (local ? 0.0 : glm::dot(origin_world, light));
   glUniform4f(kLight, static_cast<float>(light.x), static_cast<float>(light.y), static_cast<float>(light.z),
               local ? 1.0f : 0.0f);
-  glUniform2f(kRange, static_cast<float>(low - room), static_cast<float>(high + room));
+  glUniform2f(kRange, static_cast<float>(range.x), static_cast<float>(range.y));
 }
 
 void PanePass::draw_all() const noexcept {
@@ -179,17 +216,67 @@ void PanePass::draw_all() const noexcept {
   glBindSampler(kColorImageUnit, 0);
 }
 
-void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, double range) {
+void PanePass::clear(const Rectangle& at) noexcept {
+  if (at.empty()) return;
+  constexpr std::array<float, 4> kNothing{};
+  glScissor(at.low.x, at.low.y, at.high.x - at.low.x, at.high.y - at.low.y);
+  for (const GLint target : {0, 1, 2})
+    glClearNamedFramebufferfv(map_fbo_.name(), GL_COLOR, target, kNothing.data());
+  texels_ += at.area();
+}
+
+void PanePass::clear_beyond(const Rectangle& before, const Rectangle& now) noexcept {
+  if (before.empty()) return clear(now);
+  clear({now.low, {before.low.x, now.high.y}});
+  clear({{before.high.x, now.low.y}, now.high});
+  clear({{before.low.x, now.low.y}, {before.high.x, before.low.y}});
+  clear({{before.low.x, before.high.y}, {before.high.x, now.high.y}});
+}
+
+void PanePass::draw_map(int layer, const Look& look, bool keep) noexcept {
+  const auto at = static_cast<std::size_t>(layer);
+  const DrawnMap& map = look.map;
+  Held& held = held_[at];
+  const Rectangle all = reached<Rectangle>(map, look.origin_world, shown_world_);
+  const bool kept = keep && held.valid && held.look == look;
+  Rectangle dirty = all, now = all;
+  glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT0, absorbance_.name(), 0, layer);
+  glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT1, moments_.name(), 0, layer);
+  glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT2, places_.name(), 0, layer);
+  glBindFramebuffer(GL_FRAMEBUFFER, map_fbo_.name());
+  glViewport(0, 0, map.width, map.height);
+  if (kept) {
+    dirty = reached<Rectangle>(map, look.origin_world, changed_world_);
+    if (held.at.empty()) {
+      now = all.empty() ? held.at : all;
+    } else if (all.empty()) {
+      now = held.at;
+    } else {
+      now = {glm::min(all.low, held.at.low), glm::max(all.high, held.at.high)};
+    }
+    clear_beyond(held.at, now);
+  }
+  if (!dirty.empty()) {
+    clear(dirty);
+    draw_all();
+  }
+  held = {keep, look, now};
+  if (!now.empty()) drawn_[at] = {now.low, now.high};
+}
+
+void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const MapDraw& how) {
   drawn_.fill(glm::vec4(0.0f));
+  texels_ = 0;
   if (plan.map_count == 0) return;
-  show_within(plan.map[0].light_world, range);
   fit(largest_of(plan), plan.map_count);
   light_world_ = plan.map[0].light_world;
+  range_world_ = range_along(light_world_);
+  show_within(light_world_, how.range);
   panes_.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
   panes_.use(SceneBuffers::Placed::for_maps);
   glBindVertexArray(panes_.vertex_array());
   glUseProgram(map_program_.name());
-  set_light(plan.map[0], drawn.origin_world);
+  set_light(drawn.origin_world);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glEnable(GL_SCISSOR_TEST);
@@ -197,24 +284,17 @@ void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, double 
   glBlendFunc(GL_ONE, GL_ONE);
   // Panes before the nearest caster absorb as well.
   glEnable(GL_DEPTH_CLAMP);
-  constexpr std::array<float, 4> kNothing{};
-  for (int i = 0; i < plan.map_count; ++i) {
+  for (int i = 0; i < kMaxMaps; ++i) {
     const auto at = static_cast<std::size_t>(i);
+    if (i >= plan.map_count || drawn.map[at].bent) {
+      held_[at].valid = false;
+      continue;
+    }
     const DrawnMap& map = drawn.map[at];
-    const Rectangle rect = reached(map, drawn.origin_world);
-    if (map.bent || rect.empty()) continue;
-    drawn_[at] = {rect.low, rect.high};
-    glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT0, absorbance_.name(), 0, i);
-    glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT1, moments_.name(), 0, i);
-    glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT2, places_.name(), 0, i);
-    glBindFramebuffer(GL_FRAMEBUFFER, map_fbo_.name());
-    glViewport(0, 0, map.width, map.height);
-    glScissor(rect.low.x, rect.low.y, rect.high.x - rect.low.x, rect.high.y - rect.low.y);
-    for (const GLint target : {0, 1, 2})
-      glClearNamedFramebufferfv(map_fbo_.name(), GL_COLOR, target, kNothing.data());
     glUniformMatrix4fv(kClip, 1, GL_FALSE, &map.clip_from_position[0][0]);
-    draw_all();
+    draw_map(i, {map, drawn.origin_world, light_world_, range_world_}, how.keep);
   }
+  changed_world_.clear();
   glDisable(GL_DEPTH_CLAMP);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
@@ -241,7 +321,7 @@ void PanePass::draw_listed(const ShadowPlan& plan, const glm::dvec3& camera_worl
   const DrawnMaps seen = drawn_maps(plan, camera_world, panes_.origin_step());
   for (int i = 0; i < plan.map_count; ++i) {
     const DrawnMap& map = seen.map[static_cast<std::size_t>(i)];
-    if (!map.bent && reached(map, seen.origin_world).empty()) continue;
+    if (!map.bent && reached<Rectangle>(map, seen.origin_world, panes_.boxes()).empty()) continue;
     glViewport(0, 0, map.width, map.height);
     glUniform1i(kMap, i);
     draw_all();
@@ -259,9 +339,7 @@ void PanePass::bind_maps(const glm::dvec3& camera_world) noexcept {
     glBindSampler(unit, 0);
   }
   glUseProgram(transmittance_program_.name());
-  ShadowMap map;
-  map.light_world = light_world_;
-  if (light_world_ != glm::dvec4(0.0)) set_light(map, camera_world);
+  if (light_world_ != glm::dvec4(0.0)) set_light(camera_world);
   glUniform4fv(kDrawn, kMaxMaps, &drawn_[0].x);
 }
 

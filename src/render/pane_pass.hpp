@@ -22,9 +22,19 @@ class PanePass {
 
   /// Compiles the programs of draw_listed(), once. Throws RenderError.
   void prepare_listed();
+  /// Places one instance elsewhere.
+  void move(std::size_t instance, const Instance& to);
+  [[nodiscard]] SceneBuffers& scene() noexcept { return panes_; }
+  /// How draw_maps() draws.
+  struct MapDraw {
+    bool keep = false;   ///< maps that are the last frame's are drawn where panes moved alone
+    double range = 0.0;  ///< as tint() takes it
+  };
   /// Draws the panes into a layer for each map. Maps that no pane reaches, and maps whose shape bends lines,
-  /// take none. `range`: as tint() takes it.
-  void draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, double range = 0.0);
+  /// take none.
+  void draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const MapDraw& how);
+  /// Texels that the last draw_maps() cleared and drew.
+  [[nodiscard]] std::uint64_t texels() const noexcept { return texels_; }
   /// Whether panes tint what a light lights: some lie in its maps and within its range, 0: none.
   [[nodiscard]] bool tint(const ShadowPlan& plan, const DrawnMaps& drawn, double range);
   /// Sums up what panes absorb before each listed sample of a frame, exactly. The frame's block is that of
@@ -51,6 +61,7 @@ class PanePass {
   struct Rectangle {
     glm::ivec2 low{0}, high{0};
     [[nodiscard]] bool empty() const noexcept { return low.x >= high.x || low.y >= high.y; }
+    [[nodiscard]] std::uint64_t area() const noexcept;
   };
   struct Listed {
     Listed();
@@ -58,12 +69,33 @@ class PanePass {
     Buffer absorbed = make_buffer();  ///< red, green, blue of each sample
     std::uint64_t bytes = 0;
   };
-  /// Texels of a map that the shown panes reach.
-  [[nodiscard]] Rectangle reached(const DrawnMap& map, const glm::dvec3& origin_world) const noexcept;
+  /// Decides all texels of a map.
+  struct Look {
+    DrawnMap map;
+    glm::dvec3 origin_world{0.0};
+    glm::dvec4 light_world{0.0};
+    glm::dvec2 range_world{0.0};
+    bool operator==(const Look&) const = default;
+  };
+  /// What a layer holds.
+  struct Held {
+    bool valid = false;
+    Look look;
+    Rectangle at;  ///< texels that were cleared or drawn
+  };
+  /// Draws one map, or what changed in it.
+  void draw_map(int layer, const Look& look, bool keep) noexcept;
+  void clear(const Rectangle& at) noexcept;
+  /// The part of `now` that lies outside `before`.
+  void clear_beyond(const Rectangle& before, const Rectangle& now) noexcept;
   /// Shows the panes within a local light's range.
   void show_within(const glm::dvec4& light_world, double range);
   void fit(const glm::ivec2& layer_size, int layers);
-  void set_light(const ShadowMap& map, const glm::dvec3& origin_world) const noexcept;
+  /// Least and largest distance of panes along the light, rounded outwards: a pane that moves a little
+  /// changes nothing.
+  [[nodiscard]] glm::dvec2 range_along(const glm::dvec4& light_world) const noexcept;
+  /// Of the program that is in use; positions are from `origin_world`.
+  void set_light(const glm::dvec3& origin_world) const noexcept;
   /// By the program that is in use, whose uniforms besides the materials' are set.
   void draw_all() const noexcept;
 
@@ -76,8 +108,14 @@ class PanePass {
   glm::ivec2 layer_size_{0}, image_size_{0};
   int layers_ = 0;
   std::vector<std::uint8_t> shown_;  ///< by instance: drawn into the maps at hand
+  std::vector<Box> shown_world_;     ///< bounds of these
+  std::vector<Box>
+      changed_world_;  ///< bounds of panes that moved since the last draw_maps(), before and after
+  std::array<Held, kMaxMaps> held_;
+  std::uint64_t texels_ = 0;
   std::array<glm::vec4, kMaxMaps> drawn_{};
   glm::dvec4 light_world_{0.0};
+  glm::dvec2 range_world_{0.0};
 };
 
 }  // namespace gnomon::render

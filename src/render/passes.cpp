@@ -454,16 +454,17 @@ void Renderer::Impl::draw_shade(const FrameBlock& block, const glm::dvec3& camer
   panes->draw_over(targets, block.clip_from_camera_relative, camera_world);
 }
 
-void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn,
-                                        const Camera& camera) {
-  constexpr double kAnyRange = 0.0;
-  draw_transmittance(plan, drawn, camera, {0, 0, camera.width, camera.height}, kAnyRange);
+void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera,
+                                        const FrameOptions& options, FrameStats& stats) {
+  draw_transmittance(plan, drawn, camera, {0, 0, camera.width, camera.height},
+                     {options.prune.has(PruneRule::held_maps)});
+  stats.pane_texels = panes->texels();
 }
 
 void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera,
-                                        const TexelRect& part, double range) {
+                                        const TexelRect& part, const PanePass::MapDraw& how) {
   panes->resize(camera.width, camera.height);
-  panes->draw_maps(plan, drawn, range);
+  panes->draw_maps(plan, drawn, how);
   panes->bind_maps(camera.position);
   glBindTextureUnit(kMaskUnit, targets.mask.name());
   glEnable(GL_SCISSOR_TEST);

@@ -34,6 +34,53 @@ DepthDraw depth_draw(const FrameOptions& options) noexcept {
   return {options.prune.has(PruneRule::alpha_test), options.depth_layer, limit > 0.0 ? limit : 0.0};
 }
 
+/// Moves and bends what differs from the pose before, `last`, which becomes this one. False, and nothing
+/// moved, where the pose is not of the scene.
+template <class Move>
+bool apply(const Pose& pose, Pose& last, SceneBuffers& scene, Move&& move) {
+  const auto within = [](std::size_t begin, std::size_t count, std::size_t end) {
+    return begin <= end && count <= end - begin;
+  };
+  for (const PosedInstance& at : pose.instances) {
+    if (at.instance >= scene.boxes().size() || at.bounds_world.empty()) return false;
+  }
+  for (const PosedVertices& range : pose.vertices) {
+    if (!within(range.first_vertex, range.count, scene.vertex_count()) ||
+        !within(range.first, range.count, std::min(pose.positions.size(), pose.normals.size())))
+      return false;
+  }
+  const bool comparable =
+      last.instances.size() == pose.instances.size() && last.vertices.size() == pose.vertices.size();
+  std::vector<bool> bent(pose.instances.empty() ? 0 : scene.boxes().size());
+  for (std::size_t i = 0; i < pose.vertices.size(); ++i) {
+    const PosedVertices& range = pose.vertices[i];
+    const auto positions = std::span(pose.positions).subspan(range.first, range.count),
+               normals = std::span(pose.normals).subspan(range.first, range.count);
+    const auto same = [&](std::span<const glm::vec3> now, const std::vector<glm::vec3>& before) {
+      return comparable && within(last.vertices[i].first, range.count, before.size()) &&
+             std::equal(now.begin(), now.end(),
+                        before.begin() + static_cast<std::ptrdiff_t>(last.vertices[i].first));
+    };
+    if (comparable && last.vertices[i].first_vertex == range.first_vertex &&
+        same(positions, last.positions) && same(normals, last.normals))
+      continue;
+    scene.bend(range.first_vertex, positions, normals);
+    if (range.instance < bent.size()) bent[range.instance] = true;
+  }
+  for (std::size_t i = 0; i < pose.instances.size(); ++i) {
+    const PosedInstance& at = pose.instances[i];
+    const bool rests = comparable && !bent[at.instance] && last.instances[i] == at;
+    if (rests) continue;
+    Instance to;
+    to.world_from_object = at.world_from_object;
+    to.mirrored = at.mirrored;
+    to.bounds_world = at.bounds_world;
+    move(at.instance, to);
+  }
+  last = pose;
+  return true;
+}
+
 }  // namespace
 
 std::string_view to_string(Pass pass) noexcept {
@@ -238,52 +285,28 @@ bool Renderer::move_instance(std::size_t instance, const Instance& to) {
 
 bool Renderer::apply_pose(const Pose& pose) {
   Impl& impl = *impl_;
-  const auto within = [](std::size_t begin, std::size_t count, std::size_t end) {
-    return begin <= end && count <= end - begin;
-  };
-  for (const PosedInstance& at : pose.instances) {
-    if (at.instance >= impl.scene.boxes().size() || at.bounds_world.empty()) return false;
-  }
-  for (const PosedVertices& range : pose.vertices) {
-    if (!within(range.first_vertex, range.count, impl.scene.vertex_count()) ||
-        !within(range.first, range.count, std::min(pose.positions.size(), pose.normals.size())))
-      return false;
-  }
-  const Pose& last = impl.posed;
-  const bool comparable =
-      last.instances.size() == pose.instances.size() && last.vertices.size() == pose.vertices.size();
-  std::vector<bool> bent(pose.instances.empty() ? 0 : impl.scene.boxes().size());
-  for (std::size_t i = 0; i < pose.vertices.size(); ++i) {
-    const PosedVertices& range = pose.vertices[i];
-    const auto positions = std::span(pose.positions).subspan(range.first, range.count),
-               normals = std::span(pose.normals).subspan(range.first, range.count);
-    const auto same = [&](std::span<const glm::vec3> now, const std::vector<glm::vec3>& before) {
-      return comparable && within(last.vertices[i].first, range.count, before.size()) &&
-             std::equal(now.begin(), now.end(),
-                        before.begin() + static_cast<std::ptrdiff_t>(last.vertices[i].first));
-    };
-    if (comparable && last.vertices[i].first_vertex == range.first_vertex &&
-        same(positions, last.positions) && same(normals, last.normals))
-      continue;
-    impl.scene.bend(range.first_vertex, positions, normals);
-    if (range.instance < bent.size()) bent[range.instance] = true;
-  }
-  for (std::size_t i = 0; i < pose.instances.size(); ++i) {
-    const PosedInstance& at = pose.instances[i];
-    const bool rests = comparable && !bent[at.instance] && last.instances[i] == at;
-    if (rests) continue;
-    Instance to;
-    to.world_from_object = at.world_from_object;
-    to.mirrored = at.mirrored;
-    to.bounds_world = at.bounds_world;
-    impl.move(at.instance, to);
-  }
-  impl.posed = pose;
+  return apply(pose, impl.posed, impl.scene,
+               [&](std::size_t instance, const Instance& to) { impl.move(instance, to); });
+}
+
+bool Renderer::move_pane(std::size_t instance, const Instance& to) {
+  Impl& impl = *impl_;
+  if (!impl.panes || instance >= impl.panes->scene().boxes().size() || to.bounds_world.empty()) return false;
+  impl.pane_posed = {};
+  impl.panes->move(instance, to);
   return true;
+}
+
+bool Renderer::apply_pane_pose(const Pose& pose) {
+  Impl& impl = *impl_;
+  if (!impl.panes) return pose.instances.empty() && pose.vertices.empty();
+  return apply(pose, impl.pane_posed, impl.panes->scene(),
+               [&](std::size_t instance, const Instance& to) { impl.panes->move(instance, to); });
 }
 
 void Renderer::add_panes(const Scene& panes) {
   impl_->panes.reset();
+  impl_->pane_posed = {};
   if (panes.instances.empty()) return;
   impl_->panes.emplace(panes);
   if (impl_->pixel_lists) impl_->panes->prepare_listed();
@@ -351,7 +374,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   });
   if (accumulated) timed(Pass::accumulate, [&] { impl.draw_accumulated(camera, options, block); });
   if (impl.panes) {
-    timed(Pass::panes, [&] { impl.draw_transmittance(plan, drawn, camera); });
+    timed(Pass::panes, [&] { impl.draw_transmittance(plan, drawn, camera, options, stats); });
   }
   impl.draw_pictures(timed, options, [&] { impl.draw_shade(block, camera.position); });
   impl.count_work(plan, stats);

@@ -177,10 +177,11 @@ struct Renderer::Impl {
   /// The picture; with panes, in the light that they leave, and behind them.
   void draw_shade(const FrameBlock& block, const glm::dvec3& camera_world);
   /// What the panes leave of the light at each pixel, once the mask is there. `drawn`: of the plan's maps.
-  void draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera);
-  /// The same of a light with this range, 0: none, for a part of the image.
   void draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera,
-                          const TexelRect& part, double range);
+                          const FrameOptions& options, FrameStats& stats);
+  /// The same for a part of the image.
+  void draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera,
+                          const TexelRect& part, const PanePass::MapDraw& how);
   /// The same exactly, once the pixels are listed.
   void draw_listed_transmittance(const ShadowPlan& plan, const Camera& camera);
   void draw_aliasing() noexcept;
@@ -218,7 +219,8 @@ struct Renderer::Impl {
   std::optional<PixelLists> pixel_lists;      ///< made when they are first prepared
   std::optional<IdentifierPass> identifiers;  ///< the same
   MovingCasters movers;
-  Pose posed;  ///< the last one applied; empty: none, or instances moved since
+  Pose posed;       ///< the last one applied; empty: none, or instances moved since
+  Pose pane_posed;  ///< the same of panes
   Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;
   std::array<glm::ivec2, kMaxMaps> map_size{};  ///< of the last frame

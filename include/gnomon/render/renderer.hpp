@@ -198,6 +198,7 @@ struct FrameStats {
   int lights_tinted = 0;    ///< of a LightPlan: lights that panes tint, each added by a pass of its own
   int pages_drawn = 0;      ///< of them; the others were kept from earlier frames (PruneRule::held_maps)
   int pages_composed = 0;   ///< of pages_drawn: only moving casters drawn (PruneRule::static_casters)
+  std::uint64_t pane_texels = 0;  ///< of a ShadowPlan's pane maps: cleared and drawn; the others were kept
   /// Depth maps and everything that the filter keeps besides for its look-ups.
   std::uint64_t map_bytes = 0;
   /// Used while maps are filtered, free for other passes after that: images of one layer, lists of tiles.
@@ -237,12 +238,19 @@ class Renderer {
   /// what they absorb beside the shadow maps, multiply the light with what is left of it, and show the panes
   /// before the picture. The renderer's scene is then the opaque part; plans take both parts' boxes as
   /// casters. Surfaces behind all panes, or among two, get the product of what is before them; among more,
-  /// the middle of what moments allow. With exact shadows (prepare_irregular) all are exact. Panes stay where
-  /// they are under apply_pose() and move_instance(). Frames of pages, and maps whose shape bends lines have no
+  /// the middle of what moments allow. With exact shadows (prepare_irregular) all are exact. Panes move by
+  /// move_pane() and apply_pane_pose() alone. Frames of pages, and maps whose shape bends lines have no
   /// panes. Of many lights, each that panes tint draws its pane maps in every frame, in a mask pass of its
-  /// own (FrameStats::lights_tinted, Pass::mask). A scene without instances takes them away. Throws RenderError. Costs 40
-  /// bytes for each texel of the maps; with exact shadows 12 for each sample instead.
+  /// own (FrameStats::lights_tinted, Pass::mask). A scene without instances takes them away. Throws
+  /// RenderError. Costs 40 bytes for each texel of the maps; with exact shadows 12 for each sample instead.
   void add_panes(const Scene& panes);
+  /// Places an instance of the panes elsewhere, as move_instance() does. Pane maps that are the last frame's
+  /// (the same texels and light) are drawn where it was and where it is alone, with the bits of a whole
+  /// drawing, where FrameOptions::prune has PruneRule::held_maps. False where there is no such instance or
+  /// its bounds are empty.
+  bool move_pane(std::size_t instance, const Instance& to);
+  /// The same for all panes, as apply_pose() does: pose_of_part() of a pose of the whole scene.
+  bool apply_pane_pose(const Pose& pose);
   /// Channels "r", "g", "b" of the last frame with panes: the share of the light that passes them, 0..1. Of
   /// many lights: that of the last one that panes tint, where it lights.
   [[nodiscard]] FloatImage transmittance() const;
