@@ -46,28 +46,6 @@ std::array<glm::dvec3, 8> corners_of(const Box& box) noexcept {
   return corners;
 }
 
-/// Texels of a map that boxes reach.
-template <class Rectangle>
-Rectangle reached(const DrawnMap& map, const glm::dvec3& origin_world, std::span<const Box> boxes) noexcept {
-  const glm::dvec2 size(map.width, map.height);
-  glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
-  for (const Box& box : boxes) {
-    if (box.empty()) continue;
-    for (const glm::dvec3& corner : corners_of(box)) {
-      const glm::dvec4 clip = glm::dmat4(map.clip_from_position) * glm::dvec4(corner - origin_world, 1.0);
-      // Behind a warp's or a lamp's centre a box may be anywhere.
-      if (!(clip.w > 0.0)) return {{0, 0}, {map.width, map.height}};
-      const glm::dvec2 texel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size;
-      low = glm::min(low, texel);
-      high = glm::max(high, texel);
-    }
-  }
-  // A texel more on each side is empty, so that bilinear reads at an edge find nothing beyond it.
-  low = glm::clamp(low - 1.0, glm::dvec2(0.0), size);
-  high = glm::clamp(high + 1.0, glm::dvec2(0.0), size);
-  return {glm::ivec2(glm::floor(low)), glm::ivec2(glm::ceil(high))};
-}
-
 }  // namespace
 
 std::uint64_t PanePass::Rectangle::area() const noexcept {
@@ -111,6 +89,7 @@ void PanePass::fit(const glm::ivec2& layer_size, int layers) {
   layer_size_ = glm::max(layer_size, layer_size_);
   layers_ = std::max(layers, layers_);
   held_ = {};
+  held_pages_.reset();
   absorbance_ = sums(GL_RGBA16F, layer_size_, layers_);
   moments_ = sums(GL_RGBA32F, layer_size_, layers_);
   places_ = sums(GL_RGBA32F, layer_size_, layers_);
@@ -122,6 +101,27 @@ void PanePass::resize(int width, int height) {
   image_ = pixel_image(GL_RGBA32F, width, height);
   image_fbo_ = make_framebuffer();
   glNamedFramebufferTexture(image_fbo_.name(), GL_COLOR_ATTACHMENT0, image_.name(), 0);
+}
+
+PanePass::Rectangle PanePass::reached(const DrawnMap& map, const glm::dvec3& origin_world,
+                                      std::span<const Box> boxes) noexcept {
+  const glm::dvec2 size(map.width, map.height);
+  glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+  for (const Box& box : boxes) {
+    if (box.empty()) continue;
+    for (const glm::dvec3& corner : corners_of(box)) {
+      const glm::dvec4 clip = glm::dmat4(map.clip_from_position) * glm::dvec4(corner - origin_world, 1.0);
+      // Behind a warp's or a lamp's centre a box may be anywhere.
+      if (!(clip.w > 0.0)) return {{0, 0}, {map.width, map.height}};
+      const glm::dvec2 texel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size;
+      low = glm::min(low, texel);
+      high = glm::max(high, texel);
+    }
+  }
+  // A texel more on each side is empty, so that bilinear reads at an edge find nothing beyond it.
+  low = glm::clamp(low - 1.0, glm::dvec2(0.0), size);
+  high = glm::clamp(high + 1.0, glm::dvec2(0.0), size);
+  return {glm::ivec2(glm::floor(low)), glm::ivec2(glm::ceil(high))};
 }
 
 void PanePass::move(std::size_t instance, const Instance& to) {
@@ -159,7 +159,7 @@ bool PanePass::tint(const ShadowPlan& plan, const DrawnMaps& drawn, double range
   show_within(plan.map[0].light_world, range);
   for (int i = 0; i < plan.map_count; ++i) {
     const DrawnMap& map = drawn.map[static_cast<std::size_t>(i)];
-    if (!reached<Rectangle>(map, drawn.origin_world, shown_world_).empty()) return true;
+    if (!reached(map, drawn.origin_world, shown_world_).empty()) return true;
   }
   return false;
 }
@@ -216,6 +216,34 @@ void PanePass::draw_all() const noexcept {
   glBindSampler(kColorImageUnit, 0);
 }
 
+void PanePass::attach(int layer) noexcept {
+  glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT0, absorbance_.name(), 0, layer);
+  glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT1, moments_.name(), 0, layer);
+  glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT2, places_.name(), 0, layer);
+  glBindFramebuffer(GL_FRAMEBUFFER, map_fbo_.name());
+}
+
+void PanePass::begin_sums(const glm::dvec3& origin_world) noexcept {
+  panes_.place(SceneBuffers::Placed::for_maps, origin_world);
+  panes_.use(SceneBuffers::Placed::for_maps);
+  glBindVertexArray(panes_.vertex_array());
+  glUseProgram(map_program_.name());
+  set_light(origin_world);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_SCISSOR_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  // Panes before the nearest caster absorb as well.
+  glEnable(GL_DEPTH_CLAMP);
+}
+
+void PanePass::end_sums() noexcept {
+  glDisable(GL_DEPTH_CLAMP);
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+}
+
 void PanePass::clear(const Rectangle& at) noexcept {
   if (at.empty()) return;
   constexpr std::array<float, 4> kNothing{};
@@ -237,16 +265,13 @@ void PanePass::draw_map(int layer, const Look& look, bool keep) noexcept {
   const auto at = static_cast<std::size_t>(layer);
   const DrawnMap& map = look.map;
   Held& held = held_[at];
-  const Rectangle all = reached<Rectangle>(map, look.origin_world, shown_world_);
+  const Rectangle all = reached(map, look.origin_world, shown_world_);
   const bool kept = keep && held.valid && held.look == look;
   Rectangle dirty = all, now = all;
-  glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT0, absorbance_.name(), 0, layer);
-  glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT1, moments_.name(), 0, layer);
-  glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT2, places_.name(), 0, layer);
-  glBindFramebuffer(GL_FRAMEBUFFER, map_fbo_.name());
+  attach(layer);
   glViewport(0, 0, map.width, map.height);
   if (kept) {
-    dirty = reached<Rectangle>(map, look.origin_world, changed_world_);
+    dirty = reached(map, look.origin_world, changed_world_);
     if (held.at.empty()) {
       now = all.empty() ? held.at : all;
     } else if (all.empty()) {
@@ -272,18 +297,7 @@ void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const M
   light_world_ = plan.map[0].light_world;
   range_world_ = range_along(light_world_);
   show_within(light_world_, how.range);
-  panes_.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
-  panes_.use(SceneBuffers::Placed::for_maps);
-  glBindVertexArray(panes_.vertex_array());
-  glUseProgram(map_program_.name());
-  set_light(drawn.origin_world);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_SCISSOR_TEST);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE);
-  // Panes before the nearest caster absorb as well.
-  glEnable(GL_DEPTH_CLAMP);
+  begin_sums(drawn.origin_world);
   for (int i = 0; i < kMaxMaps; ++i) {
     const auto at = static_cast<std::size_t>(i);
     if (i >= plan.map_count || drawn.map[at].bent) {
@@ -295,9 +309,8 @@ void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const M
     draw_map(i, {map, drawn.origin_world, light_world_, range_world_}, how.keep);
   }
   changed_world_.clear();
-  glDisable(GL_DEPTH_CLAMP);
-  glDisable(GL_BLEND);
-  glDisable(GL_SCISSOR_TEST);
+  held_pages_.reset();
+  end_sums();
 }
 
 void PanePass::draw_listed(const ShadowPlan& plan, const glm::dvec3& camera_world, const PixelLists& lists) {
@@ -321,7 +334,7 @@ void PanePass::draw_listed(const ShadowPlan& plan, const glm::dvec3& camera_worl
   const DrawnMaps seen = drawn_maps(plan, camera_world, panes_.origin_step());
   for (int i = 0; i < plan.map_count; ++i) {
     const DrawnMap& map = seen.map[static_cast<std::size_t>(i)];
-    if (!map.bent && reached<Rectangle>(map, seen.origin_world, panes_.boxes()).empty()) continue;
+    if (!map.bent && reached(map, seen.origin_world, panes_.boxes()).empty()) continue;
     glViewport(0, 0, map.width, map.height);
     glUniform1i(kMap, i);
     draw_all();
@@ -331,13 +344,17 @@ void PanePass::draw_listed(const ShadowPlan& plan, const glm::dvec3& camera_worl
   glUniform1i(kSamples, lists.samples());
 }
 
-void PanePass::bind_maps(const glm::dvec3& camera_world) noexcept {
+void PanePass::bind_images() noexcept {
   const std::pair<GLuint, GLuint> images[] = {
       {kMomentsUnit, moments_.name()}, {kPlacesUnit, places_.name()}, {kAbsorbanceUnit, absorbance_.name()}};
   for (const auto& [unit, texture] : images) {
     glBindTextureUnit(unit, texture);
     glBindSampler(unit, 0);
   }
+}
+
+void PanePass::bind_maps(const glm::dvec3& camera_world) noexcept {
+  bind_images();
   glUseProgram(transmittance_program_.name());
   if (light_world_ != glm::dvec4(0.0)) set_light(camera_world);
   glUniform4fv(kDrawn, kMaxMaps, &drawn_[0].x);

@@ -437,21 +437,13 @@ void Renderer::Impl::draw_accumulated(const Camera& camera, const FrameOptions& 
   history.keep(camera, block);
 }
 
-void Renderer::Impl::draw_plain_shade() noexcept {
-  glBindTextureUnit(kMaskUnit, targets.mask.name());
-  glEnable(GL_FRAMEBUFFER_SRGB);
-  fullscreen(targets.color_fbo.name(), programs.shade);
-  glDisable(GL_FRAMEBUFFER_SRGB);
-}
-
 void Renderer::Impl::draw_shade(const FrameBlock& block, const glm::dvec3& camera_world) {
-  if (!panes) return draw_plain_shade();
   glBindTextureUnit(kMaskUnit, targets.mask.name());
-  glBindTextureUnit(kExtraUnit, panes->image().name());
+  if (panes) glBindTextureUnit(kExtraUnit, panes->image().name());
   glEnable(GL_FRAMEBUFFER_SRGB);
-  fullscreen(targets.color_fbo.name(), panes->shade_program());
+  fullscreen(targets.color_fbo.name(), panes ? panes->shade_program() : programs.shade);
   glDisable(GL_FRAMEBUFFER_SRGB);
-  panes->draw_over(targets, block.clip_from_camera_relative, camera_world);
+  if (panes) panes->draw_over(targets, block.clip_from_camera_relative, camera_world);
 }
 
 void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera,
@@ -471,6 +463,16 @@ void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps&
   glScissor(part.x, part.y, part.width, part.height);
   fullscreen(panes->fbo(), panes->transmittance_program());
   glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::Impl::draw_transmittance(const PagePlan& plan, const glm::dvec3& origin_world,
+                                        const Camera& camera) {
+  panes->resize(camera.width, camera.height);
+  panes->draw_pages(plan, pages, origin_world);
+  pages.bind();
+  panes->bind_pages(camera.position);
+  glBindTextureUnit(kMaskUnit, targets.mask.name());
+  fullscreen(panes->fbo(), panes->pages_program());
 }
 
 void Renderer::Impl::draw_listed_transmittance(const ShadowPlan& plan, const Camera& camera) {

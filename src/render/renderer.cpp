@@ -310,6 +310,7 @@ void Renderer::add_panes(const Scene& panes) {
   if (panes.instances.empty()) return;
   impl_->panes.emplace(panes);
   if (impl_->pixel_lists) impl_->panes->prepare_listed();
+  if (impl_->reads_pages) impl_->panes->prepare_pages();
 }
 
 FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
@@ -398,6 +399,8 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
 PreparedFilter Renderer::prepare_pages(const FilterSettings& settings) {
   const PreparedFilter prepared = prepare(settings);
   make_pages_programs(settings, impl_->filter_programs[prepared.program]);
+  impl_->reads_pages = true;
+  if (impl_->panes) impl_->panes->prepare_pages();
   return prepared;
 }
 
@@ -430,17 +433,18 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   FilterBlock filtering = filter_block(filter.settings, blur);
   set_depth_curves(curves, filtering);
   filtering.sums.w = options.receiver_plane ? 0.0f : 1.0f;
+  const FrameBlock block = frame_block(of_light, camera, options, extent.side, extent.side, blur, curves);
+  glm::dvec3 origin_world(0.0);
   timed(Pass::shadow_maps, [&] {
-    const FrameBlock block = frame_block(of_light, camera, options, extent.side, extent.side, blur, curves);
     impl.upload(block, filtering);
     // Kept pages want an origin that stays; as near the camera as two bits of a float allow.
     constexpr double kOriginSteps = 4.0;
-    const DrawnMaps drawn = impl.place_scene({}, camera.position, kOriginSteps);
+    origin_world = impl.place_scene({}, camera.position, kOriginSteps).origin_world;
     impl.take_moved(options.moved_world);
     const bool alpha_test = options.prune.has(PruneRule::alpha_test);
     impl.pages.build(
-        plan, {drawn.origin_world, alpha_test, options.prune.has(PruneRule::held_maps),
-               impl.tells_apart(options), impl.movers.static_changed_world(), impl.movers.changed_world()});
+        plan, {origin_world, alpha_test, options.prune.has(PruneRule::held_maps), impl.tells_apart(options),
+               impl.movers.static_changed_world(), impl.movers.changed_world()});
     impl.lists.build_pages(impl.pages.pages(), camera, options.prune, impl.moves(options));
     impl.movers.finish_frame(impl.scene.boxes());
     impl.draw_pages(of_light, depth_draw(options));
@@ -458,7 +462,9 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
     impl.bind_noise(options.noise);
     impl.draw_mask(programs.mask_pages, impl.targets.mask_fbo.name(), true);
   });
-  timed(Pass::shade, [&] { impl.draw_plain_shade(); });
+  if (impl.panes) timed(Pass::panes, [&] { impl.draw_transmittance(plan, origin_world, camera); });
+  timed(Pass::shade, [&] { impl.draw_shade(block, camera.position); });
+  stats.pane_texels = impl.panes ? impl.panes->texels() : 0;
   stats.map_count = 1;
   stats.map[0] = impl.work_of_map(0);
   stats.texels = stats.map[0].texels;
@@ -466,7 +472,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   stats.camera = impl.lists.camera_stats();
   stats.prefilter_passes = impl.stored_pages.passes();
   stats.filtered_texels = impl.stored_pages.filtered_texels();
-  stats.map_bytes = impl.maps.bytes() + impl.stored_pages.bytes();
+  stats.map_bytes = impl.maps.bytes() + impl.stored_pages.bytes() + (impl.panes ? impl.panes->bytes() : 0);
   stats.scratch_bytes = impl.stored_pages.scratch_bytes() + impl.depth_peel.bytes();
   stats.pages = static_cast<int>(plan.pages.size());
   stats.pages_drawn = static_cast<int>(impl.pages.pages().size());

@@ -172,8 +172,6 @@ struct Renderer::Impl {
   void draw_accumulated(const Camera& camera, const FrameOptions& options, const FrameBlock& block) noexcept;
   /// Makes the noise tile at the first frame that reads it.
   void bind_noise(SampleNoise noise) noexcept;
-  /// The picture without panes.
-  void draw_plain_shade() noexcept;
   /// The picture; with panes, in the light that they leave, and behind them.
   void draw_shade(const FrameBlock& block, const glm::dvec3& camera_world);
   /// What the panes leave of the light at each pixel, once the mask is there. `drawn`: of the plan's maps.
@@ -182,6 +180,8 @@ struct Renderer::Impl {
   /// The same for a part of the image.
   void draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera,
                           const TexelRect& part, const PanePass::MapDraw& how);
+  /// The same from pages. `origin_world`: that casters are drawn from.
+  void draw_transmittance(const PagePlan& plan, const glm::dvec3& origin_world, const Camera& camera);
   /// The same exactly, once the pixels are listed.
   void draw_listed_transmittance(const ShadowPlan& plan, const Camera& camera);
   void draw_aliasing() noexcept;
@@ -214,6 +214,7 @@ struct Renderer::Impl {
   bool drew_silhouettes = false;                  ///< into the maps that are held
   PagePool pages;
   StoredPages stored_pages;
+  bool reads_pages = false;                   ///< a filter was prepared for them
   std::optional<LightPass> light_pass;        ///< made when many lights are first prepared
   std::optional<PanePass> panes;              ///< made by Renderer::add_panes
   std::optional<PixelLists> pixel_lists;      ///< made when they are first prepared

@@ -198,7 +198,7 @@ struct FrameStats {
   int lights_tinted = 0;    ///< of a LightPlan: lights that panes tint, each added by a pass of its own
   int pages_drawn = 0;      ///< of them; the others were kept from earlier frames (PruneRule::held_maps)
   int pages_composed = 0;   ///< of pages_drawn: only moving casters drawn (PruneRule::static_casters)
-  std::uint64_t pane_texels = 0;  ///< of a ShadowPlan's pane maps: cleared and drawn; the others were kept
+  std::uint64_t pane_texels = 0;  ///< of pane maps and pages: cleared and drawn; the others were kept
   /// Depth maps and everything that the filter keeps besides for its look-ups.
   std::uint64_t map_bytes = 0;
   /// Used while maps are filtered, free for other passes after that: images of one layer, lists of tiles.
@@ -234,15 +234,16 @@ class Renderer {
   FrameStats draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                   const FrameOptions& options = {}) noexcept;
 
-  /// Panes that colour the light which passes them (split_translucent): frames of a ShadowPlan draw maps of
-  /// what they absorb beside the shadow maps, multiply the light with what is left of it, and show the panes
-  /// before the picture. The renderer's scene is then the opaque part; plans take both parts' boxes as
-  /// casters. Surfaces behind all panes, or among two, get the product of what is before them; among more,
-  /// the middle of what moments allow. With exact shadows (prepare_irregular) all are exact. Panes move by
-  /// move_pane() and apply_pane_pose() alone. Frames of pages, and maps whose shape bends lines have no
-  /// panes. Of many lights, each that panes tint draws its pane maps in every frame, in a mask pass of its
-  /// own (FrameStats::lights_tinted, Pass::mask). A scene without instances takes them away. Throws
-  /// RenderError. Costs 40 bytes for each texel of the maps; with exact shadows 12 for each sample instead.
+  /// Panes that colour the light which passes them (split_translucent): frames draw maps of what they absorb
+  /// beside the shadow maps, multiply the light with what is left of it, and show the panes before the
+  /// picture. The renderer's scene is then the opaque part; plans take both parts' boxes as casters. Surfaces
+  /// behind all panes, or among two, get the product of what is before them; among more, the middle of what
+  /// moments allow. With exact shadows (prepare_irregular) all are exact. Panes move by move_pane() and
+  /// apply_pane_pose() alone. Maps whose shape bends lines have no panes, but for exact shadows. Of many
+  /// lights, each that panes tint draws its pane maps in every frame, in a mask pass of its own
+  /// (FrameStats::lights_tinted, Pass::mask). A scene without instances takes them away. Throws RenderError.
+  /// Costs 40 bytes for each texel of the maps, or of the pages that panes reach, these at most 256 MiB; with
+  /// exact shadows 12 for each sample instead.
   void add_panes(const Scene& panes);
   /// Places an instance of the panes elsewhere, as move_instance() does. Pane maps that are the last frame's
   /// (the same texels and light) are drawn where it was and where it is alone, with the bits of a whole
