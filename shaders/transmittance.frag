@@ -1,5 +1,5 @@
 #version 450 core
-// What panes leave of the light at each pixel, from a layer for each map.
+// Share of the light that panes leave at each pixel, from a layer for each map.
 #include "common/transmittance.glsl"
 
 layout(location = 7) uniform vec4 drawn[kMaxMaps];  // by map: PanePlace::drawn

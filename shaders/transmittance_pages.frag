@@ -1,5 +1,5 @@
 #version 450 core
-// What panes leave of the light at each pixel, from places for the pages that panes reach.
+// Share of the light that panes leave at each pixel, from places for the pages that panes reach.
 #define GNOMON_PAGES
 #include "common/pages.glsl"
 #include "common/transmittance.glsl"

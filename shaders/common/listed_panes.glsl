@@ -1,4 +1,4 @@
-// What panes absorb before each listed sample, in whole steps by colour.
+// Absorbance of the panes before each listed sample, in whole steps by colour.
 #ifndef GNOMON_COMMON_LISTED_PANES_GLSL
 #define GNOMON_COMMON_LISTED_PANES_GLSL
 const float kAbsorbanceSteps = 262144.0;  // of -ln(transmittance) 1: a pane is rounded by 2e-6 of the light

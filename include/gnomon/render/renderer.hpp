@@ -239,7 +239,7 @@ class Renderer {
   /// picture. The renderer's scene is then the opaque part; plans take both parts' boxes as casters. Surfaces
   /// behind all panes, or among two, get the product of what is before them; among more, the middle of what
   /// moments allow. With exact shadows (prepare_irregular) all are exact. Panes move by move_pane() and
-  /// apply_pane_pose() alone. Maps whose shape bends lines have no panes, but for exact shadows. Of many
+  /// apply_pane_pose() alone. Maps whose shape bends lines have no panes, but for exact shadows. With many
   /// lights, each that panes tint draws its pane maps in every frame, in a mask pass of its own
   /// (FrameStats::lights_tinted, Pass::mask). A scene without instances takes them away. Throws RenderError.
   /// Costs 40 bytes for each texel of the maps, or of the pages that panes reach, these at most 256 MiB; with
@@ -252,7 +252,7 @@ class Renderer {
   bool move_pane(std::size_t instance, const Instance& to);
   /// The same for all panes, as apply_pose() does: pose_of_part() of a pose of the whole scene.
   bool apply_pane_pose(const Pose& pose);
-  /// Channels "r", "g", "b" of the last frame with panes: the share of the light that passes them, 0..1. Of
+  /// Channels "r", "g", "b" of the last frame with panes: the share of the light that passes them, 0..1. With
   /// many lights: that of the last one that panes tint, where it lights.
   [[nodiscard]] FloatImage transmittance() const;
 
