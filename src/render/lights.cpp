@@ -250,7 +250,6 @@ void Renderer::Impl::add_light(const LightMaps& maps_of_light, const DrawnLight&
     upload(frame_block(of_light, camera, own, 1, 1, BlurSides{}, depth_curves(of_light)), filtering);
     draw_transmittance(of_light, drawn_maps(of_light, camera.position, scene.origin_step()), camera, part,
                        {.range = range_of(light.light)});
-
     upload(block, filtering);
     glEnable(GL_SCISSOR_TEST);
     glScissor(part.x, part.y, part.width, part.height);

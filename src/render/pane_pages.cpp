@@ -1,6 +1,7 @@
 // What panes absorb before the surfaces that pages serve: a place for each page that panes reach.
 #include <algorithm>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "frame_block.hpp"
 #include "pane_pass.hpp"
@@ -80,6 +81,10 @@ void PanePass::draw_pages(const PagePlan& plan, const PagePool& pool, const glm:
   changed_world_.clear();
   if (kept) return;
   held_ = {};
+  if (look.pages.empty()) {
+    held_pages_ = std::move(look);
+    return;
+  }
   fit(glm::ivec2(kAcross * look.side), (static_cast<int>(look.pages.size()) + kPerLayer - 1) / kPerLayer);
   begin_sums(origin_world);
   int layer = -1;

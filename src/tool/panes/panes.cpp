@@ -333,9 +333,9 @@ std::function<int()> declare_panes(Arguments& arguments) {
   arguments.footer =
       "Panes are surfaces with a transmission, or with alpha that blends. Tinted: pixels that rays find\n"
       "behind panes. Errors are means over the three colours, of the share of light that passes, against\n"
-      "exact rays; by lights, of their sum. Milliseconds: panes, their maps and the image of what they "
-      "leave;\n"
-      "hard, or what --by says, and msm, shadow maps, prefilter and look-up. docs/panes.md explains them.";
+      "exact rays; by lights, of their sum. Milliseconds: panes, their maps and the image of what they\n"
+      "leave; hard, or what --by says, and msm, shadow maps, prefilter and look-up of these filters.\n"
+      "docs/panes.md explains them.";
   return [request] { return run_panes(*request); };
 }
 
