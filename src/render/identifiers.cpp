@@ -66,9 +66,10 @@ FrameStats Renderer::Impl::draw_identified(const ShadowPlan& plan, const Camera&
   PruneRules prune = options.prune.without(PruneRule::small_casters);
   if (test.of == IdentifierOf::triangle) prune = prune.without(PruneRule::caster_clusters);
   constexpr bool kReadsEverywhere = true, kDrawnWhole = true;
+  DrawnMaps drawn;
   timed(Pass::shadow_maps, [&] {
     upload(block, filter_block(filter.settings, blur));
-    const DrawnMaps drawn = place_scene(plan, camera.position);
+    drawn = place_scene(plan, camera.position);
     lists.build({plan, prune, 0.0, kReadsEverywhere, kDrawnWhole, movers.changed_world(),
                  movers.static_changed_world()},
                 drawn, camera);
@@ -81,10 +82,11 @@ FrameStats Renderer::Impl::draw_identified(const ShadowPlan& plan, const Camera&
     identifiers->bind(targets.identifier.name(), test.neighbours);
     fullscreen(targets.mask_fbo.name(), identifiers->mask());
   });
-  draw_pictures(timed, options, [&] { draw_shade(); });
+  if (panes) timed(Pass::panes, [&] { draw_transmittance(plan, drawn, camera, options, stats); });
+  draw_pictures(timed, options, [&] { draw_shade(block, camera.position); });
   count_work(plan, stats);
   stats.identified = true;
-  stats.map_bytes = maps.bytes() + identifiers->bytes();
+  stats.map_bytes = maps.bytes() + identifiers->bytes() + (panes ? panes->bytes() : 0);
   return stats;
 }
 

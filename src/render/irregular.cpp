@@ -10,6 +10,7 @@ namespace gnomon::render {
 PreparedFilter Renderer::prepare_irregular(int samples) {
   PreparedFilter prepared = prepare(filters::hard);
   if (!impl_->pixel_lists) impl_->pixel_lists.emplace();
+  if (impl_->panes) impl_->panes->prepare_listed();
   prepared.irregular = true;
   prepared.samples = std::clamp(samples, 1, kMostFacetSamples);
   return prepared;
@@ -48,10 +49,11 @@ FrameStats Renderer::Impl::draw_irregular(const ShadowPlan& plan, const Camera& 
                       targets.mask.name());
   });
   timed(Pass::shadow_maps, [&] { draw_casters_on_lists(plan, options.prune.has(PruneRule::alpha_test)); });
-  draw_pictures(timed, options, [&] { draw_shade(); });
+  if (panes) timed(Pass::panes, [&] { draw_listed_transmittance(plan, camera); });
+  draw_pictures(timed, options, [&] { draw_shade(block, camera.position); });
   count_work(plan, stats);
   stats.irregular = true;
-  stats.map_bytes = pixel_lists->bytes();
+  stats.map_bytes = pixel_lists->bytes() + (panes ? panes->bytes() : 0);
   return stats;
 }
 

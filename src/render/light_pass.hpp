@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct LightPass {
   // For one frame.
   std::vector<DrawnPage> maps;        ///< to draw
   std::vector<std::size_t> light_of;  ///< by map to draw
+  std::vector<std::uint8_t> tinted;   ///< by light: panes tint it, and it is added by itself
   LightLists lists;
 };
 

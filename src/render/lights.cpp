@@ -12,7 +12,7 @@ namespace gnomon::render {
 namespace {
 
 constexpr GLint kBrightnessLocation = 0, kSkyLocation = 0;
-constexpr GLuint kMaskUnit = 6, kSumUnit = 7;
+constexpr GLuint kMaskUnit = 6, kSumUnit = 7, kTransmittanceUnit = 7;
 
 /// The plan by which a light's maps are drawn and read; one without maps where it has none that can be.
 const ShadowPlan& plan_of(const DrawnLight& light, const LightMaps& maps) noexcept {
@@ -51,11 +51,16 @@ void move_to_place(const ShadowMap& map, const TexelRect& place, bool by_hold, c
   block.interval_size.w = pool.y;
 }
 
+/// Of a local light; 0 for a sun.
+double range_of(const Light& light) noexcept {
+  const auto* spot = std::get_if<SpotLight>(&light);
+  const auto* point = std::get_if<PointLight>(&light);
+  return spot != nullptr ? spot->range : point != nullptr ? point->range : 0.0;
+}
+
 /// It adds nothing to the picture.
 bool is_dark(const LightMaps& maps, const DrawnLight& light) noexcept {
-  const auto* spot = std::get_if<SpotLight>(&light.light);
-  const auto* point = std::get_if<PointLight>(&light.light);
-  const bool reaches = spot != nullptr ? spot->range > 0.0 : point == nullptr || point->range > 0.0;
+  const bool reaches = std::holds_alternative<DirectionalLight>(light.light) || range_of(light.light) > 0.0;
   return maps.outcome == LightOutcome::without_receiver || light.color == glm::vec3(0.0f) || !reaches;
 }
 
@@ -195,7 +200,7 @@ bool Renderer::Impl::add_clustered_lights(const LightPlan& plan, std::span<const
   LightPass& pass = *light_pass;
   pass.lists.clear();
   for (std::size_t i = 0; i < std::min(lights.size(), plan.lights.size()); ++i) {
-    if (is_dark(plan.lights[i], lights[i])) continue;
+    if (is_dark(plan.lights[i], lights[i]) || pass.tinted[i] != 0) continue;
     pass.lists.add(lights[i].light,
                    block_of(lights[i], plan.lights[i], camera, options, {maps.width, maps.height}),
                    lights[i].color);
@@ -209,36 +214,54 @@ bool Renderer::Impl::add_clustered_lights(const LightPlan& plan, std::span<const
   return true;
 }
 
-void Renderer::Impl::add_each_light(const LightPlan& plan, std::span<const DrawnLight> lights,
-                                    const Camera& camera, const PreparedFilter& filter,
-                                    const FrameOptions& options) noexcept {
-  const LightPass& pass = *light_pass;
-  constexpr std::array<float, 4> kDark{}, kLit{1.0f, -1.0f};
-  // Not through the framebuffer: under Mesa such a clear was seen to be lost where no draw follows it.
-  glClearTexImage(pass.sum.name(), 0, GL_RGBA, GL_FLOAT, kDark.data());
-  glClearTexImage(targets.mask.name(), 0, GL_RG, GL_FLOAT, kLit.data());
-  glEnable(GL_SCISSOR_TEST);
+void Renderer::Impl::mark_tinted(const LightPlan& plan, std::span<const DrawnLight> lights,
+                                 const Camera& camera) {
+  std::vector<std::uint8_t>& tinted = light_pass->tinted;
+  tinted.assign(lights.size(), 0);
+  if (!panes) return;
   for (std::size_t i = 0; i < std::min(lights.size(), plan.lights.size()); ++i) {
-    const LightMaps& own = plan.lights[i];
-    const DrawnLight& light = lights[i];
-    const TexelRect part = lit_pixels(light.light, camera);
-    if (is_dark(own, light) || part.empty()) continue;
-    const ShadowPlan& of_light = plan_of(light, own);
-    FilterBlock filtering = filter_block(filter.settings, BlurSides{});
-    set_depth_curves(depth_curves(of_light), filtering);
-    filtering.sums.w = options.receiver_plane ? 0.0f : 1.0f;
-    fit_options(filter.settings, of_light, filtering);
-    upload(block_of(light, own, camera, options, {maps.width, maps.height}), filtering);
-    glScissor(part.x, part.y, part.width, part.height);
-    draw_mask(filter_programs[filter.program].mask_lights, targets.mask_fbo.name());
-    glBindTextureUnit(kMaskUnit, targets.mask.name());
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE);
-    glProgramUniform4f(pass.add.name(), kBrightnessLocation, light.color.x, light.color.y, light.color.z,
-                       0.0f);
-    fullscreen(pass.sum_fbo.name(), pass.add);
-    glDisable(GL_BLEND);
+    if (is_dark(plan.lights[i], lights[i])) continue;
+    const ShadowPlan& own = plan_of(lights[i], plan.lights[i]);
+    tinted[i] =
+        panes->tint(own, drawn_maps(own, camera.position, scene.origin_step()), range_of(lights[i].light));
   }
+}
+
+void Renderer::Impl::add_light(const LightMaps& maps_of_light, const DrawnLight& light, bool tinted,
+                               const Camera& camera, const PreparedFilter& filter,
+                               const FrameOptions& options) {
+  const LightPass& pass = *light_pass;
+  const TexelRect part = lit_pixels(light.light, camera);
+  if (part.empty()) return;
+  const ShadowPlan& of_light = plan_of(light, maps_of_light);
+  FilterBlock filtering = filter_block(filter.settings, BlurSides{});
+  set_depth_curves(depth_curves(of_light), filtering);
+  filtering.sums.w = options.receiver_plane ? 0.0f : 1.0f;
+  fit_options(filter.settings, of_light, filtering);
+  const FrameBlock block = block_of(light, maps_of_light, camera, options, {maps.width, maps.height});
+  upload(block, filtering);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(part.x, part.y, part.width, part.height);
+  draw_mask(filter_programs[filter.program].mask_lights, targets.mask_fbo.name());
+  if (tinted) {
+    // Panes are drawn into maps of their own, whose matrices are not those of the pool.
+    FrameOptions own = options;
+    own.light = &light.light;
+    upload(frame_block(of_light, camera, own, 1, 1, BlurSides{}, depth_curves(of_light)), filtering);
+    draw_transmittance(of_light, drawn_maps(of_light, camera.position, scene.origin_step()), camera, part,
+                       {.range = range_of(light.light)});
+    upload(block, filtering);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(part.x, part.y, part.width, part.height);
+    glBindTextureUnit(kTransmittanceUnit, panes->image().name());
+  }
+  glBindTextureUnit(kMaskUnit, targets.mask.name());
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  const Program& add = tinted ? panes->add_light_program() : pass.add;
+  glProgramUniform4f(add.name(), kBrightnessLocation, light.color.x, light.color.y, light.color.z, 0.0f);
+  fullscreen(pass.sum_fbo.name(), add);
+  glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
 }
 
@@ -246,12 +269,23 @@ void Renderer::Impl::add_lights(const LightPlan& plan, std::span<const DrawnLigh
                                 const Camera& camera, const PreparedFilter& filter,
                                 const FrameOptions& options) noexcept {
   bind_noise(options.noise);
-  if (!add_clustered_lights(plan, lights, camera, filter, options))
-    add_each_light(plan, lights, camera, filter, options);
+  mark_tinted(plan, lights, camera);
+  const bool clustered = add_clustered_lights(plan, lights, camera, filter, options);
+  if (!clustered) {
+    constexpr std::array<float, 4> kDark{}, kLit{1.0f, -1.0f};
+    // Not through the framebuffer: under Mesa such a clear was seen to be lost where no draw follows it.
+    glClearTexImage(light_pass->sum.name(), 0, GL_RGBA, GL_FLOAT, kDark.data());
+    glClearTexImage(targets.mask.name(), 0, GL_RG, GL_FLOAT, kLit.data());
+  }
+  for (std::size_t i = 0; i < std::min(lights.size(), plan.lights.size()); ++i) {
+    const bool tinted = light_pass->tinted[i] != 0;
+    if (is_dark(plan.lights[i], lights[i]) || (clustered && !tinted)) continue;
+    add_light(plan.lights[i], lights[i], tinted, camera, filter, options);
+  }
 }
 
 void Renderer::Impl::draw_sum_of_lights(const Camera& camera, std::span<const DrawnLight> lights,
-                                        const FrameOptions& options) noexcept {
+                                        const FrameOptions& options) {
   // The sky is that of the first sun; under local lights alone it is dusk.
   ShadowPlan sky;
   float share = 0.3f;
@@ -261,13 +295,15 @@ void Renderer::Impl::draw_sum_of_lights(const Camera& camera, std::span<const Dr
     sky.light_direction = glm::normalize(sun->direction);
     share = std::clamp(std::max({light.color.x, light.color.y, light.color.z}), 0.02f, 1.0f);
   }
-  upload(frame_block(sky, camera, options, 1, 1, BlurSides{}, DepthCurves{}), FilterBlock{});
+  const FrameBlock block = frame_block(sky, camera, options, 1, 1, BlurSides{}, DepthCurves{});
+  upload(block, FilterBlock{});
   glBindTextureUnit(kMaskUnit, targets.mask.name());
   glBindTextureUnit(kSumUnit, light_pass->sum.name());
   glProgramUniform1f(light_pass->finish.name(), kSkyLocation, share);
   glEnable(GL_FRAMEBUFFER_SRGB);
   fullscreen(targets.color_fbo.name(), light_pass->finish);
   glDisable(GL_FRAMEBUFFER_SRGB);
+  if (panes) panes->draw_over(targets, block.clip_from_camera_relative, camera.position);
 }
 
 FrameStats Renderer::draw(const LightPlan& plan, std::span<const DrawnLight> lights, const Camera& camera,
@@ -312,7 +348,9 @@ FrameStats Renderer::draw(const LightPlan& plan, std::span<const DrawnLight> lig
   stats.texels = stats.map[0].texels;
   stats.saved = impl.lists.saved();
   stats.camera = impl.lists.camera_stats();
+  stats.lights_tinted = static_cast<int>(std::count(pass.tinted.begin(), pass.tinted.end(), 1));
   stats.map_bytes = impl.maps.bytes();
+  stats.scratch_bytes = impl.panes ? impl.panes->bytes() : 0;
   return stats;
 }
 

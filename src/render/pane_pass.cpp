@@ -17,7 +17,9 @@ namespace {
 
 // Bindings and locations as the shaders state them.
 constexpr GLuint kColorImageUnit = 3, kMomentsUnit = 3, kPlacesUnit = 5, kAbsorbanceUnit = 7;
-constexpr GLint kBaseColor = 1, kAlphaCutoff = 2, kClip = 3, kLook = 4, kLight = 5, kRange = 6, kDrawn = 7;
+constexpr GLint kBaseColor = 1, kAlphaCutoff = 2, kClip = 3, kLook = 4, kLight = 5, kRange = 6, kDrawn = 7,
+                kMap = 3, kSamples = 6;
+constexpr GLuint kAbsorbedBinding = 2;
 
 Texture sums(GLenum format, const glm::ivec2& size, int layers) {
   Texture texture = make_texture(GL_TEXTURE_2D_ARRAY);
@@ -27,6 +29,12 @@ Texture sums(GLenum format, const glm::ivec2& size, int layers) {
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
     glTextureParameteri(texture.name(), wrap, GL_CLAMP_TO_EDGE);
   return texture;
+}
+
+glm::ivec2 largest_of(const ShadowPlan& plan) noexcept {
+  glm::ivec2 size(1);
+  for (const ShadowMap& map : plan.maps()) size = glm::max(size, glm::ivec2(map.width, map.height));
+  return size;
 }
 
 /// Corners of a box.
@@ -40,33 +48,51 @@ std::array<glm::dvec3, 8> corners_of(const Box& box) noexcept {
 
 }  // namespace
 
+std::uint64_t PanePass::Rectangle::area() const noexcept {
+  return empty() ? 0
+                 : static_cast<std::uint64_t>(high.x - low.x) * static_cast<std::uint64_t>(high.y - low.y);
+}
+
 PanePass::PanePass(const Scene& panes)
     : panes_(panes),
       map_program_(make_program("pane.vert", "pane_map.frag")),
       transmittance_program_(make_program("fullscreen.vert", "transmittance.frag")),
+      add_light_program_(make_program("fullscreen.vert", "shade_light_panes.frag")),
       shade_program_(make_program("fullscreen.vert", "shade_panes.frag")),
       over_program_(make_program("pane.vert", "pane.frag")),
       order_(filled_buffer({std::as_bytes(panes_.order())})),
       map_fbo_(make_framebuffer()),
-      over_fbo_(make_framebuffer()) {
+      over_fbo_(make_framebuffer()),
+      shown_(panes_.boxes().size(), 1) {
   panes_.set_object_index_buffer(order_.name());
   constexpr std::array<GLenum, 3> kAll{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
   glNamedFramebufferDrawBuffers(map_fbo_.name(), 3, kAll.data());
 }
 
+PanePass::Listed::Listed()
+    : sums(make_geometry_program("irregular.vert", "irregular.geom", "irregular_pane.frag")),
+      transmittance(make_program("fullscreen.vert", "transmittance_listed.frag")) {}
+
+void PanePass::prepare_listed() {
+  if (!listed_) listed_.emplace();
+}
+
 std::uint64_t PanePass::bytes() const noexcept {
   constexpr std::uint64_t kTexelBytes = 40;
-  return kTexelBytes * static_cast<std::uint64_t>(layer_size_.x) * static_cast<std::uint64_t>(layer_size_.y) *
-         static_cast<std::uint64_t>(layers_);
+  const std::uint64_t listed = listed_ ? listed_->bytes : 0;
+  return listed + kTexelBytes * static_cast<std::uint64_t>(layer_size_.x) *
+                      static_cast<std::uint64_t>(layer_size_.y) * static_cast<std::uint64_t>(layers_);
 }
 
 void PanePass::fit(const glm::ivec2& layer_size, int layers) {
-  if (layer_size == layer_size_ && layers <= layers_) return;
-  layer_size_ = layer_size;
-  layers_ = layers;
-  absorbance_ = sums(GL_RGBA16F, layer_size, layers);
-  moments_ = sums(GL_RGBA32F, layer_size, layers);
-  places_ = sums(GL_RGBA32F, layer_size, layers);
+  if (glm::max(layer_size, layer_size_) == layer_size_ && layers <= layers_) return;
+  layer_size_ = glm::max(layer_size, layer_size_);
+  layers_ = std::max(layers, layers_);
+  held_ = {};
+  held_pages_.reset();
+  absorbance_ = sums(GL_RGBA16F, layer_size_, layers_);
+  moments_ = sums(GL_RGBA32F, layer_size_, layers_);
+  places_ = sums(GL_RGBA32F, layer_size_, layers_);
 }
 
 void PanePass::resize(int width, int height) {
@@ -77,10 +103,11 @@ void PanePass::resize(int width, int height) {
   glNamedFramebufferTexture(image_fbo_.name(), GL_COLOR_ATTACHMENT0, image_.name(), 0);
 }
 
-PanePass::Rectangle PanePass::reached(const DrawnMap& map, const glm::dvec3& origin_world) const noexcept {
+PanePass::Rectangle PanePass::reached(const DrawnMap& map, const glm::dvec3& origin_world,
+                                      std::span<const Box> boxes) noexcept {
   const glm::dvec2 size(map.width, map.height);
   glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
-  for (const Box& box : panes_.boxes()) {
+  for (const Box& box : boxes) {
     if (box.empty()) continue;
     for (const glm::dvec3& corner : corners_of(box)) {
       const glm::dvec4 clip = glm::dmat4(map.clip_from_position) * glm::dvec4(corner - origin_world, 1.0);
@@ -97,34 +124,80 @@ PanePass::Rectangle PanePass::reached(const DrawnMap& map, const glm::dvec3& ori
   return {glm::ivec2(glm::floor(low)), glm::ivec2(glm::ceil(high))};
 }
 
-void PanePass::set_light(const ShadowMap& map, const glm::dvec3& origin_world) const noexcept {
-  const bool local = map.light_world.w != 0.0;
-  const glm::dvec3 light =
-      local ? glm::dvec3(map.light_world) - origin_world : -glm::normalize(glm::dvec3(map.light_world));
+void PanePass::move(std::size_t instance, const Instance& to) {
+  // More than that, and the maps are drawn anew.
+  constexpr std::size_t kMostChanged = 4096;
+  if (changed_world_.size() < kMostChanged) {
+    changed_world_.push_back(panes_.boxes()[instance]);
+    changed_world_.push_back(to.bounds_world);
+  } else {
+    held_ = {};
+  }
+  const std::vector<std::uint32_t> order(panes_.order().begin(), panes_.order().end());
+  panes_.move(instance, to);
+  if (std::equal(order.begin(), order.end(), panes_.order().begin(), panes_.order().end())) return;
+  // A pane became its own mirror image. Sums are rounded in the order of drawing.
+  order_ = filled_buffer({std::as_bytes(panes_.order())});
+  panes_.set_object_index_buffer(order_.name());
+  held_ = {};
+}
+
+void PanePass::show_within(const glm::dvec4& light_world, double range) {
+  const bool bounded = light_world.w != 0.0 && range > 0.0;
+  const glm::dvec3 at(light_world);
+  const std::span<const Box> boxes = panes_.boxes();
+  shown_world_.clear();
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Box& box = boxes[i];
+    shown_[i] = !bounded || (!box.empty() && glm::distance(glm::clamp(at, box.min, box.max), at) < range);
+    if (shown_[i] != 0) shown_world_.push_back(box);
+  }
+}
+
+bool PanePass::tint(const ShadowPlan& plan, const DrawnMaps& drawn, double range) {
+  if (plan.map_count == 0) return false;
+  show_within(plan.map[0].light_world, range);
+  for (int i = 0; i < plan.map_count; ++i) {
+    const DrawnMap& map = drawn.map[static_cast<std::size_t>(i)];
+    if (!reached(map, drawn.origin_world, shown_world_).empty()) return true;
+  }
+  return false;
+}
+
+glm::dvec2 PanePass::range_along(const glm::dvec4& light_world) const noexcept {
+  const bool local = light_world.w != 0.0;
+  const glm::dvec3 light = local ? glm::dvec3(light_world) : -glm::normalize(glm::dvec3(light_world));
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Box& box : panes_.boxes()) {
     if (box.empty()) continue;
     for (const glm::dvec3& corner : corners_of(box)) {
-      const glm::dvec3 at = corner - origin_world;
-      const double away = local ? glm::distance(at, light) : glm::dot(at, light);
+      const double away = local ? glm::distance(corner, light) : glm::dot(corner, light);
       low = std::min(low, away);
       high = std::max(high, away);
     }
     // A box round the light, or beside it, is nearer than its corners.
-    if (local)
-      low = std::min(low,
-                     glm::distance(glm::clamp(light, box.min - origin_world, box.max - origin_world), light));
+    if (local) low = std::min(low, glm::distance(glm::clamp(light, box.min, box.max), light));
   }
+  if (!(low <= high)) return {0.0, 1.0};
   // A single pane may lie across the light; the range is divided by.
   constexpr double kRounding = 1e-6, kLeast = 1e-30;
-  const double room = kRounding * (std::abs(low) + std::abs(high)) + kLeast;
-  glUniform4f(kLight, static_cast<float>(light.x), static_cast<float>(light.y), static_cast<float>(light.z),
-              local ? 1.0f : 0.0f);
-  glUniform2f(kRange, static_cast<float>(low - room), static_cast<float>(high + room));
+  const double extent = std::max(high - low, kRounding * (std::abs(low) + std::abs(high)) + kLeast);
+  constexpr double kSteps = 16.0;
+  const double step = std::exp2(std::ceil(std::log2(extent))) / kSteps;
+  return {(std::floor(low / step) - 1.0) * step, (std::ceil(high / step) + 1.0) * step};
 }
 
-void PanePass::draw_all(GLint matrix_location, const glm::mat4& clip_from_position) const noexcept {
-  glUniformMatrix4fv(matrix_location, 1, GL_FALSE, &clip_from_position[0][0]);
+void PanePass::set_light(const glm::dvec3& origin_world) const noexcept {
+  const bool local = light_world_.w != 0.0;
+  const glm::dvec3 light =
+      local ? glm::dvec3(light_world_) - origin_world : -glm::normalize(glm::dvec3(light_world_));
+  const glm::dvec2 range = range_world_ - (local ? 0.0 : glm::dot(origin_world, light));
+  glUniform4f(kLight, static_cast<float>(light.x), static_cast<float>(light.y), static_cast<float>(light.z),
+              local ? 1.0f : 0.0f);
+  glUniform2f(kRange, static_cast<float>(range.x), static_cast<float>(range.y));
+}
+
+void PanePass::draw_all() const noexcept {
   const std::span<const std::uint32_t> order = panes_.order();
   for (const Batch& batch : panes_.batches()) {
     glBindTextureUnit(kColorImageUnit, batch.texture);
@@ -133,6 +206,7 @@ void PanePass::draw_all(GLint matrix_location, const glm::mat4& clip_from_positi
     glUniform1f(kAlphaCutoff, batch.alpha_cutoff);
     glUniform2f(kLook, batch.transmission, static_cast<float>(batch.alpha_mode));
     for (std::uint32_t i = batch.begin; i < batch.end; ++i) {
+      if (shown_[order[i]] == 0) continue;
       const Primitive& primitive = panes_.primitive_of(order[i]);
       const auto offset = static_cast<std::uintptr_t>(primitive.first_index) * sizeof(std::uint32_t);
       glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(primitive.index_count),
@@ -142,16 +216,19 @@ void PanePass::draw_all(GLint matrix_location, const glm::mat4& clip_from_positi
   glBindSampler(kColorImageUnit, 0);
 }
 
-void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const glm::ivec2& layer_size) {
-  drawn_.fill(glm::vec4(0.0f));
-  if (plan.map_count == 0) return;
-  fit(layer_size, plan.map_count);
-  light_world_ = plan.map[0].light_world;
-  panes_.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
+void PanePass::attach(int layer) noexcept {
+  glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT0, absorbance_.name(), 0, layer);
+  glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT1, moments_.name(), 0, layer);
+  glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT2, places_.name(), 0, layer);
+  glBindFramebuffer(GL_FRAMEBUFFER, map_fbo_.name());
+}
+
+void PanePass::begin_sums(const glm::dvec3& origin_world) noexcept {
+  panes_.place(SceneBuffers::Placed::for_maps, origin_world);
   panes_.use(SceneBuffers::Placed::for_maps);
   glBindVertexArray(panes_.vertex_array());
   glUseProgram(map_program_.name());
-  set_light(plan.map[0], drawn.origin_world);
+  set_light(origin_world);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glEnable(GL_SCISSOR_TEST);
@@ -159,39 +236,127 @@ void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const g
   glBlendFunc(GL_ONE, GL_ONE);
   // Panes before the nearest caster absorb as well.
   glEnable(GL_DEPTH_CLAMP);
-  constexpr std::array<float, 4> kNothing{};
-  for (int i = 0; i < plan.map_count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const DrawnMap& map = drawn.map[at];
-    const Rectangle rect = reached(map, drawn.origin_world);
-    if (map.bent || rect.empty()) continue;
-    drawn_[at] = {rect.low, rect.high};
-    glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT0, absorbance_.name(), 0, i);
-    glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT1, moments_.name(), 0, i);
-    glNamedFramebufferTextureLayer(map_fbo_.name(), GL_COLOR_ATTACHMENT2, places_.name(), 0, i);
-    glBindFramebuffer(GL_FRAMEBUFFER, map_fbo_.name());
-    glViewport(0, 0, map.width, map.height);
-    glScissor(rect.low.x, rect.low.y, rect.high.x - rect.low.x, rect.high.y - rect.low.y);
-    for (const GLint target : {0, 1, 2})
-      glClearNamedFramebufferfv(map_fbo_.name(), GL_COLOR, target, kNothing.data());
-    draw_all(kClip, map.clip_from_position);
-  }
+}
+
+void PanePass::end_sums() noexcept {
   glDisable(GL_DEPTH_CLAMP);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
 }
 
-void PanePass::bind_maps(const glm::dvec3& camera_world) noexcept {
+void PanePass::clear(const Rectangle& at) noexcept {
+  if (at.empty()) return;
+  constexpr std::array<float, 4> kNothing{};
+  glScissor(at.low.x, at.low.y, at.high.x - at.low.x, at.high.y - at.low.y);
+  for (const GLint target : {0, 1, 2})
+    glClearNamedFramebufferfv(map_fbo_.name(), GL_COLOR, target, kNothing.data());
+  texels_ += at.area();
+}
+
+void PanePass::clear_beyond(const Rectangle& before, const Rectangle& now) noexcept {
+  if (before.empty()) return clear(now);
+  clear({now.low, {before.low.x, now.high.y}});
+  clear({{before.high.x, now.low.y}, now.high});
+  clear({{before.low.x, now.low.y}, {before.high.x, before.low.y}});
+  clear({{before.low.x, before.high.y}, {before.high.x, now.high.y}});
+}
+
+void PanePass::draw_map(int layer, const Look& look, bool keep) noexcept {
+  const auto at = static_cast<std::size_t>(layer);
+  const DrawnMap& map = look.map;
+  Held& held = held_[at];
+  const Rectangle all = reached(map, look.origin_world, shown_world_);
+  const bool kept = keep && held.valid && held.look == look;
+  Rectangle dirty = all, now = all;
+  attach(layer);
+  glViewport(0, 0, map.width, map.height);
+  if (kept) {
+    dirty = reached(map, look.origin_world, changed_world_);
+    if (held.at.empty()) {
+      now = all.empty() ? held.at : all;
+    } else if (all.empty()) {
+      now = held.at;
+    } else {
+      now = {glm::min(all.low, held.at.low), glm::max(all.high, held.at.high)};
+    }
+    clear_beyond(held.at, now);
+  }
+  if (!dirty.empty()) {
+    clear(dirty);
+    draw_all();
+  }
+  held = {keep, look, now};
+  if (!now.empty()) drawn_[at] = {now.low, now.high};
+}
+
+void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const MapDraw& how) {
+  drawn_.fill(glm::vec4(0.0f));
+  texels_ = 0;
+  if (plan.map_count == 0) return;
+  fit(largest_of(plan), plan.map_count);
+  light_world_ = plan.map[0].light_world;
+  range_world_ = range_along(light_world_);
+  show_within(light_world_, how.range);
+  begin_sums(drawn.origin_world);
+  for (int i = 0; i < kMaxMaps; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (i >= plan.map_count || drawn.map[at].bent) {
+      held_[at].valid = false;
+      continue;
+    }
+    const DrawnMap& map = drawn.map[at];
+    glUniformMatrix4fv(kClip, 1, GL_FALSE, &map.clip_from_position[0][0]);
+    draw_map(i, {map, drawn.origin_world, light_world_, range_world_}, how.keep);
+  }
+  changed_world_.clear();
+  held_pages_.reset();
+  end_sums();
+}
+
+void PanePass::draw_listed(const ShadowPlan& plan, const glm::dvec3& camera_world, const PixelLists& lists) {
+  const std::uint64_t bytes = 3 * sizeof(std::uint32_t) * lists.entries();
+  if (bytes != listed_->bytes) {
+    listed_->absorbed = make_buffer();
+    glNamedBufferStorage(listed_->absorbed.name(), static_cast<GLsizeiptr>(bytes), nullptr, 0);
+    listed_->bytes = bytes;
+  }
+  constexpr GLuint kNothing = 0;
+  glClearNamedBufferData(listed_->absorbed.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &kNothing);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kAbsorbedBinding, listed_->absorbed.name());
+  std::fill(shown_.begin(), shown_.end(), std::uint8_t{1});
+  panes_.place(SceneBuffers::Placed::for_camera, camera_world);
+  panes_.use(SceneBuffers::Placed::for_camera);
+  glBindVertexArray(panes_.vertex_array());
+  glUseProgram(listed_->sums.name());
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_SCISSOR_TEST);
+  const DrawnMaps seen = drawn_maps(plan, camera_world, panes_.origin_step());
+  for (int i = 0; i < plan.map_count; ++i) {
+    const DrawnMap& map = seen.map[static_cast<std::size_t>(i)];
+    if (!map.bent && reached(map, seen.origin_world, panes_.boxes()).empty()) continue;
+    glViewport(0, 0, map.width, map.height);
+    glUniform1i(kMap, i);
+    draw_all();
+  }
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glUseProgram(listed_->transmittance.name());
+  glUniform1i(kSamples, lists.samples());
+}
+
+void PanePass::bind_images() noexcept {
   const std::pair<GLuint, GLuint> images[] = {
       {kMomentsUnit, moments_.name()}, {kPlacesUnit, places_.name()}, {kAbsorbanceUnit, absorbance_.name()}};
   for (const auto& [unit, texture] : images) {
     glBindTextureUnit(unit, texture);
     glBindSampler(unit, 0);
   }
+}
+
+void PanePass::bind_maps(const glm::dvec3& camera_world) noexcept {
+  bind_images();
   glUseProgram(transmittance_program_.name());
-  ShadowMap map;
-  map.light_world = light_world_;
-  if (light_world_ != glm::dvec4(0.0)) set_light(map, camera_world);
+  if (light_world_ != glm::dvec4(0.0)) set_light(camera_world);
   glUniform4fv(kDrawn, kMaxMaps, &drawn_[0].x);
 }
 
@@ -201,6 +366,7 @@ void PanePass::draw_over(const FrameTargets& targets, const glm::mat4& clip_from
   glNamedFramebufferTexture(over_fbo_.name(), GL_DEPTH_ATTACHMENT, targets.depth.name(), 0);
   glBindFramebuffer(GL_FRAMEBUFFER, over_fbo_.name());
   glViewport(0, 0, targets.width, targets.height);
+  std::fill(shown_.begin(), shown_.end(), std::uint8_t{1});
   panes_.place(SceneBuffers::Placed::for_camera, camera_world);
   panes_.use(SceneBuffers::Placed::for_camera);
   glBindVertexArray(panes_.vertex_array());
@@ -212,7 +378,8 @@ void PanePass::draw_over(const FrameTargets& targets, const glm::mat4& clip_from
   glEnable(GL_FRAMEBUFFER_SRGB);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ZERO, GL_SRC_COLOR);
-  draw_all(kClip, clip_from_camera_relative);
+  glUniformMatrix4fv(kClip, 1, GL_FALSE, &clip_from_camera_relative[0][0]);
+  draw_all();
   glDisable(GL_BLEND);
   glDisable(GL_FRAMEBUFFER_SRGB);
   glDepthMask(GL_TRUE);

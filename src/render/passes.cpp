@@ -437,29 +437,49 @@ void Renderer::Impl::draw_accumulated(const Camera& camera, const FrameOptions& 
   history.keep(camera, block);
 }
 
-void Renderer::Impl::draw_shade() noexcept {
+void Renderer::Impl::draw_shade(const FrameBlock& block, const glm::dvec3& camera_world) {
   glBindTextureUnit(kMaskUnit, targets.mask.name());
+  if (panes) glBindTextureUnit(kExtraUnit, panes->image().name());
   glEnable(GL_FRAMEBUFFER_SRGB);
-  fullscreen(targets.color_fbo.name(), programs.shade);
+  fullscreen(targets.color_fbo.name(), panes ? panes->shade_program() : programs.shade);
   glDisable(GL_FRAMEBUFFER_SRGB);
+  if (panes) panes->draw_over(targets, block.clip_from_camera_relative, camera_world);
 }
 
-void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn,
-                                        const Camera& camera) {
+void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera,
+                                        const FrameOptions& options, FrameStats& stats) {
+  draw_transmittance(plan, drawn, camera, {0, 0, camera.width, camera.height},
+                     {options.prune.has(PruneRule::held_maps)});
+  stats.pane_texels = panes->texels();
+}
+
+void Renderer::Impl::draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera,
+                                        const TexelRect& part, const PanePass::MapDraw& how) {
   panes->resize(camera.width, camera.height);
-  panes->draw_maps(plan, drawn, {maps.width, maps.height});
+  panes->draw_maps(plan, drawn, how);
   panes->bind_maps(camera.position);
   glBindTextureUnit(kMaskUnit, targets.mask.name());
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(part.x, part.y, part.width, part.height);
   fullscreen(panes->fbo(), panes->transmittance_program());
+  glDisable(GL_SCISSOR_TEST);
 }
 
-void Renderer::Impl::draw_shade_behind_panes(const FrameBlock& block, const glm::dvec3& camera_world) {
+void Renderer::Impl::draw_transmittance(const PagePlan& plan, const glm::dvec3& origin_world,
+                                        const Camera& camera) {
+  panes->resize(camera.width, camera.height);
+  panes->draw_pages(plan, pages, origin_world);
+  pages.bind();
+  panes->bind_pages(camera.position);
   glBindTextureUnit(kMaskUnit, targets.mask.name());
-  glBindTextureUnit(kExtraUnit, panes->image().name());
-  glEnable(GL_FRAMEBUFFER_SRGB);
-  fullscreen(targets.color_fbo.name(), panes->shade_program());
-  glDisable(GL_FRAMEBUFFER_SRGB);
-  panes->draw_over(targets, block.clip_from_camera_relative, camera_world);
+  fullscreen(panes->fbo(), panes->pages_program());
+}
+
+void Renderer::Impl::draw_listed_transmittance(const ShadowPlan& plan, const Camera& camera) {
+  panes->resize(camera.width, camera.height);
+  pixel_lists->bind(targets.mask.name());
+  panes->draw_listed(plan, camera.position, *pixel_lists);
+  fullscreen(panes->fbo(), panes->listed_program());
 }
 
 void Renderer::Impl::draw_aliasing() noexcept {

@@ -158,6 +158,10 @@ void PixelLists::average(GLuint mask) const noexcept {
   dispatch();
 }
 
+std::uint64_t PixelLists::entries() const noexcept {
+  return entries_of(frame_, samples_);
+}
+
 std::uint64_t PixelLists::bytes() const noexcept {
   constexpr std::uint64_t kHeadBytes = 4;
   return kPixelBytes * entries_of(frame_, samples_) + kHeadBytes * static_cast<std::uint64_t>(map_.x) *

@@ -52,6 +52,8 @@ class PixelLists {
   [[nodiscard]] const Program& opaque() const noexcept { return opaque_; }
   [[nodiscard]] const Program& masked() const noexcept { return masked_; }
   [[nodiscard]] int samples() const noexcept { return samples_; }
+  /// Samples of all pixels.
+  [[nodiscard]] std::uint64_t entries() const noexcept;
   [[nodiscard]] std::uint64_t bytes() const noexcept;
   /// Lengths of the lists that are not empty, in no order.
   [[nodiscard]] std::vector<std::uint32_t> lengths() const;

@@ -34,6 +34,53 @@ DepthDraw depth_draw(const FrameOptions& options) noexcept {
   return {options.prune.has(PruneRule::alpha_test), options.depth_layer, limit > 0.0 ? limit : 0.0};
 }
 
+/// Moves and bends what differs from the pose before, `last`, which becomes this one. False, and nothing
+/// moved, where the pose is not of the scene.
+template <class Move>
+bool apply(const Pose& pose, Pose& last, SceneBuffers& scene, Move&& move) {
+  const auto within = [](std::size_t begin, std::size_t count, std::size_t end) {
+    return begin <= end && count <= end - begin;
+  };
+  for (const PosedInstance& at : pose.instances) {
+    if (at.instance >= scene.boxes().size() || at.bounds_world.empty()) return false;
+  }
+  for (const PosedVertices& range : pose.vertices) {
+    if (!within(range.first_vertex, range.count, scene.vertex_count()) ||
+        !within(range.first, range.count, std::min(pose.positions.size(), pose.normals.size())))
+      return false;
+  }
+  const bool comparable =
+      last.instances.size() == pose.instances.size() && last.vertices.size() == pose.vertices.size();
+  std::vector<bool> bent(pose.instances.empty() ? 0 : scene.boxes().size());
+  for (std::size_t i = 0; i < pose.vertices.size(); ++i) {
+    const PosedVertices& range = pose.vertices[i];
+    const auto positions = std::span(pose.positions).subspan(range.first, range.count),
+               normals = std::span(pose.normals).subspan(range.first, range.count);
+    const auto same = [&](std::span<const glm::vec3> now, const std::vector<glm::vec3>& before) {
+      return comparable && within(last.vertices[i].first, range.count, before.size()) &&
+             std::equal(now.begin(), now.end(),
+                        before.begin() + static_cast<std::ptrdiff_t>(last.vertices[i].first));
+    };
+    if (comparable && last.vertices[i].first_vertex == range.first_vertex &&
+        same(positions, last.positions) && same(normals, last.normals))
+      continue;
+    scene.bend(range.first_vertex, positions, normals);
+    if (range.instance < bent.size()) bent[range.instance] = true;
+  }
+  for (std::size_t i = 0; i < pose.instances.size(); ++i) {
+    const PosedInstance& at = pose.instances[i];
+    const bool rests = comparable && !bent[at.instance] && last.instances[i] == at;
+    if (rests) continue;
+    Instance to;
+    to.world_from_object = at.world_from_object;
+    to.mirrored = at.mirrored;
+    to.bounds_world = at.bounds_world;
+    move(at.instance, to);
+  }
+  last = pose;
+  return true;
+}
+
 }  // namespace
 
 std::string_view to_string(Pass pass) noexcept {
@@ -238,53 +285,32 @@ bool Renderer::move_instance(std::size_t instance, const Instance& to) {
 
 bool Renderer::apply_pose(const Pose& pose) {
   Impl& impl = *impl_;
-  const auto within = [](std::size_t begin, std::size_t count, std::size_t end) {
-    return begin <= end && count <= end - begin;
-  };
-  for (const PosedInstance& at : pose.instances) {
-    if (at.instance >= impl.scene.boxes().size() || at.bounds_world.empty()) return false;
-  }
-  for (const PosedVertices& range : pose.vertices) {
-    if (!within(range.first_vertex, range.count, impl.scene.vertex_count()) ||
-        !within(range.first, range.count, std::min(pose.positions.size(), pose.normals.size())))
-      return false;
-  }
-  const Pose& last = impl.posed;
-  const bool comparable =
-      last.instances.size() == pose.instances.size() && last.vertices.size() == pose.vertices.size();
-  std::vector<bool> bent(pose.instances.empty() ? 0 : impl.scene.boxes().size());
-  for (std::size_t i = 0; i < pose.vertices.size(); ++i) {
-    const PosedVertices& range = pose.vertices[i];
-    const auto positions = std::span(pose.positions).subspan(range.first, range.count),
-               normals = std::span(pose.normals).subspan(range.first, range.count);
-    const auto same = [&](std::span<const glm::vec3> now, const std::vector<glm::vec3>& before) {
-      return comparable && within(last.vertices[i].first, range.count, before.size()) &&
-             std::equal(now.begin(), now.end(),
-                        before.begin() + static_cast<std::ptrdiff_t>(last.vertices[i].first));
-    };
-    if (comparable && last.vertices[i].first_vertex == range.first_vertex &&
-        same(positions, last.positions) && same(normals, last.normals))
-      continue;
-    impl.scene.bend(range.first_vertex, positions, normals);
-    if (range.instance < bent.size()) bent[range.instance] = true;
-  }
-  for (std::size_t i = 0; i < pose.instances.size(); ++i) {
-    const PosedInstance& at = pose.instances[i];
-    const bool rests = comparable && !bent[at.instance] && last.instances[i] == at;
-    if (rests) continue;
-    Instance to;
-    to.world_from_object = at.world_from_object;
-    to.mirrored = at.mirrored;
-    to.bounds_world = at.bounds_world;
-    impl.move(at.instance, to);
-  }
-  impl.posed = pose;
+  return apply(pose, impl.posed, impl.scene,
+               [&](std::size_t instance, const Instance& to) { impl.move(instance, to); });
+}
+
+bool Renderer::move_pane(std::size_t instance, const Instance& to) {
+  Impl& impl = *impl_;
+  if (!impl.panes || instance >= impl.panes->scene().boxes().size() || to.bounds_world.empty()) return false;
+  impl.pane_posed = {};
+  impl.panes->move(instance, to);
   return true;
+}
+
+bool Renderer::apply_pane_pose(const Pose& pose) {
+  Impl& impl = *impl_;
+  if (!impl.panes) return pose.instances.empty() && pose.vertices.empty();
+  return apply(pose, impl.pane_posed, impl.panes->scene(),
+               [&](std::size_t instance, const Instance& to) { impl.panes->move(instance, to); });
 }
 
 void Renderer::add_panes(const Scene& panes) {
   impl_->panes.reset();
-  if (!panes.instances.empty()) impl_->panes.emplace(panes);
+  impl_->pane_posed = {};
+  if (panes.instances.empty()) return;
+  impl_->panes.emplace(panes);
+  if (impl_->pixel_lists) impl_->panes->prepare_listed();
+  if (impl_->reads_pages) impl_->panes->prepare_pages();
 }
 
 FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
@@ -349,11 +375,9 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   });
   if (accumulated) timed(Pass::accumulate, [&] { impl.draw_accumulated(camera, options, block); });
   if (impl.panes) {
-    timed(Pass::panes, [&] { impl.draw_transmittance(plan, drawn, camera); });
+    timed(Pass::panes, [&] { impl.draw_transmittance(plan, drawn, camera, options, stats); });
   }
-  impl.draw_pictures(timed, options, [&] {
-    impl.panes ? impl.draw_shade_behind_panes(block, camera.position) : impl.draw_shade();
-  });
+  impl.draw_pictures(timed, options, [&] { impl.draw_shade(block, camera.position); });
   impl.count_work(plan, stats);
   if (options.time_passes) {
     stats.filtered_texels = impl.stored.take_filtered_texels();
@@ -375,6 +399,8 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
 PreparedFilter Renderer::prepare_pages(const FilterSettings& settings) {
   const PreparedFilter prepared = prepare(settings);
   make_pages_programs(settings, impl_->filter_programs[prepared.program]);
+  impl_->reads_pages = true;
+  if (impl_->panes) impl_->panes->prepare_pages();
   return prepared;
 }
 
@@ -407,17 +433,18 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   FilterBlock filtering = filter_block(filter.settings, blur);
   set_depth_curves(curves, filtering);
   filtering.sums.w = options.receiver_plane ? 0.0f : 1.0f;
+  const FrameBlock block = frame_block(of_light, camera, options, extent.side, extent.side, blur, curves);
+  glm::dvec3 origin_world(0.0);
   timed(Pass::shadow_maps, [&] {
-    const FrameBlock block = frame_block(of_light, camera, options, extent.side, extent.side, blur, curves);
     impl.upload(block, filtering);
     // Kept pages want an origin that stays; as near the camera as two bits of a float allow.
     constexpr double kOriginSteps = 4.0;
-    const DrawnMaps drawn = impl.place_scene({}, camera.position, kOriginSteps);
+    origin_world = impl.place_scene({}, camera.position, kOriginSteps).origin_world;
     impl.take_moved(options.moved_world);
     const bool alpha_test = options.prune.has(PruneRule::alpha_test);
     impl.pages.build(
-        plan, {drawn.origin_world, alpha_test, options.prune.has(PruneRule::held_maps),
-               impl.tells_apart(options), impl.movers.static_changed_world(), impl.movers.changed_world()});
+        plan, {origin_world, alpha_test, options.prune.has(PruneRule::held_maps), impl.tells_apart(options),
+               impl.movers.static_changed_world(), impl.movers.changed_world()});
     impl.lists.build_pages(impl.pages.pages(), camera, options.prune, impl.moves(options));
     impl.movers.finish_frame(impl.scene.boxes());
     impl.draw_pages(of_light, depth_draw(options));
@@ -435,7 +462,9 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
     impl.bind_noise(options.noise);
     impl.draw_mask(programs.mask_pages, impl.targets.mask_fbo.name(), true);
   });
-  timed(Pass::shade, [&] { impl.draw_shade(); });
+  if (impl.panes) timed(Pass::panes, [&] { impl.draw_transmittance(plan, origin_world, camera); });
+  timed(Pass::shade, [&] { impl.draw_shade(block, camera.position); });
+  stats.pane_texels = impl.panes ? impl.panes->texels() : 0;
   stats.map_count = 1;
   stats.map[0] = impl.work_of_map(0);
   stats.texels = stats.map[0].texels;
@@ -443,7 +472,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   stats.camera = impl.lists.camera_stats();
   stats.prefilter_passes = impl.stored_pages.passes();
   stats.filtered_texels = impl.stored_pages.filtered_texels();
-  stats.map_bytes = impl.maps.bytes() + impl.stored_pages.bytes();
+  stats.map_bytes = impl.maps.bytes() + impl.stored_pages.bytes() + (impl.panes ? impl.panes->bytes() : 0);
   stats.scratch_bytes = impl.stored_pages.scratch_bytes() + impl.depth_peel.bytes();
   stats.pages = static_cast<int>(plan.pages.size());
   stats.pages_drawn = static_cast<int>(impl.pages.pages().size());

@@ -158,22 +158,32 @@ struct Renderer::Impl {
   [[nodiscard]] bool add_clustered_lights(const LightPlan& plan, std::span<const DrawnLight> lights,
                                           const Camera& camera, const PreparedFilter& filter,
                                           const FrameOptions& options);
-  void add_each_light(const LightPlan& plan, std::span<const DrawnLight> lights, const Camera& camera,
-                      const PreparedFilter& filter, const FrameOptions& options) noexcept;
-  /// The picture from that sum.
+  /// Adds one light to the sum, through a mask of its own; `tinted`: panes colour it.
+  void add_light(const LightMaps& maps, const DrawnLight& light, bool tinted, const Camera& camera,
+                 const PreparedFilter& filter, const FrameOptions& options);
+  /// Finds the lights that panes tint.
+  void mark_tinted(const LightPlan& plan, std::span<const DrawnLight> lights, const Camera& camera);
+  /// The picture from that sum, behind panes.
   void draw_sum_of_lights(const Camera& camera, std::span<const DrawnLight> lights,
-                          const FrameOptions& options) noexcept;
+                          const FrameOptions& options);
   /// `program` writes at least what programs.surfaces writes.
   void draw_surfaces(GLuint fbo, const Program& program) noexcept;
   void draw_mask(const Program& program, GLuint fbo, bool from_pages = false) noexcept;
   void draw_accumulated(const Camera& camera, const FrameOptions& options, const FrameBlock& block) noexcept;
   /// Makes the noise tile at the first frame that reads it.
   void bind_noise(SampleNoise noise) noexcept;
-  void draw_shade() noexcept;
-  /// What the panes leave of the light at each pixel, once the mask is there.
-  void draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera);
-  /// The picture in that light, behind the panes.
-  void draw_shade_behind_panes(const FrameBlock& block, const glm::dvec3& camera_world);
+  /// The picture; with panes, in the light that they leave, and behind them.
+  void draw_shade(const FrameBlock& block, const glm::dvec3& camera_world);
+  /// What the panes leave of the light at each pixel, once the mask is there. `drawn`: of the plan's maps.
+  void draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera,
+                          const FrameOptions& options, FrameStats& stats);
+  /// The same for a part of the image.
+  void draw_transmittance(const ShadowPlan& plan, const DrawnMaps& drawn, const Camera& camera,
+                          const TexelRect& part, const PanePass::MapDraw& how);
+  /// The same from pages. `origin_world`: that casters are drawn from.
+  void draw_transmittance(const PagePlan& plan, const glm::dvec3& origin_world, const Camera& camera);
+  /// The same exactly, once the pixels are listed.
+  void draw_listed_transmittance(const ShadowPlan& plan, const Camera& camera);
   void draw_aliasing() noexcept;
   void draw_heat_map() noexcept;
   void draw_cascade_tint() noexcept;
@@ -204,12 +214,14 @@ struct Renderer::Impl {
   bool drew_silhouettes = false;                  ///< into the maps that are held
   PagePool pages;
   StoredPages stored_pages;
+  bool reads_pages = false;                   ///< a filter was prepared for them
   std::optional<LightPass> light_pass;        ///< made when many lights are first prepared
   std::optional<PanePass> panes;              ///< made by Renderer::add_panes
   std::optional<PixelLists> pixel_lists;      ///< made when they are first prepared
   std::optional<IdentifierPass> identifiers;  ///< the same
   MovingCasters movers;
-  Pose posed;  ///< the last one applied; empty: none, or instances moved since
+  Pose posed;       ///< the last one applied; empty: none, or instances moved since
+  Pose pane_posed;  ///< the same of panes
   Buffer frame_buffer, filter_buffer;
   VertexArray no_vertices;
   std::array<glm::ivec2, kMaxMaps> map_size{};  ///< of the last frame

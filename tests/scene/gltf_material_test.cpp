@@ -90,6 +90,35 @@ TEST(GltfMaterial, panes_are_parted_from_the_rest) {
   ASSERT_EQ(parts.panes.instances.size(), 1u);
   EXPECT_EQ(parts.panes.instances[0].primitive, scene.instances[0].primitive);
   EXPECT_FALSE(parts.panes.bounds_world.empty());
+  ASSERT_EQ(parts.pane_instances.size(), 1u);
+  ASSERT_EQ(parts.opaque_instances.size(), 1u);
+  EXPECT_NE(parts.pane_instances[0], parts.opaque_instances[0]);
+}
+
+TEST(GltfMaterial, each_part_gets_its_share_of_a_pose) {
+  Pose pose;
+  for (const std::uint32_t instance : {1u, 3u, 4u}) {
+    PosedInstance posed;
+    posed.instance = instance;
+    posed.world_from_object[3].x = instance;
+    pose.instances.push_back(posed);
+  }
+  pose.vertices = {{1, 0, 40, 2, {}}, {4, 2, 60, 1, {}}};
+  pose.positions = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  pose.normals = {{0, 1, 0}, {0, 2, 0}, {0, 3, 0}};
+  const std::vector<std::uint32_t> instances{0, 3, 4, 7};
+  const Pose part = pose_of_part(pose, instances);
+  ASSERT_EQ(part.instances.size(), 2u);
+  EXPECT_EQ(part.instances[0].instance, 1u);
+  EXPECT_EQ(part.instances[0].world_from_object[3].x, 3.0);
+  EXPECT_EQ(part.instances[1].instance, 2u);
+  ASSERT_EQ(part.vertices.size(), 1u);
+  EXPECT_EQ(part.vertices[0].instance, 2u);
+  EXPECT_EQ(part.vertices[0].first, 0u);
+  EXPECT_EQ(part.vertices[0].first_vertex, 60u);
+  EXPECT_EQ(part.positions, (std::vector<glm::vec3>{{3, 0, 0}}));
+  EXPECT_EQ(part.normals, (std::vector<glm::vec3>{{0, 3, 0}}));
+  EXPECT_TRUE(pose_of_part(pose, {}).instances.empty());
 }
 
 TEST(GltfMaterial, what_passes_is_what_alpha_leaves_and_the_coloured_share_of_the_rest) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gnomon/scene/image.hpp"
@@ -41,6 +42,18 @@ TEST(PanesCommand, light_behind_glass_is_right_within_two_percent) {
   }
 }
 
+TEST(PanesCommand, exact_shadows_pages_and_many_lights_hold_their_bounds_too) {
+  // Edges of panes are as wide as a texel, but for exact shadows.
+  for (const auto& [by, bound] :
+       {std::pair("irregular", 0.001), std::pair("pages", 0.02), std::pair("lights", 0.02)})
+    for (const json& row : rows_of({"--by", by})) {
+      EXPECT_EQ(row.at("by"), by);
+      EXPECT_GT(row.at("tinted").get<double>(), 0.2) << by;
+      EXPECT_LT(row.at("mean_error").get<double>(), bound) << by;
+      EXPECT_EQ(row.at("hard_and_panes_over_msm").is_null(), row.at("by") == "lights");
+    }
+}
+
 TEST(PanesCommand, a_scene_without_panes_costs_nothing) {
   for (const json& row : rows_of({"builtin:hangar"})) {
     EXPECT_EQ(row.at("tinted"), 0.0);
@@ -70,6 +83,15 @@ TEST(PanesCommand, the_viewer_shows_tinted_light_where_the_word_says_so_and_a_ha
     brighter += tinted.rgba[i] + tinted.rgba[i + 1] + tinted.rgba[i + 2] >
                 solid.rgba[i] + solid.rgba[i + 1] + solid.rgba[i + 2] + 30;
   EXPECT_GT(brighter, solid.rgba.size() / 4 / 20) << "light that panes stopped before";
+}
+
+TEST(PanesCommand, refuses_another_way_in_one_line) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"panes", "--by", "clouds"}, {"panes", "--by", "lights", "--local-lights", "0"}}) {
+    const Finished finished = run_gnomon(words);
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+  }
 }
 
 TEST(PanesCommand, refuses_what_is_no_scene_in_one_line) {

@@ -195,8 +195,10 @@ struct FrameStats {
   int maps_read_back = 0;   ///< by filters that choose for each map from its depths
   int pages = 0;            ///< resident, of a PagePlan
   int lights_drawn = 0;     ///< of a LightPlan: lights whose maps were drawn; the pool kept those of others
+  int lights_tinted = 0;    ///< of a LightPlan: lights that panes tint, each added by a pass of its own
   int pages_drawn = 0;      ///< of them; the others were kept from earlier frames (PruneRule::held_maps)
   int pages_composed = 0;   ///< of pages_drawn: only moving casters drawn (PruneRule::static_casters)
+  std::uint64_t pane_texels = 0;  ///< of pane maps and pages: cleared and drawn; the others were kept
   /// Depth maps and everything that the filter keeps besides for its look-ups.
   std::uint64_t map_bytes = 0;
   /// Used while maps are filtered, free for other passes after that: images of one layer, lists of tiles.
@@ -232,16 +234,26 @@ class Renderer {
   FrameStats draw(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                   const FrameOptions& options = {}) noexcept;
 
-  /// Panes that colour the light which passes them (split_translucent): frames of a ShadowPlan draw maps of
-  /// what they absorb beside the shadow maps, multiply the light with what is left of it, and show the panes
-  /// before the picture. The renderer's scene is then the opaque part; plans take both parts' boxes as
-  /// casters. Surfaces behind all panes, or among two, get the product of what is before them; among more,
-  /// the middle of what moments allow. Panes stay where they are under apply_pose() and move_instance().
-  /// Frames of pages, of many lights, and with exact shadows, and maps whose shape bends lines have no panes.
-  /// A scene without instances takes them away. Throws RenderError. Costs 40 bytes for each texel of the
-  /// maps.
+  /// Panes that colour the light which passes them (split_translucent): frames draw maps of what they absorb
+  /// beside the shadow maps, multiply the light with what is left of it, and show the panes before the
+  /// picture. The renderer's scene is then the opaque part; plans take both parts' boxes as casters. Surfaces
+  /// behind all panes, or among two, get the product of what is before them; among more, the middle of what
+  /// moments allow. With exact shadows (prepare_irregular) all are exact. Panes move by move_pane() and
+  /// apply_pane_pose() alone. Maps whose shape bends lines have no panes, but for exact shadows. With many
+  /// lights, each that panes tint draws its pane maps in every frame, in a mask pass of its own
+  /// (FrameStats::lights_tinted, Pass::mask). A scene without instances takes them away. Throws RenderError.
+  /// Costs 40 bytes for each texel of the maps, or of the pages that panes reach, these at most 256 MiB; with
+  /// exact shadows 12 for each sample instead.
   void add_panes(const Scene& panes);
-  /// Channels "r", "g", "b" of the last frame with panes: the share of the light that passes them, 0..1.
+  /// Places an instance of the panes elsewhere, as move_instance() does. Pane maps that are the last frame's
+  /// (the same texels and light) are drawn where it was and where it is alone, with the bits of a whole
+  /// drawing, where FrameOptions::prune has PruneRule::held_maps. False where there is no such instance or
+  /// its bounds are empty.
+  bool move_pane(std::size_t instance, const Instance& to);
+  /// The same for all panes, as apply_pose() does: pose_of_part() of a pose of the whole scene.
+  bool apply_pane_pose(const Pose& pose);
+  /// Channels "r", "g", "b" of the last frame with panes: the share of the light that passes them, 0..1. With
+  /// many lights: that of the last one that panes tint, where it lights.
   [[nodiscard]] FloatImage transmittance() const;
 
   /// Exact hard shadows in place of a filter: an irregular z-buffer. The pixels of a frame are listed by the
@@ -263,7 +275,7 @@ class Renderer {
   /// first, and a surface is lit where that is its own. FrameOptions::depth_layer has no effect, and
   /// BiasOptions but for the normal offset has none. A frame whose maps have a shape that bends lines is
   /// drawn by `filters::hard` (FrameStats::identified). Frames of pages and of many lights do not take it; no
-  /// accumulation, no panes. Maps that change are drawn whole. Costs 4 bytes for each texel more. Throws
+  /// accumulation. Maps that change are drawn whole. Costs 4 bytes for each texel more. Throws
   /// RenderError where the driver has no storage buffers in fragment shaders.
   [[nodiscard]] PreparedFilter prepare_identifiers(const IdentifierTest& test = {});
 

@@ -1,9 +1,13 @@
 // Which surfaces of a scene let light through, and how much of it?
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
+#include <vector>
 
+#include "gnomon/scene/pose.hpp"
 #include "gnomon/scene/scene.hpp"
 
 namespace gnomon {
@@ -27,9 +31,14 @@ namespace gnomon {
 struct TranslucentParts {
   Scene opaque;  ///< without the panes
   Scene panes;   ///< instances with translucent materials; no instance where there are none
+  std::vector<std::uint32_t> opaque_instances;  ///< index in the whole scene, by instance of `opaque`
+  std::vector<std::uint32_t> pane_instances;    ///< the same, by instance of `panes`
 };
 /// Parts the panes from the rest. Vertices and pictures are in both: twice the memory. Animations stay with
-/// neither: pose the scene first (apply_pose()).
+/// neither: pose the whole scene, and give each part its share (pose_of_part()).
 [[nodiscard]] TranslucentParts split_translucent(const Scene& scene);
+/// The share of one part in a pose of the whole scene; `instances`: TranslucentParts' list of that part. Bent
+/// vertices come along where the part shows them.
+[[nodiscard]] Pose pose_of_part(const Pose& pose, std::span<const std::uint32_t> instances);
 
 }  // namespace gnomon
