@@ -73,8 +73,6 @@ void DrawLists::clear() {
   page_parts_.clear();
   moving_parts_.clear();
   copies_.clear();
-  copy_layers_.clear();
-  any_apart_ = false;
   part_count_.fill(0);
   beneath_.fill({});
   layered_count_ = 0;
@@ -143,23 +141,11 @@ void DrawLists::build_pages(std::span<const DrawnPage> pages, const Camera& came
     };
     page_parts_.push_back(list(draws));
     moving_parts_.push_back(list(over));
-    const bool apart = page.composed || DrawLists::draws(moving_parts_.back());
-    any_apart_ = any_apart_ || apart;
-    // A composed page without static depths of its own shows static casters alone.
-    if (apart && (!page.composed || page.has_beneath)) {
-      copies_.push_back({page.place.x, page.place.y, page.place.width, page.place.height});
-      copy_layers_.push_back(page.layer);
-    }
     stats.texels +=
         static_cast<std::uint64_t>(page.place.width) * static_cast<std::uint64_t>(page.place.height);
   }
   saved_ = saved.net();
   finish(camera);
-}
-
-DrawLists::Copies DrawLists::page_copies(int layer) const noexcept {
-  const auto [begin, end] = std::equal_range(copy_layers_.begin(), copy_layers_.end(), layer);
-  return {static_cast<std::size_t>(begin - copy_layers_.begin()), static_cast<std::size_t>(end - begin)};
 }
 
 void DrawLists::finish(const Camera& camera) {

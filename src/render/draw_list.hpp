@@ -44,8 +44,8 @@ class DrawLists {
   /// The same without the cache: one part for each map, with all of its casters. The maps' depths stay as
   /// they are.
   void build_uncached(const CullingJob& job, const Camera& camera);
-  /// The same with pages in place of maps: one part for each, see page_part. `moves`: by instance, 1 where it
-  /// is drawn apart, see moving_part; empty: none is.
+  /// The same with pages or runs of them in place of maps: one part for each, see page_part. `moves`: by
+  /// instance, 1 where it is drawn apart, see moving_part; empty: none is.
   void build_pages(std::span<const DrawnPage> pages, const Camera& camera, PruneRules prune,
                    std::span<const std::uint8_t> moves = {});
   /// What is drawn into one page, by index: its static casters, none where it is composed.
@@ -53,8 +53,6 @@ class DrawLists {
   /// Its moving casters.
   [[nodiscard]] const DrawnPart& moving_part(std::size_t page) const noexcept { return moving_parts_[page]; }
   [[nodiscard]] static bool draws(const DrawnPart& part) noexcept { return part.end > part.begin; }
-  /// Whether any page of the last build_pages() is composed or has moving casters.
-  [[nodiscard]] bool any_apart() const noexcept { return any_apart_; }
   /// Casters are culled by the scene's boxes as they are now.
   void rebuild_casters() { culling_.rebuild(); }
   /// The maps hold nothing any more: the next build() draws them whole.
@@ -68,8 +66,6 @@ class DrawLists {
   struct Copies {
     std::size_t first = 0, count = 0;
   };
-  /// Of a layer of pages: those of all pages that are composed or have moving casters.
-  [[nodiscard]] Copies page_copies(int layer) const noexcept;
   /// What is done with the map of static casters beneath a map; everything else comes after that.
   struct Beneath {
     bool used = false;    ///< false: there is none, and nothing to do
@@ -151,8 +147,6 @@ class DrawLists {
   std::array<Beneath, kMaxMaps> beneath_{};
   std::vector<DrawnPart> page_parts_, moving_parts_;
   std::vector<glm::ivec4> copies_;  ///< x, y, width, height
-  std::vector<int> copy_layers_;    ///< of pages: of each of copies_, ascending
-  bool any_apart_ = false;
   std::array<int, kMaxMaps> layered_{};
   std::size_t layered_count_ = 0;
   DrawnPart layered_part_;

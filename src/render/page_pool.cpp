@@ -36,7 +36,6 @@ PagePool::Extent PagePool::fit(const PagePlan& plan) noexcept {
   extent_ = {kPagesAcross * slot_texels_, std::max(1, (pages + pages / 4 + kPerLayer - 1) / kPerLayer)};
   slots_.resize(static_cast<std::size_t>(extent_.layers * kPerLayer));
   beneath_.resize(slots_.size());
-  lost_.resize(slots_.size());
   scratch_.resize(page_table_size(static_cast<int>(slots_.size())));
   return extent_;
 }
@@ -61,19 +60,20 @@ DrawnPage PagePool::place_of(std::size_t page) const noexcept {
 }
 
 void PagePool::build(const PagePlan& plan, const PageFrame& frame) {
-  // Drawn relative to another origin, texels differ by rounding.
-  if (frame.origin_world != origin_world_ || frame.alpha_test != alpha_test_) forget();
-  // Slots with both kinds of casters do not say so without the rule. Pages keep their places in any case: in
-  // another one texels differ by rounding.
-  if (frame.apart != apart_) std::fill(lost_.begin(), lost_.end(), std::uint8_t{1});
+  // Drawn relative to another origin, or with another matrix, texels differ by rounding; slots with both
+  // kinds of casters do not say so without the rule.
+  if (frame.apart != apart_ || frame.in_runs != in_runs_ || frame.alpha_test != alpha_test_ ||
+      frame.origin_world != origin_world_)
+    forget();
   origin_world_ = frame.origin_world;
   alpha_test_ = frame.alpha_test;
+  in_runs_ = frame.in_runs;
   apart_ = frame.apart;
   kept_.resize(plan.pages.size());
   // fit() made room.
   (void)keep_pages(plan, frame.static_moved_world, slots_, scratch_, kept_, frame.moved_world);
   for (KeptPage& page : kept_) {
-    if (lost_[page.slot] == 0 && !(page.compose && !apart_)) continue;
+    if (apart_ || !page.compose) continue;
     page.draw = true;
     page.compose = false;
   }
@@ -83,9 +83,6 @@ void PagePool::build(const PagePlan& plan, const PageFrame& frame) {
   drew_.assign(plan.pages.size(), false);
   ++builds_;
   drawn_in_.resize(slots_.size());
-  std::vector<std::uint8_t> held(slots_.size());
-  std::transform(slots_.begin(), slots_.end(), held.begin(),
-                 [](const PageSlot& slot) { return slot.used != 0; });
   for (std::size_t i = 0; i < plan.pages.size(); ++i) {
     const Page& page = plan.pages[i];
     DrawnPage drawn = place_of(i);
@@ -100,23 +97,29 @@ void PagePool::build(const PagePlan& plan, const PageFrame& frame) {
                         {page.level, static_cast<std::uint32_t>(page.column),
                          static_cast<std::uint32_t>(page.row), static_cast<std::uint32_t>(drawn.layer)}});
     if (frame.keeps && !kept_[i].draw && !kept_[i].compose) continue;
-    if (!kept_[i].compose) {
-      held[kept_[i].slot] = 0;
-      beneath_[kept_[i].slot] = lost_[kept_[i].slot] = 0;
-    }
+    if (!kept_[i].compose) beneath_[kept_[i].slot] = 0;
     drew_[i] = true;
     drawn_in_[kept_[i].slot] = builds_;
     drawn.clip_from_position = glm::mat4(drawn_from_plan * counted_from(frame.origin_world));
-    pages_.push_back(drawn);
+    pages_.push_back({drawn, block_of(plan, page)});
   }
-  fresh_.assign(static_cast<std::size_t>(extent_.layers), true);
-  for (std::size_t slot = 0; slot < held.size(); ++slot) {
-    if (held[slot] != 0) fresh_[slot / kPerLayer] = false;
-  }
+  if (frame.in_runs)
+    group_pages(plan, frame.origin_world, pages_, runs_, drawn_);
+  else
+    take_each();
+  send_tables(plan);
+}
+
+void PagePool::take_each() {
   // Slots of kept pages lie anywhere: each layer is bound once.
   std::stable_sort(pages_.begin(), pages_.end(),
-                   [](const DrawnPage& a, const DrawnPage& b) { return a.layer < b.layer; });
-  send_tables(plan);
+                   [](const BlockPage& a, const BlockPage& b) { return a.drawn.layer < b.drawn.layer; });
+  runs_.clear();
+  drawn_.clear();
+  for (const BlockPage& page : pages_) {
+    runs_.push_back({runs_.size(), runs_.size() + 1});
+    drawn_.push_back(page.drawn);
+  }
 }
 
 void PagePool::send_tables(const PagePlan& plan) {

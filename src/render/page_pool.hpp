@@ -10,19 +10,9 @@
 #include "gl_object.hpp"
 #include "gnomon/pages.hpp"
 #include "gnomon/reuse.hpp"
+#include "page_runs.hpp"
 
 namespace gnomon::render {
-
-/// How casters are drawn into one page: from positions relative to an origin, into a rectangle of a layer.
-struct DrawnPage {
-  ShadowMap map;  ///< page_map: planes for culling
-  glm::mat4 clip_from_position{1.0f};
-  int layer = 0;
-  TexelRect place{};  ///< in the layer, border included
-  std::uint32_t slot = 0;
-  bool composed = false;     ///< moving casters alone are drawn, over the static ones
-  bool has_beneath = false;  ///< static casters have depths of their own in this slot
-};
 
 /// What decides about pages besides their plan.
 struct PageFrame {
@@ -30,6 +20,7 @@ struct PageFrame {
   bool alpha_test = false;       ///< where materials are masked alone
   bool keeps = false;            ///< draws what the pool does not hold; else every page
   bool apart = false;            ///< moving casters are drawn over static ones; else a page is drawn whole
+  bool in_runs = true;           ///< neighbouring pages are drawn together; else each into its slot
   /// Bounds of casters that changed, before and after: where static ones came or went, and of moving ones.
   std::span<const Box> static_moved_world = {}, moved_world = {};
 };
@@ -48,10 +39,16 @@ class PagePool {
 
   /// Places the pages and sends the tables.
   void build(const PagePlan& plan, const PageFrame& frame);
-  /// Those to draw, layer by layer.
-  [[nodiscard]] std::span<const DrawnPage> pages() const noexcept { return pages_; }
-  /// True where all that a layer holds is drawn in this frame.
-  [[nodiscard]] bool is_fresh(int layer) const noexcept { return fresh_[static_cast<std::size_t>(layer)]; }
+  /// Those to draw, run by run.
+  [[nodiscard]] std::span<const BlockPage> pages() const noexcept { return pages_; }
+  [[nodiscard]] std::span<const BlockPage> pages_of(const PageRun& run) const noexcept {
+    return pages().subspan(run.begin, run.end - run.begin);
+  }
+  /// PageFrame::in_runs of the last build().
+  [[nodiscard]] bool in_runs() const noexcept { return in_runs_; }
+  [[nodiscard]] std::span<const PageRun> runs() const noexcept { return runs_; }
+  /// What each run draws, into the image of its block; without PageFrame::in_runs into the pool.
+  [[nodiscard]] std::span<const DrawnPage> drawn() const noexcept { return drawn_; }
   /// Where a page of the last plan lies; its index must be below resident().
   [[nodiscard]] DrawnPage place_of(std::size_t page) const noexcept;
   [[nodiscard]] std::size_t resident() const noexcept { return records_.size(); }
@@ -82,21 +79,24 @@ class PagePool {
     glm::uvec4 key;
   };
   [[nodiscard]] TexelRect rectangle(std::uint32_t slot) const noexcept;
+  /// Runs of one page, layer by layer.
+  void take_each();
   void send_tables(const PagePlan& plan);
 
   Extent extent_;
   int slot_texels_ = 0;
   glm::dvec3 origin_world_{0.0};
-  bool alpha_test_ = false, apart_ = false;
+  bool alpha_test_ = false, apart_ = false, in_runs_ = true;
   std::vector<PageSlot> slots_;
   std::vector<std::uint32_t> scratch_;
   std::vector<KeptPage> kept_;
-  std::vector<std::uint8_t> beneath_, lost_;  ///< by slot; lost: its texels are not those of its page
-  std::vector<bool> fresh_;                   ///< by layer
+  std::vector<std::uint8_t> beneath_;  ///< by slot: 1 where static casters have depths of their own
   std::uint64_t builds_ = 0;
   std::vector<std::uint64_t> drawn_in_;  ///< by slot
   std::vector<bool> drew_;               ///< by page of the last plan
-  std::vector<DrawnPage> pages_;
+  std::vector<BlockPage> pages_;
+  std::vector<PageRun> runs_;
+  std::vector<DrawnPage> drawn_;  ///< by run
   std::vector<Level> levels_;
   std::vector<Record> records_;
   std::vector<std::uint32_t> table_;

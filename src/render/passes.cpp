@@ -272,44 +272,6 @@ void Renderer::Impl::draw_shadow_maps(const ShadowPlan& plan, const DrawnMaps& d
   glDisable(GL_SCISSOR_TEST);
 }
 
-void Renderer::Impl::draw_pages(const ShadowPlan& of_light, const DepthDraw& how) noexcept {
-  glBindVertexArray(scene.vertex_array());
-  scene.use(SceneBuffers::Placed::for_maps);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
-  glDisable(GL_CULL_FACE);
-  constexpr float kFarthest = 1.0f;
-  const auto clear = [&] { glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest); };
-  draw_static_pages(how);
-  int layer = -1;
-  const std::span<const DrawnPage> drawn = pages.pages();
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const bool moving = lists.draws(lists.moving_part(i));
-    const bool apart = moving || drawn[i].composed;
-    const bool fresh = !lists.any_apart() && pages.is_fresh(drawn[i].layer);
-    if (drawn[i].layer != layer) {
-      layer = drawn[i].layer;
-      glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0, layer);
-      glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
-      glDisable(GL_SCISSOR_TEST);
-      if (fresh) clear();
-      copy_static(lists.page_copies(layer), layer, {maps.width, maps.height});
-      glEnable(GL_SCISSOR_TEST);
-    }
-    const TexelRect& at = drawn[i].place;
-    // Clipping to the viewport alone lets triangles that pass by a local light spill a row into the next
-    // page.
-    glScissor(at.x, at.y, at.width, at.height);
-    glViewport(at.x, at.y, at.width, at.height);
-    if (!fresh && !apart) clear();
-    draw_casters(apart ? lists.moving_part(i) : lists.page_part(i), drawn[i].clip_from_position, how);
-    if (!info_of(how.layer).peels) continue;
-    peel(lists.page_part(i), at, layer, drawn[i].clip_from_position, how, how.peeled(of_light, drawn[i].map));
-    glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
-  }
-  glDisable(GL_SCISSOR_TEST);
-}
-
 void Renderer::Impl::adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept {
   maps_read_back = 0;
   for (int i = 0; i < map_count; ++i)

@@ -442,12 +442,14 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
     origin_world = impl.place_scene({}, camera.position, kOriginSteps).origin_world;
     impl.take_moved(options.moved_world);
     const bool alpha_test = options.prune.has(PruneRule::alpha_test);
-    impl.pages.build(
-        plan, {origin_world, alpha_test, options.prune.has(PruneRule::held_maps), impl.tells_apart(options),
-               impl.movers.static_changed_world(), impl.movers.changed_world()});
-    impl.lists.build_pages(impl.pages.pages(), camera, options.prune, impl.moves(options));
+    const bool in_runs = options.map_passes != MapPasses::each && !info_of(options.depth_layer).peels;
+    impl.pages.build(plan, {origin_world, alpha_test, options.prune.has(PruneRule::held_maps),
+                            in_runs && impl.tells_apart(options), in_runs, impl.movers.static_changed_world(),
+                            impl.movers.changed_world()});
+    impl.lists.build_pages(impl.pages.drawn(), camera, options.prune,
+                           in_runs ? impl.moves(options) : std::span<const std::uint8_t>{});
     impl.movers.finish_frame(impl.scene.boxes());
-    impl.draw_pages(of_light, depth_draw(options));
+    impl.draw_pages(of_light, depth_draw(options), kBlockPages * plan.page_texels + 2 * plan.border_texels);
   });
   timed(Pass::surfaces,
         [&] { impl.draw_surfaces(impl.targets.surfaces_fbo.name(), impl.programs.surfaces); });
@@ -467,21 +469,23 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   stats.pane_texels = impl.panes ? impl.panes->texels() : 0;
   stats.map_count = 1;
   stats.map[0] = impl.work_of_map(0);
-  stats.texels = stats.map[0].texels;
+  const auto slot_texels =
+      static_cast<std::uint64_t>(plan.slot_texels()) * static_cast<std::uint64_t>(plan.slot_texels());
+  stats.texels = stats.map[0].texels = impl.pages.pages().size() * slot_texels;
   stats.saved = impl.lists.saved();
   stats.camera = impl.lists.camera_stats();
   stats.prefilter_passes = impl.stored_pages.passes();
   stats.filtered_texels = impl.stored_pages.filtered_texels();
   stats.map_bytes = impl.maps.bytes() + impl.stored_pages.bytes() + (impl.panes ? impl.panes->bytes() : 0);
-  stats.scratch_bytes = impl.stored_pages.scratch_bytes() + impl.depth_peel.bytes();
+  stats.scratch_bytes = impl.stored_pages.scratch_bytes() + impl.depth_peel.bytes() + impl.page_stage.bytes();
   stats.pages = static_cast<int>(plan.pages.size());
   stats.pages_drawn = static_cast<int>(impl.pages.pages().size());
-  stats.pages_composed = static_cast<int>(std::count_if(impl.pages.pages().begin(), impl.pages.pages().end(),
-                                                        [](const DrawnPage& page) { return page.composed; }));
+  stats.pages_composed =
+      static_cast<int>(std::count_if(impl.pages.pages().begin(), impl.pages.pages().end(),
+                                     [](const BlockPage& page) { return page.drawn.composed; }));
   PruneSaving& held = stats.saved[static_cast<std::size_t>(PruneRule::held_maps)];
   held.maps = static_cast<std::uint64_t>(stats.pages - stats.pages_drawn);
-  held.texels = held.maps * static_cast<std::uint64_t>(plan.slot_texels()) *
-                static_cast<std::uint64_t>(plan.slot_texels());
+  held.texels = held.maps * slot_texels;
   return stats;
 }
 

@@ -134,8 +134,6 @@ struct Renderer::Impl {
   void draw_static_maps(const DrawnMaps& drawn, const DepthDraw& how) noexcept;
   /// Draws static depths into the layer that is attached; the viewport is left as it is here.
   void copy_static(const DrawLists::Copies& copies, int layer, glm::ivec2 viewport) noexcept;
-  /// The same for pages: those that hold both kinds, before moving casters are drawn.
-  void draw_static_pages(const DepthDraw& how) noexcept;
   /// `block`: with the options that the filter chooses for each map, on return.
   void prefilter(const ShadowPlan& plan, const PreparedFilter& filter, FilterBlock& block,
                  bool unread_tiles) noexcept;
@@ -145,8 +143,12 @@ struct Renderer::Impl {
   void adapt_filter(const FilterSettings& settings, FilterBlock& block) noexcept;
   /// Of the last frame's map, row by row.
   void read_depths(int map, std::span<float> depths) const noexcept;
-  /// `of_light`: the plan that says how the light's depths run.
-  void draw_pages(const ShadowPlan& of_light, const DepthDraw& how) noexcept;
+  /// `of_light`: the plan that says how the light's depths run; `block_side`: texels of a PageBlock.
+  void draw_pages(const ShadowPlan& of_light, const DepthDraw& how, int block_side) noexcept;
+  /// Runs [first, last) of the pool, each into a layer of the stage, and from there into the pool.
+  void draw_page_runs(std::size_t first, std::size_t last, const DepthDraw& how) noexcept;
+  /// Each page by itself, into its slot: what lies behind its first surface is found there.
+  void draw_each_page(const ShadowPlan& of_light, const DepthDraw& how) noexcept;
   /// Maps of lights that are due, or all where the pool lost them, to be drawn into the pool.
   void list_pool_maps(const LightPlan& plan, std::span<const DrawnLight> lights,
                       const glm::dvec3& camera_world, FrameStats& stats);
@@ -213,6 +215,7 @@ struct Renderer::Impl {
   std::optional<Silhouettes> silhouettes;         ///< made when a filter that reads them is first prepared
   bool drew_silhouettes = false;                  ///< into the maps that are held
   PagePool pages;
+  PageStage page_stage;
   StoredPages stored_pages;
   bool reads_pages = false;                   ///< a filter was prepared for them
   std::optional<LightPass> light_pass;        ///< made when many lights are first prepared

@@ -60,29 +60,4 @@ void Renderer::Impl::copy_static(const DrawLists::Copies& copies, int layer, glm
   glBindVertexArray(scene.vertex_array());
 }
 
-void Renderer::Impl::draw_static_pages(const DepthDraw& how) noexcept {
-  if (!lists.any_apart()) return;
-  maps.add_beneath();
-  const std::span<const DrawnPage> drawn = pages.pages();
-  glEnable(GL_SCISSOR_TEST);
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const DrawnPage& page = drawn[i];
-    if (page.composed || !lists.draws(lists.moving_part(i))) continue;
-    glNamedFramebufferTextureLayer(maps.fbo.name(), GL_DEPTH_ATTACHMENT, maps.beneath.name(), 0, page.layer);
-    glBindFramebuffer(GL_FRAMEBUFFER, maps.fbo.name());
-    const TexelRect& at = page.place;
-    glScissor(at.x, at.y, at.width, at.height);
-    glViewport(at.x, at.y, at.width, at.height);
-    glClearNamedFramebufferfv(maps.fbo.name(), GL_DEPTH, 0, &kFarthest);
-    draw_casters(lists.page_part(i), page.clip_from_position, how);
-    pages.add_beneath(page.slot);
-  }
-  glDisable(GL_SCISSOR_TEST);
-  for (const DrawnPage& page : drawn) {
-    if (!page.composed || page.has_beneath) continue;
-    maps.copy(MapTargets::Of::static_casters, page.layer, page.place);
-    pages.add_beneath(page.slot);
-  }
-}
-
 }  // namespace gnomon::render

@@ -66,6 +66,7 @@ TEST(PagesRender, pages_store_the_layer_of_their_own_two_surfaces) {
     FrameOptions options;
     options.time_passes = false;
     options.depth_layer = layer;
+    options.map_passes = MapPasses::each;  // as peeled pages are drawn
     // The second frame keeps what the first one drew.
     for (int frame = 0; frame < 2; ++frame)
       renderer.draw(plan, stage.camera, renderer.prepare_pages(filter), options);
@@ -90,6 +91,47 @@ TEST(PagesRender, pages_store_the_layer_of_their_own_two_surfaces) {
   }
   EXPECT_GT(solid, 1000u);
   EXPECT_EQ(wrong, 0u);
+}
+
+TEST(PagesRender, pages_have_the_same_bits_whichever_neighbours_are_drawn_with_them) {
+  Stage stage;
+  const FilterSettings filter = settings_of("pcf:radius=2");
+  FrameOptions options;
+  options.time_passes = false;
+  for (const Light& light : {Light{DirectionalLight{kSlant}}, Light{PointLight{{-4.0, 6.0, 3.0}, 60.0}},
+                             Light{SpotLight{{-4.0, 6.0, 3.0}, {0.5, -0.8, -0.3}, 0.9, 60.0}}}) {
+    for (const Fit fit : {Fit::tight, Fit::stable}) {
+      SCOPED_TRACE(std::string(to_string(fit)) + ", light " + std::to_string(light.index()));
+      stage.light = light;
+      PageOptions pages;
+      pages.page_texels = 64;
+      pages.target_m = 2.0;
+      PlanOptions of_plan;
+      of_plan.fit = fit;
+      const PagePlan plan = stage.plan(filter, pages, of_plan);
+      ASSERT_EQ(plan.status, PlanStatus::ok);
+      ASSERT_GT(plan.pages.size(), 8u);
+      Renderer together(stage.scene), alone(stage.scene);
+      const FrameStats all = together.draw(plan, stage.camera, together.prepare_pages(filter), options);
+      EXPECT_EQ(static_cast<std::size_t>(all.pages_drawn), plan.pages.size());
+      std::uint64_t triangles = 0;
+      for (std::size_t count = 1; count <= plan.pages.size(); ++count) {
+        PagePlan first = plan;
+        first.pages = plan.pages.first(count);
+        const FrameStats one = alone.draw(first, stage.camera, alone.prepare_pages(filter), options);
+        ASSERT_EQ(one.pages_drawn, 1);  // the pool keeps the others
+        triangles += one.map[0].triangles;
+      }
+      EXPECT_LT(all.map[0].triangles, triangles);
+      std::size_t covered = 0;
+      for (std::size_t page = 0; page < plan.pages.size(); ++page) {
+        const std::vector<float> depths = together.page_depths(page).values;
+        EXPECT_EQ(depths, alone.page_depths(page).values) << "page " << page;
+        covered += std::any_of(depths.begin(), depths.end(), [](float depth) { return depth < 1.0f; });
+      }
+      EXPECT_GT(covered, plan.pages.size() / 2);
+    }
+  }
 }
 
 TEST(PagesRender, pages_of_one_level_are_that_level_drawn_whole) {

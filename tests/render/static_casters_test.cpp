@@ -224,7 +224,10 @@ TEST(StaticCasters, pages_compose_what_a_walking_box_reaches) {
       pair.move(1, {0.05, 0.0, -0.02});
       ASSERT_EQ(pair.stale_pages(going(8)), 0u);
       EXPECT_EQ(pair.last.pages_composed, pair.last.pages_drawn);
-      EXPECT_EQ(pair.triangles(), kBoxTriangles * static_cast<std::uint64_t>(pair.last.pages_drawn));
+      // Once for all neighbouring pages of a block.
+      EXPECT_EQ(pair.triangles() % kBoxTriangles, 0u);
+      EXPECT_GE(pair.triangles(), kBoxTriangles);
+      EXPECT_LE(pair.triangles(), kBoxTriangles * static_cast<std::uint64_t>(pair.last.pages_drawn));
     }
   }
 }

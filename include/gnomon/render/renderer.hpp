@@ -103,6 +103,10 @@ struct Accumulation {
 };
 
 /// How the maps of a plan are drawn. Every bit of their depths is the same.
+///
+/// Pages: `each` draws every page by itself, the others draw neighbouring pages of a level together. Pages
+/// have the same bits whichever neighbours are drawn with them; from those of `each` they differ by rounding,
+/// and a pool keeps no page from one way to the other.
 enum class MapPasses : std::uint8_t {
   each,       ///< one pass for each map
   layered,    ///< one pass for all maps of one size that are drawn whole, if the driver can (Probe::layers)
@@ -129,7 +133,8 @@ struct FrameOptions {
   /// Continuity with Trapezoidal Shadow Maps", 2004.
   bool linear_depth = false;
   /// How maps of a ShadowPlan are drawn. Maps of which only parts are drawn, that are peeled, whose shape
-  /// bends lines, or whose depths are linear have a pass of their own in any case.
+  /// bends lines, or whose depths are linear have a pass of their own in any case. Pages that are peeled are
+  /// drawn by themselves, and with `each` PruneRule::static_casters has no effect on pages.
   MapPasses map_passes = MapPasses::automatic;
   /// Filters compare each texel with the receiver's plane at that texel. False: with the receiver's own
   /// depth, as look-ups without the plane do; BiasOptions must then cover the slope over the whole kernel.
