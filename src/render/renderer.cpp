@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "context/backend.hpp"
+#include "gnomon/render/page_filter.hpp"
 #include "gnomon/render/probe.hpp"
 #include "pass_timer.hpp"
 #include "program.hpp"
@@ -397,8 +398,9 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
 }
 
 PreparedFilter Renderer::prepare_pages(const FilterSettings& settings) {
-  const PreparedFilter prepared = prepare(settings);
-  make_pages_programs(settings, impl_->filter_programs[prepared.program]);
+  const FilterSettings fitted = settings_for_pages(settings);
+  const PreparedFilter prepared = prepare(fitted);
+  make_pages_programs(fitted, impl_->filter_programs[prepared.program]);
   impl_->reads_pages = true;
   if (impl_->panes) impl_->panes->prepare_pages();
   return prepared;

@@ -33,6 +33,12 @@ std::string_view page_filter_refusal(const FilterSettings& settings) noexcept {
   return {};
 }
 
+FilterSettings settings_for_pages(const FilterSettings& settings) noexcept {
+  FilterSettings fitted = settings;
+  if (settings.filter->hooks.for_pages != nullptr) settings.filter->hooks.for_pages(fitted);
+  return fitted;
+}
+
 StoredPages::StoredPages()
     : no_vertices_(make_vertex_array()), smooth_sampler_(make_sampler()), nearest_sampler_(make_sampler()) {
   for (const Sampler* sampler : {&smooth_sampler_, &nearest_sampler_}) {

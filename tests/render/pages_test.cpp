@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gnomon/render/page_filter.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 /// A scene with what its camera sees.
 struct Stage {
-  Scene scene = box_on_ground();
+  Scene scene;
   Camera camera = camera_on_box(kSize, kSize);
   Light light = DirectionalLight{kSlant};
   Renderer renderer{scene};
@@ -26,7 +27,7 @@ struct Stage {
   FloatImage normals;
   PageStorage memory{4096, 1 << 17};
 
-  Stage() {
+  explicit Stage(Scene of = box_on_ground()) : scene(std::move(of)) {
     const Frame frame = render::draw(renderer, camera, ShadowPlan{}, filters::hard);
     normals = frame.normals;
     for (std::size_t i = 0; i < frame.pixels(); ++i) {
@@ -246,6 +247,7 @@ TEST(PagesRender, stored_texels_of_pages_are_those_of_the_level_drawn_whole) {
       if (radius != 1.5 && filter != &filters::vsm) continue;
       FilterSettings settings = default_settings(*filter);
       settings.radius = radius;
+      settings = settings_for_pages(settings);
       SCOPED_TRACE(to_string(settings));
       ASSERT_EQ(page_filter_refusal(settings), "");
       PageOptions pages;
@@ -313,6 +315,44 @@ TEST(PagesRender, levels_and_faces_with_stored_texels_have_the_box_s_shadow) {
       EXPECT_LE(wrong, stage.pixels.size() / 40);
     }
   }
+}
+
+TEST(PagesRender, exponents_fade_shadows_in_by_the_kernel_however_high_casters_stand) {
+  // A box far above the view: stable levels span its depth too.
+  Scene scene = box_on_ground();
+  Instance high = scene.instances.back();
+  const glm::dvec3 up(0.0, 600.0, 0.0);
+  high.world_from_object[3] += glm::dvec4(up, 0.0);
+  high.bounds_world = {high.bounds_world.min + up, high.bounds_world.max + up};
+  scene.instances.push_back(high);
+  scene.bounds_world.extend(high.bounds_world);
+  Stage stage(std::move(scene));
+  const auto leak = [&](const char* text) {
+    const FilterSettings settings = settings_of(text);
+    PageOptions pages;
+    pages.page_texels = 64;
+    PlanOptions stable;
+    stable.fit = Fit::stable;
+    const PagePlan plan = stage.plan(settings, pages, stable);
+    EXPECT_EQ(plan.status, PlanStatus::ok);
+    const FloatImage mask = stage.mask(plan, settings);
+    double lit = 0.0, dark = 0.0;
+    for (std::size_t k = 0; k < stage.points.size(); ++k) {
+      const std::size_t i = stage.pixels[k];
+      const glm::dvec3 n{stage.normals.values[4 * i], stage.normals.values[4 * i + 1],
+                         stage.normals.values[4 * i + 2]};
+      if (glm::dot(n, kSlant) > -0.1) continue;
+      if (!hits_box(stage.points[k] + n * 1e-3, -kSlant, glm::dvec3(kBoxMin), glm::dvec3(kBoxMax))) continue;
+      lit += mask.values[2 * i];
+      dark += 1.0;
+    }
+    EXPECT_GT(dark, 300.0);
+    return lit / dark;
+  };
+  // An exponent below the default is taken as it is.
+  const double fitted = leak("esm"), limited = leak("esm:c=159");
+  EXPECT_LT(fitted, 0.15);
+  EXPECT_GT(limited, 2.0 * fitted);
 }
 
 TEST(PagesRender, a_plan_without_pages_leaves_everything_lit) {

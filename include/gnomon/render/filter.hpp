@@ -180,6 +180,9 @@ struct FilterHooks {
   bool (*averages)(const FilterSettings& settings) noexcept = nullptr;
   /// Turns lengths in the world into the options of one map; see settings_for_map. nullptr: nothing to do.
   void (*fit_map)(FilterSettings& settings, const MapDepths& depths) noexcept = nullptr;
+  /// Options for levels of pages, which span the depths of all casters; see settings_for_pages. nullptr: as
+  /// for maps.
+  void (*for_pages)(FilterSettings& settings) noexcept = nullptr;
   /// True if shadow_store uses its slope: two to four more depths are fetched per texel. nullptr: never.
   bool (*reads_slope)(const FilterSettings& settings) noexcept = nullptr;
   /// True if the lookup reads the largest depth under the kernel. nullptr: never.

@@ -49,6 +49,14 @@ void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
   settings.option[0] = exponent_for(settings.option[0], {settings.option[3], settings.option[4]}, depths);
 }
 
+/// A level's range is that of all casters: the largest plain exponent would fade shadows in over a fiftieth
+/// of a city's height.
+void for_pages(FilterSettings& settings) noexcept {
+  const bool falls_off = settings.option[3] > 0.0 || settings.option[4] > 0.0;
+  if (falls_off && settings.format == TexelFormat::fp32 && settings.option[0] == kOptions[0].fallback)
+    settings.option[0] = kOptions[0].max;
+}
+
 /// Texels hold the exponential itself, else its logarithm over c.
 bool is_plain(const FilterSettings& settings) noexcept {
   return settings.format == TexelFormat::fp32 && settings.option[0] <= kMaxPlainC;
@@ -146,6 +154,7 @@ const Filter filters::esm{
         {
             .averages = is_plain,
             .fit_map = fit_map,
+            .for_pages = for_pages,
             .needs_depth_max = needs_depth_max,
         },
 };
