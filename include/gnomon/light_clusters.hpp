@@ -19,8 +19,8 @@ inline constexpr std::size_t kMostClusters = std::size_t{1} << 22;
 
 /// Options of cluster_lights.
 struct ClusterOptions {
-  int tile_pixels = 32;   ///< side of a tile, pixels, at least 1. Smaller: shorter lists, more of them
-  int depth_slices = 24;  ///< parts of the view depth, 1..kMostDepthSlices. More: shorter lists
+  int tile_pixels = 64;   ///< side of a tile, pixels, at least 1. Smaller: shorter lists, more of them
+  int depth_slices = 48;  ///< parts of the view depth, 1..kMostDepthSlices. More: shorter lists
   /// Equal in all members.
   bool operator==(const ClusterOptions&) const = default;
 };

@@ -1,13 +1,17 @@
 // What lists of lights by clusters save in the look-up of many lights, and how long the lists are.
 //
-//     bench_many_lights [SCENE] [ROUNDS]     builtin:hangar and 9
+//     bench_many_lights [SCENE] [ROUNDS] [WIDTHxHEIGHT] [LIGHTS]
 //
+// Without them builtin:hangar, 9 rounds, 480x270, and 24, 64 and 256 lights. ROUNDS 0: lists alone, without a
+// look-up.
 // Each round draws a frame in every way, one after the other, so that all meet the same load.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
@@ -21,7 +25,6 @@
 namespace gnomon {
 namespace {
 
-constexpr int kWidth = 480, kHeight = 270;
 constexpr ClusterOptions kAll{1 << 16, 1};
 
 /// As samples/many_lights places them: even in the plane, a third of them spots, and a faint moon.
@@ -132,12 +135,14 @@ void measure(render::Renderer& renderer, const Scene& scene, const std::vector<B
     ClusterOptions options;
     std::vector<double> ms{};
   };
-  std::vector<Way> ways{{"a pass each", {0, 1}}, {"all in one pass", kAll},    {"32 px, 24 slices", {32, 24}},
-                        {"16 px, 24", {16, 24}}, {"64 px, 24", {64, 24}},      {"32 px, 12", {32, 12}},
-                        {"32 px, 48", {32, 48}}, {"32 px, 1 (tiles)", {32, 1}}};
+  std::vector<Way> ways{{"a pass each", {0, 1}},        {"all in one pass", kAll},
+                        {"32 px, 24 slices", {32, 24}}, {"16 px, 24", {16, 24}},
+                        {"64 px, 24", {64, 24}},        {"32 px, 12", {32, 12}},
+                        {"32 px, 48", {32, 48}},        {"64 px, 48", {64, 48}},
+                        {"128 px, 24", {128, 24}},      {"32 px, 1 (tiles)", {32, 1}}};
   const render::PreparedFilter filter = renderer.prepare_lights(pcf);
   render::FrameOptions frame = quiet();
-  for (int round = -1; round < rounds; ++round) {  // the first one warms up
+  for (int round = rounds > 0 ? -1 : 0; round < rounds; ++round) {  // the first one warms up
     for (Way& way : ways) {
       frame.light_clusters = way.options;
       const double ms =
@@ -145,19 +150,25 @@ void measure(render::Renderer& renderer, const Scene& scene, const std::vector<B
       if (round >= 0) way.ms.push_back(ms);
     }
   }
-  const FloatImage positions = renderer.positions(), normals = renderer.normals();
   Camera large = camera;
   large.width = 1920;
   large.height = 1080;
+  const auto surfaces = [&](const Camera& of) {
+    renderer.draw(ShadowPlan{}, of, renderer.prepare(render::filters::hard), quiet());
+    return std::pair(renderer.positions(), renderer.normals());
+  };
+  const auto seen = surfaces(camera), seen_large = surfaces(large);
   Lists lists;
   for (const Way& way : ways) {
-    std::printf("%6d %6zu  %-18s %8.1f ms  %5.2f", count, listed.size(), way.name, median(way.ms),
-                median(way.ms) / median(ways[0].ms));
+    std::printf("%6d %6zu  %-18s", count, listed.size(), way.name);
+    if (rounds > 0) std::printf(" %8.1f ms  %5.2f", median(way.ms), median(way.ms) / median(ways[0].ms));
     if (way.options.tile_pixels > 0) {
       std::printf("  %6.2f lights a pixel  lists %.3f ms",
-                  mean_length(lists.make(camera, listed, way.options), positions, normals),
+                  mean_length(lists.make(camera, listed, way.options), seen.first, seen.second),
                   list_ms(camera, listed, way.options, lists));
-      std::printf(", at 1920 x 1080 %.3f ms", list_ms(large, listed, way.options, lists));
+      std::printf(", at 1920 x 1080 %6.2f and %.3f ms",
+                  mean_length(lists.make(large, listed, way.options), seen_large.first, seen_large.second),
+                  list_ms(large, listed, way.options, lists));
     }
     std::printf("\n");
     std::fflush(stdout);
@@ -171,12 +182,19 @@ int main(int argc, char** argv) {
   using namespace gnomon;
   const auto context = render::create_context(render::ContextKind::automatic);
   const Scene scene = load_scene(argc > 1 ? argv[1] : "builtin:hangar");
-  const int rounds = argc > 2 ? std::max(std::atoi(argv[2]), 1) : 9;
-  const Camera camera = default_path(scene).at(0.3, kWidth, kHeight);
+  const int rounds = argc > 2 ? std::max(std::atoi(argv[2]), 0) : 9;
+  int width = 480, height = 270;
+  if (argc > 3 && (std::sscanf(argv[3], "%dx%d", &width, &height) != 2 || width < 16 || height < 16)) {
+    std::fprintf(stderr, "bench_many_lights: %s: expected WIDTHxHEIGHT, at least 16x16\n", argv[3]);
+    return 2;
+  }
+  const Camera camera = default_path(scene).at(0.3, width, height);
   std::vector<Box> boxes;
   for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
   render::Renderer renderer(scene);
   std::printf("lights listed  way                      mask   of a pass each\n");
-  for (const int count : {24, 64, 256}) measure(renderer, scene, boxes, camera, count, rounds);
+  const std::vector<int> counts =
+      argc > 4 ? std::vector<int>{std::clamp(std::atoi(argv[4]), 1, 4095)} : std::vector<int>{24, 64, 256};
+  for (const int count : counts) measure(renderer, scene, boxes, camera, count, rounds);
   return 0;
 }
