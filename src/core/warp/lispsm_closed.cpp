@@ -49,6 +49,6 @@ WarpChoice choose(const WarpInput& input) noexcept {
 }  // namespace
 
 const Warp lispsm_closed{"lispsm_closed", "LiSPSM, best strength for the whole frustum in closed form",
-                         choose, true};
+                         choose, true, false, true};
 
 }  // namespace gnomon::warps
