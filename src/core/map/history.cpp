@@ -122,13 +122,13 @@ Decomposed decompose(const Homography& h, std::span<const WarpInput::Point> body
 }
 
 /// What a warp looks like, in quantities whose even steps look even.
-struct Shape {
+struct WarpShape {
   double axis;          // angle
   double stretch;       // logarithm
   double row_a, row_b;  // angles
 };
 
-Shape shape_of(const Decomposed& d) noexcept {
+WarpShape shape_of(const Decomposed& d) noexcept {
   const auto angle = [](const glm::dvec2& v) { return elementary::atan2(v.y, v.x); };
   return {angle(d.choice.axis), elementary::log1p(d.choice.kappa * d.length), angle(d.choice.row_a),
           angle(d.choice.row_b)};
@@ -139,25 +139,30 @@ double nearest_turn(double from, double to, double period) noexcept {
   return to + period * std::round((from - to) / period);
 }
 
+WarpChoice choice_at(const WarpShape& shape, std::span<const WarpInput::Point> body) noexcept {
+  WarpChoice choice;
+  choice.axis = {elementary::cos(shape.axis), elementary::sin(shape.axis)};
+  const Span u = along(body, choice.axis);
+  const double length = u.high - u.low;
+  choice.kappa = length > 0.0 ? elementary::expm1(shape.stretch) / length : 0.0;
+  choice.row_a = {elementary::cos(shape.row_a), elementary::sin(shape.row_a)};
+  choice.row_b = {elementary::cos(shape.row_b), elementary::sin(shape.row_b)};
+  return choice;
+}
+
 /// From the last frame's shape to the best, by the shortest turns.
 struct Way {
-  Shape from, to;
+  WarpShape from, to;
   [[nodiscard]] WarpChoice at(double t, std::span<const WarpInput::Point> body) const noexcept {
     const auto mix = [&](double a, double b) { return a + (b - a) * t; };
-    const double axis = mix(from.axis, to.axis), a = mix(from.row_a, to.row_a), b = mix(from.row_b, to.row_b);
-    WarpChoice choice;
-    choice.axis = {elementary::cos(axis), elementary::sin(axis)};
-    const Span u = along(body, choice.axis);
-    const double length = u.high - u.low;
-    choice.kappa = length > 0.0 ? elementary::expm1(mix(from.stretch, to.stretch)) / length : 0.0;
-    choice.row_a = {elementary::cos(a), elementary::sin(a)};
-    choice.row_b = {elementary::cos(b), elementary::sin(b)};
-    return choice;
+    return choice_at({mix(from.axis, to.axis), mix(from.stretch, to.stretch), mix(from.row_a, to.row_a),
+                      mix(from.row_b, to.row_b)},
+                     body);
   }
 };
 
-Way way_between(const Decomposed& from, const Decomposed& to) noexcept {
-  Way way{shape_of(from), shape_of(to)};
+Way way_between(const WarpShape& from, const Decomposed& to) noexcept {
+  Way way{from, shape_of(to)};
   way.to.axis = nearest_turn(way.from.axis, way.to.axis, 2.0 * kPi);
   // A rectangle turned by a right angle is the same rectangle, its sides swapped.
   const double straight = std::abs(way.from.row_a - nearest_turn(way.from.row_a, way.to.row_a, kPi));
@@ -306,9 +311,8 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
   if (!choice_of(last.xyw_from_world, start.best)) return false;
   start.best.gain_ratio = last.gain_ratio;
   // Searches round the same place would find better ones for ever, and move texels under a still camera. One
-  // frame's motion moves the best warp little: where a search takes long, the maps take turns.
-  const bool turn =
-      in.objective == Objective::storage || (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
+  // frame's motion moves the best warp little: the maps take turns.
+  const bool turn = (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
   start.search =
       turn && (!c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward);
   start.has_map = remembered(request) && choice_of(request.last->gl_from_world, start.map);
@@ -347,9 +351,15 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
     return reported(target, walk.changed(target));
   WarpChoice goal = best;
   goal.kappa = min_of(goal.kappa, strongest_in_motion(c, question, target.length));
-  const Way way = way_between(from, decompose(of_plane(plane_map(in.body, goal)), in.body, from.choice.axis));
-  const bool stays = !in.orthographic && is_near_best(in, way.at(0.0, in.body), goal, best);
-  PlaneMap plane = walk.at(way, stays ? 0.0 : walk.farthest_smooth(way));
+  const WarpShape begin = shape_of(from);
+  const WarpChoice still = choice_at(begin, in.body);
+  const bool stays = !in.orthographic && is_near_best(in, still, goal, best);
+  PlaneMap plane = plane_map(in.body, still);
+  if (!stays) {
+    const Way way =
+        way_between(begin, decompose(of_plane(plane_map(in.body, goal)), in.body, from.choice.axis));
+    plane = walk.at(way, walk.farthest_smooth(way));
+  }
   Change change = walk.changed(plane);
   if (change.largest() > kCut) return reported(target, walk.changed(target));
   if (change.high > kLimit) {
