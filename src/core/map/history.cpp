@@ -193,16 +193,17 @@ Change change_between(const Homography& before, const Homography& now,
   return {area + 3.0 * elementary::log(low), area + 3.0 * elementary::log(high)};
 }
 
-/// The strongest fall-off whose texels keep up with the camera: texels of a warp that moves along with the
+/// Sets the strongest fall-off whose texels keep up with the camera: texels of a warp that moves along with the
 /// viewer change with the third power of w.
-double strongest_in_motion(const PlanContext& c, const WarpQuestion& question, double length) noexcept {
+void limit_to_motion(const PlanContext& c, const WarpQuestion& question, WarpStart& start) noexcept {
+  constexpr double kShare = 0.7;  // of the limit; the rest is left to the rectangle
+  constexpr double kPerStep = 3.0 / (kShare * kLimit);
   const LightSpace& space = question.in.light;
   const glm::dvec3 move = space.frame.turned(c.camera.position - c.last_eye);
-  const double step = std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest;
   const glm::dvec3 turn = glm::cross(c.last_forward, c.axes.forward);
-  const double per_kappa = step + 0.5 * length * std::sqrt(glm::dot(turn, turn));
-  constexpr double kShare = 0.7;  // of the limit; the rest is left to the rectangle
-  return per_kappa > 0.0 ? kShare * kLimit / (3.0 * per_kappa) : std::numeric_limits<double>::infinity();
+  start.least_distance =
+      kPerStep * std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest;
+  start.distance_per_length = 0.5 * kPerStep * std::sqrt(glm::dot(turn, turn));
 }
 
 }  // namespace
@@ -218,9 +219,10 @@ namespace {
 bool is_near_best(const WarpInput& in, const WarpChoice& last, const WarpChoice& goal,
                   const WarpChoice& best) noexcept {
   constexpr double kNear = 1.0 + kWorthFollowing;
+  const bool held = goal.kappa != best.kappa;
   // A goal that is held back by the camera's motion is worse than the best.
-  const bool measured = best.last_ratio > 0.0 && best.gain_ratio > 0.0 && goal.kappa == best.kappa;
-  if (measured) return best.last_ratio <= best.gain_ratio * kNear;
+  const double goal_ratio = held ? best.held_ratio : best.gain_ratio;
+  if (best.last_ratio > 0.0 && goal_ratio > 0.0) return best.last_ratio <= goal_ratio * kNear;
   if (in.objective == Objective::p95) {
     PlaneError error(in);
     return error.value(last) <= error.value(goal) * kNear;
@@ -316,6 +318,7 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
   start.search =
       turn && (!c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward);
   start.has_map = remembered(request) && choice_of(request.last->gl_from_world, start.map);
+  limit_to_motion(c, question, start);
   return true;
 }
 
@@ -350,7 +353,9 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
   if (!from.valid || !usable(in.body, from.choice, in.most_stretch))
     return reported(target, walk.changed(target));
   WarpChoice goal = best;
-  goal.kappa = min_of(goal.kappa, strongest_in_motion(c, question, target.length));
+  WarpStart motion;
+  limit_to_motion(c, question, motion);
+  goal.kappa = min_of(goal.kappa, motion.strongest(target.length));
   const WarpShape begin = shape_of(from);
   const WarpChoice still = choice_at(begin, in.body);
   const bool stays = !in.orthographic && is_near_best(in, still, goal, best);

@@ -303,6 +303,12 @@ bool follow(const WarpInput& input, PlaneError& error, WarpChoice& choice) noexc
   choice = judged_choice(input, best, without);
   choice.last_ratio =
       start.has_map ? error.value(start.map) / without : std::numeric_limits<double>::infinity();
+  // By the other objectives vertices tell as well, and sooner.
+  if (start.has_map && input.objective == Objective::p95) {
+    WarpChoice held = choice;
+    held.kappa = min_of(held.kappa, start.strongest(plane_map(input.body, choice).length));
+    if (held.kappa < choice.kappa) choice.held_ratio = error.value(held) / without;
+  }
   return true;
 }
 
