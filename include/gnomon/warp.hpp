@@ -145,8 +145,8 @@ struct Warp {
   bool drop_without_gain;
   /// True where the search begins at WarpInput::start, if there is one.
   bool follows_start = false;
-  /// True where every choice is WarpInput::unwarped or one of WarpInput::along_view: one bound tells that none
-  /// of them serves.
+  /// True where every choice is WarpInput::unwarped or one of WarpInput::along_view: one bound shows that
+  /// none of them serves.
   bool along_view = false;
 };
 

@@ -193,16 +193,15 @@ Change change_between(const Homography& before, const Homography& now,
   return {area + 3.0 * elementary::log(low), area + 3.0 * elementary::log(high)};
 }
 
-/// Sets the strongest fall-off whose texels keep up with the camera: texels of a warp that moves along with the
-/// viewer change with the third power of w.
+/// Sets the strongest fall-off whose texels keep up with the camera: texels of a warp that moves along with
+/// the viewer change with the third power of w.
 void limit_to_motion(const PlanContext& c, const WarpQuestion& question, WarpStart& start) noexcept {
   constexpr double kShare = 0.7;  // of the limit; the rest is left to the rectangle
   constexpr double kPerStep = 3.0 / (kShare * kLimit);
   const LightSpace& space = question.in.light;
   const glm::dvec3 move = space.frame.turned(c.camera.position - c.last_eye);
   const glm::dvec3 turn = glm::cross(c.last_forward, c.axes.forward);
-  start.least_distance =
-      kPerStep * std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest;
+  start.least_distance = kPerStep * std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest;
   start.distance_per_length = 0.5 * kPerStep * std::sqrt(glm::dot(turn, turn));
 }
 

@@ -1,7 +1,8 @@
 // How low does the error of a warp along the view come, at most, whatever its strength?
-// Based on: the error measure of Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006. With
-// rows Jx and Jy of the Jacobian of the light plane by the pixel, its determinant D, stretch = 1 + kappa
-// length and t = kappa x / w, texels are length w^2 |Jx - t Jy| / (stretch D) and width w |Jy| / D pixels long.
+// Based on: the error measure of Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006.
+// With rows Jx and Jy of the Jacobian of the light plane by the pixel, its determinant D, stretch = 1 + kappa
+// length and t = kappa x / w, texels are length w^2 |Jx - t Jy| / (stretch D) and width w |Jy| / D pixels
+// long.
 #include "warp/least_along_view.hpp"
 
 #include <cmath>
