@@ -13,6 +13,7 @@
 #include "support/property.hpp"
 #include "support/seeded_input.hpp"
 #include "warp/along_view.hpp"
+#include "warp/least_along_view.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/plane_map.hpp"
 #include "warp/row_search.hpp"
@@ -28,30 +29,46 @@ constexpr double kLeastGain = 0.02;
 /// What the bodies of one plan came to.
 struct Judged {
   int bodies = 0, along_bodies = 0, weaker_as_good = 0;
-  double worst = 0.0, apart = 0.0, search_apart = 0.0, log_along = 0.0, log_quick = 0.0, log_gain = 0.0;
+  int misjudged = 0, bounded = 0;
+  double worst = 0.0, over_bound = 0.0, search_apart = 0.0, log_along = 0.0, log_quick = 0.0, log_gain = 0.0;
   std::string worst_against;
 };
 Judged judged;
 
-/// How far the values of choices side by side are from those of each alone.
-double apart(const WarpInput& input, PlaneError& error) noexcept {
+/// How many choices side by side are not told from what each alone comes to, a millionth more and less.
+int misjudged(const WarpInput& input, PlaneError& error) noexcept {
   std::array<WarpChoice, kWarpLanes> choice;
   ChoiceLanes lanes;
   for (std::size_t i = 0; i < kWarpLanes; ++i) {
     choice[i] = all_warps()[i % all_warps().size()]->choose(input);
     lanes.set(i, choice[i]);
   }
-  LaneValues value;
-  error.values(lanes, value);
-  double most = 0.0;
+  constexpr double kRounding = 1e-6;
+  int count = 0;
   for (std::size_t i = 0; i < kWarpLanes; ++i) {
     const bool known = choice[i].kappa == 0.0 || usable(input.body, choice[i], input.most_stretch);
     const double alone = error.value(choice[i]);
     // Bodies of rounding give values of rounding.
     if (!known || !(alone < 1e12)) continue;
-    most = std::max(most, std::abs(value[i] - alone) / alone);
+    LaneAnswers below_more, below_less;
+    error.below(lanes, alone * (1.0 + kRounding), below_more);
+    error.below(lanes, alone * (1.0 - kRounding), below_less);
+    count += below_more[i] && !below_less[i] ? 0 : 1;
   }
-  return most;
+  return count;
+}
+
+/// The bound of warps along the view over the least of theirs that is below `best`; 0 where none is.
+double bound_over_least(const WarpInput& input, PlaneError& error, double best) noexcept {
+  const double bound = least_along_view(input, error);
+  double least = best;
+  for (const Warp* warp : all_warps()) {
+    if (!warp->along_view) continue;
+    const WarpChoice choice = warp->choose(input);
+    if (!input.is_unwarped(choice) && usable(input.body, choice, input.most_stretch))
+      least = std::min(least, error.value(choice));
+  }
+  return least < best ? bound / least : 0.0;
 }
 
 /// How far values of a search in single precision are from those of the error itself, each over the first's.
@@ -111,7 +128,9 @@ WarpChoice judge(const WarpInput& input) noexcept {
   const double best = value(warps::optimal);
   ++judged.bodies;
   judge_along(input);
-  judged.apart = std::max(judged.apart, apart(input, error));
+  judged.misjudged += misjudged(input, error);
+  judged.over_bound = std::max(judged.over_bound, bound_over_least(input, error, without));
+  judged.bounded += least_along_view(input, error) > 0.0 ? 1 : 0;
   judged.search_apart = std::max(judged.search_apart, search_apart(input, error));
   double least_other = without;
   for (const Warp* warp : all_warps()) {
@@ -128,7 +147,7 @@ const Warp kJudge{"judge", "compares all warps", judge, true};
 
 void hold(bool parallel, int cases, int least_bodies) {
   std::array<double, 3> worst{}, log_gain{}, gained_bodies{};
-  int bodies = 0, along_bodies = 0, weaker_as_good = 0;
+  int bodies = 0, bounded = 0, along_bodies = 0, weaker_as_good = 0;
   std::vector<double> search_worst;
   double log_along = 0.0, log_quick = 0.0;
   for_all(cases, [&] {
@@ -143,8 +162,11 @@ void hold(bool parallel, int cases, int least_bodies) {
     bodies += judged.bodies;
     double& so_far = worst[static_cast<std::size_t>(input.options.warp.objective)];
     so_far = std::max(so_far, judged.worst);
-    constexpr double kRounding = 1e-6;
-    require(judged.apart <= kRounding, "values side by side are apart by", judged.apart);
+    require(judged.misjudged == 0, "choices side by side that are misjudged:", judged.misjudged);
+    // What `optimal` allows for.
+    constexpr double kBound = 1.0 / 0.95;
+    require(judged.over_bound <= kBound, "least along the view over a warp of those", judged.over_bound);
+    bounded += judged.bounded;
     search_worst.push_back(judged.search_apart);
     const auto objective = static_cast<std::size_t>(input.options.warp.objective);
     log_gain[objective] += judged.log_gain;
@@ -157,6 +179,7 @@ void hold(bool parallel, int cases, int least_bodies) {
             judged.worst_against, judged.worst);
   });
   EXPECT_GT(bodies, least_bodies);
+  EXPECT_GT(5 * bounded, bodies) << "bodies with a bound of all warps along the view";
   // Not one by one: a flat body's image has no width at one strength alone.
   constexpr double kAlong = 0.02, kQuick = 0.1;
   EXPECT_LT(log_along, kAlong * bodies) << "strength along the view over the best";

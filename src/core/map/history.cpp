@@ -122,13 +122,13 @@ Decomposed decompose(const Homography& h, std::span<const WarpInput::Point> body
 }
 
 /// What a warp looks like, in quantities whose even steps look even.
-struct Shape {
+struct WarpShape {
   double axis;          // angle
   double stretch;       // logarithm
   double row_a, row_b;  // angles
 };
 
-Shape shape_of(const Decomposed& d) noexcept {
+WarpShape shape_of(const Decomposed& d) noexcept {
   const auto angle = [](const glm::dvec2& v) { return elementary::atan2(v.y, v.x); };
   return {angle(d.choice.axis), elementary::log1p(d.choice.kappa * d.length), angle(d.choice.row_a),
           angle(d.choice.row_b)};
@@ -139,25 +139,30 @@ double nearest_turn(double from, double to, double period) noexcept {
   return to + period * std::round((from - to) / period);
 }
 
+WarpChoice choice_at(const WarpShape& shape, std::span<const WarpInput::Point> body) noexcept {
+  WarpChoice choice;
+  choice.axis = {elementary::cos(shape.axis), elementary::sin(shape.axis)};
+  const Span u = along(body, choice.axis);
+  const double length = u.high - u.low;
+  choice.kappa = length > 0.0 ? elementary::expm1(shape.stretch) / length : 0.0;
+  choice.row_a = {elementary::cos(shape.row_a), elementary::sin(shape.row_a)};
+  choice.row_b = {elementary::cos(shape.row_b), elementary::sin(shape.row_b)};
+  return choice;
+}
+
 /// From the last frame's shape to the best, by the shortest turns.
 struct Way {
-  Shape from, to;
+  WarpShape from, to;
   [[nodiscard]] WarpChoice at(double t, std::span<const WarpInput::Point> body) const noexcept {
     const auto mix = [&](double a, double b) { return a + (b - a) * t; };
-    const double axis = mix(from.axis, to.axis), a = mix(from.row_a, to.row_a), b = mix(from.row_b, to.row_b);
-    WarpChoice choice;
-    choice.axis = {elementary::cos(axis), elementary::sin(axis)};
-    const Span u = along(body, choice.axis);
-    const double length = u.high - u.low;
-    choice.kappa = length > 0.0 ? elementary::expm1(mix(from.stretch, to.stretch)) / length : 0.0;
-    choice.row_a = {elementary::cos(a), elementary::sin(a)};
-    choice.row_b = {elementary::cos(b), elementary::sin(b)};
-    return choice;
+    return choice_at({mix(from.axis, to.axis), mix(from.stretch, to.stretch), mix(from.row_a, to.row_a),
+                      mix(from.row_b, to.row_b)},
+                     body);
   }
 };
 
-Way way_between(const Decomposed& from, const Decomposed& to) noexcept {
-  Way way{shape_of(from), shape_of(to)};
+Way way_between(const WarpShape& from, const Decomposed& to) noexcept {
+  Way way{from, shape_of(to)};
   way.to.axis = nearest_turn(way.from.axis, way.to.axis, 2.0 * kPi);
   // A rectangle turned by a right angle is the same rectangle, its sides swapped.
   const double straight = std::abs(way.from.row_a - nearest_turn(way.from.row_a, way.to.row_a, kPi));
@@ -188,16 +193,16 @@ Change change_between(const Homography& before, const Homography& now,
   return {area + 3.0 * elementary::log(low), area + 3.0 * elementary::log(high)};
 }
 
-/// The strongest fall-off whose texels keep up with the camera: texels of a warp that moves along with the
-/// viewer change with the third power of w.
-double strongest_in_motion(const PlanContext& c, const WarpQuestion& question, double length) noexcept {
+/// Sets the strongest fall-off whose texels keep up with the camera: texels of a warp that moves along with
+/// the viewer change with the third power of w.
+void limit_to_motion(const PlanContext& c, const WarpQuestion& question, WarpStart& start) noexcept {
+  constexpr double kShare = 0.7;  // of the limit; the rest is left to the rectangle
+  constexpr double kPerStep = 3.0 / (kShare * kLimit);
   const LightSpace& space = question.in.light;
   const glm::dvec3 move = space.frame.turned(c.camera.position - c.last_eye);
-  const double step = std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest;
   const glm::dvec3 turn = glm::cross(c.last_forward, c.axes.forward);
-  const double per_kappa = step + 0.5 * length * std::sqrt(glm::dot(turn, turn));
-  constexpr double kShare = 0.7;  // of the limit; the rest is left to the rectangle
-  return per_kappa > 0.0 ? kShare * kLimit / (3.0 * per_kappa) : std::numeric_limits<double>::infinity();
+  start.least_distance = kPerStep * std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest;
+  start.distance_per_length = 0.5 * kPerStep * std::sqrt(glm::dot(turn, turn));
 }
 
 }  // namespace
@@ -213,9 +218,10 @@ namespace {
 bool is_near_best(const WarpInput& in, const WarpChoice& last, const WarpChoice& goal,
                   const WarpChoice& best) noexcept {
   constexpr double kNear = 1.0 + kWorthFollowing;
+  const bool held = goal.kappa != best.kappa;
   // A goal that is held back by the camera's motion is worse than the best.
-  const bool measured = best.last_ratio > 0.0 && best.gain_ratio > 0.0 && goal.kappa == best.kappa;
-  if (measured) return best.last_ratio <= best.gain_ratio * kNear;
+  const double goal_ratio = held ? best.held_ratio : best.gain_ratio;
+  if (best.last_ratio > 0.0 && goal_ratio > 0.0) return best.last_ratio <= goal_ratio * kNear;
   if (in.objective == Objective::p95) {
     PlaneError error(in);
     return error.value(last) <= error.value(goal) * kNear;
@@ -306,12 +312,12 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
   if (!choice_of(last.xyw_from_world, start.best)) return false;
   start.best.gain_ratio = last.gain_ratio;
   // Searches round the same place would find better ones for ever, and move texels under a still camera. One
-  // frame's motion moves the best warp little: where a search takes long, the maps take turns.
-  const bool turn =
-      in.objective == Objective::storage || (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
+  // frame's motion moves the best warp little: the maps take turns.
+  const bool turn = (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
   start.search =
       turn && (!c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward);
   start.has_map = remembered(request) && choice_of(request.last->gl_from_world, start.map);
+  limit_to_motion(c, question, start);
   return true;
 }
 
@@ -346,10 +352,18 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
   if (!from.valid || !usable(in.body, from.choice, in.most_stretch))
     return reported(target, walk.changed(target));
   WarpChoice goal = best;
-  goal.kappa = min_of(goal.kappa, strongest_in_motion(c, question, target.length));
-  const Way way = way_between(from, decompose(of_plane(plane_map(in.body, goal)), in.body, from.choice.axis));
-  const bool stays = !in.orthographic && is_near_best(in, way.at(0.0, in.body), goal, best);
-  PlaneMap plane = walk.at(way, stays ? 0.0 : walk.farthest_smooth(way));
+  WarpStart motion;
+  limit_to_motion(c, question, motion);
+  goal.kappa = min_of(goal.kappa, motion.strongest(target.length));
+  const WarpShape begin = shape_of(from);
+  const WarpChoice still = choice_at(begin, in.body);
+  const bool stays = !in.orthographic && is_near_best(in, still, goal, best);
+  PlaneMap plane = plane_map(in.body, still);
+  if (!stays) {
+    const Way way =
+        way_between(begin, decompose(of_plane(plane_map(in.body, goal)), in.body, from.choice.axis));
+    plane = walk.at(way, walk.farthest_smooth(way));
+  }
   Change change = walk.changed(plane);
   if (change.largest() > kCut) return reported(target, walk.changed(target));
   if (change.high > kLimit) {

@@ -14,6 +14,7 @@ WarpChoice choose(const WarpInput& input) noexcept {
 
 }  // namespace
 
-const Warp lispsm{"lispsm", "light-space perspective, strength chosen for the visible body", choose, true};
+const Warp lispsm{
+    "lispsm", "light-space perspective, strength chosen for the visible body", choose, true, false, true};
 
 }  // namespace gnomon::warps

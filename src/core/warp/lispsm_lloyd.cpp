@@ -26,6 +26,7 @@ WarpChoice choose(const WarpInput& input) noexcept {
 
 }  // namespace
 
-const Warp lispsm_lloyd{"lispsm_lloyd", "LiSPSM with Lloyd's fall-off over the light's angle", choose, false};
+const Warp lispsm_lloyd{
+    "lispsm_lloyd", "LiSPSM with Lloyd's fall-off over the light's angle", choose, false, false, true};
 
 }  // namespace gnomon::warps

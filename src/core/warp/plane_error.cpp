@@ -127,15 +127,15 @@ void PlaneError::count_worst(const WarpChoice& choice) noexcept {
   // Of the squares. A percentile may come to rest farther below its first value.
   const bool storage = input_.objective == Objective::storage;
   const double near_worst = storage ? 0.4 : 0.25;
+  // Mostly it was asked for last.
+  const bool known = worst_ > 0.0 && same_map(choice, valued_);
   double most_x = 0.0, most_y = 0.0;
   if (storage) {
-    find_rows(choice);
+    if (!known) find_rows(choice);
     const std::size_t n = whole_lanes(all_);
     most_x = lane_range(row_x_.data(), n, lanes_).high;
     most_y = lane_range(row_y_.data(), n, lanes_).high;
   } else {
-    // Mostly it was asked for last.
-    const bool known = worst_ > 0.0 && same_map(choice, valued_);
     if (!known && !std::isfinite(value(choice))) return;
     most_x = worst_;
     for (std::size_t i = 0; i < all_; ++i) row_y_[i] = 0.0;
@@ -383,75 +383,53 @@ GNOMON_WIDE void PlaneError::find_storage(const MapLanes& map, LaneValues& value
   for (std::size_t l = 0; l < lanes; ++l) value[l] = most_a[l] * most_b[l];
 }
 
-// Half the sum of both squared extents, and their product's root: the larger of the two squares.
-#define GNOMON_WORST                                                                   \
-  const double half = 0.5 * (row_a + row_b), area = std::abs(f * w * w * map.area[l]); \
-  const double spread = (half - area) * (half + area);                                 \
-  const double square = half + std::sqrt(max_of(spread, 0.0))
-
-GNOMON_WIDE void PlaneError::find_worst(const MapLanes& map, LaneValues& value) const noexcept {
+// A texel's squares are the roots of x^2 - 2 half x + area^2, half the sum of both squared extents and the
+// product of both: the larger one is above `square` where half is, or where the quadratic is negative there.
+GNOMON_WIDE void PlaneError::count_above(const MapLanes& map, double square,
+                                         LaneValues& count) const noexcept {
   const std::size_t lanes = lanes_, n = sample_.count;
-  alignas(64) LaneValues most{};
-  for (std::size_t i = 0; i < n; ++i) {
-    const double x = sample_.x[i], y = sample_.y[i], xx = sample_.xx[i], xy = sample_.xy[i];
-    const double yx = sample_.yx[i], yy = sample_.yy[i], id = sample_.inverse_determinant[i];
-    for (std::size_t l = 0; l < lanes; ++l) {
-      GNOMON_ROWS;
-      GNOMON_WORST;
-      most[l] = max_of(most[l], square);
+  const double inverse = inverse_or_0(square), enough = static_cast<double>(above_) + 0.5;
+  alignas(64) LaneValues above;
+  for (std::size_t l = 0; l < lanes; ++l) above[l] = map.known[l] != 0.0 ? 0.0 : enough + 0.5;
+  // Asked now and then whether all have enough.
+  constexpr std::size_t kBetween = 16;
+  for (std::size_t begin = 0; begin < n; begin += kBetween) {
+    const std::size_t end = begin + kBetween < n ? begin + kBetween : n;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double x = sample_.x[i], y = sample_.y[i], xx = sample_.xx[i], xy = sample_.xy[i];
+      const double yx = sample_.yx[i], yy = sample_.yy[i], id = sample_.inverse_determinant[i];
+      for (std::size_t l = 0; l < lanes; ++l) {
+        GNOMON_ROWS;
+        const double twice = row_a + row_b, area = f * w * w * map.area[l];
+        const double beyond = max_of(0.5 * twice - square, (twice - square) - area * (area * inverse));
+        // What is no number counts as nothing.
+        above[l] += beyond >= 0.0 ? 1.0 : 0.0;
+      }
     }
+    double least = above[0];
+    for (std::size_t l = 1; l < lanes; ++l) least = min_of(least, above[l]);
+    if (least > enough) break;
   }
-  for (std::size_t l = 0; l < lanes; ++l) value[l] = most[l];
+  for (std::size_t l = 0; l < lanes; ++l) count[l] = above[l];
 }
-
-GNOMON_WIDE void PlaneError::find_percentile(const MapLanes& map, std::size_t above,
-                                             LaneValues& value) const noexcept {
-  const std::size_t lanes = lanes_, n = sample_.count;
-  // The largest few, largest first.
-  alignas(64) std::array<LaneValues, kMostAbove + 1> top{};
-  for (std::size_t i = 0; i < n; ++i) {
-    const double x = sample_.x[i], y = sample_.y[i], xx = sample_.xx[i], xy = sample_.xy[i];
-    const double yx = sample_.yx[i], yy = sample_.yy[i], id = sample_.inverse_determinant[i];
-    for (std::size_t l = 0; l < lanes; ++l) {
-      GNOMON_ROWS;
-      GNOMON_WORST;
-      // What is no number counts as nothing.
-      const double v0 = square > 0.0 ? square : 0.0;
-#define GNOMON_LEVEL(k, in, out)            \
-  const double out = min_of(top[k][l], in); \
-  top[k][l] = max_of(top[k][l], in)
-      GNOMON_LEVEL(0, v0, v1);
-      GNOMON_LEVEL(1, v1, v2);
-      GNOMON_LEVEL(2, v2, v3);
-      GNOMON_LEVEL(3, v3, v4);
-      top[4][l] = max_of(top[4][l], v4);
-#undef GNOMON_LEVEL
-    }
-  }
-  for (std::size_t l = 0; l < lanes; ++l) value[l] = top[above][l];
-}
-#undef GNOMON_WORST
 #undef GNOMON_ROWS
 
-void PlaneError::values(const ChoiceLanes& choices, LaneValues& value) noexcept {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (sample_.count == 0 || body_.points == 0) {
-    value.fill(kInfinity);
-    return;
-  }
+void PlaneError::below(const ChoiceLanes& choices, double value, LaneAnswers& is_below) noexcept {
+  is_below.fill(false);
+  if (sample_.count == 0 || body_.points == 0) return;
   ExtentLanes extents;
   MapLanes map;
   find_extents(choices, extents);
   fit(choices, extents, map);
+  LaneValues found;
   if (input_.objective == Objective::storage) {
-    find_storage(map, value);
-  } else if (share_ == 0.0) {
-    find_worst(map, value);
+    find_storage(map, found);
+    for (std::size_t l = 0; l < kWarpLanes; ++l)
+      is_below[l] = map.known[l] != 0.0 && std::sqrt(found[l]) < value;
   } else {
-    find_percentile(map, above_, value);
+    count_above(map, value * value, found);
+    for (std::size_t l = 0; l < kWarpLanes; ++l) is_below[l] = found[l] <= static_cast<double>(above_);
   }
-  for (std::size_t l = 0; l < kWarpLanes; ++l)
-    value[l] = map.known[l] != 0.0 && value[l] < kInfinity ? std::sqrt(value[l]) : kInfinity;
 }
 
 }  // namespace gnomon

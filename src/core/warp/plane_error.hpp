@@ -23,6 +23,7 @@ struct ChoiceLanes {
   void set(std::size_t lane, const WarpChoice& choice) noexcept;
 };
 using LaneValues = std::array<double, kWarpLanes>;
+using LaneAnswers = std::array<bool, kWarpLanes>;
 
 /// The light-plane positions of a body's vertices, in whole lanes.
 struct BodyLanes {
@@ -50,8 +51,9 @@ class PlaneError {
   /// The objective under `choice`, up to a factor that is the same for every choice; infinite for an unusable
   /// one.
   [[nodiscard]] double value(const WarpChoice& choice) noexcept;
-  /// The objective under each of these choices, infinite where `usable` is false as well.
-  void values(const ChoiceLanes& choices, LaneValues& value) noexcept;
+  /// Whether the objective under each of these choices is below `value`, but for rounding; false where
+  /// `usable` is false as well.
+  void below(const ChoiceLanes& choices, double value, LaneAnswers& is_below) noexcept;
   /// From now on counts only the points whose error is near the worst under `choice`: for choices near it.
   void count_worst(const WarpChoice& choice) noexcept;
   void count_all() noexcept {
@@ -80,8 +82,7 @@ class PlaneError {
   void find_extents(const ChoiceLanes& choices, ExtentLanes& extents) const noexcept;
   void fit(const ChoiceLanes& choices, const ExtentLanes& extents, MapLanes& map) const noexcept;
   void find_storage(const MapLanes& map, LaneValues& value) const noexcept;
-  void find_worst(const MapLanes& map, LaneValues& value) const noexcept;
-  void find_percentile(const MapLanes& map, std::size_t above, LaneValues& value) const noexcept;
+  void count_above(const MapLanes& map, double square, LaneValues& count) const noexcept;
   [[nodiscard]] double storage_squared() const noexcept;
   [[nodiscard]] double worst_squared() noexcept;
 
