@@ -3,6 +3,9 @@
 // in it, or of the depth where only 0..1 can be stored.
 #include "library/lookup.glsl"
 
+// Least and largest depths cannot be interpolated between texels; what they say of a receiver can.
+#define SHADOW_INTERPOLATES 1
+
 // Layers of depth have a vector each, and reach over half of their neighbours.
 vec2 layer_ends(int layer) {
   float count = float(GNOMON_SHADOW_VECTORS);

@@ -158,6 +158,7 @@ const Filter filters::power_cdf{
             .store = store,
             .join = join,
             .nothing = nothing,
+            .interpolates = true,
             .visibility = visibility,
         },
     .hooks =

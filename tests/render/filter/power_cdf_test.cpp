@@ -177,5 +177,23 @@ TEST(PowerCdfFilter, passes_from_layer_to_layer_without_a_jump) {
   }
 }
 
+TEST(PowerCdfFilter, has_no_stairs_where_a_kernel_takes_in_another_texel) {
+  constexpr int kSide = 40;
+  TestMap map{kSide, kSide, {}};
+  for (int i = 0; i < kSide * kSide; ++i)
+    map.depth.push_back(2 * (i % kSide) + i / kSide < 50 ? 0.25f : 0.75f);  // a slanted edge
+  std::vector<Question> questions;
+  for (int i = 0; i <= 640; ++i)
+    questions.push_back({{10.0f + static_cast<float>(i) / 64.0f, 20.3f}, 0.75f, {}, 0.0f});
+  for (const char* text : {"power_cdf:radius=2", "power_cdf:radius=2,layers=4"}) {
+    const std::vector<float> lit = ask_shader(settings_from(text), map, questions);
+    EXPECT_LT(lit.front(), 0.01f) << text;
+    EXPECT_GT(lit.back(), 0.99f) << text;
+    float most = 0.0f;
+    for (std::size_t i = 1; i < lit.size(); ++i) most = std::max(most, std::abs(lit[i] - lit[i - 1]));
+    EXPECT_LT(most, 0.02f) << text;  // a texel's 64th
+  }
+}
+
 }  // namespace
 }  // namespace gnomon::render
