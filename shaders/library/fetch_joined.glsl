@@ -61,7 +61,7 @@ float visibility_2x2(sampler2DArray stored[GNOMON_SHADOW_VECTORS], vec3 place, i
 }
 #endif
 
-// What the filter makes of its texels at a point: of what it joins them to, or the mean of what it makes of each where it
+// The filter's result at a point: from what it joins its texels to, or the mean of its results for each where it
 // defines SHADOW_INTERPOLATES.
 float joined_visibility(sampler2DArray stored[GNOMON_SHADOW_VECTORS], sampler2DArray depth_map, sampler2DArray depth_max,
                         ShadowLookup at, int probes, ShadowOptions options) {

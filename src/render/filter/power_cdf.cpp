@@ -20,7 +20,7 @@ constexpr FilterOption kOptions[] = {
      "longest receiver offset, world units: alike in all maps; 0: no limit but falloff_kernel"},
     {"falloff_kernel", 0.0, 0.0, 1000.0, "the same in half widths of the kernel; the longer of both counts"},
     {"layers", 1, 1, kMostLayers,
-     "layers of depth, four channels each: more of them tell apart occluders behind each other"},
+     "layers of depth, four channels each: more of them part occluders behind each other"},
 };
 constexpr std::size_t kLayers = 3;
 /// The filter's own option behind them: the longest offset, of the depth range; 0: no limit.

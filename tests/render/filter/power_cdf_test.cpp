@@ -142,7 +142,7 @@ double mean_error_over_kernels(const FilterSettings& settings) {
   return sum / kKernels;
 }
 
-TEST(PowerCdfFilter, layers_tell_apart_occluders_behind_each_other) {
+TEST(PowerCdfFilter, layers_part_occluders_behind_each_other) {
   double before = mean_error_over_kernels(settings_from("power_cdf"));
   EXPECT_GT(before, 0.1);
   for (const char* layers : {"2", "4", "8"}) {
