@@ -9,5 +9,5 @@ layout(binding = 8) uniform sampler2DArray shadow_stored[GNOMON_SHADOW_VECTORS];
 
 float visibility(ShadowLookup question, ShadowMap map, ShadowOptions options) {
   ShadowLookup at = stored_lookup(question, map);
-  return shadow_visibility(fetch_joined(shadow_stored, at, int(filtering.sums.z), options), shadow_depth, shadow_depth_max, at, options);
+  return joined_visibility(shadow_stored, shadow_depth, shadow_depth_max, at, int(filtering.sums.z), options);
 }

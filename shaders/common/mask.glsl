@@ -79,8 +79,11 @@ vec2 mask_of(Surface s) {
     next_share = share_of_next_map(shadow_map(map + 1), s.depth);
   }
   if (frame.selection.y == kDither) next_share = next_share > noise ? 1.0 : 0.0;
-  if (next_share < 1.0) mask.x = visibility_through(map, s, noise);
-  if (next_share > 0.0) mask.x = mix(mask.x, visibility_through(map + 1, s, noise), next_share);
+  // A loop, for software renderers run all branches: a look-up written twice takes twice the time.
+  int first = next_share == 1.0 ? map + 1 : map, last = next_share > 0.0 ? map + 1 : map;
+  mask.x = 0.0;
+  for (int i = first; i <= last; ++i)
+    mask.x += (i == map ? 1.0 - next_share : next_share) * visibility_through(i, s, noise);
   if (next_share == 1.0) mask.y = float(map + 1);
   return mask;
 }

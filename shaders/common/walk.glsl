@@ -20,10 +20,10 @@ vec4 joined(vec4 window[kSide], float weights[GNOMON_REACH + 1], ShadowOptions o
   for (int i = 0; i < kSide; ++i) sum += weights[abs(i - kReach)] * shadow_term(window[i], largest, options);
   return shadow_of_sum(sum, largest, options);
 #else
-  // Texels that only the filter may join have one vector.
+  // Any of a texel's vectors: those that only the filter may join are all joined alike.
   ShadowTexel sum = shadow_nothing(options);
+  ShadowTexel next = sum;
   for (int i = 0; i < kSide; ++i) {
-    ShadowTexel next;
     next.v[0] = window[i];
     shadow_join(sum, next, weights[abs(i - kReach)], options);
   }

@@ -1,26 +1,45 @@
 // Power-law shadow maps (Gumbau, Szirmay-Kalos, Sbert, Chover 2011): least, mean and largest depth of the kernel make a
-// distribution of its depths, which is read at the receiver. Channels: least, mean, largest of u = 2 depth - 1, or of the
-// depth where only 0..1 can be stored.
+// distribution of its depths, which is read at the receiver. Channels of a layer: least, mean, largest of u = 2 depth - 1
+// in it, or of the depth where only 0..1 can be stored.
 #include "library/lookup.glsl"
+
+// Least and largest depths cannot be interpolated between texels; what they say of a receiver can.
+#define SHADOW_INTERPOLATES 1
+
+// Layers of depth have a vector each, and reach over half of their neighbours.
+vec2 layer_ends(int layer) {
+  float count = float(GNOMON_SHADOW_VECTORS);
+  return vec2(max(float(layer) - 0.5, 0.0), min(float(layer) + 1.5, count)) / count;
+}
+
+// Beyond a layer's ends: its ends.
+float value_in(vec2 ends, float depth, ShadowOptions options) {
+  float within = clamp((depth - ends.x) / (ends.y - ends.x), 0.0, 1.0);
+  return options.unsigned_unit ? within : 2.0 * within - 1.0;
+}
 
 ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) {
   ShadowTexel texel;
-  texel.v[0] = vec4(vec3(options.unsigned_unit ? depth : 2.0 * depth - 1.0), 0.0);
+  for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) {
+    texel.v[i] = vec4(vec3(value_in(layer_ends(i), depth, options)), 0.0);
+  }
   return texel;
 }
 
 ShadowTexel shadow_nothing(ShadowOptions options) {
   ShadowTexel sum;
-  sum.v[0] = vec4(2.0, 0.0, -2.0, 0.0);  // any texel is nearer to 0
+  for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) sum.v[i] = vec4(2.0, 0.0, -2.0, 0.0);  // any texel is nearer to 0
   return sum;
 }
 
 void shadow_join(inout ShadowTexel sum, ShadowTexel texel, float weight, ShadowOptions options) {
   const float kLeastWeight = 1e-4;  // what counts less is in the kernel by the rounding of its place alone
-  sum.v[0].y += weight * texel.v[0].y;
-  if (weight < kLeastWeight) return;
-  sum.v[0].x = min(sum.v[0].x, texel.v[0].x);
-  sum.v[0].z = max(sum.v[0].z, texel.v[0].z);
+  for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) {
+    sum.v[i].y += weight * texel.v[i].y;
+    if (weight < kLeastWeight) continue;
+    sum.v[i].x = min(sum.v[i].x, texel.v[i].x);
+    sum.v[i].z = max(sum.v[i].z, texel.v[i].z);
+  }
 }
 
 // 1 - (1 - below)^exponent, without the digits that are lost where the power is close to 1.
@@ -42,14 +61,26 @@ float power_lit(float least, float mean, float largest, float depth) {
   return one_less_power((largest - depth) / range, exponent) / one_less_power((largest - mean) / range, exponent);
 }
 
-// Options: offset, two of the fall-off, longest offset (0: no limit).
+// Options: offset, two of the fall-off, layers, longest offset (0: no limit).
+float lit_in(int layer, vec4 texel, float depth, ShadowOptions options) {
+  const float kRoundings = 4.0;  // of the mean, stored after each half of the blur, read and compared
+  vec2 ends = layer_ends(layer);
+  float scale = (options.unsigned_unit ? 1.0 : 2.0) / (ends.y - ends.x);
+  float longest = options.value[4] > 0.0 ? scale * options.value[4] : 2.0;
+  float offset = min(options.value[0] * (texel.z - texel.x), longest) + kRoundings * options.rounding;
+  float lit = power_lit(texel.x, texel.y, texel.z, value_in(ends, depth, options) - offset);
+  return lit < 1.0 ? max(lit, 0.0) : 1.0;  // not-a-number is lit
+}
+
 float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DArray depth_max, ShadowLookup at,
                         ShadowOptions options) {
-  const float kRoundings = 4.0;  // of the mean, stored after each half of the blur, read and compared
   float depth = min(at.depth, 1.0);
-  float value = options.unsigned_unit ? depth : 2.0 * depth - 1.0;
-  float longest = options.value[3] > 0.0 ? (options.unsigned_unit ? 1.0 : 2.0) * options.value[3] : 2.0;
-  float offset = min(options.value[0] * (texel.v[0].z - texel.v[0].x), longest) + kRoundings * options.rounding;
-  float lit = power_lit(texel.v[0].x, texel.v[0].y, texel.v[0].z, value - offset);
-  return lit < 1.0 ? max(lit, 0.0) : 1.0;  // not-a-number is lit
+  // Whole in the middle of a layer, nothing in the middle of the next.
+  float place = clamp(depth * float(GNOMON_SHADOW_VECTORS) - 0.5, 0.0, float(GNOMON_SHADOW_VECTORS - 1));
+  float lit = 0.0;
+  for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) {
+    float share = max(1.0 - abs(place - float(i)), 0.0);
+    if (share > 0.0) lit += share * lit_in(i, texel.v[i], depth, options);
+  }
+  return lit < 1.0 ? max(lit, 0.0) : 1.0;
 }

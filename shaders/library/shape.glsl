@@ -1,6 +1,10 @@
 // How texels lie on the square that a map's matrix projects to: each shape of shapes.def by its place there.
 #ifndef GNOMON_LIBRARY_SHAPE_GLSL
 #define GNOMON_LIBRARY_SHAPE_GLSL
+// The includer may define GNOMON_SHAPES 0 where every map is linear: software renderers run all branches for every pixel.
+#ifndef GNOMON_SHAPES
+#define GNOMON_SHAPES 1
+#endif
 #include "library/shape/linear.glsl"
 #include "library/shape/logarithmic.glsl"
 #include "library/shape/rectilinear.glsl"
@@ -8,9 +12,11 @@
 
 // `shape`: its place in shapes.def, then its parameters, column by column.
 ShapedPoint shaped_point(mat4 shape, vec2 size, vec2 ndc) {
+#if GNOMON_SHAPES
   if (shape[0].x == 1.0) return place_logarithmic(shape, size, ndc);
   if (shape[0].x == 2.0) return place_rectilinear(shape, size, ndc);
   if (shape[0].x == 3.0) return place_paraboloid(shape, size, ndc);
+#endif
   return place_linear(size, ndc);
 }
 

@@ -321,9 +321,10 @@ void Renderer::Impl::prefilter(const ShadowPlan& plan, const PreparedFilter& fil
   job.layer_height = maps.height;
   job.map_size = {map_size.data(), static_cast<std::size_t>(plan.map_count)};
   job.mipmaps = wants_mipmaps(filter.settings, plan);
+  job.shaped = shaped;
   for (int i = 0; i < plan.map_count; ++i) job.held[static_cast<std::size_t>(i)] = lists.map_stats(i).held;
   if (pays_to_mark(programs_of_filter, unread_tiles))
-    job.mark_read = [&] { fullscreen(targets.mask_fbo.name(), programs_of_filter.mark); };
+    job.mark_read = [&] { fullscreen(targets.mask_fbo.name(), programs_of_filter.mark_for(shaped)); };
   stored.build(programs_of_filter, filter.settings, block, job);
 }
 

@@ -252,6 +252,18 @@ void Renderer::Impl::take_silhouettes(const FilterSettings& settings) {
   drew_silhouettes = wanted;
 }
 
+void Renderer::Impl::take_shapes(const ShadowPlan& plan, const PreparedFilter& filter) noexcept {
+  const auto planned = plan.maps();
+  shaped = std::any_of(planned.begin(), planned.end(),
+                       [](const ShadowMap& map) { return map.shape != &shapes::linear; });
+  if (!shaped) return;
+  try {
+    make_shaped_programs(filter.settings, filter_programs[filter.program]);
+  } catch (const RenderError&) {
+    // A lost context compiles nothing; who drew the frame finds out from the context.
+  }
+}
+
 void Renderer::Impl::take_moved(std::span<const Box> moved_world) {
   if (!movers.changed_world().empty()) lists.rebuild_casters();
   movers.add(moved_world);
@@ -340,6 +352,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   impl.targets.resize(camera.width, camera.height);
   impl.fit_maps(plan);
   impl.take_silhouettes(filter.settings);
+  impl.take_shapes(plan, filter);
   const BlurSides blur = blur_sides(filter.settings, plan);
   FilterBlock filtering = filter_block(filter.settings, blur);
   const DepthCurves curves = depth_curves(plan, options.linear_depth);
@@ -371,7 +384,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   accumulated ? impl.history.resize(camera.width, camera.height) : impl.history.forget();
   timed(Pass::mask, [&] {
     impl.bind_noise(options.noise);
-    impl.draw_mask(impl.filter_programs[filter.program].mask,
+    impl.draw_mask(impl.filter_programs[filter.program].mask_for(impl.shaped),
                    accumulated ? impl.history.single_fbo() : impl.targets.mask_fbo.name());
   });
   if (accumulated) timed(Pass::accumulate, [&] { impl.draw_accumulated(camera, options, block); });

@@ -108,6 +108,8 @@ struct Renderer::Impl {
   void take_layer(DepthLayer layer, double dual_limit_texels, bool linear = false) noexcept;
   /// Makes room for the outlines that the filter reads. Maps drawn without them are not reused.
   void take_silhouettes(const FilterSettings& settings);
+  /// Compiles the filter's programs for maps that are not linear, with the first frame that has one.
+  void take_shapes(const ShadowPlan& plan, const PreparedFilter& filter) noexcept;
   /// The frame with exact shadows: pixels are listed, and casters are tested against them.
   FrameStats draw_irregular(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                             const FrameOptions& options) noexcept;
@@ -214,6 +216,7 @@ struct Renderer::Impl {
   std::optional<IdentifierOf> drawn_identifiers;  ///< that the last frame's maps hold
   std::optional<Silhouettes> silhouettes;         ///< made when a filter that reads them is first prepared
   bool drew_silhouettes = false;                  ///< into the maps that are held
+  bool shaped = false;                            ///< a map of the frame is not linear
   PagePool pages;
   PageStage page_stage;
   StoredPages stored_pages;

@@ -31,6 +31,7 @@ struct ShaderChoice {
   bool mean = true;         ///< texels are put together by their weighted mean: MapRead::filtered
   int reach = 1;            ///< taps of the blur to either side of the middle one, for shaders made for one
   int channels = 4;         ///< of a stored texel
+  bool shapes = true;       ///< false: every map is linear
 };
 
 /// Replaces `#include "path"` by that file (each once) and `#include <filter>` by the choice's, and defines

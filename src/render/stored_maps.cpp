@@ -140,13 +140,34 @@ Program make_clusters_program(const FilterSettings& settings) {
   return make_depth_program(settings, "shade_clusters.frag", "a pool of lights has");
 }
 
+namespace {
+
+/// What the shaders of one variant of a filter are compiled for.
+ShaderChoice choice_for(const FilterSettings& settings, const FilterVariant& variant) {
+  return {filter_path(*settings.filter),
+          variant.vectors,
+          variant.reads_slope,
+          variant.reads == MapRead::filtered,
+          std::max(variant.reach, 0),
+          variant.channels,
+          false};
+}
+
+}  // namespace
+
+void make_shaped_programs(const FilterSettings& settings, FilterPrograms& programs) {
+  if (programs.shaped_mask) return;
+  ShaderChoice choice = choice_for(settings, programs.variant);
+  choice.shapes = true;
+  programs.shaped_mask = make_program("fullscreen.vert", mask_path(programs.variant.reads), choice);
+  if (programs.mark) programs.shaped_mark = make_program("fullscreen.vert", "mark_tiles.frag", choice);
+}
+
 FilterPrograms make_filter_programs(const FilterSettings& settings) {
   FilterPrograms programs;
   programs.variant = variant_of(settings);
   const bool any_reach = programs.variant.reach == FilterVariant::kAnyReach;
-  ShaderChoice choice{filter_path(*settings.filter),       programs.variant.vectors,
-                      programs.variant.reads_slope,        programs.variant.reads == MapRead::filtered,
-                      std::max(programs.variant.reach, 0), programs.variant.channels};
+  ShaderChoice choice = choice_for(settings, programs.variant);
   const std::vector<std::string_view> paths = filter_shaders(*settings.filter, programs.variant.reads);
   programs.mask = make_program("fullscreen.vert", paths.front(), choice);
   const auto make = [&](Program& program, std::string_view path) {
@@ -385,7 +406,7 @@ StoredMaps::Held StoredMaps::choose_tiles(const FilterPrograms& programs, const 
   }
   if (marks) {
     tiles_.bind_for_marks();
-    glUseProgram(programs.mark.name());
+    glUseProgram(programs.mark_for(job.shaped).name());
     glUniform1i(kLevelsLocation, job.mipmaps ? shape_.levels : 1);
     job.mark_read();
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

@@ -36,7 +36,16 @@ struct FilterPrograms {
   /// Made when pages are first drawn; the last two where the filter stores texels.
   Program mask_pages, store_page, blur_page;
   Program mask_lights, shade_clusters;  ///< made when many lights are first drawn
+  Program shaped_mask, shaped_mark;  ///< made when a map has a shape; `mask` and `mark` are for linear ones
   Program mask, mark, store_rows, blur_walk, store, blur, join_mip, depth_max, sum_rows, sum_columns;
+
+  /// `shaped`: a map of the frame is not linear.
+  [[nodiscard]] const Program& mask_for(bool shaped) const noexcept {
+    return shaped && shaped_mask ? shaped_mask : mask;
+  }
+  [[nodiscard]] const Program& mark_for(bool shaped) const noexcept {
+    return shaped && shaped_mark ? shaped_mark : mark;
+  }
 };
 /// Paths of the shaders that the filter takes part in when it is read so, that of the mask first.
 [[nodiscard]] std::vector<std::string_view> filter_shaders(const Filter& filter, MapRead reads);
@@ -50,6 +59,8 @@ void make_pages_programs(const FilterSettings& settings, FilterPrograms& program
 [[nodiscard]] Program make_lights_program(const FilterSettings& settings);
 /// The mask and the light of all of them, by clusters.
 [[nodiscard]] Program make_clusters_program(const FilterSettings& settings);
+/// Adds the programs that read maps of any shape, once. Throws RenderError as make_filter_programs.
+void make_shaped_programs(const FilterSettings& settings, FilterPrograms& programs);
 /// Throws RenderError with shader file and line.
 [[nodiscard]] FilterPrograms make_filter_programs(const FilterSettings& settings);
 
@@ -63,7 +74,7 @@ struct StoreJob {
   GLuint depth = 0;
   int layer_width = 0, layer_height = 0;
   std::span<const glm::ivec2> map_size;
-  bool mipmaps = false;
+  bool mipmaps = false, shaped = false;  ///< shaped: a map is not linear
   /// Maps whose depths are those of the last build(): what was made of them stays, where it was made alike.
   std::array<bool, kMaxMaps> held{};
   /// Draws the bound program over the frame's pixels, so that it marks the tiles that the mask reads. Empty:

@@ -33,6 +33,8 @@ std::vector<FilterSettings> variants() {
       if (format != settings.format) all.push_back(other);
     }
   }
+  for (const char* text : {"power_cdf:layers=4,radius=2", "power_cdf:layers=3,radius=1,format=unorm16"})
+    all.push_back(settings_from(text));
   return all;
 }
 

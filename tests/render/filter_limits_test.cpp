@@ -29,7 +29,8 @@ std::vector<FilterSettings> variants() {
   for (const char* text :
        {"esm:c=10000", "esm:c=80,format=fp16", "evsm2:c=42", "evsm4:c=42,c_negative=42",
         "evsm4:c=42,c_negative=42,format=fp16", "convolution:order=16,format=unorm8", "vsm:floor=0",
-        "savsm:floor=0", "lvsm:floor=0", "vsm:radius=32", "pcf:radius=32", "power_cdf:offset=0"})
+        "savsm:floor=0", "lvsm:floor=0", "vsm:radius=32", "pcf:radius=32", "power_cdf:offset=0",
+        "power_cdf:layers=4,radius=2", "power_cdf:layers=4,radius=2,format=unorm16"})
     all.push_back(settings_from(text));
   return all;
 }
@@ -105,8 +106,8 @@ TEST(FilterLimits, receivers_outside_of_the_map_get_visibilities_from_0_to_1) {
 }
 
 TEST(FilterLimits, equal_least_and_largest_depths_make_a_power_law_a_step) {
-  for (const char* text :
-       {"power_cdf:radius=2", "power_cdf:radius=2,offset=0", "power_cdf:radius=2,format=fp16"}) {
+  for (const char* text : {"power_cdf:radius=2", "power_cdf:radius=2,offset=0",
+                           "power_cdf:radius=2,format=fp16", "power_cdf:radius=2,layers=4"}) {
     const FilterSettings settings = settings_from(text);
     for (const float stored : {0.0f, 0.25f, 0.5f}) {
       std::vector<Question> questions;

@@ -160,6 +160,9 @@ struct FilterReference {
   StoredTexel (*nothing)(const FilterSettings& settings) noexcept = nullptr;
   /// shadow_pack: the texel to store for a sum that join() made. nullptr: the sum itself.
   StoredTexel (*pack)(const StoredTexel& sum, const FilterSettings& settings) noexcept = nullptr;
+  /// SHADOW_INTERPOLATES: look-ups take the bilinear mean of visibility() of four texels, and join() serves
+  /// blur and mip-maps alone. False: they take visibility() of what join() makes of the four.
+  bool interpolates = false;
   /// shadow_visibility: 1 lit .. 0 in shadow. `texel`: what was stored, over the kernel; unused by
   /// MapRead::depth.
   double (*visibility)(const StoredTexel& texel, const FilterLookup& lookup,

@@ -5,21 +5,26 @@
 // texels shadow it: shadows would grow by the kernel's width. The offset, not the paper's, undoes that: a
 // quarter of the range brings the law under one occluder to within 0.06 of the share that is lit, up to a
 // share of 0.6; a fifth, to within 0.1. It costs light close behind an occluder that is one of several, so
-// the default is the fifth.
+// the default is the fifth. Layers are those of layered variance maps (Lauritzen, McCool 2008) under this
+// law, which is no bound: the two layers about the receiver are blended, in place of the least of all.
 #include "power_cdf.hpp"
 
 namespace gnomon::render {
 namespace {
 
+constexpr int kMostLayers = 8;
 constexpr FilterOption kOptions[] = {
     {"offset", 0.2, 0.0, 0.5,
      "receiver offset towards the light, as a share of the kernel's range of depths"},
     {"falloff_world", 0.0, 0.0, 1e6,
      "longest receiver offset, world units: alike in all maps; 0: no limit but falloff_kernel"},
     {"falloff_kernel", 0.0, 0.0, 1000.0, "the same in half widths of the kernel; the longer of both counts"},
+    {"layers", 1, 1, kMostLayers,
+     "layers of depth, four channels each: more of them part occluders behind each other"},
 };
+constexpr std::size_t kLayers = 3;
 /// The filter's own option behind them: the longest offset, of the depth range; 0: no limit.
-constexpr std::size_t kLongest = 3;
+constexpr std::size_t kLongest = 4;
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
 /// A texel that counts less is in the kernel by the rounding of its place alone.
 constexpr double kLeastWeight = 1e-4;
@@ -29,38 +34,91 @@ void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
   settings.option[kLongest] = depths.range_world > 0.0 ? longest / depths.range_world : 0.0;
 }
 
-int channels(const FilterSettings&) noexcept {
-  return 3;
+int layers_of(const FilterSettings& settings) noexcept {
+  return static_cast<int>(settings.option[kLayers]);
+}
+void settle(FilterSettings& settings) noexcept {
+  settings.option[kLayers] = std::round(settings.option[kLayers]);
+}
+/// A layer's least, mean and largest depth have a vector of their own.
+int channels(const FilterSettings& settings) noexcept {
+  const int layers = layers_of(settings);
+  return layers == 1 ? 3 : 4 * layers;
+}
+std::size_t first_channel(int layer) noexcept {
+  return static_cast<std::size_t>(4 * layer);
 }
 
-/// Of u = 2 depth - 1, whose numbers are the smallest for what they tell, or of the depth in [0, 1].
+/// Each reaches over half of its neighbours.
+struct LayerEnds {
+  double begin, end;
+};
+LayerEnds layer_at(int layer, int layers) noexcept {
+  const double count = layers;
+  return {std::max(layer - 0.5, 0.0) / count, std::min(layer + 1.5, count) / count};
+}
+
+/// Of u = 2 depth - 1 in the layer, whose numbers are the smallest for what they tell, or of the depth in
+/// [0, 1]. Beyond the layer's ends: its ends.
+double value_in(const LayerEnds& layer, double depth, const FilterSettings& settings) noexcept {
+  const double within = std::clamp((depth - layer.begin) / (layer.end - layer.begin), 0.0, 1.0);
+  return is_unsigned_unit(settings.format) ? within : 2.0 * within - 1.0;
+}
+
 StoredTexel store(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
-  const double value = is_unsigned_unit(settings.format) ? depth : 2.0 * depth - 1.0;
-  return {value, value, value};
+  StoredTexel texel{};
+  for (int i = 0; i < layers_of(settings); ++i) {
+    const double value = value_in(layer_at(i, layers_of(settings)), depth, settings);
+    for (std::size_t k = 0; k < 3; ++k) texel[first_channel(i) + k] = value;
+  }
+  return texel;
 }
 
-StoredTexel nothing(const FilterSettings&) noexcept {
+StoredTexel nothing(const FilterSettings& settings) noexcept {
   constexpr double kBeyond = 2.0;  // any texel is nearer to 0
-  return {kBeyond, 0.0, -kBeyond};
+  StoredTexel sum{};
+  for (int i = 0; i < layers_of(settings); ++i) {
+    sum[first_channel(i)] = kBeyond;
+    sum[first_channel(i) + 2] = -kBeyond;
+  }
+  return sum;
 }
 
-void join(StoredTexel& sum, const StoredTexel& texel, double weight, const FilterSettings&) noexcept {
-  sum[1] += weight * texel[1];
-  if (weight < kLeastWeight) return;
-  sum[0] = std::min(sum[0], texel[0]);
-  sum[2] = std::max(sum[2], texel[2]);
+void join(StoredTexel& sum, const StoredTexel& texel, double weight,
+          const FilterSettings& settings) noexcept {
+  for (int i = 0; i < layers_of(settings); ++i) {
+    const std::size_t least = first_channel(i), mean = least + 1, largest = least + 2;
+    sum[mean] += weight * texel[mean];
+    if (weight < kLeastWeight) continue;
+    sum[least] = std::min(sum[least], texel[least]);
+    sum[largest] = std::max(sum[largest], texel[largest]);
+  }
+}
+
+double lit_in(int layer, const StoredTexel& texel, double depth, const FilterSettings& settings) noexcept {
+  constexpr double kRoundings = 4.0;  // of the mean, stored after each half of the blur, read and compared
+  const LayerEnds ends = layer_at(layer, layers_of(settings));
+  const std::size_t first = first_channel(layer);
+  const double least = texel[first], mean = texel[first + 1], largest = texel[first + 2];
+  // Values of the texel per depth.
+  const double scale = (is_unsigned_unit(settings.format) ? 1.0 : 2.0) / (ends.end - ends.begin);
+  const double longest = settings.option[kLongest] > 0.0 ? scale * settings.option[kLongest] : 2.0;
+  const double offset =
+      std::min(settings.option[0] * (largest - least), longest) + kRoundings * rounding_of(settings.format);
+  return saturate(power_lit(least, mean, largest, value_in(ends, depth, settings) - offset));
 }
 
 double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
-  constexpr double kRoundings = 4.0;  // of the mean, stored after each half of the blur, read and compared
   const double depth = std::min(lookup.depth, 1.0);
-  const double value = is_unsigned_unit(settings.format) ? depth : 2.0 * depth - 1.0;
-  // Values of the texel per depth.
-  const double scale = is_unsigned_unit(settings.format) ? 1.0 : 2.0;
-  const double longest = settings.option[kLongest] > 0.0 ? scale * settings.option[kLongest] : 2.0;
-  const double offset = std::min(settings.option[0] * (texel[2] - texel[0]), longest) +
-                        kRoundings * rounding_of(settings.format);
-  return saturate(power_lit(texel[0], texel[1], texel[2], value - offset));
+  // Whole in the middle of a layer, nothing in the middle of the next.
+  const int layers = layers_of(settings);
+  const double place = std::min(std::max(0.0, depth * layers - 0.5), layers - 1.0);  // not-a-number: 0
+  double lit = 0.0;
+  for (int i = 0; i < layers; ++i) {
+    const double share = std::max(1.0 - std::abs(place - i), 0.0);
+    if (share > 0.0) lit += share * lit_in(i, texel, depth, settings);
+  }
+  return saturate(lit);
 }
 
 }  // namespace
@@ -92,6 +150,7 @@ const Filter filters::power_cdf{
             .formats = kFormats,
             .may_mipmap = true,
             .channels = channels,
+            .settle = settle,
         },
     .reference =
         {
@@ -99,6 +158,7 @@ const Filter filters::power_cdf{
             .store = store,
             .join = join,
             .nothing = nothing,
+            .interpolates = true,
             .visibility = visibility,
         },
     .hooks =

@@ -68,7 +68,7 @@ layout(binding = 8) uniform sampler2DArray stored[GNOMON_SHADOW_VECTORS];
 void main() {
   ShadowLookup at = question();
   ShadowOptions options = shadow_options(0);
-  answer = vec4(shadow_visibility(fetch_joined(stored, at, 1, options), depth_map, depth_max, at, options));
+  answer = vec4(joined_visibility(stored, depth_map, depth_max, at, 1, options));
 }
 )";
 constexpr const char* kAskSummed = R"(

@@ -63,6 +63,14 @@ class Reference {
   [[nodiscard]] double bound(const Question& question) const;
 
  private:
+  struct Weighed {
+    const StoredTexel* texel = nullptr;
+    double weight = 0.0;
+  };
+  /// The four texels about a place, with their bilinear weights.
+  [[nodiscard]] std::array<Weighed, 4> corners(const glm::dvec2& position) const;
+  /// bound(), where the look-up finds `here`.
+  [[nodiscard]] double bound_of(const StoredTexel& here, const Question& question) const;
   [[nodiscard]] StoredTexel stored(int x, int y) const;
   [[nodiscard]] StoredTexel rounded(StoredTexel texel) const noexcept;
   void join(StoredTexel& sum, const StoredTexel& texel, double weight) const;

@@ -140,18 +140,26 @@ StoredTexel Reference::texel(const glm::dvec2& position) const {
   if (settings_.filter->info.reads == MapRead::depth) return {};
   if (settings_.filter->info.reads == MapRead::summed)
     return mean_of_box(position, glm::dvec2(settings_.radius + 0.5));
-  const glm::dvec2 first{std::floor(position.x - 0.5), std::floor(position.y - 0.5)};
-  const glm::dvec2 part = position - 0.5 - first;
   StoredTexel sum = nothing();
-  for (int corner = 0; corner < 4; ++corner) {
-    const int dx = corner & 1, dy = corner >> 1;
-    const double weight = (dx == 0 ? 1.0 - part.x : part.x) * (dy == 0 ? 1.0 - part.y : part.y);
-    if (weight <= 0.0) continue;
-    const int x = std::clamp(static_cast<int>(first.x) + dx, 0, map_.width - 1);
-    const int y = std::clamp(static_cast<int>(first.y) + dy, 0, map_.height - 1);
-    join(sum, blurred_[static_cast<std::size_t>(y * map_.width + x)], weight);
+  for (const Weighed& corner : corners(position)) {
+    if (corner.weight > 0.0) join(sum, *corner.texel, corner.weight);
   }
   return sum;
+}
+
+std::array<Reference::Weighed, 4> Reference::corners(const glm::dvec2& position) const {
+  const glm::dvec2 first{std::floor(position.x - 0.5), std::floor(position.y - 0.5)};
+  const glm::dvec2 part = position - 0.5 - first;
+  std::array<Weighed, 4> all;
+  for (int corner = 0; corner < 4; ++corner) {
+    const int dx = corner & 1, dy = corner >> 1;
+    const int x = std::clamp(static_cast<int>(first.x) + dx, 0, map_.width - 1);
+    const int y = std::clamp(static_cast<int>(first.y) + dy, 0, map_.height - 1);
+    all[static_cast<std::size_t>(corner)] = {
+        &blurred_[static_cast<std::size_t>(y * map_.width + x)],
+        (dx == 0 ? 1.0 - part.x : part.x) * (dy == 0 ? 1.0 - part.y : part.y)};
+  }
+  return all;
 }
 
 double Reference::value(const StoredTexel& texel, const Question& question, const StoredTexel& change) const {
@@ -165,14 +173,25 @@ double Reference::value(const StoredTexel& texel, const Question& question, cons
 }
 
 double Reference::answer(const Question& question) const {
-  return value(texel(question.position), question, {});
+  if (!settings_.filter->reference.interpolates) return value(texel(question.position), question, {});
+  double lit = 0.0;
+  for (const Weighed& corner : corners(question.position))
+    lit += corner.weight * value(*corner.texel, question, {});
+  return lit;
 }
 
 double Reference::bound(const Question& question) const {
+  if (!settings_.filter->reference.interpolates) return bound_of(texel(question.position), question);
+  double sum = 0.0;
+  for (const Weighed& corner : corners(question.position))
+    sum += corner.weight * bound_of(*corner.texel, question);
+  return sum;
+}
+
+double Reference::bound_of(const StoredTexel& here, const Question& question) const {
   // Up to 65 products are added per pass, in float, twice; then four by the hardware.
   constexpr double kSumRounding = 2.0 * 65.0 * 0x1p-24, kDepthRounding = 4.0 * 0x1p-24,
                    kResultRounding = 1e-5;
-  const StoredTexel here = texel(question.position);
   const double known = value(here, question, {});
   double sum = kResultRounding;
   const auto add = [&](const StoredTexel& change, const Question& asked) {

@@ -77,6 +77,8 @@ std::vector<std::string> bleeding_filters() {
           "convolution:radius=2",
           "power_cdf:radius=2,offset=0",
           "power_cdf:radius=2",
+          "power_cdf:radius=2,layers=2",
+          "power_cdf:radius=2,layers=4",
           "vsm:radius=2",
           "savsm:radius=2",
           "lvsm:radius=2",
@@ -84,8 +86,14 @@ std::vector<std::string> bleeding_filters() {
           "msm:radius=2"};
 }
 std::vector<std::string> power_law_filters() {
-  return {"pcf:radius=2", "power_cdf:radius=2,offset=0", "power_cdf:radius=2",
-          "vsm:radius=2", "vsm:radius=2,bleed=0",        "esm:radius=2"};
+  return {"pcf:radius=2",
+          "power_cdf:radius=2,offset=0",
+          "power_cdf:radius=2,offset=0,layers=4",
+          "power_cdf:radius=2",
+          "power_cdf:radius=2,layers=4",
+          "vsm:radius=2",
+          "vsm:radius=2,bleed=0",
+          "esm:radius=2"};
 }
 
 /// `factor` times as large about the middle, texel by texel.

@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
 
 #include "filter_harness.hpp"
 #include "golden_filters.hpp"
@@ -115,6 +119,80 @@ TEST(PowerCdfFilter, bleeds_nothing_behind_the_farthest_occluder) {
   lookup.depth = 0.8;
   const StoredTexel sum = mean_over({"", {0.2, 0.6}, {0.5, 0.5}}, settings);
   EXPECT_EQ(filters::power_cdf.reference.visibility(sum, lookup, settings), 0.0);
+}
+
+/// Mean difference to the lit share over kernels of three depths, at a receiver as deep as the deepest.
+double mean_error_over_kernels(const FilterSettings& settings) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(0.0, 1.0);
+  constexpr int kKernels = 2000;
+  double sum = 0.0;
+  for (int i = 0; i < kKernels; ++i) {
+    const double second = any(random), first = second * any(random);
+    const double deepest = second + (1.0 - second) * any(random);
+    std::array<double, 3> weight{any(random), any(random), any(random)};
+    const double whole = weight[0] + weight[1] + weight[2];
+    for (double& w : weight) w /= whole;
+    FilterLookup lookup;
+    lookup.depth = deepest;
+    const StoredTexel texel =
+        mean_over({"", {first, second, deepest}, {weight[0], weight[1], weight[2]}}, settings);
+    sum += std::abs(filters::power_cdf.reference.visibility(texel, lookup, settings) - weight[2]);
+  }
+  return sum / kKernels;
+}
+
+TEST(PowerCdfFilter, layers_part_occluders_behind_each_other) {
+  double before = mean_error_over_kernels(settings_from("power_cdf"));
+  EXPECT_GT(before, 0.1);
+  for (const char* layers : {"2", "4", "8"}) {
+    const double error = mean_error_over_kernels(settings_from(std::string("power_cdf:layers=") + layers));
+    EXPECT_LT(error, before) << layers;
+    before = error;
+  }
+  EXPECT_LT(before, 0.7 * mean_error_over_kernels(settings_from("power_cdf")));
+}
+
+TEST(PowerCdfFilter, passes_from_layer_to_layer_without_a_jump) {
+  // Nine depths on a slanted surface and an occluder: what changes at a middle or an end of a layer is
+  // rounding.
+  GoldenKernel kernel{"", {0.05}, {0.1}};
+  for (int i = 0; i < 9; ++i) {
+    kernel.depth.push_back(0.06 + 0.11 * i);
+    kernel.weight.push_back(0.1);
+  }
+  for (const int layers : {2, 3, 4, 8}) {
+    const FilterSettings settings = settings_from("power_cdf:layers=" + std::to_string(layers));
+    const StoredTexel texel = mean_over(kernel, settings);
+    const auto lit_at = [&](double depth) {
+      FilterLookup lookup;
+      lookup.depth = depth;
+      return filters::power_cdf.reference.visibility(texel, lookup, settings);
+    };
+    for (int half = 1; half < 2 * layers; ++half) {
+      constexpr double kStep = 1e-7;
+      const double depth = 0.5 * half / layers;
+      EXPECT_NEAR(lit_at(depth - kStep), lit_at(depth + kStep), 1e-4) << layers << " layers, " << depth;
+    }
+  }
+}
+
+TEST(PowerCdfFilter, has_no_stairs_where_a_kernel_takes_in_another_texel) {
+  constexpr int kSide = 40;
+  TestMap map{kSide, kSide, {}};
+  for (int i = 0; i < kSide * kSide; ++i)
+    map.depth.push_back(2 * (i % kSide) + i / kSide < 50 ? 0.25f : 0.75f);  // a slanted edge
+  std::vector<Question> questions;
+  for (int i = 0; i <= 640; ++i)
+    questions.push_back({{10.0f + static_cast<float>(i) / 64.0f, 20.3f}, 0.75f, {}, 0.0f});
+  for (const char* text : {"power_cdf:radius=2", "power_cdf:radius=2,layers=4"}) {
+    const std::vector<float> lit = ask_shader(settings_from(text), map, questions);
+    EXPECT_LT(lit.front(), 0.01f) << text;
+    EXPECT_GT(lit.back(), 0.99f) << text;
+    float most = 0.0f;
+    for (std::size_t i = 1; i < lit.size(); ++i) most = std::max(most, std::abs(lit[i] - lit[i - 1]));
+    EXPECT_LT(most, 0.02f) << text;  // a texel's 64th
+  }
 }
 
 }  // namespace
