@@ -65,7 +65,7 @@ std::string_view to_string(Pass pass) noexcept {
 Renderer::Impl::Impl(const Scene& from_scene)
     : scene(from_scene),
       lists(scene),
-      movers(scene.boxes().size()),
+      movers(scene),
       frame_buffer(make_buffer()),
       filter_buffer(make_buffer()),
       no_vertices(make_vertex_array()) {
@@ -225,7 +225,7 @@ void Renderer::Impl::forget_moved() noexcept {
 }
 
 void Renderer::Impl::move(std::size_t instance, const Instance& to) {
-  movers.move(instance, scene.boxes()[instance], to.bounds_world);
+  movers.move(instance, to.bounds_world);
   scene.move(instance, to);
 }
 
@@ -265,6 +265,7 @@ bool Renderer::apply_pose(const Pose& pose) {
     if (comparable && last.vertices[i].first_vertex == range.first_vertex &&
         same(positions, last.positions) && same(normals, last.normals))
       continue;
+    if (range.instance < bent.size()) impl.movers.bend(range.instance, range.first_vertex, positions);
     impl.scene.bend(range.first_vertex, positions, normals);
     if (range.instance < bent.size()) bent[range.instance] = true;
   }
@@ -329,9 +330,10 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
       drawn.map[i].even_scale = static_cast<float>(std::max(-curves[i], 0.0));
     impl.lists.build({plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
                       info_of(options.depth_layer).peels || impl.drew_silhouettes,
-                      impl.movers.changed_world(), impl.movers.static_changed_world(), impl.moves(options)},
+                      impl.movers.changed_world(), impl.movers.static_changed_world(), impl.moves(options),
+                      impl.movers.moved(), impl.movers.named_world()},
                      drawn, camera, impl.layered_rule(options));
-    if (plan.map_count > 0) impl.movers.finish_frame(impl.scene.boxes());
+    if (plan.map_count > 0) impl.movers.finish_frame();
     impl.draw_shadow_maps(plan, drawn, depth_draw(options));
     if (impl.drew_silhouettes)
       impl.silhouettes->draw(impl.scene, impl.lists, impl.maps, drawn, impl.map_count);
@@ -419,7 +421,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
         plan, {drawn.origin_world, alpha_test, options.prune.has(PruneRule::held_maps),
                impl.tells_apart(options), impl.movers.static_changed_world(), impl.movers.changed_world()});
     impl.lists.build_pages(impl.pages.pages(), camera, options.prune, impl.moves(options));
-    impl.movers.finish_frame(impl.scene.boxes());
+    impl.movers.finish_frame();
     impl.draw_pages(of_light, depth_draw(options));
   });
   timed(Pass::surfaces,

@@ -76,7 +76,10 @@ class SceneBuffers {
   [[nodiscard]] GLuint vertex_array() const noexcept { return vertex_array_.name(); }
   /// As uploaded, or bent since; waits for the driver.
   [[nodiscard]] std::vector<glm::vec3> read_positions() const;
+  [[nodiscard]] std::vector<glm::vec3> read_positions(std::uint32_t first, std::size_t count) const;
   [[nodiscard]] std::vector<std::uint32_t> read_indices(const Primitive& primitive) const;
+  /// The same triangles, in an order in which neighbours are near each other.
+  [[nodiscard]] std::vector<std::uint32_t> read_near_indices(std::uint32_t primitive) const;
   [[nodiscard]] std::span<const Primitive> primitives() const noexcept { return primitives_; }
   [[nodiscard]] GLuint index_buffer() const noexcept { return indices_.name(); }
   /// The vertex attribute that says which object a vertex belongs to comes from this buffer.
@@ -89,6 +92,7 @@ class SceneBuffers {
   struct Object {
     Row4 row[3];
   };
+  [[nodiscard]] std::vector<std::uint32_t> read_indices(const IndexRun& run) const;
   void upload_vertices(const Scene& scene);
   void upload_images(const Scene& scene);
   /// Sorts the instances by what they are drawn with.
