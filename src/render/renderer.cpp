@@ -124,9 +124,10 @@ void Renderer::Impl::upload(const FrameBlock& frame, const FilterBlock& filterin
   glBindBufferBase(GL_UNIFORM_BUFFER, kFilterBinding, filter_buffer.name());
 }
 
-DrawnMaps Renderer::Impl::place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world,
-                                      double origin_steps) {
-  const DrawnMaps drawn = drawn_maps(plan, camera_world, origin_steps * scene.origin_step());
+DrawnMaps Renderer::Impl::place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world) {
+  // What is kept wants an origin that stays; as near the camera as two bits of a float allow.
+  constexpr double kOriginSteps = 4.0;
+  const DrawnMaps drawn = drawn_maps(plan, camera_world, kOriginSteps * scene.origin_step());
   const auto planned = plan.maps();
   const bool bends =
       std::any_of(planned.begin(), planned.end(), [](const ShadowMap& map) { return !map.shape->affine; });
@@ -412,9 +413,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   timed(Pass::shadow_maps, [&] {
     const FrameBlock block = frame_block(of_light, camera, options, extent.side, extent.side, blur, curves);
     impl.upload(block, filtering);
-    // Kept pages want an origin that stays; as near the camera as two bits of a float allow.
-    constexpr double kOriginSteps = 4.0;
-    const DrawnMaps drawn = impl.place_scene({}, camera.position, kOriginSteps);
+    const DrawnMaps drawn = impl.place_scene({}, camera.position);
     impl.take_moved(options.moved_world);
     const bool alpha_test = options.prune.has(PruneRule::alpha_test);
     impl.pages.build(
