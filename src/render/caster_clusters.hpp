@@ -32,6 +32,10 @@ class CasterClusters {
   [[nodiscard]] bool has(std::uint32_t primitive) const noexcept {
     return parts_[primitive].cluster_count > 0;
   }
+  /// All of the primitive's triangles, in the order of its clusters if it ever had any.
+  [[nodiscard]] IndexRun whole(std::uint32_t primitive) const noexcept {
+    return {parts_[primitive].first_index, parts_[primitive].index_count};
+  }
   /// Runs of the primitive's triangles that may reach inside all planes; none outside of them. Planes are of
   /// the world. Valid until the next call.
   [[nodiscard]] std::span<const IndexRun> within(std::uint32_t primitive, const glm::dmat4& world_from_object,

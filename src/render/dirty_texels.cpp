@@ -2,11 +2,10 @@
 #include "dirty_texels.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/mat4x3.hpp>
 #include <glm/vec4.hpp>
-#include <limits>
 
 namespace gnomon::render {
 namespace {
@@ -23,6 +22,11 @@ struct Image {
   glm::dvec2 room{0.0};
 };
 
+glm::dvec3 corner_of(const Box& box, int corner) noexcept {
+  return {(corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
+          (corner & 4) != 0 ? box.max.z : box.min.z};
+}
+
 Reach image_of(const ShadowMap& map, const Box& box, Image& out) noexcept {
   if (box.empty()) return Reach::none;
   bool behind = false, before = false;
@@ -31,8 +35,7 @@ Reach image_of(const ShadowMap& map, const Box& box, Image& out) noexcept {
   std::array<bool, 4> beyond;  // one of the map's sides, all corners
   beyond.fill(true);
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec4 at((corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
-                        (corner & 4) != 0 ? box.max.z : box.min.z, 1.0);
+    const glm::dvec4 at(corner_of(box, corner), 1.0);
     const glm::dvec4 clip = m * at;
     (clip.w > 0.0 ? before : behind) = true;
     glm::dvec2 terms(0.0);
@@ -70,29 +73,6 @@ TexelRect bounds_of(const Image& image, const glm::dvec2& size) noexcept {
   return texels_between(low - image.room, high + image.room, size);
 }
 
-/// The part of the image in rows [first, end): its outline is made of the box's edges.
-TexelRect band_of(const Image& image, int first, int end, const glm::dvec2& size) noexcept {
-  const double bottom = first + 0.5 - image.room.y, top = end - 0.5 + image.room.y;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    for (const std::size_t axis : {1u, 2u, 4u}) {
-      if ((corner & axis) != 0) continue;
-      const glm::dvec2 a = image.corner[corner], b = image.corner[corner | axis];
-      if (std::min(a.y, b.y) > top || std::max(a.y, b.y) < bottom) continue;
-      for (const double y : {bottom, top}) {
-        const double along = a.y == b.y ? 0.0 : std::clamp((y - a.y) / (b.y - a.y), 0.0, 1.0);
-        low = std::min(low, a.x + (b.x - a.x) * along);
-        high = std::max(high, a.x + (b.x - a.x) * along);
-      }
-      if (a.y == b.y) {
-        low = std::min(low, b.x);
-        high = std::max(high, b.x);
-      }
-    }
-  }
-  return texels_between({low - image.room.x, 1.0 * first}, {high + image.room.x, 1.0 * end}, size);
-}
-
 TexelRect joined(const TexelRect& a, const TexelRect& b) noexcept {
   const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);
   return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
@@ -108,7 +88,7 @@ double waste(const TexelRect& a, const TexelRect& b) noexcept {
 }
 
 /// Joins rectangles that overlap or lie close, and the two that waste least where there are too many.
-void add(const TexelRect& image, std::size_t most, DirtyTexels& out) noexcept {
+void add(const TexelRect& image, DirtyTexels& out) noexcept {
   TexelRect added = image;
   for (std::size_t i = 0; i < out.count;) {
     if (waste(added, out.rectangle[i]) > 0.0) {
@@ -119,7 +99,7 @@ void add(const TexelRect& image, std::size_t most, DirtyTexels& out) noexcept {
     out.rectangle[i] = out.rectangle[--out.count];
     i = 0;
   }
-  if (out.count < most) {
+  if (out.count < DirtyTexels::kMost) {
     out.rectangle[out.count++] = added;
     return;
   }
@@ -129,27 +109,45 @@ void add(const TexelRect& image, std::size_t most, DirtyTexels& out) noexcept {
   }
   const TexelRect both = joined(added, out.rectangle[best]);
   out.rectangle[best] = out.rectangle[--out.count];
-  add(both, most, out);
+  add(both, out);
 }
 
-/// Adds the image of a box by its outline: in bands of rows, those of all boxes beginning at the same rows,
-/// so that those of a box before and after join.
-void add_bands(const Image& image, const TexelRect& bounds, const glm::dvec2& size,
-               DirtyTexels& out) noexcept {
-  constexpr int kBands = 8;
-  const int height = static_cast<int>(std::bit_ceil(static_cast<unsigned>(bounds.height / kBands + 1)));
-  for (int row = bounds.y / height * height; row < bounds.y + bounds.height; row += height) {
-    const int first = std::max(row, bounds.y), end = std::min(row + height, bounds.y + bounds.height);
-    const TexelRect band = band_of(image, first, end, size);
-    if (!band.empty()) add(band, DirtyTexels::kMost, out);
+using Edge = std::array<std::uint8_t, 2>;
+constexpr std::array<Edge, 3> kTriangleEdges{{{0, 1}, {1, 2}, {2, 0}}};
+/// Of a box, whose corner i has the maximum along x, y and z where bits 0, 1 and 2 of i are set.
+constexpr std::array<Edge, 12> kBoxEdges{
+    {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+
+/// Texels of a map from a shape's positions.
+class Projection {
+ public:
+  Projection(const ShadowMap& map, const glm::dmat4& world_from_object) noexcept {
+    const glm::dmat4 clip_from_object = map.clip_from_world * world_from_object;
+    const glm::dvec2 half = 0.5 * glm::dvec2(map.width, map.height);
+    for (int i = 0; i < 4; ++i) {
+      const glm::dvec4& column = clip_from_object[i];
+      column_[i] = {(glm::dvec2(column) + column.w) * half, column.w};
+    }
+    divides_ = !(column_[0].z == 0.0 && column_[1].z == 0.0 && column_[2].z == 0.0 && column_[3].z == 1.0);
   }
+  [[nodiscard]] glm::dvec2 operator()(const glm::dvec3& p) const noexcept {
+    const glm::dvec3 texel = column_[0] * p.x + column_[1] * p.y + column_[2] * p.z + column_[3];
+    return divides_ ? glm::dvec2(texel) / texel.z : glm::dvec2(texel);
+  }
+
+ private:
+  glm::dmat4x3 column_;  ///< to x w, y w, w
+  bool divides_ = true;
+};
+
+bool is_finite(std::span<const glm::dvec2> points) noexcept {
+  return std::all_of(points.begin(), points.end(),
+                     [](const glm::dvec2& p) { return std::isfinite(p.x) && std::isfinite(p.y); });
 }
 
-/// Calls `add_image` with the image of each box, its bounds in texels and the map's size.
-template <typename AddImage>
-DirtyTexels dirty_texels(const ShadowMap& map, std::span<const Box> moved_world,
-                         AddImage&& add_image) noexcept {
-  const glm::dvec2 size(map.width, map.height);
+}  // namespace
+
+DirtyTexels dirty_bounds(const ShadowMap& map, std::span<const Box> moved_world) noexcept {
   DirtyTexels out;
   for (const Box& box : moved_world) {
     Image image;
@@ -160,30 +158,79 @@ DirtyTexels dirty_texels(const ShadowMap& map, std::span<const Box> moved_world,
       return out;
     }
     if (reach == Reach::none) continue;
-    const TexelRect bounds = bounds_of(image, size);
+    const TexelRect bounds = bounds_of(image, glm::dvec2(map.width, map.height));
     if (bounds.empty()) continue;
-    add_image(image, bounds, size, out);
+    add(bounds, out);
   }
   return out;
 }
 
-}  // namespace
-
-DirtyTexels dirty_bounds(const ShadowMap& map, std::span<const Box> moved_world) noexcept {
-  return dirty_texels(map, moved_world,
-                      [](const Image&, const TexelRect& bounds, const glm::dvec2&, DirtyTexels& out) {
-                        add(bounds, DirtyTexels::kMostBounds, out);
-                      });
+bool DirtyShapes::mark(TexelMask& mask, const ShadowMap& map, const CasterShape& shape,
+                       std::size_t& parts_left) {
+  Image image;
+  const Reach reach = image_of(map, shape.bounds_world, image);
+  if (reach != Reach::part) return reach == Reach::none;
+  if (!is_finite(image.corner)) return false;
+  image_.clear();
+  if (shape.size() > 0 && shape.size() <= parts_left) {
+    parts_left -= shape.size();
+    const Projection texel_of(map, shape.world_from_object);
+    if (shape.parts.empty())
+      for (const glm::vec3& position : shape.positions) image_.push_back(texel_of(glm::dvec3(position)));
+    for (const Box& part : shape.parts)
+      for (int corner = 0; corner < 8; ++corner) image_.push_back(texel_of(corner_of(part, corner)));
+  }
+  if (image_.empty() || !is_finite(image_)) {
+    mask.mark(image.corner, kBoxEdges, image.room);
+  } else if (shape.parts.empty()) {
+    for (std::size_t i = 0; i + 2 < shape.indices.size(); i += 3) {
+      const std::array<glm::dvec2, 3> triangle{image_[shape.indices[i]], image_[shape.indices[i + 1]],
+                                               image_[shape.indices[i + 2]]};
+      mask.mark(triangle, kTriangleEdges, image.room);
+    }
+  } else {
+    for (std::size_t i = 0; i < image_.size(); i += 8)
+      mask.mark(std::span(image_).subspan(i, 8), kBoxEdges, image.room);
+  }
+  return true;
 }
 
-DirtyTexels dirty_outlines(const ShadowMap& map, std::span<const Box> moved_world) noexcept {
-  // Each band is compared with all rectangles.
-  constexpr std::size_t kMostOutlined = 128;
-  if (moved_world.size() <= kMostOutlined) return dirty_texels(map, moved_world, add_bands);
-  return dirty_texels(map, moved_world,
-                      [](const Image&, const TexelRect& bounds, const glm::dvec2&, DirtyTexels& out) {
-                        add(bounds, DirtyTexels::kMost, out);
-                      });
+bool DirtyShapes::mark_all(const ShadowMap& map, std::span<const Box> named_world,
+                           std::span<const MovedCaster> moved) {
+  dirty_.reset(map.width, map.height);
+  std::size_t no_parts = 0, parts_left = kMostParts;
+  for (const Box& box : named_world) {
+    CasterShape bounds;
+    bounds.bounds_world = box;
+    if (!mark(dirty_, map, bounds, no_parts)) return false;
+  }
+  // Where they stand holds no more than where those stood that moved.
+  std::swap(stands_, stood_);
+  const bool all_moved = std::includes(moved_.begin(), moved_.end(), standing_.begin(), standing_.end());
+  const bool knows = remembers_ && all_moved && stood_.is_of(map.width, map.height);
+  if (knows) dirty_.mark(stood_);
+  for (const MovedCaster& caster : moved) {
+    if (knows && std::binary_search(standing_.begin(), standing_.end(), caster.instance)) continue;
+    if (!mark(dirty_, map, caster.from, parts_left)) return false;
+  }
+  stands_.reset(map.width, map.height);
+  parts_left = kMostParts;
+  for (const MovedCaster& caster : moved)
+    if (!mark(stands_, map, caster.to, parts_left)) return false;
+  dirty_.mark(stands_);
+  return true;
+}
+
+bool DirtyShapes::find(const ShadowMap& map, std::span<const Box> named_world,
+                       std::span<const MovedCaster> moved) {
+  rectangles_ = {};
+  moved_.clear();
+  for (const MovedCaster& caster : moved) moved_.push_back(caster.instance);
+  std::sort(moved_.begin(), moved_.end());
+  remembers_ = mark_all(map, named_world, moved);
+  std::swap(standing_, moved_);
+  if (remembers_) rectangles_ = dirty_.rectangles(kMost);
+  return remembers_;
 }
 
 bool may_touch(const ShadowMap& map, const Box& box, std::span<const TexelRect> rectangles) noexcept {

@@ -73,7 +73,7 @@ FrameStats Renderer::Impl::draw_identified(const ShadowPlan& plan, const Camera&
     lists.build({plan, prune, 0.0, kReadsEverywhere, kDrawnWhole, movers.changed_world(),
                  movers.static_changed_world()},
                 drawn, camera);
-    if (plan.map_count > 0) movers.finish_frame(scene.boxes());
+    if (plan.map_count > 0) movers.finish_frame();
     draw_identified_maps(drawn, options.prune.has(PruneRule::alpha_test));
   });
   timed(Pass::surfaces, [&] { draw_surfaces(targets.identified_fbo.name(), identifiers->surfaces()); });

@@ -173,11 +173,11 @@ double MapCache::texels_shown(const ShadowMap& map, std::uint32_t instance) cons
 double MapCache::draw_over(const CachedDraw& draw, const ShadowMap& map, Cached& cached,
                            PruneSavings& saved) {
   double texels = 0.0;
-  for (const TexelRect& copied : copied_.rectangles()) texels += 1.0 * copied.width * copied.height;
+  for (const TexelRect& copied : copied_) texels += 1.0 * copied.width * copied.height;
   for (std::uint32_t i = 0; i < over_.size(); ++i) {
     if (draw.job.moves[i] == 0) continue;
     // In the rest of the map, but not where it is copied.
-    const bool erased = may_touch(map, scene_.boxes()[i], copied_.rectangles());
+    const bool erased = may_touch(map, scene_.boxes()[i], copied_);
     if (erased) cached.holds[i] = 0;
     if (draw.casters[i] == 0) continue;
     if (cached.holds[i] != 0) {
@@ -224,8 +224,9 @@ LayeredWork MapCache::compose(const CachedDraw& draw, PruneSavings& saved) {
       cached.valid && cached.origin_world == beneath.origin_world && cached.drawn == beneath.drawn &&
       !drawn_whole && !work.beneath.move.any() &&
       (!job.reads_everywhere || std::equal(cached.holds.begin(), cached.holds.end(), draw.casters.begin()));
-  copied_ = same ? dirty_outlines(map, job.moved_world) : DirtyTexels{};
-  const bool whole = !same || copied_.whole;
+  DirtyShapes& dirty = dirty_[draw.index];
+  if (!same) dirty.forget();
+  const bool whole = !same || !dirty.find(map, job.named_world, job.moved);
   // Static casters that came into reach are drawn into both maps.
   over_.assign(draws_.size(), 0);
   const std::span<const MapPart> parts = work.beneath.parts();
@@ -236,10 +237,10 @@ LayeredWork MapCache::compose(const CachedDraw& draw, PruneSavings& saved) {
   }
   double texels = 0.0;
   if (!whole) {
+    copied_.assign(dirty.rectangles().begin(), dirty.rectangles().end());
     texels = draw_over(draw, map, cached, saved);
   } else {
-    copied_.rectangle[0] = {0, 0, map.width, map.height};
-    copied_.count = 1;
+    copied_.assign(1, {0, 0, map.width, map.height});
     for (std::uint32_t i = 0; i < over_.size(); ++i) {
       if (job.moves[i] == 0 || draw.casters[i] == 0) continue;
       over_[i] = cached.holds[i] = 1;
@@ -257,7 +258,7 @@ LayeredWork MapCache::compose(const CachedDraw& draw, PruneSavings& saved) {
 
 void MapCache::finish(LayeredWork& work, double texels, const ShadowMap& map, PruneSavings& saved) {
   const bool draws = std::any_of(over_.begin(), over_.end(), [](std::uint8_t d) { return d != 0; });
-  work.map.copies = copied_.rectangles();
+  work.map.copies = copied_;
   if (draws) work.map.add({{0, 0, map.width, map.height}, false, over_});
   work.map.age = work.beneath.age;
   texels += static_cast<double>(work.beneath.texels);
@@ -272,6 +273,7 @@ LayeredWork MapCache::update(const CachedDraw& draw, PruneSavings& saved) {
   const CullingJob& job = draw.job;
   if (!job.moves.empty()) return compose(draw, saved);
   beneath_[draw.index].valid = false;
+  dirty_[draw.index].forget();
   draws_.assign(draw.casters.begin(), draw.casters.end());
   LayeredWork work;
   work.map = bring_up(draw, job.moved_world, cached_[draw.index], saved);

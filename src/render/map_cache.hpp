@@ -29,7 +29,7 @@ struct MapMove {
 /// its static casters, then the parts are drawn. None of them: the map is as it was.
 struct MapWork {
   /// Rectangles in which all casters are drawn again; each costs draws.
-  static constexpr std::size_t kMostRedrawn = DirtyTexels::kMostBounds;
+  static constexpr std::size_t kMostRedrawn = DirtyTexels::kMost;
   /// Two strips or rectangles of moved casters, and what came into reach anywhere.
   static constexpr std::size_t kMaxParts = kMostRedrawn + 1;
   MapMove move;
@@ -130,7 +130,8 @@ class MapCache {
   std::array<std::vector<std::uint8_t>, MapWork::kMostRedrawn> part_draws_;
   std::vector<std::uint8_t> over_;  ///< moving casters, and static ones that came into reach, by instance
   std::vector<Box> adopted_;        ///< scratch of adoption_bounds
-  DirtyTexels copied_;
+  std::array<DirtyShapes, kMaxMaps> dirty_;
+  std::vector<TexelRect> copied_;
   std::array<Cached, kMaxMaps> cached_, beneath_;  ///< of all casters, and of static ones
 };
 

@@ -35,10 +35,11 @@ DepthDraw depth_draw(const FrameOptions& options) noexcept {
   return {options.prune.has(PruneRule::alpha_test), options.depth_layer, limit > 0.0 ? limit : 0.0};
 }
 
-/// Moves and bends what differs from the pose before, `last`, which becomes this one. False, and nothing
-/// moved, where the pose is not of the scene.
-template <class Move>
-bool apply(const Pose& pose, Pose& last, SceneBuffers& scene, Move&& move) {
+/// Moves and bends what differs from the pose before, `last`, which becomes this one; `bend` learns of vertices
+/// before the scene has them, `move` of instances in its place. False, and nothing moved, where the pose is
+/// not of the scene.
+template <class Bend, class Move>
+bool apply(const Pose& pose, Pose& last, SceneBuffers& scene, Bend&& bend, Move&& move) {
   const auto within = [](std::size_t begin, std::size_t count, std::size_t end) {
     return begin <= end && count <= end - begin;
   };
@@ -65,6 +66,7 @@ bool apply(const Pose& pose, Pose& last, SceneBuffers& scene, Move&& move) {
     if (comparable && last.vertices[i].first_vertex == range.first_vertex &&
         same(positions, last.positions) && same(normals, last.normals))
       continue;
+    if (range.instance < bent.size()) bend(range, positions);
     scene.bend(range.first_vertex, positions, normals);
     if (range.instance < bent.size()) bent[range.instance] = true;
   }
@@ -113,7 +115,7 @@ std::string_view to_string(Pass pass) noexcept {
 Renderer::Impl::Impl(const Scene& from_scene)
     : scene(from_scene),
       lists(scene),
-      movers(scene.boxes().size()),
+      movers(scene),
       frame_buffer(make_buffer()),
       filter_buffer(make_buffer()),
       no_vertices(make_vertex_array()) {
@@ -172,9 +174,8 @@ void Renderer::Impl::upload(const FrameBlock& frame, const FilterBlock& filterin
   glBindBufferBase(GL_UNIFORM_BUFFER, kFilterBinding, filter_buffer.name());
 }
 
-DrawnMaps Renderer::Impl::place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world,
-                                      double origin_steps) {
-  const DrawnMaps drawn = drawn_maps(plan, camera_world, origin_steps * scene.origin_step());
+DrawnMaps Renderer::Impl::place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world) {
+  const DrawnMaps drawn = drawn_maps(plan, camera_world, scene.origin_step());
   const auto planned = plan.maps();
   const bool bends =
       std::any_of(planned.begin(), planned.end(), [](const ShadowMap& map) { return !map.shape->affine; });
@@ -285,7 +286,7 @@ void Renderer::Impl::forget_moved() noexcept {
 }
 
 void Renderer::Impl::move(std::size_t instance, const Instance& to) {
-  movers.move(instance, scene.boxes()[instance], to.bounds_world);
+  movers.move(instance, to.bounds_world);
   scene.move(instance, to);
 }
 
@@ -298,8 +299,12 @@ bool Renderer::move_instance(std::size_t instance, const Instance& to) {
 
 bool Renderer::apply_pose(const Pose& pose) {
   Impl& impl = *impl_;
-  return apply(pose, impl.posed, impl.scene,
-               [&](std::size_t instance, const Instance& to) { impl.move(instance, to); });
+  return apply(
+      pose, impl.posed, impl.scene,
+      [&](const PosedVertices& range, std::span<const glm::vec3> positions) {
+        impl.movers.bend(range.instance, range.first_vertex, positions);
+      },
+      [&](std::size_t instance, const Instance& to) { impl.move(instance, to); });
 }
 
 bool Renderer::move_pane(std::size_t instance, const Instance& to) {
@@ -313,8 +318,9 @@ bool Renderer::move_pane(std::size_t instance, const Instance& to) {
 bool Renderer::apply_pane_pose(const Pose& pose) {
   Impl& impl = *impl_;
   if (!impl.panes) return pose.instances.empty() && pose.vertices.empty();
-  return apply(pose, impl.pane_posed, impl.panes->scene(),
-               [&](std::size_t instance, const Instance& to) { impl.panes->move(instance, to); });
+  return apply(
+      pose, impl.pane_posed, impl.panes->scene(), [](const PosedVertices&, std::span<const glm::vec3>) {},
+      [&](std::size_t instance, const Instance& to) { impl.panes->move(instance, to); });
 }
 
 void Renderer::add_panes(const Scene& panes) {
@@ -369,9 +375,10 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
       drawn.map[i].even_scale = static_cast<float>(std::max(-curves[i], 0.0));
     impl.lists.build({plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
                       info_of(options.depth_layer).peels || impl.drew_silhouettes,
-                      impl.movers.changed_world(), impl.movers.static_changed_world(), impl.moves(options)},
+                      impl.movers.changed_world(), impl.movers.static_changed_world(), impl.moves(options),
+                      impl.movers.moved(), impl.movers.named_world()},
                      drawn, camera, impl.layered_rule(options));
-    if (plan.map_count > 0) impl.movers.finish_frame(impl.scene.boxes());
+    if (plan.map_count > 0) impl.movers.finish_frame();
     impl.draw_shadow_maps(plan, drawn, depth_draw(options));
     if (impl.drew_silhouettes)
       impl.silhouettes->draw(impl.scene, impl.lists, impl.maps, drawn, impl.map_count);
@@ -452,9 +459,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   glm::dvec3 origin_world(0.0);
   timed(Pass::shadow_maps, [&] {
     impl.upload(block, filtering);
-    // Kept pages want an origin that stays; as near the camera as two bits of a float allow.
-    constexpr double kOriginSteps = 4.0;
-    origin_world = impl.place_scene({}, camera.position, kOriginSteps).origin_world;
+    origin_world = impl.place_scene({}, camera.position).origin_world;
     impl.take_moved(options.moved_world);
     const bool alpha_test = options.prune.has(PruneRule::alpha_test);
     const bool in_runs = options.map_passes != MapPasses::each && !info_of(options.depth_layer).peels;
@@ -463,7 +468,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
                             impl.movers.changed_world()});
     impl.lists.build_pages(impl.pages.drawn(), camera, options.prune,
                            in_runs ? impl.moves(options) : std::span<const std::uint8_t>{});
-    impl.movers.finish_frame(impl.scene.boxes());
+    impl.movers.finish_frame();
     impl.draw_pages(of_light, depth_draw(options), kBlockPages * plan.page_texels + 2 * plan.border_texels);
   });
   timed(Pass::surfaces,

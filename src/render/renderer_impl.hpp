@@ -68,9 +68,8 @@ struct Renderer::Impl {
   /// Makes both blocks those that all shaders read.
   void upload(const FrameBlock& frame, const FilterBlock& filtering) noexcept;
   /// Positions of the scene near the camera and near the maps' origin; matrices of the plan's maps from
-  /// there. `origin_steps`: of SceneBuffers, from one place of the maps' origin to the next.
-  [[nodiscard]] DrawnMaps place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world,
-                                      double origin_steps = 1.0);
+  /// there.
+  [[nodiscard]] DrawnMaps place_scene(const ShadowPlan& plan, const glm::dvec3& camera_world);
   /// Adds what the caller says has moved; casters are culled by where they are now.
   void take_moved(std::span<const Box> moved_world);
   /// The caches hold nothing any more, so that nothing that moved matters.

@@ -72,7 +72,7 @@ SceneBuffers::SceneBuffers(const Scene& scene)
     if (!box.empty()) all.extend(box);
   }
   diagonal_ = all.empty() ? 0.0 : glm::length(all.max - all.min);
-  constexpr int kStepsPerDiagonal = 4;  // as a power of two
+  constexpr int kStepsPerDiagonal = 2;  // as a power of two
   if (diagonal_ > 0.0 && std::isfinite(diagonal_))
     origin_step_ = std::ldexp(1.0, std::ilogb(diagonal_) - kStepsPerDiagonal);
 }
@@ -139,18 +139,29 @@ void SceneBuffers::set_object_index_buffer(GLuint buffer) const noexcept {
 }
 
 std::vector<glm::vec3> SceneBuffers::read_positions() const {
-  std::vector<glm::vec3> positions(vertex_count_);
-  glGetNamedBufferSubData(positions_.name(), 0, static_cast<GLsizeiptr>(positions.size() * sizeof(glm::vec3)),
-                          positions.data());
+  return read_positions(0, vertex_count_);
+}
+
+std::vector<glm::vec3> SceneBuffers::read_positions(std::uint32_t first, std::size_t count) const {
+  std::vector<glm::vec3> positions(count);
+  glGetNamedBufferSubData(positions_.name(), static_cast<GLintptr>(first * sizeof(glm::vec3)),
+                          static_cast<GLsizeiptr>(count * sizeof(glm::vec3)), positions.data());
   return positions;
 }
 
-std::vector<std::uint32_t> SceneBuffers::read_indices(const Primitive& primitive) const {
-  std::vector<std::uint32_t> indices(primitive.index_count);
-  glGetNamedBufferSubData(indices_.name(),
-                          static_cast<GLintptr>(primitive.first_index * sizeof(std::uint32_t)),
+std::vector<std::uint32_t> SceneBuffers::read_indices(const IndexRun& run) const {
+  std::vector<std::uint32_t> indices(run.index_count);
+  glGetNamedBufferSubData(indices_.name(), static_cast<GLintptr>(run.first_index * sizeof(std::uint32_t)),
                           static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data());
   return indices;
+}
+
+std::vector<std::uint32_t> SceneBuffers::read_indices(const Primitive& primitive) const {
+  return read_indices(IndexRun{primitive.first_index, primitive.index_count});
+}
+
+std::vector<std::uint32_t> SceneBuffers::read_near_indices(std::uint32_t primitive) const {
+  return read_indices(clusters_.whole(primitive));
 }
 
 void SceneBuffers::upload_images(const Scene& scene) {

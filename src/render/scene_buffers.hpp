@@ -51,8 +51,8 @@ class SceneBuffers {
   [[nodiscard]] std::size_t vertex_count() const noexcept { return vertex_count_; }
   /// Takes those for the next draws.
   void use(Placed placed) const noexcept;
-  /// Distance that loses nothing of a float's precision on this scene, a power of two: 1/16 of its diagonal
-  /// or less.
+  /// From one place of the maps' origin to the next, a power of two: 1/4 of the scene's diagonal or less. What
+  /// is kept wants an origin that stays; this one is as near the camera as two bits of a float allow.
   [[nodiscard]] double origin_step() const noexcept { return origin_step_; }
   /// Of the box round all instances, world units; 0 for an empty scene.
   [[nodiscard]] double diagonal() const noexcept { return diagonal_; }
@@ -76,7 +76,10 @@ class SceneBuffers {
   [[nodiscard]] GLuint vertex_array() const noexcept { return vertex_array_.name(); }
   /// As uploaded, or bent since; waits for the driver.
   [[nodiscard]] std::vector<glm::vec3> read_positions() const;
+  [[nodiscard]] std::vector<glm::vec3> read_positions(std::uint32_t first, std::size_t count) const;
   [[nodiscard]] std::vector<std::uint32_t> read_indices(const Primitive& primitive) const;
+  /// The same triangles, in an order in which neighbours are near each other.
+  [[nodiscard]] std::vector<std::uint32_t> read_near_indices(std::uint32_t primitive) const;
   [[nodiscard]] std::span<const Primitive> primitives() const noexcept { return primitives_; }
   [[nodiscard]] GLuint index_buffer() const noexcept { return indices_.name(); }
   /// The vertex attribute that says which object a vertex belongs to comes from this buffer.
@@ -89,6 +92,7 @@ class SceneBuffers {
   struct Object {
     Row4 row[3];
   };
+  [[nodiscard]] std::vector<std::uint32_t> read_indices(const IndexRun& run) const;
   void upload_vertices(const Scene& scene);
   void upload_images(const Scene& scene);
   /// Sorts the instances by what they are drawn with.
