@@ -35,9 +35,9 @@ DepthDraw depth_draw(const FrameOptions& options) noexcept {
   return {options.prune.has(PruneRule::alpha_test), options.depth_layer, limit > 0.0 ? limit : 0.0};
 }
 
-/// Moves and bends what differs from the pose before, `last`, which becomes this one; `bend` learns of vertices
-/// before the scene has them, `move` of instances in its place. False, and nothing moved, where the pose is
-/// not of the scene.
+/// Moves and bends what differs from the pose before, `last`, which becomes this one; `bend` learns of
+/// vertices before the scene has them, `move` of instances in its place. False, and nothing moved, where the
+/// pose is not of the scene.
 template <class Bend, class Move>
 bool apply(const Pose& pose, Pose& last, SceneBuffers& scene, Bend&& bend, Move&& move) {
   const auto within = [](std::size_t begin, std::size_t count, std::size_t end) {

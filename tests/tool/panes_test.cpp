@@ -86,8 +86,8 @@ TEST(PanesCommand, the_viewer_shows_tinted_light_where_the_word_says_so_and_a_ha
 }
 
 TEST(PanesCommand, refuses_another_way_in_one_line) {
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"panes", "--by", "clouds"}, {"panes", "--by", "lights", "--local-lights", "0"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"panes", "--by", "clouds"},
+                                                {"panes", "--by", "lights", "--local-lights", "0"}}) {
     const Finished finished = run_gnomon(words);
     EXPECT_EQ(finished.exit_code, 2);
     EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;

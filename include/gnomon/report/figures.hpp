@@ -25,8 +25,8 @@ struct StorageFigure {
     double storage;  ///< texels per screen pixel at which no texel covers more than one pixel
   };
   /// A scheme's line, by increasing number of maps; one point where the number is not to choose.
-  /// frustum_faces has a point for each number of slices (SplitOptions::face_slices) that gives another number
-  /// of maps.
+  /// frustum_faces has a point for each number of slices (SplitOptions::face_slices) that gives another
+  /// number of maps.
   struct Line {
     Scheme scheme;              ///< that the points are of
     std::vector<Point> points;  ///< at least one
