@@ -13,6 +13,13 @@ namespace {
 /// Cost of setting up a triangle, in texels filled: 0.25 us to 5 ns in software.
 constexpr std::uint64_t kTexelsPerTriangle = 50;
 
+/// Where nothing static lies beneath, copies of it cost more than they save.
+bool any_static(std::span<const std::uint8_t> moves, std::span<const std::uint8_t> casters) noexcept {
+  for (std::size_t i = 0; i < moves.size(); ++i)
+    if (casters[i] != 0 && moves[i] == 0) return true;
+  return false;
+}
+
 }  // namespace
 
 ShadowMap drawn_form(const ShadowPlan& plan, std::size_t index) noexcept {
@@ -271,7 +278,7 @@ void MapCache::finish(LayeredWork& work, double texels, const ShadowMap& map, Pr
 
 LayeredWork MapCache::update(const CachedDraw& draw, PruneSavings& saved) {
   const CullingJob& job = draw.job;
-  if (!job.moves.empty()) return compose(draw, saved);
+  if (any_static(job.moves, draw.casters)) return compose(draw, saved);
   beneath_[draw.index].valid = false;
   dirty_[draw.index].forget();
   draws_.assign(draw.casters.begin(), draw.casters.end());

@@ -154,6 +154,27 @@ TEST(StaticCasters, the_rule_changes_no_pixel) {
   EXPECT_LT(with.triangles(), without.triangles());
 }
 
+TEST(StaticCasters, maps_without_static_casters_have_no_copies) {
+  Pair pair;
+  ASSERT_EQ(pair.stale(going(0)), 0u);
+  const auto move_all = [&] {
+    for (std::size_t i = 0; i < pair.boxes.size(); ++i) pair.move(i, {0.13, 0.0, -0.07});
+  };
+  for (int frame = 0; frame < 4; ++frame) {
+    move_all();
+    ASSERT_EQ(pair.stale(going(0)), 0u) << "frame " << frame;
+    EXPECT_EQ(pair.copied(), 0u) << "frame " << frame;
+  }
+  // All but one come to rest, and lie beneath it then.
+  for (int frame = 0; frame < MovingCasters::kRestFrames + 4; ++frame) {
+    pair.move(1, {0.01, 0.0, 0.0});
+    ASSERT_EQ(pair.stale(going(0)), 0u) << "frame " << frame;
+  }
+  EXPECT_GT(pair.copied(), 0u);
+  move_all();
+  ASSERT_EQ(pair.stale(going(0)), 0u) << "static casters begin to move";
+}
+
 TEST(StaticCasters, a_caster_that_rests_becomes_static_and_costs_nothing) {
   Pair pair;
   ASSERT_EQ(pair.stale(going(0)), 0u);
