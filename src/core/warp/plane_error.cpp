@@ -416,7 +416,12 @@ GNOMON_WIDE void PlaneError::count_above(const MapLanes& map, double square,
 
 void PlaneError::below(const ChoiceLanes& choices, double value, LaneAnswers& is_below) noexcept {
   is_below.fill(false);
-  if (sample_.count == 0 || body_.points == 0) return;
+  const double square = value * value;
+  if (sample_.count == 0 || body_.points == 0 || !(square > 0.0)) return;
+  if (!(square < std::numeric_limits<double>::infinity())) {
+    is_below.fill(true);
+    return;
+  }
   ExtentLanes extents;
   MapLanes map;
   find_extents(choices, extents);
@@ -427,7 +432,7 @@ void PlaneError::below(const ChoiceLanes& choices, double value, LaneAnswers& is
     for (std::size_t l = 0; l < kWarpLanes; ++l)
       is_below[l] = map.known[l] != 0.0 && std::sqrt(found[l]) < value;
   } else {
-    count_above(map, value * value, found);
+    count_above(map, square, found);
     for (std::size_t l = 0; l < kWarpLanes; ++l) is_below[l] = found[l] <= static_cast<double>(above_);
   }
 }
