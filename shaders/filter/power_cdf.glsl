@@ -32,14 +32,16 @@ ShadowTexel shadow_nothing(ShadowOptions options) {
   return sum;
 }
 
-void shadow_join(inout ShadowTexel sum, ShadowTexel texel, float weight, ShadowOptions options) {
+vec4 joined_layer(vec4 sum, vec4 texel, float weight) {
   const float kLeastWeight = 1e-4;  // what counts less is in the kernel by the rounding of its place alone
-  for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) {
-    sum.v[i].y += weight * texel.v[i].y;
-    if (weight < kLeastWeight) continue;
-    sum.v[i].x = min(sum.v[i].x, texel.v[i].x);
-    sum.v[i].z = max(sum.v[i].z, texel.v[i].z);
-  }
+  float mean = sum.y + weight * texel.y;
+  if (weight < kLeastWeight) return vec4(sum.x, mean, sum.z, 0.0);
+  return vec4(min(sum.x, texel.x), mean, max(sum.z, texel.z), 0.0);
+}
+
+void shadow_join(inout ShadowTexel sum, ShadowTexel texel, float weight, ShadowOptions options) {
+  // A vector at a time: Mesa 22 was seen to lose what such a loop writes to parts of it, within a loop of taps.
+  for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) sum.v[i] = joined_layer(sum.v[i], texel.v[i], weight);
 }
 
 // 1 - (1 - below)^exponent, without the digits that are lost where the power is close to 1.

@@ -40,7 +40,8 @@ ShadowTexel fetch_joined(sampler2DArray stored[GNOMON_SHADOW_VECTORS], ShadowLoo
 }
 
 #ifdef SHADOW_INTERPOLATES
-// The mean of what the filter makes of four texels, weighted bilinearly.
+// The mean of what the filter makes of four texels, weighted bilinearly: each against the receiver's plane at the texel's
+// centre.
 float visibility_2x2(sampler2DArray stored[GNOMON_SHADOW_VECTORS], vec3 place, int level, sampler2DArray depth_map,
                      sampler2DArray depth_max, ShadowLookup at, ShadowOptions options) {
   vec2 size = vec2(textureSize(stored[0], level).xy);
@@ -55,7 +56,9 @@ float visibility_2x2(sampler2DArray stored[GNOMON_SHADOW_VECTORS], vec3 place, i
     for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) {
       texel_at.v[i] = textureLod(stored[i], vec3(centre / size, place.z), float(level));
     }
-    lit += weight.x * weight.y * shadow_visibility(texel_at, depth_map, depth_max, at, options);
+    ShadowLookup there = at;
+    there.depth = min(at.depth + dot(at.depth_gradient, centre / size * at.layer_size - at.texel), 1.0);
+    lit += weight.x * weight.y * shadow_visibility(texel_at, depth_map, depth_max, there, options);
   }
   return lit;
 }

@@ -66,7 +66,10 @@ class Reference {
   struct Weighed {
     const StoredTexel* texel = nullptr;
     double weight = 0.0;
+    glm::dvec2 position{0.0};  ///< of its centre
   };
+  /// The question, where its receiver's plane passes a texel.
+  [[nodiscard]] static Question moved_to(const Weighed& corner, Question question) noexcept;
   /// The four texels about a place, with their bilinear weights.
   [[nodiscard]] std::array<Weighed, 4> corners(const glm::dvec2& position) const;
   /// bound(), where the look-up finds `here`.

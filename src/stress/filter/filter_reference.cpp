@@ -2,6 +2,7 @@
 #include <glad/gl.h>
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <string_view>
 
 #include "filter_block.hpp"
@@ -157,9 +158,16 @@ std::array<Reference::Weighed, 4> Reference::corners(const glm::dvec2& position)
     const int y = std::clamp(static_cast<int>(first.y) + dy, 0, map_.height - 1);
     all[static_cast<std::size_t>(corner)] = {
         &blurred_[static_cast<std::size_t>(y * map_.width + x)],
-        (dx == 0 ? 1.0 - part.x : part.x) * (dy == 0 ? 1.0 - part.y : part.y)};
+        (dx == 0 ? 1.0 - part.x : part.x) * (dy == 0 ? 1.0 - part.y : part.y), glm::dvec2(x, y) + 0.5};
   }
   return all;
+}
+
+Question Reference::moved_to(const Weighed& corner, Question question) noexcept {
+  const glm::dvec2 by = corner.position - glm::dvec2(question.position);
+  const double depth = question.depth + glm::dot(glm::dvec2(question.depth_gradient), by);
+  question.depth = static_cast<float>(std::min(depth, 1.0));
+  return question;
 }
 
 double Reference::value(const StoredTexel& texel, const Question& question, const StoredTexel& change) const {
@@ -176,7 +184,7 @@ double Reference::answer(const Question& question) const {
   if (!settings_.filter->reference.interpolates) return value(texel(question.position), question, {});
   double lit = 0.0;
   for (const Weighed& corner : corners(question.position))
-    lit += corner.weight * value(*corner.texel, question, {});
+    lit += corner.weight * value(*corner.texel, moved_to(corner, question), {});
   return lit;
 }
 
@@ -184,7 +192,7 @@ double Reference::bound(const Question& question) const {
   if (!settings_.filter->reference.interpolates) return bound_of(texel(question.position), question);
   double sum = 0.0;
   for (const Weighed& corner : corners(question.position))
-    sum += corner.weight * bound_of(*corner.texel, question);
+    sum += corner.weight * bound_of(*corner.texel, moved_to(corner, question));
   return sum;
 }
 
