@@ -252,7 +252,8 @@ TEST_F(ViewWindow, records_a_path_and_flies_along_it) {
   ASSERT_TRUE(wrote("gnomon_view.json"));
   EXPECT_EQ(different_pixels(middle, headless("gnomon_view.json", middle)), 0u);
   EXPECT_EQ(close(), 0);
-  EXPECT_FALSE(std::filesystem::exists("gnomon_path_0002.json"));
+  EXPECT_FALSE(std::filesystem::exists("gnomon_path_0002.json"))
+      << content_of("gnomon_path_0001.json") << content_of("gnomon_path_0002.json") << content_of(log());
   std::vector<std::string> command{"view",      "--path", "gnomon_path_0001.json", "--out", "path.png",
                                    "--context", "osmesa"};
   command.insert(command.begin() + 1, kSmall.begin(), kSmall.end());
