@@ -166,7 +166,7 @@ struct PlanOptions {
   /// leave it open, as those of a room that holds its light do; kLeastLightNearShare..kMostLightNearShare.
   /// Nearer casters then cast no shadow; nearer boxes that do not hold the light are still shown. At 2^-13 a
   /// float's steps of depth are as long as texels at the far end, and such rooms have acne: 2^-10 keeps clear
-  /// of that. Depths that are linear along the light stand 2^-17 (docs/bias.md).
+  /// of that. Depths that are linear along the light work down to 2^-17 (docs/bias.md).
   double light_near_share = 0x1p-10;
   /// Clip space of the matrices in the plan.
   ClipSpace clip_space;

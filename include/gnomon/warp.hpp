@@ -47,8 +47,20 @@ struct WarpChoice {
   /// The objective of WarpStart::map over that of no warp where the search began at WarpInput::start,
   /// infinite without such a map; 0: it began from nothing.
   double last_ratio = 0.0;
-  /// The objective over that of no warp where `kappa` is no more than WarpStart::strongest; 0: not measured.
+  /// The objective over that of no warp where `kappa` is held to WarpStart::limit; 0: not measured.
   double held_ratio = 0.0;
+};
+
+/// How strong a warp may be under a camera that moves: texels of a stronger one would change too fast.
+struct MotionLimit {
+  /// 1 over the largest kappa, and its growth by the body's length along the axis. Both 0: no limit.
+  double least_distance = 0.0, distance_per_length = 0.0;
+
+  /// The largest kappa for a body of this length along the axis.
+  [[nodiscard]] double strongest(double length) const noexcept {
+    const double distance = least_distance + distance_per_length * length;
+    return distance > 0.0 ? 1.0 / distance : std::numeric_limits<double>::infinity();
+  }
 };
 
 /// The last frame's warp and map in this frame's light plane, where a search may start. Rows may have any
@@ -58,15 +70,7 @@ struct WarpStart {
   WarpChoice map;        ///< the map that was drawn, which changes in small steps only
   bool has_map = false;  ///< `map` can be drawn again
   bool search = true;    ///< the search is to go on round `best`; false: `best` still is the best
-  /// 1 over the largest kappa that keeps up with the camera's motion, and its growth by the body's length
-  /// along the axis: texels of a stronger warp would change too fast. Both 0: any keeps up.
-  double least_distance = 0.0, distance_per_length = 0.0;
-
-  /// The largest kappa that keeps up with the camera, for a body of this length along the axis.
-  [[nodiscard]] double strongest(double length) const noexcept {
-    const double distance = least_distance + distance_per_length * length;
-    return distance > 0.0 ? 1.0 / distance : std::numeric_limits<double>::infinity();
-  }
+  MotionLimit limit;
 };
 
 /// The body as a warp sees it. The light plane's x and y (light_space.hpp) span the map; y runs along the
@@ -145,9 +149,6 @@ struct Warp {
   bool drop_without_gain;
   /// True where the search begins at WarpInput::start, if there is one.
   bool follows_start = false;
-  /// True where every choice is WarpInput::unwarped or one of WarpInput::along_view: one bound shows that
-  /// none of them serves.
-  bool along_view = false;
 };
 
 /// All warps, in the order of warps.def.

@@ -193,16 +193,15 @@ Change change_between(const Homography& before, const Homography& now,
   return {area + 3.0 * elementary::log(low), area + 3.0 * elementary::log(high)};
 }
 
-/// Sets the strongest fall-off whose texels keep up with the camera: texels of a warp that moves along with
-/// the viewer change with the third power of w.
-void limit_to_motion(const PlanContext& c, const WarpQuestion& question, WarpStart& start) noexcept {
+/// Texels of a warp that moves along with the viewer change with the third power of w.
+MotionLimit motion_limit(const PlanContext& c, const WarpQuestion& question) noexcept {
   constexpr double kShare = 0.7;  // of the limit; the rest is left to the rectangle
   constexpr double kPerStep = 3.0 / (kShare * kLimit);
   const LightSpace& space = question.in.light;
   const glm::dvec3 move = space.frame.turned(c.camera.position - c.last_eye);
   const glm::dvec3 turn = glm::cross(c.last_forward, c.axes.forward);
-  start.least_distance = kPerStep * std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest;
-  start.distance_per_length = 0.5 * kPerStep * std::sqrt(glm::dot(turn, turn));
+  return {kPerStep * std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest,
+          0.5 * kPerStep * std::sqrt(glm::dot(turn, turn))};
 }
 
 }  // namespace
@@ -317,7 +316,7 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
   start.search =
       turn && (!c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward);
   start.has_map = remembered(request) && choice_of(request.last->gl_from_world, start.map);
-  limit_to_motion(c, question, start);
+  start.limit = motion_limit(c, question);
   return true;
 }
 
@@ -352,9 +351,7 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
   if (!from.valid || !usable(in.body, from.choice, in.most_stretch))
     return reported(target, walk.changed(target));
   WarpChoice goal = best;
-  WarpStart motion;
-  limit_to_motion(c, question, motion);
-  goal.kappa = min_of(goal.kappa, motion.strongest(target.length));
+  goal.kappa = min_of(goal.kappa, motion_limit(c, question).strongest(target.length));
   const WarpShape begin = shape_of(from);
   const WarpChoice still = choice_at(begin, in.body);
   const bool stays = !in.orthographic && is_near_best(in, still, goal, best);

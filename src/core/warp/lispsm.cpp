@@ -14,7 +14,6 @@ WarpChoice choose(const WarpInput& input) noexcept {
 
 }  // namespace
 
-const Warp lispsm{
-    "lispsm", "light-space perspective, strength chosen for the visible body", choose, true, false, true};
+const Warp lispsm{"lispsm", "light-space perspective, strength chosen for the visible body", choose, true};
 
 }  // namespace gnomon::warps

@@ -21,6 +21,6 @@ WarpChoice choose(const WarpInput& input) noexcept {
 
 }  // namespace
 
-const Warp lispsm04{"lispsm04", "LiSPSM as published in 2004, for comparison", choose, false, false, true};
+const Warp lispsm04{"lispsm04", "LiSPSM as published in 2004, for comparison", choose, false};
 
 }  // namespace gnomon::warps

@@ -48,7 +48,7 @@ WarpChoice choose(const WarpInput& input) noexcept {
 
 }  // namespace
 
-const Warp lispsm_closed{
-    "lispsm_closed", "LiSPSM, best strength for the whole frustum in closed form", choose, true, false, true};
+const Warp lispsm_closed{"lispsm_closed", "LiSPSM, best strength for the whole frustum in closed form",
+                         choose, true};
 
 }  // namespace gnomon::warps

@@ -26,7 +26,6 @@ WarpChoice choose(const WarpInput& input) noexcept {
 
 }  // namespace
 
-const Warp lispsm_lloyd{
-    "lispsm_lloyd", "LiSPSM with Lloyd's fall-off over the light's angle", choose, false, false, true};
+const Warp lispsm_lloyd{"lispsm_lloyd", "LiSPSM with Lloyd's fall-off over the light's angle", choose, false};
 
 }  // namespace gnomon::warps

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "geometry/vector.hpp"
-#include "warp/least_along_view.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/plane_map.hpp"
 #include "warp/row_search.hpp"
@@ -123,29 +122,20 @@ struct Judged {
 
 /// The best of the registry's other warps where it is better than `best`.
 void improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) noexcept {
-  // Within what the least is known to.
-  constexpr double kNearly = 0.95;
-  const bool along_view = !(kNearly * least_along_view(input, error) >= best.value);
   std::array<WarpChoice, kWarpLanes> choice;
   std::size_t count = 0;
   for (const Warp* other : all_warps()) {
-    if (other->choose == choose_optimal || count == choice.size() || (other->along_view && !along_view))
-      continue;
+    if (other->choose == choose_optimal || count == choice.size()) continue;
     const WarpChoice found = other->choose(input);
     if (!input.is_unwarped(found)) choice[count++] = found;
   }
   if (count == 0) return;
+  ChoiceLanes lanes;
+  for (std::size_t i = 0; i < kWarpLanes; ++i) lanes.set(i, choice[i < count ? i : 0]);
   LaneAnswers better;
-  better.fill(true);
-  // So few are asked one by one.
-  constexpr std::size_t kFew = 2;
-  if (count > kFew || input.objective == Objective::p95) {
-    ChoiceLanes lanes;
-    for (std::size_t i = 0; i < kWarpLanes; ++i) lanes.set(i, choice[i < count ? i : 0]);
-    error.count_bound();
-    error.below(lanes, best.value, better);
-    error.count_all();
-  }
+  error.count_bound();
+  error.below(lanes, best.value, better);
+  error.count_all();
   for (std::size_t i = 0; i < count; ++i) {
     if (!better[i]) continue;
     const double exact = error.value(choice[i]);
@@ -306,7 +296,7 @@ bool follow(const WarpInput& input, PlaneError& error, WarpChoice& choice) noexc
   // By the other objectives vertices tell as well, and sooner.
   if (start.has_map && input.objective == Objective::p95) {
     WarpChoice held = choice;
-    held.kappa = min_of(held.kappa, start.strongest(plane_map(input.body, choice).length));
+    held.kappa = min_of(held.kappa, start.limit.strongest(plane_map(input.body, choice).length));
     if (held.kappa < choice.kappa) choice.held_ratio = error.value(held) / without;
   }
   return true;

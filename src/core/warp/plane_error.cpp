@@ -418,16 +418,14 @@ void PlaneError::below(const ChoiceLanes& choices, double value, LaneAnswers& is
   is_below.fill(false);
   const double square = value * value;
   if (sample_.count == 0 || body_.points == 0 || !(square > 0.0)) return;
-  if (!(square < std::numeric_limits<double>::infinity())) {
-    is_below.fill(true);
-    return;
-  }
   ExtentLanes extents;
   MapLanes map;
   find_extents(choices, extents);
   fit(choices, extents, map);
   LaneValues found;
-  if (input_.objective == Objective::storage) {
+  if (!(square < std::numeric_limits<double>::infinity())) {
+    for (std::size_t l = 0; l < kWarpLanes; ++l) is_below[l] = map.known[l] != 0.0;
+  } else if (input_.objective == Objective::storage) {
     find_storage(map, found);
     for (std::size_t l = 0; l < kWarpLanes; ++l)
       is_below[l] = map.known[l] != 0.0 && std::sqrt(found[l]) < value;

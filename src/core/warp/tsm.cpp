@@ -25,7 +25,6 @@ WarpChoice choose(const WarpInput& input) noexcept {
 
 }  // namespace
 
-const Warp tsm{"tsm", "trapezoidal: 80 % of the map for the nearer half of the depths", choose, true, false,
-               true};
+const Warp tsm{"tsm", "trapezoidal: 80 % of the map for the nearer half of the depths", choose, true};
 
 }  // namespace gnomon::warps
