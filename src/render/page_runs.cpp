@@ -59,8 +59,6 @@ PageBlock block_of(const PagePlan& plan, const Page& page) noexcept {
 
 void group_pages(const PagePlan& plan, const glm::dvec3& origin_world, std::vector<BlockPage>& pages,
                  std::vector<PageRun>& runs, std::vector<DrawnPage>& drawn) {
-  runs.clear();
-  drawn.clear();
   std::stable_sort(pages.begin(), pages.end(),
                    [](const BlockPage& a, const BlockPage& b) { return key_of(a) < key_of(b); });
   PagePlan of_blocks = plan;
