@@ -218,6 +218,7 @@ LayeredWork MapCache::compose(const CachedDraw& draw, PruneSavings& saved) {
   Cached &cached = cached_[draw.index], &beneath = beneath_[draw.index];
   const ShadowMap map = drawn_form(job.plan, draw.index);
   LayeredWork work;
+  work.has_beneath = true;
   work.adopts = !beneath.valid && cached.valid;
   if (work.adopts) beneath = cached;
   draws_.assign(draw.casters.begin(), draw.casters.end());
