@@ -373,11 +373,11 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     drawn = impl.place_scene(plan, camera.position);
     for (std::size_t i = 0; i < plan.maps().size(); ++i)
       drawn.map[i].even_scale = static_cast<float>(std::max(-curves[i], 0.0));
-    impl.lists.build({plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
-                      info_of(options.depth_layer).peels || impl.drew_silhouettes,
-                      impl.movers.changed_world(), impl.movers.static_changed_world(), impl.moves(options),
-                      impl.movers.moved(), impl.movers.named_world()},
-                     drawn, camera, impl.layered_rule(options));
+    impl.lists.build(
+        {plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
+         info_of(options.depth_layer).peels || impl.drew_silhouettes, impl.movers.changed_world(),
+         impl.movers.static_changed_world(), impl.moves(options), &impl.movers},
+        drawn, camera, impl.layered_rule(options));
     if (plan.map_count > 0) impl.movers.finish_frame();
     impl.draw_shadow_maps(plan, drawn, depth_draw(options));
     if (impl.drew_silhouettes)
