@@ -2,10 +2,12 @@
 // moving casters cost their own triangles alone?
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 #include <random>
 #include <set>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -280,6 +282,49 @@ TEST(StaticCasters, a_page_out_of_view_while_a_caster_walks_is_right_when_it_com
     ASSERT_EQ(pair.stale_pages(away), 0u);
   }
   ASSERT_EQ(pair.stale_pages(going(0)), 0u);
+}
+
+TEST(CasterShapes, a_mesh_that_bends_before_it_is_read_has_bounds_alone_for_what_it_was) {
+  const Scene scene = box_on_ground();
+  SceneBuffers buffers(scene);
+  CasterShapes shapes(buffers);
+  const Primitive& box = scene.primitives[scene.instances[1].primitive];
+  const auto indices = std::span(scene.indices).subspan(box.first_index, box.index_count);
+  const auto [first, last] = std::minmax_element(indices.begin(), indices.end());
+  const std::size_t count = *last - *first + 1;
+  const auto bend = [&, begin = *first](float by) {
+    std::vector<glm::vec3> positions(scene.positions.begin() + begin,
+                                     scene.positions.begin() + begin + count);
+    for (glm::vec3& position : positions) position.y += by;
+    shapes.bend(1, begin, positions);
+    buffers.bend(begin, positions, std::span(scene.normals).subspan(begin, count));
+  };
+  const auto height = [](const CasterShape& shape) {
+    float highest = 0.0f;
+    for (const glm::vec3& position : shape.positions) highest = std::max(highest, position.y);
+    return highest;
+  };
+  bend(0.25f);
+  std::span<const MovedCaster> moved = shapes.moved();
+  ASSERT_EQ(moved.size(), 1u);
+  EXPECT_EQ(moved[0].from.size(), 0u);
+  EXPECT_EQ(moved[0].from.bounds_world.max, scene.instances[1].bounds_world.max);
+  EXPECT_EQ(moved[0].to.size(), kBoxTriangles);
+  EXPECT_EQ(height(moved[0].to), kBoxMax.y + 0.25f);
+  shapes.forget_moves();
+  EXPECT_TRUE(shapes.moved().empty());
+  bend(0.5f);
+  moved = shapes.moved();
+  ASSERT_EQ(moved.size(), 1u);
+  EXPECT_EQ(moved[0].from.size(), kBoxTriangles);
+  EXPECT_EQ(height(moved[0].from), kBoxMax.y + 0.25f);
+  EXPECT_EQ(height(moved[0].to), kBoxMax.y + 0.5f);
+  shapes.forget_moves();
+  shapes.keep(1);
+  moved = shapes.moved();
+  ASSERT_EQ(moved.size(), 1u);
+  EXPECT_EQ(height(moved[0].from), kBoxMax.y + 0.5f);
+  EXPECT_EQ(height(moved[0].to), kBoxMax.y + 0.5f);
 }
 
 // Everything that a scene can do, in random order.
