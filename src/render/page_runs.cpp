@@ -6,6 +6,7 @@
 
 #include "frame_block.hpp"
 #include "target.hpp"
+#include "texel_mask.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -36,11 +37,6 @@ ShadowMap block_map(const PagePlan& plan_of_blocks, const PageBlock& block) noex
 void cull_to(const TexelRect& rectangle, const ClipSpace& clip_space, ShadowMap& map) noexcept {
   const auto sides = rectangle_planes(map, rectangle, clip_space);
   std::copy(sides.begin(), sides.end(), map.cull_planes.begin());
-}
-
-TexelRect joined(const TexelRect& a, const TexelRect& b) noexcept {
-  const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);
-  return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
 }
 
 }  // namespace
