@@ -159,6 +159,7 @@ FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const Prep
   impl.lists.forget_maps();
   impl.history.forget();  // the mask is this frame's alone
   impl.map_count = 0;
+  impl.drew_silhouettes = false;  // pages have no outlines
   impl.take_layer(options.depth_layer, options.dual_limit_texels);
   const BlurSides blur = blur_sides(filter.settings, of_light);
   const DepthCurves curves = depth_curves(of_light);

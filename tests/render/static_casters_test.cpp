@@ -41,6 +41,7 @@ struct Pair {
   PageOptions pages;
   PageStorage memory{4096, 1 << 17};
   FilterSettings filter = default_settings(filters::hard);
+  FilterSettings looks = default_settings(filters::hard);  ///< of the frame that finds points for pages
   FrameOptions drawing;
   FrameStats last, whole;
   std::size_t blocks = 0;  ///< with a page that the last frame drew
@@ -92,7 +93,7 @@ struct Pair {
   std::size_t stale_pages(const Camera& camera) {
     PlanOptions with = options;
     set_margin(filter, with);
-    keeps.draw(ShadowPlan{}, camera, keeps.prepare(filter), drawing);
+    keeps.draw(ShadowPlan{}, camera, keeps.prepare(looks), drawing);
     const FloatImage at = keeps.positions();
     std::vector<glm::dvec3> points;
     for (std::size_t i = 0; i < at.values.size(); i += 4 * 3) {
@@ -266,6 +267,17 @@ TEST(StaticCasters, pages_compose_what_a_walking_box_reaches) {
   }
   EXPECT_GT(blocks, 0u);
   EXPECT_LT(blocks, pages);
+}
+
+TEST(StaticCasters, pages_compose_after_frames_that_drew_outlines) {
+  Pair pair;
+  pair.looks = default_settings(filters::silhouette);
+  ASSERT_EQ(pair.stale_pages(going(0)), 0u);
+  for (int frame = 0; frame < 2; ++frame) {
+    pair.move(1, {0.1, 0.0, 0.0});
+    ASSERT_EQ(pair.stale_pages(going(0)), 0u);
+  }
+  EXPECT_GT(pair.last.pages_composed, 0);
 }
 
 TEST(StaticCasters, a_page_out_of_view_while_a_caster_walks_is_right_when_it_comes_back) {
