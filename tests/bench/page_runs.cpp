@@ -23,6 +23,7 @@
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/load.hpp"
+#include "guarded.hpp"
 #include "median.hpp"
 #include "page_storage.hpp"
 #include "quiet.hpp"
@@ -137,11 +138,7 @@ void measure_scene(const std::string& name, int frames, int rounds, int page_tex
   }
 }
 
-}  // namespace
-}  // namespace gnomon
-
-int main(int argc, char** argv) {
-  using namespace gnomon;
+int run_all(int argc, char** argv) {
   int rounds = 7, frames = 3, page_texels = 64;
   std::vector<std::string> scenes;
   for (int i = 1; i < argc; ++i) {
@@ -172,4 +169,11 @@ int main(int argc, char** argv) {
       "| texels that differ, of a million |\n|--|--|--|--|--|--|--|--|--|\n");
   for (const std::string& name : scenes) measure_scene(name, frames, rounds, page_texels);
   return 0;
+}
+
+}  // namespace
+}  // namespace gnomon
+
+int main(int argc, char** argv) {
+  return gnomon::guarded("bench_page_runs", gnomon::run_all, argc, argv);
 }
