@@ -7,13 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "caster_shapes.hpp"
 #include "gnomon/caster_set.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/prune.hpp"
 #include "scene_buffers.hpp"
 
 namespace gnomon::render {
+
+class MovingCasters;
 
 struct CullingJob {
   const ShadowPlan& plan;
@@ -31,9 +32,8 @@ struct CullingJob {
   std::span<const Box> static_moved_world = {};
   /// By instance: 1 where it moves. Empty: casters are not told apart.
   std::span<const std::uint8_t> moves = {};
-  /// The same changes as `moved_world`, by the shapes of casters and by bounds of which no more is known.
-  std::span<const MovedCaster> moved = {};
-  std::span<const Box> named_world = {};
+  /// Has the shapes of those that moved; needed where `moves` is not empty.
+  MovingCasters* movers = nullptr;
 };
 
 /// What each rule saved in one frame, and what it drew more to save that.

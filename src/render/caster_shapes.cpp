@@ -13,11 +13,12 @@ constexpr std::size_t kMostIndices = 3 * std::size_t{1 << 18};
 }  // namespace
 
 CasterShapes::CasterShapes(const SceneBuffers& scene)
-    : scene_(scene), mesh_of_(scene.primitives().size(), kNone), is_kept_(scene.boxes().size()) {}
+    : scene_(scene), mesh_of_(scene.primitives().size(), kUnread), is_kept_(scene.boxes().size()) {}
 
-std::uint32_t CasterShapes::mesh_of(std::uint32_t primitive) {
-  if (mesh_of_[primitive] != kNone) return mesh_of_[primitive];
+CasterShapes::Mesh& CasterShapes::mesh_of(std::uint32_t primitive) {
+  if (mesh_of_[primitive] < meshes_.size()) return meshes_[mesh_of_[primitive]];
   Mesh mesh;
+  mesh.bent = mesh_of_[primitive] == kUnreadBent;
   if (scene_.primitives()[primitive].index_count <= kMostIndices)
     mesh.indices = scene_.read_near_indices(primitive);
   mesh.vertices = mesh.indices;
@@ -36,18 +37,20 @@ std::uint32_t CasterShapes::mesh_of(std::uint32_t primitive) {
   mesh.stale_parts = true;
   mesh_of_[primitive] = static_cast<std::uint32_t>(meshes_.size());
   meshes_.push_back(std::move(mesh));
-  return mesh_of_[primitive];
+  return meshes_.back();
 }
 
 void CasterShapes::keep(std::size_t instance) {
   if (is_kept_[instance] != 0) return;
   is_kept_[instance] = 1;
   const auto i = static_cast<std::uint32_t>(instance);
-  (void)mesh_of(scene_.primitive_index(i));
   kept_.push_back({i, scene_.boxes()[instance], scene_.world_from_object(i)});
 }
 
-void CasterShapes::bend(std::uint32_t first, std::span<const glm::vec3> positions) {
+void CasterShapes::bend(std::size_t instance, std::uint32_t first, std::span<const glm::vec3> positions) {
+  keep(instance);
+  std::uint32_t& own = mesh_of_[scene_.primitive_index(static_cast<std::uint32_t>(instance))];
+  if (own == kUnread) own = kUnreadBent;
   for (Mesh& mesh : meshes_) {
     const std::size_t end = first + positions.size();
     const auto begin = std::lower_bound(mesh.vertices.begin(), mesh.vertices.end(), first);
@@ -63,7 +66,11 @@ void CasterShapes::bend(std::uint32_t first, std::span<const glm::vec3> position
 }
 
 void CasterShapes::forget_moves() noexcept {
-  for (const Kept& kept : kept_) is_kept_[kept.instance] = 0;
+  for (const Kept& kept : kept_) {
+    is_kept_[kept.instance] = 0;
+    std::uint32_t& mesh = mesh_of_[scene_.primitive_index(kept.instance)];
+    if (mesh == kUnreadBent) mesh = kUnread;
+  }
   kept_.clear();
   for (Mesh& mesh : meshes_) mesh.bent = false;
 }
@@ -87,14 +94,14 @@ CasterShape CasterShapes::shape(const Mesh& mesh, const Posed& posed) {
   CasterShape shape;
   shape.positions = posed.positions;
   shape.parts = posed.parts;
-  if (shape.parts.empty()) shape.indices = mesh.indices;
+  if (shape.parts.empty() && !posed.positions.empty()) shape.indices = mesh.indices;
   return shape;
 }
 
 std::span<const MovedCaster> CasterShapes::moved() {
   moved_.clear();
   for (const Kept& kept : kept_) {
-    Mesh& mesh = meshes_[mesh_of(scene_.primitive_index(kept.instance))];
+    Mesh& mesh = mesh_of(scene_.primitive_index(kept.instance));
     if (mesh.stale_parts) make_parts(mesh, mesh.now);
     mesh.stale_parts = false;
     MovedCaster caster{kept.instance, shape(mesh, mesh.bent ? mesh.before : mesh.now), shape(mesh, mesh.now)};

@@ -31,7 +31,7 @@ struct MovedCaster {
   CasterShape from, to;
 };
 
-/// Holds vertices on the CPU of those casters alone that have moved once.
+/// Holds vertices on the CPU of those casters alone that moved() has returned once.
 class CasterShapes {
  public:
   /// Triangles of a caster up to which each is told apart.
@@ -39,14 +39,15 @@ class CasterShapes {
 
   explicit CasterShapes(const SceneBuffers& scene);
 
-  /// To be called before SceneBuffers::move, and before bend() where its vertices move. Waits for the driver
-  /// at an instance's first call, to read its triangles.
+  /// To be called before SceneBuffers::move.
   void keep(std::size_t instance);
-  /// To be called with what SceneBuffers::bend takes.
-  void bend(std::uint32_t first, std::span<const glm::vec3> positions);
+  /// To be called before SceneBuffers::bend, with what it takes.
+  void bend(std::size_t instance, std::uint32_t first, std::span<const glm::vec3> positions);
   /// Maps show everything as it is now.
   void forget_moves() noexcept;
-  /// Casters that were kept since the last forget_moves(). Valid until the next call of any member.
+  /// Casters that were kept since the last forget_moves(). Valid until the next call of any member. Waits for
+  /// the driver where it returns an instance for the first time, to read its triangles; one that bent before
+  /// has bounds alone for what it was.
   [[nodiscard]] std::span<const MovedCaster> moved();
 
  private:
@@ -57,7 +58,7 @@ class CasterShapes {
   struct Mesh {
     std::vector<std::uint32_t> vertices;  ///< of the scene, ascending: those that the triangles have
     std::vector<std::uint32_t> indices;   ///< into them
-    Posed now, before;                    ///< before: where bent
+    Posed now, before;                    ///< before: where bent; empty: not known
     bool bent = false;                    ///< since the last forget_moves()
     bool stale_parts = false;             ///< those of `now`
   };
@@ -66,14 +67,15 @@ class CasterShapes {
     Box bounds_world;
     glm::dmat4 world_from_object;
   };
-  static constexpr std::uint32_t kNone = ~0u;
-  [[nodiscard]] std::uint32_t mesh_of(std::uint32_t primitive);
+  /// In place of a mesh: its triangles were not read yet, or bent besides since the last forget_moves().
+  static constexpr std::uint32_t kUnread = ~0u, kUnreadBent = kUnread - 1;
+  [[nodiscard]] Mesh& mesh_of(std::uint32_t primitive);
   static void make_parts(const Mesh& mesh, Posed& posed);
   [[nodiscard]] static CasterShape shape(const Mesh& mesh, const Posed& posed);
 
   const SceneBuffers& scene_;
   std::vector<Mesh> meshes_;
-  std::vector<std::uint32_t> mesh_of_;  ///< by primitive; kNone: not read yet
+  std::vector<std::uint32_t> mesh_of_;  ///< by primitive
   std::vector<std::uint8_t> is_kept_;   ///< by instance
   std::vector<Kept> kept_;
   std::vector<MovedCaster> moved_;

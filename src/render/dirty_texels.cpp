@@ -73,11 +73,6 @@ TexelRect bounds_of(const Image& image, const glm::dvec2& size) noexcept {
   return texels_between(low - image.room, high + image.room, size);
 }
 
-TexelRect joined(const TexelRect& a, const TexelRect& b) noexcept {
-  const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);
-  return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
-}
-
 double area(const TexelRect& r) noexcept {
   return 1.0 * r.width * r.height;
 }

@@ -172,7 +172,7 @@ void DrawLists::add_map(const CullingJob& job, const DrawnMaps& drawn, std::size
   const MapWork& work = layered.map;
   const ShadowMap as_drawn = drawn_form(job.plan, map);
   MapStats& stats = stats_[map];
-  if (!job.moves.empty()) {
+  if (layered.has_beneath) {
     Beneath& beneath = beneath_[map];
     beneath.used = true;
     beneath.adopts = layered.adopts;

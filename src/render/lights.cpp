@@ -333,8 +333,7 @@ FrameStats Renderer::draw(const LightPlan& plan, std::span<const DrawnLight> lig
     static_cast<void>(impl.place_scene({}, camera.position));
     impl.list_pool_maps(plan, lights, camera.position, stats);
     impl.lists.build_pages(pass.maps, camera, options.prune);
-    impl.draw_pool_maps(lights, {options.prune.has(PruneRule::alpha_test), options.depth_layer,
-                                 std::max(options.dual_limit_texels, 0.0)});
+    impl.draw_pool_maps(lights, depth_draw(options));
   });
   pass.holds = true;
   pass.layer = options.depth_layer;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "frame_block.hpp"
+#include "moving_casters.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -218,6 +219,7 @@ LayeredWork MapCache::compose(const CachedDraw& draw, PruneSavings& saved) {
   Cached &cached = cached_[draw.index], &beneath = beneath_[draw.index];
   const ShadowMap map = drawn_form(job.plan, draw.index);
   LayeredWork work;
+  work.has_beneath = true;
   work.adopts = !beneath.valid && cached.valid;
   if (work.adopts) beneath = cached;
   draws_.assign(draw.casters.begin(), draw.casters.end());
@@ -233,7 +235,7 @@ LayeredWork MapCache::compose(const CachedDraw& draw, PruneSavings& saved) {
       (!job.reads_everywhere || std::equal(cached.holds.begin(), cached.holds.end(), draw.casters.begin()));
   DirtyShapes& dirty = dirty_[draw.index];
   if (!same) dirty.forget();
-  const bool whole = !same || !dirty.find(map, job.named_world, job.moved);
+  const bool whole = !same || !dirty.find(map, job.movers->named_world(), job.movers->moved());
   // Static casters that came into reach are drawn into both maps.
   over_.assign(draws_.size(), 0);
   const std::span<const MapPart> parts = work.beneath.parts();

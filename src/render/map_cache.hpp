@@ -43,11 +43,12 @@ struct MapWork {
   void add(const MapPart& of) noexcept { part[part_count++] = of; }
   [[nodiscard]] bool any() const noexcept { return move.any() || !copies.empty() || part_count > 0; }
 };
-/// The same where static casters have a map of their own beneath that of all casters.
+/// The same where static casters may have a map of their own beneath that of all casters.
 struct LayeredWork {
+  bool has_beneath = false;  ///< false: there is none, and `map` is all there is to do
   /// The map beneath begins as a copy of the map of all casters.
   bool adopts = false;
-  MapWork beneath;  ///< nothing to do where no caster moves
+  MapWork beneath;
   MapWork map;
 };
 

@@ -18,8 +18,7 @@ void MovingCasters::move(std::size_t instance, const Box& to_world) {
 }
 
 void MovingCasters::bend(std::size_t instance, std::uint32_t first, std::span<const glm::vec3> positions) {
-  shapes_.keep(instance);
-  shapes_.bend(first, positions);
+  shapes_.bend(instance, first, positions);
 }
 
 void MovingCasters::add(std::span<const Box> changed_world) {

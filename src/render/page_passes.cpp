@@ -1,4 +1,8 @@
-// Draws pages: neighbours together into the image of their block, from which each goes to its slot.
+// A frame of pages: neighbours are drawn together into the image of their block, from which each goes to its
+// slot.
+#include <algorithm>
+
+#include "gnomon/render/page_filter.hpp"
 #include "renderer_impl.hpp"
 
 namespace gnomon::render {
@@ -99,6 +103,102 @@ void Renderer::Impl::draw_each_page(const ShadowPlan& of_light, const DepthDraw&
     if (!info_of(how.layer).peels) continue;
     peel(lists.page_part(i), at, page.layer, page.clip_from_position, how, how.peeled(of_light, page.map));
   }
+}
+
+void Renderer::Impl::count_pages(const PagePlan& plan, FrameStats& stats) const noexcept {
+  stats.pane_texels = panes ? panes->texels() : 0;
+  stats.map_count = 1;
+  stats.map[0] = work_of_map(0);
+  const auto slot_texels =
+      static_cast<std::uint64_t>(plan.slot_texels()) * static_cast<std::uint64_t>(plan.slot_texels());
+  stats.texels = stats.map[0].texels = pages.pages().size() * slot_texels;
+  stats.saved = lists.saved();
+  stats.camera = lists.camera_stats();
+  stats.prefilter_passes = stored_pages.passes();
+  stats.filtered_texels = stored_pages.filtered_texels();
+  stats.map_bytes = maps.bytes() + stored_pages.bytes() + (panes ? panes->bytes() : 0);
+  stats.scratch_bytes = stored_pages.scratch_bytes() + depth_peel.bytes() + page_stage.bytes();
+  stats.pages = static_cast<int>(plan.pages.size());
+  stats.pages_drawn = static_cast<int>(pages.pages().size());
+  stats.pages_composed = static_cast<int>(std::count_if(
+      pages.pages().begin(), pages.pages().end(), [](const BlockPage& page) { return page.drawn.composed; }));
+  PruneSaving& held = stats.saved[static_cast<std::size_t>(PruneRule::held_maps)];
+  held.maps = static_cast<std::uint64_t>(stats.pages - stats.pages_drawn);
+  held.texels = held.maps * slot_texels;
+}
+
+PreparedFilter Renderer::prepare_pages(const FilterSettings& settings) {
+  const FilterSettings fitted = settings_for_pages(settings);
+  const PreparedFilter prepared = prepare(fitted);
+  make_pages_programs(fitted, impl_->filter_programs[prepared.program]);
+  impl_->reads_pages = true;
+  if (impl_->panes) impl_->panes->prepare_pages();
+  return prepared;
+}
+
+FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const PreparedFilter& filter,
+                          const FrameOptions& options) noexcept {
+  Impl& impl = *impl_;
+  // What the passes read of a plan besides its maps: the light, and how the first page stores depth.
+  ShadowPlan of_light;
+  of_light.origin_world = plan.origin_world;
+  of_light.light_direction = plan.light_direction;
+  of_light.clip_space = plan.clip_space;
+  of_light.bias = plan.bias;
+  if (plan.pages.empty() || !impl.filter_programs[filter.program].mask_pages)
+    return draw(of_light, camera, filter, options);
+  of_light.map_count = 1;
+  of_light.map[0] = page_map(plan, plan.pages[0]);
+  if (impl.light_pass) impl.light_pass->holds = false;
+  FrameStats stats;
+  const PassTimer timed{stats, options.time_passes};
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  impl.targets.resize(camera.width, camera.height);
+  const PagePool::Extent extent = impl.pages.fit(plan);
+  if (impl.maps.fit(extent.side, extent.side, extent.layers)) impl.pages.forget();
+  impl.lists.forget_maps();
+  impl.history.forget();  // the mask is this frame's alone
+  impl.map_count = 0;
+  impl.drew_silhouettes = false;  // pages have no outlines
+  impl.take_layer(options.depth_layer, options.dual_limit_texels);
+  const BlurSides blur = blur_sides(filter.settings, of_light);
+  const DepthCurves curves = depth_curves(of_light);
+  FilterBlock filtering = filter_block(filter.settings, blur);
+  set_depth_curves(curves, filtering);
+  filtering.sums.w = options.receiver_plane ? 0.0f : 1.0f;
+  const FrameBlock block = frame_block(of_light, camera, options, extent.side, extent.side, blur, curves);
+  glm::dvec3 origin_world(0.0);
+  timed(Pass::shadow_maps, [&] {
+    impl.upload(block, filtering);
+    origin_world = impl.place_scene({}, camera.position).origin_world;
+    impl.take_moved(options.moved_world);
+    const bool alpha_test = options.prune.has(PruneRule::alpha_test);
+    const bool in_runs = options.map_passes != MapPasses::each && !info_of(options.depth_layer).peels;
+    impl.pages.build(plan, {origin_world, alpha_test, options.prune.has(PruneRule::held_maps),
+                            in_runs && impl.tells_apart(options), in_runs, impl.movers.static_changed_world(),
+                            impl.movers.changed_world()});
+    impl.lists.build_pages(impl.pages.drawn(), camera, options.prune,
+                           in_runs ? impl.moves(options) : std::span<const std::uint8_t>{});
+    impl.movers.finish_frame();
+    impl.draw_pages(of_light, depth_draw(options), kBlockPages * plan.page_texels + 2 * plan.border_texels);
+  });
+  timed(Pass::surfaces,
+        [&] { impl.draw_surfaces(impl.targets.surfaces_fbo.name(), impl.programs.surfaces); });
+  const FilterPrograms& programs = impl.filter_programs[filter.program];
+  timed(Pass::prefilter, [&] {
+    impl.stored_pages.send_levels(plan, filter.settings);
+    impl.stored_pages.build(programs, filter.settings, filtering, impl.filter_buffer.name(), impl.pages,
+                            impl.maps.depth.name());
+  });
+  timed(Pass::mask, [&] {
+    impl.pages.bind();
+    impl.bind_noise(options.noise);
+    impl.draw_mask(programs.mask_pages, impl.targets.mask_fbo.name(), true);
+  });
+  if (impl.panes) timed(Pass::panes, [&] { impl.draw_transmittance(plan, origin_world, camera); });
+  timed(Pass::shade, [&] { impl.draw_shade(block, camera.position); });
+  impl.count_pages(plan, stats);
+  return stats;
 }
 
 }  // namespace gnomon::render

@@ -103,23 +103,14 @@ void PagePool::build(const PagePlan& plan, const PageFrame& frame) {
     drawn.clip_from_position = glm::mat4(drawn_from_plan * counted_from(frame.origin_world));
     pages_.push_back({drawn, block_of(plan, page)});
   }
-  if (frame.in_runs)
-    group_pages(plan, frame.origin_world, pages_, runs_, drawn_);
-  else
-    take_each();
-  send_tables(plan);
-}
-
-void PagePool::take_each() {
-  // Slots of kept pages lie anywhere: each layer is bound once.
-  std::stable_sort(pages_.begin(), pages_.end(),
-                   [](const BlockPage& a, const BlockPage& b) { return a.drawn.layer < b.drawn.layer; });
   runs_.clear();
   drawn_.clear();
-  for (const BlockPage& page : pages_) {
-    runs_.push_back({runs_.size(), runs_.size() + 1});
-    drawn_.push_back(page.drawn);
+  if (frame.in_runs) {
+    group_pages(plan, frame.origin_world, pages_, runs_, drawn_);
+  } else {
+    for (const BlockPage& page : pages_) drawn_.push_back(page.drawn);
   }
+  send_tables(plan);
 }
 
 void PagePool::send_tables(const PagePlan& plan) {

@@ -39,15 +39,17 @@ class PagePool {
 
   /// Places the pages and sends the tables.
   void build(const PagePlan& plan, const PageFrame& frame);
-  /// Those to draw, run by run.
+  /// Those to draw: run by run, without PageFrame::in_runs in the plan's order.
   [[nodiscard]] std::span<const BlockPage> pages() const noexcept { return pages_; }
   [[nodiscard]] std::span<const BlockPage> pages_of(const PageRun& run) const noexcept {
     return pages().subspan(run.begin, run.end - run.begin);
   }
   /// PageFrame::in_runs of the last build().
   [[nodiscard]] bool in_runs() const noexcept { return in_runs_; }
+  /// None without PageFrame::in_runs.
   [[nodiscard]] std::span<const PageRun> runs() const noexcept { return runs_; }
-  /// What each run draws, into the image of its block; without PageFrame::in_runs into the pool.
+  /// What each run draws into the image of its block; without PageFrame::in_runs what each page draws into
+  /// the pool.
   [[nodiscard]] std::span<const DrawnPage> drawn() const noexcept { return drawn_; }
   /// Where a page of the last plan lies; its index must be below resident().
   [[nodiscard]] DrawnPage place_of(std::size_t page) const noexcept;
@@ -79,8 +81,6 @@ class PagePool {
     glm::uvec4 key;
   };
   [[nodiscard]] TexelRect rectangle(std::uint32_t slot) const noexcept;
-  /// Runs of one page, layer by layer.
-  void take_each();
   void send_tables(const PagePlan& plan);
 
   Extent extent_;
@@ -96,7 +96,7 @@ class PagePool {
   std::vector<bool> drew_;               ///< by page of the last plan
   std::vector<BlockPage> pages_;
   std::vector<PageRun> runs_;
-  std::vector<DrawnPage> drawn_;  ///< by run
+  std::vector<DrawnPage> drawn_;  ///< by run, or by page
   std::vector<Level> levels_;
   std::vector<Record> records_;
   std::vector<std::uint32_t> table_;

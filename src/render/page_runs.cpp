@@ -6,6 +6,7 @@
 
 #include "frame_block.hpp"
 #include "target.hpp"
+#include "texel_mask.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -38,11 +39,6 @@ void cull_to(const TexelRect& rectangle, const ClipSpace& clip_space, ShadowMap&
   std::copy(sides.begin(), sides.end(), map.cull_planes.begin());
 }
 
-TexelRect joined(const TexelRect& a, const TexelRect& b) noexcept {
-  const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);
-  return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
-}
-
 }  // namespace
 
 PageBlock block_of(const PagePlan& plan, const Page& page) noexcept {
@@ -59,8 +55,6 @@ PageBlock block_of(const PagePlan& plan, const Page& page) noexcept {
 
 void group_pages(const PagePlan& plan, const glm::dvec3& origin_world, std::vector<BlockPage>& pages,
                  std::vector<PageRun>& runs, std::vector<DrawnPage>& drawn) {
-  runs.clear();
-  drawn.clear();
   std::stable_sort(pages.begin(), pages.end(),
                    [](const BlockPage& a, const BlockPage& b) { return key_of(a) < key_of(b); });
   PagePlan of_blocks = plan;

@@ -49,8 +49,8 @@ struct BlockPage {
   PageBlock block;
 };
 
-/// Sorts the pages such that those of a block lie together, composed ones apart. `drawn`: of each run its map
-/// and matrix, and its place in the image of its block.
+/// Sorts the pages such that those of a block lie together, composed ones apart, and appends their runs.
+/// `drawn`: of each run its map and matrix, and its place in the image of its block.
 void group_pages(const PagePlan& plan, const glm::dvec3& origin_world, std::vector<BlockPage>& pages,
                  std::vector<PageRun>& runs, std::vector<DrawnPage>& drawn);
 

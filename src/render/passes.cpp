@@ -34,6 +34,11 @@ constexpr auto kNoBatchState = [](const Batch&) {};
 
 }  // namespace
 
+DepthDraw depth_draw(const FrameOptions& options) noexcept {
+  const double limit = options.dual_limit_texels;
+  return {options.prune.has(PruneRule::alpha_test), options.depth_layer, limit > 0.0 ? limit : 0.0};
+}
+
 DepthDraw DepthDraw::of(const DrawnMap& map) const noexcept {
   DepthDraw how = *this;
   how.even_scale = map.even_scale;

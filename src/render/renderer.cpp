@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "context/backend.hpp"
-#include "gnomon/render/page_filter.hpp"
 #include "gnomon/render/probe.hpp"
 #include "pass_timer.hpp"
 #include "program.hpp"
@@ -28,60 +27,6 @@ bool reads_everywhere(const FilterSettings& settings, const ShadowPlan& plan) no
   return wants_mipmaps(settings, plan) ||
          (filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings)) ||
          (filter.hooks.adapts != nullptr && filter.hooks.adapts(settings));
-}
-
-DepthDraw depth_draw(const FrameOptions& options) noexcept {
-  const double limit = options.dual_limit_texels;
-  return {options.prune.has(PruneRule::alpha_test), options.depth_layer, limit > 0.0 ? limit : 0.0};
-}
-
-/// Moves and bends what differs from the pose before, `last`, which becomes this one; `bend` learns of
-/// vertices before the scene has them, `move` of instances in its place. False, and nothing moved, where the
-/// pose is not of the scene.
-template <class Bend, class Move>
-bool apply(const Pose& pose, Pose& last, SceneBuffers& scene, Bend&& bend, Move&& move) {
-  const auto within = [](std::size_t begin, std::size_t count, std::size_t end) {
-    return begin <= end && count <= end - begin;
-  };
-  for (const PosedInstance& at : pose.instances) {
-    if (at.instance >= scene.boxes().size() || at.bounds_world.empty()) return false;
-  }
-  for (const PosedVertices& range : pose.vertices) {
-    if (!within(range.first_vertex, range.count, scene.vertex_count()) ||
-        !within(range.first, range.count, std::min(pose.positions.size(), pose.normals.size())))
-      return false;
-  }
-  const bool comparable =
-      last.instances.size() == pose.instances.size() && last.vertices.size() == pose.vertices.size();
-  std::vector<bool> bent(pose.instances.empty() ? 0 : scene.boxes().size());
-  for (std::size_t i = 0; i < pose.vertices.size(); ++i) {
-    const PosedVertices& range = pose.vertices[i];
-    const auto positions = std::span(pose.positions).subspan(range.first, range.count),
-               normals = std::span(pose.normals).subspan(range.first, range.count);
-    const auto same = [&](std::span<const glm::vec3> now, const std::vector<glm::vec3>& before) {
-      return comparable && within(last.vertices[i].first, range.count, before.size()) &&
-             std::equal(now.begin(), now.end(),
-                        before.begin() + static_cast<std::ptrdiff_t>(last.vertices[i].first));
-    };
-    if (comparable && last.vertices[i].first_vertex == range.first_vertex &&
-        same(positions, last.positions) && same(normals, last.normals))
-      continue;
-    if (range.instance < bent.size()) bend(range, positions);
-    scene.bend(range.first_vertex, positions, normals);
-    if (range.instance < bent.size()) bent[range.instance] = true;
-  }
-  for (std::size_t i = 0; i < pose.instances.size(); ++i) {
-    const PosedInstance& at = pose.instances[i];
-    const bool rests = comparable && !bent[at.instance] && last.instances[i] == at;
-    if (rests) continue;
-    Instance to;
-    to.world_from_object = at.world_from_object;
-    to.mirrored = at.mirrored;
-    to.bounds_world = at.bounds_world;
-    move(at.instance, to);
-  }
-  last = pose;
-  return true;
 }
 
 }  // namespace
@@ -285,44 +230,6 @@ void Renderer::Impl::forget_moved() noexcept {
   movers.forget_changes();
 }
 
-void Renderer::Impl::move(std::size_t instance, const Instance& to) {
-  movers.move(instance, to.bounds_world);
-  scene.move(instance, to);
-}
-
-bool Renderer::move_instance(std::size_t instance, const Instance& to) {
-  if (instance >= impl_->scene.boxes().size() || to.bounds_world.empty()) return false;
-  impl_->posed = {};
-  impl_->move(instance, to);
-  return true;
-}
-
-bool Renderer::apply_pose(const Pose& pose) {
-  Impl& impl = *impl_;
-  return apply(
-      pose, impl.posed, impl.scene,
-      [&](const PosedVertices& range, std::span<const glm::vec3> positions) {
-        impl.movers.bend(range.instance, range.first_vertex, positions);
-      },
-      [&](std::size_t instance, const Instance& to) { impl.move(instance, to); });
-}
-
-bool Renderer::move_pane(std::size_t instance, const Instance& to) {
-  Impl& impl = *impl_;
-  if (!impl.panes || instance >= impl.panes->scene().boxes().size() || to.bounds_world.empty()) return false;
-  impl.pane_posed = {};
-  impl.panes->move(instance, to);
-  return true;
-}
-
-bool Renderer::apply_pane_pose(const Pose& pose) {
-  Impl& impl = *impl_;
-  if (!impl.panes) return pose.instances.empty() && pose.vertices.empty();
-  return apply(
-      pose, impl.pane_posed, impl.panes->scene(), [](const PosedVertices&, std::span<const glm::vec3>) {},
-      [&](std::size_t instance, const Instance& to) { impl.panes->move(instance, to); });
-}
-
 void Renderer::add_panes(const Scene& panes) {
   impl_->panes.reset();
   impl_->pane_posed = {};
@@ -373,11 +280,11 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     drawn = impl.place_scene(plan, camera.position);
     for (std::size_t i = 0; i < plan.maps().size(); ++i)
       drawn.map[i].even_scale = static_cast<float>(std::max(-curves[i], 0.0));
-    impl.lists.build({plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
-                      info_of(options.depth_layer).peels || impl.drew_silhouettes,
-                      impl.movers.changed_world(), impl.movers.static_changed_world(), impl.moves(options),
-                      impl.movers.moved(), impl.movers.named_world()},
-                     drawn, camera, impl.layered_rule(options));
+    impl.lists.build(
+        {plan, options.prune, options.lost_shadow_share, reads_everywhere(filter.settings, plan),
+         info_of(options.depth_layer).peels || impl.drew_silhouettes, impl.movers.changed_world(),
+         impl.movers.static_changed_world(), impl.moves(options), &impl.movers},
+        drawn, camera, impl.layered_rule(options));
     if (plan.map_count > 0) impl.movers.finish_frame();
     impl.draw_shadow_maps(plan, drawn, depth_draw(options));
     if (impl.drew_silhouettes)
@@ -414,98 +321,6 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     stats.map_bytes += impl.silhouettes->bytes();
     stats.scratch_bytes += impl.silhouettes->scratch_bytes();
   }
-  return stats;
-}
-
-PreparedFilter Renderer::prepare_pages(const FilterSettings& settings) {
-  const FilterSettings fitted = settings_for_pages(settings);
-  const PreparedFilter prepared = prepare(fitted);
-  make_pages_programs(fitted, impl_->filter_programs[prepared.program]);
-  impl_->reads_pages = true;
-  if (impl_->panes) impl_->panes->prepare_pages();
-  return prepared;
-}
-
-FrameStats Renderer::draw(const PagePlan& plan, const Camera& camera, const PreparedFilter& filter,
-                          const FrameOptions& options) noexcept {
-  Impl& impl = *impl_;
-  // What the passes read of a plan besides its maps: the light, and how the first page stores depth.
-  ShadowPlan of_light;
-  of_light.origin_world = plan.origin_world;
-  of_light.light_direction = plan.light_direction;
-  of_light.clip_space = plan.clip_space;
-  of_light.bias = plan.bias;
-  if (plan.pages.empty() || !impl.filter_programs[filter.program].mask_pages)
-    return draw(of_light, camera, filter, options);
-  of_light.map_count = 1;
-  of_light.map[0] = page_map(plan, plan.pages[0]);
-  if (impl.light_pass) impl.light_pass->holds = false;
-  FrameStats stats;
-  const PassTimer timed{stats, options.time_passes};
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  impl.targets.resize(camera.width, camera.height);
-  const PagePool::Extent extent = impl.pages.fit(plan);
-  if (impl.maps.fit(extent.side, extent.side, extent.layers)) impl.pages.forget();
-  impl.lists.forget_maps();
-  impl.history.forget();  // the mask is this frame's alone
-  impl.map_count = 0;
-  impl.take_layer(options.depth_layer, options.dual_limit_texels);
-  const BlurSides blur = blur_sides(filter.settings, of_light);
-  const DepthCurves curves = depth_curves(of_light);
-  FilterBlock filtering = filter_block(filter.settings, blur);
-  set_depth_curves(curves, filtering);
-  filtering.sums.w = options.receiver_plane ? 0.0f : 1.0f;
-  const FrameBlock block = frame_block(of_light, camera, options, extent.side, extent.side, blur, curves);
-  glm::dvec3 origin_world(0.0);
-  timed(Pass::shadow_maps, [&] {
-    impl.upload(block, filtering);
-    origin_world = impl.place_scene({}, camera.position).origin_world;
-    impl.take_moved(options.moved_world);
-    const bool alpha_test = options.prune.has(PruneRule::alpha_test);
-    const bool in_runs = options.map_passes != MapPasses::each && !info_of(options.depth_layer).peels;
-    impl.pages.build(plan, {origin_world, alpha_test, options.prune.has(PruneRule::held_maps),
-                            in_runs && impl.tells_apart(options), in_runs, impl.movers.static_changed_world(),
-                            impl.movers.changed_world()});
-    impl.lists.build_pages(impl.pages.drawn(), camera, options.prune,
-                           in_runs ? impl.moves(options) : std::span<const std::uint8_t>{});
-    impl.movers.finish_frame();
-    impl.draw_pages(of_light, depth_draw(options), kBlockPages * plan.page_texels + 2 * plan.border_texels);
-  });
-  timed(Pass::surfaces,
-        [&] { impl.draw_surfaces(impl.targets.surfaces_fbo.name(), impl.programs.surfaces); });
-  const FilterPrograms& programs = impl.filter_programs[filter.program];
-  timed(Pass::prefilter, [&] {
-    impl.stored_pages.send_levels(plan, filter.settings);
-    impl.stored_pages.build(programs, filter.settings, filtering, impl.filter_buffer.name(), impl.pages,
-                            impl.maps.depth.name());
-  });
-  timed(Pass::mask, [&] {
-    impl.pages.bind();
-    impl.bind_noise(options.noise);
-    impl.draw_mask(programs.mask_pages, impl.targets.mask_fbo.name(), true);
-  });
-  if (impl.panes) timed(Pass::panes, [&] { impl.draw_transmittance(plan, origin_world, camera); });
-  timed(Pass::shade, [&] { impl.draw_shade(block, camera.position); });
-  stats.pane_texels = impl.panes ? impl.panes->texels() : 0;
-  stats.map_count = 1;
-  stats.map[0] = impl.work_of_map(0);
-  const auto slot_texels =
-      static_cast<std::uint64_t>(plan.slot_texels()) * static_cast<std::uint64_t>(plan.slot_texels());
-  stats.texels = stats.map[0].texels = impl.pages.pages().size() * slot_texels;
-  stats.saved = impl.lists.saved();
-  stats.camera = impl.lists.camera_stats();
-  stats.prefilter_passes = impl.stored_pages.passes();
-  stats.filtered_texels = impl.stored_pages.filtered_texels();
-  stats.map_bytes = impl.maps.bytes() + impl.stored_pages.bytes() + (impl.panes ? impl.panes->bytes() : 0);
-  stats.scratch_bytes = impl.stored_pages.scratch_bytes() + impl.depth_peel.bytes() + impl.page_stage.bytes();
-  stats.pages = static_cast<int>(plan.pages.size());
-  stats.pages_drawn = static_cast<int>(impl.pages.pages().size());
-  stats.pages_composed =
-      static_cast<int>(std::count_if(impl.pages.pages().begin(), impl.pages.pages().end(),
-                                     [](const BlockPage& page) { return page.drawn.composed; }));
-  PruneSaving& held = stats.saved[static_cast<std::size_t>(PruneRule::held_maps)];
-  held.maps = static_cast<std::uint64_t>(stats.pages - stats.pages_drawn);
-  held.texels = held.maps * slot_texels;
   return stats;
 }
 

@@ -61,6 +61,8 @@ struct DepthDraw {
   [[nodiscard]] PeeledDepth peeled(const ShadowPlan& plan, const ShadowMap& map) const noexcept;
 };
 
+[[nodiscard]] DepthDraw depth_draw(const FrameOptions& options) noexcept;
+
 struct Renderer::Impl {
   explicit Impl(const Scene& scene);
 
@@ -130,6 +132,8 @@ struct Renderer::Impl {
   [[nodiscard]] MapStats work_of_map(int map) const noexcept;
   /// What the draw lists of this plan held.
   void count_work(const ShadowPlan& plan, FrameStats& stats) const noexcept;
+  /// The same of pages, with what their images take.
+  void count_pages(const PagePlan& plan, FrameStats& stats) const noexcept;
   void draw_shadow_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const DepthDraw& how) noexcept;
   /// Brings the maps of static casters up to date; whole copies go to the maps of all casters.
   void draw_static_maps(const DrawnMaps& drawn, const DepthDraw& how) noexcept;

@@ -51,8 +51,8 @@ class SceneBuffers {
   [[nodiscard]] std::size_t vertex_count() const noexcept { return vertex_count_; }
   /// Takes those for the next draws.
   void use(Placed placed) const noexcept;
-  /// From one place of the maps' origin to the next, a power of two: 1/4 of the scene's diagonal or less.
-  /// What is kept wants an origin that stays; this one is as near the camera as two bits of a float allow.
+  /// The maps' origin follows the camera in steps of this length, a power of two: 1/4 of the scene's diagonal
+  /// or less. Each step draws what is kept again; longer ones round positions near the camera more coarsely.
   [[nodiscard]] double origin_step() const noexcept { return origin_step_; }
   /// Of the box round all instances, world units; 0 for an empty scene.
   [[nodiscard]] double diagonal() const noexcept { return diagonal_; }

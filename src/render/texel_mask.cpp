@@ -30,6 +30,11 @@ int last_texel(double place, int count) noexcept {
 
 }  // namespace
 
+TexelRect joined(const TexelRect& a, const TexelRect& b) noexcept {
+  const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);
+  return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
+}
+
 void TexelMask::reset(int width, int height) {
   if (is_of(width, height)) {
     const auto row = [this](int r) { return bits_.begin() + static_cast<std::ptrdiff_t>(words_) * r; };
@@ -213,17 +218,8 @@ std::span<const TexelRect> TexelMask::rectangles(std::size_t most) {
     // Neighbours in the list are neighbours in the map, more or less.
     std::size_t kept = 0;
     for (std::size_t i = 0; i < rectangles_.size(); i += 2) {
-      TexelRect both = rectangles_[i];
-      if (i + 1 < rectangles_.size()) {
-        const TexelRect& other = rectangles_[i + 1];
-        const int right = std::max(both.x + both.width, other.x + other.width),
-                  top = std::max(both.y + both.height, other.y + other.height);
-        both.x = std::min(both.x, other.x);
-        both.y = std::min(both.y, other.y);
-        both.width = right - both.x;
-        both.height = top - both.y;
-      }
-      rectangles_[kept++] = both;
+      const TexelRect& other = rectangles_[std::min(i + 1, rectangles_.size() - 1)];
+      rectangles_[kept++] = joined(rectangles_[i], other);
     }
     rectangles_.resize(kept);
   }

@@ -12,6 +12,9 @@
 
 namespace gnomon::render {
 
+/// The smallest rectangle that holds both; neither is empty.
+[[nodiscard]] TexelRect joined(const TexelRect& a, const TexelRect& b) noexcept;
+
 /// Maps of up to kMostCells a side are marked by the texel, larger ones by squares of 2, 4, ... texels. Its
 /// memory is used again.
 class TexelMask {
@@ -55,7 +58,7 @@ class TexelMask {
   [[nodiscard]] Cells cells_between(const glm::dvec2& low, const glm::dvec2& high) const noexcept;
   void mark_row(int row, int first_column, int last_column) noexcept;
   void mark_all(const Cells& cells) noexcept;
-  /// True where all of them are marked; may be false there.
+  /// True: all of them are marked. False: some may not be.
   [[nodiscard]] bool holds(const Cells& cells) const noexcept;
   /// Widens the outline's rows by an edge.
   void add_to_outline(glm::dvec2 a, glm::dvec2 b, double room) noexcept;

@@ -8,11 +8,12 @@
 // (PruneRule::static_casters), one that keeps maps and pages without that rule, and one that draws
 // everything. Texels of maps and pixels of the mask in which the first two differ from the third are stale.
 //
-// In percent of the texels that drawing everything takes: "drawn", by the rule; "exact", those that a caster
-// which moved covers now or covered in the frame before, hidden or not, or all of a map that lies elsewhere
-// than it lay; "changed", those that are others than in the frame before; of pages all texels of any such
-// page. Then, per frame with the rule, without it and all: triangles in the
-// mean, and milliseconds of the shadow map pass in the median. The first frame draws everything: not counted.
+// In percent of the texels that drawing everything takes: "drawn", by the rule, and without it; "exact",
+// those that a caster which moved covers now or covered in the frame before, hidden or not, or all of a map
+// that lies elsewhere than it lay; "changed", those that are others than in the frame before, of pages all
+// texels of any such page. "Drawn over exact" is a ratio. Then, per frame with the rule, without it and all:
+// triangles in the mean, and milliseconds of the shadow map pass in the median. The first frame draws
+// everything: not counted.
 #include <glad/gl.h>
 
 #include <algorithm>
@@ -29,6 +30,7 @@
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/pose.hpp"
+#include "guarded.hpp"
 #include "median.hpp"
 #include "page_storage.hpp"
 
@@ -305,9 +307,8 @@ void run(const std::string& name, const Scene& scene, int frames, const Rows& ro
   Playing playing(scene);
   std::printf("\n%s, %d frames of '%s'\n", name.c_str(), frames, scene.motion.animations[0].name.c_str());
   std::printf(
-      "| | drawn, %% | without | exact | drawn over exact | changed | triangles | without | all | ms | "
-      "without | all | stale "
-      "texels | stale pixels |\n");
+      "| | drawn, %% | without | exact | drawn over exact | changed | triangles | without | all "
+      "| ms | without | all | stale texels | stale pixels |\n");
   for (const bool flies : {false, true}) {
     if (rows.maps)
       print(flies ? "maps, camera flies" : "maps, camera at rest", maps(playing, frames, flies), frames);
@@ -318,19 +319,23 @@ void run(const std::string& name, const Scene& scene, int frames, const Rows& ro
   }
 }
 
-}  // namespace
-}  // namespace gnomon
-
-int main(int argc, char** argv) {
+int run_all(int argc, char** argv) {
   const int frames = argc > 1 ? std::max(std::atoi(argv[1]), 2) : 600;
   int next = 2;
-  gnomon::Rows rows;
+  Rows rows;
   if (const std::string_view only = argc > next ? argv[next] : ""; only == "maps" || only == "pages") {
     rows = {only == "maps", only == "pages"};
     ++next;
   }
-  const auto context = gnomon::render::create_context(gnomon::render::ContextKind::automatic);
-  if (next >= argc) gnomon::run("test scene", gnomon::test::animated_gltf().load(), frames, rows);
-  for (int i = next; i < argc; ++i) gnomon::run(argv[i], gnomon::load_gltf(argv[i]), frames, rows);
+  const auto context = render::create_context(render::ContextKind::automatic);
+  if (next >= argc) run("test scene", test::animated_gltf().load(), frames, rows);
+  for (int i = next; i < argc; ++i) run(argv[i], load_gltf(argv[i]), frames, rows);
   return 0;
+}
+
+}  // namespace
+}  // namespace gnomon
+
+int main(int argc, char** argv) {
+  return gnomon::guarded("bench_animated", gnomon::run_all, argc, argv);
 }

@@ -23,6 +23,7 @@
 #include "gnomon/scene/coarse_view.hpp"
 #include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/load.hpp"
+#include "guarded.hpp"
 #include "median.hpp"
 #include "quiet.hpp"
 
@@ -186,10 +187,6 @@ int run(const Request& request) {
 }  // namespace gnomon
 
 int main(int argc, char** argv) {
-  try {
-    return gnomon::run(gnomon::parsed(argc, argv));
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_coarse_depths: %s\n", error.what());
-    return 2;
-  }
+  const auto run = [](int count, char** words) { return gnomon::run(gnomon::parsed(count, words)); };
+  return gnomon::guarded("bench_coarse_depths", run, argc, argv);
 }

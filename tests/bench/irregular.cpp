@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -21,6 +20,7 @@
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/trace/reference.hpp"
+#include "guarded.hpp"
 #include "quiet.hpp"
 
 namespace gnomon {
@@ -196,10 +196,6 @@ int run(const Request& request) {
 }  // namespace gnomon
 
 int main(int argc, char** argv) {
-  try {
-    return gnomon::run(gnomon::parsed(argc, argv));
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_irregular: %s\n", error.what());
-    return 2;
-  }
+  const auto run = [](int count, char** words) { return gnomon::run(gnomon::parsed(count, words)); };
+  return gnomon::guarded("bench_irregular", run, argc, argv);
 }

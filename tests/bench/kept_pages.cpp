@@ -24,6 +24,7 @@
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/load.hpp"
+#include "guarded.hpp"
 #include "median.hpp"
 #include "page_storage.hpp"
 #include "quiet.hpp"
@@ -340,11 +341,7 @@ void walk(Flight& flight, const PagePolicy& policy) {
   std::fflush(stdout);
 }
 
-}  // namespace
-}  // namespace gnomon
-
-int main(int argc, char** argv) {
-  using namespace gnomon;
+int run_all(int argc, char** argv) {
   const int frames = argc > 1 ? std::atoi(argv[1]) : 40;
   const bool walks_alone = frames == 0;
   if ((frames != 0 && frames < 3) || frames > kFlightFrames) {
@@ -384,4 +381,11 @@ int main(int argc, char** argv) {
                 cascades_ms(flight, std::min(frames, kRedrawn), false), cascades_ms(flight, frames, true));
   }
   return 0;
+}
+
+}  // namespace
+}  // namespace gnomon
+
+int main(int argc, char** argv) {
+  return gnomon::guarded("bench_kept_pages", gnomon::run_all, argc, argv);
 }

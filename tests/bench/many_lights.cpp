@@ -19,6 +19,7 @@
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
+#include "guarded.hpp"
 #include "median.hpp"
 #include "quiet.hpp"
 
@@ -175,11 +176,7 @@ void measure(render::Renderer& renderer, const Scene& scene, const std::vector<B
   }
 }
 
-}  // namespace
-}  // namespace gnomon
-
-int main(int argc, char** argv) {
-  using namespace gnomon;
+int run_all(int argc, char** argv) {
   const auto context = render::create_context(render::ContextKind::automatic);
   const Scene scene = load_scene(argc > 1 ? argv[1] : "builtin:hangar");
   const int rounds = argc > 2 ? std::max(std::atoi(argv[2]), 0) : 9;
@@ -197,4 +194,11 @@ int main(int argc, char** argv) {
       argc > 4 ? std::vector<int>{std::clamp(std::atoi(argv[4]), 1, 4095)} : std::vector<int>{24, 64, 256};
   for (const int count : counts) measure(renderer, scene, boxes, camera, count, rounds);
   return 0;
+}
+
+}  // namespace
+}  // namespace gnomon
+
+int main(int argc, char** argv) {
+  return gnomon::guarded("bench_many_lights", gnomon::run_all, argc, argv);
 }

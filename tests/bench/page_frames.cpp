@@ -19,6 +19,7 @@
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/trace/reference.hpp"
+#include "guarded.hpp"
 #include "median.hpp"
 #include "page_storage.hpp"
 #include "quiet.hpp"
@@ -169,31 +170,36 @@ void compare(Frame& frame, const std::string& name, int map_size, PageStorage& m
   }
 }
 
-}  // namespace
-}  // namespace gnomon
-
-int main(int argc, char** argv) {
+int run_all(int argc, char** argv) {
   const std::string folder = argc > 1 && std::string(argv[1]) != "-" ? argv[1] : "";
   if (!folder.empty()) std::filesystem::create_directories(folder);
-  std::vector<gnomon::render::FilterSettings> filters;
+  std::vector<render::FilterSettings> filters;
   for (int i = 2; i < argc; ++i) {
-    const gnomon::render::ParsedFilter parsed = gnomon::render::parse_filter(argv[i]);
+    const render::ParsedFilter parsed = render::parse_filter(argv[i]);
     if (!parsed.error.empty()) {
       std::fprintf(stderr, "%s\n", parsed.error.c_str());
       return 2;
     }
     filters.push_back(parsed.settings);
   }
-  if (filters.empty()) filters.push_back(gnomon::render::default_settings(gnomon::render::filters::hard));
-  const auto context = gnomon::render::create_context();
+  if (filters.empty()) filters.push_back(render::default_settings(render::filters::hard));
+  const auto context = render::create_context();
   std::printf("%-8s %-12s %-22s %9s %10s %9s %9s %9s\n", "scene", "filter", "technique", "texels/px",
               "wrong, %", "ms", "prefilter", "kept, ms");
-  gnomon::PageStorage memory(1 << 14, std::size_t{gnomon::kWidth} * gnomon::kHeight);
-  for (const gnomon::BuiltinScene& scene : gnomon::builtin_scenes()) {
+  PageStorage memory(1 << 14, std::size_t{kWidth} * kHeight);
+  for (const BuiltinScene& scene : builtin_scenes()) {
     const std::string name(scene.name);
-    gnomon::Frame frame(name, 0.5);
+    Frame frame(name, 0.5);
     for (const int map_size : {512, 1024})
-      for (const gnomon::render::FilterSettings& filter : filters)
-        gnomon::compare(frame, name, map_size, memory, folder, filter);
+      for (const render::FilterSettings& filter : filters)
+        compare(frame, name, map_size, memory, folder, filter);
   }
+  return 0;
+}
+
+}  // namespace
+}  // namespace gnomon
+
+int main(int argc, char** argv) {
+  return gnomon::guarded("bench_page_frames", gnomon::run_all, argc, argv);
 }

@@ -2,14 +2,19 @@
 // moving casters cost their own triangles alone?
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 #include <random>
+#include <set>
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "gnomon/render/renderer.hpp"
 #include "mask_frame.hpp"
 #include "moving_casters.hpp"
+#include "page_runs.hpp"
 #include "page_storage.hpp"
 #include "test_scene.hpp"
 
@@ -36,8 +41,10 @@ struct Pair {
   PageOptions pages;
   PageStorage memory{4096, 1 << 17};
   FilterSettings filter = default_settings(filters::hard);
+  FilterSettings looks = default_settings(filters::hard);  ///< of the frame that finds points for pages
   FrameOptions drawing;
   FrameStats last, whole;
+  std::size_t blocks = 0;  ///< with a page that the last frame drew
 
   explicit Pair(const Scene& of = boxes_on_ground())
       : scene(of), keeps(scene), redraws(scene), boxes(boxes_of(scene)) {
@@ -62,10 +69,10 @@ struct Pair {
     at.bounds_world = {at.bounds_world.min + by, at.bounds_world.max + by};
     place(instance, at);
   }
-  /// Named bounds empty slots of the pool: both must have their pages in the same, as texels are rounded by
-  /// their place.
+  /// Draws everything, and needs no bounds of what moved.
   [[nodiscard]] static FrameOptions all_of(FrameOptions how) {
     how.prune = kRedrawing;
+    how.moved_world = {};
     return how;
   }
   /// Texels and pixels of a frame of maps that differ.
@@ -86,7 +93,7 @@ struct Pair {
   std::size_t stale_pages(const Camera& camera) {
     PlanOptions with = options;
     set_margin(filter, with);
-    keeps.draw(ShadowPlan{}, camera, keeps.prepare(filter), drawing);
+    keeps.draw(ShadowPlan{}, camera, keeps.prepare(looks), drawing);
     const FloatImage at = keeps.positions();
     std::vector<glm::dvec3> points;
     for (std::size_t i = 0; i < at.values.size(); i += 4 * 3) {
@@ -98,10 +105,14 @@ struct Pair {
     last = keeps.draw(plan, camera, keeps.prepare_pages(filter), drawing);
     whole = redraws.draw(plan, camera, redraws.prepare_pages(filter), all_of(drawing));
     std::size_t differ = keeps.mask().values == redraws.mask().values ? 0 : 1;
+    std::set<std::tuple<std::uint32_t, std::int64_t, std::int64_t>> drawn;
     for (std::size_t i = 0; i < plan.pages.size(); ++i) {
+      const PageBlock block = block_of(plan, plan.pages[i]);
+      if (keeps.drew_page(i)) drawn.insert({block.level, block.column, block.row});
       const std::vector<float> a = keeps.page_depths(i).values, b = redraws.page_depths(i).values;
       for (std::size_t k = 0; k < a.size(); ++k) differ += a[k] != b[k];
     }
+    blocks = drawn.size();
     return differ;
   }
   [[nodiscard]] std::uint64_t triangles() const {
@@ -157,6 +168,7 @@ TEST(StaticCasters, the_rule_changes_no_pixel) {
 TEST(StaticCasters, maps_without_static_casters_have_no_copies) {
   Pair pair;
   ASSERT_EQ(pair.stale(going(0)), 0u);
+  const std::uint64_t bytes = pair.last.map_bytes;
   const auto move_all = [&] {
     for (std::size_t i = 0; i < pair.boxes.size(); ++i) pair.move(i, {0.13, 0.0, -0.07});
   };
@@ -164,6 +176,7 @@ TEST(StaticCasters, maps_without_static_casters_have_no_copies) {
     move_all();
     ASSERT_EQ(pair.stale(going(0)), 0u) << "frame " << frame;
     EXPECT_EQ(pair.copied(), 0u) << "frame " << frame;
+    EXPECT_EQ(pair.last.map_bytes, bytes) << "frame " << frame;
   }
   // All but one come to rest, and lie beneath it then.
   for (int frame = 0; frame < MovingCasters::kRestFrames + 4; ++frame) {
@@ -171,6 +184,7 @@ TEST(StaticCasters, maps_without_static_casters_have_no_copies) {
     ASSERT_EQ(pair.stale(going(0)), 0u) << "frame " << frame;
   }
   EXPECT_GT(pair.copied(), 0u);
+  EXPECT_GT(pair.last.map_bytes, bytes);
   move_all();
   ASSERT_EQ(pair.stale(going(0)), 0u) << "static casters begin to move";
 }
@@ -225,6 +239,7 @@ TEST(StaticCasters, layers_that_are_peeled_are_drawn_whole) {
 }
 
 TEST(StaticCasters, pages_compose_what_a_walking_box_reaches) {
+  std::size_t pages = 0, blocks = 0;
   for (const Light& light : all_lights()) {
     for (const PagePolicy* policy : {&page_policies::resolution, &page_policies::clipmap}) {
       SCOPED_TRACE(std::string(policy->name) + ", light " + std::to_string(light.index()));
@@ -245,12 +260,24 @@ TEST(StaticCasters, pages_compose_what_a_walking_box_reaches) {
       pair.move(1, {0.05, 0.0, -0.02});
       ASSERT_EQ(pair.stale_pages(going(8)), 0u);
       EXPECT_EQ(pair.last.pages_composed, pair.last.pages_drawn);
-      // Once for all neighbouring pages of a block.
-      EXPECT_EQ(pair.triangles() % kBoxTriangles, 0u);
-      EXPECT_GE(pair.triangles(), kBoxTriangles);
-      EXPECT_LE(pair.triangles(), kBoxTriangles * static_cast<std::uint64_t>(pair.last.pages_drawn));
+      EXPECT_EQ(pair.triangles(), kBoxTriangles * pair.blocks) << "once for all pages of a block";
+      pages += static_cast<std::size_t>(pair.last.pages_drawn);
+      blocks += pair.blocks;
     }
   }
+  EXPECT_GT(blocks, 0u);
+  EXPECT_LT(blocks, pages);
+}
+
+TEST(StaticCasters, pages_compose_after_frames_that_drew_outlines) {
+  Pair pair;
+  pair.looks = default_settings(filters::silhouette);
+  ASSERT_EQ(pair.stale_pages(going(0)), 0u);
+  for (int frame = 0; frame < 2; ++frame) {
+    pair.move(1, {0.1, 0.0, 0.0});
+    ASSERT_EQ(pair.stale_pages(going(0)), 0u);
+  }
+  EXPECT_GT(pair.last.pages_composed, 0);
 }
 
 TEST(StaticCasters, a_page_out_of_view_while_a_caster_walks_is_right_when_it_comes_back) {
@@ -267,6 +294,49 @@ TEST(StaticCasters, a_page_out_of_view_while_a_caster_walks_is_right_when_it_com
     ASSERT_EQ(pair.stale_pages(away), 0u);
   }
   ASSERT_EQ(pair.stale_pages(going(0)), 0u);
+}
+
+TEST(CasterShapes, a_mesh_that_bends_before_it_is_read_has_bounds_alone_for_what_it_was) {
+  const Scene scene = box_on_ground();
+  SceneBuffers buffers(scene);
+  CasterShapes shapes(buffers);
+  const Primitive& box = scene.primitives[scene.instances[1].primitive];
+  const auto indices = std::span(scene.indices).subspan(box.first_index, box.index_count);
+  const auto [first, last] = std::minmax_element(indices.begin(), indices.end());
+  const std::size_t count = *last - *first + 1;
+  const auto bend = [&, begin = *first](float by) {
+    std::vector<glm::vec3> positions(scene.positions.begin() + begin,
+                                     scene.positions.begin() + begin + count);
+    for (glm::vec3& position : positions) position.y += by;
+    shapes.bend(1, begin, positions);
+    buffers.bend(begin, positions, std::span(scene.normals).subspan(begin, count));
+  };
+  const auto height = [](const CasterShape& shape) {
+    float highest = 0.0f;
+    for (const glm::vec3& position : shape.positions) highest = std::max(highest, position.y);
+    return highest;
+  };
+  bend(0.25f);
+  std::span<const MovedCaster> moved = shapes.moved();
+  ASSERT_EQ(moved.size(), 1u);
+  EXPECT_EQ(moved[0].from.size(), 0u);
+  EXPECT_EQ(moved[0].from.bounds_world.max, scene.instances[1].bounds_world.max);
+  EXPECT_EQ(moved[0].to.size(), kBoxTriangles);
+  EXPECT_EQ(height(moved[0].to), kBoxMax.y + 0.25f);
+  shapes.forget_moves();
+  EXPECT_TRUE(shapes.moved().empty());
+  bend(0.5f);
+  moved = shapes.moved();
+  ASSERT_EQ(moved.size(), 1u);
+  EXPECT_EQ(moved[0].from.size(), kBoxTriangles);
+  EXPECT_EQ(height(moved[0].from), kBoxMax.y + 0.25f);
+  EXPECT_EQ(height(moved[0].to), kBoxMax.y + 0.5f);
+  shapes.forget_moves();
+  shapes.keep(1);
+  moved = shapes.moved();
+  ASSERT_EQ(moved.size(), 1u);
+  EXPECT_EQ(height(moved[0].from), kBoxMax.y + 0.5f);
+  EXPECT_EQ(height(moved[0].to), kBoxMax.y + 0.5f);
 }
 
 // Everything that a scene can do, in random order.
