@@ -52,6 +52,16 @@ vec3 shares_before(vec4 moments, vec3 mean_places, float share) {
   return 1.0 - (1.0 - first_of) * ((1.0 - share) / max(1.0 - first, 1e-9));
 }
 
+// Bilinear by hand: the images may be larger than this frame needs, and what hardware makes of a place in them changes by
+// roundings with their size. `last`: the largest texel.
+vec4 between_texels(sampler2DArray images, vec2 texel, ivec2 last, int layer) {
+  vec2 first = floor(texel - 0.5), part = texel - 0.5 - first;
+  ivec2 a = ivec2(first), b = min(a + 1, last);
+  vec4 low = mix(texelFetch(images, ivec3(a, layer), 0), texelFetch(images, ivec3(b.x, a.y, layer), 0), part.x);
+  vec4 high = mix(texelFetch(images, ivec3(a.x, b.y, layer), 0), texelFetch(images, ivec3(b, layer), 0), part.x);
+  return mix(low, high, part.y);
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   Surface s = surface_at(pixel);
@@ -62,12 +72,13 @@ void main() {
   if (any(lessThan(place.texel, place.drawn.xy)) || any(greaterThan(place.texel, place.drawn.zw))) return;
   // At the edge of a map nothing beyond it is read; other edges are empty.
   vec2 texel = clamp(place.texel, place.drawn.xy + 0.5, place.drawn.zw - 0.5);
-  vec3 at = vec3(texel / vec2(textureSize(pane_absorbance, 0).xy), place.layer);
-  vec3 absorbed = textureLod(pane_absorbance, at, 0.0).rgb;
-  vec4 places = textureLod(pane_places, at, 0.0);
+  ivec2 last = ivec2(place.drawn.zw) - 1;
+  int layer = int(place.layer);
+  vec3 absorbed = between_texels(pane_absorbance, texel, last, layer).rgb;
+  vec4 places = between_texels(pane_places, texel, last, layer);
   const float kNothing = 1e-6;
   if (places.a < kNothing) return;
-  vec4 moments = textureLod(pane_moments, at, 0.0) / places.a;
+  vec4 moments = between_texels(pane_moments, texel, last, layer) / places.a;
   float share = share_before(moments, share_of_range(s.position));
   transmittance_out.rgb = exp(-absorbed * shares_before(moments, places.rgb / max(absorbed, vec3(1e-9)), share));
 }

@@ -11,6 +11,7 @@
 #include "gnomon/render/renderer.hpp"
 #include "light_lists.hpp"
 #include "page_pool.hpp"
+#include "pane_pass.hpp"
 
 namespace gnomon::render {
 
@@ -32,6 +33,8 @@ struct LightPass {
   std::vector<DrawnPage> maps;        ///< to draw
   std::vector<std::size_t> light_of;  ///< by map to draw
   std::vector<std::uint8_t> tinted;   ///< by light: panes tint it, and it is added by itself
+  PaneRoom pane_room;                 ///< for the pane maps of any of these
+  std::uint64_t pane_texels = 0;      ///< FrameStats::pane_texels
   LightLists lists;
 };
 

@@ -218,19 +218,24 @@ void Renderer::Impl::mark_tinted(const LightPlan& plan, std::span<const DrawnLig
                                  const Camera& camera) {
   std::vector<std::uint8_t>& tinted = light_pass->tinted;
   tinted.assign(lights.size(), 0);
+  light_pass->pane_room = {};
+  light_pass->pane_texels = 0;
   if (!panes) return;
+  panes->resize(camera.width, camera.height);
+  panes->clear_image();
   for (std::size_t i = 0; i < std::min(lights.size(), plan.lights.size()); ++i) {
     if (is_dark(plan.lights[i], lights[i])) continue;
     const ShadowPlan& own = plan_of(lights[i], plan.lights[i]);
     tinted[i] =
         panes->tint(own, drawn_maps(own, camera.position, scene.origin_step()), range_of(lights[i].light));
+    if (tinted[i] != 0) light_pass->pane_room = both(light_pass->pane_room, room_for(own));
   }
 }
 
 void Renderer::Impl::add_light(const LightMaps& maps_of_light, const DrawnLight& light, bool tinted,
                                const Camera& camera, const PreparedFilter& filter,
                                const FrameOptions& options) {
-  const LightPass& pass = *light_pass;
+  LightPass& pass = *light_pass;
   const TexelRect part = lit_pixels(light.light, camera);
   if (part.empty()) return;
   const ShadowPlan& of_light = plan_of(light, maps_of_light);
@@ -249,7 +254,8 @@ void Renderer::Impl::add_light(const LightMaps& maps_of_light, const DrawnLight&
     own.light = &light.light;
     upload(frame_block(of_light, camera, own, 1, 1, BlurSides{}, depth_curves(of_light)), filtering);
     draw_transmittance(of_light, drawn_maps(of_light, camera.position, scene.origin_step()), camera, part,
-                       {.range = range_of(light.light)});
+                       {.range = range_of(light.light), .room = pass.pane_room});
+    pass.pane_texels += panes->texels();
     upload(block, filtering);
     glEnable(GL_SCISSOR_TEST);
     glScissor(part.x, part.y, part.width, part.height);
@@ -348,6 +354,7 @@ FrameStats Renderer::draw(const LightPlan& plan, std::span<const DrawnLight> lig
   stats.saved = impl.lists.saved();
   stats.camera = impl.lists.camera_stats();
   stats.lights_tinted = static_cast<int>(std::count(pass.tinted.begin(), pass.tinted.end(), 1));
+  stats.pane_texels = pass.pane_texels;
   stats.map_bytes = impl.maps.bytes();
   stats.scratch_bytes = impl.panes ? impl.panes->bytes() : 0;
   return stats;

@@ -13,11 +13,12 @@ namespace {
 // As the shaders state them.
 constexpr GLint kClip = 3;
 constexpr GLuint kRecordBinding = 6;
-// Places along each side of a layer.
-constexpr int kAcross = 8, kPerLayer = kAcross * kAcross;
-constexpr std::uint64_t kTexelBytes = 40;
-
 }  // namespace
+
+PaneRoom PanePass::PagesLook::room() const noexcept {
+  const int count = static_cast<int>(pages.size()), per_layer = across * across;
+  return {glm::ivec2(across * side), (count + per_layer - 1) / per_layer};
+}
 
 void PanePass::prepare_pages() {
   if (!pages_program_) pages_program_ = make_program("fullscreen.vert", "transmittance_pages.frag");
@@ -36,29 +37,27 @@ PanePass::PagesLook PanePass::place_pages(const PagePlan& plan, const PagePool& 
     clip[3] = clip * glm::dvec4(origin_world, 1.0);
     maps[i].clip_from_position = glm::mat4(drawn_from_plan * clip);
     maps[i].width = maps[i].height = slot;
-    if (map.shape->affine && !reached(maps[i], origin_world, panes_.boxes()).empty())
-      reached_pages.push_back(i);
+    if (!reached(maps[i], origin_world, panes_.boxes()).empty()) reached_pages.push_back(i);
   }
   PagesLook look;
   look.side = slot;
-  const auto count = static_cast<std::uint64_t>(reached_pages.size());
-  const auto bytes = [&] {
-    return kTexelBytes * count * static_cast<std::uint64_t>(look.side) *
-           static_cast<std::uint64_t>(look.side);
-  };
-  constexpr int kLeastSide = 4;
-  while (bytes() > kMostPageBytes && look.side > kLeastSide) look.side = (look.side + 1) / 2;
+  look.pages.resize(reached_pages.size());
+  // A layer no larger than all pages need, and more of them only where they need many.
+  constexpr int kMostAcross = 8, kLeastSide = 4;
+  while (look.across < kMostAcross && look.room().layers > 1) ++look.across;
+  while (look.room().bytes() > kMostPageBytes && look.side > kLeastSide) look.side = (look.side + 1) / 2;
+  const int per_layer = look.across * look.across;
   const float scale = static_cast<float>(look.side) / static_cast<float>(slot);
-  for (const std::size_t i : reached_pages) {
-    const int n = static_cast<int>(look.pages.size()), cell = n % kPerLayer;
-    PageLook page;
+  for (std::size_t n = 0; n < reached_pages.size(); ++n) {
+    const std::size_t i = reached_pages[n];
+    const int cell = static_cast<int>(n) % per_layer;
+    PageLook& page = look.pages[n];
     page.clip_from_position = maps[i].clip_from_position;
-    page.layer = n / kPerLayer;
-    page.place = look.side * glm::ivec2(cell % kAcross, cell / kAcross);
+    page.layer = static_cast<int>(n) / per_layer;
+    page.place = look.side * glm::ivec2(cell % look.across, cell / look.across);
     maps[i].width = maps[i].height = look.side;
     const Rectangle at = reached(maps[i], origin_world, panes_.boxes());
     page.at = {page.place + at.low, page.place + at.high};
-    look.pages.push_back(page);
     const TexelRect in_pool = pool.place_of(i).place;
     records[i] = {{glm::vec2(scale), glm::vec2(page.place) - scale * glm::vec2(in_pool.x, in_pool.y)},
                   {page.at.low, page.at.high},
@@ -85,7 +84,7 @@ void PanePass::draw_pages(const PagePlan& plan, const PagePool& pool, const glm:
     held_pages_ = std::move(look);
     return;
   }
-  fit(glm::ivec2(kAcross * look.side), (static_cast<int>(look.pages.size()) + kPerLayer - 1) / kPerLayer);
+  fit(look.room(), kMostPageBytes);
   begin_sums(origin_world);
   int layer = -1;
   for (const PageLook& page : look.pages) {

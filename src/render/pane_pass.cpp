@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "gnomon/render/renderer.hpp"
 #include "program.hpp"
 
 namespace gnomon::render {
@@ -24,17 +25,7 @@ constexpr GLuint kAbsorbedBinding = 2;
 Texture sums(GLenum format, const glm::ivec2& size, int layers) {
   Texture texture = make_texture(GL_TEXTURE_2D_ARRAY);
   glTextureStorage3D(texture.name(), 1, format, size.x, size.y, layers);
-  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-    glTextureParameteri(texture.name(), filter, GL_LINEAR);
-  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-    glTextureParameteri(texture.name(), wrap, GL_CLAMP_TO_EDGE);
   return texture;
-}
-
-glm::ivec2 largest_of(const ShadowPlan& plan) noexcept {
-  glm::ivec2 size(1);
-  for (const ShadowMap& map : plan.maps()) size = glm::max(size, glm::ivec2(map.width, map.height));
-  return size;
 }
 
 /// Corners of a box.
@@ -47,6 +38,21 @@ std::array<glm::dvec3, 8> corners_of(const Box& box) noexcept {
 }
 
 }  // namespace
+
+std::uint64_t PaneRoom::bytes() const noexcept {
+  return static_cast<std::uint64_t>(kPaneTexelBytes) * static_cast<std::uint64_t>(layer.x) *
+         static_cast<std::uint64_t>(layer.y) * static_cast<std::uint64_t>(layers);
+}
+
+PaneRoom both(const PaneRoom& a, const PaneRoom& b) noexcept {
+  return {glm::max(a.layer, b.layer), std::max(a.layers, b.layers)};
+}
+
+PaneRoom room_for(const ShadowPlan& plan) noexcept {
+  PaneRoom room;
+  for (const ShadowMap& map : plan.maps()) room = both(room, {{map.width, map.height}, plan.map_count});
+  return room;
+}
 
 std::uint64_t PanePass::Rectangle::area() const noexcept {
   return empty() ? 0
@@ -78,21 +84,21 @@ void PanePass::prepare_listed() {
 }
 
 std::uint64_t PanePass::bytes() const noexcept {
-  constexpr std::uint64_t kTexelBytes = 40;
-  const std::uint64_t listed = listed_ ? listed_->bytes : 0;
-  return listed + kTexelBytes * static_cast<std::uint64_t>(layer_size_.x) *
-                      static_cast<std::uint64_t>(layer_size_.y) * static_cast<std::uint64_t>(layers_);
+  return room_.bytes() + (listed_ ? listed_->bytes : 0);
 }
 
-void PanePass::fit(const glm::ivec2& layer_size, int layers) {
-  if (glm::max(layer_size, layer_size_) == layer_size_ && layers <= layers_) return;
-  layer_size_ = glm::max(layer_size, layer_size_);
-  layers_ = std::max(layers, layers_);
+void PanePass::fit(const PaneRoom& wanted, std::uint64_t most_bytes) {
+  // Sizes that follow the view differ from frame to frame: images that are a little too large stay.
+  constexpr std::uint64_t kMostWaste = 4;
+  PaneRoom room = both(wanted, room_);
+  if (room.bytes() > std::min(kMostWaste * wanted.bytes(), most_bytes)) room = wanted;
+  if (room == room_) return;
+  room_ = room;
   held_ = {};
   held_pages_.reset();
-  absorbance_ = sums(GL_RGBA16F, layer_size_, layers_);
-  moments_ = sums(GL_RGBA32F, layer_size_, layers_);
-  places_ = sums(GL_RGBA32F, layer_size_, layers_);
+  absorbance_ = sums(GL_RGBA16F, room.layer, room.layers);
+  moments_ = sums(GL_RGBA32F, room.layer, room.layers);
+  places_ = sums(GL_RGBA32F, room.layer, room.layers);
 }
 
 void PanePass::resize(int width, int height) {
@@ -101,6 +107,11 @@ void PanePass::resize(int width, int height) {
   image_ = pixel_image(GL_RGBA32F, width, height);
   image_fbo_ = make_framebuffer();
   glNamedFramebufferTexture(image_fbo_.name(), GL_COLOR_ATTACHMENT0, image_.name(), 0);
+}
+
+void PanePass::clear_image() noexcept {
+  constexpr std::array<float, 4> kAll{1.0f, 1.0f, 1.0f, 1.0f};
+  glClearTexImage(image_.name(), 0, GL_RGBA, GL_FLOAT, kAll.data());
 }
 
 PanePass::Rectangle PanePass::reached(const DrawnMap& map, const glm::dvec3& origin_world,
@@ -293,7 +304,7 @@ void PanePass::draw_maps(const ShadowPlan& plan, const DrawnMaps& drawn, const M
   drawn_.fill(glm::vec4(0.0f));
   texels_ = 0;
   if (plan.map_count == 0) return;
-  fit(largest_of(plan), plan.map_count);
+  fit(both(room_for(plan), how.room), std::numeric_limits<std::uint64_t>::max());
   light_world_ = plan.map[0].light_world;
   range_world_ = range_along(light_world_);
   show_within(light_world_, how.range);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,6 +20,18 @@
 
 namespace gnomon::render {
 
+/// Texels of images of panes.
+struct PaneRoom {
+  glm::ivec2 layer{0};
+  int layers = 0;
+  [[nodiscard]] std::uint64_t bytes() const noexcept;
+  bool operator==(const PaneRoom&) const = default;
+};
+/// What holds both.
+[[nodiscard]] PaneRoom both(const PaneRoom& a, const PaneRoom& b) noexcept;
+/// For all maps of a plan.
+[[nodiscard]] PaneRoom room_for(const ShadowPlan& plan) noexcept;
+
 class PanePass {
  public:
   /// Throws RenderError.
@@ -32,6 +46,7 @@ class PanePass {
   struct MapDraw {
     bool keep = false;   ///< maps that are the last frame's are drawn where panes moved alone
     double range = 0.0;  ///< as tint() takes it
+    PaneRoom room = {};  ///< of the images at least, for the other plans of the frame
   };
   /// Draws the panes into a layer for each map. Maps that no pane reaches, and maps whose shape bends lines,
   /// take none.
@@ -41,7 +56,7 @@ class PanePass {
   /// Compiles the program that reads pages, once. Throws RenderError.
   void prepare_pages();
   /// Draws the panes into a place for each page that they reach; after the pool has placed the plan's pages.
-  /// Places are smaller than pages where the images would take more than kMostPageBytes.
+  /// Places are smaller than pages where the images would take more than kMostPageBytes, empty ones counted.
   void draw_pages(const PagePlan& plan, const PagePool& pool, const glm::dvec3& origin_world);
   /// Likewise for bind_maps(); the pool's tables are bound.
   void bind_pages(const glm::dvec3& camera_world) noexcept;
@@ -59,6 +74,8 @@ class PanePass {
                  const glm::dvec3& camera_world);
   /// Makes the image anew where its size differs.
   void resize(int width, int height);
+  /// Makes the image that of a frame in which panes tint nothing.
+  void clear_image() noexcept;
 
   [[nodiscard]] const Program& transmittance_program() const noexcept { return transmittance_program_; }
   /// The same from pages; only after prepare_pages().
@@ -116,7 +133,8 @@ class PanePass {
   /// What decides all texels of the pages' places.
   struct PagesLook {
     std::vector<PageLook> pages;
-    int side = 0;
+    int side = 0, across = 1;  ///< texels along a place, places along a layer
+    [[nodiscard]] PaneRoom room() const noexcept;
     glm::dvec3 origin_world{0.0};
     glm::dvec4 light_world{0.0};
     glm::dvec2 range_world{0.0};
@@ -136,7 +154,8 @@ class PanePass {
   void clear_beyond(const Rectangle& before, const Rectangle& now) noexcept;
   /// Shows the panes within a local light's range.
   void show_within(const glm::dvec4& light_world, double range);
-  void fit(const glm::ivec2& layer_size, int layers);
+  /// Images of at least that size, and of at most so many bytes where they are larger.
+  void fit(const PaneRoom& wanted, std::uint64_t most_bytes);
   /// Texels of a map that boxes reach.
   [[nodiscard]] static Rectangle reached(const DrawnMap& map, const glm::dvec3& origin_world,
                                          std::span<const Box> boxes) noexcept;
@@ -154,12 +173,12 @@ class PanePass {
   Buffer order_;
   Texture absorbance_, moments_, places_, image_;
   Framebuffer map_fbo_, image_fbo_, over_fbo_;
-  glm::ivec2 layer_size_{0}, image_size_{0};
-  int layers_ = 0;
+  PaneRoom room_;
+  glm::ivec2 image_size_{0};
   std::vector<std::uint8_t> shown_;  ///< by instance: drawn into the maps at hand
   std::vector<Box> shown_world_;     ///< bounds of these
-  std::vector<Box>
-      changed_world_;  ///< bounds of panes that moved since the last draw_maps(), before and after
+  /// Bounds of panes that moved since the last draw_maps() or draw_pages(), before and after.
+  std::vector<Box> changed_world_;
   std::array<Held, kMaxMaps> held_;
   std::optional<PagesLook> held_pages_;
   std::optional<Program> pages_program_;

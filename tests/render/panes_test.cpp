@@ -1,6 +1,7 @@
 // Is the light behind panes what rays through the panes say, under any light, warp and number of panes?
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -313,6 +314,7 @@ TEST_F(Panes, many_lights_are_tinted_each_by_the_panes_before_it) {
     FrameStats stats;
     const FloatImage found = lights.sum(tinted, -1, clusters, &stats);
     EXPECT_EQ(stats.lights_tinted, 3) << "the sun, the spot and one lamp";
+    EXPECT_GT(stats.pane_texels, 0u);
     const FloatImage untinted = lights.sum(plain, -1, clusters);
     double error = 0.0, light = 0.0, tint = 0.0;
     for (std::size_t k = 0; k < truth.size(); ++k) {
@@ -326,6 +328,20 @@ TEST_F(Panes, many_lights_are_tinted_each_by_the_panes_before_it) {
   // Panes gone, nothing is left of them.
   tinted.add_panes(empty_scene());
   EXPECT_EQ(lights.sum(tinted, -1, {}).values, lights.sum(plain, -1, {}).values);
+}
+
+TEST_F(Panes, lights_that_no_pane_tints_leave_an_image_of_the_frame_without_any_tint) {
+  ManyLights lights;
+  Renderer renderer(lights.opaque);
+  renderer.add_panes(lights.panes);
+  FrameStats stats;
+  (void)lights.sum(renderer, 0, {}, &stats);
+  ASSERT_EQ(stats.lights_tinted, 1);
+  (void)lights.sum(renderer, 3, {}, &stats);
+  ASSERT_EQ(stats.lights_tinted, 0);
+  EXPECT_EQ(stats.pane_texels, 0u);
+  const FloatImage image = renderer.transmittance();
+  EXPECT_TRUE(std::all_of(image.values.begin(), image.values.end(), [](float v) { return v == 1.0f; }));
 }
 
 /// An instance somewhere else.
@@ -493,7 +509,8 @@ struct Pages {
   PageStorage memory{4096, 1 << 17};
   PagePlan plan;
 
-  Pages(const Scene& opaque, const Scene& panes, const Light& light, const PagePolicy& policy) {
+  Pages(const Scene& opaque, const Scene& panes, const Light& light, const PagePolicy& policy,
+        int page_texels = 64) {
     Renderer renderer(opaque);
     const Frame frame = render::draw(renderer, camera, ShadowPlan{}, filters::hard);
     for (std::size_t i = 0; i < frame.pixels(); ++i)
@@ -503,7 +520,7 @@ struct Pages {
     set_margin(default_settings(filters::hard), options);
     PageOptions pages;
     pages.policy = &policy;
-    pages.page_texels = 64;
+    pages.page_texels = page_texels;
     plan = plan_pages(camera, light, {boxes, boxes}, {points}, options, pages, memory.spans());
   }
 };
@@ -552,6 +569,35 @@ TEST_F(Panes, pages_are_tinted_like_maps) {
                  plain_options());
       EXPECT_EQ(renderer.image().rgba, plain.image().rgba);
     }
+}
+
+TEST_F(Panes, images_are_as_large_as_the_frame_needs_them_whatever_came_before) {
+  const Scene opaque = box_on_ground(), panes = panes_over_ground(4);
+  const Light light = DirectionalLight{kSlant};
+  for (const int texels : {64, 256}) {
+    Pages pages(opaque, panes, light, page_policies::resolution, texels);
+    ASSERT_EQ(pages.plan.status, PlanStatus::ok);
+    Renderer renderer(opaque), plain(opaque);
+    renderer.add_panes(panes);
+    const auto bytes_of_panes = [&] {
+      const auto bytes = [&](Renderer& of) {
+        return of
+            .draw(pages.plan, pages.camera, of.prepare_pages(default_settings(filters::hard)),
+                  plain_options())
+            .map_bytes;
+      };
+      return bytes(renderer) - bytes(plain);
+    };
+    const auto slot = static_cast<std::uint64_t>(pages.plan.slot_texels());
+    // Places are a square of squares.
+    EXPECT_LT(bytes_of_panes(), 2 * pages.plan.pages.size() * slot * slot * 40) << texels;
+    const std::vector<Box> boxes = all_boxes(opaque, panes);
+    PlanOptions large = plan_options("none", 4);
+    large.resolution.max_size = 2048;
+    renderer.draw(make_plan(pages.camera, light, {boxes, boxes}, large), pages.camera,
+                  renderer.prepare(filters::hard), plain_options());
+    EXPECT_LE(bytes_of_panes(), std::uint64_t{256} << 20) << texels;
+  }
 }
 
 TEST_F(Panes, pages_that_no_pane_reaches_are_not_tinted) {

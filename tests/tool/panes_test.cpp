@@ -54,6 +54,16 @@ TEST(PanesCommand, exact_shadows_pages_and_many_lights_hold_their_bounds_too) {
     }
 }
 
+TEST(PanesCommand, maps_that_bend_lines_tint_by_exact_shadows_alone_and_the_viewer_says_so) {
+  for (const json& row : rows_of({"--warp", "tsm:logarithmic", "--by", "irregular"}))
+    EXPECT_LT(row.at("mean_error").get<double>(), 0.001);
+  const Finished finished =
+      run_gnomon({"view", "builtin:glass", "--context", "osmesa", "--panes", "--warp", "tsm", "--shape",
+                  "logarithmic", "--size", "192x108", "--out", testing::TempDir() + "gnomon_panes_bent.png"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_NE(finished.err.find("no panes with shape logarithmic"), std::string::npos) << finished.err;
+}
+
 TEST(PanesCommand, a_scene_without_panes_costs_nothing) {
   for (const json& row : rows_of({"builtin:hangar"})) {
     EXPECT_EQ(row.at("tinted"), 0.0);
@@ -87,7 +97,8 @@ TEST(PanesCommand, the_viewer_shows_tinted_light_where_the_word_says_so_and_a_ha
 
 TEST(PanesCommand, refuses_another_way_in_one_line) {
   for (const std::vector<std::string>& words : {std::vector<std::string>{"panes", "--by", "clouds"},
-                                                {"panes", "--by", "lights", "--local-lights", "0"}}) {
+                                                {"panes", "--by", "lights", "--local-lights", "0"},
+                                                {"panes", "--warp", "tsm:logarithmic"}}) {
     const Finished finished = run_gnomon(words);
     EXPECT_EQ(finished.exit_code, 2);
     EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;

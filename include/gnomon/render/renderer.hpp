@@ -102,6 +102,9 @@ struct Accumulation {
   bool restart = false;  ///< forgets the history
 };
 
+/// Bytes beside each texel of a map that panes take (Renderer::add_panes).
+inline constexpr double kPaneTexelBytes = 40.0;
+
 /// How the maps of a plan are drawn. Every bit of their depths is the same.
 ///
 /// Pages: `each` draws every page by itself, the others draw neighbouring pages of a level together. Pages
@@ -247,8 +250,8 @@ class Renderer {
   /// apply_pane_pose() alone. Maps whose shape bends lines have no panes, but for exact shadows. With many
   /// lights, each that panes tint draws its pane maps in every frame, in a mask pass of its own
   /// (FrameStats::lights_tinted, Pass::mask). A scene without instances takes them away. Throws RenderError.
-  /// Costs 40 bytes for each texel of the maps, or of the pages that panes reach, these at most 256 MiB; with
-  /// exact shadows 12 for each sample instead.
+  /// Costs kPaneTexelBytes for each texel of the maps, or of the pages that panes reach, these at most 256
+  /// MiB; with exact shadows 12 for each sample instead. Where memory does not take them, nothing is tinted.
   void add_panes(const Scene& panes);
   /// Places an instance of the panes elsewhere, as move_instance() does. Pane maps that are the last frame's
   /// (the same texels and light) are drawn where it was and where it is alone, with the bits of a whole
@@ -258,7 +261,7 @@ class Renderer {
   /// The same for all panes, as apply_pose() does: pose_of_part() of a pose of the whole scene.
   bool apply_pane_pose(const Pose& pose);
   /// Channels "r", "g", "b" of the last frame with panes: the share of the light that passes them, 0..1. With
-  /// many lights: that of the last one that panes tint, where it lights.
+  /// many lights: that of the last one that panes tint, where it lights, and 1 where panes tint none.
   [[nodiscard]] FloatImage transmittance() const;
 
   /// Exact hard shadows in place of a filter: an irregular z-buffer. The pixels of a frame are listed by the

@@ -322,14 +322,6 @@ std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind ligh
   return entries;
 }
 
-/// The most maps that its plans may have.
-int most_maps(const SweepEntry& entry, LightKind light) noexcept {
-  constexpr int kCubeFaces = 6, kTetrahedronFaces = 4;
-  if (light != LightKind::sun)
-    return entry.plan.split.partition == Partition::tetrahedron ? kTetrahedronFaces : kCubeFaces;
-  return entry.plan.split.partition == Partition::view_depth ? entry.plan.cascades : kMaxMaps;
-}
-
 /// What cannot be measured with pages, and why.
 std::optional<NoPages> no_pages(const SweepEntry& entry, LightKind light) {
   if (entry.irregular()) return NoPages{std::string(kIrregular), "lists pixels by whole maps"};
@@ -486,6 +478,13 @@ std::vector<std::string> split_lists(const std::vector<std::string>& lists) {
     }
   }
   return elements;
+}
+
+int most_maps(const SweepEntry& entry, LightKind light) noexcept {
+  constexpr int kCubeFaces = 6, kTetrahedronFaces = 4;
+  if (light != LightKind::sun)
+    return entry.plan.split.partition == Partition::tetrahedron ? kTetrahedronFaces : kCubeFaces;
+  return entry.plan.split.partition == Partition::view_depth ? entry.plan.cascades : kMaxMaps;
 }
 
 int page_capacity(const SweepEntry& entry, LightKind light) noexcept {

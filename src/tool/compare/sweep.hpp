@@ -90,6 +90,9 @@ struct Sweep {
 /// it is measured with. Returns a line for each. Throws std::runtime_error where not even the least fit.
 std::vector<std::string> fit_to_memory(Sweep& sweep);
 
+/// The most maps that the plans of an entry may have under this light.
+[[nodiscard]] int most_maps(const SweepEntry& entry, LightKind light) noexcept;
+
 /// As many pages as the texels of the entry's maps hold under this light, borders included.
 [[nodiscard]] int page_capacity(const SweepEntry& entry, LightKind light) noexcept;
 

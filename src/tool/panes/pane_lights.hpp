@@ -17,7 +17,7 @@ class PaneLights {
   PaneLights(const Light& sun, int local_lights, const TranslucentParts& parts);
 
   /// Plans all lights with maps for the hard filter, of at most so many texels along each side. Throws
-  /// std::runtime_error where they find no place.
+  /// std::runtime_error where an option is out of range.
   void plan(const Camera& camera, const SceneBounds& bounds, const PlanOptions& options, int map_size);
   /// Draws all lights, or one alone. `filter`: of prepare_lights.
   render::FrameStats draw(render::Renderer& renderer, const Camera& camera,

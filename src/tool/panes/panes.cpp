@@ -9,6 +9,8 @@
 #include "command.hpp"
 #include "compare/sweep.hpp"
 #include "gnomon/render/context.hpp"
+#include "gnomon/render/probe.hpp"
+#include "gnomon/report/statistics.hpp"
 #include "gnomon/scene/image.hpp"
 #include "gnomon/trace/transmittance.hpp"
 #include "interrupt.hpp"
@@ -22,6 +24,8 @@
 
 namespace gnomon::tool {
 namespace {
+
+using report::median;
 
 struct PanesRequest {
   std::vector<std::string> scenes;
@@ -49,9 +53,26 @@ Sweep sweep_of(const PanesRequest& request) {
   return make_sweep(compared);
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+/// Refuses maps that draw no panes.
+void check_shape(const PanesRequest& request, const Sweep& sweep) {
+  const Shape* const shape = sweep.entries[0].plan.warp.shape;
+  if (request.by == "irregular" || shape == nullptr || shape->affine) return;
+  throw std::runtime_error("--warp " + request.warp +
+                           ": maps that bend lines draw no panes; --by irregular draws them");
+}
+
+/// Refuses maps that memory does not take with the images of panes beside them.
+void check_memory(const PanesRequest& request, const Sweep& sweep) {
+  // The larger of both filters is drawn with panes as well.
+  const SweepEntry& msm = sweep.entries[1];
+  const LightKind kind = request.by == "lights" ? LightKind::point : sweep.light.kind;
+  const render::FittingMaps fitting =
+      render::largest_maps(request.map_size, most_maps(msm, kind),
+                           render::kPaneTexelBytes + render::bytes_per_texel(msm.filter), 0.0);
+  if (fitting.size >= request.map_size) return;
+  throw std::runtime_error("--map-size " + std::to_string(request.map_size) +
+                           ": such maps and the images of panes do not fit (" + fitting.why +
+                           "); largest that do: " + std::to_string(fitting.size));
 }
 
 struct PanesRow {
@@ -263,9 +284,11 @@ void measure_scene(const PanesRequest& request, const Sweep& sweep, const std::s
 int run_panes(const PanesRequest& request) {
   for (const std::string& scene : request.scenes) check_scene_word("SCENE", scene);
   const Sweep sweep = sweep_of(request);
+  check_shape(request, sweep);
   watch_interrupts();
   if (!request.out.empty()) make_folder("--out", request.out);
   const auto context = render::create_context(sweep.context);
+  check_memory(request, sweep);
   bool headed = request.json;
   const auto head = [&headed] {
     if (headed) return;

@@ -60,11 +60,12 @@ std::string refusal_of_pages(const Settings& settings) {
 }
 
 /// Refuses maps that memory does not take, before a driver is asked for them. Empty: they fit.
-std::string memory_refusal(const PlanOptions& plan, const Settings& settings) {
+std::string memory_refusal(const PlanOptions& plan, const Settings& settings, bool panes) {
   constexpr double kSurelyThere = 256.0 * 1024 * 1024;
   const int maps = plan.cascades, size = plan.resolution.max_size;
   constexpr double kDepthAndNumber = 8.0;
-  const double texel = settings.identifiers ? kDepthAndNumber : render::bytes_per_texel(settings.filter);
+  const double texel = (settings.identifiers ? kDepthAndNumber : render::bytes_per_texel(settings.filter)) +
+                       (panes ? render::kPaneTexelBytes : 0.0);
   if (1.0 * size * size * maps * texel <= kSurelyThere) return {};
   const render::FittingMaps fitting = render::largest_maps(size, maps, texel, 0.0);
   if (fitting.size >= size) return {};
@@ -189,7 +190,10 @@ std::string Stage::plan_side(const Settings& settings, const Camera& planned, co
     const PagePlan& plan = side.pages->plan();
     return plan.status == PlanStatus::invalid_input ? invalid_input_text(plan.invalid_field) : std::string();
   }
-  if (std::string refusal = memory_refusal(options, settings); !refusal.empty()) return refusal;
+  const bool panes = !loaded_->panes.instances.empty();
+  if (panes && !options.warp.shape->affine)
+    return fmt::format("no panes with shape {}: its maps bend lines", options.warp.shape->name);
+  if (std::string refusal = memory_refusal(options, settings, panes); !refusal.empty()) return refusal;
   const VisibleDepths depths = settings.visible_depths ? visible_depths(renderer_, planned) : VisibleDepths{};
   const VisibleDepths* seen = settings.visible_depths ? &depths : nullptr;
   const auto begin = Clock::now();
