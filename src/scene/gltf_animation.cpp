@@ -250,9 +250,8 @@ void MotionReader::keep_nodes() {
   for (std::size_t s = 0; s < model.skins.size(); ++s) {
     const tinygltf::Skin& skin = model.skins[s];
     const bool moving =
-        moving_skins_[s] || std::any_of(skin.joints.begin(), skin.joints.end(), [&](int joint) {
-          return moves_[static_cast<std::size_t>(joint)];
-        });
+        moving_skins_[s] || std::any_of(skin.joints.begin(), skin.joints.end(),
+                                        [&](int joint) { return moves_[static_cast<std::size_t>(joint)]; });
     moving_skins_[s] = moving;
     for (const int joint : skin.joints) {
       if (moving) keeps[static_cast<std::size_t>(joint)] = true;

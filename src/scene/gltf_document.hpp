@@ -36,7 +36,7 @@ struct Document {
   tinygltf::Model model;
   std::vector<ImageSource> images;
   std::vector<std::optional<TextureTransform>> transforms;  // one per material
-  std::vector<float> transmissions;           // 0..1, one per material
+  std::vector<float> transmissions;                         // 0..1, one per material
   std::vector<std::vector<int>> indices;      // accessor of each primitive of each mesh, -1: none
   std::vector<std::vector<bool>> compressed;  // primitives whose data only Draco can read
   MotionSource motion;                        // empty without animations

@@ -104,7 +104,8 @@ TEST(ShapeLaw, shaders_place_texels_where_the_core_does) {
               << grid.shape->name << " " << q[0];
           for (int j = 0; j < 2; ++j) {
             const double slope = p.texel_from_ndc[i][j];
-            ASSERT_NEAR(slopes[at][static_cast<std::size_t>(2 * i + j)], slope, 1e-3 + kRelative * std::abs(slope))
+            ASSERT_NEAR(slopes[at][static_cast<std::size_t>(2 * i + j)], slope,
+                        1e-3 + kRelative * std::abs(slope))
                 << grid.shape->name << " " << q[0];
           }
         }

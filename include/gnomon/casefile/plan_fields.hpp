@@ -41,7 +41,8 @@ struct PlanField {
   /// Place, and by it the type of the value. SplitDepths reads a list of numbers, WarpPlanes
   /// a list of planes.
   std::variant<PlanMember<bool>, PlanMember<int>, PlanMember<std::int64_t>, PlanMember<double>, PlanChoice,
-               PlanMember<Box>, PlanMember<BiasOptions>, PlanMember<ClipSpace>, PlanMember<SplitDepths>, PlanMember<WarpPlanes>>
+               PlanMember<Box>, PlanMember<BiasOptions>, PlanMember<ClipSpace>, PlanMember<SplitDepths>,
+               PlanMember<WarpPlanes>>
       place;
   /// Its name in ShadowPlan::invalid_field, and the values that it may have; empty where no value is refused.
   std::string_view invalid_field = {}, must = {};
