@@ -13,6 +13,7 @@ namespace {
 // As the shaders state them.
 constexpr GLint kClip = 3;
 constexpr GLuint kRecordBinding = 6;
+
 }  // namespace
 
 PaneRoom PanePass::PagesLook::room() const noexcept {
