@@ -34,37 +34,73 @@ vec4 spline(float x) {
   return 0.5 * vec4(-x3 + 2.0 * x2 - x, 3.0 * x3 - 5.0 * x2 + 2.0, -3.0 * x3 + 4.0 * x2 + x, x3 - x2);
 }
 
-// Weight > 0 where the history of this pixel is that of a surface at this depth.
-vec4 known_at(ivec2 pixel, ivec2 size, float depth) {
+// A surface one frame before: its place among the pixels' centres, and the depths that its plane has at others.
+struct Before {
+  bool in_front;
+  vec2 place;
+  float depth;
+  vec2 depth_step, w_step;  // to the right and upwards: what the depth's numerator and denominator change by
+};
+
+Before before_at(Surface s, vec2 size) {
+  vec4 h = history.clip_before * vec4(s.position, 1.0);
+  if (h.w <= 0.0) return Before(false, vec2(0.0), 0.0, vec2(0.0), vec2(0.0));
+  vec2 image = h.xy / h.w;
+  float depth = dot(history.depth_before.xyz, s.position) + history.depth_before.w;
+  Before before = Before(true, (image * 0.5 + 0.5) * size - 0.5, depth, vec2(0.0), vec2(0.0));
+  // Two steps on the plane, as long as the depth.
+  vec3 aside = abs(s.normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+  vec3 one = normalize(cross(s.normal, aside)) * depth, two = cross(s.normal, one);
+  vec4 clip_one = history.clip_before * vec4(one, 0.0), clip_two = history.clip_before * vec4(two, 0.0);
+  vec2 pixels_one = (clip_one.xy - image * clip_one.w) * (0.5 * size / h.w);
+  vec2 pixels_two = (clip_two.xy - image * clip_two.w) * (0.5 * size / h.w);
+  float area = pixels_one.x * pixels_two.y - pixels_one.y * pixels_two.x;
+  // A plane that is seen from its edge has no depth at other pixels.
+  const float kLeastArea = 1e-3;
+  if (abs(area) < kLeastArea * size.x * size.y) return before;
+  vec2 depths = vec2(dot(history.depth_before.xyz, one), dot(history.depth_before.xyz, two));
+  vec2 ws = vec2(clip_one.w, clip_two.w) / h.w;
+  mat2 per_pixel = mat2(pixels_two.y, -pixels_two.x, -pixels_one.y, pixels_one.x) * (1.0 / area);
+  before.w_step = -(per_pixel * ws);
+  before.depth_step = per_pixel * depths + depth * before.w_step;
+  return before;
+}
+
+// Weight > 0 where the history of this pixel is that of a surface in the same plane.
+vec4 known_at(ivec2 pixel, ivec2 size, Before at) {
   if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size))) return vec4(0.0);
-  vec4 before = texelFetch(history_image, pixel, 0);
-  return abs(before.z - depth) <= history.settings.z * abs(depth) ? before : vec4(0.0);
+  vec4 known = texelFetch(history_image, pixel, 0);
+  vec2 away = vec2(pixel) - at.place;
+  float w = 1.0 + dot(at.w_step, away);
+  // Towards the plane's horizon all depths are near each other.
+  const float kLeastW = 0.25;
+  if (w < kLeastW) return vec4(0.0);
+  float depth = (at.depth + dot(at.depth_step, away)) / w;
+  return abs(known.z - depth) <= history.settings.z * abs(depth) ? known : vec4(0.0);
 }
 
 // Mean and weight at the place where the point was; of the nearest four pixels where the sixteen show other surfaces as well.
 vec2 history_at(Surface s) {
-  vec4 h = history.clip_before * vec4(s.position, 1.0);
-  if (history.settings.w < 0.5 || h.w <= 0.0) return vec2(0.0);
   ivec2 size = textureSize(history_image, 0);
-  vec2 place = (h.xy / h.w * 0.5 + 0.5) * vec2(size) - 0.5;
-  float depth = dot(history.depth_before.xyz, s.position) + history.depth_before.w;
+  Before at = before_at(s, vec2(size));
+  if (history.settings.w < 0.5 || !at.in_front) return vec2(0.0);
   const float kSame = 1.0 / 256.0;  // of a pixel: rounding, where the camera is at rest
-  vec2 nearest = round(place);
-  if (all(lessThan(abs(place - nearest), vec2(kSame)))) return known_at(ivec2(nearest), size, depth).xy;
-  ivec2 first = ivec2(floor(place));
-  vec2 part = place - vec2(first);
+  vec2 nearest = round(at.place);
+  if (all(lessThan(abs(at.place - nearest), vec2(kSame)))) return known_at(ivec2(nearest), size, at).xy;
+  ivec2 first = ivec2(floor(at.place));
+  vec2 part = at.place - vec2(first);
   vec4 spline_x = spline(part.x), spline_y = spline(part.y);
   vec4 bilinear_x = vec4(0.0, 1.0 - part.x, part.x, 0.0), bilinear_y = vec4(0.0, 1.0 - part.y, part.y, 0.0);
   float curve = 0.0, sum = 0.0, weights = 0.0;
   bool whole = true;
   for (int y = 0; y < 4; ++y) {
     for (int x = 0; x < 4; ++x) {
-      vec4 before = known_at(first + ivec2(x - 1, y - 1), size, depth);
-      whole = whole && before.y > 0.0;
-      curve += spline_x[x] * spline_y[y] * before.x;
-      float weight = bilinear_x[x] * bilinear_y[y] * before.y;
+      vec4 known = known_at(first + ivec2(x - 1, y - 1), size, at);
+      whole = whole && known.y > 0.0;
+      curve += spline_x[x] * spline_y[y] * known.x;
+      float weight = bilinear_x[x] * bilinear_y[y] * known.y;
       weights += weight;
-      sum += weight * before.x;
+      sum += weight * known.x;
     }
   }
   if (weights <= 0.0) return vec2(0.0);

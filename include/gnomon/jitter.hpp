@@ -15,8 +15,12 @@ namespace gnomon {
 /// (`filter.texels`) before planning, so that no kernel leaves its map.
 inline constexpr double kJitterReachTexels = 0.5;
 
-/// Offset of the grid in a frame, texels, each in [-0.5, 0.5): Halton's sequence in bases 2 and 3, whose
-/// frames cover a texel evenly, however many there are. Repeats after 2^16 frames.
+/// Frames after which the offsets repeat: as many as Accumulation::memory counts.
+inline constexpr std::uint32_t kJitterFrames = 64;
+
+/// Offset of the grid in a frame, texels, each in (-0.5, 0.5): a lattice of 64 points, in an order in which
+/// the first 8, 16 and 32 are lattices as well. Any kJitterFrames frames in a row hold all of it, so that
+/// what has converged stays as it is.
 [[nodiscard]] glm::dvec2 jitter_texels(std::uint32_t frame_index) noexcept;
 
 /// The plan with the texel grid of every map moved by `offset_texels` across the light, at most

@@ -94,7 +94,7 @@ struct Accumulation {
   /// The weight of a frame's result is its confidence to this power, 0..64. The confidence falls from 1 at a
   /// texel's centre to 0 at its border. Larger: sharper edges from more frames. 0: all frames count alike,
   /// for filters whose samples turn with the noise.
-  double confidence_power = 6.0;
+  double confidence_power = 4.0;
   /// Frames that the history counts as at most, 1..4096. Larger: less noise and slower changes.
   double memory = 64.0;
   /// The history of a pixel is rejected where its view depth is off by more than this share, 0..1.

@@ -10,12 +10,12 @@
 namespace gnomon {
 namespace {
 
-/// Van der Corput's sequence: the digits of `index` behind the point, mirrored.
-double mirrored(std::uint32_t index, std::uint32_t base) noexcept {
-  double value = 0.0, digit = 1.0;
-  for (; index > 0; index /= base) {
-    digit /= base;
-    value += digit * static_cast<double>(index % base);
+/// The digits of a number below kJitterFrames in base 2, mirrored.
+constexpr std::uint32_t mirrored(std::uint32_t index) noexcept {
+  std::uint32_t value = 0;
+  for (std::uint32_t bit = 1; bit < kJitterFrames; bit *= 2) {
+    value = 2 * value + index % 2;
+    index /= 2;
   }
   return value;
 }
@@ -28,9 +28,10 @@ double clamped(double offset) noexcept {
 }  // namespace
 
 glm::dvec2 jitter_texels(std::uint32_t frame_index) noexcept {
-  constexpr std::uint32_t kPeriod = 1u << 16;
-  const std::uint32_t index = frame_index % kPeriod + 1;  // the sequence begins with a corner
-  return {mirrored(index, 2) - 0.5, mirrored(index, 3) - 0.5};
+  // Of the generators of 64 points, one that leaves no long gap along any direction.
+  constexpr std::uint32_t kGenerator = 19;
+  const std::uint32_t x = mirrored(frame_index % kJitterFrames), y = kGenerator * x % kJitterFrames;
+  return glm::dvec2(x + 0.5, y + 0.5) / static_cast<double>(kJitterFrames) - 0.5;
 }
 
 ShadowPlan jittered(const ShadowPlan& plan, const glm::dvec2& offset_texels) noexcept {

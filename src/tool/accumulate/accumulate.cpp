@@ -33,7 +33,7 @@ struct AccumulateRequest {
   std::string size = "1680x1050", warp = "optimal", noise = "blue", light = "sun", context = "auto", out;
   int map_size = 1024, cascades = 1, moving = 32;
   LightPlacement sun;
-  double bias = 0.1;
+  double bias = 0.05;
   render::Accumulation settings;
   bool json = false;
 };
