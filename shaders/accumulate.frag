@@ -11,14 +11,42 @@ layout(std140, binding = 2) uniform History {
   mat4 clip_before;    // of the camera one frame before, from points relative to this frame's
   vec4 depth_before;   // view depth there: dot(xyz, point) + w
   vec4 settings;       // confidence's power, most weight, share that depths may be off, 1: there is a history
+  uvec4 moved_count;   // x: boxes round casters that moved, before and after
+  vec4 moved_min[32];  // relative to this frame's camera
+  vec4 moved_max[32];
 } history;
 layout(location = 0) out vec2 mask;  // 1 lit .. 0 in shadow; map or -1
 layout(location = 1) out vec4 kept;
 
+ShadowLookup lookup_of(Surface s, float map) {
+  return shadow_lookup(shadow_map(int(map)), map, frame.layer.xy, ShadowSurface(s.position, s.normal, frame.light_place),
+                       frame.bias);
+}
+
+// Whether a caster that moved is between the surface and the light now, or was before, the kernel's radius beside it included.
+bool behind_moved(Surface s, ShadowLookup at) {
+  vec2 texels = vec2(length(at.texels_per_world[0]), length(at.texels_per_world[1]));
+  const float kLeastTexels = 1e-20;
+  float radius = (max(at.box.x, at.box.y) + 1.0) / max(min(texels.x, texels.y), kLeastTexels);
+  vec3 to_light = -light_at(frame.light_place, s.position);
+  const float kFar = 1e30, kAlong = 1e-20;
+  float most = at.light_distance > 0.0 ? at.light_distance : kFar;
+  for (uint i = 0u; i < history.moved_count.x; ++i) {
+    vec3 low = history.moved_min[i].xyz - radius - s.position, high = history.moved_max[i].xyz + radius - s.position;
+    float enter = 0.0, leave = most;
+    for (int axis = 0; axis < 3; ++axis) {
+      float way = abs(to_light[axis]) > kAlong ? to_light[axis] : kAlong;
+      float one = low[axis] / way, other = high[axis] / way;
+      enter = max(enter, min(one, other));
+      leave = min(leave, max(one, other));
+    }
+    if (enter <= leave) return true;
+  }
+  return false;
+}
+
 // 1 at a texel's centre .. 0 at its border, to the power, in units of a frame's mean over evenly spread places.
-float confidence(Surface s, float map) {
-  ShadowLookup at = shadow_lookup(shadow_map(int(map)), map, frame.layer.xy,
-                                  ShadowSurface(s.position, s.normal, frame.light_place), frame.bias);
+float confidence(ShadowLookup at) {
   vec2 away = abs(fract(at.texel) - 0.5);
   float power = history.settings.x;
   float scale = 0.5 * (power + 1.0) * (power + 2.0);
@@ -114,9 +142,10 @@ void main() {
   kept = vec4(mask.r, 0.0, s.depth, 0.0);
   // No map was read: the result is certain, and the same in every frame.
   if (s.sky || mask.g < 0.0 || dot(s.normal, light_at(frame.light_place, s.position)) >= 0.0) return;
-  vec2 before = history_at(s);
+  ShadowLookup at = lookup_of(s, mask.g);
+  vec2 before = behind_moved(s, at) ? vec2(0.0) : history_at(s);
   before.y = min(before.y, history.settings.y);
-  float weight = confidence(s, mask.g);
+  float weight = confidence(at);
   float total = before.y + weight;
   if (before.y > 0.0) mask.r = (before.x * before.y + mask.r * weight) / total;
   kept = vec4(mask.r, total, s.depth, 0.0);

@@ -1,6 +1,7 @@
 // Images and camera of temporal accumulation.
 #include "mask_history.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "target.hpp"
@@ -10,11 +11,15 @@ namespace {
 
 constexpr GLuint kHistoryBinding = 2, kMaskUnit = 6, kHistoryUnit = 7;
 
+constexpr std::size_t kBoxes = 32;
+
 struct HistoryBlock {
   glm::mat4 clip_before;
   glm::vec4 depth_before, settings;
+  glm::uvec4 moved_count;
+  std::array<glm::vec4, kBoxes> moved_min, moved_max;  // relative to the camera
 };
-static_assert(sizeof(HistoryBlock) == 64 + 2 * 16, "std140 has no padding here");
+static_assert(sizeof(HistoryBlock) == 64 + 3 * 16 + 2 * kBoxes * 16, "std140 has no padding here");
 
 }  // namespace
 
@@ -38,6 +43,18 @@ void MaskHistory::resize(int width, int height) {
   glNamedBufferStorage(block_.name(), sizeof(HistoryBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
 }
 
+void MaskHistory::forget_behind(std::span<const Box> moved_world) noexcept {
+  for (const Box& box : moved_world) {
+    if (box.empty()) continue;
+    if (moved_count_ < kMostMoved) {
+      moved_[moved_count_++] = box;
+    } else {
+      moved_[kMostMoved - 1].extend(box.min);
+      moved_[kMostMoved - 1].extend(box.max);
+    }
+  }
+}
+
 void MaskHistory::bind(const Camera& camera, const Accumulation& settings) noexcept {
   const glm::dvec3 shift = camera.position - eye_;  // from the eye before to this one
   HistoryBlock block{};
@@ -47,6 +64,12 @@ void MaskHistory::bind(const Camera& camera, const Accumulation& settings) noexc
   block.depth_before = glm::vec4(glm::dvec4(forward_, glm::dot(forward_, shift)));
   block.settings = glm::vec4(glm::dvec4(settings.confidence_power, settings.memory, settings.depth_tolerance,
                                         valid_ && !settings.restart ? 1.0 : 0.0));
+  static_assert(kBoxes == kMostMoved);
+  block.moved_count.x = static_cast<glm::uint>(moved_count_);
+  for (std::size_t i = 0; i < moved_count_; ++i) {
+    block.moved_min[i] = glm::vec4(glm::dvec4(moved_[i].min - camera.position, 0.0));
+    block.moved_max[i] = glm::vec4(glm::dvec4(moved_[i].max - camera.position, 0.0));
+  }
   glNamedBufferSubData(block_.name(), 0, sizeof block, &block);
   glBindBufferBase(GL_UNIFORM_BUFFER, kHistoryBinding, block_.name());
   glBindTextureUnit(kMaskUnit, single_.name());
@@ -63,6 +86,7 @@ void MaskHistory::keep(const Camera& camera, const FrameBlock& frame) noexcept {
   eye_ = camera.position;
   forward_ = glm::dvec3(frame.forward);
   current_ = 1 - current_;
+  moved_count_ = 0;
   valid_ = true;
 }
 

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "frame_block.hpp"
 #include "gl_object.hpp"
+#include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/render/renderer.hpp"
 
@@ -16,6 +18,9 @@ class MaskHistory {
   /// Makes the images of this size at the first call and where it differs, and forgets what they held.
   void resize(int width, int height);
   void forget() noexcept { valid_ = false; }
+  /// Bounds of casters that moved since the last frame, before and after: what lies in their shadow is
+  /// forgotten by the next frame.
+  void forget_behind(std::span<const Box> moved_world) noexcept;
   /// The framebuffer for this frame's mask alone.
   [[nodiscard]] GLuint single_fbo() const noexcept { return single_fbo_.name(); }
   /// Binds this frame's mask and the history, and the block that shaders/accumulate.frag reads.
@@ -26,6 +31,9 @@ class MaskHistory {
   void keep(const Camera& camera, const FrameBlock& frame) noexcept;
 
  private:
+  // Of more boxes the last one is round all that are left.
+  static constexpr std::size_t kMostMoved = 32;
+
   int width_ = 0, height_ = 0;
   bool valid_ = false;
   std::size_t current_ = 0;  ///< image that this frame's history goes to
@@ -34,6 +42,8 @@ class MaskHistory {
   std::array<Framebuffer, 2> fbo_;
   Framebuffer single_fbo_;
   Buffer block_;
+  std::array<Box, kMostMoved> moved_;
+  std::size_t moved_count_ = 0;
   glm::dmat4 clip_from_relative_{1.0};  ///< of the frame before
   glm::dvec3 eye_{0.0}, forward_{0.0, 0.0, -1.0};
 };

@@ -285,6 +285,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
          info_of(options.depth_layer).peels || impl.drew_silhouettes, impl.movers.changed_world(),
          impl.movers.static_changed_world(), impl.moves(options), &impl.movers},
         drawn, camera, impl.layered_rule(options));
+    if (options.accumulation.on) impl.history.forget_behind(impl.movers.changed_world());
     if (plan.map_count > 0) impl.movers.finish_frame();
     impl.draw_shadow_maps(plan, drawn, depth_draw(options));
     if (impl.drew_silhouettes)

@@ -183,6 +183,44 @@ TEST(Accumulation, rejects_the_history_of_another_surface) {
   EXPECT_GT(changed(1.0), 10);
 }
 
+TEST(Accumulation, forgets_what_lies_behind_a_caster_that_moves_and_nothing_else) {
+  const Scene before = boxes_on_ground();
+  constexpr std::size_t kMover = 1;  // the box that the camera looks at
+  Scene after = before;
+  const glm::dvec3 step(0.8, 0.0, 0.5);
+  Instance& moved = after.instances[kMover];
+  moved.world_from_object[3] += glm::dvec4(step, 0.0);
+  moved.bounds_world.min += step;
+  moved.bounds_world.max += step;
+  Renderer renderer(before);
+  const Camera camera = Stills::still();
+  const auto frame = [&](const Scene& scene, std::uint32_t index, const FrameOptions& options) {
+    const ShadowPlan plan = plan_for(scene, camera, kSlant, coarse_map(filters::hard));
+    return draw(renderer, camera, jittered(plan, jitter_texels(index)), default_settings(filters::hard),
+                options);
+  };
+  constexpr std::uint32_t kFrames = 32;
+  for (std::uint32_t i = 0; i < kFrames; ++i) frame(before, i, accumulating());
+  ASSERT_TRUE(renderer.move_instance(kMover, moved));
+  const Frame first = frame(after, kFrames, accumulating());
+  const Frame alone = frame(after, kFrames, {});
+  int behind = 0, ghosts = 0, elsewhere = 0, kept = 0;
+  for (std::size_t i = 0; i < first.pixels(); ++i) {
+    if (!first.surface(i) || std::abs(first.point(i).y) > 1e-3) continue;
+    const auto in_shadow_of = [&](const Scene& scene) {
+      const Box& box = scene.instances[kMover].bounds_world;
+      return hits_box(first.point(i), -kSlant, box.min, box.max);
+    };
+    const bool affected = in_shadow_of(before) || in_shadow_of(after);
+    (affected ? behind : elsewhere) += 1;
+    (affected ? ghosts : kept) += first.lit(i) != alone.lit(i) ? 1 : 0;
+  }
+  EXPECT_GT(behind, 200);
+  EXPECT_EQ(ghosts, 0);
+  EXPECT_GT(elsewhere, 2000);
+  EXPECT_GT(kept, 300) << "edges of other shadows stay converged";
+}
+
 TEST(Accumulation, noise_that_moves_averages_to_the_whole_kernel) {
   // Four turning samples of a disc, 32 frames of them, against 64 samples.
   const Scene scene = box_on_ground();

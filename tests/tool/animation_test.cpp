@@ -1,9 +1,12 @@
 // Do the programs play animations: the viewer, its exact shadows, and the flight?
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "animated_gltf.hpp"
 #include "gnomon/report/rows_file.hpp"
@@ -105,6 +108,25 @@ TEST(Playing, commands_speak_it) {
   EXPECT_EQ(back.playing.animation, "all");
   EXPECT_EQ(back.playing.speed, -2.0);
   EXPECT_TRUE(back.playing.on);
+}
+
+TEST(Playing, the_accumulate_command_plays_up_to_the_frame_that_it_measures) {
+  const SceneFile scene;
+  const Finished finished = run_gnomon({"accumulate", scene.file, "--animation", "all", "--size", "160x90",
+                                        "--map-size", "64", "--frames", "1", "--moving", "8", "--json"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  std::vector<nlohmann::json> rows;
+  std::istringstream lines(finished.out);
+  for (std::string line; std::getline(lines, line);) rows.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(rows.size(), 5u) << finished.out;
+  EXPECT_EQ(rows[3].at("view"), "animated, alone");
+  EXPECT_EQ(rows[4].at("view"), "animated");
+  EXPECT_EQ(rows[4].at("frames"), 8);
+  EXPECT_GE(rows[4].at("ghosting"), 0.0);
+  EXPECT_LT(rows[4].at("to_first"), 1.0) << finished.out;
+  const Finished unknown = run_gnomon({"accumulate", scene.file, "--animation", "run", "--size", "160x90"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_EQ(std::count(unknown.err.begin(), unknown.err.end(), '\n'), 1) << unknown.err;
 }
 
 TEST(Playing, the_view_command_draws_a_pose) {

@@ -2,6 +2,7 @@
 // with the view at rest and along a moving one?
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -30,6 +31,7 @@ constexpr int kMostFrames = 4096;
 struct AccumulateRequest {
   std::vector<std::string> scenes, filters{"hard"};
   std::vector<int> frames{1, 8, 64};
+  std::string animation;  ///< empty: the scene is at rest
   std::string size = "1680x1050", warp = "optimal", noise = "blue", light = "sun", context = "auto", out;
   int map_size = 1024, cascades = 1, moving = 32;
   LightPlacement sun;
@@ -64,6 +66,7 @@ Sweep sweep_of(const AccumulateRequest& request) {
   compared.cascades = {std::to_string(request.cascades)};
   compared.map_sizes = {std::to_string(request.map_size)};
   compared.size = request.size;
+  compared.animation = request.animation;
   compared.frames = kFlightFrames;
   compared.context = request.context;
   compared.light = request.light;
@@ -207,23 +210,32 @@ void measure_rest(const AccumulateRequest& request, Run& run, const Camera& came
   }
 }
 
-/// The view on its way to the same frame, which is measured alone and with the frames before it.
-void measure_moving(const AccumulateRequest& request, Run& run, const Stage& stage, const FrameTruth& truth,
-                    AccumulateRow row) {
-  const DrawnMask single = run.draw(stage.camera(kFrame), request.moving - 1, false);
-  row.view = "moving, alone";
+/// The last of some frames, alone and with those before it.
+struct Sequence {
+  std::string name;
+  std::function<void(int index)> pose;  ///< places the scene for a frame, before it is drawn
+  std::function<Camera(int index)> camera;
+};
+
+void measure_sequence(const AccumulateRequest& request, Run& run, const Sequence& sequence,
+                      const FrameTruth& truth, AccumulateRow row) {
+  const int last = request.moving - 1;
+  sequence.pose(last);
+  const DrawnMask single = run.draw(sequence.camera(last), last, false);
+  row.view = sequence.name + ", alone";
   row.frames = 1;
   row.wrong = misclassified(single.lit, truth);
   row.mask_ms = single.mask_ms;
   print_row(row, request.json);
   DrawnMask accumulated;
-  for (int i = 0; i < request.moving; ++i) {
+  for (int i = 0; i <= last; ++i) {
     check_interrupt();
-    accumulated = run.draw(stage.camera(kFrame - request.moving + 1 + i), i, true);
+    sequence.pose(i);
+    accumulated = run.draw(sequence.camera(i), i, true);
   }
-  run.write_picture(row.filter.substr(0, row.filter.find(':')) + "_moving");
+  run.write_picture(row.filter.substr(0, row.filter.find(':')) + "_" + sequence.name);
   const double alone = row.wrong;
-  row.view = "moving";
+  row.view = sequence.name;
   row.frames = request.moving;
   row.wrong = misclassified(accumulated.lit, truth);
   row.to_first = alone > 0.0 ? row.wrong / alone : -1.0;
@@ -231,6 +243,21 @@ void measure_moving(const AccumulateRequest& request, Run& run, const Stage& sta
   row.mask_ms = accumulated.mask_ms;
   row.accumulate_ms = accumulated.accumulate_ms;
   print_row(row, request.json);
+}
+
+/// The view on its way to the frame that is measured.
+Sequence moving_view(const AccumulateRequest& request, const Stage& stage) {
+  return {"moving", [](int) {}, [&](int index) { return stage.camera(kFrame - request.moving + 1 + index); }};
+}
+
+/// The view at rest while the animation plays up to the frame's pose.
+Sequence moving_casters(const AccumulateRequest& request, Stage& stage) {
+  constexpr double kHertz = 60.0;
+  return {"animated",
+          [&](int index) {
+            stage.pose_at(stage.animation_seconds(kFrame) - (request.moving - 1 - index) / kHertz);
+          },
+          [&](int) { return stage.camera(kFrame); }};
 }
 
 int run_accumulate(const AccumulateRequest& request) {
@@ -261,7 +288,10 @@ int run_accumulate(const AccumulateRequest& request) {
       row.scene = scene;
       row.filter = to_string(entry.filter);
       measure_rest(request, run, truth.camera, truth, row);
-      if (request.moving > 0) measure_moving(request, run, stage, truth, row);
+      if (request.moving > 0) {
+        measure_sequence(request, run, moving_view(request, stage), truth, row);
+        if (stage.plays()) measure_sequence(request, run, moving_casters(request, stage), truth, row);
+      }
       render::check_context();
     }
   }
@@ -280,6 +310,10 @@ std::vector<Option> scene_options(AccumulateRequest& request) {
            .help = "warp of the maps, or none",
            .names = warp_names(),
            .only_names = false},
+          {.name = "--animation",
+           .target = &request.animation,
+           .help = "animation that plays before a view at rest, by name or number",
+           .word = "NAME"},
           {.name = "--cascades",
            .target = &request.cascades,
            .help = "number of shadow maps along the view",
@@ -302,7 +336,7 @@ std::vector<Option> accumulation_options(AccumulateRequest& request) {
            .delimiter = ','},
           {.name = "--moving",
            .target = &request.moving,
-           .help = "frames of a moving view at 60 Hz that are accumulated; 0: none",
+           .help = "frames of a moving view, or of an animation, at 60 Hz that are accumulated; 0: none",
            .range = {{0, kFrame}}},
           {.name = "--confidence-power",
            .target = &request.settings.confidence_power,
