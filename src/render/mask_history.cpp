@@ -1,7 +1,6 @@
 // Images and camera of temporal accumulation.
 #include "mask_history.hpp"
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "target.hpp"
@@ -11,15 +10,13 @@ namespace {
 
 constexpr GLuint kHistoryBinding = 2, kMaskUnit = 6, kHistoryUnit = 7;
 
-constexpr std::size_t kBoxes = 32;
-
 struct HistoryBlock {
   glm::mat4 clip_before;
   glm::vec4 depth_before, settings;
   glm::uvec4 moved_count;
-  std::array<glm::vec4, kBoxes> moved_min, moved_max;  // relative to the camera
+  std::array<glm::vec4, kMostMovedBoxes> moved_min, moved_max;  // relative to the camera
 };
-static_assert(sizeof(HistoryBlock) == 64 + 3 * 16 + 2 * kBoxes * 16, "std140 has no padding here");
+static_assert(sizeof(HistoryBlock) == 64 + 3 * 16 + 2 * kMostMovedBoxes * 16, "std140 has no padding here");
 
 }  // namespace
 
@@ -46,11 +43,11 @@ void MaskHistory::resize(int width, int height) {
 void MaskHistory::forget_behind(std::span<const Box> moved_world) noexcept {
   for (const Box& box : moved_world) {
     if (box.empty()) continue;
-    if (moved_count_ < kMostMoved) {
+    if (moved_count_ < kMostMovedBoxes) {
       moved_[moved_count_++] = box;
     } else {
-      moved_[kMostMoved - 1].extend(box.min);
-      moved_[kMostMoved - 1].extend(box.max);
+      moved_[kMostMovedBoxes - 1].extend(box.min);
+      moved_[kMostMovedBoxes - 1].extend(box.max);
     }
   }
 }
@@ -64,7 +61,6 @@ void MaskHistory::bind(const Camera& camera, const Accumulation& settings) noexc
   block.depth_before = glm::vec4(glm::dvec4(forward_, glm::dot(forward_, shift)));
   block.settings = glm::vec4(glm::dvec4(settings.confidence_power, settings.memory, settings.depth_tolerance,
                                         valid_ && !settings.restart ? 1.0 : 0.0));
-  static_assert(kBoxes == kMostMoved);
   block.moved_count.x = static_cast<glm::uint>(moved_count_);
   for (std::size_t i = 0; i < moved_count_; ++i) {
     block.moved_min[i] = glm::vec4(glm::dvec4(moved_[i].min - camera.position, 0.0));

@@ -13,13 +13,16 @@
 
 namespace gnomon::render {
 
+/// Boxes that shaders/accumulate.frag has room for. Of more the last one is round all that are left.
+inline constexpr std::size_t kMostMovedBoxes = 32;
+
 class MaskHistory {
  public:
   /// Makes the images of this size at the first call and where it differs, and forgets what they held.
   void resize(int width, int height);
   void forget() noexcept { valid_ = false; }
-  /// Bounds of casters that moved since the last frame, before and after: what lies in their shadow is
-  /// forgotten by the next frame.
+  /// Bounds of casters that moved since the last frame, before and after: the next frame forgets pixels in
+  /// their shadow.
   void forget_behind(std::span<const Box> moved_world) noexcept;
   /// The framebuffer for this frame's mask alone.
   [[nodiscard]] GLuint single_fbo() const noexcept { return single_fbo_.name(); }
@@ -31,9 +34,6 @@ class MaskHistory {
   void keep(const Camera& camera, const FrameBlock& frame) noexcept;
 
  private:
-  // Of more boxes the last one is round all that are left.
-  static constexpr std::size_t kMostMoved = 32;
-
   int width_ = 0, height_ = 0;
   bool valid_ = false;
   std::size_t current_ = 0;  ///< image that this frame's history goes to
@@ -42,7 +42,7 @@ class MaskHistory {
   std::array<Framebuffer, 2> fbo_;
   Framebuffer single_fbo_;
   Buffer block_;
-  std::array<Box, kMostMoved> moved_;
+  std::array<Box, kMostMovedBoxes> moved_;
   std::size_t moved_count_ = 0;
   glm::dmat4 clip_from_relative_{1.0};  ///< of the frame before
   glm::dvec3 eye_{0.0}, forward_{0.0, 0.0, -1.0};
