@@ -83,7 +83,7 @@ Before before_at(Surface s, vec2 size) {
   vec2 pixels_one = (clip_one.xy - image * clip_one.w) * (0.5 * size / h.w);
   vec2 pixels_two = (clip_two.xy - image * clip_two.w) * (0.5 * size / h.w);
   float area = pixels_one.x * pixels_two.y - pixels_one.y * pixels_two.x;
-  // A plane that is seen from its edge has no depth at other pixels.
+  // Beside a plane that is seen from its edge, neighbours count that are as deep as the point.
   const float kLeastArea = 1e-3;
   if (abs(area) < kLeastArea * size.x * size.y) return before;
   vec2 depths = vec2(dot(history.depth_before.xyz, one), dot(history.depth_before.xyz, two));

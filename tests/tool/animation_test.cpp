@@ -113,17 +113,19 @@ TEST(Playing, commands_speak_it) {
 TEST(Playing, the_accumulate_command_plays_up_to_the_frame_that_it_measures) {
   const SceneFile scene;
   const Finished finished = run_gnomon({"accumulate", scene.file, "--animation", "all", "--size", "160x90",
-                                        "--map-size", "64", "--frames", "1", "--moving", "8", "--json"});
+                                        "--map-size", "64", "--frames", "8", "--moving", "8", "--json"});
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   std::vector<nlohmann::json> rows;
   std::istringstream lines(finished.out);
   for (std::string line; std::getline(lines, line);) rows.push_back(nlohmann::json::parse(line));
   ASSERT_EQ(rows.size(), 5u) << finished.out;
+  EXPECT_EQ(rows[0].at("view"), "at rest");
   EXPECT_EQ(rows[3].at("view"), "animated, alone");
   EXPECT_EQ(rows[4].at("view"), "animated");
   EXPECT_EQ(rows[4].at("frames"), 8);
   EXPECT_GE(rows[4].at("ghosting"), 0.0);
   EXPECT_LT(rows[4].at("to_first"), 1.0) << finished.out;
+  EXPECT_GT(rows[4].at("misclassified"), rows[0].at("misclassified")) << "moving casters do not converge";
   const Finished unknown = run_gnomon({"accumulate", scene.file, "--animation", "run", "--size", "160x90"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_EQ(std::count(unknown.err.begin(), unknown.err.end(), '\n'), 1) << unknown.err;

@@ -87,9 +87,9 @@ enum class SampleNoise : std::uint8_t {
 };
 
 /// Accumulates the mask over frames by re-projection: hard edges converge to the exact ones where the maps'
-/// grids move from frame to frame (jitter.hpp). Pixels that the box of a moving caster shadows, before or
-/// after, forget by themselves (move_instance(), apply_pose(), FrameOptions::moved_world). The light must be
-/// at rest: set `restart` in the first frame after it moved, and after a cut.
+/// grids move from frame to frame (jitter.hpp). A pixel's history restarts where the box of a caster that
+/// moved shadows it, before or after the move (move_instance(), apply_pose(), FrameOptions::moved_world). The
+/// light must be at rest: set `restart` in the first frame after it moved, and after a cut.
 struct Accumulation {
   bool on = false;  ///< off: each frame's mask is its own
   /// The weight of a frame's result is its confidence to this power, 0..64. The confidence falls from 1 at a
@@ -98,7 +98,8 @@ struct Accumulation {
   double confidence_power = 4.0;
   /// Frames that the history counts as at most, 1..4096. Larger: less noise and slower changes.
   double memory = 64.0;
-  /// The history of a pixel is rejected where its view depth is off by more than this share, 0..1.
+  /// The history of a pixel is rejected where its view depth is off that of the surface's plane by more than
+  /// this share, 0..1.
   double depth_tolerance = 0.01;
   bool restart = false;  ///< forgets the history
 };

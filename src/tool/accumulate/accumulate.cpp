@@ -252,11 +252,7 @@ Sequence moving_view(const AccumulateRequest& request, const Stage& stage) {
 
 /// The view at rest while the animation plays up to the frame's pose.
 Sequence moving_casters(const AccumulateRequest& request, Stage& stage) {
-  constexpr double kHertz = 60.0;
-  return {"animated",
-          [&](int index) {
-            stage.pose_at(stage.animation_seconds(kFrame) - (request.moving - 1 - index) / kHertz);
-          },
+  return {"animated", [&](int index) { stage.pose_before(kFrame, request.moving - 1 - index); },
           [&](int) { return stage.camera(kFrame); }};
 }
 

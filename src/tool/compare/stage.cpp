@@ -35,14 +35,14 @@ double Stage::animation_seconds(int frame) const noexcept {
 
 void Stage::go_to(int frame, At at) {
   at_ = at;
-  if (!plays()) return;
-  constexpr double kViewerSeconds = 1.0 / 60.0;
-  pose_at(animation_seconds(frame) - (at == At::before ? kViewerSeconds : 0.0));
+  pose_before(frame, at == At::before ? 1 : 0);
 }
 
-void Stage::pose_at(double seconds) {
+void Stage::pose_before(int frame, int viewer_frames) {
   if (!plays()) return;
+  constexpr double kViewerSeconds = 1.0 / 60.0;
   const Animation& played = at_rest_.motion.animations[static_cast<std::size_t>(animation_)];
+  const double seconds = animation_seconds(frame) - kViewerSeconds * viewer_frames;
   (void)pose(at_rest_, animation_, looped_time(played, seconds), pose_);
   view_.take(pose_);
   if (!renderer_->apply_pose(pose_)) throw std::runtime_error("the animation's pose does not fit the scene");

@@ -25,8 +25,8 @@ class Stage {
   enum class At : std::uint8_t { before, frame };
   /// Poses the scene as it stands then, for draws and plans. Nothing where it plays no animation.
   void go_to(int frame, At at);
-  /// The same at this time, which may lie before the beginning of the animation or behind its end.
-  void pose_at(double seconds);
+  /// Poses the scene as that viewer saw it so many of his frames before the sweep's.
+  void pose_before(int frame, int viewer_frames);
   /// Rays see the scene as posed last.
   void retrace();
   [[nodiscard]] bool plays() const noexcept { return animation_ != kRestPose; }
