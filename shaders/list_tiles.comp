@@ -39,12 +39,8 @@ void main() {
   }
   // No blur is wider than a tile to either side.
   int low = strip.y * kStripRows - job.z, high = strip.y * kStripRows + kStripRows - 1 + job.z;
-  bool rows = false, columns = false;
-  for (int y = low < 0 ? 0 : low / kTileSide; y <= high / kTileSide; ++y) {
-    rows = rows || wanted(ivec2(tile.x, y));
-    if (job.z > 0) columns = columns || wanted(ivec2(tile.x - 1, y)) || wanted(ivec2(tile.x + 1, y));
-  }
+  bool rows = false;
+  for (int y = low < 0 ? 0 : low / kTileSide; y <= high / kTileSide; ++y) rows = rows || wanted(ivec2(tile.x, y));
   const int kStripsOfGroup = 4;
   if (rows) append(kRows, strip, kStripsOfGroup);
-  if (rows || columns) append(kRowsAndColumns, strip, kStripsOfGroup);
 }

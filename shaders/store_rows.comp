@@ -1,11 +1,14 @@
 #version 450 core
-// From depths to stored texels, and the blur along x where GNOMON_REACH is above 0. Each invocation walks along a part of a row: it fetches and stores
-// every depth once, and keeps the kernel's texels in registers.
+// From depths to stored texels, and the blur along x where GNOMON_REACH is above 0, of one of their vectors alone. Each
+// invocation walks along a part of a row: it fetches every depth once, and keeps the kernel's texels in registers.
 #include "common/stored.glsl"
 #include "common/walk.glsl"
 
-layout(location = 2) uniform int list;  // of the strips to be filled
+#if GNOMON_REACH > 0
+layout(binding = 0) writeonly uniform image2DArray texel_out;
+#else
 layout(binding = 0) writeonly uniform image2DArray texel_out[GNOMON_SHADOW_VECTORS];
+#endif
 
 // Stores the texel that the walk comes to. `before` and `here`: depths of the texel before it and of itself.
 ShadowTexel next_stored(ivec2 texel, inout float before, inout float here, ShadowOptions options) {
@@ -22,28 +25,31 @@ ShadowTexel next_stored(ivec2 texel, inout float before, inout float here, Shado
 }
 
 void main() {
-  ivec2 first = listed_row(list, walk.w);
+  ivec2 first = listed_row(walk.w);
   int y = first.y, begin = first.x;
   if (y < 0 || y >= walk.y) return;
   ShadowOptions options = shadow_options(map);
-  float weights[kReach + 1] = tap_weights_of(map);
   float before = 1.0, here = 1.0;
 #if GNOMON_READS_SLOPE
   before = depth_at(ivec2(begin - kReach - 1, y));
   here = depth_at(ivec2(begin - kReach, y));
 #endif
-  ShadowTexel window[kSide];
-  for (int i = 1; i < kSide; ++i) window[i] = next_stored(ivec2(begin - kReach - 1 + i, y), before, here, options);
   int end = min(begin + kTileSide, walk.x);
+#if GNOMON_REACH > 0
+  float weights[kReach + 1] = tap_weights_of(map);
+  vec4 window[kSide];
+  for (int i = 1; i < kSide; ++i) {
+    window[i] = next_stored(ivec2(begin - kReach - 1 + i, y), before, here, options).v[GNOMON_VECTOR];
+  }
   for (int x = begin; x < end; ++x) {
     for (int i = 0; i < kSide - 1; ++i) window[i] = window[i + 1];
-    window[kSide - 1] = next_stored(ivec2(x + kReach, y), before, here, options);
-#if GNOMON_REACH == 0
-    for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) imageStore(texel_out[i], ivec3(x, y, walk.z), window[0].v[i]);
-#else
-    vec4 vectors[kSide];  // only texels of one vector are blurred here
-    for (int i = 0; i < kSide; ++i) vectors[i] = window[i].v[0];
-    imageStore(texel_out[0], ivec3(x, y, walk.z), joined(vectors, weights, options));
-#endif
+    window[kSide - 1] = next_stored(ivec2(x + kReach, y), before, here, options).v[GNOMON_VECTOR];
+    imageStore(texel_out, ivec3(x, y, walk.z), joined(window, weights, options));
   }
+#else
+  for (int x = begin; x < end; ++x) {
+    ShadowTexel stored = next_stored(ivec2(x, y), before, here, options);
+    for (int i = 0; i < GNOMON_SHADOW_VECTORS; ++i) imageStore(texel_out[i], ivec3(x, y, walk.z), stored.v[i]);
+  }
+#endif
 }

@@ -6,10 +6,10 @@
 layout(std430, binding = 3) readonly buffer TileLists GNOMON_TILE_LISTS lists;
 
 // Row, and first column, of a walk of one tile's width along x. Row -1: nothing is left to do.
-ivec2 listed_row(int which, int tiles) {
+ivec2 listed_row(int tiles) {
   int index = int(gl_GlobalInvocationID.x) / kStripRows;
-  if (index >= int(lists.entries[which])) return ivec2(0, -1);
-  uint strip = lists.entry[list_begin(which, tiles) + index];
+  if (index >= int(lists.entries[kRows])) return ivec2(0, -1);
+  uint strip = lists.entry[list_begin(kRows, tiles) + index];
   return ivec2(int(strip & 0xffffu) * kTileSide,
                int(strip >> 16) * kStripRows + int(gl_GlobalInvocationID.x) % kStripRows);
 }

@@ -22,8 +22,8 @@ ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) {
   // From term to term the angle grows by twice the first: one sine and cosine for all.
   vec2 basis = vec2(cos(angle), sin(angle));
   vec2 twice = turned(basis, basis);
-  int order = fourier_order(options);
-  for (int k = 0; k < order; ++k) {
+  // All that fit, in a loop that compilers unroll: the look-up takes as many as the order has.
+  for (int k = 0; k < 2 * GNOMON_SHADOW_VECTORS; ++k) {
     vec2 kept = options.unsigned_unit ? 0.5 * basis + 0.5 : basis;
     if ((k & 1) == 0) {
       texel.v[k >> 1].xy = kept;

@@ -18,7 +18,7 @@ constexpr int kGroup = 64;      ///< local_size_x of keep_tiles.comp and list_ti
 
 /// TileLists before its entries.
 struct ListHeader {
-  std::array<std::uint32_t, 12> groups{};  ///< three indirect dispatches of x, y, z, 0
+  std::array<std::uint32_t, 8> groups{};  ///< two indirect dispatches of x, y, z, 0
   std::array<std::uint32_t, 4> entries{};
 };
 
@@ -48,10 +48,9 @@ void FilterTiles::fit(int width, int height, int layers) {
   glTextureStorage3D(states_.name(), 1, GL_R8UI, width_, height_, layers_);
   constexpr std::uint8_t kStale = 0;
   glClearTexImage(states_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &kStale);
-  // A tile, then its strips in each of the two lists of strips.
+  // A tile, then its strips.
   const auto of_layer = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
-  const std::uint64_t list_bytes =
-      sizeof(ListHeader) + of_layer * (1 + 2 * kRowsOfTile) * sizeof(std::uint32_t);
+  const std::uint64_t list_bytes = sizeof(ListHeader) + of_layer * (1 + kRowsOfTile) * sizeof(std::uint32_t);
   lists_ = make_buffer();
   glNamedBufferStorage(lists_.name(), static_cast<GLsizeiptr>(list_bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
   bytes_ = of_layer * static_cast<std::uint64_t>(layers_) + list_bytes;
@@ -76,7 +75,7 @@ void FilterTiles::bind_for_reads() const noexcept {
 
 void FilterTiles::list(GLint layer, glm::ivec2 size, int reach) {
   ListHeader header;
-  for (std::size_t i = 0; i < 3; ++i) header.groups[4 * i + 1] = header.groups[4 * i + 2] = 1;
+  for (std::size_t i = 0; i < 2; ++i) header.groups[4 * i + 1] = header.groups[4 * i + 2] = 1;
   glNamedBufferSubData(lists_.name(), 0, sizeof header, &header);
   bind_for_reads();
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kListsBinding, lists_.name());

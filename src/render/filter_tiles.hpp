@@ -20,7 +20,7 @@ struct TilePrograms {
 class FilterTiles {
  public:
   /// The lists, in the order of TileLists::groups.
-  enum class List : std::uint8_t { tiles, rows, rows_and_columns };
+  enum class List : std::uint8_t { tiles, rows };
   /// What becomes of a layer's states before the frame's reads are marked.
   struct Keep {
     bool holds = false;  ///< false: no texel of the layer is valid

@@ -42,6 +42,7 @@ class Composer {
         define("GNOMON_MEAN", choice_.mean ? 1 : 0);
         define("GNOMON_REACH", choice_.reach);
         define("GNOMON_CHANNELS", choice_.channels);
+        define("GNOMON_VECTOR", choice_.vector);
         define("GNOMON_SHAPES", choice_.shapes ? 1 : 0);
         mark_line(line + 1, number);
       }

@@ -31,6 +31,7 @@ struct ShaderChoice {
   bool mean = true;         ///< texels are put together by their weighted mean: MapRead::filtered
   int reach = 1;            ///< taps of the blur to either side of the middle one, for shaders made for one
   int channels = 4;         ///< of a stored texel
+  int vector = 0;           ///< of a stored texel, which store_rows.comp blurs
   bool shapes = true;       ///< false: every map is linear
 };
 

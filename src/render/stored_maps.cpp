@@ -18,14 +18,9 @@ namespace {
 constexpr GLint kMapLocation = 0;
 constexpr GLuint kSumsImage = 0;
 constexpr int kRowsPerGroup = 32;  ///< local_size_x of sum_rows.comp and sum_columns.comp
-constexpr GLint kWalkLocation = 1, kListLocation = 2, kBlurLocation = 2, kLevelsLocation = 1;
+constexpr GLint kWalkLocation = 1, kVectorLocation = 2, kLevelsLocation = 1;
 /// Compilers unroll loops over 31 taps; wider kernels are rare.
 constexpr int kMostWalkReach = 15;
-
-/// True if one pass stores texels and blurs them along x; else they are stored first.
-bool fuses_store(const FilterVariant& variant) noexcept {
-  return variant.vectors == 1;
-}
 
 GLuint groups_of(int count, int each) noexcept {
   return static_cast<GLuint>((count + each - 1) / each);
@@ -80,7 +75,7 @@ std::vector<std::string_view> filter_shaders(const Filter& filter, MapRead reads
   std::vector<std::string_view> paths{mask_path(reads)};
   if (reads == MapRead::filtered || reads == MapRead::joined) {
     paths.insert(paths.end(),
-                 {"store_rows.comp", "blur_walk.comp", "store.frag", "blur.frag", "mark_tiles.frag"});
+                 {"store_rows.comp", "blur_columns.comp", "store.frag", "blur.frag", "mark_tiles.frag"});
   }
   if (reads == MapRead::joined && filter.info.may_mipmap) paths.emplace_back("join_mip.frag");
   if (reads == MapRead::summed) paths.insert(paths.end(), {"sum_rows.comp", "sum_columns.comp"});
@@ -179,9 +174,12 @@ FilterPrograms make_filter_programs(const FilterSettings& settings) {
     make(programs.store, "store.frag");
     make(programs.blur, "blur.frag");
   } else {
-    make(programs.blur_walk, programs.variant.reach > 0 ? "blur_walk.comp" : "");
-    if (!fuses_store(programs.variant)) choice.reach = 0;
-    make(programs.store_rows, "store_rows.comp");
+    const bool blurs = programs.variant.reach > 0;
+    make(programs.blur_columns, blurs ? "blur_columns.comp" : "");
+    const bool stores = std::find(paths.begin(), paths.end(), "store_rows.comp") != paths.end();
+    const int count = !stores ? 0 : blurs ? programs.variant.vectors : 1;
+    for (choice.vector = 0; choice.vector < count; ++choice.vector)
+      programs.store_rows.push_back(make_compute_program("store_rows.comp", choice));
   }
   make(programs.mark, "mark_tiles.frag");
   make(programs.join_mip, "join_mip.frag");
@@ -209,7 +207,7 @@ bool StoredMaps::fit(const FilterPrograms& programs, const FilterSettings& setti
   wanted.vectors = stores ? programs.variant.vectors : 0;
   wanted.format = stores ? stored_format(settings) : 0;
   wanted.scratch = blurred;
-  wanted.walks = static_cast<bool>(programs.store_rows);
+  wanted.walks = !programs.store_rows.empty();
   wanted.depth_max = filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings);
   Shape same_but_fewer = shape_;
   if (wanted.layers < shape_.layers) same_but_fewer.layers = wanted.layers;
@@ -267,53 +265,41 @@ void StoredMaps::blur_map(const FilterPrograms& programs, GLint map, bool blurre
   draw(stored_fbo_.name(), viewport_);
 }
 
-void StoredMaps::walk_store(const FilterPrograms& programs, GLint map, const WalkTarget& into) {
-  for (std::size_t i = 0; i < into.images.size(); ++i) {
-    glBindImageTexture(static_cast<GLuint>(i), into.images[i].name(), 0, GL_TRUE, 0, GL_WRITE_ONLY,
-                       shape_.format);
-  }
-  glUseProgram(programs.store_rows.name());
+void StoredMaps::walk_rows(const Program& program, GLint map, std::span<const Texture> into, GLint layer) {
+  for (std::size_t i = 0; i < into.size(); ++i)
+    glBindImageTexture(static_cast<GLuint>(i), into[i].name(), 0, GL_TRUE, 0, GL_WRITE_ONLY, shape_.format);
+  glUseProgram(program.name());
   glUniform1i(kMapLocation, map);
-  glUniform4i(kWalkLocation, viewport_.x, viewport_.y, into.layer, tiles_.per_layer());
-  glUniform1i(kListLocation, static_cast<GLint>(into.list));
-  tiles_.dispatch(into.list);
+  glUniform4i(kWalkLocation, viewport_.x, viewport_.y, layer, tiles_.per_layer());
+  tiles_.dispatch(FilterTiles::List::rows);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void StoredMaps::walk_blur(const FilterPrograms& programs, GLint map, const WalkBlur& blur) {
-  glBindImageTexture(0, blur.to, 0, GL_TRUE, 0, GL_WRITE_ONLY, shape_.format);
-  glBindTextureUnit(kStoredUnit, blur.from);
+void StoredMaps::walk_columns(const FilterPrograms& programs, GLint map, std::size_t vector) {
+  glBindImageTexture(0, stored_[vector].name(), 0, GL_TRUE, 0, GL_WRITE_ONLY, shape_.format);
+  glBindTextureUnit(kStoredUnit, scratch_[0].name());
   glBindSampler(kStoredUnit, nearest_sampler_.name());
-  glUseProgram(programs.blur_walk.name());
+  glUseProgram(programs.blur_columns.name());
   glUniform1i(kMapLocation, map);
-  glUniform4i(kWalkLocation, viewport_.x, viewport_.y, blur.to_layer, tiles_.per_layer());
-  glUniform3i(kBlurLocation, blur.along_x ? 1 : 0, blur.from_layer, blur.vector);
-  tiles_.dispatch(blur.along_x ? FilterTiles::List::rows : FilterTiles::List::tiles);
+  glUniform4i(kWalkLocation, viewport_.x, viewport_.y, map, tiles_.per_layer());
+  glUniform1i(kVectorLocation, static_cast<GLint>(vector));
+  tiles_.dispatch(FilterTiles::List::tiles);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
 void StoredMaps::walk_map(const FilterPrograms& programs, GLint map) {
   tiles_.list(map, viewport_, programs.variant.reach);
   if (programs.variant.reach == 0) {
-    walk_store(programs, map, {stored_, map, FilterTiles::List::rows});
+    walk_rows(programs.store_rows[0], map, stored_, map);
     ++passes_;
     return;
   }
-  passes_ += 2;
-  if (fuses_store(programs.variant)) {
-    walk_store(programs, map, {scratch_, 0, FilterTiles::List::rows});
-    walk_blur(programs, map, {scratch_[0].name(), 0, stored_[0].name(), map, 0, false});
-    return;
-  }
   // Windows of many vectors do not fit into registers: each vector is blurred by itself.
-  walk_store(programs, map, {stored_, map, FilterTiles::List::rows_and_columns});
   for (std::size_t i = 0; i < stored_.size(); ++i) {
-    const GLuint kept = stored_[i].name(), scratch = scratch_[0].name();
-    const auto vector = static_cast<GLint>(i);
-    walk_blur(programs, map, {kept, map, scratch, 0, vector, true});
-    walk_blur(programs, map, {scratch, 0, kept, map, vector, false});
+    walk_rows(programs.store_rows[i], map, {scratch_.data(), 1}, 0);
+    walk_columns(programs, map, i);
   }
-  ++passes_;
+  passes_ += 2;
 }
 
 void StoredMaps::join_mips(const FilterPrograms& programs, const StoreJob& job, const Held& held) {
@@ -396,10 +382,8 @@ StoredMaps::Held StoredMaps::choose_tiles(const FilterPrograms& programs, const 
     const bool kept = job.held[i] && made.depths;
     held[i] = kept && made.whole;
     if (held[i]) continue;
-    // Several vectors are stored in place before their blur, which would spoil tiles that are valid.
-    const bool all = !job.mark_read || made.marks == kMostMarks || (kept && programs.variant.vectors > 1);
-    const bool holds = kept && programs.variant.vectors == 1;
-    tiles_.keep(static_cast<GLint>(i), {holds, all});
+    const bool all = !job.mark_read || made.marks == kMostMarks;
+    tiles_.keep(static_cast<GLint>(i), {kept, all});
     made = {true, all, all ? 0 : kept ? made.marks + 1 : 1};
     if (!kept) whole_texels_ += area(job.mipmaps ? layer : job.map_size[i]);
     marks = marks || !all;
@@ -424,7 +408,7 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
       std::any_of(block.reach.begin(), block.reach.begin() + static_cast<std::ptrdiff_t>(maps),
                   [](const glm::ivec4& reach) { return reach.x > 0; });
   const bool alike = made_alike(settings, block);
-  const bool fresh = fit(programs, settings, job, any_blur && (programs.blur || programs.blur_walk));
+  const bool fresh = fit(programs, settings, job, any_blur && (programs.blur || programs.blur_columns));
   if (!alike || fresh) made_ = {};
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
@@ -437,12 +421,12 @@ void StoredMaps::build(const FilterPrograms& programs, const FilterSettings& set
     const auto map = static_cast<GLint>(i);
     // Beyond the map nothing is read but by mip-maps.
     viewport_ = job.mipmaps ? glm::ivec2(job.layer_width, job.layer_height) : job.map_size[i];
-    if (programs.store_rows) walk_map(programs, map);
+    if (!programs.store_rows.empty()) walk_map(programs, map);
     if (programs.store) blur_map(programs, map, block.reach[i].x > 0);
     if (programs.sum_rows) sum_map(programs, map, job);
   }
   if (programs.sum_rows) glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-  if (programs.store_rows)
+  if (!programs.store_rows.empty())
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
                     GL_FRAMEBUFFER_BARRIER_BIT);
   if (shape_.depth_max) build_depth_max(programs, job, held);

@@ -30,14 +30,16 @@ struct FilterVariant {
 [[nodiscard]] FilterVariant variant_of(const FilterSettings& settings) noexcept;
 
 /// The programs of one variant of a filter; those that it has no use for are empty. Texels are stored and
-/// blurred by store_rows and blur_walk where all maps have one reach, else by store and blur.
+/// blurred by store_rows and blur_columns where all maps have one reach, else by store and blur.
 struct FilterPrograms {
   FilterVariant variant;
   /// Made when pages are first drawn; the last two where the filter stores texels.
   Program mask_pages, store_page, blur_page;
   Program mask_lights, shade_clusters;  ///< made when many lights are first drawn
   Program shaped_mask, shaped_mark;  ///< made when a map has a shape; `mask` and `mark` are for linear ones
-  Program mask, mark, store_rows, blur_walk, store, blur, join_mip, depth_max, sum_rows, sum_columns;
+  Program mask, mark, blur_columns, store, blur, join_mip, depth_max, sum_rows, sum_columns;
+  /// One that stores all vectors of a texel, or, where the reach is above 0, one for each that blurs it.
+  std::vector<Program> store_rows;
 
   /// `shaped`: a map of the frame is not linear.
   [[nodiscard]] const Program& mask_for(bool shaped) const noexcept {
@@ -118,20 +120,8 @@ class StoredMaps {
   [[nodiscard]] bool made_alike(const FilterSettings& settings, const FilterBlock& block) noexcept;
   void blur_map(const FilterPrograms& programs, GLint map, bool blurred);
   void walk_map(const FilterPrograms& programs, GLint map);
-  struct WalkTarget {
-    const std::vector<Texture>& images;
-    GLint layer;
-    FilterTiles::List list;
-  };
-  void walk_store(const FilterPrograms& programs, GLint map, const WalkTarget& into);
-  struct WalkBlur {
-    GLuint from;
-    GLint from_layer;
-    GLuint to;
-    GLint to_layer, vector;
-    bool along_x;
-  };
-  void walk_blur(const FilterPrograms& programs, GLint map, const WalkBlur& blur);
+  void walk_rows(const Program& program, GLint map, std::span<const Texture> into, GLint layer);
+  void walk_columns(const FilterPrograms& programs, GLint map, std::size_t vector);
   void join_mips(const FilterPrograms& programs, const StoreJob& job, const Held& held);
   void sum_map(const FilterPrograms& programs, GLint map, const StoreJob& job);
   void build_depth_max(const FilterPrograms& programs, const StoreJob& job, const Held& held);

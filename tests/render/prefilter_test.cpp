@@ -43,7 +43,7 @@ TEST_F(Prefilter, blurs_7_by_7_on_1024_texels_of_two_floats_in_two_passes_and_on
   EXPECT_EQ(stats.prefilter_passes, 2);
   constexpr std::uint64_t kTexels = 1024u * 1024u, kDepth = 4, kMoments = 8;
   EXPECT_EQ(stats.map_bytes, kTexels * (kDepth + kMoments));
-  constexpr std::uint64_t kTiles = 32 * 32, kLists = 64 + kTiles * 9 * 4;
+  constexpr std::uint64_t kTiles = 32 * 32, kLists = 48 + kTiles * 5 * 4;
   EXPECT_EQ(stats.scratch_bytes, kTexels * kMoments + kTiles + kLists);  // blurred one way; which tiles
 }
 

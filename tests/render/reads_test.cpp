@@ -76,14 +76,15 @@ TEST(Reads, a_filter_has_the_programs_of_its_passes_and_no_others) {
     const FilterPrograms programs = make_filter_programs(default_settings(*filter));
     const bool stores = filter->info.reads == MapRead::filtered || filter->info.reads == MapRead::joined;
     EXPECT_TRUE(programs.mask);
-    EXPECT_EQ(static_cast<bool>(programs.store_rows), stores) << filter->info.name;
-    EXPECT_EQ(static_cast<bool>(programs.blur_walk), stores) << filter->info.name;
+    EXPECT_EQ(programs.store_rows.size(), stores ? static_cast<std::size_t>(programs.variant.vectors) : 0)
+        << filter->info.name << ": one for each vector that is blurred";
+    EXPECT_EQ(static_cast<bool>(programs.blur_columns), stores) << filter->info.name;
     EXPECT_FALSE(programs.store || programs.blur) << filter->info.name << ": the kernel is known";
     FilterSettings in_world = default_settings(*filter);
     in_world.unit = KernelUnit::world;
     const FilterPrograms any_reach = make_filter_programs(in_world);
     EXPECT_EQ(any_reach.store && any_reach.blur, stores) << filter->info.name << ": each map has its own";
-    EXPECT_FALSE(any_reach.store_rows || any_reach.blur_walk) << filter->info.name;
+    EXPECT_TRUE(any_reach.store_rows.empty() && !any_reach.blur_columns) << filter->info.name;
     EXPECT_EQ(static_cast<bool>(programs.sum_rows), filter->info.reads == MapRead::summed)
         << filter->info.name;
     EXPECT_EQ(static_cast<bool>(programs.join_mip),
@@ -100,9 +101,7 @@ int passes_of(const FilterSettings& settings, int map_size) {
   int passes = 0;
   if (filter.info.reads == MapRead::summed) passes += 2;  // along rows, then along columns
   if (filter.info.reads == MapRead::filtered || filter.info.reads == MapRead::joined)
-    passes += settings.radius == 0.0         ? 1
-              : shadow_vectors(settings) > 1 ? 3
-                                             : 2;  // store, apart or with a blur
+    passes += settings.radius == 0.0 ? 1 : 2;  // store; store with the blur along x, then that along y
   if (filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings))
     passes += static_cast<int>(std::bit_width(static_cast<unsigned>(map_size / 2)));  // a level each
   return passes;
