@@ -1,6 +1,7 @@
 #version 450 core
 // The mask over several frames: this frame's result joins what re-projection finds of the frames before, weighted by how
 // close the look-up came to its texel's centre (Scherzer, Jeschke, Wimmer 2007).
+#include "common/filter.glsl"
 #include "common/frame.glsl"
 #include "common/surface.glsl"
 #include "library/receiver.glsl"
@@ -19,15 +20,16 @@ layout(location = 0) out vec2 mask;  // 1 lit .. 0 in shadow; map or -1
 layout(location = 1) out vec4 kept;
 
 ShadowLookup lookup_of(Surface s, float map) {
-  return shadow_lookup(shadow_map(int(map)), map, frame.layer.xy, ShadowSurface(s.position, s.normal, frame.light_place),
-                       frame.bias);
+  ShadowMap m = shadow_map(int(map));
+  ShadowLookup at =
+      shadow_lookup(m, map, frame.layer.xy, ShadowSurface(s.position, s.normal, frame.light_place), frame.bias);
+  set_kernel(at, m, ShadowKernel(filtering.kernel.x, filtering.kernel.y > 0.5, false), mat2(0.0));
+  return at;
 }
 
 // Whether a caster that moved is between the surface and the light now, or was before, the kernel's radius beside it included.
 bool behind_moved(Surface s, ShadowLookup at) {
-  vec2 texels = vec2(length(at.texels_per_world[0]), length(at.texels_per_world[1]));
-  const float kLeastTexels = 1e-20;
-  float radius = (max(at.box.x, at.box.y) + 1.0) / max(min(texels.x, texels.y), kLeastTexels);
+  float radius = (max(at.box.x, at.box.y) + 1.0) * texel_side(at);
   vec3 to_light = -light_at(frame.light_place, s.position);
   const float kFar = 1e30, kAlong = 1e-20;
   float most = at.light_distance > 0.0 ? at.light_distance : kFar;
@@ -53,6 +55,15 @@ float confidence(ShadowLookup at) {
   // No texel is without any weight: what was seen once is better than nothing.
   const float kLeast = 1e-6;
   return scale * max(pow(max(1.0 - 2.0 * max(away.x, away.y), 0.0), power), kLeast);
+}
+
+// How much of the most weight a history keeps that is read between pixels. These reads wear off details of a few pixels. The map
+// has none that are smaller than its texels and its kernel; where those are small, this frame alone is closer.
+float kept_share(Surface s, ShadowLookup at) {
+  float pixel = frame.up.w * (frame.forward.w > 0.5 ? 1.0 : s.depth);
+  float pixels = 2.0 * max(at.box.x, at.box.y) * texel_side(at) / pixel;
+  const float kNone = 1.0, kWhole = 4.0;
+  return smoothstep(kNone, kWhole, pixels);
 }
 
 // Weights of the four pixels round a place whose share of the step from the second to the third is x: Catmull and Rom's
@@ -108,7 +119,7 @@ vec4 known_at(ivec2 pixel, ivec2 size, Before at) {
 }
 
 // Mean and weight at the place where the point was; of the nearest four pixels where the sixteen show other surfaces as well.
-vec2 history_at(Surface s) {
+vec2 history_at(Surface s, ShadowLookup lookup) {
   ivec2 size = textureSize(history_image, 0);
   Before at = before_at(s, vec2(size));
   if (history.settings.w < 0.5 || !at.in_front) return vec2(0.0);
@@ -132,7 +143,8 @@ vec2 history_at(Surface s) {
     }
   }
   if (weights <= 0.0) return vec2(0.0);
-  return vec2(whole ? clamp(curve, 0.0, 1.0) : sum / weights, weights);
+  float most = history.settings.y * kept_share(s, lookup);
+  return vec2(whole ? clamp(curve, 0.0, 1.0) : sum / weights, min(weights, most));
 }
 
 void main() {
@@ -143,7 +155,7 @@ void main() {
   // No map was read: the result is certain, and the same in every frame.
   if (s.sky || mask.g < 0.0 || dot(s.normal, light_at(frame.light_place, s.position)) >= 0.0) return;
   ShadowLookup at = lookup_of(s, mask.g);
-  vec2 before = behind_moved(s, at) ? vec2(0.0) : history_at(s);
+  vec2 before = behind_moved(s, at) ? vec2(0.0) : history_at(s, at);
   before.y = min(before.y, history.settings.y);
   float weight = confidence(at);
   float total = before.y + weight;

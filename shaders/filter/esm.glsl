@@ -57,11 +57,9 @@ float log_mean_over(float s) {
 
 // Depth along the light of a texel's longest side, as stored.
 float depth_of_texel_side(ShadowLookup at) {
-  mat2 m = at.texels_per_world;
-  float side = max(length(vec2(m[0].x, m[1].x)), length(vec2(m[0].y, m[1].y))) / abs(m[0].x * m[1].y - m[1].x * m[0].y);
   float depth = min(at.depth, 1.0), map_depth = depth_from_linear(depth, at.depth_curve);
   float scale = 1.0 + (1.0 - map_depth) * at.depth_curve;
-  return side * abs((at.ray.z - map_depth * at.ray.w) / at.ray.y) * (1.0 + at.depth_curve) / (scale * scale);
+  return texel_side(at) * abs((at.ray.z - map_depth * at.ray.w) / at.ray.y) * (1.0 + at.depth_curve) / (scale * scale);
 }
 
 float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DArray depth_max, ShadowLookup at,

@@ -49,6 +49,12 @@ float linear_depth(float depth, float curve) { return depth / (1.0 + (1.0 - dept
 // The other way.
 float depth_from_linear(float linear, float curve) { return linear * (1.0 + curve) / (1.0 + linear * curve); }
 
+// The longest side of a texel across the light, world units.
+float texel_side(ShadowLookup at) {
+  mat2 m = at.texels_per_world;
+  return max(length(vec2(m[0].x, m[1].x)), length(vec2(m[0].y, m[1].y))) / abs(m[0].x * m[1].y - m[1].x * m[0].y);
+}
+
 // From the receiver towards the light to where the map's depth is z, world units; negative behind the receiver.
 float distance_to_depth(ShadowLookup at, float z) {
   float slope = at.ray.z - z * at.ray.w;

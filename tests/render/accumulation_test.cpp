@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "blue_noise.hpp"
 #include "gnomon/jitter.hpp"
@@ -19,12 +20,12 @@ FrameOptions accumulating() {
   return options;
 }
 
-PlanOptions coarse_map(const Filter& filter) {
+PlanOptions planned(const FilterSettings& filter, int size) {
   PlanOptions options;
-  options.resolution.max_size = 64;
+  options.resolution.max_size = size;
   options.cascades = 1;
   options.warp.warp = &warps::none;
-  set_margin(default_settings(filter), options);
+  set_margin(filter, options);
   options.filter.texels += kJitterReachTexels;
   // Results near texels' centres count most, and they need next to no bias.
   options.bias.slope_texels *= 0.05;
@@ -35,11 +36,11 @@ PlanOptions coarse_map(const Filter& filter) {
 /// Draws frames of a scene from one plan, whose grid moves.
 class Stills {
  public:
-  explicit Stills(const Filter& filter = filters::hard, const glm::dvec3& light = kSlant)
-      : scene_(box_on_ground()), renderer_(scene_), filter_(filter), light_(light) {}
+  explicit Stills(FilterSettings filter = default_settings(filters::hard), int map_size = 64)
+      : scene_(box_on_ground()), renderer_(scene_), filter_(std::move(filter)), map_size_(map_size) {}
   Frame frame(std::uint32_t index, const FrameOptions& options, const Camera& camera = still()) {
-    const ShadowPlan plan = plan_for(scene_, camera, light_, coarse_map(filter_));
-    return draw(renderer_, camera, jittered(plan, jitter_texels(index)), default_settings(filter_), options);
+    const ShadowPlan plan = plan_for(scene_, camera, light_, planned(filter_, map_size_));
+    return draw(renderer_, camera, jittered(plan, jitter_texels(index)), filter_, options);
   }
   /// After so many frames of a view at rest.
   Frame after(int frames, FrameOptions options = accumulating()) {
@@ -67,8 +68,9 @@ class Stills {
  private:
   Scene scene_;
   Renderer renderer_;
-  const Filter& filter_;
-  glm::dvec3 light_;
+  FilterSettings filter_;
+  int map_size_;
+  glm::dvec3 light_ = kSlant;
 };
 
 bool same_mask(const Frame& a, const Frame& b) {
@@ -117,12 +119,11 @@ TEST(Accumulation, restart_forgets_and_so_does_a_frame_without) {
   EXPECT_TRUE(same_mask(stills.frame(3, accumulating()), alone)) << "after a frame without accumulation";
 }
 
-/// Wrong pixels of the last frame of a view that moves by more than a pixel a frame, accumulated and alone.
+/// The last frame of a view that moves by more than a pixel a frame, accumulated and alone.
 struct Moved {
-  int accumulated, alone;
+  Frame accumulated, alone;
 };
-Moved after_motion(double depth_tolerance) {
-  Stills stills;
+Moved after_motion(Stills& stills, double depth_tolerance = Accumulation{}.depth_tolerance) {
   Camera camera = Stills::still();
   // Looked up where they were on the image, points would be others.
   const glm::dvec3 aside = glm::normalize(glm::cross(camera.forward, camera.up));
@@ -136,20 +137,35 @@ Moved after_motion(double depth_tolerance) {
     camera.position += step;
   }
   camera.position -= step;
-  return {stills.wrong(last), stills.wrong(stills.frame(kFrames - 1, {}, camera))};
+  return {last, stills.frame(kFrames - 1, {}, camera)};
 }
 
 TEST(Accumulation, a_moving_view_finds_its_points_again) {
-  const Moved moved = after_motion(Accumulation{}.depth_tolerance);
-  EXPECT_GT(moved.alone, 50);
-  EXPECT_LT(moved.accumulated, 0.5 * moved.alone);
+  Stills stills;
+  const Moved moved = after_motion(stills);
+  const int alone = stills.wrong(moved.alone);
+  EXPECT_GT(alone, 50);
+  EXPECT_LT(stills.wrong(moved.accumulated), 0.5 * alone);
 }
 
 TEST(Accumulation, neighbours_in_a_slanted_plane_are_the_same_surface) {
   // From pixel to pixel the ground's depth changes by more than the tolerance.
   constexpr double kNarrow = 2e-4;
-  const Moved moved = after_motion(kNarrow);
-  EXPECT_LT(moved.accumulated, 0.5 * moved.alone);
+  Stills stills;
+  const Moved moved = after_motion(stills, kNarrow);
+  EXPECT_LT(stills.wrong(moved.accumulated), 0.5 * stills.wrong(moved.alone));
+}
+
+TEST(Accumulation, a_moving_view_keeps_no_history_of_details_as_small_as_pixels) {
+  // No texel is as long as a pixel: reads between pixels would wear off what they resolve.
+  constexpr int kFine = 1024;
+  Stills sharp(default_settings(filters::hard), kFine);
+  const Moved moved = after_motion(sharp);
+  EXPECT_TRUE(same_mask(moved.accumulated, moved.alone));
+  Stills soft(parse_filter("pcf:radius=24").settings, kFine);
+  const Moved blurred = after_motion(soft);
+  EXPECT_FALSE(same_mask(blurred.accumulated, blurred.alone))
+      << "a kernel of many pixels has no such details";
 }
 
 TEST(Accumulation, rejects_the_history_of_another_surface) {
@@ -183,7 +199,14 @@ TEST(Accumulation, rejects_the_history_of_another_surface) {
   EXPECT_GT(changed(1.0), 10);
 }
 
-TEST(Accumulation, forgets_what_lies_behind_a_caster_that_moves_and_nothing_else) {
+/// What the first frame after a caster's move differs in from that frame alone.
+struct AfterMove {
+  int behind = 0,
+      ghosts = 0;  // pixels of the ground whose kernel sees the caster's shadow, and those that differ
+  int elsewhere = 0, kept = 0;  // all others
+};
+AfterMove after_move(const char* text, double radius_world) {
+  const FilterSettings filter = parse_filter(text).settings;
   const Scene before = boxes_on_ground();
   constexpr std::size_t kMover = 1;  // the box that the camera looks at
   Scene after = before;
@@ -195,30 +218,38 @@ TEST(Accumulation, forgets_what_lies_behind_a_caster_that_moves_and_nothing_else
   Renderer renderer(before);
   const Camera camera = Stills::still();
   const auto frame = [&](const Scene& scene, std::uint32_t index, const FrameOptions& options) {
-    const ShadowPlan plan = plan_for(scene, camera, kSlant, coarse_map(filters::hard));
-    return draw(renderer, camera, jittered(plan, jitter_texels(index)), default_settings(filters::hard),
-                options);
+    const ShadowPlan plan = plan_for(scene, camera, kSlant, planned(filter, 64));
+    return draw(renderer, camera, jittered(plan, jitter_texels(index)), filter, options);
   };
   constexpr std::uint32_t kFrames = 32;
   for (std::uint32_t i = 0; i < kFrames; ++i) frame(before, i, accumulating());
-  ASSERT_TRUE(renderer.move_instance(kMover, moved));
+  EXPECT_TRUE(renderer.move_instance(kMover, moved));
   const Frame first = frame(after, kFrames, accumulating());
   const Frame alone = frame(after, kFrames, {});
-  int behind = 0, ghosts = 0, elsewhere = 0, kept = 0;
+  AfterMove count;
   for (std::size_t i = 0; i < first.pixels(); ++i) {
     if (!first.surface(i) || std::abs(first.point(i).y) > 1e-3) continue;
     const auto in_shadow_of = [&](const Scene& scene) {
       const Box& box = scene.instances[kMover].bounds_world;
-      return hits_box(first.point(i), -kSlant, box.min, box.max);
+      return hits_box(first.point(i), -kSlant, box.min - radius_world, box.max + radius_world);
     };
     const bool affected = in_shadow_of(before) || in_shadow_of(after);
-    (affected ? behind : elsewhere) += 1;
-    (affected ? ghosts : kept) += first.lit(i) != alone.lit(i) ? 1 : 0;
+    (affected ? count.behind : count.elsewhere) += 1;
+    (affected ? count.ghosts : count.kept) += first.lit(i) != alone.lit(i) ? 1 : 0;
   }
-  EXPECT_GT(behind, 200);
-  EXPECT_EQ(ghosts, 0);
-  EXPECT_GT(elsewhere, 2000);
-  EXPECT_GT(kept, 300) << "edges of other shadows stay converged";
+  return count;
+}
+
+TEST(Accumulation, forgets_what_lies_behind_a_caster_that_moves_and_nothing_else) {
+  const AfterMove hard = after_move("hard", 0.0);
+  EXPECT_GT(hard.behind, 200);
+  EXPECT_EQ(hard.ghosts, 0);
+  EXPECT_GT(hard.elsewhere, 2000);
+  EXPECT_GT(hard.kept, 300) << "edges of other shadows stay converged";
+  const AfterMove wide = after_move("pcf:unit=world,radius=1.5", 1.5);
+  EXPECT_GT(wide.behind, hard.behind + 200);
+  EXPECT_EQ(wide.ghosts, 0);
+  EXPECT_GT(wide.kept, 300);
 }
 
 TEST(Accumulation, noise_that_moves_averages_to_the_whole_kernel) {

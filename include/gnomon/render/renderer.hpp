@@ -87,9 +87,10 @@ enum class SampleNoise : std::uint8_t {
 };
 
 /// Accumulates the mask over frames by re-projection: hard edges converge to the exact ones where the maps'
-/// grids move from frame to frame (jitter.hpp). A pixel's history restarts where the box of a caster that
-/// moved shadows it, before or after the move (move_instance(), apply_pose(), FrameOptions::moved_world). The
-/// light must be at rest: set `restart` in the first frame after it moved, and after a cut.
+/// grids move from frame to frame (jitter.hpp). A moving view keeps no history where texels and kernel are as
+/// small as a pixel. A pixel's history restarts where the box of a caster that moved shadows it, before or
+/// after the move (move_instance(), apply_pose(), FrameOptions::moved_world). The light must be at rest: set
+/// `restart` in the first frame after it moved, and after a cut.
 struct Accumulation {
   bool on = false;  ///< off: each frame's mask is its own
   /// The weight of a frame's result is its confidence to this power, 0..64. The confidence falls from 1 at a
