@@ -71,6 +71,7 @@ std::string read_pair(std::string_view key, std::string_view text, FilterSetting
     settings.blur = second ? BlurShape::gauss : BlurShape::box;
     return error;
   }
+  if (key == "contacts") return read_choice(key, text, "0", "1", settings.contacts);
   if (key == "mipmap" && filter.info.may_mipmap) return read_choice(key, text, "0", "1", settings.mipmap);
   if (key == "anisotropy" && filter.info.may_mipmap) {
     double probes = 1.0;
@@ -82,7 +83,7 @@ std::string read_pair(std::string_view key, std::string_view text, FilterSetting
     const FilterOption& option = filter.info.options[i];
     if (option.name == key) return read_number(key, text, option.min, option.max, settings.option[i]);
   }
-  std::string known = "radius, unit";
+  std::string known = "radius, unit, contacts";
   if (!filter.info.formats.empty()) known += ", format, blur";
   if (filter.info.may_mipmap) known += ", mipmap, anisotropy";
   for (const FilterOption& option : filter.info.options) known += ", " + std::string(option.name);
@@ -108,6 +109,8 @@ std::vector<KeyLine> keys_of(const Filter& filter) {
     keys.push_back({"unit", "texels, world", "texels",
                     "unit of the radius; world gives every cascade the same blur on the ground"});
   }
+  keys.push_back({"contacts", "0, 1", "0",
+                  "1 marches towards the light through what the camera sees, as far as contacts leak"});
   for (const FilterOption& option : info.options) {
     keys.push_back({std::string(option.name), range_text(option.min, option.max),
                     number_text(option.fallback), std::string(option.summary)});
@@ -198,6 +201,7 @@ std::string to_string(const FilterSettings& settings) {
   if (settings.unit != usual.unit) add("unit", "world");
   if (settings.blur != usual.blur) add("blur", "gauss");
   if (settings.format != usual.format) add("format", to_string(settings.format));
+  if (settings.contacts != usual.contacts) add("contacts", settings.contacts ? "1" : "0");
   if (settings.mipmap != usual.mipmap) add("mipmap", settings.mipmap ? "1" : "0");
   if (settings.anisotropy != usual.anisotropy) add("anisotropy", std::to_string(settings.anisotropy));
   for (std::size_t i = 0; i < filter.info.options.size(); ++i) {

@@ -398,6 +398,14 @@ void Renderer::Impl::draw_mask(const Program& program, GLuint fbo, bool from_pag
   glBindSampler(kExtraUnit, 0);  // shared with the depth pyramid
 }
 
+void Renderer::Impl::draw_contacts(GLuint fbo) noexcept {
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_MIN);
+  fullscreen(fbo, shaped && shaped_contacts ? shaped_contacts : contacts);
+  glBlendEquation(GL_FUNC_ADD);
+  glDisable(GL_BLEND);
+}
+
 void Renderer::Impl::draw_accumulated(const Camera& camera, const FrameOptions& options,
                                       const FrameBlock& block) noexcept {
   history.bind(camera, options.accumulation);

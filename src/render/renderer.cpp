@@ -103,6 +103,7 @@ void Renderer::Impl::fit_maps(const ShadowPlan& plan) {
 PreparedFilter Renderer::prepare(const FilterSettings& settings) {
   auto& known = impl_->filter_programs;
   const FilterVariant variant = variant_of(settings);
+  if (settings.contacts && !impl_->contacts) impl_->contacts = make_contacts_program(false);
   if (settings.filter->info.draws_silhouettes && !impl_->silhouettes)
     impl_->silhouettes.emplace(impl_->scene);
   const auto found =
@@ -205,6 +206,7 @@ void Renderer::Impl::take_shapes(const ShadowPlan& plan, const PreparedFilter& f
   if (!shaped) return;
   try {
     make_shaped_programs(filter.settings, filter_programs[filter.program]);
+    if (filter.settings.contacts && !shaped_contacts) shaped_contacts = make_contacts_program(true);
   } catch (const RenderError&) {
     // A lost context compiles nothing; who drew the frame finds out from the context.
   }
@@ -274,6 +276,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   const FrameBlock block =
       frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur, curves);
   fit_options(filter.settings, plan, filtering);
+  set_contact_reach(filter.settings, plan, filtering);
   DrawnMaps drawn;
   timed(Pass::shadow_maps, [&] {
     impl.upload(block, filtering);
@@ -299,8 +302,9 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   accumulated ? impl.history.resize(camera.width, camera.height) : impl.history.forget();
   timed(Pass::mask, [&] {
     impl.bind_noise(options.noise);
-    impl.draw_mask(impl.filter_programs[filter.program].mask_for(impl.shaped),
-                   accumulated ? impl.history.single_fbo() : impl.targets.mask_fbo.name());
+    const GLuint fbo = accumulated ? impl.history.single_fbo() : impl.targets.mask_fbo.name();
+    impl.draw_mask(impl.filter_programs[filter.program].mask_for(impl.shaped), fbo);
+    if (filter.settings.contacts && plan.map_count > 0) impl.draw_contacts(fbo);
   });
   if (accumulated) timed(Pass::accumulate, [&] { impl.draw_accumulated(camera, options, block); });
   if (impl.panes) {

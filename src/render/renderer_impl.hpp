@@ -176,6 +176,7 @@ struct Renderer::Impl {
   /// `program` writes at least what programs.surfaces writes.
   void draw_surfaces(GLuint fbo, const Program& program) noexcept;
   void draw_mask(const Program& program, GLuint fbo, bool from_pages = false) noexcept;
+  void draw_contacts(GLuint fbo) noexcept;
   void draw_accumulated(const Camera& camera, const FrameOptions& options, const FrameBlock& block) noexcept;
   /// Makes the noise tile at the first frame that reads it.
   void bind_noise(SampleNoise noise) noexcept;
@@ -219,6 +220,7 @@ struct Renderer::Impl {
   std::optional<IdentifierOf> drawn_identifiers;  ///< that the last frame's maps hold
   std::optional<Silhouettes> silhouettes;         ///< made when a filter that reads them is first prepared
   bool drew_silhouettes = false;                  ///< into the maps that are held
+  Program contacts, shaped_contacts;              ///< made when settings with contacts first take them
   bool shaped = false;                            ///< a map of the frame is not linear
   PagePool pages;
   PageStage page_stage;

@@ -102,6 +102,10 @@ namespace {
 
 Program make_depth_program(const FilterSettings& settings, const char* shader, const char* place) {
   const FilterInfo& info = settings.filter->info;
+  if (settings.contacts) {
+    throw RenderError("filter " + std::string(info.name) +
+                      ": contacts take a pass over the pixels of one plan, and " + place + " none");
+  }
   if (info.reads != MapRead::depth || info.draws_silhouettes) {
     throw RenderError("filter " + std::string(info.name) + ": " +
                       (info.draws_silhouettes ? "reads outlines beside" : "stores texels of") +
@@ -149,6 +153,12 @@ ShaderChoice choice_for(const FilterSettings& settings, const FilterVariant& var
 }
 
 }  // namespace
+
+Program make_contacts_program(bool shapes) {
+  ShaderChoice choice;
+  choice.shapes = shapes;
+  return make_program("fullscreen.vert", "contacts.frag", choice);
+}
 
 void make_shaped_programs(const FilterSettings& settings, FilterPrograms& programs) {
   if (programs.shaped_mask) return;

@@ -31,7 +31,7 @@ TEST(FilterText, refuses_what_it_does_not_know_with_one_line_that_names_it) {
                 {"vsm:format=unorm8", "format=unorm8: wants fp32, unorm16"},
                 {"hard:format=fp32", "stores nothing"},
                 {"hard:mipmap=1", "mipmap: hard knows radius, unit"},
-                {"pcf:c=40", "c: pcf knows radius, unit, pattern, samples, rotate"}};
+                {"pcf:c=40", "c: pcf knows radius, unit, contacts, pattern, samples, rotate"}};
   for (const auto& c : kCases) {
     const ParsedFilter parsed = parse_filter(c.text);
     EXPECT_EQ(parsed.error.empty(), std::string_view(c.named).empty()) << c.text << ": " << parsed.error;
@@ -42,13 +42,15 @@ TEST(FilterText, refuses_what_it_does_not_know_with_one_line_that_names_it) {
 
 TEST(FilterText, reads_every_key) {
   const FilterSettings s =
-      parse_filter("vsm:radius=2.5,unit=world,blur=gauss,format=unorm16,mipmap=1,anisotropy=8,bleed=0.25")
+      parse_filter(
+          "vsm:radius=2.5,unit=world,contacts=1,blur=gauss,format=unorm16,mipmap=1,anisotropy=8,bleed=0.25")
           .settings;
   EXPECT_EQ(s.filter, &filters::vsm);
   EXPECT_EQ(s.radius, 2.5);
   EXPECT_EQ(s.unit, KernelUnit::world);
   EXPECT_EQ(s.blur, BlurShape::gauss);
   EXPECT_EQ(s.format, TexelFormat::unorm16);
+  EXPECT_TRUE(s.contacts);
   EXPECT_TRUE(s.mipmap);
   EXPECT_EQ(s.anisotropy, 8);
   EXPECT_EQ(s.value("bleed"), 0.25);
@@ -78,7 +80,7 @@ TEST(FilterText, is_the_name_alone_by_default_and_reads_back_to_the_same_setting
 TEST(FilterText, help_names_exactly_the_keys_that_are_read) {
   for (const Filter* filter : all_filters()) {
     const std::string help = filter_help(*filter);
-    for (const char* key : {"radius", "unit", "blur", "format", "mipmap", "anisotropy"}) {
+    for (const char* key : {"radius", "unit", "contacts", "blur", "format", "mipmap", "anisotropy"}) {
       const bool shown = help.find("\n  " + std::string(key) + " ") != std::string::npos;
       const std::string error = parse_filter(std::string(filter->info.name) + ":" + key + "=?").error;
       const bool read =

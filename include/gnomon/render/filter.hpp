@@ -65,6 +65,10 @@ struct FilterSettings {
   TexelFormat format = TexelFormat::fp32;  ///< of stored channels
   bool mipmap = false;  ///< averages over the pixel's footprint where texels are smaller than pixels
   int anisotropy = 1;   ///< 1..16 probes along a long footprint; needs `mipmap`
+  /// Also marches towards the light through what the camera sees, as far as light leaks behind a caster by
+  /// the fall-off or the bias (contacts.hpp). Closes contacts that are in view; takes a pass over the pixels.
+  /// For whole maps: pages and many lights refuse it.
+  bool contacts = false;
   std::array<double, kMaxFilterOptions>
       option{};  ///< in the order of FilterInfo::options; then the filter's own
 
@@ -223,8 +227,8 @@ struct ParsedFilter {
   std::string error;        ///< empty where the text was understood
 };
 /// Reads "NAME" or "NAME:KEY=VALUE,KEY=VALUE": keys are radius, unit (texels, world), blur (box, gauss),
-/// format (fp32, fp16, unorm16, unorm8, uint32, nonlinear16), mipmap (0, 1), anisotropy, and the filter's own
-/// options. Example: "esm:c=40,radius=3,format=fp32".
+/// format (fp32, fp16, unorm16, unorm8, uint32, nonlinear16), mipmap (0, 1), anisotropy, contacts (0, 1), and
+/// the filter's own options. Example: "esm:c=40,radius=3,format=fp32".
 [[nodiscard]] ParsedFilter parse_filter(std::string_view text);
 /// The text that parse_filter reads back to the same settings; defaults are not written.
 [[nodiscard]] std::string to_string(const FilterSettings& settings);

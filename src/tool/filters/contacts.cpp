@@ -7,6 +7,7 @@
 #include <string>
 
 #include "filters.hpp"
+#include "gnomon/render/contacts.hpp"
 #include "output.hpp"
 
 namespace gnomon::tool {
@@ -16,30 +17,11 @@ using render::FilterSettings;
 
 constexpr std::array kBehind{0.001, 0.003, 0.01, 0.03, 0.1};  // of the depth range
 
-/// The most light that any of some occluders leaves this far behind it, with what the format rounds.
-double light_behind(const FilterSettings& settings, double behind) {
-  const render::Filter& filter = *settings.filter;
+/// The most light that any of some occluders leaves this far behind it.
+double most_light_behind(const FilterSettings& settings, double behind) {
   double most = 0.0;
-  for (const double occluder : {0.05, 0.31, 0.5, 0.74, 0.88}) {
-    render::FilterLookup lookup;
-    lookup.map_depth = [occluder](int, int) { return occluder; };
-    lookup.depth_max = occluder;
-    lookup.position = {8.5, 8.5};
-    lookup.depth = occluder + behind;
-    lookup.box = glm::dvec2(settings.radius + 0.5);
-    lookup.disc = glm::dmat2(settings.radius + 0.5);
-    render::StoredTexel texel{};
-    if (filter.reference.store != nullptr) {
-      texel = filter.reference.store(occluder, glm::dvec2(0.0), settings);
-      for (double& channel : texel) channel = render::rounded_to(settings.format, channel);
-      if (filter.reference.pack != nullptr) {
-        render::StoredTexel read = filter.reference.nothing(settings);
-        filter.reference.join(read, texel, 1.0, settings);
-        texel = read;
-      }
-    }
-    most = std::max(most, filter.reference.visibility(texel, lookup, settings));
-  }
+  for (const double occluder : {0.05, 0.31, 0.5, 0.74, 0.88})
+    most = std::max(most, render::light_behind(settings, occluder, behind));
   return most;
 }
 
@@ -49,7 +31,7 @@ std::string row_of(const FilterSettings& settings, bool json) {
   nlohmann::ordered_json row{{"filter", to_string(settings)}, {"format", format}};
   std::string text = "| " + std::string(settings.filter->info.name) + " | " + format + " |";
   for (const double behind : kBehind) {
-    const double lit = light_behind(settings, behind);
+    const double lit = most_light_behind(settings, behind);
     char number[32], key[32];
     std::snprintf(number, sizeof number, " %.2f |", lit);
     std::snprintf(key, sizeof key, "%g", behind);

@@ -307,6 +307,8 @@ void edit_filter(render::FilterSettings& settings) {
     tooltip("half width of the kernel; Ctrl and click to type");
   }
   edit_stored_texels(settings);
+  ImGui::Checkbox("contacts", &settings.contacts);
+  tooltip("marches towards the light through what the camera sees, as far as contacts leak");
   for (std::size_t i = 0; i < info.options.size(); ++i) {
     const render::FilterOption& option = info.options[i];
     edit_double(std::string(option.name).c_str(), settings.option[i], 0.01, option.min, option.max);
