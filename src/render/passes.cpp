@@ -58,11 +58,18 @@ CommonPrograms::CommonPrograms()
       depth_even_masked(make_program("depth.vert", "depth_even_masked.frag")),
       copy_depth(make_program("copy_depth.vert", "copy_depth.frag")),
       surfaces(make_program("gbuffer.vert", "gbuffer.frag")),
-      accumulate(make_program("fullscreen.vert", "accumulate.frag")),
       shade(make_program("fullscreen.vert", "shade.frag")),
       aliasing(make_program("fullscreen.vert", "aliasing.frag")),
       heat(make_program("fullscreen.vert", "heat.frag")),
       tint(make_program("fullscreen.vert", "tint.frag")) {}
+
+void MapPass::prepare(bool shaped) {
+  Program& program = shaped ? shaped_ : linear_;
+  if (program) return;
+  ShaderChoice choice;
+  choice.shapes = shaped;
+  program = make_program("fullscreen.vert", path_, choice);
+}
 
 BentPrograms::BentPrograms()
     : opaque(make_geometry_program("depth.vert", "bent.geom", "bent.frag")),
@@ -401,7 +408,7 @@ void Renderer::Impl::draw_mask(const Program& program, GLuint fbo, bool from_pag
 void Renderer::Impl::draw_contacts(GLuint fbo) noexcept {
   glEnable(GL_BLEND);
   glBlendEquation(GL_MIN);
-  fullscreen(fbo, shaped && shaped_contacts ? shaped_contacts : contacts);
+  fullscreen(fbo, contacts.program(shaped));
   glBlendEquation(GL_FUNC_ADD);
   glDisable(GL_BLEND);
 }
@@ -409,7 +416,7 @@ void Renderer::Impl::draw_contacts(GLuint fbo) noexcept {
 void Renderer::Impl::draw_accumulated(const Camera& camera, const FrameOptions& options,
                                       const FrameBlock& block) noexcept {
   history.bind(camera, options.accumulation);
-  fullscreen(history.fbo_with(targets.mask), programs.accumulate);
+  fullscreen(history.fbo_with(targets.mask), accumulate.program(shaped));
   history.keep(camera, block);
 }
 

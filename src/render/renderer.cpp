@@ -66,6 +66,7 @@ Renderer::Impl::Impl(const Scene& from_scene)
       no_vertices(make_vertex_array()) {
   glNamedBufferStorage(frame_buffer.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(filter_buffer.name(), sizeof(FilterBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  accumulate.prepare(false);  // frames may ask for it without notice
   targets.resize(1, 1);
   can_layer = !layer_extension().empty();
   const auto* driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -103,7 +104,7 @@ void Renderer::Impl::fit_maps(const ShadowPlan& plan) {
 PreparedFilter Renderer::prepare(const FilterSettings& settings) {
   auto& known = impl_->filter_programs;
   const FilterVariant variant = variant_of(settings);
-  if (settings.contacts && !impl_->contacts) impl_->contacts = make_contacts_program(false);
+  if (settings.contacts) impl_->contacts.prepare(false);
   if (settings.filter->info.draws_silhouettes && !impl_->silhouettes)
     impl_->silhouettes.emplace(impl_->scene);
   const auto found =
@@ -199,14 +200,16 @@ void Renderer::Impl::take_silhouettes(const FilterSettings& settings) {
   drew_silhouettes = wanted;
 }
 
-void Renderer::Impl::take_shapes(const ShadowPlan& plan, const PreparedFilter& filter) noexcept {
+void Renderer::Impl::take_shapes(const ShadowPlan& plan, const PreparedFilter& filter,
+                                 bool accumulated) noexcept {
   const auto planned = plan.maps();
   shaped = std::any_of(planned.begin(), planned.end(),
                        [](const ShadowMap& map) { return map.shape != &shapes::linear; });
   if (!shaped) return;
   try {
     make_shaped_programs(filter.settings, filter_programs[filter.program]);
-    if (filter.settings.contacts && !shaped_contacts) shaped_contacts = make_contacts_program(true);
+    if (filter.settings.contacts) contacts.prepare(true);
+    if (accumulated) accumulate.prepare(true);
   } catch (const RenderError&) {
     // A lost context compiles nothing; who drew the frame finds out from the context.
   }
@@ -267,7 +270,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   impl.targets.resize(camera.width, camera.height);
   impl.fit_maps(plan);
   impl.take_silhouettes(filter.settings);
-  impl.take_shapes(plan, filter);
+  impl.take_shapes(plan, filter, options.accumulation.on);
   const BlurSides blur = blur_sides(filter.settings, plan);
   FilterBlock filtering = filter_block(filter.settings, blur);
   const DepthCurves curves = depth_curves(plan, options.linear_depth);

@@ -30,9 +30,24 @@ namespace gnomon::render {
 
 /// Programs that no filter takes part in.
 struct CommonPrograms {
-  Program depth, depth_masked, depth_even, depth_even_masked, copy_depth, surfaces, accumulate, shade,
-      aliasing, heat, tint;
+  Program depth, depth_masked, depth_even, depth_even_masked, copy_depth, surfaces, shade, aliasing, heat,
+      tint;
   CommonPrograms();
+};
+
+/// A pass over the pixels that looks maps up: compiled for linear maps by the first use, and once more by the
+/// first frame whose maps have another shape. Software renderers run the places of all shapes.
+class MapPass {
+ public:
+  explicit MapPass(std::string_view path) noexcept : path_(path) {}
+  void prepare(bool shaped);
+  [[nodiscard]] const Program& program(bool shaped) const noexcept {
+    return shaped && shaped_ ? shaped_ : linear_;
+  }
+
+ private:
+  std::string_view path_;
+  Program linear_, shaped_;
 };
 
 /// Programs for maps whose shape bends lines: compiled with the first such map.
@@ -110,7 +125,7 @@ struct Renderer::Impl {
   /// Makes room for the outlines that the filter reads. Maps drawn without them are not reused.
   void take_silhouettes(const FilterSettings& settings);
   /// Compiles the filter's programs for maps that are not linear, with the first frame that has one.
-  void take_shapes(const ShadowPlan& plan, const PreparedFilter& filter) noexcept;
+  void take_shapes(const ShadowPlan& plan, const PreparedFilter& filter, bool accumulated) noexcept;
   /// The frame with exact shadows: pixels are listed, and casters are tested against them.
   FrameStats draw_irregular(const ShadowPlan& plan, const Camera& camera, const PreparedFilter& filter,
                             const FrameOptions& options) noexcept;
@@ -220,8 +235,8 @@ struct Renderer::Impl {
   std::optional<IdentifierOf> drawn_identifiers;  ///< that the last frame's maps hold
   std::optional<Silhouettes> silhouettes;         ///< made when a filter that reads them is first prepared
   bool drew_silhouettes = false;                  ///< into the maps that are held
-  Program contacts, shaped_contacts;              ///< made when settings with contacts first take them
-  bool shaped = false;                            ///< a map of the frame is not linear
+  MapPass contacts{"contacts.frag"}, accumulate{"accumulate.frag"};
+  bool shaped = false;  ///< a map of the frame is not linear
   PagePool pages;
   PageStage page_stage;
   StoredPages stored_pages;

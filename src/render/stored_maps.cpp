@@ -154,12 +154,6 @@ ShaderChoice choice_for(const FilterSettings& settings, const FilterVariant& var
 
 }  // namespace
 
-Program make_contacts_program(bool shapes) {
-  ShaderChoice choice;
-  choice.shapes = shapes;
-  return make_program("fullscreen.vert", "contacts.frag", choice);
-}
-
 void make_shaped_programs(const FilterSettings& settings, FilterPrograms& programs) {
   if (programs.shaped_mask) return;
   ShaderChoice choice = choice_for(settings, programs.variant);

@@ -61,8 +61,6 @@ void make_pages_programs(const FilterSettings& settings, FilterPrograms& program
 [[nodiscard]] Program make_lights_program(const FilterSettings& settings);
 /// The mask and the light of all of them, by clusters.
 [[nodiscard]] Program make_clusters_program(const FilterSettings& settings);
-/// The march that closes contacts, for linear maps or for maps of any shape.
-[[nodiscard]] Program make_contacts_program(bool shapes);
 /// Adds the programs that read maps of any shape, once. Throws RenderError as make_filter_programs.
 void make_shaped_programs(const FilterSettings& settings, FilterPrograms& programs);
 /// Throws RenderError with shader file and line.
