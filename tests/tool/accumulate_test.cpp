@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 TEST(Accumulate, has_fewer_misclassified_pixels_after_more_frames_at_rest_and_on_the_way) {
-  const Finished finished = run_gnomon({"accumulate", "builtin:city", "--size", "160x90", "--map-size", "512",
+  const Finished finished = run_gnomon({"accumulate", "builtin:city", "--size", "160x90", "--map-size", "128",
                                         "--frames", "1,16", "--moving", "16", "--json"});
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   std::vector<json> rows;
