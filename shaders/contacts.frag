@@ -1,13 +1,13 @@
 #version 450 core
 // A short march towards the light through what the camera sees, where a shadow map lights what lies close behind a caster: by
 // its bias, or by the filter's fall-off. The least of it and the mask counts.
-#include "common/filter.glsl"
 #include "common/frame.glsl"
 #include "common/surface.glsl"
 #include "library/receiver.glsl"
 #include "library/select_map.glsl"
 
-layout(location = 0) out vec2 mask;  // 0 in shadow; more than the number of any map
+layout(location = 0) uniform float fall_off[GNOMON_MAX_MAPS];  // per map: contact_reach_world
+layout(location = 0) out vec2 mask;                            // 0 in shadow; more than the number of any map
 
 // How far along the ray to the light the bias passes casters by, world units.
 float bias_reach(ShadowMap map, Surface s, vec3 light) {
@@ -43,7 +43,7 @@ void main() {
   if (s.sky || dot(s.normal, light) >= 0.0) discard;
   int map = map_serving(s.position, s.depth, light, frame.selection.x, int(frame.light.w));
   if (map < 0) discard;
-  float by_bias = bias_reach(shadow_map(map), s, light), reach = max(filtering.depth_curve[map].y, by_bias);
+  float by_bias = bias_reach(shadow_map(map), s, light), reach = max(fall_off[map], by_bias);
   if (frame.light_place.w != 0.0) reach = min(reach, distance(s.position, frame.light_place.xyz));
   // Casters are as thick as what the bias passes by: thinner, the march leaves gaps; thicker, wires shadow what they hide.
   float thick = 0.5 * by_bias;

@@ -13,7 +13,7 @@ layout(std140, binding = 1) uniform Filter {
   ivec4 reach[GNOMON_MAX_MAPS];                     // per map: taps to either side of the middle one
   vec4 options[GNOMON_MAX_MAPS * kOptionVectors];  // per map: FilterSettings::option
   vec4 weights[GNOMON_MAX_MAPS * kTapVectors];  // per map: of the taps, from the middle on
-  vec4 depth_curve[GNOMON_MAX_MAPS];            // per map: see linear_depth; how far contacts leak, world units
+  vec4 depth_curve[GNOMON_MAX_MAPS];            // per map: see linear_depth
 } filtering;
 
 ShadowOptions shadow_options(int map) {

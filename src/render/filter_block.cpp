@@ -7,7 +7,6 @@
 #include <glm/matrix.hpp>
 
 #include "frame_block.hpp"
-#include "gnomon/render/contacts.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -82,14 +81,6 @@ void fit_options(const FilterSettings& settings, const ShadowPlan& plan, FilterB
   if (settings.filter->hooks.fit_map == nullptr) return;
   for (std::size_t i = 0; i < plan.maps().size(); ++i)
     set_options(settings_for_map(settings, map_depths(settings, plan.map[i])), i, block);
-}
-
-void set_contact_reach(const FilterSettings& settings, const ShadowPlan& plan, FilterBlock& block) {
-  if (!settings.contacts) return;
-  for (std::size_t i = 0; i < plan.maps().size(); ++i) {
-    block.depth_curve[i].y =
-        static_cast<float>(contact_reach_world(settings, map_depths(settings, plan.map[i])));
-  }
 }
 
 void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& block) noexcept {

@@ -59,9 +59,6 @@ using DepthCurves = std::array<double, kMaxMaps>;
 [[nodiscard]] DepthCurves depth_curves(const ShadowPlan& plan, bool even = false) noexcept;
 void set_depth_curves(const DepthCurves& curves, FilterBlock& block) noexcept;
 
-/// How far contacts leak in each map of a plan, for settings with `contacts`.
-void set_contact_reach(const FilterSettings& settings, const ShadowPlan& plan, FilterBlock& block);
-
 /// Options of each map of a plan.
 void fit_options(const FilterSettings& settings, const ShadowPlan& plan, FilterBlock& block) noexcept;
 /// With the same options for all maps, and no curve for any.

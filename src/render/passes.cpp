@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "blue_noise.hpp"
+#include "gnomon/render/contacts.hpp"
 #include "program.hpp"
 #include "renderer_impl.hpp"
 
@@ -405,10 +406,17 @@ void Renderer::Impl::draw_mask(const Program& program, GLuint fbo, bool from_pag
   glBindSampler(kExtraUnit, 0);  // shared with the depth pyramid
 }
 
-void Renderer::Impl::draw_contacts(GLuint fbo) noexcept {
+void Renderer::Impl::draw_contacts(const ShadowPlan& plan, const FilterSettings& settings,
+                                   GLuint fbo) noexcept {
+  constexpr GLint kFallOffLocation = 0;
+  std::array<float, kMaxMaps> fall_off{};
+  for (std::size_t i = 0; i < plan.maps().size(); ++i)
+    fall_off[i] = static_cast<float>(contact_reach_world(settings, map_depths(settings, plan.map[i])));
+  const Program& program = contacts.program(shaped);
+  glProgramUniform1fv(program.name(), kFallOffLocation, static_cast<GLsizei>(kMaxMaps), fall_off.data());
   glEnable(GL_BLEND);
   glBlendEquation(GL_MIN);
-  fullscreen(fbo, contacts.program(shaped));
+  fullscreen(fbo, program);
   glBlendEquation(GL_FUNC_ADD);
   glDisable(GL_BLEND);
 }

@@ -279,7 +279,6 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
   const FrameBlock block =
       frame_block(plan, camera, options, impl.maps.width, impl.maps.height, blur, curves);
   fit_options(filter.settings, plan, filtering);
-  set_contact_reach(filter.settings, plan, filtering);
   DrawnMaps drawn;
   timed(Pass::shadow_maps, [&] {
     impl.upload(block, filtering);
@@ -307,7 +306,7 @@ FrameStats Renderer::draw(const ShadowPlan& plan, const Camera& camera, const Pr
     impl.bind_noise(options.noise);
     const GLuint fbo = accumulated ? impl.history.single_fbo() : impl.targets.mask_fbo.name();
     impl.draw_mask(impl.filter_programs[filter.program].mask_for(impl.shaped), fbo);
-    if (filter.settings.contacts && plan.map_count > 0) impl.draw_contacts(fbo);
+    if (filter.settings.contacts && plan.map_count > 0) impl.draw_contacts(plan, filter.settings, fbo);
   });
   if (accumulated) timed(Pass::accumulate, [&] { impl.draw_accumulated(camera, options, block); });
   if (impl.panes) {

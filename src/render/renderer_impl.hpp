@@ -191,7 +191,7 @@ struct Renderer::Impl {
   /// `program` writes at least what programs.surfaces writes.
   void draw_surfaces(GLuint fbo, const Program& program) noexcept;
   void draw_mask(const Program& program, GLuint fbo, bool from_pages = false) noexcept;
-  void draw_contacts(GLuint fbo) noexcept;
+  void draw_contacts(const ShadowPlan& plan, const FilterSettings& settings, GLuint fbo) noexcept;
   void draw_accumulated(const Camera& camera, const FrameOptions& options, const FrameBlock& block) noexcept;
   /// Makes the noise tile at the first frame that reads it.
   void bind_noise(SampleNoise noise) noexcept;

@@ -302,8 +302,8 @@ void StoredMaps::walk_map(const FilterPrograms& programs, GLint map) {
   for (std::size_t i = 0; i < stored_.size(); ++i) {
     walk_rows(programs.store_rows[i], map, {scratch_.data(), 1}, 0);
     walk_columns(programs, map, i);
+    passes_ += 2;
   }
-  passes_ += 2;
 }
 
 void StoredMaps::join_mips(const FilterPrograms& programs, const StoreJob& job, const Held& held) {

@@ -101,7 +101,8 @@ int passes_of(const FilterSettings& settings, int map_size) {
   int passes = 0;
   if (filter.info.reads == MapRead::summed) passes += 2;  // along rows, then along columns
   if (filter.info.reads == MapRead::filtered || filter.info.reads == MapRead::joined)
-    passes += settings.radius == 0.0 ? 1 : 2;  // store; store with the blur along x, then that along y
+    // Store all; or store and blur each vector along x, then along y.
+    passes += settings.radius == 0.0 ? 1 : 2 * shadow_vectors(settings);
   if (filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings))
     passes += static_cast<int>(std::bit_width(static_cast<unsigned>(map_size / 2)));  // a level each
   return passes;
