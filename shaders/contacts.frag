@@ -58,14 +58,20 @@ void main() {
   }
   vec2 first = (begin.xy / begin.z * 0.5 + 0.5) * vec2(size), last = (end.xy / end.z * 0.5 + 0.5) * vec2(size);
   const float kMostSteps = 32.0, kRoom = 1e-5;  // of the view depth: rounding of positions
-  float steps = min(ceil(distance(first, last)), kMostSteps), room = kRoom * s.depth;
+  // Longer steps would pass casters by at some pixels and not at others: what is far along the way stays as the map has it.
+  const float kLongestStep = 2.0;  // pixels
+  float pixels = distance(first, last);
+  way *= min(1.0, kLongestStep * kMostSteps / max(pixels, 1.0));
+  float steps = min(ceil(pixels), kMostSteps), room = kRoom * s.depth;
+  float step_world = length(way) / steps;
+  thick = max(thick, step_world);
   vec3 before = s.position;
   for (float i = 1.0; i <= steps; ++i) {
     vec3 point = s.position + way * (i / steps);
     vec3 h = clip_of(point);
     ivec2 seen = ivec2(floor((h.xy / h.z * 0.5 + 0.5) * vec2(size)));
     if (any(lessThan(seen, ivec2(0))) || any(greaterThanEqual(seen, size))) break;
-    if (seen != pixel && blocks(seen, before, point, depth_of(point), room, reach, thick)) {
+    if (seen != pixel && blocks(seen, before, point, depth_of(point), room, min(reach, 2.0 * step_world), thick)) {
       mask = vec2(0.0, 1e30);
       return;
     }
