@@ -191,6 +191,57 @@ std::vector<Camera> draw_views(const Case& c) {
   return cameras;
 }
 
+TEST(Views, the_bound_of_several_cameras_holds_from_the_pseudo_near_depth_on) {
+  // A narrow view nearly along the light, of which a receiver crosses the depth that counts.
+  Camera camera;
+  camera.position = {-0.5, -0.5, -0.5};
+  camera.forward = {0, -0.997, -0.071};
+  camera.right = 0.0035;
+  camera.top = 0.0087;
+  camera.left = -camera.right;
+  camera.bottom = -camera.top;
+  camera.near_depth = 0.1486;
+  camera.far_depth = 0.25;
+  camera.width = 26;
+  camera.height = 67;
+  const std::vector<Box> receivers = {{{-0.506, -1.303, -0.586}, {-0.496, -0.266, -0.45}}};
+  PlanOptions options;
+  options.cascades = 1;
+  options.resolution.max_size = 64;
+  options.warp.warp = &warps::lispsm;
+  options.filter.texels = 0.0;
+  options.split.pseudo_near = 0.1541;
+  // Few cameras' bodies are shown by their vertices, many by the corners round them.
+  for (const int count : {2, 3, kMaxViews}) {
+    std::vector<Camera> cameras(static_cast<std::size_t>(count), camera);
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+      cameras[i].position -= glm::dvec3(0.0005 * static_cast<double>(i) / (count - 1));
+    const ShadowPlan plan =
+        plan_views(cameras, DirectionalLight{{0, -1, 0}}, {receivers, receivers}, options);
+    ASSERT_EQ(plan.map_count, 1) << count;
+    const ShadowMap& map = plan.map[0];
+    ASSERT_GT(map.kappa, 0.0) << count;
+    double most = 0.0;
+    for (const Camera& k : cameras) {
+      const CameraAxes axes = camera_axes(k);
+      for (double depth = options.split.pseudo_near * 1.000001; depth < 0.18; depth += 0.001) {
+        for (int corner = 0; corner < 4; ++corner) {
+          const glm::dvec3 p =
+              k.position + depth *
+                               (axes.forward + axes.right * ((corner & 1) ? k.left : k.right) +
+                                axes.up * ((corner & 2) ? k.bottom : k.top)) *
+                               0.999999;
+          const PointAliasing m = measure_perspective(map, k, p);
+          if (m.status != PointAliasing::Status::ok) continue;
+          most = std::max(most, m.m_max);
+        }
+      }
+    }
+    EXPECT_GT(most, 0.5 * map.m_max) << count;
+    EXPECT_LE(most, map.m_max * (1.0 + 1e-6)) << count;
+  }
+}
+
 TEST(Views, every_receiver_that_any_camera_sees_is_in_a_map_within_its_error) {
   int held = 0, lit = 0, own = 0;
   for_all(400, [&] {

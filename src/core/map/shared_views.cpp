@@ -2,6 +2,7 @@
 // depth.
 #include "map/shared_views.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -46,21 +47,50 @@ void add_corners(const SharedView& view, const Polytope& body, ViewedBody& out) 
   }
 }
 
-/// `part` by view; those that see nothing are empty.
-void add_points(std::span<const SharedView> views, std::span<const Polytope> part, ViewedBody& out) noexcept {
+/// `part` by view; those that see nothing are empty. The error counts from the depth `counted_from` on, where
+/// that leaves something: nearer vertices count as infinitely deep then, and where edges cross that depth
+/// there is a point of its own.
+void add_points(std::span<const SharedView> views, std::span<const Polytope> part, double counted_from,
+                ViewedBody& out) noexcept {
+  std::array<Polytope, kMaxViews> counted;
   int vertices = 0;
-  for (const Polytope& body : part) vertices += body.vertex_count;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    const SharedView& view = views[i];
+    const auto nearer = [&](const Polytope::Vertex& v) { return view.depth(v.position) < counted_from; };
+    const auto own = part[i].vertices();
+    vertices += part[i].vertex_count;
+    if (view.camera.orthographic || !std::any_of(own.begin(), own.end(), nearer)) continue;
+    counted[i] = part[i];
+    clip(counted[i], Plane{view.axes.forward, -counted_from - glm::dot(view.axes.forward, view.eye)});
+    vertices += counted[i].vertex_count;
+  }
+  const auto add = [&](const glm::dvec3& position, double depth) {
+    out.point[static_cast<std::size_t>(out.count++)] = {position, depth};
+  };
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  Box uncounted;
   for (std::size_t i = 0; i < part.size(); ++i) {
     if (part[i].empty()) continue;
+    const bool cut = !counted[i].empty();
     if (vertices > kMaxBodyPoints) {
-      add_corners(views[i], part[i], out);
+      add_corners(views[i], cut ? counted[i] : part[i], out);
+      if (cut) uncounted.extend(bounds_of(part[i]));
       continue;
     }
-    for (const Polytope::Vertex& v : part[i].vertices())
-      out.point[static_cast<std::size_t>(out.count++)] = {v.position, views[i].depth(v.position)};
+    for (const Polytope::Vertex& v : part[i].vertices()) {
+      const double depth = views[i].depth(v.position);
+      add(v.position, cut && depth < counted_from ? kNever : depth);
+    }
+    for (const Polytope::Vertex& v : counted[i].vertices()) add(v.position, views[i].depth(v.position));
   }
+  if (uncounted.empty()) return;
+  for (int corner = 0; corner < kCorners; ++corner)
+    add({(corner & 1) != 0 ? uncounted.max.x : uncounted.min.x,
+         (corner & 2) != 0 ? uncounted.max.y : uncounted.min.y,
+         (corner & 4) != 0 ? uncounted.max.z : uncounted.min.z},
+        kNever);
 }
-static_assert(kMaxBodyPoints >= kMaxViews * kCorners);
+static_assert(kMaxBodyPoints >= (kMaxViews + 1) * kCorners);
 
 struct Interval {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
@@ -121,7 +151,7 @@ Polytope view_body(const PlanContext& c) noexcept {
   return hull_of({part.data(), c.views.size()});
 }
 
-ViewedBody viewed_between(const PlanContext& c, double begin, double end) noexcept {
+ViewedBody viewed_between(const PlanContext& c, double begin, double end, double counted_from) noexcept {
   std::array<Polytope, kMaxViews> part;
   const std::span<Polytope> parts{part.data(), c.views.size()};
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -130,7 +160,7 @@ ViewedBody viewed_between(const PlanContext& c, double begin, double end) noexce
   }
   ViewedBody viewed;
   viewed.hull = hull_of(parts);
-  add_points(c.views, parts, viewed);
+  add_points(c.views, parts, counted_from, viewed);
   return viewed;
 }
 
@@ -142,7 +172,7 @@ ViewedBody viewed_within(const PlanContext& c, const Polytope& body) noexcept {
     for (int f = 0; f < body.face_count; ++f) clip(parts[i], body.plane[static_cast<std::size_t>(f)]);
   }
   ViewedBody viewed;
-  add_points(c.views, parts, viewed);
+  add_points(c.views, parts, c.options.split.pseudo_near, viewed);
   return viewed;
 }
 

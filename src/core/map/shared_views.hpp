@@ -35,7 +35,9 @@ struct ViewedBody {
     return {point.data(), static_cast<std::size_t>(count)};
   }
 };
-[[nodiscard]] ViewedBody viewed_between(const PlanContext& c, double begin, double end) noexcept;
+/// `counted_from`: the view depth from which the error counts; nearer points are infinitely deep.
+[[nodiscard]] ViewedBody viewed_between(const PlanContext& c, double begin, double end,
+                                        double counted_from) noexcept;
 /// Of what the cameras see inside `body`, whatever its depth: the points only.
 [[nodiscard]] ViewedBody viewed_within(const PlanContext& c, const Polytope& body) noexcept;
 

@@ -55,9 +55,9 @@ struct Slice {
   Slice& operator=(const Slice&) = delete;
 };
 
-/// The receivers between two depths, of all cameras.
+/// The receivers between two depths, of all cameras, whose error counts from the depth `counted_from` on.
 void fill_body(const PlanContext& c, const ParallelScene& scene, double begin, double end,
-               Slice& slice) noexcept {
+               double counted_from, Slice& slice) noexcept {
   slice.body = &slice.own;
   if (slice.room > 0.0) {
     slice.own = receivers_with_room(c, begin, end, slice.room);
@@ -67,7 +67,7 @@ void fill_body(const PlanContext& c, const ParallelScene& scene, double begin, d
     slice.body = &receivers_between(c, scene, begin, end, slice.own);
     return;
   }
-  slice.viewed = viewed_between(c, begin, end);
+  slice.viewed = viewed_between(c, begin, end, counted_from);
   slice.body = &slice.viewed.hull;
 }
 
@@ -99,7 +99,8 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   const DepthRange seen = c.seen == nullptr ? DepthRange{from, to} : seen_between(*c.seen, from, to);
   // A single depth is a slice only where it is all there is.
   const bool covered = from == to && plan.map_count > 0;
-  if (!seen.empty() && !covered) fill_body(c, scene, seen.begin, seen.end, slice);
+  const double pseudo_near = c.options.split.pseudo_near;
+  if (!seen.empty() && !covered) fill_body(c, scene, seen.begin, seen.end, pseudo_near, slice);
   const bool holds_nothing = slice.body->empty();
   slice.wanted = !holds_nothing || (!c.options.prune.has(PruneRule::empty_cascades) && from < to);
   if (!slice.wanted) return;
@@ -109,7 +110,7 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   if (holds_nothing) {
     fill_with_frusta(c, slice.begin - slice.overlap, slice.end, slice);
   } else if (slice.overlap > 0.0) {
-    fill_body(c, scene, slice.begin - slice.overlap, slice.end, slice);
+    fill_body(c, scene, slice.begin - slice.overlap, slice.end, max_of(pseudo_near, slice.begin), slice);
   }
   if (c.seen_points.empty()) return;
   if (slice.body != &slice.own) slice.own = *slice.body;
