@@ -36,7 +36,8 @@ std::vector<Row> rows() {
   using gnomon::SplitScheme;
   std::vector<Row> result;
   for (const gnomon::Warp* warp : gnomon::all_warps()) {
-    const bool searches = warp == &gnomon::warps::lispsm || warp == &gnomon::warps::optimal;
+    const bool searches = warp == &gnomon::warps::lispsm || warp == &gnomon::warps::optimal ||
+                          warp == &gnomon::warps::optimal_thorough;
     for (const Objective objective : {Objective::storage, Objective::max, Objective::p95}) {
       if (!searches && objective != Objective::storage) continue;
       const std::string name =

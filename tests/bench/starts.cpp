@@ -58,7 +58,7 @@ WarpChoice judge(const WarpInput& input) noexcept {
   if (error.corners().count == 0) return input.unwarped;
   RowSearch search(input, error);
   const double ratio = search.ahead(1.0).y;
-  if (search.line() || !(ratio > 0.0)) return input.unwarped;
+  if (is_line(input, error.body()) || !(ratio > 0.0)) return input.unwarped;
   std::vector<FallOff> tried;
   for (const double by : kFits) tried.push_back({by * search.fitted().x, by * search.fitted().y});
   for (const FallOff& start : starts) {

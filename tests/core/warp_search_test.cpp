@@ -1,4 +1,5 @@
-// What searches over warps are made of: the error at samples, strengths along the view, rows from fans.
+// What searches over warps are made of: the error at samples, strengths along the view, rows from fans, and
+// sides that turn.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,6 +14,7 @@
 #include "warp/lanes.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/row_search.hpp"
+#include "warp/side_search.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -112,26 +114,6 @@ TEST(WarpSearch, the_strength_along_the_view_is_the_weakest_of_the_best) {
   EXPECT_GT(looked, 5);
 }
 
-TEST(WarpSearch, rows_of_a_choice_make_the_same_map_again) {
-  looked = 0;
-  for (const Objective objective : {Objective::storage, Objective::max}) {
-    for (const glm::dvec3 light : {glm::dvec3(0.3, -1, -0.4), glm::dvec3(-1, -0.6, 0.3)}) {
-      show(street(), light, kGround, objective, [](const WarpInput& input) {
-        PlaneError error(input);
-        RowSearch rows(input, error);
-        for (const Warp* warp : all_warps()) {
-          const WarpChoice choice = warp->choose(input);
-          if (!(choice.kappa > 0.0)) continue;
-          const double as_is = error.value(choice), again = error.value(rows.choice(rows.rows_of(choice)));
-          EXPECT_NEAR(again, as_is, 1e-6 * as_is) << warp->name;
-          ++looked;
-        }
-      });
-    }
-  }
-  EXPECT_GT(looked, 12);
-}
-
 TEST(WarpSearch, the_best_rows_near_straight_ones_are_no_worse_than_those) {
   looked = 0;
   for (const Objective objective : {Objective::storage, Objective::max}) {
@@ -144,22 +126,82 @@ TEST(WarpSearch, the_best_rows_near_straight_ones_are_no_worse_than_those) {
         straight.fall_off = search.ahead(0.05 + 0.06 * static_cast<double>(lane));
         candidates.set(lane, straight);
       }
-      const RowLanes before = candidates;
-      search.find_rows(0.1, candidates);
-      search.find_values(candidates);
-      RowLanes as_they_were = before;
-      search.find_values(as_they_were);
+      RowLanes found = candidates;
+      search.find_rows(0.1, found);
       for (std::size_t lane = 0; lane < RowLanes::kCount; ++lane) {
-        EXPECT_TRUE(std::isfinite(candidates.value[lane])) << lane;
-        EXPECT_GT(candidates.value[lane], 0.0F) << lane;
+        EXPECT_TRUE(std::isfinite(found.value[lane])) << lane;
+        EXPECT_GT(found.value[lane], 0.0F) << lane;
         // The rows go by both extents together: a little off what the objective says.
-        EXPECT_LE(candidates.value[lane], 1.2F * as_they_were.value[lane]) << lane;
+        EXPECT_LE(error.value(search.choice(found.at(lane))),
+                  1.1 * error.value(search.choice(candidates.at(lane))))
+            << lane;
         ++looked;
       }
-      EXPECT_NEAR(candidates.best().value, candidates.value[candidates.least()], 0.0);
+      EXPECT_EQ(found.best().value, found.value[found.least()]);
     });
   }
   EXPECT_EQ(looked, 32);
+}
+
+TEST(WarpSearch, sides_as_they_are_make_the_same_map_again) {
+  looked = 0;
+  for (const Objective objective : {Objective::storage, Objective::max}) {
+    for (const glm::dvec3 light : {glm::dvec3(0.3, -1, -0.4), glm::dvec3(-1, -0.6, 0.3)}) {
+      show(street(), light, kGround, objective, [](const WarpInput& input) {
+        PlaneError error(input);
+        for (const Warp* warp : all_warps()) {
+          const WarpChoice choice = warp->choose(input);
+          const double as_is = error.value(choice);
+          const double again = error.value(SideSearch(input, error, choice).choice(Sides{}));
+          EXPECT_NEAR(again, as_is, 1e-6 * as_is) << warp->name;
+          ++looked;
+        }
+      });
+    }
+  }
+  EXPECT_GT(looked, 30);
+}
+
+TEST(WarpSearch, turned_sides_are_worth_what_the_error_says_of_their_map) {
+  looked = 0;
+  for (const Objective objective : {Objective::storage, Objective::max, Objective::p95}) {
+    show(street(), {0.6, -1, -0.4}, kGround, objective, [](const WarpInput& input) {
+      PlaneError error(input);
+      const WarpChoice from = warps::lispsm.choose(input);
+      const SideSearch search(input, error, from);
+      SideLanes lanes;
+      for (std::size_t k = 0; k < 4; ++k) {
+        for (std::size_t l = 0; l < SideLanes::kCount; ++l)
+          lanes.turn[k][l] = l == 0 ? 0.0F : 0.1F * static_cast<float>((3 * k + 5 * l) % 7) - 0.3F;
+      }
+      search.find_values(Sides{}, lanes);
+      const double unit = error.value(from) / std::sqrt(lanes.value[0]);
+      for (std::size_t l = 0; l < SideLanes::kCount; ++l) {
+        const double exact = error.value(search.choice(lanes.at(l))) / unit;
+        EXPECT_NEAR(std::sqrt(lanes.value[l]), exact, 1e-4 * exact) << to_string(input.objective) << l;
+        ++looked;
+      }
+    });
+  }
+  EXPECT_EQ(looked, 48);
+}
+
+TEST(WarpSearch, lines_that_enclose_nothing_make_no_map) {
+  looked = 0;
+  show(street(), {0.6, -1, -0.4}, kGround, Objective::storage, [](const WarpInput& input) {
+    PlaneError error(input);
+    const SideSearch search(input, error, input.unwarped);
+    SideLanes lanes;
+    for (auto& turn : lanes.turn) turn.fill(0.0F);
+    // A side turned onto its neighbour, and one turned beyond it.
+    lanes.turn[0][1] = 1.0F;
+    lanes.turn[2][1] = -1.0F;
+    search.find_values(Sides{}, lanes);
+    EXPECT_TRUE(std::isfinite(lanes.value[0]));
+    EXPECT_TRUE(std::isinf(lanes.value[1]));
+    ++looked;
+  });
+  EXPECT_EQ(looked, 1);
 }
 
 TEST(WarpSearch, a_wall_along_the_light_is_a_line_at_any_angle_to_the_view) {
@@ -171,12 +213,12 @@ TEST(WarpSearch, a_wall_along_the_light_is_a_line_at_any_angle_to_the_view) {
     camera.forward = forward;
     show(camera, {0, -1, 0}, wall, Objective::storage, [](const WarpInput& input) {
       PlaneError error(input);
-      EXPECT_TRUE(RowSearch(input, error).line());
+      EXPECT_TRUE(is_line(input, error.body()));
       ++looked;
     });
     show(camera, {0, -1, 0}, kGround, Objective::storage, [](const WarpInput& input) {
       PlaneError error(input);
-      EXPECT_FALSE(RowSearch(input, error).line());
+      EXPECT_FALSE(is_line(input, error.body()));
       ++looked;
     });
   }

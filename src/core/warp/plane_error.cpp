@@ -125,8 +125,9 @@ void PlaneError::count_worst(const WarpChoice& choice) noexcept {
   // Without an area there is no error.
   if (sample_.count == 0 || rows == 0.0 || choice.kappa * distance_ > kMostKappaDistance) return;
   // Of the squares. A percentile may come to rest farther below its first value.
+  constexpr std::array<double, 3> kNearWorst = {0.6, 0.5, 0.12};
   const bool storage = input_.objective == Objective::storage;
-  const double near_worst = storage ? 0.4 : 0.25;
+  const double near_worst = kNearWorst[static_cast<std::size_t>(input_.objective)];
   // Mostly it was asked for last.
   const bool known = worst_ > 0.0 && same_map(choice, valued_);
   double most_x = 0.0, most_y = 0.0;

@@ -10,8 +10,8 @@
 
 namespace gnomon {
 
-/// Points of a body as warps see it: its vertices, or eight corners of each of eight views and of what does not
-/// count.
+/// Points of a body as warps see it: its vertices, or eight corners of each of eight views and of what does
+/// not count.
 inline constexpr int kMaxBodyPoints = 72;
 static_assert(kMaxBodyPoints >= kMaxVertices);
 

@@ -39,6 +39,10 @@ bool is_unwarped(const Warp& warp) noexcept {
   return &warp == &warps::none;
 }
 
+bool is_searched(const Warp& warp) noexcept {
+  return &warp == &warps::optimal || &warp == &warps::optimal_thorough;
+}
+
 std::string_view to_string(Objective objective) noexcept {
   return kObjectiveNames[static_cast<std::size_t>(objective)];
 }

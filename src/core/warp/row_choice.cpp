@@ -1,5 +1,5 @@
-// Which warp do a fall-off and two rows stand for, and the other way round? In double precision: the search
-// among them is in single (row_search.cpp).
+// Which warp do a fall-off and two rows stand for, and which fall-offs are worth a try? In double precision:
+// the search among them is in single (row_search.cpp).
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -60,32 +60,6 @@ WarpChoice RowSearch::choice(const RowChoice& rows) noexcept {
   result.row_a = row(rows.row_a);
   result.row_b = row(rows.row_b);
   return result;
-}
-
-RowChoice RowSearch::rows_of(const WarpChoice& choice) noexcept {
-  double u_min = std::numeric_limits<double>::infinity(), u_max = -u_min;
-  for (std::size_t i = 0; i < body_.count; ++i) {
-    const double u = body_.x[i] * choice.axis.x + body_.y[i] * choice.axis.y;
-    u_min = min_of(u_min, u);
-    u_max = max_of(u_max, u);
-  }
-  const double reach = choice.kappa * (u_max - u_min);
-  RowChoice rows;
-  const glm::dvec2 grown = choice.axis * extent_;
-  const glm::dvec2 way = grown * (fall_off_of(elementary::log1p(reach)) / std::sqrt(glm::dot(grown, grown)));
-  rows.fall_off = {way.x, way.y};
-  // Another centre shears the image: 1 / w is linear in its Y.
-  const Axis axis = axis_of(rows.fall_off);
-  const double shear = (choice.centre - axis.centre) * choice.kappa / (1.0 + reach);
-  const glm::dvec2 image = image_extent(axis);
-  const auto row = [&](const glm::dvec2& v) {
-    const glm::dvec2 scaled{v.x * image.x, (v.y + v.x * shear) * image.y};
-    const double length = std::sqrt(glm::dot(scaled, scaled));
-    return length > 0.0 ? scaled / length : glm::dvec2(1.0, 0.0);
-  };
-  rows.row_a = row(choice.row_a);
-  rows.row_b = row(choice.row_b);
-  return rows;
 }
 
 FallOff RowSearch::ahead(double share) const noexcept {

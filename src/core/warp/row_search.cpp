@@ -70,15 +70,13 @@ std::size_t RowLanes::least() const noexcept {
   return first_of_least_lane(value, kTie);
 }
 
-RowChoice RowLanes::best() const noexcept {
-  const std::size_t i = least();
+RowChoice RowLanes::at(std::size_t i) const noexcept {
   return {{x[i], y[i]}, {a_x[i], a_y[i]}, {b_x[i], b_y[i]}, value[i]};
 }
 
 /// The candidates' maps. w, and the numerators of X and Y, are linear over the samples' numbers.
-template <std::size_t Directions>
 struct RowSearch::Maps {
-  static constexpr std::size_t kBoth = 2 * Directions;
+  static constexpr std::size_t kBoth = 2 * kFan;
   alignas(64) Numbers reach, u_min, u_max;
   alignas(64) Numbers u_x, u_y;       // along the axis
   alignas(64) Numbers s_x, s_y, s_1;  // across it
@@ -91,14 +89,35 @@ struct RowSearch::Maps {
   alignas(64) Numbers area;  // of the image's rectangle, in the plane where w is 1
   // Directions of both rows, over the unit square and over X and Y, and squared lengths of the sides across.
   alignas(64) std::array<Numbers, kBoth> unit_x, unit_y, x, y, side;
-  alignas(64) std::array<Numbers, kBoth> xx, xy, yy;              // of those over X and Y
-  alignas(64) std::array<Numbers, Directions * Directions> pair;  // values
+  alignas(64) std::array<Numbers, kBoth> xx, xy, yy;  // of those over X and Y
+  alignas(64) std::array<Numbers, kFan * kFan> pair;  // values
 };
+
+bool is_line(const WarpInput& input, const BodyLanes& body) noexcept {
+  const LaneRange x = lane_range(body.x.data(), body.count, kWarpLanes),
+                  y = lane_range(body.y.data(), body.count, kWarpLanes);
+  const double middle_x = 0.5 * (x.low + x.high), middle_y = 0.5 * (y.low + y.high);
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (std::size_t i = 0; i < body.count; ++i) {
+    const double px = body.x[i] - middle_x, py = body.y[i] - middle_y;
+    xx += px * px;
+    xy += px * py;
+    yy += py * py;
+  }
+  double farthest = 0.0;
+  for (const WarpInput::Point& p : input.body) {
+    if (std::isfinite(p.depth)) farthest = max_of(farthest, p.depth);
+  }
+  // Squared, narrower than a millionth of its length; or no longer than its distance rounds, as `usable` has
+  // it.
+  constexpr double kLine = 1e-12, kPointSize = 1e-9;
+  return !(xx * yy - xy * xy > kLine * (xx + yy) * (xx + yy)) ||
+         !(max_of(x.high - x.low, y.high - y.low) > kPointSize * farthest);
+}
 
 RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
     : lanes_(kWarpLanes),
       fall_offs_(kAtOnce),
-      error_(error),
       corners_(error.corners()),
       body_(error.body()),
       objective_(input.objective),
@@ -117,16 +136,6 @@ RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
   const glm::dvec2 room = extent_ * kFarthest;
   pivot_ = {clamp_to(pivot_.x, middle_.x - room.x, middle_.x + room.x),
             clamp_to(pivot_.y, middle_.y - room.y, middle_.y + room.y)};
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-  for (std::size_t i = 0; i < body_.count; ++i) {
-    const double px = body_.x[i] - middle_.x, py = body_.y[i] - middle_.y;
-    xx += px * px;
-    xy += px * py;
-    yy += py * py;
-  }
-  // Squared: narrower than a millionth of its length.
-  constexpr double kLine = 1e-12;
-  line_ = !(xx * yy - xy * xy > kLine * (xx + yy) * (xx + yy));
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
   for (const WarpInput::Point& p : input.body) {
     if (!std::isfinite(p.depth)) continue;
@@ -134,9 +143,6 @@ RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
     farthest = max_of(farthest, p.depth);
   }
   depth_range_ = nearest > 0.0 && farthest > nearest ? elementary::log(farthest / nearest) : 0.0;
-  // No longer than its distance rounds: a point, as `usable` has it.
-  constexpr double kPointSize = 1e-9;
-  line_ = line_ || !(longer > kPointSize * farthest);
   std::size_t smallest = 0;
   for (std::size_t i = 1; i < corners_.count; ++i) {
     if (std::abs(corners_.inverse_determinant[i]) > std::abs(corners_.inverse_determinant[smallest]))
@@ -149,12 +155,12 @@ RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
     point_x_[i] = static_cast<float>((body_.x[i] - origin_.x) * scale_x);
     point_y_[i] = static_cast<float>((body_.y[i] - origin_.y) * scale_y);
   }
-  count(corners_);
+  find_samples();
 }
 
-GNOMON_WIDE void RowSearch::count(const PixelLanes& samples) noexcept {
+GNOMON_WIDE void RowSearch::find_samples() noexcept {
+  const PixelLanes& samples = corners_;
   samples_ = samples.count;
-  above_ = error_.above();
   const double scale_x = 1.0 / extent_.x, scale_y = 1.0 / extent_.y, area = extent_.x * extent_.y;
   const double origin_x = origin_.x, origin_y = origin_.y;
   // The lanes past the last sample hold copies of the first.
@@ -183,9 +189,8 @@ GNOMON_WIDE void RowSearch::count(const PixelLanes& samples) noexcept {
   }
 }
 
-template <std::size_t Directions>
-GNOMON_WIDE void RowSearch::find_axes(const RowLanes& candidates, Maps<Directions>& maps) const noexcept {
-  Maps<Directions>& __restrict m = maps;
+GNOMON_WIDE void RowSearch::find_axes(const RowLanes& candidates, Maps& maps) const noexcept {
+  Maps& __restrict m = maps;
   const RowLanes& __restrict c = candidates;
   const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
   const std::size_t n = points_;
@@ -229,9 +234,8 @@ GNOMON_WIDE void RowSearch::find_axes(const RowLanes& candidates, Maps<Direction
 
 // The gradient of X = S / w is (w grad S - S grad w) / w^2: its numerator is linear over the plane, and each
 // component over one coordinate alone. No sample takes a division.
-template <std::size_t Directions>
-GNOMON_WIDE void RowSearch::find_image(Maps<Directions>& maps) const noexcept {
-  Maps<Directions>& __restrict m = maps;
+GNOMON_WIDE void RowSearch::find_image(Maps& maps) const noexcept {
+  Maps& __restrict m = maps;
   const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
   const std::size_t n = points_;
   for (std::size_t l = 0; l < lanes; ++l) {
@@ -268,20 +272,19 @@ GNOMON_WIDE void RowSearch::find_image(Maps<Directions>& maps) const noexcept {
 }
 
 /// Directions round the candidates' rows, and gradients scaled to what texels of those rows take.
-template <std::size_t Directions>
 GNOMON_WIDE void RowSearch::find_directions(const RowLanes& candidates, float step,
-                                            Maps<Directions>& maps) const noexcept {
-  Maps<Directions>& __restrict m = maps;
+                                            Maps& maps) const noexcept {
+  Maps& __restrict m = maps;
   const RowLanes& __restrict c = candidates;
-  constexpr std::size_t kBoth = 2 * Directions;
+  constexpr std::size_t kBoth = 2 * kFan;
   const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
-  for (std::size_t d = 0; d < Directions; ++d) {
-    const Turn turn((static_cast<float>(d) - 0.5F * static_cast<float>(Directions - 1)) * step);
+  for (std::size_t d = 0; d < kFan; ++d) {
+    const Turn turn((static_cast<float>(d) - 0.5F * static_cast<float>(kFan - 1)) * step);
     for (std::size_t l = 0; l < lanes; ++l) {
       m.unit_x[d][l] = c.a_x[l] * turn.cosine - c.a_y[l] * turn.sine;
       m.unit_y[d][l] = c.a_x[l] * turn.sine + c.a_y[l] * turn.cosine;
-      m.unit_x[Directions + d][l] = c.b_x[l] * turn.cosine - c.b_y[l] * turn.sine;
-      m.unit_y[Directions + d][l] = c.b_x[l] * turn.sine + c.b_y[l] * turn.cosine;
+      m.unit_x[kFan + d][l] = c.b_x[l] * turn.cosine - c.b_y[l] * turn.sine;
+      m.unit_y[kFan + d][l] = c.b_x[l] * turn.sine + c.b_y[l] * turn.cosine;
     }
   }
   for (std::size_t l = 0; l < lanes; ++l) {
@@ -311,10 +314,9 @@ GNOMON_WIDE void RowSearch::find_directions(const RowLanes& candidates, float st
 }
 
 /// Squared lengths of the rectangle's sides across each direction.
-template <std::size_t Directions>
-GNOMON_WIDE void RowSearch::find_sides(Maps<Directions>& maps) const noexcept {
-  Maps<Directions>& __restrict m = maps;
-  constexpr std::size_t kBoth = 2 * Directions;
+GNOMON_WIDE void RowSearch::find_sides(Maps& maps) const noexcept {
+  Maps& __restrict m = maps;
+  constexpr std::size_t kBoth = 2 * kFan;
   const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1), n = points_;
   alignas(64) std::array<Numbers, kBoth> low, high;
   for (std::size_t d = 0; d < kBoth; ++d) {
@@ -341,14 +343,6 @@ GNOMON_WIDE void RowSearch::find_sides(Maps<Directions>& maps) const noexcept {
   }
 }
 
-template <std::size_t Directions>
-void RowSearch::fit(const RowLanes& candidates, double step, Maps<Directions>& maps) const noexcept {
-  find_axes(candidates, maps);
-  find_image(maps);
-  find_directions(candidates, static_cast<float>(step), maps);
-  find_sides(maps);
-}
-
 // Macros write out what the loops over lanes do for each of a few directions: of arrays there, or of inner
 // loops over them, compilers keep nothing in registers and vectorize no lane.
 
@@ -364,8 +358,8 @@ void RowSearch::fit(const RowLanes& candidates, double step, Maps<Directions>& m
   const float xy##k = (bx##k * jx##k + by##k * jy##k) * square##k;                                   \
   const float yy##k = (bx##k * kx##k + by##k * ky##k) * square##k
 
-GNOMON_WIDE void RowSearch::find_products(Maps<kFan>& maps) const noexcept {
-  Maps<kFan>& __restrict m = maps;
+GNOMON_WIDE void RowSearch::find_products(Maps& maps) const noexcept {
+  Maps& __restrict m = maps;
   const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
   const std::size_t n = samples_;
   alignas(64) std::array<Numbers, 2 * kFan> most;
@@ -397,8 +391,8 @@ GNOMON_WIDE void RowSearch::find_products(Maps<kFan>& maps) const noexcept {
 
 // The sum of the squares of both squared extents, of which each is a root of a quadratic: at most twice the
 // larger square, and that without a root.
-GNOMON_WIDE void RowSearch::find_sums(Maps<kFan>& maps) const noexcept {
-  Maps<kFan>& __restrict m = maps;
+GNOMON_WIDE void RowSearch::find_sums(Maps& maps) const noexcept {
+  Maps& __restrict m = maps;
   const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1), n = samples_;
   alignas(64) std::array<Numbers, kFan * kFan> product;
   for (std::size_t a = 0; a < kFan; ++a) {
@@ -445,11 +439,13 @@ GNOMON_WIDE void RowSearch::find_sums(Maps<kFan>& maps) const noexcept {
 }
 
 GNOMON_WIDE void RowSearch::find_rows(double step, RowLanes& candidates) noexcept {
-  Maps<kFan> m;
+  Maps m;
   RowLanes& __restrict c = candidates;
-  fit(c, step, m);
-  const bool storage = objective_ == Objective::storage;
-  if (storage) {
+  find_axes(c, m);
+  find_image(m);
+  find_directions(c, static_cast<float>(step), m);
+  find_sides(m);
+  if (objective_ == Objective::storage) {
     find_products(m);
   } else {
     find_sums(m);
@@ -458,9 +454,8 @@ GNOMON_WIDE void RowSearch::find_rows(double step, RowLanes& candidates) noexcep
 }
 
 /// The best pair of each candidate.
-GNOMON_WIDE void RowSearch::pick_rows(double step, const Maps<kFan>& maps,
-                                      RowLanes& candidates) const noexcept {
-  const Maps<kFan>& __restrict m = maps;
+GNOMON_WIDE void RowSearch::pick_rows(double step, const Maps& maps, RowLanes& candidates) const noexcept {
+  const Maps& __restrict m = maps;
   RowLanes& __restrict c = candidates;
   const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
   std::array<Turn, 2 * kFan - 1> turn;
@@ -520,61 +515,6 @@ GNOMON_WIDE void RowSearch::pick_rows(double step, const Maps<kFan>& maps,
   }
 }
 
-// Half the sum of both squared extents, and their product's root: the larger of the two squares.
-GNOMON_WIDE void RowSearch::find_worst(Maps<1>& maps, RowLanes& candidates) const noexcept {
-  Maps<1>& __restrict m = maps;
-  RowLanes& __restrict c = candidates;
-  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
-  const std::size_t n = samples_, above = above_;
-  // The largest few, largest first.
-  alignas(64) std::array<Numbers, PlaneError::kMostAbove + 1> top;
-  alignas(64) Numbers half_a, half_b, texel, usable;
-  // The gradient of each row's coordinate, as those of X and Y.
-  alignas(64) Numbers turn_a, first_a, second_a, turn_b, first_b, second_b;
-  for (std::size_t l = 0; l < lanes; ++l) {
-    const float x_a = m.unit_x[0][l], y_a = m.unit_y[0][l], x_b = m.unit_x[1][l], y_b = m.unit_y[1][l];
-    const float sine = x_a * y_b - y_a * x_b, sine2 = sine * sine;
-    const float per = 1.0F / max_of(sine2, kLeastSine2);
-    usable[l] = sine2 > kLeastSine2 ? 1.0F : 0.0F;
-    half_a[l] = 0.5F * m.side[0][l] * per;
-    half_b[l] = 0.5F * m.side[1][l] * per;
-    texel[l] = std::sqrt(m.side[0][l] * m.side[1][l] * per) * m.area[l];
-    turn_a[l] = x_a * m.turn_x[l] + y_a * m.turn_y[l];
-    first_a[l] = x_a * m.first_x[l] + y_a * m.first_y[l];
-    second_a[l] = x_a * m.second_x[l] + y_a * m.second_y[l];
-    turn_b[l] = x_b * m.turn_x[l] + y_b * m.turn_y[l];
-    first_b[l] = x_b * m.first_x[l] + y_b * m.first_y[l];
-    second_b[l] = x_b * m.second_x[l] + y_b * m.second_y[l];
-    for (auto& level : top) level[l] = 0.0F;
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const Form at = form_at(i);
-    const float twice = 2.0F * at.xy;
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const float w = m.w_x[l] * at.x + m.w_y[l] * at.y + m.w_1[l], w2 = w * w;
-      const float ax = turn_a[l] * at.y + first_a[l], ay = second_a[l] - turn_a[l] * at.x;
-      const float bx = turn_b[l] * at.y + first_b[l], by = second_b[l] - turn_b[l] * at.x;
-      const float extent_a = min_of((ax * (ax * at.xx + ay * twice) + ay * ay * at.yy) * w2, kFar);
-      const float extent_b = min_of((bx * (bx * at.xx + by * twice) + by * by * at.yy) * w2, kFar);
-      const float half = half_a[l] * extent_b + half_b[l] * extent_a;
-      const float area = min_of(std::abs(texel[l] * w2 * w * at.inverse), kFar);
-      const float spread = (half - area) * (half + area);
-      float rest = half + std::sqrt(max_of(spread, 0.0F));
-      for (auto& level : top) {
-        const float next = min_of(level[l], rest);
-        level[l] = max_of(level[l], rest);
-        rest = next;
-      }
-    }
-  }
-  for (std::size_t l = 0; l < lanes; ++l) c.value[l] = usable[l] > 0.0F ? top[above][l] : kInfinity;
-}
 #undef GNOMON_FORM
-
-void RowSearch::find_values(RowLanes& candidates) noexcept {
-  Maps<1> maps;
-  fit(candidates, 0.0, maps);
-  find_worst(maps, candidates);
-}
 
 }  // namespace gnomon

@@ -34,28 +34,24 @@ struct RowLanes {
   static constexpr float kTie = 1.0F - 1e-5F;
   /// The first of the best.
   [[nodiscard]] std::size_t least() const noexcept;
-  [[nodiscard]] RowChoice best() const noexcept;
+  [[nodiscard]] RowChoice best() const noexcept { return at(least()); }
+  [[nodiscard]] RowChoice at(std::size_t lane) const noexcept;
 };
+
+/// The body is a line or a point in the light plane: the width of its image is rounding, and no map is better
+/// than another.
+[[nodiscard]] bool is_line(const WarpInput& input, const BodyLanes& body) noexcept;
 
 class RowSearch {
  public:
-  /// `error` must outlive the search. Its corners are more than 0, and count at first.
+  /// `error` must outlive the search. Its corners are more than 0, and count.
   RowSearch(const WarpInput& input, const PlaneError& error) noexcept;
 
-  /// From now on these samples count.
-  void count(const PixelLanes& samples) noexcept;
   /// Replaces each candidate's rows by the best of those near them: four for each row, `step` apart, in
   /// radians. The value goes by storage, or else by both extents of the worst texel together.
   void find_rows(double step, RowLanes& candidates) noexcept;
-  /// Each candidate's value by the worst texel, or by the objective's percentile of the samples that count.
-  void find_values(RowLanes& candidates) noexcept;
 
-  /// The body is a line or a point in the light plane: the width of its image is rounding, and no row is
-  /// better than another.
-  [[nodiscard]] bool line() const noexcept { return line_; }
   [[nodiscard]] WarpChoice choice(const RowChoice& rows) noexcept;
-  /// The choice's own fall-off and rows.
-  [[nodiscard]] RowChoice rows_of(const WarpChoice& choice) noexcept;
   /// The fall-off under which texels go by what pixels cover, by least squares.
   [[nodiscard]] FallOff fitted() const noexcept;
   /// A fall-off along the view whose w has this share of the logarithm of the ratio of depths.
@@ -68,24 +64,17 @@ class RowSearch {
     glm::dvec2 axis;
     double u_min, kappa, stretch, centre;
   };
-  template <std::size_t Directions>
   struct Maps;
+  void find_samples() noexcept;
   [[nodiscard]] Axis axis_of(const FallOff& fall_off) noexcept;
   [[nodiscard]] glm::dvec2 image_extent(const Axis& axis) noexcept;
-  template <std::size_t Directions>
-  void find_axes(const RowLanes& candidates, Maps<Directions>& maps) const noexcept;
-  template <std::size_t Directions>
-  void find_image(Maps<Directions>& maps) const noexcept;
-  template <std::size_t Directions>
-  void find_directions(const RowLanes& candidates, float step, Maps<Directions>& maps) const noexcept;
-  template <std::size_t Directions>
-  void find_sides(Maps<Directions>& maps) const noexcept;
-  template <std::size_t Directions>
-  void fit(const RowLanes& candidates, double step, Maps<Directions>& maps) const noexcept;
-  void find_products(Maps<4>& maps) const noexcept;
-  void find_sums(Maps<4>& maps) const noexcept;
-  void pick_rows(double step, const Maps<4>& maps, RowLanes& candidates) const noexcept;
-  void find_worst(Maps<1>& maps, RowLanes& candidates) const noexcept;
+  void find_axes(const RowLanes& candidates, Maps& maps) const noexcept;
+  void find_image(Maps& maps) const noexcept;
+  void find_directions(const RowLanes& candidates, float step, Maps& maps) const noexcept;
+  void find_sides(Maps& maps) const noexcept;
+  void find_products(Maps& maps) const noexcept;
+  void find_sums(Maps& maps) const noexcept;
+  void pick_rows(double step, const Maps& maps, RowLanes& candidates) const noexcept;
   /// A sample's numbers, of which loops keep copies: what they write might be these, for all that the
   /// compiler knows.
   struct Form {
@@ -97,7 +86,6 @@ class RowSearch {
 
   // Always the same, but not known when this is compiled: as in lane_range.
   std::size_t lanes_, fall_offs_;
-  const PlaneError& error_;
   const PixelLanes& corners_;
   const BodyLanes& body_;
   Objective objective_;
@@ -105,11 +93,10 @@ class RowSearch {
   glm::dvec2 middle_, extent_;  // of the body
   glm::dvec2 pivot_;            // that the axis turns about
   glm::dvec2 origin_;           // of the numbers below: where pixels are smallest
-  bool line_;
-  double depth_range_;  // logarithm of the ratio of the farthest to the nearest depth
+  double depth_range_;          // logarithm of the ratio of the farthest to the nearest depth
   alignas(64) std::array<double, kMostPoints> image_x_, image_y_;
   // The body's points, from the origin, as shares of its extents; in fours.
-  std::size_t points_ = 0, samples_ = 0, above_ = 0;
+  std::size_t points_ = 0, samples_ = 0;
   std::array<float, kMostPoints> point_x_, point_y_;
   // The samples alike, with the squared extents of a pixel there: J J^T over the square of J's determinant.
   alignas(64) std::array<float, PixelLanes::kMost> x_, y_, xx_, xy_, yy_, inverse_;

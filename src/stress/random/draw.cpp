@@ -355,7 +355,7 @@ void draw_split(Dice& dice, const Stage& s, Json& o) {
 }
 
 void draw_warp(Dice& dice, const Stage& s, Json& o) {
-  const int warp = dice.pick(static_cast<int>(all_warps().size()) + 4);
+  const int warp = dice.pick(static_cast<int>(all_warps().size()) + 3);
   if (static_cast<std::size_t>(warp) < all_warps().size())
     o["warp"] = std::string(all_warps()[static_cast<std::size_t>(warp)]->name);
   static constexpr std::string_view kObjectives[] = {"storage", "max", "p95"};

@@ -1,0 +1,82 @@
+// Four lines round a body's image become the sides of another map: what is that map's error? Sixteen side by
+// side, so that a search turns the lines in many ways at once.
+#pragma once
+
+#include "warp/plane_error.hpp"
+
+namespace gnomon {
+
+/// Lines that touch the body's image, one on each side: unit normals towards the body. The first two are
+/// opposite sides, and the others.
+struct Sides {
+  std::array<glm::dvec2, 4> normal{{{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}};
+};
+
+/// Candidates of a search, side by side, in single precision: their errors need three digits.
+struct SideLanes {
+  static constexpr std::size_t kCount = 16;
+  using Numbers = std::array<float, kCount>;
+  alignas(64) std::array<Numbers, 4> turn;  // of each side, in radians, from where the search is: up to 1
+  alignas(64) std::array<Numbers, 4> x, y;  // the normals, once they are turned
+  alignas(64) Numbers value;                // the square of the objective: only to be compared with others
+  // Gains below this are rounding: the first of two that mirror each other is taken, wherever the world
+  // stands and whatever its unit.
+  static constexpr float kTie = 1.0F - 1e-5F;
+  /// The first of the best.
+  [[nodiscard]] std::size_t least() const noexcept { return first_of_least_lane(value, kTie); }
+  [[nodiscard]] Sides at(std::size_t lane) const noexcept;
+};
+
+/// Any projective map whose rectangle fits the body is four lines away from any other. In the image under a
+/// map that is nearly the best, a step of a line is worth the same all over the body, however strong the
+/// warp.
+class SideSearch {
+ public:
+  /// The image is the one under `from`, scaled to a unit square: Sides{} is `from` itself. The samples that
+  /// `error` counts now count. The body is no line (is_line), and `from` is usable.
+  SideSearch(const WarpInput& input, const PlaneError& error, const WarpChoice& from) noexcept;
+
+  /// Each candidate's normals, turned from `sides`, and its value by the objective of the samples that count;
+  /// infinite where the lines make no map.
+  void find_values(const Sides& sides, SideLanes& candidates) const noexcept;
+  [[nodiscard]] WarpChoice choice(const Sides& sides) const noexcept;
+
+ private:
+  using Numbers = SideLanes::Numbers;
+  static constexpr std::size_t kMostPoints = whole_lanes(2 * kMaxVertices);
+  struct Maps;
+  void find_points() noexcept;
+  void find_samples(const PixelLanes& samples) noexcept;
+  void turn(const Sides& sides, SideLanes& candidates) const noexcept;
+  void fit(const SideLanes& candidates, Maps& maps) const noexcept;
+  void find_storage(const Maps& maps, SideLanes& candidates) const noexcept;
+  void find_worst(const Maps& maps, SideLanes& candidates) const noexcept;
+  void find_percentile(const Maps& maps, SideLanes& candidates) const noexcept;
+  /// A sample's numbers, of which loops keep copies: what they write might be these, for all that the
+  /// compiler knows.
+  struct Form {
+    float x, y, xx, xy, yy, inverse;
+  };
+  [[nodiscard]] Form form_at(std::size_t i) const noexcept {
+    return {x_[i], y_[i], xx_[i], xy_[i], yy_[i], inverse_[i]};
+  }
+
+  // Always the same, but not known when this is compiled: as in lane_range.
+  std::size_t lanes_, candidates_;
+  const BodyLanes& body_;
+  Objective objective_;
+  float most_stretch_;  // of the strongest warp, over that of the image
+  bool strong_;         // that limit is near
+  glm::dvec2 origin_;
+  // Of the image, over (x, y, 1) of the light plane from the origin: its coordinates are a / w and b / w.
+  glm::dvec3 a_, b_, w_;
+  std::size_t points_ = 0, samples_ = 0, above_ = 0;
+  // The body's points in the image, in fours; and a warp's w at them.
+  alignas(64) std::array<double, kMostPoints> image_x_, image_y_;
+  alignas(64) std::array<float, kMostPoints> point_x_, point_y_, point_w_;
+  // The samples alike, with the squared extents of a pixel there: J J^T over the square of J's determinant,
+  // and one over that determinant.
+  alignas(64) std::array<float, PixelLanes::kMost> x_, y_, xx_, xy_, yy_, inverse_;
+};
+
+}  // namespace gnomon
