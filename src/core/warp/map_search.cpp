@@ -150,8 +150,8 @@ bool improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) 
 
 /// Ways to turn four sides, as factors of each.
 using Ways = std::array<std::array<float, 4>, 4>;
-// Two opposite sides together, and against each other; by the worst texel, of which both pairs have a share,
-// both pairs at once.
+// Storage is a product of what each pair of opposite sides does. The worst texel depends on both pairs at
+// once.
 constexpr Ways kByPairs = {{{1.0F, 1.0F, 0.0F, 0.0F},
                             {1.0F, -1.0F, 0.0F, 0.0F},
                             {0.0F, 0.0F, 1.0F, 1.0F},
@@ -193,7 +193,7 @@ struct TurnedSides {
 /// Turns the sides of a search's map to where the error is least, from the map as it is on. In each round the
 /// best of sixteen candidates is taken where it is better than before.
 TurnedSides turned_sides(const SideSearch& search, const Ways& ways, int rounds, float first_step) noexcept {
-  // A step is as wide again where it was taken, and closer where another one was, or none.
+  // Steps that were taken grow by a fifth; others shrink.
   constexpr float kOn = 1.2F, kCloser = 0.6F, kNone = 0.5F, kFarOn = 2.0F;
   // Candidates, in the places of two of the diagonals: where the sides are, or on along the last move, and
   // farther on.
@@ -201,7 +201,7 @@ TurnedSides turned_sides(const SideSearch& search, const Ways& ways, int rounds,
   Sides sides;
   std::array<float, 4> step, last{};
   step.fill(first_step);
-  // One that gains much in two rounds, of the square, goes on up to so many times as long.
+  // A search whose square still falls by a twentieth in two rounds goes on, up to so many times as long.
   constexpr float kMuch = 0.95F;
   constexpr int kLonger = 3;
   float least = std::numeric_limits<float>::infinity(), first = least, one_ago = least, two_ago = least;
@@ -244,7 +244,7 @@ Judged turned(const WarpInput& input, PlaneError& error, const Judged& start, in
   constexpr double kAsExpected = 1.02;
   const Ways& ways = input.objective == Objective::storage ? kByPairs : kByFours;
   Judged best = start;
-  // By the samples near the worst, and by all where others came to be the worst.
+  // By the samples near the worst; again by all where another sample came to be the worst.
   for (const bool all : {false, true}) {
     if (!all) error.count_worst(start.choice);
     const SideSearch search(input, error, best.choice);
@@ -352,7 +352,7 @@ WarpChoice search_map(const WarpInput& input, SearchEffort effort) noexcept {
   Judged best{input.unwarped, without};
   const bool quick = effort == SearchEffort::quick, line = is_line(input, error.body());
   if (!line) best = quick ? quick_search(input, error) : thorough_search(input, error);
-  // After the search: a better map is not the better start where it lies between two places.
+  // After the search: a warp that is better than a start is often no better to start from.
   if (improve_by_others(input, error, best) && !line)
     best = turned(input, error, best, quick ? quick_rounds(input.objective) : kThoroughRounds, kStep);
   return judged_choice(input, best, without);
