@@ -24,27 +24,7 @@ constexpr std::size_t kFan = 4;
 constexpr float kLeastSine2 = 0.01F;
 // Keep divisors away from zero, and products within single precision: what goes beyond is far from the best.
 constexpr float kNothing = 1e-30F, kFar = 1e14F, kWidest = 1e7F;
-constexpr double kMostReach = 2e4;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-// Of single precision: those of vector.hpp widen their arguments.
-constexpr float min_of(float a, float b) noexcept {
-  return a < b ? a : b;
-}
-constexpr float max_of(float a, float b) noexcept {
-  return a > b ? a : b;
-}
-
-/// Cosine and sine of a small angle.
-struct Turn {
-  float cosine, sine;
-  constexpr Turn() noexcept : cosine(1.0F), sine(0.0F) {}
-  explicit constexpr Turn(float angle) noexcept : cosine(0.0F), sine(0.0F) {
-    const float square = angle * angle;
-    cosine = 1.0F - square * (0.5F - square * (1.0F / 24.0F - square * (1.0F / 720.0F)));
-    sine = angle * (1.0F - square * (1.0F / 6.0F - square * (1.0F / 120.0F - square * (1.0F / 5040.0F))));
-  }
-};
 
 }  // namespace
 
@@ -180,12 +160,12 @@ GNOMON_WIDE void RowSearch::find_samples() noexcept {
   constexpr double kLeast = 1e-280;
   const double scale = most > kLeast ? 1.0 / most : 0.0, area_scale = area * scale;
   for (std::size_t i = 0; i < n; ++i) {
-    x_[i] = static_cast<float>((samples.x[i] - origin_x) * scale_x);
-    y_[i] = static_cast<float>((samples.y[i] - origin_y) * scale_y);
-    xx_[i] = static_cast<float>(xx[i] * scale);
-    xy_[i] = static_cast<float>(xy[i] * scale);
-    yy_[i] = static_cast<float>(yy[i] * scale);
-    inverse_[i] = static_cast<float>(samples.inverse_determinant[i] * area_scale);
+    form_.x[i] = static_cast<float>((samples.x[i] - origin_x) * scale_x);
+    form_.y[i] = static_cast<float>((samples.y[i] - origin_y) * scale_y);
+    form_.xx[i] = static_cast<float>(xx[i] * scale);
+    form_.xy[i] = static_cast<float>(xy[i] * scale);
+    form_.yy[i] = static_cast<float>(yy[i] * scale);
+    form_.inverse[i] = static_cast<float>(samples.inverse_determinant[i] * area_scale);
   }
 }
 
@@ -368,7 +348,7 @@ GNOMON_WIDE void RowSearch::find_products(Maps& maps) const noexcept {
   }
   // Two at a time: half as many numbers of the candidates to fetch.
   for (std::size_t i = 0; i < n; i += 2) {
-    const Form f0 = form_at(i), f1 = form_at(i + 1);
+    const FormLanes::Form f0 = form_.at(i), f1 = form_.at(i + 1);
     for (std::size_t l = 0; l < lanes; ++l) {
       GNOMON_FORM(f0, 0);
       GNOMON_FORM(f1, 1);
@@ -405,7 +385,7 @@ GNOMON_WIDE void RowSearch::find_sums(Maps& maps) const noexcept {
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const Form at = form_at(i);
+    const FormLanes::Form at = form_.at(i);
     for (std::size_t l = 0; l < lanes; ++l) {
       GNOMON_FORM(at, 0);
       const float root = min_of(square0 * w0 * at.inverse * m.area[l], kFar), area = root * root;

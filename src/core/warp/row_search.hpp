@@ -3,6 +3,7 @@
 #pragma once
 
 #include "warp/plane_error.hpp"
+#include "warp/single.hpp"
 
 namespace gnomon {
 
@@ -75,14 +76,6 @@ class RowSearch {
   void find_products(Maps& maps) const noexcept;
   void find_sums(Maps& maps) const noexcept;
   void pick_rows(double step, const Maps& maps, RowLanes& candidates) const noexcept;
-  /// A sample's numbers, of which loops keep copies: what they write might be these, for all that the
-  /// compiler knows.
-  struct Form {
-    float x, y, xx, xy, yy, inverse;
-  };
-  [[nodiscard]] Form form_at(std::size_t i) const noexcept {
-    return {x_[i], y_[i], xx_[i], xy_[i], yy_[i], inverse_[i]};
-  }
 
   // Always the same, but not known when this is compiled: as in lane_range.
   std::size_t lanes_, fall_offs_;
@@ -98,8 +91,7 @@ class RowSearch {
   // The body's points, from the origin, as shares of its extents; in fours.
   std::size_t points_ = 0, samples_ = 0;
   std::array<float, kMostPoints> point_x_, point_y_;
-  // The samples alike, with the squared extents of a pixel there: J J^T over the square of J's determinant.
-  alignas(64) std::array<float, PixelLanes::kMost> x_, y_, xx_, xy_, yy_, inverse_;
+  FormLanes form_;  // of the samples, alike
 };
 
 }  // namespace gnomon

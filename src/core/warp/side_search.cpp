@@ -23,17 +23,9 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNothing = 1e-24F, kFar = 1e14F;
 // Alpha to delta are about 1 in the image of a map; nearer to 0, sides meet beside the body.
 constexpr float kLeastFactor = 1e-4F;
-constexpr double kMostStretch = 2e4;
 // How much stronger a search makes a warp at most.
 constexpr double kSearchStretch = 100.0;
 
-// Of single precision: those of vector.hpp widen their arguments.
-constexpr float min_of(float a, float b) noexcept {
-  return a < b ? a : b;
-}
-constexpr float max_of(float a, float b) noexcept {
-  return a > b ? a : b;
-}
 /// 1 / x, and 0 at 0: without a choice, as in inverse_or_0.
 constexpr float inverse_of(float x) noexcept {
   return x / (x * x + kNothing);
@@ -64,7 +56,7 @@ SideSearch::SideSearch(const WarpInput& input, const PlaneError& error, const Wa
       body_(error.body()),
       objective_(input.objective),
       // Less what rounding adds.
-      most_stretch_(static_cast<float>(min_of(input.most_stretch * (1.0 - 1e-4), kMostStretch))),
+      most_stretch_(static_cast<float>(min_of(input.most_stretch * (1.0 - 1e-4), kMostReach))),
       origin_(body_.x[0], body_.y[0]),
       above_(error.above()) {
   const PlaneMap map = plane_map(input.body, from);
@@ -119,8 +111,8 @@ GNOMON_WIDE void SideSearch::find_samples(const PixelLanes& samples) noexcept {
                  by = b_x * samples.xy[i] + b_y * samples.yy[i];
     const double determinant = samples.inverse_determinant[i] / (a_x * b_y - a_y * b_x);
     const double squared = determinant * determinant;
-    x_[i] = static_cast<float>(image_x);
-    y_[i] = static_cast<float>(image_y);
+    form_.x[i] = static_cast<float>(image_x);
+    form_.y[i] = static_cast<float>(image_y);
     xx[i] = (ax * ax + ay * ay) * squared;
     xy[i] = (ax * bx + ay * by) * squared;
     yy[i] = (bx * bx + by * by) * squared;
@@ -132,10 +124,10 @@ GNOMON_WIDE void SideSearch::find_samples(const PixelLanes& samples) noexcept {
   constexpr double kLeast = 1e-280;
   const double scale = most > kLeast ? 1.0 / most : 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    xx_[i] = static_cast<float>(xx[i] * scale);
-    xy_[i] = static_cast<float>(xy[i] * scale);
-    yy_[i] = static_cast<float>(yy[i] * scale);
-    inverse_[i] = static_cast<float>(inverse[i] * scale);
+    form_.xx[i] = static_cast<float>(xx[i] * scale);
+    form_.xy[i] = static_cast<float>(xy[i] * scale);
+    form_.yy[i] = static_cast<float>(yy[i] * scale);
+    form_.inverse[i] = static_cast<float>(inverse[i] * scale);
   }
 }
 
@@ -145,12 +137,9 @@ GNOMON_WIDE void SideSearch::turn(const Sides& sides, SideLanes& candidates) con
   for (std::size_t k = 0; k < 4; ++k) {
     const auto x = static_cast<float>(sides.normal[k].x), y = static_cast<float>(sides.normal[k].y);
     for (std::size_t l = 0; l < lanes; ++l) {
-      const float angle = c.turn[k][l], square = angle * angle;
-      const float cosine = 1.0F - square * (0.5F - square * (1.0F / 24.0F - square * (1.0F / 720.0F)));
-      const float sine =
-          angle * (1.0F - square * (1.0F / 6.0F - square * (1.0F / 120.0F - square * (1.0F / 5040.0F))));
-      c.x[k][l] = x * cosine - y * sine;
-      c.y[k][l] = x * sine + y * cosine;
+      const Turn turn(c.turn[k][l]);
+      c.x[k][l] = x * turn.cosine - y * turn.sine;
+      c.y[k][l] = x * turn.sine + y * turn.cosine;
     }
   }
 }
@@ -248,7 +237,7 @@ GNOMON_WIDE void SideSearch::find_storage(const Maps& maps, SideLanes& candidate
   const std::size_t lanes = candidates_ & ~(kAtOnce - 1), n = samples_;
   alignas(64) Numbers most_a{}, most_b{};
   for (std::size_t i = 0; i < n; i += 2) {
-    const Form f0 = form_at(i), f1 = form_at(i + 1);
+    const FormLanes::Form f0 = form_.at(i), f1 = form_.at(i + 1);
     for (std::size_t l = 0; l < lanes; ++l) {
       GNOMON_EXTENTS(f0, 0);
       GNOMON_EXTENTS(f1, 1);
@@ -268,7 +257,7 @@ GNOMON_WIDE void SideSearch::find_worst(const Maps& maps, SideLanes& candidates)
   const std::size_t lanes = candidates_ & ~(kAtOnce - 1), n = samples_;
   alignas(64) Numbers worst{};
   for (std::size_t i = 0; i < n; i += 2) {
-    const Form f0 = form_at(i), f1 = form_at(i + 1);
+    const FormLanes::Form f0 = form_.at(i), f1 = form_.at(i + 1);
     for (std::size_t l = 0; l < lanes; ++l) {
       GNOMON_LARGER(f0, 0);
       GNOMON_LARGER(f1, 1);
@@ -285,7 +274,7 @@ GNOMON_WIDE void SideSearch::find_percentile(const Maps& maps, SideLanes& candid
   // The largest few, largest first.
   alignas(64) std::array<Numbers, PlaneError::kMostAbove + 1> top{};
   for (std::size_t i = 0; i < n; ++i) {
-    const Form f0 = form_at(i);
+    const FormLanes::Form f0 = form_.at(i);
     for (std::size_t l = 0; l < lanes; ++l) {
       GNOMON_LARGER(f0, 0);
       float rest = larger0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "warp/plane_error.hpp"
+#include "warp/single.hpp"
 
 namespace gnomon {
 
@@ -27,9 +28,8 @@ struct SideLanes {
   [[nodiscard]] Sides at(std::size_t lane) const noexcept;
 };
 
-/// Any projective map whose rectangle fits the body is four lines away from any other. In the image under a
-/// map that is nearly the best, a step of a line is worth the same all over the body, however strong the
-/// warp.
+/// Turns a map's sides. Four lines round the body's image give every projective map that fits the body. In
+/// the image under a map that is nearly the best, a step of a line is worth the same however strong the warp.
 class SideSearch {
  public:
   /// The image is the one under `from`, scaled to a unit square: Sides{} is `from` itself. The samples that
@@ -52,21 +52,13 @@ class SideSearch {
   void find_storage(const Maps& maps, SideLanes& candidates) const noexcept;
   void find_worst(const Maps& maps, SideLanes& candidates) const noexcept;
   void find_percentile(const Maps& maps, SideLanes& candidates) const noexcept;
-  /// A sample's numbers, of which loops keep copies: what they write might be these, for all that the
-  /// compiler knows.
-  struct Form {
-    float x, y, xx, xy, yy, inverse;
-  };
-  [[nodiscard]] Form form_at(std::size_t i) const noexcept {
-    return {x_[i], y_[i], xx_[i], xy_[i], yy_[i], inverse_[i]};
-  }
 
   // Always the same, but not known when this is compiled: as in lane_range.
   std::size_t lanes_, candidates_;
   const BodyLanes& body_;
   Objective objective_;
-  float most_stretch_;  // of the strongest warp, over that of the image
-  bool strong_;         // that limit is near
+  float most_stretch_;  // of the strongest warp
+  bool strong_;         // the image is near that limit
   glm::dvec2 origin_;
   // Of the image, over (x, y, 1) of the light plane from the origin: its coordinates are a / w and b / w.
   glm::dvec3 a_, b_, w_;
@@ -74,9 +66,7 @@ class SideSearch {
   // The body's points in the image, in fours; and a warp's w at them.
   alignas(64) std::array<double, kMostPoints> image_x_, image_y_;
   alignas(64) std::array<float, kMostPoints> point_x_, point_y_, point_w_;
-  // The samples alike, with the squared extents of a pixel there: J J^T over the square of J's determinant,
-  // and one over that determinant.
-  alignas(64) std::array<float, PixelLanes::kMost> x_, y_, xx_, xy_, yy_, inverse_;
+  FormLanes form_;  // of the samples, in the image
 };
 
 }  // namespace gnomon
