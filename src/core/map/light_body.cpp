@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/vertex_pair.hpp"
 #include "geometry/visible.hpp"
@@ -114,21 +115,13 @@ void add_vertices(const PlanContext& c, const MapRequest& request, const Polytop
     p = light_point(c, request.space, {position, glm::dot(c.axes.forward, position)}, least, nearest);
     if (!counts) p.depth = std::numeric_limits<double>::infinity();
   };
-  const auto nearer = [&](const Polytope::Vertex& v) {
-    return glm::dot(c.axes.forward, v.position) < pseudo_near;
-  };
-  const auto vertices = body.vertices();
-  const bool cut = !c.camera.orthographic && std::any_of(vertices.begin(), vertices.end(), nearer);
   Polytope counted;
-  if (cut) {
-    counted = body;
-    clip(counted, Plane{c.axes.forward, -pseudo_near});
-  }
+  if (!c.camera.orthographic) counted = part_inside(body, Plane{c.axes.forward, -pseudo_near});
   // The map holds the whole body; the error counts where the cut leaves something, and there is room to say
   // so.
   const bool from_cut =
-      cut && !counted.empty() && out.count + body.vertex_count + counted.vertex_count <= kMaxBodyPoints;
-  for (const Polytope::Vertex& v : vertices) add(v.position, !from_cut);
+      !counted.empty() && out.count + body.vertex_count + counted.vertex_count <= kMaxBodyPoints;
+  for (const Polytope::Vertex& v : body.vertices()) add(v.position, !from_cut);
   if (!from_cut) return;
   for (const Polytope::Vertex& v : counted.vertices()) add(v.position, true);
 }

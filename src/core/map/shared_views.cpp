@@ -2,7 +2,6 @@
 // depth.
 #include "map/shared_views.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -47,22 +46,17 @@ void add_corners(const SharedView& view, const Polytope& body, ViewedBody& out) 
   }
 }
 
-/// `part` by view; those that see nothing are empty. The error counts from the depth `counted_from` on, where
-/// that leaves something: nearer vertices count as infinitely deep then, and where edges cross that depth
-/// there is a point of its own.
+/// `part` by view; those that see nothing are empty. The error counts from the depth `counted_from` on. Where
+/// that cuts a part, its own points are infinitely deep, and those of what is left are added.
 void add_points(std::span<const SharedView> views, std::span<const Polytope> part, double counted_from,
                 ViewedBody& out) noexcept {
   std::array<Polytope, kMaxViews> counted;
   int vertices = 0;
   for (std::size_t i = 0; i < part.size(); ++i) {
-    const SharedView& view = views[i];
-    const auto nearer = [&](const Polytope::Vertex& v) { return view.depth(v.position) < counted_from; };
-    const auto own = part[i].vertices();
-    vertices += part[i].vertex_count;
-    if (view.camera.orthographic || !std::any_of(own.begin(), own.end(), nearer)) continue;
-    counted[i] = part[i];
-    clip(counted[i], Plane{view.axes.forward, -counted_from - glm::dot(view.axes.forward, view.eye)});
-    vertices += counted[i].vertex_count;
+    const glm::dvec3& forward = views[i].axes.forward;
+    if (!views[i].camera.orthographic)
+      counted[i] = part_inside(part[i], Plane{forward, -counted_from - glm::dot(forward, views[i].eye)});
+    vertices += part[i].vertex_count + counted[i].vertex_count;
   }
   const auto add = [&](const glm::dvec3& position, double depth) {
     out.point[static_cast<std::size_t>(out.count++)] = {position, depth};
@@ -77,10 +71,8 @@ void add_points(std::span<const SharedView> views, std::span<const Polytope> par
       if (cut) uncounted.extend(bounds_of(part[i]));
       continue;
     }
-    for (const Polytope::Vertex& v : part[i].vertices()) {
-      const double depth = views[i].depth(v.position);
-      add(v.position, cut && depth < counted_from ? kNever : depth);
-    }
+    for (const Polytope::Vertex& v : part[i].vertices())
+      add(v.position, cut ? kNever : views[i].depth(v.position));
     for (const Polytope::Vertex& v : counted[i].vertices()) add(v.position, views[i].depth(v.position));
   }
   if (uncounted.empty()) return;
