@@ -1,7 +1,6 @@
 // A body's vertices in light space, and the body as warps see it.
 #include "map/light_body.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
