@@ -82,8 +82,9 @@ class Native : public EmbreeScene {
 
   void packet(std::span<const Ray> rays, std::span<std::uint8_t> out) const {
     alignas(64) std::array<int, kPacket> valid{};
-    RTCRay16 packed;
-    FilterContext context;
+    // Embree reads the lanes that are not valid, too.
+    RTCRay16 packed{};
+    FilterContext context{};
     rtcInitIntersectContext(&context.embree);
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     context.embree.filter = keep_true_hits;

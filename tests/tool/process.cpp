@@ -6,9 +6,13 @@
 #include <stdlib.h>
 #include <sys/wait.h>
 
+#include <chrono>
+#include <csignal>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 extern char** environ;
 
@@ -20,6 +24,33 @@ std::string content_of(const std::filesystem::path& file) {
   std::ostringstream content;
   content << stream.rdbuf();
   return content.str();
+}
+
+// Far more than any run takes, under the sanitizers and beside others.
+constexpr std::chrono::seconds kLimit{240};
+
+/// Name, state and times of each of a process's threads, and where in the kernel it waits.
+std::string threads_of(pid_t process) {
+  std::ostringstream threads;
+  std::error_code ended;
+  const std::filesystem::path tasks = "/proc/" + std::to_string(process) + "/task";
+  for (const auto& task : std::filesystem::directory_iterator(tasks, ended))
+    threads << content_of(task.path() / "stat") << "  waits in " << content_of(task.path() / "wchan") << "\n";
+  return threads.str();
+}
+
+/// The status that a process ends with; nothing where it takes longer than the limit.
+std::optional<int> status_of(pid_t process) {
+  constexpr std::chrono::milliseconds kPause{2};
+  const auto end = std::chrono::steady_clock::now() + kLimit;
+  while (std::chrono::steady_clock::now() < end) {
+    int status = 0;
+    const pid_t ended = waitpid(process, &status, WNOHANG);
+    if (ended == process) return status;
+    if (ended != 0) throw std::runtime_error("cannot wait for " GNOMON_PROGRAM);
+    std::this_thread::sleep_for(kPause);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -54,13 +85,18 @@ Finished run_gnomon(const std::vector<std::string>& arguments, const std::string
   const int failed = posix_spawn(&process, GNOMON_PROGRAM, &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) throw std::runtime_error("cannot start " GNOMON_PROGRAM);
-  int status = 0;
-  if (waitpid(process, &status, 0) != process) throw std::runtime_error("cannot wait for " GNOMON_PROGRAM);
 
   Finished finished;
-  finished.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  std::optional<int> status = status_of(process);
+  std::string hung;
+  if (!status) {
+    hung = "does not end; its threads:\n" + threads_of(process);
+    kill(process, SIGKILL);
+    waitpid(process, &status.emplace(), 0);
+  }
+  finished.exit_code = WIFEXITED(*status) ? WEXITSTATUS(*status) : 128 + WTERMSIG(*status);
   if (out_file.empty()) finished.out = content_of(out);
-  finished.err = content_of(err);
+  finished.err = content_of(err) + hung;
   return finished;
 }
 

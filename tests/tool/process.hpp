@@ -14,7 +14,7 @@ struct Finished {
 };
 
 /// Runs the program with these arguments and standard input. `out_file`: where standard output goes instead
-/// of Finished::out, if not empty.
+/// of Finished::out, if not empty. A run of four minutes is ended; `err` has what its threads did.
 [[nodiscard]] Finished run_gnomon(const std::vector<std::string>& arguments, const std::string& input = {},
                                   const std::filesystem::path& out_file = {});
 
