@@ -231,9 +231,13 @@ void check_texel(const Scene& s, int index, const Real3& p, Report& report) {
   constexpr Real kFine = 1e-4L, kLoose = 1e-3L;
   const Real side = std::max(map.width, map.height);
   if (!(std::max(shown.ndc_error(0), shown.ndc_error(1)) * side < kFine)) return;
-  const glm::dvec3 world(p + s.view.eye);
-  const glm::dvec2 texel =
-      texel_extent_world(map.clip_from_world, map.texels(), glm::dvec3(s.light.travel(p)), world);
+  // Each matrix has the rounding of its own numbers: both have to say so.
+  const glm::dvec3 ray(s.light.travel(p));
+  const glm::dvec2 by_world =
+      texel_extent_world(map.clip_from_world, map.texels(), ray, glm::dvec3(p + s.view.eye));
+  const glm::dvec2 by_relative =
+      texel_extent_world(glm::dmat4(map.clip_from_camera_relative), map.texels(), ray, glm::dvec3(p));
+  const glm::dvec2 texel = glm::min(by_world, by_relative);
   for (int axis = 0; axis < 2; ++axis) {
     const Real ratio = Real(texel[axis]) / map.texel_world_max[axis];
     if (!(ratio <= 1.0L + kLoose))
