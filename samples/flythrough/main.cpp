@@ -120,6 +120,11 @@ int fly(const std::string& scene_name, const fs::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && argv[1][0] == '-') {
+    const bool asked = std::string(argv[1]) == "--help";
+    std::fprintf(asked ? stdout : stderr, "usage: flythrough_sample [SCENE] [FOLDER]\n");
+    return asked ? 0 : 2;
+  }
   try {
     return fly(argc > 1 ? argv[1] : "builtin:city", argc > 2 ? argv[2] : "out/flythrough_sample");
   } catch (const std::exception& error) {  // files and drivers; planning throws nothing

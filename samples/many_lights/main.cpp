@@ -144,6 +144,11 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && argv[1][0] == '-') {
+    const bool asked = std::string(argv[1]) == "--help";
+    std::fprintf(asked ? stdout : stderr, "usage: many_lights [SCENE] [FOLDER] [LIGHTS]\n");
+    return asked ? 0 : 2;
+  }
   try {
     const int count = argc > 3 ? std::atoi(argv[3]) : 24;
     if (count < 1 || count > 1000) {
