@@ -120,10 +120,9 @@ int fly(const std::string& scene_name, const fs::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 1 && argv[1][0] == '-') {
-    const bool asked = std::string(argv[1]) == "--help";
-    std::fprintf(asked ? stdout : stderr, "usage: flythrough_sample [SCENE] [FOLDER]\n");
-    return asked ? 0 : 2;
+  if (argc > 1 && std::string(argv[1]) == "--help") {
+    std::puts("usage: flythrough_sample [SCENE] [FOLDER]");
+    return 0;
   }
   try {
     return fly(argc > 1 ? argv[1] : "builtin:city", argc > 2 ? argv[2] : "out/flythrough_sample");

@@ -144,10 +144,9 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 1 && argv[1][0] == '-') {
-    const bool asked = std::string(argv[1]) == "--help";
-    std::fprintf(asked ? stdout : stderr, "usage: many_lights [SCENE] [FOLDER] [LIGHTS]\n");
-    return asked ? 0 : 2;
+  if (argc > 1 && std::string(argv[1]) == "--help") {
+    std::puts("usage: many_lights [SCENE] [FOLDER] [LIGHTS]");
+    return 0;
   }
   try {
     const int count = argc > 3 ? std::atoi(argv[3]) : 24;

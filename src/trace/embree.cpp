@@ -84,7 +84,7 @@ class Native : public EmbreeScene {
     alignas(64) std::array<int, kPacket> valid{};
     // Embree reads the lanes that are not valid, too.
     RTCRay16 packed{};
-    FilterContext context{};
+    FilterContext context;
     rtcInitIntersectContext(&context.embree);
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     context.embree.filter = keep_true_hits;

@@ -9,7 +9,6 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -39,18 +38,24 @@ std::string threads_of(pid_t process) {
   return threads.str();
 }
 
-/// The status that a process ends with; nothing where it takes longer than the limit.
-std::optional<int> status_of(pid_t process) {
+/// The status that a process ends with. One that takes longer than the limit is killed, and `hung` says what
+/// its threads did.
+int status_of(pid_t process, std::string& hung) {
   constexpr std::chrono::milliseconds kPause{2};
   const auto end = std::chrono::steady_clock::now() + kLimit;
-  while (std::chrono::steady_clock::now() < end) {
-    int status = 0;
-    const pid_t ended = waitpid(process, &status, WNOHANG);
-    if (ended == process) return status;
-    if (ended != 0) throw std::runtime_error("cannot wait for " GNOMON_PROGRAM);
+  int status = 0;
+  pid_t ended = 0;
+  while ((ended = waitpid(process, &status, WNOHANG)) == 0) {
+    if (std::chrono::steady_clock::now() > end) {
+      hung = "does not end; its threads:\n" + threads_of(process);
+      kill(process, SIGKILL);
+      ended = waitpid(process, &status, 0);
+      break;
+    }
     std::this_thread::sleep_for(kPause);
   }
-  return std::nullopt;
+  if (ended != process) throw std::runtime_error("cannot wait for " GNOMON_PROGRAM);
+  return status;
 }
 
 }  // namespace
@@ -87,14 +92,9 @@ Finished run_gnomon(const std::vector<std::string>& arguments, const std::string
   if (failed != 0) throw std::runtime_error("cannot start " GNOMON_PROGRAM);
 
   Finished finished;
-  std::optional<int> status = status_of(process);
   std::string hung;
-  if (!status) {
-    hung = "does not end; its threads:\n" + threads_of(process);
-    kill(process, SIGKILL);
-    waitpid(process, &status.emplace(), 0);
-  }
-  finished.exit_code = WIFEXITED(*status) ? WEXITSTATUS(*status) : 128 + WTERMSIG(*status);
+  const int status = status_of(process, hung);
+  finished.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   if (out_file.empty()) finished.out = content_of(out);
   finished.err = content_of(err) + hung;
   return finished;
