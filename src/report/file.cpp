@@ -19,14 +19,14 @@ namespace gnomon::report {
 
 namespace fs = std::filesystem;
 
+void refuse(const fs::path& path, const std::string& why) {
+  throw ReportError(one_line(path.string() + ": " + why));
+}
+
 namespace {
 
 constexpr std::uint64_t kMaxTextBytes = 1ull << 30;      // half a million rows
 constexpr std::uint64_t kMaxPictureBytes = 64ull << 20;  // a frame of 4096 x 4096 in PNG
-
-[[noreturn]] void refuse(const fs::path& file, const std::string& why) {
-  throw ReportError(one_line(file.string() + ": " + why));
-}
 
 std::string read_descriptor(int descriptor, const fs::path& file, std::uint64_t max_bytes) {
   struct stat status {};

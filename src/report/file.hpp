@@ -6,6 +6,8 @@
 
 namespace gnomon::report {
 
+/// Throws ReportError: one line that names the file or folder.
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why);
 /// Of a regular file of at most 1 GiB; devices and pipes are refused without waiting for them. Throws
 /// ReportError.
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);

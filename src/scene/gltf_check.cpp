@@ -260,7 +260,7 @@ json checked_object(const json& document, const json& source, const std::string&
   return out;
 }
 
-json checked_array(const json& source, const ArrayRule& array) {
+json checked_entries(const json& source, const ArrayRule& array) {
   const auto it = source.find(array.name);
   json out = json::array();
   if (it == source.end()) return out;
@@ -296,7 +296,7 @@ const json* find_object(const json& source, const char* key) {
 json checked_array(const json& source, const char* name) {
   const auto* array = std::find_if(kArrays.begin(), kArrays.end(),
                                    [&](const ArrayRule& a) { return std::string_view(a.name) == name; });
-  return array == kArrays.end() ? json::array() : checked_array(source, *array);
+  return array == kArrays.end() ? json::array() : checked_entries(source, *array);
 }
 
 namespace {
@@ -350,7 +350,7 @@ json checked_document(const json& source) {
   json out = json::object();
   out["asset"] = checked_asset(source);
   for (std::size_t i = kRawArrays; i < kArrays.size(); ++i) {
-    json array = checked_array(source, kArrays[i]);
+    json array = checked_entries(source, kArrays[i]);
     if (!array.empty()) out[kArrays[i].name] = std::move(array);
   }
   const auto scene = source.find("scene");

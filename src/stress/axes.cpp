@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 namespace gnomon::stress {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Of the plain camera: 60 degrees up and down.
 constexpr double kHalfFov = kPi / 6.0;
 

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 
 #include "case_list.hpp"
 #include "judge.hpp"
@@ -10,7 +9,6 @@
 namespace gnomon::stress {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kFov = kPi / 3.0, kTheta = 0.5 * kFov;
 // Of strengths and storages that two ways of rounding lead to.
 constexpr double kRounding = 1e-9;

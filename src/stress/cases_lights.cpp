@@ -4,15 +4,12 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
-#include <numbers>
 
 #include "case_list.hpp"
 #include "judge.hpp"
 
 namespace gnomon::stress {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A hall 40 units long with the camera at one end, looking down it.
 Input hall(const Light& light) {

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
 #include "random.hpp"
 
 namespace gnomon::stress {
+
+inline constexpr double kPi = std::numbers::pi;
 
 /// Everything make_plan takes.
 struct Input {

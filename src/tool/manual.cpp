@@ -1,6 +1,5 @@
 // Manual pages, written from a program's tables.
 #include <algorithm>
-#include <cctype>
 
 #include "option_words.hpp"
 #include "shell_texts.hpp"
@@ -24,12 +23,6 @@ std::string roff(std::string_view text) {
       out += c;
   }
   return out;
-}
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
 }
 
 std::string option_entry(const Option& option) {

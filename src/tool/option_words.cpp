@@ -10,12 +10,6 @@
 namespace gnomon::tool {
 namespace {
 
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
-
 template <class Words>
 std::string joined(const Words& words) {
   std::string all;
@@ -31,6 +25,12 @@ std::string joined(const Words& words) {
 }
 
 }  // namespace
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
 
 std::string number_word(double value) {
   // Beyond this a double has no digits to show.

@@ -7,6 +7,8 @@
 
 namespace gnomon::tool {
 
+/// In capitals.
+[[nodiscard]] std::string upper(std::string text);
 /// The shortest decimal form, without trailing zeros.
 [[nodiscard]] std::string number_word(double value);
 /// "NAME", "FILE", "DIR", "N" or "TEXT"; empty for a flag.

@@ -85,11 +85,11 @@ TEST_P(StressParameters, have_ascending_values) {
   for (std::size_t i = 1; i < values.size(); ++i) EXPECT_LT(values[i - 1], values[i]);
 }
 
-std::string name_of(const testing::TestParamInfo<Axis>& axis) {
+std::string test_name(const testing::TestParamInfo<Axis>& axis) {
   return std::string(axis.param.name);
 }
 INSTANTIATE_TEST_SUITE_P(All, StressParameters, testing::ValuesIn(all_axes().begin(), all_axes().end()),
-                         name_of);
+                         test_name);
 
 TEST(Axes, are_held_against_arithmetic_finer_than_double) {
   if (!kRealIsFiner)

@@ -16,7 +16,6 @@
 extern char** environ;
 
 namespace gnomon::test {
-namespace {
 
 std::string content_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -24,6 +23,8 @@ std::string content_of(const std::filesystem::path& file) {
   content << stream.rdbuf();
   return content.str();
 }
+
+namespace {
 
 // Far more than any run takes, under the sanitizers and beside others.
 constexpr std::chrono::seconds kLimit{240};

@@ -18,6 +18,9 @@ struct Finished {
 [[nodiscard]] Finished run_gnomon(const std::vector<std::string>& arguments, const std::string& input = {},
                                   const std::filesystem::path& out_file = {});
 
+/// A file as a whole; empty where it cannot be read.
+[[nodiscard]] std::string content_of(const std::filesystem::path& file);
+
 /// A folder of its own for a test, removed with its content at the end.
 class TemporaryFolder {
  public:

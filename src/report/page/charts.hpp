@@ -20,6 +20,8 @@ namespace gnomon::report {
 [[nodiscard]] std::string tip_of(const Summary& summary, std::size_t scene, std::size_t technique);
 [[nodiscard]] std::string label_of(const Measure& measure);
 
+/// Techniques that a chart of a flight draws, at most.
+inline constexpr std::size_t kFlightLines = 8;
 /// Techniques of the scene's front at the default axes, at most `limit`, and never none where one was
 /// measured.
 [[nodiscard]] std::vector<std::size_t> notable(const Summary& summary, std::size_t scene, std::size_t limit);

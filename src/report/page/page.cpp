@@ -13,8 +13,6 @@
 namespace gnomon::report {
 namespace {
 
-constexpr std::size_t kFlightLines = 8;
-
 /// Nothing is loaded, nothing runs but the one script and style that stand in the page.
 std::string policy() {
   return "default-src 'none'; img-src data:; style-src '" + policy_hash(page_style()) + "'; script-src '" +

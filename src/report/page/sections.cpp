@@ -17,8 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kFlightLines = 8;
-
 std::string cell(const std::string& text, const std::string& sort_value) {
   return "<td data-v=\"" + sort_value + "\">" + escaped(text) + "</td>";
 }

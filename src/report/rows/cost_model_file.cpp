@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "gnomon.cost.2";
+constexpr const char* kCostSchema = "gnomon.cost.2";
 constexpr std::size_t kLargestFile = 1 << 20;
 constexpr std::pair<const char*, double DrawingCosts::*> kDrawing[] = {
     {"frame_ms", &DrawingCosts::per_frame},
@@ -50,7 +50,7 @@ StoredCostModel::Filter filter_from(const Json& json) {
 
 StoredCostModel model_from(const Json& json) {
   const std::string schema = json.at("schema").get<std::string>();
-  if (schema != kSchema) throw ReportError("schema '" + schema + "', wanted '" + kSchema + "'");
+  if (schema != kCostSchema) throw ReportError("schema '" + schema + "', wanted '" + kCostSchema + "'");
   StoredCostModel model;
   model.machine = words_from(json, "machine");
   for (const auto& [key, cost] : kDrawing) get_cost(json, key, model.drawing.*cost);
@@ -67,7 +67,7 @@ StoredCostModel model_from(const Json& json) {
 
 std::string to_text(const StoredCostModel& model) {
   Json json{
-      {"schema", kSchema},
+      {"schema", kCostSchema},
       {"machine", model.machine},
       {"mean_relative_error",
        {{"depth", model.depth_error}, {"prefilter", model.prefilter_error}, {"lookup", model.lookup_error}}}};

@@ -9,8 +9,8 @@
 #include <cstring>
 #include <utility>
 
+#include "file.hpp"
 #include "gnomon/report/rows_file.hpp"
-#include "text.hpp"
 
 namespace gnomon::report {
 namespace {
@@ -18,10 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kLockFile = "results.lock";
-
-[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
-  throw ReportError(one_line(path.string() + ": " + why));
-}
 
 /// Who wrote its number into the file; "another process" where none is there yet.
 std::string holder(int descriptor) {

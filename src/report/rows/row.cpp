@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "gnomon.compare.1";
+constexpr const char* kRowSchema = "gnomon.compare.1";
 
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -115,7 +115,7 @@ Json settings_json(const Row& row) {
 
 /// All but times and machine.
 Json lasting_json(const Row& row) {
-  Json json{{"schema", kSchema}, {"index", row.index}};
+  Json json{{"schema", kRowSchema}, {"index", row.index}};
   json.update(settings_json(row));
   json["scene_hash"] = row.scene_hash;
   if (!row.animation.empty()) json["animation_time_s"] = row.animation_time_s;
@@ -298,7 +298,7 @@ Row row_from_json(const std::string& line, const std::string& where) {
     check_nesting(line);
     const Json json = Json::parse(line);
     const std::string schema = json.at("schema").get<std::string>();
-    if (schema != kSchema) throw ReportError("schema '" + schema + "', wanted '" + kSchema + "'");
+    if (schema != kRowSchema) throw ReportError("schema '" + schema + "', wanted '" + kRowSchema + "'");
     Row row;
     get_whole(json.at("index"), row.index);
     json.at("scene").get_to(row.scene);

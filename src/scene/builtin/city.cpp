@@ -72,7 +72,7 @@ Building gabled(double hx, double hz, int floors) {
   return out;
 }
 
-MeshBuilder lamp() {
+MeshBuilder street_lamp() {
   MeshBuilder out;
   out.cylinder({0.0, 0.0, 0.0}, {0.0, 8.0, 0.0}, 0.11, 0.06, 10);
   out.bar({0.0, 7.9, 0.0}, {1.8, 8.2, 0.0}, 0.08);
@@ -99,7 +99,7 @@ Kit make_kit(GlbWriter& writer) {
   MeshBuilder slab, foliage, trunk;
   slab.box({-kBlock / 2.0, -0.2, -kBlock / 2.0}, {kBlock / 2.0, kKerb, kBlock / 2.0});
   kit.pavement = writer.mesh("pavement", slab, writer.material("pavement", {0.38, 0.37, 0.35}));
-  kit.lamp = writer.mesh("lamp", lamp(), writer.material("steel", {0.16, 0.17, 0.18}));
+  kit.lamp = writer.mesh("lamp", street_lamp(), writer.material("steel", {0.16, 0.17, 0.18}));
   Random random(9);
   foliage.boulder({0.0, 4.6, 0.0}, 2.2, 0.14, 7, 10, random);
   trunk.cylinder({0.0, 0.0, 0.0}, {0.0, 3.2, 0.0}, 0.2, 0.14, 8);

@@ -29,7 +29,7 @@ MeshBuilder level_pane(double side) {
   return out;
 }
 
-MeshBuilder frame() {
+MeshBuilder window_frame() {
   MeshBuilder out;
   const double length = kWide * kPanes;
   for (int i = 0; i <= kPanes; ++i) {
@@ -56,7 +56,7 @@ std::string build_glass() {
   std::array<int, 4> upright{};
   for (std::size_t i = 0; i < tints.size(); ++i)
     upright[i] = writer.mesh("pane", pane(kWide - 0.06, kHigh), tints[i]);
-  const int bars = writer.mesh("frame", frame(), steel);
+  const int bars = writer.mesh("frame", window_frame(), steel);
   // Walls behind each other, so that light from the side passes one, two or three of them.
   for (int wall = 0; wall < 3; ++wall) {
     const double z = 3.0 - 2.5 * wall;

@@ -20,7 +20,7 @@ double lower(double x) {
   return upper(x) - kDepth;
 }
 
-MeshBuilder frame() {
+MeshBuilder roof_frame() {
   MeshBuilder out;
   for (const double x : {-kSpan / 2.0, kSpan / 2.0}) {
     // An H section: two flanges and a web.
@@ -124,7 +124,7 @@ std::string build_hangar() {
   const int wood = writer.material("wood", {0.46, 0.29, 0.13}),
             blue = writer.material("blue", {0.07, 0.18, 0.42});
   add_ground(writer, 120.0, 8, concrete);
-  const int truss = writer.mesh("frame", frame(), steel), bay = writer.mesh("purlins", purlins(), zinc);
+  const int truss = writer.mesh("frame", roof_frame(), steel), bay = writer.mesh("purlins", purlins(), zinc);
   const int brace = writer.mesh("bracing", bracing(), zinc), sheet = writer.mesh("sheets", sheets(), roofing);
   for (int i = 0; i <= kBays; ++i) {
     const glm::dvec3 at(0.0, 0.0, (i - kBays / 2.0) * kBay);

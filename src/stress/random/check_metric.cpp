@@ -82,7 +82,7 @@ ExactError exact_error(const View& v, const LightAt& light, const RelativeMap& e
 }
 
 // Room beyond the error's own bound, relative: nobody reads m to more digits.
-constexpr Real kRounding = 1e-6L;
+constexpr Real kErrorRoom = 1e-6L;
 // Points whose bound is looser than this tell nothing.
 constexpr Real kUseful = 1e-3L;
 
@@ -104,7 +104,7 @@ void check_point(const Case& input, const ShadowMap& map, const View& view, cons
   ++report.counts().measured;
   const auto compare = [&](const char* name, double a, Real b) {
     const Real apart = std::abs(a / b - 1.0L);
-    if (!(apart <= kRounding + wanted.rounding))
+    if (!(apart <= kErrorRoom + wanted.rounding))
       report.add("metric_wrong", static_cast<double>(apart),
                  std::string(name) + " is " + numbers(a, b, world));
   };

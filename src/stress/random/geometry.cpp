@@ -11,20 +11,20 @@
 namespace gnomon::stress {
 namespace {
 
-constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
+constexpr Real kNoBound = std::numeric_limits<Real>::infinity();
 // Relative to the quantity at hand. A few hundred thousand times a double's rounding, a hundredth of a
 // float's: nothing that is drawn tells such points apart.
 constexpr Real kClear = 1e-9L;
 // Of a position or a distance from one: about a thousand roundings of a double.
-constexpr Real kRounding = 1e-11L;
+constexpr Real kPlaceRounding = 1e-11L;
 
 struct Interval {
-  Real low = -kInfinite, high = kInfinite;
+  Real low = -kNoBound, high = kNoBound;
   [[nodiscard]] bool empty() const { return !(low <= high); }
   /// Keeps what has slope t + offset >= 0.
   void keep(Real slope, Real offset) {
     if (slope == 0.0L) {
-      if (offset < 0.0L) high = -kInfinite;
+      if (offset < 0.0L) high = -kNoBound;
     } else if (slope > 0.0L) {
       low = std::max(low, -offset / slope);
     } else {
@@ -67,7 +67,7 @@ struct RealBox {
 RealBox box_near(const View& v, const Box& box, const std::array<Real3, 8>& corner) {
   RealBox out{Real3(box.min) - v.eye, Real3(box.max) - v.eye};
   for (int axis = 0; axis < 3; ++axis) {
-    Real low = kInfinite, high = -kInfinite;
+    Real low = kNoBound, high = -kNoBound;
     for (const Real3& c : corner) {
       low = std::min(low, c[axis]);
       high = std::max(high, c[axis]);
@@ -145,7 +145,7 @@ Real View::depth(const Real3& p) const {
 bool View::clearly_sees(const Real3& p) const {
   const Real z = depth(p);
   // Of positions: what a double keeps of a point of the world.
-  const Real rounding = kRounding * (length(p) + length(eye));
+  const Real rounding = kPlaceRounding * (length(p) + length(eye));
   const Real margin = kClear * std::abs(z) + rounding;
   if (!(z > camera.near_depth + margin && z < camera.far_depth - margin)) return false;
   const Real scale = camera.orthographic ? 1.0L : z;
@@ -216,7 +216,7 @@ bool LightAt::clearly_lights(const Real3& p) const {
   const Real3 q = p - apex_;
   const Real r = length(q);
   // A point this close to the light is the light, as far as doubles can tell.
-  if (!(r > kClear * (length(p) + length(apex_)) + kRounding * world_)) return false;
+  if (!(r > kClear * (length(p) + length(apex_)) + kPlaceRounding * world_)) return false;
   if (!(r < range_ * (1.0L - kClear))) return false;
   if (!cone_) return true;
   const Real angle = std::atan2(length(glm::cross(q, axis_)), glm::dot(q, axis_));
@@ -232,7 +232,7 @@ Real3 LightAt::travel(const Real3& p) const {
 
 Real LightAt::end() const noexcept {
   constexpr Real kAtTheLight = 1e-3L;
-  return parallel_ ? kInfinite : 1.0L - kAtTheLight;
+  return parallel_ ? kNoBound : 1.0L - kAtTheLight;
 }
 
 RayHit clear_hit(const View& view, const Box& box, const Real3& p, const Real3& way, Real end) {
@@ -245,7 +245,7 @@ RayHit clear_hit(const View& view, const Box& box, const Real3& p, const Real3& 
   }
   if (rough.empty()) return {};
   // What rounds: the point, where the box is met, and both as places in the world.
-  const Real room = kRounding * (length(p) + length(p + way * rough.low) + length(view.eye));
+  const Real room = kPlaceRounding * (length(p) + length(p + way * rough.low) + length(view.eye));
   Interval thick{0.0L, end}, flat;
   int flats = 0;
   for (int axis = 0; axis < 3; ++axis) {

@@ -34,39 +34,39 @@ double wrong_pixels(const report::Row& row) noexcept {
 }
 
 /// What has been measured of a technique in one view.
-struct Measured {
+struct PricedTechnique {
   double ms, error, m;
 };
 
-Measured measured(const report::Row& row) noexcept {
+PricedTechnique measured(const report::Row& row) noexcept {
   // A technique without a wrong pixel is not infinitely better than one with a single one.
   const double least = 0.5 / static_cast<double>(std::max<std::uint64_t>(row.errors.pixels, 1));
   return {row.times.total_ms.median, std::max(wrong_pixels(row), least), row.aliasing.p95};
 }
 
 /// By how much both cost and error of `pick` exceed those of the technique that beats it most; 1: none does.
-double beyond_front(const Measured& pick, const std::vector<Measured>& all,
-                    double Measured::*error) noexcept {
+double beyond_front(const PricedTechnique& pick, const std::vector<PricedTechnique>& all,
+                    double PricedTechnique::*error) noexcept {
   double most = 1.0;
   // Where neither has an error, or both have no end of it, they are alike.
-  const auto ratio = [&](const Measured& other) {
+  const auto ratio = [&](const PricedTechnique& other) {
     return pick.*error == other.*error ? 1.0 : pick.*error / other.*error;
   };
-  for (const Measured& other : all) most = std::max(most, std::min(pick.ms / other.ms, ratio(other)));
+  for (const PricedTechnique& other : all) most = std::max(most, std::min(pick.ms / other.ms, ratio(other)));
   return most;
 }
 
 struct Pick {
   Budget budget;
   std::string technique;
-  Measured measured;
+  PricedTechnique measured;
   double predicted_ms = 0.0, beyond_wrong = 1.0, beyond_m = 1.0;
 };
 
 /// Budgets and errors at equal steps of their logarithm between the ends of what was measured.
-std::vector<Budget> asked(const std::vector<Measured>& all) {
+std::vector<Budget> asked(const std::vector<PricedTechnique>& all) {
   double least_ms = 1e300, most_ms = 0.0, least_m = 1e300, most_m = 0.0;
-  for (const Measured& one : all) {
+  for (const PricedTechnique& one : all) {
     least_ms = std::min(least_ms, one.ms);
     most_ms = std::max(most_ms, one.ms);
     if (one.m > 0.0) least_m = std::min(least_m, one.m);
@@ -96,7 +96,7 @@ std::string asked_text(const Budget& b) {
 std::vector<Pick> picks_of(const View& view, const report::StoredCostModel& model) {
   const Replanned replanned(view);
   std::set<std::string> filters;
-  std::vector<Measured> all;
+  std::vector<PricedTechnique> all;
   for (const report::Row& row : view.rows) {
     filters.insert(row.technique.filter);
     all.push_back(measured(row));
@@ -117,8 +117,8 @@ std::vector<Pick> picks_of(const View& view, const report::StoredCostModel& mode
     if (row == view.rows.end())
       throw std::runtime_error(view.name + ": the sweep is no full product, the pick was not measured");
     Pick pick{budget, row->technique.name(), measured(*row), choice.chosen.milliseconds};
-    pick.beyond_wrong = beyond_front(pick.measured, all, &Measured::error);
-    pick.beyond_m = beyond_front(pick.measured, all, &Measured::m);
+    pick.beyond_wrong = beyond_front(pick.measured, all, &PricedTechnique::error);
+    pick.beyond_m = beyond_front(pick.measured, all, &PricedTechnique::m);
     picks.push_back(pick);
   }
   return picks;

@@ -21,22 +21,21 @@ namespace {
 using render::FilterSettings;
 using report::median;
 
-constexpr int kWidth = 480, kHeight = 270;        // a small frame: maps are to dominate
 constexpr double kBlurRadii[] = {0.0, 1.0, 3.0};  // none, 3 x 3, 7 x 7
 
-struct Measured {
+struct MeasuredFilter {
   FilterSettings settings;
   std::vector<double> milliseconds;
   render::FrameStats stats;
 };
 
 /// Every filter with every blur; `hard`, which has none, comes first.
-std::vector<Measured> runs_of(const std::vector<FilterSettings>& filters) {
-  std::vector<Measured> runs{{filter_from("hard"), {}, {}}};
+std::vector<MeasuredFilter> runs_of(const std::vector<FilterSettings>& filters) {
+  std::vector<MeasuredFilter> runs{{filter_from("hard"), {}, {}}};
   for (const FilterSettings& settings : filters) {
     if (settings.filter == runs[0].settings.filter) continue;
     for (const double radius : kBlurRadii) {
-      Measured& run = runs.emplace_back();
+      MeasuredFilter& run = runs.emplace_back();
       run.settings = settings;
       run.settings.radius = radius;
     }
@@ -44,7 +43,7 @@ std::vector<Measured> runs_of(const std::vector<FilterSettings>& filters) {
   return runs;
 }
 
-std::string cost_row(int map_size, const Measured& run, const Measured& hard, bool json) {
+std::string cost_row(int map_size, const MeasuredFilter& run, const MeasuredFilter& hard, bool json) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < run.milliseconds.size(); ++i)
     ratios.push_back(run.milliseconds[i] / hard.milliseconds[i]);
@@ -143,16 +142,16 @@ void print_filter_cost(const FiltersRequest& request) {
     print_line("|---|---|---|---|---|---|---|---|---|");
   }
   for (const int map_size : request.map_sizes) {
-    std::vector<Measured> runs = runs_of(filters);
+    std::vector<MeasuredFilter> runs = runs_of(filters);
     for (int round = 0; round < request.rounds; ++round) {
-      for (Measured& run : runs) {
+      for (MeasuredFilter& run : runs) {
         // Images are made anew where the filter before had others: the first of two draws pays for that.
         (void)stage.draw(run.settings, camera, map_size);
         run.stats = stage.draw(run.settings, camera, map_size);
         run.milliseconds.push_back(run.stats.shadow_ms());
       }
     }
-    for (const Measured& run : runs) print_line(cost_row(map_size, run, runs[0], request.json));
+    for (const MeasuredFilter& run : runs) print_line(cost_row(map_size, run, runs[0], request.json));
     flush_output();
   }
 }

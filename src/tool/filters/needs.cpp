@@ -16,8 +16,8 @@
 namespace gnomon::tool {
 namespace {
 
-constexpr int kWidth = 480, kHeight = 270, kMapSize = 1024;  // as a flight's default maps
-constexpr std::array kViews{0.1, 0.5, 0.9};                  // of the scene's default path
+constexpr int kMapSize = 1024;               // as a flight's default maps
+constexpr std::array kViews{0.1, 0.5, 0.9};  // of the scene's default path
 
 std::string row_of(const render::FilterSettings& full, const render::FilterFit& fit, bool json) {
   if (json) {

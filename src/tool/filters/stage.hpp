@@ -9,6 +9,9 @@
 
 namespace gnomon::tool {
 
+/// A small frame: maps are to dominate.
+inline constexpr int kWidth = 480, kHeight = 270;
+
 class FilterStage {
  public:
   /// `azimuth_deg`: where the sun stands, 0 over -Z, 90 over +X. Throws RenderError.

@@ -72,7 +72,7 @@ void camera_part(App& app) {
   state.motion.path_seconds = std::clamp(state.motion.path_seconds, 1.0, 3600.0);
   double fov = state.fov_y_deg > 0.0 || app.stage == nullptr
                    ? state.fov_y_deg
-                   : app.stage->loaded().path.fov_y_radians * 180.0 / std::numbers::pi;
+                   : app.stage->loaded().path.fov_y_radians * kDegrees;
   constexpr double kNarrow = 5.0, kWide = 150.0;
   if (ImGui::SliderScalar("field of view", ImGuiDataType_Double, &fov, &kNarrow, &kWide, "%.0f degrees"))
     state.fov_y_deg = std::clamp(fov, 1.0, 170.0);
@@ -149,7 +149,7 @@ void local_light(App& app) {
   edit_vector("position", light.position, speed, "world units");
   edit_vector("direction", light.direction, 0.01, "direction of travel, any length");
   if (light.direction == glm::dvec3(0.0)) light.direction = before.direction;
-  constexpr double kDegrees = 180.0 / std::numbers::pi, kNarrow = 1.0, kWide = 179.0;
+  constexpr double kNarrow = 1.0, kWide = 179.0;
   double outer = light.outer_radians * kDegrees;
   if (ImGui::SliderScalar("cone", ImGuiDataType_Double, &outer, &kNarrow, &kWide, "%.1f degrees",
                           ImGuiSliderFlags_AlwaysClamp))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,8 @@
 #include "page_setting.hpp"
 
 namespace gnomon::tool::view {
+
+inline constexpr double kDegrees = 180.0 / std::numbers::pi;  ///< in a radian
 
 /// What a pixel of the picture shows.
 enum class View : std::uint8_t {

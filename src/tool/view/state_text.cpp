@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
@@ -25,7 +24,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kVersionKey = "gnomon_view";
 constexpr int kVersion = 1;
-constexpr double kDegrees = 180.0 / std::numbers::pi;  ///< in a radian
 
 Json vector_json(const glm::dvec3& v) {
   return {v.x, v.y, v.z};

@@ -324,7 +324,7 @@ void edit_filter(render::FilterSettings& settings) {
 }
 
 void edit_sun_dome(LightPlacement& sun, float side) {
-  constexpr double kRight = 90.0, kLeast = 0.1, kDegrees = 180.0 / std::numbers::pi;
+  constexpr double kRight = 90.0, kLeast = 0.1;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("dome", {side, side});
   const float radius = side * 0.46f;
