@@ -24,6 +24,16 @@ macro(gnomon_unoptimized_under_sanitizers)
   endif()
 endmacro()
 
+# In a folder whose sources are mostly headers of others (JSON, command lines, formatted text): under the sanitizers eight
+# sources are compiled as one, which reads these headers once. So within a target no two sources give a helper of their
+# own the same name. The other presets compile each source alone: one change compiles one source.
+macro(gnomon_joined_under_sanitizers)
+  if(GNOMON_SANITIZE)
+    set(CMAKE_UNITY_BUILD ON)
+    set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+  endif()
+endmacro()
+
 # gnomon_library(NAME SOURCES... [HEADERS header...] [VISIBLE header...]): the static library gnomon_NAME with its alias
 # gnomon::NAME. Its public headers are those of include/gnomon/NAME (for the core, of include/gnomon itself).
 #   HEADERS  public headers of other libraries that these include for plain types alone: installed with this one, too.

@@ -219,8 +219,12 @@ void expect_clean(const Filter& filter, Fit fit) {
   Verdict sum;
   std::size_t frames = 0;
   // Every elevation with every azimuth where all texels are compared; each of both once, in the other order
-  // for every warp, where they are blurred first, which takes ten times as long.
-  const bool thorough = filter.info.reads == MapRead::depth;
+  // for every warp, where they are blurred first, which takes ten times as long, and under the sanitizers,
+  // which see no more in the other pictures.
+  bool thorough = filter.info.reads == MapRead::depth;
+#ifdef __SANITIZE_ADDRESS__
+  thorough = thorough && fit == Fit::stable;
+#endif
   constexpr std::array kElevations{0.25, 0.5, 0.9, 1.3, 1.57}, kAzimuths{0.1, 1.3, 2.6, 3.7, 5.2};
   for (std::size_t w = 0; w < all_warps().size(); ++w) {
     const Warp* warp = all_warps()[w];
