@@ -5,7 +5,7 @@
 set -euo pipefail
 source_dir=$1 work=$2 plans=${3:-2000}
 launcher=$(command -v ccache || true)
-hashes=()
+builds=()
 for compiler in g++ clang++; do
   command -v "$compiler" >/dev/null || { echo "no $compiler here: left out"; continue; }
   best=-O3
@@ -21,12 +21,12 @@ for compiler in g++ clang++; do
         -I"$4/include" -I"$4/src/core" -I"$4/tests/core" -c "$6" -o "$5/$(echo "$6" | tr / _).o"' \
       sh "$launcher" "$compiler" "$level" "$source_dir" "$out" FILE
     "$compiler" "$out"/*.o -o "$out/plan_hash"
-    hash=$("$out/plan_hash" "$plans")
-    echo "$compiler $level: $hash"
-    hashes+=("$hash")
+    builds+=("$out")
   done
 done
-((${#hashes[@]} > 1)) || { echo "nothing to compare"; exit 1; }
-for hash in "${hashes[@]}"; do
-  [[ $hash == "${hashes[0]}" ]] || { echo "plans differ: run plan_hash N --each of both builds"; exit 1; }
+((${#builds[@]} > 1)) || { echo "nothing to compare"; exit 1; }
+printf '%s\n' "${builds[@]}" | xargs -P 2 -I BUILD sh -c '"$1/plan_hash" "$2" >"$1/hash"' sh BUILD "$plans"
+for build in "${builds[@]}"; do echo "$(basename "$build"): $(<"$build/hash")"; done
+for build in "${builds[@]}"; do
+  cmp -s "$build/hash" "${builds[0]}/hash" || { echo "plans differ: run plan_hash N --each of both builds"; exit 1; }
 done
