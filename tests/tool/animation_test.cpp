@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -46,13 +46,6 @@ Image picture(Stage& stage, const State& state) {
     EXPECT_EQ(stage.draw(state, kWidth, kHeight, true), "");
   }
   return stage.canvas().image();
-}
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 TEST(Playing, the_picture_is_that_of_the_time_alone) {
@@ -139,7 +132,7 @@ TEST(Playing, the_view_command_draws_a_pose) {
     words.insert(words.end(), more.begin(), more.end());
     const Finished run = run_gnomon(words);
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    return content(scene.folder.path() / name);
+    return test::content_of(scene.folder.path() / name);
   };
   const std::string rest = draw("rest.png", {}),
                     one = draw("one.png", {"--animation", "all", "--animation-time", "1"});
@@ -162,7 +155,8 @@ TEST(Playing, the_fly_command_plays_while_it_flies) {
     words.insert(words.end(), more.begin(), more.end());
     const Finished run = run_gnomon(words);
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    return std::pair(content(folder / "frame_0000_image.png"), content(folder / "frame_0001_image.png"));
+    return std::pair(test::content_of(folder / "frame_0000_image.png"),
+                     test::content_of(folder / "frame_0001_image.png"));
   };
   const auto rest = fly("rest", {}), plays = fly("plays", {"--animation", "0", "--animation-fps", "1"});
   EXPECT_EQ(plays.first, rest.first) << "it begins at rest";

@@ -135,7 +135,7 @@ std::vector<FilterSettings> filters_asked_for(const std::vector<std::string>& te
 void print_filter_cost(const FiltersRequest& request) {
   const std::vector<FilterSettings> filters = filters_asked_for(request.filters);
   FilterStage stage(load_scene(request.scene), 38.0, 140.0);
-  const Camera camera = default_path(stage.scene()).at(0.5, kWidth, kHeight);
+  const Camera camera = default_path(stage.scene()).at(0.5, kStageWidth, kStageHeight);
   if (!request.json) {
     print_line(
         "| map | filter | blur | ms | ratio to hard | prefilter passes | MiB kept | ratio | MiB scratch |");

@@ -61,7 +61,7 @@ std::vector<render::DrawnDepths> Views::maps_for(const render::FilterSettings& f
   const CameraPath path = default_path(scene_);
   std::vector<render::DrawnDepths> all;
   for (const double t : kViews) {
-    const Camera camera = path.at(t, kWidth, kHeight);
+    const Camera camera = path.at(t, kStageWidth, kStageHeight);
     const ShadowPlan plan = make_plan(camera, light, {boxes_, boxes_}, options);
     renderer_.draw(plan, camera, depths_only, frame);
     for (render::DrawnDepths& map : renderer_.drawn_depths(filter, plan)) all.push_back(std::move(map));

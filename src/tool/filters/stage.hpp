@@ -10,7 +10,7 @@
 namespace gnomon::tool {
 
 /// A small frame: maps are to dominate.
-inline constexpr int kWidth = 480, kHeight = 270;
+inline constexpr int kStageWidth = 480, kStageHeight = 270;
 
 class FilterStage {
  public:

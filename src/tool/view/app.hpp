@@ -114,6 +114,8 @@ void draw_panel(App& app);
 void playing_part(App& app);
 /// Plays the animation, the first where none is chosen, or pauses it.
 void toggle_playing(App& app);
+/// Time and error of the last frames as curves, with the results below, or above where some are open.
+void curves_part(App& app);
 /// The results of `gnomon compare` as a chart with the present setting in it; a click loads a technique.
 void results_part(App& app);
 /// Reads results and shows their tab. Throws report::ReportError, in which case the last ones stay.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
-#include <numbers>
 #include <stdexcept>
 
 #include "command.hpp"
@@ -104,7 +103,7 @@ void resolve_camera(const Request& request, State& state) {
       throw std::runtime_error(fmt::format("--path: at most {} keys", kMostPathKeys));
     state.path = path.keys;
     if (path.closed) state.path.push_back(path.keys.front());
-    state.fov_y_deg = std::clamp(path.fov_y_radians * (180.0 / std::numbers::pi), 1.0, 170.0);
+    state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, 1.0, 170.0);
   }
   if (request.eye.empty() != request.target.empty())
     throw std::runtime_error("--eye and --target: give both, or neither");
