@@ -42,6 +42,15 @@ struct SearchedWarp {
   std::int64_t until = -1;         ///< the frame whose search begins from nothing again; -1: at once
   glm::dmat4 xyw_from_world{1.0};  ///< x, y and w of OpenGL clip space; z is of no use
   double gain_ratio = 1.0;         ///< objective over that of no warp
+  double last_ratio = 0.0;         ///< as WarpChoice::last_ratio
+  double held_ratio = 0.0;         ///< as WarpChoice::held_ratio
+};
+
+/// The best edges between cascades, which those of later frames move towards.
+struct SearchedEdges {
+  std::int64_t until = -1;                   ///< the frame whose edges are searched again; -1: at once
+  std::array<double, kMaxMaps + 1> depth{};  ///< view depths
+  int count = 0;                             ///< entries of `depth` that are used
 };
 
 /// State that make_plan carries from frame to frame. Start with an empty one; keep one per camera and light;
@@ -61,6 +70,7 @@ struct PlanHistory {
   glm::dvec4 light_world{0.0};
   std::array<double, kMaxMaps + 1> edge{};  ///< view depths between the cascades
   int edge_count = 0;                       ///< entries of `edge` that are used; 0 before the first plan
+  SearchedEdges searched_edges;             ///< SplitScheme::optimal
   std::array<KeptMap, kMaxMaps> kept;       ///< by cascade
   /// Options of the last frame. Under any others kept maps are planned again, and searches restart.
   PlanOptions options;

@@ -44,11 +44,11 @@ struct WarpChoice {
   glm::dvec2 row_b{0.0, 1.0};  ///< with row_a
   /// The objective over that of no warp, where the warp has measured it itself; 0: the plan measures it.
   double gain_ratio = 0.0;
-  /// The objective of WarpStart::map over that of no warp where the search began at WarpInput::start,
-  /// infinite without such a map; 0: it began from nothing.
+  /// The objective of WarpStart::map over that of no warp, infinite without such a map; 0: not measured.
   double last_ratio = 0.0;
   /// The objective over that of no warp where `kappa` is held to WarpStart::limit; 0: not measured.
   double held_ratio = 0.0;
+  bool followed = false;  ///< found from WarpStart::best on
 };
 
 /// How strong a warp may be under a camera that moves: texels of a stronger one would change too fast.
@@ -63,13 +63,21 @@ struct MotionLimit {
   }
 };
 
+/// How a search uses the last frame's warp.
+enum class StartUse : std::uint8_t {
+  none,     ///< nothing: the search begins from nothing
+  keep,     ///< it is returned as it is: the ratios that were measured still hold
+  measure,  ///< it is measured again: it still is the best
+  search,   ///< the search goes on round it
+};
+
 /// The last frame's warp and map in this frame's light plane, where a search may start. Rows may have any
 /// length.
 struct WarpStart {
-  WarpChoice best;       ///< what the last frame's search returned, with its gain_ratio
+  StartUse use = StartUse::none;
+  WarpChoice best;       ///< what the last frame's search returned, with its ratios
   WarpChoice map;        ///< the map that was drawn, which changes in small steps only
   bool has_map = false;  ///< `map` can be drawn again
-  bool search = true;    ///< the search is to go on round `best`; false: `best` still is the best
   MotionLimit limit;
 };
 

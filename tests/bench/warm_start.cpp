@@ -33,16 +33,20 @@ struct Row {
   const Warp* warp;
   Objective objective;
   int cascades;
+  SplitScheme split;
   std::vector<double> cold, warm;  // nanoseconds of one plan
 };
 
 std::vector<Row> rows() {
   std::vector<Row> result;
+  constexpr Objective kObjectives[] = {Objective::storage, Objective::max, Objective::p95};
   for (const int cascades : {1, 4}) {
-    result.push_back({&warps::none, Objective::storage, cascades, {}, {}});
-    for (const Objective objective : {Objective::storage, Objective::max, Objective::p95})
-      result.push_back({&warps::optimal, objective, cascades, {}, {}});
+    result.push_back({&warps::none, Objective::storage, cascades, SplitScheme::logarithmic, {}, {}});
+    for (const Objective objective : kObjectives)
+      result.push_back({&warps::optimal, objective, cascades, SplitScheme::logarithmic, {}, {}});
   }
+  for (const Objective objective : kObjectives)
+    result.push_back({&warps::optimal, objective, 4, SplitScheme::optimal, {}, {}});
   return result;
 }
 
@@ -66,7 +70,7 @@ std::uint64_t walk(const NamedCase& c, int frames, Row& row) {
   options.cascades = row.cascades;
   options.warp.warp = row.warp;
   options.warp.objective = row.objective;
-  options.split.scheme = SplitScheme::logarithmic;
+  options.split.scheme = row.split;
   PlanHistory history;
   ShadowPlan plan;
   std::uint64_t checksum = 0;
@@ -98,13 +102,15 @@ int main(int argc, char** argv) {
     for (Row& row : table) checksum += walk(c, frames, row);
   }
   std::printf("%d frames of each of %zu cases; ns of a plan\n", frames, cases.size());
-  std::printf("%4s %-18s %10s %10s %10s %10s %10s %10s\n", "maps", "warp", "cold mean", "median",
+  std::printf("%4s %-30s %10s %10s %10s %10s %10s %10s\n", "maps", "warp", "cold mean", "median",
               "history mean", "median", "mean ratio", "median r.");
   for (const Row& row : table) {
-    const std::string name = std::string(row.warp->name) +
-                             (row.warp == &warps::none ? "" : " by " + std::string(to_string(row.objective)));
+    const std::string name =
+        std::string(row.warp->name) +
+        (row.warp == &warps::none ? "" : " by " + std::string(to_string(row.objective))) +
+        (row.split == SplitScheme::optimal ? ", splits" : "");
     const double cold = median(row.cold), warm = median(row.warm);
-    std::printf("%4d %-18s %10.0f %10.0f %12.0f %10.0f %10.2f %10.2f\n", row.cascades, name.c_str(),
+    std::printf("%4d %-30s %10.0f %10.0f %12.0f %10.0f %10.2f %10.2f\n", row.cascades, name.c_str(),
                 mean(row.cold), cold, mean(row.warm), warm, mean(row.warm) / mean(row.cold), warm / cold);
   }
   std::printf("checksum %016llx\n", static_cast<unsigned long long>(checksum));

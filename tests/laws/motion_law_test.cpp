@@ -209,10 +209,38 @@ TEST(MotionLaw, a_still_camera_keeps_its_grid) {
   });
 }
 
+TEST(MotionLaw, edges_come_to_rest_where_a_plan_without_history_has_them) {
+  constexpr int kMoving = 30, kLonger = 120;  // frames
+  constexpr double kAlike = 1e-9;
+  int moved = 0;
+  for_all(12, [&] {
+    Walk w = draw_walk();
+    w.options.cascades = 4;
+    w.options.split.scheme = SplitScheme::optimal;
+    PlanHistory history;
+    const auto plan = [&](const Camera& camera) {
+      const ShadowPlan result = make_plan(camera, DirectionalLight{w.light}, w.bounds(), w.options, history);
+      require(result.status == PlanStatus::ok, "status", to_string(result.status));
+    };
+    for (int frame = 0; frame < kMoving; ++frame) plan(w.camera(frame));
+    const std::vector<double> on_the_way(history.edge.begin(), history.edge.begin() + history.edge_count);
+    for (int frame = 0; frame < kLonger; ++frame) plan(w.camera(kMoving));
+    PlanHistory afresh;
+    (void)make_plan(w.camera(kMoving), DirectionalLight{w.light}, w.bounds(), w.options, afresh);
+    require(history.edge_count == afresh.edge_count, "edges", history.edge_count, afresh.edge_count);
+    for (std::size_t i = 0; i < on_the_way.size(); ++i) {
+      const double found = afresh.edge[i];
+      require(std::abs(history.edge[i] / found - 1.0) <= kAlike, "edge", i, history.edge[i], "for", found);
+      moved += std::abs(on_the_way[i] / found - 1.0) > kAlike ? 1 : 0;
+    }
+  });
+  EXPECT_GT(moved, 12) << "edges that had to move";
+}
+
 /// What searches from the last frame's result came to, over searches from nothing in the same frame.
 struct Followed {
   std::vector<double> ratio;  // of the objective
-  int searches = 0;
+  int searches = 0, kept = 0;
   double over_none = 0.0;  // the largest objective over that of no warp
 };
 Followed followed;
@@ -221,7 +249,8 @@ Followed followed;
 WarpChoice follow(const WarpInput& input) noexcept {
   const WarpChoice choice = warps::optimal.choose(input);
   ++followed.searches;
-  if (!(choice.last_ratio > 0.0)) return choice;
+  if (!choice.followed) return choice;
+  followed.kept += input.start->use == StartUse::keep ? 1 : 0;
   WarpInput cold = input;
   cold.start = nullptr;
   PlaneError error(input, true);
@@ -244,7 +273,7 @@ TEST(MotionLaw, a_search_from_the_last_result_finds_what_one_from_nothing_finds_
   constexpr int kFrames = 600;
   for (const Objective objective : {Objective::storage, Objective::max, Objective::p95}) {
     std::vector<double> all, early, late;
-    int searches = 0;
+    int searches = 0, kept = 0;
     for_all(12, [&] {
       Walk w = draw_walk();
       w.options.warp.warp = &kFollow;
@@ -255,6 +284,7 @@ TEST(MotionLaw, a_search_from_the_last_result_finds_what_one_from_nothing_finds_
         followed = {};
         (void)make_plan(w.camera(frame), DirectionalLight{w.light}, w.bounds(), w.options, history);
         searches += followed.searches;
+        kept += followed.kept;
         require(followed.over_none <= 1.0 + kRounding, "over no warp", followed.over_none, "frame", frame);
         for (const double r : followed.ratio) {
           all.push_back(r);
@@ -263,6 +293,8 @@ TEST(MotionLaw, a_search_from_the_last_result_finds_what_one_from_nothing_finds_
       }
     });
     ASSERT_GT(static_cast<int>(all.size()), searches * 8 / 10) << "most begin at the last result";
+    EXPECT_GT(kept, searches * 3 / 10) << "every second result is kept, but where the body changes";
+    EXPECT_LT(kept, searches * 6 / 10);
     EXPECT_LT(mean_log(all), kMean) << to_string(objective);
     EXPECT_LT(mean_log(late), mean_log(early) + 4.0 * kMean) << to_string(objective);
     std::sort(all.begin(), all.end());
@@ -271,6 +303,27 @@ TEST(MotionLaw, a_search_from_the_last_result_finds_what_one_from_nothing_finds_
                 std::string(to_string(objective)).c_str(), std::exp(mean_log(all)), all[all.size() * 9 / 10],
                 all[all.size() * 99 / 100], all.back());
   }
+}
+
+TEST(MotionLaw, a_result_is_kept_while_the_view_goes_on_and_not_after_a_jump) {
+  int kept = 0;
+  for_all(20, [&] {
+    Walk w = draw_walk();
+    w.options.warp.warp = &kFollow;
+    const int frames = 6 + pick(8);
+    PlanHistory history;
+    for (int frame = 0; frame < frames; ++frame) {
+      followed = {};
+      (void)make_plan(w.camera(frame), DirectionalLight{w.light}, w.bounds(), w.options, history);
+      kept += followed.kept;
+    }
+    const double turned = 1.0;  // radians
+    w.turn += turned / frames;
+    followed = {};
+    (void)make_plan(w.camera(frames), DirectionalLight{w.light}, w.bounds(), w.options, history);
+    require(followed.kept == 0, "kept", followed.kept, "of", followed.searches, "in frame", frames);
+  });
+  EXPECT_GT(kept, 50);
 }
 
 TEST(MotionLaw, a_broken_input_leaves_the_history_as_it_was) {

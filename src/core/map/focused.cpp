@@ -111,7 +111,9 @@ PlaneMap chosen_warp(const PlanContext& c, const MapRequest& request, const Ligh
   const WarpInput& in = question.in;
   if (is_unwarped(request.warp) || c.stable) return question.points.under(in.unwarped);
   const WarpChoice choice = request.warp.choose(in);
-  double ratio = gain_ratio(c, request, question, choice);
+  // What is kept from the last frame gains what it did then.
+  const bool kept = in.start != nullptr && in.start->use == StartUse::keep;
+  double ratio = kept ? choice.gain_ratio : gain_ratio(c, request, question, choice);
   if (takes(request.warp, choice, ratio)) {
     const PlaneMap plane = question.points.under(choice);
     ratio = widened_ratio(in, request, body, &question.points == &body ? plane : body.under(choice), ratio);
@@ -120,8 +122,9 @@ PlaneMap chosen_warp(const PlanContext& c, const MapRequest& request, const Ligh
   result.omit({OmissionKind::warp_without_gain, request.slot.cascade, ratio, 0.0, 0});
   result.map.warp = &warps::none;
   WarpChoice unwarped = in.unwarped;
-  unwarped.gain_ratio = choice.last_ratio > 0.0 ? 1.0 : 0.0;
+  unwarped.gain_ratio = 1.0;
   unwarped.last_ratio = choice.last_ratio;
+  unwarped.followed = choice.followed;
   return question.points.under(unwarped);
 }
 
@@ -136,10 +139,10 @@ PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const Lig
   const bool follows = steady && warped && request.warp.follows_start;
   if (follows && find_start(c, request, question, start)) question.in.start = &start;
   PlaneMap plane = chosen_warp(c, request, body, question, result);
-  if (follows) result.searched = searched_warp(c, request, question, plane.choice);
+  if (follows) result.searched = searched_warp(c, request, plane);
   if (c.options.fit == Fit::rotated)
     plane = question.points.under(turned_to_least_area(question.in, plane.choice));
-  if (steady) return steady_plane(c, request, question, plane.choice, result);
+  if (steady) return steady_plane(c, request, question, plane, result);
   limit_to_shape(c, question.in.body, plane);
   return plane;
 }

@@ -128,10 +128,19 @@ struct WarpShape {
   double row_a, row_b;  // angles
 };
 
-WarpShape shape_of(const Decomposed& d) noexcept {
+/// The map as it is, its rows of unit length.
+WarpChoice unit_rows(const Decomposed& d) noexcept {
+  WarpChoice choice = d.choice;
+  choice.row_a /= std::sqrt(glm::dot(choice.row_a, choice.row_a));
+  choice.row_b /= std::sqrt(glm::dot(choice.row_b, choice.row_b));
+  return choice;
+}
+
+/// `length`: of the body along the axis.
+WarpShape shape_of(const WarpChoice& choice, double length) noexcept {
   const auto angle = [](const glm::dvec2& v) { return elementary::atan2(v.y, v.x); };
-  return {angle(d.choice.axis), elementary::log1p(d.choice.kappa * d.length), angle(d.choice.row_a),
-          angle(d.choice.row_b)};
+  return {angle(choice.axis), elementary::log1p(choice.kappa * length), angle(choice.row_a),
+          angle(choice.row_b)};
 }
 
 /// `to` plus as many `period`s as bring it nearest to `from`.
@@ -161,8 +170,8 @@ struct Way {
   }
 };
 
-Way way_between(const WarpShape& from, const Decomposed& to) noexcept {
-  Way way{from, shape_of(to)};
+Way way_between(const WarpShape& from, const WarpShape& to) noexcept {
+  Way way{from, to};
   way.to.axis = nearest_turn(way.from.axis, way.to.axis, 2.0 * kPi);
   // A rectangle turned by a right angle is the same rectangle, its sides swapped.
   const double straight = std::abs(way.from.row_a - nearest_turn(way.from.row_a, way.to.row_a, kPi));
@@ -179,8 +188,9 @@ struct Change {
   [[nodiscard]] double largest() const noexcept { return max_of(-low, high); }
 };
 
-Change change_between(const Homography& before, const Homography& now,
-                      std::span<const WarpInput::Point> body) noexcept {
+/// `borders`: a factor of the texels per area that comes of what is kept free for filters.
+Change change_between(const Homography& before, const Homography& now, std::span<const WarpInput::Point> body,
+                      double borders) noexcept {
   double low = std::numeric_limits<double>::infinity(), high = 0.0;  // of the weight before over that now
   for (const WarpInput::Point& p : body) {
     const double w = before.weight(p);
@@ -189,8 +199,8 @@ Change change_between(const Homography& before, const Homography& now,
     low = min_of(low, w / now.weight(p));
     high = max_of(high, w / now.weight(p));
   }
-  const double area = elementary::log(std::abs(now.determinant() / before.determinant()));
-  return {area + 3.0 * elementary::log(low), area + 3.0 * elementary::log(high)};
+  const double area = borders * std::abs(now.determinant() / before.determinant());
+  return {elementary::log(area * (low * low * low)), elementary::log(area * (high * high * high))};
 }
 
 /// Texels of a warp that moves along with the viewer change with the third power of w.
@@ -235,6 +245,12 @@ bool is_near_best(const WarpInput& in, const WarpChoice& last, const WarpChoice&
   return objective(last) <= objective(goal) * kNear;
 }
 
+/// A map, and what changes from the last frame to it.
+struct Step {
+  PlaneMap plane;
+  Change change;
+};
+
 /// A walk from the last frame's map to the best one.
 class SteadyWay {
  public:
@@ -248,41 +264,47 @@ class SteadyWay {
   [[nodiscard]] Change changed(const PlaneMap& plane) const noexcept {
     const int width = request_.slot.width;
     const int border = border_texels(c_.options, width, border_share(c_, request_, question_.points, plane));
-    const double borders = 2.0 * elementary::log(1.0 - 2.0 * border / width);
-    Change change = change_between(before_, of_plane(plane), question_.in.body);
-    change.low += borders;
-    change.high += borders;
-    return change;
+    const double used = 1.0 - 2.0 * border / width;
+    return change_between(before_, of_plane(plane), question_.in.body, used * used);
   }
-  /// Nearly the farthest share of the way whose change is still smooth.
-  [[nodiscard]] double farthest_smooth(const Way& way) const noexcept {
-    // Over what is smooth.
-    const auto over = [&](double t) {
-      const Change change = changed(at(way, t));
-      return max_of(-change.low / kLimit, (change.high - change.low) / (2.0 * kLimit));
-    };
-    double far = 1.0, over_far = over(1.0);
-    if (over_far <= 1.0) return 1.0;
+  /// Nearly the farthest on the way whose change is still smooth. `begin`: the last frame's map.
+  [[nodiscard]] Step farthest_smooth(const Way& way, const PlaneMap& begin) const noexcept {
+    Step step = at(way, 1.0);
+    double over_far = over(step);
+    if (over_far <= 1.0) return step;
     // The camera's own motion changes texels as well.
-    const double over_near = over(0.0);
+    const Step stay{begin, changed(begin)};
+    const double over_near = over(stay);
+    double far = 1.0;
     for (int i = 0; i < kSteps && over_near < 1.0; ++i) {
       far *= kShorter * (1.0 - over_near) / (over_far - over_near);
-      over_far = over(far);
-      if (over_far <= 1.0) return far;
+      step = at(way, far);
+      over_far = over(step);
+      if (over_far <= 1.0) return step;
     }
     // Staying may change texels more than going some of the way does.
+    Step best = stay;
     double share = 0.0, bad = 1.0;
     for (int i = 0; i < kBisections; ++i) {
       const double middle = 0.5 * (share + bad);
-      (over(middle) <= 1.0 ? share : bad) = middle;
+      step = at(way, middle);
+      const bool smooth = over(step) <= 1.0;
+      (smooth ? share : bad) = middle;
+      if (smooth) best = step;
     }
-    return share;
-  }
-  [[nodiscard]] PlaneMap at(const Way& way, double t) const noexcept {
-    return plane_map(question_.in.body, way.at(t, question_.in.body));
+    return best;
   }
 
  private:
+  [[nodiscard]] Step at(const Way& way, double t) const noexcept {
+    const PlaneMap plane = question_.points.under(way.at(t, question_.in.body));
+    return {plane, changed(plane)};
+  }
+  /// Over what is smooth.
+  static double over(const Step& step) noexcept {
+    return max_of(-step.change.low / kLimit, (step.change.high - step.change.low) / (2.0 * kLimit));
+  }
+
   const PlanContext& c_;
   const MapRequest& request_;
   const WarpQuestion& question_;
@@ -292,8 +314,17 @@ class SteadyWay {
 // Frames from one search that begins from nothing to the next, of one map; those of several maps are spread.
 constexpr std::int64_t kSearchEvery = 16;
 constexpr std::int64_t kSearchApart = 4;
-// And to the next round the last frame's result.
+// And to the next round the last frame's result: one frame's motion moves the best warp little.
 constexpr std::int64_t kSearchNearEvery = 2;
+
+/// The body fills the map as it did when that was made: what was measured then still holds.
+bool is_filled(const Decomposed& d, const PlaneMap& plane) noexcept {
+  constexpr double kAlike = 0.05;  // of half a side
+  const double left = plane.a_min + d.const_a, right = plane.a_max + d.const_a;
+  const double below = plane.b_min + d.const_b, above = plane.b_max + d.const_b;
+  return max_of(max_of(std::abs(left + 1.0), std::abs(right - 1.0)),
+                max_of(std::abs(below + 1.0), std::abs(above - 1.0))) <= kAlike;
+}
 
 }  // namespace
 
@@ -301,76 +332,90 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
                 WarpStart& start) noexcept {
   if (request.last == nullptr) return false;
   const SearchedWarp& last = request.last->searched;
-  if (c.frame >= last.until) return false;
   const WarpInput& in = question.in;
-  const auto choice_of = [&](const glm::dmat4& m, WarpChoice& choice) {
-    const Decomposed d = decompose(homography(gl_from_light(c, request.space, m)), in.body, in.unwarped.axis);
-    choice = d.choice;
-    return d.valid && usable(in.body, d.choice, in.most_stretch);
+  const auto found = [&](const glm::dmat4& m, Decomposed& d, PlaneMap& plane) {
+    d = decompose(homography(gl_from_light(c, request.space, m)), in.body, in.unwarped.axis);
+    if (!d.valid) return false;
+    plane = question.points.under(d.choice);
+    return usable(in.body, question.points.bounds, plane, in.most_stretch);
   };
-  if (!choice_of(last.xyw_from_world, start.best)) return false;
-  start.best.gain_ratio = last.gain_ratio;
-  // Searches round the same place would find better ones for ever, and move texels under a still camera. One
-  // frame's motion moves the best warp little: the maps take turns.
-  const bool turn = (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
-  start.search =
-      turn && (!c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward);
-  start.has_map = remembered(request) && choice_of(request.last->gl_from_world, start.map);
+  Decomposed d;
+  PlaneMap plane;
+  if (c.frame < last.until && found(last.xyw_from_world, d, plane)) {
+    start.best = d.choice;
+    start.best.gain_ratio = last.gain_ratio;
+    start.best.last_ratio = last.last_ratio;
+    start.best.held_ratio = last.held_ratio;
+    const bool turn = (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
+    // Searches round the same place would find better ones for ever, and move texels under a still camera.
+    const bool moved = !c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward;
+    const bool holds = last.last_ratio > 0.0 && is_filled(d, plane);
+    start.use = turn && moved ? StartUse::search : turn || !holds ? StartUse::measure : StartUse::keep;
+  }
+  start.has_map =
+      start.use != StartUse::keep && remembered(request) && found(request.last->gl_from_world, d, plane);
+  if (start.has_map) start.map = unit_rows(d);
   start.limit = motion_limit(c, question);
   return true;
 }
 
-SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
-                           const WarpChoice& choice) noexcept {
-  const bool followed = choice.last_ratio > 0.0;
+SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request, const PlaneMap& plane) noexcept {
+  const WarpChoice& choice = plane.choice;
   const std::int64_t sooner =
       request.last != nullptr ? 0 : kSearchApart * request.slot.cascade % kSearchEvery;
-  const PlaneMap plane = plane_map(question.in.body, choice);
-  return {followed ? request.last->searched.until : c.frame + kSearchEvery - sooner,
+  return {choice.followed ? request.last->searched.until : c.frame + kSearchEvery - sooner,
           world_matrix(clip_from_light(plane, {0.0, 1.0}, 0.0) * request.space.light_from_relative(),
                        c.camera.position),
-          choice.gain_ratio > 0.0 ? choice.gain_ratio : 1.0};
+          choice.gain_ratio > 0.0 ? choice.gain_ratio : 1.0, choice.last_ratio, choice.held_ratio};
 }
 
 PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
-                      const WarpChoice& best, MapResult& result) noexcept {
+                      const PlaneMap& best, MapResult& result) noexcept {
   const WarpInput& in = question.in;
-  const PlaneMap target = plane_map(in.body, best);
+  const LightBody& points = question.points;
   if (!remembered(request)) {
     result.report(PlanEventKind::map_appeared, 1.0);
-    return target;
+    return best;
   }
   const SteadyWay walk(c, request, question);
-  const auto reported = [&](const PlaneMap& plane, const Change& change) {
-    const double ratio = -change.low > change.high ? change.low : change.high;
-    if (change.largest() > elementary::log1p(kDensityStep))
-      result.report(PlanEventKind::density_jump, elementary::exp(ratio));
-    return plane;
+  const auto reported = [&](const Step& step) {
+    const auto& [low, high] = step.change;
+    if (step.change.largest() > elementary::log1p(kDensityStep))
+      result.report(PlanEventKind::density_jump, elementary::exp(-low > high ? low : high));
+    return step.plane;
   };
-  const Decomposed from = decompose(walk.before(), in.body, best.axis);
-  if (!from.valid || !usable(in.body, from.choice, in.most_stretch))
-    return reported(target, walk.changed(target));
-  WarpChoice goal = best;
-  goal.kappa = min_of(goal.kappa, motion_limit(c, question).strongest(target.length));
-  const WarpShape begin = shape_of(from);
-  const WarpChoice still = choice_at(begin, in.body);
-  const bool stays = !in.orthographic && is_near_best(in, still, goal, best);
-  PlaneMap plane = plane_map(in.body, still);
-  if (!stays) {
-    const Way way =
-        way_between(begin, decompose(of_plane(plane_map(in.body, goal)), in.body, from.choice.axis));
-    plane = walk.at(way, walk.farthest_smooth(way));
+  PlaneMap plane;
+  // Of a map without fall-off the axis is to be the best map's.
+  if (in.start != nullptr && in.start->has_map && in.start->map.kappa > 0.0) {
+    plane = points.under(in.start->map);
+  } else {
+    const Decomposed from = decompose(walk.before(), in.body, best.choice.axis);
+    if (from.valid) plane = points.under(unit_rows(from));
+    if (!from.valid || !usable(in.body, points.bounds, plane, in.most_stretch))
+      return reported({best, walk.changed(best)});
   }
-  Change change = walk.changed(plane);
-  if (change.largest() > kCut) return reported(target, walk.changed(target));
+  WarpChoice goal = best.choice;
+  goal.kappa = min_of(goal.kappa, motion_limit(c, question).strongest(best.length));
+  const bool stays = !in.orthographic && is_near_best(in, plane.choice, goal, best.choice);
+  Step step{plane, {}};
+  if (stays) {
+    step.change = walk.changed(plane);
+  } else {
+    const PlaneMap to = goal.kappa == best.choice.kappa ? best : points.under(goal);
+    const Decomposed at = decompose(of_plane(to), in.body, plane.choice.axis);
+    const Way way = way_between(shape_of(plane.choice, plane.length), shape_of(at.choice, at.length));
+    step = walk.farthest_smooth(way, plane);
+  }
+  Change& change = step.change;
+  if (change.largest() > kCut) return reported({best, walk.changed(best)});
   if (change.high > kLimit) {
     const double less = change.high - kLimit;
     // Fewer texels per area, everywhere by the same factor.
-    grow(plane, 0.5 * (elementary::exp(0.5 * less) - 1.0));
+    grow(step.plane, 0.5 * (elementary::exp(0.5 * less) - 1.0));
     change.low -= less;
     change.high -= less;
   }
-  return reported(plane, change);
+  return reported(step);
 }
 
 HeldMap held_map(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {

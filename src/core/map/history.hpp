@@ -10,18 +10,17 @@ namespace gnomon {
 /// True where the last frame has a map of this size for the same slot and light.
 [[nodiscard]] bool remembered(const MapRequest& request) noexcept;
 
-/// Where a search for the warp may begin: at what the last frame found. False where nothing is known, or it
-/// is time to search everywhere again.
+/// What the last frame found and drew, and what a search does with it. False where nothing is known.
 [[nodiscard]] bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
                               WarpStart& start) noexcept;
 /// Where the next frame's search may begin: at this frame's choice.
 [[nodiscard]] SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request,
-                                         const WarpQuestion& question, const WarpChoice& choice) noexcept;
+                                         const PlaneMap& plane) noexcept;
 
-/// The best map, or one on the way there from the last frame's that keeps the change of texels per area over
-/// the body small; reports an event where it cannot.
+/// The best map, `best`, or one on the way there from the last frame's that keeps the change of texels per
+/// area over the body small; reports an event where it cannot.
 [[nodiscard]] PlaneMap steady_plane(const PlanContext& c, const MapRequest& request,
-                                    const WarpQuestion& question, const WarpChoice& best,
+                                    const WarpQuestion& question, const PlaneMap& best,
                                     MapResult& result) noexcept;
 
 /// The last frame's map with this frame's body in it, as it was fitted: the whole rectangle and its depths.

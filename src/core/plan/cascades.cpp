@@ -223,11 +223,7 @@ MapRequest request_for(const ParallelScene& scene, const Polytope& body, double 
 void plan_cascades(const PlanContext& c, const ParallelScene& scene, int cascades, const MapSizes& sizes,
                    PlanHistory* history, ShadowPlan& plan) noexcept {
   plan.map_count = plan.omission_count = 0;
-  const bool steady = history != nullptr && history->frame > 0;
-  const CascadeEdges edges = cascade_edges(
-      c, scene, cascades,
-      steady ? std::span<const double>(history->edge.data(), static_cast<std::size_t>(history->edge_count))
-             : std::span<const double>());
+  const CascadeEdges edges = cascade_edges(c, scene, cascades, history);
   for (int i = 0; i < edges.omission_count; ++i) omit(plan, edges.omission[static_cast<std::size_t>(i)]);
   if (history != nullptr && !c.stable) {
     history->edge = edges.depth;

@@ -38,9 +38,9 @@ struct CascadeEdges {
     return {depth.data(), static_cast<std::size_t>(count)};
   }
 };
-/// `last`: the edges of the last frame; empty where there are none.
+/// With a history from the last frame's on, in small steps; nullptr: there is none.
 [[nodiscard]] CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int cascades,
-                                         std::span<const double> last) noexcept;
+                                         PlanHistory* history) noexcept;
 
 /// The visible depths, where they say something about this camera and these receivers; nullptr: unknown.
 [[nodiscard]] const VisibleDepths* usable_depths(const PlanContext& c, const DepthRange& body,

@@ -104,6 +104,10 @@ JointObjective exact_objective(const PlanContext& c, const ParallelScene& asked,
   return total;
 }
 
+// Frames from one search to the next. Edges move by a hundredth in a frame: they follow what is found for
+// many frames.
+constexpr std::int64_t kSearchEdgesEvery = 4;
+
 /// Edges, and what the maps between them come to.
 struct JudgedEdges {
   std::array<double, kMaxMaps + 1> depth;
@@ -126,6 +130,20 @@ JudgedEdges searched_edges(const PlanContext& c, const ParallelScene& scene,
   refine_splits(depths, cost, both);
   result.objective = exact_objective(c, scene, depths);
   return result;
+}
+
+/// Sets the inner edges to the best ones of an earlier frame. False where they are too old, or of other
+/// depths.
+bool take_searched(const SearchedEdges& searched, std::int64_t frame, std::span<double> edges) noexcept {
+  constexpr double kAlike = 1.05;
+  const auto count = static_cast<std::size_t>(searched.count);
+  if (frame >= searched.until || count != edges.size()) return false;
+  const std::span<const double> depth(searched.depth.data(), count);
+  const auto alike = [](double a, double b) { return a <= b * kAlike && b <= a * kAlike; };
+  const bool inside = edges.front() < depth[1] && depth[count - 2] < edges.back();
+  if (!inside || !alike(edges.front(), depth.front()) || !alike(edges.back(), depth.back())) return false;
+  std::copy(depth.begin() + 1, depth.end() - 1, edges.begin() + 1);
+  return true;
 }
 
 void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double> edges) noexcept {
@@ -172,7 +190,7 @@ const VisibleDepths* usable_depths(const PlanContext& c, const DepthRange& body,
 }
 
 CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int cascades,
-                           std::span<const double> last) noexcept {
+                           PlanHistory* history) noexcept {
   const PlanOptions& options = c.options;
   CascadeEdges result;
   result.count = cascades + 1;
@@ -192,14 +210,20 @@ CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int
                            split.scheme == SplitScheme::automatic || split.scheme == SplitScheme::optimal;
   if (logarithmic && c.seen != nullptr) split_seen(*c.seen, cover, edges);
   // What is in view would move the edges of a stable plan, and with them its grids.
-  if (split.scheme == SplitScheme::optimal && !c.stable) optimise(c, scene, edges);
+  const bool optimal = split.scheme == SplitScheme::optimal && !c.stable;
+  if (optimal && !(history != nullptr && take_searched(history->searched_edges, history->frame, edges))) {
+    optimise(c, scene, edges);
+    if (history != nullptr)
+      history->searched_edges = {history->frame + kSearchEdgesEvery, result.depth, result.count};
+  }
   // One visible depth is one slice: more of them would divide the safety round it. Over frames the number of
   // maps must not come and go with one pixel.
   const bool single = c.seen != nullptr && c.seen->min == c.seen->max && !c.remembers;
   if (single && split.scheme != SplitScheme::given) {
     for (double& edge : edges.subspan(1)) edge = cover.end;
   }
-  if (!c.stable) steady_edges(last, edges);
+  if (history != nullptr && history->frame > 0 && !c.stable)
+    steady_edges({history->edge.data(), static_cast<std::size_t>(history->edge_count)}, edges);
   return result;
 }
 

@@ -129,7 +129,7 @@ Parts separated_parts(const PlanContext& c, const ParallelScene& scene, const Po
 /// The objective of so many cascades, each warped.
 double cascades_objective(const PlanContext& c, const ParallelScene& scene, const Polytope& body,
                           double begin, double end, int count) noexcept {
-  const CascadeEdges edges = cascade_edges(c, scene, count, {});
+  const CascadeEdges edges = cascade_edges(c, scene, count, nullptr);
   Parts cascades;
   for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(edges.count); ++i) {
     Part part;
@@ -187,7 +187,7 @@ void plan_part(const PlanContext& c, const Part& part, ShadowPlan& plan) noexcep
 }  // namespace
 
 void plan_parts(const PlanContext& c, const ParallelScene& scene, ShadowPlan& plan) noexcept {
-  const CascadeEdges range = cascade_edges(c, scene, 1, {});
+  const CascadeEdges range = cascade_edges(c, scene, 1, nullptr);
   for (int i = 0; i < range.omission_count; ++i) omit(plan, range.omission[static_cast<std::size_t>(i)]);
   const double begin = range.depth[0], end = range.depth[1];
   Polytope body = scene.body;

@@ -157,6 +157,7 @@ void remember_options(const PlanOptions& options, PlanHistory& history) noexcept
   if (options == history.options) return;
   for (KeptMap& kept : history.kept) kept.frame = -1;
   for (PlanHistory::Map& map : history.map) map.searched.until = -1;
+  history.searched_edges.until = -1;
   history.options = options;
 }
 

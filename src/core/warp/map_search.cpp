@@ -318,44 +318,67 @@ WarpChoice judged_choice(const WarpInput& input, const Judged& best, double with
   return choice;
 }
 
-/// From the last frame's result on. False where that is no start, or no longer a good one.
-bool follow(const WarpInput& input, PlaneError& error, WarpChoice& choice) noexcept {
+/// Measures what the last frame drew against this frame's choice.
+void measure_last(const WarpInput& input, PlaneError& error, double without, WarpChoice& choice) noexcept {
+  if (input.start == nullptr) return;
   const WarpStart& start = *input.start;
-  const double without = error.value(input.unwarped), expected = without * start.best.gain_ratio;
+  choice.last_ratio =
+      start.has_map ? error.value(start.map) / without : std::numeric_limits<double>::infinity();
+  // By the other objectives vertices tell as well, and sooner.
+  if (!start.has_map || input.objective != Objective::p95) return;
+  WarpChoice held = choice;
+  held.kappa = min_of(held.kappa, start.limit.strongest(plane_map(input.body, choice).length));
+  if (held.kappa < choice.kappa) choice.held_ratio = error.value(held) / without;
+}
+
+/// From the last frame's result on. False where that is no start, or no longer a good one.
+bool follow(const WarpInput& input, PlaneError& error, double without, WarpChoice& choice) noexcept {
+  const WarpStart& start = *input.start;
+  const double expected = without * start.best.gain_ratio;
   Judged best{start.best, error.value(start.best)};
-  if (start.search) {
+  if (start.use == StartUse::search) {
     if (is_line(input, error.body())) return false;
     best = turned(input, error, best, kFollowingRounds, kFollowingStep);
   }
   // Another body than in the last frame, for which another one may be better by far.
   if (!(best.value >= expected * kMostGain && best.value <= expected * kMostLoss)) return false;
   choice = judged_choice(input, best, without);
-  choice.last_ratio =
-      start.has_map ? error.value(start.map) / without : std::numeric_limits<double>::infinity();
-  // By the other objectives vertices tell as well, and sooner.
-  if (start.has_map && input.objective == Objective::p95) {
-    WarpChoice held = choice;
-    held.kappa = min_of(held.kappa, start.limit.strongest(plane_map(input.body, choice).length));
-    if (held.kappa < choice.kappa) choice.held_ratio = error.value(held) / without;
-  }
+  choice.followed = true;
   return true;
+}
+
+/// The last frame's result as it is.
+WarpChoice kept(const WarpInput& input) noexcept {
+  const WarpChoice& best = input.start->best;
+  WarpChoice choice = best.gain_ratio < 1.0 ? best : input.unwarped;
+  choice.gain_ratio = best.gain_ratio;
+  choice.last_ratio = best.last_ratio;
+  choice.held_ratio = best.held_ratio;
+  choice.followed = true;
+  return choice;
 }
 
 }  // namespace
 
 WarpChoice search_map(const WarpInput& input, SearchEffort effort) noexcept {
   if (input.flat() || !(input.y_max - input.y_min > 0.0)) return input.unwarped;
+  const StartUse use = input.start != nullptr ? input.start->use : StartUse::none;
+  if (use == StartUse::keep) return kept(input);
   PlaneError error(input, true);
   if (error.corners().count == 0) return input.unwarped;
-  if (WarpChoice choice; input.start != nullptr && follow(input, error, choice)) return choice;
   const double without = error.value(input.unwarped);
-  Judged best{input.unwarped, without};
-  const bool quick = effort == SearchEffort::quick, line = is_line(input, error.body());
-  if (!line) best = quick ? quick_search(input, error) : thorough_search(input, error);
-  // After the search: a warp that is better than a start is often no better to start from.
-  if (improve_by_others(input, error, best) && !line)
-    best = turned(input, error, best, quick ? quick_rounds(input.objective) : kThoroughRounds, kStep);
-  return judged_choice(input, best, without);
+  WarpChoice choice;
+  if (use == StartUse::none || !follow(input, error, without, choice)) {
+    Judged best{input.unwarped, without};
+    const bool quick = effort == SearchEffort::quick, line = is_line(input, error.body());
+    if (!line) best = quick ? quick_search(input, error) : thorough_search(input, error);
+    // After the search: a warp that is better than a start is often no better to start from.
+    if (improve_by_others(input, error, best) && !line)
+      best = turned(input, error, best, quick ? quick_rounds(input.objective) : kThoroughRounds, kStep);
+    choice = judged_choice(input, best, without);
+  }
+  measure_last(input, error, without, choice);
+  return choice;
 }
 
 }  // namespace gnomon

@@ -157,18 +157,22 @@ glm::dmat4 clip_from_light(const PlaneMap& map, const LightDepths& depths,
 }
 
 bool usable(std::span<const WarpInput::Point> body, const WarpChoice& choice, double most_stretch) noexcept {
+  const PointBounds bounds = bounds_of(body);
+  return usable(body, bounds, plane_map(body, bounds, choice), most_stretch);
+}
+
+bool usable(std::span<const WarpInput::Point> body, const PointBounds& bounds, const PlaneMap& map,
+            double most_stretch) noexcept {
   // A body shorter along the axis than this much of its other extents, or of its distance, has its length
   // from rounding, and a warp's strength from it would be noise.
   constexpr double kShortest = 1e-6, kShortestOfDistance = 1e-9;
-  const PointBounds bounds = bounds_of(body);
-  const PlaneMap map = plane_map(body, bounds, choice);
   double farthest = 0.0;
   for (const WarpInput::Point& p : body) {
     if (std::isfinite(p.depth)) farthest = max_of(farthest, p.depth);
   }
   const double extent = max_of(map.a_max - map.a_min, map.b_max - map.b_min);
   return map.length > kShortest * extent && map.length > kShortestOfDistance * farthest &&
-         map.stretch <= most_stretch && choice.kappa * bounds.distance <= kMostKappaDistance;
+         map.stretch <= most_stretch && map.choice.kappa * bounds.distance <= kMostKappaDistance;
 }
 
 void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane, double pixels_per_slope,

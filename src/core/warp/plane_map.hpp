@@ -83,6 +83,9 @@ inline constexpr double kMostKappaDistance = 1e14;
 /// for the map's border, or with its axis along a body whose length that way is rounding.
 [[nodiscard]] bool usable(std::span<const WarpInput::Point> body, const WarpChoice& choice,
                           double most_stretch) noexcept;
+/// The same, of points whose bounds and map are known.
+[[nodiscard]] bool usable(std::span<const WarpInput::Point> body, const PointBounds& bounds,
+                          const PlaneMap& map, double most_stretch) noexcept;
 
 /// Texels inside the border under which an error over the body is 1: bounds of m_s along the map's width, of
 /// m_t along its height (at the body's vertices, with the simplified weights of Lloyd et al. 2006), and of
