@@ -86,12 +86,12 @@ struct PlanHistory {
   void clear() noexcept { *this = {}; }
 };
 
-/// As make_plan, for the next frame of a moving camera. Directional lights with Fit::tight: warp and splits
-/// move towards the best ones in steps. Texels per area then change by less than kDensityStep at every
-/// surface point that stays in its map. Faster camera motion weakens the warp, which limits shimmering. Small
-/// gains are ignored. Unavoidable jumps (a receiver came into view, the camera was moved far) are listed in
-/// events(). Fit::warped_stable: the map is unchanged until the view leaves it. Other fits, and local lights,
-/// are planned without history.
+/// As make_plan, for the next frame of a moving camera. Fit::tight and Fit::rotated: warp, rectangle and
+/// splits move towards the best ones in steps. Texels per area then change by less than kDensityStep at every
+/// lit surface point that stays in its map. Faster camera motion weakens the warp, which limits shimmering.
+/// Small gains are ignored. Unavoidable jumps (a receiver came into view, the camera was moved far) are
+/// listed in events(). Fit::warped_stable: the map is unchanged until the view leaves it. Fit::stable needs
+/// no history. Maps of a local light that moved begin afresh.
 [[nodiscard]] ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
                                    const PlanOptions& options, PlanHistory& history,
                                    const VisibleDepths* visible = nullptr,

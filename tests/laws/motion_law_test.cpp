@@ -99,16 +99,20 @@ const ShadowMap* serving(const ShadowPlan& plan, const Camera& camera, const glm
 
 /// Flies and calls `use(plan before, plan now, camera before, camera now, history)` for each pair of frames.
 template <typename Use>
-void fly(const Walk& w, int frames, Use&& use) {
+void fly(const Walk& w, const Light& light, int frames, Use&& use) {
   PlanHistory history;
   ShadowPlan before;
   for (int frame = 0; frame < frames; ++frame) {
-    const ShadowPlan now =
-        make_plan(w.camera(frame), DirectionalLight{w.light}, w.bounds(), w.options, history);
-    require(now.status == PlanStatus::ok, "status", to_string(now.status), "frame", frame);
+    const ShadowPlan now = make_plan(w.camera(frame), light, w.bounds(), w.options, history);
+    require(now.status == PlanStatus::ok || now.status == PlanStatus::nothing_visible, "status",
+            to_string(now.status), "frame", frame);
     if (frame > 0) use(before, now, w.camera(frame - 1), w.camera(frame), history);
     before = now;
   }
+}
+template <typename Use>
+void fly(const Walk& w, int frames, Use&& use) {
+  fly(w, DirectionalLight{w.light}, frames, use);
 }
 
 bool listed(const PlanHistory& history, int cascade) {
@@ -140,6 +144,41 @@ TEST(MotionLaw, texels_per_area_jump_only_where_an_event_says_so) {
   });
   EXPECT_GT(pairs, 4000);
   EXPECT_LT(events * 10, maps);  // listed jumps are the exception
+}
+
+TEST(MotionLaw, texels_per_area_of_a_spot_jump_only_where_an_event_says_so) {
+  std::int64_t pairs = 0, maps = 0, events = 0;
+  for_all(20, [&] {
+    Walk w = draw_walk();
+    w.options.cascades = 1;
+    w.options.fit = chance(0.3) ? Fit::rotated : Fit::tight;
+    SpotLight spot;
+    spot.position = w.start + glm::dvec3(between(-6.0, 6.0), between(4.0, 12.0), between(-6.0, 6.0));
+    spot.direction = {between(-0.5, 0.5), -1.0, between(-0.5, 0.5)};
+    spot.outer_radians = between(0.5, 1.0);
+    spot.range = 60.0;
+    const glm::dvec3 axis = glm::normalize(spot.direction);
+    Random random(5);
+    fly(w, spot, 120,
+        [&](const ShadowPlan& a, const ShadowPlan& b, const Camera&, const Camera& to,
+            const PlanHistory& history) {
+          maps += b.map_count;
+          events += history.event_count;
+          if (a.map_count != 1 || b.map_count != 1 || listed(history, b.map[0].cascade)) return;
+          for (const glm::dvec3& p : points_of(w, to, random)) {
+            const glm::dvec3 way = p - spot.position, ray = glm::normalize(way);
+            const bool lit =
+                glm::dot(ray, axis) >= std::cos(spot.outer_radians) && glm::length(way) <= spot.range;
+            if (!lit || !map_holds(a, a.map[0], p) || !map_holds(b, b.map[0], p)) continue;
+            ++pairs;
+            const double ratio = density(b.map[0], ray, p) / density(a.map[0], ray, p);
+            require(std::max(ratio, 1.0 / ratio) <= 1.0 + kDensityStep + kRounding, "ratio", ratio,
+                    b.map[0].warp->name, "of", to_string(w.options.warp.objective));
+          }
+        });
+  });
+  EXPECT_GT(pairs, 4000);
+  EXPECT_LT(events * 5, maps);
 }
 
 TEST(MotionLaw, everything_in_view_is_inside_its_map_in_every_frame) {
