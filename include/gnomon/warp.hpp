@@ -65,10 +65,10 @@ struct MotionLimit {
 
 /// How a search uses the last frame's warp.
 enum class StartUse : std::uint8_t {
-  none,     ///< nothing: the search begins from nothing
-  keep,     ///< it is returned as it is: the ratios that were measured still hold
-  measure,  ///< it is measured again: it still is the best
-  search,   ///< the search goes on round it
+  none,     ///< not at all: the search begins from nothing
+  keep,     ///< returns it as it is: the ratios that were measured still hold
+  measure,  ///< measures it again and returns it
+  search,   ///< goes on from it
 };
 
 /// The last frame's warp and map in this frame's light plane, where a search may start. Rows may have any
@@ -77,7 +77,7 @@ struct WarpStart {
   StartUse use = StartUse::none;
   WarpChoice best;       ///< what the last frame's search returned, with its ratios
   WarpChoice map;        ///< the map that was drawn, which changes in small steps only
-  bool has_map = false;  ///< `map` can be drawn again
+  bool has_map = false;  ///< `map` is known and can be drawn again; StartUse::keep needs none
   MotionLimit limit;
 };
 

@@ -102,15 +102,15 @@ int main(int argc, char** argv) {
     for (Row& row : table) checksum += walk(c, frames, row);
   }
   std::printf("%d frames of each of %zu cases; ns of a plan\n", frames, cases.size());
-  std::printf("%4s %-30s %10s %10s %10s %10s %10s %10s\n", "maps", "warp", "cold mean", "median",
+  std::printf("%4s %-36s %10s %10s %10s %10s %10s %10s\n", "maps", "warp", "cold mean", "median",
               "history mean", "median", "mean ratio", "median r.");
   for (const Row& row : table) {
     const std::string name =
         std::string(row.warp->name) +
         (row.warp == &warps::none ? "" : " by " + std::string(to_string(row.objective))) +
-        (row.split == SplitScheme::optimal ? ", splits" : "");
+        (row.split == SplitScheme::optimal ? ", optimal splits" : "");
     const double cold = median(row.cold), warm = median(row.warm);
-    std::printf("%4d %-30s %10.0f %10.0f %12.0f %10.0f %10.2f %10.2f\n", row.cascades, name.c_str(),
+    std::printf("%4d %-36s %10.0f %10.0f %12.0f %10.0f %10.2f %10.2f\n", row.cascades, name.c_str(),
                 mean(row.cold), cold, mean(row.warm), warm, mean(row.warm) / mean(row.cold), warm / cold);
   }
   std::printf("checksum %016llx\n", static_cast<unsigned long long>(checksum));

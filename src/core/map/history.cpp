@@ -128,12 +128,29 @@ struct WarpShape {
   double row_a, row_b;  // angles
 };
 
-/// The map as it is, its rows of unit length.
-WarpChoice unit_rows(const Decomposed& d) noexcept {
-  WarpChoice choice = d.choice;
-  choice.row_a /= std::sqrt(glm::dot(choice.row_a, choice.row_a));
-  choice.row_b /= std::sqrt(glm::dot(choice.row_b, choice.row_b));
-  return choice;
+double length_of(const glm::dvec2& row) noexcept {
+  return std::sqrt(glm::dot(row, row));
+}
+
+/// A map of an earlier frame over this frame's body.
+struct Recalled {
+  bool usable;
+  Decomposed map;  // its rectangle runs from -1 to 1
+  PlaneMap plane;  // round the body, with rows of unit length
+};
+
+/// `flat_axis`: as for decompose.
+Recalled recall(const Homography& h, const WarpQuestion& question, const glm::dvec2& flat_axis) noexcept {
+  const WarpInput& in = question.in;
+  Recalled r{};
+  r.map = decompose(h, in.body, flat_axis);
+  if (!r.map.valid) return r;
+  WarpChoice choice = r.map.choice;
+  choice.row_a /= length_of(choice.row_a);
+  choice.row_b /= length_of(choice.row_b);
+  r.plane = question.points.under(choice);
+  r.usable = usable(in.body, question.points.bounds, r.plane, in.most_stretch);
+  return r;
 }
 
 /// `length`: of the body along the axis.
@@ -318,12 +335,15 @@ constexpr std::int64_t kSearchApart = 4;
 constexpr std::int64_t kSearchNearEvery = 2;
 
 /// The body fills the map as it did when that was made: what was measured then still holds.
-bool is_filled(const Decomposed& d, const PlaneMap& plane) noexcept {
+bool is_filled(const Recalled& r) noexcept {
   constexpr double kAlike = 0.05;  // of half a side
-  const double left = plane.a_min + d.const_a, right = plane.a_max + d.const_a;
-  const double below = plane.b_min + d.const_b, above = plane.b_max + d.const_b;
-  return max_of(max_of(std::abs(left + 1.0), std::abs(right - 1.0)),
-                max_of(std::abs(below + 1.0), std::abs(above - 1.0))) <= kAlike;
+  const auto off = [](double low, double high, const glm::dvec2& row, double constant) {
+    const double length = length_of(row);
+    return max_of(std::abs(low * length + constant + 1.0), std::abs(high * length + constant - 1.0));
+  };
+  const PlaneMap& plane = r.plane;
+  return max_of(off(plane.a_min, plane.a_max, r.map.choice.row_a, r.map.const_a),
+                off(plane.b_min, plane.b_max, r.map.choice.row_b, r.map.const_b)) <= kAlike;
 }
 
 }  // namespace
@@ -332,29 +352,27 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
                 WarpStart& start) noexcept {
   if (request.last == nullptr) return false;
   const SearchedWarp& last = request.last->searched;
-  const WarpInput& in = question.in;
-  const auto found = [&](const glm::dmat4& m, Decomposed& d, PlaneMap& plane) {
-    d = decompose(homography(gl_from_light(c, request.space, m)), in.body, in.unwarped.axis);
-    if (!d.valid) return false;
-    plane = question.points.under(d.choice);
-    return usable(in.body, question.points.bounds, plane, in.most_stretch);
+  const auto over_body = [&](const glm::dmat4& gl_from_world) {
+    return recall(homography(gl_from_light(c, request.space, gl_from_world)), question,
+                  question.in.unwarped.axis);
   };
-  Decomposed d;
-  PlaneMap plane;
-  if (c.frame < last.until && found(last.xyw_from_world, d, plane)) {
-    start.best = d.choice;
+  const Recalled best = c.frame < last.until ? over_body(last.xyw_from_world) : Recalled{};
+  if (best.usable) {
+    start.best = best.plane.choice;
     start.best.gain_ratio = last.gain_ratio;
     start.best.last_ratio = last.last_ratio;
     start.best.held_ratio = last.held_ratio;
     const bool turn = (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
     // Searches round the same place would find better ones for ever, and move texels under a still camera.
     const bool moved = !c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward;
-    const bool holds = last.last_ratio > 0.0 && is_filled(d, plane);
+    const bool holds = last.last_ratio > 0.0 && is_filled(best);
     start.use = turn && moved ? StartUse::search : turn || !holds ? StartUse::measure : StartUse::keep;
   }
-  start.has_map =
-      start.use != StartUse::keep && remembered(request) && found(request.last->gl_from_world, d, plane);
-  if (start.has_map) start.map = unit_rows(d);
+  if (start.use != StartUse::keep && remembered(request)) {
+    const Recalled drawn = over_body(request.last->gl_from_world);
+    start.has_map = drawn.usable;
+    start.map = drawn.plane.choice;
+  }
   start.limit = motion_limit(c, question);
   return true;
 }
@@ -389,10 +407,9 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
   if (in.start != nullptr && in.start->has_map && in.start->map.kappa > 0.0) {
     plane = points.under(in.start->map);
   } else {
-    const Decomposed from = decompose(walk.before(), in.body, best.choice.axis);
-    if (from.valid) plane = points.under(unit_rows(from));
-    if (!from.valid || !usable(in.body, points.bounds, plane, in.most_stretch))
-      return reported({best, walk.changed(best)});
+    const Recalled from = recall(walk.before(), question, best.choice.axis);
+    if (!from.usable) return reported({best, walk.changed(best)});
+    plane = from.plane;
   }
   WarpChoice goal = best.choice;
   goal.kappa = min_of(goal.kappa, motion_limit(c, question).strongest(best.length));
