@@ -43,7 +43,6 @@ struct SearchedWarp {
   glm::dmat4 xyw_from_world{1.0};  ///< x, y and w of OpenGL clip space; z is of no use
   double gain_ratio = 1.0;         ///< objective over that of no warp
   double last_ratio = 0.0;         ///< as WarpChoice::last_ratio
-  double held_ratio = 0.0;         ///< as WarpChoice::held_ratio
 };
 
 /// The best edges between cascades, which those of later frames move towards.

@@ -46,21 +46,7 @@ struct WarpChoice {
   double gain_ratio = 0.0;
   /// The objective of WarpStart::map over that of no warp, infinite without such a map; 0: not measured.
   double last_ratio = 0.0;
-  /// The objective over that of no warp where `kappa` is held to WarpStart::limit; 0: not measured.
-  double held_ratio = 0.0;
   bool followed = false;  ///< found from WarpStart::best on
-};
-
-/// How strong a warp may be under a camera that moves: texels of a stronger one would change too fast.
-struct MotionLimit {
-  /// 1 over the largest kappa, and its growth by the body's length along the axis. Both 0: no limit.
-  double least_distance = 0.0, distance_per_length = 0.0;
-
-  /// The largest kappa for a body of this length along the axis.
-  [[nodiscard]] double strongest(double length) const noexcept {
-    const double distance = least_distance + distance_per_length * length;
-    return distance > 0.0 ? 1.0 / distance : std::numeric_limits<double>::infinity();
-  }
 };
 
 /// How a search uses the last frame's warp.
@@ -78,7 +64,9 @@ struct WarpStart {
   WarpChoice best;       ///< what the last frame's search returned, with its ratios
   WarpChoice map;        ///< the map that was drawn, which changes in small steps only
   bool has_map = false;  ///< `map` is known and can be drawn again; StartUse::keep needs none
-  MotionLimit limit;
+  /// 1 + kappa length of the strongest warp under a camera that moves: texels of a stronger one change too
+  /// fast.
+  double most_stretch = std::numeric_limits<double>::infinity();
 };
 
 /// The body as a warp sees it. The light plane's x and y (light_space.hpp) span the map; y runs along the

@@ -12,6 +12,7 @@
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 #include "warp/plane_error.hpp"
+#include "warp/plane_map.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -291,7 +292,8 @@ TEST(MotionLaw, edges_come_to_rest_where_a_plan_without_history_has_them) {
 struct Followed {
   std::vector<double> ratio;  // of the objective
   int searches = 0, kept = 0;
-  double over_none = 0.0;  // the largest objective over that of no warp
+  double over_none = 0.0;   // the largest objective over that of no warp
+  double over_limit = 0.0;  // the largest stretch over what the camera's motion lets it be
 };
 Followed followed;
 
@@ -299,10 +301,15 @@ Followed followed;
 WarpChoice follow(const WarpInput& input) noexcept {
   const WarpChoice choice = warps::optimal.choose(input);
   ++followed.searches;
+  if (input.start != nullptr) {
+    const double stretch = plane_map(input.body, choice).stretch;
+    followed.over_limit = std::max(followed.over_limit, stretch / input.start->most_stretch);
+  }
   if (!choice.followed) return choice;
   followed.kept += input.start->use == StartUse::keep ? 1 : 0;
   WarpInput cold = input;
   cold.start = nullptr;
+  cold.most_stretch = std::min(input.most_stretch, input.start->most_stretch);  // under the same motion
   PlaneError error(input, true);
   const double value = error.value(choice);
   followed.ratio.push_back(value / error.value(warps::optimal.choose(cold)));
@@ -320,6 +327,7 @@ double mean_log(std::span<const double> ratios) {
 TEST(MotionLaw, a_search_from_the_last_result_finds_what_one_from_nothing_finds_and_does_not_drift) {
   constexpr double kMean = 0.005;     // of the logarithm: a search from nothing is off by as much
   constexpr double kNearlyAll = 1.3;  // where another place became better since the last search
+  constexpr double kOverLimit = 1.05 + kRounding;  // a result is kept while the limit changes little
   constexpr int kFrames = 600;
   for (const Objective objective : {Objective::storage, Objective::max, Objective::p95}) {
     std::vector<double> all, early, late;
@@ -336,6 +344,7 @@ TEST(MotionLaw, a_search_from_the_last_result_finds_what_one_from_nothing_finds_
         searches += followed.searches;
         kept += followed.kept;
         require(followed.over_none <= 1.0 + kRounding, "over no warp", followed.over_none, "frame", frame);
+        require(followed.over_limit <= kOverLimit, "over the limit", followed.over_limit, "frame", frame);
         for (const double r : followed.ratio) {
           all.push_back(r);
           (frame < kFrames / 2 ? early : late).push_back(r);
@@ -374,6 +383,36 @@ TEST(MotionLaw, a_result_is_kept_while_the_view_goes_on_and_not_after_a_jump) {
     require(followed.kept == 0, "kept", followed.kept, "of", followed.searches, "in frame", frames);
   });
   EXPECT_GT(kept, 50);
+}
+
+TEST(MotionLaw, a_leap_ends_at_maps_as_good_as_those_without_history) {
+  constexpr double kLeap = 40.0;  // times as far as in a frame
+  constexpr double kNearly = 1.05;
+  std::vector<double> ratio;
+  for_all(24, [&] {
+    Walk w = draw_walk();
+    w.options.warp.warp = &warps::optimal;
+    w.options.cascades = 1 + pick(2);
+    const int frames = 6 + pick(30);
+    PlanHistory history;
+    for (int frame = 0; frame < frames; ++frame)
+      (void)make_plan(w.camera(frame), DirectionalLight{w.light}, w.bounds(), w.options, history);
+    w.turn *= kLeap;
+    w.velocity *= kLeap;
+    w.start += w.velocity;
+    const Camera camera = w.camera(frames);
+    const auto value = [&](const ShadowPlan& plan) {
+      const AliasingStats error = measure(plan, camera, w.bounds());
+      const Objective objective = w.options.warp.objective;
+      return objective == Objective::storage ? error.storage
+             : objective == Objective::max   ? error.max
+                                             : error.p95;
+    };
+    ratio.push_back(value(make_plan(camera, DirectionalLight{w.light}, w.bounds(), w.options, history)) /
+                    value(make_plan(camera, DirectionalLight{w.light}, w.bounds(), w.options)));
+  });
+  std::sort(ratio.begin(), ratio.end());
+  EXPECT_LT(ratio[ratio.size() / 2], kNearly) << "some leaps are no cuts: there the map goes in small steps";
 }
 
 TEST(MotionLaw, a_search_follows_the_last_result_in_any_unit) {

@@ -220,15 +220,17 @@ Change change_between(const Homography& before, const Homography& now, std::span
   return {elementary::log(area * (low * low * low)), elementary::log(area * (high * high * high))};
 }
 
-/// Texels of a warp that moves along with the viewer change with the third power of w.
-MotionLimit motion_limit(const PlanContext& c, const WarpQuestion& question) noexcept {
-  constexpr double kShare = 0.7;  // of the limit; the rest is left to the rectangle
-  constexpr double kPerStep = 3.0 / (kShare * kLimit);
+/// 1 + kappa length of the strongest warp whose texels change smoothly as it moves along with the viewer:
+/// they change with the third power of w. `length`: of the body along the warp's axis.
+double most_stretch(const PlanContext& c, const WarpQuestion& question, double length) noexcept {
+  constexpr double kPerStep = 3.0 / kLimit;
   const LightSpace& space = question.in.light;
   const glm::dvec3 move = space.frame.turned(c.camera.position - c.last_eye);
   const glm::dvec3 turn = glm::cross(c.last_forward, c.axes.forward);
-  return {kPerStep * std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest,
-          0.5 * kPerStep * std::sqrt(glm::dot(turn, turn))};
+  // 1 over the largest kappa.
+  const double distance = kPerStep * (std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest +
+                                      0.5 * length * std::sqrt(glm::dot(turn, turn)));
+  return distance > 0.0 ? 1.0 + length / distance : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -240,14 +242,10 @@ bool remembered(const MapRequest& request) noexcept {
 
 namespace {
 
-/// The last frame's map, now `last`, is hardly worse than `goal`: the best one, or one on the way there.
-bool is_near_best(const WarpInput& in, const WarpChoice& last, const WarpChoice& goal,
-                  const WarpChoice& best) noexcept {
+/// The last frame's map, now `last`, is hardly worse than `goal`.
+bool is_near_best(const WarpInput& in, const WarpChoice& last, const WarpChoice& goal) noexcept {
   constexpr double kNear = 1.0 + kWorthFollowing;
-  const bool held = goal.kappa != best.kappa;
-  // A goal that is held back by the camera's motion is worse than the best.
-  const double goal_ratio = held ? best.held_ratio : best.gain_ratio;
-  if (best.last_ratio > 0.0 && goal_ratio > 0.0) return best.last_ratio <= goal_ratio * kNear;
+  if (goal.last_ratio > 0.0 && goal.gain_ratio > 0.0) return goal.last_ratio <= goal.gain_ratio * kNear;
   if (in.objective == Objective::p95) {
     PlaneError error(in);
     return error.value(last) <= error.value(goal) * kNear;
@@ -346,11 +344,25 @@ bool is_filled(const Recalled& r) noexcept {
                 off(plane.b_min, plane.b_max, r.map.choice.row_b, r.map.const_b)) <= kAlike;
 }
 
+/// The body takes so much more or less of the map than when that was drawn that all its texels jump.
+bool is_cut(const Recalled& r) noexcept {
+  const PlaneMap& plane = r.plane;
+  const double a = (plane.a_max - plane.a_min) * length_of(r.map.choice.row_a),
+               b = (plane.b_max - plane.b_min) * length_of(r.map.choice.row_b);
+  return std::abs(elementary::log(0.25 * a * b)) > kCut;
+}
+
 }  // namespace
 
 bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
                 WarpStart& start) noexcept {
   if (request.last == nullptr) return false;
+  // The limit goes up and down as the camera does.
+  constexpr double kNearLimit = 1.05;
+  // The limit after a step of a seventh of the body's length, or a turn by 17 degrees.
+  constexpr double kLeap = 1.1;
+  const double limit = most_stretch(c, question, question.in.y_max - question.in.y_min);
+  start.most_stretch = limit;
   const SearchedWarp& last = request.last->searched;
   const auto over_body = [&](const glm::dmat4& gl_from_world) {
     return recall(homography(gl_from_light(c, request.space, gl_from_world)), question,
@@ -361,19 +373,20 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
     start.best = best.plane.choice;
     start.best.gain_ratio = last.gain_ratio;
     start.best.last_ratio = last.last_ratio;
-    start.best.held_ratio = last.held_ratio;
     const bool turn = (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
     // Searches round the same place would find better ones for ever, and move texels under a still camera.
     const bool moved = !c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward;
-    const bool holds = last.last_ratio > 0.0 && is_filled(best);
+    const bool holds = last.last_ratio > 0.0 && is_filled(best) && best.plane.stretch <= kNearLimit * limit;
     start.use = turn && moved ? StartUse::search : turn || !holds ? StartUse::measure : StartUse::keep;
   }
   if (start.use != StartUse::keep && remembered(request)) {
     const Recalled drawn = over_body(request.last->gl_from_world);
     start.has_map = drawn.usable;
     start.map = drawn.plane.choice;
+    // After a leap there is no way to be smooth on.
+    if (limit < kLeap && (!drawn.usable || is_cut(drawn)))
+      start.most_stretch = std::numeric_limits<double>::infinity();
   }
-  start.limit = motion_limit(c, question);
   return true;
 }
 
@@ -384,7 +397,7 @@ SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request, cons
   return {choice.followed ? request.last->searched.until : c.frame + kSearchEvery - sooner,
           world_matrix(clip_from_light(plane, {0.0, 1.0}, 0.0) * request.space.light_from_relative(),
                        c.camera.position),
-          choice.gain_ratio > 0.0 ? choice.gain_ratio : 1.0, choice.last_ratio, choice.held_ratio};
+          choice.gain_ratio > 0.0 ? choice.gain_ratio : 1.0, choice.last_ratio};
 }
 
 PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
@@ -412,8 +425,14 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
     plane = from.plane;
   }
   WarpChoice goal = best.choice;
-  goal.kappa = min_of(goal.kappa, motion_limit(c, question).strongest(best.length));
-  const bool stays = !in.orthographic && is_near_best(in, plane.choice, goal, best.choice);
+  if (in.start == nullptr && best.length > 0.0) {
+    const double strongest = (most_stretch(c, question, best.length) - 1.0) / best.length;
+    if (goal.kappa > strongest) {
+      goal.kappa = strongest;
+      goal.gain_ratio = 0.0;  // is not known
+    }
+  }
+  const bool stays = !in.orthographic && is_near_best(in, plane.choice, goal);
   Step step{plane, {}};
   if (stays) {
     step.change = walk.changed(plane);

@@ -19,7 +19,7 @@ WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) n
   turned.row_a = side;
   turned.row_b = {-side.y, side.x};
   // What the warp has measured is of its own rectangle.
-  turned.gain_ratio = turned.last_ratio = turned.held_ratio = 0.0;
+  turned.gain_ratio = turned.last_ratio = 0.0;
   // Without perspective the area is the objective.
   if (in.flat()) return turned;
   PlaneError error(in);

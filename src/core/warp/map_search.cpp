@@ -324,11 +324,6 @@ void measure_last(const WarpInput& input, PlaneError& error, double without, War
   const WarpStart& start = *input.start;
   choice.last_ratio =
       start.has_map ? error.value(start.map) / without : std::numeric_limits<double>::infinity();
-  // By the other objectives vertices tell as well, and sooner.
-  if (!start.has_map || input.objective != Objective::p95) return;
-  WarpChoice held = choice;
-  held.kappa = min_of(held.kappa, start.limit.strongest(plane_map(input.body, choice).length));
-  if (held.kappa < choice.kappa) choice.held_ratio = error.value(held) / without;
 }
 
 /// From the last frame's result on. False where that is no start, or no longer a good one.
@@ -336,12 +331,17 @@ bool follow(const WarpInput& input, PlaneError& error, double without, WarpChoic
   const WarpStart& start = *input.start;
   const double expected = without * start.best.gain_ratio;
   Judged best{start.best, error.value(start.best)};
+  // Another body than in the last frame, for which another one may be better by far.
+  if (!(best.value >= expected * kMostGain && best.value <= expected * kMostLoss)) return false;
+  const PlaneMap plane = plane_map(input.body, best.choice);
+  if (plane.stretch > input.most_stretch) {
+    best.choice.kappa = (input.most_stretch - 1.0) * (1.0 - 1e-9) / plane.length;
+    best.value = error.value(best.choice);
+  }
   if (start.use == StartUse::search) {
     if (is_line(input, error.body())) return false;
     best = turned(input, error, best, kFollowingRounds, kFollowingStep);
   }
-  // Another body than in the last frame, for which another one may be better by far.
-  if (!(best.value >= expected * kMostGain && best.value <= expected * kMostLoss)) return false;
   choice = judged_choice(input, best, without);
   choice.followed = true;
   return true;
@@ -353,17 +353,18 @@ WarpChoice kept(const WarpInput& input) noexcept {
   WarpChoice choice = best.gain_ratio < 1.0 ? best : input.unwarped;
   choice.gain_ratio = best.gain_ratio;
   choice.last_ratio = best.last_ratio;
-  choice.held_ratio = best.held_ratio;
   choice.followed = true;
   return choice;
 }
 
 }  // namespace
 
-WarpChoice search_map(const WarpInput& input, SearchEffort effort) noexcept {
-  if (input.flat() || !(input.y_max - input.y_min > 0.0)) return input.unwarped;
-  const StartUse use = input.start != nullptr ? input.start->use : StartUse::none;
-  if (use == StartUse::keep) return kept(input);
+WarpChoice search_map(const WarpInput& given, SearchEffort effort) noexcept {
+  if (given.flat() || !(given.y_max - given.y_min > 0.0)) return given.unwarped;
+  const StartUse use = given.start != nullptr ? given.start->use : StartUse::none;
+  if (use == StartUse::keep) return kept(given);
+  WarpInput input = given;
+  if (given.start != nullptr) input.most_stretch = min_of(given.most_stretch, given.start->most_stretch);
   PlaneError error(input, true);
   if (error.corners().count == 0) return input.unwarped;
   const double without = error.value(input.unwarped);
