@@ -425,6 +425,7 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
     plane = from.plane;
   }
   WarpChoice goal = best.choice;
+  // A warp that was searched from a start on is within the limit.
   if (in.start == nullptr && best.length > 0.0) {
     const double strongest = (most_stretch(c, question, best.length) - 1.0) / best.length;
     if (goal.kappa > strongest) {
