@@ -64,8 +64,8 @@ struct WarpStart {
   WarpChoice best;       ///< what the last frame's search returned, with its ratios
   WarpChoice map;        ///< the map that was drawn, which changes in small steps only
   bool has_map = false;  ///< `map` is known and can be drawn again; StartUse::keep needs none
-  /// 1 + kappa length of the strongest warp under a camera that moves: texels of a stronger one change too
-  /// fast.
+  /// 1 + kappa length of the strongest warp whose texels change smoothly under the camera's motion; infinite
+  /// where nothing moves.
   double most_stretch = std::numeric_limits<double>::infinity();
 };
 

@@ -11,9 +11,9 @@
 #include <limits>
 
 #include "geometry/elementary.hpp"
-#include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
 #include "map/border.hpp"
+#include "map/recalled.hpp"
 #include "map/record.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/plane_map.hpp"
@@ -23,103 +23,14 @@ namespace {
 
 // Of the logarithm of the density: what is aimed at stays a tenth below what is promised.
 constexpr double kLimit = 0.9 * 0.04879016416943205;  // ln(1 + kDensityStep)
-// A warp that changes texels by less than this over the whole body has no direction worth keeping.
-constexpr double kFlat = 1e-3;
 // Best warps that are better by less than this are not followed.
 constexpr double kWorthFollowing = 0.02;
-// A change beyond this factor is a cut: nothing is gained by going slowly.
-constexpr double kCut = 0.4054651081081644;  // ln 1.5
 constexpr double kPi = 3.141592653589793;
 // Steps of the search for the farthest way that is still smooth, and how much less is taken than a straight
 // line through two of them says.
 constexpr int kSteps = 3;
 constexpr int kBisections = 6;  // where a line says nothing
 constexpr double kShorter = 0.98;
-// Largest change of an edge between cascades from frame to frame, of its logarithm.
-constexpr double kEdgeStep = 0.01;
-// Share of a held map that the view must use: less wastes more texels than a still grid is worth.
-constexpr double kLeastUse = 0.4;
-
-/// A map of the light plane as a matrix over (x, y, 1) of the light frame.
-struct Homography {
-  glm::dvec3 a, b, w;  // rows
-  [[nodiscard]] double weight(const WarpInput::Point& p) const noexcept {
-    return w.x * p.x + w.y * p.y + w.z;
-  }
-  [[nodiscard]] double determinant() const noexcept { return glm::dot(a, glm::cross(b, w)); }
-};
-
-/// OpenGL clip space from homogeneous light space.
-glm::dmat4 gl_from_light(const PlanContext& c, const LightSpace& space,
-                         const glm::dmat4& gl_from_world) noexcept {
-  return counted_from(gl_from_world, c.camera.position) * space.relative_from_light();
-}
-
-Homography homography(const glm::dmat4& m) noexcept {
-  const auto row = [&](int i) { return glm::dvec3(m[0][i], m[1][i], m[3][i]); };
-  return {row(0), row(1), row(3)};
-}
-
-Homography of_plane(const PlaneMap& plane) noexcept {
-  return homography(clip_from_light(plane, {0.0, 1.0}, 0.0));
-}
-
-/// The homography over the body in the terms of a WarpChoice with centre 0: rows over the image, not yet of
-/// unit length, and the constant that goes with each.
-struct Decomposed {
-  bool valid;
-  WarpChoice choice;
-  double u_min, length;
-  double const_a, const_b;
-};
-
-struct Span {
-  double low, high;
-};
-Span along(std::span<const WarpInput::Point> body, const glm::dvec2& axis) noexcept {
-  Span s{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const WarpInput::Point& p : body) {
-    const double u = p.x * axis.x + p.y * axis.y;
-    s.low = min_of(s.low, u);
-    s.high = max_of(s.high, u);
-  }
-  return s;
-}
-
-/// `flat_axis` serves where the map has no fall-off that could tell an axis.
-Decomposed decompose(const Homography& h, std::span<const WarpInput::Point> body,
-                     const glm::dvec2& flat_axis) noexcept {
-  Decomposed d{};
-  const double steepness = std::sqrt(h.w.x * h.w.x + h.w.y * h.w.y);
-  glm::dvec2 axis = steepness > 0.0 ? glm::dvec2(h.w.x, h.w.y) / steepness : flat_axis;
-  Span u = along(body, axis);
-  double w_near = h.w.z + steepness * u.low;
-  if (!(w_near > 0.0)) return d;
-  double kappa = steepness / w_near;
-  if (kappa * (u.high - u.low) < kFlat) {
-    axis = flat_axis;
-    u = along(body, axis);
-    w_near = h.w.z + h.w.x * axis.x * u.low + h.w.y * axis.y * u.low;
-    kappa = 0.0;
-    if (!(w_near > 0.0)) return d;
-  }
-  d.u_min = u.low;
-  d.length = u.high - u.low;
-  const double stretch = 1.0 + kappa * d.length;
-  // Over (s, u - u_min, 1), divided by the weight at the near end.
-  const auto terms = [&](const glm::dvec3& row, double& constant) {
-    const double per_s = (row.x * axis.y - row.y * axis.x) / w_near;
-    const double per_u = (row.x * axis.x + row.y * axis.y) / w_near;
-    constant = row.z / w_near + per_u * u.low;
-    return glm::dvec2(per_s, (per_u - constant * kappa) / stretch);
-  };
-  d.choice.kappa = kappa;
-  d.choice.axis = axis;
-  d.choice.row_a = terms(h.a, d.const_a);
-  d.choice.row_b = terms(h.b, d.const_b);
-  d.valid = std::isfinite(stretch);
-  return d;
-}
 
 /// What a warp looks like, in quantities whose even steps look even.
 struct WarpShape {
@@ -127,31 +38,6 @@ struct WarpShape {
   double stretch;       // logarithm
   double row_a, row_b;  // angles
 };
-
-double length_of(const glm::dvec2& row) noexcept {
-  return std::sqrt(glm::dot(row, row));
-}
-
-/// A map of an earlier frame over this frame's body.
-struct Recalled {
-  bool usable;
-  Decomposed map;  // its rectangle runs from -1 to 1
-  PlaneMap plane;  // round the body, with rows of unit length
-};
-
-/// `flat_axis`: as for decompose.
-Recalled recall(const Homography& h, const WarpQuestion& question, const glm::dvec2& flat_axis) noexcept {
-  const WarpInput& in = question.in;
-  Recalled r{};
-  r.map = decompose(h, in.body, flat_axis);
-  if (!r.map.valid) return r;
-  WarpChoice choice = r.map.choice;
-  choice.row_a /= length_of(choice.row_a);
-  choice.row_b /= length_of(choice.row_b);
-  r.plane = question.points.under(choice);
-  r.usable = usable(in.body, question.points.bounds, r.plane, in.most_stretch);
-  return r;
-}
 
 /// `length`: of the body along the axis.
 WarpShape shape_of(const WarpChoice& choice, double length) noexcept {
@@ -220,9 +106,9 @@ Change change_between(const Homography& before, const Homography& now, std::span
   return {elementary::log(area * (low * low * low)), elementary::log(area * (high * high * high))};
 }
 
-/// 1 + kappa length of the strongest warp whose texels change smoothly as it moves along with the viewer:
-/// they change with the third power of w. `length`: of the body along the warp's axis.
-double most_stretch(const PlanContext& c, const WarpQuestion& question, double length) noexcept {
+}  // namespace
+
+double smooth_stretch(const PlanContext& c, const WarpQuestion& question, double length) noexcept {
   constexpr double kPerStep = 3.0 / kLimit;
   const LightSpace& space = question.in.light;
   const glm::dvec3 move = space.frame.turned(c.camera.position - c.last_eye);
@@ -232,8 +118,6 @@ double most_stretch(const PlanContext& c, const WarpQuestion& question, double l
                                       0.5 * length * std::sqrt(glm::dot(turn, turn)));
   return distance > 0.0 ? 1.0 + length / distance : std::numeric_limits<double>::infinity();
 }
-
-}  // namespace
 
 bool remembered(const MapRequest& request) noexcept {
   return request.last != nullptr && request.last->width == request.slot.width &&
@@ -273,7 +157,7 @@ class SteadyWay {
       : c_(c),
         request_(request),
         question_(question),
-        before_(homography(gl_from_light(c, request.space, request.last->gl_from_world))) {}
+        before_(of_matrix(c, request.space, request.last->gl_from_world)) {}
 
   [[nodiscard]] const Homography& before() const noexcept { return before_; }
   [[nodiscard]] Change changed(const PlaneMap& plane) const noexcept {
@@ -326,79 +210,7 @@ class SteadyWay {
   Homography before_;
 };
 
-// Frames from one search that begins from nothing to the next, of one map; those of several maps are spread.
-constexpr std::int64_t kSearchEvery = 16;
-constexpr std::int64_t kSearchApart = 4;
-// And to the next round the last frame's result: one frame's motion moves the best warp little.
-constexpr std::int64_t kSearchNearEvery = 2;
-
-/// The body fills the map as it did when that was made: what was measured then still holds.
-bool is_filled(const Recalled& r) noexcept {
-  constexpr double kAlike = 0.05;  // of half a side
-  const auto off = [](double low, double high, const glm::dvec2& row, double constant) {
-    const double length = length_of(row);
-    return max_of(std::abs(low * length + constant + 1.0), std::abs(high * length + constant - 1.0));
-  };
-  const PlaneMap& plane = r.plane;
-  return max_of(off(plane.a_min, plane.a_max, r.map.choice.row_a, r.map.const_a),
-                off(plane.b_min, plane.b_max, r.map.choice.row_b, r.map.const_b)) <= kAlike;
-}
-
-/// The body takes so much more or less of the map than when that was drawn that all its texels jump.
-bool is_cut(const Recalled& r) noexcept {
-  const PlaneMap& plane = r.plane;
-  const double a = (plane.a_max - plane.a_min) * length_of(r.map.choice.row_a),
-               b = (plane.b_max - plane.b_min) * length_of(r.map.choice.row_b);
-  return std::abs(elementary::log(0.25 * a * b)) > kCut;
-}
-
 }  // namespace
-
-bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
-                WarpStart& start) noexcept {
-  if (request.last == nullptr) return false;
-  // The limit goes up and down as the camera does.
-  constexpr double kNearLimit = 1.05;
-  // The limit after a step of a seventh of the body's length, or a turn by 17 degrees.
-  constexpr double kLeap = 1.1;
-  const double limit = most_stretch(c, question, question.in.y_max - question.in.y_min);
-  start.most_stretch = limit;
-  const SearchedWarp& last = request.last->searched;
-  const auto over_body = [&](const glm::dmat4& gl_from_world) {
-    return recall(homography(gl_from_light(c, request.space, gl_from_world)), question,
-                  question.in.unwarped.axis);
-  };
-  const Recalled best = c.frame < last.until ? over_body(last.xyw_from_world) : Recalled{};
-  if (best.usable) {
-    start.best = best.plane.choice;
-    start.best.gain_ratio = last.gain_ratio;
-    start.best.last_ratio = last.last_ratio;
-    const bool turn = (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
-    // Searches round the same place would find better ones for ever, and move texels under a still camera.
-    const bool moved = !c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward;
-    const bool holds = last.last_ratio > 0.0 && is_filled(best) && best.plane.stretch <= kNearLimit * limit;
-    start.use = turn && moved ? StartUse::search : turn || !holds ? StartUse::measure : StartUse::keep;
-  }
-  if (start.use != StartUse::keep && remembered(request)) {
-    const Recalled drawn = over_body(request.last->gl_from_world);
-    start.has_map = drawn.usable;
-    start.map = drawn.plane.choice;
-    // After a leap there is no way to be smooth on.
-    if (limit < kLeap && (!drawn.usable || is_cut(drawn)))
-      start.most_stretch = std::numeric_limits<double>::infinity();
-  }
-  return true;
-}
-
-SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request, const PlaneMap& plane) noexcept {
-  const WarpChoice& choice = plane.choice;
-  const std::int64_t sooner =
-      request.last != nullptr ? 0 : kSearchApart * request.slot.cascade % kSearchEvery;
-  return {choice.followed ? request.last->searched.until : c.frame + kSearchEvery - sooner,
-          world_matrix(clip_from_light(plane, {0.0, 1.0}, 0.0) * request.space.light_from_relative(),
-                       c.camera.position),
-          choice.gain_ratio > 0.0 ? choice.gain_ratio : 1.0, choice.last_ratio};
-}
 
 PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
                       const PlaneMap& best, MapResult& result) noexcept {
@@ -426,13 +238,8 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
   }
   WarpChoice goal = best.choice;
   // A warp that was searched from a start on is within the limit.
-  if (in.start == nullptr && best.length > 0.0) {
-    const double strongest = (most_stretch(c, question, best.length) - 1.0) / best.length;
-    if (goal.kappa > strongest) {
-      goal.kappa = strongest;
-      goal.gain_ratio = 0.0;  // is not known
-    }
-  }
+  if (in.start == nullptr && weaken(goal, best, smooth_stretch(c, question, best.length)))
+    goal.gain_ratio = 0.0;  // is not known
   const bool stays = !in.orthographic && is_near_best(in, plane.choice, goal);
   Step step{plane, {}};
   if (stays) {
@@ -453,51 +260,6 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
     change.high -= less;
   }
   return reported(step);
-}
-
-HeldMap held_map(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
-  HeldMap held{};
-  const glm::dmat4 m = gl_from_light(c, request.space, request.last->gl_from_world);
-  const Homography h = homography(m);
-  const Decomposed d = decompose(h, body.points(), {0.0, 1.0});
-  if (!d.valid) return held;
-  const double fill = 1.0 - 2.0 * request.last->filter_margin_texels / request.last->width;
-  PlaneMap& plane = held.plane;
-  plane.choice = d.choice;
-  plane.u_min = d.u_min;
-  plane.length = d.length;
-  plane.stretch = 1.0 + d.choice.kappa * d.length;
-  // What the rows give is -fill .. fill at the rectangle's edges, less their constants.
-  plane.a_min = -fill - d.const_a;
-  plane.a_max = fill - d.const_a;
-  plane.b_min = -fill - d.const_b;
-  plane.b_max = fill - d.const_b;
-  const PlaneMap tight = plane_map(body.points(), d.choice);
-  const bool inside = tight.a_min >= plane.a_min && tight.a_max <= plane.a_max &&
-                      tight.b_min >= plane.b_min && tight.b_max <= plane.b_max;
-  const double used = (tight.a_max - tight.a_min) * (tight.b_max - tight.b_min) /
-                      ((plane.a_max - plane.a_min) * (plane.b_max - plane.b_min));
-  if (!inside || !(used >= kLeastUse)) return held;
-  // Depth over the weight of the near end is w + 2 (bottom - h) / height.
-  const double w_near = plane.w(0.0, 0.0) / h.weight({0.0, 0.0, 0.0, 1.0});
-  const double per_height = m[2][2] * w_near, at_origin = m[3][2] * w_near;
-  if (!(per_height < 0.0)) return held;
-  held.depths.height = -2.0 / per_height;
-  held.depths.bottom = 0.5 * held.depths.height * (at_origin - plane.w(0.0, 0.0));
-  held.holds = true;
-  return held;
-}
-
-void steady_edges(std::span<const double> last, std::span<double> edges) noexcept {
-  const auto count = edges.size();
-  if (last.size() != count) return;
-  const double slower = elementary::exp(-kEdgeStep), faster = elementary::exp(kEdgeStep);
-  const auto near = [&](double to, double from) { return clamp_to(to, from * slower, from * faster); };
-  // What comes into view is covered at once.
-  edges[0] = min_of(edges[0], near(edges[0], last[0]));
-  edges[count - 1] = max_of(edges[count - 1], near(edges[count - 1], last[count - 1]));
-  for (std::size_t i = 1; i + 1 < count; ++i)
-    edges[i] = clamp_to(near(edges[i], last[i]), edges[i - 1], edges[count - 1]);
 }
 
 }  // namespace gnomon

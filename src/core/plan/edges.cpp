@@ -4,12 +4,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/elementary.hpp"
 #include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/vertex_pair.hpp"
 #include "geometry/visible.hpp"
 #include "map/gain.hpp"
-#include "map/history.hpp"
 #include "plan/cascades.hpp"
 #include "plan/split_table.hpp"
 #include "split/optimal.hpp"
@@ -164,6 +164,22 @@ void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double
   const ParallelScene plain{scene.body, scene.depths, scene.space, warps::none};
   best = searched_edges(c, plain, edges);
   take_better();
+}
+
+/// Moves the edges between cascades at most a small step from those of the last frame, `last` (empty: there
+/// is none); the first and the last edge only give way slowly.
+void steady_edges(std::span<const double> last, std::span<double> edges) noexcept {
+  // Largest change from frame to frame, of the logarithm.
+  constexpr double kEdgeStep = 0.01;
+  const auto count = edges.size();
+  if (last.size() != count) return;
+  const double slower = elementary::exp(-kEdgeStep), faster = elementary::exp(kEdgeStep);
+  const auto near = [&](double to, double from) { return clamp_to(to, from * slower, from * faster); };
+  // What comes into view is covered at once.
+  edges[0] = min_of(edges[0], near(edges[0], last[0]));
+  edges[count - 1] = max_of(edges[count - 1], near(edges[count - 1], last[count - 1]));
+  for (std::size_t i = 1; i + 1 < count; ++i)
+    edges[i] = clamp_to(near(edges[i], last[i]), edges[i - 1], edges[count - 1]);
 }
 
 }  // namespace

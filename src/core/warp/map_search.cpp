@@ -333,11 +333,8 @@ bool follow(const WarpInput& input, PlaneError& error, double without, WarpChoic
   Judged best{start.best, error.value(start.best)};
   // Another body than in the last frame, for which another one may be better by far.
   if (!(best.value >= expected * kMostGain && best.value <= expected * kMostLoss)) return false;
-  const PlaneMap plane = plane_map(input.body, best.choice);
-  if (plane.stretch > input.most_stretch) {
-    best.choice.kappa = (input.most_stretch - 1.0) * (1.0 - 1e-9) / plane.length;
+  if (weaken(best.choice, plane_map(input.body, best.choice), input.most_stretch))
     best.value = error.value(best.choice);
-  }
   if (start.use == StartUse::search) {
     if (is_line(input, error.body())) return false;
     best = turned(input, error, best, kFollowingRounds, kFollowingStep);

@@ -175,6 +175,13 @@ bool usable(std::span<const WarpInput::Point> body, const PointBounds& bounds, c
          map.stretch <= most_stretch && map.choice.kappa * bounds.distance <= kMostKappaDistance;
 }
 
+bool weaken(WarpChoice& choice, const PlaneMap& map, double most_stretch) noexcept {
+  if (!(map.stretch > most_stretch)) return false;
+  constexpr double kRounding = 1e-9;
+  choice.kappa = (most_stretch - 1.0) * (1.0 - kRounding) / map.length;
+  return true;
+}
+
 void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane, double pixels_per_slope,
                    TexelsNeeded& needed) noexcept {
   const WarpChoice& choice = plane.choice;

@@ -87,6 +87,9 @@ inline constexpr double kMostKappaDistance = 1e14;
 [[nodiscard]] bool usable(std::span<const WarpInput::Point> body, const PointBounds& bounds,
                           const PlaneMap& map, double most_stretch) noexcept;
 
+/// Weakens a choice, whose map is `map`, to `most_stretch`. False where it is no stronger.
+bool weaken(WarpChoice& choice, const PlaneMap& map, double most_stretch) noexcept;
+
 /// Texels inside the border under which an error over the body is 1: bounds of m_s along the map's width, of
 /// m_t along its height (at the body's vertices, with the simplified weights of Lloyd et al. 2006), and of
 /// the longest extent that any texel has in any direction, in units where the rectangle is one texel.

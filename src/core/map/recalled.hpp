@@ -1,0 +1,67 @@
+// A map of an earlier frame over this frame's body: what is it there, and can it be drawn again?
+#pragma once
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <span>
+
+#include "map/light_body.hpp"
+
+namespace gnomon {
+
+/// A map of the light plane as a matrix over (x, y, 1) of the light frame.
+struct Homography {
+  glm::dvec3 a, b, w;  // rows
+  [[nodiscard]] double weight(const WarpInput::Point& p) const noexcept {
+    return w.x * p.x + w.y * p.y + w.z;
+  }
+  [[nodiscard]] double determinant() const noexcept { return glm::dot(a, glm::cross(b, w)); }
+};
+[[nodiscard]] Homography of_plane(const PlaneMap& plane) noexcept;
+/// Of a matrix to OpenGL clip space from the world.
+[[nodiscard]] Homography of_matrix(const PlanContext& c, const LightSpace& space,
+                                   const glm::dmat4& gl_from_world) noexcept;
+
+/// The homography over the body in the terms of a WarpChoice with centre 0: rows over the image, not yet of
+/// unit length, and the constant that goes with each.
+struct Decomposed {
+  bool valid;
+  WarpChoice choice;
+  double u_min, length;
+  double const_a, const_b;
+};
+/// Of a row over the image.
+[[nodiscard]] inline double length_of(const glm::dvec2& row) noexcept {
+  return std::sqrt(glm::dot(row, row));
+}
+
+/// The body's extent along a unit vector of the light plane.
+struct Span {
+  double low, high;
+};
+[[nodiscard]] Span along(std::span<const WarpInput::Point> body, const glm::dvec2& axis) noexcept;
+
+/// `flat_axis` serves where the map has no fall-off that could tell an axis.
+[[nodiscard]] Decomposed decompose(const Homography& h, std::span<const WarpInput::Point> body,
+                                   const glm::dvec2& flat_axis) noexcept;
+
+/// A map of an earlier frame over this frame's body.
+struct Recalled {
+  bool usable;
+  Decomposed map;  // its rectangle runs from -1 to 1
+  PlaneMap plane;  // round the body, with rows of unit length
+};
+/// `flat_axis`: as for decompose.
+[[nodiscard]] Recalled recall(const Homography& h, const WarpQuestion& question,
+                              const glm::dvec2& flat_axis) noexcept;
+
+/// The last frame's map with this frame's body in it, as it was fitted: the whole rectangle and its depths.
+struct HeldMap {
+  bool holds;
+  PlaneMap plane;
+  LightDepths depths;
+};
+[[nodiscard]] HeldMap held_map(const PlanContext& c, const MapRequest& request,
+                               const LightBody& body) noexcept;
+
+}  // namespace gnomon
