@@ -11,6 +11,7 @@
 
 #include "support/property.hpp"
 #include "support/random_case.hpp"
+#include "support/walk.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/plane_map.hpp"
 
@@ -36,27 +37,6 @@ double density(const ShadowMap& map, const glm::dvec3& light_direction, const gl
   return std::abs(glm::dot(glm::cross(gradient[0], gradient[1]), light_direction)) * map.width * map.height;
 }
 
-/// A walk over a wide floor with blocks on it: every frame has casters and receivers.
-struct Walk {
-  std::vector<Box> boxes;
-  PlanOptions options;
-  glm::dvec3 light, start, velocity;
-  double turn, pitch;  // radians per frame, radians
-  double unit = 1.0;   // what the lengths above are given in, world units
-  [[nodiscard]] SceneBounds bounds() const { return {boxes, boxes}; }
-  [[nodiscard]] Camera camera(int frame) const {
-    const double heading = turn * frame;
-    const glm::dvec3 forward{std::sin(heading) * std::cos(pitch), std::sin(pitch),
-                             -std::cos(heading) * std::cos(pitch)};
-    const glm::dvec3 sideways{std::cos(heading), 0.0, std::sin(heading)};
-    const glm::dvec3 ahead{std::sin(heading), 0.0, -std::cos(heading)};
-    const double t = frame;
-    return perspective_camera(
-        start + ahead * (velocity.z * t) + sideways * (velocity.x * t) + glm::dvec3(0.0, velocity.y * t, 0.0),
-        forward, {0.0, 1.0, 0.0}, 1.0, 1.6, 0.5 * unit, 200.0 * unit, 640, 400);
-  }
-};
-
 /// The same walk in another unit.
 Walk in_units(Walk w, double unit) {
   for (Box& box : w.boxes) box = {box.min * unit, box.max * unit};
@@ -68,18 +48,9 @@ Walk in_units(Walk w, double unit) {
 
 Walk draw_walk() {
   Walk w;
-  w.boxes.push_back({{-600.0, -1.0, -600.0}, {600.0, 0.0, 600.0}});
   Random random(static_cast<std::uint64_t>(1 + pick(1000)));
-  for (int i = 0; i < 40; ++i) {
-    const glm::dvec3 at{random.between(-80.0, 80.0), 0.0, random.between(-80.0, 80.0)};
-    w.boxes.push_back({at, at + glm::dvec3(random.between(0.5, 6.0), random.between(0.5, 15.0), 3.0)});
-  }
-  w.light = {between(-1.0, 1.0), -between(0.2, 1.0), between(-1.0, 1.0)};
-  w.start = {between(-20.0, 20.0), between(1.5, 6.0), between(-20.0, 20.0)};
-  const double speed = 0.08;  // 5 m/s at 60 frames a second
-  w.velocity = {between(-speed, speed), between(-0.2, 0.2) * speed, between(-speed, speed)};
-  w.turn = between(-0.01, 0.01);  // up to 34 degrees a second
-  w.pitch = between(-0.4, 0.1);
+  w.boxes = floor_with_blocks(random);
+  draw_course(w, [](double low, double high) { return between(low, high); });
   w.options.cascades = 1 + pick(4);
   w.options.warp.objective = static_cast<Objective>(pick(3));
   const Warp* const warps[] = {nullptr, &warps::lispsm, &warps::lispsm_closed, &warps::none};
@@ -401,15 +372,10 @@ TEST(MotionLaw, a_leap_ends_at_maps_as_good_as_those_without_history) {
     w.velocity *= kLeap;
     w.start += w.velocity;
     const Camera camera = w.camera(frames);
-    const auto value = [&](const ShadowPlan& plan) {
-      const AliasingStats error = measure(plan, camera, w.bounds());
-      const Objective objective = w.options.warp.objective;
-      return objective == Objective::storage ? error.storage
-             : objective == Objective::max   ? error.max
-                                             : error.p95;
-    };
-    ratio.push_back(value(make_plan(camera, DirectionalLight{w.light}, w.bounds(), w.options, history)) /
-                    value(make_plan(camera, DirectionalLight{w.light}, w.bounds(), w.options)));
+    const ShadowPlan followed_plan =
+        make_plan(camera, DirectionalLight{w.light}, w.bounds(), w.options, history);
+    const ShadowPlan afresh = make_plan(camera, DirectionalLight{w.light}, w.bounds(), w.options);
+    ratio.push_back(w.error_of(followed_plan, camera) / w.error_of(afresh, camera));
   });
   std::sort(ratio.begin(), ratio.end());
   EXPECT_LT(ratio[ratio.size() / 2], kNearly) << "some leaps are no cuts: there the map goes in small steps";
