@@ -8,6 +8,7 @@
 
 #include "geometry/wide.hpp"
 #include "measure/metric_kernel.hpp"
+#include "warp/lanes.hpp"
 
 namespace gnomon {
 namespace {
@@ -105,8 +106,8 @@ inline void store(ExtentLanes& lanes, std::size_t i, const Jacobian2& j) noexcep
   lanes.s[i] = e.s;
   lanes.t[i] = e.t;
   lanes.area[i] = std::sqrt(e.longest * e.shortest);
-  constexpr double kInfinite = std::numeric_limits<double>::infinity(), kLargest = 1e150;
-  const double ratio = min_of(e.longest, kLargest) / min_of(max_of(e.shortest, 1.0 / kLargest), kLargest);
+  constexpr double kInfinite = std::numeric_limits<double>::infinity(), kLargest = 1e100;
+  const double ratio = min_of(e.longest, kLargest) / divisor(min_of(e.shortest, kLargest), 1.0 / kLargest);
   lanes.anisotropy[i] = e.longest < kInfinite ? ratio : e.shortest < kInfinite ? kInfinite : 1.0;
 }
 

@@ -129,7 +129,8 @@ GNOMON_WIDE void find_rays(const ImageRange& image, const EvenRays& even, const 
     const double least = rays.least[i], beyond = rays.most[i];
     const bool inside = least > 0.0 && least < beyond;
     constexpr double kNothing = 1e-150;
-    const double far = max_of(beyond, kNothing), ratio = far / max_of(least, kNothing);
+    // Of rays that miss, of which `beyond` may be below zero, nothing is read.
+    const double far = divisor(std::abs(beyond), kNothing), ratio = far / divisor(least, kNothing);
     rays.begin[i] = 1.0 / far;
     rays.length[i] = lane::log(inside ? ratio : 1.0);
   }
@@ -189,13 +190,13 @@ inline Vector minus(const Vector& a, const Vector& b, double times) noexcept {
   return {a.x - b.x * times, a.y - b.y * times, a.z - b.z * times};
 }
 
-constexpr double kSmallest = std::numeric_limits<double>::min();
+constexpr double kSmallest = 1e-280;
 // Square of a sum of two rays below which it is their rounding: its direction says nothing.
 constexpr double kOpposed = 1e-24;
 
 /// The eye's ray to `p`, of unit length.
 inline Vector eye_ray(const PixelTerms& t, const Vector& p) noexcept {
-  const double per_length = t.per_point / std::sqrt(max_of(dot(p, p), kSmallest));
+  const double per_length = t.per_point / std::sqrt(divisor(dot(p, p), kSmallest));
   return {p.x * per_length + t.forward.x * t.fixed, p.y * per_length + t.forward.y * t.fixed,
           p.z * per_length + t.forward.z * t.fixed};
 }
@@ -208,7 +209,7 @@ inline Vector mirrored(const Vector& step, const Vector& eye, const Vector& sum,
 /// Twice the inverse of the squared length of a sum of rays; 0 where they oppose each other: less than twice
 /// would flatten the pixel.
 inline double mirror_factor(double sum_squared) noexcept {
-  const double twice = 2.0 / max_of(sum_squared, kOpposed);
+  const double twice = 2.0 / divisor(sum_squared, kOpposed);
   return sum_squared > kOpposed ? twice : 0.0;
 }
 inline double extent(const PixelTerms& t, const Vector& p, double size) noexcept {
@@ -248,9 +249,9 @@ GNOMON_WIDE void find_local(const PixelTerms& terms, PixelLanes& l) noexcept {
     const Vector p{l.x[i], l.y[i], l.z[i]};
     const Vector from{p.x - t.apex.x, p.y - t.apex.y, p.z - t.apex.z};
     const double largest = max_of(max_of(std::abs(from.x), std::abs(from.y)), std::abs(from.z));
-    const double inverse = 1.0 / max_of(largest, kSmallest);
+    const double inverse = 1.0 / divisor(largest, kSmallest);
     const Vector scaled{from.x * inverse, from.y * inverse, from.z * inverse};
-    const double per_length = 1.0 / std::sqrt(max_of(dot(scaled, scaled), kSmallest));
+    const double per_length = 1.0 / std::sqrt(divisor(dot(scaled, scaled), kSmallest));
     const Vector eye = eye_ray(t, p);
     const Vector sum{eye.x + scaled.x * per_length, eye.y + scaled.y * per_length,
                      eye.z + scaled.z * per_length};

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace gnomon {
 
@@ -10,6 +11,14 @@ namespace gnomon {
 inline constexpr std::size_t kWarpLanes = 8;
 [[nodiscard]] constexpr std::size_t whole_lanes(std::size_t count) noexcept {
   return (count + kWarpLanes - 1) / kWarpLanes * kWarpLanes;
+}
+
+/// What to divide by in place of an x that is not negative and may be 0: max_of(x, least), bit by bit. Compilers may
+/// divide by x before they choose (geometry/wide.hpp), and x plus next to nothing is not 0 either.
+template <typename Number>
+[[nodiscard]] inline Number divisor(Number x, Number least) noexcept {
+  constexpr Number kLostInRounding = std::numeric_limits<Number>::epsilon() / 8;
+  return (x > least ? x : least) + least * kLostInRounding;
 }
 
 /// 1 / x, and 0 at 0: without a choice, as compilers divide first and choose then, and without a trap.

@@ -321,7 +321,7 @@ GNOMON_WIDE void PlaneError::fit(const ChoiceLanes& choices, const ExtentLanes& 
     const double a = of.a_max[l] - of.a_min[l], b = of.b_max[l] - of.b_min[l], extent = max_of(a, b);
     // As least_extent and usable have it.
     const double least = max_of(1e-6 * max_of(extent, height), least_of_all);
-    const double side_a = max_of(a, least), side_b = max_of(b, least);
+    const double side_a = divisor(a, least), side_b = divisor(b, least);
     const double turn = c.a_x[l] * c.b_y[l] - c.a_y[l] * c.b_x[l];
     const double length = of.u_max[l] - of.u_min[l];
     const double shortest = max_of(1e-6 * max_of(side_a, side_b), 1e-9 * farthest);

@@ -184,7 +184,7 @@ GNOMON_WIDE void RowSearch::find_axes(const RowLanes& candidates, Maps& maps) co
     const float length = std::sqrt(c.x[l] * c.x[l] + c.y[l] * c.y[l]);
     m.reach[l] = min_of(reach_of(length), most_reach);
     const float slope_x = c.x[l] * extent_y, slope_y = (length > 0.0F ? c.y[l] : 1.0F) * extent_x;
-    const float inverse = 1.0F / std::sqrt(max_of(slope_x * slope_x + slope_y * slope_y, kNothing));
+    const float inverse = 1.0F / std::sqrt(divisor(slope_x * slope_x + slope_y * slope_y, kNothing));
     const float axis_x = slope_x * inverse, axis_y = slope_y * inverse;
     m.u_x[l] = axis_x * extent_x;
     m.u_y[l] = axis_y * extent_y;
@@ -205,7 +205,7 @@ GNOMON_WIDE void RowSearch::find_axes(const RowLanes& candidates, Maps& maps) co
     }
   }
   for (std::size_t l = 0; l < lanes; ++l) {
-    const float kappa = m.reach[l] / max_of(m.u_max[l] - m.u_min[l], kNothing);
+    const float kappa = m.reach[l] / divisor(m.u_max[l] - m.u_min[l], kNothing);
     m.w_x[l] = kappa * m.u_x[l];
     m.w_y[l] = kappa * m.u_y[l];
     m.w_1[l] = 1.0F - kappa * m.u_min[l];
@@ -272,9 +272,9 @@ GNOMON_WIDE void RowSearch::find_directions(const RowLanes& candidates, float st
     constexpr float kNarrowest = 1e-6F;
     const float width = max_of(m.x_high[l] - m.x_low[l], kNarrowest * max_of(m.x_high[l], -m.x_low[l]));
     const float height = max_of(m.y_high[l] - m.y_low[l], kNarrowest * m.y_high[l]);
-    const float scale_x = 1.0F / max_of(width, kNothing), scale_y = 1.0F / max_of(height, kNothing);
+    const float scale_x = 1.0F / divisor(width, kNothing), scale_y = 1.0F / divisor(height, kNothing);
     const float area = std::abs(m.first_x[l] * m.second_y[l] - m.second_x[l] * m.first_y[l]) / m.w_1[l];
-    const float per_area = 1.0F / max_of(area, kNothing);
+    const float per_area = 1.0F / divisor(area, kNothing);
     const float per_x = min_of(height * per_area, kWidest), per_y = min_of(width * per_area, kWidest);
     m.turn_x[l] *= per_x;
     m.first_x[l] *= per_x;
@@ -448,7 +448,7 @@ GNOMON_WIDE void RowSearch::pick_rows(double step, const Maps& maps, RowLanes& c
 #define GNOMON_FACTOR(k)                                                   \
   const float sine##k = across * turn[k].cosine + straight * turn[k].sine; \
   const float square##k = sine##k * sine##k;                               \
-  const float per##k = 1.0F / max_of(square##k, kLeastSine2);              \
+  const float per##k = 1.0F / divisor(square##k, kLeastSine2);             \
   const float factor##k = square##k > kLeastSine2 ? per##k * per##k : kWidest
     GNOMON_FACTOR(0);
     GNOMON_FACTOR(1);
