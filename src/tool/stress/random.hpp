@@ -10,7 +10,7 @@ namespace gnomon::tool {
 struct RandomStressRequest {
   std::uint64_t random = 0;  ///< random cases
   std::uint64_t seed = 1;
-  std::string out;                  ///< folder for cases that fail; empty: stress_random
+  std::string out;  ///< folder for cases that fail; empty: gnomon_stress_seed_N in the folder for temporary files
   std::vector<std::string> replay;  ///< case files that are checked as random cases are, in their place
 };
 
