@@ -42,6 +42,16 @@ double current_load() noexcept {
   return ::getloadavg(&load, 1) == 1 ? load : 0.0;
 }
 
+std::vector<std::string> vector_units() {
+  std::vector<std::string> units;
+#if defined(__GNUC__) && defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f")) units.emplace_back("avx512f");
+  if (__builtin_cpu_supports("avx2")) units.emplace_back("avx2");
+  units.emplace_back("sse2");
+#endif
+  return units;
+}
+
 const char* build_version() noexcept {
   return GNOMON_BUILD_VERSION;
 }

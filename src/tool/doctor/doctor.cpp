@@ -97,6 +97,7 @@ int run_doctor(bool json) {
   const report::Machine here = machine({});
   report["version"] = here.version;
   report["cpu"] = here.cpu;
+  report["vector_units"] = vector_units();
   report["cores"] = here.cores;
   report["load"] = current_load();
   report["contexts"] = Json::array();
@@ -112,6 +113,9 @@ int run_doctor(bool json) {
   } else {
     print_line("gnomon " + here.version + " on " + here.cpu + ", " + std::to_string(here.cores) +
                " cores, load " + report["load"].dump());
+    std::string units;
+    for (const std::string& unit : vector_units()) units += (units.empty() ? "" : ", ") + unit;
+    print_line("vector units that plans can use: " + (units.empty() ? "none" : units + "; they use the first"));
     for (const Json& context : report["contexts"]) print_context(context);
     for (const Json& package : report["packages"])
       print_line("package " + package["package"].get<std::string>() + ": " +
