@@ -24,15 +24,24 @@ macro(gnomon_unoptimized_under_sanitizers)
   endif()
 endmacro()
 
-# In a folder whose sources are mostly headers of others (JSON, command lines, formatted text): under the sanitizers eight
-# sources are compiled as one, which reads these headers once. So within a target no two sources give a helper of their
-# own the same name. The other presets compile each source alone: one change compiles one source.
-macro(gnomon_joined_under_sanitizers)
-  if(GNOMON_SANITIZE)
+# In a folder whose sources are mostly headers of others (JSON, command lines, formatted text): with GNOMON_QUICK_BUILD,
+# eight sources are compiled as one, which reads these headers once. So within a target no two sources give a helper of
+# their own the same name. `./dev check alone` compiles each source by itself.
+macro(gnomon_join_sources)
+  if(GNOMON_QUICK_BUILD)
     set(CMAKE_UNITY_BUILD ON)
     set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
   endif()
 endmacro()
+
+# gnomon_precompile(TARGET HEADER...): headers of other libraries that most sources of a target read, with GNOMON_QUICK_BUILD
+# parsed once for all of them. None of this project: one that changes must not compile everything.
+function(gnomon_precompile target)
+  if(GNOMON_QUICK_BUILD)
+    list(TRANSFORM ARGN REPLACE "(.+)" "<\\1>")
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
 
 # gnomon_library(NAME SOURCES... [HEADERS header...] [VISIBLE header...]): the static library gnomon_NAME with its alias
 # gnomon::NAME. Its public headers are those of include/gnomon/NAME (for the core, of include/gnomon itself).

@@ -1,10 +1,15 @@
-# How a test program is built and run: one ctest entry per program (a process per case would pay for start-up).
+# How a test program is built and run: one ctest entry per program (a process per case would pay for start-up), or two.
 #
-# gnomon_test(NAME SOURCES file... [LIBS target...] [TIMEOUT seconds] [LABELS label...] [SHARDS count] [OWN_OPTIONS])
-#   LIBS come on top of GoogleTest with its main, RapidCheck and its GoogleTest bridge. TIMEOUT is 300 s unless
-#   said otherwise. SHARDS: so many ctest entries share the program's cases, for those that would run on alone at the
-#   end. OWN_OPTIONS: compiled without the precompiled headers, whose compiler options the test does not share.
+# gnomon_test(NAME SOURCES file... [LIBS target...] [SLOW pattern] [FEWER_DRAWS] [SMOKE] [OWN_OPTIONS] [TIMEOUT seconds])
+#   LIBS come on top of GoogleTest with its main, RapidCheck and its GoogleTest bridge.
+#   SLOW: cases whose names match this pattern of GoogleTest run in an entry NAME_slow of their own. With "*" all do.
+#   FEWER_DRAWS: NAME draws a quarter of each law's inputs, NAME_slow all of them.
+#   SMOKE: `./dev check sanitizers` runs it, too. OWN_OPTIONS: compiled without the precompiled headers, whose compiler
+#   options the test does not share. TIMEOUT: ten times what the slowest program takes, where not said otherwise.
 #   The program sees GNOMON_SOURCE_DIR and GNOMON_TEST_DATA as string literals.
+#
+# Labels: the folder's (unit, laws, render, program, package or text, see gnomon_test_label) and `slow`. `./dev test` runs
+# what is not slow; `./dev check` the rest.
 #
 # GNOMON_TEST_ENVIRONMENT: what every test runs under; for tests that are added by plain add_test as well.
 #   LP_NUM_THREADS=1 because ctest already runs one test per core, and llvmpipe would take all cores for each.
@@ -33,44 +38,72 @@ endfunction()
 # libraries have them all.
 function(gnomon_test_options name)
   gnomon_target(${name})
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O0>)
   if(GNOMON_SANITIZE MATCHES "undefined")
     target_compile_options(${name} PRIVATE -O0 -fno-sanitize=null,alignment,object-size,vptr)
   endif()
 endfunction()
 
-function(gnomon_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "OWN_OPTIONS" "TIMEOUT;SHARDS" "SOURCES;LIBS;LABELS")
-  if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 300)
+# gnomon_test_label(LABEL): of all tests that this folder adds from here on.
+macro(gnomon_test_label label)
+  set(gnomon_label ${label})
+  if(NOT TARGET tests_${label})
+    add_custom_target(tests_${label})
   endif()
+endmacro()
+add_custom_target(tests_smoke)
+
+# gnomon_set_test(TEST [SLOW] [SMOKE] [PROPERTY value...]): label, environment and time limit of an entry, and more.
+function(gnomon_set_test test)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SLOW;SMOKE" "TIMEOUT" "ENVIRONMENT")
+  set(labels ${gnomon_label})
+  if(arg_SLOW)
+    list(APPEND labels slow)
+  endif()
+  if(arg_SMOKE)
+    list(APPEND labels smoke)
+  endif()
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 600)
+  endif()
+  set_tests_properties(${test} PROPERTIES LABELS "${labels}" TIMEOUT ${arg_TIMEOUT}
+    ENVIRONMENT "${GNOMON_TEST_ENVIRONMENT};${arg_ENVIRONMENT}" ${arg_UNPARSED_ARGUMENTS})
+endfunction()
+
+function(gnomon_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "OWN_OPTIONS;FEWER_DRAWS;SMOKE" "TIMEOUT;SLOW" "SOURCES;LIBS")
   add_executable(${name} ${arg_SOURCES} ${arg_UNPARSED_ARGUMENTS})
   gnomon_test_options(${name})
-  if(NOT arg_OWN_OPTIONS)
+  if(NOT arg_OWN_OPTIONS AND GNOMON_QUICK_BUILD)
     target_precompile_headers(${name} REUSE_FROM gnomon_test_headers)
   endif()
   target_link_libraries(${name} PRIVATE ${arg_LIBS} GTest::gmock GTest::gtest_main rapidcheck rapidcheck_gtest)
   target_compile_definitions(${name} PRIVATE
     GNOMON_SOURCE_DIR="${PROJECT_SOURCE_DIR}" GNOMON_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin/tests)
-  set(entries ${name})
-  if(arg_SHARDS)
-    set(entries)
-    foreach(shard RANGE 1 ${arg_SHARDS})
-      list(APPEND entries ${name}_${shard}_of_${arg_SHARDS})
-    endforeach()
+  add_dependencies(tests_${gnomon_label} ${name})
+  set(smoke)
+  if(arg_SMOKE)
+    set(smoke SMOKE)
+    add_dependencies(tests_smoke ${name})
   endif()
-  set(shard 0)
-  foreach(entry ${entries})
-    set(environment ${GNOMON_TEST_ENVIRONMENT})
-    if(arg_SHARDS)
-      list(APPEND environment GTEST_TOTAL_SHARDS=${arg_SHARDS} GTEST_SHARD_INDEX=${shard})
+  if(NOT arg_SLOW STREQUAL "*")
+    set(environment)
+    if(arg_SLOW)
+      list(APPEND environment GTEST_FILTER=-${arg_SLOW})
     endif()
-    add_test(NAME ${entry} COMMAND ${name})
-    set_tests_properties(${entry} PROPERTIES TIMEOUT ${arg_TIMEOUT} ENVIRONMENT "${environment}")
-    if(arg_LABELS)
-      set_tests_properties(${entry} PROPERTIES LABELS "${arg_LABELS}")
+    if(arg_FEWER_DRAWS)
+      list(APPEND environment GNOMON_DRAWS=4)
     endif()
-    math(EXPR shard "${shard} + 1")
-  endforeach()
+    add_test(NAME ${name} COMMAND ${name})
+    gnomon_set_test(${name} ${smoke} TIMEOUT ${arg_TIMEOUT} ENVIRONMENT ${environment})
+  endif()
+  if(arg_SLOW OR arg_FEWER_DRAWS)
+    set(environment)
+    if(arg_SLOW AND NOT arg_FEWER_DRAWS)
+      list(APPEND environment GTEST_FILTER=${arg_SLOW})
+    endif()
+    add_test(NAME ${name}_slow COMMAND ${name})
+    gnomon_set_test(${name}_slow SLOW TIMEOUT ${arg_TIMEOUT} ENVIRONMENT ${environment})
+  endif()
 endfunction()

@@ -1,32 +1,58 @@
 #!/usr/bin/env bash
-# Are plans the same bits with every compiler, optimization and instruction set? Builds the core and plan_hash with
-# each of g++ and clang++ that is there, at -O0 and at -O3, g++ for this very processor, and compares their hashes.
-#   plan_hash_compare.sh SOURCE_DIR WORK_DIR [PLANS]
+# Are plans the same bits with every compiler, optimization and vector unit? Compares the hashes of plan_hash of the
+# release build (g++ -O3), of each clone of its wide loops, of g++ at -O0 and for this very processor, and of clang++ at
+# -O0 and -O3, which it builds.
+#   plan_hash_compare.sh SOURCE_DIR WORK_DIR RELEASE_BUILD [PLANS]
 set -euo pipefail
-source_dir=$1 work=$2 plans=${3:-2000}
+source_dir=$1 work=$2 release=$3 plans=${4:-2000}
 launcher=$(command -v ccache || true)
-builds=()
-for compiler in g++ clang++; do
-  command -v "$compiler" >/dev/null || { echo "no $compiler here: left out"; continue; }
-  best=-O3
-  [[ $compiler == g++ ]] && best="-O3 -march=native"
-  for level in -O0 "$best"; do
-    out="$work/$compiler${level// /}"
-    mkdir -p "$out"
-    rm -f "$out"/*.o  # of sources that are no more
-    mapfile -t files < <(find "$source_dir/src/core" -name '*.cpp')
-    files+=("$source_dir"/tests/core/plan_hash.cpp "$source_dir"/tests/core/support/seeded_input.cpp)
-    printf '%s\n' "${files[@]}" | CCACHE_BASEDIR="$source_dir" xargs -P 2 -I FILE sh -c '
-      $1 $2 -std=c++20 $3 -ffp-contract=off -fno-exceptions -fno-math-errno -fno-trapping-math -w \
-        -I"$4/include" -I"$4/src/core" -I"$4/tests/core" -c "$6" -o "$5/$(echo "$6" | tr / _).o"' \
-      sh "$launcher" "$compiler" "$level" "$source_dir" "$out" FILE
-    "$compiler" "$out"/*.o -o "$out/plan_hash"
-    builds+=("$out")
-  done
+mkdir -p "$work"
+rm -f "$work"/*.hash "$work"/*.out
+build() {  # NAME COMPILER FLAG...
+  local name=$1 compiler=$2
+  shift 2
+  local out="$work/$name"
+  mkdir -p "$out"
+  rm -f "$out"/*.o  # of sources that are no more
+  {
+    find "$source_dir/src/core" -name '*.cpp'
+    printf '%s\n' "$source_dir"/tests/core/plan_hash.cpp "$source_dir"/tests/core/support/seeded_input.cpp
+  } | CCACHE_BASEDIR="$source_dir" xargs -P "$(nproc)" -I FILE sh -c '
+    out=$1 source_dir=$2 file=$3
+    shift 3
+    "$@" -std=c++20 -ffp-contract=off -fno-exceptions -fno-math-errno -w \
+      -I"$source_dir/include" -I"$source_dir/src/core" -I"$source_dir/tests/core" -c "$file" -o "$out/$(echo "$file" | tr / _).o"' \
+    sh "$out" "$source_dir" FILE ${launcher:+"$launcher"} "$compiler" "$@"
+  "$compiler" "$out"/*.o -o "$out/plan_hash"
+  run "$name" "$out/plan_hash"
+}
+run() {  # NAME COMMAND...
+  local name=$1 code=0
+  shift
+  "$@" "$plans" >"$work/$name.out" 2>&1 || code=$?
+  if ((code == 77)); then
+    echo "$name: $(tail -n 1 "$work/$name.out")"
+    return 0
+  fi
+  ((code == 0)) || { cat "$work/$name.out"; echo "$name: exit $code"; exit 1; }
+  tail -n 1 "$work/$name.out" >"$work/$name.hash"
+  echo "$name: $(<"$work/$name.hash")"
+}
+run release "$release/bin/tests/plan_hash"
+for clone in sse2 avx2 avx512f; do
+  [[ ! -x $release/bin/tests/plan_hash_$clone ]] ||
+    run "clone $clone" "$(dirname "$0")/run_clone.sh" "$clone" "$release/bin/tests/plan_hash_$clone"
 done
-((${#builds[@]} > 1)) || { echo "nothing to compare"; exit 1; }
-printf '%s\n' "${builds[@]}" | xargs -P 2 -I BUILD sh -c '"$1/plan_hash" "$2" >"$1/hash"' sh BUILD "$plans"
-for build in "${builds[@]}"; do echo "$(basename "$build"): $(<"$build/hash")"; done
-for build in "${builds[@]}"; do
-  cmp -s "$build/hash" "${builds[0]}/hash" || { echo "plans differ: run plan_hash N --each of both builds"; exit 1; }
-done
+if command -v g++ >/dev/null; then
+  build "g++ -O0" g++ -O0 -fno-trapping-math
+  build "g++ -O3 -march=native" g++ -O3 -march=native -fno-trapping-math
+fi
+clang=$(command -v clang++ || command -v clang++-14 || true)
+if [[ -n $clang ]]; then
+  build "clang++ -O0" "$clang" -O0
+  build "clang++ -O3" "$clang" -O3
+else
+  echo "no clang++ here: not compared"
+fi
+hashes=$(cat "$work"/*.hash | sort -u | wc -l)
+((hashes == 1)) || { echo "plans differ: run plan_hash N --each of two builds"; exit 1; }

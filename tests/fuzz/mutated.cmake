@@ -2,6 +2,7 @@
 # same, in each run of the tests. With --count 5000 and other seeds by hand, see SECURITY.md.
 find_package(nlohmann_json REQUIRED)
 set(fuzz ${CMAKE_CURRENT_LIST_DIR})
+gnomon_test_label(unit)
 
 # What all of them share.
 add_library(gnomon_mutate OBJECT ${fuzz}/mutated_main.cpp ${fuzz}/mutate.cpp)
@@ -24,7 +25,8 @@ endfunction()
 # gnomon_mutated_test(TEST NAME argument...): one run of mutated_NAME.
 function(gnomon_mutated_test test name)
   add_test(NAME ${test} COMMAND mutated_${name} --keep ${CMAKE_CURRENT_BINARY_DIR}/mutated ${ARGN})
-  set_tests_properties(${test} PROPERTIES TIMEOUT 300 ENVIRONMENT "${GNOMON_TEST_ENVIRONMENT}")
+  gnomon_set_test(${test})
+  add_dependencies(tests_${gnomon_label} mutated_${name})
 endfunction()
 
 foreach(kind camera_path cost_model gltf image rows stability)
@@ -47,7 +49,9 @@ if(TARGET gnomon_report)
   gnomon_mutated(stability SEEDS ${seeds_stability} LIBS gnomon::report)
   gnomon_mutated(cost_model SEEDS ${seeds_cost_model} LIBS gnomon::report)
 endif()
+gnomon_test_label(program)
 if(TARGET gnomon_program AND TARGET mutated_case)
+  add_dependencies(tests_program gnomon_program)
   gnomon_mutated_test(mutated_case_program case --count 15 ${seeds_case} -- $<TARGET_FILE:gnomon_program> plan {})
   if(TARGET mutated_rows)
     gnomon_mutated_test(mutated_rows_program rows --count 6 --name results.jsonl ${seeds_rows}
@@ -55,6 +59,7 @@ if(TARGET gnomon_program AND TARGET mutated_case)
   endif()
 endif()
 if(TARGET flythrough)
+  add_dependencies(tests_program flythrough)
   set(fly --frames 1 --size 32x18 --map-size 64 --context osmesa --out {out})
   gnomon_mutated_test(mutated_gltf_program gltf --count 7 ${seeds_gltf} -- $<TARGET_FILE:flythrough> {} ${fly})
   gnomon_mutated_test(mutated_camera_path_program camera_path --count 4 ${seeds_camera_path}

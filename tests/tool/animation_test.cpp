@@ -19,7 +19,7 @@ namespace gnomon::tool::view {
 namespace {
 
 using test::Finished;
-using test::run_gnomon;
+using test::spawn_gnomon;
 
 constexpr int kWidth = 160, kHeight = 90;
 
@@ -105,7 +105,7 @@ TEST(Playing, commands_speak_it) {
 
 TEST(Playing, the_accumulate_command_plays_up_to_the_frame_that_it_measures) {
   const SceneFile scene;
-  const Finished finished = run_gnomon({"accumulate", scene.file, "--animation", "all", "--size", "160x90",
+  const Finished finished = spawn_gnomon({"accumulate", scene.file, "--animation", "all", "--size", "160x90",
                                         "--map-size", "64", "--frames", "8", "--moving", "8", "--json"});
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   std::vector<nlohmann::json> rows;
@@ -119,7 +119,7 @@ TEST(Playing, the_accumulate_command_plays_up_to_the_frame_that_it_measures) {
   EXPECT_GE(rows[4].at("ghosting"), 0.0);
   EXPECT_LT(rows[4].at("to_first"), 1.0) << finished.out;
   EXPECT_GT(rows[4].at("misclassified"), rows[0].at("misclassified")) << "moving casters do not converge";
-  const Finished unknown = run_gnomon({"accumulate", scene.file, "--animation", "run", "--size", "160x90"});
+  const Finished unknown = spawn_gnomon({"accumulate", scene.file, "--animation", "run", "--size", "160x90"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_EQ(std::count(unknown.err.begin(), unknown.err.end(), '\n'), 1) << unknown.err;
 }
@@ -130,7 +130,7 @@ TEST(Playing, the_view_command_draws_a_pose) {
     std::vector<std::string> words{"view",   scene.file, "--out",      (scene.folder.path() / name).string(),
                                    "--size", "160x90",   "--map-size", "256"};
     words.insert(words.end(), more.begin(), more.end());
-    const Finished run = run_gnomon(words);
+    const Finished run = spawn_gnomon(words);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return test::content_of(scene.folder.path() / name);
   };
@@ -138,10 +138,10 @@ TEST(Playing, the_view_command_draws_a_pose) {
                     one = draw("one.png", {"--animation", "all", "--animation-time", "1"});
   EXPECT_NE(rest, one);
   EXPECT_EQ(draw("again.png", {"--animation-time", "5"}), one) << "the first animation, round once";
-  const Finished unknown = run_gnomon({"view", scene.file, "--out", "x.png", "--animation", "run"});
+  const Finished unknown = spawn_gnomon({"view", scene.file, "--out", "x.png", "--animation", "run"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.err.find("it has all"), std::string::npos);
-  const Finished none = run_gnomon({"view", scene.still, "--out", "x.png", "--animate", "1"});
+  const Finished none = spawn_gnomon({"view", scene.still, "--out", "x.png", "--animate", "1"});
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_NE(none.err.find("has no animations"), std::string::npos);
 }
@@ -153,7 +153,7 @@ TEST(Playing, the_fly_command_plays_while_it_flies) {
     std::vector<std::string> words{"fly", scene.file, "--out", folder.string(), "--frames",
                                    "2",   "--size",   "96x54", "--map-size",    "256"};
     words.insert(words.end(), more.begin(), more.end());
-    const Finished run = run_gnomon(words);
+    const Finished run = spawn_gnomon(words);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return std::pair(test::content_of(folder / "frame_0000_image.png"),
                      test::content_of(folder / "frame_0001_image.png"));
@@ -163,13 +163,13 @@ TEST(Playing, the_fly_command_plays_while_it_flies) {
   EXPECT_NE(plays.second, rest.second);
   const auto later = fly("later", {"--animation", "all", "--animation-start", "1"});
   EXPECT_NE(later.first, rest.first);
-  const Finished unknown = run_gnomon({"fly", scene.file, "--animation", "run"});
+  const Finished unknown = spawn_gnomon({"fly", scene.file, "--animation", "run"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.err.find("it has all"), std::string::npos);
-  const Finished budget = run_gnomon({"fly", scene.file, "--animation", "0", "--target-error", "1"});
+  const Finished budget = spawn_gnomon({"fly", scene.file, "--animation", "0", "--target-error", "1"});
   EXPECT_EQ(budget.exit_code, 2);
   EXPECT_NE(budget.err.find("at rest"), std::string::npos);
-  EXPECT_EQ(run_gnomon({"fly", scene.file, "--animation-fps", "2"}).exit_code, 2);
+  EXPECT_EQ(spawn_gnomon({"fly", scene.file, "--animation-fps", "2"}).exit_code, 2);
 }
 
 TEST(Playing, the_compare_command_measures_each_frame_in_its_pose) {
@@ -182,7 +182,7 @@ TEST(Playing, the_compare_command_measures_each_frame_in_its_pose) {
         "--rounds", "1",         "--fits",  "stable", "--pages",      "clipmap",     "--page-sizes",
         "64",       "--context", "osmesa",  "--out",  folder.string()};
     words.insert(words.end(), more.begin(), more.end());
-    const Finished run = run_gnomon(words);
+    const Finished run = spawn_gnomon(words);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return report::read_rows(folder);
   };
@@ -210,12 +210,12 @@ TEST(Playing, the_compare_command_measures_each_frame_in_its_pose) {
   // What it is resumed with finds its rows again.
   const std::vector<report::Row> again = compare("plays", {"--animation", "all", "--resume"});
   EXPECT_EQ(again.size(), plays.size());
-  const Finished unknown = run_gnomon(
+  const Finished unknown = spawn_gnomon(
       {"compare", scene.file, "--animation", "run", "--out", (scene.folder.path() / "none").string()});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.err.find("it has all"), std::string::npos) << unknown.err;
   EXPECT_FALSE(std::filesystem::exists(scene.folder.path() / "none"));
-  const Finished none = run_gnomon({"compare", "builtin:fence", scene.file, "--animation", "all"});
+  const Finished none = spawn_gnomon({"compare", "builtin:fence", scene.file, "--animation", "all"});
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_NE(none.err.find("builtin:fence: "), std::string::npos) << none.err;
 }

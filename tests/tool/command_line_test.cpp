@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cases.hpp"
+#include "plan/cases.hpp"
 #include "process.hpp"
 
 namespace gnomon::test {
@@ -32,7 +32,7 @@ TEST(CommandLine, help_lists_the_subcommands) {
 }
 
 TEST(CommandLine, version_is_one_line) {
-  const Finished finished = run_gnomon({"--version"});
+  const Finished finished = spawn_gnomon({"--version"});
   EXPECT_EQ(finished.exit_code, 0);
   EXPECT_EQ(finished.out.find("gnomon "), 0u);
   EXPECT_EQ(finished.lines().size(), 1u);
@@ -42,7 +42,7 @@ TEST(CommandLine, refuses_what_it_does_not_know) {
   const std::string file = case_files().front().string();
   expect_usage_error({});
   expect_usage_error({"plant"});
-  EXPECT_NE(run_gnomon({"plant", "--help"}).err.find("no command 'plant'"), std::string::npos);
+  EXPECT_NE(spawn_gnomon({"plant", "--help"}).err.find("no command 'plant'"), std::string::npos);
   expect_usage_error({"plan"});
   expect_usage_error({"plan", file, "--prety"});
   expect_usage_error({"plan", file, "--repeat"});
@@ -78,7 +78,7 @@ TEST(CommandLine, output_that_cannot_be_written_is_an_error) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"plan", case_files().front().string()}, std::vector<std::string>{"--help"},
         std::vector<std::string>{"stress", "--axis", "gap", "--samples", "2"}}) {
-    const Finished finished = run_gnomon(arguments, "", "/dev/full");
+    const Finished finished = spawn_gnomon(arguments, "", "/dev/full");
     EXPECT_EQ(finished.exit_code, 2);
     EXPECT_NE(finished.err.find("standard output"), std::string::npos) << finished.err;
   }

@@ -2,18 +2,19 @@
 #include "process.hpp"
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
-
-extern char** environ;
 
 namespace gnomon::test {
 
@@ -61,37 +62,30 @@ int status_of(pid_t process, std::string& hung) {
 
 }  // namespace
 
-std::vector<std::string> Finished::lines() const {
-  std::vector<std::string> lines;
-  std::istringstream stream(out);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-Finished run_gnomon(const std::vector<std::string>& arguments, const std::string& input,
-                    const std::filesystem::path& out_file) {
+Finished run_process(const std::vector<std::string>& arguments, const std::string& input,
+                     const std::filesystem::path& out_file, int (*run)(std::vector<char*>& argv)) {
   const TemporaryFolder folder;
   const std::string in = folder.write("in", input);
   const std::string out = out_file.empty() ? folder.write("out", "") : out_file.string();
   const std::string err = folder.write("err", "");
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, in.c_str(), O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY, 0);
-
   std::vector<std::string> words{GNOMON_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
 
-  pid_t process = 0;
-  const int failed = posix_spawn(&process, GNOMON_PROGRAM, &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) throw std::runtime_error("cannot start " GNOMON_PROGRAM);
-
+  std::fflush(nullptr);
+  const pid_t process = fork();
+  if (process < 0) throw std::runtime_error("cannot start " GNOMON_PROGRAM);
+  if (process == 0) {
+    const bool ready = dup2(open(in.c_str(), O_RDONLY), 0) == 0 && dup2(open(out.c_str(), O_WRONLY), 1) == 1 &&
+                       dup2(open(err.c_str(), O_WRONLY), 2) == 2;
+    const int code = ready ? run(argv) : 127;
+    std::cout.flush();
+    std::fflush(nullptr);
+    // Not exit: libraries end threads there that a forked process does not have.
+    _exit(code);
+  }
   Finished finished;
   std::string hung;
   const int status = status_of(process, hung);
@@ -99,6 +93,21 @@ Finished run_gnomon(const std::vector<std::string>& arguments, const std::string
   if (out_file.empty()) finished.out = content_of(out);
   finished.err = content_of(err) + hung;
   return finished;
+}
+
+std::vector<std::string> Finished::lines() const {
+  std::vector<std::string> lines;
+  std::istringstream stream(out);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+Finished spawn_gnomon(const std::vector<std::string>& arguments, const std::string& input,
+                      const std::filesystem::path& out_file) {
+  return run_process(arguments, input, out_file, [](std::vector<char*>& argv) {
+    execv(argv[0], argv.data());
+    return 127;
+  });
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -13,10 +13,20 @@ struct Finished {
   [[nodiscard]] std::vector<std::string> lines() const;  ///< of `out`
 };
 
-/// Runs the program with these arguments and standard input. `out_file`: where standard output goes instead
-/// of Finished::out, if not empty. A run of four minutes is ended; `err` has what its threads did.
+/// Runs the program with these arguments and standard input, in a process forked from the test's own: most of the time
+/// of a short run is loading the program. For tests that drew nothing before, whose driver has no threads yet.
+/// `out_file`: where standard output goes instead of Finished::out, if not empty. A run of four minutes is ended; `err`
+/// has what its threads did.
 [[nodiscard]] Finished run_gnomon(const std::vector<std::string>& arguments, const std::string& input = {},
                                   const std::filesystem::path& out_file = {});
+
+/// The same with the program as it is installed, from its file.
+[[nodiscard]] Finished spawn_gnomon(const std::vector<std::string>& arguments, const std::string& input = {},
+                                    const std::filesystem::path& out_file = {});
+
+/// What both are made of: `run` is called in the new process with the program's name and arguments.
+[[nodiscard]] Finished run_process(const std::vector<std::string>& arguments, const std::string& input,
+                                   const std::filesystem::path& out_file, int (*run)(std::vector<char*>& argv));
 
 /// A file as a whole; empty where it cannot be read.
 [[nodiscard]] std::string content_of(const std::filesystem::path& file);

@@ -202,7 +202,7 @@ TEST(LostContext, ends_a_sweep_with_one_line_and_keeps_the_rows_before) {
     const TemporaryFolder folder;
     {
       const LostDriver lost(after);
-      const Finished finished = run_gnomon(small_sweep(folder.path()));
+      const Finished finished = spawn_gnomon(small_sweep(folder.path()));
       EXPECT_EQ(finished.exit_code, 2) << finished.err;
       expect_one_line(finished.err, "the OpenGL context was lost");
     }
@@ -210,7 +210,7 @@ TEST(LostContext, ends_a_sweep_with_one_line_and_keeps_the_rows_before) {
     const std::size_t rows = report::read_rows(folder.path()).size();
     fewest = std::min(fewest, rows);
     most = std::max(most, rows);
-    const Finished resumed = run_gnomon(small_sweep(folder.path(), {"--resume"}));
+    const Finished resumed = spawn_gnomon(small_sweep(folder.path(), {"--resume"}));
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
     EXPECT_EQ(lasting(folder.path()), lasting(whole()));
   }

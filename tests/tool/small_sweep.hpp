@@ -36,7 +36,7 @@ inline const fs::path& whole() {
   static const TemporaryFolder folder;
   static const fs::path out = [] {
     fs::path path = folder.path() / "whole";
-    const Finished finished = run_gnomon(small_sweep(path));
+    const Finished finished = spawn_gnomon(small_sweep(path));
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
     return path;
   }();

@@ -147,7 +147,7 @@ struct FilterInfo {
 };
 
 /// The filter's formulas on the CPU, in double. The shader file of the same name holds the same formulas, and
-/// laws over the registry compare them (tests/render/filter_laws_test.cpp).
+/// laws over the registry compare them (tests/render/filter/filter_laws_test.cpp).
 struct FilterReference {
   /// Largest error where all texels of the kernel agree, for a receiver at least `contact` (of the map's
   /// depth range) in front of or behind them, as filter_laws tests it.

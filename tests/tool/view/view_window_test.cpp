@@ -162,7 +162,7 @@ class ViewWindow : public testing::Test {
   [[nodiscard]] std::string log() const { return (folder_.path() / "log").string(); }
   /// The picture of the state file without a window, in the size of `like`.
   [[nodiscard]] Image headless(const std::string& state, const Image& like) const {
-    const Finished run = run_gnomon({"view", "--state", state, "--size",
+    const Finished run = spawn_gnomon({"view", "--state", state, "--size",
                                      std::to_string(like.width) + "x" + std::to_string(like.height), "--out",
                                      "headless.png", "--context", "osmesa"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -252,7 +252,7 @@ TEST_F(ViewWindow, records_a_path_and_flies_along_it) {
   command.insert(command.begin() + 1, kSmall.begin(), kSmall.end());
   *std::find(command.begin(), command.end(), "640x300") =
       std::to_string(middle.width) + "x" + std::to_string(middle.height);
-  const Finished run = run_gnomon(command);
+  const Finished run = spawn_gnomon(command);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(different_pixels(middle, read("path.png")), 0u);
 }
@@ -303,7 +303,7 @@ TEST_F(ViewWindow, draws_pages_as_the_command_line_does) {
   command.insert(command.begin() + 1, words.begin(), words.end());
   *std::find(command.begin(), command.end(), "640x300") =
       std::to_string(levels.width) + "x" + std::to_string(levels.height);
-  const Finished run = run_gnomon(command);
+  const Finished run = spawn_gnomon(command);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(different_pixels(levels, read("lv.png")), 0u);
   // Edges are read from the picture: the last round is that of a picture at rest.
@@ -351,7 +351,7 @@ TEST_F(ViewWindow, keeps_its_scene_and_state_where_a_file_is_broken) {
 }
 
 TEST_F(ViewWindow, ends_by_itself_with_its_screenshot) {
-  const Finished run = run_gnomon({"view", "builtin:hangar", "--map-size", "256", "--size", "640x300",
+  const Finished run = spawn_gnomon({"view", "builtin:hangar", "--map-size", "256", "--size", "640x300",
                                    "--exit-after", "3", "--screenshot", "shot.png", "--ui-scale", "1.5"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const Image shot = read("shot.png");
@@ -365,7 +365,7 @@ TEST_F(ViewWindow, ends_by_itself_with_its_screenshot) {
   };
   EXPECT_LT(brightness(0, 300), 70u);
   EXPECT_GT(brightness(450, 640), 110u);
-  const Finished missing = run_gnomon({"view", "/no/such/scene.glb", "--exit-after", "3"});
+  const Finished missing = spawn_gnomon({"view", "/no/such/scene.glb", "--exit-after", "3"});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_NE(missing.err.find("/no/such/scene.glb"), std::string::npos) << missing.err;
 }
@@ -388,13 +388,13 @@ TEST_F(ViewWindow, flies_a_benchmark_by_itself_and_refuses_what_it_cannot_write)
   std::vector<std::string> words = kSmall;
   words.insert(words.begin(), "view");
   words.insert(words.end(), {"--frames", "3", "--benchmark", "rows.csv"});
-  const Finished run = run_gnomon(words);
+  const Finished run = spawn_gnomon(words);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(run.out.find("rows.csv: 3 frames, "), std::string::npos) << run.out;
   const std::string rows = content_of("rows.csv");
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 4) << rows;
   words.back() = "rows.csv/rows.csv";
-  const Finished no_folder = run_gnomon(words);
+  const Finished no_folder = spawn_gnomon(words);
   EXPECT_EQ(no_folder.exit_code, 2);
   EXPECT_NE(no_folder.err.find("rows.csv"), std::string::npos) << no_folder.err;
   EXPECT_EQ(content_of("rows.csv"), rows);
@@ -403,7 +403,7 @@ TEST_F(ViewWindow, flies_a_benchmark_by_itself_and_refuses_what_it_cannot_write)
        {std::vector<std::string>{"--out", "picture.png"}, std::vector<std::string>{"--tour", "tour"}}) {
     std::vector<std::string> both = words;
     both.insert(both.end(), other.begin(), other.end());
-    const Finished refused = run_gnomon(both);
+    const Finished refused = spawn_gnomon(both);
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_NE(refused.err.find("--benchmark"), std::string::npos) << refused.err;
     EXPECT_FALSE(std::filesystem::exists("more.csv"));
@@ -450,7 +450,7 @@ TEST_F(ViewWindow, loads_the_technique_that_is_clicked_in_the_results) {
   EXPECT_NE(state.find("\"cascades\": 3"), std::string::npos) << state;
   EXPECT_EQ(close(), 0);
   EXPECT_EQ(content_of(log()), "");
-  const Finished broken = run_gnomon({"view", "builtin:hangar", "--results", "nowhere", "--exit-after", "3"});
+  const Finished broken = spawn_gnomon({"view", "builtin:hangar", "--results", "nowhere", "--exit-after", "3"});
   EXPECT_EQ(broken.exit_code, 2);
   EXPECT_NE(broken.err.find("nowhere"), std::string::npos) << broken.err;
 }

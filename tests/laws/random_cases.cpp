@@ -1,15 +1,17 @@
 // Do warps, splits, fits and partitions keep their promises on random cases? Never worse than uniform in the
 // chosen objective, nothing that is no number, no singular matrix, every visible receiver inside its map, no
 // caster lost.
-//   bench_random_cases [N [FIRST]]     N seeds from FIRST on, 10 000 from 1 unless given; failures print
-//   theirs
+//   random_cases [N [FIRST]]     N seeds from FIRST on, 10 000 from 1 unless given; failures print theirs
+//   random_cases --seeds SEED... these alone
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -187,11 +189,16 @@ void check_case(std::uint64_t seed, SeededInput& in, Totals& totals) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int cases = argc > 1 && std::atoi(argv[1]) > 0 ? std::atoi(argv[1]) : 10000;
-  const std::uint64_t first = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
+  std::vector<std::uint64_t> seeds;
+  if (argc > 1 && std::strcmp(argv[1], "--seeds") == 0) {
+    for (int i = 2; i < argc; ++i) seeds.push_back(std::strtoull(argv[i], nullptr, 10));
+  } else {
+    seeds.resize(argc > 1 && std::atoi(argv[1]) > 0 ? static_cast<std::size_t>(std::atoi(argv[1])) : 10000);
+    std::iota(seeds.begin(), seeds.end(), argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1);
+  }
   Totals totals;
   SeededInput input;
-  for (int i = 0; i < cases; ++i) check_case(first + static_cast<std::uint64_t>(i), input, totals);
+  for (const std::uint64_t seed : seeds) check_case(seed, input, totals);
   std::printf("%d cases, %d with maps, %d compared with uniform, %d receiver points, %d shadow rays\n",
               totals.cases, totals.planned, totals.compared, totals.points, totals.crossings);
   for (const Objective objective : {Objective::storage, Objective::max, Objective::p95}) {
@@ -200,5 +207,7 @@ int main(int argc, char** argv) {
                 totals.worst[k], static_cast<unsigned long long>(totals.worst_seed[k]));
   }
   std::printf("%d failures\n", totals.failures);
-  return totals.failures == 0 && (cases == 1 || totals.points > cases / 2) ? 0 : 1;
+  // A seed alone may have nothing to look at; many have.
+  const bool many = seeds.size() > 20;
+  return totals.failures == 0 && (!many || totals.points > totals.cases / 2) ? 0 : 1;
 }
