@@ -163,7 +163,7 @@ void hold(bool parallel, int cases, int least_bodies) {
     require(judged.worst <= kAtMost, to_string(input.options.warp.objective), "a search over",
             judged.worst_against, judged.worst);
   });
-  EXPECT_GT(bodies, least_bodies);
+  EXPECT_GT(bodies, of_all_draws(least_bodies));
   // Not one by one: a flat body's image has no width at one strength alone.
   constexpr double kAlong = 0.02, kQuick = 0.1;
   EXPECT_LT(log_along, kAlong * bodies) << "strength along the view over the best";

@@ -175,9 +175,9 @@ TEST(LightsLaw, every_light_in_view_has_maps_and_places_never_overlap) {
               "more maps than places", whole.map_count, maps.map_count);
     }
   });
-  EXPECT_GT(lit, 1000);
-  EXPECT_GT(fewer, 10);
-  EXPECT_GT(round, 300);
+  EXPECT_GT(lit, of_all_draws(1000));
+  EXPECT_GT(fewer, of_all_draws(10));
+  EXPECT_GT(round, of_all_draws(300));
 }
 
 TEST(LightsLaw, equal_input_gives_equal_plans_at_any_scale_of_the_world) {
@@ -218,7 +218,7 @@ TEST(LightsLaw, equal_input_gives_equal_plans_at_any_scale_of_the_world) {
       compared += x.size > 0;
     }
   });
-  EXPECT_GT(compared, 300);
+  EXPECT_GT(compared, of_all_draws(300));
 }
 
 TEST(LightsLaw, more_texels_never_raise_the_error) {
@@ -236,7 +236,7 @@ TEST(LightsLaw, more_texels_never_raise_the_error) {
       ++compared;
     }
   });
-  EXPECT_GT(compared, 1000);
+  EXPECT_GT(compared, of_all_draws(1000));
 }
 
 TEST(LightsLaw, budgets_of_pages_and_milliseconds_are_kept_and_no_light_starves) {
@@ -282,8 +282,8 @@ TEST(LightsLaw, budgets_of_pages_and_milliseconds_are_kept_and_no_light_starves)
       require(mapped == (maps.map_count > 0 && maps.size > 0), "starves");
     }
   });
-  EXPECT_GT(by_pages, 50);
-  EXPECT_GT(by_time, 50);
+  EXPECT_GT(by_pages, of_all_draws(50));
+  EXPECT_GT(by_time, of_all_draws(50));
 }
 
 TEST(LightsLaw, more_pages_or_milliseconds_never_raise_the_error) {
@@ -310,9 +310,9 @@ TEST(LightsLaw, more_pages_or_milliseconds_never_raise_the_error) {
     }
     gained += first > 1.1 * last;
   });
-  EXPECT_GT(pages_compared, 300);
-  EXPECT_GT(time_compared, 1000);
-  EXPECT_GT(gained, 80);
+  EXPECT_GT(pages_compared, of_all_draws(300));
+  EXPECT_GT(time_compared, of_all_draws(1000));
+  EXPECT_GT(gained, of_all_draws(80));
 }
 
 /// Demands and maps of lights, from a seed.
@@ -362,7 +362,7 @@ TEST(LightsLaw, eight_lights_are_within_five_percent_of_all_sizes_tried) {
     require(ratio <= 1.05, "error over the best", ratio);
     ++compared;
   });
-  EXPECT_GT(compared, 100);
+  EXPECT_GT(compared, of_all_draws(100));
   RecordProperty("worst", std::to_string(worst));
 }
 
@@ -392,8 +392,8 @@ TEST(LightsLaw, eight_lights_in_a_budget_of_milliseconds_are_within_five_percent
     scarce += choose_sizes(free, ladder, {budget.cells}, 1.0) &&
               error_of(free, ladder) < 0.99 * error_of(work, ladder);
   });
-  EXPECT_GT(compared, 80);
-  EXPECT_GT(scarce, 20) << "cases in which time decides";
+  EXPECT_GT(compared, of_all_draws(80));
+  EXPECT_GT(scarce, of_all_draws(20)) << "cases in which time decides";
   RecordProperty("worst", std::to_string(worst));
 }
 
@@ -457,8 +457,8 @@ TEST(LightsLaw, over_a_flight_kept_maps_stay_and_none_is_older_than_its_interval
       scene.input.camera.position += step;
     }
   });
-  EXPECT_GT(kept, 1000);
-  EXPECT_GT(moved, 50);
+  EXPECT_GT(kept, of_all_draws(1000));
+  EXPECT_GT(moved, of_all_draws(50));
   RecordProperty("repacked", repacked);
 }
 

@@ -85,7 +85,7 @@ TEST(MetricLaw, the_area_factors_into_perspective_and_projection_for_every_norma
               "area", all.m_area, "perspective", perspective.m_area, "cosines", cosines);
     });
   });
-  EXPECT_GT(count, 2000u);
+  EXPECT_GT(count, of_all_draws(2000));
 }
 
 TEST(MetricLaw, the_longest_extent_lies_between_the_axis_extents_and_their_hypotenuse) {
@@ -123,7 +123,7 @@ TEST(MetricLaw, the_perspective_part_is_the_error_on_the_surface_that_faces_the_
       require(deviation(m.projection, 1.0) <= 1e-8, "projection", m.projection);
     });
   });
-  EXPECT_GT(count, 2000u);
+  EXPECT_GT(count, of_all_draws(2000));
 }
 
 // Central differences of step h: h^2 for the curvature, rounding / h for the positions.
@@ -173,7 +173,7 @@ TEST(MetricLaw, the_extents_agree_with_finite_differences_of_both_projections) {
       require(deviation(m.m_area, area) <= 1e-3, "area", m.m_area, area);
     });
   });
-  EXPECT_GT(count, 2000u);
+  EXPECT_GT(count, of_all_draws(2000));
 }
 
 TEST(MetricLaw, a_surface_turned_from_the_eye_or_the_light_is_distinguished) {
@@ -256,7 +256,7 @@ TEST(MetricLaw, percentiles_of_a_grid_are_those_of_sorting_its_samples) {
                       static_cast<double>(under) / static_cast<double>(values.size())) <= kExact,
             "share", stats.share_undersampled);
   });
-  EXPECT_GT(compared, 40u);
+  EXPECT_GT(compared, of_all_draws(40));
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ TEST(MotionLaw, texels_per_area_jump_only_where_an_event_says_so) {
           }
         });
   });
-  EXPECT_GT(pairs, 4000);
+  EXPECT_GT(pairs, of_all_draws(4000));
   EXPECT_LT(events * 10, maps);  // listed jumps are the exception
 }
 
@@ -160,7 +160,7 @@ TEST(MotionLaw, texels_per_area_of_a_spot_jump_only_where_an_event_says_so) {
           }
         });
   });
-  EXPECT_GT(pairs, 4000);
+  EXPECT_GT(pairs, of_all_draws(4000));
   EXPECT_LT(events * 5, maps);
 }
 
@@ -183,7 +183,7 @@ TEST(MotionLaw, everything_in_view_is_inside_its_map_in_every_frame) {
           }
         });
   });
-  EXPECT_GT(points, 2000);
+  EXPECT_GT(points, of_all_draws(2000));
 }
 
 TEST(MotionLaw, a_warped_stable_map_keeps_its_very_matrix_until_an_event) {
@@ -256,7 +256,7 @@ TEST(MotionLaw, edges_come_to_rest_where_a_plan_without_history_has_them) {
       moved += std::abs(on_the_way[i] / found - 1.0) > kAlike ? 1 : 0;
     }
   });
-  EXPECT_GT(moved, 12) << "edges that had to move";
+  EXPECT_GT(moved, of_all_draws(12)) << "edges that had to move";
 }
 
 /// What searches from the last frame's result came to, over searches from nothing in the same frame.
@@ -353,7 +353,7 @@ TEST(MotionLaw, a_result_is_kept_while_the_view_goes_on_and_not_after_a_jump) {
     (void)make_plan(w.camera(frames), DirectionalLight{w.light}, w.bounds(), w.options, history);
     require(followed.kept == 0, "kept", followed.kept, "of", followed.searches, "in frame", frames);
   });
-  EXPECT_GT(kept, 50);
+  EXPECT_GT(kept, of_all_draws(50));
 }
 
 TEST(MotionLaw, a_leap_ends_at_maps_as_good_as_those_without_history) {
@@ -402,7 +402,7 @@ TEST(MotionLaw, a_search_follows_the_last_result_in_any_unit) {
       kept += of[0] / 100;
     }
   });
-  EXPECT_GT(kept, 100);
+  EXPECT_GT(kept, of_all_draws(100));
 }
 
 TEST(MotionLaw, a_broken_input_leaves_the_history_as_it_was) {

@@ -46,7 +46,7 @@ TEST(OverlapLaw, a_visible_receiver_in_an_overlap_lies_inside_both_maps_and_off_
       }
     }
   });
-  EXPECT_GT(checked, 2000u);
+  EXPECT_GT(checked, of_all_draws(2000));
 }
 
 TEST(OverlapLaw, every_caster_over_a_receiver_in_an_overlap_is_drawn_into_the_map_behind) {
@@ -79,7 +79,7 @@ TEST(OverlapLaw, every_caster_over_a_receiver_in_an_overlap_is_drawn_into_the_ma
       }
     }
   });
-  EXPECT_GT(shadows, 2000u);
+  EXPECT_GT(shadows, of_all_draws(2000));
 }
 
 TEST(OverlapLaw, an_overlap_is_the_requested_share_of_the_map_before_and_moves_no_split) {
@@ -112,7 +112,7 @@ TEST(OverlapLaw, an_overlap_is_the_requested_share_of_the_map_before_and_moves_n
       require(received, "a map for the overlap alone, cascade", map.cascade);
     }
   });
-  EXPECT_GT(overlaps, 1000u);
+  EXPECT_GT(overlaps, of_all_draws(1000));
 }
 
 // Found by bench_random_cases: a warp that gained in the overlap alone lost up to 3.4 times behind it.
@@ -129,7 +129,7 @@ TEST(OverlapLaw, a_warp_that_may_be_dropped_gains_where_its_map_serves) {
     o.resolution.texel_budget = 0;
     const auto error = [&] {
       const AliasingStats stats = measure(in.plan(), in.camera, in.bounds());
-      EXPECT_GT(stats.samples, 1000u) << seed;
+      EXPECT_GT(stats.samples, of_all_draws(1000)) << seed;
       return o.warp.objective == Objective::max ? stats.max : stats.p95;
     };
     ASSERT_NE(o.warp.objective, Objective::storage) << seed;

@@ -106,7 +106,7 @@ TEST(PagesLaw, every_visible_point_is_served_and_meets_the_target_above_the_deep
             plan.points_capped, "outside", plan.points_outside);
     require(plan.target_m >= scene.options.target_m, "finer than asked for");
   });
-  EXPECT_GT(checked, 150);
+  EXPECT_GT(checked, of_all_draws(150));
 }
 
 TEST(PagesLaw, directional_light_leaves_no_receiver_out) {
@@ -116,7 +116,7 @@ TEST(PagesLaw, directional_light_leaves_no_receiver_out) {
     ++checked;
     require(plan.points_outside == 0, "outside", plan.points_outside);
   });
-  EXPECT_GT(checked, 50);
+  EXPECT_GT(checked, of_all_draws(50));
 }
 
 TEST(PagesLaw, every_page_has_a_point_and_a_place_of_its_own) {
@@ -138,7 +138,7 @@ TEST(PagesLaw, every_page_has_a_point_and_a_place_of_its_own) {
               "not finer", coarse.texel_world.x, fine.texel_world.x);
     }
   });
-  EXPECT_GT(checked, 120);
+  EXPECT_GT(checked, of_all_draws(120));
 }
 
 TEST(PagesLaw, larger_targets_need_no_more_pages) {
@@ -158,7 +158,7 @@ TEST(PagesLaw, larger_targets_need_no_more_pages) {
       other.options.target_m *= 1.3;
     }
   });
-  EXPECT_GT(checked, 50);
+  EXPECT_GT(checked, of_all_draws(50));
 }
 
 TEST(PagesLaw, the_pool_is_never_exceeded_and_no_point_loses_its_page) {
@@ -184,7 +184,7 @@ TEST(PagesLaw, the_pool_is_never_exceeded_and_no_point_loses_its_page) {
     require(served >= plan.points, "served", served, "of", plan.points);
     require(!directional || plan.points == whole.points, "points", plan.points, "of", whole.points);
   });
-  EXPECT_GT(coarsened, 20);
+  EXPECT_GT(coarsened, of_all_draws(20));
 }
 
 TEST(PagesLaw, a_page_as_a_map_shows_its_own_texels_and_its_border_holds_the_kernel) {
@@ -212,7 +212,7 @@ TEST(PagesLaw, a_page_as_a_map_shows_its_own_texels_and_its_border_holds_the_ker
               own.y);
     }
   });
-  EXPECT_GT(checked, 80);
+  EXPECT_GT(checked, of_all_draws(80));
 }
 
 TEST(PagesLaw, culling_keeps_every_caster_between_the_light_and_a_served_point) {
@@ -245,7 +245,7 @@ TEST(PagesLaw, culling_keeps_every_caster_between_the_light_and_a_served_point) 
       }
     }
   });
-  EXPECT_GT(casters_met, 300);
+  EXPECT_GT(casters_met, of_all_draws(300));
 }
 
 TEST(PagesLaw, the_same_input_gives_the_same_bits) {
@@ -261,7 +261,7 @@ TEST(PagesLaw, the_same_input_gives_the_same_bits) {
     for (std::size_t i = 0; i < plan.levels.size(); ++i)
       require(plan.levels[i].clip_from_world == again.levels[i].clip_from_world, "level", i);
   });
-  EXPECT_GT(checked, 40);
+  EXPECT_GT(checked, of_all_draws(40));
 }
 
 TEST(PagesLaw, scaling_the_world_by_a_power_of_two_changes_no_page) {
@@ -295,7 +295,7 @@ TEST(PagesLaw, scaling_the_world_by_a_power_of_two_changes_no_page) {
       require(a.level == b.level && a.column == b.column && a.row == b.row, "page", i);
     }
   });
-  EXPECT_GT(checked, 40);
+  EXPECT_GT(checked, of_all_draws(40));
 }
 
 TEST(PagesLaw, stable_levels_keep_their_texels_in_the_world_while_the_camera_moves) {
@@ -326,7 +326,7 @@ TEST(PagesLaw, stable_levels_keep_their_texels_in_the_world_while_the_camera_mov
       }
     }
   });
-  EXPECT_GT(pages_shared, 30);
+  EXPECT_GT(pages_shared, of_all_draws(30));
 }
 
 TEST(PagesLaw, no_page_is_kept_that_a_moved_caster_can_land_on_and_kept_ones_have_the_same_bits) {
@@ -354,8 +354,8 @@ TEST(PagesLaw, no_page_is_kept_that_a_moved_caster_can_land_on_and_kept_ones_hav
     }
     landed += again.drawn;
   });
-  EXPECT_GT(landed, 100u);
-  EXPECT_GT(kept, 1000u);
+  EXPECT_GT(landed, of_all_draws(100));
+  EXPECT_GT(kept, of_all_draws(1000));
 }
 
 }  // namespace

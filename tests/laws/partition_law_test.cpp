@@ -60,7 +60,7 @@ TEST(PartitionLaw, the_first_map_whose_planes_hold_a_visible_receiver_point_show
               first - maps.begin(), "of", maps.size(), "at", point.x, point.y, point.z);
     }
   });
-  EXPECT_GT(divided, 100);
+  EXPECT_GT(divided, of_all_draws(100));
 }
 
 TEST(PartitionLaw, a_caster_between_a_receiver_and_the_light_is_in_the_list_of_the_map_that_serves_it) {
@@ -89,7 +89,7 @@ TEST(PartitionLaw, a_caster_between_a_receiver_and_the_light_is_in_the_list_of_t
       }
     }
   });
-  EXPECT_GT(shadowed, 1000);
+  EXPECT_GT(shadowed, of_all_draws(1000));
 }
 
 TEST(PartitionLaw, undivided_receivers_are_reported_and_a_stable_fit_keeps_its_cascades) {
@@ -162,7 +162,7 @@ TEST(PartitionLaw, no_partition_makes_its_objective_worse_than_one_uniform_map_w
               "with one map", before);
     }
   });
-  EXPECT_GT(divided, 200);
+  EXPECT_GT(divided, of_all_draws(200));
 }
 
 TEST(PartitionLaw, slices_of_the_frustums_faces_make_the_objective_no_worse_when_measured) {
@@ -202,7 +202,7 @@ TEST(PartitionLaw, slices_of_the_frustums_faces_make_the_objective_no_worse_when
     ++more;
     ratios += many / one;
   });
-  EXPECT_GT(more, 60);
+  EXPECT_GT(more, of_all_draws(60));
   // And they pay.
   EXPECT_LT(ratios, 0.8 * more);
 }

@@ -203,8 +203,8 @@ void hold_lit_receivers(LightCase (*draw)(), std::uint64_t least_held) {
     }
   });
   EXPECT_GT(held, least_held);
-  EXPECT_GT(unmapped, 100u);
-  EXPECT_GT(planned, 800u);
+  EXPECT_GT(unmapped, of_all_draws(100));
+  EXPECT_GT(planned, of_all_draws(800));
 }
 TEST(PositionalLaw, a_lit_receiver_in_view_is_held_by_a_map_or_nothing_stands_before_it) {
   hold_lit_receivers(draw_light_case, 10000);
@@ -228,7 +228,7 @@ TEST(PositionalLaw, a_lit_receiver_in_view_is_held_by_the_single_map_of_its_spot
       ++held;
     }
   });
-  EXPECT_GT(held, 3000u);
+  EXPECT_GT(held, of_all_draws(3000));
 }
 
 void draw_casters_of_lit_receivers(LightCase (*draw)()) {
@@ -264,7 +264,7 @@ void draw_casters_of_lit_receivers(LightCase (*draw)()) {
       }
     }
   });
-  EXPECT_GT(shadows, 3000u);
+  EXPECT_GT(shadows, of_all_draws(3000));
 }
 TEST(PositionalLaw, every_caster_before_a_lit_receiver_is_drawn_within_the_depths_of_its_map) {
   draw_casters_of_lit_receivers(draw_light_case);
@@ -310,7 +310,7 @@ TEST(PositionalLaw, a_caster_that_only_the_filter_kernel_reaches_is_drawn_too) {
       }
     }
   });
-  EXPECT_GT(shadows, 1000u);
+  EXPECT_GT(shadows, of_all_draws(1000));
 }
 
 TEST(PositionalLaw, no_kernel_in_world_units_reads_outside_its_map) {
@@ -350,8 +350,8 @@ TEST(PositionalLaw, no_kernel_in_world_units_reads_outside_its_map) {
       ++judged;
     }
   });
-  EXPECT_GT(judged, 1000u);
-  EXPECT_GT(wide, 100u);
+  EXPECT_GT(judged, of_all_draws(1000));
+  EXPECT_GT(wide, of_all_draws(100));
 }
 
 void have_sound_numbers(LightCase (*draw)()) {
@@ -435,8 +435,8 @@ TEST(PositionalLaw, a_warp_never_makes_its_map_need_more_storage) {
       }
     }
   });
-  EXPECT_GT(warped, 500u);
-  EXPECT_GT(compared, 50u);
+  EXPECT_GT(warped, of_all_draws(500));
+  EXPECT_GT(compared, of_all_draws(50));
 }
 
 TEST(PositionalLaw, a_measured_warp_is_not_above_the_unwarped_map_by_more_than_sampling) {
@@ -477,7 +477,7 @@ TEST(PositionalLaw, a_measured_warp_is_not_above_the_unwarped_map_by_more_than_s
       require(after <= before * kSampling, "map", i, "max", after, "above", before, "samples", a.samples);
     }
   });
-  EXPECT_GT(compared, 20u);
+  EXPECT_GT(compared, of_all_draws(20));
 }
 
 }  // namespace

@@ -67,8 +67,8 @@ void compare_with_logarithmic(int boxes, double allowed, std::uint64_t exception
             after, "logarithmic", before);
     if (after < 0.9 * before) ++better;
   });
-  EXPECT_GT(compared, 100u);
-  EXPECT_GT(better, 10u);
+  EXPECT_GT(compared, of_all_draws(100));
+  EXPECT_GT(better, of_all_draws(10));
   EXPECT_LE(100 * worse, exceptions * compared) << worse << " of " << compared;
   EXPECT_LT(log_ratio, 0.0) << "worse on the average";
 }

@@ -14,17 +14,32 @@
 
 namespace gnomon::test {
 
-/// How many of a law's inputs a run draws: all of them, or with GNOMON_DRAWS=N in the environment an Nth of those
-/// laws that draw many. `./dev test` draws a quarter, `./dev check` all.
+/// Which share of the inputs of laws that draw many this run draws: 1, or with GNOMON_DRAWS=N in the environment an Nth.
+/// `./dev test` draws a quarter, `./dev check` all.
+[[nodiscard]] inline int draws_divisor() {
+  const char* const divisor = std::getenv("GNOMON_DRAWS");
+  return divisor == nullptr ? 1 : std::max(1, std::atoi(divisor));
+}
+/// How many inputs a law with `cases` of them draws in this run.
 [[nodiscard]] inline int draws(int cases) {
   constexpr int kMany = 1000;
-  const char* const share = std::getenv("GNOMON_DRAWS");
-  return share == nullptr || cases < kMany ? cases : cases / std::max(1, std::atoi(share));
+  return cases < kMany ? cases : cases / draws_divisor();
+}
+/// What a count comes to at least in this run that comes to `all` where all inputs are drawn: so no law holds by
+/// looking at nothing.
+[[nodiscard]] inline std::uint64_t of_all_draws(std::uint64_t all) {
+  return all / static_cast<std::uint64_t>(draws_divisor());
+}
+
+/// Whether RapidCheck's RC_PARAMS or GNOMON_LAW_SEED, which a program may change between two laws, chose a seed in place
+/// of the suite's own.
+[[nodiscard]] inline bool seed_is_given() {
+  return std::getenv("RC_PARAMS") != nullptr || std::getenv("GNOMON_LAW_SEED") != nullptr;
 }
 
 /// Runs `property` on `cases` random inputs and fails the current test with the smallest input that breaks
 /// it. The seed is fixed, so that a red build is red again on the next machine; RC_PARAMS="seed=..." draws
-/// other input, as does GNOMON_LAW_SEED, which a program may change between two laws.
+/// other input.
 template <typename Property>
 void for_all(int cases, Property&& property) {
   constexpr std::uint64_t kSeed = 20110523;
