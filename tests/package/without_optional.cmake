@@ -1,5 +1,5 @@
 # Does the project configure and build without OpenImageIO, Draco, meshoptimizer, Embree, GLFW, Dear ImGui, and the pkg-config that OpenImageIO and
-# Dear ImGui are found by? Without TARGETS, all that stands in for them is compiled; TARGETS=all (./dev lean) builds everything and asks
+# Dear ImGui are found by? Without TARGETS, all that stands in for them is compiled; TARGETS=all (./dev check packages) builds everything and asks
 # the programs for what is missing, which takes minutes.
 file(REMOVE_RECURSE ${WORK_DIR})
 set(parts OPENIMAGEIO DRACO MESHOPTIMIZER EMBREE GLFW IMGUI)

@@ -83,7 +83,7 @@ def files_below(source, folder, suffixes):
 
 def texts_of_tree(source):
     """(name, text) of every file that people read, as text in which lines are where they are in the file."""
-    pages = [name for name in ("README.md", "CHANGELOG.md", "SECURITY.md") if os.path.exists(os.path.join(source, name))]
+    pages = [name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md") if os.path.exists(os.path.join(source, name))]
     for folder in ("docs", "samples", "shaders", "packaging"):
         pages += files_below(source, folder, (".md",))
     readers = [(page, text_of_markdown) for page in pages]
