@@ -166,7 +166,8 @@ TEST(PagesLaw, the_pool_is_never_exceeded_and_no_point_loses_its_page) {
   over_scenes(400, [&](const Scene& scene, const PagePlan& whole) {
     Scene small = scene;
     small.options.capacity = 24 + pick(40);
-    small.options.policy = all_page_policies()[static_cast<std::size_t>(pick(5))];
+    const auto policies = all_page_policies();
+    small.options.policy = policies[static_cast<std::size_t>(pick(static_cast<int>(policies.size())))];
     PageStorage memory(small.options.capacity, scene.points.size());
     const PagePlan plan = small.plan(memory);
     const bool directional = std::holds_alternative<DirectionalLight>(scene.light);
