@@ -255,5 +255,17 @@ TEST(KeepPages, casters_from_outside_leave_the_depths_of_the_pages_alone) {
   EXPECT_EQ(street.keep(after).kept, after.pages.size());
 }
 
+TEST(KeepPages, kept_pages_keep_their_slots_where_the_pool_has_no_room_beside_them) {
+  Street street;
+  const std::size_t pages = std::max(street.plan(0.0).pages.size(), street.plan(2.0).pages.size());
+  street.slots.assign(pages, {});
+  (void)street.keep(street.plan(0.0));
+  const PagePlan moved = street.plan(2.0);
+  const KeptPages result = street.keep(moved);
+  ASSERT_GT(result.kept, 0u);
+  ASSERT_GT(result.drawn, 0u);
+  expect_each_page_in_its_slot(street, moved);
+}
+
 }  // namespace
 }  // namespace gnomon::test
