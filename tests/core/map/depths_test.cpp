@@ -74,5 +74,25 @@ TEST(Depths, of_a_spot_begin_before_the_nearest_of_many_casters_listed_from_far_
   }
 }
 
+TEST(Depths, of_a_spot_in_a_room_begin_before_a_caster_nearer_than_where_the_room_lets_them_begin) {
+  const Camera camera =
+      perspective_camera({0, 60, 150}, {0, -0.4, -1}, {0, 1, 0}, 1.0, 1.0, 1.0, 400.0, 512, 512);
+  const SpotLight spot{{0, 100, 0}, {0, -1, 0}, 0.5, 200.0};
+  const std::vector<Box> receivers = {{{-100, -1, -100}, {100, 0, 100}}};
+  // The room holds the light, and the shade does not: 0.04 below it, where maps begin at 101 / 1024.
+  const Box room{{-200, -1, -200}, {200, 120, 200}}, shade{{-0.001, 99.95, -0.001}, {0.001, 99.96, 0.001}};
+  PlanOptions options;
+  options.warp.warp = &warps::none;
+  const auto shows_shade = [&](const std::vector<Box>& casters) {
+    const ShadowPlan plan = make_plan(camera, spot, {casters, receivers}, options);
+    EXPECT_EQ(plan.map_count, 1);
+    const glm::dvec4 top = plan.map[0].clip_from_world * glm::dvec4(0.0, shade.max.y, 0.0, 1.0);
+    return top.w > 0.0 && top.z >= -top.w;
+  };
+  EXPECT_FALSE(shows_shade({room}));
+  EXPECT_TRUE(shows_shade({room, shade}));
+  EXPECT_TRUE(shows_shade({shade}));
+}
+
 }  // namespace
 }  // namespace gnomon::test
