@@ -182,5 +182,64 @@ TEST(Cadence, broken_values_are_named) {
       << "no visible receiver is ever outside of all the world";
 }
 
+TEST(Cadence, a_camera_that_turns_as_fast_as_promised_keeps_each_map_until_its_turn) {
+  constexpr double kTurn = 0.02;
+  Plain plain;
+  plain.options.cadence = {3, 0.0, kTurn};
+  ShadowPlan before = plain.plan();
+  ASSERT_EQ(before.map_count, 4);
+  for (int frame = 1; frame < 10; ++frame) {
+    plain.camera.forward = {std::sin(kTurn * frame), -0.2, -std::cos(kTurn * frame)};
+    const ShadowPlan now = plain.plan();
+    ASSERT_EQ(now.map_count, 4);
+    const std::vector<bool> moved = changed(before, now);
+    for (int i = 1; i < 4; ++i)
+      EXPECT_EQ(moved[static_cast<std::size_t>(i)], (frame + i) % 3 == 0) << frame << i;
+    before = now;
+  }
+}
+
+TEST(Cadence, a_map_that_missed_its_turn_is_planned_in_the_next_frame) {
+  Plain plain;
+  const glm::dvec3 ahead = plain.camera.forward;
+  (void)plain.plan();
+  (void)plain.plan();
+  // Cascade 1 is due in frame 2, in which the camera looks into the sky.
+  plain.camera.forward = {0, 1, -0.1};
+  ASSERT_EQ(plain.plan().status, PlanStatus::nothing_visible);
+  ASSERT_EQ(plain.history.kept[1].frame, 0);
+  plain.camera.forward = ahead;
+  ASSERT_EQ(plain.plan().status, PlanStatus::ok);
+  EXPECT_EQ(plain.history.kept[1].frame, 3);
+}
+
+TEST(Cadence, a_stable_map_that_is_kept_holds_what_the_promised_steps_bring_into_view) {
+  constexpr double kStep = 8.0;
+  Plain plain;
+  // Receivers everywhere, and a view so wide and flat that its far edge is as long as the map.
+  plain.boxes = {{{-1e3, -1e3, -1e3}, {1e3, 1e3, 1e3}}};
+  plain.camera = perspective_camera({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.2, 30.0, 1.0, 60.0, 960, 32);
+  plain.light = {0, -1, 0};
+  plain.options.fit = Fit::stable;
+  plain.options.cadence = {3, kStep, 0.0};
+  ShadowPlan before = plain.plan();
+  int kept = 0;
+  for (int frame = 1; frame < 10; ++frame) {
+    plain.camera.position.x += kStep;
+    const ShadowPlan now = plain.plan();
+    ASSERT_EQ(now.map_count, 4);
+    const std::vector<bool> moved = changed(before, now);
+    for (std::size_t i = 1; i < 4; ++i) {
+      kept += moved[i] ? 0 : 1;
+      for (const double x : {-1.0, 1.0}) {
+        const glm::dvec3 corner = point_at(plain.camera, x, 1.0, now.map[i].depth_end);
+        EXPECT_TRUE(map_holds(now, now.map[i], corner)) << frame << i << " at " << x;
+      }
+    }
+    before = now;
+  }
+  EXPECT_EQ(kept, 3 * 6) << "two of three frames keep a cascade";
+}
+
 }  // namespace
 }  // namespace gnomon::test
