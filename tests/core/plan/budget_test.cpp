@@ -46,21 +46,24 @@ TEST(Budget, equal_maps_of_the_same_texels_have_a_worse_worst_map) {
   }
 }
 
-TEST(Budget, errors_are_equal_within_a_step_of_the_sides) {
-  Plain plain;
-  plain.options.resolution.texel_budget = 4 << 20;
-  const ShadowPlan plan = plain.plan();
-  ASSERT_GT(plan.map_count, 1);
-  int shortest = plan.map[0].width;
-  for (const ShadowMap& map : plan.maps()) shortest = std::min({shortest, map.width, map.height});
-  // Sides are rounded down by less than a step, of which the shortest has the least.
-  const double rounded = shortest - 2.0 * plan.map[0].filter_margin_texels;
-  const double least = worst(plan) / (1.0 + kSizeStep / rounded);
-  for (const ShadowMap& map : plan.maps()) {
-    EXPECT_EQ(map.width % kSizeStep, 0);
-    EXPECT_EQ(map.height % kSizeStep, 0);
-    EXPECT_GT(map.m_s_max, least) << map.cascade;
-    EXPECT_GT(map.m_t_max, least) << map.cascade;
+TEST(Budget, errors_are_equal_within_a_step_of_the_sides_whatever_the_border) {
+  for (const double kernel : {1.0, 32.0}) {
+    Plain plain;
+    plain.options.filter.texels = kernel;
+    plain.options.resolution.texel_budget = 4 << 20;
+    const ShadowPlan plan = plain.plan();
+    ASSERT_GT(plan.map_count, 1);
+    int shortest = plan.map[0].width;
+    for (const ShadowMap& map : plan.maps()) shortest = std::min({shortest, map.width, map.height});
+    // Sides are rounded down by less than a step, of which the shortest has the least.
+    const double rounded = shortest - 2.0 * plan.map[0].filter_margin_texels;
+    const double least = worst(plan) / (1.0 + kSizeStep / rounded);
+    for (const ShadowMap& map : plan.maps()) {
+      EXPECT_EQ(map.width % kSizeStep, 0);
+      EXPECT_EQ(map.height % kSizeStep, 0);
+      EXPECT_GT(map.m_s_max, least) << map.cascade << ", kernel " << kernel;
+      EXPECT_GT(map.m_t_max, least) << map.cascade << ", kernel " << kernel;
+    }
   }
 }
 
@@ -161,6 +164,16 @@ TEST(Budget, sizes_are_stable_under_a_slow_camera) {
       EXPECT_EQ(plan.map[i].width, last.map[i].width) << frame;
     last = plan;
   }
+}
+
+TEST(Budget, more_texels_than_the_largest_maps_take_give_the_largest_map) {
+  Plain plain;
+  plain.options.filter.texels = 0.0;
+  plain.options.resolution.texel_budget = std::int64_t{kMaxMaps} * kMostMapSize * kMostMapSize;
+  const ShadowPlan plan = plain.plan();
+  int longest = 0;
+  for (const ShadowMap& map : plan.maps()) longest = std::max({longest, map.width, map.height});
+  EXPECT_EQ(longest, kMostMapSize);
 }
 
 }  // namespace
