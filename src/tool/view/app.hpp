@@ -53,9 +53,10 @@ struct Area {
   int x = 0, y = 0, width = 1, height = 1;
 };
 
-/// A key that went down, as GLFW names it.
-struct KeyPress {
+/// A key that went down or up, as GLFW names it.
+struct KeyEvent {
   int key = 0, modifiers = 0;
+  bool down = false;
 };
 
 struct App {
@@ -76,7 +77,8 @@ struct App {
   double message_until = 0.0;
   std::string refusal;  ///< why the present state is not the one that is shown; empty: it is
 
-  std::vector<KeyPress> presses;  ///< that no frame has taken yet
+  std::vector<KeyEvent> key_events;  ///< that no frame has taken yet, in their order
+  std::vector<int> keys_down;        ///< by the events that were taken
   bool panel = true, help = false, probing = true, recording = false;
   int recorded = 0;
   std::optional<CameraPath> recorded_path;  ///< that the camera's places are added to

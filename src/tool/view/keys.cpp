@@ -44,38 +44,59 @@ constexpr KeyHelp kKeys[] = {
     {"Esc", "close this page; nothing is lost"},
 };
 
-/// The presses of one frame: up to a key that went down twice, whose second press is the next frame's.
-std::vector<KeyPress> take_presses(std::vector<KeyPress>& waiting) {
+/// The events of one frame: up to a key that went down twice. Its second press is the next frame's, with all
+/// that came after it.
+std::vector<KeyEvent> take_events(std::vector<KeyEvent>& waiting) {
   auto end = waiting.begin();
-  const auto repeats = [&](const KeyPress& press) {
-    return std::any_of(waiting.begin(), end, [&](const KeyPress& one) { return one.key == press.key; });
+  const auto repeats = [&](const KeyEvent& event) {
+    return event.down && std::any_of(waiting.begin(), end, [&](const KeyEvent& one) {
+             return one.down && one.key == event.key;
+           });
   };
   while (end != waiting.end() && !repeats(*end)) ++end;
-  std::vector<KeyPress> now(waiting.begin(), end);
+  std::vector<KeyEvent> now(waiting.begin(), end);
   waiting.erase(waiting.begin(), end);
   return now;
 }
 
-/// Presses of one frame. ImGui 1.86 forgets a key that goes down and up between two frames, which are
-/// half a second apart in software.
+/// Keys in one frame. ImGui has them as they are now: it forgets one that goes down and up between two
+/// frames, which are half a second apart in software, and knows of others before their turn.
 class Presses {
  public:
-  explicit Presses(const std::vector<KeyPress>& all) : all_(all) {}
+  /// Takes the next events.
+  explicit Presses(App& app) : events_(take_events(app.key_events)), down_(app.keys_down) {
+    for (const KeyEvent& event : events_) {
+      std::erase(app.keys_down, event.key);
+      if (event.down && !has_control(event)) app.keys_down.push_back(event.key);
+    }
+  }
   [[nodiscard]] bool operator()(int key, bool control = false) const {
-    return std::any_of(all_.begin(), all_.end(), [&](const KeyPress& press) {
-      return press.key == key && ((press.modifiers & GLFW_MOD_CONTROL) != 0) == control;
-    });
+    const KeyEvent* const press = press_of(key);
+    return press != nullptr && has_control(*press) == control;
   }
-  /// Down now, or since the last frame.
-  [[nodiscard]] bool held(int key) const { return ImGui::IsKeyDown(key) || (*this)(key); }
-  [[nodiscard]] bool shift() const {
-    return ImGui::GetIO().KeyShift || std::any_of(all_.begin(), all_.end(), [](const KeyPress& press) {
-             return (press.modifiers & GLFW_MOD_SHIFT) != 0;
-           });
+  /// 1 where the key went down, -1 where it did with Shift, 0 where it did not.
+  [[nodiscard]] int step(int key) const {
+    if (!(*this)(key)) return 0;
+    return (press_of(key)->modifiers & GLFW_MOD_SHIFT) != 0 ? -1 : 1;
   }
+  /// Down after this frame's events, or between them.
+  [[nodiscard]] bool held(int key) const {
+    return std::find(down_.begin(), down_.end(), key) != down_.end() || (*this)(key);
+  }
+  [[nodiscard]] bool shift() const { return held(GLFW_KEY_LEFT_SHIFT) || held(GLFW_KEY_RIGHT_SHIFT); }
+  [[nodiscard]] bool control() const { return held(GLFW_KEY_LEFT_CONTROL) || held(GLFW_KEY_RIGHT_CONTROL); }
 
  private:
-  const std::vector<KeyPress>& all_;
+  static bool has_control(const KeyEvent& event) { return (event.modifiers & GLFW_MOD_CONTROL) != 0; }
+  /// The only one that a frame takes; nullptr: none.
+  [[nodiscard]] const KeyEvent* press_of(int key) const {
+    const auto press = std::find_if(events_.begin(), events_.end(),
+                                    [key](const KeyEvent& event) { return event.down && event.key == key; });
+    return press != events_.end() ? &*press : nullptr;
+  }
+
+  std::vector<KeyEvent> events_;
+  const std::vector<int>& down_;
 };
 
 template <class Registry>
@@ -133,15 +154,14 @@ void control_keys(App& app, const Presses& pressed) {
 void setting_keys(App& app, const Presses& pressed) {
   State& state = app.state;
   Settings& settings = app.side == 1 && state.comparison != Comparison::off ? state.b : state.a;
-  const int step = pressed.shift() ? -1 : 1;
   int& cascades = settings.plan.cascades;
   int& size = settings.plan.resolution.max_size;
-  if (pressed(GLFW_KEY_V)) next_warp(settings.plan, step);
-  if (pressed(GLFW_KEY_F)) {
+  if (const int step = pressed.step(GLFW_KEY_V); step != 0) next_warp(settings.plan, step);
+  if (const int step = pressed.step(GLFW_KEY_F); step != 0) {
     next_filter(settings.filter, render::all_filters(), step);
     settings.identifiers.reset();
   }
-  if (pressed(GLFW_KEY_G)) next_policy(settings.pages, step);
+  if (const int step = pressed.step(GLFW_KEY_G); step != 0) next_policy(settings.pages, step);
   if (pressed(GLFW_KEY_T)) settings.plan.fit = settings.plan.fit == Fit::stable ? Fit::tight : Fit::stable;
   if (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD)) cascades = std::min(cascades + 1, kMaxMaps);
   if (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT)) cascades = std::max(cascades - 1, 1);
@@ -303,15 +323,12 @@ std::span<const KeyHelp> key_help() noexcept {
 }
 
 void handle_input(App& app, double seconds) {
-  const std::vector<KeyPress> presses = take_presses(app.presses);
-  const Presses pressed(presses);
+  const Presses pressed(app);
   if (!ImGui::GetIO().WantTextInput) {
     control_keys(app, pressed);
     function_keys(app, pressed);
     setting_keys(app, pressed);
-    // In a slow frame Ctrl may be up again while Q still counts as down: whoever quits does not move.
-    const bool quits = glfwWindowShouldClose(app.window) != GLFW_FALSE;
-    if (app.stage != nullptr && !quits && !ImGui::GetIO().KeyCtrl) steer(app, pressed, seconds);
+    if (app.stage != nullptr && !pressed.control()) steer(app, pressed, seconds);
   }
   if (app.stage != nullptr) mouse(app);
 }

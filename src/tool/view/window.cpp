@@ -38,8 +38,9 @@ void on_drop(GLFWwindow* window, int count, const char** files) {
 }
 
 void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
-  if (action == GLFW_PRESS)
-    static_cast<App*>(glfwGetWindowUserPointer(window))->presses.push_back({key, modifiers});
+  if (action != GLFW_REPEAT)
+    static_cast<App*>(glfwGetWindowUserPointer(window))
+        ->key_events.push_back({key, modifiers, action == GLFW_PRESS});
   ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers);
 }
 
