@@ -1,8 +1,6 @@
 // A scene reads files of its own folder and no others, however it spells them.
 #include <sys/stat.h>
 
-#include <chrono>
-
 #include "gltf_text.hpp"
 #include "gnomon/scene/image.hpp"
 
@@ -86,9 +84,8 @@ TEST_F(Confinement, a_folder_whose_name_begins_alike_is_another_folder) {
 
 TEST_F(Confinement, only_regular_files_are_read_and_pipes_are_not_waited_for) {
   ASSERT_EQ(::mkfifo((folder_.path() / "scene/pipe").c_str(), 0600), 0);
-  const auto begin = std::chrono::steady_clock::now();
+  // Nobody writes into it: who waited for that would not come back.
   EXPECT_NE(refusal("pipe").find("not a regular file"), std::string::npos);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
   EXPECT_NE(refusal("sub").find("not a regular file"), std::string::npos);
   EXPECT_NE(refusal("nothing.bin").find("cannot be read"), std::string::npos);
   EXPECT_NE(refusal("").find("empty"), std::string::npos);
