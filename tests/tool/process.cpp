@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -25,10 +26,18 @@ std::string content_of(const std::filesystem::path& file) {
   return content.str();
 }
 
+std::chrono::nanoseconds processor_time(pid_t process) {
+  clockid_t clock{};
+  timespec taken{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &taken) != 0) return {};
+  return std::chrono::seconds(taken.tv_sec) + std::chrono::nanoseconds(taken.tv_nsec);
+}
+
 namespace {
 
-// Far more than any run takes, under the sanitizers and beside others.
-constexpr std::chrono::seconds kLimit{240};
+// A run hangs that takes more of the processor than any does under the sanitizers, or nothing of it for so
+// long: other programs on the machine make it late, but do neither.
+constexpr std::chrono::seconds kMostTime{240}, kMostRest{120};
 
 /// Name, state and times of each of a process's threads, and where in the kernel it waits.
 std::string threads_of(pid_t process) {
@@ -40,15 +49,19 @@ std::string threads_of(pid_t process) {
   return threads.str();
 }
 
-/// The status that a process ends with. One that takes longer than the limit is killed, and `hung` says what
-/// its threads did.
+/// The status that a process ends with. One that hangs is killed, and `hung` says what its threads did.
 int status_of(pid_t process, std::string& hung) {
   constexpr std::chrono::milliseconds kPause{2};
-  const auto end = std::chrono::steady_clock::now() + kLimit;
+  auto moved = std::chrono::steady_clock::now();
+  std::chrono::nanoseconds before{};
   int status = 0;
   pid_t ended = 0;
   while ((ended = waitpid(process, &status, WNOHANG)) == 0) {
-    if (std::chrono::steady_clock::now() > end) {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::nanoseconds taken = processor_time(process);
+    if (taken != before) moved = now;
+    before = taken;
+    if (taken > kMostTime || now - moved > kMostRest) {
       hung = "does not end; its threads:\n" + threads_of(process);
       kill(process, SIGKILL);
       ended = waitpid(process, &status, 0);

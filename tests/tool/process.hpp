@@ -1,6 +1,9 @@
 // Runs the `gnomon` program as a user would, without a shell between.
 #pragma once
 
+#include <sys/types.h>
+
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,8 +18,8 @@ struct Finished {
 
 /// Runs the program with these arguments and standard input, in a process forked from the test's own: most of the time
 /// of a short run is loading the program. For tests that drew nothing before, whose driver has no threads yet.
-/// `out_file`: where standard output goes instead of Finished::out, if not empty. A run of four minutes is ended; `err`
-/// has what its threads did.
+/// `out_file`: where standard output goes instead of Finished::out, if not empty. A run that hangs is ended;
+/// `err` has what its threads did.
 [[nodiscard]] Finished run_gnomon(const std::vector<std::string>& arguments, const std::string& input = {},
                                   const std::filesystem::path& out_file = {});
 
@@ -27,6 +30,9 @@ struct Finished {
 /// What both are made of: `run` is called in the new process with the program's name and arguments.
 [[nodiscard]] Finished run_process(const std::vector<std::string>& arguments, const std::string& input,
                                    const std::filesystem::path& out_file, int (*run)(std::vector<char*>& argv));
+
+/// Processor time that a process took so far, in all its threads; 0 once it has ended.
+[[nodiscard]] std::chrono::nanoseconds processor_time(pid_t process);
 
 /// A file as a whole; empty where it cannot be read.
 [[nodiscard]] std::string content_of(const std::filesystem::path& file);

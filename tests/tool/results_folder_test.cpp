@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -37,6 +38,28 @@ int exit_code_of(pid_t child) {
   int status = 0;
   ::waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// Processor time that a sweep takes from its beginning to its end.
+std::chrono::nanoseconds time_of_sweep() {
+  const TemporaryFolder folder;
+  int status = 0;
+  rusage usage{};
+  EXPECT_GT(::wait4(start(small_sweep(folder.path())), &status, 0, &usage), 0);
+  return std::chrono::seconds(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+         std::chrono::microseconds(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+/// Kills a process once it has taken so much of the processor; false where it ended before.
+bool kill_after(std::chrono::nanoseconds taken, pid_t child) {
+  while (::waitpid(child, nullptr, WNOHANG) == 0) {
+    if (processor_time(child) >= taken) {
+      ::kill(child, SIGKILL);
+      return exit_code_of(child) == 128 + SIGKILL;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
 }
 
 void expect_one_line(const std::string& err, const std::string& part) {
@@ -78,22 +101,23 @@ TEST(ResultsFolder, loses_no_row_to_kills_at_any_moment_and_byte) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / report::kRowsFile;
   std::mt19937 random(7);
-  constexpr int kKills = 5;
-  for (int kill = 0; kill < kKills; ++kill) {
+  constexpr int kTries = 5, kParts = 1000;
+  const std::chrono::nanoseconds all_of_it = time_of_sweep();
+  int kills = 0;
+  for (int kill = 0; kill < kTries; ++kill) {
     const bool resumes = fs::exists(file);
     const std::size_t before = resumes ? report::read_rows(file).size() : 0;
     std::vector<std::string> more;
     if (resumes) more.emplace_back("--resume");
     const pid_t child = start(small_sweep(folder.path(), more));
-    std::this_thread::sleep_for(std::chrono::milliseconds(300 + random() % 2000));
-    ::kill(child, SIGKILL);
-    (void)exit_code_of(child);
+    kills += kill_after(all_of_it * (random() % kParts) / kParts, child) ? 1 : 0;
     if (!fs::exists(file)) continue;
     EXPECT_GE(report::read_rows(file).size(), before) << kill;
     expect_beginning_of_whole(folder.path());
     // The system writes a row at once: what a kill between two of its pages would leave is made by hand.
     std::ofstream(file, std::ios::app) << report::to_json_line({}).substr(0, 1 + random() % 600);
   }
+  EXPECT_GT(kills, 0);
   std::vector<std::string> more;
   if (fs::exists(file)) more.emplace_back("--resume");
   const Finished resumed = run_gnomon(small_sweep(folder.path(), more));
