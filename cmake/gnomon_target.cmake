@@ -26,7 +26,7 @@ endmacro()
 
 # In a folder whose sources are mostly headers of others (JSON, command lines, formatted text): with GNOMON_QUICK_BUILD,
 # eight sources are compiled as one, which reads these headers once. So within a target no two sources give a helper of
-# their own the same name. `./dev check alone` compiles each source by itself.
+# their own the same name. `./dev check bits` compiles each source by itself.
 macro(gnomon_join_sources)
   if(GNOMON_QUICK_BUILD)
     set(CMAKE_UNITY_BUILD ON)
@@ -54,6 +54,8 @@ function(gnomon_library name)
   gnomon_target(gnomon_${name})
   set_target_properties(gnomon_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
     GNOMON_HEADERS "${arg_HEADERS}")
+  # Calls inside of a library go straight to their function, in a shared library too.
+  target_compile_options(gnomon_${name} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-fno-semantic-interposition>)
   target_include_directories(gnomon_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   set_property(GLOBAL APPEND PROPERTY GNOMON_LIBRARIES gnomon_${name})
@@ -108,8 +110,7 @@ function(gnomon_hide_symbols name visible)
 @includes@#pragma GCC visibility pop
 ")
   set_target_properties(gnomon_${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  # Calls inside of a library go straight to their function, as they do in a static one.
-  target_compile_options(gnomon_${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${file}> -fno-semantic-interposition)
+  target_compile_options(gnomon_${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${file}>)
 endfunction()
 
 # gnomon_registry(OUT DEF MACRO DIR SUFFIX): the files DIR/<name>SUFFIX of a registry's entries MACRO(name, ...).

@@ -3,7 +3,7 @@
 # gnomon_test(NAME SOURCES file... [LIBS target...] [SLOW pattern] [FEWER_DRAWS] [SMOKE] [OWN_OPTIONS] [TIMEOUT seconds])
 #   LIBS come on top of GoogleTest with its main, RapidCheck and its GoogleTest bridge.
 #   SLOW: cases whose names match this pattern of GoogleTest run in an entry NAME_slow of their own. With "*" all do.
-#   FEWER_DRAWS: NAME draws a quarter of each law's inputs, NAME_slow all of them.
+#   FEWER_DRAWS: NAME draws a quarter of each law's inputs, under the sanitizers a sixteenth, NAME_slow all of them.
 #   SMOKE: `./dev check sanitizers` runs it, too. OWN_OPTIONS: compiled without the precompiled headers, whose compiler
 #   options the test does not share. TIMEOUT: ten times what the slowest program takes, where not said otherwise.
 #   The program sees GNOMON_SOURCE_DIR and GNOMON_TEST_DATA as string literals.
@@ -92,7 +92,9 @@ function(gnomon_test name)
     if(arg_SLOW)
       list(APPEND environment GTEST_FILTER=-${arg_SLOW})
     endif()
-    if(arg_FEWER_DRAWS)
+    if(arg_FEWER_DRAWS AND GNOMON_SANITIZE)
+      list(APPEND environment GNOMON_DRAWS=16)
+    elseif(arg_FEWER_DRAWS)
       list(APPEND environment GNOMON_DRAWS=4)
     endif()
     add_test(NAME ${name} COMMAND ${name})
