@@ -149,7 +149,8 @@ class Opening {
   std::array<bool, kLevels> opened_{};
 };
 
-/// Lowers the points of the pages with the fewest, `budget` points at most.
+/// Lowers the points of the pages with the fewest, `budget` points at most: a page counts each point that lies
+/// in it and that no finer page holds, and pages below the limit count `budget` points together at most.
 std::uint64_t lower_points(PageContext& c, Opening& opening, std::uint64_t budget) noexcept {
   const std::span<Page> pages = c.memory.pages.first(c.page_count);
   // Pages by their number of points; those with more are no candidates.
@@ -163,7 +164,7 @@ std::uint64_t lower_points(PageContext& c, Opening& opening, std::uint64_t budge
   while (limit < kMostPoints && with[limit] * limit <= left) left -= with[limit] * limit, ++limit;
   std::uint64_t lowered = 0;
   c.for_each_point([&](PagePoint& point, std::size_t) {
-    if (point.level % kLadder == 0 || lowered == budget) return;
+    if (point.level % kLadder == 0) return;
     const CellRange range = opening.cells(point.level, point, 0.0);
     const int own = opening.page_of(point.level, range.column[0], range.row[0]);
     if (own < 0 || pages[static_cast<std::size_t>(own)].points >= limit) return;

@@ -539,5 +539,20 @@ TEST(Pages, a_million_points_and_a_far_plane_at_infinity_are_planned) {
   EXPECT_EQ(many.pages.size(), street.plan(other).pages.size());
 }
 
+TEST(Pages, a_share_leaves_about_as_many_points_to_coarser_levels_as_it_allows_and_no_more) {
+  Street street;
+  // Few points to a page, so that any of them may be left.
+  street.points.clear();
+  for (int i = 0; i < 400; ++i) street.points.push_back({-15.0 + 7 * i % 13 * 2.5, 0.0, -8.0 - 0.45 * i});
+  PageStorage memory;
+  for (const double share : {0.6, 0.4, 0.2}) {
+    street.options.share = share;
+    const PagePlan plan = street.plan(memory);
+    const double most = (1.0 - share) * static_cast<double>(plan.points);
+    EXPECT_LE(static_cast<double>(plan.points_coarser), most) << share;
+    EXPECT_GT(static_cast<double>(plan.points_coarser), 0.9 * most) << share;
+  }
+}
+
 }  // namespace
 }  // namespace gnomon::test
