@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
+#include "map/recalled.hpp"
 #include "support/finite.hpp"
 #include "support/seeded_input.hpp"
 
@@ -64,6 +68,89 @@ TEST(PlanHistory, searches_from_nothing_after_a_while_and_under_other_options) {
   options.warp.objective = Objective::p95;
   ASSERT_EQ(plan(), 1);
   EXPECT_GT(history.map[0].searched.until, second) << "another objective has another best warp";
+}
+
+double fall_off_angle = 0.0;  // radians, in the light plane
+
+/// In the place of a warp: falls off towards an angle, and is always worth following.
+WarpChoice fall_off(const WarpInput& input) noexcept {
+  WarpChoice choice;
+  choice.axis = {std::cos(fall_off_angle), std::sin(fall_off_angle)};
+  const Span u = along(input.body, choice.axis);
+  choice.kappa = 0.5 / (u.high - u.low);
+  choice.gain_ratio = 1.0;
+  choice.last_ratio = 2.0;
+  return choice;
+}
+const Warp kFallOff{"fall_off", "falls off where it is told to", fall_off, false};
+
+TEST(PlanHistory, the_axis_of_a_warp_takes_the_shorter_way_round) {
+  constexpr double kPi = 3.141592653589793, kAside = 0.3, kRounding = 1e-9;
+  const Camera camera =
+      perspective_camera({0, 5, 0}, {0, -0.3, -1}, {0, 1, 0}, 1.0, 1.6, 1.0, 60.0, 640, 400);
+  const std::vector<Box> boxes = {{{-100, -1, -100}, {100, 0, 100}}};
+  PlanOptions options;
+  options.cascades = 1;
+  options.warp.warp = &kFallOff;
+  PlanHistory history;
+  // The angle from -x to where w grows, towards the view.
+  const auto beside = [&] {
+    const ShadowPlan plan = make_plan(camera, DirectionalLight{{0, -1, 0}}, {boxes, boxes}, options, history);
+    EXPECT_EQ(plan.map_count, 1);
+    const glm::dmat4& m = plan.map[0].clip_from_world;
+    return std::atan2(-m[2][3], -m[0][3]);
+  };
+  fall_off_angle = kPi - kAside;
+  EXPECT_NEAR(beside(), kAside, kRounding);
+  fall_off_angle = kAside - kPi;
+  int steps = 0;
+  double before = kAside, now = kAside;
+  while (steps < 100 && std::abs(now + kAside) > kRounding) {
+    now = beside();
+    EXPECT_LT(now, before) << "step " << steps;
+    before = now;
+    ++steps;
+  }
+  EXPECT_GT(steps, 2) << "no way in one step";
+  EXPECT_LT(steps, 100);
+}
+
+/// A square view from above onto level ground under a vertical sun, with a map of Fit::warped_stable: its
+/// rectangle is the view with a tenth of its sides more at each of them.
+struct FromAbove {
+  std::vector<Box> boxes = {{{-100, -1, -100}, {100, 0, 100}}};
+  PlanOptions options;
+  PlanHistory history;
+  FromAbove() {
+    options.cascades = 1;
+    options.fit = Fit::warped_stable;
+    options.warp.warp = &warps::none;
+    options.resolution.max_size = 256;
+    options.filter.texels = 16.0;  // an eighth of the map is border
+  }
+  /// Whether the map is another than in the last frame.
+  bool refits(double x, double side) {
+    const Camera camera = orthographic_camera({x, 10, 0}, {0, -1, 0}, {0, 0, -1}, side, 1.0, 1, 20, 256, 256);
+    const ShadowPlan plan = make_plan(camera, DirectionalLight{{0, -1, 0}}, {boxes, boxes}, options, history);
+    EXPECT_EQ(plan.map_count, 1);
+    return history.event_count > 0;
+  }
+};
+
+TEST(WarpedStable, a_map_is_kept_until_the_view_reaches_its_border) {
+  FromAbove scene;
+  EXPECT_TRUE(scene.refits(0.0, 20.0)) << "the first map";
+  // Room is 2 units; the border begins there, and is 1.7 units wide.
+  EXPECT_FALSE(scene.refits(1.9, 20.0));
+  EXPECT_TRUE(scene.refits(2.1, 20.0));
+}
+
+TEST(WarpedStable, a_map_is_kept_until_the_view_uses_less_than_two_fifths_of_it) {
+  FromAbove scene;
+  EXPECT_TRUE(scene.refits(0.0, 20.0)) << "the first map";
+  // Of a side of 24 units.
+  EXPECT_FALSE(scene.refits(0.0, 15.4)) << "0.41";
+  EXPECT_TRUE(scene.refits(0.0, 14.9)) << "0.39";
 }
 
 }  // namespace
