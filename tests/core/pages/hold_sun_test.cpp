@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <iostream>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "gnomon/pages.hpp"
@@ -155,6 +156,17 @@ TEST(HoldSun, a_sun_of_a_quarter_degree_a_minute_draws_a_tenth_of_the_pages_at_m
   Ground towers;
   towers.casters = {{-600, 0, -160}, {600, 100, 200}};
   expect_few_pages(towers);
+}
+
+TEST(HoldSun, a_surface_that_only_one_of_both_suns_grazes_is_not_evaluated_either) {
+  const Ground ground;
+  // Sines of 0.06 and 0.04, on both sides of the least one.
+  const glm::dvec3 above{1.0, -0.06, 0.0}, below{1.0, -0.04, 0.0};
+  for (const auto& [held, sun] : {std::pair(above, below), std::pair(below, above)}) {
+    const HeldSun kept = ground.hold(held, sun);
+    EXPECT_EQ(kept.direction, held);
+    EXPECT_EQ(kept.points_capped, ground.points.size());
+  }
 }
 
 }  // namespace
