@@ -255,5 +255,26 @@ TEST(StabilityRegressions, a_receiver_at_one_depth_close_to_the_eye_has_a_map) {
   EXPECT_GE(map_serving(plan, p, p.y), 0);
 }
 
+TEST(StabilityRegressions, stable_maps_of_a_flat_scene_far_up_the_light_have_a_depth_range) {
+  // Doubles are 128 apart there at least: the ends of a depth range that is shorter are one number.
+  PlanOptions options;
+  options.fit = Fit::stable;
+  int maps = 0;
+  for (int i = 0; i < 64; ++i) {
+    const double y = 1e18 * (1.0 + 0.37 * i);
+    const Camera camera =
+        perspective_camera({0, y, 0}, {0, 0, -1}, {0, 1, 0}, 0.01, 1.0, 1e3, 1e5, 640, 640);
+    const std::vector<Box> boxes = {{{-1e5, y, -1e5}, {1e5, y, 1e5}}};
+    const ShadowPlan plan = make_plan(camera, DirectionalLight{{0, -1, 0}}, {boxes, boxes}, options);
+    for (const ShadowMap& map : plan.maps()) {
+      ++maps;
+      EXPECT_GT(map.snap_key.depth_near, map.snap_key.depth_far) << y;
+      EXPECT_GT(map.depth_range_world, 0.0) << y;
+      EXPECT_TRUE(std::isfinite(map.clip_from_world[3][2])) << y;
+    }
+  }
+  EXPECT_GT(maps, 64);
+}
+
 }  // namespace
 }  // namespace gnomon::test
