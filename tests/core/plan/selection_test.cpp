@@ -133,5 +133,32 @@ TEST(Selection, where_it_has_no_use_the_plan_says_so) {
                       IgnoredOption::selection));
 }
 
+TEST(Selection, a_map_keeps_the_casters_over_the_quarter_texel_that_it_serves_beside_its_edge) {
+  LitAlongTheView scene;
+  scene.options.resolution.max_size = 16;
+  scene.options.filter.texels = 0.0;
+  const ShadowPlan plan = scene.plan(MapSelection::finest);
+  ASSERT_EQ(plan.map_count, 4);
+  Random random(1);
+  int beside = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double depth = 300.0 * random.unit();
+    const glm::dvec3 point = point_at(scene.camera, random.between(-1, 1), random.between(-1, 1), depth);
+    const Box& box = scene.boxes[0];
+    if (depth < 1.0 || glm::any(glm::lessThan(point, box.min)) || glm::any(glm::greaterThan(point, box.max)))
+      continue;
+    const int serving = map_serving(plan, point, depth);
+    ASSERT_GE(serving, 0);
+    const ShadowMap& map = plan.map[static_cast<std::size_t>(serving)];
+    const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
+    if (std::max(std::abs(clip.x), std::abs(clip.y)) <= clip.w) continue;
+    ++beside;
+    const glm::dvec3 over = point + glm::dvec3(map.light_world) * 10.0;
+    const Box caster{over - 1e-3, over + 1e-3};
+    EXPECT_EQ(cull_casters(map, {&caster, 1}, {}), 1u) << i;
+  }
+  EXPECT_GT(beside, 50);
+}
+
 }  // namespace
 }  // namespace gnomon::test
