@@ -1,11 +1,13 @@
 # How a test program is built and run: one ctest entry per program (a process per case would pay for start-up), or two.
 #
-# gnomon_test(NAME SOURCES file... [LIBS target...] [SLOW pattern] [FEWER_DRAWS] [SMOKE] [OWN_OPTIONS] [TIMEOUT seconds])
+# gnomon_test(NAME SOURCES file... [LIBS target...] [SLOW pattern] [SHARDS count] [SLOW_SHARDS count] [FEWER_DRAWS] [SMOKE]
+#             [OWN_OPTIONS])
 #   LIBS come on top of GoogleTest with its main, RapidCheck and its GoogleTest bridge.
 #   SLOW: cases whose names match this pattern of GoogleTest run in an entry NAME_slow of their own. With "*" all do.
 #   FEWER_DRAWS: NAME draws a quarter of each law's inputs, under the sanitizers a sixteenth, NAME_slow all of them.
+#   SHARDS, SLOW_SHARDS: so many entries share the cases, for a program that would take over a minute.
 #   SMOKE: `./dev check sanitizers` runs it, too. OWN_OPTIONS: compiled without the precompiled headers, whose compiler
-#   options the test does not share. TIMEOUT: ten times what the slowest program takes, where not said otherwise.
+#   options the test does not share.
 #   The program sees GNOMON_SOURCE_DIR and GNOMON_TEST_DATA as string literals.
 #
 # Labels: the folder's (unit, laws, render, program, package or text, see gnomon_test_label) and `slow`. `./dev test` runs
@@ -53,9 +55,10 @@ macro(gnomon_test_label label)
 endmacro()
 add_custom_target(tests_smoke)
 
-# gnomon_set_test(TEST [SLOW] [SMOKE] [PROPERTY value...]): label, environment and time limit of an entry, and more.
+# gnomon_set_test(TEST [SLOW] [SMOKE] [PROPERTY value...]): label, environment and time limit of an entry, and more. The
+# limit is ten times what the slowest entry takes on an idle machine, a minute; under the sanitizers three times as much.
 function(gnomon_set_test test)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "SLOW;SMOKE" "TIMEOUT" "ENVIRONMENT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SLOW;SMOKE" "" "ENVIRONMENT")
   set(labels ${gnomon_label})
   if(arg_SLOW)
     list(APPEND labels slow)
@@ -63,15 +66,37 @@ function(gnomon_set_test test)
   if(arg_SMOKE)
     list(APPEND labels smoke)
   endif()
-  if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 600)
+  set(limit 600)
+  if(GNOMON_SANITIZE)
+    set(limit 1800)
   endif()
-  set_tests_properties(${test} PROPERTIES LABELS "${labels}" TIMEOUT ${arg_TIMEOUT}
+  set_tests_properties(${test} PROPERTIES LABELS "${labels}" TIMEOUT ${limit}
     ENVIRONMENT "${GNOMON_TEST_ENVIRONMENT};${arg_ENVIRONMENT}" ${arg_UNPARSED_ARGUMENTS})
 endfunction()
 
+# gnomon_test_entries(NAME PROGRAM SHARDS ENVIRONMENT [SLOW] [SMOKE]): the ctest entries NAME, or NAME_1_of_N ...
+function(gnomon_test_entries name program shards environment)
+  foreach(shard RANGE 1 ${shards})
+    set(entry ${name})
+    set(shard_environment ${environment})
+    if(shards GREATER 1)
+      string(APPEND entry _${shard}_of_${shards})
+      math(EXPR index "${shard} - 1")
+      list(APPEND shard_environment GTEST_TOTAL_SHARDS=${shards} GTEST_SHARD_INDEX=${index})
+    endif()
+    add_test(NAME ${entry} COMMAND ${program})
+    # A pattern that fits no case any more would pass by checking nothing.
+    gnomon_set_test(${entry} ${ARGN} ENVIRONMENT ${shard_environment} FAIL_REGULAR_EXPRESSION "Running 0 tests")
+  endforeach()
+endfunction()
+
 function(gnomon_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "OWN_OPTIONS;FEWER_DRAWS;SMOKE" "TIMEOUT;SLOW" "SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "OWN_OPTIONS;FEWER_DRAWS;SMOKE" "SLOW;SHARDS;SLOW_SHARDS" "SOURCES;LIBS")
+  foreach(count SHARDS SLOW_SHARDS)
+    if(NOT arg_${count})
+      set(arg_${count} 1)
+    endif()
+  endforeach()
   add_executable(${name} ${arg_SOURCES} ${arg_UNPARSED_ARGUMENTS})
   gnomon_test_options(${name})
   if(NOT arg_OWN_OPTIONS AND GNOMON_QUICK_BUILD)
@@ -97,18 +122,13 @@ function(gnomon_test name)
     elseif(arg_FEWER_DRAWS)
       list(APPEND environment GNOMON_DRAWS=4)
     endif()
-    add_test(NAME ${name} COMMAND ${name})
-    gnomon_set_test(${name} ${smoke} TIMEOUT ${arg_TIMEOUT} ENVIRONMENT ${environment}
-      FAIL_REGULAR_EXPRESSION "Running 0 tests")
+    gnomon_test_entries(${name} ${name} ${arg_SHARDS} "${environment}" ${smoke})
   endif()
   if(arg_SLOW OR arg_FEWER_DRAWS)
     set(environment)
     if(arg_SLOW)
       list(APPEND environment GTEST_FILTER=${arg_SLOW})
     endif()
-    add_test(NAME ${name}_slow COMMAND ${name})
-    # A pattern that fits no case any more would pass by checking nothing.
-    gnomon_set_test(${name}_slow SLOW TIMEOUT ${arg_TIMEOUT} ENVIRONMENT ${environment}
-      FAIL_REGULAR_EXPRESSION "Running 0 tests")
+    gnomon_test_entries(${name}_slow ${name} ${arg_SLOW_SHARDS} "${environment}" SLOW)
   endif()
 endfunction()

@@ -60,7 +60,7 @@ enum class StartUse : std::uint8_t {
 /// The last frame's warp and map in this frame's light plane, where a search may start. Rows may have any
 /// length.
 struct WarpStart {
-  StartUse use = StartUse::none;
+  StartUse use = StartUse::none;  ///< what the search does with the last result
   WarpChoice best;       ///< what the last frame's search returned, with its ratios
   WarpChoice map;        ///< the map that was drawn, which changes in small steps only
   bool has_map = false;  ///< `map` is known and can be drawn again; StartUse::keep needs none
