@@ -69,8 +69,10 @@ class Display : public testing::Environment {
   void SetUp() override {
     int ends[2];
     if (pipe(ends) != 0) return lack("a pipe");
-    // No key repeats by itself where a busy machine is late to let it go.
-    server_ = start({"Xvfb", "-r", "-displayfd", "3", "-screen", "0", "1400x900x24", "-nolisten", "tcp"},
+    // No key repeats by itself where a busy machine is late to let it go; and no server begins anew,
+    // refusing who comes meanwhile, where its last client leaves.
+    server_ = start({"Xvfb", "-r", "-noreset", "-displayfd", "3", "-screen", "0", "1400x900x24", "-nolisten",
+                     "tcp"},
                     folder_.write("xvfb", ""), ends[1]);
     close(ends[1]);
     std::string number;
