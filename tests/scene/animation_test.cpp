@@ -104,6 +104,9 @@ TEST(Animation, keys_are_read_by_their_interpolation) {
   drive(gltf, 1, 0, "translation",
         {{0, 2}, {9, 9, 9, 0, 0, 0, 2, 0, 0, 0, 0, 0, 3, 0, 0, 9, 9, 9}, 3, "CUBICSPLINE"});
   drive(gltf, 2, 0, "scale", {{0, 1}, {1, 1, 1, 3, 1, -1}, 3, "LINEAR"});
+  // From 0 at rest to 0 at speed 3.
+  drive(gltf, 3, 0, "translation",
+        {{0, 2}, {9, 9, 9, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0, 9, 9, 9}, 3, "CUBICSPLINE"});
   const Scene scene = gltf.load();
   EXPECT_EQ(place(posed(scene, 1.99)).x, 1.0);
   EXPECT_EQ(place(posed(scene, 2.0)).x, 5.0);
@@ -111,6 +114,7 @@ TEST(Animation, keys_are_read_by_their_interpolation) {
   // Hermite at a half: p0/2 + p1/2 + length (m0 - m1)/8.
   EXPECT_DOUBLE_EQ(place(posed(scene, 1.0, 1)).x, 1.5 + 2.0 * 2.0 / 8.0);
   EXPECT_EQ(place(posed(scene, 2.0, 1)).x, 3.0);
+  EXPECT_DOUBLE_EQ(place(posed(scene, 1.0, 3)).x, -2.0 * 3.0 / 8.0);
   const Pose scaled = posed(scene, 1.0, 2);
   EXPECT_EQ(scaled.instances[0].world_from_object[0][0], 3.0);
   EXPECT_TRUE(scaled.instances[0].mirrored);
@@ -191,6 +195,21 @@ TEST(Animation, skinned_vertices_follow_their_joints) {
   }
 }
 
+TEST(Animation, each_mesh_follows_the_joints_of_its_own_skin) {
+  TestGltf gltf = skinned(false);
+  gltf.show_node({{"mesh", 0}, {"skin", 1}});
+  const int first = gltf.show_node({{"translation", {0, 0, 30}}}),
+            second = gltf.show_node({{"translation", {0, 0, 50}}});
+  gltf.add("skins", {{"joints", {first, second}}});
+  drive(gltf, 0, first, "translation", {{0, 1}, {0, 0, 30, 0, 0, 40}, 3, "LINEAR"});
+  const Scene scene = gltf.load();
+  ASSERT_EQ(scene.motion.meshes.size(), 2u);
+  const Pose end = posed(scene, 1.0);
+  EXPECT_EQ(end.positions[end.vertices[0].first], glm::vec3(10, 0, 0));
+  EXPECT_EQ(end.positions[end.vertices[1].first], glm::vec3(0, 0, 40));
+  EXPECT_EQ(end.positions[end.vertices[1].first + 1], glm::vec3(1, 0, 50));
+}
+
 /// A triangle with one morph target, alone or under a skin.
 TestGltf morphing(bool skin) {
   TestGltf gltf;
@@ -226,9 +245,13 @@ TEST(Animation, weights_at_rest_count_in_poses_of_other_animations) {
   TestGltf gltf = morphing(false);
   gltf.document["nodes"][0]["weights"] = {0.25};
   drive(gltf, 1, 0, "translation", kWalk);
+  // Those of the mesh stand where the node has none.
+  gltf.document["meshes"][0]["weights"] = {0.75};
   const Scene scene = gltf.load();
   EXPECT_EQ(posed(scene, 0.0, 1).positions[1].z, 0.5f);
   EXPECT_EQ(posed(scene, 1.0, 0).positions[1].z, 2.0f);
+  gltf.document["nodes"][0].erase("weights");
+  EXPECT_EQ(posed(gltf.load(), 0.0, 1).positions[1].z, 1.5f);
 }
 
 TEST(Animation, two_nodes_of_one_mesh_morph_apart) {
@@ -338,6 +361,9 @@ TEST(Animation, poses_that_are_not_finite_stay_at_rest) {
   for (const PosedInstance& instance : end.instances)
     EXPECT_TRUE(std::isfinite(instance.bounds_world.max.x) &&
                 std::isfinite(instance.world_from_object[3][0]));
+  Pose again = end;
+  ASSERT_TRUE(pose(scene, 0, 0.0, again));
+  EXPECT_EQ(again.at_rest, 0u) << "of this pose alone";
 }
 
 TEST(Animation, times_and_names) {

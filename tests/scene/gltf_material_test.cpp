@@ -95,6 +95,14 @@ TEST(GltfMaterial, panes_are_parted_from_the_rest) {
   EXPECT_NE(parts.pane_instances[0], parts.opaque_instances[0]);
 }
 
+TEST(GltfMaterial, each_part_has_the_bounds_of_its_own_instances) {
+  TestGltf gltf = with_material({{"name", "glass"}, {"alphaMode", "BLEND"}});
+  gltf.show({{"attributes", {{"POSITION", 0}}}}, {{"translation", {0, 0, -50}}});
+  const TranslucentParts parts = split_translucent(gltf.load());
+  EXPECT_EQ(parts.panes.bounds_world.min.z, 0.0);
+  EXPECT_EQ(parts.opaque.bounds_world.max.z, -50.0);
+}
+
 TEST(GltfMaterial, each_part_gets_its_share_of_a_pose) {
   Pose pose;
   for (const std::uint32_t instance : {1u, 3u, 4u}) {
@@ -159,6 +167,36 @@ TEST(GltfMaterial, a_picture_above_the_budget_is_a_warning_and_white) {
   const Scene scene = with_picture(small_png()).load(limits);
   EXPECT_TRUE(scene.images.empty());
   EXPECT_EQ(scene.warnings.size(), 1u);
+}
+
+/// Adds a material with a picture of its own.
+void add_picture(TestGltf& gltf, int view) {
+  const int image = gltf.add("images", {{"bufferView", view}, {"mimeType", "image/png"}});
+  const int texture = gltf.add("textures", {{"source", image}});
+  gltf.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}}}});
+}
+
+TEST(GltfMaterial, pictures_share_one_budget) {
+  TestGltf gltf = with_picture(small_png());
+  add_picture(gltf, gltf.view(small_png()));
+  LoadLimits limits;
+  limits.pixels = 4;
+  EXPECT_EQ(gltf.load(limits).images.size(), 2u);
+  limits.pixels = 3;
+  const Scene scene = gltf.load(limits);
+  EXPECT_EQ(scene.images.size(), 1u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("images[1]"), std::string::npos) << scene.warnings[0];
+}
+
+TEST(GltfMaterial, pictures_are_not_tried_after_many_that_failed) {
+  for (const int broken : {63, 64}) {
+    TestGltf gltf = with_material({{"name", "plain"}});
+    const int none = gltf.view(std::vector<std::uint8_t>{'n', 'o', 'n', 'e'});
+    for (int i = 0; i < broken; ++i) add_picture(gltf, none);
+    add_picture(gltf, gltf.view(small_png()));
+    EXPECT_EQ(gltf.load().images.size(), broken == 63 ? 1u : 0u) << broken;
+  }
 }
 
 TEST(GltfMaterial, a_texture_transform_moves_the_texture_coordinates) {

@@ -56,6 +56,21 @@ TEST(Image, encoded_and_decoded_again_is_the_same_picture_with_colour_under_zero
   EXPECT_EQ(back.rgba, image.rgba);
 }
 
+TEST(Image, a_grey_picture_with_alpha_is_grey_with_alpha) {
+  const WrittenFolder folder;
+  const std::string file = (folder.path() / "a.png").string();
+  OIIO::ImageSpec spec(2, 1, 2, OIIO::TypeDesc::UINT8);
+  spec.channelnames = {"Y", "A"};
+  spec.alpha_channel = 1;
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  auto out = OIIO::ImageOutput::create("png");
+  const std::vector<std::uint8_t> pixels{100, 200, 7, 30};
+  ASSERT_TRUE(out && out->open(file, spec) && out->write_image(OIIO::TypeDesc::UINT8, pixels.data()) &&
+              out->close());
+  const Image image = decode_image(read_bytes(file), "a", 2);
+  EXPECT_EQ(image.rgba, (std::vector<std::uint8_t>{100, 100, 100, 200, 7, 7, 7, 30}));
+}
+
 TEST(Image, a_written_png_holds_the_colours_and_no_alpha) {
   const WrittenFolder folder;
   const Image image = gradient(9, 5);
