@@ -84,6 +84,21 @@ TEST(FilterFit, results_stay_within_the_bound_and_a_looser_bound_takes_no_more_b
   EXPECT_GT(kept, 20);
 }
 
+TEST(FilterFit, settings_of_the_fewest_bytes_stay) {
+  int kept = 0;
+  for (const Filter* filter : all_filters()) {
+    for (const TexelFormat format : filter->info.formats) {
+      FilterSettings full = default_settings(*filter);
+      full.format = format;
+      const FilterFit fit = fit_filter(full, std::vector{street(1, 6)}, {.bound = 1.0});
+      if (fit.saves()) continue;
+      EXPECT_EQ(to_string(fit.settings), to_string(full));
+      ++kept;
+    }
+  }
+  EXPECT_GT(kept, 3);
+}
+
 TEST(FilterFit, exceptions_let_so_many_receivers_differ_by_more) {
   const std::vector<DrawnDepths> maps{street(1, 9)};
   const FilterSettings full = settings_of("lvsm:layers=8");
