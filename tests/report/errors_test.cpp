@@ -69,5 +69,14 @@ TEST(Errors, aliasing_counts_what_is_above_zero_infinities_included) {
   EXPECT_DOUBLE_EQ(aliasing.share_undersampled, 0.75);
 }
 
+TEST(Errors, aliasing_has_the_value_that_95_of_100_pixels_stay_below) {
+  Mask m;
+  for (int i = 100; i >= 0; --i) m.push_back(0.5f + static_cast<float>(i));
+  const PixelAliasing aliasing = pixel_aliasing(m);
+  EXPECT_EQ(aliasing.p50, 50.5);
+  EXPECT_EQ(aliasing.p95, 95.5);
+  EXPECT_EQ(aliasing.max, 100.5);
+}
+
 }  // namespace
 }  // namespace gnomon::report

@@ -86,6 +86,8 @@ TEST(Text, short_numbers_stay_short) {
   EXPECT_EQ(short_number(0.0), "0");
   EXPECT_EQ(short_number(0.012345), "0.0123");
   EXPECT_EQ(short_number(12345.6), "12346");
+  EXPECT_EQ(short_number(999.4), "999");
+  EXPECT_EQ(short_number(999.7), "1000");
   EXPECT_EQ(short_number(1.0 / 0.0), "\xE2\x88\x9E");
   EXPECT_EQ(exact_number(0.1), "0.1");
   EXPECT_EQ(exact_number(1.0 / 0.0), "");
@@ -145,6 +147,22 @@ TEST(Summary, gathers_frames_and_scenes) {
   EXPECT_DOUBLE_EQ(summary.cells[1][0].values[total], 2.0);
   EXPECT_DOUBLE_EQ(summary.cells[0][0].values[wrong], 0.3);
   EXPECT_DOUBLE_EQ(summary.cells[0][0].values[total], 4.0);
+}
+
+TEST(Summary, takes_the_worst_frame_where_frames_bound_and_keeps_them_in_order) {
+  std::vector<Row> rows(3, sample_row());
+  const int frames[] = {2, 0, 1};
+  const double m[] = {1.0, 5.0, 3.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    rows[i].frame = frames[i];
+    rows[i].aliasing.p95 = m[i];
+    rows[i].costs.map_bytes = (i + 1) << 20;
+  }
+  const Summary summary = summarize(rows);
+  const std::vector<double>& values = summary.cells[1][0].values;
+  EXPECT_EQ(values[measure_index("m_p95")], 5.0);
+  EXPECT_EQ(values[measure_index("map_mib")], 3.0);
+  EXPECT_EQ(summary.rows_of[1], (std::vector<std::size_t>{1, 2, 0}));
 }
 
 TEST(Summary, a_technique_that_misses_a_scene_is_not_among_all_scenes) {
@@ -245,6 +263,17 @@ TEST(Page, what_is_drawn_from_the_frame_before_is_taken_off_the_frame_drawn_alon
   ASSERT_NE(alone, std::string::npos) << text;
   ASSERT_NE(after, std::string::npos) << text;
   EXPECT_LT(alone, after) << "last, whichever row told it first";
+}
+
+TEST(Page, filters_of_one_plan_count_it_once) {
+  std::vector<Row> rows(3, sample_row(0));
+  rows[1].technique.filter = "pcf";
+  rows[2].technique.map_size *= 2;
+  for (Row& row : rows) row.left_out = {{"fine", "m", 500'000, "metric_resolution", 0}};
+  rows[0].costs.texels = rows[1].costs.texels = 500'000;
+  rows[2].costs.texels = 2'500'000;
+  const std::string text = waterfalls(rows);
+  EXPECT_EQ(count(text, "Without rules 2 million texels"), 1u) << text;  // the mean of 1 and 3
 }
 
 // What people may call a scene: the page shows it and keeps its elements, and tables take it for text.

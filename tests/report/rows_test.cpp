@@ -331,6 +331,21 @@ TEST(Merge, shards_are_the_whole_row_for_row) {
   EXPECT_EQ(lines_of(read_rows(out)), lines_of(rows));
 }
 
+TEST(Merge, rows_from_before_files_were_hashed_join_others) {
+  const TemporaryFolder folder;
+  std::vector<fs::path> shards;
+  const char* const hashes[] = {"0123456789abcdef", "", "fedcba9876543210"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    shards.push_back(folder.path() / std::to_string(i));
+    fs::create_directories(shards.back());
+    Row row = sample_row(i);
+    row.scene_hash = hashes[i];
+    RowsFile(shards.back() / kRowsFile).append(row);
+  }
+  EXPECT_EQ(merge_rows(std::span(shards).first(2), folder.path() / "out"), 2u);
+  EXPECT_THROW(merge_rows(shards, folder.path() / "none"), ReportError) << "the scene has changed";
+}
+
 TEST(Merge, pictures_come_along) {
   const TemporaryFolder folder;
   fs::create_directories(folder.path() / "a/pictures");

@@ -87,6 +87,17 @@ TEST(StabilityChart, marks_where_floats_pass_half_a_texel_and_where_something_el
   EXPECT_EQ(chart.find("inf"), std::string::npos);
 }
 
+TEST(StabilityChart, names_the_last_value_where_floats_fail_and_draws_no_line_over_one_without_maps) {
+  const std::string text = axis_line("none", 1.0, "none", "0.1") + axis_line("none", 10.0, "none", "2.5") +
+                           axis_line("none", 100.0, "none", "0.1") +
+                           axis_line("none", 1000.0, "none", "null", 0) +
+                           axis_line("none", 10000.0, "none", "0.2");
+  const std::string chart = stability_chart(read_stability(text, "here").axes.at(0)).standalone();
+  EXPECT_NE(chart.find("more than half a texel from 10<"), std::string::npos) << chart;
+  EXPECT_NE(chart.find("more than half a texel up to 10<"), std::string::npos) << chart;
+  EXPECT_EQ(count(chart, "class=\"line s"), 2u * 3u) << "two pieces of each line";
+}
+
 TEST(StabilitySection, shows_axes_cases_and_filters_with_names_as_text) {
   const TemporaryFolder folder;
   RowsFile(folder.path() / kRowsFile).append(sample_row());

@@ -76,5 +76,12 @@ TEST(Statistics, no_choice_beats_one_of_the_front) {
   }
 }
 
+TEST(Statistics, the_interval_sees_every_value) {
+  // A quarter of the samples of two values hold the first alone, and a quarter the last.
+  const Estimate e = estimate(std::vector<double>{0.0, 1.0});
+  EXPECT_EQ(e.low, 0.0);
+  EXPECT_EQ(e.high, 1.0);
+}
+
 }  // namespace
 }  // namespace gnomon::report
