@@ -115,6 +115,14 @@ TEST(Perceptual, sizes_maps_for_kernels_in_world_units_by_hand) {
   EXPECT_NEAR(same.radius_pixels, 2.0 * odd.radius_pixels, 100.0 * kRounding);
 }
 
+TEST(Perceptual, kernels_are_as_wide_at_every_depth_of_a_parallel_view) {
+  const Camera view = orthographic_camera({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 20.0, 2.0, 0.5, 60.0, 200, 100);
+  const FilterSettings settings = filter("pcf:radius=1,unit=world");
+  for (const double depth_begin : {2.0, 40.0})
+    EXPECT_NEAR(hiding_map_size(plan_of(1000, 0.1, depth_begin), view, settings).radius_pixels, 5.0,
+                100.0 * kRounding);
+}
+
 TEST(Perceptual, sizes_all_maps_for_the_worst_of_them) {
   ShadowPlan plan = plan_of(1000, 0.1);
   plan.map_count = 2;

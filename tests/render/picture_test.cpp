@@ -91,5 +91,11 @@ TEST(CascadeColors, differ_between_neighbouring_maps) {
   for (int map = 0; map < 15; ++map) EXPECT_NE(cascade_color(map), cascade_color(map + 1));
 }
 
+TEST(Pictures, shrink_to_the_nearest_of_eight_bits) {
+  Image image = blank_image(2, 1, {0, 0, 0});
+  fill_rectangle(image, 1, 0, 1, 1, {255, 3, 1});
+  EXPECT_EQ(pixel(shrunk(image, 1, 1), 0, 0), Color(128, 2, 1));
+}
+
 }  // namespace
 }  // namespace gnomon::render
