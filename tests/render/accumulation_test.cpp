@@ -52,6 +52,11 @@ class Stills {
     }
     return last;
   }
+  void draw_exactly() {
+    const Camera camera = still();
+    renderer_.draw(plan_for(scene_, camera, light_, planned(filter_, map_size_)), camera,
+                   renderer_.prepare_irregular(), accumulating());
+  }
   void turn_light(const glm::dvec3& light) { light_ = light; }
   [[nodiscard]] static Camera still() { return camera_on_box(kSize, kSize); }
   /// Pixels of the ground whose mask is on the wrong side of one half.
@@ -250,6 +255,83 @@ TEST(Accumulation, forgets_what_lies_behind_a_caster_that_moves_and_nothing_else
   EXPECT_GT(wide.behind, hard.behind + 200);
   EXPECT_EQ(wide.ghosts, 0);
   EXPECT_GT(wide.kept, 300);
+}
+
+/// Pixels of the ground in the box's shadow that differ.
+int differing_behind_the_box(const Frame& a, const Frame& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.pixels(); ++i) {
+    if (!a.surface(i) || std::abs(a.point(i).y) > 1e-3) continue;
+    const bool behind = hits_box(a.point(i), -kSlant, glm::dvec3(kBoxMin), glm::dvec3(kBoxMax));
+    count += behind && a.lit(i) != b.lit(i) ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(Accumulation, forgets_what_lies_behind_each_of_many_casters_that_moved_and_not_for_good) {
+  Stills stills;
+  constexpr std::uint32_t kFrames = 32;
+  const Frame rested = stills.after(kFrames);
+  // More boxes than have places of their own: the last ones share one. All but the last are below the ground.
+  std::vector<Box> moved(40, Box{{0.0, -50.0, 0.0}, {0.1, -49.0, 0.1}});
+  moved.back() = {glm::dvec3(kBoxMin), glm::dvec3(kBoxMax)};
+  FrameOptions options = accumulating();
+  options.moved_world = moved;
+  const Frame first = stills.frame(kFrames, options), alone = stills.frame(kFrames, {});
+  EXPECT_GT(differing_behind_the_box(rested, alone), 10);
+  EXPECT_EQ(differing_behind_the_box(first, alone), 0);
+  stills.after(4);
+  stills.frame(4, options);
+  Frame last;
+  for (std::uint32_t i = 5; i <= kFrames; ++i) last = stills.frame(i, accumulating());
+  EXPECT_GT(differing_behind_the_box(last, alone), 10) << "what rests accumulates again";
+}
+
+TEST(Accumulation, keeps_what_a_lamp_lights_where_casters_move_beyond_it) {
+  const Scene scene = box_on_ground();
+  const std::vector<Box> boxes = boxes_of(scene);
+  const Camera camera = Stills::still();
+  const FilterSettings filter = default_settings(filters::hard);
+  const Light lamp = PointLight{{-3.0, 6.0, 3.0}, 60.0};
+  const ShadowPlan plan = make_plan(camera, lamp, {boxes, boxes}, planned(filter, 64));
+  Renderer told(scene), untold(scene);
+  const std::vector<Box> beyond{{{-50.0, 8.0, -50.0}, {50.0, 9.0, 50.0}}};
+  Frame a, b, alone;
+  constexpr std::uint32_t kFrames = 9;
+  for (std::uint32_t i = 0; i < kFrames; ++i) {
+    FrameOptions options = accumulating();
+    options.light = &lamp;
+    const ShadowPlan shaken = jittered(plan, jitter_texels(i));
+    b = draw(untold, camera, shaken, filter, options);
+    if (i + 1 == kFrames) options.moved_world = beyond;
+    a = draw(told, camera, shaken, filter, options);
+    options.accumulation.on = false;
+    if (i + 1 == kFrames) alone = draw(untold, camera, shaken, filter, options);
+  }
+  EXPECT_TRUE(same_mask(a, b));
+  EXPECT_FALSE(same_mask(a, alone));
+}
+
+TEST(Accumulation, a_view_at_rest_remembers_no_more_frames_than_it_may) {
+  const auto change = [](double memory) {
+    Stills stills;
+    FrameOptions options = accumulating();
+    options.accumulation.memory = memory;
+    const Frame before = stills.after(32, options), after = stills.frame(32, options);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < before.pixels(); ++i) sum += std::abs(after.lit(i) - before.lit(i));
+    return sum;
+  };
+  EXPECT_GT(change(1.0), 4.0 * change(64.0));
+}
+
+TEST(Accumulation, an_exact_frame_forgets) {
+  Stills stills;
+  stills.after(16);
+  stills.turn_light(glm::normalize(glm::dvec3(-0.5, -1.0, 0.3)));
+  stills.draw_exactly();
+  const Frame after = stills.frame(3, accumulating());
+  EXPECT_TRUE(same_mask(after, stills.frame(3, {})));
 }
 
 TEST(Accumulation, noise_that_moves_averages_to_the_whole_kernel) {
