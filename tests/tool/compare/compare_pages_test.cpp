@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "compare/sweep.hpp"
 #include "gnomon/pages.hpp"
 #include "small_sweep.hpp"
 
@@ -119,6 +120,21 @@ TEST(ComparePages, what_pages_cannot_do_is_refused_in_one_line) {
     EXPECT_NE(finished.err.find(line), std::string::npos) << finished.err;
     EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
     EXPECT_FALSE(fs::exists(out));
+  }
+}
+
+TEST(ComparePages, numbers_of_cascades_are_one_row_under_a_lamp) {
+  tool::CompareRequest request;
+  request.scenes = {"builtin:hangar"};
+  request.filters = {"hard"};
+  request.cascades = {"1", "4"};
+  request.pages = {"resolution"};
+  for (const char* light : {"sun", "spot", "point"}) {
+    request.light = light;
+    const tool::Sweep sweep = tool::make_sweep(request);
+    const auto by_pages = std::count_if(sweep.entries.begin(), sweep.entries.end(),
+                                        [](const tool::SweepEntry& entry) { return entry.by_pages(); });
+    EXPECT_EQ(by_pages, request.light == "sun" ? 2 : 1) << light;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "calibrate/planner_check.hpp"
 #include "small_sweep.hpp"
 
 namespace gnomon::test {
@@ -37,6 +38,16 @@ TEST(Calibrate, refuses_what_it_cannot_use) {
   EXPECT_EQ(unfitted.exit_code, 2);
   EXPECT_NE(unfitted.err.find("model.json"), std::string::npos);
   EXPECT_FALSE(fs::exists(model));
+}
+
+TEST(Calibrate, views_differ_by_light_and_observations_are_in_milliseconds) {
+  report::Row row = report::read_rows(whole()).front();
+  row.times.plan_ns.median = 250'000.0;
+  report::Row lamp = row;
+  lamp.light = "spot";
+  EXPECT_EQ(tool::views_of({row, row, lamp}).size(), 2u);
+  const std::vector<tool::View> views = tool::views_of({row});
+  EXPECT_DOUBLE_EQ(tool::Replanned(views.at(0)).observe(row).frame_ms, 0.25);
 }
 
 TEST(Report, is_written_again_without_measuring) {

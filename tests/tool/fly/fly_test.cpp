@@ -41,6 +41,16 @@ TEST(ContactSheet, shows_all_of_its_title_however_narrow_it_is) {
   }
 }
 
+TEST(ContactSheet, shows_the_first_and_the_last_frame_and_as_many_as_fit) {
+  for (const int frames : {1, 2, 7, 8, 9, 100}) {
+    const ContactSheet sheet(frames, 64, 36);
+    int columns = 0;
+    for (int frame = 0; frame < frames; ++frame) columns += sheet.wants(frame) ? 1 : 0;
+    EXPECT_EQ(columns, std::min(frames, 8)) << frames;
+    EXPECT_TRUE(sheet.wants(0) && sheet.wants(frames - 1)) << frames;
+  }
+}
+
 Flight flight_of(bool closed) {
   Flight flight;
   flight.path.keys = {

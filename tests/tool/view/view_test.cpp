@@ -344,6 +344,49 @@ TEST(ViewTruth, counts_what_the_reference_counts) {
   EXPECT_EQ(counted.decided, expected.decided);
 }
 
+TEST(ViewTruth, is_of_one_light_alone) {
+  const SpotLight spot{{1, 9, 2}, {0.1, -1, 0.2}, 0.7, 55.5};
+  const PointLight point{{1, 9, 2}, 55.5};
+  std::vector<SpotLight> spots(5, spot);
+  spots[1].position.x = 2;
+  spots[2].direction.z = 0.3;
+  spots[3].outer_radians = 0.8;
+  spots[4].range = 44;
+  std::set<std::string> texts{light_text(point), light_text(PointLight{{1, 9, 2}, 44}),
+                              light_text(PointLight{{1, 8, 2}, 55.5}),
+                              light_text(DirectionalLight{{0.1, -1, 0.2}})};
+  for (const SpotLight& other : spots) texts.insert(light_text(other));
+  EXPECT_EQ(texts.size(), 4u + spots.size());
+}
+
+TEST(ViewProbe, finds_the_shadow_of_a_lamp_that_the_maps_have) {
+  State state = hangar();
+  state.light.sun.kind = LightKind::point;
+  state.a.plan.resolution.max_size = 1024;
+  state.a.filter = render::default_settings(render::filters::hard);
+  (void)picture(state);
+  stage().finish_truth();
+  const Side& side = stage().side(0);
+  render::Renderer renderer(stage().loaded().scene);
+  renderer.draw(side.plan, stage().camera(), renderer.prepare(state.a.filter));
+  const FloatImage mask = renderer.mask();
+  int facing = 0, lit = 0, equal = 0;
+  for (int y = 1; y < kHeight; y += 4) {
+    for (int x = 1; x < kWidth; x += 4) {
+      const Probed probed =
+          probe(*stage().tracer(), side.plan, stage().camera(), stage().light(), x + 0.5, y + 0.5);
+      if (!probed.hit || probed.turned_away || probed.map < 0) continue;
+      const bool shadow = mask.values[2 * static_cast<std::size_t>(y * kWidth + x)] < 0.5f;
+      ++facing;
+      lit += shadow ? 0 : 1;
+      equal += shadow == probed.shadow ? 1 : 0;
+    }
+  }
+  EXPECT_GT(lit, 50);
+  EXPECT_GT(facing - lit, 20);
+  EXPECT_GT(equal, facing * 9 / 10);  // edges aside
+}
+
 TEST(ViewProbe, reports_the_m_of_the_heat_map) {
   State state = hangar();
   (void)picture(state);
