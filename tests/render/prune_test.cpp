@@ -223,6 +223,21 @@ TEST(Prune, what_a_filter_stored_under_other_settings_is_not_taken_for_its_own) 
   EXPECT_EQ(differing(draw(renderer, all, "savsm:floor=1e-6"), wanted), 0u);
 }
 
+TEST(Prune, maps_that_are_added_are_filtered) {
+  const Scene scene = load_builtin("hangar");
+  const View view = view_of(scene, 4);
+  ASSERT_GT(view.plan.map_count, 1);
+  ShadowPlan nearest = view.plan;
+  nearest.map_count = 1;
+  Renderer renderer(scene), fresh(scene);
+  for (Renderer* with : {&renderer, &fresh}) {
+    const PreparedFilter filter = with->prepare(parse_filter("vsm:radius=2").settings);
+    if (with == &renderer) with->draw(nearest, view.camera, filter, mask_only({}));
+    with->draw(view.plan, view.camera, filter, mask_only({}));
+  }
+  EXPECT_EQ(differing(renderer.mask(), fresh.mask()), 0u);
+}
+
 TEST(Prune, newly_relevant_casters_are_added_to_a_cached_map) {
   const Scene scene = load_builtin("hangar");
   const View view = view_of(scene, 1);
