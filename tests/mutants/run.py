@@ -16,7 +16,7 @@ import time
 # The pinned hash of all plans would notice any change of a bit, and say nothing of what the other tests are worth.
 NOT_THE_HASH = "--gtest_filter=-PlanHash.*"
 DRAWN = ["filter_fit_test", "render_pages_test", "render_animation_test", "prune_test", "render_irregular_test", "render_layers_test", "render_panes_test",
-         "render_test"]
+         "render_lights_test", "render_test"]
 SUITES = {  # the quick ones first
     "src/core/": ["core_tests", "core_golden_tests", "core_extreme_tests", "core_laws_tests"],
     "src/scene/": ["load_gltf_test", "gltf_refusal_test", "gltf_confinement_test", "gltf_skin_test", "animation_test",
@@ -26,9 +26,11 @@ SUITES = {  # the quick ones first
     "src/trace/": ["trace_test", "trace_scenes_test"],
     "src/render/": DRAWN,
     "shaders/": DRAWN,
+    "src/tool/calibrate/": ["compare_test"],
     "src/tool/compare/": ["flips_law_test", "compare_test"],
+    "src/tool/fly/": ["fly_test", "flythrough_test"],
     "src/tool/pages/": ["view_test", "flythrough_test", "compare_test"],
-    "src/tool/view/": ["view_test", "view_window_test"],
+    "src/tool/view/": ["view_test", "tool_animation_test", "view_window_test"],
 }
 # What is built beside core, scene and case files, by the folder whose faults need it.
 PARTS = {
@@ -36,7 +38,9 @@ PARTS = {
     "src/trace/": ["TRACE"],
     "src/render/": ["RENDER", "TRACE"],
     "shaders/": ["RENDER", "TRACE"],
+    "src/tool/calibrate/": ["RENDER", "TRACE", "REPORT", "TOOL"],
     "src/tool/compare/": ["RENDER", "TRACE", "REPORT", "TOOL"],
+    "src/tool/fly/": ["RENDER", "TRACE", "REPORT", "TOOL"],
     "src/tool/pages/": ["RENDER", "TRACE", "REPORT", "TOOL"],
     "src/tool/view/": ["RENDER", "TRACE", "REPORT", "TOOL"],
 }
