@@ -48,7 +48,7 @@ struct Pair {
     const ShadowPlan plan = make_plan(camera, light, {boxes, boxes}, with);
     FrameOptions draw;
     draw.aliasing = draw.heat_map = draw.cascade_tint = draw.time_passes = false;
-    draw.prune = exact_prune_rules();
+    draw.prune = rules;
     last = keeps.draw(plan, camera, keeps.prepare(filter), draw);
     draw.prune = draw.prune.without(PruneRule::held_maps).without(PruneRule::scrolled_maps);
     const FrameStats whole = redraws.draw(plan, camera, redraws.prepare(filter), draw);
@@ -65,6 +65,7 @@ struct Pair {
   Scene scene, posed;
   Renderer keeps, redraws;
   PlanOptions options;
+  PruneRules rules = exact_prune_rules();
   std::vector<Box> boxes;
   FrameStats last;
   std::uint64_t texels = 0, all_texels = 0;
@@ -202,6 +203,52 @@ TEST(Animation, kept_pages_of_a_flight_have_no_stale_texel) {
   }
   EXPECT_GT(kept, all / 3);
   EXPECT_LT(kept, all);
+}
+
+TEST(Animation, a_pose_that_comes_back_takes_what_was_moved_by_hand) {
+  Pair pair(animated_scene());
+  const FilterSettings filter = default_settings(filters::hard);
+  pair.go(1.0);
+  ASSERT_EQ(pair.stale(watching(0), DirectionalLight{kSlant}, filter), 0u);
+  Pose at;
+  ASSERT_TRUE(pose(pair.scene, 0, 1.0, at));
+  const std::size_t mover = at.instances.front().instance;
+  Instance aside = pair.posed.instances[mover];
+  const glm::dvec3 step(0.0, 3.0, 0.0);
+  aside.world_from_object[3] += glm::dvec4(step, 0.0);
+  aside.bounds_world = {aside.bounds_world.min + step, aside.bounds_world.max + step};
+  ASSERT_TRUE(pair.keeps.move_instance(mover, aside));
+  EXPECT_NE(pair.stale(watching(0), DirectionalLight{kSlant}, filter), 0u);
+  pair.go(1.0);
+  EXPECT_EQ(pair.stale(watching(0), DirectionalLight{kSlant}, filter), 0u);
+}
+
+TEST(Animation, a_mesh_that_bends_within_its_bounds_moves_its_shadow) {
+  const FilterSettings filter = default_settings(filters::hard);
+  for (const bool apart : {true, false}) {
+    Pair pair(animated_scene());
+    if (!apart) pair.rules = pair.rules.without(PruneRule::static_casters);
+    Pose at;
+    ASSERT_TRUE(pose(pair.scene, 0, 1.0, at));
+    const auto take = [&] {
+      ASSERT_TRUE(pair.keeps.apply_pose(at));
+      ASSERT_TRUE(pair.redraws.apply_pose(at));
+      gnomon::apply_pose(at, pair.posed);
+      pair.boxes = boxes_of(pair.posed);
+    };
+    take();
+    ASSERT_EQ(pair.stale(watching(0), DirectionalLight{kSlant}, filter), 0u);
+    const std::vector<float> before = pair.keeps.mask().values;
+    // The tower's waist: its foot and its top hold its bounds.
+    const PosedVertices& tower = at.vertices.back();
+    for (std::size_t i = tower.first; i < tower.first + tower.count; ++i) {
+      glm::vec3& p = at.positions[i];
+      if (p.y > 0.2f && p.y < 3.5f) p.x = 1.0f + 0.1f * (p.x - 1.0f);
+    }
+    take();
+    EXPECT_EQ(pair.stale(watching(0), DirectionalLight{kSlant}, filter), 0u) << apart;
+    EXPECT_NE(pair.keeps.mask().values, before);
+  }
 }
 
 TEST(Animation, poses_of_other_scenes_are_refused) {

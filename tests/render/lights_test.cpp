@@ -137,6 +137,24 @@ TEST(LightsRender, clusters_give_the_bits_of_a_walk_over_all_lights) {
   }
 }
 
+TEST(LightsRender, a_parallel_view_shows_what_a_walk_over_all_lights_shows) {
+  const FilterSettings filter = settings_of("hard");
+  Stage stage(filter);
+  const Camera& eye = stage.camera;
+  stage.camera =
+      orthographic_camera(eye.position, eye.forward, eye.up, 24.0, 1.0, 0.5, 60.0, kSize, kSize);
+  stage.requests.push_back({PointLight{{-4.0, 1.5, -3.0}, 3.0}});  // all of it in front of the eye
+  stage.grow();
+  stage.replan();
+  ASSERT_GE(stage.plan.mapped, 3);
+  stage.draw(filter, -1, {1 << 16, 1});
+  const FloatImage all = stage.renderer.light_sum();
+  stage.draw(filter, -1, {0, 1});  // each in the pixels that it can light
+  const FloatImage each = stage.renderer.light_sum();
+  for (std::size_t k = 0; k < all.values.size(); ++k)
+    ASSERT_NEAR(each.values[k], all.values[k], 1e-5f * (1.0f + all.values[k])) << k;
+}
+
 TEST(LightsRender, lights_without_a_range_light_nothing) {
   const FilterSettings filter = settings_of("hard");
   Stage stage(filter);

@@ -189,6 +189,26 @@ TEST(StaticCasters, maps_without_static_casters_have_no_copies) {
   ASSERT_EQ(pair.stale(going(0)), 0u) << "static casters begin to move";
 }
 
+TEST(StaticCasters, depths_from_before_all_casters_moved_are_not_taken_up_again) {
+  Pair pair;
+  const auto frame = [&](std::size_t movers) {
+    for (std::size_t i = 0; i < movers; ++i) pair.move(i + 1 == movers ? 0 : i + 1, {0.13, 0.0, -0.07});
+    ASSERT_EQ(pair.stale(going(0)), 0u);
+  };
+  for (int i = 0; i < 3; ++i) {
+    pair.move(1, {0.13, 0.0, -0.07});
+    ASSERT_EQ(pair.stale(going(0)), 0u);
+  }
+  EXPECT_GT(pair.copied(), 0u) << "the others lie beneath";
+  for (int i = 0; i < 3; ++i) frame(pair.boxes.size());
+  // The ground goes on, so that nothing else draws the whole map.
+  for (int i = 0; i < MovingCasters::kRestFrames + 4; ++i) {
+    pair.move(0, {0.01, 0.0, 0.0});
+    ASSERT_EQ(pair.stale(going(0)), 0u) << "frame " << i;
+  }
+  EXPECT_GT(pair.copied(), 0u) << "they do again";
+}
+
 TEST(StaticCasters, a_caster_that_rests_becomes_static_and_costs_nothing) {
   Pair pair;
   ASSERT_EQ(pair.stale(going(0)), 0u);
