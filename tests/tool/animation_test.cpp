@@ -81,6 +81,23 @@ TEST(Playing, exact_shadows_are_those_of_the_pose) {
   }
 }
 
+TEST(Playing, rays_go_against_the_present_pose_whatever_was_being_sorted) {
+  const SceneFile scene;
+  const auto loaded = load(scene.file, LoadLimits{}.triangles);
+  render::Renderer renderer(loaded->scene);
+  // Begins with the scene at rest, and is not waited for.
+  PosedScene posed(std::shared_ptr<const Scene>(loaded, &loaded->scene), loaded->boxes);
+  bool moved = false;
+  ASSERT_EQ(posed.follow({"all", 2.0, false, 1.0}, renderer, moved), "");
+  ASSERT_TRUE(moved);
+  posed.take_tracer(true);
+  // Down on the walking box and the one that it carries, half way through.
+  trace::Ray down;
+  down.origin = {3.0, 5.0, 3.5};
+  down.direction = {0.0, -1.0, 0.0};
+  EXPECT_NEAR(posed.tracer()->first_hit(down).t, 5.0 - 2.4, 1e-5);
+}
+
 TEST(Playing, an_animation_that_is_not_there_is_refused_and_the_picture_stays) {
   const SceneFile scene;
   Stage stage(load(scene.file, LoadLimits{}.triangles));
