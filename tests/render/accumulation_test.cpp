@@ -287,7 +287,7 @@ TEST(Accumulation, forgets_what_lies_behind_each_of_many_casters_that_moved_and_
   EXPECT_GT(differing_behind_the_box(last, alone), 10) << "what rests accumulates again";
 }
 
-TEST(Accumulation, keeps_what_a_lamp_lights_where_casters_move_beyond_it) {
+TEST(Accumulation, keeps_what_a_local_light_lights_where_casters_move_beyond_it) {
   const Scene scene = box_on_ground();
   const std::vector<Box> boxes = boxes_of(scene);
   const Camera camera = Stills::still();

@@ -123,7 +123,7 @@ TEST(ComparePages, what_pages_cannot_do_is_refused_in_one_line) {
   }
 }
 
-TEST(ComparePages, numbers_of_cascades_are_one_row_under_a_lamp) {
+TEST(ComparePages, numbers_of_cascades_are_one_row_under_a_local_light) {
   tool::CompareRequest request;
   request.scenes = {"builtin:hangar"};
   request.filters = {"hard"};

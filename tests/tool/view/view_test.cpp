@@ -359,7 +359,7 @@ TEST(ViewTruth, is_of_one_light_alone) {
   EXPECT_EQ(texts.size(), 4u + spots.size());
 }
 
-TEST(ViewProbe, finds_the_shadow_of_a_lamp_that_the_maps_have) {
+TEST(ViewProbe, finds_the_shadow_of_a_local_light_that_the_maps_have) {
   State state = hangar();
   state.light.sun.kind = LightKind::point;
   state.a.plan.resolution.max_size = 1024;
