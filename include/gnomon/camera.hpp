@@ -26,7 +26,8 @@ struct Camera {
   int width = 1920, height = 1080;  ///< image size, pixels
 };
 
-/// The usual symmetric perspective camera. `fov_y_radians` is the full vertical angle, in (0, pi);
+/// The usual symmetric perspective camera. `fov_y_radians` is the full vertical angle, in (0, pi); other angles,
+/// such as degrees, give edges that are no numbers, and make_plan refuses them by the name of this argument.
 /// `aspect` is width over height.
 [[nodiscard]] Camera perspective_camera(const glm::dvec3& position, const glm::dvec3& forward,
                                         const glm::dvec3& up, double fov_y_radians, double aspect,

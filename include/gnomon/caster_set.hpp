@@ -47,16 +47,18 @@ class CasterSet {
   /// A set of nothing.
   CasterSet() = default;
   /// Sorts `boxes`; empty ones are kept a place but never listed. Where the memory given is too small the set
-  /// stays without boxes, see size().
+  /// stays without boxes and is not usable(): make_plan refuses it.
   CasterSet(std::span<const Box> boxes, std::span<CasterBlock> blocks,
             std::span<std::uint32_t> indices) noexcept;
 
   /// Boxes in the set, empty ones included.
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
-  /// False where a box has a corner that is no number, or one beyond 1e30: make_plan refuses the set then, as
-  /// it refuses a list with such a box. O(1).
-  [[nodiscard]] bool usable() const noexcept { return size_ == 0 || blocks_.back().unusable == 0; }
+  /// False where the memory was too small, or a box has a corner that is no number or beyond 1e30: make_plan
+  /// refuses the set then, as it refuses a list with such a box. O(1).
+  [[nodiscard]] bool usable() const noexcept {
+    return fits_ && (size_ == 0 || blocks_.back().unusable == 0);
+  }
 
   /// The tree: level 0 has the boxes, eight to a block, the last level one block. Lane i of block b bounds
   /// block 8 b + i of the level below.
@@ -96,6 +98,7 @@ class CasterSet {
   std::span<std::uint32_t> place_of_;  // box -> place in the tree
   std::array<std::size_t, kMaxLevels + 1> first_{};
   std::size_t levels_ = 0, size_ = 0;
+  bool fits_ = true;  // into the memory given
 };
 
 }  // namespace gnomon

@@ -13,8 +13,11 @@ struct SnapKey {
   std::int64_t depth_near = 0, depth_far = 0;  ///< depth steps
   double texel = 0.0;                          ///< side of the grid's squares, world units
   bool valid = false;                          ///< false for Fit::tight
-  /// Equal in all members: the same grid.
-  bool operator==(const SnapKey&) const = default;
+  /// The same grid: both are valid, and equal in all members. Maps without a grid have none in common.
+  friend bool operator==(const SnapKey& a, const SnapKey& b) noexcept {
+    return a.valid && b.valid && a.x == b.x && a.y == b.y && a.depth_near == b.depth_near &&
+           a.depth_far == b.depth_far && a.texel == b.texel;
+  }
 };
 
 /// The nearest whole number of `step`s to `value`. Needs step > 0; |value / step| beyond 2^53 is returned

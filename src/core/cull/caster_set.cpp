@@ -125,6 +125,7 @@ CasterSet::CasterSet(std::span<const Box> boxes, std::span<CasterBlock> blocks,
                      std::span<std::uint32_t> indices) noexcept {
   if (boxes.empty() || boxes.size() > UINT32_MAX || blocks.size() < block_count(boxes.size()) ||
       indices.size() < index_count(boxes.size())) {
+    fits_ = boxes.empty();
     return;
   }
   size_ = boxes.size();

@@ -14,7 +14,10 @@ namespace gnomon {
 Camera perspective_camera(const glm::dvec3& position, const glm::dvec3& forward, const glm::dvec3& up,
                           double fov_y_radians, double aspect, double near_depth, double far_depth, int width,
                           int height) noexcept {
-  const double tan_y = elementary::tan(0.5 * fov_y_radians);
+  constexpr double kPi = 3.141592653589793;
+  const bool is_angle = fov_y_radians > 0.0 && fov_y_radians < kPi;
+  const double tan_y =
+      is_angle ? elementary::tan(0.5 * fov_y_radians) : std::numeric_limits<double>::quiet_NaN();
   const double tan_x = tan_y * aspect;
   return {position, forward, up, false, -tan_x, tan_x, -tan_y, tan_y, near_depth, far_depth, width, height};
 }

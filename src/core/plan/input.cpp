@@ -33,6 +33,9 @@ std::string_view invalid_camera(const Camera& c) noexcept {
   if (!usable(c.position)) return "camera.position";
   if (!is_direction(c.forward)) return "camera.forward";
   if (!usable(c.up)) return "camera.up";
+  // As perspective_camera leaves them. Not compared, which raises a floating-point exception.
+  if (std::isnan(c.left) && std::isnan(c.right) && std::isnan(c.bottom) && std::isnan(c.top))
+    return "camera: fov_y_radians is in (0, pi), not in degrees";
   if (!usable(c.left) || !usable(c.right) || !(c.left < c.right)) return "camera.left, camera.right";
   if (!usable(c.bottom) || !usable(c.top) || !(c.bottom < c.top)) return "camera.bottom, camera.top";
   if (!usable(c.near_depth)) return "camera.near_depth";

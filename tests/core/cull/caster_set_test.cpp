@@ -114,6 +114,25 @@ TEST(CasterSet, memory_that_is_too_small_leaves_the_set_without_boxes) {
   EXPECT_EQ(CasterSet(boxes, blocks, indices).size(), 100u);
 }
 
+TEST(CasterSet, memory_that_is_too_small_makes_plans_refuse_the_set) {
+  const std::vector<Box> boxes(100, Box{{-1, -1, -10}, {1, 1, -2}});
+  std::vector<CasterBlock> blocks(CasterSet::block_count(100));
+  std::vector<std::uint32_t> indices(CasterSet::index_count(100));
+  const CasterSet whole(boxes, blocks, indices);
+  EXPECT_TRUE(whole.usable());
+  EXPECT_TRUE(CasterSet({}, {}, {}).usable());
+  const CasterSet cut(boxes, std::span(blocks).first(blocks.size() - 1), indices);
+  EXPECT_FALSE(cut.usable());
+  const Camera camera = perspective_camera({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.0, 1.0, 0.1, 100.0, 64, 64);
+  const DirectionalLight sun{{0.1, -1.0, 0.0}};
+  EXPECT_EQ(make_plan(camera, sun, {whole, whole}).status, PlanStatus::ok);
+  for (const SceneBounds& bounds : {SceneBounds{cut, whole}, SceneBounds{whole, cut}}) {
+    const ShadowPlan plan = make_plan(camera, sun, bounds);
+    EXPECT_EQ(plan.status, PlanStatus::invalid_input);
+    EXPECT_NE(plan.invalid_field.find("bounds."), std::string_view::npos) << plan.invalid_field;
+  }
+}
+
 TEST(CasterSet, blocks_hold_eight_boxes_and_eight_blocks_each) {
   EXPECT_EQ(CasterSet::block_count(0), 0u);
   EXPECT_EQ(CasterSet::block_count(8), 1u);

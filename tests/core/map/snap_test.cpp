@@ -43,6 +43,11 @@ TEST(Snap, keys_are_equal_where_every_part_is) {
   EXPECT_NE(key, (SnapKey{1, 2, 3, 4, 0.5, false}));
 }
 
+TEST(Snap, keys_of_maps_without_a_grid_are_equal_to_nothing) {
+  EXPECT_NE(SnapKey{}, SnapKey{});
+  EXPECT_NE((SnapKey{1, 2, 3, 4, 0.5, false}), (SnapKey{1, 2, 3, 4, 0.5, false}));
+}
+
 TEST(SnapProperty, the_index_is_within_half_a_step_and_moves_by_whole_steps) {
   for_all(2000, [&] {
     const double step = std::exp2(between(-20.0, 20.0)), value = between(-1.0, 1.0) * step * 1e6;
