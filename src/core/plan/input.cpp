@@ -94,7 +94,22 @@ bool usable(const VisibleDepths& depths) noexcept {
   return depths.empty() ? !std::isnan(depths.min + depths.max) : depths.min > 0.0 && depths.max <= kLargest;
 }
 
+/// The first option that holds none of its enumerators, such as a byte read from a file.
+std::string_view unknown_enumerator(const PlanOptions& o) noexcept {
+  if (o.split.partition > Partition::receiver_clusters) return "options.split.partition";
+  if (o.split.scheme > SplitScheme::given) return "options.split.scheme";
+  if (o.split.range > SplitRange::camera) return "options.split.range";
+  if (o.split.selection > MapSelection::finest) return "options.split.selection";
+  if (o.fit > Fit::warped_stable) return "options.fit";
+  if (o.warp.objective > Objective::p95) return "options.warp.objective";
+  const ClipSpace& clip = o.clip_space;
+  if (clip.ndc_depth > NdcDepth::zero_to_one) return "options.clip_space.ndc_depth";
+  if (clip.handedness > Handedness::left) return "options.clip_space.handedness";
+  return clip.first_row > FirstRow::y_plus_one ? "options.clip_space.first_row" : std::string_view{};
+}
+
 std::string_view invalid_options(const PlanOptions& o) noexcept {
+  if (const auto field = unknown_enumerator(o); !field.empty()) return field;
   if (o.resolution.max_size < kLeastMapSize || o.resolution.max_size > kMostMapSize)
     return "options.resolution.max_size";
   if (o.cascades < 1 || o.cascades > kMaxMaps) return "options.cascades";
