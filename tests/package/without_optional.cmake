@@ -1,7 +1,6 @@
-# Does the project configure and build without OpenImageIO, Draco, meshoptimizer, Embree, GLFW, Dear ImGui, and the pkg-config that OpenImageIO and
-# Dear ImGui are found by? Without TARGETS, all that stands in for them is compiled; TARGETS=all (./dev check packages) builds
-# everything and asks
-# the programs for what is missing, which takes minutes.
+# Does the project configure and build without OpenImageIO, Draco, meshoptimizer, Embree, GLFW, Dear ImGui, and the
+# pkg-config that OpenImageIO and Dear ImGui are found by? Without TARGETS, all that stands in for them is compiled;
+# TARGETS=all (./dev check packages) builds everything and asks the programs for what is missing, which takes minutes.
 file(REMOVE_RECURSE ${WORK_DIR})
 set(parts OPENIMAGEIO DRACO MESHOPTIMIZER EMBREE GLFW IMGUI)
 list(TRANSFORM parts REPLACE "(.+)" "-DGNOMON_WITH_\\1=OFF")
