@@ -4,7 +4,7 @@
 #             [OWN_OPTIONS])
 #   LIBS come on top of GoogleTest with its main, RapidCheck and its GoogleTest bridge.
 #   SLOW: cases whose names match this pattern of GoogleTest run in an entry NAME_slow of their own. With "*" all do.
-#   FEWER_DRAWS: NAME draws a quarter of each law's inputs, under the sanitizers a sixteenth, NAME_slow all of them.
+#   FEWER_DRAWS: NAME draws a quarter of each law's inputs, NAME_slow all of them.
 #   SHARDS, SLOW_SHARDS: so many entries share the cases, for a program that would take over a minute.
 #   SMOKE: `./dev check sanitizers` runs it, too. OWN_OPTIONS: compiled without the precompiled headers, whose compiler
 #   options the test does not share.
@@ -117,9 +117,7 @@ function(gnomon_test name)
     if(arg_SLOW)
       list(APPEND environment GTEST_FILTER=-${arg_SLOW})
     endif()
-    if(arg_FEWER_DRAWS AND GNOMON_SANITIZE)
-      list(APPEND environment GNOMON_DRAWS=16)
-    elseif(arg_FEWER_DRAWS)
+    if(arg_FEWER_DRAWS)
       list(APPEND environment GNOMON_DRAWS=4)
     endif()
     gnomon_test_entries(${name} ${name} ${arg_SHARDS} "${environment}" ${smoke})
