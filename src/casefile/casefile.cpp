@@ -15,7 +15,7 @@
 #include "gnomon/casefile/plan_fields.hpp"
 #include "json_fields.hpp"
 #include "json_text.hpp"
-#include "nearest_name.hpp"
+#include "base/nearest_name.hpp"
 
 namespace gnomon {
 namespace {

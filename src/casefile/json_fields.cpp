@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "gnomon/casefile/casefile.hpp"
-#include "nearest_name.hpp"
+#include "base/nearest_name.hpp"
 
 namespace gnomon {
 namespace {

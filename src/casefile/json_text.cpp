@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "gnomon/casefile/casefile.hpp"
-#include "json_scan.hpp"
-#include "json_words.hpp"
+#include "base/json_scan.hpp"
+#include "base/json_words.hpp"
 
 namespace gnomon {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "gnomon/report/row.hpp"
 #include "text.hpp"
-#include "whole_file.hpp"
+#include "base/whole_file.hpp"
 
 namespace gnomon::report {
 

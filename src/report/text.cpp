@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "gnomon/report/row.hpp"
-#include "json_scan.hpp"
+#include "base/json_scan.hpp"
 
 namespace gnomon::report {
 namespace {

@@ -8,10 +8,10 @@
 #include "glb.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
-#include "json_words.hpp"
+#include "base/json_words.hpp"
 #include "load_memory.hpp"
 #include "refusal.hpp"
-#include "whole_file.hpp"
+#include "base/whole_file.hpp"
 
 namespace gnomon {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "json_scan.hpp"
+#include "base/json_scan.hpp"
 #include "refusal.hpp"
 
 namespace gnomon::detail {

@@ -9,7 +9,7 @@
 #include "glb.hpp"
 #include "gltf_check.hpp"
 #include "gltf_compression.hpp"
-#include "json_words.hpp"
+#include "base/json_words.hpp"
 #include "refusal.hpp"
 
 namespace gnomon::detail {

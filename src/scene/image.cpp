@@ -12,7 +12,7 @@
 #include "gnomon/scene/load.hpp"
 #include "image_formats.hpp"
 #include "refusal.hpp"
-#include "whole_file.hpp"
+#include "base/whole_file.hpp"
 
 namespace gnomon {
 

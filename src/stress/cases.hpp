@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "stress_rows.hpp"
+#include "base/stress_rows.hpp"
 
 namespace gnomon::stress {
 

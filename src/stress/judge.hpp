@@ -7,7 +7,7 @@
 
 #include "exact.hpp"
 #include "input.hpp"
-#include "stress_rows.hpp"
+#include "base/stress_rows.hpp"
 
 namespace gnomon::stress {
 

@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "nearest_name.hpp"
+#include "base/nearest_name.hpp"
 
 namespace gnomon::tool {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <system_error>
 
-#include "whole_file.hpp"
+#include "base/whole_file.hpp"
 
 namespace gnomon::tool {
 namespace {

@@ -32,7 +32,7 @@
 #include "gnomon/scene/pose.hpp"
 #include "guarded.hpp"
 #include "median.hpp"
-#include "page_storage.hpp"
+#include "base/page_storage.hpp"
 
 namespace gnomon {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "gnomon/gnomon.hpp"
 #include "median.hpp"
-#include "random.hpp"
+#include "base/random.hpp"
 
 namespace {
 

@@ -21,7 +21,7 @@
 #include "gnomon/trace/reference.hpp"
 #include "guarded.hpp"
 #include "median.hpp"
-#include "page_storage.hpp"
+#include "base/page_storage.hpp"
 #include "quiet.hpp"
 
 namespace gnomon {

@@ -25,7 +25,7 @@
 #include "gnomon/scene/load.hpp"
 #include "guarded.hpp"
 #include "median.hpp"
-#include "page_storage.hpp"
+#include "base/page_storage.hpp"
 #include "quiet.hpp"
 
 namespace gnomon {

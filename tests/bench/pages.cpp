@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "case_table.hpp"
-#include "page_storage.hpp"
+#include "base/page_storage.hpp"
 
 namespace gnomon {
 namespace {

@@ -13,7 +13,7 @@
 #include <variant>
 
 #include "gnomon/casefile/plan_fields.hpp"
-#include "json_words.hpp"
+#include "base/json_words.hpp"
 
 namespace gnomon {
 namespace {

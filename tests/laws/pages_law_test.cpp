@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gnomon/pages.hpp"
-#include "page_storage.hpp"
+#include "base/page_storage.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "backend.hpp"
+#include "context/backend.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -8,7 +8,7 @@
 #include <array>
 #include <optional>
 
-#include "backend.hpp"
+#include "context/backend.hpp"
 
 #ifndef EGL_PLATFORM_SURFACELESS_MESA
 #define EGL_PLATFORM_SURFACELESS_MESA 0x31DD

@@ -3,7 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "backend.hpp"
+#include "context/backend.hpp"
 #include "gnomon/render/window.hpp"
 
 namespace gnomon::render {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "backend.hpp"
+#include "context/backend.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -2,7 +2,7 @@
 // the receiver, so that the map's may be blurred.
 // Based on: Annen, Mertens, Bekaert, Seidel, Kautz, "Convolution Shadow Maps", 2007. Offset and scaling
 // against the light that leaks where things touch, and the attenuation of the ringing, are the paper's.
-#include "convolution.hpp"
+#include "filter/convolution.hpp"
 
 #include <numbers>
 

@@ -1,7 +1,7 @@
 // The step function's Fourier series, as convolution shadow maps take it.
 #pragma once
 
-#include "filter_parts.hpp"
+#include "filter/filter_parts.hpp"
 
 namespace gnomon::render {
 

@@ -16,7 +16,7 @@
 // paper's classifications, the four texels round the point are compared instead.
 #include <glm/common.hpp>
 
-#include "filter_parts.hpp"
+#include "filter/filter_parts.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -1,6 +1,6 @@
 // Exponential variance shadow maps, one warp: two channels.
 // Based on: Lauritzen, McCool, "Layered Variance Shadow Maps", 2008, section 5.2.
-#include "exponential_variance.hpp"
+#include "filter/exponential_variance.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -1,5 +1,5 @@
 // The variance bound under an exponential.
-#include "exponential_variance.hpp"
+#include "filter/exponential_variance.hpp"
 
 namespace gnomon::render {
 

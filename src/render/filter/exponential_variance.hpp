@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "filter_parts.hpp"
-#include "variance.hpp"
+#include "filter/filter_parts.hpp"
+#include "filter/variance.hpp"
 
 namespace gnomon::render {
 

@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <vector>
 
-#include "../filter_block.hpp"
-#include "filter_parts.hpp"
-#include "random.hpp"
+#include "filter/filter_block.hpp"
+#include "filter/filter_parts.hpp"
+#include "base/random.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -1,5 +1,5 @@
 // Sample patterns, and the size of penumbras.
-#include "filter_parts.hpp"
+#include "filter/filter_parts.hpp"
 
 #include <array>
 #include <numbers>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lvsm.hpp"
+#include "filter/lvsm.hpp"
 
 namespace gnomon::render {
 namespace {

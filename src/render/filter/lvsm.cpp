@@ -6,13 +6,13 @@
 // slanted surface pile up and shadow it; there the overlapping neighbours answer. Where the layers end is
 // chosen, when asked, as in the paper from the map's own depths; the paper gets near the least variance
 // within layers step by step, here it is found: over so few bins that costs nothing.
-#include "lvsm.hpp"
+#include "filter/lvsm.hpp"
 
 #include <array>
 #include <glm/common.hpp>
 #include <limits>
 
-#include "variance.hpp"
+#include "filter/variance.hpp"
 
 namespace gnomon::render {
 namespace {

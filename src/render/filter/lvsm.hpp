@@ -1,7 +1,7 @@
 // Layers of depth.
 #pragma once
 
-#include "filter_parts.hpp"
+#include "filter/filter_parts.hpp"
 
 namespace gnomon::render {
 

@@ -1,7 +1,7 @@
 // Hamburger's and Hausdorff's moment problems, by canonical distributions.
 // Based on: Peters, Klein, "Moment Shadow Mapping", 2015; the bounded case is derived here from the condition
 // that the polynomial with all four depths as roots has no mean.
-#include "moments.hpp"
+#include "filter/moments.hpp"
 
 #include <algorithm>
 #include <cmath>

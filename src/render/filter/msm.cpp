@@ -1,9 +1,9 @@
 // Moment shadow maps: four moments of the kernel's depths give the sharpest bound that they allow.
 // Based on: Peters, Klein, "Moment Shadow Mapping", 2015; four numbers that 16 bits round without harm, and
 // whose means are nothing: Peters, "Non-linearly Quantized Moment Shadow Maps", 2017.
-#include "filter_parts.hpp"
-#include "moments.hpp"
-#include "variance.hpp"
+#include "filter/filter_parts.hpp"
+#include "filter/moments.hpp"
+#include "filter/variance.hpp"
 
 namespace gnomon::render {
 namespace {

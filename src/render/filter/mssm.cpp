@@ -6,9 +6,9 @@
 // FilterSettings::radius is the widest kernel, over which what blocks is looked for.
 #include <glm/common.hpp>
 
-#include "filter_parts.hpp"
-#include "moments.hpp"
-#include "variance.hpp"
+#include "filter/filter_parts.hpp"
+#include "filter/moments.hpp"
+#include "filter/variance.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -2,7 +2,7 @@
 // Based on: Reeves, Salesin, Cook, "Rendering Antialiased Shadows with Depth Maps", 1987. Each texel is
 // compared with the receiver's plane at that texel, so that the kernel's width needs no bias (Isidoro,
 // "Shadow Mapping: GPU-based Tips and Techniques", 2006).
-#include "filter_parts.hpp"
+#include "filter/filter_parts.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -4,7 +4,7 @@
 // here are those of a tent at the texels' centres: 3 a side has his weights, 5 and 7 a side are smoother.
 #include <numbers>
 
-#include "filter_parts.hpp"
+#include "filter/filter_parts.hpp"
 
 namespace gnomon::render {
 namespace {

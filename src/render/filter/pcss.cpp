@@ -4,7 +4,7 @@
 // The light's size is an angle for parallel light and a radius for lights with a position. Distances are
 // taken along the light in world units and turned back into texels by the map's derivatives at the point, so
 // that cascades and warps have the same penumbra. FilterSettings::radius is the widest kernel.
-#include "filter_parts.hpp"
+#include "filter/filter_parts.hpp"
 
 namespace gnomon::render {
 namespace {

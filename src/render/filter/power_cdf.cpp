@@ -7,7 +7,7 @@
 // share of 0.6; a fifth, to within 0.1. It costs light close behind an occluder that is one of several, so
 // the default is the fifth. Layers are those of layered variance maps (Lauritzen, McCool 2008) under this
 // law, which is no bound: the two layers about the receiver are blended, in place of the least of all.
-#include "power_cdf.hpp"
+#include "filter/power_cdf.hpp"
 
 namespace gnomon::render {
 namespace {

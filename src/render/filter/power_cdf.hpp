@@ -1,7 +1,7 @@
 // A power law through a kernel's least, mean and largest depth.
 #pragma once
 
-#include "filter_parts.hpp"
+#include "filter/filter_parts.hpp"
 
 namespace gnomon::render {
 

@@ -4,7 +4,7 @@
 // Steps of two texels and more are corners and stay.
 #include <glm/common.hpp>
 
-#include "filter_parts.hpp"
+#include "filter/filter_parts.hpp"
 
 namespace gnomon::render {
 namespace {

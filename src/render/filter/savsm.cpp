@@ -2,7 +2,7 @@
 // Based on: Lauritzen, "Summed-Area Variance Shadow Maps", GPU Gems 3, 2007; Crow, "Summed-Area Tables for
 // Texture Mapping", 1984. Sums are integers that may wrap round at 2^32: their differences over a box are
 // exact however large the map is, where floats would lose log2(width height) bits.
-#include "variance.hpp"
+#include "filter/variance.hpp"
 
 namespace gnomon::render {
 namespace {

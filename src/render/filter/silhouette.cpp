@@ -3,7 +3,7 @@
 // comparisons, joined by lines).
 #include <glm/common.hpp>
 
-#include "filter_parts.hpp"
+#include "filter/filter_parts.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -6,7 +6,7 @@
 // that there are none. A ray is cut into stretches there; each reads one texel, and what that stores blocks
 // where it lies in the stretch. A ray that leaves the underside of one caster for the upper side of another
 // went through what joins them: a wall that the light grazes.
-#include "filter_parts.hpp"
+#include "filter/filter_parts.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -1,5 +1,5 @@
 // Chebyshev's bound.
-#include "variance.hpp"
+#include "filter/variance.hpp"
 
 namespace gnomon::render {
 

@@ -1,7 +1,7 @@
 // Two moments: shared by the filters that store them. shaders/library/variance.glsl mirrors it.
 #pragma once
 
-#include "filter_parts.hpp"
+#include "filter/filter_parts.hpp"
 
 namespace gnomon::render {
 

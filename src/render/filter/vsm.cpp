@@ -1,7 +1,7 @@
 // Variance shadow maps: mean and variance of the kernel's depths bound the share that is lit (Chebyshev).
 // Based on: Donnelly, Lauritzen, "Variance Shadow Maps", 2006. Bleeding reduction and the slope's share of
 // the second moment: Lauritzen, "Summed-Area Variance Shadow Maps", GPU Gems 3, 2007.
-#include "variance.hpp"
+#include "filter/variance.hpp"
 
 namespace gnomon::render {
 namespace {

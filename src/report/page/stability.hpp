@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chart.hpp"
-#include "stress_rows.hpp"
+#include "base/stress_rows.hpp"
 
 namespace gnomon::report {
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "json_words.hpp"
+#include "base/json_words.hpp"
 #include "text.hpp"
 
 namespace gnomon::report {

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "program.hpp"
-#include "stored_maps.hpp"
-#include "target.hpp"
+#include "gl/program.hpp"
+#include "filter/stored_maps.hpp"
+#include "frame/target.hpp"
 
 namespace gnomon::render {
 namespace {

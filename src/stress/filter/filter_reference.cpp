@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <string_view>
 
-#include "filter_block.hpp"
+#include "filter/filter_block.hpp"
 #include "filter_harness.hpp"
 
 namespace gnomon::render {

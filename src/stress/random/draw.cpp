@@ -12,7 +12,7 @@
 #include "gnomon/prune.hpp"
 #include "gnomon/shape.hpp"
 #include "gnomon/warp.hpp"
-#include "random.hpp"
+#include "base/random.hpp"
 
 namespace gnomon::stress {
 namespace {

@@ -8,7 +8,7 @@
 #include "exact.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
-#include "random.hpp"
+#include "base/random.hpp"
 
 namespace gnomon::stress {
 

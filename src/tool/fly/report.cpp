@@ -12,7 +12,7 @@
 
 #include "gnomon/render/picture.hpp"
 #include "gnomon/report/csv.hpp"
-#include "whole_file.hpp"
+#include "base/whole_file.hpp"
 
 namespace gnomon::tool::fly {
 namespace {

@@ -8,7 +8,7 @@
 #include "gnomon/light.hpp"
 #include "gnomon/pages.hpp"
 #include "gnomon/render/renderer.hpp"
-#include "page_storage.hpp"
+#include "base/page_storage.hpp"
 #include "seen_surfaces.hpp"
 
 namespace gnomon::tool {

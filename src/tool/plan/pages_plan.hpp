@@ -1,7 +1,7 @@
 // A page plan of a case with its memory, and its JSON.
 #pragma once
 
-#include "page_storage.hpp"
+#include "base/page_storage.hpp"
 #include "plan_json.hpp"
 
 namespace gnomon::tool {

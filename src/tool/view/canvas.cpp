@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "gl_object.hpp"
+#include "gl/gl_object.hpp"
 #include "gnomon/render/error.hpp"
 #include "gnomon/render/picture.hpp"
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "whole_file.hpp"
+#include "base/whole_file.hpp"
 
 namespace gnomon::tool::view {
 namespace {

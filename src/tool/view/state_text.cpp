@@ -10,12 +10,12 @@
 
 #include "gnomon/casefile/casefile.hpp"
 #include "identifier_word.hpp"
-#include "nearest_name.hpp"
+#include "base/nearest_name.hpp"
 #include "option_words.hpp"
 #include "picture_words.hpp"
 #include "plan_option.hpp"
 #include "state.hpp"
-#include "whole_file.hpp"
+#include "base/whole_file.hpp"
 
 namespace gnomon::tool::view {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "gnomon/pages.hpp"
-#include "page_storage.hpp"
+#include "base/page_storage.hpp"
 
 namespace gnomon::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "page_storage.hpp"
+#include "base/page_storage.hpp"
 #include "support/near.hpp"
 
 namespace gnomon::test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
-#include "random.hpp"
+#include "base/random.hpp"
 
 namespace gnomon::test {
 

@@ -1,5 +1,5 @@
 // Convolution shadow maps: the series against the golden rows and the paper's limits.
-#include "convolution.hpp"
+#include "filter/convolution.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Two exponential warps against the golden rows.
 #include <gtest/gtest.h>
 
-#include "exponential_variance.hpp"
+#include "filter/exponential_variance.hpp"
 #include "filter_harness.hpp"
 #include "golden_filters.hpp"
 

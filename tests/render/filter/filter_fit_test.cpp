@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "random.hpp"
+#include "base/random.hpp"
 
 namespace gnomon::render {
 namespace {

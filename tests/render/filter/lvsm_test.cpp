@@ -1,5 +1,5 @@
 // Layered variance shadow maps against the golden rows and sums worked out by hand.
-#include "lvsm.hpp"
+#include "filter/lvsm.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "filter_harness.hpp"
 #include "golden_filters.hpp"
-#include "variance.hpp"
+#include "filter/variance.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "filter_harness.hpp"
 #include "golden_filters.hpp"
-#include "moments.hpp"
+#include "filter/moments.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -1,5 +1,5 @@
 // The power-law filter against the golden rows, its limits and its degenerate kernels.
-#include "power_cdf.hpp"
+#include "filter/power_cdf.hpp"
 
 #include <gtest/gtest.h>
 

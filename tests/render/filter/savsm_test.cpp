@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "filter_block.hpp"
+#include "filter/filter_block.hpp"
 #include "filter_harness.hpp"
 #include "golden_filters.hpp"
-#include "variance.hpp"
+#include "filter/variance.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 
-#include "caster_edges.hpp"
+#include "casters/caster_edges.hpp"
 #include "filter_harness.hpp"
 #include "gnomon/render/error.hpp"
 #include "mask_frame.hpp"

@@ -3,7 +3,7 @@
 
 #include "filter_harness.hpp"
 #include "golden_filters.hpp"
-#include "variance.hpp"
+#include "filter/variance.hpp"
 
 namespace gnomon::render {
 namespace {
