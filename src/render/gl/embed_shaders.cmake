@@ -1,7 +1,7 @@
 # Writes OUT, a C++ source that holds every file under DIR as a string: cmake -DDIR=... -DOUT=... -P embed_shaders.cmake
 file(GLOB_RECURSE files RELATIVE ${DIR} ${DIR}/*.glsl ${DIR}/*.vert ${DIR}/*.frag ${DIR}/*.comp ${DIR}/*.geom)
 list(SORT files)
-set(text "// Generated from shaders/. The shader sources, as they stand in the repository.\n#include \"shader_text.hpp\"\n\n")
+set(text "// Generated from shaders/. The shader sources, as they stand in the repository.\n#include \"gl/shader_text.hpp\"\n\n")
 string(APPEND text "namespace gnomon::render {\nnamespace {\nconstexpr ShaderFile kFiles[] = {\n")
 foreach(file ${files})
   file(READ ${DIR}/${file} source)
