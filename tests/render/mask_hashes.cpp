@@ -14,6 +14,7 @@
 #include "base/page_storage.hpp"
 #include "gnomon/jitter.hpp"
 #include "gnomon/render/context.hpp"
+#include "gnomon/render/error.hpp"
 #include "gnomon/render/page_filter.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "support/light_storage.hpp"
@@ -362,7 +363,12 @@ class Hashes {
     for (const Filter* filter : all_filters()) {
       const FilterSettings settings = settings_for_pages(default_settings(*filter));
       const std::string name = "lights " + std::string(filter->info.name);
-      if (wanted(name) && page_filter_refusal(settings).empty()) draw_lights(renderer_, name, settings, quiet());
+      if (!wanted(name)) continue;
+      try {
+        draw_lights(renderer_, name, settings, quiet());
+      } catch (const RenderError& refused) {
+        std::printf("%s: %s\n", name.c_str(), refused.what());
+      }
     }
     FrameOptions options = quiet();
     options.light_clusters.tile_pixels = 0;
