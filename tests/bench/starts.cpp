@@ -66,9 +66,9 @@ WarpChoice judge(const WarpInput& input) noexcept {
     tried.push_back({-start.x * ratio, start.y * ratio});
   }
   std::vector<double> value;
-  for (std::size_t i = 0; i < tried.size(); i += RowLanes::kCount) {
+  for (std::size_t i = 0; i < tried.size(); i += kFloatLanes) {
     RowLanes lanes;
-    for (std::size_t l = 0; l < RowLanes::kCount; ++l) {
+    for (std::size_t l = 0; l < kFloatLanes; ++l) {
       const double angle = 3.0 * kPi / 16.0;
       lanes.set(l, {tried[std::min(i + l, tried.size() - 1)],
                     {std::cos(angle), std::sin(angle)},
@@ -76,7 +76,7 @@ WarpChoice judge(const WarpInput& input) noexcept {
                     0.0});
     }
     search.find_rows(kPi / 8.0, lanes);
-    for (std::size_t l = 0; l < RowLanes::kCount && i + l < tried.size(); ++l)
+    for (std::size_t l = 0; l < kFloatLanes && i + l < tried.size(); ++l)
       value.push_back(std::log(std::max(lanes.value[l], std::numeric_limits<float>::min())));
   }
   const double least = *std::min_element(value.begin(), value.end());

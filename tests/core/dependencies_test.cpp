@@ -4,6 +4,8 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -40,8 +42,8 @@ std::string included(const std::string& line) {
 }
 
 /// The stages of src/core in the order in which they may include each other.
-constexpr std::array<std::string_view, 10> kStages = {"geometry", "split",   "warp",  "cull",   "map",
-                                                      "plan",     "measure", "pages", "lights", "study"};
+constexpr std::array<std::string_view, 11> kStages = {"lanes", "geometry", "split", "warp",   "cull", "map",
+                                                      "plan",  "measure",  "pages", "lights", "study"};
 
 /// Which stage a path begins with; -1: none.
 int level_of(std::string_view path) {
@@ -126,6 +128,19 @@ TEST(Dependencies, the_check_knows_what_it_looks_for) {
                            "\"geometry/vector.hpp\"", "<cmath>"}) {
     EXPECT_TRUE(allowed(name)) << name;
   }
+}
+
+TEST(Dependencies, vector_instructions_are_named_in_one_file) {
+  const std::regex instruction("\\b_mm\\w+\\(|<immintrin\\.h>|__m128|__SSE2__");
+  int files = 0;
+  for (const fs::path& path : core_sources()) {
+    std::ifstream file(path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!std::regex_search(text, instruction)) continue;
+    EXPECT_TRUE(path.generic_string().ends_with("src/core/lanes/pair.hpp")) << path;
+    ++files;
+  }
+  EXPECT_EQ(files, 1);
 }
 
 TEST(Dependencies, no_glm_function_is_used_whose_meaning_a_macro_changes) {

@@ -38,15 +38,15 @@ Judged judged;
 
 /// How many choices side by side are not told from what each alone comes to, a millionth more and less.
 int misjudged(const WarpInput& input, PlaneError& error) noexcept {
-  std::array<WarpChoice, kWarpLanes> choice;
+  std::array<WarpChoice, kDoubleLanes> choice;
   ChoiceLanes lanes;
-  for (std::size_t i = 0; i < kWarpLanes; ++i) {
+  for (std::size_t i = 0; i < kDoubleLanes; ++i) {
     choice[i] = all_warps()[i % all_warps().size()]->choose(input);
     lanes.set(i, choice[i]);
   }
   constexpr double kRounding = 1e-6;
   int count = 0;
-  for (std::size_t i = 0; i < kWarpLanes; ++i) {
+  for (std::size_t i = 0; i < kDoubleLanes; ++i) {
     const bool known = choice[i].kappa == 0.0 || usable(input.body, choice[i], input.most_stretch);
     const double alone = error.value(choice[i]);
     // Bodies of rounding give values of rounding.
@@ -66,13 +66,13 @@ double search_apart(const WarpInput& input, PlaneError& error) noexcept {
   const SideSearch search(input, error, from);
   SideLanes lanes;
   for (std::size_t k = 0; k < lanes.turn.size(); ++k) {
-    for (std::size_t l = 0; l < SideLanes::kCount; ++l)
+    for (std::size_t l = 0; l < kFloatLanes; ++l)
       lanes.turn[k][l] = l == 0 ? 0.0F : 0.05F * static_cast<float>((3 * k + 5 * l) % 7) - 0.15F;
   }
   search.find_values(Sides{}, lanes);
   const double first = error.value(from), first_lane = std::sqrt(lanes.value[0]);
   double most = 0.0;
-  for (std::size_t l = 1; l < SideLanes::kCount; ++l) {
+  for (std::size_t l = 1; l < kFloatLanes; ++l) {
     const double exact = error.value(search.choice(lanes.at(l))) / first;
     const double found = std::sqrt(lanes.value[l]) / first_lane;
     if (exact > 0.0 && exact < 1e3 && std::isfinite(found))

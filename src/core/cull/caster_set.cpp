@@ -10,7 +10,8 @@
 #include <glm/vec4.hpp>
 #include <limits>
 
-#include "geometry/caster_lanes.hpp"
+#include "geometry/usable.hpp"
+#include "lanes/casters.hpp"
 
 namespace gnomon {
 namespace {
@@ -107,6 +108,12 @@ struct Walk {
   }
 };
 
+void set_box(CasterBlock& block, std::size_t lane, const Box& box) noexcept {
+  set_lane(block, lane, box);
+  const auto bit = static_cast<std::uint8_t>(1u << lane);
+  block.unusable = static_cast<std::uint8_t>(usable(box) ? block.unusable & ~bit : block.unusable | bit);
+}
+
 }  // namespace
 
 Boxes::Boxes(const CasterSet& set) noexcept : set_(&set), size_(set.size()) {}
@@ -153,7 +160,7 @@ CasterSet::CasterSet(std::span<const Box> boxes, std::span<CasterBlock> blocks,
 void CasterSet::refit(std::span<const Box> boxes) noexcept {
   if (boxes.size() != size_) return;
   for (std::size_t place = 0; place < size_; ++place) {
-    set_lane(blocks_[place / kLanes], place % kLanes, boxes[order_[place]]);
+    set_box(blocks_[place / kLanes], place % kLanes, boxes[order_[place]]);
   }
   for (std::size_t level = 1; level < levels_; ++level) {
     for (std::size_t child = 0; child < blocks_at(level - 1); ++child) join(level, child);
@@ -163,7 +170,7 @@ void CasterSet::refit(std::span<const Box> boxes) noexcept {
 void CasterSet::update(std::uint32_t index, const Box& box) noexcept {
   if (index >= size_) return;
   std::size_t node = place_of_[index];
-  set_lane(blocks_[node / kLanes], node % kLanes, box);
+  set_box(blocks_[node / kLanes], node % kLanes, box);
   for (std::size_t level = 1; level < levels_; ++level) {
     node /= kLanes;
     join(level, node);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "geometry/caster_lanes.hpp"
 #include "gnomon/plan.hpp"
+#include "lanes/casters.hpp"
 
 namespace gnomon {
 

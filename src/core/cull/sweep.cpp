@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/pair.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/pair.hpp"
 
 namespace gnomon {
 namespace {

@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/pair.hpp"
 #include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
-#include "geometry/vertex_pair.hpp"
+#include "lanes/pair.hpp"
+#include "lanes/point_pair.hpp"
 
 namespace gnomon {
 namespace {
@@ -144,7 +144,7 @@ void Cutter::between(const glm::dvec3& normal, double begin, double end) noexcep
   double along[kMaxVertices];
   static_assert(kMaxVertices % 2 == 0);
   Pair low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-  for_each_two({body_.vertex.data(), places_}, [&](std::size_t i, const VertexPair& vertices) {
+  for_each_two<VertexPair>({body_.vertex.data(), places_}, [&](std::size_t i, const VertexPair& vertices) {
     const Pair two = along_normal(vertices);
     low = min_of(low, two);
     high = max_of(high, two);

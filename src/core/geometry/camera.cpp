@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon {
 

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "geometry/pair.hpp"
+#include "lanes/pair.hpp"
 
 namespace gnomon {
 

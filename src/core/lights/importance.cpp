@@ -8,11 +8,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "geometry/elementary.hpp"
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "gnomon/metric.hpp"
+#include "lanes/elementary.hpp"
 #include "map/size.hpp"
 
 namespace gnomon {

@@ -6,11 +6,11 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/elementary.hpp"
-#include "geometry/pair.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/elementary.hpp"
+#include "lanes/pair.hpp"
+#include "lanes/point_pair.hpp"
 #include "map/border.hpp"
-#include "warp/point_pair.hpp"
 
 namespace gnomon {
 namespace {
@@ -87,7 +87,7 @@ double highest_unwarped(const FittedPlane& f, double bottom, const Faces<count>&
     slope_y[k] = Pair(faces.slope_y[k]);
     highest[k] = Pair(-std::numeric_limits<double>::infinity());
   }
-  for_each_two(f.body.points(), [&](const PointPair& p) {
+  for_each_two<PointPair>(f.body.points(), [&](std::size_t, const PointPair& p) {
     for (std::size_t k = 0; k < count; ++k)
       highest[k] = max_of(highest[k], at[k] + slope_x[k] * p.x + slope_y[k] * p.y);
   });
@@ -113,7 +113,7 @@ double highest_over(const FittedPlane& f, double bottom, const Faces<count>& fac
   highest.fill(Pair(0.0));
   Pair of_body(0.0);
   const Pair low(bottom);
-  for_each_two(f.body.points(), [&](const PointPair& p) {
+  for_each_two<PointPair>(f.body.points(), [&](std::size_t, const PointPair& p) {
     const Bordered b =
         rows ? bordered_rows(f.plane, f.border, growth, p) : bordered(f.plane, margin_image, p);
     of_body = max_of(of_body, (p.z - low) * b.inverse_w);
@@ -229,7 +229,7 @@ void sweep_for(const PlanContext& c, const MapRequest& request, const LightBody&
   if (border.log_w > 0.0) {
     reach = 0.0;
     const double growth_of_w = elementary::expm1(border.log_w);
-    for_each_two(body.points(), [&](const PointPair& p) {
+    for_each_two<PointPair>(body.points(), [&](std::size_t, const PointPair& p) {
       reach = max_of(reach, larger(bordered_rows(plane, border, growth_of_w, p).margin));
     });
   }

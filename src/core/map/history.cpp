@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/elementary.hpp"
 #include "map/border.hpp"
 #include "map/recalled.hpp"
 #include "map/record.hpp"

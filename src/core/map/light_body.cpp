@@ -7,8 +7,8 @@
 
 #include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
-#include "geometry/vertex_pair.hpp"
 #include "geometry/visible.hpp"
+#include "lanes/point_pair.hpp"
 #include "map/border.hpp"
 #include "map/turned.hpp"
 
@@ -84,7 +84,7 @@ bool add_two_by_two(const PlanContext& c, const LightFrame& frame, const Polytop
   const Pair floor(least);
   Pair nearest(std::numeric_limits<double>::infinity());
   WarpInput::Point* first = &out.point[static_cast<std::size_t>(out.count)];
-  for_each_two(vertices, [&](std::size_t i, const VertexPair& two) {
+  for_each_two<VertexPair>(vertices, [&](std::size_t i, const VertexPair& two) {
     WarpInput::Point* to = first + i;
     const Pair light_x = along_x(two), light_y = along_y(two), light_z = along_z(two);
     const Pair depth = along_view(two);

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "geometry/matrix.hpp"
-#include "geometry/pair.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/pair.hpp"
 #include "map/size.hpp"
 
 namespace gnomon {

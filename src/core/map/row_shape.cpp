@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/elementary.hpp"
 #include "map/seen_texels.hpp"
 #include "warp/registry.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/elementary.hpp"
 #include "map/history.hpp"
 #include "map/recalled.hpp"
 #include "map/record.hpp"

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "geometry/vector.hpp"
-#include "geometry/vertex_pair.hpp"
+#include "lanes/point_pair.hpp"
 #include "map/border.hpp"
 #include "map/shared_views.hpp"
 
@@ -44,7 +44,7 @@ double pixel_obliquity(const PlanContext& c, const Polytope& body) noexcept {
   const DotPair along_view(c.axes.forward);
   const Pair near_depth(c.camera.near_depth);
   Pair most(1.0);
-  for_each_two(body.vertices(), [&](std::size_t, const VertexPair& two) {
+  for_each_two<VertexPair>(body.vertices(), [&](std::size_t, const VertexPair& two) {
     const Pair depth = max_of(along_view(two), near_depth);
     most = max_of(most, (two.x * two.x + two.y * two.y + two.z * two.z) / (depth * depth));
   });

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/elementary.hpp"
 #include "map/border.hpp"
 #include "map/depths.hpp"
 #include "map/record.hpp"

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
 #include "gnomon/metric.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon {
 

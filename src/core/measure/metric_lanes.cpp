@@ -6,9 +6,9 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
-#include "geometry/wide.hpp"
+#include "lanes/lanes.hpp"
+#include "lanes/wide.hpp"
 #include "measure/metric_kernel.hpp"
-#include "warp/lanes.hpp"
 
 namespace gnomon {
 namespace {

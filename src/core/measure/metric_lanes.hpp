@@ -8,11 +8,12 @@
 
 #include "gnomon/camera.hpp"
 #include "gnomon/plan.hpp"
+#include "lanes/lanes.hpp"
 
 namespace gnomon {
 
 /// Points a block holds: enough to fill vectors, few enough for all lanes to stay in the first-level cache.
-inline constexpr std::size_t kMetricLanes = 64;
+inline constexpr std::size_t kMetricLanes = 8 * kDoubleLanes;
 using Lanes = std::array<double, kMetricLanes>;
 
 struct VectorLanes {

@@ -7,11 +7,11 @@
 #include <glm/matrix.hpp>
 #include <variant>
 
-#include "geometry/elementary.hpp"
 #include "geometry/light_axes.hpp"
 #include "geometry/matrix.hpp"
 #include "geometry/usable.hpp"
 #include "geometry/visible.hpp"
+#include "lanes/elementary.hpp"
 #include "measure/measure_grid.hpp"
 #include "measure/metric_lanes.hpp"
 #include "plan/select.hpp"

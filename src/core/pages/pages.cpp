@@ -5,9 +5,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "geometry/elementary.hpp"
 #include "geometry/matrix.hpp"
 #include "geometry/usable.hpp"
+#include "lanes/elementary.hpp"
 #include "pages/fill.hpp"
 #include "plan/input.hpp"
 

@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <variant>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon {
 namespace {

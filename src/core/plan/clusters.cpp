@@ -8,9 +8,9 @@
 #include <array>
 #include <limits>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "lanes/elementary.hpp"
 #include "map/gain.hpp"
 
 namespace gnomon {

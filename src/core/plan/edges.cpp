@@ -4,11 +4,11 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/elementary.hpp"
 #include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
-#include "geometry/vertex_pair.hpp"
 #include "geometry/visible.hpp"
+#include "lanes/elementary.hpp"
+#include "lanes/point_pair.hpp"
 #include "map/gain.hpp"
 #include "plan/cascades.hpp"
 #include "plan/split_table.hpp"
@@ -188,7 +188,7 @@ DepthRange depths_of(const Polytope& body, const glm::dvec3& forward) noexcept {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const DotPair along_view(forward);
   Pair low(kInfinity), high(-kInfinity);
-  for_each_two(body.vertices(), [&](std::size_t, const VertexPair& two) {
+  for_each_two<VertexPair>(body.vertices(), [&](std::size_t, const VertexPair& two) {
     const Pair depth = along_view(two);
     low = min_of(low, depth);
     high = max_of(high, depth);

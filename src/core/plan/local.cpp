@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "cull/sweep.hpp"
-#include "geometry/elementary.hpp"
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "lanes/elementary.hpp"
 #include "map/border.hpp"
 #include "map/row_shape.hpp"
 #include "map/shared_views.hpp"

@@ -8,11 +8,11 @@
 #include <limits>
 #include <span>
 
-#include "geometry/elementary.hpp"
 #include "geometry/light_axes.hpp"
 #include "geometry/slab.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "lanes/elementary.hpp"
 #include "map/gain.hpp"
 #include "plan/clusters.hpp"
 #include "plan/faces.hpp"

@@ -10,8 +10,8 @@
 #include <limits>
 #include <span>
 
-#include "geometry/elementary.hpp"
 #include "gnomon/split.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "geometry/elementary.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon {
 namespace {

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
 #include "gnomon/split.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon {
 namespace {

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon {
 namespace {

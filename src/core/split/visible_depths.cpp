@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "geometry/elementary.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon::dpds {
 

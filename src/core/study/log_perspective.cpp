@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/elementary.hpp"
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "lanes/elementary.hpp"
 #include "map/gain.hpp"
 #include "measure/log_histogram.hpp"
 #include "measure/measure_grid.hpp"

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "gnomon/study/omni.hpp"
+#include "lanes/elementary.hpp"
 #include "measure/log_histogram.hpp"
 
 namespace gnomon {

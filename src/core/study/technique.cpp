@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/caster_lanes.hpp"
-#include "geometry/elementary.hpp"
 #include "gnomon/metric.hpp"
+#include "lanes/casters.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon {
 namespace {

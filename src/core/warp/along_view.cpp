@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "geometry/vector.hpp"
-#include "geometry/wide.hpp"
-#include "warp/lanes.hpp"
+#include "lanes/lanes.hpp"
+#include "lanes/wide.hpp"
 
 namespace gnomon {
 namespace {

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "gnomon/warp.hpp"
+#include "lanes/lanes.hpp"
 #include "warp/plane_map.hpp"
 
 namespace gnomon {
@@ -29,7 +30,7 @@ class AlongView {
   [[nodiscard]] double unwarped() noexcept;
 
  private:
-  static constexpr std::size_t kAtOnce = 16;
+  static constexpr std::size_t kAtOnce = kFloatLanes;
   using Strengths = std::array<double, kAtOnce>;
   /// value_ for these strengths.
   void find(const Strengths& kappa) noexcept;
@@ -38,7 +39,7 @@ class AlongView {
   /// Closer in each round.
   [[nodiscard]] AlongViewBest refined(AlongViewBest best) noexcept;
   [[nodiscard]] double weakest_as_good(const AlongViewBest& best) noexcept;
-  using QuickStrengths = std::array<float, kAtOnce>;
+  using QuickStrengths = FloatLanes;
   /// The points: x over the largest, y over the length, the nearest depth over theirs; and how much wider
   /// than long the body is.
   struct Shares {

@@ -6,16 +6,16 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/lane_functions.hpp"
 #include "geometry/vector.hpp"
-#include "geometry/wide.hpp"
+#include "lanes/elementary.hpp"
+#include "lanes/wide.hpp"
 
 namespace gnomon {
 namespace {
 
 // Rays through the image for the even sampling, in whole lanes, and points along all of them together.
 constexpr std::size_t kRays = 104;
-static_assert(kRays % kWarpLanes == 0);
+static_assert(kRays % kDoubleLanes == 0);
 constexpr int kVisiblePoints = 96;
 
 /// Where rays go through the image that they are spread over: Roberts' R2 sequence, even without the aliasing

@@ -5,14 +5,14 @@
 #include <cstddef>
 
 #include "gnomon/warp.hpp"
-#include "warp/lanes.hpp"
+#include "lanes/lanes.hpp"
 
 namespace gnomon {
 
 /// Points of the light plane, and d(light plane)/d(pixel) there on a surface that faces the half vector.
 struct PixelLanes {
   static constexpr std::size_t kMost = 192;
-  static_assert(kMost % kWarpLanes == 0 && kMost >= whole_lanes(2 * kMaxVertices));
+  static_assert(kMost % kDoubleLanes == 0 && kMost >= whole_lanes(2 * kMaxVertices));
   alignas(64) std::array<double, kMost> x, y, xx, xy, yx, yy, inverse_determinant;
   // Before find_pixels, x and y are the point's along the light frame's axes, and z is the third; the pixel
   // there counts as `size` times as wide as it is.

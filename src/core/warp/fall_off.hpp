@@ -1,7 +1,7 @@
 // What is a fall-off of texels in numbers of a warp? Both precisions of the search share these.
 #pragma once
 
-#include "geometry/elementary.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon {
 

@@ -3,9 +3,9 @@
 // 2007, section 5.2. Kept as published.
 #include <cmath>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
 #include "gnomon/warp.hpp"
+#include "lanes/elementary.hpp"
 #include "warp/formulas.hpp"
 
 namespace gnomon::warps {

@@ -32,16 +32,14 @@ constexpr bool less(double a, double b) noexcept {
   return a < b * kTie;
 }
 
-constexpr std::size_t kLanes = RowLanes::kCount;
-static_assert(SideLanes::kCount == kLanes);
 // Half a right angle.
 constexpr double kEighth = 0.7853981633974483;
 
 // Steps of a search, as shares of its radius, along the fall-off and across it: the middle, a ring of half
 // the radius, and one of all of it.
-constexpr RowLanes::Numbers kAlong = {0.0F, 0.45F,  0.111F, -0.312F, -0.5F, -0.312F, 0.111F, 0.45F,
+constexpr FloatLanes kAlong = {0.0F, 0.45F,  0.111F, -0.312F, -0.5F, -0.312F, 0.111F, 0.45F,
                                       1.0F, 0.707F, 0.0F,   -0.707F, -1.0F, -0.707F, 0.0F,   0.707F};
-constexpr RowLanes::Numbers kAcross = {0.0F, 0.217F, 0.487F, 0.391F, 0.0F, -0.391F, -0.487F, -0.217F,
+constexpr FloatLanes kAcross = {0.0F, 0.217F, 0.487F, 0.391F, 0.0F, -0.391F, -0.487F, -0.217F,
                                        0.0F, 0.707F, 1.0F,   0.707F, 0.0F, -0.707F, -1.0F,   -0.707F};
 
 double length_of(const FallOff& f) noexcept {
@@ -50,7 +48,7 @@ double length_of(const FallOff& f) noexcept {
 
 /// Fall-offs to begin at, as shares of one that goes by the ratio of depths.
 struct Starts {
-  RowLanes::Numbers x, y;
+  FloatLanes x, y;
 };
 // Along the view, and a third aside of it as the best rows are turned and their fall-off with them.
 constexpr Starts kParallelStarts = {
@@ -81,7 +79,7 @@ RowLanes first_rows(RowSearch& search, const WarpInput& input) noexcept {
   constexpr double kCosine = 0.8314696123025452, kSine = 0.5555702330196022;  // of three sixteenths of pi
   RowLanes lanes;
   lanes.fill({{}, {kCosine, kSine}, {-kSine, kCosine}, 0.0});
-  for (std::size_t l = 0; l < kLanes; ++l) {
+  for (std::size_t l = 0; l < kFloatLanes; ++l) {
     lanes.x[l] = starts.x[l] * ratio;
     lanes.y[l] = starts.y[l] * ratio;
   }
@@ -89,8 +87,8 @@ RowLanes first_rows(RowSearch& search, const WarpInput& input) noexcept {
     const FallOff fit = search.fitted();
     constexpr std::array<double, 3> kFits = {1.0, 0.75, 1.3};
     for (std::size_t i = 0; i < kFits.size(); ++i) {
-      lanes.x[kLanes - 1 - i] = static_cast<float>(kFits[i] * fit.x);
-      lanes.y[kLanes - 1 - i] = static_cast<float>(kFits[i] * fit.y);
+      lanes.x[kFloatLanes - 1 - i] = static_cast<float>(kFits[i] * fit.x);
+      lanes.y[kFloatLanes - 1 - i] = static_cast<float>(kFits[i] * fit.y);
     }
   }
   search.find_rows(0.5 * kEighth, lanes);
@@ -106,7 +104,7 @@ RowChoice best_around(RowSearch& search, const RowChoice& best, double radius, d
   const auto at_x = static_cast<float>(best.fall_off.x), at_y = static_cast<float>(best.fall_off.y);
   RowLanes lanes;
   lanes.fill(best);
-  for (std::size_t l = 0; l < kLanes; ++l) {
+  for (std::size_t l = 0; l < kFloatLanes; ++l) {
     lanes.x[l] = at_x + (kAlong[l] * along_x - kAcross[l] * along_y);
     lanes.y[l] = at_y + (kAlong[l] * along_y + kAcross[l] * along_x);
   }
@@ -122,7 +120,7 @@ struct Judged {
 
 /// The best of the registry's other warps where it is better than `best`; false where none is.
 bool improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) noexcept {
-  std::array<WarpChoice, kWarpLanes> choice;
+  std::array<WarpChoice, kDoubleLanes> choice;
   std::size_t count = 0;
   for (const Warp* other : all_warps()) {
     if (is_searched(*other) || count == choice.size()) continue;
@@ -131,7 +129,7 @@ bool improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) 
   }
   if (count == 0) return false;
   ChoiceLanes lanes;
-  for (std::size_t i = 0; i < kWarpLanes; ++i) lanes.set(i, choice[i < count ? i : 0]);
+  for (std::size_t i = 0; i < kDoubleLanes; ++i) lanes.set(i, choice[i < count ? i : 0]);
   LaneAnswers better;
   error.count_bound();
   error.below(lanes, best.value, better);
@@ -163,7 +161,7 @@ constexpr Ways kByFours = {{{1.0F, 1.0F, 1.0F, 1.0F},
 
 /// Along each of four ways, as shares of its step, where sixteen candidates are: on both sides along each
 /// way, and on half of the diagonals; on the other half in the next round.
-using Pattern = std::array<SideLanes::Numbers, 4>;
+using Pattern = std::array<FloatLanes, 4>;
 constexpr std::array<Pattern, 2> patterns() noexcept {
   constexpr float kDiagonal = 0.6F;
   std::array<Pattern, 2> result{};
@@ -208,20 +206,20 @@ TurnedSides turned_sides(const SideSearch& search, const Ways& ways, int rounds,
   for (int round = 0; round < rounds || (round < kLonger * rounds && least < kMuch * two_ago); ++round) {
     Pattern move = kPatterns[static_cast<std::size_t>(round % 2)];
     for (std::size_t way = 0; way < 4; ++way) {
-      for (std::size_t l = 0; l < kLanes; ++l) move[way][l] *= step[way];
+      for (std::size_t l = 0; l < kFloatLanes; ++l) move[way][l] *= step[way];
       move[way][kAgain] = last[way];
       if (round > 0) move[way][kFarther] = kFarOn * last[way];
     }
     SideLanes lanes;
     for (std::size_t k = 0; k < 4; ++k) {
-      for (std::size_t l = 0; l < kLanes; ++l)
+      for (std::size_t l = 0; l < kFloatLanes; ++l)
         lanes.turn[k][l] = (ways[0][k] * move[0][l] + ways[1][k] * move[1][l]) +
                            (ways[2][k] * move[2][l] + ways[3][k] * move[3][l]);
     }
     search.find_values(sides, lanes);
     if (round == 0) first = lanes.value[kAgain];
     const std::size_t found = lanes.least();
-    const bool better = lanes.value[found] < least * SideLanes::kTie;
+    const bool better = lanes.value[found] < least * kSingleTie;
     const bool stays = !better || (round == 0 && found == kAgain);
     for (std::size_t way = 0; way < 4; ++way) {
       last[way] = better ? move[way][found] : 0.0F;
@@ -279,7 +277,7 @@ Judged quick_search(const WarpInput& input, PlaneError& error) noexcept {
 }
 
 /// The better ones first; those that are alike stay in order.
-void sort(std::array<Judged, kLanes>& maps) noexcept {
+void sort(std::array<Judged, kFloatLanes>& maps) noexcept {
   for (std::size_t i = 1; i < maps.size(); ++i) {
     const Judged next = maps[i];
     std::size_t k = i;
@@ -298,8 +296,8 @@ Judged thorough_search(const WarpInput& input, PlaneError& error) noexcept {
   };
   constexpr std::array<Level, 4> kLevels = {{{8, 3, 0.2F}, {4, 6, 0.1F}, {2, 10, 0.05F}, {1, 16, 0.05F}}};
   const RowLanes first = first_rows(search, input);
-  std::array<Judged, kLanes> best;
-  for (std::size_t l = 0; l < kLanes; ++l) {
+  std::array<Judged, kFloatLanes> best;
+  for (std::size_t l = 0; l < kFloatLanes; ++l) {
     best[l].choice = search.choice(first.at(l));
     best[l].value = error.value(best[l].choice);
   }

@@ -8,9 +8,9 @@
 #include <limits>
 #include <utility>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
-#include "geometry/wide.hpp"
+#include "lanes/elementary.hpp"
+#include "lanes/wide.hpp"
 #include "warp/plane_map.hpp"
 
 namespace gnomon {
@@ -40,7 +40,7 @@ BodyLanes::BodyLanes(const WarpInput& input) noexcept {
 }
 
 PlaneError::PlaneError(const WarpInput& input, bool searched, int set) noexcept
-    : input_(input), lanes_(kWarpLanes), body_(input) {
+    : input_(input), lanes_(kDoubleLanes), body_(input) {
   double low = input.body.front().z, high = low;
   for (const WarpInput::Point& p : input.body) {
     low = min_of(low, p.z);
@@ -265,14 +265,14 @@ void ChoiceLanes::set(std::size_t lane, const WarpChoice& choice) noexcept {
 /// A map for each choice: its w, linear over the light plane, and the gradients of its coordinates A and B
 /// times w^2, which are (turn y + x, y - turn x); scaled so that a texel's extents need no other factor.
 struct PlaneError::MapLanes {
-  alignas(64) LaneValues a_turn, a_x, a_y, b_turn, b_x, b_y, w_x, w_y, w_1;
-  alignas(64) LaneValues area;   // of the rectangle's cell in the light plane where w is 1
-  alignas(64) LaneValues known;  // 1; 0 where no map can be made with the choice
+  alignas(64) DoubleLanes a_turn, a_x, a_y, b_turn, b_x, b_y, w_x, w_y, w_1;
+  alignas(64) DoubleLanes area;   // of the rectangle's cell in the light plane where w is 1
+  alignas(64) DoubleLanes known;  // 1; 0 where no map can be made with the choice
 };
 
 /// Of the body: along each choice's axis, and along both of its rows in the image.
 struct PlaneError::ExtentLanes {
-  alignas(64) LaneValues u_min, u_max, stretch, a_min, a_max, b_min, b_max;
+  alignas(64) DoubleLanes u_min, u_max, stretch, a_min, a_max, b_min, b_max;
 };
 
 GNOMON_WIDE void PlaneError::find_extents(const ChoiceLanes& c, ExtentLanes& extents) const noexcept {
@@ -369,9 +369,9 @@ GNOMON_WIDE void PlaneError::fit(const ChoiceLanes& choices, const ExtentLanes& 
   const double f = w * id, f2 = f * f;                                                     \
   const double row_a = (ax * ax + ay * ay) * f2, row_b = (bx * bx + by * by) * f2
 
-GNOMON_WIDE void PlaneError::find_storage(const MapLanes& map, LaneValues& value) const noexcept {
+GNOMON_WIDE void PlaneError::find_storage(const MapLanes& map, DoubleLanes& value) const noexcept {
   const std::size_t lanes = lanes_, n = sample_.count;
-  alignas(64) LaneValues most_a{}, most_b{};
+  alignas(64) DoubleLanes most_a{}, most_b{};
   for (std::size_t i = 0; i < n; ++i) {
     const double x = sample_.x[i], y = sample_.y[i], xx = sample_.xx[i], xy = sample_.xy[i];
     const double yx = sample_.yx[i], yy = sample_.yy[i], id = sample_.inverse_determinant[i];
@@ -387,10 +387,10 @@ GNOMON_WIDE void PlaneError::find_storage(const MapLanes& map, LaneValues& value
 // A texel's squares are the roots of x^2 - 2 half x + area^2, half the sum of both squared extents and the
 // product of both: the larger one is above `square` where half is, or where the quadratic is negative there.
 GNOMON_WIDE void PlaneError::count_above(const MapLanes& map, double square,
-                                         LaneValues& count) const noexcept {
+                                         DoubleLanes& count) const noexcept {
   const std::size_t lanes = lanes_, n = sample_.count;
   const double inverse = inverse_or_0(square), enough = static_cast<double>(above_) + 0.5;
-  alignas(64) LaneValues above;
+  alignas(64) DoubleLanes above;
   for (std::size_t l = 0; l < lanes; ++l) above[l] = map.known[l] != 0.0 ? 0.0 : enough + 0.5;
   // Asked now and then whether all have enough.
   constexpr std::size_t kBetween = 16;
@@ -423,16 +423,16 @@ void PlaneError::below(const ChoiceLanes& choices, double value, LaneAnswers& is
   MapLanes map;
   find_extents(choices, extents);
   fit(choices, extents, map);
-  LaneValues found;
+  DoubleLanes found;
   if (!(square < std::numeric_limits<double>::infinity())) {
-    for (std::size_t l = 0; l < kWarpLanes; ++l) is_below[l] = map.known[l] != 0.0;
+    for (std::size_t l = 0; l < kDoubleLanes; ++l) is_below[l] = map.known[l] != 0.0;
   } else if (input_.objective == Objective::storage) {
     find_storage(map, found);
-    for (std::size_t l = 0; l < kWarpLanes; ++l)
+    for (std::size_t l = 0; l < kDoubleLanes; ++l)
       is_below[l] = map.known[l] != 0.0 && std::sqrt(found[l]) < value;
   } else {
     count_above(map, square, found);
-    for (std::size_t l = 0; l < kWarpLanes; ++l) is_below[l] = found[l] <= static_cast<double>(above_);
+    for (std::size_t l = 0; l < kDoubleLanes; ++l) is_below[l] = found[l] <= static_cast<double>(above_);
   }
 }
 

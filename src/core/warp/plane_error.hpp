@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "gnomon/warp.hpp"
+#include "lanes/lanes.hpp"
 #include "warp/error_samples.hpp"
-#include "warp/lanes.hpp"
 
 namespace gnomon {
 
@@ -19,17 +19,16 @@ inline constexpr double kOpposedCosine = -0.5;
 
 /// Maps of the light plane, side by side. Rows may have any length.
 struct ChoiceLanes {
-  alignas(64) std::array<double, kWarpLanes> axis_x, axis_y, kappa, centre, a_x, a_y, b_x, b_y;
+  alignas(64) std::array<double, kDoubleLanes> axis_x, axis_y, kappa, centre, a_x, a_y, b_x, b_y;
   void set(std::size_t lane, const WarpChoice& choice) noexcept;
 };
-using LaneValues = std::array<double, kWarpLanes>;
-using LaneAnswers = std::array<bool, kWarpLanes>;
+using LaneAnswers = std::array<bool, kDoubleLanes>;
 
 /// The light-plane positions of a body's vertices, in whole lanes.
 struct BodyLanes {
   alignas(64) std::array<double, whole_lanes(2 * kMaxVertices)> x, y;
   std::size_t points = 0;  // of the body
-  std::size_t count = 0;   // a multiple of kWarpLanes
+  std::size_t count = 0;   // a multiple of kDoubleLanes
   explicit BodyLanes(const WarpInput& input) noexcept;
 };
 
@@ -81,15 +80,15 @@ class PlaneError {
   struct MapLanes;
   void find_extents(const ChoiceLanes& choices, ExtentLanes& extents) const noexcept;
   void fit(const ChoiceLanes& choices, const ExtentLanes& extents, MapLanes& map) const noexcept;
-  void find_storage(const MapLanes& map, LaneValues& value) const noexcept;
-  void count_above(const MapLanes& map, double square, LaneValues& count) const noexcept;
+  void find_storage(const MapLanes& map, DoubleLanes& value) const noexcept;
+  void count_above(const MapLanes& map, double square, DoubleLanes& count) const noexcept;
   [[nodiscard]] double storage_squared() const noexcept;
   [[nodiscard]] double worst_squared() noexcept;
 
   const WarpInput& input_;
   std::size_t all_ = 0;    // of the samples
   std::size_t above_ = 0;  // of those counted, as many as may exceed the value asked for
-  std::size_t lanes_;      // kWarpLanes, but not known when this is compiled: as in lane_range
+  std::size_t lanes_;      // kDoubleLanes, but not known when this is compiled: as in lane_range
   double height_range_ = 0.0, distance_ = 0.0;  // of the body, as plane_map takes them
   double farthest_ = 0.0;                       // depth of the body, where it counts
   bool complete_ = true;                        // no vertex was refused

@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/pair.hpp"
 #include "geometry/vector.hpp"
-#include "warp/point_pair.hpp"
+#include "lanes/pair.hpp"
+#include "lanes/point_pair.hpp"
 
 namespace gnomon {
 namespace {
@@ -83,7 +83,7 @@ void enclose(std::span<const WarpInput::Point> body, PlaneMap& map) noexcept {
   const WarpChoice& choice = map.choice;
   const Pair axis_x(choice.axis.x), axis_y(choice.axis.y);
   Pair low(kInfinity), high(-kInfinity);
-  for_each_two(body, [&](const PointPair& p) {
+  for_each_two<PointPair>(body, [&](std::size_t, const PointPair& p) {
     const Pair u = p.x * axis_x + p.y * axis_y;
     low = min_of(low, u);
     high = max_of(high, u);
@@ -94,7 +94,7 @@ void enclose(std::span<const WarpInput::Point> body, PlaneMap& map) noexcept {
   const Pair one(1.0), kappa(choice.kappa), u_min(map.u_min), stretch(map.stretch), centre(choice.centre);
   const Pair a_x(choice.row_a.x), a_y(choice.row_a.y), b_x(choice.row_b.x), b_y(choice.row_b.y);
   Pair a_low(kInfinity), a_high(-kInfinity), b_low = a_low, b_high = a_high;
-  for_each_two(body, [&](const PointPair& p) {
+  for_each_two<PointPair>(body, [&](std::size_t, const PointPair& p) {
     const Pair u = p.x * axis_x + p.y * axis_y - u_min, inverse = one / (one + kappa * u);
     const Pair x = (p.x * axis_y - p.y * axis_x - centre) * inverse, y = u * stretch * inverse;
     const Pair a = a_x * x + a_y * y, b = b_x * x + b_y * y;
@@ -202,7 +202,7 @@ void texels_needed(std::span<const WarpInput::Point> body, const PlaneMap& plane
   const Pair u_min(plane.u_min), stretch(plane.stretch), side_a(side.x), side_b(side.y);
   Pair a_max(0.0), b_max(0.0);
   std::size_t at = 0;
-  for_each_two(body, [&](const PointPair& p) {
+  for_each_two<PointPair>(body, [&](std::size_t, const PointPair& p) {
     const Pair w = one + kappa * (p.x * axis_x + p.y * axis_y - u_min);
     const Pair lean = kappa * (p.x * axis_y - p.y * axis_x - centre) / w;
     const Pair along = w * w / stretch;  // of one unit of the image's Y

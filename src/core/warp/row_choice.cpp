@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/elementary.hpp"
 #include "warp/fall_off.hpp"
 #include "warp/row_search.hpp"
 

@@ -9,15 +9,14 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
-#include "geometry/wide.hpp"
+#include "lanes/elementary.hpp"
+#include "lanes/wide.hpp"
 #include "warp/fall_off.hpp"
 
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kAtOnce = RowLanes::kCount;
 // Directions that are tried for each row.
 constexpr std::size_t kFan = 4;
 // Square of the sine at which rows lean too close together for a useful map.
@@ -47,7 +46,7 @@ void RowLanes::fill(const RowChoice& rows) noexcept {
 }
 
 std::size_t RowLanes::least() const noexcept {
-  return first_of_least_lane(value, kTie);
+  return first_of_least_lane(value, kSingleTie);
 }
 
 RowChoice RowLanes::at(std::size_t i) const noexcept {
@@ -57,25 +56,25 @@ RowChoice RowLanes::at(std::size_t i) const noexcept {
 /// The candidates' maps. w, and the numerators of X and Y, are linear over the samples' numbers.
 struct RowSearch::Maps {
   static constexpr std::size_t kBoth = 2 * kFan;
-  alignas(64) Numbers reach, u_min, u_max;
-  alignas(64) Numbers u_x, u_y;       // along the axis
-  alignas(64) Numbers s_x, s_y, s_1;  // across it
-  alignas(64) Numbers w_x, w_y, w_1;
-  alignas(64) Numbers x_low, x_high, y_low, y_high;  // of the image
-  alignas(64) std::array<Numbers, kMostPoints> image_x, image_y;
+  alignas(64) FloatLanes reach, u_min, u_max;
+  alignas(64) FloatLanes u_x, u_y;       // along the axis
+  alignas(64) FloatLanes s_x, s_y, s_1;  // across it
+  alignas(64) FloatLanes w_x, w_y, w_1;
+  alignas(64) FloatLanes x_low, x_high, y_low, y_high;  // of the image
+  alignas(64) std::array<FloatLanes, kMostPoints> image_x, image_y;
   // The gradient of X times w^2 is (turn_x y + first_x, second_x - turn_x x), and Y's alike; then both over
   // the image's extents and times its area, so that they come out as extents of texels.
-  alignas(64) Numbers turn_x, first_x, second_x, turn_y, first_y, second_y;
-  alignas(64) Numbers area;  // of the image's rectangle, in the plane where w is 1
+  alignas(64) FloatLanes turn_x, first_x, second_x, turn_y, first_y, second_y;
+  alignas(64) FloatLanes area;  // of the image's rectangle, in the plane where w is 1
   // Directions of both rows, over the unit square and over X and Y, and squared lengths of the sides across.
-  alignas(64) std::array<Numbers, kBoth> unit_x, unit_y, x, y, side;
-  alignas(64) std::array<Numbers, kBoth> xx, xy, yy;  // of those over X and Y
-  alignas(64) std::array<Numbers, kFan * kFan> pair;  // values
+  alignas(64) std::array<FloatLanes, kBoth> unit_x, unit_y, x, y, side;
+  alignas(64) std::array<FloatLanes, kBoth> xx, xy, yy;  // of those over X and Y
+  alignas(64) std::array<FloatLanes, kFan * kFan> pair;  // values
 };
 
 bool is_line(const WarpInput& input, const BodyLanes& body) noexcept {
-  const LaneRange x = lane_range(body.x.data(), body.count, kWarpLanes),
-                  y = lane_range(body.y.data(), body.count, kWarpLanes);
+  const LaneRange x = lane_range(body.x.data(), body.count, kDoubleLanes),
+                  y = lane_range(body.y.data(), body.count, kDoubleLanes);
   const double middle_x = 0.5 * (x.low + x.high), middle_y = 0.5 * (y.low + y.high);
   double xx = 0.0, xy = 0.0, yy = 0.0;
   for (std::size_t i = 0; i < body.count; ++i) {
@@ -96,8 +95,8 @@ bool is_line(const WarpInput& input, const BodyLanes& body) noexcept {
 }
 
 RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
-    : lanes_(kWarpLanes),
-      fall_offs_(kAtOnce),
+    : lanes_(kDoubleLanes),
+      fall_offs_(kFloatLanes),
       corners_(error.corners()),
       body_(error.body()),
       objective_(input.objective),
@@ -172,7 +171,7 @@ GNOMON_WIDE void RowSearch::find_samples() noexcept {
 GNOMON_WIDE void RowSearch::find_axes(const RowLanes& candidates, Maps& maps) const noexcept {
   Maps& __restrict m = maps;
   const RowLanes& __restrict c = candidates;
-  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
+  const std::size_t lanes = fall_offs_ & ~(kFloatLanes - 1);
   const std::size_t n = points_;
   const double unit = 1.0 / max_of(extent_.x, extent_.y);
   const auto extent_x = static_cast<float>(extent_.x * unit);
@@ -216,7 +215,7 @@ GNOMON_WIDE void RowSearch::find_axes(const RowLanes& candidates, Maps& maps) co
 // component over one coordinate alone. No sample takes a division.
 GNOMON_WIDE void RowSearch::find_image(Maps& maps) const noexcept {
   Maps& __restrict m = maps;
-  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
+  const std::size_t lanes = fall_offs_ & ~(kFloatLanes - 1);
   const std::size_t n = points_;
   for (std::size_t l = 0; l < lanes; ++l) {
     m.x_low[l] = m.y_low[l] = kInfinity;
@@ -230,8 +229,8 @@ GNOMON_WIDE void RowSearch::find_image(Maps& maps) const noexcept {
   }
   for (std::size_t i = 0; i < n; i += 2) {
     const float x0 = point_x_[i], x1 = point_x_[i + 1], y0 = point_y_[i], y1 = point_y_[i + 1];
-    Numbers &image_x0 = m.image_x[i], &image_x1 = m.image_x[i + 1];
-    Numbers &image_y0 = m.image_y[i], &image_y1 = m.image_y[i + 1];
+    FloatLanes &image_x0 = m.image_x[i], &image_x1 = m.image_x[i + 1];
+    FloatLanes &image_y0 = m.image_y[i], &image_y1 = m.image_y[i + 1];
     for (std::size_t l = 0; l < lanes; ++l) {
       const float inverse0 = 1.0F / (m.w_x[l] * x0 + m.w_y[l] * y0 + m.w_1[l]);
       const float inverse1 = 1.0F / (m.w_x[l] * x1 + m.w_y[l] * y1 + m.w_1[l]);
@@ -257,7 +256,7 @@ GNOMON_WIDE void RowSearch::find_directions(const RowLanes& candidates, float st
   Maps& __restrict m = maps;
   const RowLanes& __restrict c = candidates;
   constexpr std::size_t kBoth = 2 * kFan;
-  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
+  const std::size_t lanes = fall_offs_ & ~(kFloatLanes - 1);
   for (std::size_t d = 0; d < kFan; ++d) {
     const Turn turn((static_cast<float>(d) - 0.5F * static_cast<float>(kFan - 1)) * step);
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -297,8 +296,8 @@ GNOMON_WIDE void RowSearch::find_directions(const RowLanes& candidates, float st
 GNOMON_WIDE void RowSearch::find_sides(Maps& maps) const noexcept {
   Maps& __restrict m = maps;
   constexpr std::size_t kBoth = 2 * kFan;
-  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1), n = points_;
-  alignas(64) std::array<Numbers, kBoth> low, high;
+  const std::size_t lanes = fall_offs_ & ~(kFloatLanes - 1), n = points_;
+  alignas(64) std::array<FloatLanes, kBoth> low, high;
   for (std::size_t d = 0; d < kBoth; ++d) {
     for (std::size_t l = 0; l < lanes; ++l) {
       low[d][l] = kInfinity;
@@ -306,7 +305,7 @@ GNOMON_WIDE void RowSearch::find_sides(Maps& maps) const noexcept {
     }
   }
   for (std::size_t i = 0; i < n; i += 4) {
-    const Numbers *const x = &m.image_x[i], *const y = &m.image_y[i];
+    const FloatLanes *const x = &m.image_x[i], *const y = &m.image_y[i];
     for (std::size_t d = 0; d < kBoth; ++d) {
       for (std::size_t l = 0; l < lanes; ++l) {
         const float by_x = m.x[d][l], by_y = m.y[d][l];
@@ -340,9 +339,9 @@ GNOMON_WIDE void RowSearch::find_sides(Maps& maps) const noexcept {
 
 GNOMON_WIDE void RowSearch::find_products(Maps& maps) const noexcept {
   Maps& __restrict m = maps;
-  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
+  const std::size_t lanes = fall_offs_ & ~(kFloatLanes - 1);
   const std::size_t n = samples_;
-  alignas(64) std::array<Numbers, 2 * kFan> most;
+  alignas(64) std::array<FloatLanes, 2 * kFan> most;
   for (std::size_t d = 0; d < 2 * kFan; ++d) {
     for (std::size_t l = 0; l < lanes; ++l) most[d][l] = 0.0F;
   }
@@ -373,8 +372,8 @@ GNOMON_WIDE void RowSearch::find_products(Maps& maps) const noexcept {
 // larger square, and that without a root.
 GNOMON_WIDE void RowSearch::find_sums(Maps& maps) const noexcept {
   Maps& __restrict m = maps;
-  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1), n = samples_;
-  alignas(64) std::array<Numbers, kFan * kFan> product;
+  const std::size_t lanes = fall_offs_ & ~(kFloatLanes - 1), n = samples_;
+  alignas(64) std::array<FloatLanes, kFan * kFan> product;
   for (std::size_t a = 0; a < kFan; ++a) {
     for (std::size_t b = 0; b < kFan; ++b) {
       for (std::size_t l = 0; l < lanes; ++l) {
@@ -437,7 +436,7 @@ GNOMON_WIDE void RowSearch::find_rows(double step, RowLanes& candidates) noexcep
 GNOMON_WIDE void RowSearch::pick_rows(double step, const Maps& maps, RowLanes& candidates) const noexcept {
   const Maps& __restrict m = maps;
   RowLanes& __restrict c = candidates;
-  const std::size_t lanes = fall_offs_ & ~(kAtOnce - 1);
+  const std::size_t lanes = fall_offs_ & ~(kFloatLanes - 1);
   std::array<Turn, 2 * kFan - 1> turn;
   for (std::size_t k = 0; k < turn.size(); ++k)
     turn[k] = Turn((static_cast<float>(k) - static_cast<float>(kFan - 1)) * static_cast<float>(step));
@@ -463,7 +462,7 @@ GNOMON_WIDE void RowSearch::pick_rows(double step, const Maps& maps, RowLanes& c
 #define GNOMON_PAIR(a, b, apart)                                   \
   {                                                                \
     const float value = m.pair[(a)*kFan + (b)][l] * factor##apart; \
-    const bool better = value < best * RowLanes::kTie;             \
+    const bool better = value < best * kSingleTie;             \
     best = better ? value : best;                                  \
     a_x = better ? m.unit_x[a][l] : a_x;                           \
     a_y = better ? m.unit_y[a][l] : a_y;                           \

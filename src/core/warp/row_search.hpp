@@ -23,16 +23,11 @@ struct RowChoice {
 
 /// Candidates of a search, side by side, in single precision: their errors need three digits.
 struct RowLanes {
-  static constexpr std::size_t kCount = 16;
-  using Numbers = std::array<float, kCount>;
-  alignas(64) Numbers x, y;                // fall-off
-  alignas(64) Numbers a_x, a_y, b_x, b_y;  // rows
-  alignas(64) Numbers value;
+  alignas(64) FloatLanes x, y;                // fall-off
+  alignas(64) FloatLanes a_x, a_y, b_x, b_y;  // rows
+  alignas(64) FloatLanes value;
   void set(std::size_t lane, const RowChoice& rows) noexcept;
   void fill(const RowChoice& rows) noexcept;
-  // Gains below this are rounding: the first of two that mirror each other is taken, wherever the world
-  // stands and whatever its unit.
-  static constexpr float kTie = 1.0F - 1e-5F;
   /// The first of the best.
   [[nodiscard]] std::size_t least() const noexcept;
   [[nodiscard]] RowChoice best() const noexcept { return at(least()); }
@@ -59,7 +54,6 @@ class RowSearch {
   [[nodiscard]] FallOff ahead(double share) const noexcept;
 
  private:
-  using Numbers = RowLanes::Numbers;
   static constexpr std::size_t kMostPoints = whole_lanes(2 * kMaxVertices);
   struct Axis {
     glm::dvec2 axis;

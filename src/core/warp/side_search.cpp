@@ -11,13 +11,12 @@
 #include <limits>
 
 #include "geometry/vector.hpp"
-#include "geometry/wide.hpp"
+#include "lanes/wide.hpp"
 #include "warp/plane_map.hpp"
 
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kAtOnce = SideLanes::kCount;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Keep divisors away from zero, and products within single precision: what goes beyond is far from the best.
 constexpr float kNothing = 1e-24F, kFar = 1e14F;
@@ -41,18 +40,18 @@ Sides SideLanes::at(std::size_t lane) const noexcept {
 
 /// The candidates' maps.
 struct SideSearch::Maps {
-  alignas(64) Numbers w_x, w_y, w_1;
+  alignas(64) FloatLanes w_x, w_y, w_1;
   // The gradient of a over alpha, times w^2, is (turn y + first, second - turn x), and b's alike.
-  alignas(64) Numbers turn_a, first_a, second_a, turn_b, first_b, second_b;
+  alignas(64) FloatLanes turn_a, first_a, second_a, turn_b, first_b, second_b;
   // A texel's extents along a and b go by the other's gradient over these products of alpha to delta; its
   // area by all four.
-  alignas(64) Numbers per_a, per_b, area;
-  alignas(64) Numbers usable;  // 1; 0 where the lines make no map
+  alignas(64) FloatLanes per_a, per_b, area;
+  alignas(64) FloatLanes usable;  // 1; 0 where the lines make no map
 };
 
 SideSearch::SideSearch(const WarpInput& input, const PlaneError& error, const WarpChoice& from) noexcept
-    : lanes_(kWarpLanes),
-      candidates_(kAtOnce),
+    : lanes_(kDoubleLanes),
+      candidates_(kFloatLanes),
       body_(error.body()),
       objective_(input.objective),
       // Less what rounding adds.
@@ -133,7 +132,7 @@ GNOMON_WIDE void SideSearch::find_samples(const PixelLanes& samples) noexcept {
 
 GNOMON_WIDE void SideSearch::turn(const Sides& sides, SideLanes& candidates) const noexcept {
   SideLanes& __restrict c = candidates;
-  const std::size_t lanes = candidates_ & ~(kAtOnce - 1);
+  const std::size_t lanes = candidates_ & ~(kFloatLanes - 1);
   for (std::size_t k = 0; k < 4; ++k) {
     const auto x = static_cast<float>(sides.normal[k].x), y = static_cast<float>(sides.normal[k].y);
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -147,8 +146,8 @@ GNOMON_WIDE void SideSearch::turn(const Sides& sides, SideLanes& candidates) con
 GNOMON_WIDE void SideSearch::fit(const SideLanes& candidates, Maps& maps) const noexcept {
   Maps& __restrict m = maps;
   const SideLanes& __restrict c = candidates;
-  const std::size_t lanes = candidates_ & ~(kAtOnce - 1), n = points_;
-  alignas(64) Numbers least_0, least_1, least_2, least_3, low, high;
+  const std::size_t lanes = candidates_ & ~(kFloatLanes - 1), n = points_;
+  alignas(64) FloatLanes least_0, least_1, least_2, least_3, low, high;
   for (std::size_t l = 0; l < lanes; ++l) {
     least_0[l] = least_1[l] = least_2[l] = least_3[l] = low[l] = kInfinity;
     high[l] = -kInfinity;
@@ -234,8 +233,8 @@ GNOMON_WIDE void SideSearch::fit(const SideLanes& candidates, Maps& maps) const 
 GNOMON_WIDE void SideSearch::find_storage(const Maps& maps, SideLanes& candidates) const noexcept {
   const Maps& __restrict m = maps;
   SideLanes& __restrict c = candidates;
-  const std::size_t lanes = candidates_ & ~(kAtOnce - 1), n = samples_;
-  alignas(64) Numbers most_a{}, most_b{};
+  const std::size_t lanes = candidates_ & ~(kFloatLanes - 1), n = samples_;
+  alignas(64) FloatLanes most_a{}, most_b{};
   for (std::size_t i = 0; i < n; i += 2) {
     const FormLanes::Form f0 = form_.at(i), f1 = form_.at(i + 1);
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -254,8 +253,8 @@ GNOMON_WIDE void SideSearch::find_storage(const Maps& maps, SideLanes& candidate
 GNOMON_WIDE void SideSearch::find_worst(const Maps& maps, SideLanes& candidates) const noexcept {
   const Maps& __restrict m = maps;
   SideLanes& __restrict c = candidates;
-  const std::size_t lanes = candidates_ & ~(kAtOnce - 1), n = samples_;
-  alignas(64) Numbers worst{};
+  const std::size_t lanes = candidates_ & ~(kFloatLanes - 1), n = samples_;
+  alignas(64) FloatLanes worst{};
   for (std::size_t i = 0; i < n; i += 2) {
     const FormLanes::Form f0 = form_.at(i), f1 = form_.at(i + 1);
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -270,9 +269,9 @@ GNOMON_WIDE void SideSearch::find_worst(const Maps& maps, SideLanes& candidates)
 GNOMON_WIDE void SideSearch::find_percentile(const Maps& maps, SideLanes& candidates) const noexcept {
   const Maps& __restrict m = maps;
   SideLanes& __restrict c = candidates;
-  const std::size_t lanes = candidates_ & ~(kAtOnce - 1), n = samples_, above = above_;
+  const std::size_t lanes = candidates_ & ~(kFloatLanes - 1), n = samples_, above = above_;
   // The largest few, largest first.
-  alignas(64) std::array<Numbers, PlaneError::kMostAbove + 1> top{};
+  alignas(64) std::array<FloatLanes, PlaneError::kMostAbove + 1> top{};
   for (std::size_t i = 0; i < n; ++i) {
     const FormLanes::Form f0 = form_.at(i);
     for (std::size_t l = 0; l < lanes; ++l) {

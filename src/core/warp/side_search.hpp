@@ -15,16 +15,11 @@ struct Sides {
 
 /// Candidates of a search, side by side, in single precision: their errors need three digits.
 struct SideLanes {
-  static constexpr std::size_t kCount = 16;
-  using Numbers = std::array<float, kCount>;
-  alignas(64) std::array<Numbers, 4> turn;  // of each side, in radians, from where the search is: up to 1
-  alignas(64) std::array<Numbers, 4> x, y;  // the normals, once they are turned
-  alignas(64) Numbers value;                // the square of the objective: only to be compared with others
-  // Gains below this are rounding: the first of two that mirror each other is taken, wherever the world
-  // stands and whatever its unit.
-  static constexpr float kTie = 1.0F - 1e-5F;
+  alignas(64) std::array<FloatLanes, 4> turn;  // of each side, in radians, from where the search is: up to 1
+  alignas(64) std::array<FloatLanes, 4> x, y;  // the normals, once they are turned
+  alignas(64) FloatLanes value;                // the square of the objective: only to be compared with others
   /// The first of the best.
-  [[nodiscard]] std::size_t least() const noexcept { return first_of_least_lane(value, kTie); }
+  [[nodiscard]] std::size_t least() const noexcept { return first_of_least_lane(value, kSingleTie); }
   [[nodiscard]] Sides at(std::size_t lane) const noexcept;
 };
 
@@ -42,7 +37,6 @@ class SideSearch {
   [[nodiscard]] WarpChoice choice(const Sides& sides) const noexcept;
 
  private:
-  using Numbers = SideLanes::Numbers;
   static constexpr std::size_t kMostPoints = whole_lanes(2 * kMaxVertices);
   struct Maps;
   void find_points() noexcept;

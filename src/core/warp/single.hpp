@@ -15,6 +15,10 @@ namespace gnomon {
   return a > b ? a : b;
 }
 
+/// Gains below this are rounding: the first of two that mirror each other is taken, wherever the world stands
+/// and whatever its unit.
+inline constexpr float kSingleTie = 1.0F - 1e-5F;
+
 /// Kappa times length of the strongest warp that single precision resolves.
 inline constexpr double kMostReach = 2e4;
 

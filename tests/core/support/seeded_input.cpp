@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/elementary.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon::test {
 namespace {

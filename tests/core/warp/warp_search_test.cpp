@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
+#include "lanes/lanes.hpp"
 #include "support/seeded_input.hpp"
 #include "warp/along_view.hpp"
 #include "warp/error_samples.hpp"
 #include "warp/formulas.hpp"
-#include "warp/lanes.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/row_search.hpp"
 #include "warp/side_search.hpp"
@@ -121,14 +121,14 @@ TEST(WarpSearch, the_best_rows_near_straight_ones_are_no_worse_than_those) {
       PlaneError error(input);
       RowSearch search(input, error);
       RowLanes candidates{};
-      for (std::size_t lane = 0; lane < RowLanes::kCount; ++lane) {
+      for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
         RowChoice straight;
         straight.fall_off = search.ahead(0.05 + 0.06 * static_cast<double>(lane));
         candidates.set(lane, straight);
       }
       RowLanes found = candidates;
       search.find_rows(0.1, found);
-      for (std::size_t lane = 0; lane < RowLanes::kCount; ++lane) {
+      for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
         EXPECT_TRUE(std::isfinite(found.value[lane])) << lane;
         EXPECT_GT(found.value[lane], 0.0F) << lane;
         // The rows go by both extents together: a little off what the objective says.
@@ -171,12 +171,12 @@ TEST(WarpSearch, turned_sides_are_worth_what_the_error_says_of_their_map) {
       const SideSearch search(input, error, from);
       SideLanes lanes;
       for (std::size_t k = 0; k < 4; ++k) {
-        for (std::size_t l = 0; l < SideLanes::kCount; ++l)
+        for (std::size_t l = 0; l < kFloatLanes; ++l)
           lanes.turn[k][l] = l == 0 ? 0.0F : 0.1F * static_cast<float>((3 * k + 5 * l) % 7) - 0.3F;
       }
       search.find_values(Sides{}, lanes);
       const double unit = error.value(from) / std::sqrt(lanes.value[0]);
-      for (std::size_t l = 0; l < SideLanes::kCount; ++l) {
+      for (std::size_t l = 0; l < kFloatLanes; ++l) {
         const double exact = error.value(search.choice(lanes.at(l))) / unit;
         EXPECT_NEAR(std::sqrt(lanes.value[l]), exact, 1e-4 * exact) << to_string(input.objective) << l;
         ++looked;
@@ -223,17 +223,6 @@ TEST(WarpSearch, a_wall_along_the_light_is_a_line_at_any_angle_to_the_view) {
     });
   }
   EXPECT_EQ(looked, 6);
-}
-
-TEST(WarpSearch, the_first_lane_within_rounding_of_the_least_is_taken) {
-  constexpr float kSame = 1.0F - 1e-5F;
-  std::array<float, 16> values{};
-  for (std::size_t least = 0; least < values.size(); ++least) {
-    for (std::size_t l = 0; l < values.size(); ++l) values[l] = l == least ? 1.0F : 2.0F;
-    EXPECT_EQ(first_of_least_lane(values, kSame), least);
-    values[least / 2] = 1.0F + 5e-6F;
-    EXPECT_EQ(first_of_least_lane(values, kSame), least / 2);
-  }
 }
 
 // A percentile's search counts the samples near the worst: the map that was valued last must not be taken for

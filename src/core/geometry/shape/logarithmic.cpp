@@ -3,9 +3,9 @@
 // Shadow Maps", 2008, section 3: y' = c0 log(c1 y + 1).
 #include <cmath>
 
-#include "geometry/elementary.hpp"
 #include "geometry/vector.hpp"
 #include "gnomon/shape.hpp"
+#include "lanes/elementary.hpp"
 
 // parameters[0]: logarithm of w at the far end of the square over w at its near end, below 0 where w grows
 // the other way. With s the share of the square along y, 1 / w is linear in s and falls to exp(-L): the share

@@ -1,4 +1,4 @@
-// Lists of numbers that vector units work on several at once, and the range of such a list.
+// How many numbers are worked on at once, and what loops over such lists are made of.
 #pragma once
 
 #include <array>
@@ -7,14 +7,17 @@
 
 namespace gnomon {
 
-/// Lists that are worked on in lanes are filled up to a multiple of this.
-inline constexpr std::size_t kWarpLanes = 8;
+/// What the widest vectors hold, 64 bytes. Lists for them are filled up to a multiple of this.
+inline constexpr std::size_t kDoubleLanes = 8, kFloatLanes = 16;
+using DoubleLanes = std::array<double, kDoubleLanes>;
+using FloatLanes = std::array<float, kFloatLanes>;
+/// Numbers of a list, filled up.
 [[nodiscard]] constexpr std::size_t whole_lanes(std::size_t count) noexcept {
-  return (count + kWarpLanes - 1) / kWarpLanes * kWarpLanes;
+  return (count + kDoubleLanes - 1) / kDoubleLanes * kDoubleLanes;
 }
 
-/// What to divide by in place of an x that is not negative and may be 0: max_of(x, least), bit by bit. Compilers may
-/// divide by x before they choose (geometry/wide.hpp), and x plus next to nothing is not 0 either.
+/// What to divide by in place of an x that is not negative and may be 0: max_of(x, least), bit by bit.
+/// Compilers may divide by x before they choose (lanes/wide.hpp), and x plus next to nothing is not 0 either.
 template <typename Number>
 [[nodiscard]] inline Number divisor(Number x, Number least) noexcept {
   constexpr Number kLostInRounding = std::numeric_limits<Number>::epsilon() / 8;
@@ -29,11 +32,11 @@ template <typename Number>
 
 /// The first lane whose number is the least but for rounding: times `same`, a little below 1, no more than
 /// that. Numbers that are none are passed over; the last lane where there is no other.
-[[nodiscard]] inline std::size_t first_of_least_lane(const std::array<float, 16>& v, float same) noexcept {
+[[nodiscard]] inline std::size_t first_of_least_lane(const FloatLanes& v, float same) noexcept {
   const auto less = [&](std::size_t i, std::size_t k) { return v[i] < v[k] ? v[i] : v[k]; };
   // Halves against halves: four steps that wait for each other, where one after another would be fifteen.
-  std::array<float, 8> by8;
-  for (std::size_t l = 0; l < 8; ++l) by8[l] = less(l, l + 8);
+  std::array<float, kFloatLanes / 2> by8;
+  for (std::size_t l = 0; l < by8.size(); ++l) by8[l] = less(l, l + by8.size());
   const auto less8 = [&](std::size_t i, std::size_t k) { return by8[i] < by8[k] ? by8[i] : by8[k]; };
   const float a = less8(0, 4), b = less8(1, 5), c = less8(2, 6), d = less8(3, 7);
   const float ac = a < c ? a : c, bd = b < d ? b : d, least = ac < bd ? ac : bd;
@@ -45,13 +48,13 @@ template <typename Number>
 struct LaneRange {
   double low, high;
 };
-/// The smallest and the largest of `count` numbers, a multiple of kWarpLanes and more than 0. `lanes` is
-/// kWarpLanes, but not known when this is compiled: loops of a few known steps are taken apart before they
+/// The smallest and the largest of `count` numbers, a multiple of kDoubleLanes and more than 0. `lanes` is
+/// kDoubleLanes, but not known when this is compiled: loops of a few known steps are taken apart before they
 /// could become vectors.
 [[nodiscard]] inline LaneRange lane_range(const double* v, std::size_t count, std::size_t lanes) noexcept {
-  std::array<double, kWarpLanes> low, high;
+  DoubleLanes low, high;
   for (std::size_t l = 0; l < lanes; ++l) low[l] = high[l] = v[l];
-  for (std::size_t i = kWarpLanes; i < count; i += kWarpLanes) {
+  for (std::size_t i = kDoubleLanes; i < count; i += kDoubleLanes) {
     const double* const next = v + i;
     for (std::size_t l = 0; l < lanes; ++l) low[l] = low[l] < next[l] ? low[l] : next[l];
     for (std::size_t l = 0; l < lanes; ++l) high[l] = high[l] > next[l] ? high[l] : next[l];

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -66,6 +68,10 @@ class Pair {
   friend std::uint32_t below(Pair a, Pair b) noexcept {
     return static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmplt_pd(a.v_, b.v_)));
   }
+  /// The same of >=. Where a number is none, neither is set.
+  friend std::uint32_t at_least(Pair a, Pair b) noexcept {
+    return static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmpge_pd(a.v_, b.v_)));
+  }
 
  private:
   Pair(__m128d v) noexcept : v_(v) {}
@@ -123,10 +129,22 @@ class Pair {
   friend std::uint32_t below(Pair a, Pair b) noexcept {
     return static_cast<std::uint32_t>(a.low_ < b.low_) | static_cast<std::uint32_t>(a.high_ < b.high_) << 1;
   }
+  /// The same of >=. Where a number is none, neither is set.
+  friend std::uint32_t at_least(Pair a, Pair b) noexcept {
+    return static_cast<std::uint32_t>(a.low_ >= b.low_) | static_cast<std::uint32_t>(a.high_ >= b.high_) << 1;
+  }
 
  private:
   double low_, high_;
 #endif
 };
+
+/// Calls `use` with each even index and `Two` of the items there and behind it. The last of an odd number
+/// comes with itself.
+template <typename Two, typename Use>
+inline void for_each_two(std::span<const typename Two::One> items, Use&& use) noexcept {
+  for (std::size_t i = 0; i < items.size(); i += 2)
+    use(i, Two(items[i], items[i + 1 < items.size() ? i + 1 : i]));
+}
 
 }  // namespace gnomon

@@ -1,5 +1,5 @@
 // Are the elementary functions within a few units in the last place of the truth, everywhere they are used?
-#include "geometry/elementary.hpp"
+#include "lanes/elementary.hpp"
 
 #include <gtest/gtest.h>
 

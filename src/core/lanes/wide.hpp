@@ -8,7 +8,7 @@
 //
 // -fno-trapping-math, without which none of these loops becomes a vector loop, lets the compiler divide before it
 // chooses. So `1 / max_of(x, least)` may divide by an x of 0. Divisors are sums that cannot be 0: divisor(x, least)
-// of warp/lanes.hpp, or x plus a number that changes no bit of an x that counts.
+// of lanes/lanes.hpp, or x plus a number that changes no bit of an x that counts.
 #if !defined(__GNUC__) || defined(__clang__) || !defined(__x86_64__) || !defined(__gnu_linux__) || \
     defined(__SANITIZE_THREAD__)
 #define GNOMON_WIDE
