@@ -25,12 +25,4 @@ enum class Fit : std::uint8_t {
 [[nodiscard]] double longest_chord(double left, double right, double bottom, double top, bool orthographic,
                                    double begin, double end) noexcept;
 
-/// The smallest sphere round the slice [begin, end] of a symmetric perspective frustum: depth of its centre
-/// on the view axis, and its radius. `tan_x`, `tan_y`: half image edges at unit depth. (equation: zc = min(b,
-/// (a+b)(1+K^2)/2))
-struct BoundingSphere {
-  double centre_depth, radius;  ///< world units
-};
-[[nodiscard]] BoundingSphere slice_sphere(double begin, double end, double tan_x, double tan_y) noexcept;
-
 }  // namespace gnomon

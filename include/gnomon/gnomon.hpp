@@ -1,5 +1,5 @@
-// The parts of the core that an engine needs, in one include. Curves, omni-directional comparison,
-// logarithmic perspective in numbers and the choice of a technique lie in gnomon/study/.
+// The parts of the core that an engine needs, in one include. Curves, logarithmic
+// perspective in numbers and the choice of a technique lie in gnomon/study/.
 #pragma once
 
 #include "gnomon/version.hpp"  // first: it stops compilers that are set below C++20

@@ -47,10 +47,4 @@ double longest_chord(double left, double right, double bottom, double top, bool 
   return longest;
 }
 
-BoundingSphere slice_sphere(double begin, double end, double tan_x, double tan_y) noexcept {
-  const double k2 = tan_x * tan_x + tan_y * tan_y;
-  const double centre = min_of(end, 0.5 * (begin + end) * (1.0 + k2));
-  return {centre, std::sqrt((end - centre) * (end - centre) + end * end * k2)};
-}
-
 }  // namespace gnomon

@@ -36,7 +36,7 @@ struct BodyLanes {
 /// so that the perspective error of any map of the plane is a product of two 2x2 matrices away.
 class PlaneError {
  public:
-  static constexpr std::size_t kMaxSamples = PixelLanes::kMost, kMaxCorners = 2 * kMaxVertices;
+  static constexpr std::size_t kMaxSamples = PixelLanes::kMost;
   /// No more samples than that may exceed the value asked for.
   static constexpr std::size_t kMostAbove = 4;
 

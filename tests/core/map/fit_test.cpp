@@ -66,24 +66,5 @@ TEST(FitProperty, the_longest_chord_is_that_of_all_pairs_of_corners) {
   });
 }
 
-TEST(FitProperty, the_sphere_holds_the_slice_touches_its_far_corners_and_is_never_shorter_than_the_chord) {
-  for_all(1000, [&] {
-    const double x = between(0.01, 3), y = between(0.01, 3), begin = between(0.0, 10.0),
-                 end = begin + between(0.0, 50.0);
-    const BoundingSphere sphere = slice_sphere(begin, end, x, y);
-    const double edges[4] = {-x, x, -y, y};
-    for (int i = 0; i < 8; ++i) {
-      const double far =
-          glm::distance(corner(edges, false, i < 4 ? begin : end, i), {0, 0, sphere.centre_depth});
-      require(far <= sphere.radius * (1.0 + kRounding), "corner", i, "at", far, "radius", sphere.radius);
-      require(i < 4 || deviation(far, sphere.radius) <= kRounding, "far corner at", far, "radius",
-              sphere.radius);
-    }
-    const double chord = longest_chord(-x, x, -y, y, false, begin, end);
-    require(chord <= 2.0 * sphere.radius * (1.0 + kRounding), "chord", chord, "diameter",
-            2.0 * sphere.radius);
-  });
-}
-
 }  // namespace
 }  // namespace gnomon::test

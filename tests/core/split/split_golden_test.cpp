@@ -47,14 +47,6 @@ TEST(SplitGolden, pseudo_near_splits_match_the_table) {
   for (const Json& row : rows) expect_edges(row, {SplitScheme::pseudo_near, 0.0, number(row.at("n_pseudo"))});
 }
 
-TEST(SplitGolden, bounding_spheres_match_the_table) {
-  for (const Json& row : golden("splits").at("bounding_sphere")) {
-    const BoundingSphere sphere = slice_sphere(row.at("n"), row.at("f"), row.at("tx"), row.at("ty"));
-    EXPECT_CLOSE(sphere.centre_depth, number(row.at("zc")), kSplit);
-    EXPECT_CLOSE(sphere.radius, number(row.at("R")), kSplit);
-  }
-}
-
 TEST(SplitGolden, texel_indices_are_exact_ten_thousand_kilometres_away) {
   for (const Json& row : golden("extra").at("snap")) {
     const double centre = row.at("center"), texel = row.at("texel");
