@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/slab.hpp"
+#include "geometry/body.hpp"
 #include "geometry/vector.hpp"
 #include "lanes/pair.hpp"
 #include "lanes/point_pair.hpp"

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "geometry/vector.hpp"
+#include "gnomon/light_space.hpp"
 
 namespace gnomon {
 namespace {
@@ -42,6 +43,22 @@ LightFrame face_frame(const LightFrame& cube, int face) noexcept {
   const auto k = static_cast<std::size_t>(face / 2);
   const glm::dvec3 z = axis[k] * (face % 2 == 0 ? -1.0 : 1.0), y = axis[(k + 2) % 3];
   return {glm::cross(y, z), y, z};
+}
+
+glm::dmat4 LightSpace::light_from_relative() const noexcept {
+  glm::dmat4 m(1.0);
+  for (int i = 0; i < 3; ++i) m[i] = {frame.x[i], frame.y[i], frame.z[i], 0.0};
+  if (!perspective) return m;
+  for (int i = 0; i < 3; ++i) m[i] = {frame.x[i], frame.y[i], 0.0, -frame.z[i]};
+  m[3] = {-apex.x, -apex.y, 1.0, apex.z};
+  return m;
+}
+
+glm::dmat4 LightSpace::relative_from_light() const noexcept {
+  const glm::dvec4 x(frame.x, 0.0), y(frame.y, 0.0), z(frame.z, 0.0);
+  if (!perspective) return {x, y, z, glm::dvec4(0.0, 0.0, 0.0, 1.0)};
+  const glm::dvec3 position = frame.x * apex.x + frame.y * apex.y + frame.z * apex.z;
+  return {x, y, glm::dvec4(position, 1.0), -z};
 }
 
 }  // namespace gnomon

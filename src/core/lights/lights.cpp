@@ -10,7 +10,6 @@
 #include "geometry/usable.hpp"
 #include "geometry/vector.hpp"
 #include "lights/importance.hpp"
-#include "lights/places.hpp"
 #include "lights/sizes.hpp"
 #include "plan/input.hpp"
 

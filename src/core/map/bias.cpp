@@ -13,7 +13,7 @@
 #include <glm/vec4.hpp>
 #include <limits>
 
-#include "geometry/jacobian.hpp"
+#include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
 
 namespace gnomon {

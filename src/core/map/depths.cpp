@@ -10,7 +10,7 @@
 #include "lanes/elementary.hpp"
 #include "lanes/pair.hpp"
 #include "lanes/point_pair.hpp"
-#include "map/border.hpp"
+#include "map/size.hpp"
 
 namespace gnomon {
 namespace {

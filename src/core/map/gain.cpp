@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "geometry/vector.hpp"
-#include "map/border.hpp"
+#include "map/size.hpp"
 #include "map/turned.hpp"
 #include "warp/plane_error.hpp"
 

@@ -10,16 +10,35 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
 #include "lanes/elementary.hpp"
-#include "map/border.hpp"
-#include "map/recalled.hpp"
 #include "map/record.hpp"
+#include "map/size.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/plane_map.hpp"
 
 namespace gnomon {
 namespace {
+
+/// A change of the logarithm of texels per area beyond this is a cut: nothing is gained by going slowly.
+constexpr double kCut = 0.4054651081081644;  // ln 1.5
+
+// A warp that changes texels by less than this over the whole body has no direction worth keeping.
+constexpr double kFlat = 1e-3;
+// Share of a held map that the view must use: less wastes more texels than a still grid is worth.
+constexpr double kLeastUse = 0.4;
+
+/// OpenGL clip space from homogeneous light space.
+glm::dmat4 gl_from_light(const PlanContext& c, const LightSpace& space,
+                         const glm::dmat4& gl_from_world) noexcept {
+  return counted_from(gl_from_world, c.camera.position) * space.relative_from_light();
+}
+
+Homography homography(const glm::dmat4& m) noexcept {
+  const auto row = [&](int i) { return glm::dvec3(m[0][i], m[1][i], m[3][i]); };
+  return {row(0), row(1), row(3)};
+}
 
 // Of the logarithm of the density: what is aimed at stays a tenth below what is promised.
 constexpr double kLimit = 0.9 * 0.04879016416943205;  // ln(1 + kDensityStep)
@@ -106,26 +125,6 @@ Change change_between(const Homography& before, const Homography& now, std::span
   return {elementary::log(area * (low * low * low)), elementary::log(area * (high * high * high))};
 }
 
-}  // namespace
-
-double smooth_stretch(const PlanContext& c, const WarpQuestion& question, double length) noexcept {
-  constexpr double kPerStep = 3.0 / kLimit;
-  const LightSpace& space = question.in.light;
-  const glm::dvec3 move = space.frame.turned(c.camera.position - c.last_eye);
-  const glm::dvec3 turn = glm::cross(c.last_forward, c.axes.forward);
-  // 1 over the largest kappa.
-  const double distance = kPerStep * (std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest +
-                                      0.5 * length * std::sqrt(glm::dot(turn, turn)));
-  return distance > 0.0 ? 1.0 + length / distance : std::numeric_limits<double>::infinity();
-}
-
-bool remembered(const MapRequest& request) noexcept {
-  return request.last != nullptr && request.last->width == request.slot.width &&
-         request.last->height == request.slot.height;
-}
-
-namespace {
-
 /// The last frame's map, now `last`, is hardly worse than `goal`.
 bool is_near_best(const WarpInput& in, const WarpChoice& last, const WarpChoice& goal) noexcept {
   constexpr double kNear = 1.0 + kWorthFollowing;
@@ -210,7 +209,148 @@ class SteadyWay {
   Homography before_;
 };
 
+// Frames from one search that begins from nothing to the next, of one map; those of several maps are spread.
+constexpr std::int64_t kSearchEvery = 16;
+constexpr std::int64_t kSearchApart = 4;
+// And to the next round the last frame's result: one frame's motion moves the best warp little.
+constexpr std::int64_t kSearchNearEvery = 2;
+
+/// The body fills the map as it did when that was made: what was measured then still holds.
+bool is_filled(const Recalled& r) noexcept {
+  constexpr double kAlike = 0.05;  // of half a side
+  const auto off = [](double low, double high, const glm::dvec2& row, double constant) {
+    const double length = length_of(row);
+    return max_of(std::abs(low * length + constant + 1.0), std::abs(high * length + constant - 1.0));
+  };
+  const PlaneMap& plane = r.plane;
+  return max_of(off(plane.a_min, plane.a_max, r.map.choice.row_a, r.map.const_a),
+                off(plane.b_min, plane.b_max, r.map.choice.row_b, r.map.const_b)) <= kAlike;
+}
+
+/// The body takes so much more or less of the map than when that was drawn that all its texels jump.
+bool is_cut(const Recalled& r) noexcept {
+  const PlaneMap& plane = r.plane;
+  const double a = (plane.a_max - plane.a_min) * length_of(r.map.choice.row_a),
+               b = (plane.b_max - plane.b_min) * length_of(r.map.choice.row_b);
+  return std::abs(elementary::log(0.25 * a * b)) > kCut;
+}
+
 }  // namespace
+
+Homography of_plane(const PlaneMap& plane) noexcept {
+  return homography(clip_from_light(plane, {0.0, 1.0}, 0.0));
+}
+
+Homography of_matrix(const PlanContext& c, const LightSpace& space,
+                     const glm::dmat4& gl_from_world) noexcept {
+  return homography(gl_from_light(c, space, gl_from_world));
+}
+
+Span along(std::span<const WarpInput::Point> body, const glm::dvec2& axis) noexcept {
+  Span s{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const WarpInput::Point& p : body) {
+    const double u = p.x * axis.x + p.y * axis.y;
+    s.low = min_of(s.low, u);
+    s.high = max_of(s.high, u);
+  }
+  return s;
+}
+
+Decomposed decompose(const Homography& h, std::span<const WarpInput::Point> body,
+                     const glm::dvec2& flat_axis) noexcept {
+  Decomposed d{};
+  const double steepness = std::sqrt(h.w.x * h.w.x + h.w.y * h.w.y);
+  glm::dvec2 axis = steepness > 0.0 ? glm::dvec2(h.w.x, h.w.y) / steepness : flat_axis;
+  Span u = along(body, axis);
+  double w_near = h.w.z + steepness * u.low;
+  if (!(w_near > 0.0)) return d;
+  double kappa = steepness / w_near;
+  if (kappa * (u.high - u.low) < kFlat) {
+    axis = flat_axis;
+    u = along(body, axis);
+    w_near = h.w.z + h.w.x * axis.x * u.low + h.w.y * axis.y * u.low;
+    kappa = 0.0;
+    if (!(w_near > 0.0)) return d;
+  }
+  d.u_min = u.low;
+  d.length = u.high - u.low;
+  const double stretch = 1.0 + kappa * d.length;
+  // Over (s, u - u_min, 1), divided by the weight at the near end.
+  const auto terms = [&](const glm::dvec3& row, double& constant) {
+    const double per_s = (row.x * axis.y - row.y * axis.x) / w_near;
+    const double per_u = (row.x * axis.x + row.y * axis.y) / w_near;
+    constant = row.z / w_near + per_u * u.low;
+    return glm::dvec2(per_s, (per_u - constant * kappa) / stretch);
+  };
+  d.choice.kappa = kappa;
+  d.choice.axis = axis;
+  d.choice.row_a = terms(h.a, d.const_a);
+  d.choice.row_b = terms(h.b, d.const_b);
+  d.valid = std::isfinite(stretch);
+  return d;
+}
+
+Recalled recall(const Homography& h, const WarpQuestion& question, const glm::dvec2& flat_axis) noexcept {
+  const WarpInput& in = question.in;
+  Recalled r{};
+  r.map = decompose(h, in.body, flat_axis);
+  if (!r.map.valid) return r;
+  WarpChoice choice = r.map.choice;
+  choice.row_a /= length_of(choice.row_a);
+  choice.row_b /= length_of(choice.row_b);
+  r.plane = question.points.under(choice);
+  r.usable = usable(in.body, question.points.bounds, r.plane, in.most_stretch);
+  return r;
+}
+
+HeldMap held_map(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
+  HeldMap held{};
+  const glm::dmat4 m = gl_from_light(c, request.space, request.last->gl_from_world);
+  const Homography h = homography(m);
+  const Decomposed d = decompose(h, body.points(), {0.0, 1.0});
+  if (!d.valid) return held;
+  const double fill = 1.0 - 2.0 * request.last->filter_margin_texels / request.last->width;
+  PlaneMap& plane = held.plane;
+  plane.choice = d.choice;
+  plane.u_min = d.u_min;
+  plane.length = d.length;
+  plane.stretch = 1.0 + d.choice.kappa * d.length;
+  // What the rows give is -fill .. fill at the rectangle's edges, less their constants.
+  plane.a_min = -fill - d.const_a;
+  plane.a_max = fill - d.const_a;
+  plane.b_min = -fill - d.const_b;
+  plane.b_max = fill - d.const_b;
+  const PlaneMap tight = plane_map(body.points(), d.choice);
+  const bool inside = tight.a_min >= plane.a_min && tight.a_max <= plane.a_max &&
+                      tight.b_min >= plane.b_min && tight.b_max <= plane.b_max;
+  const double used = (tight.a_max - tight.a_min) * (tight.b_max - tight.b_min) /
+                      ((plane.a_max - plane.a_min) * (plane.b_max - plane.b_min));
+  if (!inside || !(used >= kLeastUse)) return held;
+  // Depth over the weight of the near end is w + 2 (bottom - h) / height.
+  const double w_near = plane.w(0.0, 0.0) / h.weight({0.0, 0.0, 0.0, 1.0});
+  const double per_height = m[2][2] * w_near, at_origin = m[3][2] * w_near;
+  if (!(per_height < 0.0)) return held;
+  held.depths.height = -2.0 / per_height;
+  held.depths.bottom = 0.5 * held.depths.height * (at_origin - plane.w(0.0, 0.0));
+  held.holds = true;
+  return held;
+}
+
+double smooth_stretch(const PlanContext& c, const WarpQuestion& question, double length) noexcept {
+  constexpr double kPerStep = 3.0 / kLimit;
+  const LightSpace& space = question.in.light;
+  const glm::dvec3 move = space.frame.turned(c.camera.position - c.last_eye);
+  const glm::dvec3 turn = glm::cross(c.last_forward, c.axes.forward);
+  // 1 over the largest kappa.
+  const double distance = kPerStep * (std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest +
+                                      0.5 * length * std::sqrt(glm::dot(turn, turn)));
+  return distance > 0.0 ? 1.0 + length / distance : std::numeric_limits<double>::infinity();
+}
+
+bool remembered(const MapRequest& request) noexcept {
+  return request.last != nullptr && request.last->width == request.slot.width &&
+         request.last->height == request.slot.height;
+}
 
 PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
                       const PlaneMap& best, MapResult& result) noexcept {
@@ -260,6 +400,51 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
     change.high -= less;
   }
   return reported(step);
+}
+
+bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
+                WarpStart& start) noexcept {
+  if (request.last == nullptr) return false;
+  // The limit goes up and down as the camera does.
+  constexpr double kNearLimit = 1.05;
+  // The limit after a step of a seventh of the body's length, or a turn by 17 degrees.
+  constexpr double kLeap = 1.1;
+  const double limit = smooth_stretch(c, question, question.in.y_max - question.in.y_min);
+  start.most_stretch = limit;
+  const SearchedWarp& last = request.last->searched;
+  const auto over_body = [&](const glm::dmat4& gl_from_world) {
+    return recall(of_matrix(c, request.space, gl_from_world), question, question.in.unwarped.axis);
+  };
+  const Recalled best = c.frame < last.until ? over_body(last.xyw_from_world) : Recalled{};
+  if (best.usable) {
+    start.best = best.plane.choice;
+    start.best.gain_ratio = last.gain_ratio;
+    start.best.last_ratio = last.last_ratio;
+    const bool turn = (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
+    // Searches round the same place would find better ones for ever, and move texels under a still camera.
+    const bool moved = !c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward;
+    const bool holds = last.last_ratio > 0.0 && is_filled(best) && best.plane.stretch <= kNearLimit * limit;
+    start.use = turn && moved ? StartUse::search : turn || !holds ? StartUse::measure : StartUse::keep;
+  }
+  if (start.use != StartUse::keep && remembered(request)) {
+    const Recalled drawn = over_body(request.last->gl_from_world);
+    start.has_map = drawn.usable;
+    start.map = drawn.plane.choice;
+    // After a leap there is no way to be smooth on.
+    if (limit < kLeap && (!drawn.usable || is_cut(drawn)))
+      start.most_stretch = std::numeric_limits<double>::infinity();
+  }
+  return true;
+}
+
+SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request, const PlaneMap& plane) noexcept {
+  const WarpChoice& choice = plane.choice;
+  const std::int64_t sooner =
+      request.last != nullptr ? 0 : kSearchApart * request.slot.cascade % kSearchEvery;
+  return {choice.followed ? request.last->searched.until : c.frame + kSearchEvery - sooner,
+          world_matrix(clip_from_light(plane, {0.0, 1.0}, 0.0) * request.space.light_from_relative(),
+                       c.camera.position),
+          choice.gain_ratio > 0.0 ? choice.gain_ratio : 1.0, choice.last_ratio};
 }
 
 }  // namespace gnomon

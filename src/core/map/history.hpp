@@ -1,11 +1,76 @@
-// How far a map may go, in one frame, from where the last frame's was towards where it is best.
+// What becomes of the last frame's map: what is it over this frame's body, where does a search go on from it,
+// and how far may a map go in one frame towards where it is best?
 #pragma once
 
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <span>
 
 #include "map/light_body.hpp"
 
 namespace gnomon {
+
+/// A map of the light plane as a matrix over (x, y, 1) of the light frame.
+struct Homography {
+  glm::dvec3 a, b, w;  // rows
+  [[nodiscard]] double weight(const WarpInput::Point& p) const noexcept {
+    return w.x * p.x + w.y * p.y + w.z;
+  }
+  [[nodiscard]] double determinant() const noexcept { return glm::dot(a, glm::cross(b, w)); }
+};
+[[nodiscard]] Homography of_plane(const PlaneMap& plane) noexcept;
+/// Of a matrix to OpenGL clip space from the world.
+[[nodiscard]] Homography of_matrix(const PlanContext& c, const LightSpace& space,
+                                   const glm::dmat4& gl_from_world) noexcept;
+
+/// The homography over the body in the terms of a WarpChoice with centre 0: rows over the image, not yet of
+/// unit length, and the constant that goes with each.
+struct Decomposed {
+  bool valid;
+  WarpChoice choice;
+  double u_min, length;
+  double const_a, const_b;
+};
+/// Of a row over the image.
+[[nodiscard]] inline double length_of(const glm::dvec2& row) noexcept {
+  return std::sqrt(glm::dot(row, row));
+}
+
+/// The body's extent along a unit vector of the light plane.
+struct Span {
+  double low, high;
+};
+[[nodiscard]] Span along(std::span<const WarpInput::Point> body, const glm::dvec2& axis) noexcept;
+
+/// `flat_axis` serves where the map has no fall-off that could tell an axis.
+[[nodiscard]] Decomposed decompose(const Homography& h, std::span<const WarpInput::Point> body,
+                                   const glm::dvec2& flat_axis) noexcept;
+
+/// A map of an earlier frame over this frame's body.
+struct Recalled {
+  bool usable;
+  Decomposed map;  // its rectangle runs from -1 to 1
+  PlaneMap plane;  // round the body, with rows of unit length
+};
+/// `flat_axis`: as for decompose.
+[[nodiscard]] Recalled recall(const Homography& h, const WarpQuestion& question,
+                              const glm::dvec2& flat_axis) noexcept;
+
+/// The last frame's map with this frame's body in it, as it was fitted: the whole rectangle and its depths.
+struct HeldMap {
+  bool holds;
+  PlaneMap plane;
+  LightDepths depths;
+};
+[[nodiscard]] HeldMap held_map(const PlanContext& c, const MapRequest& request,
+                               const LightBody& body) noexcept;
+
+/// What the last frame found and drew, and what a search does with it. False where nothing is known.
+[[nodiscard]] bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
+                              WarpStart& start) noexcept;
+/// Where the next frame's search may begin: at this frame's choice.
+[[nodiscard]] SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request,
+                                         const PlaneMap& plane) noexcept;
 
 /// True where the last frame has a map of this size for the same slot and light.
 [[nodiscard]] bool remembered(const MapRequest& request) noexcept;
@@ -21,8 +86,5 @@ namespace gnomon {
 /// moves.
 [[nodiscard]] double smooth_stretch(const PlanContext& c, const WarpQuestion& question,
                                     double length) noexcept;
-
-/// A change of the logarithm of texels per area beyond this is a cut: nothing is gained by going slowly.
-inline constexpr double kCut = 0.4054651081081644;  // ln 1.5
 
 }  // namespace gnomon

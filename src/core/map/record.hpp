@@ -3,7 +3,7 @@
 
 #include "cull/sweep.hpp"
 #include "map/light_body.hpp"
-#include "map/row_shape.hpp"
+#include "map/texel_shape.hpp"
 
 namespace gnomon {
 

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/slab.hpp"
+#include "geometry/body.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "map/size.hpp"

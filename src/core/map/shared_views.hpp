@@ -6,7 +6,7 @@
 
 #include "gnomon/views.hpp"
 #include "map/context.hpp"
-#include "split/seen_depths.hpp"
+#include "split/visible_depths.hpp"
 #include "warp/plane_map.hpp"
 
 namespace gnomon {

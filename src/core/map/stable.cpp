@@ -6,16 +6,15 @@
 #include <glm/geometric.hpp>
 
 #include "geometry/vector.hpp"
+#include "gnomon/snap.hpp"
 #include "lanes/elementary.hpp"
-#include "map/border.hpp"
 #include "map/depths.hpp"
+#include "map/light_body.hpp"
 #include "map/record.hpp"
-#include "map/served.hpp"
 #include "map/shared_views.hpp"
 #include "map/size.hpp"
 
 namespace gnomon {
-
 namespace {
 
 /// The grid: a square whose size depends on the slice alone, its centre at a whole texel.
@@ -117,6 +116,14 @@ glm::dmat4 clip_from_grid(const glm::dvec2& centre, double half, const LightDept
 }
 
 }  // namespace
+
+std::int64_t snap_index(double value, double step) noexcept {
+  constexpr double kLargest = 9007199254740992.0;  // 2^53
+  const double index = std::floor(value / step + 0.5);
+  if (!(index > -kLargest)) return -static_cast<std::int64_t>(kLargest);
+  if (index > kLargest) return static_cast<std::int64_t>(kLargest);
+  return static_cast<std::int64_t>(index);
+}
 
 void stable_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept {
   ShadowMap& map = result.map;

@@ -7,7 +7,7 @@
 #include <glm/vec4.hpp>
 #include <limits>
 
-#include "geometry/jacobian.hpp"
+#include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/metric.hpp"

@@ -2,6 +2,7 @@
 #include "gnomon/pages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -13,6 +14,12 @@
 
 namespace gnomon {
 namespace {
+
+constexpr std::array kPolicies = {
+#define GNOMON_PAGE_POLICY(name) &page_policies::name,
+#include "gnomon/page_policies.def"
+#undef GNOMON_PAGE_POLICY
+};
 
 std::string_view invalid_pages(const PageOptions& o, const PlanOptions& plan) noexcept {
   if (o.page_texels != 64 && o.page_texels != 128 && o.page_texels != 256) return "pages.page_texels";
@@ -213,6 +220,17 @@ void report(const PageContext& c, PagePlan& plan) noexcept {
 }
 
 }  // namespace
+
+std::span<const PagePolicy* const> all_page_policies() noexcept {
+  return kPolicies;
+}
+
+const PagePolicy* find_page_policy(std::string_view name) noexcept {
+  for (const PagePolicy* policy : kPolicies) {
+    if (policy->name == name) return policy;
+  }
+  return nullptr;
+}
 
 PagePlan plan_pages(const Camera& camera, const Light& light, const SceneBounds& bounds,
                     const SeenPoints& seen, const PlanOptions& options, const PageOptions& page_options,

@@ -6,7 +6,7 @@
 #include "map/context.hpp"
 #include "plan/budget.hpp"
 #include "plan/merge.hpp"
-#include "split/seen_depths.hpp"
+#include "split/visible_depths.hpp"
 
 namespace gnomon {
 
@@ -45,6 +45,11 @@ struct CascadeEdges {
 /// The visible depths, where they say something about this camera and these receivers; nullptr: unknown.
 [[nodiscard]] const VisibleDepths* usable_depths(const PlanContext& c, const DepthRange& body,
                                                  const VisibleDepths* visible) noexcept;
+
+/// Cuts `body`, relative to the camera, across the light to the bounds of the visible points between two view
+/// depths, with room on every side (kPointSafety). Leaves it as it is where there are none, or none in it.
+void clip_to_points(const PlanContext& c, const LightFrame& frame, double begin, double end,
+                    Polytope& body) noexcept;
 
 /// Replaces the plan's maps by so many cascades.
 void plan_cascades(const PlanContext& c, const ParallelScene& scene, int cascades, const MapSizes& sizes,

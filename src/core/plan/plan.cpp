@@ -7,7 +7,7 @@
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
-#include "map/row_shape.hpp"
+#include "map/texel_shape.hpp"
 #include "plan/cadence.hpp"
 #include "plan/cascades.hpp"
 #include "plan/frame.hpp"

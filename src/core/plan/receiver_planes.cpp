@@ -7,10 +7,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "geometry/slab.hpp"
+#include "geometry/body.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
-#include "plan/points.hpp"
+#include "plan/cascades.hpp"
 #include "warp/registry.hpp"
 
 namespace gnomon {

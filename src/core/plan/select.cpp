@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "geometry/jacobian.hpp"
+#include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
 
 namespace gnomon {

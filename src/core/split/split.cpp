@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "geometry/vector.hpp"
+#include "gnomon/partition.hpp"
 #include "lanes/elementary.hpp"
 
 namespace gnomon {
@@ -20,6 +21,9 @@ constexpr std::array<std::string_view, 2> kSelectionNames = {"view_depth", "fine
 double logarithmic_edge(double n, double f, double t) noexcept {
   return n * elementary::pow(f / n, t);
 }
+
+constexpr std::array<std::string_view, 5> kPartitionNames = {
+    "view_depth", "frustum_faces", "separating_plane", "tetrahedron", "receiver_clusters"};
 
 }  // namespace
 
@@ -84,6 +88,25 @@ void split_depths(double n, double f, const SplitOptions& options, std::span<dou
     edges[i] = clamp_to(edge, edges[i - 1], f);
   }
   edges[last] = f;
+}
+
+std::string_view to_string(Partition partition) noexcept {
+  return kPartitionNames[static_cast<std::size_t>(partition)];
+}
+
+bool partition_from_name(std::string_view name, Partition& partition) noexcept {
+  for (std::size_t i = 0; i < kPartitionNames.size(); ++i) {
+    if (kPartitionNames[i] != name) continue;
+    partition = static_cast<Partition>(i);
+    return true;
+  }
+  return false;
+}
+
+double separating_share(double kappa, double length) noexcept {
+  const double reach = kappa * length;
+  // ((1 + reach)^(2/3) - 1) / reach, exact where the reach is small.
+  return reach > 0.0 ? elementary::expm1(2.0 / 3.0 * elementary::log1p(reach)) / reach : 2.0 / 3.0;
 }
 
 }  // namespace gnomon

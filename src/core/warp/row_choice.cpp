@@ -6,7 +6,6 @@
 
 #include "geometry/vector.hpp"
 #include "lanes/elementary.hpp"
-#include "warp/fall_off.hpp"
 #include "warp/row_search.hpp"
 
 namespace gnomon {

@@ -12,7 +12,6 @@
 #include "geometry/vector.hpp"
 #include "lanes/elementary.hpp"
 #include "lanes/wide.hpp"
-#include "warp/fall_off.hpp"
 
 namespace gnomon {
 namespace {

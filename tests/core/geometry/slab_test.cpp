@@ -1,5 +1,5 @@
 // Does a slab cut a body as its two planes do, one after the other?
-#include "geometry/slab.hpp"
+#include "geometry/body.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "map/recalled.hpp"
+#include "map/history.hpp"
 #include "support/finite.hpp"
 #include "support/seeded_input.hpp"
 

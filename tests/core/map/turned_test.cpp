@@ -1,5 +1,5 @@
 // Is the rectangle's turn the one with the least area, against all turns?
-#include "geometry/least_rectangle.hpp"
+#include "map/turned.hpp"
 
 #include <gtest/gtest.h>
 

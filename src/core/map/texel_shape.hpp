@@ -1,8 +1,9 @@
-// How do a map's texels lie along its warp? By the shape that the options name, where a map's rows lie across
-// the warp's axis, so that rows alone can undo what the warp's w does along it.
+// How do a map's texels lie? Rows that undo the warp, texels round a light, or columns and rows that serve
+// visible points: by the shape that the options name, where that lowers the error.
 #pragma once
 
 #include "map/context.hpp"
+#include "map/light_body.hpp"
 #include "warp/plane_map.hpp"
 
 namespace gnomon {
@@ -41,5 +42,27 @@ struct BorderedPlane {
   double log_w = 0.0;  // logarithm of w's growth over the border at either end
 };
 [[nodiscard]] BorderedPlane with_border(const RowShape& rows, const PlaneMap& plane, double border) noexcept;
+
+/// Such texels of one map.
+struct RoundTexels {
+  bool used = false;
+  double border = 0.0;      // how far the map reaches beyond the body's rectangle, over the body's, at most
+  glm::dvec2 longest{1.0};  // texels along x and y over linear ones, at most
+};
+
+/// Round texels where they lower the objective over the body; the options name a shape that has them.
+/// `result`: its map has size and margin; it gets the shape, of OpenGL's clip space, or the reason why not.
+/// `whole`: the plane with the rectangle that such a map shows.
+[[nodiscard]] RoundTexels round_texels(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                                       const PlaneMap& plane, MapResult& result, PlaneMap& whole) noexcept;
+
+/// True where the options name such a shape, and maps of this plan can follow what is seen.
+[[nodiscard]] bool follows_seen(const PlanContext& c) noexcept;
+
+/// Sets the map's shape by the points seen in its depths, where that lowers the objective. `map` has its size
+/// and margin; `gl_from_relative`: its matrix for linear texels, from points relative to the camera.
+/// Returns how much longer the longest texels become along x and y.
+[[nodiscard]] glm::dvec2 serve_seen(const PlanContext& c, const MapRequest& request,
+                                    const glm::dmat4& gl_from_relative, MapResult& result) noexcept;
 
 }  // namespace gnomon
