@@ -1,10 +1,12 @@
-# Does the text that people read use the field's words? check.py SOURCE [PROGRAM...]
+# Does the text that people read use the field's words, and do pages hold together? check.py SOURCE [PROGRAM...]
 # Reads headers, pages, shaders, test names, and what the programs print; tests/text/words.txt lists the words.
 import os
 import re
 import subprocess
 import sys
 import tempfile
+
+import pages
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BEGINNINGS = re.compile(r"(Of|What|So far|Such)\b")
@@ -81,12 +83,16 @@ def files_below(source, folder, suffixes):
                 yield os.path.relpath(os.path.join(where, name), source)
 
 
+def pages_of_tree(source):
+    names = [name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md") if os.path.exists(os.path.join(source, name))]
+    for folder in ("docs", "samples", "shaders", "packaging"):
+        names += files_below(source, folder, (".md",))
+    return names
+
+
 def texts_of_tree(source):
     """(name, text) of every file that people read, as text in which lines are where they are in the file."""
-    pages = [name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md") if os.path.exists(os.path.join(source, name))]
-    for folder in ("docs", "samples", "shaders", "packaging"):
-        pages += files_below(source, folder, (".md",))
-    readers = [(page, text_of_markdown) for page in pages]
+    readers = [(page, text_of_markdown) for page in pages_of_tree(source)]
     readers += [(name, text_of_code) for name in files_below(source, "include", (".hpp", ".h"))]
     readers += [(name, text_of_registry) for name in files_below(source, "include", (".def",))]
     for folder in ("shaders", "samples"):
@@ -145,6 +151,37 @@ def faults_in(texts, words):
             yield fault
 
 
+def write_tree(folder, files):
+    for name, text in files.items():
+        path = os.path.join(folder, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+
+
+def faults_of_pages(source):
+    yield from pages.faults_of_links(source, pages_of_tree(source))
+    yield from pages.faults_of_folders(source)
+
+
+def check_pages_themselves():
+    """Dead links, a page without a question, and folders that are not named or not there."""
+    planted = {"docs/README.md": "# Map\n[a](a.md#what-is-it-a) [b](a.md#b)\n```\n[c](c.md)\n```\n[up](../README.md)\n",
+               "docs/a.md": "# What is `it`, a?\n[here](#b)\n", "docs/other.md": "# Other\n", "README.md": "[gone](docs/gone.md)\n",
+               "docs/architecture.md": "`src/core` `src/core/warp` `src/core/gone` `src/render/gl`\n",
+               "src/core/warp/w.cpp": "", "src/core/split/s.cpp": "", "src/render/gl/g.cpp": ""}
+    expected = {"README.md:1: the link leads nowhere: docs/gone.md", "docs/README.md:2: docs/a.md has no heading #b",
+                "docs/a.md:2: docs/a.md has no heading #b", "docs/README.md: no question leads to docs/other.md",
+                "docs/README.md: no question leads to docs/architecture.md",
+                "docs/architecture.md: there is no src/core/gone", "docs/architecture.md: does not name the folder src/core/split",
+                "docs/architecture.md: does not name the folder src/render"}
+    with tempfile.TemporaryDirectory() as folder:
+        write_tree(folder, planted)
+        found = set(faults_of_pages(folder))
+    if found != expected:
+        sys.exit("the check of pages itself: missed %s, and found %s where nothing was" % (sorted(expected - found), sorted(found - expected)))
+
+
 def check_itself(words):
     """A planted word must be found in each kind of file, with its line and the word to use."""
     planted = {"README.md": "Fine.\n\nThe lamp is `rim`.\n", "docs/page.md": "```\nrim\n```\nWhat it does.\nA rim.\n",
@@ -156,11 +193,7 @@ def check_itself(words):
                 ("include/w.def", 3, "laid"), ("tests/t.cpp", 2, "Rim"), ("tests/t.cpp", 3, "laid"), ("shaders/library/l.glsl", 2, "stands still"),
                 ("samples/s/README.md", 1, "Such"), ("src/tool/t.cpp", 3, "rim")}
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in planted.items():
-            path = os.path.join(folder, name)
-            os.makedirs(os.path.dirname(path), exist_ok=True)
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(text)
+        write_tree(folder, planted)
         faults = list(faults_in(texts_of_tree(folder), words))
     found = {tuple(int(g) if g.isdigit() else g for g in re.match(r"([^:]+):(\d+): [^']*'([^']+)'", f).groups()) for f in faults}
     missed, extra = expected - found, found - expected
@@ -174,16 +207,14 @@ def main():
     source, programs = sys.argv[1], sys.argv[2:]
     words = read_words(os.path.join(HERE, "words.txt"))
     check_itself(words)
-    count = 0
-    for fault in faults_in(texts_of_tree(source), words):
-        print(fault)
-        count += 1
+    check_pages_themselves()
+    faults = list(faults_in(texts_of_tree(source), words)) + list(faults_of_pages(source))
     for program in programs:
-        for fault in faults_in(texts_of_program(program), words):
-            print(fault)
-            count += 1
-    if count:
-        sys.exit("%d places use words that tests/text/words.txt lists" % count)
+        faults += faults_in(texts_of_program(program), words)
+    for fault in faults:
+        print(fault)
+    if faults:
+        sys.exit("%d places; tests/text/words.txt lists the words" % len(faults))
 
 
 if __name__ == "__main__":
