@@ -37,8 +37,8 @@ struct Case {
   [[nodiscard]] SceneBounds bounds() const noexcept { return {casters, receivers}; }
 };
 
-/// A case that is wrong. what() is one line: the key's path first where it is about a key
-/// ("options.lamda: unknown key ..."), and the file's name before that where it came from a file.
+/// A case that is wrong. what() is one line. The key's path comes first where it is about a key
+/// ("options.lamda: unknown key ..."). The file's name comes before that where there is a file.
 class CaseError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -49,9 +49,9 @@ inline constexpr std::size_t kMaxCaseBytes = std::size_t{16} << 20;
 /// Brackets nested deeper than this are refused before parsing; a case itself needs 4.
 inline constexpr int kMaxCaseNesting = 32;
 
-/// Reads one case from JSON text. Throws CaseError for what is no JSON, a key that is unknown, twice or
-/// missing, a value of the wrong type, and an angle or length that makes no camera. Contracts of make_plan()
-/// itself (near below far, say) are left to make_plan().
+/// Reads one case from JSON text. Throws CaseError for what is no JSON, for a key that is unknown, twice or
+/// missing, and for a value of the wrong type. An angle or length that makes no camera throws as well.
+/// Contracts of make_plan() itself (near below far, say) are left to make_plan().
 [[nodiscard]] Case read_case(std::string_view json_text);
 
 /// The same from a file; messages begin with its name.

@@ -58,7 +58,7 @@ enum class BlurShape : std::uint8_t { box, gauss };
 struct FilterSettings {
   const Filter* filter = nullptr;  ///< never nullptr in settings that parse_filter made
   /// Half width of the kernel. In texels, the kernel is a box of 2 radius + 1 texels (0: the single texel, or
-  /// the hardware's 2 x 2); in world units, it has the variance of a disc of this radius.
+  /// the hardware's 2 x 2). In world units, it has the variance of a disc of this radius.
   double radius = 1.0;
   KernelUnit unit = KernelUnit::texels;  ///< of `radius`
   BlurShape blur = BlurShape::box;       ///< of stored texels; filters that read the depth map have their own
@@ -86,9 +86,9 @@ struct FilterLookup {
   /// The mean stored texel over a box of these half sides, in texels, round `position`: MapRead::summed
   /// alone. Empty: the texel that the lookup was given stands in.
   std::function<StoredTexel(const glm::dvec2& half_sides)> mean_of_box;
-  /// A point of the casters' outline in the square between the centres of texels (x, y) and (x + 1, y + 1),
-  /// as a share of its sides; (0.5, 0.5) where none crosses it. Empty: (0.5, 0.5) everywhere. For
-  /// FilterInfo::draws_silhouettes.
+  /// A point of the casters' outline in the square between the centres of texels (x, y) and (x + 1, y + 1).
+  /// It is a share of the square's sides; (0.5, 0.5) where no outline crosses it. Empty: (0.5, 0.5)
+  /// everywhere. For FilterInfo::draws_silhouettes.
   std::function<glm::dvec2(int x, int y)> silhouette;
   /// Largest depth within the kernel of the stored texels, for filters that need it.
   double depth_max = 1.0;
@@ -98,8 +98,8 @@ struct FilterLookup {
   glm::dvec2 box{0.5};               ///< half sides of the kernel as a box, texels
   glm::dmat2 disc{1.0};              ///< the kernel as an ellipse: texels from the unit disc
   glm::dmat2 texels_per_world{1.0};  ///< texels per world unit across the light, along two axes of a basis
-  /// From the receiver towards the light to where the map's depth is d: (x - d y) / (z - d w) world units,
-  /// with this vector's x, y, z, w; exact along the receiver's own ray.
+  /// Distance from the receiver towards the light to where the map's depth is d. It is (x - d y) / (z - d w)
+  /// world units, with this vector's x, y, z, w. Exact along the receiver's own ray.
   glm::dvec4 ray{0.0, 1.0, 1.0, 0.0};
   double light_distance = 0.0;  ///< to the light, world units; 0: parallel light
   double rotation = 0.0;        ///< radians: turns sample patterns, random from pixel to pixel
@@ -139,8 +139,8 @@ struct FilterInfo {
   int (*channels)(const FilterSettings& settings) noexcept = nullptr;
   /// Brings options into what the format can hold. nullptr: nothing to do.
   void (*settle)(FilterSettings& settings) noexcept = nullptr;
-  /// Radius across the light at the receiver, world units, of the kernel over the shadow of something this
-  /// far from the receiver; light_distance 0: parallel light. FilterSettings::radius is then the widest that
+  /// Radius of the kernel over the shadow of something this far from the receiver. Across the light at the
+  /// receiver, world units; light_distance 0: parallel light. FilterSettings::radius is then the widest that
   /// a kernel gets. nullptr: it is the kernel's own.
   double (*penumbra_radius_world)(const FilterSettings& settings, double blocker_distance_world,
                                   double light_distance_world) noexcept = nullptr;
@@ -149,8 +149,8 @@ struct FilterInfo {
 /// The filter's formulas on the CPU, in double. The shader file of the same name holds the same formulas, and
 /// laws over the registry compare them (tests/render/filter/filter_laws_test.cpp).
 struct FilterReference {
-  /// Largest error where all texels of the kernel agree, for a receiver at least `contact` (of the map's
-  /// depth range) in front of or behind them, as filter_laws tests it.
+  /// Largest error where all texels of the kernel agree, as filter_laws tests it. The receiver is at least
+  /// `contact` (of the map's depth range) in front of or behind them.
   double tolerance = 1e-6, contact = 0.0;
   /// shadow_store: the texel of a depth whose surface changes by `slope` per texel (at most half of which is
   /// within the texel). nullptr for MapRead::depth.
@@ -226,9 +226,9 @@ struct ParsedFilter {
   FilterSettings settings;  ///< the default where the text is wrong
   std::string error;        ///< empty where the text was understood
 };
-/// Reads "NAME" or "NAME:KEY=VALUE,KEY=VALUE": keys are radius, unit (texels, world), blur (box, gauss),
-/// format (fp32, fp16, unorm16, unorm8, uint32, nonlinear16), mipmap (0, 1), anisotropy, contacts (0, 1), and
-/// the filter's own options. Example: "esm:c=40,radius=3,format=fp32".
+/// Reads "NAME" or "NAME:KEY=VALUE,KEY=VALUE". Keys are radius, unit (texels, world), blur (box, gauss),
+/// mipmap (0, 1), anisotropy, contacts (0, 1), and the filter's own options. The key format takes fp32, fp16,
+/// unorm16, unorm8, uint32 or nonlinear16. Example: "esm:c=40,radius=3,format=fp32".
 [[nodiscard]] ParsedFilter parse_filter(std::string_view text);
 /// The text that parse_filter reads back to the same settings; defaults are not written.
 [[nodiscard]] std::string to_string(const FilterSettings& settings);
@@ -240,8 +240,7 @@ struct ParsedFilter {
 /// pyramid.
 [[nodiscard]] double bytes_per_texel(const FilterSettings& settings) noexcept;
 
-/// Sets PlanOptions::filter_radius_texels and filter_radius_world, so that no kernel reads outside of its
-/// map.
+/// Sets PlanOptions::filter, so that no kernel reads outside of its map.
 void set_margin(const FilterSettings& settings, PlanOptions& options) noexcept;
 
 namespace filters {

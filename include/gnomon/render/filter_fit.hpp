@@ -26,7 +26,7 @@ struct FilterFitOptions {
   /// receiver. Default: half a step of 8 bits. Larger: cheaper settings.
   double bound = 0.5 / 255.0;
   /// Share of the receivers that may differ by more, 0..1. Half of them lie at edges and a third on the
-  /// surface that shadows itself, where formats differ most: a picture has far fewer such pixels.
+  /// surface that shadows itself, where formats differ most. A picture has far fewer such pixels.
   double exceptions = 0.0;
   /// Places tried per map, half of them at edges of depth, with three receivers each. More take longer, and
   /// miss less.

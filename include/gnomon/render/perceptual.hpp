@@ -12,8 +12,8 @@
 
 namespace gnomon::render {
 
-/// Filter radius over the size of the artifacts that it hides from a viewer: the study's result, for its
-/// worst case of a shadow edge in steps at full contrast. It looked at 5 to 30 pixels; beyond, the straight
+/// Filter radius over the size of the artifacts that it hides from a viewer. It is the study's result, for
+/// its worst case: a shadow edge in steps at full contrast. It looked at 5 to 30 pixels; beyond, the straight
 /// line is carried on.
 inline constexpr double kHidingRadius = 3.47;
 
@@ -40,17 +40,17 @@ struct ShadowDistances {
 
 /// The result of hiding_map_size.
 struct HidingMapSize {
-  int map_size = kMostMapSize;  ///< PlanOptions::map_size, texels along a side
+  int map_size = kMostMapSize;  ///< ResolutionOptions::max_size, texels along a side
   bool hides = false;           ///< false: not even the largest map does, and map_size is that
   double radius_world = 0.0;    ///< of the kernel, world units; 0: it has no size in the world
-  /// The same in pixels where it is largest on the screen: at the least view depth of any map, on a surface
-  /// that faces camera and light. Compare it with the study's range.
+  /// The same in pixels where it is largest on the screen. That is at the least view depth of any map, on a
+  /// surface that faces camera and light. Compare it with the study's range.
   double radius_pixels = 0.0;
 };
 
 /// The smallest maps whose texels the filter hides everywhere. Kernel and texel are seen on the same surface
-/// from the same place: what counts is that the longest side of any texel (ShadowMap::texel_world_max) is at
-/// most the kernel's radius over 3.47, both across the light.
+/// from the same place. So the longest side of any texel (ShadowMap::texel_world_max) must be at most the
+/// kernel's radius over 3.47, both across the light.
 ///
 /// Texels are assumed to shrink as maps grow. Borders and warps make that inexact by a few texels: repeat the
 /// query with a plan of that size until the result is no larger.
@@ -62,10 +62,10 @@ struct HidingMapSize {
 [[nodiscard]] HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera,
                                             const FilterSettings& settings,
                                             const ShadowDistances& distances = {}) noexcept;
-/// The same evaluated at visible points alone (trace::seen_points): a texel is hidden where it is at most a
-/// pixel long on the screen, or where the kernel's radius there is 3.47 times as long. Texels that no pixel
-/// sees, or sees from far away, take no larger map. Points that no map serves are skipped; without any other,
-/// the smallest map.
+/// The same evaluated at visible points alone (trace::seen_points). A texel is hidden where it is at most a
+/// pixel long on the screen. Elsewhere it is hidden where the kernel's radius there is 3.47 times as long.
+/// Texels that no pixel sees, or sees from far away, take no larger map. Points that no map serves are
+/// skipped; without any other, the smallest map.
 [[nodiscard]] HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera,
                                             const FilterSettings& settings, const ShadowDistances& distances,
                                             std::span<const glm::dvec3> visible_world) noexcept;

@@ -31,9 +31,8 @@ struct Probe {
 /// Probe::layers alone, of the context that is current.
 [[nodiscard]] std::string layer_extension();
 
-/// Whether the driver gives `maps` maps of this size and so many bytes a texel, and, where it draws in
-/// software, whether that much memory is free. Allocates images of that size for a moment, in the current
-/// context.
+/// Whether the driver gives `maps` maps of this size and so many bytes a texel. Where it draws in software,
+/// that much memory must be free as well. Allocates images of that size for a moment, in the current context.
 [[nodiscard]] bool memory_takes_maps(int map_size, int maps, double bytes_per_texel);
 
 /// The result of largest_maps.

@@ -6,8 +6,8 @@
 
 namespace gnomon::report {
 
-/// A CSV field in quotes (RFC 4180). Text that a spreadsheet would take for a formula, because it begins with
-/// = + - @ or a control character, gets an apostrophe in front: the mark for plain text.
+/// A CSV field in quotes (RFC 4180). Text that begins with = + - @ or a control character gets an apostrophe
+/// in front, the mark for plain text. A spreadsheet would take it for a formula.
 [[nodiscard]] inline std::string csv_field(std::string_view text) {
   constexpr std::string_view kFormula = "=+-@\t\r\n";
   std::string out = "\"";

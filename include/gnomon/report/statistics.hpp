@@ -28,7 +28,7 @@ struct Estimate {
 struct Choice {
   double cost = 0.0, error = 0.0;  ///< any units
 };
-/// Indices of the choices that no other beats, by rising cost: none costs no more and errs no more while
+/// Indices of the choices that no other beats, by rising cost. None costs no more and errs no more while
 /// being better in one of them. The first of equal choices is taken. Choices with a value that is not finite
 /// take no part.
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const Choice> choices);

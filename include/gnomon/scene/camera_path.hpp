@@ -35,7 +35,7 @@ struct CameraPath {
 /// Writes the same format.
 void save_camera_path(const CameraPath& path, const std::filesystem::path& file);
 
-/// The default flight of a builtin scene, by its name; for any other scene an orbit that shows all of it, as
+/// The default flight of a builtin scene, by its name. Any other scene has an orbit that shows all of it, as
 /// near as an image of this width over height allows. The default holds it in a square image and in wider
 /// ones.
 [[nodiscard]] CameraPath default_path(const Scene& scene, double aspect = 1.0);

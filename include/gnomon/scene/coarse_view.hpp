@@ -14,9 +14,8 @@ namespace gnomon {
 class CoarseView {
  public:
   /// The visible depths of the scene as it is now. The meshes that are largest in the image are drawn by
-  /// their triangles, as many as stay within `most_triangles`; the others count by their boxes, which makes
-  /// the range wider and the pass faster (docs/performance.md).
-  /// Empty as coarse_depths().
+  /// their triangles, as many as stay within `most_triangles`. The others count by their boxes, which makes
+  /// the range wider and the pass faster (docs/performance.md). Empty as coarse_depths().
   [[nodiscard]] VisibleDepths depths(const Scene& scene, const Camera& camera,
                                      std::uint64_t most_triangles = 20'000);
 

@@ -17,10 +17,10 @@ namespace gnomon {
   return material.alpha_mode == AlphaMode::blend || material.transmission > 0.0f;
 }
 
-/// Share of each colour's light that passes the material where its base colour times its picture is `color`
-/// (linear, alpha behind), 0..1: all of it beside what alpha covers, and the transmission times the colour
-/// where it covers. A surface that AlphaMode::mask cuts out lets all pass. No refraction: light keeps its
-/// way.
+/// Share of each colour's light that passes the material, 0..1, where its base colour times its picture is
+/// `color` (linear, alpha behind). All of it passes beside what alpha covers; where it covers, the
+/// transmission times the colour. A surface that AlphaMode::mask cuts out lets all pass. No refraction: light
+/// keeps its way.
 [[nodiscard]] inline glm::vec3 transmittance(const Material& material, const glm::vec4& color) noexcept {
   const bool cut_out = material.alpha_mode == AlphaMode::mask && color.a < material.alpha_cutoff;
   const float covered = cut_out ? 0.0f : material.alpha_mode == AlphaMode::blend ? color.a : 1.0f;

@@ -12,9 +12,10 @@
 
 namespace gnomon {
 
-/// One map of a directional light round the receivers in view: across the warp axis a perspective shadow map,
-/// along it the logarithm of that map's w. Straight lines become curves, so that no rasterizer of triangles
-/// draws it. Without a warp that gains (light along the view, orthographic camera) it is the uniform map.
+/// One map of a directional light round the receivers in view. Across the warp axis it is a perspective
+/// shadow map, along it the logarithm of that map's w. Straight lines become curves, so that no rasterizer of
+/// triangles draws it. Without a warp that gains (light along the view, orthographic camera) it is the
+/// uniform map.
 struct LogPerspectiveMap {
   bool valid = false;                          ///< false: broken input, or no receiver in view
   int size = 0;                                ///< texels along each side

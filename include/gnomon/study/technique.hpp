@@ -19,7 +19,7 @@ struct FilterCost {
   double lookup_ms_per_megapixel = 0.0;                                 ///< of the frame
   double bytes_per_texel = 4.0;                                         ///< depth and stored texels together
   /// It misclassifies as many pixels in maps of error m as a filter with ratio and power 1 does in maps of
-  /// error_ratio * m^error_power: a filter that smooths is better in coarse maps than in fine ones.
+  /// error_ratio * m^error_power. A filter that smooths is better in coarse maps than in fine ones.
   double error_ratio = 1.0, error_power = 1.0;
 };
 
@@ -62,9 +62,9 @@ struct SceneDetail {
   const VisibleDepths* visible_depths = nullptr;
 };
 
-/// Limits; 0 is none. Without target_error the least error within them is taken, or what is alike; with it
-/// the cheapest technique that meets it: by milliseconds, or by texels where the cost model says all cost
-/// nothing.
+/// Limits; 0 is none. Without target_error the least error within them is taken, or what is alike. With it
+/// the cheapest technique that meets it is taken: by milliseconds, or by texels where all cost nothing by the
+/// cost model.
 struct Budget {
   std::int64_t texels = 0, bytes = 0;  ///< of all maps
   double milliseconds = 0.0;           ///< per frame

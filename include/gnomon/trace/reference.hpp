@@ -84,9 +84,10 @@ struct KernelAxes {
 /// Two axes of this length across the light at a point, world units.
 [[nodiscard]] KernelAxes world_axes(const Light& light, const glm::dvec3& point, double radius) noexcept;
 
-/// Half a pixel's sides on the plane of its surface, world units: the axes of the box that an image without
-/// staircases averages the light over. Facets that are seen from their edge end at twice their distance; both
-/// zero where there is no surface. Based on: Pan et al., "Fast, Sub-pixel Antialiased Shadow Maps", 2009.
+/// Half a pixel's sides on the plane of its surface, world units. They are the axes of the box that an image
+/// without staircases averages the light over. Facets that are seen from their edge end at twice their
+/// distance; both zero where there is no surface. Based on: Pan et al., "Fast, Sub-pixel Antialiased Shadow
+/// Maps", 2009.
 [[nodiscard]] KernelAxes facet_axes(const Camera& camera, const SurfacePoint& point) noexcept;
 
 /// Samples per pixel of the soft references: stratified, jittered by a hash of pixel and sample, the same in

@@ -72,7 +72,7 @@ class Tracer {
   /// The same, but the hit whose t is nearest to `t`.
   [[nodiscard]] Hit hit_nearest_to(const Ray& ray, double t) const noexcept;
 
-  /// Largest distance between true triangles and those that the engine hits, world units: a result is certain
+  /// Largest distance between true triangles and those that the engine hits, world units. A result is certain
   /// where it does not change within this distance across the ray. A multiple of the rounding unit times the
   /// diameter of the scene, enlarged by `reach`, the distance from which rays start.
   [[nodiscard]] double error_world(double reach = 0.0) const noexcept;
