@@ -1,12 +1,14 @@
-# Does the text that people read use the field's words, and do pages hold together? check.py SOURCE [PROGRAM...]
-# Reads headers, pages, shaders, test names, and what the programs print; tests/text/words.txt lists the words.
+# Does the text that people read use the field's words, in short sentences, and is what it names there?
+# check.py SOURCE [PROGRAM...] reads headers, pages, shaders, test names, and what the programs print.
 import os
 import re
 import subprocess
 import sys
 import tempfile
 
+import names
 import pages
+import sentences
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BEGINNINGS = re.compile(r"(Of|What|So far|Such)\b")
@@ -84,10 +86,15 @@ def files_below(source, folder, suffixes):
 
 
 def pages_of_tree(source):
-    names = [name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md") if os.path.exists(os.path.join(source, name))]
+    found = [name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md") if os.path.exists(os.path.join(source, name))]
     for folder in ("docs", "samples", "shaders", "packaging"):
-        names += files_below(source, folder, (".md",))
-    return names
+        found += files_below(source, folder, (".md",))
+    return found
+
+
+def read(source, name):
+    with open(os.path.join(source, name), encoding="utf-8") as file:
+        return file.read()
 
 
 def texts_of_tree(source):
@@ -101,8 +108,7 @@ def texts_of_tree(source):
     for library in MESSAGES:
         readers += [(name, text_of_messages) for name in files_below(source, os.path.join("src", library), (".cpp", ".js"))]
     for name, reader in readers:
-        with open(os.path.join(source, name), encoding="utf-8") as file:
-            yield name, reader(file.read())
+        yield name, reader(read(source, name))
 
 
 def printed(program, *arguments):
@@ -164,22 +170,78 @@ def faults_of_pages(source):
     yield from pages.faults_of_folders(source)
 
 
+def faults_of_names(source):
+    """`Type::member` in comments and pages. The change log may name what is gone."""
+    sources = [name for folder in ("include", "src", "samples", "shaders", "tests") for name in files_below(source, folder, CODE_SUFFIXES)]
+    registries = {os.path.relpath(name, "include"): re.findall(r"\w+", names.without_comments(read(source, name)))
+                  for name in sources if name.endswith(".def")}
+    members = names.members_of_types([read(source, name) for name in sources], registries)
+    for name in sources + [page for page in pages_of_tree(source) if page != "CHANGELOG.md"]:
+        text = read(source, name)
+        for line, fault in names.faults_in(text if name.endswith(".md") else names.comments_of(text), members):
+            yield "%s:%d: %s" % (name, line, fault)
+
+
+def faults_of_sentences(source):
+    for name in files_below(source, "include", (".hpp", ".h")):
+        for line, fault in sentences.faults_in(sentences.blocks_of_header(read(source, name)), sentences.LONGEST_IN_HEADERS):
+            yield "%s:%d: %s" % (name, line, fault)
+    for name in pages_of_tree(source):
+        for line, fault in sentences.faults_in(sentences.blocks_of_page(read(source, name)), sentences.LONGEST_IN_PAGES):
+            yield "%s:%d: %s" % (name, line, fault)
+
+
+def faults_of_tree(source):
+    yield from faults_of_pages(source)
+    yield from faults_of_names(source)
+    yield from faults_of_sentences(source)
+
+
+def check_planted(what, planted, faults_of, expected):
+    """What `faults_of` finds in a tree of these files is what is expected, by the words before a quotation."""
+    with tempfile.TemporaryDirectory() as folder:
+        write_tree(folder, planted)
+        found = {re.sub(r": '[^:]* \.\.\.'$", "", fault) for fault in faults_of(folder)}
+    if found != expected:
+        sys.exit("the check of %s itself: missed %s, and found %s where nothing was" % (what, sorted(expected - found), sorted(found - expected)))
+
+
 def check_pages_themselves():
     """Dead links, a page without a question, and folders that are not named or not there."""
     planted = {"docs/README.md": "# Map\n[a](a.md#what-is-it-a) [b](a.md#b)\n```\n[c](c.md)\n```\n[up](../README.md)\n",
                "docs/a.md": "# What is `it`, a?\n[here](#b)\n", "docs/other.md": "# Other\n", "README.md": "[gone](docs/gone.md)\n",
                "docs/architecture.md": "`src/core` `src/core/warp` `src/core/gone` `src/render/gl`\n",
                "src/core/warp/w.cpp": "", "src/core/split/s.cpp": "", "src/render/gl/g.cpp": ""}
-    expected = {"README.md:1: the link leads nowhere: docs/gone.md", "docs/README.md:2: docs/a.md has no heading #b",
-                "docs/a.md:2: docs/a.md has no heading #b", "docs/README.md: no question leads to docs/other.md",
-                "docs/README.md: no question leads to docs/architecture.md",
-                "docs/architecture.md: there is no src/core/gone", "docs/architecture.md: does not name the folder src/core/split",
-                "docs/architecture.md: does not name the folder src/render"}
-    with tempfile.TemporaryDirectory() as folder:
-        write_tree(folder, planted)
-        found = set(faults_of_pages(folder))
-    if found != expected:
-        sys.exit("the check of pages itself: missed %s, and found %s where nothing was" % (sorted(expected - found), sorted(found - expected)))
+    check_planted("pages", planted, faults_of_pages, {
+        "README.md:1: the link leads nowhere: docs/gone.md", "docs/README.md:2: docs/a.md has no heading #b",
+        "docs/a.md:2: docs/a.md has no heading #b", "docs/README.md: no question leads to docs/other.md",
+        "docs/README.md: no question leads to docs/architecture.md",
+        "docs/architecture.md: there is no src/core/gone", "docs/architecture.md: does not name the folder src/core/split",
+        "docs/architecture.md: does not name the folder src/render"})
+
+
+def check_names_themselves():
+    """A member that is gone, and a type; not those that a base, an alias, a registry or a block of GLSL has."""
+    planted = {"include/a.hpp": "#include \"g/rules.def\"\nstruct A {\n  int size;  ///< as B::size, and A::gone\n  // A::gone is no member\n};\n"
+               "struct B : A {};\nusing C = B;\nenum class Rule {\n#define RULE(name) name,\n#include \"g/rules.def\"\n};\n",
+               "include/g/rules.def": "RULE(first)\n", "shaders/s.glsl": "layout(std140) uniform Block {\n  vec4 eye;\n};\n",
+               "src/a.cpp": "// C::size, Rule::first, Rule::second\n/* Block::eye,\n Lost::eye */ int x = A::gone;\n// CLI::Range\n",
+               "docs/a.md": "Set `A::size`.\nSet `A::length`.\n"}
+    check_planted("names", planted, faults_of_names, {
+        "include/a.hpp:3: 'A::gone': A has no such member", "include/a.hpp:4: 'A::gone': A has no such member",
+        "src/a.cpp:1: 'Rule::second': Rule has no such member", "src/a.cpp:3: 'Lost::eye': there is no type Lost",
+        "docs/a.md:2: 'A::length': A has no such member"})
+
+
+def check_sentences_themselves():
+    """A sentence that is one word too long, on several lines; not two that are short, nor a table or code."""
+    words, longest = "word " * 20, "word " * 25
+    planted = {"include/a.hpp": "/// One. %s\n/// and five more words end.\nint a;  ///< %s.\nint b;  ///< %s\n        ///< more.\n// %s more.\n" %
+               (words, longest.strip(), longest, longest),
+               "docs/a.md": "# A\n- item\n- %s\n  `code of many words` %s.\n\n| %s%s |\n\n```\n%s%s\n```\n%s.\n%s.\n" %
+               (words, "word " * 10, words, words, words, words, longest, longest)}
+    check_planted("sentences", planted, faults_of_sentences, {
+        "include/a.hpp:4: a sentence of 26 words, at most 25", "docs/a.md:3: a sentence of 31 words, at most 30"})
 
 
 def check_itself(words):
@@ -208,7 +270,9 @@ def main():
     words = read_words(os.path.join(HERE, "words.txt"))
     check_itself(words)
     check_pages_themselves()
-    faults = list(faults_in(texts_of_tree(source), words)) + list(faults_of_pages(source))
+    check_names_themselves()
+    check_sentences_themselves()
+    faults = list(faults_in(texts_of_tree(source), words)) + list(faults_of_tree(source))
     for program in programs:
         faults += faults_in(texts_of_program(program), words)
     for fault in faults:

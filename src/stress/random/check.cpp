@@ -126,7 +126,7 @@ void check_sizes(const nlohmann::ordered_json& value, const PlanOptions& read, c
   long long texels = 0;
   for (const ShadowMap& map : plan.maps()) texels += static_cast<long long>(map.width) * map.height;
   const long long budget = options->value("texel_budget", 0LL);
-  // Other partitions than by depth do not heed a budget (PlanOptions::texel_budget).
+  // Other partitions than by depth do not heed a budget (ResolutionOptions::texel_budget).
   if (budget > 0 && texels > budget && !options->contains("partition"))
     report.add("over_budget", static_cast<double>(texels) / static_cast<double>(budget),
                std::to_string(texels) + " texels of " + std::to_string(budget));

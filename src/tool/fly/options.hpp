@@ -17,7 +17,7 @@
 
 namespace gnomon::tool::fly {
 
-/// PlanOptions::split_overlap where maps pass into each other: the step between their texels is hidden, and a
+/// SplitOptions::overlap where maps pass into each other: the step between their texels is hidden, and a
 /// tenth of the texels is all it costs.
 inline constexpr double kTransitionShare = 0.1;
 
