@@ -8,7 +8,7 @@
 namespace gnomon::render {
 namespace {
 
-constexpr GLuint kCopiesBinding = 1;  // as shaders/copy_depth.vert states it
+constexpr GLuint kCopiesBinding = 1;  // as shaders/pass/depth/copy.vert states it
 
 struct ViewPlane {
   glm::dvec3 normal;

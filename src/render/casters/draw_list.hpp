@@ -62,7 +62,7 @@ class DrawLists {
   [[nodiscard]] const MapMove& move(int index) const noexcept {
     return move_[static_cast<std::size_t>(index)];
   }
-  /// Rectangles of static depths, by their places in a buffer that is bound for shaders/copy_depth.vert.
+  /// Rectangles of static depths, by their places in a buffer that is bound for shaders/pass/depth/copy.vert.
   struct Copies {
     std::size_t first = 0, count = 0;
   };

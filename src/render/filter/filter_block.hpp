@@ -1,4 +1,4 @@
-// The uniform block of a filter's settings; shaders/common/filter.glsl mirrors it.
+// The uniform block of a filter's settings; shaders/pass/common/filter.glsl mirrors it.
 #pragma once
 
 #include <array>

@@ -25,7 +25,7 @@ struct Map {
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(drawn.width);
     return static_cast<double>(drawn.depths[row + static_cast<std::size_t>(x)]);
   }
-  /// As in shaders/store.frag: of both steps the one that stays on the surface.
+  /// As in shaders/pass/store/store.frag: of both steps the one that stays on the surface.
   [[nodiscard]] glm::dvec2 slope(int x, int y) const noexcept {
     const auto smaller = [](double before, double here, double after) {
       const double a = here - before, b = after - here;

@@ -10,7 +10,7 @@
 namespace gnomon::render {
 namespace {
 
-// Bindings, locations and sizes as shaders/common/tiles.glsl states them.
+// Bindings, locations and sizes as shaders/pass/store/tiles.glsl states them.
 constexpr GLuint kStates = 0, kListsBinding = 3, kCountBinding = 4;
 constexpr GLint kLayerLocation = 0, kSizeLocation = 1, kKeepLocation = 1;
 constexpr int kRowsOfTile = 4;  ///< strips of 8 texels, a quarter of a tile high
@@ -30,8 +30,8 @@ GLuint groups_for(int items) noexcept {
 
 void FilterTiles::make_programs() {
   if (programs_.keep) return;
-  programs_.keep = make_compute_program("keep_tiles.comp", {});
-  programs_.list = make_compute_program("list_tiles.comp", {});
+  programs_.keep = make_compute_program("pass/store/keep_tiles.comp");
+  programs_.list = make_compute_program("pass/store/list_tiles.comp");
   count_ = make_buffer();
   constexpr std::uint32_t kNone = 0;
   glNamedBufferStorage(count_.name(), sizeof kNone, &kNone, GL_DYNAMIC_STORAGE_BIT);

@@ -16,7 +16,7 @@ struct TilePrograms {
   Program keep, list;
 };
 
-/// One state for each tile of each map (shaders/common/tiles.glsl), and the lists of the map at hand.
+/// One state for each tile of each map (shaders/pass/store/tiles.glsl), and the lists of the map at hand.
 class FilterTiles {
  public:
   /// The lists, in the order of the groups in shaders/common/tiles.glsl.

@@ -6,11 +6,12 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "filter/stored_images.hpp"
+#include "gl/program.hpp"
 #include "gnomon/render/error.hpp"
 #include "gnomon/render/page_filter.hpp"
-#include "gl/program.hpp"
-#include "filter/stored_images.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -30,33 +31,39 @@ std::uint64_t area(const glm::ivec2& size) noexcept {
   return static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
 }
 
-std::string filter_path(const Filter& filter) {
-  return "filter/" + std::string(filter.info.name) + ".glsl";
-}
-
-std::string_view mask_path(MapRead reads) noexcept {
+/// The part of pass/mask/mask.frag.
+std::string read_part(MapRead reads) {
   switch (reads) {
     case MapRead::depth:
-      return "mask_depth.frag";
+      return "read/depth";
     case MapRead::filtered:
-      return "mask_filtered.frag";
+      return "read/filtered";
     case MapRead::joined:
-      return "mask_joined.frag";
+      return "read/joined";
     case MapRead::summed:
-      return "mask_summed.frag";
+      return "read/summed";
   }
   return "";
 }
 
-std::string_view pages_mask_path(MapRead reads) noexcept {
-  switch (reads) {
-    case MapRead::filtered:
-      return "mask_pages_filtered.frag";
-    case MapRead::joined:
-      return "mask_pages_joined.frag";
-    default:
-      return "mask_pages.frag";
-  }
+ShaderName store_shader(const Filter& filter, const char* file, const char* target = "target/map") {
+  return {"pass/store/" + std::string(file), {target, filter_part(filter.info.name)}};
+}
+
+/// Marks the tiles that the mask of whole maps reads.
+ShaderName mark_shader(const Filter& filter) {
+  return {"pass/mask/mask.frag", {"source/maps", "read/tiles", filter_part(filter.info.name)}};
+}
+
+/// What the shaders of one variant of a filter are compiled for. `shapes`: for maps of any shape.
+ShaderChoice choice_for(const FilterVariant& variant, bool shapes) {
+  return {variant.vectors,
+          variant.reads_slope,
+          variant.reads == MapRead::filtered,
+          std::max(variant.reach, 0),
+          variant.channels,
+          0,
+          shapes};
 }
 
 int full_chain(int width, int height) noexcept {
@@ -65,22 +72,38 @@ int full_chain(int width, int height) noexcept {
 
 }  // namespace
 
-std::vector<std::string_view> pages_shaders(MapRead reads) {
-  if (reads == MapRead::depth) return {"mask_pages.frag"};
-  if (reads == MapRead::summed) return {};
-  return {pages_mask_path(reads), "store_page.frag", "blur_page.frag"};
+ShaderName mask_shader(const Filter& filter, MapRead reads, std::string source) {
+  return {"pass/mask/mask.frag", {std::move(source), read_part(reads), filter_part(filter.info.name)}};
 }
 
-std::vector<std::string_view> filter_shaders(const Filter& filter, MapRead reads) {
-  std::vector<std::string_view> paths{mask_path(reads)};
+std::vector<ShaderName> filter_shaders(const Filter& filter, MapRead reads) {
+  std::vector<ShaderName> all{mask_shader(filter, reads, "source/maps")};
+  const auto add = [&](const char* file) { all.push_back(store_shader(filter, file)); };
   if (reads == MapRead::filtered || reads == MapRead::joined) {
-    paths.insert(paths.end(),
-                 {"store_rows.comp", "blur_columns.comp", "store.frag", "blur.frag", "mark_tiles.frag"});
+    for (const char* file : {"store_rows.comp", "blur_columns.comp", "store.frag", "blur.frag"}) add(file);
+    all.push_back(mark_shader(filter));
   }
-  if (reads == MapRead::joined && filter.info.may_mipmap) paths.emplace_back("join_mip.frag");
-  if (reads == MapRead::summed) paths.insert(paths.end(), {"sum_rows.comp", "sum_columns.comp"});
-  if (filter.hooks.needs_depth_max != nullptr) paths.emplace_back("depth_max.frag");
-  return paths;
+  if (reads == MapRead::joined && filter.info.may_mipmap) add("join_mip.frag");
+  if (reads == MapRead::summed) {
+    for (const char* file : {"sum_rows.comp", "sum_columns.comp"}) add(file);
+  }
+  if (filter.hooks.needs_depth_max != nullptr) add("depth_max.frag");
+  return all;
+}
+
+std::vector<ShaderName> pages_shaders(const Filter& filter, MapRead reads) {
+  if (reads == MapRead::summed || filter.info.draws_silhouettes) return {};
+  std::vector<ShaderName> all{mask_shader(filter, reads, "source/pages")};
+  if (reads == MapRead::depth) return all;
+  for (const char* file : {"store.frag", "blur.frag"})
+    all.push_back(store_shader(filter, file, "target/page"));
+  return all;
+}
+
+std::vector<ShaderName> lights_shaders(const Filter& filter, MapRead reads) {
+  if (reads != MapRead::depth || filter.info.draws_silhouettes) return {};
+  return {mask_shader(filter, reads, "source/pool"),
+          {"pass/shade/clusters.frag", {"source/clusters", read_part(reads), filter_part(filter.info.name)}}};
 }
 
 FilterVariant variant_of(const FilterSettings& settings) noexcept {
@@ -100,18 +123,19 @@ FilterVariant variant_of(const FilterSettings& settings) noexcept {
 
 namespace {
 
-Program make_depth_program(const FilterSettings& settings, const char* shader, const char* place) {
+/// The first or the second of lights_shaders().
+Program make_pool_program(const FilterSettings& settings, std::size_t which) {
   const FilterInfo& info = settings.filter->info;
   if (settings.contacts) {
     throw RenderError("filter " + std::string(info.name) +
-                      ": contacts take a pass over the pixels of one plan, and " + place + " none");
+                      ": contacts take a pass over the pixels of one plan, and a pool of lights has none");
   }
   if (info.reads != MapRead::depth || info.draws_silhouettes) {
     throw RenderError("filter " + std::string(info.name) + ": " +
                       (info.draws_silhouettes ? "reads outlines beside" : "stores texels of") +
-                      " whole maps, and " + place + " depths alone");
+                      " whole maps, and a pool of lights has depths alone");
   }
-  return make_program("fullscreen.vert", shader, {filter_path(*settings.filter)});
+  return make_screen_program(lights_shaders(*settings.filter, info.reads).at(which));
 }
 
 }  // namespace
@@ -121,71 +145,60 @@ void make_pages_programs(const FilterSettings& settings, FilterPrograms& program
   if (!refusal.empty())
     throw RenderError("filter " + std::string(settings.filter->info.name) + ": " + std::string(refusal));
   if (programs.mask_pages) return;
-  const FilterVariant& variant = programs.variant;
-  const bool mean = variant.reads == MapRead::filtered;
-  const ShaderChoice choice{filter_path(*settings.filter), variant.vectors, variant.reads_slope, mean,
-                            std::max(variant.reach, 0),    variant.channels};
-  programs.mask_pages = make_program("fullscreen.vert", pages_mask_path(variant.reads), choice);
-  if (variant.reads == MapRead::depth) return;
-  programs.store_page = make_program("fullscreen.vert", "store_page.frag", choice);
-  programs.blur_page = make_program("fullscreen.vert", "blur_page.frag", choice);
+  const ShaderChoice choice = choice_for(programs.variant, true);
+  const std::vector<ShaderName> shaders = pages_shaders(*settings.filter, programs.variant.reads);
+  programs.mask_pages = make_screen_program(shaders[0], choice);
+  if (programs.variant.reads == MapRead::depth) return;
+  programs.store_page = make_screen_program(shaders[1], choice);
+  programs.blur_page = make_screen_program(shaders[2], choice);
 }
 
 Program make_lights_program(const FilterSettings& settings) {
-  return make_depth_program(settings, "mask_lights.frag", "a pool of lights has");
+  return make_pool_program(settings, 0);
 }
 
 Program make_clusters_program(const FilterSettings& settings) {
-  return make_depth_program(settings, "shade_clusters.frag", "a pool of lights has");
+  return make_pool_program(settings, 1);
 }
-
-namespace {
-
-/// What the shaders of one variant of a filter are compiled for.
-ShaderChoice choice_for(const FilterSettings& settings, const FilterVariant& variant) {
-  return {filter_path(*settings.filter),
-          variant.vectors,
-          variant.reads_slope,
-          variant.reads == MapRead::filtered,
-          std::max(variant.reach, 0),
-          variant.channels,
-          false};
-}
-
-}  // namespace
 
 void make_shaped_programs(const FilterSettings& settings, FilterPrograms& programs) {
   if (programs.shaped_mask) return;
-  ShaderChoice choice = choice_for(settings, programs.variant);
-  choice.shapes = true;
-  programs.shaped_mask = make_program("fullscreen.vert", mask_path(programs.variant.reads), choice);
-  if (programs.mark) programs.shaped_mark = make_program("fullscreen.vert", "mark_tiles.frag", choice);
+  const ShaderChoice choice = choice_for(programs.variant, true);
+  const Filter& filter = *settings.filter;
+  programs.shaped_mask =
+      make_screen_program(mask_shader(filter, programs.variant.reads, "source/maps"), choice);
+  if (programs.mark) programs.shaped_mark = make_screen_program(mark_shader(filter), choice);
 }
 
 FilterPrograms make_filter_programs(const FilterSettings& settings) {
   FilterPrograms programs;
   programs.variant = variant_of(settings);
   const bool any_reach = programs.variant.reach == FilterVariant::kAnyReach;
-  ShaderChoice choice = choice_for(settings, programs.variant);
-  const std::vector<std::string_view> paths = filter_shaders(*settings.filter, programs.variant.reads);
-  programs.mask = make_program("fullscreen.vert", paths.front(), choice);
-  const auto make = [&](Program& program, std::string_view path) {
-    if (std::find(paths.begin(), paths.end(), path) == paths.end()) return;
-    const bool compute = path.substr(path.size() - 5) == ".comp";
-    program = compute ? make_compute_program(path, choice) : make_program("fullscreen.vert", path, choice);
+  ShaderChoice choice = choice_for(programs.variant, true);
+  const std::vector<ShaderName> shaders = filter_shaders(*settings.filter, programs.variant.reads);
+  programs.mask = make_screen_program(shaders.front(), choice);
+  const auto find = [&](const std::string& file) {
+    return std::find_if(shaders.begin(), shaders.end(),
+                        [&](const ShaderName& each) { return each.path == "pass/store/" + file; });
   };
+  const auto make = [&](Program& program, const std::string& file) {
+    const auto shader = find(file);
+    if (shader == shaders.end()) return;
+    program = file.ends_with(".comp") ? make_compute_program(*shader, choice)
+                                      : make_screen_program(*shader, choice);
+  };
+  const auto rows = find("store_rows.comp");
   if (any_reach) {
     make(programs.store, "store.frag");
     make(programs.blur, "blur.frag");
-  } else {
+  } else if (rows != shaders.end()) {
     const bool blurs = programs.variant.reach > 0;
-    make(programs.blur_columns, blurs ? "blur_columns.comp" : "");
-    const bool stores = std::find(paths.begin(), paths.end(), "store_rows.comp") != paths.end();
-    const int count = !stores ? 0 : blurs ? programs.variant.vectors : 1;
+    if (blurs) make(programs.blur_columns, "blur_columns.comp");
+    const int count = blurs ? programs.variant.vectors : 1;
     for (choice.vector = 0; choice.vector < count; ++choice.vector)
-      programs.store_rows.push_back(make_compute_program("store_rows.comp", choice));
+      programs.store_rows.push_back(make_compute_program(*rows, choice));
   }
-  make(programs.mark, "mark_tiles.frag");
+  if (rows != shaders.end()) programs.mark = make_screen_program(mark_shader(*settings.filter), choice);
   make(programs.join_mip, "join_mip.frag");
   make(programs.sum_rows, "sum_rows.comp");
   make(programs.sum_columns, "sum_columns.comp");

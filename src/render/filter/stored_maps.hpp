@@ -6,12 +6,13 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <span>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "filter/filter_block.hpp"
 #include "filter/filter_tiles.hpp"
 #include "gl/gl_object.hpp"
+#include "gl/shader_text.hpp"
 #include "gnomon/render/filter.hpp"
 
 namespace gnomon::render {
@@ -49,10 +50,14 @@ struct FilterPrograms {
     return shaped && shaped_mark ? shaped_mark : mark;
   }
 };
-/// Paths of the shaders that the filter takes part in when it is read so, that of the mask first.
-[[nodiscard]] std::vector<std::string_view> filter_shaders(const Filter& filter, MapRead reads);
-/// The same for pages.
-[[nodiscard]] std::vector<std::string_view> pages_shaders(MapRead reads);
+/// The shader of pass/mask/mask.frag for maps that lie as the part `source` says.
+[[nodiscard]] ShaderName mask_shader(const Filter& filter, MapRead reads, std::string source);
+/// Shaders that the filter takes part in when it is read so, that of the mask first.
+[[nodiscard]] std::vector<ShaderName> filter_shaders(const Filter& filter, MapRead reads);
+/// The same for pages; none where pages do not take such a filter.
+[[nodiscard]] std::vector<ShaderName> pages_shaders(const Filter& filter, MapRead reads);
+/// The same for a pool of many lights: the mask of one, and the light of all.
+[[nodiscard]] std::vector<ShaderName> lights_shaders(const Filter& filter, MapRead reads);
 /// Adds the programs for pages, once. Throws RenderError as make_filter_programs, and for
 /// page_filter_refusal.
 void make_pages_programs(const FilterSettings& settings, FilterPrograms& programs);

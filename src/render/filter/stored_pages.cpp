@@ -12,7 +12,7 @@
 namespace gnomon::render {
 namespace {
 
-constexpr GLuint kLevelBinding = 5;  ///< of shaders/common/pages.glsl
+constexpr GLuint kLevelBinding = 5;  ///< of shaders/pass/page/tables.glsl
 constexpr GLint kLayerLocation = 0, kSlotLocation = 1;
 
 GLintptr offset_of(std::size_t member) noexcept {

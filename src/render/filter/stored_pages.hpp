@@ -19,7 +19,7 @@ class StoredPages {
  public:
   StoredPages();
 
-  /// Options and depth curve of each level, where shaders/common/pages.glsl reads them.
+  /// Options and depth curve of each level, where shaders/pass/page/tables.glsl reads them.
   void send_levels(const PagePlan& plan, const FilterSettings& settings);
   /// Fills the slots of resident pages that hold other texels than these settings make of their depths.
   /// `block`: the one in `filter_buffer`, which is bound; its first map is that of the level at hand
@@ -35,7 +35,7 @@ class StoredPages {
   [[nodiscard]] std::uint64_t scratch_bytes() const noexcept { return scratch_bytes_; }
 
  private:
-  /// Mirrors PageFilter of shaders/common/pages.glsl.
+  /// Mirrors PageFilter of shaders/pass/page/tables.glsl.
   struct LevelValues {
     std::array<glm::vec4, kOptionVectors> options;
     glm::vec4 curve;

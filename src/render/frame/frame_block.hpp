@@ -1,4 +1,4 @@
-// The uniform block that every pass of a frame reads; shaders/common/frame.glsl mirrors it.
+// The uniform block that every pass of a frame reads; shaders/pass/common/frame.glsl mirrors it.
 #pragma once
 
 #include <array>

@@ -13,7 +13,7 @@
 
 namespace gnomon::render {
 
-/// Boxes that shaders/accumulate.frag has room for. Of more the last one is round all that are left.
+/// Boxes that shaders/pass/mask/accumulate.frag has room for. Of more the last one is round all that are left.
 inline constexpr std::size_t kMostMovedBoxes = 32;
 
 class MaskHistory {
@@ -26,7 +26,7 @@ class MaskHistory {
   void forget_behind(std::span<const Box> moved_world) noexcept;
   /// The framebuffer for this frame's mask alone.
   [[nodiscard]] GLuint single_fbo() const noexcept { return single_fbo_.name(); }
-  /// Binds this frame's mask and the history, and the block that shaders/accumulate.frag reads.
+  /// Binds this frame's mask and the history, and the block that shaders/pass/mask/accumulate.frag reads.
   void bind(const Camera& camera, const Accumulation& settings) noexcept;
   /// Where the pass draws: `mask` first, the new history second.
   [[nodiscard]] GLuint fbo_with(const Texture& mask) noexcept;

@@ -22,7 +22,8 @@ PaneRoom PanePass::PagesLook::room() const noexcept {
 }
 
 void PanePass::prepare_pages() {
-  if (!pages_program_) pages_program_ = make_program("fullscreen.vert", "transmittance_pages.frag");
+  if (!pages_program_)
+    pages_program_ = make_screen_program({"pass/panes/transmittance.frag", {"place/pages"}});
 }
 
 PanePass::PagesLook PanePass::place_pages(const PagePlan& plan, const PagePool& pool,

@@ -10,8 +10,8 @@
 #include <limits>
 #include <utility>
 
-#include "gnomon/render/renderer.hpp"
 #include "gl/program.hpp"
+#include "gnomon/render/renderer.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -61,11 +61,11 @@ std::uint64_t PanePass::Rectangle::area() const noexcept {
 
 PanePass::PanePass(const Scene& panes)
     : panes_(panes),
-      map_program_(make_program("pane.vert", "pane_map.frag")),
-      transmittance_program_(make_program("fullscreen.vert", "transmittance.frag")),
-      add_light_program_(make_program("fullscreen.vert", "shade_light_panes.frag")),
-      shade_program_(make_program("fullscreen.vert", "shade_panes.frag")),
-      over_program_(make_program("pane.vert", "pane.frag")),
+      map_program_(make_program("pass/panes/pane.vert", "pass/panes/map.frag")),
+      transmittance_program_(make_screen_program({"pass/panes/transmittance.frag", {"place/maps"}})),
+      add_light_program_(make_screen_program({"pass/shade/add_light.frag", {"panes/in_front"}})),
+      shade_program_(make_screen_program({"pass/shade/shade.frag", {"panes/in_front"}})),
+      over_program_(make_program("pass/panes/pane.vert", "pass/panes/pane.frag")),
       order_(filled_buffer({std::as_bytes(panes_.order())})),
       map_fbo_(make_framebuffer()),
       over_fbo_(make_framebuffer()),
@@ -76,8 +76,8 @@ PanePass::PanePass(const Scene& panes)
 }
 
 PanePass::Listed::Listed()
-    : sums(make_geometry_program("irregular.vert", "irregular.geom", "irregular_pane.frag")),
-      transmittance(make_program("fullscreen.vert", "transmittance_listed.frag")) {}
+    : sums(make_program("pass/lists/caster.vert", "pass/lists/caster.geom", "pass/lists/panes.frag")),
+      transmittance(make_screen_program("pass/panes/listed.frag")) {}
 
 void PanePass::prepare_listed() {
   if (!listed_) listed_.emplace();

@@ -115,7 +115,7 @@ class PanePass {
     Look look;
     Rectangle at;  ///< texels that were cleared or drawn
   };
-  /// Mirrors PanePage of shaders/transmittance_pages.frag.
+  /// Mirrors PanePage of shaders/pass/panes/place/pages.glsl.
   struct PageRecord {
     glm::vec4 from_pool{0.0f};
     glm::vec4 drawn{1.0f, 1.0f, 0.0f, 0.0f};  ///< no texel

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "frame/blue_noise.hpp"
-#include "gnomon/render/contacts.hpp"
-#include "gl/program.hpp"
 #include "frame/renderer_impl.hpp"
+#include "gl/program.hpp"
+#include "gnomon/render/contacts.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -53,28 +53,30 @@ PeeledDepth DepthDraw::peeled(const ShadowPlan& plan, const ShadowMap& map) cons
 }
 
 CommonPrograms::CommonPrograms()
-    : depth(make_program("depth.vert", "depth.frag")),
-      depth_masked(make_program("depth.vert", "depth_masked.frag")),
-      depth_even(make_program("depth.vert", "depth_even.frag")),
-      depth_even_masked(make_program("depth.vert", "depth_even_masked.frag")),
-      copy_depth(make_program("copy_depth.vert", "copy_depth.frag")),
-      surfaces(make_program("gbuffer.vert", "gbuffer.frag")),
-      shade(make_program("fullscreen.vert", "shade.frag")),
-      aliasing(make_program("fullscreen.vert", "aliasing.frag")),
-      heat(make_program("fullscreen.vert", "heat.frag")),
-      tint(make_program("fullscreen.vert", "tint.frag")) {}
+    : depth(make_caster_program("alpha/opaque", "depth/plain")),
+      depth_masked(make_caster_program("alpha/masked", "depth/plain")),
+      depth_even(make_caster_program("alpha/opaque", "depth/even")),
+      depth_even_masked(make_caster_program("alpha/masked", "depth/even")),
+      copy_depth(make_program("pass/depth/copy.vert", "pass/depth/copy.frag")),
+      surfaces(make_program("pass/gbuffer/gbuffer.vert", {"pass/gbuffer/gbuffer.frag", {"extra/none"}})),
+      shade(make_screen_program({"pass/shade/shade.frag", {"panes/none"}})),
+      aliasing(make_screen_program("pass/mask/aliasing.frag")),
+      heat(make_screen_program("pass/shade/heat.frag")),
+      tint(make_screen_program("pass/shade/tint.frag")) {}
 
 void MapPass::prepare(bool shaped) {
   Program& program = shaped ? shaped_ : linear_;
   if (program) return;
   ShaderChoice choice;
   choice.shapes = shaped;
-  program = make_program("fullscreen.vert", path_, choice);
+  program = make_screen_program(shader_, choice);
 }
 
 BentPrograms::BentPrograms()
-    : opaque(make_geometry_program("depth.vert", "bent.geom", "bent.frag")),
-      masked(make_geometry_program("depth.vert", "bent.geom", "bent_masked.frag")) {}
+    : opaque(make_program("pass/depth/depth.vert", "pass/depth/bent.geom",
+                          {"pass/depth/depth.frag", {"alpha/opaque", "depth/bent"}})),
+      masked(make_program("pass/depth/depth.vert", "pass/depth/bent.geom",
+                          {"pass/depth/depth.frag", {"alpha/masked", "depth/bent"}})) {}
 
 void Renderer::Impl::draw_map_part(const DrawnPart& part, const DrawnMap& map,
                                    const DepthDraw& how) noexcept {

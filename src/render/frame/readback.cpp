@@ -42,7 +42,7 @@ FloatImage read_floats(const Texture& texture, int width, int height, GLenum for
   return image;
 }
 
-/// As in shaders/common/octahedral.glsl.
+/// As in shaders/pass/common/octahedral.glsl.
 glm::vec3 unit_from_octahedral(float x, float y) {
   glm::vec3 n{x, y, 1.0f - std::abs(x) - std::abs(y)};
   if (n.z < 0.0f) {

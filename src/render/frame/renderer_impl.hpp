@@ -6,25 +6,25 @@
 #include <optional>
 #include <vector>
 
-#include "maps/depth_peel.hpp"
 #include "casters/draw_list.hpp"
-#include "frame/frame_block.hpp"
-#include "gl/gl_object.hpp"
-#include "gnomon/render/renderer.hpp"
-#include "source/identifier_pass.hpp"
-#include "maps/layered_maps.hpp"
-#include "source/light_pass.hpp"
-#include "frame/mask_history.hpp"
 #include "casters/moving_casters.hpp"
-#include "source/page_pool.hpp"
-#include "frame/pane_pass.hpp"
-#include "gl/pass_timer.hpp"
-#include "source/pixel_lists.hpp"
 #include "casters/scene_buffers.hpp"
-#include "maps/silhouettes.hpp"
 #include "filter/stored_maps.hpp"
 #include "filter/stored_pages.hpp"
+#include "frame/frame_block.hpp"
+#include "frame/mask_history.hpp"
+#include "frame/pane_pass.hpp"
 #include "frame/target.hpp"
+#include "gl/gl_object.hpp"
+#include "gl/pass_timer.hpp"
+#include "gnomon/render/renderer.hpp"
+#include "maps/depth_peel.hpp"
+#include "maps/layered_maps.hpp"
+#include "maps/silhouettes.hpp"
+#include "source/identifier_pass.hpp"
+#include "source/light_pass.hpp"
+#include "source/page_pool.hpp"
+#include "source/pixel_lists.hpp"
 
 namespace gnomon::render {
 
@@ -39,14 +39,14 @@ struct CommonPrograms {
 /// first frame whose maps have another shape. Software renderers run the places of all shapes.
 class MapPass {
  public:
-  explicit MapPass(std::string_view path) noexcept : path_(path) {}
+  explicit MapPass(ShaderName shader) : shader_(std::move(shader)) {}
   void prepare(bool shaped);
   [[nodiscard]] const Program& program(bool shaped) const noexcept {
     return shaped && shaped_ ? shaped_ : linear_;
   }
 
  private:
-  std::string_view path_;
+  ShaderName shader_;
   Program linear_, shaped_;
 };
 
@@ -235,7 +235,7 @@ struct Renderer::Impl {
   std::optional<IdentifierOf> drawn_identifiers;  ///< that the last frame's maps hold
   std::optional<Silhouettes> silhouettes;         ///< made when a filter that reads them is first prepared
   bool drew_silhouettes = false;                  ///< into the maps that are held
-  MapPass contacts{"contacts.frag"}, accumulate{"accumulate.frag"};
+  MapPass contacts{"pass/mask/contacts.frag"}, accumulate{"pass/mask/accumulate.frag"};
   bool shaped = false;  ///< a map of the frame is not linear
   PagePool pages;
   PageStage page_stage;

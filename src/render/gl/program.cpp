@@ -4,14 +4,21 @@
 #include <array>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "gnomon/render/context.hpp"
 
 namespace gnomon::render {
 namespace {
 
-Shader compile(GLenum stage, const ComposedShader& source) {
-  Shader shader(glCreateShader(stage));
+struct Stage {
+  GLenum kind;
+  ComposedShader source;
+};
+
+Shader compile(const Stage& stage) {
+  const ComposedShader& source = stage.source;
+  Shader shader(glCreateShader(stage.kind));
   const GLchar* text = source.text.c_str();
   glShaderSource(shader.name(), 1, &text, nullptr);
   glCompileShader(shader.name());
@@ -27,11 +34,13 @@ Shader compile(GLenum stage, const ComposedShader& source) {
                     name_files_in_log(log, source.files));
 }
 
-Program link(std::span<const Shader* const> shaders, const std::string& names) {
+Program link(std::span<const Stage> stages) {
+  std::vector<Shader> shaders;
+  for (const Stage& stage : stages) shaders.push_back(compile(stage));
   Program program(glCreateProgram());
-  for (const Shader* shader : shaders) glAttachShader(program.name(), shader->name());
+  for (const Shader& shader : shaders) glAttachShader(program.name(), shader.name());
   glLinkProgram(program.name());
-  for (const Shader* shader : shaders) glDetachShader(program.name(), shader->name());
+  for (const Shader& shader : shaders) glDetachShader(program.name(), shader.name());
   GLint ok = GL_FALSE, length = 0;
   glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
   if (ok == GL_TRUE) return program;
@@ -39,39 +48,40 @@ Program link(std::span<const Shader* const> shaders, const std::string& names) {
   glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
   glGetProgramInfoLog(program.name(), length, nullptr, log.data());
+  std::string names;
+  for (const Stage& stage : stages) names += (names.empty() ? "" : ", ") + stage.source.files.front();
   throw RenderError("shaders " + names + " do not link:\n" + log.c_str());
 }
 
 }  // namespace
 
-Program make_program(const ComposedShader& vertex, const ComposedShader& fragment) {
-  const Shader vertex_shader = compile(GL_VERTEX_SHADER, vertex);
-  const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment);
-  const std::array<const Shader*, 2> both{&vertex_shader, &fragment_shader};
-  return link(both, vertex.files.front() + " and " + fragment.files.front());
+Program make_program(const ShaderName& vertex, const ShaderName& fragment) {
+  return link(std::array{Stage{GL_VERTEX_SHADER, compose_shader(vertex)},
+                         Stage{GL_FRAGMENT_SHADER, compose_shader(fragment)}});
 }
 
-Program make_program(std::string_view vertex_path, std::string_view fragment_path,
-                     const ShaderChoice& choice) {
-  return make_program(compose_shader(vertex_path), compose_shader(fragment_path, choice));
+Program make_program(const ShaderName& vertex, const ShaderName& geometry, const ShaderName& fragment) {
+  return link(std::array{Stage{GL_VERTEX_SHADER, compose_shader(vertex)},
+                         Stage{GL_GEOMETRY_SHADER, compose_shader(geometry)},
+                         Stage{GL_FRAGMENT_SHADER, compose_shader(fragment)}});
 }
 
-Program make_geometry_program(std::string_view vertex_path, std::string_view geometry_path,
-                              std::string_view fragment_path) {
-  const ComposedShader vertex = compose_shader(vertex_path), geometry = compose_shader(geometry_path),
-                       fragment = compose_shader(fragment_path);
-  const Shader vertex_shader = compile(GL_VERTEX_SHADER, vertex);
-  const Shader geometry_shader = compile(GL_GEOMETRY_SHADER, geometry);
-  const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment);
-  const std::array<const Shader*, 3> all{&vertex_shader, &geometry_shader, &fragment_shader};
-  return link(all, vertex.files.front() + ", " + geometry.files.front() + " and " + fragment.files.front());
+Program make_caster_program(std::string alpha_part, std::string depth_part) {
+  return make_program("pass/depth/depth.vert",
+                      {"pass/depth/depth.frag", {std::move(alpha_part), std::move(depth_part)}});
 }
 
-Program make_compute_program(std::string_view path, const ShaderChoice& choice) {
-  const ComposedShader source = compose_shader(path, choice);
-  const Shader shader = compile(GL_COMPUTE_SHADER, source);
-  const std::array<const Shader*, 1> one{&shader};
-  return link(one, source.files.front());
+Program make_screen_program(const ShaderName& fragment, const ShaderChoice& choice) {
+  return link_screen_program(compose_shader(fragment, choice));
+}
+
+Program link_screen_program(const ComposedShader& fragment) {
+  return link(std::array{Stage{GL_VERTEX_SHADER, compose_shader("pass/common/fullscreen.vert")},
+                         Stage{GL_FRAGMENT_SHADER, fragment}});
+}
+
+Program make_compute_program(const ShaderName& shader, const ShaderChoice& choice) {
+  return link(std::array{Stage{GL_COMPUTE_SHADER, compose_shader(shader, choice)}});
 }
 
 }  // namespace gnomon::render

@@ -1,7 +1,7 @@
 // From shader files to a program that can be drawn with.
 #pragma once
 
-#include <string_view>
+#include <string>
 
 #include "gl/gl_object.hpp"
 #include "gl/shader_text.hpp"
@@ -9,12 +9,15 @@
 namespace gnomon::render {
 
 /// Compiles and links. Throws RenderError with shader file, line and the driver's words.
-[[nodiscard]] Program make_program(const ComposedShader& vertex, const ComposedShader& fragment);
-[[nodiscard]] Program make_program(std::string_view vertex_path, std::string_view fragment_path,
-                                   const ShaderChoice& choice = {});
+[[nodiscard]] Program make_program(const ShaderName& vertex, const ShaderName& fragment);
 /// With a geometry shader between the two.
-[[nodiscard]] Program make_geometry_program(std::string_view vertex_path, std::string_view geometry_path,
-                                            std::string_view fragment_path);
-[[nodiscard]] Program make_compute_program(std::string_view path, const ShaderChoice& choice = {});
+[[nodiscard]] Program make_program(const ShaderName& vertex, const ShaderName& geometry,
+                                   const ShaderName& fragment);
+/// Draws casters into one map: parts of pass/depth/depth.frag.
+[[nodiscard]] Program make_caster_program(std::string alpha_part, std::string depth_part);
+/// Draws one triangle over the whole image.
+[[nodiscard]] Program make_screen_program(const ShaderName& fragment, const ShaderChoice& choice = {});
+[[nodiscard]] Program link_screen_program(const ComposedShader& fragment);
+[[nodiscard]] Program make_compute_program(const ShaderName& shader, const ShaderChoice& choice = {});
 
 }  // namespace gnomon::render

@@ -10,9 +10,14 @@
 namespace gnomon::render {
 namespace {
 
+bool has_shader_file(std::string_view path) noexcept {
+  const auto files = shader_files();
+  return std::any_of(files.begin(), files.end(), [&](const ShaderFile& file) { return file.path == path; });
+}
+
 class Composer {
  public:
-  explicit Composer(const ShaderChoice& choice) : choice_(choice) {}
+  Composer(const ShaderName& shader, const ShaderChoice& choice) : shader_(shader), choice_(choice) {}
 
   void add(std::string_view name, std::string_view text) {
     const std::size_t number = out_.files.size();
@@ -48,20 +53,27 @@ class Composer {
       }
       return;
     }
-    const std::string path = included_path(text.substr(kInclude.size()));
-    if (std::find(out_.files.begin(), out_.files.end(), path) == out_.files.end()) {
-      try {
+    try {
+      const std::string path = included_path(name, text.substr(kInclude.size()));
+      if (std::find(out_.files.begin(), out_.files.end(), path) == out_.files.end())
         add(path, shader_file(path));
-      } catch (const RenderError& error) {
-        throw RenderError(std::string(name) + ":" + std::to_string(line) + ": " + error.what());
-      }
+    } catch (const RenderError& error) {
+      throw RenderError(std::string(name) + ":" + std::to_string(line) + ": " + error.what());
     }
     mark_line(line + 1, number);
   }
-  [[nodiscard]] std::string included_path(std::string_view quoted) const {
-    if (quoted.substr(0, 8) == "<filter>") return choice_.filter_path;
-    const std::size_t end = quoted.find('"', 1);
-    return end == std::string_view::npos ? std::string(quoted) : std::string(quoted.substr(1, end - 1));
+  /// `quoted`: "path" or <ROLE>, as it stands in the file `from`.
+  [[nodiscard]] std::string included_path(std::string_view from, std::string_view quoted) const {
+    const bool is_part = quoted.substr(0, 1) == "<";
+    const std::size_t end = quoted.find(is_part ? '>' : '"', 1);
+    const std::string_view named = quoted.substr(0, end).substr(std::min<std::size_t>(1, quoted.size()));
+    if (!is_part) return std::string(named);
+    const std::string role = std::string(named) + "/";
+    const auto part = std::find_if(shader_.parts.begin(), shader_.parts.end(),
+                                   [&](const std::string& each) { return each.starts_with(role); });
+    if (part == shader_.parts.end()) throw RenderError("no part <" + std::string(named) + "> was chosen");
+    const std::string beside = std::string(from.substr(0, from.rfind('/') + 1)) + *part + ".glsl";
+    return has_shader_file(beside) ? beside : *part + ".glsl";
   }
   void define(std::string_view macro, int value) {
     out_.text.append("#define ").append(macro).append(" ").append(std::to_string(value)).push_back('\n');
@@ -70,6 +82,7 @@ class Composer {
     out_.text += "#line " + std::to_string(line) + " " + std::to_string(number) + "\n";
   }
 
+  const ShaderName& shader_;
   const ShaderChoice& choice_;
   ComposedShader out_;
 };
@@ -89,14 +102,19 @@ std::string_view shader_file(std::string_view path) {
   throw RenderError("no shader file '" + std::string(path) + "'");
 }
 
-ComposedShader compose_shader(std::string_view path, const ShaderChoice& choice) {
-  return compose_shader_text(path, shader_file(path), choice);
+ComposedShader compose_shader(const ShaderName& shader, const ShaderChoice& choice) {
+  return compose_shader_text(shader, shader_file(shader.path), choice);
 }
 
-ComposedShader compose_shader_text(std::string_view name, std::string_view text, const ShaderChoice& choice) {
-  Composer composer(choice);
-  composer.add(name, text);
+ComposedShader compose_shader_text(const ShaderName& shader, std::string_view text,
+                                   const ShaderChoice& choice) {
+  Composer composer(shader, choice);
+  composer.add(shader.path, text);
   return composer.take();
+}
+
+std::string filter_part(std::string_view filter) {
+  return "filter/" + std::string(filter);
 }
 
 std::string name_files_in_log(std::string_view log, const std::vector<std::string>& files) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gnomon::render {
@@ -23,9 +24,19 @@ struct ComposedShader {
   std::vector<std::string> files;
 };
 
-/// What a shader is compiled for: which filter's file it includes, and what is known of its settings.
+/// A shader by its main file, and the parts that it is put together from.
+struct ShaderName {
+  std::string path;  ///< below shaders/, e.g. "pass/mask/mask.frag"
+  /// "ROLE/NAME" for each `#include <ROLE>`, e.g. "read/joined"; the others are ignored.
+  std::vector<std::string> parts = {};
+
+  ShaderName(const char* main_file) : path(main_file) {}
+  ShaderName(std::string main_file, std::vector<std::string> all_parts)
+      : path(std::move(main_file)), parts(std::move(all_parts)) {}
+};
+
+/// What a shader is compiled for: a macro for each member.
 struct ShaderChoice {
-  std::string filter_path = {};
   int vectors = 1;          ///< of a stored texel
   bool reads_slope = true;  ///< FilterHooks::reads_slope
   bool mean = true;         ///< texels are put together by their weighted mean: MapRead::filtered
@@ -35,13 +46,16 @@ struct ShaderChoice {
   bool shapes = true;       ///< false: every map is linear
 };
 
-/// Replaces `#include "path"` by that file (each once) and `#include <filter>` by the choice's, and defines
-/// GNOMON_MAX_MAPS and one macro for each field of the choice after `#version`. Throws RenderError with file
-/// and line for a file that does not exist.
-[[nodiscard]] ComposedShader compose_shader(std::string_view path, const ShaderChoice& choice = {});
-/// The same for text that stands in no file; `name` is used in messages.
-[[nodiscard]] ComposedShader compose_shader_text(std::string_view name, std::string_view text,
+/// Puts a shader together. `#include "path"` becomes that file, each file once. `#include <ROLE>` becomes the
+/// part of that role: ROLE/NAME.glsl in the folder of the file that includes it, else below shaders/. After
+/// `#version` stand GNOMON_MAX_MAPS and one macro for each member of the choice. Throws RenderError with file
+/// and line for a file that does not exist, and for a role that has no part.
+[[nodiscard]] ComposedShader compose_shader(const ShaderName& shader, const ShaderChoice& choice = {});
+/// The same for text that stands in no file; the path is used in messages.
+[[nodiscard]] ComposedShader compose_shader_text(const ShaderName& shader, std::string_view text,
                                                  const ShaderChoice& choice = {});
+/// The part of role "filter": the filter of that name.
+[[nodiscard]] std::string filter_part(std::string_view filter);
 
 /// Puts file names in the place of source-string numbers in a compiler's log ("2:14(7): ...", "2(14) : ...",
 /// "ERROR: 2:14: ...").

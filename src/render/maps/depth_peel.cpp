@@ -19,9 +19,9 @@ void scissor(const TexelRect& at) noexcept {
 }  // namespace
 
 DepthPeel::DepthPeel()
-    : opaque_(make_program("depth.vert", "depth_peel.frag")),
-      masked_(make_program("depth.vert", "depth_peel_masked.frag")),
-      store_(make_program("fullscreen.vert", "depth_layer.frag")) {}
+    : opaque_(make_caster_program("alpha/opaque", "depth/peeled")),
+      masked_(make_caster_program("alpha/masked", "depth/peeled")),
+      store_(make_screen_program("pass/depth/layer.frag")) {}
 
 std::uint64_t DepthPeel::bytes() const noexcept {
   constexpr std::uint64_t kDepthBytes = 4, kImages = 2;

@@ -1,14 +1,16 @@
 // Which maps of a frame are drawn in one pass, and with what?
 #include "maps/layered_maps.hpp"
 
-#include "gl/program.hpp"
 #include "frame/target.hpp"
+#include "gl/program.hpp"
 
 namespace gnomon::render {
 
 LayeredPrograms::LayeredPrograms()
-    : opaque(make_program("depth_layered.vert", "depth.frag")),
-      masked(make_program("depth_layered.vert", "depth_masked.frag")),
+    : opaque(make_program("pass/depth/layered.vert",
+                          {"pass/depth/depth.frag", {"alpha/opaque", "depth/plain"}})),
+      masked(make_program("pass/depth/layered.vert",
+                          {"pass/depth/depth.frag", {"alpha/masked", "depth/plain"}})),
       fbo(depth_framebuffer()) {}
 
 bool one_pass_is_faster(std::uint32_t draws_each, std::uint32_t draws_layered, bool software) noexcept {

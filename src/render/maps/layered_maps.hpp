@@ -9,7 +9,7 @@
 
 namespace gnomon::render {
 
-/// The object index of an instance holds its map from this bit on, as depth_layered.vert reads it.
+/// The object index of an instance holds its map from this bit on, as layered.vert reads it.
 inline constexpr unsigned kMapShift = 28;
 static_assert(kMaxMaps <= (1 << (32 - kMapShift)));
 

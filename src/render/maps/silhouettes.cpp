@@ -4,8 +4,8 @@
 #include <array>
 
 #include "casters/caster_edges.hpp"
-#include "gl/program.hpp"
 #include "filter/stored_maps.hpp"
+#include "gl/program.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -17,7 +17,8 @@ constexpr std::array<float, 4> kMiddle{127.0f / 255.0f, 127.0f / 255.0f, 0.0f, 0
 }  // namespace
 
 Silhouettes::Silhouettes(const SceneBuffers& scene)
-    : program_(make_geometry_program("depth.vert", "silhouette.geom", "silhouette.frag")) {
+    : program_(
+          make_program("pass/depth/depth.vert", "pass/depth/silhouette.geom", "pass/depth/silhouette.frag")) {
   const std::vector<glm::vec3> positions = scene.read_positions();
   std::vector<std::uint32_t> all;
   for (const Primitive& primitive : scene.primitives()) {

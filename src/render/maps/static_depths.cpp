@@ -5,7 +5,7 @@ namespace gnomon::render {
 namespace {
 
 constexpr float kFarthest = 1.0f;
-// Locations as shaders/copy_depth.* state them.
+// Locations as shaders/pass/depth/copy.* state them.
 constexpr GLint kLayerLocation = 0, kFirstLocation = 1, kSizeLocation = 2;
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace gnomon::render {
 namespace {
 
-/// log2 m = -4, -3 .. 4, as in shaders/heat.frag.
+/// log2 m = -4, -3 .. 4, as in shaders/pass/shade/heat.frag.
 constexpr std::array<glm::dvec3, 9> kHeatStops{{{0.110, 0.078, 0.353},
                                                 {0.141, 0.220, 0.573},
                                                 {0.161, 0.443, 0.710},
@@ -22,7 +22,7 @@ constexpr std::array<glm::dvec3, 9> kHeatStops{{{0.110, 0.078, 0.353},
                                                 {0.463, 0.039, 0.118}}};
 constexpr int kHeatEnd = 4;  ///< log2 m at both ends of the scale
 
-/// As in shaders/tint.frag, brightened to what the tint makes of a lit white surface.
+/// As in shaders/pass/shade/tint.frag, brightened to what the tint makes of a lit white surface.
 constexpr std::array<Color, 8> kCascadeColors{{{255, 110, 95},
                                                {115, 225, 110},
                                                {105, 150, 255},

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "gnomon/render/error.hpp"
 #include "gl/program.hpp"
+#include "gnomon/render/error.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -37,10 +37,11 @@ IdentifierPass::IdentifierPass(const SceneBuffers& scene) {
   if (blocks < 1)
     throw RenderError("identifiers need a storage buffer in fragment shaders; this driver has none");
   first_triangle_ = first_triangles(scene);
-  opaque_ = make_program("depth.vert", "depth_identified.frag");
-  masked_ = make_program("depth.vert", "depth_identified_masked.frag");
-  surfaces_ = make_program("gbuffer.vert", "gbuffer_identified.frag");
-  mask_ = make_program("fullscreen.vert", "mask_identified.frag", {"filter/hard.glsl"});
+  opaque_ = make_caster_program("alpha/opaque", "depth/identified");
+  masked_ = make_caster_program("alpha/masked", "depth/identified");
+  surfaces_ = make_program("pass/gbuffer/gbuffer.vert", {"pass/gbuffer/gbuffer.frag", {"extra/identifiers"}});
+  mask_ =
+      make_screen_program({"pass/mask/mask.frag", {"source/maps", "read/identifiers", filter_part("hard")}});
 }
 
 std::uint64_t IdentifierPass::bytes() const noexcept {

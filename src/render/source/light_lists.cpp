@@ -6,13 +6,13 @@
 namespace gnomon::render {
 namespace {
 
-// Bindings as shaders/common/own_light.glsl and shaders/shade_clusters.frag state them.
+// Bindings as shaders/pass/mask/source/clusters.glsl and shaders/pass/shade/clusters.frag state them.
 constexpr GLuint kLightBinding = 2, kMapBinding = 3, kBeginBinding = 4, kListBinding = 5;
 constexpr GLint kStorageBlocks = 4;
 // With more entries clusters become larger.
 constexpr std::size_t kFirstEntries = std::size_t{1} << 16, kMostEntries = std::size_t{1} << 22;
 
-/// ClusterBegins of shaders/shade_clusters.frag before its list.
+/// ClusterBegins of shaders/pass/shade/clusters.frag before its list.
 struct ClusterHeader {
   glm::ivec4 size;
   glm::vec4 depth;

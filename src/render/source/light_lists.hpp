@@ -24,7 +24,7 @@ class LightLists {
   [[nodiscard]] bool send(const Camera& camera, const ClusterOptions& options);
 
  private:
-  /// Mirrors OwnLight of shaders/common/own_light.glsl.
+  /// Mirrors OwnLight of shaders/pass/mask/source/clusters.glsl.
   struct OwnLight {
     glm::vec4 light, light_place, light_cone, bias, layer, selection, brightness;
   };

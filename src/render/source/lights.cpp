@@ -3,10 +3,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "source/light_pass.hpp"
+#include "frame/renderer_impl.hpp"
 #include "gl/pass_timer.hpp"
 #include "gl/program.hpp"
-#include "frame/renderer_impl.hpp"
+#include "source/light_pass.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -87,8 +87,8 @@ FrameBlock block_of(const DrawnLight& light, const LightMaps& maps, const Camera
 }  // namespace
 
 LightPass::LightPass()
-    : add(make_program("fullscreen.vert", "shade_light.frag")),
-      finish(make_program("fullscreen.vert", "shade_lights.frag")) {}
+    : add(make_screen_program({"pass/shade/add_light.frag", {"panes/none"}})),
+      finish(make_screen_program("pass/shade/lights.frag")) {}
 
 void LightPass::resize(int new_width, int new_height) {
   if (width == new_width && height == new_height) return;

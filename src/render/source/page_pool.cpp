@@ -9,7 +9,7 @@
 namespace gnomon::render {
 namespace {
 
-// Bindings as shaders/common/pages.glsl states them.
+// Bindings as shaders/pass/page/tables.glsl states them.
 constexpr GLuint kLevelBinding = 2, kRecordBinding = 3, kTableBinding = 4;
 // Pages along each side of a layer: drivers take at least 2048 layers, of at least 16384 texels.
 constexpr int kPagesAcross = 8, kPerLayer = kPagesAcross * kPagesAcross;

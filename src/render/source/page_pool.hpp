@@ -66,7 +66,7 @@ class PagePool {
   [[nodiscard]] std::size_t level_of(std::size_t page) const noexcept { return records_[page].key.x; }
   /// Which build(), counted from 1, drew what its slot holds.
   [[nodiscard]] std::uint64_t drawn_in(std::size_t page) const noexcept { return drawn_in_[slot_of(page)]; }
-  /// Binds the tables where shaders/common/pages.glsl reads them.
+  /// Binds the tables where shaders/pass/page/tables.glsl reads them.
   void bind() const noexcept;
 
  private:

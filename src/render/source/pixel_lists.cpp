@@ -10,8 +10,8 @@
 #include <limits>
 #include <string>
 
-#include "gnomon/render/error.hpp"
 #include "gl/program.hpp"
+#include "gnomon/render/error.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -83,11 +83,14 @@ PixelLists::PixelLists() {
   GLint64 most = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
   most_bytes_ = static_cast<std::uint64_t>(std::max<GLint64>(most, 0));
-  surfaces_ = make_geometry_program("gbuffer.vert", "gbuffer_heights.geom", "gbuffer_heights.frag");
-  list_ = make_compute_program("irregular_list.comp");
-  mean_ = make_compute_program("irregular_mean.comp");
-  opaque_ = make_geometry_program("irregular.vert", "irregular.geom", "irregular.frag");
-  masked_ = make_geometry_program("irregular.vert", "irregular.geom", "irregular_masked.frag");
+  surfaces_ = make_program("pass/gbuffer/gbuffer.vert", "pass/gbuffer/heights.geom",
+                           {"pass/gbuffer/gbuffer.frag", {"extra/heights"}});
+  list_ = make_compute_program("pass/lists/list.comp");
+  mean_ = make_compute_program("pass/lists/mean.comp");
+  opaque_ = make_program("pass/lists/caster.vert", "pass/lists/caster.geom",
+                         {"pass/lists/test.frag", {"alpha/opaque"}});
+  masked_ = make_program("pass/lists/caster.vert", "pass/lists/caster.geom",
+                         {"pass/lists/test.frag", {"alpha/masked"}});
   glNamedBufferStorage(frames_.name(), sizeof(LightFrames), nullptr, GL_DYNAMIC_STORAGE_BIT);
 }
 

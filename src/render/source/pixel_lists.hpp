@@ -17,7 +17,7 @@
 
 namespace gnomon::render {
 
-/// The uniform block LightFrames of shaders/common/irregular.glsl.
+/// The uniform block LightFrames of shaders/pass/lists/lists.glsl.
 struct LightFrames {
   std::array<glm::vec4, 3 * kMaxMaps> row;
   glm::vec4 light;

@@ -6,15 +6,15 @@
 #include <stdexcept>
 #include <string>
 
-#include "gl/program.hpp"
 #include "filter/stored_maps.hpp"
 #include "frame/target.hpp"
+#include "gl/program.hpp"
 
 namespace gnomon::render {
 namespace {
 
 constexpr const char* kHead = R"(#version 450 core
-#include "common/filter.glsl"
+#include "pass/common/filter.glsl"
 #include <filter>
 layout(binding = 0) uniform sampler2D questions;
 layout(binding = 1) uniform sampler2D gradients;
@@ -125,11 +125,9 @@ Texture image_of(const Row& values, int height = 1) {
 class Asker {
  public:
   Asker(const FilterSettings& settings, const char* text, const std::vector<Question>& questions)
-      : program_(make_program(
-            compose_shader("fullscreen.vert"),
-            compose_shader_text("filter_test.frag", std::string(kHead) + text,
-                                {"filter/" + std::string(settings.filter->info.name) + ".glsl",
-                                 shadow_vectors(settings), true, reads_of(settings) == MapRead::filtered}))),
+      : program_(link_screen_program(compose_shader_text(
+            {"filter_test.frag", {filter_part(settings.filter->info.name)}}, std::string(kHead) + text,
+            {shadow_vectors(settings), true, reads_of(settings) == MapRead::filtered}))),
         half_side_(static_cast<float>(settings.radius + 0.5)),
         width_(static_cast<GLsizei>(questions.size())) {
     Row points, gradients;

@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
-#include "gnomon/render/renderer.hpp"
-#include "gl/program.hpp"
 #include "filter/stored_maps.hpp"
+#include "gl/program.hpp"
+#include "gnomon/render/renderer.hpp"
 #include "test_scene.hpp"
 
 namespace gnomon::render {
@@ -63,10 +63,10 @@ TEST(Reads, the_mask_of_a_filter_fetches_the_surface_and_what_its_equations_need
 }
 
 TEST(Reads, opaque_casters_are_drawn_from_their_positions_alone) {
-  const Program opaque = make_program("depth.vert", "depth.frag");
+  const Program opaque = make_caster_program("alpha/opaque", "depth/plain");
   EXPECT_EQ(active(opaque, GL_PROGRAM_INPUT), (Names{"position_object", "object_index"}));
   EXPECT_EQ(active(opaque, GL_UNIFORM), Names{});
-  const Program masked = make_program("depth.vert", "depth_masked.frag");
+  const Program masked = make_caster_program("alpha/masked", "depth/plain");
   EXPECT_EQ(active(masked, GL_PROGRAM_INPUT), (Names{"position_object", "object_index", "texcoord"}));
   EXPECT_EQ(active(masked, GL_UNIFORM), Names{"color_image"});
 }

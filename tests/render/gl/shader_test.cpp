@@ -6,13 +6,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <sstream>
 
 #include "filter/filter_block.hpp"
+#include "filter/stored_maps.hpp"
+#include "gl/program.hpp"
 #include "gnomon/render/error.hpp"
 #include "gnomon/render/filter.hpp"
 #include "gnomon/shape.hpp"
-#include "gl/program.hpp"
-#include "filter/stored_maps.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -28,18 +30,35 @@ std::string message_of(const auto& work) {
 
 TEST(ShaderText, names_file_and_line_of_an_include_that_is_missing) {
   const std::string message = message_of([] {
-    (void)compose_shader_text("broken.frag", "#version 450 core\n\n#include \"common/nowhere.glsl\"\n");
+    (void)compose_shader_text("broken.frag", "#version 450 core\n\n#include \"pass/common/nowhere.glsl\"\n");
   });
   EXPECT_NE(message.find("broken.frag:3"), std::string::npos) << message;
-  EXPECT_NE(message.find("common/nowhere.glsl"), std::string::npos) << message;
+  EXPECT_NE(message.find("pass/common/nowhere.glsl"), std::string::npos) << message;
 }
 
 TEST(ShaderText, includes_a_file_once) {
   const ComposedShader shader = compose_shader_text(
-      "twice.frag", "#version 450 core\n#include \"common/frame.glsl\"\n#include \"common/frame.glsl\"\n");
-  // Its own, frame.glsl, the map's record, one of many lights, and the shapes: two files, and one for each.
-  EXPECT_EQ(shader.files.size(), 6u + all_shapes().size());
+      "twice.frag",
+      "#version 450 core\n#include \"pass/common/frame.glsl\"\n#include \"pass/common/frame.glsl\"\n");
+  // Its own, frame.glsl, the map's record, and the shapes: two files, and one for each.
+  EXPECT_EQ(shader.files.size(), 5u + all_shapes().size());
   EXPECT_EQ(shader.text.find("uniform Frame"), shader.text.rfind("uniform Frame"));
+}
+
+TEST(ShaderText, takes_parts_beside_the_file_that_includes_them_else_from_all_shaders) {
+  const ComposedShader shader = compose_shader(
+      {"pass/shade/clusters.frag", {"source/clusters", "read/depth", filter_part("hard"), "unused/part"}});
+  for (const char* path : {"pass/mask/source/clusters.glsl", "pass/mask/read/depth.glsl", "filter/hard.glsl"})
+    EXPECT_NE(std::find(shader.files.begin(), shader.files.end(), path), shader.files.end()) << path;
+}
+
+TEST(ShaderText, names_file_and_line_of_a_part_that_is_missing) {
+  const std::string unchosen = message_of([] { (void)compose_shader("pass/depth/depth.frag"); });
+  EXPECT_EQ(unchosen, "pass/depth/depth.frag:4: no part <alpha> was chosen");
+  const std::string unknown = message_of([] {
+    (void)compose_shader({"pass/depth/depth.frag", {"alpha/some"}});
+  });
+  EXPECT_EQ(unknown, "pass/depth/depth.frag:4: no shader file 'alpha/some.glsl'");
 }
 
 TEST(ShaderText, reads_the_logs_of_all_compilers) {
@@ -52,22 +71,29 @@ TEST(ShaderText, reads_the_logs_of_all_compilers) {
 
 TEST(Program, says_file_and_line_of_an_error) {
   const std::string message = message_of([] {
-    (void)make_program(
-        compose_shader("fullscreen.vert"),
+    (void)link_screen_program(
         compose_shader_text("broken.frag",
-                            "#version 450 core\n#include \"common/octahedral.glsl\"\nvoid main() {\n"
+                            "#version 450 core\n#include \"pass/common/octahedral.glsl\"\nvoid main() {\n"
                             "  float x = undeclared;\n}\n"));
   });
   EXPECT_NE(message.find("broken.frag:4"), std::string::npos) << message;
   EXPECT_NE(message.find("undeclared"), std::string::npos) << message;
 }
 
+TEST(Program, says_file_and_line_of_an_error_in_a_part) {
+  const std::string message = message_of([] {
+    // A mask's part outside of a mask.
+    (void)link_screen_program(compose_shader_text({"pass/mask/broken.frag", {"read/identifiers"}},
+                                                  "#version 450 core\n#include <read>\nvoid main() {}\n"));
+  });
+  EXPECT_NE(message.find("pass/mask/read/identifiers.glsl:"), std::string::npos) << message;
+}
+
 TEST(Program, says_which_shaders_do_not_link) {
   const std::string message = message_of([] {
-    (void)make_program(compose_shader("fullscreen.vert"),
-                       compose_shader_text("lonely.frag",
-                                           "#version 450 core\nin vec3 from_nobody;\nout vec4 c;\n"
-                                           "void main() { c = vec4(from_nobody, 1.0); }\n"));
+    (void)link_screen_program(compose_shader_text("lonely.frag",
+                                                  "#version 450 core\nin vec3 from_nobody;\nout vec4 c;\n"
+                                                  "void main() { c = vec4(from_nobody, 1.0); }\n"));
   });
   EXPECT_NE(message.find("lonely.frag"), std::string::npos) << message;
 }
@@ -88,6 +114,53 @@ std::string validated(const ComposedShader& shader, const std::string& stage,
   return status == 0 ? "" : name_files_in_log(words, shader.files);
 }
 
+using Parts = std::vector<std::string>;
+
+/// Adds the parts of each role that a file and what it includes ask for. `roles`: to the names of its parts.
+void find_roles(const std::string& path, std::map<std::string, Parts>& roles) {
+  std::istringstream lines{std::string(shader_file(path))};
+  for (std::string line; std::getline(lines, line);) {
+    const std::string include = "#include ";
+    if (!line.starts_with(include)) continue;
+    const std::string named = line.substr(include.size() + 1, line.size() - include.size() - 2);
+    if (line[include.size()] == '"') {
+      find_roles(named, roles);
+    } else if (named == "filter") {
+      roles[named];
+    } else if (!roles.contains(named)) {
+      const std::string folder = path.substr(0, path.rfind('/') + 1) + named + "/";
+      for (const ShaderFile& file : shader_files()) {
+        if (!file.path.starts_with(folder)) continue;
+        roles[named].push_back(named + "/" + std::filesystem::path(file.path).stem().string());
+        find_roles(std::string(file.path), roles);
+      }
+      EXPECT_FALSE(roles[named].empty()) << path << ": " << line;
+    }
+  }
+}
+
+/// Every choice of one part of each role.
+std::vector<Parts> choices_of(const std::map<std::string, Parts>& roles) {
+  std::vector<Parts> choices{{}};
+  for (const auto& [role, parts] : roles) {
+    std::vector<Parts> longer;
+    for (const Parts& choice : choices) {
+      for (const std::string& part : parts) {
+        longer.push_back(choice);
+        longer.back().push_back(part);
+      }
+    }
+    choices = std::move(longer);
+  }
+  return choices;
+}
+
+std::string name_of(const ShaderName& shader) {
+  std::string name = shader.path;
+  for (const std::string& part : shader.parts) name += " " + part;
+  return name;
+}
+
 TEST(Shaders, pass_the_reference_validator_with_every_filter) {
   if (std::string_view(GLSLANG_VALIDATOR).empty()) GTEST_SKIP() << "glslangValidator is not installed";
 #if defined(__SANITIZE_ADDRESS__)
@@ -100,36 +173,33 @@ TEST(Shaders, pass_the_reference_validator_with_every_filter) {
     const std::string path(file.path);
     const std::string extension = std::filesystem::path(path).extension();
     if (extension == ".glsl") continue;
-    const ComposedShader plain = compose_shader(path, {"filter/hard.glsl", 1});
-    if (std::find(plain.files.begin(), plain.files.end(), "filter/hard.glsl") != plain.files.end()) continue;
-    EXPECT_EQ(validated(plain, extension.substr(1)), "") << path;
-    ++checked;
+    std::map<std::string, Parts> roles;
+    find_roles(path, roles);
+    if (roles.contains("filter")) continue;
+    for (const Parts& parts : choices_of(roles)) {
+      const ShaderName shader{path, parts};
+      EXPECT_EQ(validated(compose_shader(shader), extension.substr(1)), "") << name_of(shader);
+      ++checked;
+    }
   }
+  EXPECT_GT(checked, 40u);
   for (const Filter* filter : all_filters()) {
     for (const MapRead reads : {filter->info.reads, reads_of(default_settings(*filter))}) {
-      std::vector<std::string_view> paths = filter_shaders(*filter, reads);
-      if (reads == MapRead::depth && !filter->info.draws_silhouettes) {
-        paths.push_back("mask_lights.frag");
-        paths.push_back("shade_clusters.frag");
-      }
-      const std::vector<std::string_view> of_pages =
-          filter->info.draws_silhouettes ? std::vector<std::string_view>{} : pages_shaders(reads);
-      paths.insert(paths.end(), of_pages.begin(), of_pages.end());
-      for (const std::string_view path : paths) {
-        const std::string extension = std::filesystem::path(path).extension();
-        ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",
-                            shadow_vectors(default_settings(*filter)), true, reads == MapRead::filtered};
-        EXPECT_EQ(validated(compose_shader(path, choice), extension.substr(1)), "")
-            << filter->info.name << " " << path;
-        ++checked;
-        if (path != paths.front()) continue;  // the mask, which is compiled for linear maps as well
+      std::vector<ShaderName> shaders = filter_shaders(*filter, reads);
+      for (const auto& more : {pages_shaders(*filter, reads), lights_shaders(*filter, reads)})
+        shaders.insert(shaders.end(), more.begin(), more.end());
+      for (std::size_t i = 0; i < shaders.size(); ++i) {
+        const std::string extension = std::filesystem::path(shaders[i].path).extension();
+        ShaderChoice choice{shadow_vectors(default_settings(*filter)), true, reads == MapRead::filtered};
+        EXPECT_EQ(validated(compose_shader(shaders[i], choice), extension.substr(1)), "")
+            << name_of(shaders[i]);
+        if (i > 0) continue;  // the mask, which is compiled for linear maps as well
         choice.shapes = false;
-        EXPECT_EQ(validated(compose_shader(path, choice), extension.substr(1)), "")
-            << filter->info.name << " " << path << " for linear maps";
+        EXPECT_EQ(validated(compose_shader(shaders[i], choice), extension.substr(1)), "")
+            << name_of(shaders[i]) << " for linear maps";
       }
     }
   }
-  EXPECT_GT(checked, 10u);
 }
 
 /// An engine's shader: its own names and bindings, ours only as functions and types.
@@ -197,10 +267,10 @@ void main() {
 TEST(ShaderLibrary, compiles_in_an_engines_shader_for_opengl_and_for_vulkan) {
   if (std::string_view(GLSLANG_VALIDATOR).empty()) GTEST_SKIP() << "glslangValidator is not installed";
   for (const Filter* filter : all_filters()) {
-    const ShaderChoice choice{"filter/" + std::string(filter->info.name) + ".glsl",
-                              shadow_vectors(default_settings(*filter)), true,
+    const ShaderChoice choice{shadow_vectors(default_settings(*filter)), true,
                               filter->info.reads == MapRead::filtered};
-    const ComposedShader shader = compose_shader_text("engine.frag", engine_shader(*filter), choice);
+    const ComposedShader shader = compose_shader_text({"engine.frag", {filter_part(filter->info.name)}},
+                                                      engine_shader(*filter), choice);
     EXPECT_EQ(validated(shader, "frag", "--target-env opengl -G"), "") << filter->info.name;
     EXPECT_EQ(validated(shader, "frag", "-V"), "") << filter->info.name;
   }
@@ -210,7 +280,7 @@ TEST(ShaderLibrary, names_no_binding_and_no_uniform_of_ours) {
   std::size_t checked = 0;
   for (const ShaderFile& file : shader_files()) {
     if (file.path.substr(0, 8) != "library/" && file.path.substr(0, 7) != "filter/") continue;
-    for (const char* word : {"uniform", "binding", "common/", "frame.", "filtering.", "gl_"}) {
+    for (const char* word : {"uniform", "binding", "pass/", "frame.", "filtering.", "gl_"}) {
       EXPECT_EQ(file.text.find(word), std::string_view::npos) << file.path << " names " << word;
     }
     ++checked;

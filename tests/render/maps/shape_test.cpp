@@ -27,8 +27,7 @@ std::vector<std::array<float, 4>> drawn(const std::string& value, float index, c
       "  vec2 ndc = (gl_FragCoord.xy - 0.5) / " +
       std::to_string(kSide - 1) +
       ".0 * 2.0 - 1.0;\n  ShapedPoint p = shaped_point(shape, size, ndc);\n  answer = " + value + ";\n}\n";
-  const Program program =
-      make_program(compose_shader("fullscreen.vert"), compose_shader_text("shape_test.frag", text));
+  const Program program = link_screen_program(compose_shader_text("shape_test.frag", text));
   GLuint image = 0, fbo = 0, vertices = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &image);
   glTextureStorage2D(image, 1, GL_RGBA32F, kSide, kSide);

@@ -1,3 +1,0 @@
-#version 450 core
-// Opaque casters: the depth alone.
-void main() {}

@@ -1,3 +1,0 @@
-#version 450 core
-// The surfaces that the camera sees.
-#include "common/gbuffer.glsl"

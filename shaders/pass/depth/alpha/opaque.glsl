@@ -1,0 +1,2 @@
+// Opaque casters.
+bool is_cut_out(vec2 texcoord) { return false; }

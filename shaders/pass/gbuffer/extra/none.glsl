@@ -1,0 +1,2 @@
+// Nothing more.
+void store_extra(vec3 geometric) {}

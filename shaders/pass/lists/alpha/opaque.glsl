@@ -1,0 +1,2 @@
+// Opaque casters.
+bool is_there(vec3 weights) { return true; }

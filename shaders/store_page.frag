@@ -1,4 +1,0 @@
-#version 450 core
-// The same within the slot of a page.
-#define GNOMON_PAGES
-#include "common/store_texels.glsl"
