@@ -1,11 +1,12 @@
-# Do the pages hold together? Each link leads somewhere, docs/README.md lists each page of docs, and docs/architecture.md names
-# the folders that are there.
+# Do the pages hold together? Each link and each file that a page names leads somewhere, docs/README.md lists each page of docs,
+# and docs/architecture.md names the folders that are there.
 import os
 import re
 
 MAP = "docs/README.md"
 ARCHITECTURE = "docs/architecture.md"
-# Folders whose own folders docs/architecture.md must name.
+# Where files that pages name lie; and folders whose own folders docs/architecture.md must name.
+FOLDERS = "cmake|docs|include|packaging|samples|shaders|src|tests"
 NAMED_IN_FULL = ("src", "src/core", "src/render")
 
 
@@ -49,6 +50,17 @@ def faults_of_links(source, pages):
                 yield "%s: no question leads to %s" % (MAP, page)
 
 
+def faults_of_files(source, pages):
+    """Files in backticks that are not there; where a page says how to add one, its line begins with Create or it is called NAME."""
+    for page in pages:
+        with open(os.path.join(source, page), encoding="utf-8") as file:
+            text = without_code(file.read())
+        for number, line in enumerate(text.split("\n"), 1):
+            for path in re.findall(r"`((?:%s)/[\w./]+)`" % FOLDERS, line):
+                if not os.path.exists(os.path.join(source, path)) and "NAME" not in path and not line.startswith("Create"):
+                    yield "%s:%d: there is no %s" % (page, number, path)
+
+
 def folders_of(source, folder):
     path = os.path.join(source, folder)
     for name in sorted(os.listdir(path)) if os.path.isdir(path) else ():
@@ -62,10 +74,7 @@ def faults_of_folders(source):
         return
     with open(path, encoding="utf-8") as file:
         text = file.read()
-    named = set(re.findall(r"`((?:src|tests|shaders|include|samples|docs)(?:/[\w./]+)?)`", text))
-    for name in sorted(named):
-        if not os.path.exists(os.path.join(source, name)):
-            yield "%s: there is no %s" % (ARCHITECTURE, name)
+    named = set(re.findall(r"`((?:%s)/[\w./]+)`" % FOLDERS, text))
     for folder in NAMED_IN_FULL:
         for inner in folders_of(source, folder):
             if inner not in named:
