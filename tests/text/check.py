@@ -169,6 +169,7 @@ def faults_of_pages(source):
     yield from pages.faults_of_links(source, pages_of_tree(source))
     yield from pages.faults_of_files(source, pages_of_tree(source))
     yield from pages.faults_of_folders(source)
+    yield from pages.faults_of_glossary(source)
 
 
 def faults_of_names(source):
@@ -208,15 +209,17 @@ def check_planted(what, planted, faults_of, expected):
 
 
 def check_pages_themselves():
-    """Dead links, files that are not there, a page without a question, and folders that are not named or not there."""
+    """Dead links, files that are not there, a page without a question, folders that are not named or not there, and a term twice."""
     planted = {"docs/README.md": "# Map\n[a](a.md#what-is-it-a) [b](a.md#b)\n```\n[c](c.md)\n```\n[up](../README.md)\n",
                "docs/a.md": "# What is `it`, a?\n[here](#b)\n", "docs/other.md": "# Other\nSee `src/core/warp/w.cpp` and `src/core/w.cpp`.\nCreate `src/new.cpp`:\n", "README.md": "[gone](docs/gone.md)\n",
+               "docs/glossary.md": "| term | meaning |\n|--|--|\n| map | A. |\n\n| term | meaning |\n|--|--|\n| page, map | B. |\n",
                "docs/architecture.md": "`src/core` `src/core/warp` `src/core/gone` `src/render/gl`\n",
                "src/core/warp/w.cpp": "", "src/core/split/s.cpp": "", "src/render/gl/g.cpp": ""}
     check_planted("pages", planted, faults_of_pages, {
         "README.md:1: the link leads nowhere: docs/gone.md", "docs/README.md:2: docs/a.md has no heading #b",
         "docs/a.md:2: docs/a.md has no heading #b", "docs/README.md: no question leads to docs/other.md",
-        "docs/README.md: no question leads to docs/architecture.md",
+        "docs/README.md: no question leads to docs/architecture.md", "docs/README.md: no question leads to docs/glossary.md",
+        "docs/glossary.md:7: line 3 explains 'map' already",
         "docs/other.md:2: there is no src/core/w.cpp", "docs/architecture.md:1: there is no src/core/gone", "docs/architecture.md: does not name the folder src/core/split",
         "docs/architecture.md: does not name the folder src/render"})
 

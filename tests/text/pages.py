@@ -1,9 +1,10 @@
 # Do the pages hold together? Each link and each file that a page names leads somewhere, docs/README.md lists each page of docs,
-# and docs/architecture.md names the folders that are there.
+# docs/architecture.md names the folders that are there, and docs/glossary.md explains each term once.
 import os
 import re
 
 MAP = "docs/README.md"
+GLOSSARY = "docs/glossary.md"
 ARCHITECTURE = "docs/architecture.md"
 # Where files that pages name lie; and folders whose own folders docs/architecture.md must name.
 FOLDERS = "cmake|docs|include|packaging|samples|shaders|src|tests"
@@ -79,3 +80,16 @@ def faults_of_folders(source):
         for inner in folders_of(source, folder):
             if inner not in named:
                 yield "%s: does not name the folder %s" % (ARCHITECTURE, inner)
+
+
+def faults_of_glossary(source):
+    path, first = os.path.join(source, GLOSSARY), {}
+    if not os.path.exists(path):
+        return
+    with open(path, encoding="utf-8") as file:
+        for number, line in enumerate(file, 1):
+            row = re.match(r"\| ([^|]+) \|", line)
+            for term in row.group(1).split(", ") if row and row.group(1) != "term" else ():
+                if term in first:
+                    yield "%s:%d: line %d explains '%s' already" % (GLOSSARY, number, first[term], term)
+                first.setdefault(term, number)
