@@ -1,4 +1,4 @@
-// A light for a scene that brings none: the sun, or a lamp in its direction over the middle of the scene.
+// A light for a scene that brings none: the sun, or a local light in its direction over the scene's middle.
 #include "gnomon/scene/default_light.hpp"
 
 #include <algorithm>

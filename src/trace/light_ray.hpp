@@ -23,11 +23,11 @@ struct LightRay {
 [[nodiscard]] inline LightRay light_ray(const Light& light, const glm::dvec3& point) noexcept {
   if (const auto* sun = std::get_if<DirectionalLight>(&light)) return {-glm::normalize(sun->direction)};
   const auto* spot = std::get_if<SpotLight>(&light);
-  const auto* lamp = std::get_if<PointLight>(&light);
-  const glm::dvec3 to_light = (spot != nullptr ? spot->position : lamp->position) - point;
+  const auto* point_light = std::get_if<PointLight>(&light);
+  const glm::dvec3 to_light = (spot != nullptr ? spot->position : point_light->position) - point;
   LightRay ray;
   ray.distance = glm::length(to_light);
-  ray.lit = ray.distance > 0.0 && ray.distance <= (spot != nullptr ? spot->range : lamp->range);
+  ray.lit = ray.distance > 0.0 && ray.distance <= (spot != nullptr ? spot->range : point_light->range);
   if (ray.distance > 0.0) ray.direction = to_light / ray.distance;
   if (spot != nullptr)
     ray.lit =

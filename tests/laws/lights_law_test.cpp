@@ -69,8 +69,8 @@ Scene draw_scene(int most_lights) {
 bool lights_point(const Light& light, const glm::dvec3& point) {
   constexpr double kInside = 1.0 - 1e-6;
   if (std::holds_alternative<DirectionalLight>(light)) return true;
-  if (const auto* lamp = std::get_if<PointLight>(&light))
-    return glm::distance(lamp->position, point) < kInside * lamp->range;
+  if (const auto* point_light = std::get_if<PointLight>(&light))
+    return glm::distance(point_light->position, point) < kInside * point_light->range;
   const SpotLight spot = *std::get_if<SpotLight>(&light);
   const glm::dvec3 offset = point - spot.position;
   const double distance = glm::length(offset);

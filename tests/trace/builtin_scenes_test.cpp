@@ -19,9 +19,9 @@ TEST_P(BuiltinScenes, both_engines_give_the_same_shadow_off_the_undecided_pixels
   const Tracer own(scene, Engine::own), embree(scene, Engine::embree);
   const glm::dvec3 middle = 0.5 * (scene.bounds_world.min + scene.bounds_world.max);
   const CameraPath path = default_path(scene);
-  const Light lamp =
+  const Light local =
       PointLight{middle + glm::dvec3(1.3, 0.3 * (scene.bounds_world.max.y - middle.y), 2.7), 1e4};
-  for (const Light& light : {Light(DirectionalLight{{-0.7, -0.2, 0.5}}), lamp}) {
+  for (const Light& light : {Light(DirectionalLight{{-0.7, -0.2, 0.5}}), local}) {
     const Camera camera = path.at(0.3, 128, 72);
     const Picture picture = picture_of(own, camera);
     const SurfacePoints points = surface_points(own, camera, light, picture.positions, picture.normals);

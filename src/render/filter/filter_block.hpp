@@ -39,7 +39,7 @@ int tap_weights(BlurShape shape, double half_side, std::array<double, 4 * kTapVe
 [[nodiscard]] MapDepths map_depths(const FilterSettings& settings, const ShadowMap& map) noexcept;
 /// Options of one map.
 void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& block) noexcept;
-/// shaders/library/lookup.glsl: depths of a lamp's map made even in distance.
+/// shaders/library/lookup.glsl: depths of a local light's map made even in distance.
 [[nodiscard]] inline double linear_depth(double depth, double curve) noexcept {
   return depth / (1.0 + (1.0 - depth) * curve);
 }
@@ -47,7 +47,8 @@ void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& b
 [[nodiscard]] inline double depth_from_linear(double linear, double curve) noexcept {
   return linear * (1.0 + curve) / (1.0 + linear * curve);
 }
-/// The curve of a map: far over near distance less 1 along its middle ray for a lamp, 0 for parallel light.
+/// The curve of a map: for a local light far over near distance less 1 along its middle ray, 0 for parallel
+/// light.
 [[nodiscard]] double depth_curve(const ShadowPlan& plan, const ShadowMap& map) noexcept;
 /// What makes a map's depths even along the light: clip z times this, in the clip space that maps are drawn
 /// in. It is 1 over the largest clip z on the far plane; 0 for a map without an inverse, whose depths are

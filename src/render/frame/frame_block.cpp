@@ -33,7 +33,7 @@ glm::vec4 light_place(const ShadowPlan& plan, const Camera& camera) noexcept {
   return {glm::vec3(glm::dvec3(plan.map[0].light_world) - camera.position), 1.0f};
 }
 
-void set_lamp(const Light* light, FrameBlock& block) noexcept {
+void set_local_light(const Light* light, FrameBlock& block) noexcept {
   constexpr float kNoCone = -1.0f;
   block.light_cone = {0.0f, -1.0f, 0.0f, kNoCone};
   if (light == nullptr) return;
@@ -102,7 +102,7 @@ FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const Frame
                                     plan.bias.normal_offset_texels, plan.bias.max_slope));
   block.light_place = light_place(plan, camera);
   block.layer = glm::vec4(glm::dvec4(layer_width, layer_height, 0.0, camera.far_depth));
-  set_lamp(options.light, block);
+  set_local_light(options.light, block);
   block.selection = glm::vec4(shader_selection(plan), static_cast<float>(options.transition),
                               static_cast<float>(options.noise), static_cast<float>(noise_offset(options)));
   const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);

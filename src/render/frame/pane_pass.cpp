@@ -122,7 +122,7 @@ PanePass::Rectangle PanePass::reached(const DrawnMap& map, const glm::dvec3& ori
     if (box.empty()) continue;
     for (const glm::dvec3& corner : corners_of(box)) {
       const glm::dvec4 clip = glm::dmat4(map.clip_from_position) * glm::dvec4(corner - origin_world, 1.0);
-      // Behind a warp's or a lamp's centre a box may be anywhere.
+      // Behind a warp's or a local light's centre a box may be anywhere.
       if (!(clip.w > 0.0)) return {{0, 0}, {map.width, map.height}};
       const glm::dvec2 texel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size;
       low = glm::min(low, texel);

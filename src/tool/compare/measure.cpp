@@ -49,7 +49,7 @@ double kernel_half_side(const render::FilterSettings& filter) {
 double light_radius(const render::FilterSettings& filter, const Light& light) noexcept {
   const auto penumbra = filter.filter->info.penumbra_radius_world;
   if (penumbra == nullptr) return 0.0;
-  // Half way to a lamp the penumbra is as wide as the lamp.
+  // Half way to a local light the penumbra is as wide as the light.
   return std::holds_alternative<DirectionalLight>(light) ? penumbra(filter, 1.0, 0.0)
                                                          : penumbra(filter, 0.5, 1.0);
 }

@@ -247,7 +247,7 @@ bool is_useless(const Shape* shape, LightKind light) noexcept {
 bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
   const report::Technique& t = entry.technique;
   const bool is_tetrahedron = entry.plan.split.partition == Partition::tetrahedron;
-  // The maps of a lamp follow from its cone and what it lights.
+  // The maps of a local light follow from its cone and what it lights.
   if (light != LightKind::sun)
     return (t.split != first.split && !(is_tetrahedron && light == LightKind::point)) ||
            t.cascades != first.cascades || t.fit != first.fit;

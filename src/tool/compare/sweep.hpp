@@ -82,8 +82,8 @@ struct Sweep {
 };
 
 /// Throws std::runtime_error with what is wrong and where. Combinations that are the same technique under two
-/// names are taken once: with one map or under a lamp the split does not matter, and a stable fit takes no
-/// warp.
+/// names are taken once: with one map or under a local light the split does not matter, and a stable fit
+/// takes no warp.
 [[nodiscard]] Sweep make_sweep(const CompareRequest& request);
 
 /// Makes maps smaller that memory does not take, in the context that is current: a technique goes by the size

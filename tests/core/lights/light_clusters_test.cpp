@@ -26,8 +26,8 @@ struct Memory {
 
 bool lights_point(const Light& light, const glm::dvec3& point) {
   if (std::holds_alternative<DirectionalLight>(light)) return true;
-  if (const auto* lamp = std::get_if<PointLight>(&light))
-    return glm::distance(lamp->position, point) < lamp->range;
+  if (const auto* point_light = std::get_if<PointLight>(&light))
+    return glm::distance(point_light->position, point) < point_light->range;
   const SpotLight spot = *std::get_if<SpotLight>(&light);
   const glm::dvec3 offset = point - spot.position;
   return glm::length(offset) < spot.range &&
@@ -122,9 +122,9 @@ TEST(LightClusters, lights_that_reach_nothing_in_view_are_in_no_list) {
   EXPECT_EQ(entries_of(camera, DirectionalLight{}), all);
   EXPECT_EQ(entries_of(camera, PointLight{{0, 0, 0}, 200.0}), all)
       << "the eye within a light of all that it sees";
-  const std::vector<Light> lamp{PointLight{{0, 0, 0.5}, 2.0}};
+  const std::vector<Light> lights{PointLight{{0, 0, 0.5}, 2.0}};
   Memory memory(camera, {}, 1 << 16);
-  const LightClusters within = cluster_lights(camera, lamp, {}, memory.spans());
+  const LightClusters within = cluster_lights(camera, lights, {}, memory.spans());
   EXPECT_EQ(list_of(within, cluster_at(within, 320, 240, 1.0)).size(), 1u) << "the eye within a small light";
   EXPECT_EQ(list_of(within, cluster_at(within, 320, 240, 5.0)).size(), 0u) << "beyond all local lights";
 }

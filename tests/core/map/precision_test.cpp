@@ -94,9 +94,9 @@ TEST(Precision, floats_hit_the_map_of_a_spot_that_is_all_but_a_ray) {
     for (const double outer : {1e-3, 1e-6, 1e-9}) {
       Case c = scene_at({});
       c.options.fit = fit;
-      const glm::dvec3 lamp{5.0, 30.0, -60.0}, aim{0.0, 0.0, -70.0};
+      const glm::dvec3 place{5.0, 30.0, -60.0}, aim{0.0, 0.0, -70.0};
       const ShadowPlan plan =
-          make_plan(c.camera, SpotLight{lamp, aim - lamp, outer, 50.0}, c.bounds(), c.options);
+          make_plan(c.camera, SpotLight{place, aim - place, outer, 50.0}, c.bounds(), c.options);
       ASSERT_EQ(plan.status, PlanStatus::ok) << outer;
       const ShadowMap& map = plan.map[0];
       const glm::vec4 clip =

@@ -75,7 +75,7 @@ TEST(ParaboloidShape, shows_slopes_and_margin_and_bounds_its_texels) {
   }
 }
 
-/// A hall with boxes under a lamp, seen from a corner.
+/// A hall with boxes under a local light, seen from a corner.
 struct Hall {
   Camera camera = perspective_camera({-9, 3, 9}, {0.8, -0.25, -1}, {0, 1, 0}, 1.1, 1.5, 0.2, 60.0, 600, 400);
   std::vector<Box> boxes{

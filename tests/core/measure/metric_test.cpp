@@ -29,7 +29,7 @@ ShadowMap map_from_above(int size) {
 }
 
 /// A perspective map straight down from (0.5, 3, 0), onto [-1, 1]^2 round (0.5, 0, 0).
-ShadowMap lamp_map(int size) {
+ShadowMap local_map(int size) {
   ShadowMap map;
   map.width = map.height = size;
   // w = 3 - y, x = 3 (x - 0.5), y = -3 z, depth from 1 to 4 away from the light.
@@ -122,9 +122,9 @@ TEST(Metric, a_hand_made_map_gets_its_light_from_its_matrix) {
   EXPECT_CLOSE(floor.perspective_max, 2.0, kRounding);
   // A local light at (0.5, 3, 0): at (-3.5, 0, 0) its rays come in at a cosine of 3 / 5.
   for (const glm::dvec4& light : {glm::dvec4(0, 1, 0, 0), glm::dvec4(0.5, 3, 0, 1), glm::dvec4(0)}) {
-    ShadowMap lamp = lamp_map(50);
-    lamp.light_world = light;
-    const PointAliasing beside = measure_point(lamp, camera_from_above(4.0), {-0.4, 0, 0}, {0, 1, 0});
+    ShadowMap local = local_map(50);
+    local.light_world = light;
+    const PointAliasing beside = measure_point(local, camera_from_above(4.0), {-0.4, 0, 0}, {0, 1, 0});
     EXPECT_CLOSE(beside.projection, (4.0 / std::sqrt(16.16)) / (3.0 / std::sqrt(9.81)), kRounding);
   }
   // From below: depth tells where the light comes from.
@@ -238,7 +238,7 @@ TEST(Metric, many_points_at_once_are_to_the_bit_what_each_is_alone) {
   const Camera perspective = camera_from_above(4.0);
   const Camera parallel =
       orthographic_camera({0, 4, 0}, {0.2, -1, 0}, {0, 0, -1}, 2.0, 1.0, 0.1, 10, 100, 100);
-  ShadowMap sun = map_from_above(50), lamp = lamp_map(50), hand_made = lamp_map(50);
+  ShadowMap sun = map_from_above(50), local = local_map(50), hand_made = local_map(50);
   sun.light_world = {0.6, 0.8, 0, 0};  // not that of the matrix
   hand_made.light_world = {0, 1, 0, 0};
   std::vector<glm::dvec3> points, normals;
@@ -251,7 +251,7 @@ TEST(Metric, many_points_at_once_are_to_the_bit_what_each_is_alone) {
   points[8] = {0, 0, 0};             // lit along the view
   normals[9] = {1, 0, 0};
   for (const Camera& camera : {perspective, parallel}) {
-    for (const ShadowMap& map : {sun, lamp, hand_made, map_from_above(50)}) {
+    for (const ShadowMap& map : {sun, local, hand_made, map_from_above(50)}) {
       std::vector<PointAliasing> surface(kPoints), plain(kPoints);
       measure_points(map, camera, points, normals, surface);
       measure_perspectives(map, camera, points, plain);

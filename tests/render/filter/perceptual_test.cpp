@@ -145,7 +145,7 @@ TEST(Perceptual, maps_penumbras_back_on_the_map) {
   // Half the sun's angle spans tan(0.5 degrees) * 40 at 40 units.
   const double sun = 40.0 * std::tan(0.5 * std::numbers::pi / 180.0);
   EXPECT_NEAR(kernel_radius_world(filter("pcss:angle_deg=1"), {40.0, 0.0}), sun, kRounding);
-  // A lamp of radius 0.5, halfway up: as much again below the blocker.
+  // A local light of radius 0.5, halfway up: as much again below the blocker.
   EXPECT_NEAR(kernel_radius_world(filter("pcss:light_radius=0.5"), {5.0, 10.0}), 0.5, kRounding);
   EXPECT_EQ(kernel_radius_world(filter("pcss:light_radius=0.5,radius=0.2,unit=world"), {5.0, 10.0}), 0.2);
   EXPECT_EQ(

@@ -292,15 +292,15 @@ TEST(Accumulation, keeps_what_a_local_light_lights_where_casters_move_beyond_it)
   const std::vector<Box> boxes = boxes_of(scene);
   const Camera camera = Stills::still();
   const FilterSettings filter = default_settings(filters::hard);
-  const Light lamp = PointLight{{-3.0, 6.0, 3.0}, 60.0};
-  const ShadowPlan plan = make_plan(camera, lamp, {boxes, boxes}, planned(filter, 64));
+  const Light local = PointLight{{-3.0, 6.0, 3.0}, 60.0};
+  const ShadowPlan plan = make_plan(camera, local, {boxes, boxes}, planned(filter, 64));
   Renderer told(scene), untold(scene);
   const std::vector<Box> beyond{{{-50.0, 8.0, -50.0}, {50.0, 9.0, 50.0}}};
   Frame a, b, alone;
   constexpr std::uint32_t kFrames = 9;
   for (std::uint32_t i = 0; i < kFrames; ++i) {
     FrameOptions options = accumulating();
-    options.light = &lamp;
+    options.light = &local;
     const ShadowPlan shaken = jittered(plan, jitter_texels(i));
     b = draw(untold, camera, shaken, filter, options);
     if (i + 1 == kFrames) options.moved_world = beyond;

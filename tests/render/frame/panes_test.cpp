@@ -163,7 +163,7 @@ TEST_F(Panes, many_lights_are_tinted_each_by_the_panes_before_it) {
   for (const ClusterOptions& clusters : {ClusterOptions{}, ClusterOptions{0, 1}}) {
     FrameStats stats;
     const FloatImage found = lights.sum(tinted, -1, clusters, &stats);
-    EXPECT_EQ(stats.lights_tinted, 3) << "the sun, the spot and one lamp";
+    EXPECT_EQ(stats.lights_tinted, 3) << "the sun, the spot and one point light";
     EXPECT_GT(stats.pane_texels, 0u);
     const FloatImage untinted = lights.sum(plain, -1, clusters);
     double error = 0.0, light = 0.0, tint = 0.0;

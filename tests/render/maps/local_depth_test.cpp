@@ -9,12 +9,12 @@
 namespace gnomon::render {
 namespace {
 
-constexpr glm::dvec3 kLamp{0.0, 30.0, 0.0};
+constexpr glm::dvec3 kLight{0.0, 30.0, 0.0};
 constexpr float kPlateHeight = 4.0f, kPlateHalf = 4.0f;
 /// Half the side of the plate's shadow on the ground.
 constexpr double kShadowHalf = kPlateHalf * 30.0 / (30.0 - kPlateHeight);
 
-/// A plate not far above the ground, and right under the lamp a speck that pulls the map's near plane to it.
+/// A plate not far above the ground, and right under the light a speck that pulls the map's near plane to it.
 Scene plate_and_speck() {
   Scene scene = empty_scene();
   add_quad(scene, {-20, 0, 20}, {40, 0, 0}, {0, 0, -40});
@@ -28,7 +28,7 @@ struct MeanLight {
   double shadow = 0.0, open = 0.0;
 };
 
-MeanLight under(const Light& lamp, const Filter& filter) {
+MeanLight under(const Light& local, const Filter& filter) {
   static const Scene scene = plate_and_speck();
   static Renderer renderer(scene);
   const Camera camera =
@@ -37,7 +37,7 @@ MeanLight under(const Light& lamp, const Filter& filter) {
   PlanOptions options;
   options.resolution.max_size = 256;
   set_margin(default_settings(filter), options);
-  const ShadowPlan plan = make_plan(camera, lamp, {boxes, boxes}, options);
+  const ShadowPlan plan = make_plan(camera, local, {boxes, boxes}, options);
   EXPECT_EQ(plan.status, PlanStatus::ok);
   EXPECT_GT(depth_curve(plan, plan.map[0]), 100.0) << "the scene is to be hard";
   const Frame frame = draw(renderer, camera, plan, filter);
@@ -57,7 +57,7 @@ MeanLight under(const Light& lamp, const Filter& filter) {
 
 TEST(LocalLightDepth, every_filter_keeps_the_shadow_of_a_plate_under_a_spot) {
   for (const Filter* filter : all_filters()) {
-    const MeanLight light = under(SpotLight{kLamp, {0, -1, 0}, 0.5, 60.0}, *filter);
+    const MeanLight light = under(SpotLight{kLight, {0, -1, 0}, 0.5, 60.0}, *filter);
     EXPECT_LT(light.shadow, 0.05) << filter->info.name;
     EXPECT_GT(light.open, 0.95) << filter->info.name;
   }
@@ -65,7 +65,7 @@ TEST(LocalLightDepth, every_filter_keeps_the_shadow_of_a_plate_under_a_spot) {
 
 TEST(LocalLightDepth, stored_depths_keep_it_under_a_point_light) {
   for (const Filter* filter : {&filters::vsm, &filters::esm}) {
-    const MeanLight light = under(PointLight{kLamp, 60.0}, *filter);
+    const MeanLight light = under(PointLight{kLight, 60.0}, *filter);
     EXPECT_LT(light.shadow, 0.05) << filter->info.name;
     EXPECT_GT(light.open, 0.95) << filter->info.name;
   }

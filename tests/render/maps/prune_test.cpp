@@ -44,7 +44,7 @@ struct Tally {
   [[nodiscard]] const PruneSaving& of(PruneRule rule) const { return saved[static_cast<std::size_t>(rule)]; }
 };
 
-/// A sun, or a lamp over what the camera is about to see.
+/// A sun, or a local light over what the camera is about to see.
 Light random_light(std::uint64_t seed, Random& random, const Camera& camera, double reach) {
   const glm::dvec3 across{random.between(-1, 1), -random.between(0.3, 1), random.between(-1, 1)};
   const double height = random.between(0.02, 0.1) * reach;

@@ -162,7 +162,8 @@ Counts against_rays(const Scene& scene, const Frame& frame, const Light& light, 
     if (!frame.surface(i) || frame.map(i) < 0) continue;
     glm::dvec3 way = frame.plan.light_direction;
     if (const auto* spot = std::get_if<SpotLight>(&light)) way = frame.point(i) - spot->position;
-    if (const auto* lamp = std::get_if<PointLight>(&light)) way = frame.point(i) - lamp->position;
+    if (const auto* point_light = std::get_if<PointLight>(&light))
+      way = frame.point(i) - point_light->position;
     if (glm::dot(frame.normal(i), glm::normalize(way)) > -0.02) continue;
     const std::optional<bool> expected = lit_by_rays(rays, frame, i, test.neighbours);
     if (!expected) continue;

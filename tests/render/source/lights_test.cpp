@@ -19,8 +19,8 @@ FilterSettings settings_of(const char* text) {
 
 /// Other points are dark whatever the mask holds.
 bool in_range(const Light& light, const glm::dvec3& point) {
-  if (const auto* lamp = std::get_if<PointLight>(&light))
-    return glm::distance(lamp->position, point) < lamp->range;
+  if (const auto* point_light = std::get_if<PointLight>(&light))
+    return glm::distance(point_light->position, point) < point_light->range;
   const auto* spot = std::get_if<SpotLight>(&light);
   if (spot == nullptr) return true;
   const glm::dvec3 offset = point - spot->position;

@@ -43,7 +43,7 @@ TEST(Compare, measures_every_technique_on_every_frame) {
 TEST(Compare, measures_local_lights_against_their_own_shadows) {
   for (const char* light : {"spot", "point"}) {
     const TemporaryFolder folder;
-    // Splits and cascades mean nothing under a lamp: no row twice.
+    // Splits and cascades mean nothing under a local light: no row twice.
     const Finished finished = run_gnomon({"compare",     "builtin:hangar",
                                           "--warps",     "none",
                                           "--splits",    "uniform,auto",

@@ -43,9 +43,9 @@ TEST(Calibrate, refuses_what_it_cannot_use) {
 TEST(Calibrate, views_differ_by_light_and_observations_are_in_milliseconds) {
   report::Row row = report::read_rows(whole()).front();
   row.times.plan_ns.median = 250'000.0;
-  report::Row lamp = row;
-  lamp.light = "spot";
-  EXPECT_EQ(tool::views_of({row, row, lamp}).size(), 2u);
+  report::Row spot = row;
+  spot.light = "spot";
+  EXPECT_EQ(tool::views_of({row, row, spot}).size(), 2u);
   const std::vector<tool::View> views = tool::views_of({row});
   EXPECT_DOUBLE_EQ(tool::Replanned(views.at(0)).observe(row).frame_ms, 0.25);
 }

@@ -43,7 +43,7 @@ TEST_P(ChangedCase, is_refused_by_name) {
 }
 
 constexpr Change kChanges[] = {
-    {"unknown_top_key", "/lamps", "1", "lamps: unknown key"},
+    {"unknown_top_key", "/shadows", "1", "shadows: unknown key"},
     {"unknown_option", "/options", R"({"lamda": 0.5})", "options.lamda: unknown key"},
     {"unknown_camera_key", "/camera/fov", "60", "camera.fov: unknown key"},
     {"unknown_light_key", "/light/range", "5", "light.range: unknown key"},

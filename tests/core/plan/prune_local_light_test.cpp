@@ -1,4 +1,4 @@
-// What does the plan leave out under lights with a position, and can each rule be switched off?
+// What does the plan omit under local lights, and can each rule be switched off?
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 namespace gnomon::test {
 namespace {
 
-/// A furnished room that a lamp anywhere in it lights.
-struct Lamp {
+/// A furnished room with a local light anywhere in it.
+struct LitRoom {
   Camera camera;
   std::vector<Box> boxes, casters;  // walls and furniture; what of it casts
   Light light;
@@ -27,31 +27,31 @@ struct Lamp {
   }
 };
 
-Lamp random_lamp(Random& random) {
-  Lamp lamp;
+LitRoom random_room(Random& random) {
+  LitRoom room;
   const auto inside = [&] {
     return glm::dvec3(random.between(-9, 9), random.between(0.5, 5.5), random.between(-9, 9));
   };
-  lamp.camera = perspective_camera(inside(), random.direction() - glm::dvec3(0, 0.5, 0), {0, 1, 0},
+  room.camera = perspective_camera(inside(), random.direction() - glm::dvec3(0, 0.5, 0), {0, 1, 0},
                                    random.between(0.4, 1.8), 1.5, random.between(0.05, 0.5), 60.0, 640, 427);
-  lamp.boxes = {{{-10, -0.2, -10}, {10, 0, 10}}, {{-10, 0, -10.2}, {10, 6, -10}}};
+  room.boxes = {{{-10, -0.2, -10}, {10, 0, 10}}, {{-10, 0, -10.2}, {10, 6, -10}}};
   for (int i = 0; i < 6; ++i) {
     const glm::dvec3 at = inside() * glm::dvec3(1, 0.3, 1), half(random.between(0.05, 1.0));
-    lamp.boxes.push_back({at - half, at + half});
+    room.boxes.push_back({at - half, at + half});
   }
-  lamp.casters.assign(lamp.boxes.begin() + (random.unit() < 0.5 ? 0 : 2), lamp.boxes.end());
+  room.casters.assign(room.boxes.begin() + (random.unit() < 0.5 ? 0 : 2), room.boxes.end());
   const glm::dvec3 position = inside();
   const double cone = random.between(0.1, 2.6);
   if (random.unit() < 0.4) {
-    lamp.light = PointLight{position, random.between(3, 30)};
+    room.light = PointLight{position, random.between(3, 30)};
   } else {
-    lamp.light = SpotLight{position, random.direction(), cone, random.between(3, 30)};
+    room.light = SpotLight{position, random.direction(), cone, random.between(3, 30)};
   }
   const int kernel = random.pick(3);
-  lamp.options.filter.texels = kernel == 1 ? random.between(1, 8) : 1.0;
-  lamp.options.filter.world = kernel == 2 ? random.between(0.001, 0.2) : 0.0;
-  lamp.options.resolution.max_size = 256 << random.pick(5);
-  return lamp;
+  room.options.filter.texels = kernel == 1 ? random.between(1, 8) : 1.0;
+  room.options.filter.world = kernel == 2 ? random.between(0.001, 0.2) : 0.0;
+  room.options.resolution.max_size = 256 << random.pick(5);
+  return room;
 }
 
 std::int64_t texels_of(const ShadowPlan& plan) {
@@ -73,10 +73,10 @@ TEST(PruneLocalLight,
   int smaller = 0, whole = 0, more_maps = 0;
   std::int64_t all = 0, left = 0;
   for (int i = 0; i < 600; ++i) {
-    Lamp lamp = random_lamp(random);
-    lamp.options.prune = PruneRules::all();
-    lamp.options.resolution.prune_error = std::exp2(random.between(-2, 2));
-    const ShadowPlan pruned = lamp.plan(), full = lamp.plan_without(PruneRule::metric_resolution);
+    LitRoom room = random_room(random);
+    room.options.prune = PruneRules::all();
+    room.options.resolution.prune_error = std::exp2(random.between(-2, 2));
+    const ShadowPlan pruned = room.plan(), full = room.plan_without(PruneRule::metric_resolution);
     // A smaller map's wider border may reach a caster that the full one's did not.
     if (pruned.map_count > full.map_count) ++more_maps;
     if (pruned.map_count > full.map_count) continue;
@@ -88,7 +88,7 @@ TEST(PruneLocalLight,
     for (int k = 0; k < full.map_count; ++k) {
       const ShadowMap &a = full.map[static_cast<std::size_t>(k)],
                       &b = pruned.map[static_cast<std::size_t>(k)];
-      EXPECT_EQ(a.width, lamp.options.resolution.max_size);
+      EXPECT_EQ(a.width, room.options.resolution.max_size);
       EXPECT_EQ(b.width, b.height);
       EXPECT_LE(b.width, a.width);
       (b.width < a.width ? smaller : whole) += 1;
@@ -96,7 +96,7 @@ TEST(PruneLocalLight,
         EXPECT_EQ(a.clip_from_world, b.clip_from_world) << i;
         continue;
       }
-      EXPECT_LE(b.m_max, lamp.options.resolution.prune_error) << i;
+      EXPECT_LE(b.m_max, room.options.resolution.prune_error) << i;
       EXPECT_EQ(a.kappa, b.kappa) << "what a map shows does not depend on its size";
       EXPECT_GE(4 * b.width, 16 * b.filter_margin_texels) << "no receiver in more than half of a side";
     }
@@ -113,26 +113,26 @@ TEST(PruneLocalLight, maps_of_a_stable_fit_a_history_or_a_budget_keep_their_size
   Random random(2);
   int maps = 0;
   for (int i = 0; i < 60; ++i) {
-    Lamp lamp = random_lamp(random);
-    lamp.options.resolution.max_size = 4096;
-    Lamp stable = lamp;
+    LitRoom room = random_room(random);
+    room.options.resolution.max_size = 4096;
+    LitRoom stable = room;
     stable.options.fit = Fit::stable;
     PlanHistory history;
     for (const ShadowPlan& plan :
          {stable.plan(),
-          make_plan(lamp.camera, lamp.light, {lamp.casters, lamp.boxes}, lamp.options, history)}) {
+          make_plan(room.camera, room.light, {room.casters, room.boxes}, room.options, history)}) {
       for (const ShadowMap& map : plan.maps()) {
         EXPECT_EQ(map.width, 4096);
         ++maps;
       }
     }
-    lamp.options.resolution.texel_budget = 6 * 512 * 512;
-    EXPECT_EQ(texels_of(lamp.plan()), texels_of(lamp.plan_without(PruneRule::metric_resolution)));
+    room.options.resolution.texel_budget = 6 * 512 * 512;
+    EXPECT_EQ(texels_of(room.plan()), texels_of(room.plan_without(PruneRule::metric_resolution)));
   }
   EXPECT_GT(maps, 60);
 }
 
-/// Whether the lamp reaches the point, if nothing is in its way.
+/// Whether the light reaches the point, if nothing is in its way.
 bool reaches(const Light& light, const glm::dvec3& p) {
   if (const auto* point = std::get_if<PointLight>(&light))
     return glm::length(p - point->position) < point->range;
@@ -147,21 +147,21 @@ TEST(PruneLocalLight, random_local_lights_meet_the_bound_that_made_their_maps_sm
   int points = 0, above = 0;
   double largest = 0.0;
   for (int i = 0; i < 400; ++i) {
-    Lamp lamp = random_lamp(random);
-    lamp.options.resolution.max_size = 8192;
-    lamp.options.filter.world = 0.0;
-    const ShadowPlan plan = lamp.plan();
+    LitRoom room = random_room(random);
+    room.options.resolution.max_size = 8192;
+    room.options.filter.world = 0.0;
+    const ShadowPlan plan = room.plan();
     bool met = plan.map_count > 0;
     for (const ShadowMap& map : plan.maps()) met = met && map.m_s_max <= 1.0 && map.m_t_max <= 1.0;
     if (!met) continue;
     Case scene;
-    scene.camera = lamp.camera;
-    scene.receivers = lamp.boxes;
+    scene.camera = room.camera;
+    scene.receivers = room.boxes;
     for (const glm::dvec3& p : visible_points(scene, random, 8, 16)) {
-      if (!reaches(lamp.light, p)) continue;
-      const int map = map_serving(plan, p, depth_of(lamp.camera, p));
+      if (!reaches(room.light, p)) continue;
+      const int map = map_serving(plan, p, depth_of(room.camera, p));
       if (map < 0) continue;
-      const PointAliasing m = measure_perspective(plan.map[static_cast<std::size_t>(map)], lamp.camera, p);
+      const PointAliasing m = measure_perspective(plan.map[static_cast<std::size_t>(map)], room.camera, p);
       if (m.status != PointAliasing::Status::ok) continue;
       ++points;
       largest = std::max({largest, m.perspective_s, m.perspective_t});
@@ -180,17 +180,17 @@ TEST(PruneLocalLight, faces_without_receivers_or_casters_get_maps_only_where_the
   Random random(4);
   int more[2] = {};
   for (int i = 0; i < 200; ++i) {
-    const Lamp lamp = random_lamp(random);
-    const ShadowPlan pruned = lamp.plan();
+    const LitRoom room = random_room(random);
+    const ShadowPlan pruned = room.plan();
     const PruneRule rules[] = {PruneRule::empty_faces, PruneRule::casterless_faces};
     for (int k = 0; k < 2; ++k) {
-      const ShadowPlan full = lamp.plan_without(rules[k]);
+      const ShadowPlan full = room.plan_without(rules[k]);
       more[k] += full.map_count - pruned.map_count;
       const OmissionKind kind =
           k == 0 ? OmissionKind::face_without_receiver : OmissionKind::face_without_caster;
       for (const Omission& o : full.omitted()) {
         // The face behind a narrow cone is dark, whatever is in it.
-        const bool dark = std::holds_alternative<SpotLight>(lamp.light) && o.map == 4;
+        const bool dark = std::holds_alternative<SpotLight>(room.light) && o.map == 4;
         EXPECT_TRUE(o.kind != kind || dark) << i;
       }
       for (const ShadowMap& map : pruned.maps()) {
@@ -213,10 +213,10 @@ TEST(PruneLocalLight, depths_are_pulled_to_what_is_there_only_where_the_rule_is_
   Random random(5);
   int looser = 0, maps = 0;
   for (int i = 0; i < 300; ++i) {
-    Lamp lamp = random_lamp(random);
-    if (i % 3 == 0) lamp.light = DirectionalLight{random.direction() - glm::dvec3(0, 2, 0)};
-    if (i % 2 == 0) lamp.options.fit = Fit::stable;
-    const ShadowPlan pruned = lamp.plan(), full = lamp.plan_without(PruneRule::light_depths);
+    LitRoom room = random_room(random);
+    if (i % 3 == 0) room.light = DirectionalLight{random.direction() - glm::dvec3(0, 2, 0)};
+    if (i % 2 == 0) room.options.fit = Fit::stable;
+    const ShadowPlan pruned = room.plan(), full = room.plan_without(PruneRule::light_depths);
     ASSERT_EQ(pruned.map_count, full.map_count) << i;
     for (int k = 0; k < full.map_count; ++k) {
       const ShadowMap &a = full.map[static_cast<std::size_t>(k)],
@@ -237,16 +237,16 @@ TEST(PruneLocalLight, depths_are_pulled_to_what_is_there_only_where_the_rule_is_
 /// A box round the light says nothing of how near its surfaces are. Floats tell depths apart that lie within
 /// a thousandth of the range; over an eight-thousandth, walls of real rooms have acne.
 TEST(PruneLocalLight, a_room_in_one_box_with_its_light_has_depths_over_a_thousandth_of_its_range) {
-  Lamp lamp;
-  lamp.camera = perspective_camera({1, 1.5, 2}, {0, -0.1, -1}, {0, 1, 0}, 1.2, 1.5, 0.05, 60.0, 640, 427);
-  lamp.boxes = lamp.casters = {{{-5, 0, -4}, {5, 3, 4}}};
+  LitRoom room;
+  room.camera = perspective_camera({1, 1.5, 2}, {0, -0.1, -1}, {0, 1, 0}, 1.2, 1.5, 0.05, 60.0, 640, 427);
+  room.boxes = room.casters = {{{-5, 0, -4}, {5, 3, 4}}};
   const glm::dvec3 place{0.3, 2.0, -0.4};
-  lamp.light = SpotLight{place, {0.1, -0.3, -1.0}, 1.0, 30.0};
-  EXPECT_EQ(lamp.options.light_near_share, 1.0 / 1024.0);
+  room.light = SpotLight{place, {0.1, -0.3, -1.0}, 1.0, 30.0};
+  EXPECT_EQ(room.options.light_near_share, 1.0 / 1024.0);
   // Linear depths allow less.
-  for (const double share : {lamp.options.light_near_share, 0x1p-17, 0x1p-6}) {
-    lamp.options.light_near_share = share;
-    const ShadowPlan plan = lamp.plan();
+  for (const double share : {room.options.light_near_share, 0x1p-17, 0x1p-6}) {
+    room.options.light_near_share = share;
+    const ShadowPlan plan = room.plan();
     ASSERT_EQ(plan.status, PlanStatus::ok);
     ASSERT_EQ(plan.map_count, 1);
     EXPECT_TRUE(std::any_of(plan.omitted().begin(), plan.omitted().end(),
