@@ -12,6 +12,7 @@
 #include <utility>
 #include <variant>
 
+#include "float_channel.hpp"
 #include "planned.hpp"
 
 namespace gnomon::tool {
@@ -26,15 +27,6 @@ render::FrameOptions frame_options(bool pictures) {
   options.aliasing = options.heat_map = pictures;
   options.cascade_tint = false;
   return options;
-}
-
-/// Every `stride`-th value from `first` on.
-std::vector<float> channel(const FloatImage& image, std::size_t first) {
-  const auto stride = static_cast<std::size_t>(image.channels);
-  std::vector<float> values;
-  values.reserve(image.values.size() / stride);
-  for (std::size_t i = first; i < image.values.size(); i += stride) values.push_back(image.values[i]);
-  return values;
 }
 
 /// The kernel of a filter as the box that weighs alike. Texels: half its side; world: the same in world

@@ -10,18 +10,18 @@
 #include <stdexcept>
 
 #include "gnomon/scene/camera_path.hpp"
-#include "gnomon/scene/load.hpp"
 
 namespace gnomon::tool {
 namespace {
 
-constexpr double kSunElevation = 38.0, kSunOverScenes = 140.0, kSunBehindBars = 250.0;  // degrees
+constexpr double kSunBehindBars = 250.0;  // azimuth, degrees
 
 const std::vector<std::string> kLeakColumns{"filter", "RMS to the truth",
                                             "light beyond that of pcf where the truth is dark"};
 
-FilterStage scene_stage(const std::string& scene) {
-  return {load_scene(scene), kSunElevation, kSunOverScenes};
+/// Box and board, with the fence beside them or without.
+FilterStage contact_stage(bool bars) {
+  return {contact_scene(bars), kStageElevationDeg, kSunBehindBars};
 }
 
 CameraOf along_path(const FilterStage& stage, double at) {
@@ -57,8 +57,10 @@ double leaked(const std::vector<float>& lit, const std::vector<float>& compared,
 }
 
 /// Error, and light that leaks, of filters against the first of them, whose kernel is the same.
-void compare(Figure& figure, FilterStage& stage, const std::vector<std::string>& filters,
-             const CameraOf& camera, const FigureSize& size, int map_size) {
+Figure comparison(const std::string& name, const std::string& title, FilterStage& stage,
+                  const std::vector<std::string>& filters, const CameraOf& camera, const FigureSize& size,
+                  int map_size) {
+  Figure figure{name, title, kLeakColumns, {}, {}};
   const std::vector<float> exact = true_visibility(stage, camera, size);
   std::vector<float> compared;
   for (const std::string& filter : filters) {
@@ -66,6 +68,21 @@ void compare(Figure& figure, FilterStage& stage, const std::vector<std::string>&
     if (compared.empty()) compared = lit;
     figure.rows.push_back({filter, {rms(lit, exact), leaked(lit, compared, exact)}});
   }
+  return figure;
+}
+
+/// The same at the contacts of box and board.
+Figure at_contacts(const std::string& name, const std::string& title, bool bars,
+                   const std::vector<std::string>& filters, const FigureSize& size) {
+  FilterStage stage = contact_stage(bars);
+  return comparison(name, title, stage, filters, contact_camera, size, size.narrow_map);
+}
+
+/// The same in a large scene, from a place of its path.
+Figure in_scene(const std::string& name, const std::string& title, const std::string& scene, double at,
+                const std::vector<std::string>& filters, const FigureSize& size) {
+  FilterStage stage(scene);
+  return comparison(name, title, stage, filters, along_path(stage, at), size, size.wide_map);
 }
 
 std::vector<std::string> bleeding_filters() {
@@ -238,7 +255,7 @@ Figure convolution_orders(const FigureSize& size) {
                 {"filter", "RMS to the truth", "bytes a texel"},
                 {},
                 {}};
-  FilterStage stage(contact_scene(false), kSunElevation, kSunBehindBars);
+  FilterStage stage = contact_stage(false);
   const std::vector<float> exact = true_visibility(stage, contact_camera, size);
   const auto add = [&](const std::string& filter) {
     const std::vector<float> lit =
@@ -259,17 +276,12 @@ Figure convolution_orders(const FigureSize& size) {
 }
 
 Figure bleeding_bars(const FigureSize& size) {
-  Figure figure{"bleeding_bars", "Light bleeding behind bars", kLeakColumns, {}, {}};
-  FilterStage bars(contact_scene(true), kSunElevation, kSunBehindBars);
-  compare(figure, bars, bleeding_filters(), contact_camera, size, size.narrow_map);
-  return figure;
+  return at_contacts("bleeding_bars", "Light bleeding behind bars", true, bleeding_filters(), size);
 }
 
 Figure bleeding_fence(const FigureSize& size) {
-  Figure figure{"bleeding_fence", "Light bleeding behind a fence", kLeakColumns, {}, {}};
-  FilterStage fence = scene_stage("builtin:fence");
-  compare(figure, fence, bleeding_filters(), along_path(fence, 0.5), size, size.wide_map);
-  return figure;
+  return in_scene("bleeding_fence", "Light bleeding behind a fence", "builtin:fence", 0.5, bleeding_filters(),
+                  size);
 }
 
 Figure minification(const FigureSize& size) {
@@ -278,7 +290,7 @@ Figure minification(const FigureSize& size) {
                 {"filter", "RMS at 1 time the distance", "2", "4", "8"},
                 {},
                 {}};
-  FilterStage grating(grating_scene(), kSunElevation, kSunBehindBars);
+  FilterStage grating(grating_scene(), kStageElevationDeg, kSunBehindBars);
   for (const char* filter :
        {"hard", "pcf:radius=1", "vsm:radius=1,mipmap=1,anisotropy=16",
         "convolution:radius=1,mipmap=1,anisotropy=16", "esm:radius=1,mipmap=1,anisotropy=16,fallback=0",
@@ -298,17 +310,13 @@ Figure minification(const FigureSize& size) {
 }
 
 Figure contacts(const FigureSize& size) {
-  Figure figure{"contacts", "Power law against VSM and ESM at contacts", kLeakColumns, {}, {}};
-  FilterStage contact(contact_scene(false), kSunElevation, kSunBehindBars);
-  compare(figure, contact, power_law_filters(), contact_camera, size, size.narrow_map);
-  return figure;
+  return at_contacts("contacts", "Power law against VSM and ESM at contacts", false, power_law_filters(),
+                     size);
 }
 
 Figure overlaps(const FigureSize& size) {
-  Figure figure{"overlaps", "Power law against VSM and ESM under overlapping shadows", kLeakColumns, {}, {}};
-  FilterStage trees = scene_stage("builtin:trees");
-  compare(figure, trees, power_law_filters(), along_path(trees, 0.3), size, size.wide_map);
-  return figure;
+  return in_scene("overlaps", "Power law against VSM and ESM under overlapping shadows", "builtin:trees", 0.3,
+                  power_law_filters(), size);
 }
 
 Figure half_resolution(const FigureSize& size) {
@@ -317,7 +325,7 @@ Figure half_resolution(const FigureSize& size) {
                 {"filter", "RMS to the truth", "at half the resolution"},
                 {},
                 {}};
-  FilterStage contact(contact_scene(true), kSunElevation, kSunBehindBars);
+  FilterStage contact = contact_stage(true);
   const std::vector<float> exact = true_visibility(contact, contact_camera, size);
   for (const char* filter : {"pcf", "power_cdf", "vsm", "esm"}) {
     Figure::Row row{filter, {}};
@@ -336,7 +344,7 @@ Figure half_resolution(const FigureSize& size) {
 
 Figure bits(const FigureSize& size) {
   Figure figure{"bits", "16 bits a channel and less against 32", {"filter", "RMS to 32 bits"}, {}, {}};
-  FilterStage trees = scene_stage("builtin:trees");
+  FilterStage trees("builtin:trees");
   const CameraOf camera = along_path(trees, 0.3);
   for (const char* name : {"power_cdf", "vsm", "esm", "lvsm", "evsm4", "msm", "convolution"}) {
     const render::Filter& filter = *render::find_filter(name);
@@ -354,22 +362,20 @@ Figure bits(const FigureSize& size) {
 }
 
 Figure one_scene(const std::string& scene, const FigureSize& size) {
-  Figure figure{"one_scene", "All filters on " + scene, kLeakColumns, {}, {}};
   std::vector<std::string> filters{"pcf:radius=2"};
   for (const render::Filter* filter : render::all_filters()) {
     const std::string name(filter->info.name);
     if (name != "pcf")
       filters.push_back(filter->info.has_kernel && name != "pcss" ? name + ":radius=2" : name);
   }
-  FilterStage stage = scene_stage(scene);
+  FilterStage stage(scene);
   // The flight goes round all of a scene; half its width shows the shadows.
   const CameraOf closer = [path = along_path(stage, 0.3)](int width, int height) {
     Camera camera = path(width, height);
     for (double* edge : {&camera.left, &camera.right, &camera.bottom, &camera.top}) *edge *= 0.5;
     return camera;
   };
-  compare(figure, stage, filters, closer, size, size.wide_map);
-  return figure;
+  return comparison("one_scene", "All filters on " + scene, stage, filters, closer, size, size.wide_map);
 }
 
 Figure exponential_failures(const FigureSize& size) {
@@ -379,7 +385,7 @@ Figure exponential_failures(const FigureSize& size) {
                 {},
                 {}};
   for (const char* name : {"builtin:fence", "builtin:trees"}) {
-    FilterStage stage(load_scene(name), 38.0, 140.0);
+    FilterStage stage{std::string(name)};
     const Camera camera = default_path(stage.scene()).at(0.25, size.width, size.height);
     for (int radius = 0; radius <= 3; ++radius) {
       const std::string side = std::to_string(2 * radius + 1), blur = side + "x" + side;
@@ -412,8 +418,8 @@ Figure matching_samples(const FigureSize& size) {
   constexpr const char* kOfFootprint = "pcf:pattern=1,samples=64, radius of the footprint";
   filters.emplace_back(kOfFootprint);
   for (const std::string& filter : filters) figure.rows.push_back({filter, {}});
-  for (const double elevation_deg : {80.0, 38.0}) {
-    FilterStage stage(grating_scene(), elevation_deg, 250.0);
+  for (const double elevation_deg : {80.0, kStageElevationDeg}) {
+    FilterStage stage(grating_scene(), elevation_deg, kSunBehindBars);
     const CameraOf camera = [](int width, int height) { return grating_camera(4.0, width, height); };
     const std::vector<float> exact = true_visibility(stage, camera, size);
     stage.draw(filter_from("hard"), camera(size.width, size.height), size.wide_map);

@@ -7,6 +7,7 @@
 
 #include "gnomon/render/context.hpp"
 #include "gnomon/scene/default_light.hpp"
+#include "gnomon/scene/load.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -50,6 +51,9 @@ FilterStage::FilterStage(Scene scene, double elevation_deg, double azimuth_deg)
       renderer_(scene_) {
   for (const Instance& instance : scene_.instances) boxes_.push_back(instance.bounds_world);
 }
+
+FilterStage::FilterStage(const std::string& scene)
+    : FilterStage(load_scene(scene), kStageElevationDeg, kStageAzimuthDeg) {}
 
 render::FrameStats FilterStage::draw(const render::FilterSettings& filter, const Camera& camera,
                                      int map_size) {

@@ -1,6 +1,7 @@
 // One scene under the sun, drawn with any filter: what `gnomon filters` measures and shows.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,11 +12,15 @@ namespace gnomon::tool {
 
 /// A small frame: maps are to dominate.
 inline constexpr int kStageWidth = 480, kStageHeight = 270;
+/// Of the sun over a scene, degrees.
+inline constexpr double kStageElevationDeg = 38.0, kStageAzimuthDeg = 140.0;
 
 class FilterStage {
  public:
   /// `azimuth_deg`: where the sun stands, 0 over -Z, 90 over +X. Throws RenderError.
   FilterStage(Scene scene, double elevation_deg, double azimuth_deg);
+  /// A scene by its name, with the sun over it. Throws SceneError and RenderError.
+  explicit FilterStage(const std::string& scene);
 
   /// One map along the view, without a warp: filters are compared, not plans. Throws RenderError.
   render::FrameStats draw(const render::FilterSettings& filter, const Camera& camera, int map_size);

@@ -15,6 +15,7 @@
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/render/window.hpp"
 #include "gnomon/scene/image.hpp"
+#include "steering.hpp"
 
 namespace gnomon::tool::fly {
 namespace {
@@ -107,29 +108,19 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
   apply(viewer);
 }
 
-/// Turns the view by these angles, short of straight up and down.
-void turn(Viewer& viewer, double right, double up) {
-  const glm::dvec3 look = viewer.eye.target - viewer.eye.position;
-  const double heading = std::atan2(look.x, -look.z) + right;
-  constexpr double kSteepest = 1.55;
-  const double pitch = std::clamp(std::atan2(look.y, std::hypot(look.x, look.z)) + up, -kSteepest, kSteepest);
-  viewer.eye.target = viewer.eye.position + glm::dvec3(std::sin(heading) * std::cos(pitch), std::sin(pitch),
-                                                       -std::cos(heading) * std::cos(pitch));
-}
-
 void steer(Viewer& viewer, double seconds) {
   constexpr double kRadiansPerPixel = 0.003, kRadiansPerSecond = 1.2;
   glm::dvec2 mouse{0.0};
   glfwGetCursorPos(viewer.window, &mouse.x, &mouse.y);
   if (viewer.mouse_held) {
-    turn(viewer, (mouse.x - viewer.mouse.x) * kRadiansPerPixel,
+    turn(viewer.eye, (mouse.x - viewer.mouse.x) * kRadiansPerPixel,
          (viewer.mouse.y - mouse.y) * kRadiansPerPixel);
   }
   viewer.mouse = mouse;
   const auto axis = [&viewer](int plus, int minus) {
     return 1.0 * down(viewer, plus) - 1.0 * down(viewer, minus);
   };
-  turn(viewer, axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) * kRadiansPerSecond * seconds,
+  turn(viewer.eye, axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) * kRadiansPerSecond * seconds,
        axis(GLFW_KEY_UP, GLFW_KEY_DOWN) * kRadiansPerSecond * seconds);
 
   Camera camera = viewer.flight.path.at(0.0, 16, 16);
@@ -140,8 +131,7 @@ void steer(Viewer& viewer, double seconds) {
                           glm::dvec3(0.0, axis(GLFW_KEY_E, GLFW_KEY_Q), 0.0);
   // A scene's depth in twenty seconds, whatever its units.
   const double speed = viewer.flight.path.far_depth / 20.0 * (down(viewer, GLFW_KEY_LEFT_SHIFT) ? 4.0 : 1.0);
-  viewer.eye.position += step * (speed * seconds);
-  viewer.eye.target += step * (speed * seconds);
+  move(viewer.eye, step * (speed * seconds));
 }
 
 Camera next_camera(Viewer& viewer, int width, int height, double seconds) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "float_channel.hpp"
 #include "gnomon/reuse.hpp"
 
 namespace gnomon::tool {
@@ -57,7 +58,7 @@ double FramePages::refine(render::Renderer& renderer, const render::PreparedFilt
     for (std::size_t i = 0; i < drawn_.size(); ++i) {
       if (drawn_[i]) drawn_before_.push_back(page_map(now_->plan, now_->plan.pages[i]).clip_from_world);
     }
-    std::vector<float> lit = lit_of(renderer.mask());
+    std::vector<float> lit = channel(renderer.mask(), 0);
     feedback_ = feedback_of(*seen_, lit, before);
     before = std::move(lit);
     std::swap(now_, last_);

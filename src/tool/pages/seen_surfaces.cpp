@@ -94,11 +94,4 @@ std::vector<std::uint8_t> feedback_of(const SeenSurfaces& seen, const std::vecto
   return feedback;
 }
 
-std::vector<float> lit_of(const FloatImage& mask) {
-  std::vector<float> lit;
-  lit.reserve(mask.values.size() / 2);
-  for (std::size_t i = 0; i < mask.values.size(); i += 2) lit.push_back(mask.values[i]);
-  return lit;
-}
-
 }  // namespace gnomon::tool

@@ -36,7 +36,5 @@ struct SeenSurfaces {
 /// where there is none, and every point counts as changed.
 [[nodiscard]] std::vector<std::uint8_t> feedback_of(const SeenSurfaces& seen, const std::vector<float>& lit,
                                                     const std::vector<float>& before);
-/// Channel "visibility" of Renderer::mask().
-[[nodiscard]] std::vector<float> lit_of(const FloatImage& mask);
 
 }  // namespace gnomon::tool

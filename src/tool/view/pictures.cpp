@@ -7,11 +7,11 @@
 #include <array>
 #include <cmath>
 
+#include "float_channel.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/report/errors.hpp"
 #include "lines.hpp"
 #include "picture_colors.hpp"
-#include "seen_surfaces.hpp"
 
 namespace gnomon::tool::view {
 namespace {
@@ -98,7 +98,7 @@ double flips_between(const FloatImage& before, const FloatImage& after) {
     for (std::size_t i = 0; i < truth.size(); ++i) truth[i] = mask.values[2 * i + 1] < 0.0f ? -1.0f : 1.0f;
     return truth;
   };
-  return report::excess_flips(lit_of(before), lit_of(after), truth_of(before), truth_of(after));
+  return report::excess_flips(channel(before, 0), channel(after, 0), truth_of(before), truth_of(after));
 }
 
 Image checker_picture(const Image& lit, const FloatImage& mask, const FloatImage& positions,

@@ -1,0 +1,20 @@
+// One channel of an image, as a list of its pixels.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "gnomon/scene/image.hpp"
+
+namespace gnomon::tool {
+
+/// The channel `index` of each pixel, in their order.
+[[nodiscard]] inline std::vector<float> channel(const FloatImage& image, std::size_t index) {
+  const auto stride = static_cast<std::size_t>(image.channels);
+  std::vector<float> values;
+  values.reserve(image.values.size() / stride);
+  for (std::size_t i = index; i < image.values.size(); i += stride) values.push_back(image.values[i]);
+  return values;
+}
+
+}  // namespace gnomon::tool
