@@ -2,6 +2,7 @@
 // manual pages alike.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -21,9 +22,15 @@ struct ParsedWord {
   std::function<bool(const std::string&)> set;
   std::string shown;  ///< the default, as help shows it
 };
+/// A list of such values: `set` throws std::runtime_error with `option` in front for words that it does not
+/// know.
+struct ParsedWords {
+  std::function<void(const std::string& option, const std::vector<std::string>& words)> set;
+  std::string shown;  ///< the default, as help shows it
+};
 /// Where an option's words go. A bool makes a flag.
 using Target = std::variant<bool*, int*, double*, std::uint64_t*, std::string*, std::vector<int>*,
-                            std::vector<std::string>*, ParsedWord>;
+                            std::vector<std::string>*, ParsedWord, ParsedWords>;
 
 /// What a shell completes an option's value with, besides its names.
 enum class Completion { names, files, folders };
@@ -81,6 +88,17 @@ void warn(const std::string& what);
 /// Throws std::runtime_error "OPTION VALUE: wants a, b or c", with the nearest name where there is one.
 [[noreturn]] void refuse_name(std::string_view option, const std::string& value,
                               std::span<const std::string> names);
+/// An enumerator by its place among `names`, which has one for each that may be chosen.
+template <class Enum>
+[[nodiscard]] ParsedWord enum_word(Enum& value, const std::vector<std::string>& names) {
+  const auto set = [&value, names](const std::string& word) {
+    const auto at = std::find(names.begin(), names.end(), word);
+    if (at == names.end()) return false;
+    value = static_cast<Enum>(at - names.begin());
+    return true;
+  };
+  return {set, names.at(static_cast<std::size_t>(value))};
+}
 /// The names of a registry of pointers, such as all_warps().
 template <class Entries>
 [[nodiscard]] std::vector<std::string> names_in(const Entries& entries,

@@ -38,6 +38,14 @@ CLI::Option* bind_parsed(CLI::App& app, const Option& option, const ParsedWord& 
   return app.add_option_function<std::string>(option.name, set, option.help)->default_str(parsed.shown);
 }
 
+CLI::Option* bind_parsed(CLI::App& app, const Option& option, const ParsedWords& parsed) {
+  const auto set = [option, parsed](const std::vector<std::string>& words) {
+    parsed.set(option.name, words);
+  };
+  return app.add_option_function<std::vector<std::string>>(option.name, set, option.help)
+      ->default_str(parsed.shown);
+}
+
 /// Declares the option's target, with the checks that its type has.
 CLI::Option* bind(CLI::App& app, const Option& option) {
   const auto to = [&]<class Value>(Value* value) -> CLI::Option* {
@@ -83,7 +91,9 @@ void declare_option(CLI::App& app, const Option& option) {
   if (option.delimiter != '\0') bound->delimiter(option.delimiter);
   if (option.words > 0) bound->expected(option.words);
   const bool checked = !option.names.empty() && option.only_names;
-  if (checked && !std::holds_alternative<ParsedWord>(option.target)) {
+  const bool is_parsed =
+      std::holds_alternative<ParsedWord>(option.target) || std::holds_alternative<ParsedWords>(option.target);
+  if (checked && !is_parsed) {
     bound->check([option](const std::string& text) {
       if (std::find(option.names.begin(), option.names.end(), text) == option.names.end())
         refuse_name(option.name, text, option.names);

@@ -9,24 +9,17 @@
 
 namespace gnomon::tool {
 
+/// In the order of render::ContextKind.
 [[nodiscard]] inline std::vector<std::string> offscreen_context_names() {
   return {"auto", "osmesa", "egl"};
 }
 
 /// --context; `whose` says what the context is for.
-[[nodiscard]] inline Option context_option(std::string& name, const std::string& whose = "") {
+[[nodiscard]] inline Option context_option(render::ContextKind& kind, const std::string& whose = "") {
   return {.name = "--context",
-          .target = &name,
+          .target = enum_word(kind, offscreen_context_names()),
           .help = "OpenGL context" + whose + ": auto, osmesa or egl",
           .names = offscreen_context_names()};
-}
-
-/// Throws std::runtime_error for any other name.
-[[nodiscard]] inline render::ContextKind offscreen_context(const std::string& name) {
-  render::ContextKind kind{};
-  if (!render::context_kind_from_name(name, kind) || kind == render::ContextKind::glfw)
-    refuse_name("--context", name, offscreen_context_names());
-  return kind;
 }
 
 }  // namespace gnomon::tool

@@ -11,7 +11,7 @@ namespace gnomon::tool {
 namespace {
 
 template <class Words>
-std::string joined(const Words& words) {
+std::string comma_list(const Words& words) {
   std::string all;
   for (const auto& word : words) {
     all += all.empty() ? "" : ",";
@@ -48,7 +48,8 @@ std::string number_word(double value) {
 
 bool takes_list(const Option& option) {
   return std::holds_alternative<std::vector<int>*>(option.target) ||
-         std::holds_alternative<std::vector<std::string>*>(option.target);
+         std::holds_alternative<std::vector<std::string>*>(option.target) ||
+         std::holds_alternative<ParsedWords>(option.target);
 }
 
 bool is_positional(const Option& option) {
@@ -61,9 +62,11 @@ std::string value_word(const Option& option) {
   if (!option.names.empty()) return "NAME";
   if (option.completion == Completion::files) return "FILE";
   if (option.completion == Completion::folders) return "DIR";
-  const bool text = std::holds_alternative<std::string*>(option.target) ||
-                    std::holds_alternative<std::vector<std::string>*>(option.target);
-  return text ? "TEXT" : "N";
+  const bool number = std::holds_alternative<int*>(option.target) ||
+                      std::holds_alternative<double*>(option.target) ||
+                      std::holds_alternative<std::uint64_t*>(option.target) ||
+                      std::holds_alternative<std::vector<int>*>(option.target);
+  return number ? "N" : "TEXT";
 }
 
 std::string default_word(const Option& option) {
@@ -72,13 +75,13 @@ std::string default_word(const Option& option) {
         using Type = std::remove_cvref_t<decltype(target)>;
         if constexpr (std::is_same_v<Type, bool*>) {
           return {};
-        } else if constexpr (std::is_same_v<Type, ParsedWord>) {
+        } else if constexpr (std::is_same_v<Type, ParsedWord> || std::is_same_v<Type, ParsedWords>) {
           return target.shown;
         } else if constexpr (std::is_same_v<Type, std::string*>) {
           return *target;
         } else if constexpr (std::is_same_v<Type, std::vector<std::string>*> ||
                              std::is_same_v<Type, std::vector<int>*>) {
-          return joined(*target);
+          return comma_list(*target);
         } else {
           const auto value = static_cast<double>(*target);
           // A value outside of the range marks an option that is not given.

@@ -12,42 +12,42 @@
 
 namespace gnomon::tool {
 
-/// Reads the pixels of --size. Throws std::runtime_error where `text` is not WIDTHxHEIGHT, each within
-/// [least, most].
-inline void read_picture_size(const std::string& text, int least, int most, int& width, int& height) {
-  const std::size_t x = text.find('x');
-  const auto number = [&](std::size_t begin, std::size_t end, int& value) {
-    const auto [last, error] = std::from_chars(text.data() + begin, text.data() + end, value);
-    return error == std::errc{} && last == text.data() + end && value >= least && value <= most;
+/// --size of a command: WIDTHxHEIGHT, each kLeastPictureSide to kMostPictureSide.
+inline constexpr int kLeastPictureSide = 16, kMostPictureSide = 16'384;
+[[nodiscard]] inline Option size_option(int& width, int& height,
+                                        std::string help = "size of a frame in pixels, WIDTHxHEIGHT") {
+  const auto set = [&width, &height](const std::string& text) {
+    const std::size_t x = text.find('x');
+    const auto number = [&](std::size_t begin, std::size_t end, int& value) {
+      const auto [last, error] = std::from_chars(text.data() + begin, text.data() + end, value);
+      return error == std::errc{} && last == text.data() + end && value >= kLeastPictureSide &&
+             value <= kMostPictureSide;
+    };
+    if (x == std::string::npos || !number(0, x, width) || !number(x + 1, text.size(), height))
+      throw std::runtime_error("--size " + text + ": wants WIDTHxHEIGHT, each " +
+                               std::to_string(kLeastPictureSide) + " to " + std::to_string(kMostPictureSide) +
+                               ", as in 960x540");
+    return true;
   };
-  if (x == std::string::npos || !number(0, x, width) || !number(x + 1, text.size(), height))
-    throw std::runtime_error("--size " + text + ": wants WIDTHxHEIGHT, each " + std::to_string(least) +
-                             " to " + std::to_string(most) + ", as in 960x540");
+  return {.name = "--size",
+          .target = ParsedWord{set, std::to_string(width) + "x" + std::to_string(height)},
+          .help = std::move(help)};
 }
 
 [[nodiscard]] inline std::vector<std::string> transition_names() {
   return {"cut", "blend", "dither"};  // in the order of render::SplitTransition
-}
-/// `name` is one of transition_names().
-[[nodiscard]] inline render::SplitTransition transition_from_name(const std::string& name) {
-  if (name == "blend") return render::SplitTransition::blend;
-  return name == "dither" ? render::SplitTransition::dither : render::SplitTransition::cut;
 }
 
 /// In the order of render::MapPasses.
 [[nodiscard]] inline std::vector<std::string> map_passes_names() {
   return {"each", "layered", "auto"};
 }
-/// --map-passes of a command that draws maps; `name` is one of map_passes_names().
-[[nodiscard]] inline Option map_passes_option(std::string& name) {
+/// --map-passes of a command that draws maps.
+[[nodiscard]] inline Option map_passes_option(render::MapPasses& passes) {
   return {.name = "--map-passes",
-          .target = &name,
+          .target = enum_word(passes, map_passes_names()),
           .help = "how maps are drawn: one pass for each, or one layered pass for all where the driver can",
           .names = map_passes_names()};
-}
-[[nodiscard]] inline render::MapPasses map_passes_from_name(const std::string& name) {
-  if (name == "each") return render::MapPasses::each;
-  return name == "layered" ? render::MapPasses::layered : render::MapPasses::automatic;
 }
 
 /// Names of the depth layers behind those of `before`, in their order.
@@ -55,17 +55,11 @@ inline void read_picture_size(const std::string& text, int least, int most, int&
   for (const render::DepthLayerInfo& info : render::depth_layers()) before.emplace_back(info.name);
   return before;
 }
-/// --layer of a command that draws one picture; `name` is one of layer_names().
-[[nodiscard]] inline Option layer_option(std::string& name) {
+/// --layer of a command that draws one picture.
+[[nodiscard]] inline Option layer_option(render::DepthLayer& layer) {
   return {.name = "--layer",
-          .target = &name,
+          .target = enum_word(layer, layer_names()),
           .help = "depth that the maps store; docs/bias.md says which for which scene",
           .names = layer_names()};
 }
-/// `name` is one of layer_names().
-[[nodiscard]] inline render::DepthLayer layer_from_name(const std::string& name) {
-  const render::DepthLayerInfo* const info = render::find_depth_layer(name);
-  return info != nullptr ? info->layer : render::DepthLayer::front;
-}
-
 }  // namespace gnomon::tool

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "command.hpp"
@@ -20,10 +22,15 @@ namespace gnomon::tool {
 
 /// Throws std::runtime_error where `word` begins as a built-in scene and is none; files are left to the
 /// loader.
-inline void check_scene_word(const char* option, const std::string& word) {
+inline void check_scene_word(std::string_view option, const std::string& word) {
   const std::vector<std::string> words = builtin_scene_words();
   if (word.starts_with("builtin:") && std::find(words.begin(), words.end(), word) == words.end())
     refuse_name(option, word, words);
+}
+
+/// A scene's name in names of files: the built-in's, or the file's without its ending.
+[[nodiscard]] inline std::string scene_stem(const std::string& scene) {
+  return std::filesystem::path(scene.substr(scene.find_last_of(":/") + 1)).stem().string();
 }
 
 [[nodiscard]] inline std::string scene_help() {
@@ -33,17 +40,18 @@ inline void check_scene_word(const char* option, const std::string& word) {
 }
 
 /// --light, --light-elevation-deg, --light-azimuth-deg.
-[[nodiscard]] inline std::vector<Option> light_options(std::string& kind, LightPlacement& sun) {
+[[nodiscard]] inline std::vector<Option> light_options(LightPlacement& light) {
+  const std::vector<std::string> kinds{"sun", "spot", "point"};  // in the order of LightKind
   return {{.name = "--light",
-           .target = &kind,
+           .target = enum_word(light.kind, kinds),
            .help = "sun, or a spot or point light in the middle of the scene",
-           .names = {"sun", "spot", "point"}},
+           .names = kinds},
           {.name = "--light-elevation-deg",
-           .target = &sun.elevation_deg,
+           .target = &light.elevation_deg,
            .help = "elevation of the sun above the horizon, degrees",
            .range = {{0.1, 90.0}}},
           {.name = "--light-azimuth-deg",
-           .target = &sun.azimuth_deg,
+           .target = &light.azimuth_deg,
            .help = "azimuth of the sun, degrees: 0 is -Z, 90 is +X",
            .range = {{-360.0, 360.0}}}};
 }

@@ -11,15 +11,14 @@
 #include "compare/measure.hpp"
 #include "compare/stage.hpp"
 #include "compare/sweep.hpp"
+#include "float_channel.hpp"
 #include "gnomon/jitter.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/report/errors.hpp"
 #include "gnomon/scene/image.hpp"
 #include "interrupt.hpp"
-#include "offscreen_context.hpp"
 #include "output.hpp"
 #include "progress.hpp"
-#include "scene_words.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -28,50 +27,26 @@ constexpr int kFlightFrames = 600;  ///< ten seconds at 60 Hz
 constexpr int kFrame = kFlightFrames / 2;
 constexpr int kMostFrames = 4096;
 
-struct AccumulateRequest {
-  std::vector<std::string> scenes, filters{"hard"};
-  std::vector<int> frames{1, 8, 64};
-  std::string animation;  ///< empty: the scene is at rest
-  std::string size = "1680x1050", warp = "optimal", noise = "blue", light = "sun", context = "auto", out;
-  int map_size = 1024, cascades = 1, moving = 32;
-  LightPlacement sun;
-  double bias = 0.05;
+struct AccumulateRequest : Measuring {
+  AccumulateRequest() {
+    width = 1680;
+    height = 1050;
+  }
+  MeasuredMaps maps{technique_warp("--warp", "optimal")};
+  std::vector<TechniqueFilter> filters;
+  std::vector<int> rest_frames{1, 8, 64};  ///< after which the view at rest is measured
+  int moving_frames = 32;                  ///< 0: none
+  render::SampleNoise noise = render::SampleNoise::blue;
+  double bias = 0.05;  ///< share of the usual one
   render::Accumulation settings;
-  bool json = false;
 };
-
-std::vector<std::string> noise_names() {
-  return {"still", "gradient", "blue"};
-}
-
-std::vector<std::string> warp_names() {
-  std::vector<std::string> names = names_in(all_warps());
-  names.insert(names.begin(), "auto");
-  return names;
-}
-
-render::SampleNoise noise_from(const std::string& name) {
-  const std::vector<std::string> names = noise_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) refuse_name("--noise", name, names);
-  return static_cast<render::SampleNoise>(found - names.begin());
-}
 
 /// The sweep of the filters, in frames as a viewer at 60 Hz sees them.
 Sweep sweep_of(const AccumulateRequest& request) {
-  CompareRequest compared;
-  compared.scenes = request.scenes;
-  compared.filters = request.filters;
-  compared.warps = {request.warp};
-  compared.cascades = {std::to_string(request.cascades)};
-  compared.map_sizes = {std::to_string(request.map_size)};
-  compared.size = request.size;
-  compared.animation = request.animation;
-  compared.frames = kFlightFrames;
-  compared.context = request.context;
-  compared.light = request.light;
-  compared.sun = request.sun;
-  Sweep sweep = make_sweep(compared);
+  SweepRequest product = one_kind_of_maps(request, request.maps);
+  product.filters = request.filters;
+  product.frames = kFlightFrames;
+  Sweep sweep = make_sweep(product);
   for (SweepEntry& entry : sweep.entries) {
     entry.plan.filter.texels += kJitterReachTexels;
     BiasOptions& bias = entry.plan.bias;
@@ -92,7 +67,7 @@ struct DrawnMask {
 class Run {
  public:
   Run(const AccumulateRequest& request, Stage& stage, const SweepEntry& entry)
-      : request_(request), noise_(noise_from(request.noise)), stage_(stage), entry_(entry) {}
+      : request_(request), stage_(stage), entry_(entry) {}
 
   /// `index` counts from 0; 0 forgets what was accumulated. Not accumulated: the frame alone.
   DrawnMask draw(const Camera& camera, int index, bool accumulated) {
@@ -100,18 +75,14 @@ class Run {
     const ShadowPlan plan = jittered(stage_.plan(entry_, camera), jitter_texels(frame));
     render::FrameOptions options;
     options.aliasing = options.heat_map = options.cascade_tint = false;
-    options.noise = noise_;
+    options.noise = request_.noise;
     options.frame_index = frame;
     options.accumulation = request_.settings;
     options.accumulation.on = accumulated;
     options.accumulation.restart = index == 0;
     const render::FrameStats stats = stage_.renderer().draw(plan, camera, stage_.filter(entry_), options);
-    const FloatImage mask = stage_.renderer().mask();
-    DrawnMask drawn;
-    for (std::size_t i = 0; i < mask.values.size(); i += 2) drawn.lit.push_back(mask.values[i]);
-    drawn.mask_ms = stats.ms(render::Pass::mask);
-    drawn.accumulate_ms = stats.ms(render::Pass::accumulate);
-    return drawn;
+    return {channel(stage_.renderer().mask(), 0), stats.ms(render::Pass::mask),
+            stats.ms(render::Pass::accumulate)};
   }
 
   void write_picture(const std::string& name) const {
@@ -121,7 +92,6 @@ class Run {
 
  private:
   const AccumulateRequest& request_;
-  render::SampleNoise noise_;
   Stage& stage_;
   const SweepEntry& entry_;
 };
@@ -183,7 +153,7 @@ void print_row(const AccumulateRow& row, bool json) {
 /// The view at rest: rows at the requested numbers of frames.
 void measure_rest(const AccumulateRequest& request, Run& run, const Camera& camera, const FrameTruth& truth,
                   AccumulateRow row) {
-  std::vector<int> wanted = request.frames;
+  std::vector<int> wanted = request.rest_frames;
   std::sort(wanted.begin(), wanted.end());
   row.view = "at rest";
   double first = -1.0;
@@ -219,7 +189,7 @@ struct Sequence {
 
 void measure_sequence(const AccumulateRequest& request, Run& run, const Sequence& sequence,
                       const FrameTruth& truth, AccumulateRow row) {
-  const int last = request.moving - 1;
+  const int last = request.moving_frames - 1;
   sequence.pose(last);
   const DrawnMask single = run.draw(sequence.camera(last), last, false);
   row.view = sequence.name + ", alone";
@@ -236,7 +206,7 @@ void measure_sequence(const AccumulateRequest& request, Run& run, const Sequence
   run.write_picture(row.filter.substr(0, row.filter.find(':')) + "_" + sequence.name);
   const double alone = row.wrong;
   row.view = sequence.name;
-  row.frames = request.moving;
+  row.frames = request.moving_frames;
   row.wrong = misclassified(accumulated.lit, truth);
   row.to_first = alone > 0.0 ? row.wrong / alone : -1.0;
   row.ghosts = ghosting(accumulated.lit, single.lit, truth);
@@ -247,24 +217,23 @@ void measure_sequence(const AccumulateRequest& request, Run& run, const Sequence
 
 /// The view on its way to the frame that is measured.
 Sequence moving_view(const AccumulateRequest& request, const Stage& stage) {
-  return {"moving", [](int) {}, [&](int index) { return stage.camera(kFrame - request.moving + 1 + index); }};
+  return {"moving", [](int) {},
+          [&](int index) { return stage.camera(kFrame - request.moving_frames + 1 + index); }};
 }
 
 /// The view at rest while the animation plays up to the frame's pose.
 Sequence moving_casters(const AccumulateRequest& request, Stage& stage) {
-  return {"animated", [&](int index) { stage.pose_before(kFrame, request.moving - 1 - index); },
+  return {"animated", [&](int index) { stage.pose_before(kFrame, request.moving_frames - 1 - index); },
           [&](int) { return stage.camera(kFrame); }};
 }
 
 int run_accumulate(const AccumulateRequest& request) {
-  for (const std::string& scene : request.scenes) check_scene_word("SCENE", scene);
-  for (const int frames : request.frames)
+  for (const int frames : request.rest_frames)
     if (frames < 1 || frames > kMostFrames)
       throw std::runtime_error("--frames " + std::to_string(frames) + ": wants 1 to " +
                                std::to_string(kMostFrames));
-  (void)noise_from(request.noise);
-  if (request.warp != "auto" && find_warp(request.warp) == nullptr)
-    refuse_name("--warp", request.warp, warp_names());
+  if (request.maps.warp.shape != nullptr)
+    refuse_name("--warp", request.maps.warp.name, names_in(all_warps(), {"auto"}));
   const Sweep sweep = sweep_of(request);
   watch_interrupts();
   if (!request.out.empty()) make_folder("--out", request.out);
@@ -284,7 +253,7 @@ int run_accumulate(const AccumulateRequest& request) {
       row.scene = scene;
       row.filter = to_string(entry.filter);
       measure_rest(request, run, truth.camera, truth, row);
-      if (request.moving > 0) {
+      if (request.moving_frames > 0) {
         measure_sequence(request, run, moving_view(request, stage), truth, row);
         if (stage.plays()) measure_sequence(request, run, moving_casters(request, stage), truth, row);
       }
@@ -294,44 +263,34 @@ int run_accumulate(const AccumulateRequest& request) {
   return 0;
 }
 
-/// Which maps are drawn, and under which light.
-std::vector<Option> scene_options(AccumulateRequest& request) {
-  return {{.name = "--filters",
-           .target = &request.filters,
-           .help = "filters, with options as in pcss:angle_deg=1",
-           .names = names_in(render::all_filters()),
-           .only_names = false},
-          {.name = "--warp",
-           .target = &request.warp,
-           .help = "warp of the maps, or none",
-           .names = warp_names(),
-           .only_names = false},
-          {.name = "--animation",
-           .target = &request.animation,
-           .help = "animation that plays before a view at rest, by name or number",
-           .word = "NAME"},
-          {.name = "--cascades",
-           .target = &request.cascades,
-           .help = "number of shadow maps along the view",
-           .range = {{1, kMaxMaps}}},
-          {.name = "--map-size",
-           .target = &request.map_size,
-           .help = "texels along each side of a map",
-           .range = {{64, 16384}}},
-          {.name = "--bias",
-           .target = &request.bias,
-           .help = "share of the usual bias; comparisons near texels' centres need less of it",
-           .range = {{0.0, 4.0}}}};
+/// Which maps are drawn and read, and what moves.
+std::vector<Option> map_options(AccumulateRequest& request) {
+  std::vector<Option> options{{.name = "--filters",
+                               .target = word_list(request.filters, read_filters, {"hard"}),
+                               .help = "filters, with options as in pcss:angle_deg=1",
+                               .names = names_in(render::all_filters())}};
+  for (Option& option : measured_maps_options(request.maps)) options.push_back(std::move(option));
+  options.insert(options.begin() + 2,
+                 {.name = "--animation",
+                  .target = &request.animation,
+                  .help = "animation that plays before a view at rest, by name or number",
+                  .word = "NAME"});
+  options.push_back({.name = "--bias",
+                     .target = &request.bias,
+                     .help = "share of the usual bias; comparisons near texels' centres need less of it",
+                     .range = {{0.0, 4.0}}});
+  return options;
 }
 
 /// How frames are accumulated.
 std::vector<Option> accumulation_options(AccumulateRequest& request) {
+  const std::vector<std::string> noises{"still", "gradient", "blue"};  // in the order of render::SampleNoise
   return {{.name = "--frames",
-           .target = &request.frames,
+           .target = &request.rest_frames,
            .help = "numbers of frames after which the view at rest is measured",
            .delimiter = ','},
           {.name = "--moving",
-           .target = &request.moving,
+           .target = &request.moving_frames,
            .help = "frames of a moving view, or of an animation, at 60 Hz that are accumulated; 0: none",
            .range = {{0, kFrame}}},
           {.name = "--confidence-power",
@@ -347,36 +306,20 @@ std::vector<Option> accumulation_options(AccumulateRequest& request) {
            .help = "share of the view depth by which the history may be off",
            .range = {{0.0, 1.0}}},
           {.name = "--noise",
-           .target = &request.noise,
+           .target = enum_word(request.noise, noises),
            .help = "noise of sample patterns from frame to frame",
-           .names = noise_names()}};
+           .names = noises}};
 }
 
 }  // namespace
 
 std::function<int()> declare_accumulate(Arguments& arguments) {
   const auto request = std::make_shared<AccumulateRequest>();
-  arguments.options = {{.name = "SCENE",
-                        .target = &request->scenes,
-                        .help = "builtin:NAME or glTF files",
-                        .required = true,
-                        .names = builtin_scene_words(),
-                        .only_names = false,
-                        .completion = Completion::files}};
-  for (Option& option : accumulation_options(*request)) arguments.options.push_back(std::move(option));
-  for (Option& option : scene_options(*request)) arguments.options.push_back(std::move(option));
-  for (Option& option : light_options(request->light, request->sun))
-    arguments.options.push_back(std::move(option));
-  arguments.options.push_back(
-      {.name = "--size", .target = &request->size, .help = "size of a frame in pixels, WIDTHxHEIGHT"});
-  arguments.options.push_back(
-      {.name = "--out",
-       .target = &request->out,
-       .help = "folder for pictures of the measured frames; without it none are written",
-       .completion = Completion::folders});
-  arguments.options.push_back(
-      {.name = "--json", .target = &request->json, .help = "print each row as a line of JSON"});
-  arguments.options.push_back(context_option(request->context));
+  std::vector<Option> own = accumulation_options(*request);
+  for (Option& option : map_options(*request)) own.push_back(std::move(option));
+  arguments.options =
+      measuring_options(*request, scenes_option(*request, "builtin:NAME or glTF files", true), std::move(own),
+                        "folder for pictures of the measured frames; without it none are written");
   arguments.footer =
       "Each frame moves the maps' texels by another share of a texel; re-projection accumulates the mask.\n"
       "Misclassified: pixels whose mask is on the wrong side of one half, against exact rays. Flips: pixels\n"

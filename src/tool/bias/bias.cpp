@@ -13,12 +13,12 @@
 #include "compare/planned.hpp"
 #include "compare/stage.hpp"
 #include "compare/sweep.hpp"
+#include "float_channel.hpp"
 #include "gnomon/bias.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/report/errors.hpp"
 #include "gnomon/scene/image.hpp"
 #include "interrupt.hpp"
-#include "offscreen_context.hpp"
 #include "output.hpp"
 #include "picture_words.hpp"
 #include "plan_option.hpp"
@@ -42,13 +42,12 @@ constexpr NamedBias kBiases[] = {
     {"adaptive", {kRounding, 0.0, 0.0}, true}, {"default", {}, true},
 };
 
-struct BiasRequest {
-  std::vector<std::string> scenes, layers{"all"}, biases{"all"};
-  std::string filter = "hard", warp = "none", light = "sun", size = "480x270", context = "auto", out;
-  int map_size = 1024, cascades = 1;
-  PlanOptions plan;  // its light_near_share alone
-  LightPlacement sun;
-  bool json = false;
+struct BiasRequest : Measuring {
+  MeasuredMaps maps;
+  TechniqueFilter filter;
+  std::vector<TechniqueLayer> layers;
+  std::vector<NamedBias> biases;
+  PlanOptions plan;  ///< its light_near_share alone
 };
 
 std::vector<std::string> bias_names() {
@@ -57,12 +56,12 @@ std::vector<std::string> bias_names() {
   return names;
 }
 
-std::vector<NamedBias> chosen_biases(const std::vector<std::string>& texts) {
+std::vector<NamedBias> read_biases(const std::string& option, const Words& words) {
   std::vector<NamedBias> chosen;
-  for (const std::string& text : split_lists(texts)) {
+  for (const std::string& text : split_lists(words)) {
     const auto known = std::find_if(std::begin(kBiases), std::end(kBiases),
                                     [&](const NamedBias& bias) { return bias.name == text; });
-    if (text != "all" && known == std::end(kBiases)) refuse_name("--biases", text, bias_names());
+    if (text != "all" && known == std::end(kBiases)) refuse_name(option, text, bias_names());
     text == "all" ? void(chosen.insert(chosen.end(), std::begin(kBiases), std::end(kBiases)))
                   : chosen.push_back(*known);
   }
@@ -70,25 +69,17 @@ std::vector<NamedBias> chosen_biases(const std::vector<std::string>& texts) {
 }
 
 Sweep sweep_of(const BiasRequest& request) {
-  CompareRequest compared;
-  compared.scenes = request.scenes;
+  SweepRequest product = one_kind_of_maps(request, request.maps);
   // Closed solids, an open sheet, alpha-masked leaves.
-  if (compared.scenes.empty()) compared.scenes = {"builtin:city", "builtin:terrain", "builtin:trees"};
-  compared.filters = {request.filter};
-  compared.layers = request.layers;
-  compared.warps = {request.warp};
-  compared.cascades = {std::to_string(request.cascades)};
-  compared.map_sizes = {std::to_string(request.map_size)};
-  compared.size = request.size;
-  compared.frames = 1;
-  compared.context = request.context;
-  compared.light = request.light;
-  compared.sun = request.sun;
-  Sweep sweep = make_sweep(compared);
+  if (product.scenes.empty()) product.scenes = {"builtin:city", "builtin:terrain", "builtin:trees"};
+  product.filters = {request.filter};
+  product.layers = request.layers;
+  product.frames = 1;
+  Sweep sweep = make_sweep(product);
   for (SweepEntry& entry : sweep.entries) {
     entry.plan.light_near_share = request.plan.light_near_share;
     if (entry.irregular())
-      throw std::runtime_error("--filter " + request.filter + ": compares no depths, and knows no bias");
+      throw std::runtime_error("--filter " + request.filter.name + ": compares no depths, and knows no bias");
   }
   return sweep;
 }
@@ -178,13 +169,12 @@ void print_row(const std::string& scene, const SweepEntry& entry, const NamedBia
   flush_output();
 }
 
-void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::string& scene,
-                   const std::vector<NamedBias>& biases) {
+void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::string& scene) {
   Stage stage(sweep, scene);
   const FrameTruth truth = frame_truth(stage, 0, sweep.baseline);
   const std::vector<double> blocker = blocker_distances(stage, truth);
   for (SweepEntry entry : sweep.entries) {
-    for (const NamedBias& bias : biases) {
+    for (const NamedBias& bias : request.biases) {
       check_interrupt();
       entry.plan.bias = bias.options;
       render::FrameOptions options;
@@ -195,14 +185,10 @@ void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::st
         throw std::runtime_error(scene + ": the plan refuses " + std::string(plan.invalid_field()));
       (void)plan.draw(truth.camera, options);
       const FloatImage mask = stage.renderer().mask();
-      std::vector<float> lit;
-      for (std::size_t i = 0; i < mask.values.size(); i += 2) lit.push_back(mask.values[i]);
-      print_row(scene, entry, bias, report::mask_errors(lit, truth.lit, truth.lit),
+      print_row(scene, entry, bias, report::mask_errors(channel(mask, 0), truth.lit, truth.lit),
                 contact_gap(plan, stage, truth, mask, blocker), request.json);
       if (request.out.empty()) continue;
-      const std::string name =
-          std::filesystem::path(scene.substr(scene.find_last_of(":/") + 1)).stem().string() + "_" +
-          layer_name(entry) + "_" + std::string(bias.name);
+      const std::string name = scene_stem(scene) + "_" + layer_name(entry) + "_" + std::string(bias.name);
       write_png(stage.renderer().image(), std::filesystem::path(request.out) / (name + ".png"));
     }
   }
@@ -210,8 +196,6 @@ void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::st
 }
 
 int run_bias(const BiasRequest& request) {
-  for (const std::string& scene : request.scenes) check_scene_word("SCENE", scene);
-  const std::vector<NamedBias> biases = chosen_biases(request.biases);
   const Sweep sweep = sweep_of(request);
   for (const std::string& line : sweep.left_out) warn(line);
   watch_interrupts();
@@ -221,65 +205,43 @@ int run_bias(const BiasRequest& request) {
     print_line("| scene | layer | bias | false shadow | false light | contact gap, texels |");
     print_line("|--|--|--|--:|--:|--:|");
   }
-  for (const std::string& scene : sweep.scenes) measure_scene(request, sweep, scene, biases);
+  for (const std::string& scene : sweep.scenes) measure_scene(request, sweep, scene);
   return 0;
 }
 
 /// Which maps are drawn and read.
 std::vector<Option> map_options(BiasRequest& request) {
-  return {{.name = "--layers",
-           .target = &request.layers,
-           .help = "depths that the maps store, or all; :linear behind one makes them even along the light",
-           .names = layer_names({"all"}),
-           .only_names = false},
-          {.name = "--biases",
-           .target = &request.biases,
-           .help = "biases of the comparison, or all",
-           .names = bias_names(),
-           .only_names = false},
-          {.name = "--filter",
-           .target = &request.filter,
-           .help = "filter that reads the maps, with options as in pcf:radius=2; or identifiers",
-           .names = names_in(render::all_filters()),
-           .only_names = false},
-          {.name = "--warp",
-           .target = &request.warp,
-           .help = "warp of the maps, or none",
-           .names = names_in(all_warps(), {"auto"}),
-           .only_names = false},
-          {.name = "--cascades",
-           .target = &request.cascades,
-           .help = "number of shadow maps along the view",
-           .range = {{1, kMaxMaps}}},
-          {.name = "--map-size",
-           .target = &request.map_size,
-           .help = "texels along each side of a map",
-           .range = {{64, 16384}}},
-          plan_option("light_near_share", request.plan)};
+  const auto set_filter = [&request](const std::string& word) {
+    request.filter = technique_filter("--filter", word);
+    return true;
+  };
+  std::vector<Option> options{
+      {.name = "--layers",
+       .target = word_list(request.layers, read_layers, {"all"}),
+       .help = "depths that the maps store, or all; :linear behind one makes them even along the light",
+       .names = layer_names({"all"})},
+      {.name = "--biases",
+       .target = word_list(request.biases, read_biases, {"all"}),
+       .help = "biases of the comparison, or all",
+       .names = bias_names()},
+      {.name = "--filter",
+       .target = ParsedWord{set_filter, request.filter.name},
+       .help = "filter that reads the maps, with options as in pcf:radius=2; or identifiers",
+       .names = names_in(render::all_filters())}};
+  for (Option& option : measured_maps_options(request.maps)) options.push_back(std::move(option));
+  options.push_back(plan_option("light_near_share", request.plan));
+  return options;
 }
 
 }  // namespace
 
 std::function<int()> declare_bias(Arguments& arguments) {
   const auto request = std::make_shared<BiasRequest>();
-  arguments.options = {{.name = "SCENE",
-                        .target = &request->scenes,
-                        .help = "builtin:NAME or glTF files; without any: builtin:city, terrain and trees",
-                        .names = builtin_scene_words(),
-                        .only_names = false,
-                        .completion = Completion::files}};
-  for (Option& option : map_options(*request)) arguments.options.push_back(std::move(option));
-  for (Option& option : light_options(request->light, request->sun))
-    arguments.options.push_back(std::move(option));
-  arguments.options.push_back(
-      {.name = "--size", .target = &request->size, .help = "size of a frame in pixels, WIDTHxHEIGHT"});
-  arguments.options.push_back({.name = "--out",
-                               .target = &request->out,
-                               .help = "folder for a picture of each row; without it none are written",
-                               .completion = Completion::folders});
-  arguments.options.push_back(
-      {.name = "--json", .target = &request->json, .help = "print each row as a line of JSON"});
-  arguments.options.push_back(context_option(request->context));
+  arguments.options = measuring_options(
+      *request,
+      scenes_option(*request, "builtin:NAME or glTF files; without any: builtin:city, terrain and trees",
+                    false),
+      map_options(*request), "folder for a picture of each row; without it none are written");
   arguments.footer =
       "False shadow and false light are shares of the pixels that exact rays decide. The contact gap is\n"
       "how far from a contact shadows begin: up to this distance of a blocker, in texels at the receiver,\n"

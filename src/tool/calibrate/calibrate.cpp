@@ -24,7 +24,7 @@ struct CalibrateRequest {
   std::string model = "out/cost_model.json";
   bool check = false;  ///< the model is read and held against the folders, else fitted to them and written
   std::string out = "out/calibrate";  ///< of the sweep that is measured
-  std::string context = "auto";
+  render::ContextKind context = render::ContextKind::automatic;
   bool json = false;
 };
 
@@ -33,13 +33,14 @@ struct CalibrateRequest {
 CompareRequest own_sweep(const CalibrateRequest& request) {
   CompareRequest sweep;
   sweep.scenes = {"builtin:city", "builtin:fence", "builtin:hangar", "builtin:terrain", "builtin:trees"};
-  sweep.warps = {"none", "optimal"};
-  sweep.filters = {"hard", "pcf", "pcss", "vsm", "evsm4", "msm"};
-  sweep.cascades = {"1", "3"};
-  sweep.map_sizes = {"512", "1024"};
+  sweep.warps = read_warps("--warps", {"none", "optimal"});
+  sweep.filters = read_filters("--filters", {"hard", "pcf", "pcss", "vsm", "evsm4", "msm"});
+  sweep.cascades = {1, 3};
+  sweep.map_sizes = {512, 1024};
   sweep.frames = 1;
   sweep.rounds = 3;
-  sweep.size = "320x180";
+  sweep.width = 320;
+  sweep.height = 180;
   sweep.out = request.out;
   sweep.context = request.context;
   return sweep;

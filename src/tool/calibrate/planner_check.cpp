@@ -10,7 +10,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "compare/irregular_word.hpp"
 #include "compare/sweep.hpp"
 #include "gnomon/metric.hpp"
 #include "output.hpp"

@@ -2,6 +2,7 @@
 #include "compare.hpp"
 
 #include <array>
+#include <charconv>
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
@@ -19,7 +20,6 @@
 #include "gnomon/scene/load.hpp"
 #include "identifier_word.hpp"
 #include "interrupt.hpp"
-#include "irregular_word.hpp"
 #include "machine.hpp"
 #include "measure.hpp"
 #include "offscreen_context.hpp"
@@ -57,13 +57,13 @@ report::Row empty_row(const Sweep& sweep, std::size_t scene, int frame, std::siz
 }
 
 /// Rows of a frame that are this shard's and not yet in the file.
-std::vector<Task> tasks_of(const Sweep& sweep, std::size_t scene, int frame,
+std::vector<Task> tasks_of(const CompareRequest& request, const Sweep& sweep, std::size_t scene, int frame,
                            const std::set<std::string>& known) {
   std::vector<Task> tasks;
   std::set<std::string> asked;  // maps made smaller may be those of another entry
   for (std::size_t entry = 0; entry < sweep.entries.size(); ++entry) {
     report::Row row = empty_row(sweep, scene, frame, entry);
-    if (!sweep.is_mine(row.index) || known.contains(row.key()) || !asked.insert(row.key()).second) continue;
+    if (!request.is_mine(row.index) || known.contains(row.key()) || !asked.insert(row.key()).second) continue;
     tasks.push_back({entry, std::move(row)});
   }
   return tasks;
@@ -91,11 +91,11 @@ std::vector<std::string> hashes_of(const Sweep& sweep) {
   return hashes;
 }
 
-std::set<std::string> known_keys(const Sweep& sweep, const std::vector<std::string>& hashes) {
+std::set<std::string> known_keys(const Sweep& sweep, bool resume, const std::vector<std::string>& hashes) {
   const fs::path file = fs::path(sweep.out) / report::kRowsFile;
   std::set<std::string> keys;
   if (!fs::exists(file)) return keys;
-  if (!sweep.resume)
+  if (!resume)
     throw std::runtime_error(
         file.string() + " already exists; --resume continues it, another --out starts from the beginning");
   report::SceneHashes now;
@@ -116,9 +116,10 @@ std::set<std::string> known_keys(const Sweep& sweep, const std::vector<std::stri
 /// One sweep under way.
 class Run {
  public:
-  Run(const Sweep& sweep, std::vector<std::string> hashes, const report::Machine& machine,
-      std::set<std::string> known, report::ResultsLock lock)
-      : sweep_(sweep),
+  Run(const CompareRequest& request, const Sweep& sweep, std::vector<std::string> hashes,
+      const report::Machine& machine, std::set<std::string> known, report::ResultsLock lock)
+      : request_(request),
+        sweep_(sweep),
         hashes_(std::move(hashes)),
         machine_(machine),
         known_(std::move(known)),
@@ -129,7 +130,7 @@ class Run {
     for (std::size_t scene = 0; scene < sweep_.scenes.size(); ++scene) {
       std::unique_ptr<Stage> stage;
       for (int frame = 0; frame < sweep_.frames; ++frame) {
-        std::vector<Task> tasks = tasks_of(sweep_, scene, frame, known_);
+        std::vector<Task> tasks = tasks_of(request_, sweep_, scene, frame, known_);
         if (tasks.empty()) continue;
         if (!stage) stage = std::make_unique<Stage>(sweep_, sweep_.scenes[scene]);
         one_frame(*stage, scene, frame, tasks);
@@ -145,7 +146,7 @@ class Run {
     long long steps = 0;
     for (std::size_t scene = 0; scene < sweep_.scenes.size(); ++scene) {
       for (int frame = 0; frame < sweep_.frames; ++frame) {
-        const auto tasks = static_cast<long long>(tasks_of(sweep_, scene, frame, known_).size());
+        const auto tasks = static_cast<long long>(tasks_of(request_, sweep_, scene, frame, known_).size());
         if (tasks > 0) steps += (2 * tasks + 1) * steps_of_errors();
       }
     }
@@ -181,6 +182,7 @@ class Run {
     }
   }
 
+  const CompareRequest& request_;
   const Sweep& sweep_;
   std::vector<std::string> hashes_;  ///< of the scenes
   report::Machine machine_;
@@ -193,27 +195,26 @@ class Run {
 }  // namespace
 
 Compared compare(const CompareRequest& request) {
-  for (const std::string& scene : request.scenes) check_scene_word("SCENE", scene);
   Sweep sweep = make_sweep(request);
   check_folder("--out", sweep.out);
   std::optional<report::ResultsLock> lock;  // before rows are read: another process may be writing them
   if (fs::is_directory(sweep.out)) lock.emplace(sweep.out);
   const std::vector<std::string> hashes = hashes_of(sweep);
   check_animations(sweep);
-  std::set<std::string> known = known_keys(sweep, hashes);
+  std::set<std::string> known = known_keys(sweep, request.resume, hashes);
   const std::unique_ptr<render::Context> context = render::create_context(sweep.context);
   for (const std::string& line : sweep.left_out) warn(line);
-  for (const std::string& line : fit_to_memory(sweep)) warn(line);
+  for (const std::string& line : fit_to_memory(sweep, request.map_memory_mib)) warn(line);
   make_folder("--out", sweep.out);
   if (!lock) {
     lock.emplace(sweep.out);
-    known = known_keys(sweep, hashes);
+    known = known_keys(sweep, request.resume, hashes);
   }
   watch_interrupts();
-  Run(sweep, hashes, machine(context->info()), std::move(known), std::move(*lock)).all();
+  Run(request, sweep, hashes, machine(context->info()), std::move(known), std::move(*lock)).all();
   // A shard's report would show a part as if it were the whole.
   return {(fs::path(sweep.out) / report::kRowsFile).string(),
-          sweep.shards == 1 ? report::write_report(sweep.out).string() : std::string()};
+          request.shards == 1 ? report::write_report(sweep.out).string() : std::string()};
 }
 
 namespace {
@@ -234,48 +235,45 @@ int run_compare(const CompareRequest& request) {
 std::vector<Option> technique_options(CompareRequest& request) {
   return {
       {.name = "--warps",
-       .target = &request.warps,
+       .target = word_list(request.warps, read_warps, {"none", "lispsm", "optimal"}),
        .help = "perspective warps, or all; auto lets the plan choose",
-       .names = names_in(all_warps(), {"all", "auto"}),
-       .only_names = false},
+       .names = names_in(all_warps(), {"all", "auto"})},
       {.name = "--shapes",
-       .target = &request.shapes,
+       .target = word_list(request.shapes, read_shapes, {"linear"}),
        .help = "how texels lie, or all; rectilinear plans with the points that a frame shows",
-       .names = names_in(all_shapes(), {"all"}),
-       .only_names = false},
+       .names = names_in(all_shapes(), {"all"})},
       {.name = "--splits",
-       .target = &request.splits,
+       .target = word_list(request.splits, read_splits, {"auto"}),
        .help = "how receivers are divided among maps; listed below",
-       .names = split_names(),
-       .only_names = false},
+       .names = split_names()},
       {.name = "--near-hint",
        .target = &request.near_hint,
        .help = "view depth, world units, from which the error of split pseudo_near counts; 0: the near plane",
        .range = {{0.0, 1e30}}},
       {.name = "--fits",
-       .target = &request.fits,
+       .target = word_list(request.fits, read_fits, {"tight"}),
        .help = "fits of a map: tight, stable",
-       .names = {"tight", "stable"},
-       .only_names = false},
-      {.name = "--cascades", .target = &request.cascades, .help = "numbers of shadow maps along the view"},
+       .names = {"tight", "stable"}},
+      {.name = "--cascades",
+       .target = word_list(request.cascades, read_cascades, {"1", "4"}),
+       .help = "numbers of shadow maps along the view"},
       {.name = "--filters",
-       .target = &request.filters,
+       .target = word_list(request.filters, read_filters, {"all"}),
        .help = "filters, with options as in vsm:radius=3; all, irregular (exact; :samples=8), identifiers",
-       .names = names_in(render::all_filters(), {"all", std::string(kIrregular), std::string(kIdentifiers)}),
-       .only_names = false},
+       .names = names_in(render::all_filters(), {"all", std::string(kIrregular), std::string(kIdentifiers)})},
       {.name = "--layers",
-       .target = &request.layers,
+       .target = word_list(request.layers, read_layers, {"front"}),
        .help = "depths that the maps store: front, back, second, ..., or all; listed below",
-       .names = layer_names({"all"}),
-       .only_names = false},
-      {.name = "--map-sizes", .target = &request.map_sizes, .help = "sizes of a map, texels along each side"},
+       .names = layer_names({"all"})},
+      {.name = "--map-sizes",
+       .target = word_list(request.map_sizes, read_map_sizes, {"1024"}),
+       .help = "sizes of a map, texels along each side"},
       {.name = "--pages",
-       .target = &request.pages,
+       .target = word_list(request.pages, read_page_policies, {}),
        .help = "page policies, or all: pages of as many texels as the maps, beside them; listed below",
-       .names = names_in(all_page_policies(), {"all"}),
-       .only_names = false},
+       .names = names_in(all_page_policies(), {"all"})},
       {.name = "--page-sizes",
-       .target = &request.page_sizes,
+       .target = word_list(request.page_sizes, read_page_sizes, {"128"}),
        .help = "sizes of a page, texels along each side: 64, 128, 256"},
       {.name = "--page-target",
        .target = &request.page_target,
@@ -283,8 +281,28 @@ std::vector<Option> technique_options(CompareRequest& request) {
        .range = {{0.0, 1e6}}}};
 }
 
+Option shard_option(CompareRequest& request) {
+  const auto set = [&request](const std::string& word) {
+    constexpr std::size_t kMostShards = 1'000'000;
+    std::size_t shard = 0, shards = 0;
+    const char* const end = word.data() + word.size();
+    const auto [slash, no_shard] = std::from_chars(word.data(), end, shard);
+    const bool parted = no_shard == std::errc{} && slash != end && *slash == '/';
+    const auto [last, no_shards] = std::from_chars(parted ? slash + 1 : end, end, shards);
+    if (!parted || no_shards != std::errc{} || last != end || shard < 1 || shard > shards ||
+        shards > kMostShards)
+      throw std::runtime_error("--shard " + word + ": wants I/N with 1 <= I <= N, as in 2/8");
+    request.shard = shard - 1;
+    request.shards = shards;
+    return true;
+  };
+  return {.name = "--shard",
+          .target = ParsedWord{set, "1/1"},
+          .help = "I/N: measure only part I of N; gnomon merge joins the parts"};
+}
+
 /// What it is measured on.
-std::vector<Option> measuring_options(CompareRequest& request) {
+std::vector<Option> frame_options(CompareRequest& request) {
   return {{.name = "--frames",
            .target = &request.frames,
            .help = "frames along the scene's camera path",
@@ -304,15 +322,17 @@ std::vector<Option> measuring_options(CompareRequest& request) {
           {.name = "--visible-points",
            .target = &request.visible_points,
            .help = "plan with points of the surfaces that the frame shows"},
-          {.name = "--size", .target = &request.size, .help = "size of a frame in pixels, WIDTHxHEIGHT"},
+          size_option(request.width, request.height),
           {.name = "--out",
            .target = &request.out,
            .help = "folder for results and report",
            .completion = Completion::folders},
-          {.name = "--shard",
-           .target = &request.shard,
-           .help = "I/N: measure only part I of N; gnomon merge joins the parts"},
+          shard_option(request),
           context_option(request.context)};
+}
+
+std::vector<Option> sun_options(CompareRequest& request) {
+  return light_options(request.light);
 }
 
 /// What the machine may give.
@@ -326,22 +346,36 @@ std::vector<Option> limit_options(CompareRequest& request) {
           {.name = "--json", .target = &request.json, .help = "print a summary as one line of JSON"}};
 }
 
-std::vector<Option> sun_options(CompareRequest& request) {
-  return light_options(request.light, request.sun);
+/// What the lists take.
+std::string compare_footer() {
+  return "Lists take commas or spaces. Every combination of the lists is measured once. Each result is on "
+         "the disk before the next frame begins: after a crash, --resume continues. Errors compare the "
+         "shadow mask with exact rays.\n\n"
+         "Warps: " +
+         any_of_text(names_in(all_warps(), {"auto"})) + ".\nSplits: " + any_of_text(split_names()) +
+         ", each with :finest, :visible_depths, :coarse_depths or :visible_points behind it, and "
+         "frustum_faces with :slices=K for up to K maps along each side face" +
+         ".\nPages: " + any_of_text(names_in(all_page_policies())) +
+         ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "
+         "that reads depths in texels; the others are named and skipped. docs/pages.md explains them." +
+         "\nLayers: " + any_of_text(layer_names()) +
+         ", each with :linear behind it for depths even along the light. gnomon bias and docs/bias.md "
+         "compare them." +
+         "\nFilters: " + any_of_text(names_in(render::all_filters())) +
+         ". gnomon filters NAME prints the options of one. " + std::string(kIrregular) +
+         " takes no filter: casters are tested against each pixel, for exact hard shadows at their price. " +
+         std::string(kIdentifiers) +
+         " compares who is nearest in place of how near; :of=triangle numbers triangles in place of "
+         "instances, neighbours=1 takes the texels around as well.\n";
 }
 
 }  // namespace
 
 std::function<int()> declare_compare(Arguments& arguments) {
   const auto request = std::make_shared<CompareRequest>();
-  arguments.options = {{.name = "SCENE",
-                        .target = &request->scenes,
-                        .help = "builtin:NAME or glTF files",
-                        .required = true,
-                        .names = builtin_scene_words(),
-                        .only_names = false,
-                        .completion = Completion::files}};
-  for (const auto& part : {technique_options, measuring_options, sun_options, limit_options}) {
+  request->out = "out/compare";
+  arguments.options = {scenes_option(*request, "builtin:NAME or glTF files", true)};
+  for (const auto& part : {technique_options, frame_options, sun_options, limit_options}) {
     for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
   }
   arguments.footer = compare_footer();

@@ -2,193 +2,74 @@
 #include "sweep.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include "command.hpp"
-#include "filter_words.hpp"
 #include "gnomon/render/probe.hpp"
 #include "identifier_word.hpp"
-#include "irregular_word.hpp"
-#include "offscreen_context.hpp"
 #include "page_setting.hpp"
-#include "picture_words.hpp"
 
 namespace gnomon::tool {
 namespace {
 
-constexpr int kMinMapSize = 4, kMaxMapSize = 16'384, kMinSide = 16, kMaxSide = 16'384, kMaxShards = 1'000'000;
-
-[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& wants) {
-  throw std::runtime_error(option + " " + value + ": wants " + wants);
-}
-
-bool parse_int(std::string_view text, int& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size();
-}
-
-/// "A<separator>B" as two numbers in [low, high].
-bool parse_pair(const std::string& text, char separator, int low, int high, int& a, int& b) {
-  const std::size_t at = text.find(separator);
-  if (at == std::string::npos) return false;
-  const std::string_view view = text;
-  return parse_int(view.substr(0, at), a) && parse_int(view.substr(at + 1), b) && a >= low && b >= low &&
-         a <= high && b <= high;
-}
-
-std::vector<int> parse_numbers(const std::string& option, const std::vector<std::string>& texts, int low,
-                               int high) {
-  std::vector<int> numbers;
-  for (const std::string& text : split_lists(texts)) {
-    int number = 0;
-    if (!parse_int(text, number) || number < low || number > high)
-      refuse(option, text, "whole numbers from " + std::to_string(low) + " to " + std::to_string(high));
-    numbers.push_back(number);
-  }
-  return numbers;
-}
-
-std::string_view name_of(const Warp& warp) noexcept {
-  return warp.name;
-}
-std::string_view name_of(const Shape& shape) noexcept {
-  return shape.name;
-}
-std::string_view name_of(const PagePolicy& policy) noexcept {
-  return policy.name;
-}
-std::string_view name_of(const render::Filter& filter) noexcept {
-  return filter.info.name;
-}
-
-/// The list with "all" replaced by every entry of a registry.
-template <class Entries>
-std::vector<std::string> expanded(const std::vector<std::string>& texts, const Entries& entries) {
-  std::vector<std::string> names;
-  for (const std::string& text : split_lists(texts)) {
-    if (text != "all") {
-      names.push_back(text);
-      continue;
-    }
-    for (const auto* entry : entries) names.emplace_back(name_of(*entry));
-  }
-  return names;
-}
-
-/// The list with "all" replaced by every layer.
-std::vector<std::string> expanded_layers(const std::vector<std::string>& texts) {
-  std::vector<std::string> names;
-  for (const std::string& text : split_lists(texts)) {
-    if (text != "all") {
-      names.push_back(text);
-      continue;
-    }
-    for (const render::DepthLayerInfo& info : render::depth_layers()) names.emplace_back(info.name);
-  }
-  return names;
-}
-
-void set_filter(const std::string& text, SweepEntry& entry) {
-  entry.irregular_samples = irregular_samples(text);
-  entry.identifiers = identifier_test(text);
-  const bool no_filter = entry.irregular() || entry.identifiers;
-  entry.filter = no_filter ? render::default_settings(render::filters::hard) : filter_word("--filters", text);
-  entry.technique.filter = no_filter ? text : render::to_string(entry.filter);
+void set_filter(const TechniqueFilter& filter, SweepEntry& entry) {
+  entry.technique.filter = filter.name;
+  entry.filter = filter.settings;
+  entry.identifiers = filter.identifiers;
+  entry.irregular_samples = filter.irregular_samples;
   render::set_margin(entry.filter, entry.plan);
 }
 
-void set_layer(const std::string& text, SweepEntry& entry) {
-  constexpr std::string_view kLinear = ":linear";
-  entry.linear_depth = text.ends_with(kLinear);
-  const std::string layer = text.substr(0, text.size() - (entry.linear_depth ? kLinear.size() : 0));
-  const render::DepthLayerInfo* const info = render::find_depth_layer(layer);
-  if (info == nullptr) refuse_name("--layers", layer, layer_names());
-  entry.layer = info->layer;
-  entry.technique.layer = text == render::depth_layers().front().name ? "" : text;
+void set_layer(const TechniqueLayer& layer, SweepEntry& entry) {
+  entry.technique.layer = layer.name();
+  entry.layer = layer.layer;
+  entry.linear_depth = layer.linear;
 }
 
-void set_warp(const std::string& text, SweepEntry& entry) {
-  entry.technique.warp = text;
-  const std::size_t colon = text.find(':');
-  const std::string warp = text.substr(0, colon);
-  entry.plan.warp.warp = find_warp(warp);
-  if (entry.plan.warp.warp == nullptr && warp != "auto")
-    refuse_name("--warps", text, names_in(all_warps(), {"all", "auto"}));
-  if (colon == std::string::npos) return;
-  entry.plan.warp.shape = find_shape(text.substr(colon + 1));
-  if (entry.plan.warp.shape == nullptr)
-    refuse_name("--shapes", text.substr(colon + 1), names_in(all_shapes(), {"all"}));
+void set_warp(const TechniqueWarp& warp, SweepEntry& entry) {
+  entry.technique.warp = warp.name;
+  entry.plan.warp.warp = warp.warp;
+  if (warp.shape != nullptr) entry.plan.warp.shape = warp.shape;
 }
 
 /// Warps with shapes: `lispsm:logarithmic`. Without a warp only shapes that do not undo one are of use.
-std::vector<std::string> with_shapes(const std::vector<std::string>& warps,
-                                     const std::vector<std::string>& shapes) {
-  std::vector<std::string> both;
-  for (const std::string& warp : warps) {
-    for (const std::string& shape : shapes) {
-      const Shape* const known = find_shape(shape);
-      if (known == nullptr) refuse_name("--shapes", shape, names_in(all_shapes(), {"all"}));
-      if (known->affine)
+std::vector<TechniqueWarp> with_shapes(const std::vector<TechniqueWarp>& warps,
+                                       const std::vector<const Shape*>& shapes) {
+  std::vector<TechniqueWarp> both;
+  for (const TechniqueWarp& warp : warps) {
+    for (const Shape* const shape : shapes) {
+      if (shape->affine)
         both.push_back(warp);
-      else if (warp != "none" || known->serving != nullptr || known->round != nullptr)
-        both.push_back(warp + ":" + shape);
+      else if (warp.shape != nullptr)
+        throw std::runtime_error("--shapes " + std::string(shape->name) + ": " + warp.name +
+                                 " has a shape already");
+      else if (warp.warp != &warps::none || shape->serving != nullptr || shape->round != nullptr)
+        both.push_back({warp.name + ":" + std::string(shape->name), warp.warp, shape});
     }
   }
   return both;
 }
 
-/// Takes `:slices=K` off a split's word, where it has one.
-std::optional<int> face_slices(const std::string& text, std::string& name) {
-  constexpr std::string_view kSlices = ":slices=";
-  const std::size_t at = name.find(kSlices);
-  if (at == std::string::npos) return std::nullopt;
-  const std::size_t begin = at + kSlices.size(), end = std::min(name.find(':', begin), name.size());
-  int count = 0;
-  const auto [rest, error] = std::from_chars(name.data() + begin, name.data() + end, count);
-  const bool whole = error == std::errc() && rest == name.data() + end;
-  if (!whole || count < 1 || count > kMaxMaps)
-    throw std::runtime_error("--splits " + text + ": slices must be a whole number from 1 to " +
-                             std::to_string(kMaxMaps));
-  name.erase(at, end - at);
-  return count;
+TechniqueSplit uniform_split() {
+  TechniqueSplit split{.name = "uniform"};
+  split.options.scheme = SplitScheme::uniform;
+  return split;
 }
 
-void set_split(const std::string& text, SweepEntry& entry) {
-  entry.technique.split = text;
-  std::string name = text;
-  const auto has_suffix = [&](std::string_view suffix) {
-    const std::size_t at = name.find(suffix);
-    if (at == std::string::npos) return false;
-    name.erase(at, suffix.size());
-    return true;
-  };
-  if (has_suffix(":finest")) entry.plan.split.selection = MapSelection::finest;
-  entry.visible_depths = has_suffix(":visible_depths");
-  entry.coarse_depths = has_suffix(":coarse_depths");
-  if (entry.visible_depths && entry.coarse_depths)
-    throw std::runtime_error("--splits " + text + ": a plan takes visible depths from one source");
-  // Set before: a shape that follows what is seen needs it.
-  const bool follows_seen = entry.plan.warp.shape != nullptr && entry.plan.warp.shape->serving != nullptr;
-  entry.visible_points = has_suffix(":visible_points") || follows_seen;
-  const std::optional<int> slices = face_slices(text, name);
-  const bool is_partition = partition_from_name(name, entry.plan.split.partition);
-  if (slices && (!is_partition || entry.plan.split.partition != Partition::frustum_faces))
-    throw std::runtime_error("--splits " + text + ": only frustum_faces has slices");
-  entry.plan.split.face_slices = slices.value_or(1);
-  if (!split_scheme_from_name(name, entry.plan.split.scheme) && (!is_partition || name == "view_depth"))
-    refuse_name("--splits", text, split_names());
+/// The warp is set before: a shape that follows what is visible needs it.
+void set_split(const TechniqueSplit& split, SweepEntry& entry) {
+  entry.technique.split = split.name;
+  entry.plan.split = split.options;
+  entry.visible_depths = split.visible_depths;
+  entry.coarse_depths = split.coarse_depths;
+  entry.visible_points = split.visible_points || entry.plan.warp.shape->serving != nullptr;
 }
 
-void set_fit(const std::string& text, SweepEntry& entry) {
-  entry.technique.fit = text;
-  if (text != "tight" && text != "stable")
-    refuse_name("--fits", text, std::vector<std::string>{"tight", "stable"});
-  entry.plan.fit = text == "stable" ? Fit::stable : Fit::tight;
+void set_fit(Fit fit, SweepEntry& entry) {
+  entry.technique.fit = to_string(fit);
+  entry.plan.fit = fit;
 }
 
 void set_size(int size, SweepEntry& entry) {
@@ -201,10 +82,9 @@ void set_cascades(int cascades, SweepEntry& entry) {
   entry.technique.cascades = entry.plan.cascades = cascades;
 }
 
-void set_pages(const std::string& policy, SweepEntry& entry) {
-  entry.technique.pages = policy;
-  entry.pages.policy = find_page_policy(policy);
-  if (entry.pages.policy == nullptr) refuse_name("--pages", policy, names_in(all_page_policies(), {"all"}));
+void set_pages(const PagePolicy* policy, SweepEntry& entry) {
+  entry.technique.pages = policy->name;
+  entry.pages.policy = policy;
   // Surfaces between the points that were read keep a shadow.
   entry.pages.fallback = true;
 }
@@ -259,7 +139,7 @@ bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
   if (by_depth && t.cascades == 1 && t.split != first.split && !follows_view) return true;
   if (as_many && !by_depth && t.cascades == 1) return true;
   if (!as_many && t.cascades != first.cascades) return true;
-  return t.fit == "stable" && (!by_depth || (t.warp != "none" && t.warp != first.warp));
+  return entry.plan.fit == Fit::stable && (!by_depth || (t.warp != "none" && t.warp != first.warp));
 }
 
 /// Removes entries whose maps hold no identifiers; `left_out` gets a line for them.
@@ -288,33 +168,43 @@ void drop_unread_layers(std::vector<SweepEntry>& entries, std::vector<std::strin
   drop(kIdentifiers, "compares no depth", [](const SweepEntry& e) { return e.identifiers.has_value(); });
 }
 
-std::vector<SweepEntry> product_of(const CompareRequest& request, LightKind light,
-                                   std::vector<std::string>& left_out) {
-  std::vector<SweepEntry> entries(1);
-  std::vector<std::string> splits = split_lists(request.splits);
-  for (std::string& split : splits) {
-    if (request.visible_depths) split += ":visible_depths";
-    if (request.visible_points) split += ":visible_points";
+/// Splits of plans that are given what the frame shows, besides what the words say.
+std::vector<TechniqueSplit> splits_of(const SweepRequest& request) {
+  std::vector<TechniqueSplit> splits = request.splits;
+  for (TechniqueSplit& split : splits) {
+    if (request.visible_depths && !split.visible_depths) split.name += ":visible_depths";
+    if (request.visible_points && !split.visible_points) split.name += ":visible_points";
+    split.visible_depths = split.visible_depths || request.visible_depths;
+    split.visible_points = split.visible_points || request.visible_points;
+    if (split.visible_depths && split.coarse_depths)
+      throw std::runtime_error("--splits " + split.name + ": a plan takes visible depths from one source");
   }
-  const std::vector<std::string> warps =
-      with_shapes(expanded(request.warps, all_warps()), expanded(request.shapes, all_shapes()));
+  return splits;
+}
+
+std::vector<SweepEntry> product_of(const SweepRequest& request, std::vector<std::string>& left_out) {
+  const LightKind light = request.light.kind;
+  std::vector<SweepEntry> entries(1);
+  const std::vector<TechniqueSplit> splits = splits_of(request);
+  const std::vector<TechniqueWarp> warps = with_shapes(request.warps, request.shapes);
   if (warps.empty())
     throw std::runtime_error("--shapes: logarithmic needs a warp other than none, and no other is given");
-  multiply(entries, expanded(request.filters, render::all_filters()), set_filter);
-  multiply(entries, expanded_layers(request.layers), set_layer);
+  multiply(entries, request.filters, set_filter);
+  multiply(entries, request.layers, set_layer);
   drop_unread_layers(entries, left_out);
-  multiply(entries, split_lists(request.fits), set_fit);
+  multiply(entries, request.fits, set_fit);
   multiply(entries, warps, set_warp);
   drop_bent_identifiers(entries, left_out);
   multiply(entries, splits, set_split);
   for (SweepEntry& entry : entries) {
     if (entry.plan.split.scheme == SplitScheme::pseudo_near) entry.plan.split.pseudo_near = request.near_hint;
   }
-  multiply(entries, parse_numbers("--cascades", request.cascades, 1, kMaxMaps), set_cascades);
-  multiply(entries, parse_numbers("--map-sizes", request.map_sizes, kMinMapSize, kMaxMapSize), set_size);
-  Firsts first{splits.front(), warps.front(), entries.front().technique.fit,
+  multiply(entries, request.cascades, set_cascades);
+  multiply(entries, request.map_sizes, set_size);
+  Firsts first{splits.front().name, warps.front().name, entries.front().technique.fit,
                entries.front().technique.cascades};
-  if (std::find(warps.begin(), warps.end(), "none") != warps.end()) first.warp = "none";
+  if (std::any_of(warps.begin(), warps.end(), [](const TechniqueWarp& w) { return w.name == "none"; }))
+    first.warp = "none";
   std::erase_if(entries, [&](const SweepEntry& entry) {
     return is_useless(entry.plan.warp.shape, light) || is_double(entry, first, light);
   });
@@ -354,29 +244,24 @@ std::vector<std::string> lines_of(const std::vector<NoPages>& left_out) {
 
 /// The same with pages in place of maps; what cannot be measured goes into `left_out`, a line for each
 /// reason.
-std::vector<SweepEntry> page_product_of(const CompareRequest& request, LightKind light,
-                                        std::vector<std::string>& left_out) {
+std::vector<SweepEntry> page_product_of(const SweepRequest& request, std::vector<std::string>& left_out) {
   if (request.pages.empty()) return {};
+  const LightKind light = request.light.kind;
   std::vector<SweepEntry> entries(1);
-  set_warp("none", entries.front());
-  set_split("uniform", entries.front());
+  set_warp({}, entries.front());
+  set_split(uniform_split(), entries.front());
   set_page_target(request.page_target, entries.front());
-  multiply(entries, expanded(request.filters, render::all_filters()), set_filter);
-  multiply(entries, expanded_layers(request.layers), set_layer);
-  multiply(entries, split_lists(request.fits), set_fit);
-  multiply(entries, expanded(request.pages, all_page_policies()), set_pages);
-  std::vector<int> sizes =
-      parse_numbers("--page-sizes", request.page_sizes, kLeastPageTexels, kMostPageTexels);
-  for (const int size : sizes) {
-    if (!is_page_size(size)) refuse("--page-sizes", std::to_string(size), "64, 128 or 256");
-  }
-  multiply(entries, sizes, set_page_texels);
-  std::vector<int> cascades = parse_numbers("--cascades", request.cascades, 1, kMaxMaps);
+  multiply(entries, request.filters, set_filter);
+  multiply(entries, request.layers, set_layer);
+  multiply(entries, request.fits, set_fit);
+  multiply(entries, request.pages, set_pages);
+  multiply(entries, request.page_sizes, set_page_texels);
+  std::vector<int> cascades = request.cascades;
   if (light != LightKind::sun) cascades.resize(1);
   multiply(entries, cascades, set_cascades);
-  multiply(entries, parse_numbers("--map-sizes", request.map_sizes, kMinMapSize, kMaxMapSize), set_size);
+  multiply(entries, request.map_sizes, set_size);
   for (SweepEntry& entry : entries) {
-    if (entry.pages.policy->octaves) set_fit("stable", entry);  // its levels are stable whatever the fit
+    if (entry.pages.policy->octaves) set_fit(Fit::stable, entry);  // its levels are stable whatever the fit
     entry.pages.capacity = page_capacity(entry, light);
   }
   std::vector<NoPages> none;
@@ -406,78 +291,39 @@ std::vector<SweepEntry> without_doubles(std::vector<SweepEntry> entries) {
   return once;
 }
 
-std::string fit_to_memory(SweepEntry& entry, const Sweep& sweep) {
+std::string fit_to_memory(SweepEntry& entry, LightKind light, double map_memory_mib) {
   const int wanted = entry.plan.resolution.max_size;
   const std::string name = entry.technique.name();
-  const render::FittingMaps fitting =
-      render::largest_maps(wanted, most_maps(entry, sweep.light.kind), render::bytes_per_texel(entry.filter),
-                           sweep.map_memory_mib);
+  const render::FittingMaps fitting = render::largest_maps(
+      wanted, most_maps(entry, light), render::bytes_per_texel(entry.filter), map_memory_mib);
   if (fitting.size == 0) throw std::runtime_error(name + ": no map fits (" + fitting.why + ")");
   if (fitting.size == wanted) return {};
   set_size(fitting.size, entry);
-  if (entry.by_pages()) entry.pages.capacity = page_capacity(entry, sweep.light.kind);
+  if (entry.by_pages()) entry.pages.capacity = page_capacity(entry, light);
   return name + ": maps of " + std::to_string(wanted) + " do not fit (" + fitting.why + "): maps of " +
          std::to_string(fitting.size);
 }
 
 }  // namespace
 
-std::vector<std::string> fit_to_memory(Sweep& sweep) {
+SweepRequest one_kind_of_maps(const Measuring& measuring, const MeasuredMaps& maps) {
+  SweepRequest request{measuring};
+  request.warps = {maps.warp};
+  request.cascades = {maps.cascades};
+  request.map_sizes = {maps.map_size};
+  return request;
+}
+
+std::vector<std::string> fit_to_memory(Sweep& sweep, double map_memory_mib) {
   std::vector<std::string> lines;
+  const LightKind light = sweep.light.kind;
   for (SweepEntry& entry : sweep.entries) {
-    if (std::string line = fit_to_memory(entry, sweep); !line.empty()) lines.push_back(std::move(line));
+    if (std::string line = fit_to_memory(entry, light, map_memory_mib); !line.empty())
+      lines.push_back(std::move(line));
   }
-  if (std::string line = fit_to_memory(sweep.baseline, sweep); !line.empty())
+  if (std::string line = fit_to_memory(sweep.baseline, light, map_memory_mib); !line.empty())
     lines.push_back("baseline " + line);
   return lines;
-}
-
-std::string compare_footer() {
-  return "Lists take commas or spaces. Every combination of the lists is measured once. Each result is on "
-         "the disk before the next frame begins: after a crash, --resume continues. Errors compare the "
-         "shadow mask with exact rays.\n\n"
-         "Warps: " +
-         any_of_text(names_in(all_warps(), {"auto"})) + ".\nSplits: " + any_of_text(split_names()) +
-         ", each with :finest, :visible_depths, :coarse_depths or :visible_points behind it, and "
-         "frustum_faces with :slices=K for up to K maps along each side face" +
-         ".\nPages: " + any_of_text(names_in(all_page_policies())) +
-         ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "
-         "that reads depths in texels; the others are named and skipped. docs/pages.md explains them." +
-         "\nLayers: " + any_of_text(layer_names()) +
-         ", each with :linear behind it for depths even along the light. gnomon bias and docs/bias.md "
-         "compare them." +
-         "\nFilters: " + any_of_text(names_in(render::all_filters())) +
-         ". gnomon filters NAME prints the options of one. " + std::string(kIrregular) +
-         " takes no filter: casters are tested against each pixel, for exact hard shadows at their price. " +
-         std::string(kIdentifiers) +
-         " compares who is nearest in place of how near; :of=triangle numbers triangles in place of "
-         "instances, neighbours=1 takes the texels around as well.\n";
-}
-
-std::vector<std::string> split_names() {
-  return {"auto",    "uniform",    "logarithmic",   "practical",        "pseudo_near",
-          "optimal", "view_depth", "frustum_faces", "separating_plane", "receiver_clusters"};
-}
-
-std::vector<std::string> split_lists(const std::vector<std::string>& lists) {
-  std::vector<std::string> elements;
-  for (const std::string& list : lists) {
-    bool first_of_list = true;
-    for (std::size_t begin = 0; begin <= list.size();) {
-      const std::size_t end = std::min(list.find(',', begin), list.size());
-      const std::string element = list.substr(begin, end - begin);
-      const bool continues =
-          !first_of_list && element.find('=') != std::string::npos && element.find(':') == std::string::npos;
-      if (continues) {
-        elements.back() += "," + element;
-      } else {
-        elements.push_back(element);
-      }
-      first_of_list = false;
-      begin = end + 1;
-    }
-  }
-  return elements;
 }
 
 int most_maps(const SweepEntry& entry, LightKind light) noexcept {
@@ -496,51 +342,39 @@ int page_capacity(const SweepEntry& entry, LightKind light) noexcept {
 
 SweepEntry sweep_entry(const report::Technique& technique) {
   SweepEntry entry;
-  set_filter(technique.filter, entry);
-  if (!technique.layer.empty()) set_layer(technique.layer, entry);
-  set_fit(technique.fit, entry);
-  set_warp(technique.warp, entry);
-  set_split(technique.split, entry);
+  set_filter(technique_filter("--filters", technique.filter), entry);
+  if (!technique.layer.empty()) set_layer(technique_layer("--layers", technique.layer), entry);
+  set_fit(technique_fit("--fits", technique.fit), entry);
+  set_warp(technique_warp("--warps", technique.warp), entry);
+  set_split(technique_split("--splits", technique.split), entry);
   set_cascades(technique.cascades, entry);
   set_size(technique.map_size, entry);
   if (technique.pages.empty()) return entry;
-  set_pages(technique.pages, entry);
+  set_pages(technique_pages("--pages", technique.pages), entry);
   set_page_texels(technique.page_texels, entry);
   set_page_target(technique.page_target_m, entry);
   return entry;
 }
 
-Sweep make_sweep(const CompareRequest& request) {
-  Sweep sweep;
+Sweep make_sweep(const SweepRequest& request) {
+  Sweep sweep{request, {}, {}, {}};
+  sweep.scenes.clear();
   for (const std::string& scene : request.scenes) {
     if (std::find(sweep.scenes.begin(), sweep.scenes.end(), scene) == sweep.scenes.end())
       sweep.scenes.push_back(scene);
   }
-  sweep.frames = request.frames;
-  sweep.rounds = request.rounds;
-  sweep.light = request.sun;
-  if (!light_kind_from_name(request.light, sweep.light.kind))
-    refuse("--light", request.light, "sun, spot or point");
-  sweep.animation = request.animation;
-  sweep.out = request.out;
-  sweep.resume = request.resume;
-  sweep.map_memory_mib = request.map_memory_mib;
-  sweep.max_triangles = request.max_triangles;
-  read_picture_size(request.size, kMinSide, kMaxSide, sweep.width, sweep.height);
-  int shard = 0, shards = 0;
-  if (!parse_pair(request.shard, '/', 1, kMaxShards, shard, shards) || shard > shards)
-    refuse("--shard", request.shard, "I/N with 1 <= I <= N, as in 2/8");
-  sweep.shard = static_cast<std::size_t>(shard - 1);
-  sweep.shards = static_cast<std::size_t>(shards);
-  sweep.context = offscreen_context(request.context);
-  sweep.entries = product_of(request, sweep.light.kind, sweep.left_out);
-  for (SweepEntry& entry : page_product_of(request, sweep.light.kind, sweep.left_out))
+  sweep.entries = product_of(request, sweep.left_out);
+  for (SweepEntry& entry : page_product_of(request, sweep.left_out))
     sweep.entries.push_back(std::move(entry));
   // A list that names something twice.
   sweep.entries = without_doubles(std::move(sweep.entries));
-  sweep.baseline =
-      sweep_entry({"none", "uniform", "tight", "hard", 1, sweep.entries.front().technique.map_size});
-  for (SweepEntry& entry : sweep.entries) entry.map_passes = map_passes_from_name(request.map_passes);
+  set_filter({}, sweep.baseline);
+  set_fit(Fit::tight, sweep.baseline);
+  set_warp({}, sweep.baseline);
+  set_split(uniform_split(), sweep.baseline);
+  set_cascades(1, sweep.baseline);
+  set_size(sweep.entries.front().technique.map_size, sweep.baseline);
+  for (SweepEntry& entry : sweep.entries) entry.map_passes = request.map_passes;
   return sweep;
 }
 

@@ -49,7 +49,7 @@ void print_filter_contacts(const FiltersRequest& request) {
     print_line("| filter | format | 0.001 | 0.003 | 0.01 | 0.03 | 0.1 |");
     print_line("|--|--|--|--|--|--|--|");
   }
-  for (const FilterSettings& asked : filters_asked_for(request.filters)) {
+  for (const FilterSettings& asked : request.filters) {
     FilterSettings settings = asked;
     if (asked.filter->info.formats.empty()) print_line(row_of(settings, request.json));
     for (const render::TexelFormat format : asked.filter->info.formats) {

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "filter_words.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "gnomon/report/statistics.hpp"
 #include "gnomon/scene/camera_path.hpp"
-#include "gnomon/scene/load.hpp"
 #include "offscreen_context.hpp"
 #include "output.hpp"
 #include "scene_words.hpp"
@@ -117,13 +117,12 @@ void print_one_filter(const FiltersRequest& request) {
   flush_output();
 }
 
-}  // namespace
-
-std::vector<FilterSettings> filters_asked_for(const std::vector<std::string>& texts) {
+/// Settings of these words; "all" stands for every filter as by default.
+std::vector<FilterSettings> read_settings(const std::string& option, const std::vector<std::string>& words) {
   std::vector<FilterSettings> all;
-  for (const std::string& text : texts) {
-    if (text != "all") {
-      all.push_back(filter_from(text));
+  for (const std::string& word : words) {
+    if (word != "all") {
+      all.push_back(filter_word(option, word));
       continue;
     }
     for (const render::Filter* filter : render::all_filters())
@@ -132,9 +131,10 @@ std::vector<FilterSettings> filters_asked_for(const std::vector<std::string>& te
   return all;
 }
 
+}  // namespace
+
 void print_filter_cost(const FiltersRequest& request) {
-  const std::vector<FilterSettings> filters = filters_asked_for(request.filters);
-  FilterStage stage(load_scene(request.scene), 38.0, 140.0);
+  FilterStage stage(request.scene);
   const Camera camera = default_path(stage.scene()).at(0.5, kStageWidth, kStageHeight);
   if (!request.json) {
     print_line(
@@ -142,7 +142,7 @@ void print_filter_cost(const FiltersRequest& request) {
     print_line("|---|---|---|---|---|---|---|---|---|");
   }
   for (const int map_size : request.map_sizes) {
-    std::vector<MeasuredFilter> runs = runs_of(filters);
+    std::vector<MeasuredFilter> runs = runs_of(request.filters);
     for (int round = 0; round < request.rounds; ++round) {
       for (MeasuredFilter& run : runs) {
         // Images are made anew where the filter before had others: the first of two draws pays for that.
@@ -173,14 +173,14 @@ int run_filters(const FiltersRequest& request) {
     print_filter_contacts(request);
     return 0;
   }
-  if (!request.cost && request.fit.empty() && request.filters != FiltersRequest{}.filters)
+  if (!request.cost && request.fit.empty() && request.filters_given)
     throw std::runtime_error("--filters requires --cost, --contacts or --fit");
   if (!request.cost && request.fit.empty() && request.gallery.empty()) {
     print_line(filter_list(request.json));
     flush_output();
     return 0;
   }
-  const auto context = render::create_context(offscreen_context(request.context));
+  const auto context = render::create_context(request.context);
   if (request.cost) {
     if (!request.json) {
       print_line(context->info().renderer +
@@ -217,11 +217,15 @@ std::vector<Option> fit_options(FiltersRequest& request) {
 
 /// What the cost table takes.
 std::vector<Option> cost_options(FiltersRequest& request) {
+  request.filters = read_settings("--filters", {"all"});
+  const auto set_filters = [&request](const std::string& option, const std::vector<std::string>& words) {
+    request.filters = read_settings(option, words);
+  };
   return {{.name = "--filters",
-           .target = &request.filters,
+           .target = ParsedWords{set_filters, "all"},
            .help = "filters of --cost, --contacts and --fit, with options as in vsm:radius=3; or all",
            .names = names_in(render::all_filters(), {"all"}),
-           .only_names = false},
+           .given = &request.filters_given},
           {.name = "--map-sizes",
            .target = &request.map_sizes,
            .help = "map sizes of --cost, texels along each side",

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/render/context.hpp"
 #include "gnomon/render/filter.hpp"
 
 namespace gnomon::tool {
@@ -17,15 +18,14 @@ struct FiltersRequest {
   double fit_bound = 0.5;                       ///< by how much answers may differ, in steps of 8 bits
   double fit_exceptions = 0.0;                  ///< percent of the receivers that may differ by more
   std::string gallery;                          ///< folder for the pictures; empty: none
-  std::vector<std::string> filters{"all"};      ///< of the cost table
+  std::vector<render::FilterSettings> filters;  ///< of the tables
+  bool filters_given = false;
   std::vector<int> map_sizes{512, 1024, 2048};  ///< likewise
   int rounds = 3;                               ///< likewise
   std::string scene = "builtin:fence";          ///< likewise, and of the gallery's last strip
-  std::string context = "auto";
+  render::ContextKind context = render::ContextKind::automatic;
 };
 
-/// Settings of these texts; "all" stands for every filter as by default.
-[[nodiscard]] std::vector<render::FilterSettings> filters_asked_for(const std::vector<std::string>& texts);
 /// Prints a row for every filter that stores anything: what the maps of request.fit let it do without.
 void print_filter_needs(const FiltersRequest& request);
 /// Prints a row for every filter, blur and map size, each against `hard` in the same interleaved rounds.

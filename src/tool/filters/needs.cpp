@@ -82,7 +82,7 @@ void print_filter_needs(const FiltersRequest& request) {
   render::FilterFitOptions options;
   options.bound = request.fit_bound / 255.0;
   options.exceptions = request.fit_exceptions / 100.0;
-  for (const render::FilterSettings& full : filters_asked_for(request.filters)) {
+  for (const render::FilterSettings& full : request.filters) {
     // Those that store nothing have nothing to leave out.
     if (full.filter->info.formats.empty()) continue;
     print_line(row_of(full, render::fit_filter(full, views.maps_for(full), options), request.json));

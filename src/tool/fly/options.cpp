@@ -18,20 +18,16 @@
 namespace gnomon::tool::fly {
 namespace {
 
-constexpr int kMaxFrames = 100'000, kMaxSide = 16'384;
+constexpr int kMaxFrames = 100'000;
 
-/// What the command line says, before it is understood.
+/// The command line: options, with words that stand for others or name files.
 struct Request {
   Options options;
-  std::string size = "960x540", context = "auto", filter = "pcf", path, light = "sun", cost_model,
-              out = "out/flythrough", resolution = "given", transition = "cut", layer = "front",
-              map_passes = "auto", pages = "off";
+  std::string path, cost_model, out = options.out.string();
   bool stable = false, split_given = false, lambda_given = false;
-  std::vector<std::string> compared_warps;
 };
 
-void resolve_resolution(const Request& request, Options& options) {
-  options.perceptual_resolution = request.resolution == "perceptual";
+void resolve_resolution(Options& options) {
   if (!options.perceptual_resolution) return;
   // Whoever asks for texels that the filter hides may want more of them than the metric.
   options.plan.prune = options.plan.prune.without(PruneRule::metric_resolution);
@@ -66,11 +62,6 @@ void check_animation(const Options& options) {
         "--animation: not with --budget-ms and --target-error, which look at the scene at rest");
 }
 
-void resolve_transition(const Request& request, Options& options) {
-  options.transition = transition_from_name(request.transition);
-  if (options.transition != render::SplitTransition::cut) options.plan.split.overlap = kTransitionShare;
-}
-
 /// Options that mean whole maps.
 void check_beside_pages(const Options& options) {
   const std::array<std::pair<bool, const char*>, 8> of_maps{{
@@ -91,31 +82,19 @@ void check_beside_pages(const Options& options) {
 Options resolved(const Request& request) {
   Options options = request.options;
   check_scene_word("scene", options.scene);
-  read_picture_size(request.size, 16, kMaxSide, options.width, options.height);
   options.out = request.out;
-  (void)render::context_kind_from_name(request.context, options.context);
   if (request.lambda_given && !request.split_given) (void)set_plan_choice("split", "practical", options.plan);
-  (void)light_kind_from_name(request.light, options.light.kind);
-  const std::vector<std::string> warps = plan_choice_names("warp");
-  for (const std::string& name : request.compared_warps) {
-    PlanOptions one;
-    if (!set_plan_choice("warp", name, one)) refuse_name("--compare-warps", name, warps);
-    options.compared_warps.push_back(one.warp.warp);
-  }
-  options.filter = filter_word("--filter", request.filter);
   if (request.stable) (void)set_plan_choice("fit", "stable", options.plan);
   // A warped grid is only stable from frame to frame.
   if (options.plan.fit == Fit::warped_stable) options.history = true;
   render::set_margin(options.filter, options.plan);
   options.prune = options.plan.prune;
-  resolve_resolution(request, options);
-  resolve_transition(request, options);
+  resolve_resolution(options);
+  if (options.transition != render::SplitTransition::cut) options.plan.split.overlap = kTransitionShare;
   if (options.visible_depths && options.coarse_depths)
     throw std::runtime_error("--coarse-depths: not with --visible-depths, which reads the depths of a frame");
-  options.layer = layer_from_name(request.layer);
-  options.map_passes = map_passes_from_name(request.map_passes);
   resolve_budget(request, options);
-  resolve_pages(request.pages, options.pages);
+  check_page_size(options.pages);
   if (options.pages.on()) check_beside_pages(options);
   check_animation(options);
   if (!request.path.empty()) options.path = request.path;
@@ -139,6 +118,7 @@ Option prune_option(PlanOptions& plan) {
 /// Where to fly, and what becomes of it.
 std::vector<Option> flight_options(Request& request) {
   Options& options = request.options;
+  const std::vector<std::string> contexts{"auto", "osmesa", "egl", "glfw"};  // in the order of ContextKind
   return {{.name = "scene",
            .target = &options.scene,
            .help = scene_help(),
@@ -150,7 +130,7 @@ std::vector<Option> flight_options(Request& request) {
            .help = "frames along the camera path",
            .range = {{1, kMaxFrames}},
            .given = &options.frames_given},
-          {.name = "--size", .target = &request.size, .help = "size of a frame in pixels, WIDTHxHEIGHT"},
+          size_option(options.width, options.height),
           {.name = "--path",
            .target = &request.path,
            .help = "camera path, a JSON file; without it the scene's own",
@@ -177,9 +157,24 @@ std::vector<Option> flight_options(Request& request) {
            .target = &options.json,
            .help = "print files, options and the figures of each frame as one line of JSON"},
           {.name = "--context",
-           .target = &request.context,
+           .target = enum_word(options.context, contexts),
            .help = "OpenGL context: auto, osmesa, egl, or glfw for a window",
-           .names = {"auto", "osmesa", "egl", "glfw"}}};
+           .names = contexts}};
+}
+
+Option compare_warps_option(std::vector<const Warp*>& warps) {
+  const auto set = [&warps](const std::string& option, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      PlanOptions one;
+      if (!set_plan_choice("warp", name, one)) refuse_name(option, name, plan_choice_names("warp"));
+      warps.push_back(one.warp.warp);
+    }
+  };
+  return {.name = "--compare-warps",
+          .target = ParsedWords{set, {}},
+          .help = "also draw every frame with these warps side by side, as in none,lispsm,auto",
+          .names = plan_choice_names("warp"),
+          .delimiter = ','};
 }
 
 /// What a plan may choose.
@@ -198,22 +193,17 @@ std::vector<Option> map_options(Request& request) {
       lambda,
       plan_option("near_hint", plan),
       plan_option("warp", plan, "perspective warp of the maps: " + any_of_text(plan_choice_names("warp"))),
-      {.name = "--compare-warps",
-       .target = &request.compared_warps,
-       .help = "also draw every frame with these warps side by side, as in none,lispsm,auto",
-       .names = plan_choice_names("warp"),
-       .only_names = false,
-       .delimiter = ','},
+      compare_warps_option(request.options.compared_warps),
       plan_option("objective", plan, "error that the warp minimises: storage, max or p95"),
       plan_option("map_size", plan),
       plan_option("fit", plan, "how maps are fitted: tight, rotated, stable or warped_stable"),
       {.name = "--stable", .target = &request.stable, .help = "the same as --fit stable: texel-snapped maps"},
       {.name = "--transition",
-       .target = &request.transition,
+       .target = enum_word(request.options.transition, transition_names()),
        .help = "transition between cascades: cut; blend or dither over the last tenth of each",
        .names = transition_names()},
-      layer_option(request.layer),
-      map_passes_option(request.map_passes),
+      layer_option(request.options.layer),
+      map_passes_option(request.options.map_passes),
       {.name = "--history",
        .target = &request.options.history,
        .help = "change texel density smoothly from frame to frame; for paths of many frames"},
@@ -229,15 +219,16 @@ std::vector<Option> map_options(Request& request) {
 /// How large maps are, and what is chosen by itself.
 std::vector<Option> budget_options(Request& request) {
   Options& options = request.options;
+  const std::vector<std::string> resolutions{"given", "perceptual"};
   return {{.name = "--map-memory-mib",
            .target = &options.map_memory_mib,
            .help = "memory for all maps, MiB; larger maps are halved until they fit; 0: no limit",
            .range = {{0.0, 1e9}}},
           max_triangles_option(options.max_triangles),
           {.name = "--resolution",
-           .target = &request.resolution,
+           .target = enum_word(options.perceptual_resolution, resolutions),
            .help = "given: by --map-size; perceptual: the smallest maps whose texels the filter hides",
-           .names = {"given", "perceptual"}},
+           .names = resolutions},
           {.name = "--budget-ms",
            .target = &options.budget.milliseconds,
            .help = "choose warp, maps and filter for the least error within this time, milliseconds; 0: off",
@@ -254,13 +245,16 @@ std::vector<Option> budget_options(Request& request) {
 
 std::vector<Option> filter_options(Request& request) {
   Options& options = request.options;
+  const auto set_filter = [&options](const std::string& word) {
+    options.filter = filter_word("--filter", word);
+    return true;
+  };
   return {
       {.name = "--filter",
-       .target = &request.filter,
+       .target = ParsedWord{set_filter, render::to_string(options.filter)},
        .help = "shadow filter, with options as in pcf:radius=2,unit=texels; gnomon filters lists all, gnomon "
                "filters NAME the options of one",
-       .names = names_in(render::all_filters()),
-       .only_names = false},
+       .names = names_in(render::all_filters())},
       {.name = "--filter-precision",
        .target = &options.filter_precision,
        .help = "let the filter store less if visibility then changes by at most this, steps of 1/255; "
@@ -274,11 +268,11 @@ std::vector<Option> filter_options(Request& request) {
 }
 
 std::vector<Option> page_options(Request& request) {
-  return page_setting_options(request.pages, request.options.pages);
+  return page_setting_options(request.options.pages);
 }
 
 std::vector<Option> sun_options(Request& request) {
-  return light_options(request.light, request.options.light);
+  return light_options(request.options.light);
 }
 
 }  // namespace

@@ -28,6 +28,8 @@ struct Known {
 
 void know(const Options& options, const report::StoredCostModel& model, Known& known) {
   known.costs = model.view(known.filters);
+  if (!options.cost_model) known.settings = {options.filter};
+  if (!options.cost_model) return;
   for (const FilterCost& filter : known.filters) {
     const render::ParsedFilter parsed = render::parse_filter(filter.name);
     if (!parsed.error.empty())

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -80,11 +81,16 @@ bool is_page_size(int texels) noexcept {
   return texels == 64 || texels == 128 || texels == 256;
 }
 
-std::vector<Option> page_setting_options(std::string& policy, PageSetting& setting) {
+std::vector<Option> page_setting_options(PageSetting& setting) {
+  const std::vector<std::string> policies = page_policy_names();
+  const auto set_policy = [&setting, policies](const std::string& name) {
+    setting.policy = page_policy_of(name);
+    return std::find(policies.begin(), policies.end(), name) != policies.end();
+  };
   return {{.name = "--pages",
-           .target = &policy,
+           .target = ParsedWord{set_policy, page_policy_name(setting)},
            .help = "draw pages of virtual shadow maps in place of maps, by this policy (docs/pages.md)",
-           .names = page_policy_names()},
+           .names = policies},
           {.name = "--page-size",
            .target = &setting.page_texels,
            .help = "texels along each side of a page: 64, 128 or 256",
@@ -102,8 +108,7 @@ std::vector<Option> page_setting_options(std::string& policy, PageSetting& setti
            .needs = "--pages"}};
 }
 
-void resolve_pages(const std::string& policy, PageSetting& setting) {
-  setting.policy = page_policy_of(policy);
+void check_page_size(const PageSetting& setting) {
   if (!is_page_size(setting.page_texels))
     throw std::runtime_error(fmt::format("--page-size {}: wants 64, 128 or 256", setting.page_texels));
 }

@@ -53,9 +53,9 @@ struct NoPages {
 /// True where a page has so many texels along each side.
 [[nodiscard]] bool is_page_size(int texels) noexcept;
 
-/// --pages, --page-size, --page-capacity and --page-target; `policy` takes the word of --pages.
-[[nodiscard]] std::vector<Option> page_setting_options(std::string& policy, PageSetting& setting);
-/// Takes the policy over and checks the size. Throws std::runtime_error.
-void resolve_pages(const std::string& policy, PageSetting& setting);
+/// --pages, --page-size, --page-capacity and --page-target.
+[[nodiscard]] std::vector<Option> page_setting_options(PageSetting& setting);
+/// Throws std::runtime_error where --page-size names no size of a page.
+void check_page_size(const PageSetting& setting);
 
 }  // namespace gnomon::tool

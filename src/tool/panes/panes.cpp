@@ -14,11 +14,9 @@
 #include "gnomon/scene/image.hpp"
 #include "gnomon/trace/transmittance.hpp"
 #include "interrupt.hpp"
-#include "offscreen_context.hpp"
 #include "output.hpp"
 #include "pages/frame_pages.hpp"
 #include "pane_lights.hpp"
-#include "picture_words.hpp"
 #include "scene_view.hpp"
 #include "scene_words.hpp"
 
@@ -27,37 +25,29 @@ namespace {
 
 using report::median;
 
-struct PanesRequest {
-  std::vector<std::string> scenes;
-  std::string warp = "auto", light = "sun", size = "480x270", context = "auto", by = "maps", out;
+/// What shadows are drawn by.
+enum class Way : std::uint8_t { maps, irregular, pages, lights };
+/// By Way.
+const std::vector<std::string> kWays{"maps", "irregular", "pages", "lights"};
+
+struct PanesRequest : Measuring {
+  MeasuredMaps maps{technique_warp("--warp", "auto"), 4};
+  Way by = Way::maps;
   int local_lights = 4;  ///< beside the sun, by lights
-  int map_size = 1024, cascades = 4, frames = 4, rounds = 5;
-  LightPlacement sun;
-  bool json = false;
 };
 
 Sweep sweep_of(const PanesRequest& request) {
-  CompareRequest compared;
-  compared.scenes = request.scenes;
-  if (compared.scenes.empty()) compared.scenes = {"builtin:glass"};
-  // What light through panes costs is told beside four moments of depths.
-  compared.filters = {"hard", "msm"};
-  compared.warps = {request.warp};
-  compared.cascades = {std::to_string(request.cascades)};
-  compared.map_sizes = {std::to_string(request.map_size)};
-  compared.size = request.size;
-  compared.frames = request.frames;
-  compared.context = request.context;
-  compared.light = request.light;
-  compared.sun = request.sun;
-  return make_sweep(compared);
+  SweepRequest product = one_kind_of_maps(request, request.maps);
+  if (product.scenes.empty()) product.scenes = {"builtin:glass"};
+  // The cost of light through panes is printed beside that of four moments of depths.
+  product.filters = read_filters("--filters", {"hard", "msm"});
+  return make_sweep(product);
 }
 
 /// Refuses maps that draw no panes.
 void check_shape(const PanesRequest& request, const Sweep& sweep) {
-  const Shape* const shape = sweep.entries[0].plan.warp.shape;
-  if (request.by == "irregular" || shape == nullptr || shape->affine) return;
-  throw std::runtime_error("--warp " + request.warp +
+  if (request.by == Way::irregular || sweep.entries[0].plan.warp.shape->affine) return;
+  throw std::runtime_error("--warp " + request.maps.warp.name +
                            ": maps that bend lines draw no panes; --by irregular draws them");
 }
 
@@ -65,12 +55,12 @@ void check_shape(const PanesRequest& request, const Sweep& sweep) {
 void check_memory(const PanesRequest& request, const Sweep& sweep) {
   // The larger of both filters is drawn with panes as well.
   const SweepEntry& msm = sweep.entries[1];
-  const LightKind kind = request.by == "lights" ? LightKind::point : sweep.light.kind;
-  const render::FittingMaps fitting =
-      render::largest_maps(request.map_size, most_maps(msm, kind),
-                           render::kPaneTexelBytes + render::bytes_per_texel(msm.filter), 0.0);
-  if (fitting.size >= request.map_size) return;
-  throw std::runtime_error("--map-size " + std::to_string(request.map_size) +
+  const LightKind kind = request.by == Way::lights ? LightKind::point : sweep.light.kind;
+  const int wanted = request.maps.map_size;
+  const render::FittingMaps fitting = render::largest_maps(
+      wanted, most_maps(msm, kind), render::kPaneTexelBytes + render::bytes_per_texel(msm.filter), 0.0);
+  if (fitting.size >= wanted) return;
+  throw std::runtime_error("--map-size " + std::to_string(wanted) +
                            ": such maps and the images of panes do not fit (" + fitting.why +
                            "); largest that do: " + std::to_string(fitting.size));
 }
@@ -149,10 +139,10 @@ struct PanesStage {
         msm(renderer.prepare(sweep.entries[1].filter)) {
     renderer.add_panes(parts.panes);
     const render::FilterSettings& hard = sweep.entries[0].filter;
-    shadows = request.by == "irregular" ? renderer.prepare_irregular()
-              : request.by == "pages"   ? renderer.prepare_pages(hard)
-              : request.by == "lights"  ? renderer.prepare_lights(hard)
-                                        : renderer.prepare(hard);
+    shadows = request.by == Way::irregular ? renderer.prepare_irregular()
+              : request.by == Way::pages   ? renderer.prepare_pages(hard)
+              : request.by == Way::lights  ? renderer.prepare_lights(hard)
+                                           : renderer.prepare(hard);
     options.aliasing = options.heat_map = options.cascade_tint = false;
     // Every round draws its maps.
     options.prune = options.prune.without(PruneRule::held_maps);
@@ -182,7 +172,7 @@ struct PanesStage {
 /// Times of one way beside msm, by turns, and the image against rays.
 void measure_frame(PanesStage& stage, const Camera& camera, PanesRow& row) {
   std::unique_ptr<FramePages> pages;
-  if (row.by == "pages") pages = stage.pages(camera);
+  if (stage.request.by == Way::pages) pages = stage.pages(camera);
   std::vector<double> shadows, msm, panes;
   for (int round = 0; round <= stage.request.rounds; ++round) {
     const render::FrameStats of_msm =
@@ -237,7 +227,7 @@ void judge_lights(const FloatImage& found, const FloatImage& without, const std:
 void measure_lights(PanesStage& stage, render::Renderer& plain, const Camera& camera, PanesRow& row) {
   const render::PreparedFilter of_plain = plain.prepare_lights(stage.sweep.entries[0].filter);
   PaneLights lights(stage.view.light(), stage.request.local_lights, stage.parts);
-  lights.plan(camera, stage.view.bounds(), stage.sweep.entries[0].plan, stage.request.map_size);
+  lights.plan(camera, stage.view.bounds(), stage.sweep.entries[0].plan, stage.request.maps.map_size);
   std::vector<double> with, without;
   for (int round = 0; round <= stage.request.rounds; ++round) {
     const render::FrameStats a = lights.draw(plain, camera, of_plain, stage.options),
@@ -260,21 +250,20 @@ void measure_scene(const PanesRequest& request, const Sweep& sweep, const std::s
   for (const std::string& warning : stage.view.scene().warnings)
     std::fprintf(stderr, "gnomon: %s: %s\n", scene.c_str(), warning.c_str());
   std::optional<render::Renderer> plain;
-  if (request.by == "lights") plain.emplace(stage.parts.opaque);
+  if (request.by == Way::lights) plain.emplace(stage.parts.opaque);
   for (int frame = 0; frame < sweep.frames; ++frame) {
     check_interrupt();
     const Camera camera = stage.view.camera(frame, sweep.frames, sweep.width, sweep.height);
     PanesRow row;
     row.scene = scene;
-    row.by = request.by;
+    row.by = kWays[static_cast<std::size_t>(request.by)];
     row.frame = frame;
     plain ? measure_lights(stage, *plain, camera, row) : measure_frame(stage, camera, row);
     head();
     print_row(row, request.json);
     if (!request.out.empty()) {
       const std::string name =
-          std::filesystem::path(scene.substr(scene.find_last_of(":/") + 1)).stem().string() + "_" +
-          (request.by == "maps" ? "" : request.by + "_") + std::to_string(frame);
+          scene_stem(scene) + "_" + (request.by == Way::maps ? "" : row.by + "_") + std::to_string(frame);
       write_png(stage.renderer.image(), std::filesystem::path(request.out) / (name + ".png"));
     }
     render::check_context();
@@ -282,7 +271,6 @@ void measure_scene(const PanesRequest& request, const Sweep& sweep, const std::s
 }
 
 int run_panes(const PanesRequest& request) {
-  for (const std::string& scene : request.scenes) check_scene_word("SCENE", scene);
   const Sweep sweep = sweep_of(request);
   check_shape(request, sweep);
   watch_interrupts();
@@ -302,57 +290,35 @@ int run_panes(const PanesRequest& request) {
   return 0;
 }
 
+std::vector<Option> own_options(PanesRequest& request) {
+  std::vector<Option> options{
+      {.name = "--by",
+       .target = enum_word(request.by, kWays),
+       .help = "maps; irregular, exact shadows; pages; lights, the sun and others over the panes",
+       .names = kWays},
+      {.name = "--local-lights",
+       .target = &request.local_lights,
+       .help = "point lights beside the sun, by lights",
+       .range = {{1, 64}}}};
+  for (Option& option : measured_maps_options(request.maps)) options.push_back(std::move(option));
+  options.push_back({.name = "--frames",
+                     .target = &request.frames,
+                     .help = "frames along the scene's camera path",
+                     .range = {{1, 1000}}});
+  options.push_back({.name = "--rounds",
+                     .target = &request.rounds,
+                     .help = "timings of each frame; the median counts",
+                     .range = {{1, 1000}}});
+  return options;
+}
+
 }  // namespace
 
 std::function<int()> declare_panes(Arguments& arguments) {
   const auto request = std::make_shared<PanesRequest>();
-  arguments.options = {
-      {.name = "SCENE",
-       .target = &request->scenes,
-       .help = "builtin:NAME or glTF files; without any: builtin:glass",
-       .names = builtin_scene_words(),
-       .only_names = false,
-       .completion = Completion::files},
-      {.name = "--by",
-       .target = &request->by,
-       .help = "maps; irregular, exact shadows; pages; lights, the sun and others over the panes",
-       .names = {"maps", "irregular", "pages", "lights"}},
-      {.name = "--local-lights",
-       .target = &request->local_lights,
-       .help = "point lights beside the sun, by lights",
-       .range = {{1, 64}}},
-      {.name = "--warp",
-       .target = &request->warp,
-       .help = "warp of the maps, or none",
-       .names = names_in(all_warps(), {"auto"}),
-       .only_names = false},
-      {.name = "--cascades",
-       .target = &request->cascades,
-       .help = "number of shadow maps along the view",
-       .range = {{1, kMaxMaps}}},
-      {.name = "--map-size",
-       .target = &request->map_size,
-       .help = "texels along each side of a map",
-       .range = {{64, 16384}}},
-      {.name = "--frames",
-       .target = &request->frames,
-       .help = "frames along the scene's camera path",
-       .range = {{1, 1000}}},
-      {.name = "--rounds",
-       .target = &request->rounds,
-       .help = "timings of each frame; the median counts",
-       .range = {{1, 1000}}}};
-  for (Option& option : light_options(request->light, request->sun))
-    arguments.options.push_back(std::move(option));
-  arguments.options.push_back(
-      {.name = "--size", .target = &request->size, .help = "size of a frame in pixels, WIDTHxHEIGHT"});
-  arguments.options.push_back({.name = "--out",
-                               .target = &request->out,
-                               .help = "folder for a picture of each frame; without it none are written",
-                               .completion = Completion::folders});
-  arguments.options.push_back(
-      {.name = "--json", .target = &request->json, .help = "print each row as a line of JSON"});
-  arguments.options.push_back(context_option(request->context));
+  arguments.options = measuring_options(
+      *request, scenes_option(*request, "builtin:NAME or glTF files; without any: builtin:glass", false),
+      own_options(*request), "folder for a picture of each frame; without it none are written");
   arguments.footer =
       "Panes are surfaces with a transmission, or with alpha that blends. Tinted: pixels that rays find\n"
       "behind panes. Errors are means over the three colours, of the share of light that passes, against\n"

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "command.hpp"
+#include "offscreen_context.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "rows.hpp"
 #include "stress/random.hpp"
 #ifdef GNOMON_STRESS_HAS_FILTERS
 #include "filter_limits.hpp"
-#include "offscreen_context.hpp"
 #endif
 
 namespace gnomon::tool {
@@ -21,12 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 
 struct StressRequest {
-  std::vector<std::string> axes;  ///< names, or all; none, no cases, no filters: all axes and cases
+  std::vector<const stress::Axis*> axes;  ///< none, no cases, no filters: all axes and cases
   bool cases = false;
-  bool filters = false;  ///< filters at their limits, drawn
-  std::string context = "auto";
-  int samples = 80;  ///< values per axis
-  int scenes = 4;    ///< per value
+  bool filters = false;                                          ///< filters at their limits, drawn
+  render::ContextKind context = render::ContextKind::automatic;  ///< of the filters
+  int samples = 80;                                              ///< values per axis
+  int scenes = 4;                                                ///< per value
   std::uint64_t seed = 1;
   std::string out;  ///< folder for stability.jsonl and stability.csv; empty: none
   bool json = false, csv = false;
@@ -40,17 +40,18 @@ std::vector<std::string> axis_names() {
   return names;
 }
 
-std::vector<const stress::Axis*> axes_of(const StressRequest& request) {
+std::vector<const stress::Axis*> all_axes() {
   std::vector<const stress::Axis*> axes;
-  const bool everything = request.axes.empty() && !request.cases && !request.filters;
-  const bool all = everything || (request.axes.size() == 1 && request.axes[0] == "all");
-  if (all) {
-    for (const stress::Axis& axis : stress::all_axes()) axes.push_back(&axis);
-    return axes;
-  }
-  for (const std::string& name : request.axes) {
+  for (const stress::Axis& axis : stress::all_axes()) axes.push_back(&axis);
+  return axes;
+}
+
+std::vector<const stress::Axis*> read_axes(const std::string& option, const std::vector<std::string>& names) {
+  if (names == std::vector<std::string>{"all"}) return all_axes();
+  std::vector<const stress::Axis*> axes;
+  for (const std::string& name : names) {
     const stress::Axis* axis = stress::find_axis(name);
-    if (axis == nullptr) refuse_name("--axis", name, axis_names());
+    if (axis == nullptr) refuse_name(option, name, axis_names());
     axes.push_back(axis);
   }
   return axes;
@@ -58,7 +59,7 @@ std::vector<const stress::Axis*> axes_of(const StressRequest& request) {
 
 #ifdef GNOMON_STRESS_HAS_FILTERS
 std::vector<stress::FilterRow> run_filter_limits(const StressRequest& request) {
-  const std::unique_ptr<render::Context> context = render::create_context(offscreen_context(request.context));
+  const std::unique_ptr<render::Context> context = render::create_context(request.context);
   long long steps = 0, done = 0;
   for (const stress::FilterStrain& strain : stress::filter_strains())
     steps += static_cast<long long>(strain.filters.size());
@@ -99,7 +100,8 @@ stress::Results run_all(const StressRequest& request, const std::vector<const st
 int run_stress(const StressRequest& request) {
   if (request.random > 0 || !request.replay.empty())
     return run_random_stress({request.random, request.seed, request.out, request.replay});
-  const std::vector<const stress::Axis*> axes = axes_of(request);
+  const bool everything = request.axes.empty() && !request.cases && !request.filters;
+  const std::vector<const stress::Axis*> axes = everything ? all_axes() : request.axes;
   if (!request.out.empty()) make_folder("--out", request.out);
   const stress::Results results = run_all(request, axes);
   if (!request.out.empty()) {
@@ -119,12 +121,14 @@ int run_stress(const StressRequest& request) {
 
 std::function<int()> declare_stress(Arguments& arguments) {
   const auto request = std::make_shared<StressRequest>();
+  const auto set_axes = [request](const std::string& option, const std::vector<std::string>& names) {
+    request->axes = read_axes(option, names);
+  };
   arguments.options = {
       {.name = "--axis",
-       .target = &request->axes,
+       .target = ParsedWords{set_axes, {}},
        .help = "stress parameters to run, or all; without --cases only these",
-       .names = axis_names(),
-       .only_names = false},
+       .names = axis_names()},
       {.name = "--cases",
        .target = &request->cases,
        .help = "run the extreme cases; without --axis only these"},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "command.hpp"
@@ -24,14 +25,11 @@
 namespace gnomon::tool::view {
 namespace {
 
-constexpr int kLeastSide = 16, kMostSide = 16'384;
-
-/// What the command line says, before it is understood.
+/// The command line: options, with words that stand for others or name files.
 struct Request {
   Options options;
-  std::string state, size = "1280x720", context = "auto", filter = "pcf", plan_json, out, screenshot, tour,
-                     benchmark, eye, target, path, light = "sun", light_position, light_direction,
-                     transition = "cut", layer = "front", map_passes = "auto", view = "lit", pages = "off";
+  std::string state, plan_json, out, screenshot, tour, benchmark, path;
+  std::optional<glm::dvec3> eye, target, light_position, light_direction;
   double light_outer_deg = 0.0, light_range = 0.0;
   /// Options that set a part of the state, and whether each is given; on the heap, as their addresses are
   /// kept.
@@ -57,24 +55,18 @@ glm::dvec3 point_word(const std::string& option, const std::string& word) {
   return point;
 }
 
-template <class Enum>
-void set_named(const std::string& option, const std::string& word, std::span<const Named> all, Enum& value) {
-  std::vector<std::string> names;
-  for (const Named& one : all) {
-    if (one.name == word) {
-      value = static_cast<Enum>(names.size());
-      return;
-    }
-    names.emplace_back(one.name);
-  }
-  refuse_name(option, word, names);
+/// An option that takes X,Y,Z.
+Option point_option(std::string name, std::optional<glm::dvec3>& point, std::string help) {
+  const auto set = [name, &point](const std::string& word) {
+    point = point_word(name, word);
+    return true;
+  };
+  return {.name = std::move(name), .target = ParsedWord{set, {}}, .help = std::move(help), .word = "X,Y,Z"};
 }
 
 void resolve_light(const Request& request, LightState& light) {
-  (void)light_kind_from_name(request.light, light.sun.kind);
-  const bool placed = !request.light_position.empty();
-  if (!placed) {
-    if (!request.light_direction.empty() || request.light_outer_deg > 0.0 || request.light_range > 0.0)
+  if (!request.light_position) {
+    if (request.light_direction || request.light_outer_deg > 0.0 || request.light_range > 0.0)
       throw std::runtime_error(
           "--light-direction, --light-outer-deg and --light-range need --light-position");
     return;
@@ -82,15 +74,14 @@ void resolve_light(const Request& request, LightState& light) {
   if (light.sun.kind == LightKind::sun)
     throw std::runtime_error("--light-position: the sun has none; give --light spot or --light point");
   constexpr double kRange = 100.0, kRadians = 3.14159265358979323846 / 180.0;
-  const glm::dvec3 position = point_word("--light-position", request.light_position);
+  const glm::dvec3 position = *request.light_position;
   const double range = request.light_range > 0.0 ? request.light_range : kRange;
   if (light.sun.kind == LightKind::point) {
     light.point = PointLight{position, range};
     return;
   }
-  SpotLight spot{position, {0.0, -1.0, 0.0}, SpotLight{}.outer_radians, range};
-  if (!request.light_direction.empty())
-    spot.direction = point_word("--light-direction", request.light_direction);
+  const glm::dvec3 down{0.0, -1.0, 0.0};
+  SpotLight spot{position, request.light_direction.value_or(down), SpotLight{}.outer_radians, range};
   if (spot.direction == glm::dvec3(0.0)) throw std::runtime_error("--light-direction: must not be zero");
   if (request.light_outer_deg > 0.0) spot.outer_radians = request.light_outer_deg * kRadians;
   light.spot = spot;
@@ -105,10 +96,10 @@ void resolve_camera(const Request& request, State& state) {
     if (path.closed) state.path.push_back(path.keys.front());
     state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, 1.0, 170.0);
   }
-  if (request.eye.empty() != request.target.empty())
+  if (request.eye.has_value() != request.target.has_value())
     throw std::runtime_error("--eye and --target: give both, or neither");
-  if (request.eye.empty()) return;
-  state.eye = CameraKey{point_word("--eye", request.eye), point_word("--target", request.target)};
+  if (!request.eye) return;
+  state.eye = CameraKey{*request.eye, *request.target};
   if (state.eye->position == state.eye->target) throw std::runtime_error("--target: must differ from --eye");
 }
 
@@ -155,7 +146,6 @@ void resolve_plan(const Request& request, PlanOptions& plan) {
 
 Options resolved(const Request& request) {
   Options options = request.options;
-  read_picture_size(request.size, kLeastSide, kMostSide, options.width, options.height);
   options.out = request.out;
   options.screenshot = request.screenshot;
   options.tour = request.tour;
@@ -164,7 +154,6 @@ Options resolved(const Request& request) {
     throw std::runtime_error("--out opens no window, which --benchmark and --results need");
   if (!request.benchmark.empty() && !request.tour.empty())
     throw std::runtime_error("--benchmark and --tour: give one of them, each ends by itself");
-  options.context = offscreen_context(request.context);
   if (!request.state.empty()) {
     for (const auto& [name, given] : request.settings)
       if (*given)
@@ -180,16 +169,10 @@ Options resolved(const Request& request) {
   if (!request.state.empty()) return options;
   State& state = options.state;
   resolve_plan(request, state.a.plan);
-  state.a.identifiers = identifier_test(request.filter, "--filter");
-  if (!state.a.identifiers) state.a.filter = filter_word("--filter", request.filter);
-  resolve_pages(request.pages, state.a.pages);
-  state.a.transition = transition_from_name(request.transition);
-  state.a.layer = layer_from_name(request.layer);
-  state.a.map_passes = map_passes_from_name(request.map_passes);
+  check_page_size(state.a.pages);
   // A warped grid is only stable from frame to frame.
   if (state.a.plan.fit == Fit::warped_stable) state.a.history = true;
   state.b = state.a;
-  set_named("--view", request.view, view_names(), state.view);
   resolve_light(request, state.light);
   resolve_camera(request, state);
   resolve_playing(request, state.playing);
@@ -215,10 +198,9 @@ std::vector<Option> run_options(Request& request) {
        .target = &request.out,
        .help = "draw the picture into this PNG file and open no window",
        .completion = Completion::files},
-      {.name = "--size",
-       .target = &request.size,
-       .help = "size of the window, or of the picture of --out, in pixels, WIDTHxHEIGHT"},
-      context_option(request.context, " of --out"),
+      size_option(options.width, options.height,
+                  "size of the window, or of the picture of --out, in pixels, WIDTHxHEIGHT"),
+      context_option(options.context, " of --out"),
       {.name = "--exit-after",
        .target = &options.exit_after,
        .help = "close the window after this many frames with the scene; 0: stay open",
@@ -259,79 +241,74 @@ std::vector<Option> setting_options(Request& request) {
     if (is_spoken(field.key)) options.push_back(plan_option(field.key, state.a.plan));
   std::vector<std::string> views;
   for (const Named& one : view_names()) views.emplace_back(one.name);
+  Settings& settings = state.a;
+  const auto set_filter = [&settings](const std::string& word) {
+    settings.identifiers = identifier_test(word, "--filter");
+    if (!settings.identifiers) settings.filter = filter_word("--filter", word);
+    return true;
+  };
   const std::vector<Option> of_picture{
       {.name = "--options",
        .target = &request.plan_json,
        .help = "further options of the plan, as \"options\" of a case file has them, in JSON",
        .word = "JSON"},
       {.name = "--filter",
-       .target = &request.filter,
+       .target = ParsedWord{set_filter, render::to_string(settings.filter)},
        .help = "shadow filter, with options as in pcf:radius=2,unit=texels; gnomon filters lists all; or "
                "identifiers, as in identifiers:of=triangle,neighbours=1",
-       .names = names_in(render::all_filters()),
-       .only_names = false},
+       .names = names_in(render::all_filters())},
       {.name = "--transition",
-       .target = &request.transition,
+       .target = enum_word(settings.transition, transition_names()),
        .help = "transition between cascades, over --split-overlap",
        .names = transition_names()},
-      layer_option(request.layer),
+      layer_option(settings.layer),
       {.name = "--linear-depth",
-       .target = &state.a.linear_depth,
+       .target = &settings.linear_depth,
        .help = "store depths that grow evenly along the light; docs/bias.md says when they pay"},
-      map_passes_option(request.map_passes),
+      map_passes_option(settings.map_passes),
       {.name = "--history",
-       .target = &state.a.history,
+       .target = &settings.history,
        .help = "change texel density smoothly from frame to frame"},
       {.name = "--visible-depths",
-       .target = &state.a.visible_depths,
+       .target = &settings.visible_depths,
        .help = "draw each frame twice, and plan the second for the depths that the first shows"}};
-  const std::vector<Option> of_pages = page_setting_options(request.pages, state.a.pages);
-  const std::vector<Option> of_light = light_options(request.light, state.light.sun);
-  const std::vector<Option> others{{.name = "--light-position",
-                                    .target = &request.light_position,
-                                    .help = "position of the spot or point light, world units",
-                                    .word = "X,Y,Z"},
-                                   {.name = "--light-direction",
-                                    .target = &request.light_direction,
-                                    .help = "direction of the spot light",
-                                    .word = "X,Y,Z"},
-                                   {.name = "--light-outer-deg",
-                                    .target = &request.light_outer_deg,
-                                    .help = "half angle of the spot light's cone, degrees",
-                                    .range = {{0.0, 179.9}}},
-                                   {.name = "--light-range",
-                                    .target = &request.light_range,
-                                    .help = "distance that the local light reaches, world units",
-                                    .range = {{0.0, 1e30}}},
-                                   {.name = "--eye",
-                                    .target = &request.eye,
-                                    .help = "position of the camera, world units; needs --target",
-                                    .word = "X,Y,Z"},
-                                   {.name = "--target",
-                                    .target = &request.target,
-                                    .help = "point that the camera looks at",
-                                    .word = "X,Y,Z"},
-                                   {.name = "--path",
-                                    .target = &request.path,
-                                    .help = "camera path, a JSON file, in place of the scene's own",
-                                    .completion = Completion::files},
-                                   {.name = "--animation",
-                                    .target = &state.playing.animation,
-                                    .help = "animation that poses the scene, by name or number",
-                                    .word = "NAME"},
-                                   {.name = "--animation-time",
-                                    .target = &state.playing.time_s,
-                                    .help = "time within the animation, seconds; it repeats",
-                                    .range = {{-1e9, 1e9}}},
-                                   {.name = "--animate",
-                                    .target = &state.playing.speed,
-                                    .help = "play it, the first without --animation, at this speed; "
-                                            "below 0: backwards",
-                                    .range = {{-100.0, 100.0}}},
-                                   {.name = "--view",
-                                    .target = &request.view,
-                                    .help = "what the picture shows: " + any_of_text(views),
-                                    .names = views}};
+  const std::vector<Option> of_pages = page_setting_options(settings.pages);
+  const std::vector<Option> of_light = light_options(state.light.sun);
+  const std::vector<Option> others{
+      point_option("--light-position", request.light_position,
+                   "position of the spot or point light, world units"),
+      point_option("--light-direction", request.light_direction, "direction of the spot light"),
+      {.name = "--light-outer-deg",
+       .target = &request.light_outer_deg,
+       .help = "half angle of the spot light's cone, degrees",
+       .range = {{0.0, 179.9}}},
+      {.name = "--light-range",
+       .target = &request.light_range,
+       .help = "distance that the local light reaches, world units",
+       .range = {{0.0, 1e30}}},
+      point_option("--eye", request.eye, "position of the camera, world units; needs --target"),
+      point_option("--target", request.target, "point that the camera looks at"),
+      {.name = "--path",
+       .target = &request.path,
+       .help = "camera path, a JSON file, in place of the scene's own",
+       .completion = Completion::files},
+      {.name = "--animation",
+       .target = &state.playing.animation,
+       .help = "animation that poses the scene, by name or number",
+       .word = "NAME"},
+      {.name = "--animation-time",
+       .target = &state.playing.time_s,
+       .help = "time within the animation, seconds; it repeats",
+       .range = {{-1e9, 1e9}}},
+      {.name = "--animate",
+       .target = &state.playing.speed,
+       .help = "play it, the first without --animation, at this speed; "
+               "below 0: backwards",
+       .range = {{-100.0, 100.0}}},
+      {.name = "--view",
+       .target = enum_word(state.view, views),
+       .help = "what the picture shows: " + any_of_text(views),
+       .names = views}};
   for (const auto* part : {&of_pages, &of_picture, &of_light, &others})
     options.insert(options.end(), part->begin(), part->end());
   for (Option& option : options) {

@@ -96,6 +96,13 @@ TEST(Bias, refuses_bad_input_in_one_line) {
   }
 }
 
+TEST(Bias, refusals_name_the_option_that_was_given) {
+  EXPECT_NE(run_gnomon({"bias", "--warp", "bent"}).err.find("--warp bent: wants auto, none"),
+            std::string::npos);
+  EXPECT_NE(run_gnomon({"bias", "--filter", "blur"}).err.find("--filter "), std::string::npos);
+  EXPECT_NE(run_gnomon({"bias", "--biases", "none"}).err.find("--biases none: wants all"), std::string::npos);
+}
+
 TEST(CompareLayers, every_layer_has_a_row_and_irregular_is_measured_once) {
   const TemporaryFolder folder;
   const Finished finished = run_gnomon({"compare",     "builtin:fence",

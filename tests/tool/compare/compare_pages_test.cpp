@@ -124,17 +124,16 @@ TEST(ComparePages, what_pages_cannot_do_is_refused_in_one_line) {
 }
 
 TEST(ComparePages, numbers_of_cascades_are_one_row_under_a_local_light) {
-  tool::CompareRequest request;
+  tool::SweepRequest request;
   request.scenes = {"builtin:hangar"};
-  request.filters = {"hard"};
-  request.cascades = {"1", "4"};
-  request.pages = {"resolution"};
-  for (const char* light : {"sun", "spot", "point"}) {
-    request.light = light;
+  request.cascades = {1, 4};
+  request.pages = {&page_policies::resolution};
+  for (const LightKind light : {LightKind::sun, LightKind::spot, LightKind::point}) {
+    request.light.kind = light;
     const tool::Sweep sweep = tool::make_sweep(request);
     const auto by_pages = std::count_if(sweep.entries.begin(), sweep.entries.end(),
                                         [](const tool::SweepEntry& entry) { return entry.by_pages(); });
-    EXPECT_EQ(by_pages, request.light == "sun" ? 2 : 1) << light;
+    EXPECT_EQ(by_pages, light == LightKind::sun ? 2 : 1) << to_string(light);
   }
 }
 
