@@ -17,11 +17,16 @@ constexpr double kMessageSeconds = 6.0, kErrorSeconds = 15.0;
 // Between keys of a recorded path, seconds.
 constexpr double kPathStep = 0.5;
 
-void add_path_key(App& app) {
-  const Camera& camera = app.stage->camera();
-  const CameraKey key{camera.position, camera.position + camera.forward};
-  std::vector<CameraKey>& keys = app.recorded_path->keys;
-  app.path_seconds = 0.0;
+/// The camera of the frame that was drawn last.
+CameraKey drawn_eye(const Stage& stage) {
+  const Camera& camera = stage.camera();
+  return {camera.position, camera.position + camera.forward};
+}
+
+void add_path_key(PathRecording& recording, const Stage& stage) {
+  const CameraKey key = drawn_eye(stage);
+  std::vector<CameraKey>& keys = recording.path.keys;
+  recording.seconds = 0.0;
   const bool moved = keys.empty() || keys.back().position != key.position || keys.back().target != key.target;
   if (moved && keys.size() < kMostPathKeys) keys.push_back(key);
 }
@@ -36,30 +41,29 @@ std::filesystem::path free_name(fmt::format_string<int&> pattern) {
 
 }  // namespace
 
-void record_path(App& app, double seconds) {
-  if (!app.recorded_path || app.stage == nullptr) return;
-  app.path_seconds += seconds;
-  if (app.path_seconds >= kPathStep) add_path_key(app);
+void record_path(Document& document, const Stage* stage, double seconds) {
+  if (!document.recording || stage == nullptr) return;
+  document.recording->seconds += seconds;
+  if (document.recording->seconds >= kPathStep) add_path_key(*document.recording, *stage);
 }
 
-void show_message(App& app, const std::string& text, bool error) {
-  app.message = text;
-  app.message_is_error = error;
-  app.message_until = ImGui::GetTime() + (error ? kErrorSeconds : kMessageSeconds);
+void show_message(Display& display, const std::string& text, bool error) {
+  display.message = {text, error, ImGui::GetTime() + (error ? kErrorSeconds : kMessageSeconds)};
 }
 
 void open_scene(App& app, const std::string& scene) {
-  if (app.loading.valid()) return show_message(app, "still loading " + app.loading_name, true);
-  app.loading_name = scene;
-  app.loading_since = ImGui::GetTime();
-  app.loading = std::async(std::launch::async, load, scene, app.options.max_triangles, app.state.panes);
+  Loading& loading = app.drawing.loading;
+  if (loading.scene.valid()) return show_message(app.display, "still loading " + loading.name, true);
+  loading = {std::async(std::launch::async, load, scene, app.options.max_triangles, app.document.state.panes),
+             scene, ImGui::GetTime()};
 }
 
 void set_state(App& app, const State& state) {
-  const std::string scene = app.stage != nullptr ? app.stage->loaded().name : app.state.scene;
-  const bool panes = app.stage != nullptr ? app.stage->loaded().parted : app.state.panes;
-  app.state = state;
-  if (app.stage != nullptr) app.stage->cut();
+  Stage* const stage = app.drawing.stage.get();
+  const std::string scene = stage != nullptr ? stage->loaded().name : app.document.state.scene;
+  const bool panes = stage != nullptr ? stage->loaded().parted : app.document.state.panes;
+  app.document.state = state;
+  if (stage != nullptr) stage->cut();
   if (state.scene != scene || state.panes != panes) open_scene(app, state.scene);
 }
 
@@ -69,133 +73,133 @@ void open_file(App& app, const std::string& file) {
   if (!results && !std::filesystem::path(file).extension().string().starts_with(".json"))
     return open_scene(app, file);
   try {
-    if (results) return open_results(app, file);
+    if (results) return open_results(app.display, app.drawing, file);
     set_state(app, load_state(file));
-    app.state_file = file;
-    show_message(app, "opened " + shown_name(file), false);
+    app.document.file = file;
+    show_message(app.display, "opened " + shown_name(file), false);
   } catch (const std::exception& error) {
-    show_message(app, error.what(), true);
+    show_message(app.display, error.what(), true);
   }
 }
 
-void save_state(App& app, const std::string& file) {
-  const std::string why = save_text(state_text(app.state), file);
-  show_message(app, why.empty() ? "saved " + shown_name(file) : shown_name(file) + ": " + why, !why.empty());
+void save_state(const Document& document, Display& display) {
+  const std::string name = shown_name(document.file),
+                    why = save_text(state_text(document.state), document.file);
+  show_message(display, why.empty() ? "saved " + name : name + ": " + why, !why.empty());
 }
 
-void toggle_path_recording(App& app) {
-  if (app.stage == nullptr) return;
-  if (!app.recorded_path) {
-    app.recorded_path = path_of(app.state, app.stage->loaded().path);
-    app.recorded_path->keys.clear();
-    app.recorded_path->closed = false;
-    add_path_key(app);
-    return show_message(app, "the camera's path is recorded; K ends it", false);
+void toggle_path_recording(Document& document, const Stage* stage, Display& display) {
+  if (stage == nullptr) return;
+  if (!document.recording) {
+    PathRecording& recording = document.recording.emplace();
+    recording.path = path_of(document.state, stage->loaded().path);
+    recording.path.keys.clear();
+    recording.path.closed = false;
+    add_path_key(recording, *stage);
+    return show_message(display, "the camera's path is recorded; K ends it", false);
   }
-  add_path_key(app);
-  const CameraPath path = std::move(*app.recorded_path);
-  app.recorded_path.reset();
-  if (path.keys.size() < 2) return show_message(app, "the camera did not move: no path", true);
-  app.state.path = path.keys;
-  app.state.motion.path_seconds =
+  add_path_key(*document.recording, *stage);
+  const CameraPath path = std::move(document.recording->path);
+  document.recording.reset();
+  if (path.keys.size() < 2) return show_message(display, "the camera did not move: no path", true);
+  document.state.path = path.keys;
+  document.state.motion.path_seconds =
       std::clamp(kPathStep * static_cast<double>(path.keys.size() - 1), 1.0, 3600.0);
   const std::filesystem::path file = free_name("gnomon_path_{:04}.json");
   try {
     save_camera_path(path, file);
-    show_message(app,
+    show_message(display,
                  fmt::format("P flies along the path; wrote {}", std::filesystem::absolute(file).string()),
                  false);
   } catch (const std::exception& error) {
-    show_message(app, error.what(), true);
+    show_message(display, error.what(), true);
   }
 }
 
 void toggle_benchmark(App& app, const std::filesystem::path& file) {
-  if (app.stage == nullptr) return;
-  if (app.benchmark) {
-    const State before = app.benchmark->before();
-    app.benchmark.reset();
+  Drawing& drawing = app.drawing;
+  if (drawing.stage == nullptr) return;
+  if (drawing.benchmark) {
+    const State before = drawing.benchmark->before();
+    drawing.benchmark.reset();
     set_state(app, before);
-    return show_message(app, "the benchmark was ended; nothing is written", false);
+    return show_message(app.display, "the benchmark was ended; nothing is written", false);
   }
   const std::filesystem::path to = file.empty() ? free_name("gnomon_benchmark_{:04}.csv") : file;
-  app.stage->cut();
-  app.benchmark.emplace(app.state, app.options.frames, to, app.renderer);
+  drawing.stage->cut();
+  drawing.benchmark.emplace(app.document.state, app.options.frames, to, drawing.renderer);
 }
 
 bool place_benchmark(App& app) {
-  if (!app.benchmark) return false;
-  app.state = app.benchmark->next();
-  show_message(app,
-               fmt::format("benchmark: frame {} of {}; F7 ends it", app.benchmark->frame() + 1,
-                           app.benchmark->frames()),
-               false);
+  const std::optional<Benchmark>& benchmark = app.drawing.benchmark;
+  if (!benchmark) return false;
+  app.document.state = benchmark->next();
+  show_message(
+      app.display,
+      fmt::format("benchmark: frame {} of {}; F7 ends it", benchmark->frame() + 1, benchmark->frames()),
+      false);
   return true;
 }
 
 void take_benchmark(App& app) {
-  if (!app.refusal.empty()) {
-    set_state(app, app.benchmark->before());
-    app.benchmark.reset();
-    return show_message(app, "benchmark: " + app.refusal, true);
+  Drawing& drawing = app.drawing;
+  if (!drawing.refusal.empty()) {
+    set_state(app, drawing.benchmark->before());
+    drawing.benchmark.reset();
+    return show_message(app.display, "benchmark: " + drawing.refusal, true);
   }
-  app.benchmark->take(*app.stage, app.frame_ms);
-  if (!app.benchmark->done()) return;
-  const Benchmark ended = std::move(*app.benchmark);
-  app.benchmark.reset();
+  drawing.benchmark->take(*drawing.stage, drawing.frame_ms);
+  if (!drawing.benchmark->done()) return;
+  const Benchmark ended = std::move(*drawing.benchmark);
+  drawing.benchmark.reset();
   set_state(app, ended.before());
   const std::string why = save_text(ended.text(), ended.file());
-  if (!why.empty()) return show_message(app, ended.file().string() + ": " + why, true);
-  show_message(app,
+  if (!why.empty()) return show_message(app.display, ended.file().string() + ": " + why, true);
+  show_message(app.display,
                fmt::format("wrote {}: {}", std::filesystem::absolute(ended.file()).string(), ended.summary()),
                false);
 }
 
-State spoken_state(const App& app) {
-  State state = app.state;
+State spoken_state(State state, const Stage* stage) {
   const bool usual = state.path.empty() && state.path_time == State().path_time;
-  if (!state.eye && !usual && app.stage != nullptr) {
-    const Camera& camera = app.stage->camera();
-    state.eye = CameraKey{camera.position, camera.position + camera.forward};
-  }
+  if (!state.eye && !usual && stage != nullptr) state.eye = drawn_eye(*stage);
   return state;
 }
 
-void save_picture(App& app) {
-  if (app.stage == nullptr) return;
+void save_picture(const Drawing& drawing, Display& display) {
+  if (drawing.stage == nullptr) return;
   const std::filesystem::path file = free_name("gnomon_view_{:04}.png");
   try {
-    write_png(app.stage->canvas().image(), file);
-    show_message(app, "wrote " + std::filesystem::absolute(file).string(), false);
+    write_png(drawing.stage->canvas().image(), file);
+    show_message(display, "wrote " + std::filesystem::absolute(file).string(), false);
   } catch (const std::exception& error) {
-    show_message(app, error.what(), true);
+    show_message(display, error.what(), true);
   }
 }
 
 void undo(App& app, bool forward) {
-  std::vector<std::string>&from = forward ? app.redo : app.undo, &to = forward ? app.undo : app.redo;
-  if (from.empty()) return show_message(app, forward ? "nothing to redo" : "nothing to undo", false);
-  to.push_back(state_text(app.state));
-  app.undo_now = from.back();
+  History& history = app.document.history;
+  std::vector<std::string>&from = forward ? history.redo : history.undo,
+  &to = forward ? history.undo : history.redo;
+  if (from.empty()) return show_message(app.display, forward ? "nothing to redo" : "nothing to undo", false);
+  to.push_back(state_text(app.document.state));
+  history.now = from.back();
   from.pop_back();
-  set_state(app, read_state(app.undo_now));
+  set_state(app, read_state(history.now));
 }
 
-CameraKey& own_eye(App& app) {
-  app.state.motion.camera = false;
-  if (!app.state.eye) {
-    const Camera& camera = app.stage->camera();
-    app.state.eye = CameraKey{camera.position, camera.position + camera.forward};
-  }
-  return *app.state.eye;
+CameraKey& own_eye(State& state, const Stage& stage) {
+  state.motion.camera = false;
+  if (!state.eye) state.eye = drawn_eye(stage);
+  return *state.eye;
 }
 
-void toggle_freeze(App& app) {
-  if (app.stage == nullptr) return;
-  if (app.state.frozen) {
-    app.state.frozen.reset();
+void toggle_freeze(State& state, const Stage* stage) {
+  if (stage == nullptr) return;
+  if (state.frozen) {
+    state.frozen.reset();
   } else {
-    app.state.frozen = own_eye(app);
+    state.frozen = own_eye(state, *stage);
   }
 }
 

@@ -23,31 +23,32 @@ void plot(const char* name, const Curve& curve, const char* unit, const char* he
   ImGui::PopID();
 }
 
-void last_frames(App& app) {
+void last_frames(Drawing& drawing, Display& display) {
   ImGui::TextWrapped("Side A over the last %d drawn frames: move, or let the sun turn.", Curve::kLength);
-  plot("plan", app.curves.plan, "us", "time of make_plan");
-  plot("draw maps", app.curves.maps, "ms", "drawing the depth maps");
-  plot("prefilter", app.curves.prefilter, "ms", "what the filter stores, blurs and sums");
-  plot("look-up", app.curves.lookup, "ms", "reading the maps for every pixel");
-  plot("m p95", app.curves.m_p95, "pixels", "aliasing error that 95 % of what is in view stays below");
-  plot("texels drawn", app.curves.texels, "M", "over all maps or pages; cached ones draw none");
-  if (app.stage != nullptr && app.stage->side(0).pages)
-    plot("pages drawn", app.curves.pages, "", "pages that were not kept from earlier frames");
-  plot("shimmering", app.curves.flips, "%",
+  plot("plan", drawing.curves.plan, "us", "time of make_plan");
+  plot("draw maps", drawing.curves.maps, "ms", "drawing the depth maps");
+  plot("prefilter", drawing.curves.prefilter, "ms", "what the filter stores, blurs and sums");
+  plot("look-up", drawing.curves.lookup, "ms", "reading the maps for every pixel");
+  plot("m p95", drawing.curves.m_p95, "pixels", "aliasing error that 95 % of what is in view stays below");
+  plot("texels drawn", drawing.curves.texels, "M", "over all maps or pages; cached ones draw none");
+  if (drawing.stage != nullptr && drawing.stage->side(0).pages)
+    plot("pages drawn", drawing.curves.pages, "", "pages that were not kept from earlier frames");
+  plot("shimmering", drawing.curves.flips, "%",
        "pixels whose shadow flips from the plan of the frame before to this one, at the same points of a "
        "light and a scene at rest");
-  if (ImGui::Button("clear")) app.curves = {};
+  if (ImGui::Button("clear")) drawing.curves = {};
   ImGui::SameLine();
-  ImGui::Checkbox("count shimmering", &app.shimmering);
+  ImGui::Checkbox("count shimmering", &display.shimmering);
   tooltip("each frame is drawn with the plan before as well; not with pages");
 }
 
 }  // namespace
 
 void curves_part(App& app) {
-  if (app.results) results_part(app);
-  if (ImGui::CollapsingHeader("last frames", ImGuiTreeNodeFlags_DefaultOpen)) last_frames(app);
-  if (!app.results) results_part(app);
+  if (app.display.results) results_part(app);
+  if (ImGui::CollapsingHeader("last frames", ImGuiTreeNodeFlags_DefaultOpen))
+    last_frames(app.drawing, app.display);
+  if (!app.display.results) results_part(app);
 }
 
 }  // namespace gnomon::tool::view

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "app.hpp"
+#include "steering.hpp"
 
 namespace gnomon::tool::view {
 namespace {
@@ -49,9 +50,8 @@ constexpr KeyHelp kKeys[] = {
 std::vector<KeyEvent> take_events(std::vector<KeyEvent>& waiting) {
   auto end = waiting.begin();
   const auto repeats = [&](const KeyEvent& event) {
-    return event.down && std::any_of(waiting.begin(), end, [&](const KeyEvent& one) {
-             return one.down && one.key == event.key;
-           });
+    return event.down && std::any_of(waiting.begin(), end,
+                                     [&](const KeyEvent& one) { return one.down && one.key == event.key; });
   };
   while (end != waiting.end() && !repeats(*end)) ++end;
   std::vector<KeyEvent> now(waiting.begin(), end);
@@ -64,10 +64,10 @@ std::vector<KeyEvent> take_events(std::vector<KeyEvent>& waiting) {
 class Presses {
  public:
   /// Takes the next events.
-  explicit Presses(App& app) : events_(take_events(app.key_events)), down_(app.keys_down) {
+  explicit Presses(Keys& keys) : events_(take_events(keys.events)), down_(keys.down) {
     for (const KeyEvent& event : events_) {
-      std::erase(app.keys_down, event.key);
-      if (event.down && !has_control(event)) app.keys_down.push_back(event.key);
+      std::erase(keys.down, event.key);
+      if (event.down && !has_control(event)) keys.down.push_back(event.key);
     }
   }
   [[nodiscard]] bool operator()(int key, bool control = false) const {
@@ -99,36 +99,22 @@ class Presses {
   const std::vector<int>& down_;
 };
 
-template <class Registry>
-void next_filter(render::FilterSettings& filter, const Registry& all, int step) {
-  const auto at = std::find(all.begin(), all.end(), filter.filter) - all.begin();
-  const auto count = static_cast<std::ptrdiff_t>(all.size());
-  filter = render::default_settings(*all[static_cast<std::size_t>((at + step + count) % count)]);
-}
-
-void next_warp(PlanOptions& plan, int step) {
-  const auto all = all_warps();
-  const auto count = static_cast<std::ptrdiff_t>(all.size()) + 1;  // the first is nullptr: chosen by the plan
-  const auto at =
-      plan.warp.warp == nullptr ? 0 : std::find(all.begin(), all.end(), plan.warp.warp) - all.begin() + 1;
-  const auto next = (at + step + count) % count;
-  plan.warp.warp = next == 0 ? nullptr : all[static_cast<std::size_t>(next - 1)];
-}
-
-void next_policy(PageSetting& pages, int step) {
-  const std::vector<std::string> names = page_policy_names();
-  const auto at = std::find(names.begin(), names.end(), page_policy_name(pages)) - names.begin();
-  const auto count = static_cast<std::ptrdiff_t>(names.size());
-  pages.policy = page_policy_of(names[static_cast<std::size_t>((at + step + count) % count)]);
+/// The entry of a registry that is so many steps behind `now`, round and round. nullptr is an entry as well,
+/// where `off` is set: before the first.
+template <class Registry, class Entry>
+const Entry* stepped(const Registry& all, const Entry* now, int step, bool off) {
+  const std::ptrdiff_t before = off ? 1 : 0, count = static_cast<std::ptrdiff_t>(all.size()) + before;
+  const std::ptrdiff_t at =
+      now == nullptr ? 0 : std::find(all.begin(), all.end(), now) - all.begin() + before;
+  const std::ptrdiff_t next = (at + step + count) % count - before;
+  return next < 0 ? nullptr : all[static_cast<std::size_t>(next)];
 }
 
 /// Over the point under the cursor, at the height that the light has above the scene's floor.
-void hang_light(App& app) {
-  LightState& light = app.state.light;
-  if (!app.probed || !app.probed->hit || light.sun.kind == LightKind::sun) return;
-  const Box& bounds = app.stage->loaded().scene.bounds_world;
+void hang_light(LightState& light, const Probed& probed, const Box& bounds) {
+  if (!probed.hit || light.sun.kind == LightKind::sun) return;
   const double up = 0.4 * (bounds.max.y - bounds.min.y);
-  const glm::dvec3 position = app.probed->point + glm::dvec3(0.0, up, 0.0);
+  const glm::dvec3 position = probed.point + glm::dvec3(0.0, up, 0.0);
   Light now = light_of(light, bounds);
   if (auto* point = std::get_if<PointLight>(&now)) {
     point->position = position;
@@ -144,35 +130,40 @@ void control_keys(App& app, const Presses& pressed) {
   constexpr bool kControl = true;
   if (pressed(GLFW_KEY_Q, kControl)) glfwSetWindowShouldClose(app.window, GLFW_TRUE);
   if (pressed(GLFW_KEY_C, kControl)) {
-    ImGui::SetClipboardText(command_text(spoken_state(app)).c_str());
-    show_message(app, "the command is in the clipboard", false);
+    ImGui::SetClipboardText(command_text(spoken_state(app.document.state, app.drawing.stage.get())).c_str());
+    show_message(app.display, "the command is in the clipboard", false);
   }
   if (pressed(GLFW_KEY_Z, kControl)) undo(app, false);
   if (pressed(GLFW_KEY_Y, kControl)) undo(app, true);
 }
 
 void setting_keys(App& app, const Presses& pressed) {
-  State& state = app.state;
-  Settings& settings = app.side == 1 && state.comparison != Comparison::off ? state.b : state.a;
+  State& state = app.document.state;
+  Settings& settings = app.document.edited();
+  const Stage* const stage = app.drawing.stage.get();
   int& cascades = settings.plan.cascades;
   int& size = settings.plan.resolution.max_size;
-  if (const int step = pressed.step(GLFW_KEY_V); step != 0) next_warp(settings.plan, step);
+  const Warp*& warp = settings.plan.warp.warp;
+  if (const int step = pressed.step(GLFW_KEY_V); step != 0) warp = stepped(all_warps(), warp, step, true);
   if (const int step = pressed.step(GLFW_KEY_F); step != 0) {
-    next_filter(settings.filter, render::all_filters(), step);
+    settings.filter =
+        render::default_settings(*stepped(render::all_filters(), settings.filter.filter, step, false));
     settings.identifiers.reset();
   }
-  if (const int step = pressed.step(GLFW_KEY_G); step != 0) next_policy(settings.pages, step);
+  if (const int step = pressed.step(GLFW_KEY_G); step != 0)
+    settings.pages.policy = stepped(all_page_policies(), settings.pages.policy, step, true);
   if (pressed(GLFW_KEY_T)) settings.plan.fit = settings.plan.fit == Fit::stable ? Fit::tight : Fit::stable;
   if (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD)) cascades = std::min(cascades + 1, kMaxMaps);
   if (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT)) cascades = std::max(cascades - 1, 1);
   if (pressed(GLFW_KEY_PAGE_UP)) size = std::min(size * 2, kMostMapSize);
   if (pressed(GLFW_KEY_PAGE_DOWN)) size = std::max(size / 2, kLeastMapSize);
-  if (pressed(GLFW_KEY_L)) hang_light(app);
-  if (pressed(GLFW_KEY_K)) toggle_path_recording(app);
-  if (pressed(GLFW_KEY_SPACE)) toggle_playing(app);
+  if (pressed(GLFW_KEY_L) && app.display.probed)
+    hang_light(state.light, *app.display.probed, stage->loaded().scene.bounds_world);
+  if (pressed(GLFW_KEY_K)) toggle_path_recording(app.document, stage, app.display);
+  if (pressed(GLFW_KEY_SPACE)) toggle_playing(state, stage);
   if (pressed(GLFW_KEY_O)) state.motion.sun = !state.motion.sun;
-  if (pressed(GLFW_KEY_M) && app.stage != nullptr)
-    state.map = (state.map + 1) % std::max(app.stage->side(0).picture_count(), 1);
+  if (pressed(GLFW_KEY_M) && stage != nullptr)
+    state.map = (state.map + 1) % std::max(stage->side(0).picture_count(), 1);
   if (pressed(GLFW_KEY_P)) {
     state.motion.camera = !state.motion.camera;
     if (state.motion.camera) state.eye.reset();
@@ -181,40 +172,27 @@ void setting_keys(App& app, const Presses& pressed) {
 }
 
 void function_keys(App& app, const Presses& pressed) {
-  State& state = app.state;
+  State& state = app.document.state;
+  Display& display = app.display;
   for (int i = 0; i < kViewCount; ++i)
     if (pressed(GLFW_KEY_1 + i)) state.view = static_cast<View>(i);
-  if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) app.help = !app.help;
-  if (pressed(GLFW_KEY_TAB)) app.panel = !app.panel;
-  if (pressed(GLFW_KEY_F2)) toggle_freeze(app);
+  if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) display.help = !display.help;
+  if (pressed(GLFW_KEY_TAB)) display.panel = !display.panel;
+  if (pressed(GLFW_KEY_F2)) toggle_freeze(state, app.drawing.stage.get());
   if (pressed(GLFW_KEY_F3))
     state.comparison = static_cast<Comparison>((static_cast<int>(state.comparison) + 1) % 3);
-  if (pressed(GLFW_KEY_F4)) app.side = 1 - app.side;
-  if (pressed(GLFW_KEY_F5)) save_state(app, app.state_file);
-  if (pressed(GLFW_KEY_F9)) open_file(app, app.state_file);
+  if (pressed(GLFW_KEY_F4)) app.document.side = 1 - app.document.side;
+  if (pressed(GLFW_KEY_F5)) save_state(app.document, display);
+  if (pressed(GLFW_KEY_F9)) open_file(app, app.document.file);
   if (pressed(GLFW_KEY_F6)) ImGui::GetIO().ConfigFlags ^= ImGuiConfigFlags_NavEnableKeyboard;
   if (pressed(GLFW_KEY_F7)) toggle_benchmark(app);
-  if (pressed(GLFW_KEY_F11)) app.recording = !app.recording;
-  if (pressed(GLFW_KEY_F12)) app.wants_picture = true;
-  if (pressed(GLFW_KEY_I)) app.probing = !app.probing;
-  if (pressed(GLFW_KEY_ESCAPE)) app.help = false;
+  if (pressed(GLFW_KEY_F11)) app.drawing.saving.every = !app.drawing.saving.every;
+  if (pressed(GLFW_KEY_F12)) app.drawing.saving.next = true;
+  if (pressed(GLFW_KEY_I)) display.probing = !display.probing;
+  if (pressed(GLFW_KEY_ESCAPE)) display.help = false;
 }
 
-void turn(CameraKey& eye, double right, double up) {
-  const glm::dvec3 look = eye.target - eye.position;
-  const double length = glm::length(look), heading = std::atan2(look.x, -look.z) + right;
-  constexpr double kSteepest = 1.55;  // radians: short of straight up and down
-  const double pitch = std::clamp(std::atan2(look.y, std::hypot(look.x, look.z)) + up, -kSteepest, kSteepest);
-  eye.target = eye.position + length * glm::dvec3(std::sin(heading) * std::cos(pitch), std::sin(pitch),
-                                                  -std::cos(heading) * std::cos(pitch));
-}
-
-void move(CameraKey& eye, const glm::dvec3& step) {
-  eye.position += step;
-  eye.target += step;
-}
-
-void steer(App& app, const Presses& pressed, double seconds) {
+void steer(State& state, const Stage& stage, const Presses& pressed, double seconds) {
   const auto axis = [&pressed](int plus, int minus) {
     return 1.0 * pressed.held(plus) - 1.0 * pressed.held(minus);
   };
@@ -225,81 +203,81 @@ void steer(App& app, const Presses& pressed, double seconds) {
       arrows ? glm::dvec2(axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(GLFW_KEY_UP, GLFW_KEY_DOWN))
              : glm::dvec2(0.0);
   if (way == glm::dvec3(0.0) && look == glm::dvec2(0.0)) return;
-  CameraKey& eye = own_eye(app);
+  CameraKey& eye = own_eye(state, stage);
   constexpr double kRadiansPerSecond = 1.2;
   turn(eye, look.x * kRadiansPerSecond * seconds, look.y * kRadiansPerSecond * seconds);
-  Camera camera = app.stage->camera();
+  Camera camera = stage.camera();
   camera.forward = eye.target - eye.position;
   const CameraAxes axes = camera_axes(camera);
   // A scene's depth in twenty seconds, whatever its units.
   constexpr double kSeconds = 20.0, kFast = 4.0;
-  const double speed = app.stage->loaded().path.far_depth / kSeconds * (pressed.shift() ? kFast : 1.0);
+  const double speed = stage.loaded().path.far_depth / kSeconds * (pressed.shift() ? kFast : 1.0);
   move(eye, (axes.right * way.x + glm::dvec3(0.0, way.y, 0.0) + axes.forward * way.z) * (speed * seconds));
 }
 
 /// Moves the local light with the mouse: across the view, or with Shift along it.
-void place_light(App& app) {
+void place_light(LightState& state, const Stage& stage, double pixel_ratio) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.MouseDelta.x == 0.0f && io.MouseDelta.y == 0.0f) return;
-  Light light = app.stage->light();
-  const Camera& camera = app.stage->camera();
+  Light light = stage.light();
+  const Camera& camera = stage.camera();
   const CameraAxes axes = camera_axes(camera);
   const auto moved = [&](glm::dvec3& position) {
     const double depth = glm::dot(position - camera.position, axes.forward);
-    const double step = (camera.right - camera.left) / camera.width * depth * app.pixel_ratio;
+    const double step = (camera.right - camera.left) / camera.width * depth * pixel_ratio;
     const double right = static_cast<double>(io.MouseDelta.x) * step,
                  down = static_cast<double>(io.MouseDelta.y) * step;
     position += io.KeyShift ? axes.forward * -down : axes.right * right - axes.up * down;
   };
   if (auto* point = std::get_if<PointLight>(&light)) {
     moved(point->position);
-    app.state.light.point = *point;
+    state.point = *point;
   } else if (auto* spot = std::get_if<SpotLight>(&light)) {
     moved(spot->position);
-    app.state.light.spot = *spot;
+    state.spot = *spot;
   }
 }
 
-void mouse(App& app) {
+void mouse(State& state, const Drawing& drawing, Display& display) {
   const ImGuiIO& io = ImGui::GetIO();
-  const double x = static_cast<double>(io.MousePos.x) * app.pixel_ratio - app.picture.x,
-               y = static_cast<double>(io.MousePos.y) * app.pixel_ratio - app.picture.y;
-  const bool over =
-      !io.WantCaptureMouse && x >= 0.0 && y >= 0.0 && x < app.picture.width && y < app.picture.height;
+  const Stage& stage = *drawing.stage;
+  const Area& area = drawing.area;
+  Mouse& button = display.mouse;
+  const double x = static_cast<double>(io.MousePos.x) * display.pixel_ratio - area.x,
+               y = static_cast<double>(io.MousePos.y) * display.pixel_ratio - area.y;
+  const bool over = !io.WantCaptureMouse && x >= 0.0 && y >= 0.0 && x < area.width && y < area.height;
   constexpr double kNear = 8.0;  // pixels from the line that the button still takes hold of
   if (over && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-    app.wiping =
-        app.state.comparison == Comparison::wipe && std::abs(x - app.state.wipe * app.picture.width) < kNear;
-    const auto handle = light_handle(app);
-    app.placing = handle && glm::length(handle->from - glm::dvec2(x, y)) < 2.0 * kNear;
-    app.looking = !app.wiping && !app.placing;
+    button.wiping = state.comparison == Comparison::wipe && std::abs(x - state.wipe * area.width) < kNear;
+    const auto handle = light_handle(state, &stage);
+    button.placing = handle && glm::length(handle->from - glm::dvec2(x, y)) < 2.0 * kNear;
+    button.looking = !button.wiping && !button.placing;
   }
-  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) app.looking = app.wiping = app.placing = false;
-  if (app.placing) place_light(app);
-  if (app.wiping) app.state.wipe = std::clamp(x / app.picture.width, 0.0, 1.0);
+  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) button = {};
+  if (button.placing) place_light(state.light, stage, display.pixel_ratio);
+  if (button.wiping) state.wipe = std::clamp(x / area.width, 0.0, 1.0);
   constexpr double kRadiansPerUnit = 0.003;
-  if (app.looking && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
-    turn(own_eye(app), static_cast<double>(io.MouseDelta.x) * kRadiansPerUnit,
+  if (button.looking && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
+    turn(own_eye(state, stage), static_cast<double>(io.MouseDelta.x) * kRadiansPerUnit,
          -static_cast<double>(io.MouseDelta.y) * kRadiansPerUnit);
   if (over && io.MouseWheel != 0.0f) {
-    CameraKey& eye = own_eye(app);
+    CameraKey& eye = own_eye(state, stage);
     constexpr double kSteps = 60.0;  // of the wheel, through the scene's depth
     move(eye, glm::normalize(eye.target - eye.position) *
-                  (static_cast<double>(io.MouseWheel) * app.stage->loaded().path.far_depth / kSteps));
+                  (static_cast<double>(io.MouseWheel) * stage.loaded().path.far_depth / kSteps));
   }
-  app.probed.reset();
-  if (over && app.probing && !app.looking && !app.wiping && !app.placing && app.stage->tracer() != nullptr &&
-      app.state.view != View::map)
-    app.probed = probe(*app.stage->tracer(), app.stage->side(0).drawn, app.stage->camera(),
-                       app.stage->light(), x, y, app.stage->side(0).page_plan());
+  display.probed.reset();
+  if (over && display.probing && !button.moves() && stage.tracer() != nullptr && state.view != View::map)
+    display.probed = probe(*stage.tracer(), stage.side(0).drawn, stage.camera(), stage.light(), x, y,
+                           stage.side(0).page_plan());
 }
 
 }  // namespace
 
-std::optional<ScreenLine> light_handle(const App& app) {
-  if (app.stage == nullptr || app.state.view == View::map) return {};
-  const Light& light = app.stage->light();
-  const Camera& camera = app.stage->camera();
+std::optional<ScreenLine> light_handle(const State& state, const Stage* stage) {
+  if (stage == nullptr || state.view == View::map) return {};
+  const Light& light = stage->light();
+  const Camera& camera = stage->camera();
   WorldLine axis;
   if (const auto* spot = std::get_if<SpotLight>(&light)) {
     axis.from = spot->position;
@@ -313,9 +291,9 @@ std::optional<ScreenLine> light_handle(const App& app) {
   // Cut lines begin elsewhere: the handle is the light's own place, or none.
   if (on_screen({{axis.from, axis.from + camera_axes(camera).right * 1e-9, {}, 1.0}}, camera).empty())
     return {};
-  const std::vector<ScreenLine> seen = on_screen({axis}, camera);
-  if (seen.empty()) return {};
-  return seen.front();
+  const std::vector<ScreenLine> visible = on_screen({axis}, camera);
+  if (visible.empty()) return {};
+  return visible.front();
 }
 
 std::span<const KeyHelp> key_help() noexcept {
@@ -323,14 +301,15 @@ std::span<const KeyHelp> key_help() noexcept {
 }
 
 void handle_input(App& app, double seconds) {
-  const Presses pressed(app);
+  const Presses pressed(app.display.keys);
   if (!ImGui::GetIO().WantTextInput) {
     control_keys(app, pressed);
     function_keys(app, pressed);
     setting_keys(app, pressed);
-    if (app.stage != nullptr && !pressed.control()) steer(app, pressed, seconds);
+    if (app.drawing.stage != nullptr && !pressed.control())
+      steer(app.document.state, *app.drawing.stage, pressed, seconds);
   }
-  if (app.stage != nullptr) mouse(app);
+  if (app.drawing.stage != nullptr) mouse(app.document.state, app.drawing, app.display);
 }
 
 }  // namespace gnomon::tool::view

@@ -17,36 +17,39 @@ constexpr ImGuiWindowFlags kTextWindow = kFixedWindow | ImGuiWindowFlags_NoInput
                                          ImGuiWindowFlags_NoFocusOnAppearing;
 
 /// A pixel of the picture, in window units.
-ImVec2 in_window(const App& app, const glm::dvec2& pixel) {
-  return {static_cast<float>((pixel.x + app.picture.x) / app.pixel_ratio),
-          static_cast<float>((pixel.y + app.picture.y) / app.pixel_ratio)};
+ImVec2 in_window(const Area& area, double pixel_ratio, const glm::dvec2& pixel) {
+  return {static_cast<float>((pixel.x + area.x) / pixel_ratio),
+          static_cast<float>((pixel.y + area.y) / pixel_ratio)};
 }
 
-std::string waiting_text(const App& app) {
-  if (app.loading.valid())
-    return fmt::format("loading {} ... {:.1f} s", app.loading_name, ImGui::GetTime() - app.loading_since);
-  if (app.compiling)
+std::string waiting_text(const Drawing& drawing, const Settings& settings) {
+  const Loading& loading = drawing.loading;
+  if (loading.scene.valid())
+    return fmt::format("loading {} ... {:.1f} s", loading.name, ImGui::GetTime() - loading.since);
+  if (drawing.compiling)
     return fmt::format("compiling {} ...",
-                       app.state.a.identifiers ? kIdentifiers : app.state.a.filter.filter->info.name);
-  if (app.stage == nullptr) return "compiling shaders ...";
-  if (const auto progress = app.stage->truth_progress(); progress && (*progress)[0] < (*progress)[1]) {
-    return app.stage->tracer() == nullptr
+                       settings.identifiers ? kIdentifiers : settings.filter.filter->info.name);
+  if (drawing.stage == nullptr) return "compiling shaders ...";
+  if (const auto progress = drawing.stage->truth_progress(); progress && (*progress)[0] < (*progress)[1]) {
+    return drawing.stage->tracer() == nullptr
                ? std::string("sorting triangles for exact rays ...")
                : fmt::format("exact rays: {} of {} rows", (*progress)[0], (*progress)[1]);
   }
   return {};
 }
 
-void status_line(const App& app) {
+void status_line(const State& state, const Drawing& drawing, const Display& display) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const auto left = static_cast<float>(panel_width(app));
-  std::string text = waiting_text(app);
-  if (!app.refusal.empty()) text = app.refusal + " (the last good picture stays)";
-  const bool error = !app.refusal.empty() || (app.message_is_error && ImGui::GetTime() < app.message_until);
-  if (ImGui::GetTime() < app.message_until && app.refusal.empty()) text = app.message;
-  if (text.empty() && app.stage != nullptr)
+  const auto left = static_cast<float>(panel_width(display));
+  const Message& message = display.message;
+  const std::string& refusal = drawing.refusal;
+  std::string text = waiting_text(drawing, state.a);
+  if (!refusal.empty()) text = refusal + " (the last good picture stays)";
+  const bool error = !refusal.empty() || (message.is_error && ImGui::GetTime() < message.until);
+  if (ImGui::GetTime() < message.until && refusal.empty()) text = message.text;
+  if (text.empty() && drawing.stage != nullptr)
     text = fmt::format("{}   {:.1f} ms   F1 keys   Tab panel   WASD move   drag to look   1-9 views",
-                       view_names()[static_cast<std::size_t>(app.state.view)].name, app.frame_ms);
+                       view_names()[static_cast<std::size_t>(state.view)].name, drawing.frame_ms);
   ImGui::SetNextWindowPos({left, size.y}, ImGuiCond_Always, {0.0f, 1.0f});
   ImGui::SetNextWindowSize({size.x - left, ImGui::GetFrameHeight()});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8.0f, 2.0f});
@@ -65,11 +68,11 @@ void status_line(const App& app) {
   ImGui::PopStyleVar(3);
 }
 
-void help_page(App& app) {
+void help_page(bool& open) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({size.x * 0.5f, size.y * 0.5f}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {size.x, size.y});
-  ImGui::Begin("keys", &app.help,
+  ImGui::Begin("keys", &open,
                ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize |
                    ImGuiWindowFlags_NoSavedSettings);
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
@@ -108,8 +111,8 @@ std::string map_text(const Probed& probed, const FramePages* pages) {
                              m.anisotropy);
 }
 
-void probe_text(App& app) {
-  if (!app.probed || !app.probed->hit) return;
+void probe_text(const Probed& probed, const Drawing& drawing, double pixel_ratio) {
+  if (!probed.hit) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos, size = ImGui::GetIO().DisplaySize;
   constexpr float kAside = 18.0f;
   // On the side of the cursor where there is room.
@@ -119,48 +122,54 @@ void probe_text(App& app) {
       ImGuiCond_Always, pivot);
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("probe", nullptr, kTextWindow);
-  ImGui::TextUnformatted(map_text(*app.probed, app.stage->side(0).pages.get()).c_str());
-  ImGui::Text("depth %.4g   exact: %s", app.probed->view_depth,
-              app.probed->turned_away ? "turned away"
-              : app.probed->shadow    ? "shadow"
-                                      : "lit");
+  ImGui::TextUnformatted(map_text(probed, drawing.stage->side(0).pages.get()).c_str());
+  ImGui::Text("depth %.4g   exact: %s", probed.view_depth,
+              probed.turned_away ? "turned away"
+              : probed.shadow    ? "shadow"
+                                 : "lit");
   ImGui::End();
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  for (const ScreenLine& line : on_screen(app.probed->footprint, app.stage->camera()))
-    list.AddLine(in_window(app, line.from), in_window(app, line.to), IM_COL32(230, 159, 0, 255), 2.0f);
+  for (const ScreenLine& line : on_screen(probed.footprint, drawing.stage->camera()))
+    list.AddLine(in_window(drawing.area, pixel_ratio, line.from),
+                 in_window(drawing.area, pixel_ratio, line.to), IM_COL32(230, 159, 0, 255), 2.0f);
 }
 
-void draw_light(const App& app) {
-  const std::optional<ScreenLine> handle = light_handle(app);
+void draw_light(const State& state, const Drawing& drawing, const Display& display) {
+  const std::optional<ScreenLine> handle = light_handle(state, drawing.stage.get());
   if (!handle) return;
+  const ImVec2 from = in_window(drawing.area, display.pixel_ratio, handle->from),
+               to = in_window(drawing.area, display.pixel_ratio, handle->to);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   constexpr ImU32 kLight = IM_COL32(255, 214, 90, 255), kEdge = IM_COL32(20, 20, 24, 255);
-  const auto radius = static_cast<float>(8.0 * app.scale);
-  list.AddLine(in_window(app, handle->from), in_window(app, handle->to), kEdge, 4.0f);
-  list.AddLine(in_window(app, handle->from), in_window(app, handle->to), kLight, 2.0f);
-  list.AddCircleFilled(in_window(app, handle->from), radius + 1.5f, kEdge, 24);
-  list.AddCircleFilled(in_window(app, handle->from), radius, kLight, 24);
+  const auto radius = static_cast<float>(8.0 * display.scale);
+  list.AddLine(from, to, kEdge, 4.0f);
+  list.AddLine(from, to, kLight, 2.0f);
+  list.AddCircleFilled(from, radius + 1.5f, kEdge, 24);
+  list.AddCircleFilled(from, radius, kLight, 24);
 }
 
-void waiting_page(const App& app) {
-  if (app.stage != nullptr) return;
+void waiting_page(const Drawing& drawing, const Display& display, const Settings& settings) {
+  if (drawing.stage != nullptr) return;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const auto left = static_cast<float>(panel_width(app));
+  const auto left = static_cast<float>(panel_width(display));
   ImGui::SetNextWindowPos({(left + size.x) * 0.5f, size.y * 0.45f}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::Begin("waiting", nullptr, kTextWindow);
-  const std::string text = waiting_text(app);
-  ImGui::TextUnformatted(app.message_is_error && !app.loading.valid() ? app.message.c_str() : text.c_str());
+  const bool failed = display.message.is_error && !drawing.loading.scene.valid();
+  const std::string text = failed ? display.message.text : waiting_text(drawing, settings);
+  ImGui::TextUnformatted(text.c_str());
   ImGui::End();
 }
 
 }  // namespace
 
 void draw_overlay(App& app) {
-  draw_light(app);
-  probe_text(app);
-  waiting_page(app);
-  status_line(app);
-  if (app.help) help_page(app);
+  const State& state = app.document.state;
+  Display& display = app.display;
+  draw_light(state, app.drawing, display);
+  if (display.probed) probe_text(*display.probed, app.drawing, display.pixel_ratio);
+  waiting_page(app.drawing, display, state.a);
+  status_line(state, app.drawing, display);
+  if (display.help) help_page(display.help);
 }
 
 }  // namespace gnomon::tool::view

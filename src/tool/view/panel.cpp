@@ -27,21 +27,18 @@ std::vector<std::string> names_of(std::span<const Named> all, bool help) {
   return texts;
 }
 
-Settings& edited(App& app) {
-  return app.side == 1 && app.state.comparison != Comparison::off ? app.state.b : app.state.a;
-}
-
 /// Which side the tabs Maps and Filter change.
-void side_row(App& app) {
-  if (app.state.comparison == Comparison::off) return;
+void side_row(Document& document) {
+  State& state = document.state;
+  if (state.comparison == Comparison::off) return;
   ImGui::TextUnformatted("change:");
   for (int side = 0; side < 2; ++side) {
     ImGui::SameLine();
-    ImGui::RadioButton(side == 0 ? "A" : "B", &app.side, side);
+    ImGui::RadioButton(side == 0 ? "A" : "B", &document.side, side);
   }
   ImGui::SameLine();
   if (ImGui::SmallButton("copy to the other"))
-    (app.side == 0 ? app.state.b : app.state.a) = app.side == 0 ? app.state.a : app.state.b;
+    (document.side == 0 ? state.b : state.a) = document.side == 0 ? state.a : state.b;
   ImGui::Separator();
 }
 
@@ -62,21 +59,20 @@ void drawn_switches(Drawn& drawn) {
   tooltip("boxes of casters: in the colour of the first map that draws them; grey: culled");
 }
 
-void camera_part(App& app) {
-  State& state = app.state;
+void camera_part(Document& document, const Stage* stage, Display& display) {
+  State& state = document.state;
   if (ImGui::Checkbox("fly along the path", &state.motion.camera) && state.motion.camera) state.eye.reset();
   tooltip("P; any key that moves the camera ends it");
   ImGui::DragScalar("path seconds", ImGuiDataType_Double, &state.motion.path_seconds, 0.2f, nullptr, nullptr,
                     "%.3g");
   state.motion.path_seconds = std::clamp(state.motion.path_seconds, 1.0, 3600.0);
-  double fov = state.fov_y_deg > 0.0 || app.stage == nullptr
-                   ? state.fov_y_deg
-                   : app.stage->loaded().path.fov_y_radians * kDegrees;
+  double fov = state.fov_y_deg > 0.0 || stage == nullptr ? state.fov_y_deg
+                                                         : stage->loaded().path.fov_y_radians * kDegrees;
   constexpr double kNarrow = 5.0, kWide = 150.0;
   if (ImGui::SliderScalar("field of view", ImGuiDataType_Double, &fov, &kNarrow, &kWide, "%.0f degrees"))
     state.fov_y_deg = std::clamp(fov, 1.0, 170.0);
-  if (ImGui::Button(app.recorded_path ? "end the recording (K)" : "record a path (K)"))
-    toggle_path_recording(app);
+  if (ImGui::Button(document.recording ? "end the recording (K)" : "record a path (K)"))
+    toggle_path_recording(document, stage, display);
   tooltip(
       "fly, and the camera's way becomes the path; it is written as gnomon_path_0001.json and on, which "
       "gnomon fly --path measures");
@@ -87,13 +83,14 @@ void camera_part(App& app) {
   }
   if (!state.path.empty() && ImGui::Button("the scene's own path")) state.path.clear();
   bool frozen = state.frozen.has_value();
-  if (ImGui::Checkbox("freeze the plan's camera", &frozen)) toggle_freeze(app);
+  if (ImGui::Checkbox("freeze the plan's camera", &frozen)) toggle_freeze(state, stage);
   tooltip("F2: the maps stay as they are for this camera while you fly away");
   if (frozen) drawn_switches(state.drawn);
 }
 
 void view_tab(App& app) {
-  State& state = app.state;
+  State& state = app.document.state;
+  const Stage* const stage = app.drawing.stage.get();
   int view = static_cast<int>(state.view);
   for (int i = 0; i < kViewCount; ++i) {
     const Named& one = view_names()[static_cast<std::size_t>(i)];
@@ -102,16 +99,16 @@ void view_tab(App& app) {
       state.view = static_cast<View>(i);
     tooltip(one.help);
   }
-  if (state.view == View::map && app.stage != nullptr) {
-    const int maps = std::max(app.stage->side(0).picture_count(), 1);
-    ImGui::SliderInt(app.stage->side(0).pages ? "level" : "map", &state.map, 0, maps - 1, "%d",
+  if (state.view == View::map && stage != nullptr) {
+    const int maps = std::max(stage->side(0).picture_count(), 1);
+    ImGui::SliderInt(stage->side(0).pages ? "level" : "map", &state.map, 0, maps - 1, "%d",
                      ImGuiSliderFlags_AlwaysClamp);
   }
-  ImGui::Checkbox("probe under the cursor", &app.probing);
+  ImGui::Checkbox("probe under the cursor", &app.display.probing);
   tooltip("I: the aliasing error, the map and the exact shadow at the point under the cursor");
   ImGui::Separator();
-  playing_part(app);
-  camera_part(app);
+  playing_part(state, stage);
+  camera_part(app.document, stage, app.display);
   ImGui::Separator();
   ImGui::TextUnformatted("presets");
   for (const Preset& preset : presets()) {
@@ -120,11 +117,9 @@ void view_tab(App& app) {
   }
 }
 
-void local_light(App& app) {
-  State& state = app.state;
-  const Light now = light_of(state.light, app.stage->loaded().scene.bounds_world);
-  const glm::dvec3 size =
-      app.stage->loaded().scene.bounds_world.max - app.stage->loaded().scene.bounds_world.min;
+void local_light(LightState& state, const Box& scene) {
+  const Light now = light_of(state, scene);
+  const glm::dvec3 size = scene.max - scene.min;
   const double speed = std::max({size.x, size.y, size.z, 1e-6}) / 1000.0;
   ImGui::TextWrapped(
       "Drag the light in the picture (with Shift along the view), drag the values, or press L to hang it "
@@ -135,12 +130,12 @@ void local_light(App& app) {
     value = std::isfinite(value) ? std::clamp(value, 1e-6, 1e30) : 1.0;
     tooltip("distance that the light reaches, world units");
   };
-  if (state.light.sun.kind == LightKind::point) {
+  if (state.sun.kind == LightKind::point) {
     PointLight light = std::get<PointLight>(now);
     const PointLight before = light;
     edit_vector("position", light.position, speed, "world units");
     range(light.range);
-    if (light.position != before.position || light.range != before.range) state.light.point = light;
+    if (light.position != before.position || light.range != before.range) state.point = light;
     return;
   }
   SpotLight light = std::get<SpotLight>(now);
@@ -157,11 +152,11 @@ void local_light(App& app) {
   range(light.range);
   if (light.position != before.position || light.direction != before.direction ||
       light.range != before.range || light.outer_radians != before.outer_radians)
-    state.light.spot = light;
+    state.spot = light;
 }
 
 void light_tab(App& app) {
-  LightState& light = app.state.light;
+  LightState& light = app.document.state.light;
   int kind = static_cast<int>(light.sun.kind);
   for (const LightKind one : {LightKind::sun, LightKind::spot, LightKind::point}) {
     if (one != LightKind::sun) ImGui::SameLine();
@@ -169,7 +164,7 @@ void light_tab(App& app) {
       light.sun.kind = one;
   }
   if (light.sun.kind != LightKind::sun) {
-    if (app.stage != nullptr) local_light(app);
+    if (app.drawing.stage != nullptr) local_light(light, app.drawing.stage->loaded().scene.bounds_world);
     if (ImGui::Button("back to its default place")) light.spot.reset(), light.point.reset();
     return;
   }
@@ -181,14 +176,14 @@ void light_tab(App& app) {
   ImGui::SliderScalar("azimuth", ImGuiDataType_Double, &light.sun.azimuth_deg, &kBack, &kTurn, "%.1f degrees",
                       ImGuiSliderFlags_AlwaysClamp);
   tooltip("0 is -Z, 90 is +X");
-  ImGui::Checkbox("turning sun", &app.state.motion.sun);
+  Motion& motion = app.document.state.motion;
+  ImGui::Checkbox("turning sun", &motion.sun);
   tooltip("O: watch for shimmering while the light moves");
-  ImGui::DragScalar("degrees a second", ImGuiDataType_Double, &app.state.motion.sun_degrees_per_second, 0.2f,
-                    nullptr, nullptr, "%.3g");
-  app.state.motion.sun_degrees_per_second =
-      std::clamp(app.state.motion.sun_degrees_per_second, -360.0, 360.0);
+  ImGui::DragScalar("degrees a second", ImGuiDataType_Double, &motion.sun_degrees_per_second, 0.2f, nullptr,
+                    nullptr, "%.3g");
+  motion.sun_degrees_per_second = std::clamp(motion.sun_degrees_per_second, -360.0, 360.0);
   constexpr double kOff = 0.0, kMostHold = kMostHoldPixels;
-  double& hold = app.state.motion.hold_sun_pixels;
+  double& hold = motion.hold_sun_pixels;
   ImGui::SliderScalar("hold the sun", ImGuiDataType_Double, &hold, &kOff, &kMostHold,
                       hold > 0.0 ? "%.2f pixels" : "off",
                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
@@ -199,10 +194,11 @@ void light_tab(App& app) {
 }
 
 void maps_tab(App& app) {
-  side_row(app);
-  Settings& settings = edited(app);
+  side_row(app.document);
+  Settings& settings = app.document.edited();
+  std::array<char, 64>& find = app.display.find;
   edit_pages(settings.pages);
-  ImGui::InputTextWithHint("##find", "find an option", app.find.data(), app.find.size());
+  ImGui::InputTextWithHint("##find", "find an option", find.data(), find.size());
   ImGui::SameLine();
   if (ImGui::SmallButton("reset all")) {
     settings.plan = {};
@@ -212,10 +208,10 @@ void maps_tab(App& app) {
   ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.48f);
   for (const PlanField& field : plan_fields()) {
     const bool found =
-        app.find[0] == '\0' || std::string_view(field.key).find(app.find.data()) != std::string_view::npos;
+        find[0] == '\0' || std::string_view(field.key).find(find.data()) != std::string_view::npos;
     if (found) edit_plan_field(field, settings.plan);
   }
-  if (app.find[0] == '\0') {
+  if (find[0] == '\0') {
     ImGui::Separator();
     int transition = static_cast<int>(settings.transition);
     if (choose("transition", transition, transition_names()))
@@ -269,17 +265,15 @@ void figure_row(const char* name, const char* help, const std::string& a, const 
 }
 
 /// Both sides' figures; B's column is empty where there is no B.
-void figures(const App& app) {
-  if (app.stage == nullptr ||
-      !ImGui::BeginTable("figures", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp))
-    return;
+void figures(const State& state, const Stage& stage) {
+  if (!ImGui::BeginTable("figures", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
   ImGui::TableSetupColumn("", 0, 1.5f);
   ImGui::TableSetupColumn("A");
   ImGui::TableSetupColumn("B");
   ImGui::TableHeadersRow();
-  const bool both = app.state.comparison != Comparison::off && !app.state.b_is_truth;
+  const bool both = state.comparison != Comparison::off && !state.b_is_truth;
   const auto row = [&](const char* name, const char* help, auto&& text) {
-    figure_row(name, help, text(app.stage->side(0)), both ? text(app.stage->side(1)) : std::string());
+    figure_row(name, help, text(stage.side(0)), both ? text(stage.side(1)) : std::string());
   };
   const auto pass = [&](const char* name, render::Pass which, const char* help) {
     row(name, help, [which](const Side& s) { return fmt::format("{:.2f} ms", s.stats.ms(which)); });
@@ -323,7 +317,7 @@ void figures(const App& app) {
 }
 
 void compare_tab(App& app) {
-  State& state = app.state;
+  State& state = app.document.state;
   int comparison = static_cast<int>(state.comparison);
   if (choose("compare", comparison, names_of(comparison_names(), false), names_of(comparison_names(), true)))
     state.comparison = static_cast<Comparison>(comparison);
@@ -343,9 +337,9 @@ void compare_tab(App& app) {
     ImGui::TextWrapped("The tabs Maps and Filter change A or B.");
   }
   ImGui::Separator();
-  figures(app);
-  if (app.stage == nullptr) return;
-  const auto omitted = app.stage->side(0).omitted();
+  if (app.drawing.stage == nullptr) return;
+  figures(state, *app.drawing.stage);
+  const auto omitted = app.drawing.stage->side(0).omitted();
   if (omitted.empty() || !ImGui::TreeNode("omitted by the plan")) return;
   for (const Omission& omission : omitted) {
     const OmissionText text = describe(omission);
@@ -355,11 +349,11 @@ void compare_tab(App& app) {
 }
 
 void scene_part(App& app) {
-  ImGui::TextWrapped("scene: %s", app.state.scene.c_str());
+  ImGui::TextWrapped("scene: %s", app.document.state.scene.c_str());
   if (ImGui::BeginCombo("built-in", "open ...")) {
     for (const BuiltinScene& scene : builtin_scenes()) {
       const std::string name = "builtin:" + std::string(scene.name);
-      if (ImGui::Selectable(name.c_str(), name == app.state.scene)) open_scene(app, name);
+      if (ImGui::Selectable(name.c_str(), name == app.document.state.scene)) open_scene(app, name);
       tooltip(scene.summary);
     }
     ImGui::EndCombo();
@@ -376,10 +370,10 @@ void scene_part(App& app) {
 void file_tab(App& app) {
   scene_part(app);
   ImGui::Separator();
-  ImGui::InputText("state file", &app.state_file);
-  if (ImGui::Button("save (F5)")) save_state(app, app.state_file);
+  ImGui::InputText("state file", &app.document.file);
+  if (ImGui::Button("save (F5)")) save_state(app.document, app.display);
   ImGui::SameLine();
-  if (ImGui::Button("open (F9)")) open_file(app, app.state_file);
+  if (ImGui::Button("open (F9)")) open_file(app, app.document.file);
   ImGui::SameLine();
   if (ImGui::Button("last session")) open_file(app, last_state_file().string());
   if (ImGui::Button("undo")) undo(app, false);
@@ -388,12 +382,12 @@ void file_tab(App& app) {
   ImGui::SameLine();
   if (ImGui::Button("reset all")) {
     State state;
-    state.scene = app.state.scene;
-    app.state = state;
+    state.scene = app.document.state.scene;
+    app.document.state = state;
   }
   ImGui::Separator();
   ImGui::TextUnformatted("the command with this picture");
-  std::string command = command_text(spoken_state(app));
+  std::string command = command_text(spoken_state(app.document.state, app.drawing.stage.get()));
   ImGui::PushTextWrapPos(0.0f);
   ImGui::TextUnformatted(command.c_str());
   ImGui::PopTextWrapPos();
@@ -402,14 +396,14 @@ void file_tab(App& app) {
   if (ImGui::Button("benchmark (F7)")) toggle_benchmark(app);
   tooltip("a flight along the path in fixed steps; a row of figures for each frame goes into a CSV file");
   ImGui::SameLine();
-  if (ImGui::Button("picture (F12)")) app.wants_picture = true;
+  if (ImGui::Button("picture (F12)")) app.drawing.saving.next = true;
   ImGui::SameLine();
-  ImGui::Checkbox("record (F11)", &app.recording);
+  ImGui::Checkbox("record (F11)", &app.drawing.saving.every);
   tooltip("every picture that is drawn goes into the folder gnomon_record");
   float scale = static_cast<float>(app.session.ui_scale);
   if (ImGui::SliderFloat("text size", &scale, 0.0f, 3.0f, scale < 0.5f ? "of the display" : "%.2f"))
     app.session.ui_scale = scale < 0.5f ? 0.0 : std::clamp(static_cast<double>(scale), 0.5, 8.0);
-  ImGui::Text("panel %.1f ms, frame %.1f ms", app.panel_ms, app.frame_ms);
+  ImGui::Text("panel %.1f ms, frame %.1f ms", app.display.panel_ms, app.drawing.frame_ms);
 }
 
 void tabs(App& app) {
@@ -418,41 +412,42 @@ void tabs(App& app) {
                                                                    light_tab,
                                                                    maps_tab,
                                                                    [](App& a) {
-                                                                     side_row(a);
-                                                                     edit_reader(edited(a));
+                                                                     side_row(a.document);
+                                                                     edit_reader(a.document.edited());
                                                                    },
                                                                    compare_tab,
                                                                    curves_part,
                                                                    file_tab};
-  const bool select = app.select_tab;
-  const Tab wanted = app.tab;
+  Display& display = app.display;
+  const bool select = display.select_tab;
+  const Tab wanted = display.tab;
   for (int i = 0; i < kTabCount; ++i) {
     const bool to_front = select && static_cast<Tab>(i) == wanted;
     if (!ImGui::BeginTabItem(kTabs[static_cast<std::size_t>(i)], nullptr,
                              to_front ? ImGuiTabItemFlags_SetSelected : 0))
       continue;
-    if (!select) app.tab = static_cast<Tab>(i);
+    if (!select) display.tab = static_cast<Tab>(i);
     ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.55f);
     kContents[static_cast<std::size_t>(i)](app);
     ImGui::PopItemWidth();
     ImGui::EndTabItem();
   }
-  if (select) app.select_tab = false;
+  if (select) display.select_tab = false;
   ImGui::EndTabBar();
 }
 
 }  // namespace
 
-double panel_width(const App& app) {
-  if (!app.panel) return 0.0;
+double panel_width(const Display& display) {
+  if (!display.panel) return 0.0;
   constexpr double kWidth = 380.0, kMostShare = 0.6;
-  return std::floor(std::min(kWidth * app.scale, kMostShare * app.window_width / app.pixel_ratio));
+  return std::floor(std::min(kWidth * display.scale, kMostShare * display.width / display.pixel_ratio));
 }
 
 void draw_panel(App& app) {
-  if (!app.panel) return;
+  if (!app.display.panel) return;
   ImGui::SetNextWindowPos({0.0f, 0.0f});
-  ImGui::SetNextWindowSize({static_cast<float>(panel_width(app)), ImGui::GetIO().DisplaySize.y});
+  ImGui::SetNextWindowSize({static_cast<float>(panel_width(app.display)), ImGui::GetIO().DisplaySize.y});
   ImGui::Begin("panel", nullptr, kFixedWindow | ImGuiWindowFlags_NoBringToFrontOnFocus);
   tabs(app);
   ImGui::End();

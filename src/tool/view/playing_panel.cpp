@@ -11,18 +11,18 @@
 
 namespace gnomon::tool::view {
 
-void toggle_playing(App& app) {
-  if (app.stage == nullptr || app.stage->loaded().scene.motion.animations.empty()) return;
-  Playing& playing = app.state.playing;
+void toggle_playing(State& state, const Stage* stage) {
+  if (stage == nullptr || stage->loaded().scene.motion.animations.empty()) return;
+  Playing& playing = state.playing;
   if (playing.animation.empty()) playing.animation = "0";
   playing.on = !playing.on;
 }
 
-void playing_part(App& app) {
-  if (app.stage == nullptr) return;
-  const SceneMotion& motion = app.stage->loaded().scene.motion;
+void playing_part(State& state, const Stage* stage) {
+  if (stage == nullptr) return;
+  const SceneMotion& motion = stage->loaded().scene.motion;
   if (motion.animations.empty()) return;
-  Playing& playing = app.state.playing;
+  Playing& playing = state.playing;
   int chosen = playing.animation.empty() ? 0 : find_animation(motion, playing.animation) + 1;
   std::vector<std::string> names{"at rest"};
   for (std::size_t i = 0; i < motion.animations.size(); ++i) {
@@ -43,7 +43,7 @@ void playing_part(App& app) {
   tooltip("the animation that moves the scene; figures, plans and exact shadows are those of its pose");
   if (chosen <= 0) return;
   bool on = playing.on;
-  if (ImGui::Checkbox("play", &on)) toggle_playing(app);
+  if (ImGui::Checkbox("play", &on)) toggle_playing(state, stage);
   tooltip("Space");
   ImGui::SameLine();
   constexpr double kMostSpeed = 100.0;
@@ -59,10 +59,10 @@ void playing_part(App& app) {
     playing.time_s = std::min(time, std::nextafter(end, begin));
 }
 
-bool play_animation(App& app, double seconds) {
-  Playing& playing = app.state.playing;
-  if (!playing.on || playing.animation.empty() || app.stage == nullptr) return false;
-  const SceneMotion& motion = app.stage->loaded().scene.motion;
+bool play_animation(State& state, const Stage* stage, double seconds) {
+  Playing& playing = state.playing;
+  if (!playing.on || playing.animation.empty() || stage == nullptr) return false;
+  const SceneMotion& motion = stage->loaded().scene.motion;
   const int index = find_animation(motion, playing.animation);
   if (index < 0) return false;
   playing.time_s = looped_time(motion.animations[static_cast<std::size_t>(index)],

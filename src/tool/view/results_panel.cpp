@@ -113,30 +113,29 @@ const ResultPoint* under_cursor(const Chart& chart, const SceneResults& results)
   return nearest;
 }
 
-void load_technique(App& app, const report::Technique& technique) {
-  Settings& settings = app.side == 1 && app.state.comparison != Comparison::off ? app.state.b : app.state.a;
+void load_technique(Document& document, Display& display, const report::Technique& technique) {
   try {
-    settings = settings_of(technique, app.state.light.sun.kind);
-    show_message(app, technique.name(), false);
+    document.edited() = settings_of(technique, document.state.light.sun.kind);
+    show_message(display, technique.name(), false);
   } catch (const std::exception& error) {
-    show_message(app, error.what(), true);
+    show_message(display, error.what(), true);
   }
 }
 
 /// Where side A stands. Ratio 0: not measured yet; wrong below 0: the exact shadow is not there yet.
-ChartPlace present(const App& app) {
-  const auto& errors = app.stage->side(0).errors;
+ChartPlace present(const Drawing& drawing) {
+  const auto& errors = drawing.stage->side(0).errors;
   const double wrong = errors && errors->decided > 0
                            ? static_cast<double>(errors->false_light + errors->false_shadow) /
                                  static_cast<double>(errors->decided)
                            : -1.0;
-  return {app.gauge.ratio(), wrong};
+  return {drawing.gauge.ratio(), wrong};
 }
 
 void chart_part(App& app, const SceneResults& results) {
   const float width = ImGui::GetContentRegionAvail().x;
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size{width, std::min(width * 0.8f, 420.0f)};
-  const ChartPlace now = present(app);
+  const ChartPlace now = present(app.drawing);
   const Chart chart = chart_of(results, now, corner, size);
   ImGui::InvisibleButton("chart", size);
   const bool hovered = ImGui::IsItemHovered(), clicked = ImGui::IsItemClicked();
@@ -144,7 +143,7 @@ void chart_part(App& app, const SceneResults& results) {
   list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   draw_grid(list, chart, corner, size);
   draw_points(list, chart, results);
-  for (const ChartPlace& place : app.been)
+  for (const ChartPlace& place : app.drawing.been)
     list.AddCircle(chart.at(place.ratio, place.wrong), 5.0f, kBeen, 12);
   if (now.ratio > 0.0 && now.wrong >= 0.0) {
     const ImVec2 at = chart.at(now.ratio, now.wrong);
@@ -164,61 +163,62 @@ void chart_part(App& app, const SceneResults& results) {
   if (point == nullptr) return;
   tooltip(fmt::format("{}\n{:.3g} x, {:.3g} ms, {:.3g} % misclassified\nclick: load it",
                       point->technique.name(), point->ratio, point->ms, 100.0 * point->wrong));
-  if (clicked) load_technique(app, point->technique);
+  if (clicked) load_technique(app.document, app.display, point->technique);
 }
 
 }  // namespace
 
 bool shows_results(const App& app) {
-  return app.panel && app.tab == Tab::curves && app.results && app.stage != nullptr && !app.benchmark &&
-         results_of(*app.results, app.state.scene) != nullptr;
+  const bool chart = app.display.panel && app.display.tab == Tab::curves && app.display.results;
+  return chart && app.drawing.stage != nullptr && !app.drawing.benchmark &&
+         results_of(*app.display.results, app.document.state.scene) != nullptr;
 }
 
-void restart_gauge(App& app) {
-  if (app.gauge.done()) {
-    const ChartPlace place = present(app);
-    if (place.wrong >= 0.0) app.been.push_back(place);
-    if (app.been.size() > kMostBeen) app.been.erase(app.been.begin());
+void restart_gauge(Drawing& drawing) {
+  if (drawing.gauge.done()) {
+    const ChartPlace place = present(drawing);
+    if (place.wrong >= 0.0) drawing.been.push_back(place);
+    if (drawing.been.size() > kMostBeen) drawing.been.erase(drawing.been.begin());
   }
-  app.gauge = {};
+  drawing.gauge = {};
 }
 
-bool gauge_frame(App& app) {
-  Gauge& gauge = app.gauge;
+bool gauge_frame(Drawing& drawing, const State& state) {
+  Gauge& gauge = drawing.gauge;
   // Frames of this view live on the one before, which the gauge's own would replace.
-  if (gauge.done() || app.state.view == View::kept || !app.refusal.empty()) return false;
-  gauge.take(app.stage->time_frame(app.state,
-                                   gauge.wants_baseline() ? Stage::Timed::baseline : Stage::Timed::side_a));
+  if (gauge.done() || state.view == View::kept || !drawing.refusal.empty()) return false;
+  gauge.take(drawing.stage->time_frame(
+      state, gauge.wants_baseline() ? Stage::Timed::baseline : Stage::Timed::side_a));
   return true;
 }
 
-void open_results(App& app, const std::string& path) {
-  app.results = read_sweep_results(path);
-  app.results_folder = path;
-  app.been.clear();
-  app.tab = Tab::curves;
-  app.select_tab = true;
+void open_results(Display& display, Drawing& drawing, const std::string& path) {
+  display.results = read_sweep_results(path);
+  display.results_folder = path;
+  drawing.been.clear();
+  display.tab = Tab::curves;
+  display.select_tab = true;
 }
 
 void results_part(App& app) {
   if (!ImGui::CollapsingHeader("error against time", ImGuiTreeNodeFlags_DefaultOpen)) return;
-  ImGui::InputText("results", &app.results_folder);
+  ImGui::InputText("results", &app.display.results_folder);
   tooltip("folder that gnomon compare --out wrote; a click on one of its points loads that technique");
   ImGui::SameLine();
   if (ImGui::Button("open##results")) {
     try {
-      open_results(app, app.results_folder);
+      open_results(app.display, app.drawing, app.display.results_folder);
     } catch (const std::exception& error) {
-      show_message(app, error.what(), true);
+      show_message(app.display, error.what(), true);
     }
   }
-  if (!app.results || app.stage == nullptr) return;
-  if (const SceneResults* results = results_of(*app.results, app.state.scene)) {
+  if (!app.display.results || app.drawing.stage == nullptr) return;
+  if (const SceneResults* results = results_of(*app.display.results, app.document.state.scene)) {
     chart_part(app, *results);
-    return ImGui::TextWrapped("measured at %s", app.results->measured.c_str());
+    return ImGui::TextWrapped("measured at %s", app.display.results->measured.c_str());
   }
   ImGui::TextWrapped("Nothing of this scene is in these results. They have:");
-  for (const SceneResults& one : app.results->scenes)
+  for (const SceneResults& one : app.display.results->scenes)
     if (ImGui::SmallButton(one.scene.c_str())) open_scene(app, one.scene);
 }
 

@@ -40,7 +40,7 @@ void on_drop(GLFWwindow* window, int count, const char** files) {
 void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
   if (action != GLFW_REPEAT)
     static_cast<App*>(glfwGetWindowUserPointer(window))
-        ->key_events.push_back({key, modifiers, action == GLFW_PRESS});
+        ->display.keys.events.push_back({key, modifiers, action == GLFW_PRESS});
   ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers);
 }
 
@@ -99,85 +99,85 @@ class Widgets {
 };
 
 void take_loaded(App& app) {
-  if (!app.loading.valid() || app.loading.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-    return;
+  std::future<std::shared_ptr<const Loaded>>& scene = app.drawing.loading.scene;
+  if (!scene.valid() || scene.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  State& state = app.document.state;
+  std::unique_ptr<Stage>& shown = app.drawing.stage;
   try {
-    const std::shared_ptr<const Loaded> loaded = app.loading.get();
+    const std::shared_ptr<const Loaded> loaded = scene.get();
     // The new stage first: where it fails, the old one is still there.
     auto stage = std::make_unique<Stage>(loaded);
-    const bool other = app.stage != nullptr && app.stage->loaded().name != loaded->name;
-    app.stage = std::move(stage);
-    if (other && app.state.scene != loaded->name) {
-      app.state.eye.reset();
-      app.state.frozen.reset();
-      app.state.path.clear();
-      app.state.playing = {};
-      app.state.light.spot.reset();
-      app.state.light.point.reset();
+    const bool other = shown != nullptr && shown->loaded().name != loaded->name;
+    shown = std::move(stage);
+    if (other && state.scene != loaded->name) {
+      state.eye.reset();
+      state.frozen.reset();
+      state.path.clear();
+      state.playing = {};
+      state.light.spot.reset();
+      state.light.point.reset();
     }
-    app.state.scene = loaded->name;
+    state.scene = loaded->name;
     remember_scene(app.session, loaded->name);
-    for (const std::string& warning : loaded->scene.warnings) show_message(app, warning, false);
+    for (const std::string& warning : loaded->scene.warnings) show_message(app.display, warning, false);
   } catch (const std::exception& error) {
-    if (app.stage != nullptr) app.state.scene = app.stage->loaded().name;
-    show_message(app, error.what(), true);
+    if (shown != nullptr) state.scene = shown->loaded().name;
+    show_message(app.display, error.what(), true);
   }
 }
 
 /// Moves what moves by itself; true where anything does.
-bool play(App& app, double seconds) {
-  State& state = app.state;
+bool play(State& state, const Stage* stage, double seconds) {
   if (state.motion.camera)
     state.path_time = std::fmod(state.path_time + seconds / state.motion.path_seconds, 1.0);
   if (state.motion.sun && state.light.sun.kind == LightKind::sun) turn_sun(state, seconds);
-  const bool animated = play_animation(app, seconds);
+  const bool animated = play_animation(state, stage, seconds);
   return state.motion.camera || state.motion.sun || animated;
 }
 
-void add_curves(App& app) {
-  const Side& side = app.stage->side(0);
+void add_curves(Curves& curves, const Side& side) {
   std::uint64_t drawn = 0;
   for (int i = 0; i < side.stats.map_count; ++i) {
     const render::MapStats& map = side.stats.map[static_cast<std::size_t>(i)];
     drawn += map.held ? 0 : map.texels;
   }
-  app.curves.plan.add(side.plan_ms * 1e3);
-  app.curves.maps.add(side.stats.ms(render::Pass::shadow_maps));
-  app.curves.prefilter.add(side.stats.ms(render::Pass::prefilter));
-  app.curves.lookup.add(side.stats.ms(render::Pass::mask));
-  app.curves.m_p95.add(side.m.p95);
-  app.curves.texels.add(static_cast<double>(drawn) / 1e6);
-  app.curves.pages.add(side.stats.pages_drawn);
-  if (side.flips) app.curves.flips.add(100.0 * *side.flips);
+  curves.plan.add(side.plan_ms * 1e3);
+  curves.maps.add(side.stats.ms(render::Pass::shadow_maps));
+  curves.prefilter.add(side.stats.ms(render::Pass::prefilter));
+  curves.lookup.add(side.stats.ms(render::Pass::mask));
+  curves.m_p95.add(side.m.p95);
+  curves.texels.add(static_cast<double>(drawn) / 1e6);
+  curves.pages.add(side.stats.pages_drawn);
+  if (side.flips) curves.flips.add(100.0 * *side.flips);
 }
 
-void keep_for_undo(App& app, const std::string& now) {
-  if (app.undo_now == now) return;
-  if (!app.undo_now.empty()) {
-    app.undo.push_back(app.undo_now);
-    if (app.undo.size() > kMostUndo) app.undo.erase(app.undo.begin());
-    app.redo.clear();
+void keep_for_undo(History& history, const std::string& now) {
+  if (history.now == now) return;
+  if (!history.now.empty()) {
+    history.undo.push_back(history.now);
+    if (history.undo.size() > kMostUndo) history.undo.erase(history.undo.begin());
+    history.redo.clear();
   }
-  app.undo_now = now;
+  history.now = now;
 }
 
 /// Where the picture lies beside the panel and above the status line.
-Area picture_area(const App& app) {
-  const int left = static_cast<int>(std::lround(panel_width(app) * app.pixel_ratio));
+Area picture_area(const Display& display) {
+  const int left = static_cast<int>(std::lround(panel_width(display) * display.pixel_ratio));
   const int status =
-      static_cast<int>(std::lround(static_cast<double>(ImGui::GetFrameHeight()) * app.pixel_ratio));
-  return {left, 0, std::max(app.window_width - left, 16), std::max(app.window_height - status, 16)};
+      static_cast<int>(std::lround(static_cast<double>(ImGui::GetFrameHeight()) * display.pixel_ratio));
+  return {left, 0, std::max(display.width - left, 16), std::max(display.height - status, 16)};
 }
 
-void record(App& app) {
+void record(Drawing& drawing, Display& display) {
   const std::filesystem::path file =
-      std::filesystem::path("gnomon_record") / fmt::format("{:05}.png", app.recorded++);
+      std::filesystem::path("gnomon_record") / fmt::format("{:05}.png", drawing.saving.count++);
   try {
     make_folder("record", file.parent_path());
-    write_png(app.stage->canvas().image(), file);
+    write_png(drawing.stage->canvas().image(), file);
   } catch (const std::exception& error) {
-    app.recording = false;
-    show_message(app, error.what(), true);
+    drawing.saving.every = false;
+    show_message(display, error.what(), true);
   }
 }
 
@@ -195,7 +195,8 @@ constexpr double kRestSeconds = 0.1, kRaysSeconds = 0.02;
 
 class Loop {
  public:
-  Loop(App& app, Widgets& widgets) : app_(app), widgets_(widgets) {}
+  Loop(App& app, Widgets& widgets)
+      : app_(app), document_(app.document), drawing_(app.drawing), display_(app.display), widgets_(widgets) {}
 
   /// One frame. Returns how long nothing needs the next one, seconds; kRestSeconds: until the user does
   /// something.
@@ -206,61 +207,65 @@ class Loop {
     take_loaded(app_);
     begin_widgets();
     handle_input(app_, seconds);
-    app_.picture = picture_area(app_);  // a key may have hidden the panel
-    const bool moving = place_benchmark(app_) || play(app_, seconds);
-    record_path(app_, seconds);
+    drawing_.area = picture_area(display_);  // a key may have hidden the panel
+    const bool moving = place_benchmark(app_) || play(document_.state, drawing_.stage.get(), seconds);
+    record_path(document_, drawing_.stage.get(), seconds);
     const auto panel_begin = Clock::now();
     draw_panel(app_);
     draw_overlay(app_);
     ImGui::Render();
     double panel_ms = ms_since(panel_begin);
     const bool drew = draw_picture(moving);
-    if (app_.benchmark && drew && !app_.compiling) take_benchmark(app_);
-    if (app_.wants_picture && !app_.compiling && (app_.stage == nullptr || !app_.stage->unfinished())) {
-      app_.wants_picture = false;
-      save_picture(app_);
+    if (drawing_.benchmark && drew && !drawing_.compiling) take_benchmark(app_);
+    const bool finished = drawing_.stage == nullptr || !drawing_.stage->unfinished();
+    if (drawing_.saving.next && !drawing_.compiling && finished) {
+      drawing_.saving.next = false;
+      save_picture(drawing_, display_);
     }
-    clear_window(app_.window_width, app_.window_height);
-    if (app_.stage != nullptr) app_.stage->canvas().show(app_.picture.x, app_.picture.y, app_.window_height);
+    clear_window(display_.width, display_.height);
+    if (drawing_.stage != nullptr)
+      drawing_.stage->canvas().show(drawing_.area.x, drawing_.area.y, display_.height);
     finish_gl();
     const auto widgets_begin = Clock::now();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     finish_gl();
     panel_ms += ms_since(widgets_begin);
-    app_.panel_ms += (panel_ms - app_.panel_ms) * 0.1;
+    display_.panel_ms += (panel_ms - display_.panel_ms) * 0.1;
     if (const unsigned error = last_gl_error(); error != 0)
-      show_message(app_, fmt::format("OpenGL error {}", error), true);
-    if (app_.stage == nullptr || app_.loading.valid()) return kRaysSeconds;
+      show_message(display_, fmt::format("OpenGL error {}", error), true);
+    if (drawing_.stage == nullptr || drawing_.loading.scene.valid()) return kRaysSeconds;
     if (drew || moving) return 0.0;
     // The rays first: they take the cores that a software driver would be timed on.
-    const auto progress = app_.stage->truth_progress();
+    const auto progress = drawing_.stage->truth_progress();
     if (progress && (*progress)[0] < (*progress)[1]) return kRaysSeconds;
-    return shows_results(app_) && gauge_frame(app_) ? 0.0 : kRestSeconds;
+    return shows_results(app_) && gauge_frame(drawing_, document_.state) ? 0.0 : kRestSeconds;
   }
 
  private:
   void begin_widgets() {
-    app_.scale = widgets_.fit(app_.options.ui_scale > 0.0 ? app_.options.ui_scale : app_.session.ui_scale);
-    glfwGetFramebufferSize(app_.window, &app_.window_width, &app_.window_height);
+    display_.scale =
+        widgets_.fit(app_.options.ui_scale > 0.0 ? app_.options.ui_scale : app_.session.ui_scale);
+    glfwGetFramebufferSize(app_.window, &display_.width, &display_.height);
     int width = 0;
     glfwGetWindowSize(app_.window, &width, nullptr);
-    app_.pixel_ratio = width > 0 ? 1.0 * app_.window_width / width : 1.0;
+    display_.pixel_ratio = width > 0 ? 1.0 * display_.width / width : 1.0;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    if (app_.pointer)
-      ImGui::GetIO().MousePos = {static_cast<float>(app_.pointer->x / app_.pixel_ratio),
-                                 static_cast<float>(app_.pointer->y / app_.pixel_ratio)};
+    if (display_.pointer)
+      ImGui::GetIO().MousePos = {static_cast<float>(display_.pointer->x / display_.pixel_ratio),
+                                 static_cast<float>(display_.pointer->y / display_.pixel_ratio)};
     ImGui::NewFrame();
-    app_.picture = picture_area(app_);
+    drawing_.area = picture_area(display_);
   }
 
   /// The filter's program takes a while to compile: the status line says so for a frame before.
   bool wait_for_filter() {
-    const bool both = app_.state.comparison != Comparison::off;
+    const State& state = document_.state;
+    const bool both = state.comparison != Comparison::off;
     const bool unknown =
-        !app_.stage->is_compiled(app_.state.a) || (both && !app_.stage->is_compiled(app_.state.b));
-    const bool wait = unknown && !app_.compiling;
-    app_.compiling = wait;
+        !drawing_.stage->is_compiled(state.a) || (both && !drawing_.stage->is_compiled(state.b));
+    const bool wait = unknown && !drawing_.compiling;
+    drawing_.compiling = wait;
     return wait;
   }
 
@@ -270,57 +275,62 @@ class Loop {
     if (!shown_.settled) return true;
     constexpr double kEveryMs = 300.0;
     const bool more =
-        (*progress)[0] != shown_.truth_rows || (app_.stage->tracer() != nullptr) != shown_.has_tracer;
+        (*progress)[0] != shown_.truth_rows || (drawing_.stage->tracer() != nullptr) != shown_.has_tracer;
     return more && ((*progress)[0] == (*progress)[1] || ms_since(shown_.when) > kEveryMs);
   }
 
   bool draw_picture(bool moving) {
-    if (app_.stage == nullptr) return false;
-    app_.stage->poll();
-    const std::string text = state_text(app_.state);
-    const auto progress = app_.stage->truth_progress();
-    const bool settled = text == shown_.state, has_tracer = app_.stage->tracer() != nullptr;
+    if (drawing_.stage == nullptr) return false;
+    drawing_.stage->poll();
+    const std::string text = state_text(document_.state);
+    const auto progress = drawing_.stage->truth_progress();
+    const bool settled = text == shown_.state, has_tracer = drawing_.stage->tracer() != nullptr;
     const bool counts = shows_results(app_);
-    app_.stage->count_errors(counts);
-    app_.stage->count_flips(app_.panel && app_.tab == Tab::curves && app_.shimmering && !app_.benchmark);
-    const bool same = settled && counts == shown_.counts && app_.picture.width == shown_.width &&
-                      app_.picture.height == shown_.height && app_.stage.get() == shown_.stage;
-    if (same && !moving) app_.stage->want_tracer();
+    drawing_.stage->count_errors(counts);
+    const bool shows_curves = display_.panel && display_.tab == Tab::curves;
+    drawing_.stage->count_flips(shows_curves && display_.shimmering && !drawing_.benchmark);
+    const bool same = settled && counts == shown_.counts && drawing_.area.width == shown_.width &&
+                      drawing_.area.height == shown_.height && drawing_.stage.get() == shown_.stage;
+    if (same && !moving) drawing_.stage->want_tracer();
     // A page policy that reads the picture takes more rounds once nothing moves.
-    const bool unfinished = same && !shown_.settled && app_.stage->unfinished();
+    const bool unfinished = same && !shown_.settled && drawing_.stage->unfinished();
     if (same && !moving && !shows_rays(progress) && !unfinished) {
-      if (!app_.looking && !app_.wiping && !app_.placing) keep_for_undo(app_, text);
+      if (!display_.mouse.moves()) keep_for_undo(document_.history, text);
       return false;
     }
     if (wait_for_filter()) return true;
-    if (!same) restart_gauge(app_);
+    if (!same) restart_gauge(drawing_);
     const auto begin = Clock::now();
-    app_.refusal = app_.stage->draw(app_.state, app_.picture.width, app_.picture.height, settled);
-    app_.frame_ms = ms_since(begin);
+    drawing_.refusal =
+        drawing_.stage->draw(document_.state, drawing_.area.width, drawing_.area.height, settled);
+    drawing_.frame_ms = ms_since(begin);
     shown_ = {text,
-              app_.picture.width,
-              app_.picture.height,
+              drawing_.area.width,
+              drawing_.area.height,
               progress ? (*progress)[0] : -1,
-              app_.stage.get(),
+              drawing_.stage.get(),
               settled,
               has_tracer,
               counts,
               Clock::now()};
-    if (app_.refusal.empty() && !(same && progress)) add_curves(app_);
-    if (app_.recording) record(app_);
+    if (drawing_.refusal.empty() && !(same && progress)) add_curves(drawing_.curves, drawing_.stage->side(0));
+    if (drawing_.saving.every) record(drawing_, display_);
     show_title();
     return true;
   }
 
   /// The scene's name, from its first picture on.
   void show_title() {
-    const std::string& name = app_.stage->loaded().name;
+    const std::string& name = drawing_.stage->loaded().name;
     if (title_ == name) return;
     title_ = name;
     glfwSetWindowTitle(app_.window, ("gnomon view: " + name).c_str());
   }
 
   App& app_;
+  Document& document_;
+  Drawing& drawing_;
+  Display& display_;
   Widgets& widgets_;
   Shown shown_;
   std::string title_;  ///< the scene in the window's title
@@ -334,9 +344,9 @@ bool is_driven(const Options& options) {
 
 /// Filters that nobody has used yet are compiled while nobody waits: those of maps or of pages, whichever the
 /// state draws, then the others. False where all are compiled.
-bool compile_one_ahead(App& app) {
-  const bool pages = app.state.a.pages.on();
-  return app.stage->compile_ahead(pages) || app.stage->compile_ahead(!pages);
+bool compile_one_ahead(Stage& stage, const State& state) {
+  const bool pages = state.a.pages.on();
+  return stage.compile_ahead(pages) || stage.compile_ahead(!pages);
 }
 
 void run_loop(App& app, Loop& loop) {
@@ -345,19 +355,21 @@ void run_loop(App& app, Loop& loop) {
   while (glfwWindowShouldClose(app.window) == GLFW_FALSE) {
     const double rest = loop.frame();
     const bool last =
-        app.options.exit_after > 0 && app.stage != nullptr && ++frames >= app.options.exit_after;
+        app.options.exit_after > 0 && app.drawing.stage != nullptr && ++frames >= app.options.exit_after;
     if (last && !app.options.screenshot.empty())
-      write_png(window_image(app.window_width, app.window_height), app.options.screenshot);
+      write_png(window_image(app.display.width, app.display.height), app.options.screenshot);
     glfwSwapBuffers(app.window);
-    const bool no_scene = app.stage == nullptr && !app.loading.valid() && app.message_is_error;
+    const bool no_scene =
+        app.drawing.stage == nullptr && !app.drawing.loading.scene.valid() && app.display.message.is_error;
     if (last || (no_scene && is_driven(app.options))) break;
-    if (!app.options.benchmark.empty() && app.stage != nullptr) {
-      if (flown && !app.benchmark) break;
+    if (!app.options.benchmark.empty() && app.drawing.stage != nullptr) {
+      if (flown && !app.drawing.benchmark) break;
       if (!flown) toggle_benchmark(app, app.options.benchmark);
       flown = true;
     }
     const bool idle = rest == kRestSeconds;
-    if (idle && ahead && !is_driven(app.options)) ahead = compile_one_ahead(app);
+    if (idle && ahead && !is_driven(app.options))
+      ahead = compile_one_ahead(*app.drawing.stage, app.document.state);
     if (rest > 0.0 && !(idle && ahead)) {
       glfwWaitEventsTimeout(rest);
     } else {
@@ -376,30 +388,30 @@ void run_tour(App& app, Loop& loop) {
     for (int i = 0; i < kMostFrames && still < kStill && glfwWindowShouldClose(app.window) == GLFW_FALSE;
          ++i) {
       const double rest = loop.frame();
-      still = rest == kRestSeconds && app.stage->tracer() != nullptr ? still + 1 : 0;
+      still = rest == kRestSeconds && app.drawing.stage->tracer() != nullptr ? still + 1 : 0;
       if (still < kStill) glfwSwapBuffers(app.window);
       glfwWaitEventsTimeout(std::max(still > 0 ? 0.0 : rest, 1e-3));
-      if (app.message_is_error) throw std::runtime_error("tour: " + app.message);
+      if (app.display.message.is_error) throw std::runtime_error("tour: " + app.display.message.text);
     }
   };
-  app.pointer = glm::dvec2(-1.0);
+  app.display.pointer = glm::dvec2(-1.0);
   settle();
   std::size_t pictures = 0;
   for (const TourStop& stop : tour_stops()) {
-    if (stop.needs_results && !app.results) continue;
+    if (stop.needs_results && !app.display.results) continue;
     stop.set(app);
     settle();
     if (stop.moving_frames > 0) {
-      app.state.motion.sun = true;
+      app.document.state.motion.sun = true;
       for (int i = 0; i < stop.moving_frames; ++i) {
         (void)loop.frame();
         glfwSwapBuffers(app.window);
       }
-      app.state.motion.sun = false;
+      app.document.state.motion.sun = false;
       settle();
     }
     if (glfwWindowShouldClose(app.window) != GLFW_FALSE) return;
-    write_png(window_image(app.window_width, app.window_height),
+    write_png(window_image(app.display.width, app.display.height),
               app.options.tour / (std::string(stop.name) + ".png"));
     glfwSwapBuffers(app.window);
     ++pictures;
@@ -409,8 +421,8 @@ void run_tour(App& app, Loop& loop) {
 
 void close_session(const App& app) {
   if (is_driven(app.options)) return;
-  for (const std::string& why :
-       {save_session(app.session, session_file()), save_text(state_text(app.state), last_state_file())})
+  for (const std::string& why : {save_session(app.session, session_file()),
+                                 save_text(state_text(app.document.state), last_state_file())})
     if (!why.empty()) warn("the session is not kept: " + why);
 }
 
@@ -429,28 +441,28 @@ int open_window(const Options& options) {
   }();
   App app(options);
   app.window = window->handle();
-  app.renderer = window->info().renderer;
-  app.panel = options.benchmark.empty();  // the picture alone
+  app.drawing.renderer = window->info().renderer;
+  app.display.panel = options.benchmark.empty();  // the picture alone
   app.session = load_session(session_file());
   glfwSetWindowUserPointer(app.window, &app);
   glfwSetDropCallback(app.window, on_drop);
   glfwSetWindowSizeLimits(app.window, 64, 64, GLFW_DONT_CARE, GLFW_DONT_CARE);
   Widgets widgets(app.window);
   open_scene(app, options.state.scene);
-  if (!options.results.empty()) open_results(app, options.results);
+  if (!options.results.empty()) open_results(app.display, app.drawing, options.results);
   Loop loop(app, widgets);
   if (options.tour.empty()) {
     run_loop(app, loop);
   } else {
     run_tour(app, loop);
   }
-  if (app.loading.valid()) app.loading.wait();
+  if (app.drawing.loading.scene.valid()) app.drawing.loading.scene.wait();
   const bool flown = !options.benchmark.empty();
-  const bool failed = app.message_is_error && (app.stage == nullptr || flown);
-  app.stage.reset();  // while its context is current
+  const bool failed = app.display.message.is_error && (app.drawing.stage == nullptr || flown);
+  app.drawing.stage.reset();  // while its context is current
   close_session(app);
-  if (failed && is_driven(options)) throw std::runtime_error(app.message);
-  if (flown && glfwWindowShouldClose(app.window) == GLFW_FALSE) fmt::print("{}\n", app.message);
+  if (failed && is_driven(options)) throw std::runtime_error(app.display.message.text);
+  if (flown && glfwWindowShouldClose(app.window) == GLFW_FALSE) fmt::print("{}\n", app.display.message.text);
   return 0;
 }
 
