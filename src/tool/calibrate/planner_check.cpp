@@ -145,7 +145,7 @@ Replanned::Replanned(const View& view)
       scene_(view.rows.front().scene, light_of(view.rows.front())),
       camera_(scene_.camera(view.rows.front().frame, view.rows.front().frames, view.rows.front().width,
                             view.rows.front().height)),
-      seen_(trace::seen_points(trace::Tracer(scene_.scene()), camera_, scene_.light())) {}
+      visible_(trace::seen_points(trace::Tracer(scene_.scene()), camera_, scene_.light())) {}
 
 report::Observation Replanned::observe(const report::Row& row) const {
   const SweepEntry entry = sweep_entry(row.technique);

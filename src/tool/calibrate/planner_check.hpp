@@ -31,12 +31,12 @@ class Replanned {
   [[nodiscard]] TechniqueChoice choose(const View& view, const Budget& budget, const CostModel& costs) const;
 
  private:
-  [[nodiscard]] SceneDetail detail() const noexcept { return {scene_.work(), seen_}; }
+  [[nodiscard]] SceneDetail detail() const noexcept { return {scene_.work(), visible_}; }
 
   std::string name_;
   SceneView scene_;
   Camera camera_;
-  std::vector<glm::dvec3> seen_;
+  std::vector<glm::dvec3> visible_;
 };
 
 /// Asks for picks within budgets and at errors from end to end of what each view measured, and prints for

@@ -165,9 +165,9 @@ class Run {
     for (Task& task : tasks) {
       const SweepEntry& entry = sweep_.entries[task.entry];
       entries.push_back(&entry);
-      Seen seen;
-      measure_errors(stage, truth, entry, task.row, pictures ? &seen : nullptr);
-      if (pictures) task.row.pictures = write_pictures(sweep_.out, scene, task.entry, truth, seen);
+      FramePictures drawn;
+      measure_errors(stage, truth, entry, task.row, pictures ? &drawn : nullptr);
+      if (pictures) task.row.pictures = write_pictures(sweep_.out, scene, task.entry, truth, drawn);
       step(steps_of_errors());
     }
     const std::vector<report::Times> times =

@@ -42,7 +42,7 @@ Image painted(const FrameTruth& truth, const std::function<Color(std::size_t)>& 
 }  // namespace
 
 report::Pictures write_pictures(const std::filesystem::path& folder, std::size_t scene, std::size_t entry,
-                                const FrameTruth& truth, const Seen& seen) {
+                                const FrameTruth& truth, const FramePictures& drawn) {
   std::filesystem::create_directories(folder / "pictures");
   const std::string of_scene = "pictures/scene" + std::to_string(scene);
   const std::string of_entry = of_scene + "_technique" + std::to_string(entry);
@@ -51,15 +51,15 @@ report::Pictures write_pictures(const std::filesystem::path& folder, std::size_t
   const auto light_at = [](float visibility) {
     return mixed(kShadow, kLit, static_cast<double>(visibility));
   };
-  write_png(seen.image, folder / names.image);
+  write_png(drawn.image, folder / names.image);
   write_png(painted(truth, [&](std::size_t i) { return light_at(truth.lit[i]); }), folder / names.truth);
-  write_png(painted(truth, [&](std::size_t i) { return light_at(seen.mask[i]); }), folder / names.mask);
+  write_png(painted(truth, [&](std::size_t i) { return light_at(drawn.mask[i]); }), folder / names.mask);
   const auto difference = [&](std::size_t i) {
     const auto exact = static_cast<double>(truth.lit[i]);
-    return error_color(exact, static_cast<double>(seen.mask[i]) - exact);
+    return error_color(exact, static_cast<double>(drawn.mask[i]) - exact);
   };
   write_png(painted(truth, difference), folder / names.difference);
-  Image heat = seen.heat;
+  Image heat = drawn.heat;
   render::draw_heat_legend(heat);
   write_png(heat, folder / names.heat);
   return names;

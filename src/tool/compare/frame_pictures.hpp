@@ -12,6 +12,7 @@ namespace gnomon::tool {
 /// Writes them below `folder` and answers their names. `scene` and `entry` are numbers within the sweep. The
 /// picture and the truth are the same for all techniques of a scene. Throws SceneError.
 [[nodiscard]] report::Pictures write_pictures(const std::filesystem::path& folder, std::size_t scene,
-                                              std::size_t entry, const FrameTruth& truth, const Seen& seen);
+                                              std::size_t entry, const FrameTruth& truth,
+                                              const FramePictures& drawn);
 
 }  // namespace gnomon::tool

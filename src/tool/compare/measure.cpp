@@ -199,11 +199,11 @@ FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry) {
 }
 
 void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, report::Row& row,
-                    Seen* seen) {
+                    FramePictures* drawn) {
   render::Renderer& renderer = stage.renderer();
   stage.go_to(truth.frame, Stage::At::before);
   Planned before(stage, entry, truth.before);
-  before.seen_by(truth.camera);
+  before.move_eye(truth.camera);
   before.draw(truth.camera, frame_options(false));
   const std::vector<float> mask_before = channel(renderer.mask(), 0);
 
@@ -239,7 +239,7 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
     row.left_out.push_back({text.what.data(), text.why.data(), omission.saves_texels});
   }
   count_savings(stats, PruneSource::this_frame, row);
-  if (seen != nullptr) *seen = {renderer.image(), plan.heat_map(mask_image), mask};
+  if (drawn != nullptr) *drawn = {renderer.image(), plan.heat_map(mask_image), mask};
   // Tight maps are others in every frame, and so are their pages.
   if (entry.plan.fit == Fit::tight) return;
   render::FrameOptions all_rules = frame_options(false);

@@ -20,19 +20,19 @@ struct FrameTruth {
   std::vector<float> lit_before;
   std::uint64_t undecided = 0;
 };
-/// Draws the frame once with `entry` to learn what is seen, and traces it.
+/// Draws the frame once with `entry` to learn what is visible, and traces it.
 [[nodiscard]] FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry);
 
 /// A technique's pictures of the frame, for those who look.
-struct Seen {
+struct FramePictures {
   Image image, heat;
   std::vector<float> mask;
 };
 
-/// Fills in the row's errors, aliasing, costs, status and what was left out; the pictures where `seen` is not
-/// nullptr.
+/// Fills in the row's errors, aliasing, costs, status and what was left out; the pictures where `drawn` is
+/// not nullptr.
 void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, report::Row& row,
-                    Seen* seen);
+                    FramePictures* drawn);
 
 /// Times the entries one after the other, in a new random order in every round; the first round warms up and
 /// is dropped. `done` is called after each measurement. One result per entry, in their order.

@@ -1,8 +1,8 @@
 // What a technique plans for one camera, maps or pages, ready to be drawn, timed and looked into.
 #include "planned.hpp"
 
+#include "moved_eye.hpp"
 #include "page_aliasing.hpp"
-#include "seen_from.hpp"
 
 namespace gnomon::tool {
 
@@ -27,8 +27,8 @@ void Planned::again() {
   by_pages() ? pages_->again() : void(maps_ = stage_.plan(entry_, camera_));
 }
 
-void Planned::seen_by(const Camera& after) {
-  by_pages() ? pages_->rebase_to(after.position) : void(maps_ = seen_from(maps_, camera_, after));
+void Planned::move_eye(const Camera& after) {
+  by_pages() ? pages_->rebase_to(after.position) : void(maps_ = moved_eye(maps_, camera_, after));
 }
 
 render::FrameStats Planned::draw(const Camera& camera, render::FrameOptions options) {

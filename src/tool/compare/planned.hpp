@@ -15,12 +15,12 @@ namespace gnomon::tool {
 class Planned {
  public:
   /// Plans until what the renderer reports of it changes nothing: page policies may read the mask of a frame
-  /// before. The stage must have seen the camera.
+  /// before. The stage must have looked through the camera.
   Planned(Stage& stage, const SweepEntry& entry, const Camera& camera);
   /// Plans once more from the same input, for a stopwatch.
   void again();
   /// As a renderer may draw it with another camera: the same texels over the same parts of the world.
-  void seen_by(const Camera& after);
+  void move_eye(const Camera& after);
   /// With the entry's depth layer.
   render::FrameStats draw(const Camera& camera, render::FrameOptions options);
 

@@ -78,13 +78,13 @@ void Stage::see(int frame) {
   });
   if (asked) {
     go_to(frame, At::before);
-    views_.push_back(seen_by(camera_before(frame)));
+    views_.push_back(view_through(camera_before(frame)));
   }
   go_to(frame, At::frame);
-  if (asked) views_.push_back(seen_by(camera(frame)));
+  if (asked) views_.push_back(view_through(camera(frame)));
 }
 
-Stage::View Stage::seen_by(const Camera& camera) {
+Stage::View Stage::view_through(const Camera& camera) {
   render::FrameOptions surfaces;
   surfaces.aliasing = surfaces.heat_map = surfaces.cascade_tint = surfaces.time_passes = false;
   renderer_->draw(ShadowPlan{}, camera, filter(sweep_.baseline), surfaces);
@@ -101,7 +101,7 @@ Stage::View Stage::seen_by(const Camera& camera) {
     if (depth > 0.0 && std::isfinite(depth))
       view.points.push_back(camera.position + glm::dvec3(at[0], at[1], at[2]));
   }
-  view.surfaces = std::make_shared<const SeenSurfaces>(seen_surfaces(positions, nullptr, camera));
+  view.surfaces = std::make_shared<const VisibleSurfaces>(visible_surfaces(positions, nullptr, camera));
   return view;
 }
 

@@ -10,8 +10,8 @@
 #include "gnomon/scene/pose.hpp"
 #include "gnomon/trace/reference.hpp"
 #include "scene_view.hpp"
-#include "seen_surfaces.hpp"
 #include "sweep.hpp"
+#include "visible_surfaces.hpp"
 
 namespace gnomon::tool {
 
@@ -56,14 +56,14 @@ class Stage {
     Camera camera;
     VisibleDepths depths;
     std::vector<glm::dvec3> points;
-    std::shared_ptr<const SeenSurfaces> surfaces;  ///< what pages are planned from
+    std::shared_ptr<const VisibleSurfaces> surfaces;  ///< what pages are planned from
   };
-  /// nullptr where the camera was not seen.
+  /// nullptr where nobody looked through the camera.
   [[nodiscard]] const View* view(const Camera& camera) const noexcept;
   [[nodiscard]] const Scene& scene() const noexcept { return view_.scene(); }
 
  private:
-  [[nodiscard]] View seen_by(const Camera& camera);
+  [[nodiscard]] View view_through(const Camera& camera);
 
   const Sweep& sweep_;
   mutable CoarseView coarse_;  ///< scratch

@@ -134,7 +134,7 @@ bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
   if (is_tetrahedron && t.split != first.split) return true;
   const bool by_depth = entry.plan.split.partition == Partition::view_depth;
   const bool as_many = by_depth || entry.plan.split.partition == Partition::receiver_clusters;
-  // What is seen bounds one map, too.
+  // What is visible bounds one map, too.
   const bool follows_view = entry.visible_depths || entry.coarse_depths || entry.visible_points;
   if (by_depth && t.cascades == 1 && t.split != first.split && !follows_view) return true;
   if (as_many && !by_depth && t.cascades == 1) return true;

@@ -131,7 +131,7 @@ FrameRow draw_page_frame(Studio& studio, int frame) {
   if (studio.sheet.wants(frame)) studio.sheet.add(frame, drawn.lit, drawn.heat, drawn.levels);
   render::draw_heat_legend(drawn.heat);
   draw_legend_text(drawn.levels, drawn.level_text);
-  draw_legend_text(drawn.kept, drawn.kept_text);
+  draw_legend_text(drawn.cached, drawn.cached_text);
   const auto write = [&](const char* kind, const Image& image) {
     write_png(image, options.out / fmt::format("frame_{:04}_{}.png", frame, kind));
     check_interrupt();
@@ -139,7 +139,7 @@ FrameRow draw_page_frame(Studio& studio, int frame) {
   write("image", drawn.lit);
   write("heat", drawn.heat);
   write("levels", drawn.levels);
-  write("kept", drawn.kept);
+  write("kept", drawn.cached);
   return drawn.row;
 }
 
@@ -226,9 +226,9 @@ void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
       s.undersampled * 100.0);
   if (options.pages.on()) {
     const PageSummary pages = page_summary(rows);
-    const bool moves = pages.share_kept == 0.0 && rows.size() > 1 && options.plan.fit != Fit::stable;
+    const bool moves = pages.share_cached == 0.0 && rows.size() > 1 && options.plan.fit != Fit::stable;
     fmt::print("pages:    {:.0f} a frame, {:.1f} % kept from earlier frames{}\n", pages.pages_per_frame,
-               100.0 * pages.share_kept, moves ? "; --fit stable keeps them while the camera moves" : "");
+               100.0 * pages.share_cached, moves ? "; --fit stable keeps them while the camera moves" : "");
   }
   fmt::print("pictures: {}\nsheet:    {}\nnumbers:  {}\n", (options.out / "frame_0000_image.png").string(),
              (options.out / "contact_sheet.png").string(), (options.out / "frames.csv").string());
@@ -261,7 +261,7 @@ void print_json(const Options& options, const Flight& flight, const render::Cont
                      {"capacity", options.pages.capacity},
                      {"target_m", options.pages.target_m}};
     json["summary"]["pages_per_frame"] = pages.pages_per_frame;
-    json["summary"]["share_kept"] = pages.share_kept;
+    json["summary"]["share_kept"] = pages.share_cached;
   }
   print_line(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }

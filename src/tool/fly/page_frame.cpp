@@ -27,8 +27,8 @@ std::int64_t plan_ns(FramePages& pages) {
 DrawnPages draw_with_pages(const Options& options, const Flight& flight, const Camera& camera,
                            const Light& light, render::Renderer& renderer,
                            const render::PreparedFilter& filter) {
-  const auto seen = std::make_shared<const SeenSurfaces>(draw_surfaces(renderer, camera, options.layer));
-  FramePages pages({light, flight.bounds(), options.plan, page_options_of(options.pages)}, seen);
+  const auto surfaces = std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer, camera, options.layer));
+  FramePages pages({light, flight.bounds(), options.plan, page_options_of(options.pages)}, surfaces);
   if (pages.plan().status == PlanStatus::invalid_input)
     throw std::runtime_error(options.scene + ": the plan refuses " + std::string(pages.plan().invalid_field));
   render::FrameOptions frame;
@@ -55,8 +55,8 @@ DrawnPages draw_with_pages(const Options& options, const Flight& flight, const C
   result.levels = level_picture(result.lit, images.mask, images.normals, plan);
   result.level_text = level_legend(plan);
   const std::vector<Served> served = served_by(plan, pages.drawn());
-  result.kept = kept_picture(images.mask, images.normals, served);
-  result.kept_text = kept_legend(served, "pages");
+  result.cached = cached_picture(images.mask, images.normals, served);
+  result.cached_text = cached_legend(served, "pages");
   return result;
 }
 

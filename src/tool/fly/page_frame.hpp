@@ -11,8 +11,8 @@ namespace gnomon::tool::fly {
 /// A frame's row, and its pictures with their legends yet to come.
 struct DrawnPages {
   FrameRow row;
-  Image lit, heat, levels, kept;
-  LegendText level_text, kept_text;
+  Image lit, heat, levels, cached;
+  LegendText level_text, cached_text;
 };
 /// Draws the surfaces, plans the pages that they need, and draws those that the renderer has not kept from
 /// earlier frames. `filter`: of Renderer::prepare_pages. Throws std::runtime_error where the plan refuses.

@@ -171,16 +171,16 @@ std::string omitted_text(std::span<const Omission> omitted, const render::FrameS
 
 PageSummary page_summary(const std::vector<FrameRow>& rows) {
   PageSummary summary;
-  double resident = 0.0, kept = 0.0;
+  double resident = 0.0, cached = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i].pages) continue;
     const PageCounts& pages = *rows[i].pages;
     summary.pages_per_frame += pages.resident / static_cast<double>(rows.size());
     if (i == 0) continue;  // nothing can be kept yet
     resident += pages.resident;
-    kept += pages.resident - pages.drawn;
+    cached += pages.resident - pages.drawn;
   }
-  if (resident > 0.0) summary.share_kept = kept / resident;
+  if (resident > 0.0) summary.share_cached = cached / resident;
   return summary;
 }
 

@@ -51,7 +51,7 @@ struct FrameRow {
 /// Pages over all frames, and how many of those after the first frame were kept from earlier ones.
 struct PageSummary {
   double pages_per_frame = 0.0;
-  double share_kept = 0.0;  ///< 0 for flights of one frame
+  double share_cached = 0.0;  ///< 0 for flights of one frame
 };
 [[nodiscard]] PageSummary page_summary(const std::vector<FrameRow>& rows);
 

@@ -8,7 +8,7 @@
 
 #include "flight.hpp"
 #include "gnomon/render/perceptual.hpp"
-#include "seen_by.hpp"
+#include "visible_points.hpp"
 
 namespace gnomon::tool::fly {
 namespace {
@@ -36,14 +36,14 @@ struct Needed {
 
 class Judge {
  public:
-  Judge(const Options& options, const Flight& flight, const SeenBy& seen)
+  Judge(const Options& options, const Flight& flight, const VisiblePointsOf& visible_points)
       : options_(options),
         flight_(flight),
         light_(default_light(options.light, flight.scene.bounds_world)),
         distances_(distances_of(options, flight, light_)) {
     for (int frame = 0; frame < options.frames; ++frame) {
       cameras_.push_back(camera_of(options, flight, frame));
-      seen_.push_back(seen(cameras_.back(), light_));
+      points_.push_back(visible_points(cameras_.back(), light_));
     }
   }
 
@@ -78,8 +78,8 @@ class Judge {
     const auto at = static_cast<std::size_t>(frame);
     const ShadowPlan plan = make_plan(cameras_[at], light_, flight_.bounds(), plan_options);
     const HidingMapSize answer =
-        seen_[at].empty() ? hiding_map_size(plan, cameras_[at], options_.filter, distances_)
-                          : hiding_map_size(plan, cameras_[at], options_.filter, distances_, seen_[at]);
+        points_[at].empty() ? hiding_map_size(plan, cameras_[at], options_.filter, distances_)
+                            : hiding_map_size(plan, cameras_[at], options_.filter, distances_, points_[at]);
     // Narrower than a pixel, a kernel hides nothing: what it would want is maps of one texel a pixel.
     if (answer.radius_pixels >= 1.0) return answer;
     throw std::runtime_error(
@@ -93,14 +93,14 @@ class Judge {
   Light light_;
   ShadowDistances distances_;
   std::vector<Camera> cameras_;
-  std::vector<std::vector<glm::dvec3>> seen_;
+  std::vector<std::vector<glm::dvec3>> points_;
 };
 
 }  // namespace
 
 void choose_perceptual_maps(Options& options, const Flight& flight) {
-  const SeenBy seen(flight.scene);
-  const Judge judge(options, flight, seen);
+  const VisiblePointsOf visible_points(flight.scene);
+  const Judge judge(options, flight, visible_points);
   const int given = options.plan.resolution.max_size;
   Needed needed = judge.size_with(options.plan.warp.warp);
   bool dropped = false;

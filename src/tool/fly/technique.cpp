@@ -11,7 +11,7 @@
 #include "gnomon/report/cost_model.hpp"
 #include "gnomon/report/row.hpp"
 #include "gnomon/scene/caster_work.hpp"
-#include "seen_by.hpp"
+#include "visible_points.hpp"
 
 namespace gnomon::tool::fly {
 namespace {
@@ -72,15 +72,15 @@ void choose_technique_of(Options& options, const Flight& flight) {
   know(options, model, known);
   const std::vector<CasterWork> work = caster_work(flight.scene);
   const Light light = default_light(options.light, flight.scene.bounds_world);
-  const SeenBy seen_by(flight.scene);
+  const VisiblePointsOf visible_points(flight.scene);
   TechniqueChoice hardest;
   const int frames = std::min(options.frames, kMostFrames);
   for (int i = 0; i < frames; ++i) {
     // The middle of each of `frames` equal parts.
     const int frame = static_cast<int>((i + 0.5) * options.frames / frames);
     const Camera camera = camera_of(options, flight, frame);
-    const std::vector<glm::dvec3> seen = seen_by(camera, light);
-    const TechniqueChoice choice = choose_technique(camera, light, flight.bounds(), {work, seen}, {},
+    const std::vector<glm::dvec3> points = visible_points(camera, light);
+    const TechniqueChoice choice = choose_technique(camera, light, flight.bounds(), {work, points}, {},
                                                     options.budget, known.costs, options.plan);
     if (choice.status == PlanStatus::invalid_input)
       throw std::runtime_error(fmt::format("frame {}: no technique for {}", frame, choice.invalid_field));

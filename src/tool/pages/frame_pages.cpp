@@ -21,15 +21,15 @@ bool same_pages(const PagePlan& a, const PagePlan& b) {
 
 }  // namespace
 
-FramePages::FramePages(const PageFrameInput& input, std::shared_ptr<const SeenSurfaces> seen)
-    : input_(input), seen_(std::move(seen)) {
+FramePages::FramePages(const PageFrameInput& input, std::shared_ptr<const VisibleSurfaces> surfaces)
+    : input_(input), surfaces_(std::move(surfaces)) {
   const auto storage = [&] {
     return std::make_unique<Planned>(Planned{PageStorage(std::clamp(input.pages.capacity, 0, kMostPages),
-                                                         std::max<std::size_t>(seen_->points.size(), 1)),
+                                                         std::max<std::size_t>(surfaces_->points.size(), 1)),
                                              {}});
   };
   now_ = storage();
-  feedback_ = first_feedback(*seen_, *input.pages.policy);
+  feedback_ = first_feedback(*surfaces_, *input.pages.policy);
   plan_into(*now_, nullptr);
   wants_rounds_ = (input.pages.policy->feedback & (kShadowEdge | kShadowChanged)) != 0 &&
                   now_->plan.status == PlanStatus::ok;
@@ -39,8 +39,9 @@ FramePages::FramePages(const PageFrameInput& input, std::shared_ptr<const SeenSu
 void FramePages::plan_into(Planned& planned, const PagePlan* last) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
-  planned.plan = plan_pages(seen_->camera, input_.light, input_.bounds, {seen_->points, {}, feedback_, last},
-                            input_.plan, input_.pages, planned.storage.spans());
+  planned.plan =
+      plan_pages(surfaces_->camera, input_.light, input_.bounds, {surfaces_->points, {}, feedback_, last},
+                 input_.plan, input_.pages, planned.storage.spans());
   plan_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
@@ -53,13 +54,13 @@ double FramePages::refine(render::Renderer& renderer, const render::PreparedFilt
   double map_ms = 0.0;
   std::vector<float> before;
   for (int round = 0; round < rounds && wants_rounds_ && now_->plan.status == PlanStatus::ok; ++round) {
-    const render::FrameStats stats = draw(renderer, seen_->camera, filter, options);
+    const render::FrameStats stats = draw(renderer, surfaces_->camera, filter, options);
     map_ms += stats.ms(render::Pass::shadow_maps);
     for (std::size_t i = 0; i < drawn_.size(); ++i) {
       if (drawn_[i]) drawn_before_.push_back(page_map(now_->plan, now_->plan.pages[i]).clip_from_world);
     }
     std::vector<float> lit = channel(renderer.mask(), 0);
-    feedback_ = feedback_of(*seen_, lit, before);
+    feedback_ = feedback_of(*surfaces_, lit, before);
     before = std::move(lit);
     std::swap(now_, last_);
     plan_into(*now_, &last_->plan);
@@ -95,7 +96,7 @@ void FramePages::rebase_to(const glm::dvec3& origin_world) noexcept {
 }
 
 PageStats FramePages::measure() const noexcept {
-  return measure_pages(now_->plan, seen_->camera, {seen_->points, seen_->normals, {}, nullptr});
+  return measure_pages(now_->plan, surfaces_->camera, {surfaces_->points, surfaces_->normals, {}, nullptr});
 }
 
 const ShadowMap* FramePages::level_of(int page) const noexcept {

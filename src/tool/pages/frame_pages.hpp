@@ -9,7 +9,7 @@
 #include "gnomon/pages.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "base/page_storage.hpp"
-#include "seen_surfaces.hpp"
+#include "visible_surfaces.hpp"
 
 namespace gnomon::tool {
 
@@ -27,7 +27,7 @@ class FramePages {
   static constexpr int kMostRounds = 8;
 
   /// Plans once, with nothing rendered yet.
-  FramePages(const PageFrameInput& input, std::shared_ptr<const SeenSurfaces> seen);
+  FramePages(const PageFrameInput& input, std::shared_ptr<const VisibleSurfaces> surfaces);
   FramePages(const FramePages&) = delete;
   FramePages& operator=(const FramePages&) = delete;
 
@@ -46,12 +46,12 @@ class FramePages {
   void rebase_to(const glm::dvec3& origin_world) noexcept;
 
   [[nodiscard]] const PagePlan& plan() const noexcept { return now_->plan; }
-  [[nodiscard]] const SeenSurfaces& seen() const noexcept { return *seen_; }
+  [[nodiscard]] const VisibleSurfaces& surfaces() const noexcept { return *surfaces_; }
   /// By page of the plan: drawn in this frame, not kept from earlier ones. Empty before draw().
   [[nodiscard]] const std::vector<bool>& drawn() const noexcept { return drawn_; }
   /// Time of the last plan_pages, milliseconds.
   [[nodiscard]] double plan_ms() const noexcept { return plan_ms_; }
-  /// At the seen points, on their surfaces where normals were read.
+  /// At the visible points, on their surfaces where normals were read.
   [[nodiscard]] PageStats measure() const noexcept;
   /// The grid whose texels serve a page; nullptr where there is no such page.
   [[nodiscard]] const ShadowMap* level_of(int page) const noexcept;
@@ -65,7 +65,7 @@ class FramePages {
   void note_drawn(const render::Renderer& renderer);
 
   PageFrameInput input_;
-  std::shared_ptr<const SeenSurfaces> seen_;
+  std::shared_ptr<const VisibleSurfaces> surfaces_;
   std::unique_ptr<Planned> now_, last_;
   std::vector<std::uint8_t> feedback_;
   std::vector<glm::dmat4> drawn_before_;  ///< of the pages that rounds have drawn

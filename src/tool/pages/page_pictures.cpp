@@ -63,7 +63,7 @@ Image level_picture(const Image& lit, const FloatImage& mask, const FloatImage& 
   return image;
 }
 
-Image kept_picture(const FloatImage& mask, const FloatImage& normals, std::span<const Served> served) {
+Image cached_picture(const FloatImage& mask, const FloatImage& normals, std::span<const Served> served) {
   Image image = render::blank_image(mask.width, mask.height, kSky);
   const auto width = static_cast<std::size_t>(mask.width);
   for (std::size_t i = 0; i < mask.values.size() / 2; ++i) {
@@ -88,7 +88,7 @@ Image kept_picture(const FloatImage& mask, const FloatImage& normals, std::span<
 std::vector<Served> served_by(const PagePlan& plan, const std::vector<bool>& drawn) {
   std::vector<Served> served;
   for (std::size_t i = 0; i < plan.pages.size(); ++i)
-    served.push_back({i < drawn.size() && !drawn[i] ? Texels::kept : Texels::drawn,
+    served.push_back({i < drawn.size() && !drawn[i] ? Texels::cached : Texels::drawn,
                       fineness_of(plan.pages[i].level, plan.levels.size())});
   return served;
 }
@@ -97,7 +97,7 @@ std::vector<Served> served_by(const render::FrameStats& stats) {
   std::vector<Served> served;
   for (std::size_t i = 0; i < static_cast<std::size_t>(stats.map_count); ++i) {
     const render::MapStats& map = stats.map[i];
-    served.push_back({map.held ? Texels::kept : map.scrolled ? Texels::scrolled : Texels::drawn, 1.0});
+    served.push_back({map.held ? Texels::cached : map.scrolled ? Texels::scrolled : Texels::drawn, 1.0});
   }
   return served;
 }
@@ -123,9 +123,9 @@ LegendText level_legend(const PagePlan& plan) {
   return legend;
 }
 
-LegendText kept_legend(std::span<const Served> served, const std::string& what) {
+LegendText cached_legend(std::span<const Served> served, const std::string& what) {
   LegendText legend;
-  for (const Texels texels : {Texels::kept, Texels::scrolled, Texels::drawn}) {
+  for (const Texels texels : {Texels::cached, Texels::scrolled, Texels::drawn}) {
     const auto count = std::count_if(served.begin(), served.end(),
                                      [texels](const Served& by) { return by.texels == texels; });
     // Pages are never scrolled.
@@ -145,7 +145,7 @@ LegendText resident_legend(const PagePlan& plan, std::size_t level) {
   const ShadowMap& map = plan.levels[level];
   return {fmt::format("level {} of {}: {} x {} texels, {} page{} resident", level, plan.levels.size(),
                       map.width, map.height, count, count == 1 ? "" : "s"),
-          {{color_of(Texels::kept), kStateNames[0]}, {color_of(Texels::drawn), kStateNames[2]}}};
+          {{color_of(Texels::cached), kStateNames[0]}, {color_of(Texels::drawn), kStateNames[2]}}};
 }
 
 }  // namespace gnomon::tool

@@ -155,7 +155,7 @@ struct PanesStage {
     of_pages.policy = &page_policies::resolution;
     return std::make_unique<FramePages>(
         PageFrameInput{view.light(), view.bounds(), sweep.entries[0].plan, of_pages},
-        std::make_shared<const SeenSurfaces>(draw_surfaces(renderer, camera, render::DepthLayer::front)));
+        std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer, camera, render::DepthLayer::front)));
   }
 
   const PanesRequest& request;

@@ -102,7 +102,7 @@ MapPicture level_map_picture(const PagePlan& plan, std::size_t level, const std:
   }
   for (const PlacedPage& page : pages) {
     paint_page(page, plan.border_texels, nearest, farthest, picture.image);
-    add_square(page, opaque(color_of(page.drawn ? Texels::drawn : Texels::kept)), picture.lines);
+    add_square(page, opaque(color_of(page.drawn ? Texels::drawn : Texels::cached)), picture.lines);
   }
   return picture;
 }
@@ -113,7 +113,7 @@ Image page_legend(View view, const PagePlan& plan, const std::vector<bool>& draw
   if (!tint && view != View::kept && view != View::map) return legend(view, {}, picture_width);
   const LegendText text = tint                ? level_legend(plan)
                           : view == View::map ? resident_legend(plan, level)
-                                              : kept_legend(served_by(plan, drawn), "pages");
+                                              : cached_legend(served_by(plan, drawn), "pages");
   return field_legend(text.title, text.fields, picture_width);
 }
 

@@ -190,7 +190,7 @@ std::vector<WorldLine> page_lines(const PagePlan& plan, const Camera& frozen, co
   return lines;
 }
 
-ShadowPlan seen_frozen(ShadowPlan plan, const Camera& frozen, const Camera& camera) noexcept {
+ShadowPlan from_frozen(ShadowPlan plan, const Camera& frozen, const Camera& camera) noexcept {
   const glm::dvec3 forward = camera_axes(frozen).forward;
   const double at_eye = glm::dot(forward, frozen.position);
   constexpr double kEverywhere = 1e30;  // world units, and still a number in single precision

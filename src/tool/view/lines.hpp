@@ -41,6 +41,6 @@ struct WorldLine {
                                                    const glm::u8vec4& color);
 /// A plan made for the camera `frozen` as a renderer may draw it with another one: each map serves the depths
 /// of the frozen view that it was planned for, wherever the new camera stands.
-[[nodiscard]] ShadowPlan seen_frozen(ShadowPlan plan, const Camera& frozen, const Camera& camera) noexcept;
+[[nodiscard]] ShadowPlan from_frozen(ShadowPlan plan, const Camera& frozen, const Camera& camera) noexcept;
 
 }  // namespace gnomon::tool::view

@@ -62,7 +62,7 @@ std::string save_session(const Session& session, const std::filesystem::path& fi
   return save_text(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n", file);
 }
 
-void remember_scene(Session& session, const std::string& scene) {
+void add_recent(Session& session, const std::string& scene) {
   std::erase(session.recent, scene);
   session.recent.insert(session.recent.begin(), scene);
   if (session.recent.size() > kMostRecent) session.recent.resize(kMostRecent);

@@ -23,6 +23,6 @@ struct Session {
 [[nodiscard]] std::string save_session(const Session& session, const std::filesystem::path& file);
 /// Writes a text file whole, in a folder that is made where it is missing. Returns why it could not.
 [[nodiscard]] std::string save_text(const std::string& text, const std::filesystem::path& file);
-void remember_scene(Session& session, const std::string& scene);
+void add_recent(Session& session, const std::string& scene);
 
 }  // namespace gnomon::tool::view

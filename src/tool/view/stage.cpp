@@ -169,7 +169,7 @@ double Stage::time_frame(const State& state, Timed what) {
 }
 
 std::string Stage::plan_side(const Settings& settings, const Camera& planned, const Light& light,
-                             std::shared_ptr<const SeenSurfaces>& surfaces, Side& side) {
+                             std::shared_ptr<const VisibleSurfaces>& surfaces, Side& side) {
   const SceneBounds bounds{posed_.boxes(), posed_.boxes()};
   const PlanOptions options = plan_options_of(settings);
   side.pages.reset();
@@ -182,7 +182,7 @@ std::string Stage::plan_side(const Settings& settings, const Camera& planned, co
     if (std::string refusal = page_refusal(settings.pages, settings.filter, options, kind); !refusal.empty())
       return refusal;
     if (surfaces == nullptr)
-      surfaces = std::make_shared<const SeenSurfaces>(draw_surfaces(renderer_, planned, settings.layer));
+      surfaces = std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer_, planned, settings.layer));
     side.pages = std::make_shared<FramePages>(
         PageFrameInput{light, bounds, options, page_options_of(settings.pages)}, surfaces);
     side.plan = {};
@@ -206,13 +206,13 @@ std::string Stage::plan_side(const Settings& settings, const Camera& planned, co
 }
 
 Light Stage::held_light(const State& state, const Camera& camera,
-                        std::shared_ptr<const SeenSurfaces>& surfaces) {
+                        std::shared_ptr<const VisibleSurfaces>& surfaces) {
   Light light = light_of(state.light, loaded_->scene.bounds_world);
   auto* const sun = std::get_if<DirectionalLight>(&light);
   const bool holds = sun != nullptr && state.motion.hold_sun_pixels > 0.0;
   if (holds && held_sun_ != glm::dvec3(0.0) && sun->direction != held_sun_) {
     if (surfaces == nullptr)
-      surfaces = std::make_shared<const SeenSurfaces>(draw_surfaces(renderer_, camera, state.a.layer));
+      surfaces = std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer_, camera, state.a.layer));
     Box casters;
     for (const Box& box : posed_.boxes()) casters.extend(box);
     sun->direction = hold_sun(held_sun_, sun->direction, camera, casters,
@@ -226,7 +226,7 @@ Light Stage::held_light(const State& state, const Camera& camera,
 std::string Stage::make_plans(const State& state, int width, int height) {
   const Camera eye = camera_of(state, state.eye, loaded_->path, width, height);
   const Camera planned = state.frozen ? camera_of(state, state.frozen, loaded_->path, width, height) : eye;
-  std::shared_ptr<const SeenSurfaces> surfaces;
+  std::shared_ptr<const VisibleSurfaces> surfaces;
   const Light light = held_light(state, planned, surfaces);
   const bool both = state.comparison != Comparison::off && !state.b_is_truth;
   std::array<Side, 2> next = sides_;
@@ -235,7 +235,7 @@ std::string Stage::make_plans(const State& state, int width, int height) {
     Side& side = next[static_cast<std::size_t>(i)];
     if (std::string refusal = plan_side(settings, planned, light, surfaces, side); !refusal.empty())
       return refusal;
-    side.drawn = state.frozen ? seen_frozen(side.plan, planned, eye) : side.plan;
+    side.drawn = state.frozen ? from_frozen(side.plan, planned, eye) : side.plan;
     // Throws where a shader does not compile: before anything of the last picture is gone.
     (void)prepare(settings);
   }
@@ -283,7 +283,7 @@ std::optional<FloatImage> Stage::mask_of_plan_before(const State& state, const S
     return {};
   render::FrameOptions frame = frame_options(state, state.a, light_);
   frame.aliasing = frame.heat_map = frame.cascade_tint = false;
-  renderer_.draw(seen_frozen(before.plan, before.plan_camera, camera_), camera_, prepare(state.a), frame);
+  renderer_.draw(from_frozen(before.plan, before.plan_camera, camera_), camera_, prepare(state.a), frame);
   return renderer_.mask();
 }
 
@@ -304,7 +304,7 @@ void Stage::draw_pages(const State& state, const Settings& settings, Side& side,
 Image Stage::side_legend(const State& state, const Side& side) const {
   if (!side.pages) {
     if (state.view != View::kept) return legend(state.view, side.plan, camera_.width);
-    const LegendText text = kept_legend(served_by(side.stats), "maps");
+    const LegendText text = cached_legend(served_by(side.stats), "maps");
     return field_legend(text.title, text.fields, camera_.width);
   }
   const int level = std::clamp(state.map, 0, std::max(side.picture_count() - 1, 0));
@@ -358,9 +358,9 @@ void Stage::draw_view(const State& state, Side& side, Canvas& canvas) {
       return canvas.put(
           level_picture(renderer_.image(), renderer_.mask(), renderer_.normals(), side.pages->plan()), 0, 0);
     case View::kept:
-      return canvas.put(kept_picture(renderer_.mask(), renderer_.normals(),
-                                     side.pages ? served_by(side.pages->plan(), side.pages->drawn())
-                                                : served_by(side.stats)),
+      return canvas.put(cached_picture(renderer_.mask(), renderer_.normals(),
+                                       side.pages ? served_by(side.pages->plan(), side.pages->drawn())
+                                                  : served_by(side.stats)),
                         0, 0);
     case View::mask:
       return canvas.put(mask_picture(renderer_.mask(), renderer_.normals()), 0, 0);

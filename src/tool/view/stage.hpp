@@ -112,9 +112,9 @@ class Stage {
   void draw_side(const State& state, const Settings& settings, Side& side, Canvas& canvas, bool settled);
   /// The sun as the state holds it, for this camera; draws `surfaces` where it needs them.
   [[nodiscard]] Light held_light(const State& state, const Camera& camera,
-                                 std::shared_ptr<const SeenSurfaces>& surfaces);
+                                 std::shared_ptr<const VisibleSurfaces>& surfaces);
   [[nodiscard]] std::string plan_side(const Settings& settings, const Camera& planned, const Light& light,
-                                      std::shared_ptr<const SeenSurfaces>& surfaces, Side& side);
+                                      std::shared_ptr<const VisibleSurfaces>& surfaces, Side& side);
   [[nodiscard]] std::optional<FloatImage> mask_of_plan_before(const State& state, const Side& before);
   void draw_pages(const State& state, const Settings& settings, Side& side, bool settled);
   [[nodiscard]] render::PreparedFilter prepare(const Settings& settings);

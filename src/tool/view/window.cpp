@@ -118,7 +118,7 @@ void take_loaded(App& app) {
       state.light.point.reset();
     }
     state.scene = loaded->name;
-    remember_scene(app.session, loaded->name);
+    add_recent(app.session, loaded->name);
     for (const std::string& warning : loaded->scene.warnings) show_message(app.display, warning, false);
   } catch (const std::exception& error) {
     if (shown != nullptr) state.scene = shown->loaded().name;

@@ -8,8 +8,8 @@
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/trace/reference.hpp"
+#include "moved_eye.hpp"
 #include "render/shared_context.hpp"
-#include "seen_from.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -30,7 +30,7 @@ class Steps {
     options_.fit = fit;
     Camera after = before_;
     after.position += step;
-    const std::vector<float> old_mask = mask(seen_from(plan(before_), before_, after), after);
+    const std::vector<float> old_mask = mask(moved_eye(plan(before_), before_, after), after);
     const std::vector<float> new_mask = mask(plan(after), after);
     const trace::SurfacePoints points =
         trace::surface_points(tracer_, after, light_, renderer_.positions(), renderer_.normals());

@@ -77,7 +77,7 @@ TEST(ViewPages, of_the_scene_are_the_renderers) {
   const Camera camera = camera_of(state, {}, stage().loaded().path, kWidth, kHeight);
   const std::vector<Box>& boxes = stage().loaded().boxes;
   const auto seen =
-      std::make_shared<const SeenSurfaces>(draw_surfaces(renderer, camera, render::DepthLayer::front));
+      std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer, camera, render::DepthLayer::front));
   FramePages pages({light, {boxes, boxes}, plan_options_of(state.a), page_options_of(state.a.pages)}, seen);
   render::FrameOptions frame;
   frame.light = &light;

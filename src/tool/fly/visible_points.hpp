@@ -14,10 +14,10 @@
 namespace gnomon::tool::fly {
 
 /// Visible points of one scene; none where rays were not built in.
-class SeenBy {
+class VisiblePointsOf {
  public:
 #ifdef GNOMON_HAS_TRACE
-  explicit SeenBy(const Scene& scene) : tracer_(scene) {}
+  explicit VisiblePointsOf(const Scene& scene) : tracer_(scene) {}
   std::vector<glm::dvec3> operator()(const Camera& camera, const Light& light) const {
     return trace::seen_points(tracer_, camera, light);
   }
@@ -25,7 +25,7 @@ class SeenBy {
  private:
   trace::Tracer tracer_;
 #else
-  explicit SeenBy(const Scene&) {}
+  explicit VisiblePointsOf(const Scene&) {}
   std::vector<glm::dvec3> operator()(const Camera&, const Light&) const {
     return {};
   }

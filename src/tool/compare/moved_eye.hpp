@@ -9,6 +9,6 @@ namespace gnomon::tool {
 /// The plan of the camera `before` as a renderer may draw it with the camera `after`: the same maps over the
 /// same parts of the world, their depths moved along with the eye. That the view turns in between is
 /// neglected for the depths at which one map ends and the next begins.
-[[nodiscard]] ShadowPlan seen_from(ShadowPlan plan, const Camera& before, const Camera& after) noexcept;
+[[nodiscard]] ShadowPlan moved_eye(ShadowPlan plan, const Camera& before, const Camera& after) noexcept;
 
 }  // namespace gnomon::tool

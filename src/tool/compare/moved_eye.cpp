@@ -1,5 +1,5 @@
 // The shadow of one frame looked up at the points of the next.
-#include "seen_from.hpp"
+#include "moved_eye.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -7,7 +7,7 @@
 
 namespace gnomon::tool {
 
-ShadowPlan seen_from(ShadowPlan plan, const Camera& before, const Camera& after) noexcept {
+ShadowPlan moved_eye(ShadowPlan plan, const Camera& before, const Camera& after) noexcept {
   const double moved = glm::dot(after.position - before.position, camera_axes(after).forward);
   plan.origin_world = after.position;
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {

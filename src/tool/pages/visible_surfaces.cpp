@@ -1,5 +1,5 @@
 // The surfaces that a page plan is made for: points of a drawn frame, and the feedback on each.
-#include "seen_surfaces.hpp"
+#include "visible_surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ bool is_depth_edge(const FloatImage& positions, int x, int y) {
 
 /// Least and largest value in the square round a pixel that ends half way to the next point.
 std::pair<float, float> range_round(const std::vector<float>& values, int width, int height, int pixel) {
-  constexpr int kReach = SeenSurfaces::kStride / 2 + 1;
+  constexpr int kReach = VisibleSurfaces::kStride / 2 + 1;
   const int x = pixel % width, y = pixel / width;
   float least = values[static_cast<std::size_t>(pixel)], most = least;
   for (int row = std::max(y - kReach, 0); row <= std::min(y + kReach, height - 1); ++row) {
@@ -45,49 +45,50 @@ std::pair<float, float> range_round(const std::vector<float>& values, int width,
 
 }  // namespace
 
-SeenSurfaces seen_surfaces(const FloatImage& positions, const FloatImage* normals, const Camera& camera) {
-  SeenSurfaces seen;
-  seen.camera = camera;
-  for (int y = 0; y < positions.height; y += SeenSurfaces::kStride) {
-    for (int x = 0; x < positions.width; x += SeenSurfaces::kStride) {
+VisibleSurfaces visible_surfaces(const FloatImage& positions, const FloatImage* normals,
+                                 const Camera& camera) {
+  VisibleSurfaces visible;
+  visible.camera = camera;
+  for (int y = 0; y < positions.height; y += VisibleSurfaces::kStride) {
+    for (int x = 0; x < positions.width; x += VisibleSurfaces::kStride) {
       const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(positions.width) +
                          static_cast<std::size_t>(x);
       const float* const at = positions.values.data() + 4 * pixel;
       if (!(at[3] > 0.0f) || !std::isfinite(at[3])) continue;
-      seen.points.push_back(camera.position + glm::dvec3(at[0], at[1], at[2]));
-      seen.pixels.push_back(static_cast<std::uint32_t>(pixel));
-      seen.depth_edges.push_back(is_depth_edge(positions, x, y));
+      visible.points.push_back(camera.position + glm::dvec3(at[0], at[1], at[2]));
+      visible.pixels.push_back(static_cast<std::uint32_t>(pixel));
+      visible.depth_edges.push_back(is_depth_edge(positions, x, y));
       if (normals == nullptr) continue;
       const float* const facing = normals->values.data() + 4 * pixel;
-      seen.normals.emplace_back(facing[0], facing[1], facing[2]);
+      visible.normals.emplace_back(facing[0], facing[1], facing[2]);
     }
   }
-  return seen;
+  return visible;
 }
 
-SeenSurfaces draw_surfaces(render::Renderer& renderer, const Camera& camera, render::DepthLayer layer) {
+VisibleSurfaces draw_surfaces(render::Renderer& renderer, const Camera& camera, render::DepthLayer layer) {
   render::FrameOptions surfaces;
   surfaces.aliasing = surfaces.heat_map = surfaces.cascade_tint = surfaces.time_passes = false;
   surfaces.depth_layer = layer;
   renderer.draw(ShadowPlan{}, camera, renderer.prepare(render::filters::hard), surfaces);
   const FloatImage normals = renderer.normals();
-  return seen_surfaces(renderer.positions(), &normals, camera);
+  return visible_surfaces(renderer.positions(), &normals, camera);
 }
 
-std::vector<std::uint8_t> first_feedback(const SeenSurfaces& seen, const PagePolicy& policy) {
-  std::vector<std::uint8_t> feedback(seen.points.size(), 0);
+std::vector<std::uint8_t> first_feedback(const VisibleSurfaces& visible, const PagePolicy& policy) {
+  std::vector<std::uint8_t> feedback(visible.points.size(), 0);
   if ((policy.feedback & kDepthEdge) == 0) return feedback;
-  for (std::size_t i = 0; i < feedback.size(); ++i) feedback[i] = seen.depth_edges[i] ? kDepthEdge : 0;
+  for (std::size_t i = 0; i < feedback.size(); ++i) feedback[i] = visible.depth_edges[i] ? kDepthEdge : 0;
   return feedback;
 }
 
-std::vector<std::uint8_t> feedback_of(const SeenSurfaces& seen, const std::vector<float>& lit,
+std::vector<std::uint8_t> feedback_of(const VisibleSurfaces& visible, const std::vector<float>& lit,
                                       const std::vector<float>& before) {
-  std::vector<std::uint8_t> feedback(seen.points.size(), 0);
+  std::vector<std::uint8_t> feedback(visible.points.size(), 0);
   for (std::size_t i = 0; i < feedback.size(); ++i) {
-    const std::uint32_t pixel = seen.pixels[i];
+    const std::uint32_t pixel = visible.pixels[i];
     const auto [least, most] =
-        range_round(lit, seen.camera.width, seen.camera.height, static_cast<int>(pixel));
+        range_round(lit, visible.camera.width, visible.camera.height, static_cast<int>(pixel));
     feedback[i] = most - least > kEdge ? kShadowEdge : 0;
     if (before.empty() || std::abs(lit[pixel] - before[pixel]) > kEdge) feedback[i] |= kShadowChanged;
   }

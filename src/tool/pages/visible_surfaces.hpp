@@ -11,7 +11,7 @@
 namespace gnomon::tool {
 
 /// Surfaces at every few pixels of every few rows.
-struct SeenSurfaces {
+struct VisibleSurfaces {
   /// Pixels between two points.
   static constexpr int kStride = 3;
 
@@ -23,18 +23,20 @@ struct SeenSurfaces {
 };
 
 /// As Renderer::positions() and normals() have them. `normals`: nullptr where none are wanted.
-[[nodiscard]] SeenSurfaces seen_surfaces(const FloatImage& positions, const FloatImage* normals,
-                                         const Camera& camera);
+[[nodiscard]] VisibleSurfaces visible_surfaces(const FloatImage& positions, const FloatImage* normals,
+                                               const Camera& camera);
 /// Draws the camera's surfaces without a map, and reads them with their normals. Cached maps and pages stay:
 /// `layer` is the depth layer that they hold. Throws RenderError.
-[[nodiscard]] SeenSurfaces draw_surfaces(render::Renderer& renderer, const Camera& camera,
-                                         render::DepthLayer layer);
+[[nodiscard]] VisibleSurfaces draw_surfaces(render::Renderer& renderer, const Camera& camera,
+                                            render::DepthLayer layer);
 
 /// PageFeedback of each point before anything was rendered: depth edges where the policy reads them.
-[[nodiscard]] std::vector<std::uint8_t> first_feedback(const SeenSurfaces& seen, const PagePolicy& policy);
+[[nodiscard]] std::vector<std::uint8_t> first_feedback(const VisibleSurfaces& visible,
+                                                       const PagePolicy& policy);
 /// PageFeedback of each point from the visibility of each pixel, now and in the frame before. `before`: empty
 /// where there is none, and every point counts as changed.
-[[nodiscard]] std::vector<std::uint8_t> feedback_of(const SeenSurfaces& seen, const std::vector<float>& lit,
+[[nodiscard]] std::vector<std::uint8_t> feedback_of(const VisibleSurfaces& visible,
+                                                    const std::vector<float>& lit,
                                                     const std::vector<float>& before);
 
 }  // namespace gnomon::tool
