@@ -97,7 +97,7 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
   const gnomon::CasterSet set(boxes, blocks, indices);
   gnomon::render::Renderer renderer(scene);
   const gnomon::render::FilterSettings pcf = gnomon::render::default_settings(gnomon::render::filters::pcf);
-  const gnomon::render::PreparedFilter filter = renderer.prepare_lights(pcf);
+  const gnomon::render::PreparedFilter filter = renderer.prepare(pcf, gnomon::render::Source::lights);
   gnomon::PlanOptions options;
   gnomon::render::set_margin(pcf, options);
   const gnomon::LightOptions pool;
@@ -129,7 +129,7 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
     }
 
     // 3. Draw: the maps of due lights, then the sum of all light.
-    const gnomon::render::FrameStats stats = renderer.draw(plan, lights.drawn(), camera, filter, {});
+    const gnomon::render::FrameStats stats = renderer.draw({plan, lights.drawn()}, camera, filter);
     gnomon::write_png(renderer.image(), folder / ("frame_" + std::to_string(frame) + ".png"));
     std::printf(
         "frame %d: %d of %zu lights have maps, %d due, %.1f of %.1f million texels drawn, planned in %.2f "

@@ -12,7 +12,7 @@
 
 namespace gnomon::tool {
 
-/// Word that stands for render::Renderer::prepare_identifiers. Behind it may follow `:of=triangle` and
+/// Word that stands for render::Source::identifiers. Behind it may follow `:of=triangle` and
 /// `neighbours=N`, parted by a comma.
 inline constexpr std::string_view kIdentifiers = "identifiers";
 

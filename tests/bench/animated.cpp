@@ -249,7 +249,7 @@ Sums pages(Playing& playing, int frames, bool flies) {
                                      of_pages, memory.spans());
     const auto draw = [&](render::Renderer& by, Keeping keeping) {
       glFinish();
-      return by.draw(plan, camera, by.prepare_pages(filter), drawing(keeping));
+      return by.draw(plan, camera, by.prepare(filter, render::Source::pages), drawing(keeping));
     };
     const render::FrameStats apart = draw(playing.apart, Keeping::apart),
                              kept = draw(playing.keeps, Keeping::maps),

@@ -118,7 +118,9 @@ void compare(Frame& frame, const std::string& label, const Request& request, con
   const ShadowPlan plan = make_plan(frame.camera, frame.light, {frame.boxes, frame.boxes}, options);
   const double hard_ms = timed(frame, plan, frame.renderer.prepare(render::filters::hard));
   const std::size_t hard_wrong = frame.wrong(frame.renderer.mask());
-  const double irregular_ms = timed(frame, plan, frame.renderer.prepare_irregular());
+  const render::PreparedFilter exact =
+      frame.renderer.prepare(render::filters::hard, render::Source::irregular());
+  const double irregular_ms = timed(frame, plan, exact);
   const FloatImage mask = frame.renderer.mask();
   std::vector<std::uint32_t> lengths = frame.renderer.list_lengths();
   std::sort(lengths.begin(), lengths.end());

@@ -120,7 +120,7 @@ Kept fly(Flight& flight, const PagePolicy& policy, int frames, bool keeps) {
   using Clock = std::chrono::steady_clock;
   Kept sums;
   const render::FilterSettings filter = render::default_settings(render::filters::hard);
-  const render::PreparedFilter hard = flight.renderer.prepare_pages(filter);
+  const render::PreparedFilter hard = flight.renderer.prepare(filter, render::Source::pages);
   PlanOptions options;
   const PageOptions pages = page_options(policy, filter, options);
   render::FrameOptions draw_options = quiet();
@@ -293,7 +293,8 @@ void walk(Flight& flight, const PagePolicy& policy) {
   const render::FilterSettings filter = render::default_settings(render::filters::hard);
   // Both begin with an empty pool: in another slot a page's texels differ by rounding.
   render::Renderer one(flight.scene), other(flight.scene);
-  const render::PreparedFilter hard = one.prepare_pages(filter), hard_of_other = other.prepare_pages(filter);
+  const render::PreparedFilter hard = one.prepare(filter, render::Source::pages),
+                               hard_of_other = other.prepare(filter, render::Source::pages);
   render::FrameOptions together = quiet();
   together.prune = together.prune.without(PruneRule::static_casters);
   PlanOptions options;

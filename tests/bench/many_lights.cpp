@@ -141,13 +141,13 @@ void measure(render::Renderer& renderer, const Scene& scene, const std::vector<B
                         {"64 px, 24", {64, 24}},        {"32 px, 12", {32, 12}},
                         {"32 px, 48", {32, 48}},        {"64 px, 48", {64, 48}},
                         {"128 px, 24", {128, 24}},      {"32 px, 1 (tiles)", {32, 1}}};
-  const render::PreparedFilter filter = renderer.prepare_lights(pcf);
+  const render::PreparedFilter filter = renderer.prepare(pcf, render::Source::lights);
   render::FrameOptions frame = quiet();
   for (int round = rounds > 0 ? -1 : 0; round < rounds; ++round) {  // the first one warms up
     for (Way& way : ways) {
       frame.light_clusters = way.options;
       const double ms =
-          renderer.draw(lights.plan, lights.drawn, camera, filter, frame).ms(render::Pass::mask);
+          renderer.draw({lights.plan, lights.drawn}, camera, filter, frame).ms(render::Pass::mask);
       if (round >= 0) way.ms.push_back(ms);
     }
   }

@@ -159,7 +159,8 @@ void compare(Frame& frame, const std::string& name, int map_size, PageStorage& m
       continue;
     }
     const auto stats = timed([&](const render::FrameOptions& frame_options) {
-      return frame.renderer.draw(plan, frame.camera, frame.renderer.prepare_pages(filter), frame_options);
+      return frame.renderer.draw(plan, frame.camera, frame.renderer.prepare(filter, render::Source::pages),
+                                 frame_options);
     });
     const FloatImage mask = frame.renderer.mask();
     print(name, render::to_string(filter), normals ? "pages, normals" : "pages", stats,

@@ -62,7 +62,7 @@ render::FrameStats draw(render::Renderer& renderer, const PagePlan& plan, const 
 
 void measure(render::Renderer& renderer, const PagePlan& plan, const Camera& camera, int rounds, Sums& sums) {
   using render::MapPasses;
-  const render::PreparedFilter hard = renderer.prepare_pages(render::default_settings(render::filters::hard));
+  const render::PreparedFilter hard = renderer.prepare(render::filters::hard, render::Source::pages);
   const auto texels = [&](MapPasses passes, double& triangles) {
     const render::FrameStats stats = draw(renderer, plan, camera, hard, passes);
     triangles += static_cast<double>(stats.map[0].triangles);

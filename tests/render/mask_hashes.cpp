@@ -270,11 +270,11 @@ class Hashes {
     }
     const FilterSettings hard = default_settings(filters::hard);
     if (wanted("panes irregular")) {
-      renderer.draw(plan(hard, kSunLight), camera_, renderer.prepare_irregular(), quiet());
+      renderer.draw(plan(hard, kSunLight), camera_, renderer.prepare(hard, Source::irregular()), quiet());
       print("panes irregular", renderer);
     }
     if (wanted("panes identifiers")) {
-      renderer.draw(plan(hard, kSunLight), camera_, renderer.prepare_identifiers(), quiet());
+      renderer.draw(plan(hard, kSunLight), camera_, renderer.prepare(hard, Source::identifiers()), quiet());
       print("panes identifiers", renderer);
     }
     if (wanted("panes pages")) {
@@ -300,7 +300,7 @@ class Hashes {
     const std::vector<Box> boxes = this->boxes();
     const PagePlan plan =
         plan_pages(camera_, light, {boxes, boxes}, {points}, of_plan, pages, memory.spans());
-    renderer.draw(plan, camera_, renderer.prepare_pages(settings), options);
+    renderer.draw(plan, camera_, renderer.prepare(settings, Source::pages), options);
     print(name, renderer);
     std::printf("%s pages %zu\n", name.c_str(), plan.pages.size());
   }
@@ -354,7 +354,7 @@ class Hashes {
                          light_options(of_plan, plan.lights[i]));
       drawn.push_back({light, &own[i], glm::vec3(0.5f + 0.1f * static_cast<float>(i))});
     }
-    renderer.draw(plan, drawn, camera_, renderer.prepare_lights(filter), options);
+    renderer.draw({plan, drawn}, camera_, renderer.prepare(filter, Source::lights), options);
     print(name, renderer);
     std::printf("%s sum %016llx\n", name.c_str(), static_cast<unsigned long long>(hash_of(renderer.light_sum())));
   }
@@ -384,7 +384,7 @@ class Hashes {
       for (const int samples : {1, 4}) {
         const std::string name = "irregular " + std::to_string(samples) + " " + word;
         if (!wanted(name)) continue;
-        renderer_.draw(plan(hard, light), camera_, renderer_.prepare_irregular(samples), quiet());
+        renderer_.draw(plan(hard, light), camera_, renderer_.prepare(hard, Source::irregular(samples)), quiet());
         print(name, renderer_);
       }
       for (const IdentifierOf of : {IdentifierOf::instance, IdentifierOf::triangle}) {
@@ -392,7 +392,8 @@ class Hashes {
           const std::string name = "identifiers " + std::to_string(static_cast<int>(of)) + " " +
                                    std::to_string(neighbours) + " " + word;
           if (!wanted(name)) continue;
-          renderer_.draw(plan(hard, light), camera_, renderer_.prepare_identifiers({of, neighbours}), quiet());
+          renderer_.draw(plan(hard, light), camera_,
+                         renderer_.prepare(hard, Source::identifiers({of, neighbours})), quiet());
           print(name, renderer_);
         }
       }

@@ -7,7 +7,7 @@
 
 namespace gnomon::render {
 
-/// The settings that frames of pages are drawn with; Renderer::prepare_pages takes them. A level spans the
+/// The settings that frames of pages are drawn with; Renderer::prepare takes them. A level spans the
 /// depths of all casters. So an exponent over its range is larger than over a cascade's for a fall-off of the
 /// same length. `esm` with its default `c` and a fall-off takes the exponent that the fall-off needs.
 [[nodiscard]] FilterSettings settings_for_pages(const FilterSettings& settings) noexcept;

@@ -55,42 +55,43 @@ glm::vec3 unit_from_octahedral(float x, float y) {
 }  // namespace
 
 Image Renderer::image() const {
-  const FrameTargets& t = impl_->targets;
+  const FrameTargets& t = impl_->screen.targets;
   return read_color(t.color, t.width, t.height, "image");
 }
 Image Renderer::heat_map() const {
-  const FrameTargets& t = impl_->targets;
+  const FrameTargets& t = impl_->screen.targets;
   return read_color(t.heat, t.width, t.height, "heat_map");
 }
 Image Renderer::cascade_tint() const {
-  const FrameTargets& t = impl_->targets;
+  const FrameTargets& t = impl_->screen.targets;
   return read_color(t.tint, t.width, t.height, "cascade_tint");
 }
 FloatImage Renderer::mask() const {
-  const FrameTargets& t = impl_->targets;
+  const FrameTargets& t = impl_->screen.targets;
   return read_floats(t.mask, t.width, t.height, GL_RG, {"visibility", "map"});
 }
 FloatImage Renderer::light_sum() const {
-  if (!impl_->light_pass || impl_->light_pass->width == 0) throw RenderError("no frame of many lights yet");
-  const LightPass& pass = *impl_->light_pass;
-  return read_floats(pass.sum, pass.width, pass.height, GL_RGB, {"r", "g", "b"});
+  const std::optional<PoolSource>& lights = impl_->sources.lights;
+  if (!lights || lights->sum().width == 0) throw RenderError("no frame of many lights yet");
+  const LightSum& sum = lights->sum();
+  return read_floats(sum.image, sum.width, sum.height, GL_RGB, {"r", "g", "b"});
 }
 FloatImage Renderer::transmittance() const {
   if (!impl_->panes || !impl_->panes->image()) throw RenderError("no frame with panes yet");
-  const FrameTargets& t = impl_->targets;
+  const FrameTargets& t = impl_->screen.targets;
   return read_floats(impl_->panes->image(), t.width, t.height, GL_RGB, {"r", "g", "b"});
 }
 FloatImage Renderer::aliasing() const {
-  const FrameTargets& t = impl_->targets;
+  const FrameTargets& t = impl_->screen.targets;
   return read_floats(t.aliasing, t.width, t.height, GL_RGBA, {"m_max", "m_s", "m_t", "map"});
 }
 FloatImage Renderer::positions() const {
-  const FrameTargets& t = impl_->targets;
+  const FrameTargets& t = impl_->screen.targets;
   return read_floats(t.position, t.width, t.height, GL_RGBA, {"x", "y", "z", "depth"});
 }
 
 FloatImage Renderer::normals() const {
-  const FrameTargets& t = impl_->targets;
+  const FrameTargets& t = impl_->screen.targets;
   FloatImage image = read_floats(t.normal, t.width, t.height, GL_RGBA, {"x", "y", "z", "surface"});
   const Image albedo = read_color(t.albedo, t.width, t.height, "albedo");
   for (std::size_t i = 0; i < image.values.size(); i += 4) {
@@ -115,23 +116,24 @@ Image Renderer::screen() const {
 }
 
 FloatImage Renderer::depth_map(int map) const {
-  if (map < 0 || map >= impl_->map_count)
+  const MapSource& maps = impl_->sources.maps;
+  if (map < 0 || map >= maps.map_count())
     throw RenderError("no map " + std::to_string(map) + " in the last frame");
-  const glm::ivec2 size = impl_->map_size[static_cast<std::size_t>(map)];
+  const glm::ivec2 size = maps.size(map);
   FloatImage image{size.x, size.y, 1, {}, {"depth"}};
   image.values.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
-  impl_->read_depths(map, image.values);
+  maps.read_depths(map, image.values);
   check_context();
   return image;
 }
 
 FloatImage Renderer::page_depths(std::size_t page) const {
-  if (page >= impl_->pages.resident())
-    throw RenderError("no page " + std::to_string(page) + " in the last frame");
-  const DrawnPage at = impl_->pages.place_of(page);
+  const PagePool& pool = impl_->sources.pages.pool();
+  if (page >= pool.resident()) throw RenderError("no page " + std::to_string(page) + " in the last frame");
+  const DrawnPage at = pool.place_of(page);
   FloatImage image{at.place.width, at.place.height, 1, {}, {"depth"}};
   image.values.resize(static_cast<std::size_t>(at.place.width) * static_cast<std::size_t>(at.place.height));
-  glGetTextureSubImage(impl_->maps.depth.name(), 0, at.place.x, at.place.y, at.layer, at.place.width,
+  glGetTextureSubImage(impl_->depths.depth.name(), 0, at.place.x, at.place.y, at.layer, at.place.width,
                        at.place.height, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
                        static_cast<GLsizei>(image.values.size() * sizeof(float)), image.values.data());
   check_context();
@@ -139,17 +141,17 @@ FloatImage Renderer::page_depths(std::size_t page) const {
 }
 
 bool Renderer::drew_page(std::size_t page) const noexcept {
-  return impl_->pages.drew(page);
+  return impl_->sources.pages.pool().drew(page);
 }
 
 std::vector<DrawnDepths> Renderer::drawn_depths(const FilterSettings& settings,
                                                 const ShadowPlan& plan) const {
   std::vector<DrawnDepths> maps;
   const BlurSides sides = blur_sides(settings, plan);
-  for (int i = 0; i < std::min(plan.map_count, impl_->map_count); ++i) {
+  for (int i = 0; i < std::min(plan.map_count, impl_->sources.maps.map_count()); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const ShadowMap& map = plan.map[at];
-    const double curve = impl_->drawn_linear ? 0.0 : depth_curve(plan, map);
+    const double curve = impl_->sources.maps.linear() ? 0.0 : depth_curve(plan, map);
     std::vector<float> depths = depth_map(i).values;
     if (curve > 0.0)
       for (float& depth : depths) depth = static_cast<float>(linear_depth(depth, curve));
@@ -160,10 +162,12 @@ std::vector<DrawnDepths> Renderer::drawn_depths(const FilterSettings& settings,
   return maps;
 }
 
-void Renderer::Impl::read_depths(int map, std::span<float> depths) const noexcept {
-  const glm::ivec2 size = map_size[static_cast<std::size_t>(map)];
-  glGetTextureSubImage(maps.depth.name(), 0, 0, 0, map, size.x, size.y, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
-                       static_cast<GLsizei>(depths.size_bytes()), depths.data());
+std::vector<std::uint32_t> Renderer::list_lengths() const {
+  const std::optional<ListSource>& lists = impl_->sources.lists;
+  if (!lists) return {};
+  std::vector<std::uint32_t> lengths = lists->lists().lengths();
+  check_context();
+  return lengths;
 }
 
 }  // namespace gnomon::render

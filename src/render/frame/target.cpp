@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "filter/stored_maps.hpp"
+
 namespace gnomon::render {
 
 Texture pixel_image(GLenum format, int width, int height) {
@@ -129,6 +131,19 @@ bool MapTargets::fit(int new_width, int new_height, int new_layers) {
   scratch = {};
   fbo = depth_framebuffer();
   return !same_size;
+}
+
+void MapTargets::attach(Of which, int layer) const noexcept {
+  const Texture& image = which == Of::all ? depth : beneath;
+  glNamedFramebufferTextureLayer(fbo.name(), GL_DEPTH_ATTACHMENT, image.name(), 0, layer);
+  glBindFramebuffer(GL_FRAMEBUFFER, fbo.name());
+}
+
+void MapTargets::bind() const noexcept {
+  glBindTextureUnit(kCompareUnit, depth.name());
+  glBindSampler(kCompareUnit, compare_sampler.name());
+  glBindTextureUnit(kDepthUnit, depth.name());
+  glBindSampler(kDepthUnit, plain_sampler.name());
 }
 
 void MapTargets::add_beneath() {

@@ -57,6 +57,10 @@ struct MapTargets {
   bool fit(int new_width, int new_height, int new_layers);
   /// Copies what lies in the rectangle of a layer, once moved by `shift`, from where it is now.
   void move(Of which, int layer, const TexelRect& to, int shift_x, int shift_y) noexcept;
+  /// Makes one layer of these depths the one that is drawn into.
+  void attach(Of which, int layer) const noexcept;
+  /// Binds the depths of all casters where look-ups read them.
+  void bind() const noexcept;
   /// Makes room for the depths of static casters, where there is none.
   void add_beneath();
   /// Copies a rectangle of a layer into these depths from the others.

@@ -44,9 +44,12 @@ class Stage {
   [[nodiscard]] const trace::Tracer& tracer() const noexcept { return *tracer_; }
   [[nodiscard]] render::Renderer& renderer() noexcept { return *renderer_; }
   [[nodiscard]] render::PreparedFilter filter(const SweepEntry& entry) {
-    if (entry.irregular()) return renderer_->prepare_irregular(entry.irregular_samples);
-    if (entry.identifiers) return renderer_->prepare_identifiers(*entry.identifiers);
-    return entry.by_pages() ? renderer_->prepare_pages(entry.filter) : renderer_->prepare(entry.filter);
+    using render::Source;
+    if (entry.irregular())
+      return renderer_->prepare(render::filters::hard, Source::irregular(entry.irregular_samples));
+    if (entry.identifiers)
+      return renderer_->prepare(render::filters::hard, Source::identifiers(*entry.identifiers));
+    return renderer_->prepare(entry.filter, entry.by_pages() ? Source::pages : Source::maps);
   }
   [[nodiscard]] SceneBounds bounds() const noexcept { return view_.bounds(); }
 

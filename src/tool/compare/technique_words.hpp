@@ -14,7 +14,7 @@
 
 namespace gnomon::tool {
 
-/// Word that stands for render::Renderer::prepare_irregular. Behind it may follow `:samples=N`.
+/// Word that stands for render::Source::irregular. Behind it may follow `:samples=N`.
 inline constexpr std::string_view kIrregular = "irregular";
 
 /// What reads the maps: a filter, identifiers, or lists of pixels.

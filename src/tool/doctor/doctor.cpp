@@ -9,6 +9,7 @@
 #include "command.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/error.hpp"
+#include "gnomon/render/frame_option.hpp"
 #include "gnomon/render/probe.hpp"
 #include "machine.hpp"
 #include "output.hpp"
@@ -91,6 +92,28 @@ void print_context(const Json& c) {
   print_line("  maps in one pass: " + (layers.empty() ? "no, the driver has no extension for it" : layers));
 }
 
+/// What each source of shadows honours of a frame's options. Needs no context.
+int run_sources(bool json) {
+  if (!json) {
+    std::string table = render::source_table();
+    table.pop_back();  // the end of the last line
+    print_line(table);
+  } else {
+    Json sources = Json::array();
+    for (const render::SourceSupport& source : render::source_supports()) {
+      Json honours = Json::array();
+      for (std::size_t i = 0; i < render::kFrameOptionCount; ++i) {
+        const auto option = static_cast<render::FrameOption>(i);
+        if (source.supports.has(option)) honours.push_back(std::string(to_string(option)));
+      }
+      sources.push_back({{"source", std::string(source.name)}, {"honours", honours}});
+    }
+    print_line(sources.dump());
+  }
+  flush_output();
+  return 0;
+}
+
 /// Exit code 0 where a context was found, else 2.
 int run_doctor(bool json) {
   Json report;
@@ -130,10 +153,13 @@ int run_doctor(bool json) {
 }  // namespace
 
 std::function<int()> declare_doctor(Arguments& arguments) {
-  const auto json = std::make_shared<bool>(false);
+  const auto json = std::make_shared<bool>(false), sources = std::make_shared<bool>(false);
   arguments.options = {
+      {.name = "--sources",
+       .target = sources.get(),
+       .help = "print which options of a frame each source of shadows honours"},
       {.name = "--json", .target = json.get(), .help = "print the findings as one line of JSON"}};
-  return [json] { return run_doctor(*json); };
+  return [json, sources] { return *sources ? run_sources(*json) : run_doctor(*json); };
 }
 
 }  // namespace gnomon::tool

@@ -15,7 +15,7 @@ struct DrawnPages {
   LegendText level_text, cached_text;
 };
 /// Draws the surfaces, plans the pages that they need, and draws those that the renderer has not kept from
-/// earlier frames. `filter`: of Renderer::prepare_pages. Throws std::runtime_error where the plan refuses.
+/// earlier frames. `filter`: prepared for Source::pages. Throws std::runtime_error where the plan refuses.
 [[nodiscard]] DrawnPages draw_with_pages(const Options& options, const Flight& flight, const Camera& camera,
                                          const Light& light, render::Renderer& renderer,
                                          const render::PreparedFilter& filter);

@@ -51,7 +51,7 @@ render::FrameStats PaneLights::draw(render::Renderer& renderer, const Camera& ca
     const bool shines = only < 0 || only == static_cast<int>(i);
     lights.push_back({requests_[i].light, &own_[i], glm::vec3(!shines ? 0.0f : i == 0 ? kSun : kLocal)});
   }
-  return renderer.draw(plan_, lights, camera, filter, options);
+  return renderer.draw({plan_, lights}, camera, filter, options);
 }
 
 std::vector<glm::dvec3> PaneLights::reference(render::Renderer& plain, const Camera& camera,

@@ -19,7 +19,7 @@ class PaneLights {
   /// Plans all lights with maps for the hard filter, of at most so many texels along each side. Throws
   /// std::runtime_error where an option is out of range.
   void plan(const Camera& camera, const SceneBounds& bounds, const PlanOptions& options, int map_size);
-  /// Draws all lights, or one alone. `filter`: of prepare_lights.
+  /// Draws all lights, or one alone. `filter`: prepared for Source::lights.
   render::FrameStats draw(render::Renderer& renderer, const Camera& camera,
                           const render::PreparedFilter& filter, const render::FrameOptions& options,
                           int only = -1) const;

@@ -139,10 +139,10 @@ struct PanesStage {
         msm(renderer.prepare(sweep.entries[1].filter)) {
     renderer.add_panes(parts.panes);
     const render::FilterSettings& hard = sweep.entries[0].filter;
-    shadows = request.by == Way::irregular ? renderer.prepare_irregular()
-              : request.by == Way::pages   ? renderer.prepare_pages(hard)
-              : request.by == Way::lights  ? renderer.prepare_lights(hard)
-                                           : renderer.prepare(hard);
+    shadows = renderer.prepare(hard, request.by == Way::irregular ? render::Source::irregular()
+                                     : request.by == Way::pages   ? render::Source::pages
+                                     : request.by == Way::lights  ? render::Source::lights
+                                                                  : render::Source::maps);
     options.aliasing = options.heat_map = options.cascade_tint = false;
     // Every round draws its maps.
     options.prune = options.prune.without(PruneRule::held_maps);
@@ -225,7 +225,8 @@ void judge_lights(const FloatImage& found, const FloatImage& without, const std:
 
 /// The same under many lights; `plain`: without panes. What panes cost is the difference to it.
 void measure_lights(PanesStage& stage, render::Renderer& plain, const Camera& camera, PanesRow& row) {
-  const render::PreparedFilter of_plain = plain.prepare_lights(stage.sweep.entries[0].filter);
+  const render::PreparedFilter of_plain =
+      plain.prepare(stage.sweep.entries[0].filter, render::Source::lights);
   PaneLights lights(stage.view.light(), stage.request.local_lights, stage.parts);
   lights.plan(camera, stage.view.bounds(), stage.sweep.entries[0].plan, stage.request.maps.map_size);
   std::vector<double> with, without;

@@ -122,8 +122,10 @@ bool Stage::is_compiled(const Settings& settings) const {
 
 render::PreparedFilter Stage::prepare(const Settings& settings) {
   if (!is_compiled(settings)) compiled_.push_back(program_text(settings));
-  if (settings.identifiers) return renderer_.prepare_identifiers(*settings.identifiers);
-  return settings.pages.on() ? renderer_.prepare_pages(settings.filter) : renderer_.prepare(settings.filter);
+  using render::Source;
+  if (settings.identifiers)
+    return renderer_.prepare(render::filters::hard, Source::identifiers(*settings.identifiers));
+  return renderer_.prepare(settings.filter, settings.pages.on() ? Source::pages : Source::maps);
 }
 
 bool Stage::compile_ahead(bool by_pages) {

@@ -192,9 +192,10 @@ TEST(Animation, kept_pages_of_a_flight_have_no_stale_texel) {
     ASSERT_EQ(plan.status, PlanStatus::ok);
     FrameOptions options;
     options.time_passes = false;
-    const FrameStats stats = pair.keeps.draw(plan, camera, pair.keeps.prepare_pages(filter), options);
+    const FrameStats stats =
+        pair.keeps.draw(plan, camera, pair.keeps.prepare(filter, Source::pages), options);
     options.prune = options.prune.without(PruneRule::held_maps);
-    pair.redraws.draw(plan, camera, pair.redraws.prepare_pages(filter), options);
+    pair.redraws.draw(plan, camera, pair.redraws.prepare(filter, Source::pages), options);
     kept += static_cast<std::size_t>(stats.pages - stats.pages_drawn);
     all += plan.pages.size();
     for (std::size_t i = 0; i < plan.pages.size(); ++i)

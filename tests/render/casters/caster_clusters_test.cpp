@@ -272,7 +272,7 @@ TEST(CasterClusters, draw_the_depths_of_whole_casters_into_pages) {
       ASSERT_GE(plan.pages.size(), 16u);
       pair.draw(
           plan, camera, FrameOptions{},
-          [](Renderer& renderer) { return renderer.prepare_pages(default_settings(filters::hard)); },
+          [](Renderer& renderer) { return renderer.prepare(filters::hard, Source::pages); },
           [&](Renderer& a, Renderer& b) {
             for (std::size_t page = 0; page < plan.pages.size(); ++page)
               pair.compare(a.page_depths(page), b.page_depths(page));

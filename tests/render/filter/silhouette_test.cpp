@@ -225,8 +225,8 @@ TEST(SilhouettePass, follows_casters_that_move_and_maps_that_were_drawn_without_
 TEST(SilhouettePass, refuses_pages_and_many_lights_in_one_line) {
   Renderer renderer(box_on_ground());
   const FilterSettings settings = default_settings(filters::silhouette);
-  EXPECT_THROW((void)renderer.prepare_pages(settings), RenderError);
-  EXPECT_THROW((void)renderer.prepare_lights(settings), RenderError);
+  EXPECT_THROW((void)renderer.prepare(settings, Source::pages), RenderError);
+  EXPECT_THROW((void)renderer.prepare(settings, Source::lights), RenderError);
 }
 
 TEST(SilhouettePass, takes_scenes_without_triangles) {

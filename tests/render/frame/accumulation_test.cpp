@@ -55,7 +55,7 @@ class Stills {
   void draw_exactly() {
     const Camera camera = still();
     renderer_.draw(plan_for(scene_, camera, light_, planned(filter_, map_size_)), camera,
-                   renderer_.prepare_irregular(), accumulating());
+                   renderer_.prepare(filters::hard, Source::irregular()), accumulating());
   }
   void turn_light(const glm::dvec3& light) { light_ = light; }
   [[nodiscard]] static Camera still() { return camera_on_box(kSize, kSize); }

@@ -134,7 +134,7 @@ TEST(Contacts, are_refused_where_no_plan_is_drawn_whole) {
   const Scene scene = box_on_ground();
   Renderer renderer(scene);
   try {
-    (void)renderer.prepare_lights(settings);
+    (void)renderer.prepare(settings, Source::lights);
     FAIL() << "not refused";
   } catch (const RenderError& error) {
     EXPECT_NE(std::string(error.what()).find("contacts"), std::string::npos) << error.what();

@@ -161,7 +161,7 @@ struct ManyLights {
     FrameOptions frame = plain_options();
     frame.light_clusters = clusters;
     const FrameStats drawn =
-        renderer.draw(plan, lights, camera, renderer.prepare_lights(default_settings(filters::hard)), frame);
+        renderer.draw({plan, lights}, camera, renderer.prepare(filters::hard, Source::lights), frame);
     if (stats != nullptr) *stats = drawn;
     return renderer.light_sum();
   }

@@ -135,7 +135,8 @@ TEST_F(Panes, kept_maps_survive_no_frame_that_used_their_images) {
       make_plan(lights.camera, DirectionalLight{kSlant}, {boxes, boxes}, plan_options("none", 2));
   Renderer renderer(lights.opaque);
   renderer.add_panes(lights.panes);
-  const PreparedFilter hard = renderer.prepare(filters::hard), exact = renderer.prepare_irregular();
+  const PreparedFilter hard = renderer.prepare(filters::hard),
+                       exact = renderer.prepare(filters::hard, Source::irregular());
   renderer.draw(plan, lights.camera, hard, plain_options());
   const FloatImage before = renderer.transmittance();
   EXPECT_EQ(renderer.draw(plan, lights.camera, hard, plain_options()).pane_texels, 0u);

@@ -39,7 +39,7 @@ TEST_F(Panes, pages_are_tinted_like_maps) {
       ASSERT_GT(pages.plan.pages.size(), 20u);
       Renderer renderer(opaque);
       renderer.add_panes(panes);
-      const PreparedFilter hard = renderer.prepare_pages(default_settings(filters::hard));
+      const PreparedFilter hard = renderer.prepare(filters::hard, Source::pages);
       const FrameStats stats = renderer.draw(pages.plan, pages.camera, hard, plain_options());
       EXPECT_GT(stats.pane_texels, 0u);
       const Judged j = judged(renderer, pages.camera, opaque, panes, light);
@@ -56,9 +56,9 @@ TEST_F(Panes, pages_are_tinted_like_maps) {
       renderer.draw(pages.plan, pages.camera, hard, plain_options());
       EXPECT_LT(judged(renderer, pages.camera, opaque, moved, light).worst_inside, 0.005);
       Renderer fresh(opaque);
-      (void)fresh.prepare_pages(default_settings(filters::hard));
+      (void)fresh.prepare(filters::hard, Source::pages);
       fresh.add_panes(moved);  // after the filter: either order is fine
-      fresh.draw(pages.plan, pages.camera, fresh.prepare_pages(default_settings(filters::hard)),
+      fresh.draw(pages.plan, pages.camera, fresh.prepare(filters::hard, Source::pages),
                  plain_options());
       EXPECT_EQ(renderer.transmittance().values, fresh.transmittance().values);
       // Maps in between take the images, and no pane is left where there is none any more.
@@ -70,7 +70,7 @@ TEST_F(Panes, pages_are_tinted_like_maps) {
       renderer.add_panes(empty_scene());
       Renderer plain(opaque);
       renderer.draw(pages.plan, pages.camera, hard, plain_options());
-      plain.draw(pages.plan, pages.camera, plain.prepare_pages(default_settings(filters::hard)),
+      plain.draw(pages.plan, pages.camera, plain.prepare(filters::hard, Source::pages),
                  plain_options());
       EXPECT_EQ(renderer.image().rgba, plain.image().rgba);
     }
@@ -87,7 +87,7 @@ TEST_F(Panes, images_are_as_large_as_the_frame_needs_them_whatever_came_before) 
     const auto bytes_of_panes = [&] {
       const auto bytes = [&](Renderer& of) {
         return of
-            .draw(pages.plan, pages.camera, of.prepare_pages(default_settings(filters::hard)),
+            .draw(pages.plan, pages.camera, of.prepare(filters::hard, Source::pages),
                   plain_options())
             .map_bytes;
       };
@@ -121,7 +121,7 @@ TEST_F(Panes, pages_that_no_pane_reaches_are_not_tinted) {
   Renderer renderer(opaque);
   renderer.add_panes(panes);
   const FrameStats stats = renderer.draw(
-      pages.plan, pages.camera, renderer.prepare_pages(default_settings(filters::hard)), plain_options());
+      pages.plan, pages.camera, renderer.prepare(filters::hard, Source::pages), plain_options());
   EXPECT_EQ(stats.pane_texels, 0u);
   const FloatImage image = renderer.transmittance();
   for (const float value : image.values) ASSERT_EQ(value, 1.0f);

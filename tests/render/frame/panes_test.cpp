@@ -89,7 +89,7 @@ TEST_F(Panes, exact_shadows_have_exactly_the_light_of_any_number_of_panes) {
   const Camera camera = camera_on_box(kSize, kSize);
   Renderer renderer(opaque);
   renderer.add_panes(panes);
-  const PreparedFilter exact = renderer.prepare_irregular();
+  const PreparedFilter exact = renderer.prepare(filters::hard, Source::irregular());
   for (const Light& light : {Light{DirectionalLight{kSlant}}, Light{PointLight{{0.5, 9.0, 0.5}, 60.0}}})
     for (const Shape* shape : {&shapes::linear, &shapes::logarithmic}) {
       PlanOptions options = plan_options("none", 2);
@@ -113,13 +113,13 @@ TEST_F(Panes, samples_of_exact_shadows_are_weighed_by_the_light_that_they_get) {
   const DirectionalLight light{kSlant};
   const ShadowPlan plan = make_plan(camera, light, {boxes, boxes}, plan_options("none", 1));
   Renderer renderer(opaque);
-  const PreparedFilter first = renderer.prepare_irregular(16);
+  const PreparedFilter first = renderer.prepare(filters::hard, Source::irregular(16));
   renderer.add_panes(panes);  // after the filter: either order is fine
   renderer.draw(plan, camera, first, plain_options());
   const Judged sixteen = judged(renderer, camera, opaque, panes, light);
   EXPECT_LT(sixteen.worst_inside, 1e-4);
   const FloatImage mean = renderer.transmittance();
-  renderer.draw(plan, camera, renderer.prepare_irregular(1), plain_options());
+  renderer.draw(plan, camera, renderer.prepare(filters::hard, Source::irregular(1)), plain_options());
   const FloatImage centre = renderer.transmittance();
   std::size_t softened = 0;
   for (std::size_t i = 0; i < mean.values.size(); ++i)
@@ -135,7 +135,8 @@ TEST_F(Panes, shadows_by_identifiers_are_tinted_as_well) {
   Renderer renderer(opaque);
   renderer.add_panes(panes);
   const ShadowPlan plan = make_plan(camera, light, {boxes, boxes}, plan_options("none", 2));
-  ASSERT_TRUE(renderer.draw(plan, camera, renderer.prepare_identifiers(), plain_options()).identified);
+  const PreparedFilter identified = renderer.prepare(filters::hard, Source::identifiers());
+  ASSERT_TRUE(renderer.draw(plan, camera, identified, plain_options()).identified);
   const Judged j = judged(renderer, camera, opaque, panes, light);
   EXPECT_GT(j.coloured, 500u);
   EXPECT_LT(j.worst_inside, 0.005);

@@ -102,8 +102,8 @@ struct Pair {
     }
     const PagePlan plan = plan_pages(camera, light, {boxes, boxes}, {points}, with, pages, memory.spans());
     EXPECT_EQ(plan.status, PlanStatus::ok);
-    last = keeps.draw(plan, camera, keeps.prepare_pages(filter), drawing);
-    whole = redraws.draw(plan, camera, redraws.prepare_pages(filter), all_of(drawing));
+    last = keeps.draw(plan, camera, keeps.prepare(filter, Source::pages), drawing);
+    whole = redraws.draw(plan, camera, redraws.prepare(filter, Source::pages), all_of(drawing));
     std::size_t differ = keeps.mask().values == redraws.mask().values ? 0 : 1;
     std::set<std::tuple<std::uint32_t, std::int64_t, std::int64_t>> drawn;
     for (std::size_t i = 0; i < plan.pages.size(); ++i) {

@@ -75,7 +75,8 @@ ShadowPlan planned(const Scene& scene, const Camera& camera, const Light& light,
 
 Frame drawn(Renderer& renderer, const Camera& camera, const ShadowPlan& plan, const IdentifierTest& test,
             const FrameOptions& options = mask_only()) {
-  EXPECT_TRUE(renderer.draw(plan, camera, renderer.prepare_identifiers(test), options).identified);
+  const PreparedFilter identified = renderer.prepare(filters::hard, Source::identifiers(test));
+  EXPECT_TRUE(renderer.draw(plan, camera, identified, options).identified);
   return {camera, plan, renderer.mask(), renderer.positions(), renderer.normals()};
 }
 
@@ -253,8 +254,9 @@ TEST_F(Identifiers, kept_maps_hold_what_was_drawn_for_the_same_test) {
   const Camera camera = camera_on_box(96, 96);
   Renderer renderer(scene);
   const ShadowPlan plan = planned(scene, camera, DirectionalLight{kSlant});
-  const PreparedFilter by_instance = renderer.prepare_identifiers();
-  const PreparedFilter by_triangle = renderer.prepare_identifiers({IdentifierOf::triangle, 0});
+  const PreparedFilter by_instance = renderer.prepare(filters::hard, Source::identifiers());
+  const PreparedFilter by_triangle =
+      renderer.prepare(filters::hard, Source::identifiers({IdentifierOf::triangle, 0}));
   const PreparedFilter hard = renderer.prepare(filters::hard);
   renderer.draw(plan, camera, by_instance, mask_only());
   const FloatImage first = renderer.mask();
@@ -295,8 +297,9 @@ TEST_F(Identifiers, bent_maps_are_drawn_by_depths_and_no_maps_leave_all_lit) {
   const ShadowPlan bent =
       make_plan(camera, SpotLight{{0, 9, 0}, {0, -1, 0.1}, 1.35, 40.0}, {boxes, boxes}, options);
   ASSERT_FALSE(bent.map[0].shape->affine);
-  const PreparedFilter identified = renderer.prepare_identifiers({IdentifierOf::triangle, 99});
-  EXPECT_EQ(identified.identifiers->neighbours, kMostIdentifierNeighbours);
+  const PreparedFilter identified =
+      renderer.prepare(filters::hard, Source::identifiers({IdentifierOf::triangle, 99}));
+  EXPECT_EQ(identified.source.test.neighbours, kMostIdentifierNeighbours);
   EXPECT_FALSE(renderer.draw(bent, camera, identified, mask_only()).identified);
   const FloatImage mask = renderer.mask();
   renderer.draw(bent, camera, renderer.prepare(filters::hard), mask_only());
@@ -306,7 +309,7 @@ TEST_F(Identifiers, bent_maps_are_drawn_by_depths_and_no_maps_leave_all_lit) {
   for (std::size_t i = 0; i < open.values.size(); i += 2) ASSERT_EQ(open.values[i], 1.0f);
   const Scene nothing = empty_scene();
   Renderer of_nothing(nothing);
-  of_nothing.draw(bent, camera, of_nothing.prepare_identifiers(), mask_only());
+  of_nothing.draw(bent, camera, of_nothing.prepare(filters::hard, Source::identifiers()), mask_only());
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ struct Stage {
         camera(from),
         light(by),
         renderer(scene),
-        irregular(renderer.prepare_irregular()) {
+        irregular(renderer.prepare(filters::hard, Source::irregular())) {
     boxes = boxes_of(scene);
     renderer.draw(ShadowPlan{}, camera, irregular, mask_only());
     const trace::Tracer tracer(scene);
@@ -89,7 +89,7 @@ TEST_F(Irregular, box_casts_the_shadow_that_geometry_says) {
   const Camera camera = camera_on_box(kSize, kSize);
   Renderer renderer(scene);
   const ShadowPlan plan = plan_for(scene, camera, kSlant, plan_options("none", 1, 64));
-  renderer.draw(plan, camera, renderer.prepare_irregular(), mask_only());
+  renderer.draw(plan, camera, renderer.prepare(filters::hard, Source::irregular()), mask_only());
   const Frame frame{camera, plan, renderer.mask(), renderer.positions(), renderer.normals()};
   // Points are rounded: those that a box a little smaller or larger decides differently are left out.
   const glm::dvec3 rounding(1e-4), low(kBoxMin), high(kBoxMax);
@@ -173,7 +173,8 @@ TEST_F(Irregular, samples_over_facets_come_as_close_to_the_ideal_filter_as_they_
       const ShadowPlan plan = stage.plan(plan_options("optimal", 1));
       double before = 1.0;
       for (const int samples : {1, 8, 16, 32}) {
-        stage.renderer.draw(plan, camera, stage.renderer.prepare_irregular(samples), mask_only());
+        stage.renderer.draw(plan, camera, stage.renderer.prepare(filters::hard, Source::irregular(samples)),
+                            mask_only());
         const EdgeError error = edge_error(ideal, stage.renderer.mask());
         ASSERT_GT(error.pixels, 30u);
         EXPECT_LT(error.mean, samples == 1 ? 0.5 : 1.0 / samples) << samples;
@@ -291,7 +292,8 @@ TEST_F(Irregular, frames_before_and_after_keep_their_maps) {
   const Camera camera = camera_on_box(kSize, kSize);
   Renderer renderer(scene);
   const ShadowPlan plan = plan_for(scene, camera, kSlant, plan_options("none", 2));
-  const PreparedFilter pcf = renderer.prepare(filters::pcf), exact = renderer.prepare_irregular();
+  const PreparedFilter pcf = renderer.prepare(filters::pcf),
+                       exact = renderer.prepare(filters::hard, Source::irregular());
   renderer.draw(plan, camera, pcf, mask_only());
   const FloatImage before = renderer.mask();
   renderer.draw(plan, camera, exact, mask_only());
@@ -307,7 +309,7 @@ TEST_F(Irregular, a_plan_without_maps_leaves_everything_lit) {
   const Scene scene = box_on_ground();
   const Camera camera = camera_on_box(64, 64);
   Renderer renderer(scene);
-  renderer.draw(ShadowPlan{}, camera, renderer.prepare_irregular(), mask_only());
+  renderer.draw(ShadowPlan{}, camera, renderer.prepare(filters::hard, Source::irregular()), mask_only());
   for (std::size_t i = 0; i < 64u * 64u; ++i) ASSERT_EQ(renderer.mask().values[2 * i], 1.0f) << i;
   EXPECT_TRUE(renderer.list_lengths().empty());
 }

@@ -46,9 +46,10 @@ struct Pair {
     FrameOptions draw_options;
     draw_options.time_passes = false;
     draw_options.moved_world = moved;
-    last = keeps.draw(frame, camera, keeps.prepare_pages(filter), draw_options);
+    last = keeps.draw(frame, camera, keeps.prepare(filter, Source::pages), draw_options);
     draw_options.prune = draw_options.prune.without(PruneRule::held_maps);
-    const FrameStats whole = redraws.draw(frame, camera, redraws.prepare_pages(filter), draw_options);
+    const FrameStats whole =
+        redraws.draw(frame, camera, redraws.prepare(filter, Source::pages), draw_options);
     EXPECT_EQ(whole.pages_drawn, whole.pages);
     EXPECT_EQ(static_cast<std::size_t>(last.pages), frame.pages.size());
     kept += static_cast<std::size_t>(last.pages - last.pages_drawn);

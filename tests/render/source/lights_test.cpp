@@ -83,7 +83,7 @@ struct Stage {
     FrameOptions frame;
     frame.light_clusters = clusters;
     frame.time_passes = false;
-    return renderer.draw(plan, lights(only), camera, renderer.prepare_lights(filter), frame);
+    return renderer.draw({plan, lights(only)}, camera, renderer.prepare(filter, Source::lights), frame);
   }
 };
 
@@ -168,7 +168,8 @@ TEST(LightsRender, lights_without_a_range_light_nothing) {
   frame.time_passes = false;
   for (const int tile : {32, 0}) {
     frame.light_clusters.tile_pixels = tile;
-    stage.renderer.draw(stage.plan, lights, stage.camera, stage.renderer.prepare_lights(filter), frame);
+    stage.renderer.draw({stage.plan, lights}, stage.camera, stage.renderer.prepare(filter, Source::lights),
+                        frame);
     const FloatImage after = stage.renderer.light_sum();
     for (std::size_t k = 0; k < before.values.size(); ++k)
       ASSERT_NEAR(after.values[k], before.values[k], 1e-5f * (1.0f + before.values[k])) << tile;
@@ -225,9 +226,9 @@ TEST(LightsRender, a_pool_keeps_the_maps_that_are_not_due) {
 TEST(LightsRender, filters_that_store_texels_are_refused_and_no_lights_are_dark) {
   const FilterSettings filter = settings_of("hard");
   Stage stage(filter);
-  EXPECT_THROW(static_cast<void>(stage.renderer.prepare_lights(settings_of("vsm"))), RenderError);
-  const PreparedFilter prepared = stage.renderer.prepare_lights(filter);
-  stage.renderer.draw(LightPlan{}, {}, stage.camera, prepared);
+  EXPECT_THROW(static_cast<void>(stage.renderer.prepare(settings_of("vsm"), Source::lights)), RenderError);
+  const PreparedFilter prepared = stage.renderer.prepare(filter, Source::lights);
+  stage.renderer.draw({LightPlan{}, {}}, stage.camera, prepared);
   const FloatImage sum = stage.renderer.light_sum();
   EXPECT_TRUE(std::all_of(sum.values.begin(), sum.values.end(), [](float v) { return v == 0.0f; }));
 }

@@ -44,7 +44,7 @@ struct Stage {
   FloatImage mask(const PagePlan& plan, const FilterSettings& filter) {
     FrameOptions options;
     options.time_passes = false;
-    renderer.draw(plan, camera, renderer.prepare_pages(filter), options);
+    renderer.draw(plan, camera, renderer.prepare(filter, Source::pages), options);
     return renderer.mask();
   }
 };
@@ -70,7 +70,7 @@ TEST(PagesRender, pages_store_the_layer_of_their_own_two_surfaces) {
     options.map_passes = MapPasses::each;  // as peeled pages are drawn
     // The second frame keeps what the first one drew.
     for (int frame = 0; frame < 2; ++frame)
-      renderer.draw(plan, stage.camera, renderer.prepare_pages(filter), options);
+      renderer.draw(plan, stage.camera, renderer.prepare(filter, Source::pages), options);
     std::vector<float> depths;
     for (std::size_t page = 0; page < plan.pages.size(); ++page) {
       const FloatImage of_page = renderer.page_depths(page);
@@ -113,13 +113,15 @@ TEST(PagesRender, pages_have_the_same_bits_whichever_neighbours_are_drawn_with_t
       ASSERT_EQ(plan.status, PlanStatus::ok);
       ASSERT_GT(plan.pages.size(), 8u);
       Renderer together(stage.scene), alone(stage.scene);
-      const FrameStats all = together.draw(plan, stage.camera, together.prepare_pages(filter), options);
+      const FrameStats all =
+          together.draw(plan, stage.camera, together.prepare(filter, Source::pages), options);
       EXPECT_EQ(static_cast<std::size_t>(all.pages_drawn), plan.pages.size());
       std::uint64_t triangles = 0;
       for (std::size_t count = 1; count <= plan.pages.size(); ++count) {
         PagePlan first = plan;
         first.pages = plan.pages.first(count);
-        const FrameStats one = alone.draw(first, stage.camera, alone.prepare_pages(filter), options);
+        const FrameStats one =
+            alone.draw(first, stage.camera, alone.prepare(filter, Source::pages), options);
         ASSERT_EQ(one.pages_drawn, 1);  // the pool keeps the others
         triangles += one.map[0].triangles;
       }
@@ -218,7 +220,7 @@ TEST(PagesRender, filters_that_want_more_than_a_page_holds_are_refused_by_name) 
     ASSERT_EQ(parsed.error, "");
     EXPECT_FALSE(page_filter_refusal(parsed.settings).empty());
     try {
-      (void)stage.renderer.prepare_pages(parsed.settings);
+      (void)stage.renderer.prepare(parsed.settings, Source::pages);
       FAIL() << "not refused";
     } catch (const RenderError& error) {
       const std::string name(parsed.settings.filter->info.name);

@@ -81,7 +81,7 @@ TEST(ViewPages, of_the_scene_are_the_renderers) {
   FramePages pages({light, {boxes, boxes}, plan_options_of(state.a), page_options_of(state.a.pages)}, seen);
   render::FrameOptions frame;
   frame.light = &light;
-  (void)pages.draw(renderer, camera, renderer.prepare_pages(state.a.filter), frame);
+  (void)pages.draw(renderer, camera, renderer.prepare(state.a.filter, render::Source::pages), frame);
   EXPECT_EQ(share_equal(image, renderer.image(), 0, kWidth), 1.0);
 }
 
@@ -193,7 +193,7 @@ TEST(ViewPages, are_named_by_the_probe_with_the_m_of_the_heat_map) {
   render::Renderer renderer(stage().loaded().scene);
   render::FrameOptions frame;
   frame.light = &stage().light();
-  renderer.draw(plan, camera, renderer.prepare_pages(state.a.filter), frame);
+  renderer.draw(plan, camera, renderer.prepare(state.a.filter, render::Source::pages), frame);
   const PageFrameImages images{renderer.mask(), renderer.positions(), renderer.normals()};
   const std::vector<float> m = page_aliasing(plan, camera, images);
   int compared = 0, equal = 0;

@@ -208,7 +208,8 @@ TEST(ViewPicture, by_identifiers_is_the_renderers) {
     EXPECT_TRUE(stage().side(0).stats.identified);
     render::Renderer renderer(stage().loaded().scene);
     const Camera camera = stage().camera();
-    renderer.draw(stage().side(0).plan, camera, renderer.prepare_identifiers({of, 1}));
+    const render::Source by = render::Source::identifiers({of, 1});
+    renderer.draw(stage().side(0).plan, camera, renderer.prepare(render::filters::hard, by));
     EXPECT_EQ(share_equal(image, mask_picture(renderer.mask(), renderer.normals()), 0, kWidth), 1.0);
   }
 }

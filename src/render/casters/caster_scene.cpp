@@ -1,7 +1,8 @@
 // What of a drawn scene, or of its panes, moves from frame to frame?
 #include <algorithm>
 
-#include "frame/renderer_impl.hpp"
+#include "casters/caster_scene.hpp"
+#include "frame/pane_pass.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -57,42 +58,36 @@ bool apply(const Pose& pose, Pose& last, SceneBuffers& scene, Bend&& bend, Move&
 
 }  // namespace
 
-void Renderer::Impl::move(std::size_t instance, const Instance& to) {
+void CasterScene::move(std::size_t instance, const Instance& to) {
   movers.move(instance, to.bounds_world);
-  scene.move(instance, to);
+  buffers.move(instance, to);
 }
 
-bool Renderer::move_instance(std::size_t instance, const Instance& to) {
-  if (instance >= impl_->scene.boxes().size() || to.bounds_world.empty()) return false;
-  impl_->posed = {};
-  impl_->move(instance, to);
-  return true;
+void CasterScene::take_moved(std::span<const Box> moved_world) {
+  if (!movers.changed_world().empty()) lists.rebuild_casters();
+  movers.add(moved_world);
 }
 
-bool Renderer::apply_pose(const Pose& pose) {
-  Impl& impl = *impl_;
+DrawnMaps CasterScene::place(const ShadowPlan& plan, const glm::dvec3& camera_world) {
+  const DrawnMaps drawn = drawn_maps(plan, camera_world, buffers.origin_step());
+  buffers.place(SceneBuffers::Placed::for_camera, camera_world);
+  buffers.place(SceneBuffers::Placed::for_maps, drawn.origin_world);
+  return drawn;
+}
+
+bool apply_pose(const Pose& pose, CasterScene& casters) {
   return apply(
-      pose, impl.posed, impl.scene,
+      pose, casters.posed, casters.buffers,
       [&](const PosedVertices& range, std::span<const glm::vec3> positions) {
-        impl.movers.bend(range.instance, range.first_vertex, positions);
+        casters.movers.bend(range.instance, range.first_vertex, positions);
       },
-      [&](std::size_t instance, const Instance& to) { impl.move(instance, to); });
+      [&](std::size_t instance, const Instance& to) { casters.move(instance, to); });
 }
 
-bool Renderer::move_pane(std::size_t instance, const Instance& to) {
-  Impl& impl = *impl_;
-  if (!impl.panes || instance >= impl.panes->scene().boxes().size() || to.bounds_world.empty()) return false;
-  impl.pane_posed = {};
-  impl.panes->move(instance, to);
-  return true;
-}
-
-bool Renderer::apply_pane_pose(const Pose& pose) {
-  Impl& impl = *impl_;
-  if (!impl.panes) return pose.instances.empty() && pose.vertices.empty();
+bool apply_pose(const Pose& pose, Pose& last, PanePass& panes) {
   return apply(
-      pose, impl.pane_posed, impl.panes->scene(), [](const PosedVertices&, std::span<const glm::vec3>) {},
-      [&](std::size_t instance, const Instance& to) { impl.panes->move(instance, to); });
+      pose, last, panes.scene(), [](const PosedVertices&, std::span<const glm::vec3>) {},
+      [&](std::size_t instance, const Instance& to) { panes.move(instance, to); });
 }
 
 }  // namespace gnomon::render
