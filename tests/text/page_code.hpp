@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
@@ -19,6 +20,7 @@ using namespace gnomon::render;
 
 extern glm::dvec3 eye, forward, up, sun, held;
 extern double fov_y, aspect;
+extern glm::dmat4 view_from_world, clip_from_view;
 extern Camera camera;
 extern Light light;
 extern std::vector<Light> lights;
@@ -28,6 +30,8 @@ extern CasterSet set;
 extern SceneBounds bounds;
 extern PlanOptions options;
 extern ShadowPlan plan;
+extern PlanHistory history;
+extern DepthTracker tracker;
 extern std::vector<glm::dvec3> points, normals, visible, visible_points_world;
 extern std::size_t pool_slots;
 extern std::vector<std::uint32_t> slot_table;
@@ -37,6 +41,7 @@ extern Renderer renderer;
 extern PreparedFilter filter;
 extern std::uint32_t frame;
 extern bool running, light_moved;
+void fail(std::string_view reason);
 void draw(const ShadowMap& map, const TexelRect& place);
 void draw_page(const ShadowMap& map, std::uint32_t slot);
 
