@@ -5,7 +5,6 @@
 #include <glm/mat4x4.hpp>
 
 #include "gnomon/plan.hpp"
-#include "gnomon/reuse.hpp"
 
 namespace gnomon {
 
@@ -29,9 +28,9 @@ struct Atlas {
 /// costs.
 [[nodiscard]] double array_efficiency(const ShadowPlan& plan) noexcept;
 
-/// From the clip space of a map to the atlas: after the division by w, x and y are texture coordinates of the
-/// atlas, z is the depth in [0, 1]; texture_from_clip with the map's place taken in. Draw the map with its
-/// place as the viewport. `map` is below atlas.count.
+/// From the clip space of a map to the atlas. After the division by w, x and y are texture coordinates of the
+/// atlas, z is the depth in [0, 1]. It is texture_from_clip with the map's place taken in. Draw the map with
+/// its place as the viewport. `map` is below atlas.count.
 [[nodiscard]] glm::dmat4 atlas_from_clip(const Atlas& atlas, const ClipSpace& clip_space, int map) noexcept;
 
 }  // namespace gnomon

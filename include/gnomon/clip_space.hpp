@@ -23,7 +23,7 @@ enum class FirstRow : std::uint8_t {
 /// differ. The core computes for a right-handed one. Coordinates of a left-handed world (Unity, most Direct3D
 /// engines) go in as they are, and everything in a plan is in these coordinates, too. The core then plans for
 /// the mirror image of that world: sizes, distances, errors and the set of texels are those of the world
-/// itself, and what is mirrored is put right in two places:
+/// itself. The mirroring is put right in two places:
 ///   - Handedness::left here turns x of the map round, so that a map shows what the light sees, not its
 ///   mirror image,
 ///     and front faces keep the winding they have. x it is because up and depth mean the same in both worlds.
@@ -52,8 +52,8 @@ inline constexpr ClipSpace kMetal = kDirect3D;
 [[nodiscard]] glm::dmat4 clip_from_gl_clip(const ClipSpace& target) noexcept;
 
 /// The matrix that takes `source` clip space to where the map is read. After the division by w, x and y are
-/// texture coordinates: (0, 0) at the first texel of the first row, 1 at the far edges. z is the depth as a
-/// depth buffer holds it, in [0, 1]. For OpenGL, that is with the default glDepthRange.
+/// texture coordinates. (0, 0) is at the first texel of the first row, 1 at the far edges. z is the depth as
+/// a depth buffer holds it, in [0, 1]. For OpenGL, that is with the default glDepthRange.
 [[nodiscard]] glm::dmat4 texture_from_clip(const ClipSpace& source) noexcept;
 
 }  // namespace gnomon

@@ -1,5 +1,5 @@
-// How do many lights share one pool of texels? Sizes, rectangles and a refresh interval for each light's
-// maps.
+// How do many lights share one pool of texels, and which of them can light a pixel? Sizes, rectangles and a
+// refresh interval for each light's maps; lists of lights for tiles of the image, parted along view depth.
 #pragma once
 
 #include <array>
@@ -10,8 +10,11 @@
 #include <string_view>
 
 #include "gnomon/atlas.hpp"
+#include "gnomon/bounds.hpp"
+#include "gnomon/camera.hpp"
+#include "gnomon/light.hpp"
 #include "gnomon/plan.hpp"
-#include "gnomon/reuse.hpp"
+#include "gnomon/view.hpp"
 
 namespace gnomon {
 
@@ -40,8 +43,11 @@ struct LightCosts {
   bool operator==(const LightCosts&) const = default;
 };
 
-/// Options of plan_lights besides PlanOptions. Every default suits most scenes.
+/// Options of plan_lights. Every default suits most scenes.
 struct LightOptions {
+  /// The plans of all lights are made with it (light_options). Sizes, errors and budgets of resolution are
+  /// not read.
+  PlanOptions plan;
   /// Texels of the pool's sides, multiples of most_size, up to 2^16.
   int pool_width = 4096, pool_height = 4096;
   /// Most texels that all maps may have together, at least 1. More than the pool has: the pool.
@@ -120,40 +126,10 @@ struct LightHistory {
   int least_side = 0;      ///< of the last plan, texels: what places are counted in
 };
 
-/// Working memory of plan_lights for one light. Plain data without a meaning of its own.
-struct LightWork {
-  double demand;        ///< error times the side of its maps without borders, texels
-  double ratio;         ///< error saved per texel by the next step
-  std::uint32_t light;  ///< index into the lights
-  int maps;             ///< how many it draws
-  int level;            ///< of their size: the smallest doubled so many times
-  int top;              ///< largest level
-  int last;             ///< level in the last plan
-  double price = 0.0;   ///< milliseconds per frame for each square of the smallest size, of all its maps
-  double fixed = 0.0;   ///< the same whatever the size
-  int other = 0;        ///< level that the budget of texels alone would give
-};
-/// The same for one map in the pool.
-struct LightPlace {
-  std::uint32_t begin;  ///< first square of the smallest maps' grid
-  std::uint32_t end;    ///< one past the last
-};
-/// The same for one visible point.
-struct LightPoint {
-  float x;      ///< world space, from the eye, in a unit that all points share
-  float y;      ///< world space, from the eye, in a unit that all points share
-  float z;      ///< world space, from the eye, in a unit that all points share
-  float pixel;  ///< 1 / the width of a pixel there, in the same unit
-};
-/// Memory that plan_lights writes to; the caller's. `maps` is as long-lived as the plan.
-struct LightMemory {
-  std::span<LightMaps> maps;     ///< at least as many as lights
-  std::span<LightWork> work;     ///< at least as many as lights
-  std::span<LightPlace> places;  ///< at least kMaxMaps times as many as lights
-  std::span<LightPoint> points;  ///< at least as many as visible points
-};
+/// Bytes that plan_lights needs for this many lights and visible points.
+[[nodiscard]] std::size_t light_memory(std::size_t lights, std::size_t points) noexcept;
 
-/// The result of plan_lights.
+/// The result of plan_lights; its list lies in the caller's memory.
 struct LightPlan {
   PlanStatus status = PlanStatus::invalid_input;  ///< whether there are maps, and why not
   std::string_view invalid_field;                 ///< for invalid_input: which, e.g. "lights.most_size"
@@ -177,40 +153,39 @@ struct LightPlan {
 /// nothing, never throws; broken input, no light too many among it, comes back as PlanStatus::invalid_input.
 ///
 /// The error of a light is the mean of m over the part of the picture that it may light, as measure() takes
-/// it: a texel's extent over a pixel's. It is that of a map of the whole cone or face, and falls as one over
-/// the size. A sun's is that of make_plan with `options`. Sizes are powers of two and minimise the sum of
-/// weight * share * m: step by step, that light is enlarged whose error falls most per texel. Every light in
-/// view that has casters gets maps; other lights are listed with the reason.
+/// it. m is a texel's extent over a pixel's. It is that of a map of the whole cone or face, and falls as one
+/// over the size. A sun's is that of make_plan with LightOptions::plan. Sizes are powers of two and minimise
+/// the sum of weight * share * m. Step by step, that light is enlarged whose error falls most per texel.
+/// Every light in view that has casters gets maps; other lights are listed with the reason.
 ///
 /// Maps are placed as in a quadtree, so that any sizes within the budget fit. With a history, sizes and
-/// places change only where that pays, and only some lights are due: those with a large share every frame,
-/// small ones every n-th, a new, moved or changed one at once. Draw all that are due; the history counts them
-/// as drawn.
+/// places change only where that pays, and only some lights are due. Those with a large share are due
+/// every frame, small ones every n-th, a new, moved or changed one at once. Draw all that are due; the
+/// history counts them as drawn.
 ///
 /// Budgets of texels, pages and milliseconds hold together. Where milliseconds decide, that light is enlarged
 /// whose error falls most per millisecond. A budget in which not even the smallest maps of all lights fit is
 /// refused.
 ///
 /// A light that is due is planned by make_plan with light_options and the camera, or with camera_round for
-/// a light of several frames: its maps must serve what later frames see.
+/// a light of several frames. Its maps must serve what later frames see.
 ///
-/// `visible_points_world` (optional, read during the call only): points of surfaces that the camera sees, of
-/// a depth buffer read at every tenth pixel, say. Shares and errors are then those of these points; without,
-/// rays are sampled through the receivers' boxes. Takes time in proportion to lights times points, and to
-/// lights times boxes where these are lists (CasterSet: hardly any).
+/// With View::points_world, shares and errors are those of these points; without, rays are sampled through
+/// the receivers' boxes. Takes time in proportion to lights times points, and to lights times boxes where
+/// these are lists (CasterSet: hardly any). View::depths and normals are not read.
+///
+/// `memory`: at least light_memory(lights, points) bytes, the caller's, and as long-lived as the plan.
 ///
 /// Based on: Everett, "Generalized Lagrange Multiplier Method for Solving Problems of Optimum Allocation of
-/// Resources", 1963 (steps by gain per cost); Samet, "The Quadtree and Related Hierarchical Data Structures",
+/// Resources", 1963 (steps by gain per cost). Samet, "The Quadtree and Related Hierarchical Data Structures",
 /// 1984 (places).
-[[nodiscard]] LightPlan plan_lights(const Camera& camera, std::span<const LightRequest> lights,
-                                    const SceneBounds& bounds, const PlanOptions& options,
-                                    const LightOptions& light_options, const LightMemory& memory,
-                                    LightHistory* history = nullptr,
-                                    std::span<const glm::dvec3> visible_points_world = {}) noexcept;
+[[nodiscard]] LightPlan plan_lights(const View& view, std::span<const LightRequest> lights,
+                                    const SceneBounds& bounds, const LightOptions& options,
+                                    std::span<std::byte> memory, LightHistory* history = nullptr) noexcept;
 
 /// PlanOptions for the plan of one light of a LightPlan: maps of its size, without a budget of their own. A
 /// point light has the faces of a cube, also with Partition::tetrahedron.
-[[nodiscard]] PlanOptions light_options(PlanOptions options, const LightMaps& maps) noexcept;
+[[nodiscard]] PlanOptions light_options(const LightOptions& options, const LightMaps& maps) noexcept;
 
 /// A camera that sees all that a spot or point light can light. A plan for it does not follow the viewer, so
 /// that its maps serve any later frame; take its matrices rebased() to the eye. Its errors are not the
@@ -219,5 +194,75 @@ struct LightPlan {
 
 /// The pool as an atlas of one light's maps, for atlas_from_clip: its maps have their places, others none.
 [[nodiscard]] Atlas light_atlas(const LightPlan& plan, std::size_t light) noexcept;
+
+/// Most slices of ClusterOptions.
+inline constexpr int kMostDepthSlices = 256;
+/// Most clusters of an image: with more, tiles are taken twice as wide.
+inline constexpr std::size_t kMostClusters = std::size_t{1} << 22;
+
+/// Options of cluster_lights.
+struct ClusterOptions {
+  int tile_pixels = 64;   ///< side of a tile, pixels, at least 1. Smaller: shorter lists, more of them
+  int depth_slices = 48;  ///< parts of the view depth, 1..kMostDepthSlices. More: shorter lists
+  /// Equal in all members.
+  bool operator==(const ClusterOptions&) const = default;
+};
+
+/// One light in one cluster. Working memory of cluster_lights.
+struct ClusterEntry {
+  std::uint32_t cluster;  ///< index of the cluster
+  std::uint32_t light;    ///< index of the light
+};
+
+/// Memory that cluster_lights writes to; the caller's. `begin` and `lights` are as long-lived as the result.
+struct ClusterMemory {
+  std::span<std::uint32_t> begin;   ///< at least cluster_count() + 1
+  std::span<std::uint32_t> lights;  ///< at least as many as lights. More: finer clusters, if they need it
+  std::span<ClusterEntry> work;     ///< at least as many as lights; entries up to the shorter one are used
+};
+
+/// The lists of cluster_lights.
+struct LightClusters {
+  PlanStatus status = PlanStatus::invalid_input;  ///< ok, or invalid_input
+  std::string_view invalid_field;                 ///< for invalid_input: which, e.g. "clusters.tile_pixels"
+  int columns = 0, rows = 0, slices = 0;          ///< clusters along the image's sides and along depth
+  int tile_pixels = 0;  ///< of these clusters: larger than the option where the memory holds no finer ones
+  /// Slice of a surface: floor(depth_scale * log2(view depth) + depth_offset), of the view depth itself for
+  /// an orthographic camera, clamped to 0..slices - 1.
+  double depth_scale = 0.0;
+  double depth_offset = 0.0;  ///< see depth_scale
+  bool orthographic = false;  ///< of the camera
+  /// Cluster (column, row, slice) has the lights lights[begin[i]] .. lights[begin[i + 1] - 1] in ascending
+  /// order; i = (slice * rows + row) * columns + column. Row 0 is the lowest of the image.
+  std::span<const std::uint32_t> begin;
+  std::span<const std::uint32_t> lights;  ///< indices into the lights of the call
+};
+
+/// Clusters of an image with these options, before any of them is widened. 0 for options or sizes out of
+/// range.
+[[nodiscard]] std::size_t cluster_count(const Camera& camera, const ClusterOptions& options) noexcept;
+
+/// Lists the lights that can light a surface in each cluster of the view. Pure, allocates nothing, never
+/// throws.
+///
+/// A light is missing from a cluster only where its range, or its cone, does not reach into it. Shading by
+/// the lists gives the same light as shading by all lights, as long as a light is zero beyond its range and
+/// cone. Suns are in every list. A light whose range is zero or less lights nothing.
+///
+/// Lists have any length. Where the memory does not hold all of them, tiles become twice as wide and slices
+/// half as many until it does. A single cluster of all lights always fits.
+///
+/// Slices are even in the logarithm of depth, over the last thousandfold of the depths that local lights
+/// reach (orthographic: even in depth). The last one holds everything beyond.
+///
+/// Based on: Olsson, Billeter, Assarsson, "Clustered Deferred and Forward Shading", 2012.
+[[nodiscard]] LightClusters cluster_lights(const Camera& camera, std::span<const Light> lights,
+                                           const ClusterOptions& options,
+                                           const ClusterMemory& memory) noexcept;
+
+/// Index of the cluster of a pixel, counted from the lower left corner, at a view depth. Both are clamped to
+/// the clusters. `clusters` must be of status ok.
+[[nodiscard]] std::size_t cluster_at(const LightClusters& clusters, int pixel_x, int pixel_y,
+                                     double view_depth) noexcept;
 
 }  // namespace gnomon

@@ -12,7 +12,7 @@
 #include <span>
 #include <string_view>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "gnomon/plan.hpp"
 
 namespace gnomon {
@@ -62,18 +62,13 @@ struct Page {
 
 struct PagePlan;
 
-/// Visible surfaces as far as a caller knows them; all of it is optional.
-struct SeenPoints {
-  /// Points of surfaces that the camera sees, world space: of a depth buffer read at any stride, or the first
-  /// hits of rays. Empty: the receivers' boxes are sampled as volumes, which needs five times the pages.
-  std::span<const glm::dvec3> points_world = {};
-  /// Unit normals of the same points, or empty: the surface that faces the half vector of eye and light.
-  std::span<const glm::dvec3> normals_world = {};
-  /// PageFeedback bits of the same points, or empty: nothing was reported.
-  std::span<const std::uint8_t> feedback = {};
-  /// The plan that the feedback was rendered with; nullptr: the first frame. Read by `queried`. It must not
+/// The report of the last frame's image, for policies that read it.
+struct PageHistory {
+  /// The plan that the last frame was drawn with; nullptr: the first frame. Read by `queried`. It must not
   /// lie in the memory of the new plan.
   const PagePlan* last = nullptr;
+  /// PageFeedback bits of View::points_world, or empty: nothing was reported.
+  std::span<const std::uint8_t> feedback = {};
 };
 
 /// Least and largest side of a page, and the pages that a plan may have at most.
@@ -83,8 +78,14 @@ inline constexpr int kMostVirtualTexels = 1 << 26;
 /// Most levels of one plan: six faces, or one map, of 26 octaves in up to four steps each.
 inline constexpr std::size_t kMostPageLevels = 6 * (26 * 4 + 1);
 
-/// Options of plan_pages besides PlanOptions. Every default suits most scenes.
+/// Options of plan_pages. Every default suits most scenes.
 struct PageOptions {
+  /// The base of the levels is planned with it: one map of make_plan for each part of the light. `fit` stable
+  /// gives levels whose texels and pages stay at the same place in the world under camera motion, so that
+  /// pages can be cached. Any other fit one map round the visible receivers. `warp.warp` warps that base;
+  /// none is the default here, as levels already follow the view. `filter` sets the border. resolution,
+  /// split, cascades and cadence have no effect.
+  PlanOptions plan;
   const PagePolicy* policy = nullptr;  ///< nullptr: page_policies::resolution
   /// Texels along each side that a page serves: 64, 128 or 256. Smaller pages follow the visible surfaces
   /// more closely; each costs a draw and a border. A page takes page_texels + 2 border_texels along each
@@ -116,23 +117,9 @@ struct PageOptions {
   double least_light_sine = 0.05;
 };
 
-/// Working memory of plan_pages for one visible point. Plain data without a meaning of its own.
-struct PagePoint {
-  double x, y;           ///< place in the base
-  float need_x, need_y;  ///< texels per unit of the base for m = 1
-  std::uint32_t level;   ///< of the base's ladder
-  std::uint32_t order;   ///< index of another point
-};
-
-/// Memory that plan_pages writes to; the caller's, and as long-lived as the plan.
-struct PageMemory {
-  std::span<ShadowMap> levels;     ///< kMostPageLevels suffice; the plan uses a few dozen
-  std::span<Page> pages;           ///< at least PageOptions::capacity
-  std::span<std::uint32_t> table;  ///< at least page_table_size(capacity)
-  std::span<PagePoint> points;     ///< as many as visible points; without any, as many samples of the boxes
-};
-/// Entries of PageMemory::table for a pool of this capacity.
-[[nodiscard]] std::size_t page_table_size(int capacity) noexcept;
+/// Bytes that plan_pages needs for a pool of this capacity and this many visible points. Without points, it
+/// takes as many samples of the receivers' boxes as there is room for: some ten thousand suffice.
+[[nodiscard]] std::size_t page_memory(int capacity, std::size_t points) noexcept;
 
 /// Where a point lies on the base of a light's part: rows x and y over row w, each applied to (point, 1).
 /// Pages of stable levels are counted from place 0.
@@ -180,21 +167,19 @@ struct PagePlan {
 /// Chooses the pages that visible points need. Pure: the same input gives the same bits. Allocates nothing,
 /// never throws; broken input comes back as PlanStatus::invalid_input with the field.
 ///
-/// The base of the levels is one map of make_plan for each part of the light: PlanOptions::fit stable gives
-/// levels whose texels and pages stay at the same place in the world under camera motion, so that pages can
-/// be cached; any other fit one map round the visible receivers. PlanOptions::warp.warp warps that base; none
-/// is the default here, as levels already follow the view. Every face of a cube round a local light has
-/// levels of its own. PlanOptions::filter sets the border. resolution, split, cascades and cadence have no
-/// effect.
+/// Without View::points_world the receivers' boxes are sampled as volumes, which needs five times the pages.
+/// Without normals a point's surface faces the half vector of eye and light. View::depths are not read.
+///
+/// `memory`: at least page_memory(capacity, points) bytes, the caller's, and as long-lived as the plan.
 ///
 /// A point is served by the page of the last level in the list that has one there (page_serving). Texels
 /// halve from level to level along both axes together, so that a finer level is finer along both.
 /// PageOptions::policy decides each point's level. Takes time in proportion to the points.
 /// Based on: Lefohn, Sengupta, Owens, "Resolution-Matched Shadow Maps", 2007; Giegl, Wimmer, "Fitted Virtual
 /// Shadow Maps", 2007. The levels' sizes between powers of two are this project's.
-[[nodiscard]] PagePlan plan_pages(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                                  const SeenPoints& seen, const PlanOptions& options,
-                                  const PageOptions& pages, const PageMemory& memory) noexcept;
+[[nodiscard]] PagePlan plan_pages(const View& view, const Light& light, const SceneBounds& bounds,
+                                  const PageOptions& options, std::span<std::byte> memory,
+                                  const PageHistory* history = nullptr) noexcept;
 
 /// Index of the resident page at a column and row of a level, or -1.
 [[nodiscard]] int page_at(const PagePlan& plan, std::uint32_t level, std::int32_t column,
@@ -202,9 +187,9 @@ struct PagePlan {
 /// Index of the page that serves a point, or -1: of the last level that has a resident page there.
 [[nodiscard]] int page_serving(const PagePlan& plan, const glm::dvec3& point_world) noexcept;
 
-/// A page as a map of its own, slot_texels along each side, with the border as filter_margin_texels: to draw
-/// it, read it, and cull its casters. Its cull planes hold every caster that its texels can show. The matrix
-/// of a page of a stable level has the same bits in every plan of the same light and bounds.
+/// A page as a map of its own, slot_texels along each side, with the border as filter_margin_texels. It
+/// serves to draw it, read it, and cull its casters. Its cull planes hold every caster that its texels can
+/// show. The matrix of a page of a stable level has the same bits in every plan of the same light and bounds.
 [[nodiscard]] ShadowMap page_map(const PagePlan& plan, const Page& page) noexcept;
 
 /// One slot of a pool that keeps pages from frame to frame. Plain data; as made, it holds nothing.
@@ -228,13 +213,15 @@ struct KeptPages {
   std::uint64_t composed = 0;  ///< pages of which moving casters alone are to be drawn
   std::uint64_t touched = 0;   ///< slots whose pages a caster of `moved_world` touched, resident or not
 };
-/// Finds the pages of a plan that a pool still holds, and a slot for each of the others: empty ones first,
+/// Entries of the table that keep_pages needs for a pool of this many slots.
+[[nodiscard]] std::size_t page_table_size(int slots) noexcept;
+/// Finds the pages of a plan that a pool still holds, and a slot for each of the others. Empty ones first,
 /// then the least recently used. A page is kept where its matrix and size have the same bits and no moved
-/// bounds reach it; then a redraw would give the same texels. Pages that leave a plan stay in their slot
+/// bounds reach it. Then a redraw would give the same texels. Pages that leave a plan stay in their slot
 /// until it is needed. PlanOptions::fit stable, or policy clipmap, keeps pages while the camera moves.
 ///
 /// `moved_world`: bounds of casters that changed since the last call, where they were and where they are.
-/// `slots`: the pool, at least as many as pages; the caller's from call to call, and emptied where texels are
+/// `slots`: the pool, at least as many as pages. The caller's from call to call, and emptied where texels are
 /// lost or the scene changes otherwise. `table`: working memory, page_table_size(slots.size()) entries.
 /// `out`: one for each page of the plan. `moving_world`: the same bounds of casters that are drawn apart,
 /// over a second copy of the page that holds the static casters alone. They empty no slot; the pages that
@@ -254,19 +241,20 @@ struct HeldSun {
   std::uint64_t points_capped = 0;  ///< read, but not evaluated: least_light_sine
 };
 /// Keeps the direction of a sun that turns until a shadow edge could lie more than `most_pixels` from its
-/// true place, then takes the sun's own. Pages of stable levels keep their bits under a held direction; a
+/// true place. Then takes the sun's own. Pages of stable levels keep their bits under a held direction; a
 /// turn draws all of them. A point's error is how far the shadow of the farthest place in `casters` along its
-/// light ray moves on the plane of its surface, as the camera sees it: nearer casters err less.
+/// light ray moves. It moves on the plane of the point's surface, as the camera sees it. Nearer casters err
+/// less.
 ///
 /// `held`: the direction of the last frame; any without length, or at a right angle or more to `sun`, gives
-/// `sun`. `casters`: bounds of all casters; broken ones do not hold. `seen`: points, and normals where known;
-/// else surfaces that face the half vector. Without points it does not hold, as nothing bounds the error.
+/// `sun`. `casters`: bounds of all casters; broken ones do not hold. Points without normals count as surfaces
+/// that face the half vector. Without points it does not hold, as nothing bounds the error.
 /// `most_pixels`: 0 never holds, larger holds longer; a quarter is below what a texel of m = 1 can show.
 /// `least_light_sine`: as PageOptions::least_light_sine; edges on surfaces that the light grazes more are not
 /// bounded. Penumbrae that a filter widens count as the edge. Allocates nothing; takes time in proportion to
 /// the points.
-[[nodiscard]] HeldSun hold_sun(const glm::dvec3& held, const glm::dvec3& sun, const Camera& camera,
-                               const Box& casters, const SeenPoints& seen, double most_pixels = 0.25,
+[[nodiscard]] HeldSun hold_sun(const View& view, const glm::dvec3& held, const glm::dvec3& sun,
+                               const Box& casters, double most_pixels = 0.25,
                                double least_light_sine = 0.05) noexcept;
 
 /// The error over the points that a page plan serves.
@@ -277,12 +265,10 @@ struct PageStats {
   double texels_per_pixel = 0.0;  ///< pages, without borders, over the pixels of the camera
   double border_share = 0.0;      ///< texels of borders over those of pages without them
 };
-/// The error at visible points, in the pages that serve them. With normals at their surfaces, points that
-/// face away are not counted. Allocates nothing; plans without pages give zeros.
-[[nodiscard]] PageStats measure_pages(const PagePlan& plan, const Camera& camera,
-                                      const SeenPoints& seen) noexcept;
-/// The same over the visible part of the receivers' boxes, as measure() samples it.
-[[nodiscard]] PageStats measure_pages(const PagePlan& plan, const Camera& camera, const SceneBounds& bounds,
-                                      const MeasureGrid& grid = {}) noexcept;
+/// The error in the pages that serve what the view sees, as of a ShadowPlan. With normals at their surfaces;
+/// points that face away are not counted. MeasureOptions::map is not read. Allocates nothing; plans without
+/// pages give zeros.
+[[nodiscard]] PageStats measure(const PagePlan& plan, const View& view, const SceneBounds& bounds,
+                                const MeasureOptions& options = {}) noexcept;
 
 }  // namespace gnomon

@@ -63,18 +63,14 @@ glm::vec3 color_of(const gnomon::Light& light, std::size_t index) {
 struct Lights {
   std::vector<gnomon::LightRequest> requests;
   std::vector<gnomon::ShadowPlan> plans;
-  std::vector<gnomon::LightMaps> maps;
-  std::vector<gnomon::LightWork> work;
-  std::vector<gnomon::LightPlace> places;
+  std::vector<std::byte> memory;
   std::vector<gnomon::LightState> states;
   gnomon::LightHistory history;
 
   explicit Lights(std::vector<gnomon::LightRequest> all)
       : requests(std::move(all)),
         plans(requests.size()),
-        maps(requests.size()),
-        work(requests.size()),
-        places(gnomon::kMaxMaps * requests.size()),
+        memory(gnomon::light_memory(requests.size(), 0)),
         states(requests.size()),
         history{states, 0, {}} {}
   [[nodiscard]] std::vector<gnomon::render::DrawnLight> drawn() const {
@@ -98,9 +94,8 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
   gnomon::render::Renderer renderer(scene);
   const gnomon::render::FilterSettings pcf = gnomon::render::default_settings(gnomon::render::filters::pcf);
   const gnomon::render::PreparedFilter filter = renderer.prepare(pcf, gnomon::render::Source::lights);
-  gnomon::PlanOptions options;
-  gnomon::render::set_margin(pcf, options);
-  const gnomon::LightOptions pool;
+  gnomon::LightOptions pool;
+  gnomon::render::set_margin(pcf, pool.plan);
   Lights lights(place_lights(scene, count));
   fs::create_directories(folder);
 
@@ -110,8 +105,7 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
     // 1. Sizes and places of all lights' maps, and which of them are due.
     const auto begin = std::chrono::steady_clock::now();
     const gnomon::LightPlan plan =
-        gnomon::plan_lights(camera, lights.requests, {set, set}, options, pool,
-                            {lights.maps, lights.work, lights.places, {}}, &lights.history);
+        gnomon::plan_lights(camera, lights.requests, {set, set}, pool, lights.memory, &lights.history);
     const double ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     if (plan.status == gnomon::PlanStatus::invalid_input) {
@@ -125,7 +119,7 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
       if (!own.due) continue;
       const gnomon::Light& light = lights.requests[i].light;
       lights.plans[i] = gnomon::make_plan(own.frames > 1 ? gnomon::camera_round(light, camera) : camera,
-                                          light, {set, set}, gnomon::light_options(options, own));
+                                          light, {set, set}, gnomon::light_options(pool, own));
     }
 
     // 3. Draw: the maps of due lights, then the sum of all light.

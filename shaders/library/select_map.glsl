@@ -59,7 +59,7 @@ int map_by_hold(vec3 position, int count) {
 }
 
 // Among the maps that hold the point with a kernel of `radius_world` round it, the one with the smallest texels there; of
-// equal ones the first. With a radius of 0: gnomon::map_serving of a plan with select_finest.
+// equal ones the first. With a radius of 0: gnomon::map_serving of a plan with MapSelection::finest.
 // `light`: the way it travels at the point.
 int map_of_finest_texel(vec3 position, float radius_world, vec3 light, int count) {
   int best = -1;

@@ -1,4 +1,4 @@
-// A place in a map and how it moves: ShapedPoint of include/gnomon/shape.hpp in GLSL.
+// A place in a map and how it moves: ShapedPoint of include/gnomon/extend/shape.hpp in GLSL.
 #ifndef GNOMON_LIBRARY_SHAPED_POINT_GLSL
 #define GNOMON_LIBRARY_SHAPED_POINT_GLSL
 struct ShapedPoint {

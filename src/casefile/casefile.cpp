@@ -460,10 +460,9 @@ std::string invalid_input_text(std::string_view invalid_field) {
       {"lights.enough_m", "options.lights.enough_m: must lie in 0..1e30"},
       {"lights.most_frames", "options.lights.most_frames: must lie in 1..64"},
       {"lights.full_share", "options.lights.full_share: must lie above 0 and at most at 1"},
-      {"visible_points", "seen: a point is beyond 1e30"},
-      {"seen.points_world", "seen: a point is beyond 1e30"},
-      {"seen.normals_world", "seen: a normal is not of length 1"},
-      {"seen.feedback", "seen_feedback: needs one number for each point of seen"},
+      {"view.points_world", "seen: a point is beyond 1e30"},
+      {"view.normals_world", "seen: a normal is not of length 1"},
+      {"history.feedback", "seen_feedback: needs one number for each point of seen"},
   });
   for (const Entry& entry : kTexts)
     if (entry.field == invalid_field) return std::string(entry.text);

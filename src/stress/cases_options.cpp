@@ -7,6 +7,7 @@
 #include <set>
 
 #include "case_list.hpp"
+#include "gnomon/study/formulas.hpp"
 #include "judge.hpp"
 
 namespace gnomon::stress {

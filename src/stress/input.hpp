@@ -21,7 +21,7 @@ struct Input {
   const VisibleDepths* visible = nullptr;
   [[nodiscard]] SceneBounds bounds() const noexcept { return {casters, receivers}; }
   [[nodiscard]] ShadowPlan plan() const noexcept {
-    return make_plan(camera, light, bounds(), options, visible);
+    return make_plan({camera, visible}, light, bounds(), options);
   }
 };
 

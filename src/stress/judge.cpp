@@ -260,7 +260,7 @@ std::vector<glm::dvec3> points_of(const Input& input, const ShadowPlan& plan, in
     const auto add = [&](const Real3& p) {
       const glm::dvec3 world(p + Real3(plan.origin_world));
       // Of a light with a position a map shows a part of the body.
-      if (!plan.select_by_map || map_holds(plan, map, world)) points.push_back(world);
+      if (plan.selection == MapSelection::view_depth || map_holds(plan, map, world)) points.push_back(world);
     };
     for (const Real3& p : corners) add(p);
     Random random(seed);

@@ -1,5 +1,6 @@
 // The true shadow at every pixel: which rays are asked, and what is made of their answers.
 #include "gnomon/trace/reference.hpp"
+#include "gnomon/extend/shape.hpp"
 
 #include <algorithm>
 #include <array>

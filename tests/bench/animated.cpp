@@ -32,7 +32,6 @@
 #include "gnomon/scene/pose.hpp"
 #include "guarded.hpp"
 #include "median.hpp"
-#include "base/page_storage.hpp"
 
 namespace gnomon {
 namespace {
@@ -223,12 +222,12 @@ Sums maps(Playing& playing, int frames, bool flies) {
 
 Sums pages(Playing& playing, int frames, bool flies) {
   const render::FilterSettings filter = render::default_settings(render::filters::pcf);
-  const PlanOptions options = plan_options(filter);
   PageOptions of_pages;
+  of_pages.plan = plan_options(filter);
   of_pages.page_texels = 64;
   of_pages.policy = &page_policies::clipmap;
   of_pages.fallback = true;
-  PageStorage memory{1 << 13, std::size_t{kWidth} * kHeight};
+  std::vector<std::byte> memory(page_memory(1 << 13, std::size_t{kWidth} * kHeight));
   Sums sums;
   struct Drawn {
     glm::dmat4 clip_from_world;
@@ -245,8 +244,8 @@ Sums pages(Playing& playing, int frames, bool flies) {
       const float* p = &at.values[i];
       if (p[3] > 0.0f) points.push_back(camera.position + glm::dvec3(p[0], p[1], p[2]));
     }
-    const PagePlan plan = plan_pages(camera, playing.light, {playing.boxes, playing.boxes}, {points}, options,
-                                     of_pages, memory.spans());
+    const PagePlan plan = plan_pages({.camera = camera, .points_world = points}, playing.light,
+                                     {playing.boxes, playing.boxes}, of_pages, memory);
     const auto draw = [&](render::Renderer& by, Keeping keeping) {
       glFinish();
       return by.draw(plan, camera, by.prepare(filter, render::Source::pages), drawing(keeping));

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "case_table.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "support/seeded_input.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/plane_map.hpp"

@@ -66,7 +66,7 @@ Measured measured(const Scene& scene, const gnomon::PlanOptions& options) {
     us.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
   }
   if (plan.status != gnomon::PlanStatus::ok) return {};
-  constexpr gnomon::MeasureGrid kFine{48, 48, 1024};
+  constexpr gnomon::MeasureOptions kFine{48, 48, 1024};
   return {measure(plan, scene.camera, bounds, kFine).storage, gnomon::median(us)};
 }
 

@@ -145,7 +145,7 @@ class Scenery {
     render::set_margin(filter_.settings, options);
     render::FrameOptions frame = quiet();
     frame.aliasing = true;
-    renderer_.draw(make_plan(camera, light_, {boxes_, boxes_}, options, depths), camera, filter_, frame);
+    renderer_.draw(make_plan({camera, depths}, light_, {boxes_, boxes_}, options), camera, filter_, frame);
     std::vector<float> m;
     const FloatImage image = renderer_.aliasing();
     for (std::size_t i = 0; i + 3 < image.values.size(); i += 4)

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "gnomon/caster_set.hpp"
+#include "gnomon/bounds.hpp"
 #include "gnomon/plan.hpp"
 
 namespace {

@@ -26,7 +26,6 @@
 #include "gnomon/scene/load.hpp"
 #include "guarded.hpp"
 #include "median.hpp"
-#include "base/page_storage.hpp"
 #include "quiet.hpp"
 
 namespace gnomon {
@@ -45,7 +44,8 @@ struct Flight {
   std::vector<glm::dvec3> points;
   std::vector<std::uint32_t> pixels;
   std::vector<std::uint8_t> feedback;
-  PageStorage memory{1 << 13, std::size_t{kWidth} * kHeight}, memory_before = memory;
+  std::vector<std::byte> memory = std::vector<std::byte>(page_memory(1 << 13, std::size_t{kWidth} * kHeight)),
+                         memory_before = memory;
 
   explicit Flight(const std::string& of)
       : name(of),
@@ -103,11 +103,10 @@ double map_ms_of(const render::FrameStats& stats) {
   return stats.milliseconds[static_cast<std::size_t>(render::Pass::shadow_maps)];
 }
 
-PageOptions page_options(const PagePolicy& policy, const render::FilterSettings& filter,
-                         PlanOptions& options) {
-  options.fit = Fit::stable;
-  render::set_margin(filter, options);
+PageOptions page_options(const PagePolicy& policy, const render::FilterSettings& filter) {
   PageOptions pages;
+  pages.plan.fit = Fit::stable;
+  render::set_margin(filter, pages.plan);
   pages.policy = &policy;
   pages.page_texels = 64;
   pages.capacity = 1024;
@@ -121,8 +120,7 @@ Kept fly(Flight& flight, const PagePolicy& policy, int frames, bool keeps) {
   Kept sums;
   const render::FilterSettings filter = render::default_settings(render::filters::hard);
   const render::PreparedFilter hard = flight.renderer.prepare(filter, render::Source::pages);
-  PlanOptions options;
-  const PageOptions pages = page_options(policy, filter, options);
+  const PageOptions pages = page_options(policy, filter);
   render::FrameOptions draw_options = quiet();
   if (!keeps) draw_options.prune = draw_options.prune.without(PruneRule::held_maps);
   // An empty pool, and points of the first camera.
@@ -136,11 +134,11 @@ Kept fly(Flight& flight, const PagePolicy& policy, int frames, bool keeps) {
   PagePlan before;
   for (int frame = 0; frame < frames; ++frame) {
     const Camera camera = flight.camera(begin_frame + frame);
-    PageStorage& memory = frame % 2 == 0 ? flight.memory : flight.memory_before;
+    std::span<std::byte> memory = frame % 2 == 0 ? flight.memory : flight.memory_before;
+    const PageHistory history{frame == 0 ? nullptr : &before, flight.feedback};
     const Clock::time_point begin = Clock::now();
-    const PagePlan plan = plan_pages(camera, flight.light, {flight.boxes, flight.boxes},
-                                     {flight.points, {}, flight.feedback, frame == 0 ? nullptr : &before},
-                                     options, pages, memory.spans());
+    const PagePlan plan = plan_pages({.camera = camera, .points_world = flight.points}, flight.light,
+                                     {flight.boxes, flight.boxes}, pages, memory, &history);
     sums.plan_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
     if (plan.status != PlanStatus::ok) {
       std::fprintf(stderr, "%s: frame %d has no pages: %s\n", flight.name.c_str(), frame,
@@ -204,12 +202,11 @@ void count_kept(Flight& flight, std::vector<CountedPool>& pools) {
     flight.read_back(camera);
     flight.report();
     for (CountedPool& pool : pools) {
-      PlanOptions options;
-      const PageOptions pages = page_options(*pool.policy, filter, options);
-      pool.add(
-          plan_pages(camera, flight.light, {flight.boxes, flight.boxes},
-                     {flight.points, {}, flight.feedback, nullptr}, options, pages, flight.memory.spans()),
-          frame > 0);
+      const PageOptions pages = page_options(*pool.policy, filter);
+      const PageHistory reported{nullptr, flight.feedback};
+      pool.add(plan_pages({.camera = camera, .points_world = flight.points}, flight.light,
+                          {flight.boxes, flight.boxes}, pages, flight.memory, &reported),
+               frame > 0);
     }
   }
 }
@@ -297,12 +294,11 @@ void walk(Flight& flight, const PagePolicy& policy) {
                                hard_of_other = other.prepare(filter, render::Source::pages);
   render::FrameOptions together = quiet();
   together.prune = together.prune.without(PruneRule::static_casters);
-  PlanOptions options;
-  const PageOptions pages = page_options(policy, filter, options);
+  const PageOptions pages = page_options(policy, filter);
   flight.renderer.draw(ShadowPlan{}, camera, flight.renderer.prepare(filter), quiet());
   flight.read_back(camera);
-  const PagePlan plan = plan_pages(camera, flight.light, {flight.boxes, flight.boxes}, {flight.points},
-                                   options, pages, flight.memory.spans());
+  const PagePlan plan = plan_pages({.camera = camera, .points_world = flight.points}, flight.light,
+                                   {flight.boxes, flight.boxes}, pages, flight.memory);
   const auto texels_of_pages = [&] {
     std::vector<std::vector<float>> texels;
     for (std::size_t i = 0; i < plan.pages.size(); ++i) texels.push_back(one.page_depths(i).values);

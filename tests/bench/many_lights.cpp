@@ -55,27 +55,25 @@ std::vector<LightRequest> place_lights(const Scene& scene, int count) {
 struct Lights {
   std::vector<LightRequest> requests;
   std::vector<ShadowPlan> plans;
-  std::vector<LightMaps> maps;
-  std::vector<LightWork> work;
-  std::vector<LightPlace> places;
+  std::vector<std::byte> memory;
+  std::vector<LightMaps> maps;  ///< those of the plan, none of them due
   LightPlan plan;
   std::vector<render::DrawnLight> drawn;
 
   Lights(std::vector<LightRequest> all, const Camera& camera, const std::vector<Box>& boxes,
          const PlanOptions& options)
-      : requests(std::move(all)),
-        plans(requests.size()),
-        maps(requests.size()),
-        work(requests.size()),
-        places(kMaxMaps * requests.size()) {
-    plan = plan_lights(camera, requests, {boxes, boxes}, options, {}, {maps, work, places, {}});
+      : requests(std::move(all)), plans(requests.size()), memory(light_memory(requests.size(), 0)) {
+    LightOptions pool;
+    pool.plan = options;
+    plan = plan_lights(camera, requests, {boxes, boxes}, pool, memory);
+    maps.assign(plan.lights.begin(), plan.lights.end());
     for (std::size_t i = 0; i < requests.size(); ++i) {
       if (plan.lights[i].map_count > 0)
-        plans[i] =
-            make_plan(camera, requests[i].light, {boxes, boxes}, light_options(options, plan.lights[i]));
+        plans[i] = make_plan(camera, requests[i].light, {boxes, boxes}, light_options(pool, plan.lights[i]));
       drawn.push_back({requests[i].light, &plans[i], glm::vec3(0.3f)});
       maps[i].due = false;  // the look-up alone is of interest
     }
+    plan.lights = maps;
   }
   /// Those that the renderer lists.
   [[nodiscard]] std::vector<Light> listed() const {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 
 namespace {
 

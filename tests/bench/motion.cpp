@@ -156,7 +156,7 @@ void fly(const gnomon::Scene& scene, int frames, int cascades, std::vector<Tally
       options.fit = kTechniques[t].fit;
       options.warp.warp = kTechniques[t].warp;
       f.before = f.now;
-      f.now = kTechniques[t].history ? make_plan(camera, light, bounds, options, f.history)
+      f.now = kTechniques[t].history ? make_plan(camera, light, bounds, options, &f.history)
                                      : make_plan(camera, light, bounds, options);
       tally.maps += f.now.map_count;
       tally.events += frame > 0 ? f.history.event_count : 0;

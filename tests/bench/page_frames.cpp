@@ -21,7 +21,6 @@
 #include "gnomon/trace/reference.hpp"
 #include "guarded.hpp"
 #include "median.hpp"
-#include "base/page_storage.hpp"
 #include "quiet.hpp"
 
 namespace gnomon {
@@ -125,7 +124,7 @@ void print(const std::string& scene, const std::string& filter, const char* tech
 }
 
 /// Four cascades of this size, and pages of as many texels.
-void compare(Frame& frame, const std::string& name, int map_size, PageStorage& memory,
+void compare(Frame& frame, const std::string& name, int map_size, std::span<std::byte> memory,
              const std::string& folder, const render::FilterSettings& filter) {
   PlanOptions options;
   options.resolution.max_size = map_size;
@@ -133,9 +132,9 @@ void compare(Frame& frame, const std::string& name, int map_size, PageStorage& m
   const std::string stem = folder + "/" + name + "_" + std::to_string(map_size) + "_";
   std::int64_t budget = std::int64_t{4} * map_size * map_size;
   for (const bool points : {false, true}) {
-    const ShadowPlan plan =
-        make_plan(frame.camera, frame.light, frame.bounds(), options, nullptr,
-                  points ? std::span<const glm::dvec3>(frame.points) : std::span<const glm::dvec3>());
+    View seen = frame.camera;
+    if (points) seen.points_world = frame.points;
+    const ShadowPlan plan = make_plan(seen, frame.light, frame.bounds(), options);
     const auto stats = timed([&](const render::FrameOptions& frame_options) {
       return frame.renderer.draw(plan, frame.camera, frame.renderer.prepare(filter), frame_options);
     });
@@ -150,10 +149,10 @@ void compare(Frame& frame, const std::string& name, int map_size, PageStorage& m
     pages.target_m = 0.05;
     const int slot = pages.page_texels + 2 * static_cast<int>(std::ceil(options.filter.texels));
     pages.capacity = static_cast<int>(budget / (slot * slot));
-    SeenPoints seen{frame.points, {}, {}, nullptr};
+    pages.plan = options;
+    View seen{.camera = frame.camera, .points_world = frame.points};
     if (normals) seen.normals_world = frame.normals;
-    const PagePlan plan =
-        plan_pages(frame.camera, frame.light, frame.bounds(), seen, options, pages, memory.spans());
+    const PagePlan plan = plan_pages(seen, frame.light, frame.bounds(), pages, memory);
     if (plan.status != PlanStatus::ok) {
       std::printf("%s: no pages: %s\n", name.c_str(), std::string(plan.invalid_field).c_str());
       continue;
@@ -187,7 +186,7 @@ int run_all(int argc, char** argv) {
   const auto context = render::create_context();
   std::printf("%-8s %-12s %-22s %9s %10s %9s %9s %9s\n", "scene", "filter", "technique", "texels/px",
               "wrong, %", "ms", "prefilter", "kept, ms");
-  PageStorage memory(1 << 14, std::size_t{kWidth} * kHeight);
+  std::vector<std::byte> memory(page_memory(1 << 14, std::size_t{kWidth} * kHeight));
   for (const BuiltinScene& scene : builtin_scenes()) {
     const std::string name(scene.name);
     Frame frame(name, 0.5);

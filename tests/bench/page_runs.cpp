@@ -25,7 +25,6 @@
 #include "gnomon/scene/load.hpp"
 #include "guarded.hpp"
 #include "median.hpp"
-#include "base/page_storage.hpp"
 #include "quiet.hpp"
 
 namespace gnomon {
@@ -108,12 +107,11 @@ void measure_scene(const std::string& name, int frames, int rounds, int page_tex
   for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
   const Light light = default_light({}, scene.bounds_world);
   render::Renderer renderer(scene);
-  PageStorage memory{1 << 13, std::size_t{kWidth} * kHeight};
+  std::vector<std::byte> memory(page_memory(1 << 13, std::size_t{kWidth} * kHeight));
   for (const PagePolicy* policy : {&page_policies::resolution, &page_policies::clipmap}) {
-    PlanOptions options;
-    options.fit = Fit::stable;
-    render::set_margin(render::default_settings(render::filters::hard), options);
     PageOptions pages;
+    pages.plan.fit = Fit::stable;
+    render::set_margin(render::default_settings(render::filters::hard), pages.plan);
     pages.policy = policy;
     pages.page_texels = page_texels;
     pages.capacity = 1024;
@@ -124,7 +122,7 @@ void measure_scene(const std::string& name, int frames, int rounds, int page_tex
       renderer.draw(ShadowPlan{}, camera, renderer.prepare(render::filters::hard), quiet());
       const std::vector<glm::dvec3> points = visible_points(renderer, camera);
       const PagePlan plan =
-          plan_pages(camera, light, {boxes, boxes}, {points}, options, pages, memory.spans());
+          plan_pages({.camera = camera, .points_world = points}, light, {boxes, boxes}, pages, memory);
       if (plan.status == PlanStatus::ok) measure(renderer, plan, camera, rounds, sums);
     }
     if (sums.ratios.empty()) continue;

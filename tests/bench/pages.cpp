@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "case_table.hpp"
-#include "base/page_storage.hpp"
 
 namespace gnomon {
 namespace {
@@ -62,21 +61,20 @@ const Column kColumns[] = {
 };
 
 double texels_per_pixel(const NamedCase& c, const std::vector<glm::dvec3>& points, const Column& column,
-                        int page_texels, PageStorage& memory) {
-  PlanOptions options;
-  options.fit = column.fit;
-  options.filter.texels = 0.0;
-  if (column.warp) options.warp.warp = &warps::optimal;
+                        int page_texels, std::span<std::byte> memory) {
   PageOptions pages;
+  pages.plan.fit = column.fit;
+  pages.plan.filter.texels = 0.0;
+  if (column.warp) pages.plan.warp.warp = &warps::optimal;
   pages.policy = column.policy;
   pages.page_texels = page_texels;
   pages.capacity = 1 << 15;
   pages.levels_per_octave = column.levels_per_octave;
   pages.trials = column.trials;
   pages.share = column.share;
-  const SeenPoints seen{points};
-  const PagePlan plan = plan_pages(c.camera, c.light, c.bounds(), seen, options, pages, memory.spans());
-  const PageStats stats = measure_pages(plan, c.camera, seen);
+  const View seen{.camera = c.camera, .points_world = points};
+  const PagePlan plan = plan_pages(seen, c.light, c.bounds(), pages, memory);
+  const PageStats stats = measure(plan, seen, {});
   const double above = static_cast<double>(plan.points_coarser) / static_cast<double>(plan.points);
   const bool kept = column.share < 1.0 ? above <= 1.0 - column.share : stats.worst_side <= 1.0 + 1e-9;
   if (plan.status != PlanStatus::ok || stats.m.outside > 0 || plan.target_m > 1.0 || !kept) {
@@ -88,7 +86,7 @@ double texels_per_pixel(const NamedCase& c, const std::vector<glm::dvec3>& point
   return stats.texels_per_pixel;
 }
 
-void print_table(const std::vector<NamedCase>& cases, PageStorage& memory) {
+void print_table(const std::vector<NamedCase>& cases, std::span<std::byte> memory) {
   for (const int page_texels : {128, 64}) {
     std::printf("texels per pixel, pages of %d, borders apart\n%-16s", page_texels, "");
     for (const Column& column : kColumns) std::printf(" %11s", column.name);
@@ -110,14 +108,13 @@ void print_table(const std::vector<NamedCase>& cases, PageStorage& memory) {
 }
 
 /// Median time of one plan from 10 000 points, for the target that gives about 1000 pages.
-void print_times(const std::vector<NamedCase>& cases, PageStorage& memory) {
+void print_times(const std::vector<NamedCase>& cases, std::span<std::byte> memory) {
   using Clock = std::chrono::steady_clock;
   for (const char* name : {"light45", "overhead", "fov110"}) {
     const auto c =
         std::find_if(cases.begin(), cases.end(), [&](const NamedCase& one) { return one.name == name; });
     if (c == cases.end()) continue;
     const std::vector<glm::dvec3> points = far_faces(*c, 133, 75);
-    PlanOptions options;
     PageOptions pages;
     pages.target_m = 0.75;
     std::vector<double> milliseconds;
@@ -125,7 +122,7 @@ void print_times(const std::vector<NamedCase>& cases, PageStorage& memory) {
     for (int run = 0; run < 200; ++run) {
       const auto begin = Clock::now();
       const PagePlan plan =
-          plan_pages(c->camera, c->light, c->bounds(), {points}, options, pages, memory.spans());
+          plan_pages({.camera = c->camera, .points_world = points}, c->light, c->bounds(), pages, memory);
       milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
       opened = plan.pages.size();
     }
@@ -140,7 +137,7 @@ void print_times(const std::vector<NamedCase>& cases, PageStorage& memory) {
 
 int main(int argc, char** argv) {
   const std::vector<gnomon::NamedCase> cases = gnomon::load_cases();
-  gnomon::PageStorage memory(1 << 15, 1 << 17);
+  std::vector<std::byte> memory(gnomon::page_memory(1 << 15, 1 << 17));
   if (argc < 2 || std::strcmp(argv[1], "--seconds") != 0) gnomon::print_table(cases, memory);
   gnomon::print_times(cases, memory);
 }

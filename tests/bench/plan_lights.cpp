@@ -19,13 +19,11 @@
 #include "allocations.hpp"
 #include "gnomon/gnomon.hpp"
 #include "median.hpp"
-#include "support/light_storage.hpp"
 #include "support/seeded_input.hpp"
 
 namespace gnomon {
 namespace {
 
-using test::LightStorage;
 using test::SeededNumbers;
 using Clock = std::chrono::steady_clock;
 
@@ -125,7 +123,7 @@ void print(const char* name, const Cost& cost, double beside) {
 }
 
 void print_times(const Town& town) {
-  LightStorage memory(town.lights.size(), 4096);
+  std::vector<std::byte> memory(light_memory(town.lights.size(), 4096));
   const std::vector<glm::dvec3> points = town.first_hits(40, 25);
   PlanOptions unwarped;
   unwarped.warp.warp = &warps::none;
@@ -142,7 +140,7 @@ void print_times(const Town& town) {
   double sum = 0.0;
   const auto plan = [&](const SceneBounds& bounds, std::span<const glm::dvec3> seen, LightHistory* history) {
     const LightPlan all =
-        plan_lights(town.camera, town.lights, bounds, {}, {}, memory.spans(), history, seen);
+        plan_lights({.camera = town.camera, .points_world = seen}, town.lights, bounds, {}, memory, history);
     sum += all.error;
     return all;
   };
@@ -240,7 +238,7 @@ std::vector<Measured> measured(const Town& town, const LightPlan& plan, const st
     const bool follows = plan.lights[i].frames == 1;
     const ShadowPlan own =
         make_plan(follows ? town.camera : camera_round(light, town.camera), light, town.bounds(), options);
-    const AliasingStats stats = measure_seen(own, town.camera, lit);
+    const AliasingStats stats = measure(own, {.camera = town.camera, .points_world = lit}, {});
     const double share = static_cast<double>(stats.samples) / static_cast<double>(hits.size());
     const double distance = glm::distance(position_of(light), town.camera.position);
     const double coverage = range_of(light) < distance ? range_of(light) / distance : 1.0;
@@ -258,7 +256,8 @@ int rounded(double side, bool powers) {
 
 void print_quality(const Town& town) {
   const std::vector<glm::dvec3> hits = town.first_hits(192, 108), some = town.first_hits(40, 25);
-  LightStorage memory(town.lights.size(), some.size()), other(town.lights.size(), some.size());
+  std::vector<std::byte> memory(light_memory(town.lights.size(), some.size()),
+                                other(town.lights.size(), some.size()));
   std::printf(
       "%s: error measured at %zu points, over that of sizes by visible points\n  %-10s %8s %8s %8s %8s %8s "
       "%8s\n",
@@ -267,10 +266,9 @@ void print_quality(const Town& town) {
     LightOptions options;
     options.pool_width = options.pool_height = pool;
     options.most_size = kMostSize;
-    const LightPlan by_points =
-        plan_lights(town.camera, town.lights, town.bounds(), {}, options, memory.spans(), nullptr, some);
-    const LightPlan by_boxes =
-        plan_lights(town.camera, town.lights, town.bounds(), {}, options, other.spans());
+    const LightPlan by_points = plan_lights({.camera = town.camera, .points_world = some}, town.lights,
+                                            town.bounds(), options, memory);
+    const LightPlan by_boxes = plan_lights(town.camera, town.lights, town.bounds(), options, other);
     if (by_points.status != PlanStatus::ok) continue;
     // Places of maps, and so texels, are those of the first plan.
     const std::vector<Measured> lights = measured(town, by_points, hits);

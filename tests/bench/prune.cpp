@@ -90,7 +90,7 @@ void draw(Side& side, const Camera& camera, const std::vector<Box>& boxes, const
   frame.aliasing = frame.heat_map = frame.cascade_tint = false;
   frame.prune = side.rules;
   const Clock::time_point begin = Clock::now();
-  const ShadowPlan plan = technique.history ? make_plan(camera, sun, bounds, options, side.history)
+  const ShadowPlan plan = technique.history ? make_plan(camera, sun, bounds, options, &side.history)
                                             : make_plan(camera, sun, bounds, options);
   const Clock::time_point planned = Clock::now();
   const FrameStats stats = side.renderer.draw(plan, camera, side.filter, frame);

@@ -25,7 +25,7 @@ void add_walk(const Walk& walk, int frames, Row& row) {
   for (int frame = 0; frame < frames; ++frame) {
     const Camera camera = walk.camera(frame);
     const ShadowPlan plan =
-        make_plan(camera, DirectionalLight{walk.light}, walk.bounds(), walk.options, history);
+        make_plan(camera, DirectionalLight{walk.light}, walk.bounds(), walk.options, &history);
     if (frame > 0) {
       row.events += history.event_count;
       row.frames += walk.options.cascades;

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "gnomon/extend/warp.hpp"
 #include "gnomon/gnomon.hpp"
 #include "support/seeded_input.hpp"
 #include "warp/plane_error.hpp"

@@ -78,7 +78,7 @@ std::uint64_t walk(const NamedCase& c, int frames, Row& row) {
     const Camera camera = walking(c.camera, frame);
     row.cold.push_back(timed([&] { plan = make_plan(camera, c.light, c.bounds(), options); }));
     if (plan.map_count > 0) checksum += bits_of(plan.map[0].clip_from_world[0][0]);
-    row.warm.push_back(timed([&] { plan = make_plan(camera, c.light, c.bounds(), options, history); }));
+    row.warm.push_back(timed([&] { plan = make_plan(camera, c.light, c.bounds(), options, &history); }));
     if (plan.map_count > 0) checksum += bits_of(plan.map[0].clip_from_world[0][0]);
   }
   return checksum;

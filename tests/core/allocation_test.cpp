@@ -5,7 +5,6 @@
 
 #include "allocations.hpp"
 #include "gnomon/study/technique.hpp"
-#include "support/light_storage.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -14,12 +13,12 @@ namespace {
 
 template <typename T>
 const T& any() noexcept;
-static_assert(noexcept(make_plan(any<Camera>(), any<Light>(), any<SceneBounds>(), any<PlanOptions>())));
-static_assert(noexcept(measure(any<ShadowPlan>(), any<Camera>(), any<SceneBounds>(), any<MeasureGrid>())));
+static_assert(noexcept(make_plan(any<View>(), any<Light>(), any<SceneBounds>(), any<PlanOptions>())));
+static_assert(noexcept(measure(any<ShadowPlan>(), any<View>(), any<SceneBounds>(), any<MeasureOptions>())));
 static_assert(noexcept(measure_point(any<ShadowMap>(), any<Camera>(), any<glm::dvec3>(), any<glm::dvec3>())));
 static_assert(noexcept(measure_points(any<ShadowMap>(), any<Camera>(), {}, {}, {})));
 static_assert(noexcept(measure_perspectives(any<ShadowMap>(), any<Camera>(), {}, {})));
-static_assert(noexcept(choose_technique(any<Camera>(), any<Light>(), any<SceneBounds>(), {}, {}, {},
+static_assert(noexcept(choose_technique(any<View>(), any<Light>(), any<SceneBounds>(), {}, {}, {},
                                         any<CostModel>(), any<PlanOptions>())));
 static_assert(noexcept(describe(any<Omission>())));
 
@@ -62,10 +61,7 @@ TEST(Allocation, choosing_a_technique_allocates_nothing) {
 }
 
 TEST(Allocation, pages_are_planned_measured_and_found_without_the_heap) {
-  std::vector<ShadowMap> levels(kMostPageLevels);
-  std::vector<Page> pages(256);
-  std::vector<std::uint32_t> table(page_table_size(256));
-  std::vector<PagePoint> work(4096);
+  std::vector<std::byte> memory(page_memory(256, 4096));
   std::vector<PageSlot> slots(512);
   std::vector<std::uint32_t> slot_table(page_table_size(512));
   std::vector<KeptPage> kept(256);
@@ -80,9 +76,9 @@ TEST(Allocation, pages_are_planned_measured_and_found_without_the_heap) {
       options.capacity = 256;
       options.share = 0.9;
       const std::uint64_t before = tool::allocation_count();
-      const PagePlan plan = plan_pages(c.camera, DirectionalLight{c.light}, c.bounds(), {points}, {}, options,
-                                       {levels, pages, table, work});
-      const PageStats stats = measure_pages(plan, c.camera, {points});
+      const PagePlan plan = plan_pages({.camera = c.camera, .points_world = points},
+                                       DirectionalLight{c.light}, c.bounds(), options, memory);
+      const PageStats stats = measure(plan, {.camera = c.camera, .points_world = points}, {});
       const KeptPages first = keep_pages(plan, {}, slots, slot_table, kept);
       const KeptPages second = keep_pages(plan, c.casters, slots, slot_table, kept);
       for (const Page& page : plan.pages) opened += page_map(plan, page).width > 0;
@@ -104,11 +100,11 @@ TEST(Allocation, many_lights_are_planned_without_the_heap) {
     for (const glm::dvec3& point : points) lights.push_back({PointLight{point, c.camera.far_depth * unit()}});
     std::vector<LightState> states(lights.size());
     LightHistory history{states, 0, {}};
-    LightStorage memory(lights.size(), points.size());
+    std::vector<std::byte> memory(light_memory(lights.size(), points.size()));
     const std::uint64_t before = tool::allocation_count();
     for (int frame = 0; frame < 2; ++frame) {
       const LightPlan plan =
-          plan_lights(c.camera, lights, c.bounds(), {}, {}, memory.spans(), &history, points);
+          plan_lights({.camera = c.camera, .points_world = points}, lights, c.bounds(), {}, memory, &history);
       for (const LightMaps& maps : plan.lights) (void)describe(maps, {});
       mapped += plan.mapped;
     }

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/study/bias.hpp"
 #include "gnomon/study/log_perspective.hpp"
 #include "support/float_traps.hpp"
 #include "support/seeded_input.hpp"

@@ -6,7 +6,10 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/shape.hpp"
 #include "gnomon/gnomon.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::test {
 namespace {

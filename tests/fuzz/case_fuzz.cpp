@@ -10,13 +10,11 @@ namespace {
 
 /// Every size a power of two, every place inside the pool, every number finite.
 void check_lights(const gnomon::Case& in) {
-  std::vector<gnomon::LightMaps> maps(in.lights.size());
-  std::vector<gnomon::LightWork> work(in.lights.size());
-  std::vector<gnomon::LightPlace> places(gnomon::kMaxMaps * in.lights.size());
-  std::vector<gnomon::LightPoint> points(in.seen.size());
-  const gnomon::LightPlan plan =
-      gnomon::plan_lights(in.camera, in.lights, in.bounds(), in.options, in.light_options,
-                          {maps, work, places, points}, nullptr, in.seen);
+  std::vector<std::byte> memory(gnomon::light_memory(in.lights.size(), in.seen.size()));
+  gnomon::LightOptions options = in.light_options;
+  options.plan = in.options;
+  const gnomon::LightPlan plan = gnomon::plan_lights({.camera = in.camera, .points_world = in.seen},
+                                                     in.lights, in.bounds(), options, memory);
   if (plan.status == gnomon::PlanStatus::invalid_input)
     gnomon::fuzz::require_one_line(gnomon::invalid_input_text(plan.invalid_field));
   for (const gnomon::LightMaps& light : plan.lights) {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fuzz.hpp"
-#include "gnomon/history.hpp"
+#include "gnomon/motion.hpp"
 #include "plan_promises.hpp"
 #include "support/seeded_input.hpp"
 
@@ -154,7 +154,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   use(plan, in);
   PlanHistory history;
   for (int frame = 0; frame < 2; ++frame) {
-    fuzz::check_plan(make_plan(in.camera, in.light, in.bounds(), in.options, history, in.visible),
+    fuzz::check_plan(make_plan({in.camera, in.visible}, in.light, in.bounds(), in.options, &history),
                      in.options);
     require(history.event_count >= 0 && history.event_count <= kMaxMaps, "room for events");
     in.camera.position += in.camera.forward * 0.01;

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "support/property.hpp"
 #include "support/seeded_input.hpp"
 #include "warp/along_view.hpp"

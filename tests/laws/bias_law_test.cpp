@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "gnomon/study/bias.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "gnomon/reuse.hpp"
+#include "gnomon/motion.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -69,7 +69,7 @@ TEST(CadenceLaw, under_random_walks_no_visible_receiver_leaves_a_kept_map) {
     PlanHistory history;
     std::array<ShadowMap, kMaxMaps> before{};
     for (int frame = 0; frame < 20; ++frame) {
-      const ShadowPlan plan = make_plan(c.camera, DirectionalLight{c.light}, c.bounds(), c.options, history);
+      const ShadowPlan plan = make_plan(c.camera, DirectionalLight{c.light}, c.bounds(), c.options, &history);
       require(plan.status != PlanStatus::invalid_input, plan.invalid_field);
       std::array<bool, kMaxMaps> kept{};
       for (const ShadowMap& map : plan.maps()) {

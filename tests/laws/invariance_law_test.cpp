@@ -23,7 +23,7 @@ namespace {
 constexpr double kSame = 1e-6;
 // 16 depths: no sample falls on a border of up to 8 logarithmic cascades, where rounding would choose the
 // map.
-constexpr MeasureGrid kCoarse{12, 12, 16};
+constexpr MeasureOptions kCoarse{12, 12, 16};
 
 bool same_bits(const glm::dmat4& a, const glm::dmat4& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;

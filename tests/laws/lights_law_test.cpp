@@ -10,7 +10,6 @@
 
 #include "gnomon/lights.hpp"
 #include "lights/sizes.hpp"
-#include "support/light_storage.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -25,10 +24,9 @@ struct Scene {
   std::vector<glm::dvec3> points;
   std::vector<LightRequest> lights;
   LightOptions options;
-  PlanOptions plan_options;
 
-  [[nodiscard]] LightPlan plan(LightStorage& memory, LightHistory* history = nullptr) const {
-    return plan_lights(input.camera, lights, input.bounds(), plan_options, options, memory.spans(), history);
+  [[nodiscard]] LightPlan plan(std::span<std::byte> memory, LightHistory* history = nullptr) const {
+    return plan_lights(input.camera, lights, input.bounds(), options, memory, history);
   }
 };
 
@@ -61,7 +59,7 @@ Scene draw_scene(int most_lights) {
   s.options.least_size = 16 << pick(4);
   s.options.most_frames = 1 + pick(9);
   if (chance(0.3)) s.options.enough_m = std::exp2(between(-2.0, 3.0));
-  s.plan_options.filter.texels = pick(4);
+  s.options.plan.filter.texels = pick(4);
   return s;
 }
 
@@ -142,7 +140,7 @@ TEST(LightsLaw, every_light_in_view_has_maps_and_places_never_overlap) {
   for_all(400, [&] {
     Scene scene = draw_scene(60);
     scene.options.texel_budget = static_cast<std::int64_t>(std::exp2(between(16.0, 24.0)));
-    LightStorage memory(scene.lights.size());
+    std::vector<std::byte> memory(light_memory(scene.lights.size(), 0));
     const LightPlan plan = scene.plan(memory);
     if (small_budget(plan)) return;
     require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
@@ -162,7 +160,7 @@ TEST(LightsLaw, every_light_in_view_has_maps_and_places_never_overlap) {
       }
       ++lit;
       require(maps.share >= 0.0 && maps.share <= 1.0 && std::isfinite(maps.m), "share", maps.share, maps.m);
-      const PlanOptions options = light_options(scene.plan_options, maps);
+      const PlanOptions options = light_options(scene.options, maps);
       const ShadowPlan own = make_plan(scene.input.camera, light, scene.input.bounds(), options);
       require(own.status != PlanStatus::invalid_input, "own plan refused", own.invalid_field);
       require(maps.frames > 1 || own.map_count <= maps.map_count, "more maps than places", i, own.map_count,
@@ -205,7 +203,7 @@ TEST(LightsLaw, equal_input_gives_equal_plans_at_any_scale_of_the_world) {
         point->range *= scale;
       }
     }
-    LightStorage memory(scene.lights.size()), other(scene.lights.size());
+    std::vector<std::byte> memory(light_memory(scene.lights.size()), other(scene.lights.size()));
     const LightPlan a = scene.plan(memory), b = scaled.plan(other);
     require(a.status == b.status && a.texels == b.texels && a.lights.size() == b.lights.size(), "texels",
             a.texels, b.texels);
@@ -226,7 +224,7 @@ TEST(LightsLaw, more_texels_never_raise_the_error) {
   for_all(200, [&] {
     Scene scene = draw_scene(60);
     double last = std::numeric_limits<double>::infinity();
-    LightStorage memory(scene.lights.size());
+    std::vector<std::byte> memory(light_memory(scene.lights.size(), 0));
     for (double budget = 1 << 14; budget < 1 << 24; budget *= between(1.02, 1.6)) {
       scene.options.texel_budget = static_cast<std::int64_t>(budget);
       const LightPlan plan = scene.plan(memory);
@@ -251,7 +249,7 @@ TEST(LightsLaw, budgets_of_pages_and_milliseconds_are_kept_and_no_light_starves)
       scene.options.page_budget = 1 + static_cast<int>(std::exp2(between(0.0, 12.0)));
     }
     if (!pages || chance(0.3)) scene.options.millisecond_budget = std::exp2(between(-6.0, 5.0));
-    LightStorage memory(scene.lights.size());
+    std::vector<std::byte> memory(light_memory(scene.lights.size(), 0));
     const LightPlan plan = scene.plan(memory);
     if (small_budget(plan)) return;
     require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
@@ -295,7 +293,7 @@ TEST(LightsLaw, more_pages_or_milliseconds_never_raise_the_error) {
     const bool pages = chance(0.4);
     scene.options.page_texels = 16 << pick(4);
     double last = std::numeric_limits<double>::infinity(), first = 0.0;
-    LightStorage memory(scene.lights.size());
+    std::vector<std::byte> memory(light_memory(scene.lights.size(), 0));
     for (double budget = pages ? 16.0 : 0.02; budget < (pages ? 5e4 : 300.0); budget *= between(1.02, 1.6)) {
       if (pages)
         scene.options.page_budget = static_cast<int>(budget);
@@ -423,7 +421,7 @@ TEST(LightsLaw, over_a_flight_kept_maps_stay_and_none_is_older_than_its_interval
     Scene scene = draw_scene(60);
     std::vector<LightState> states(scene.lights.size());
     LightHistory history{states, 0, {}};
-    LightStorage memory(scene.lights.size());
+    std::vector<std::byte> memory(light_memory(scene.lights.size(), 0));
     std::vector<LightMaps> last;
     std::vector<int> age(scene.lights.size(), 0);
     const glm::dvec3 step =
@@ -467,7 +465,7 @@ TEST(LightsLaw, states_that_were_copied_share_no_place) {
     const Scene scene = draw_scene(40);
     std::vector<LightState> states(scene.lights.size());
     LightHistory history{states, 0, {}};
-    LightStorage memory(scene.lights.size());
+    std::vector<std::byte> memory(light_memory(scene.lights.size(), 0));
     const LightPlan first = scene.plan(memory, &history);
     if (first.status != PlanStatus::ok) return;
     std::fill(states.begin(), states.end(), states[states.size() / 2]);
@@ -480,8 +478,9 @@ struct Ground {
   std::vector<Box> boxes{{{-50, -1, -50}, {50, 0, 50}}, {{-1, 0, -1}, {1, 3, 1}}};
   Camera camera = perspective_camera({0, 5, 20}, {0, -0.2, -1}, {0, 1, 0}, 1.0, 1.5, 0.1, 100.0, 640, 480);
   [[nodiscard]] LightPlan plan(const std::vector<LightRequest>& lights, const LightOptions& options,
-                               LightStorage& memory, const std::vector<glm::dvec3>& points = {}) const {
-    return plan_lights(camera, lights, {boxes, boxes}, {}, options, memory.spans(), nullptr, points);
+                               std::span<std::byte> memory,
+                               const std::vector<glm::dvec3>& points = {}) const {
+    return plan_lights({.camera = camera, .points_world = points}, lights, {boxes, boxes}, options, memory);
   }
 };
 
@@ -489,7 +488,7 @@ TEST(Lights, broken_input_comes_back_as_a_status) {
   const Ground ground;
   const PointLight good{{0, 5, 0}, 20.0};
   const auto status = [&](std::vector<LightRequest> lights, LightOptions options = {}, std::size_t room = 4) {
-    LightStorage memory(room, room);
+    std::vector<std::byte> memory(light_memory(room, room));
     return ground.plan(lights, options, memory);
   };
   EXPECT_EQ(status({}).status, PlanStatus::nothing_visible);
@@ -502,7 +501,7 @@ TEST(Lights, broken_input_comes_back_as_a_status) {
   EXPECT_EQ(status({{good, kNan}}).invalid_field, "light.weight");
   EXPECT_EQ(status({{good, -1.0}}).invalid_field, "light.weight");
   EXPECT_EQ(status(std::vector<LightRequest>(10000, {good}), {}, 10000).invalid_field, "lights");
-  EXPECT_EQ(status(std::vector<LightRequest>(10, {good})).invalid_field, "memory.maps");
+  EXPECT_EQ(status(std::vector<LightRequest>(10, {good})).invalid_field, "memory");
   const auto with = [](auto&& change) {
     LightOptions options;
     change(options);
@@ -564,13 +563,13 @@ TEST(Lights, a_light_without_casters_or_receivers_is_listed_with_the_reason) {
   const std::vector<Box> receivers{ground.boxes[0]}, casters{ground.boxes[1]};
   const std::vector<LightRequest> lights{
       {PointLight{{0, 5, 0}, 20.0}}, {PointLight{{30, 2, 0}, 4.0}}, {PointLight{{0, 5, 40}, 10.0}}};
-  LightStorage memory(3);
-  const LightPlan plan = plan_lights(ground.camera, lights, {casters, receivers}, {}, {}, memory.spans());
+  std::vector<std::byte> memory(light_memory(3, 0));
+  const LightPlan plan = plan_lights(ground.camera, lights, {casters, receivers}, {}, memory);
   EXPECT_EQ(plan.lights[0].outcome, LightOutcome::mapped);
   EXPECT_EQ(plan.lights[1].outcome, LightOutcome::without_receiver);
   EXPECT_EQ(plan.lights[2].outcome, LightOutcome::without_receiver);
   const std::vector<LightRequest> far{{PointLight{{8, 2, 0}, 4.0}}};
-  const LightPlan dark = plan_lights(ground.camera, far, {casters, receivers}, {}, {}, memory.spans());
+  const LightPlan dark = plan_lights(ground.camera, far, {casters, receivers}, {}, memory);
   EXPECT_EQ(dark.status, PlanStatus::no_caster);
   EXPECT_EQ(dark.lights[0].outcome, LightOutcome::without_caster);
   EXPECT_STREQ(describe(dark.lights[0], {}).why.data(), "no caster lies within the light's range and cone");
@@ -593,7 +592,7 @@ TEST(Lights, visible_points_decide_the_share) {
   const Ground ground;
   std::vector<glm::dvec3> points;
   for (int i = 0; i < 100; ++i) points.emplace_back(-5.0 + 0.1 * i, 0.0, 0.0);
-  LightStorage memory(1, points.size());
+  std::vector<std::byte> memory(light_memory(1, points.size()));
   const LightPlan plan =
       ground.plan({{PointLight{{0, 1, 0}, std::sqrt(1.0 + 2.05 * 2.05)}}}, {}, memory, points);
   EXPECT_NEAR(plan.lights[0].share, 0.41, 1e-6);
@@ -608,7 +607,7 @@ TEST(Lights, the_estimated_error_is_near_the_measured_one) {
   options.most_size = 512;
   for (const Light& light : {Light{SpotLight{{3, 8, 2}, {0, -1, 0}, 0.6, 12.0}},
                              Light{PointLight{{-4, 3, 0}, 9.0}}, Light{DirectionalLight{{0.3, -1.0, 0.2}}}}) {
-    LightStorage memory(1);
+    std::vector<std::byte> memory(light_memory(1, 0));
     const LightPlan plan = ground.plan({{light}}, options, memory);
     ASSERT_EQ(plan.mapped, 1);
     PlanOptions own = light_options({}, plan.lights[0]);

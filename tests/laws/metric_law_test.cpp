@@ -202,7 +202,7 @@ TEST(MetricLaw, percentiles_of_a_grid_are_those_of_sorting_its_samples) {
     const ShadowPlan plan = c.plan();
     if (plan.map_count == 0) return;
     RC_LOG() << c;
-    const MeasureGrid grid{7, 6, 8};
+    const MeasureOptions grid{7, 6, 8};
     const auto depth_at = [&](int k) {
       return c.camera.near_depth *
              std::pow(c.camera.far_depth / c.camera.near_depth, (k + 0.5) / grid.depths);

@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "gnomon/extend/warp.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 #include "support/walk.hpp"
@@ -85,7 +86,7 @@ void fly(const Walk& w, const Light& light, int frames, Use&& use) {
   PlanHistory history;
   ShadowPlan before;
   for (int frame = 0; frame < frames; ++frame) {
-    const ShadowPlan now = make_plan(w.camera(frame), light, w.bounds(), w.options, history);
+    const ShadowPlan now = make_plan(w.camera(frame), light, w.bounds(), w.options, &history);
     // A spot may light nothing in view.
     const bool dark = now.status == PlanStatus::nothing_visible && std::holds_alternative<SpotLight>(light);
     require(now.status == PlanStatus::ok || dark, "status", to_string(now.status), "frame", frame);
@@ -241,14 +242,14 @@ TEST(MotionLaw, edges_come_to_rest_where_a_plan_without_history_has_them) {
     w.options.split.scheme = SplitScheme::optimal;
     PlanHistory history;
     const auto plan = [&](const Camera& camera) {
-      const ShadowPlan result = make_plan(camera, DirectionalLight{w.light}, w.bounds(), w.options, history);
+      const ShadowPlan result = make_plan(camera, DirectionalLight{w.light}, w.bounds(), w.options, &history);
       require(result.status == PlanStatus::ok, "status", to_string(result.status));
     };
     for (int frame = 0; frame < kMoving; ++frame) plan(w.camera(frame));
     const std::vector<double> on_the_way(history.edge.begin(), history.edge.begin() + history.edge_count);
     for (int frame = 0; frame < kLonger; ++frame) plan(w.camera(kMoving));
     PlanHistory afresh;
-    (void)make_plan(w.camera(kMoving), DirectionalLight{w.light}, w.bounds(), w.options, afresh);
+    (void)make_plan(w.camera(kMoving), DirectionalLight{w.light}, w.bounds(), w.options, &afresh);
     require(history.edge_count == afresh.edge_count, "edges", history.edge_count, afresh.edge_count);
     for (std::size_t i = 0; i < on_the_way.size(); ++i) {
       const double found = afresh.edge[i];
@@ -311,7 +312,7 @@ TEST(MotionLaw, a_search_from_the_last_result_finds_what_one_from_nothing_finds_
       PlanHistory history;
       for (int frame = 0; frame < kFrames; ++frame) {
         followed = {};
-        (void)make_plan(w.camera(frame), DirectionalLight{w.light}, w.bounds(), w.options, history);
+        (void)make_plan(w.camera(frame), DirectionalLight{w.light}, w.bounds(), w.options, &history);
         searches += followed.searches;
         kept += followed.kept;
         require(followed.over_none <= 1.0 + kRounding, "over no warp", followed.over_none, "frame", frame);
@@ -344,13 +345,13 @@ TEST(MotionLaw, a_result_is_kept_while_the_view_goes_on_and_not_after_a_jump) {
     PlanHistory history;
     for (int frame = 0; frame < frames; ++frame) {
       followed = {};
-      (void)make_plan(w.camera(frame), DirectionalLight{w.light}, w.bounds(), w.options, history);
+      (void)make_plan(w.camera(frame), DirectionalLight{w.light}, w.bounds(), w.options, &history);
       kept += followed.kept;
     }
     const double turned = 1.0;  // radians
     w.turn += turned / frames;
     followed = {};
-    (void)make_plan(w.camera(frames), DirectionalLight{w.light}, w.bounds(), w.options, history);
+    (void)make_plan(w.camera(frames), DirectionalLight{w.light}, w.bounds(), w.options, &history);
     require(followed.kept == 0, "kept", followed.kept, "of", followed.searches, "in frame", frames);
   });
   EXPECT_GT(kept, of_all_draws(50));
@@ -367,13 +368,13 @@ TEST(MotionLaw, a_leap_ends_at_maps_as_good_as_those_without_history) {
     const int frames = 6 + pick(30);
     PlanHistory history;
     for (int frame = 0; frame < frames; ++frame)
-      (void)make_plan(w.camera(frame), DirectionalLight{w.light}, w.bounds(), w.options, history);
+      (void)make_plan(w.camera(frame), DirectionalLight{w.light}, w.bounds(), w.options, &history);
     w.turn *= kLeap;
     w.velocity *= kLeap;
     w.start += w.velocity;
     const Camera camera = w.camera(frames);
     const ShadowPlan followed_plan =
-        make_plan(camera, DirectionalLight{w.light}, w.bounds(), w.options, history);
+        make_plan(camera, DirectionalLight{w.light}, w.bounds(), w.options, &history);
     const ShadowPlan afresh = make_plan(camera, DirectionalLight{w.light}, w.bounds(), w.options);
     ratio.push_back(w.error_of(followed_plan, camera) / w.error_of(afresh, camera));
   });
@@ -394,7 +395,7 @@ TEST(MotionLaw, a_search_follows_the_last_result_in_any_unit) {
       for (std::size_t i = 0; i < walks.size(); ++i) {
         followed = {};
         (void)make_plan(walks[i].camera(frame), DirectionalLight{w.light}, walks[i].bounds(), w.options,
-                        history[i]);
+                        &history[i]);
         of[i] = 100 * followed.kept + static_cast<int>(followed.ratio.size());
       }
       require(of[0] == of[1] && of[0] == of[2], "kept and followed", of[0], of[1], of[2], "frame", frame,
@@ -410,11 +411,11 @@ TEST(MotionLaw, a_broken_input_leaves_the_history_as_it_was) {
   const Box floor{{-100, -1, -100}, {100, 0, 100}};
   const std::vector<Box> boxes{floor};
   PlanHistory history;
-  ASSERT_EQ(make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {boxes, boxes}, {}, history).status,
+  ASSERT_EQ(make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {boxes, boxes}, {}, &history).status,
             PlanStatus::ok);
   EXPECT_EQ(history.frame, 1);
   camera.near_depth = -1.0;
-  EXPECT_EQ(make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {boxes, boxes}, {}, history).status,
+  EXPECT_EQ(make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {boxes, boxes}, {}, &history).status,
             PlanStatus::invalid_input);
   EXPECT_EQ(history.frame, 1);
   EXPECT_EQ(history.event_count, 0);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "gnomon/pages.hpp"
-#include "base/page_storage.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -24,10 +23,10 @@ struct Scene {
   Light light;
   std::vector<glm::dvec3> points;
   PageOptions options;
-  PlanOptions plan_options;
 
-  [[nodiscard]] PagePlan plan(PageStorage& memory) const {
-    return plan_pages(input.camera, light, input.bounds(), {points}, plan_options, options, memory.spans());
+  [[nodiscard]] PagePlan plan(std::span<std::byte> memory) const {
+    return plan_pages({.camera = input.camera, .points_world = points}, light, input.bounds(), options,
+                      memory);
   }
 };
 
@@ -54,8 +53,8 @@ Scene draw_scene() {
   s.options.levels_per_octave = 1 + pick(4);
   s.options.trials = 1 + pick(3);
   s.options.target_m = std::exp2(between(-2.0, 4.0));
-  s.plan_options.fit = chance(0.4) ? Fit::stable : Fit::tight;
-  s.plan_options.filter.texels = pick(5);
+  s.options.plan.fit = chance(0.4) ? Fit::stable : Fit::tight;
+  s.options.plan.filter.texels = pick(5);
   return s;
 }
 
@@ -76,7 +75,7 @@ int over_scenes(int cases, Check&& check) {
   for_all(cases, [&] {
     const Scene scene = draw_scene();
     if (scene.points.empty()) return;
-    PageStorage memory(kCapacity, scene.points.size());
+    std::vector<std::byte> memory(page_memory(kCapacity, scene.points.size()));
     const PagePlan plan = scene.plan(memory);
     require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
     if (plan.status != PlanStatus::ok) return;
@@ -150,7 +149,7 @@ TEST(PagesLaw, larger_targets_need_no_more_pages) {
     other.options.target_m = 0.25;
     std::size_t before = static_cast<std::size_t>(kCapacity) + 1;
     for (int i = 0; i < 12; ++i) {
-      PageStorage memory(kCapacity, scene.points.size());
+      std::vector<std::byte> memory(page_memory(kCapacity, scene.points.size()));
       const PagePlan plan = other.plan(memory);
       require(plan.pages.size() <= before, "target", other.options.target_m, "pages", plan.pages.size(),
               "before", before);
@@ -168,7 +167,7 @@ TEST(PagesLaw, the_pool_is_never_exceeded_and_no_point_loses_its_page) {
     small.options.capacity = 24 + pick(40);
     const auto policies = all_page_policies();
     small.options.policy = policies[static_cast<std::size_t>(pick(static_cast<int>(policies.size())))];
-    PageStorage memory(small.options.capacity, scene.points.size());
+    std::vector<std::byte> memory(page_memory(small.options.capacity, scene.points.size()));
     const PagePlan plan = small.plan(memory);
     const bool directional = std::holds_alternative<DirectionalLight>(scene.light);
     // A policy may leave out what lies on the rim of a cone, and that may be all.
@@ -190,7 +189,7 @@ TEST(PagesLaw, the_pool_is_never_exceeded_and_no_point_loses_its_page) {
 
 TEST(PagesLaw, a_page_as_a_map_shows_its_own_texels_and_its_border_holds_the_kernel) {
   const int checked = over_scenes(200, [](const Scene& scene, const PagePlan& plan) {
-    require(plan.border_texels >= scene.plan_options.filter.texels, "border", plan.border_texels);
+    require(plan.border_texels >= scene.options.plan.filter.texels, "border", plan.border_texels);
     for (const glm::dvec3& point : scene.points) {
       const int index = page_serving(plan, point);
       if (index < 0) continue;
@@ -251,7 +250,7 @@ TEST(PagesLaw, culling_keeps_every_caster_between_the_light_and_a_served_point) 
 
 TEST(PagesLaw, the_same_input_gives_the_same_bits) {
   const int checked = over_scenes(100, [](const Scene& scene, const PagePlan& plan) {
-    PageStorage memory(kCapacity, scene.points.size());
+    std::vector<std::byte> memory(page_memory(kCapacity, scene.points.size()));
     std::fill(memory.table.begin(), memory.table.end(), 7u);  // what was there before plays no part
     const PagePlan again = scene.plan(memory);
     require(again.pages.size() == plan.pages.size() && again.levels.size() == plan.levels.size(), "sizes");
@@ -287,7 +286,7 @@ TEST(PagesLaw, scaling_the_world_by_a_power_of_two_changes_no_page) {
     }
 
     for (glm::dvec3& point : scaled.points) point *= scale;
-    PageStorage memory(kCapacity, scene.points.size());
+    std::vector<std::byte> memory(page_memory(kCapacity, scene.points.size()));
     const PagePlan other = scaled.plan(memory);
     require(other.status == plan.status && other.pages.size() == plan.pages.size(), "pages",
             plan.pages.size(), "scaled", other.pages.size());
@@ -302,12 +301,12 @@ TEST(PagesLaw, scaling_the_world_by_a_power_of_two_changes_no_page) {
 TEST(PagesLaw, stable_levels_keep_their_texels_in_the_world_while_the_camera_moves) {
   int pages_shared = 0;
   over_scenes(150, [&](const Scene& scene, const PagePlan& plan) {
-    if (scene.plan_options.fit != Fit::stable || !std::holds_alternative<DirectionalLight>(scene.light))
+    if (scene.options.plan.fit != Fit::stable || !std::holds_alternative<DirectionalLight>(scene.light))
       return;
     Scene moved = scene;
     const double step = 0.01 * (scene.input.camera.far_depth - scene.input.camera.near_depth);
     moved.input.camera.position += glm::dvec3(step, 0.3 * step, -0.5 * step);
-    PageStorage memory(kCapacity, scene.points.size());
+    std::vector<std::byte> memory(page_memory(kCapacity, scene.points.size()));
     const PagePlan other = moved.plan(memory);
     for (const ShadowMap& a : plan.levels) {
       for (const ShadowMap& b : other.levels) {

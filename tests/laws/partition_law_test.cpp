@@ -45,7 +45,7 @@ TEST(PartitionLaw, the_first_map_whose_planes_hold_a_visible_receiver_point_show
     const Case c = draw_divided();
     RC_LOG() << c << to_string(c.options.split.partition) << " slices " << c.options.split.face_slices;
     const ShadowPlan plan = c.plan();
-    if (plan.status != PlanStatus::ok || !plan.select_by_map) return;
+    if (plan.status != PlanStatus::ok || plan.selection == MapSelection::view_depth) return;
     ++divided;
     Random random(7);
     for (const glm::dvec3& point : visible_points(c, random, 6, 12)) {
@@ -70,7 +70,7 @@ TEST(PartitionLaw, a_caster_between_a_receiver_and_the_light_is_in_the_list_of_t
     RC_LOG() << c << to_string(c.options.split.partition);
     const ShadowPlan plan = c.plan();
     // What is not divided is held by the laws of cascades.
-    if (!plan.select_by_map) return;
+    if (plan.selection == MapSelection::view_depth) return;
     Random random(11);
     std::vector<std::uint32_t> list(c.casters.size());
     for (const glm::dvec3& point : visible_points(c, random, 4, 6)) {
@@ -98,11 +98,13 @@ TEST(PartitionLaw, undivided_receivers_are_reported_and_a_stable_fit_keeps_its_c
     RC_LOG() << c << to_string(c.options.split.partition);
     const ShadowPlan plan = c.plan();
     if (plan.status == PlanStatus::nothing_visible) return;
-    require(plan.select_by_map != told(plan, OmissionKind::partition_without_gain), "divided without a word");
+    const bool divided = plan.selection != MapSelection::view_depth;
+    require(divided != told(plan, OmissionKind::partition_without_gain), "divided without a word");
     c.options.fit = Fit::stable;
     const ShadowPlan stable = c.plan();
-    require(!stable.select_by_map && told(stable, OmissionKind::partition_in_stable_fit),
-            "stable but divided");
+    require(
+        stable.selection == MapSelection::view_depth && told(stable, OmissionKind::partition_in_stable_fit),
+        "stable but divided");
     c.options.split.partition = Partition::view_depth;
     const ShadowPlan cascades = c.plan();
     require(cascades.map_count == stable.map_count, "maps", cascades.map_count, stable.map_count);
@@ -124,7 +126,7 @@ constexpr double kJudged = 1.15;
 TEST(PartitionLaw, no_partition_makes_its_objective_worse_than_one_uniform_map_when_measured) {
   // A body that shows in a few rays of the first grid may hide its worst corner from it: only what the second
   // grid shows, too, counts against a partition.
-  constexpr MeasureGrid kGrid{20, 20, 32}, kFine{100, 100, 100};
+  constexpr MeasureOptions kGrid{20, 20, 32}, kFine{100, 100, 100};
   constexpr std::uint64_t kEnough = 400;
   int divided = 0;
   for_all(600, [&] {
@@ -148,9 +150,9 @@ TEST(PartitionLaw, no_partition_makes_its_objective_worse_than_one_uniform_map_w
       c.options.split.partition = partition;
       RC_LOG() << c << to_string(partition);
       const ShadowPlan plan = c.plan();
-      if (!plan.select_by_map) continue;
+      if (plan.selection == MapSelection::view_depth) continue;
       ++divided;
-      const auto measured_by = [&](const ShadowPlan& p, const MeasureGrid& grid) {
+      const auto measured_by = [&](const ShadowPlan& p, const MeasureOptions& grid) {
         return measured(measure(p, c.camera, c.bounds(), grid), c.options.warp.objective);
       };
       double after = measured_by(plan, kGrid), before = measured(without, c.options.warp.objective);
@@ -166,7 +168,7 @@ TEST(PartitionLaw, no_partition_makes_its_objective_worse_than_one_uniform_map_w
 }
 
 TEST(PartitionLaw, slices_of_the_frustums_faces_make_the_objective_no_worse_when_measured) {
-  constexpr MeasureGrid kGrid{40, 40, 64}, kFine{100, 100, 200};
+  constexpr MeasureOptions kGrid{40, 40, 64}, kFine{100, 100, 200};
   constexpr std::uint64_t kEnough = 400;
   int more = 0;
   double ratios = 0.0;
@@ -190,7 +192,7 @@ TEST(PartitionLaw, slices_of_the_frustums_faces_make_the_objective_no_worse_when
     require(plan.map_count <= kMaxMaps, "maps", plan.map_count);
     const AliasingStats without = measure(before, c.camera, c.bounds(), kGrid);
     if (without.samples < kEnough) return;
-    const auto measured_by = [&](const ShadowPlan& p, const MeasureGrid& grid) {
+    const auto measured_by = [&](const ShadowPlan& p, const MeasureOptions& grid) {
       return measured(measure(p, c.camera, c.bounds(), grid), c.options.warp.objective);
     };
     double one = measured(without, c.options.warp.objective), many = measured_by(plan, kGrid);

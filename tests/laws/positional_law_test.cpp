@@ -126,7 +126,7 @@ bool lit(const LightCase& c, const glm::dvec3& p) {
 
 /// Points of a grid over image and depths that the single receiver and the light hold. A map shows more than
 /// the cone that it was fitted to, and what is dark there counts for no warp.
-std::vector<glm::dvec3> lit_points(const LightCase& c, const MeasureGrid& grid) {
+std::vector<glm::dvec3> lit_points(const LightCase& c, const MeasureOptions& grid) {
   const Camera& camera = c.scene.camera;
   const Box& receiver = c.scene.receivers.front();
   std::vector<glm::dvec3> points;
@@ -359,7 +359,7 @@ void have_sound_numbers(LightCase (*draw)()) {
     const LightCase c = draw();
     RC_LOG() << c;
     const ShadowPlan plan = c.plan();
-    require(plan.select_by_map, "selection");
+    require(plan.selection != MapSelection::view_depth, "selection");
     require(std::abs(glm::length(plan.light_direction) - 1.0) < 1e-9, "direction");
     for (const ShadowMap& map : plan.maps()) {
       require(all_finite(map.clip_from_world), "clip_from_world");
@@ -420,16 +420,16 @@ TEST(PositionalLaw, a_warp_never_makes_its_map_need_more_storage) {
         constexpr std::uint64_t kEnough = 100;
         if (with.map_count > 1 || without.map_count > 1) continue;
         const std::vector<glm::dvec3> points = lit_points(c, {24, 24, 32});
-        const AliasingStats m = measure_seen(with, c.scene.camera, points);
-        const AliasingStats n = measure_seen(without, c.scene.camera, points);
+        const AliasingStats m = measure(with, {.camera = c.scene.camera, .points_world = points}, {});
+        const AliasingStats n = measure(without, {.camera = c.scene.camera, .points_world = points}, {});
         if (m.samples < kEnough || m.samples != n.samples) continue;
         ++compared;
         double after = m.storage, before = n.storage;
         // Few rays of the grid may miss the worst corner of the map without a warp.
         if (!(after <= before * kSampled)) {
           const std::vector<glm::dvec3> fine = lit_points(c, {100, 100, 100});
-          after = measure_seen(with, c.scene.camera, fine).storage;
-          before = measure_seen(without, c.scene.camera, fine).storage;
+          after = measure(with, {.camera = c.scene.camera, .points_world = fine}, {}).storage;
+          before = measure(without, {.camera = c.scene.camera, .points_world = fine}, {}).storage;
         }
         require(after <= before * kSampled, "face", a.cascade, "storage", after, "above", before);
       }
@@ -462,8 +462,8 @@ TEST(PositionalLaw, a_measured_warp_is_not_above_the_unwarped_map_by_more_than_s
     for (int i = 0; i < with.map_count; ++i) {
       if (with.map_count > 1 || without.map_count > 1) continue;
       const std::vector<glm::dvec3> points = lit_points(c, {16, 16, 32});
-      const AliasingStats a = measure_seen(with, c.scene.camera, points);
-      const AliasingStats b = measure_seen(without, c.scene.camera, points);
+      const AliasingStats a = measure(with, {.camera = c.scene.camera, .points_world = points}, {});
+      const AliasingStats b = measure(without, {.camera = c.scene.camera, .points_world = points}, {});
       if (a.samples < 50 || a.samples != b.samples) continue;
       ++compared;
       double after = a.max, before = b.max;
@@ -471,8 +471,8 @@ TEST(PositionalLaw, a_measured_warp_is_not_above_the_unwarped_map_by_more_than_s
       // map without a warp loses there: only what a dense grid shows counts against a warp.
       if (!(after <= before * kSampling)) {
         const std::vector<glm::dvec3> fine = lit_points(c, {200, 200, 200});
-        after = measure_seen(with, c.scene.camera, fine).max;
-        before = measure_seen(without, c.scene.camera, fine).max;
+        after = measure(with, {.camera = c.scene.camera, .points_world = fine}, {}).max;
+        before = measure(without, {.camera = c.scene.camera, .points_world = fine}, {}).max;
       }
       require(after <= before * kSampling, "map", i, "max", after, "above", before, "samples", a.samples);
     }

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/extend/body.hpp"
 #include "support/finite.hpp"
 #include "support/seeded_input.hpp"
 
@@ -25,9 +26,9 @@ using test::SeededInput;
 
 // Plans judge at some points or vertices, and the error is measured at others.
 constexpr double kJudged = 1.15;
-constexpr MeasureGrid kGrid{16, 16, 24};
+constexpr MeasureOptions kGrid{16, 16, 24};
 // Few rays may miss the worst corner of the maps without a warp: a failure must show in more, too.
-constexpr MeasureGrid kFine{48, 48, 72};
+constexpr MeasureOptions kFine{48, 48, 72};
 // Fewer samples tell nothing of a 95th percentile.
 constexpr std::uint64_t kEnough = 300;
 

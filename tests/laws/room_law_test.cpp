@@ -8,6 +8,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "gnomon/extend/body.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -252,7 +253,8 @@ TEST(RoomLaw, at_the_separating_plane_both_maps_are_as_dense) {
     c.options.split.partition = Partition::separating_plane;
     RC_LOG() << c;
     const ShadowPlan parts = c.plan();
-    if (!parts.select_by_map || parts.map_count != 2 || !(parts.map[0].kappa > 0.0)) return;
+    if (parts.selection == MapSelection::view_depth || parts.map_count != 2 || !(parts.map[0].kappa > 0.0))
+      return;
     Polytope body = frustum_slice(c.camera, camera_axes(c.camera), parts.map[0].depth_begin,
                                   std::max(parts.map[0].depth_end, parts.map[1].depth_end));
     clip(body, Box{c.receivers[0].min - c.camera.position, c.receivers[0].max - c.camera.position});

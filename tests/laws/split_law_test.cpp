@@ -16,13 +16,13 @@ namespace {
 
 // Depths so close that a slice's nearest sample is within 4 % of where it begins, at the largest depth ratio
 // drawn.
-constexpr MeasureGrid kGrid{12, 12, 256};
+constexpr MeasureOptions kGrid{12, 12, 256};
 // Rows and columns so close that none misses a thin body's part in a slice: for where the coarse grid does.
-constexpr MeasureGrid kDense{48, 48, 512};
+constexpr MeasureOptions kDense{48, 48, 512};
 
 /// The objective as it is measured: texels add up over the maps, the worst texel is the worst map's. 0 where
 /// what is in view is too small for the samples to tell.
-double measured(Case& c, SplitScheme scheme, const MeasureGrid& grid) {
+double measured(Case& c, SplitScheme scheme, const MeasureOptions& grid) {
   constexpr std::uint64_t kEnough = 1000;
   c.options.split.scheme = scheme;
   const Objective objective = c.options.warp.objective;

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -61,7 +63,7 @@ constexpr double kJudgedAtPercentile = 1.25;
 TEST(WarpLaw, no_warp_that_may_be_dropped_makes_its_objective_worse_than_no_warp_when_measured) {
   // A body that shows in a few rays of the first grid may hide its worst corner from it: only what the second
   // grid shows, too, counts against a warp.
-  constexpr MeasureGrid kGrid{20, 20, 32}, kFine{100, 100, 100};
+  constexpr MeasureOptions kGrid{20, 20, 32}, kFine{100, 100, 100};
   constexpr std::uint64_t kEnough = 400;
   std::uint64_t warped = 0;
   std::array<double, 3> worst{};
@@ -79,7 +81,7 @@ TEST(WarpLaw, no_warp_that_may_be_dropped_makes_its_objective_worse_than_no_warp
       const ShadowPlan plan = c.plan();
       if (plan.map_count == 0 || plan.map[0].kappa == 0.0) continue;
       ++warped;
-      const auto measured_by = [&](const ShadowPlan& p, const MeasureGrid& grid) {
+      const auto measured_by = [&](const ShadowPlan& p, const MeasureOptions& grid) {
         return measured(measure(p, c.camera, c.bounds(), grid), c.options.warp.objective);
       };
       double after = measured_by(plan, kGrid), before = measured(without, c.options.warp.objective);

@@ -11,13 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "base/page_storage.hpp"
-#include "gnomon/jitter.hpp"
+#include "gnomon/motion.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/error.hpp"
 #include "gnomon/render/page_filter.hpp"
 #include "gnomon/render/renderer.hpp"
-#include "support/light_storage.hpp"
+#include "gnomon/study/bias.hpp"
 #include "test_scene.hpp"
 
 namespace gnomon::render {
@@ -147,7 +146,7 @@ class Hashes {
           options.resolution.max_size = 256;
           set_margin(settings, options);
           const std::vector<Box> boxes = this->boxes();
-          const ShadowPlan plan = make_plan(camera_, light, {boxes, boxes}, options, {}, points);
+          const ShadowPlan plan = make_plan({.camera = camera_, .points_world = points}, light, {boxes, boxes}, options);
           renderer_.draw(plan, camera_, renderer_.prepare(settings), quiet());
           print(name, renderer_);
         }
@@ -289,17 +288,16 @@ class Hashes {
                   const FrameOptions& options, const Light& light) {
     std::vector<glm::dvec3> points;
     for (int i = 0; i < 4096; ++i) points.emplace_back(-8.0 + 0.25 * (i % 64), 0.0, -8.0 + 0.25 * (i / 64));
-    PageStorage memory{1024, 1 << 14};
+    std::vector<std::byte> memory(page_memory(1024, 1 << 14));
     PageOptions pages;
     pages.policy = &policy;
     pages.page_texels = 64;
     pages.target_m = 2.0;
-    PlanOptions of_plan;
     const FilterSettings settings = settings_for_pages(filter);
-    set_margin(settings, of_plan);
+    set_margin(settings, pages.plan);
     const std::vector<Box> boxes = this->boxes();
     const PagePlan plan =
-        plan_pages(camera_, light, {boxes, boxes}, {points}, of_plan, pages, memory.spans());
+        plan_pages({.camera = camera_, .points_world = points}, light, {boxes, boxes}, pages, memory);
     renderer.draw(plan, camera_, renderer.prepare(settings, Source::pages), options);
     print(name, renderer);
     std::printf("%s pages %zu\n", name.c_str(), plan.pages.size());
@@ -334,24 +332,22 @@ class Hashes {
     const std::vector<LightRequest> requests{{kSunLight},
                                              {SpotLight{{-4, 6, 4}, {0.6, -1, -0.5}, 0.6, 20.0}},
                                              {PointLight{{3, 3, 2}, 9.0}}};
-    test::LightStorage memory{requests.size()};
+    std::vector<std::byte> memory(light_memory(requests.size(), 0));
     std::vector<LightState> states(requests.size());
     LightHistory history{states, 0, {}};
     LightOptions pool;
     pool.pool_width = 1024;
     pool.pool_height = 512;
     pool.most_size = 256;
-    PlanOptions of_plan;
-    set_margin(filter, of_plan);
+    set_margin(filter, pool.plan);
     const std::vector<Box> boxes = this->boxes();
-    const LightPlan plan =
-        plan_lights(camera_, requests, {boxes, boxes}, of_plan, pool, memory.spans(), &history);
+    const LightPlan plan = plan_lights(camera_, requests, {boxes, boxes}, pool, memory, &history);
     std::vector<ShadowPlan> own(requests.size());
     std::vector<DrawnLight> drawn;
     for (std::size_t i = 0; i < requests.size(); ++i) {
       const Light& light = requests[i].light;
       own[i] = make_plan(plan.lights[i].frames > 1 ? camera_round(light, camera_) : camera_, light, {boxes, boxes},
-                         light_options(of_plan, plan.lights[i]));
+                         light_options(pool, plan.lights[i]));
       drawn.push_back({light, &own[i], glm::vec3(0.5f + 0.1f * static_cast<float>(i))});
     }
     renderer.draw({plan, drawn}, camera_, renderer.prepare(filter, Source::lights), options);

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "gnomon/options.hpp"
 #include "gnomon/report/row.hpp"
-#include "gnomon/split.hpp"
 
 namespace gnomon::report {
 namespace {

@@ -81,7 +81,7 @@ TEST(Boxes, of_every_kind_make_whole_plans_without_a_floating_point_exception) {
       const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
       ASSERT_LE(map.depth_begin, map.depth_end) << seed;
       // A pixel of a receiver that has a depth of this map finds it there.
-      if (plan.select_by_map) continue;
+      if (plan.selection != MapSelection::view_depth) continue;
       for (const glm::dvec3& p : points_of(input, plan, i, 2, seed)) {
         ASSERT_TRUE(map_holds(plan, map, p)) << seed << " map " << i;
         ++points;

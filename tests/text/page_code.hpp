@@ -32,7 +32,7 @@ extern PlanOptions options;
 extern ShadowPlan plan;
 extern PlanHistory history;
 extern DepthTracker tracker;
-extern std::vector<glm::dvec3> points, normals, visible, visible_points_world;
+extern std::vector<glm::dvec3> points, normals, visible;
 extern std::size_t pool_slots;
 extern std::vector<std::uint32_t> slot_table;
 extern std::vector<KeptPage> out;

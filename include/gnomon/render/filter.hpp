@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "gnomon/bias.hpp"
 #include "gnomon/plan.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 

@@ -6,9 +6,10 @@
 
 #include "gnomon/bounds.hpp"
 #include "gnomon/light.hpp"
-#include "gnomon/light_clusters.hpp"
-#include "gnomon/prune.hpp"
+#include "gnomon/lights.hpp"
+#include "gnomon/options.hpp"
 #include "gnomon/render/depth_layer.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 

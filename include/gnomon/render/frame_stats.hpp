@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "gnomon/plan.hpp"
-#include "gnomon/prune.hpp"
+#include "gnomon/options.hpp"
 #include "gnomon/render/frame_option.hpp"
 
 namespace gnomon::render {

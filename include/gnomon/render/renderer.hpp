@@ -18,6 +18,7 @@
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/pose.hpp"
 #include "gnomon/scene/scene.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "gnomon/partition.hpp"
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/warp.hpp"
+#include "gnomon/options.hpp"
 
 namespace gnomon::report {
 

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// In the order of Scene::instances, for SceneDetail::work.
+/// In the order of Scene::instances, for choose_technique.
 [[nodiscard]] std::vector<CasterWork> caster_work(const Scene& scene);
 
 }  // namespace gnomon

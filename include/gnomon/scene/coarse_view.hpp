@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "gnomon/coarse_depths.hpp"
 #include "gnomon/scene/scene.hpp"
+#include "gnomon/view.hpp"
 
 namespace gnomon {
 

@@ -8,7 +8,7 @@
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 
 namespace gnomon {
 
@@ -50,6 +50,6 @@ struct LogPerspectiveJacobian {
 [[nodiscard]] PointAliasing measure_perspective(const LogPerspectiveMap& map, const Camera& camera,
                                                 const glm::dvec3& point_world) noexcept;
 [[nodiscard]] AliasingStats measure(const LogPerspectiveMap& map, const Camera& camera,
-                                    const SceneBounds& bounds, const MeasureGrid& grid = {}) noexcept;
+                                    const SceneBounds& bounds, const MeasureOptions& grid = {}) noexcept;
 
 }  // namespace gnomon

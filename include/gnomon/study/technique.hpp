@@ -50,18 +50,6 @@ struct CostModel {
   std::span<const FilterCost> filters;  ///< to choose from, at least one
 };
 
-/// Details of a scene beyond its bounds.
-struct SceneDetail {
-  /// One entry per box of bounds.casters, in their order; missing entries cost nothing.
-  std::span<const CasterWork> work;
-  /// Visible points, from a depth buffer read at every tenth pixel or from rays (trace::seen_points). Some
-  /// thousand suffice. Empty: points anywhere in the receivers' boxes, which misrates warps and splits where
-  /// the boxes are mostly air.
-  std::span<const glm::dvec3> seen_world;
-  /// View depths at which the camera sees a surface, as make_plan takes them; nullptr: unknown.
-  const VisibleDepths* visible_depths = nullptr;
-};
-
 /// Limits; 0 is none. Without target_error the least error within them is taken, or what is alike. With it
 /// the cheapest technique that meets it is taken: by milliseconds, or by texels where all cost nothing by the
 /// cost model.
@@ -116,15 +104,20 @@ struct TechniqueChoice {
 /// Plans each parametrization once, measures it (planned_error), and estimates its cost at every size with
 /// every filter: some 0.1 ms a parametrization. For when a scene, a view or a light is new, not for every
 /// frame. `base` gives all options that are not chosen. Pure, allocates nothing, never throws.
-[[nodiscard]] TechniqueChoice choose_technique(const Camera& camera, const Light& light,
-                                               const SceneBounds& bounds, const SceneDetail& detail,
+///
+/// Errors are those at View::points_world, some thousand of which suffice. Without any they are taken
+/// anywhere in the receivers' boxes, which misrates warps and splits where the boxes are mostly air. The
+/// points do not shape the maps. `casters`: one entry per box of bounds.casters, in their order; missing ones
+/// cost nothing.
+[[nodiscard]] TechniqueChoice choose_technique(const View& view, const Light& light,
+                                               const SceneBounds& bounds, std::span<const CasterWork> casters,
                                                const TechniqueSet& among, const Budget& budget,
                                                const CostModel& costs, const PlanOptions& base = {}) noexcept;
 
 /// Figures that choose_technique compares: the mean of m over the visible points, and the work of drawing.
-[[nodiscard]] double planned_error(const ShadowPlan& plan, const Camera& camera, const SceneBounds& bounds,
-                                   const SceneDetail& detail) noexcept;
+[[nodiscard]] double planned_error(const ShadowPlan& plan, const View& view,
+                                   const SceneBounds& bounds) noexcept;
 [[nodiscard]] PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds,
-                                    const SceneDetail& detail) noexcept;
+                                    std::span<const CasterWork> casters) noexcept;
 
 }  // namespace gnomon

@@ -10,7 +10,7 @@
 
 namespace gnomon::trace {
 
-/// Visible points for SceneDetail and measure_seen: first hits of rays between the camera's near and far
+/// Visible points for View::points_world: first hits of rays between the camera's near and far
 /// depth. The rays go through the centres of columns x rows equal parts of the image, row by row. Surfaces
 /// that face away from the light or lie beyond it are omitted: no shadow map serves them. Empty without
 /// columns or rows.

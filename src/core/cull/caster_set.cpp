@@ -3,7 +3,9 @@
 // that a node is inside of are not asked again below it); Wald, Benthin, Boulos, "Getting Rid of Packets",
 // 2008 (nodes with as many children as a vector has lanes). The exact agreement by monotone rounding is this
 // project's.
-#include "gnomon/caster_set.hpp"
+#include "gnomon/bounds.hpp"
+
+#include "gnomon/shadow_map.hpp"
 
 #include <algorithm>
 #include <glm/vec3.hpp>

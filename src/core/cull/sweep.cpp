@@ -1,5 +1,6 @@
 // Which casters can shadow a body: the body swept towards the light.
 #include "cull/sweep.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "geometry/visible.hpp"
-#include "gnomon/body.hpp"
+#include "gnomon/extend/body.hpp"
 
 namespace gnomon {
 

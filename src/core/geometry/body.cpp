@@ -1,5 +1,5 @@
 // The intersection body: a convex polytope in fixed storage, cut by planes, with faces and adjacency.
-#include "gnomon/body.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -3,7 +3,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "gnomon/body.hpp"
+#include "gnomon/extend/body.hpp"
 
 namespace gnomon {
 

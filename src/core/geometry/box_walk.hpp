@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 
+#include "gnomon/extend/body.hpp"
 #include "lanes/casters.hpp"
 
 namespace gnomon {

@@ -1,6 +1,8 @@
 // How a camera's numbers become axes and matrices.
 #include "gnomon/camera.hpp"
 
+#include "gnomon/view.hpp"
+
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -10,6 +12,10 @@
 #include "lanes/elementary.hpp"
 
 namespace gnomon {
+
+Camera::operator View() const noexcept {
+  return {.camera = *this};
+}
 
 Camera perspective_camera(const glm::dvec3& position, const glm::dvec3& forward, const glm::dvec3& up,
                           double fov_y_radians, double aspect, double near_depth, double far_depth, int width,

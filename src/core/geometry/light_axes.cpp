@@ -1,11 +1,11 @@
 // Axes across the light: along the view where a warp wants them, fixed where a grid must not move.
 #include "geometry/light_axes.hpp"
+#include "gnomon/extend/light_space.hpp"
 
 #include <cstddef>
 #include <glm/geometric.hpp>
 
 #include "geometry/vector.hpp"
-#include "gnomon/light_space.hpp"
 
 namespace gnomon {
 namespace {

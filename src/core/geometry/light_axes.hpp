@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gnomon/camera.hpp"
-#include "gnomon/light_space.hpp"
+#include "gnomon/extend/light_space.hpp"
 
 namespace gnomon {
 

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "gnomon/shape.hpp"
+#include "gnomon/extend/shape.hpp"
 
 namespace gnomon {
 

@@ -1,7 +1,7 @@
 // The registry of shapes.
 #include <array>
 
-#include "gnomon/shape.hpp"
+#include "gnomon/extend/shape.hpp"
 
 namespace gnomon {
 namespace {

@@ -1,5 +1,6 @@
 // Which part of the scene's boxes a convex region holds.
 #include "geometry/visible.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <array>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "gnomon/body.hpp"
 #include "gnomon/bounds.hpp"
+#include "gnomon/extend/body.hpp"
 
 namespace gnomon {
 

@@ -1,8 +1,8 @@
 // Two points of a body at once: vertices in space, and points as warps see them.
 #pragma once
 
-#include "gnomon/body.hpp"
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "lanes/pair.hpp"
 
 namespace gnomon {

@@ -11,7 +11,9 @@
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/light_space.hpp"
 #include "lanes/elementary.hpp"
 #include "map/size.hpp"
 
@@ -314,7 +316,8 @@ Coverage cover_points(const LightView& view, const LocalLight& light, const Poly
 /// Shares and errors of all cascades of a sun, which is planned for that at the least size.
 LightImportance sun_importance(const LightView& view, const Light& light) noexcept {
   PlanOptions options = view.options;
-  const ShadowPlan plan = make_plan(view.camera, light, view.bounds, options, nullptr, view.points_world);
+  const View seen{.camera = view.camera, .points_world = view.points_world};
+  const ShadowPlan plan = make_plan(seen, light, view.bounds, options);
   LightImportance out;
   if (plan.status == PlanStatus::no_caster) out.outcome = LightOutcome::without_caster;
   if (plan.status != PlanStatus::ok) return out;
@@ -323,7 +326,7 @@ LightImportance sun_importance(const LightView& view, const Light& light) noexce
   out.seen_maps = out.all_maps = plan.map_count;
   const double inside = options.resolution.max_size - 2.0 * std::ceil(options.filter.texels);
   if (!view.points_world.empty()) {
-    const AliasingStats stats = measure_seen(plan, view.camera, view.points_world);
+    const AliasingStats stats = measure(plan, seen, view.bounds);
     if (stats.samples > stats.outside && std::isfinite(stats.mean)) {
       out.demand = stats.mean * inside;
       return out;

@@ -3,10 +3,16 @@
 
 #include <span>
 
-#include "gnomon/body.hpp"
+#include "gnomon/extend/body.hpp"
 #include "gnomon/lights.hpp"
 
 namespace gnomon {
+
+/// Working memory for one visible point.
+struct LightPoint {
+  float x, y, z;  ///< world space, from the eye, in a unit that all points share
+  float pixel;    ///< 1 / the width of a pixel there, in the same unit
+};
 
 /// Everything that is the same for all lights.
 struct LightView {

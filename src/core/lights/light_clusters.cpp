@@ -1,6 +1,6 @@
 // Which lights can light a pixel? Spheres and cones against boxes round the clusters of the view.
 // Based on: Olsson, Billeter, Assarsson, "Clustered Deferred and Forward Shading", 2012.
-#include "gnomon/light_clusters.hpp"
+#include "gnomon/lights.hpp"
 
 #include <algorithm>
 #include <array>
@@ -223,7 +223,7 @@ bool usable_light(const Light& light) noexcept {
 std::string_view invalid_input(const Camera& camera, std::span<const Light> lights,
                                const ClusterOptions& options, const ClusterMemory& memory) noexcept {
   const std::string_view field =
-      first_invalid_field(camera, DirectionalLight{}, SceneBounds{}, PlanOptions{}, nullptr);
+      first_invalid_field(camera, DirectionalLight{}, SceneBounds{}, PlanOptions{});
   if (!field.empty()) return field;
   if (camera.width > kMostImageSide || camera.height > kMostImageSide) return "camera.width, camera.height";
   if (options.tile_pixels < 1) return "clusters.tile_pixels";

@@ -12,6 +12,7 @@
 #include "lights/importance.hpp"
 #include "lights/sizes.hpp"
 #include "plan/input.hpp"
+#include "plan/memory.hpp"
 
 namespace gnomon {
 namespace {
@@ -23,8 +24,8 @@ bool power_of_two(int value) noexcept {
 }
 
 /// The side of the smallest maps that any budget leads to.
-int smallest_side(const PlanOptions& options, const LightOptions& o) noexcept {
-  const int side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(least_budget_side(options))));
+int smallest_side(const LightOptions& o) noexcept {
+  const int side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(least_budget_side(o.plan))));
   return o.page_budget > 0 ? std::max(side, o.page_texels) : side;
 }
 
@@ -40,11 +41,11 @@ std::string_view invalid_budgets(const LightOptions& o) noexcept {
   return {};
 }
 
-std::string_view invalid_options(const LightOptions& o, const PlanOptions& options) noexcept {
+std::string_view invalid_options(const LightOptions& o) noexcept {
   // Before its sides are computed from it.
-  if (!(options.filter.texels >= 0.0 && options.filter.texels <= 0.25 * kMostMapSize))
+  if (!(o.plan.filter.texels >= 0.0 && o.plan.filter.texels <= 0.25 * kMostMapSize))
     return "options.filter.texels";
-  if (!power_of_two(o.most_size) || o.most_size > kMostMapSize || o.most_size < least_budget_side(options))
+  if (!power_of_two(o.most_size) || o.most_size > kMostMapSize || o.most_size < least_budget_side(o.plan))
     return "lights.most_size";
   if (!power_of_two(o.least_size) || o.least_size > o.most_size) return "lights.least_size";
   for (const int side : {o.pool_width, o.pool_height}) {
@@ -59,13 +60,18 @@ std::string_view invalid_options(const LightOptions& o, const PlanOptions& optio
   return {};
 }
 
-std::string_view invalid_memory(const LightMemory& memory, const LightHistory* history, std::size_t lights,
-                                std::size_t points) noexcept {
-  if (memory.maps.size() < lights) return "memory.maps";
-  if (memory.work.size() < lights) return "memory.work";
-  if (memory.places.size() < kMaxMaps * lights) return "memory.places";
-  if (memory.points.size() < points) return "memory.points";
-  return history != nullptr && history->lights.size() < lights ? "history.lights" : std::string_view{};
+/// The caller's memory, in parts.
+struct LightMemory {
+  std::span<LightMaps> maps;     // one for each light
+  std::span<LightWork> work;     // one for each light
+  std::span<LightPlace> places;  // kMaxMaps for each light
+  std::span<LightPoint> points;  // one for each visible point
+};
+
+LightMemory parts_of(std::span<std::byte> memory, std::size_t lights, std::size_t points) noexcept {
+  MemoryParts parts(memory);
+  return {parts.take<LightMaps>(lights), parts.take<LightWork>(lights),
+          parts.take<LightPlace>(kMaxMaps * lights), parts.take<LightPoint>(points)};
 }
 
 /// Options of the plans that sizes are chosen by: maps of the smallest size, none of which a larger one
@@ -87,17 +93,18 @@ std::string_view invalid_request(const LightRequest& request) noexcept {
 }
 
 /// The first broken input; `plan` takes its name.
-bool refuse(const Camera& camera, std::span<const LightRequest> lights, const SceneBounds& bounds,
-            const PlanOptions& options, std::span<const glm::dvec3> points, LightPlan& plan) noexcept {
+bool refuse(const View& view, std::span<const LightRequest> lights, const SceneBounds& bounds,
+            const PlanOptions& options, LightPlan& plan) noexcept {
   if (lights.size() > kMostLights) {
     plan.invalid_field = "lights";
     return true;
   }
-  plan.invalid_field = first_invalid_field(camera, DirectionalLight{}, bounds, options, nullptr, points);
+  const View known{.camera = view.camera, .points_world = view.points_world};
+  plan.invalid_field = first_invalid_field(known, DirectionalLight{}, bounds, options);
   if (!plan.invalid_field.empty()) return true;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     // Boxes and points may be many: they are read once.
-    plan.invalid_field = first_invalid_field(camera, lights[i].light, SceneBounds{}, options, nullptr);
+    plan.invalid_field = first_invalid_field(view.camera, lights[i].light, SceneBounds{}, options);
     if (plan.invalid_field.empty()) plan.invalid_field = invalid_request(lights[i]);
     if (plan.invalid_field.empty()) continue;
     plan.invalid_light = static_cast<int>(i);
@@ -365,26 +372,32 @@ void forget_other_pool(const LightOptions& now, int least, LightHistory& history
 
 }  // namespace
 
-LightPlan plan_lights(const Camera& camera, std::span<const LightRequest> lights, const SceneBounds& bounds,
-                      const PlanOptions& options, const LightOptions& light_options,
-                      const LightMemory& memory, LightHistory* history,
-                      std::span<const glm::dvec3> visible_points_world) noexcept {
+std::size_t light_memory(std::size_t lights, std::size_t points) noexcept {
+  return kMemorySlack + memory_of<LightMaps>(lights) + memory_of<LightWork>(lights) +
+         memory_of<LightPlace>(kMaxMaps * lights) + memory_of<LightPoint>(points);
+}
+
+LightPlan plan_lights(const View& view, std::span<const LightRequest> lights, const SceneBounds& bounds,
+                      const LightOptions& options, std::span<std::byte> memory,
+                      LightHistory* history) noexcept {
   LightPlan plan;
-  plan.invalid_field = invalid_options(light_options, options);
+  plan.invalid_field = invalid_options(options);
   if (!plan.invalid_field.empty()) return plan;
-  const int least = smallest_side(options, light_options);
-  const PlanOptions reference = reference_options(options, least);
-  if (refuse(camera, lights, bounds, reference, visible_points_world, plan)) return plan;
-  plan.invalid_field = invalid_memory(memory, history, lights.size(), visible_points_world.size());
+  const int least = smallest_side(options);
+  const PlanOptions reference = reference_options(options.plan, least);
+  if (refuse(view, lights, bounds, reference, plan)) return plan;
+  if (memory.size() < light_memory(lights.size(), view.points_world.size())) plan.invalid_field = "memory";
+  if (history != nullptr && history->lights.size() < lights.size()) plan.invalid_field = "history.lights";
   if (!plan.invalid_field.empty()) return plan;
-  if (history != nullptr) forget_other_pool(light_options, least, *history);
-  plan.pool_width = light_options.pool_width;
-  plan.pool_height = light_options.pool_height;
-  const Camera finite = with_finite_far(camera, bounds.receivers);
-  const SizeLadder ladder{least, level_of(light_options.least_size, least),
-                          level_of(light_options.most_size, least), std::ceil(options.filter.texels)};
-  LightPlanner planner(lights, light_options, ladder, memory, history, plan);
-  planner.weigh(light_view(finite, bounds, reference, visible_points_world, memory.points));
+  if (history != nullptr) forget_other_pool(options, least, *history);
+  plan.pool_width = options.pool_width;
+  plan.pool_height = options.pool_height;
+  const LightMemory parts = parts_of(memory, lights.size(), view.points_world.size());
+  const Camera finite = with_finite_far(view.camera, bounds.receivers);
+  const SizeLadder ladder{least, level_of(options.least_size, least), level_of(options.most_size, least),
+                          std::ceil(options.plan.filter.texels)};
+  LightPlanner planner(lights, options, ladder, parts, history, plan);
+  planner.weigh(light_view(finite, bounds, reference, view.points_world, parts.points));
   if (const std::string_view too_small = planner.size(); !too_small.empty()) {
     plan = {};
     plan.invalid_field = too_small;
@@ -392,13 +405,12 @@ LightPlan plan_lights(const Camera& camera, std::span<const LightRequest> lights
   }
   planner.place();
   planner.finish();
-  plan.lights = memory.maps.first(lights.size());
+  plan.lights = parts.maps;
   return plan;
 }
 
-PlanOptions light_options(PlanOptions options, const LightMaps& maps) noexcept {
-  options = reference_options(options, maps.size > 0 ? maps.size : options.resolution.max_size);
-  return options;
+PlanOptions light_options(const LightOptions& options, const LightMaps& maps) noexcept {
+  return reference_options(options.plan, maps.size > 0 ? maps.size : options.plan.resolution.max_size);
 }
 
 Camera camera_round(const Light& light, const Camera& camera) noexcept {

@@ -9,6 +9,20 @@
 
 namespace gnomon {
 
+/// Working memory for one light.
+struct LightWork {
+  double demand;        ///< error times the side of its maps without borders, texels
+  double ratio;         ///< error saved per texel by the next step
+  std::uint32_t light;  ///< index into the lights
+  int maps;             ///< how many it draws
+  int level;            ///< of their size: the smallest doubled so many times
+  int top;              ///< largest level
+  int last;             ///< level in the last plan
+  double price = 0.0;   ///< milliseconds per frame for each square of the smallest size, of all its maps
+  double fixed = 0.0;   ///< the same whatever the size
+  int other = 0;        ///< level that the budget of texels alone would give
+};
+
 /// Sizes by level: the smallest side doubled `level` times.
 struct SizeLadder {
   int least = 16;     // texels
@@ -59,6 +73,12 @@ struct PoolGrid {
   }
   /// The rectangle of a map.
   [[nodiscard]] TexelRect rectangle(std::uint32_t square, int level) const noexcept;
+};
+
+/// A run of squares that a map takes. Working memory.
+struct LightPlace {
+  std::uint32_t begin;  ///< first square of the smallest maps' grid
+  std::uint32_t end;    ///< one past the last
 };
 
 /// The runs that are taken, in order and without overlap, in the caller's memory.

@@ -4,7 +4,8 @@
 // the world is a plane of ndc, which makes them exact under a warp, is this project's use of it. The advice:
 // the survey, section 5; Lauritzen 2007 (biasing of moments); tests/laws/bias_law_test.cpp verifies its rows
 // on filters that compare.
-#include "gnomon/bias.hpp"
+#include "gnomon/study/bias.hpp"
+#include "gnomon/extend/shape.hpp"
 
 #include <array>
 #include <cmath>

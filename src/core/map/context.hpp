@@ -6,7 +6,10 @@
 #include <glm/geometric.hpp>
 #include <new>
 
-#include "gnomon/history.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/light_space.hpp"
+#include "gnomon/extend/warp.hpp"
+#include "gnomon/motion.hpp"
 #include "gnomon/plan.hpp"
 
 namespace gnomon {
@@ -84,7 +87,7 @@ struct MapResult {
   ShadowMap& map;
   bool drawn = false;  // false: no caster can reach the body
   glm::dmat4 gl_from_world{1.0};
-  SearchedWarp searched;
+  PlanHistory::SearchedWarp searched;
   std::array<Omission, 4> omission;
   int omission_count = 0;
   bool has_event = false;

@@ -1,5 +1,8 @@
 // How deep a map is along the light: the receivers and every caster that can shadow them.
 #include "map/depths.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/light_space.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <array>
 #include <cmath>

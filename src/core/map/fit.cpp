@@ -1,5 +1,6 @@
 // How large a map's square must be so that its slice fits from every direction.
-#include "gnomon/fit.hpp"
+#include "gnomon/options.hpp"
+#include "gnomon/study/formulas.hpp"
 
 #include <array>
 #include <cmath>

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "geometry/vector.hpp"
 #include "map/depths.hpp"
 #include "map/gain.hpp"

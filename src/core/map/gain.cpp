@@ -1,5 +1,7 @@
 // What a warp gains on a body, and whether a map takes it.
 #include "map/gain.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

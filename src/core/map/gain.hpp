@@ -1,6 +1,7 @@
 // What a warp gains on a body, and whether a map takes it.
 #pragma once
 
+#include "gnomon/extend/warp.hpp"
 #include "map/light_body.hpp"
 
 namespace gnomon {

@@ -4,6 +4,8 @@
 // constant times (w0 / w1)^3: a linear-fractional function to the third power, extreme at the body's
 // vertices. So the change at every surface point is bounded exactly by a look at the vertices.
 #include "map/history.hpp"
+#include "gnomon/extend/light_space.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -411,7 +413,7 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
   constexpr double kLeap = 1.1;
   const double limit = smooth_stretch(c, question, question.in.y_max - question.in.y_min);
   start.most_stretch = limit;
-  const SearchedWarp& last = request.last->searched;
+  const PlanHistory::SearchedWarp& last = request.last->searched;
   const auto over_body = [&](const glm::dmat4& gl_from_world) {
     return recall(of_matrix(c, request.space, gl_from_world), question, question.in.unwarped.axis);
   };
@@ -437,7 +439,7 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
   return true;
 }
 
-SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request, const PlaneMap& plane) noexcept {
+PlanHistory::SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request, const PlaneMap& plane) noexcept {
   const WarpChoice& choice = plane.choice;
   const std::int64_t sooner =
       request.last != nullptr ? 0 : kSearchApart * request.slot.cascade % kSearchEvery;

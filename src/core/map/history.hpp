@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "gnomon/extend/warp.hpp"
+#include "gnomon/extend/light_space.hpp"
 #include "map/light_body.hpp"
 
 namespace gnomon {
@@ -69,7 +71,7 @@ struct HeldMap {
 [[nodiscard]] bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
                               WarpStart& start) noexcept;
 /// Where the next frame's search may begin: at this frame's choice.
-[[nodiscard]] SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request,
+[[nodiscard]] PlanHistory::SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request,
                                          const PlaneMap& plane) noexcept;
 
 /// True where the last frame has a map of this size for the same slot and light.

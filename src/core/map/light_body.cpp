@@ -1,5 +1,8 @@
 // A body's vertices in light space, and the body as warps see it.
 #include "map/light_body.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/light_space.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

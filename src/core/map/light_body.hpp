@@ -5,6 +5,8 @@
 #include <optional>
 #include <span>
 
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "map/context.hpp"
 #include "map/light_body.hpp"
 #include "warp/plane_map.hpp"

@@ -1,5 +1,10 @@
 // Everything of a map's record that follows from its plane, its matrix and its swept body.
 #include "map/record.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/light_space.hpp"
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/extend/warp.hpp"
+#include "gnomon/study/bias.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,7 +1,9 @@
 // What of the last frame's stable map still holds, and what little is left to draw.
 // Based on: Acton, "CSM Scrolling: An acceleration technique for the rendering of cascaded shadow maps",
 // SIGGRAPH Advances in Real-Time Rendering, 2012.
-#include "gnomon/reuse.hpp"
+#include "gnomon/extend/light_space.hpp"
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/motion.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // Several cameras that share a plan's maps: the union of what they see, and each point with its own view
 // depth.
 #include "map/shared_views.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

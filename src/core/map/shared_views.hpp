@@ -4,7 +4,8 @@
 
 #include <array>
 
-#include "gnomon/views.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/plan.hpp"
 #include "map/context.hpp"
 #include "split/visible_depths.hpp"
 #include "warp/plane_map.hpp"

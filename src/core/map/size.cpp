@@ -3,6 +3,8 @@
 // vertices); the bound of m in any direction is this project's: a texel's longest extent across the light
 // ray, over a pixel's shortest extent across the eye ray.
 #include "map/size.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,6 +1,7 @@
 // How small a map may be for a bound of its aliasing error, and how wide a border filter kernels need.
 #pragma once
 
+#include "gnomon/extend/body.hpp"
 #include "map/light_body.hpp"
 
 namespace gnomon {

@@ -6,7 +6,10 @@
 #include <glm/geometric.hpp>
 
 #include "geometry/vector.hpp"
-#include "gnomon/snap.hpp"
+#include "gnomon/shadow_map.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/light_space.hpp"
+#include "gnomon/study/formulas.hpp"
 #include "lanes/elementary.hpp"
 #include "map/depths.hpp"
 #include "map/light_body.hpp"

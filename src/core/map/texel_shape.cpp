@@ -3,6 +3,8 @@
 // even in ln(w) behind a perspective projection. 1 / w is linear over the image, so that a shape needs no
 // more than w's growth over it.
 // Based on: Rosen, "Rectilinear Texture Warping for Fast Adaptive Shadow Mapping", 2012: importance of what
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "map/texel_shape.hpp"
 
 #include <algorithm>

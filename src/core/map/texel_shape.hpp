@@ -2,6 +2,7 @@
 // visible points: by the shape that the options name, where that lowers the error.
 #pragma once
 
+#include "gnomon/extend/warp.hpp"
 #include "map/context.hpp"
 #include "map/light_body.hpp"
 #include "warp/plane_map.hpp"

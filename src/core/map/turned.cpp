@@ -2,6 +2,7 @@
 // Based on: Freeman, Shapira, "Determining the Minimum-Area Encasing Rectangle for an Arbitrary Closed
 // Curve", 1975: one side lies on an edge of the convex hull. The hull is Andrew's monotone chain, 1979.
 #include "map/turned.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,7 @@
 #include <limits>
 
 #include "geometry/vector.hpp"
-#include "gnomon/body.hpp"
+#include "gnomon/extend/body.hpp"
 #include "map/gain.hpp"
 #include "warp/plane_error.hpp"
 

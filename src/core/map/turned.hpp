@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <span>
 
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/warp.hpp"
 
 namespace gnomon {
 

@@ -1,10 +1,9 @@
 // The error over everything the camera sees: percentiles, share of undersampled points, storage.
 #include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "geometry/vector.hpp"
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "measure/log_histogram.hpp"
 #include "measure/measure_grid.hpp"
 #include "measure/metric_lanes.hpp"
@@ -82,46 +81,27 @@ AliasingStats Tally::stats() noexcept {
   return stats;
 }
 
-AliasingStats measure_maps(const ShadowPlan& plan, int only, const Camera& camera, const SceneBounds& bounds,
-                           const MeasureGrid& grid) noexcept {
+}  // namespace
+
+AliasingStats measure(const ShadowPlan& plan, const View& view, const SceneBounds& bounds,
+                      const MeasureOptions& options) noexcept {
   if (plan.map_count == 0) return {};
-  if (std::isinf(camera.far_depth)) {
-    return measure_maps(plan, only, with_finite_far(camera, bounds.receivers), bounds, grid);
-  }
+  const Camera camera =
+      view.points_world.empty() ? with_finite_far(view.camera, bounds.receivers) : view.camera;
   const CameraAxes axes = camera_axes(camera);
   Tally tally(plan, camera, axes);
   const auto sample = [&](const glm::dvec3& point, double depth) {
     const int map = map_serving(plan, point, depth);
     if (map < 0) tally.add_outside();
-    if (map >= 0 && (only < 0 || map == only)) tally.add(map, point);
+    if (map >= 0 && (options.map < 0 || map == options.map)) tally.add(map, point);
   };
-  for_each_visible(camera, axes, bounds.receivers, grid, sample);
-  return tally.stats();
-}
-
-}  // namespace
-
-AliasingStats measure(const ShadowPlan& plan, const Camera& camera, const SceneBounds& bounds,
-                      const MeasureGrid& grid) noexcept {
-  return measure_maps(plan, -1, camera, bounds, grid);
-}
-
-AliasingStats measure_seen(const ShadowPlan& plan, const Camera& camera,
-                           std::span<const glm::dvec3> points_world) noexcept {
-  if (plan.map_count == 0) return {};
-  const CameraAxes axes = camera_axes(camera);
-  Tally tally(plan, camera, axes);
-  for (const glm::dvec3& point : points_world) {
-    const int map = map_serving(plan, point, glm::dot(point - camera.position, axes.forward));
-    if (map < 0) tally.add_outside();
-    if (map >= 0) tally.add(map, point);
+  if (view.points_world.empty()) {
+    for_each_visible(camera, axes, bounds.receivers, options, sample);
+  } else {
+    for (const glm::dvec3& point : view.points_world)
+      sample(point, glm::dot(point - camera.position, axes.forward));
   }
   return tally.stats();
-}
-
-AliasingStats measure_map(const ShadowPlan& plan, int map, const Camera& camera, const SceneBounds& bounds,
-                          const MeasureGrid& grid) noexcept {
-  return measure_maps(plan, map, camera, bounds, grid);
 }
 
 }  // namespace gnomon

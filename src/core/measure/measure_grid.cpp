@@ -65,7 +65,7 @@ struct MarkQuery {
 
 }  // namespace
 
-VisiblePiece::VisiblePiece(const Camera& camera, const CameraAxes& axes, const MeasureGrid& grid,
+VisiblePiece::VisiblePiece(const Camera& camera, const CameraAxes& axes, const MeasureOptions& grid,
                            const DepthTable& table) noexcept
     : camera_(camera), axes_(axes), grid_(grid), table_(table), words_((table.count + 63) / 64) {}
 

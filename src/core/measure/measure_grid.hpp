@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "geometry/vector.hpp"
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "lanes/elementary.hpp"
 
 namespace gnomon {
@@ -39,7 +39,7 @@ struct PixelRay {
   glm::dvec3 start, step;
 };
 
-[[nodiscard]] inline PixelRay pixel_ray(const Camera& camera, const CameraAxes& axes, const MeasureGrid& grid,
+[[nodiscard]] inline PixelRay pixel_ray(const Camera& camera, const CameraAxes& axes, const MeasureOptions& grid,
                                         int column, int row) noexcept {
   const double x = camera.left + (camera.right - camera.left) * (column + 0.5) / grid.columns;
   const double y = camera.bottom + (camera.top - camera.bottom) * (row + 0.5) / grid.rows;
@@ -55,7 +55,7 @@ struct DepthTable {
   int count;
 };
 
-[[nodiscard]] inline DepthTable depth_table(const Camera& camera, const MeasureGrid& grid,
+[[nodiscard]] inline DepthTable depth_table(const Camera& camera, const MeasureOptions& grid,
                                             int begin) noexcept {
   DepthTable table;
   table.count = grid.depths - begin < kTableDepths ? grid.depths - begin : kTableDepths;
@@ -71,7 +71,7 @@ struct DepthTable {
 /// each.
 class VisiblePiece {
  public:
-  VisiblePiece(const Camera& camera, const CameraAxes& axes, const MeasureGrid& grid,
+  VisiblePiece(const Camera& camera, const CameraAxes& axes, const MeasureOptions& grid,
                const DepthTable& table) noexcept;
 
   /// Takes the rays from number `first` on, at most `rays` of them, and finds their points in these boxes.
@@ -101,7 +101,7 @@ class VisiblePiece {
 
   const Camera& camera_;
   const CameraAxes& axes_;
-  const MeasureGrid& grid_;
+  const MeasureOptions& grid_;
   const DepthTable& table_;
   int words_;
   std::int64_t first_ = 0, end_ = 0;
@@ -112,7 +112,7 @@ class VisiblePiece {
 /// plane.
 template <typename Sample>
 void for_each_visible(const Camera& camera, const CameraAxes& axes, const Boxes& receivers,
-                      const MeasureGrid& grid, Sample&& sample) noexcept {
+                      const MeasureOptions& grid, Sample&& sample) noexcept {
   if (grid.columns <= 0 || grid.rows <= 0) return;
   const std::int64_t rays = std::int64_t{grid.columns} * grid.rows;
   for (int begin = 0; begin < grid.depths; begin += kTableDepths) {

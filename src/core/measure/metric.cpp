@@ -1,7 +1,7 @@
 // The aliasing error at one point, from the Jacobian d(texel)/d(pixel).
 // Based on: Lloyd, Tuft, Yoon, Manocha, "Warping and Partitioning for Low Error Shadow Maps", 2006; Scherzer,
 // Wimmer, Purgathofer, survey 2011, equations 1 and 2.
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 
 #include <algorithm>
 #include <cmath>

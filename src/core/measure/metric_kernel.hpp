@@ -10,7 +10,7 @@
 #include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
 #include "gnomon/camera.hpp"
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 
 namespace gnomon {
 

@@ -1,5 +1,6 @@
 // The arithmetic of metric_kernel.hpp in loops without branches, each over all points of a block.
 #include "measure/metric_lanes.hpp"
+#include "gnomon/extend/shape.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

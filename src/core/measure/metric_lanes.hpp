@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "gnomon/camera.hpp"
+#include "gnomon/extend/shape.hpp"
 #include "gnomon/plan.hpp"
 #include "lanes/lanes.hpp"
 

@@ -1,5 +1,6 @@
 // The base of a page plan: which maps its levels lie over, and what each visible point needs of them.
 #include "pages/base.hpp"
+#include "gnomon/extend/light_space.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -341,8 +342,8 @@ double aspect_of(PageContext& c, std::uint32_t base) noexcept {
 
 }  // namespace
 
-PlanStatus plan_base(const Light& light, const SceneBounds& bounds, const PlanOptions& options,
-                     PageContext& c, PagePlan& out) noexcept {
+PlanStatus plan_base(const Light& light, const SceneBounds& bounds, PageContext& c, PagePlan& out) noexcept {
+  const PlanOptions& options = c.options.plan;
   const bool stable = options.fit == Fit::stable || out.policy->octaves;
   const ShadowPlan plan = make_plan(c.camera, light, bounds, base_options(options, stable, out));
   out.invalid_field = plan.invalid_field;
@@ -359,7 +360,7 @@ PlanStatus plan_base(const Light& light, const SceneBounds& bounds, const PlanOp
         OmissionKind::option_ignored, -1, static_cast<double>(IgnoredOption::planes), 0.0, 0};
   if (plan.status != PlanStatus::ok) return plan.status;
   c.base_count = plan.map_count;
-  c.select_by_map = plan.select_by_map;
+  c.select_by_map = plan.selection != MapSelection::view_depth;
   for (int i = 0; i < c.base_count; ++i) {
     PageBase& base = c.base[static_cast<std::size_t>(i)];
     base.map = plan.map[static_cast<std::size_t>(i)];
@@ -381,7 +382,7 @@ PlanStatus plan_base(const Light& light, const SceneBounds& bounds, const PlanOp
 
 void take_points(const SceneBounds& bounds, PageContext& c) noexcept {
   Needs needs(c);
-  const SeenPoints& seen = c.seen;
+  const View& seen = c.view;
   for (std::size_t i = 0; i < seen.points_world.size(); ++i)
     needs.add(seen.points_world[i], seen.normals_world.empty() ? nullptr : &seen.normals_world[i]);
   if (seen.points_world.empty()) {

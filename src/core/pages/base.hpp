@@ -19,6 +19,22 @@ static_assert(kLadder >= 26 * 4 + 1);
 /// PagePoint::level of a point that no base holds.
 inline constexpr std::uint32_t kOutside = std::numeric_limits<std::uint32_t>::max();
 
+/// Working memory for one visible point.
+struct PagePoint {
+  double x, y;           ///< place in the base
+  float need_x, need_y;  ///< texels per unit of the base for m = 1
+  std::uint32_t level;   ///< of the base's ladder
+  std::uint32_t order;   ///< index of another point
+};
+
+/// The caller's memory, in parts.
+struct PageMemory {
+  std::span<ShadowMap> levels;     ///< kMostPageLevels; the plan uses a few dozen
+  std::span<Page> pages;           ///< PageOptions::capacity
+  std::span<std::uint32_t> table;  ///< page_table_size(capacity)
+  std::span<PagePoint> points;     ///< at least as many as visible points
+};
+
 /// A base map, and places on it: (row_x, row_y) over row_w, each applied to (point, 1).
 struct PageBase {
   ShadowMap map;
@@ -57,7 +73,8 @@ struct PageGrid {
 /// What the stages of a page plan share. Points are memory.points[0 .. point_count).
 struct PageContext {
   const Camera& camera;
-  const SeenPoints& seen;
+  const View& view;
+  const PageHistory& history;
   const PageOptions& options;
   const PageMemory& memory;
   CameraAxes axes;
@@ -110,7 +127,7 @@ struct PageContext {
         [&](PagePoint& point, std::size_t) { set_step(point, step_for(excess(point) * inverse)); });
   }
   [[nodiscard]] std::uint8_t feedback(std::size_t point) const noexcept {
-    return seen.feedback.empty() ? std::uint8_t{0} : seen.feedback[point];
+    return history.feedback.empty() ? std::uint8_t{0} : history.feedback[point];
   }
   [[nodiscard]] PageGrid grid(std::uint32_t level) const noexcept {
     const PageBase& b = base_of(level);
@@ -135,8 +152,8 @@ struct PageContext {
 };
 
 /// Plans the base maps; returns the status of that plan, and writes what it says besides pages to `out`.
-[[nodiscard]] PlanStatus plan_base(const Light& light, const SceneBounds& bounds, const PlanOptions& options,
-                                   PageContext& context, PagePlan& out) noexcept;
+[[nodiscard]] PlanStatus plan_base(const Light& light, const SceneBounds& bounds, PageContext& context,
+                                   PagePlan& out) noexcept;
 /// Fills memory.points with the visible points, or with samples of the boxes.
 void take_points(const SceneBounds& bounds, PageContext& context) noexcept;
 /// Gives the sides of pages the aspect that wastes the fewest texels, and a size within a step of the ladder

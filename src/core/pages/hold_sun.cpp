@@ -48,21 +48,21 @@ double farthest_along(const Box& box, const glm::dvec3& from, const glm::dvec3& 
 
 }  // namespace
 
-HeldSun hold_sun(const glm::dvec3& held, const glm::dvec3& sun, const Camera& camera, const Box& casters,
-                 const SeenPoints& seen, double most_pixels, double least_light_sine) noexcept {
+HeldSun hold_sun(const View& view, const glm::dvec3& held, const glm::dvec3& sun, const Box& casters,
+                 double most_pixels, double least_light_sine) noexcept {
   HeldSun result{sun, 0.0, 0.0, 0};
   const glm::dvec3 was = glm::normalize(held), is = glm::normalize(sun);
   // False of what is not a number, and of a direction without length.
   const bool has_bounds =
       casters.min.x <= casters.max.x && casters.min.y <= casters.max.y && casters.min.z <= casters.max.z;
   const bool usable = has_bounds && glm::dot(was, is) > 0.0 && most_pixels > 0.0 &&
-                      (seen.normals_world.empty() || seen.normals_world.size() == seen.points_world.size());
-  if (!usable || seen.points_world.empty()) return result;
-  const Screen screen(camera);
-  for (std::size_t i = 0; i < seen.points_world.size(); ++i) {
-    const glm::dvec3& point = seen.points_world[i];
+                      (view.normals_world.empty() || view.normals_world.size() == view.points_world.size());
+  if (!usable || view.points_world.empty()) return result;
+  const Screen screen(view.camera);
+  for (std::size_t i = 0; i < view.points_world.size(); ++i) {
+    const glm::dvec3& point = view.points_world[i];
     const glm::dvec3 normal =
-        seen.normals_world.empty() ? glm::normalize(screen.to_eye(point) - was) : seen.normals_world[i];
+        view.normals_world.empty() ? glm::normalize(screen.to_eye(point) - was) : view.normals_world[i];
     const double before = -glm::dot(normal, was), after = -glm::dot(normal, is);
     if (before < least_light_sine || after < least_light_sine) {
       ++result.points_capped;

@@ -89,20 +89,18 @@ PageStats PageTally::stats() noexcept {
 
 }  // namespace
 
-PageStats measure_pages(const PagePlan& plan, const Camera& camera, const SeenPoints& seen) noexcept {
+PageStats measure(const PagePlan& plan, const View& view, const SceneBounds& bounds,
+                  const MeasureOptions& options) noexcept {
   if (plan.pages.empty()) return {};
-  PageTally tally(plan, camera);
-  for (std::size_t i = 0; i < seen.points_world.size(); ++i)
-    tally.add(seen.points_world[i], seen.normals_world.empty() ? nullptr : &seen.normals_world[i]);
-  return tally.stats();
-}
-
-PageStats measure_pages(const PagePlan& plan, const Camera& camera, const SceneBounds& bounds,
-                        const MeasureGrid& grid) noexcept {
-  if (plan.pages.empty()) return {};
-  const Camera finite = with_finite_far(camera, bounds.receivers);
+  if (!view.points_world.empty()) {
+    PageTally tally(plan, view.camera);
+    for (std::size_t i = 0; i < view.points_world.size(); ++i)
+      tally.add(view.points_world[i], view.normals_world.empty() ? nullptr : &view.normals_world[i]);
+    return tally.stats();
+  }
+  const Camera finite = with_finite_far(view.camera, bounds.receivers);
   PageTally tally(plan, finite);
-  for_each_visible(finite, camera_axes(finite), bounds.receivers, grid,
+  for_each_visible(finite, camera_axes(finite), bounds.receivers, options,
                    [&](const glm::dvec3& point, double) { tally.add(point, nullptr); });
   return tally.stats();
 }

@@ -11,6 +11,7 @@
 #include "lanes/elementary.hpp"
 #include "pages/fill.hpp"
 #include "plan/input.hpp"
+#include "plan/memory.hpp"
 
 namespace gnomon {
 namespace {
@@ -21,7 +22,7 @@ constexpr std::array kPolicies = {
 #undef GNOMON_PAGE_POLICY
 };
 
-std::string_view invalid_pages(const PageOptions& o, const PlanOptions& plan) noexcept {
+std::string_view invalid_pages(const PageOptions& o) noexcept {
   if (o.page_texels != 64 && o.page_texels != 128 && o.page_texels != 256) return "pages.page_texels";
   if (o.virtual_texels > kMostVirtualTexels || o.virtual_texels < 1) return "pages.virtual_texels";
   if (o.page_texels > o.virtual_texels) return "pages.page_texels";
@@ -32,36 +33,46 @@ std::string_view invalid_pages(const PageOptions& o, const PlanOptions& plan) no
   if (o.trials < 1 || o.trials > 16) return "pages.trials";
   if (!(o.reach_texels >= 0.0 && o.reach_texels <= o.page_texels)) return "pages.reach_texels";
   if (!(o.least_light_sine >= 0.0 && o.least_light_sine <= 1.0)) return "pages.least_light_sine";
-  if (!(plan.filter.texels >= 0.0 && plan.filter.texels <= 0.25 * o.page_texels))
+  if (!(o.plan.filter.texels >= 0.0 && o.plan.filter.texels <= 0.25 * o.page_texels))
     return "options.filter.texels";
   // Of levels whose texels differ a thousandfold no border holds it.
-  if (plan.filter.world != 0.0) return "options.filter.world";
+  if (o.plan.filter.world != 0.0) return "options.filter.world";
   return {};
 }
 
-std::string_view invalid_memory(const PageMemory& memory, const SeenPoints& seen,
-                                const PageOptions& o) noexcept {
-  if (memory.levels.size() < kMostPageLevels) return "memory.levels";
-  if (memory.pages.size() < static_cast<std::size_t>(o.capacity)) return "memory.pages";
-  if (memory.table.size() < page_table_size(o.capacity)) return "memory.table";
-  const bool unindexed = memory.points.size() >= std::numeric_limits<std::uint32_t>::max();
-  return memory.points.empty() || unindexed || memory.points.size() < seen.points_world.size()
-             ? "memory.points"
-             : std::string_view{};
+/// Bytes of all but the points; slack included.
+std::size_t memory_without_points(int capacity) noexcept {
+  const int pages = std::clamp(capacity, 0, kMostPages);
+  return kMemorySlack + memory_of<ShadowMap>(kMostPageLevels) +
+         memory_of<Page>(static_cast<std::size_t>(pages)) + memory_of<std::uint32_t>(page_table_size(pages));
 }
 
-std::string_view invalid_seen(const SeenPoints& seen) noexcept {
-  const std::size_t count = seen.points_world.size();
-  for (const glm::dvec3& point : seen.points_world) {
-    if (!usable(point)) return "seen.points_world";
+/// No points where the memory is too small.
+PageMemory parts_of(std::span<std::byte> memory, int capacity) noexcept {
+  const std::size_t others = memory_without_points(capacity);
+  if (memory.size() < others) return {};
+  // Points are counted in 32 bits.
+  const std::size_t points = std::min<std::size_t>((memory.size() - others) / sizeof(PagePoint),
+                                                   std::numeric_limits<std::uint32_t>::max() - 1);
+  MemoryParts parts(memory);
+  return {parts.take<ShadowMap>(kMostPageLevels), parts.take<Page>(static_cast<std::size_t>(capacity)),
+          parts.take<std::uint32_t>(page_table_size(capacity)), parts.take<PagePoint>(points)};
+}
+
+std::string_view invalid_seen(const View& view, const PageHistory& history,
+                              const PageMemory& memory) noexcept {
+  const std::size_t count = view.points_world.size();
+  if (memory.points.empty() || memory.points.size() < count) return "memory";
+  for (const glm::dvec3& point : view.points_world) {
+    if (!usable(point)) return "view.points_world";
   }
-  if (!seen.normals_world.empty() && seen.normals_world.size() != count) return "seen.normals_world";
-  for (const glm::dvec3& normal : seen.normals_world) {
+  if (!view.normals_world.empty() && view.normals_world.size() != count) return "view.normals_world";
+  for (const glm::dvec3& normal : view.normals_world) {
     // A length of 1 but for the rounding of an 8-bit normal.
     const double length2 = glm::dot(normal, normal);
-    if (!(length2 > 0.9 && length2 < 1.1)) return "seen.normals_world";
+    if (!(length2 > 0.9 && length2 < 1.1)) return "view.normals_world";
   }
-  if (!seen.feedback.empty() && seen.feedback.size() != count) return "seen.feedback";
+  if (!history.feedback.empty() && history.feedback.size() != count) return "history.feedback";
   return {};
 }
 
@@ -232,27 +243,33 @@ const PagePolicy* find_page_policy(std::string_view name) noexcept {
   return nullptr;
 }
 
-PagePlan plan_pages(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                    const SeenPoints& seen, const PlanOptions& options, const PageOptions& page_options,
-                    const PageMemory& memory) noexcept {
+std::size_t page_memory(int capacity, std::size_t points) noexcept {
+  return memory_without_points(capacity) + memory_of<PagePoint>(points);
+}
+
+PagePlan plan_pages(const View& view, const Light& light, const SceneBounds& bounds,
+                    const PageOptions& options, std::span<std::byte> memory,
+                    const PageHistory* history) noexcept {
   PagePlan plan;
-  PageOptions pages = page_options;
+  PageOptions pages = options;
   if (pages.policy == nullptr) pages.policy = &page_policies::resolution;
   plan.policy = pages.policy;
-  plan.invalid_field = first_invalid_field(camera, light, bounds, options, nullptr);
-  if (plan.invalid_field.empty()) plan.invalid_field = invalid_pages(pages, options);
-  if (plan.invalid_field.empty()) plan.invalid_field = invalid_memory(memory, seen, pages);
-  if (plan.invalid_field.empty()) plan.invalid_field = invalid_seen(seen);
+  plan.invalid_field = first_invalid_field(view.camera, light, bounds, pages.plan);
+  if (plan.invalid_field.empty()) plan.invalid_field = invalid_pages(pages);
   if (!plan.invalid_field.empty()) return plan;
-  const Camera finite = with_finite_far(camera, bounds.receivers);
-  PageContext c{finite, seen, pages, memory, camera_axes(finite)};
-  plan.clip_space = options.clip_space;
-  plan.bias = options.bias;
+  const PageHistory known = history != nullptr ? *history : PageHistory{};
+  const PageMemory parts = parts_of(memory, pages.capacity);
+  plan.invalid_field = invalid_seen(view, known, parts);
+  if (!plan.invalid_field.empty()) return plan;
+  const Camera finite = with_finite_far(view.camera, bounds.receivers);
+  PageContext c{finite, view, known, pages, parts, camera_axes(finite)};
+  plan.clip_space = pages.plan.clip_space;
+  plan.bias = pages.plan.bias;
   plan.page_texels = pages.page_texels;
-  plan.border_texels = static_cast<int>(std::ceil(options.filter.texels));
+  plan.border_texels = static_cast<int>(std::ceil(pages.plan.filter.texels));
   plan.capacity = pages.capacity;
   plan.target_m = pages.target_m;
-  plan.status = plan_base(light, bounds, options, c, plan);
+  plan.status = plan_base(light, bounds, c, plan);
   if (plan.status != PlanStatus::ok) return plan;
   make_ladder(c);
   take_points(bounds, c);

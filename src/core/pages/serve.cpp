@@ -4,7 +4,7 @@
 
 #include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
-#include "gnomon/reuse.hpp"
+#include "gnomon/motion.hpp"
 #include "pages/fill.hpp"
 #include "plan/select.hpp"
 

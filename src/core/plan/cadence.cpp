@@ -4,6 +4,7 @@
 // its frustum by at most |t| + 2 sin(a / 2) d. So the receivers within that of the old frustum's slice hold
 // all that the new one shows.
 #include "plan/cadence.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -90,8 +91,9 @@ Polytope receivers_with_room(const PlanContext& c, double begin, double end, dou
   return body;
 }
 
-const KeptMap* kept_map(const PlanContext& c, const PlanHistory& history, const CascadeSlot& slot) noexcept {
-  const KeptMap& kept = history.kept[static_cast<std::size_t>(slot.cascade)];
+const PlanHistory::KeptMap* kept_map(const PlanContext& c, const PlanHistory& history,
+                                     const CascadeSlot& slot) noexcept {
+  const PlanHistory::KeptMap& kept = history.kept[static_cast<std::size_t>(slot.cascade)];
   const int frames = c.options.cadence.frames;
   const bool due = (history.frame + slot.cascade) % frames == 0;
   if (due || kept.frame < 0 || history.frame - kept.frame >= frames) return nullptr;

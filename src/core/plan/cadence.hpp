@@ -1,6 +1,7 @@
 // Far cascades that are planned every few frames: which maps are kept, and the room that lets them serve.
 #pragma once
 
+#include "gnomon/extend/body.hpp"
 #include "map/context.hpp"
 
 namespace gnomon {
@@ -26,7 +27,7 @@ struct CascadeSlot {
   double begin, end;
 };
 /// The map of an earlier frame that still serves the slot; nullptr: it is to be planned.
-[[nodiscard]] const KeptMap* kept_map(const PlanContext& c, const PlanHistory& history,
-                                      const CascadeSlot& slot) noexcept;
+[[nodiscard]] const PlanHistory::KeptMap* kept_map(const PlanContext& c, const PlanHistory& history,
+                                                   const CascadeSlot& slot) noexcept;
 
 }  // namespace gnomon

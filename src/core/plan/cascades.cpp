@@ -10,7 +10,9 @@
 #include "geometry/body.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
-#include "gnomon/reuse.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/motion.hpp"
+#include "gnomon/extend/light_space.hpp"
 #include "map/shared_views.hpp"
 #include "plan/cadence.hpp"
 #include "plan/receiver_planes.hpp"
@@ -124,7 +126,8 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
 }
 
 /// Adds a map of an earlier frame, for this frame's eye.
-void keep(const PlanContext& c, const KeptMap& kept, PlanHistory& history, ShadowPlan& plan) noexcept {
+void keep(const PlanContext& c, const PlanHistory::KeptMap& kept, PlanHistory& history,
+          ShadowPlan& plan) noexcept {
   if (!kept.drawn) {
     omit(plan, {OmissionKind::cascade_without_caster, kept.map.cascade, kept.map.depth_begin,
                 kept.map.depth_end, texels_asked(c.options)});
@@ -137,7 +140,7 @@ void keep(const PlanContext& c, const KeptMap& kept, PlanHistory& history, Shado
 }
 
 /// What later frames may keep.
-KeptMap kept_from(const PlanContext& c, const MapResult& result, std::int64_t frame) noexcept {
+PlanHistory::KeptMap kept_from(const PlanContext& c, const MapResult& result, std::int64_t frame) noexcept {
   return {frame, result.drawn, result.map, result.gl_from_world, c.camera};
 }
 
@@ -145,7 +148,7 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
                   MapSizes::Size size, PlanHistory* history, ShadowPlan& plan) noexcept {
   const bool keeps = c.keeps && cascade > 0;
   if (keeps) {
-    const KeptMap* const kept = kept_map(c, *history, {cascade, between.begin, between.end});
+    const PlanHistory::KeptMap* const kept = kept_map(c, *history, {cascade, between.begin, between.end});
     if (kept != nullptr) return keep(c, *kept, *history, plan);
   }
   Slice slice;
@@ -172,9 +175,9 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
   request.without_casters = !c.options.prune.has(PruneRule::casterless_cascades);
   request.last = last_map(history, cascade);
   Polytope moving;
-  if (slice.room > 0.0 && plan.select_finest)
+  if (slice.room > 0.0 && plan.selection == MapSelection::finest)
     moving = receivers_with_room(c, c.camera.near_depth, c.camera.far_depth, slice.room);
-  if (plan.select_finest) request.all_receivers = moving.empty() ? &scene.body : &moving;
+  if (plan.selection == MapSelection::finest) request.all_receivers = moving.empty() ? &scene.body : &moving;
   request.viewed = slice.viewed.points();
   request.room = slice.room;
   MapResult result(next_map(plan));

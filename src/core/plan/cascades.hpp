@@ -3,6 +3,8 @@
 
 #include <span>
 
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/light_space.hpp"
 #include "map/context.hpp"
 #include "plan/budget.hpp"
 #include "plan/merge.hpp"

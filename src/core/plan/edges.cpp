@@ -7,6 +7,9 @@
 #include <limits>
 #include <utility>
 
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
+#include "gnomon/study/formulas.hpp"
 #include "geometry/body.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
@@ -230,7 +233,7 @@ JudgedEdges searched_edges(const PlanContext& c, const ParallelScene& scene,
 
 /// Sets the inner edges to the best ones of an earlier frame. False where they are too old, or of other
 /// depths.
-bool take_searched(const SearchedEdges& searched, std::int64_t frame, std::span<double> edges) noexcept {
+bool take_searched(const PlanHistory::SearchedEdges& searched, std::int64_t frame, std::span<double> edges) noexcept {
   constexpr double kAlike = 1.05;
   const auto count = static_cast<std::size_t>(searched.count);
   if (frame >= searched.until || count != edges.size()) return false;

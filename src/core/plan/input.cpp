@@ -6,7 +6,7 @@
 
 #include "geometry/usable.hpp"
 #include "geometry/vector.hpp"
-#include "gnomon/caster_set.hpp"
+#include "gnomon/bounds.hpp"
 
 namespace gnomon {
 namespace {
@@ -99,7 +99,8 @@ std::string_view unknown_enumerator(const PlanOptions& o) noexcept {
   if (o.split.partition > Partition::receiver_clusters) return "options.split.partition";
   if (o.split.scheme > SplitScheme::given) return "options.split.scheme";
   if (o.split.range > SplitRange::camera) return "options.split.range";
-  if (o.split.selection > MapSelection::finest) return "options.split.selection";
+  if (o.split.selection != MapSelection::view_depth && o.split.selection != MapSelection::finest)
+    return "options.split.selection";
   if (o.fit > Fit::warped_stable) return "options.fit";
   if (o.warp.objective > Objective::p95) return "options.warp.objective";
   const ClipSpace& clip = o.clip_space;
@@ -147,10 +148,9 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
 
 }  // namespace
 
-std::string_view first_invalid_field(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                                     const PlanOptions& options, const VisibleDepths* visible,
-                                     std::span<const glm::dvec3> points) noexcept {
-  if (const auto field = invalid_camera(camera); !field.empty()) return field;
+std::string_view first_invalid_field(const View& view, const Light& light, const SceneBounds& bounds,
+                                     const PlanOptions& options) noexcept {
+  if (const auto field = invalid_camera(view.camera); !field.empty()) return field;
   if (light.valueless_by_exception()) return "light";
   const auto light_field =
       std::holds_alternative<DirectionalLight>(light) ? InvalidLight{}(*std::get_if<DirectionalLight>(&light))
@@ -160,9 +160,9 @@ std::string_view first_invalid_field(const Camera& camera, const Light& light, c
   if (any_unusable(bounds.casters)) return "bounds.casters";
   if (any_unusable(bounds.receivers)) return "bounds.receivers";
   if (const auto field = invalid_options(options); !field.empty()) return field;
-  if (visible != nullptr && !usable(*visible)) return "visible";
-  for (const glm::dvec3& point : points) {
-    if (!usable(point)) return "visible_points";
+  if (view.depths != nullptr && !usable(*view.depths)) return "view.depths";
+  for (const glm::dvec3& point : view.points_world) {
+    if (!usable(point)) return "view.points_world";
   }
   return usable_budget(options, light) ? std::string_view{} : "options.resolution.texel_budget";
 }

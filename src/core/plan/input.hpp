@@ -8,9 +8,8 @@
 namespace gnomon {
 
 /// Name of the first input that breaks the contract of make_plan; empty where all is well.
-[[nodiscard]] std::string_view first_invalid_field(const Camera& camera, const Light& light,
-                                                   const SceneBounds& bounds, const PlanOptions& options,
-                                                   const VisibleDepths* visible,
-                                                   std::span<const glm::dvec3> points = {}) noexcept;
+[[nodiscard]] std::string_view first_invalid_field(const View& view, const Light& light,
+                                                   const SceneBounds& bounds,
+                                                   const PlanOptions& options) noexcept;
 
 }  // namespace gnomon

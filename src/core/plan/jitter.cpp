@@ -1,5 +1,5 @@
 // Moves the texel grids of a plan's maps by shares of a texel.
-#include "gnomon/jitter.hpp"
+#include "gnomon/motion.hpp"
 
 #include <algorithm>
 #include <glm/mat4x4.hpp>

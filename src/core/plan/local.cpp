@@ -1,5 +1,7 @@
 // Which frusta a spot or point light is divided into, and which of the visible receivers each of them holds.
 #include "plan/local.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/light_space.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -370,7 +372,7 @@ void plan_local(const PlanContext& c, const Light& light, PlanHistory* history, 
                    view_body(c),
                    equal_sizes(options.resolution.max_size),
                    history};
-  plan.select_by_map = true;
+  plan.selection = MapSelection::first_holding;
   // A light whose whole range is rounding of its position reaches no pixel.
   constexpr double kLeastRange = 1e-12;
   if (scene.range <= kLeastRange * largest_component(scene.apex)) scene.lit.vertex_count = 0;

@@ -6,6 +6,10 @@
 // search trees used for associative searching", 1975 (groups by halving along the axes). Planes in place of
 // marks on objects let any shader choose the map of a point, and a box that a plane cuts serves in both groups.
 #include "plan/parts.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/light_space.hpp"
+#include "gnomon/extend/warp.hpp"
+#include "gnomon/study/formulas.hpp"
 
 #include <array>
 #include <cmath>
@@ -621,7 +625,7 @@ void plan_parts(const PlanContext& c, const ParallelScene& scene, ShadowPlan& pl
     const double fewest = parts.fewest_slices, asked = c.options.split.face_slices;
     omit(plan, {OmissionKind::faces_less_divided, -1, fewest, asked, 0});
   }
-  plan.select_by_map = gains;
+  plan.selection = gains ? MapSelection::first_holding : MapSelection::view_depth;
   const Parts& chosen = gains ? parts : whole;
   for (int i = 0; i < chosen.count; ++i) plan_part(c, chosen.part[static_cast<std::size_t>(i)], plan);
 }

@@ -1,5 +1,6 @@
 // From a camera, a light and bounds to the shadow maps worth drawing: the pipeline, stage by stage.
 #include "gnomon/plan.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -113,14 +114,15 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
     if (ignores_points) omit(plan, IgnoredOption::visible_points);
     return finish_parallel(c, plan);
   }
-  plan.select_by_map = plan.select_finest = options.split.selection == MapSelection::finest;
+  plan.selection = options.split.selection;
   if (takes_planes(c)) {
     plan_with_planes(c, scene, history, plan);
   } else {
     plan_along_view(c, scene, history, plan);
   }
   if (ignores_points) omit(plan, IgnoredOption::visible_points);
-  if (plan.select_by_map && options.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
+  if (plan.selection != MapSelection::view_depth && options.split.overlap > 0.0)
+    omit(plan, IgnoredOption::split_overlap);
   finish_parallel(c, plan);
 }
 
@@ -131,12 +133,6 @@ glm::dvec4 light_of(const Light& light) noexcept {
   const auto* point = std::get_if<PointLight>(&light);
   return point != nullptr ? glm::dvec4(point->position, 1.0) : glm::dvec4(0.0);
 }
-
-/// What the caller knows to be visible; nullptr and no points: nothing.
-struct Visible {
-  const VisibleDepths* depths;
-  std::span<const glm::dvec3> points_world;
-};
 
 /// The context that input and options give, and the plan's fields that need no map.
 PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const PlanOptions& options,
@@ -155,26 +151,26 @@ PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const Pl
 /// Forgets what was planned with other options: maps that are kept as they are, and where searches begin.
 void remember_options(const PlanOptions& options, PlanHistory& history) noexcept {
   if (options == history.options) return;
-  for (KeptMap& kept : history.kept) kept.frame = -1;
+  for (PlanHistory::KeptMap& kept : history.kept) kept.frame = -1;
   for (PlanHistory::Map& map : history.map) map.searched.until = -1;
   history.searched_edges.until = -1;
   history.options = options;
 }
 
 /// Fills in the plan of one frame; `history` may be nullptr.
-void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                const PlanOptions& options, PlanHistory* history, const Visible& visible,
-                ShadowPlan& plan) noexcept {
-  plan.invalid_field =
-      first_invalid_field(camera, light, bounds, options, visible.depths, visible.points_world);
+void plan_frame(const View& view, const Light& light, const SceneBounds& bounds, const PlanOptions& options,
+                PlanHistory* history, ShadowPlan& plan) noexcept {
+  plan.invalid_field = first_invalid_field(view, light, bounds, options);
   if (!plan.invalid_field.empty()) return;
-  if (std::isinf(camera.far_depth)) {
-    plan_frame(with_finite_far(camera, bounds.receivers), light, bounds, options, history, visible, plan);
+  if (std::isinf(view.camera.far_depth)) {
+    View finite = view;
+    finite.camera = with_finite_far(view.camera, bounds.receivers);
+    plan_frame(finite, light, bounds, options, history, plan);
     return;
   }
-  PlanContext context = begin_plan(camera, bounds, options, history != nullptr, plan);
+  PlanContext context = begin_plan(view.camera, bounds, options, history != nullptr, plan);
   context.keeps = keeps_cascades(light, options, history != nullptr);
-  context.seen_points = visible.points_world;
+  context.seen_points = view.points_world;
   if (history != nullptr) {
     remember_options(options, *history);
     context.frame = history->frame;
@@ -188,12 +184,12 @@ void plan_frame(const Camera& camera, const Light& light, const SceneBounds& bou
     }
   }
   if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
-    plan_parallel(context, *sun, visible.depths, history, plan);
+    plan_parallel(context, *sun, view.depths, history, plan);
   } else {
-    context.seen = visible.depths;
+    context.seen = view.depths;
     context.seen_points = {};
     plan_local(context, light, history, plan);
-    if (!visible.points_world.empty()) omit(plan, IgnoredOption::visible_points);
+    if (!view.points_world.empty()) omit(plan, IgnoredOption::visible_points);
   }
   if (options.cadence.frames > 1 && !context.keeps) omit(plan, IgnoredOption::cadence);
 }
@@ -213,30 +209,24 @@ ShadowPlan plan_shared(std::span<const SharedView> views, const Camera& mean, co
   return plan;
 }
 
-ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                     const PlanOptions& options, const VisibleDepths* visible,
-                     std::span<const glm::dvec3> visible_points_world) noexcept {
+ShadowPlan make_plan(const View& view, const Light& light, const SceneBounds& bounds,
+                     const PlanOptions& options, PlanHistory* history) noexcept {
   ShadowPlan plan;
-  plan_frame(camera, light, bounds, options, nullptr, {visible, visible_points_world}, plan);
-  return plan;
-}
-
-ShadowPlan make_plan(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                     const PlanOptions& options, PlanHistory& history, const VisibleDepths* visible,
-                     std::span<const glm::dvec3> visible_points_world) noexcept {
-  history.event_count = 0;
-  const Visible seen{visible, visible_points_world};
-  ShadowPlan plan;
+  if (history == nullptr) {
+    plan_frame(view, light, bounds, options, nullptr, plan);
+    return plan;
+  }
+  history->event_count = 0;
   if (keeps_cascades(light, options, true)) {
-    plan_frame(camera, light, bounds, with_fixed_splits(options), &history, seen, plan);
+    plan_frame(view, light, bounds, with_fixed_splits(options), history, plan);
   } else {
-    plan_frame(camera, light, bounds, options, &history, seen, plan);
+    plan_frame(view, light, bounds, options, history, plan);
   }
   if (plan.status == PlanStatus::invalid_input) return plan;
-  history.eye_world = camera.position;
-  history.forward = camera_axes(camera).forward;
-  history.light_world = light_of(light);
-  ++history.frame;
+  history->eye_world = view.camera.position;
+  history->forward = camera_axes(view.camera).forward;
+  history->light_world = light_of(light);
+  ++history->frame;
   return plan;
 }
 

@@ -1,5 +1,5 @@
 // The rules by name.
-#include "gnomon/prune.hpp"
+#include "gnomon/options.hpp"
 
 #include <array>
 

@@ -2,6 +2,7 @@
 // Based on: Chong and Gortler, "A Lixel for Every Pixel", 2004 (one map for each of a few planes of interest,
 // and one for everything else).
 #include "plan/receiver_planes.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -161,7 +162,7 @@ void add_plane_maps(const PlanContext& c, const PlaneMaps& planes, ShadowPlan& p
   // Maps chosen by what they hold need their depths as planes.
   const glm::dvec3& forward = c.axes.forward;
   const double eye = glm::dot(forward, c.camera.position);
-  for (int i = 0; i < plan.map_count && !plan.select_finest; ++i) {
+  for (int i = 0; i < plan.map_count && plan.selection != MapSelection::finest; ++i) {
     ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
     if (i > 0) select(map, {forward, -eye - map.depth_begin});
     if (i + 1 < plan.map_count) select(map, {-forward, eye + map.depth_end});
@@ -171,7 +172,7 @@ void add_plane_maps(const PlanContext& c, const PlaneMaps& planes, ShadowPlan& p
   std::copy_n(planes.map.begin(), planes.count, plan.map.data());
   plan.map_count += planes.count;
   for (int i = 0; i < planes.of_maps_count; ++i) omit(plan, planes.of_maps[static_cast<std::size_t>(i)]);
-  plan.select_by_map = true;
+  if (plan.selection == MapSelection::view_depth) plan.selection = MapSelection::first_holding;
 }
 
 }  // namespace gnomon

@@ -1,6 +1,7 @@
 // Which maps do the planes of WarpOptions::planes get, and what of the cascades is left?
 #pragma once
 
+#include "gnomon/extend/body.hpp"
 #include "plan/cascades.hpp"
 
 namespace gnomon {

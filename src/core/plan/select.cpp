@@ -1,5 +1,6 @@
 // Which map serves a point.
 #include "plan/select.hpp"
+#include "gnomon/extend/shape.hpp"
 
 #include <cmath>
 #include <glm/common.hpp>
@@ -92,8 +93,8 @@ int finest_map(const ShadowPlan& plan, const glm::dvec3& point) noexcept {
 }  // namespace
 
 int map_serving(const ShadowPlan& plan, const glm::dvec3& point, double depth) noexcept {
-  if (plan.select_finest) return finest_map(plan, point);
-  if (plan.select_by_map) {
+  if (plan.selection == MapSelection::finest) return finest_map(plan, point);
+  if (plan.selection != MapSelection::view_depth) {
     for (int i = 0; i < plan.map_count; ++i) {
       if (map_holds(plan, plan.map[static_cast<std::size_t>(i)], point)) return i;
     }

@@ -1,5 +1,6 @@
 // Brings a plan into the numbers that the shader library reads, whatever clip space it was made for.
-#include "gnomon/shader_block.hpp"
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/shader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +71,7 @@ glm::mat4 shader_shape(const ShadowMap& map, const glm::dmat4& lookup_from_map) 
 
 // As map_serving of shaders/library/select_map.glsl takes it.
 float shader_selection(const ShadowPlan& plan) noexcept {
-  return plan.select_finest ? 2.0f : plan.select_by_map ? 1.0f : 0.0f;
+  return static_cast<float>(plan.selection);
 }
 
 ShaderBlock shader_block(const ShadowPlan& plan, const ShaderLayers& layers) noexcept {

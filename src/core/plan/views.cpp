@@ -1,5 +1,5 @@
 // One plan for several cameras: which of them see receivers, and what they share.
-#include "gnomon/views.hpp"
+#include "gnomon/plan.hpp"
 
 #include <array>
 #include <cmath>
@@ -20,11 +20,11 @@ std::string_view first_invalid_field(std::span<const Camera> cameras, const Ligh
                                      const SceneBounds& bounds, const PlanOptions& options) noexcept {
   if (cameras.empty() || cameras.size() > kMaxViews) return "cameras";
   // Bounds may be many: they are looked at once.
-  const auto field = first_invalid_field(cameras[0], light, bounds, options, nullptr);
+  const auto field = first_invalid_field(cameras[0], light, bounds, options);
   if (!field.empty()) return field;
   for (const Camera& camera : cameras.subspan(1)) {
     if (camera.orthographic != cameras[0].orthographic) return "cameras";
-    const auto of_camera = first_invalid_field(camera, light, SceneBounds{}, options, nullptr);
+    const auto of_camera = first_invalid_field(camera, light, SceneBounds{}, options);
     if (!of_camera.empty()) return of_camera;
   }
   return {};

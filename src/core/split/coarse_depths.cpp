@@ -1,7 +1,7 @@
 // Which view depths can show a surface, by a coarse depth buffer drawn on the CPU?
 // Based on: Hasselgren, Andersson, Akenine-Möller, "Masked Software Occlusion Culling", 2016: a mask of
 // covered pixels and two depths for each tile. Here triangles are tested tile by tile in a second pass.
-#include "gnomon/coarse_depths.hpp"
+#include "gnomon/view.hpp"
 
 #include <array>
 #include <cmath>

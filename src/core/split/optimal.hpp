@@ -10,7 +10,7 @@
 #include <limits>
 #include <span>
 
-#include "gnomon/split.hpp"
+#include "gnomon/options.hpp"
 #include "lanes/elementary.hpp"
 
 namespace gnomon {

@@ -1,13 +1,13 @@
 // Where along the view one shadow map ends and the next begins.
 // Based on: Zhang, Sun, Xu, Lun, "Parallel-Split Shadow Maps", 2006; Lloyd et al., "Warping and Partitioning
 // for Low Error Shadow Maps", 2006 (pseudo-near plane).
-#include "gnomon/split.hpp"
+#include "gnomon/options.hpp"
+#include "gnomon/study/formulas.hpp"
 
 #include <array>
 #include <cmath>
 
 #include "geometry/vector.hpp"
-#include "gnomon/partition.hpp"
 #include "lanes/elementary.hpp"
 
 namespace gnomon {
@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kSchemeNames = {
     "uniform", "logarithmic", "practical", "pseudo_near", "optimal", "auto", "given"};
 
-constexpr std::array<std::string_view, 2> kSelectionNames = {"view_depth", "finest"};
+constexpr std::array<std::string_view, 3> kSelectionNames = {"view_depth", "first_holding", "finest"};
 
 double logarithmic_edge(double n, double f, double t) noexcept {
   return n * elementary::pow(f / n, t);
@@ -45,9 +45,9 @@ std::string_view to_string(MapSelection selection) noexcept {
 }
 
 bool map_selection_from_name(std::string_view name, MapSelection& selection) noexcept {
-  for (std::size_t i = 0; i < kSelectionNames.size(); ++i) {
-    if (kSelectionNames[i] != name) continue;
-    selection = static_cast<MapSelection>(i);
+  for (const MapSelection option : {MapSelection::view_depth, MapSelection::finest}) {
+    if (to_string(option) != name) continue;
+    selection = option;
     return true;
   }
   return false;

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "geometry/vector.hpp"
-#include "gnomon/split.hpp"
-#include "gnomon/visible_depths.hpp"
+#include "gnomon/options.hpp"
+#include "gnomon/view.hpp"
 #include "lanes/elementary.hpp"
 
 namespace gnomon {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "gnomon/visible_depths.hpp"
+#include "gnomon/view.hpp"
 
 namespace gnomon {
 

@@ -2,6 +2,8 @@
 // Based on: Lloyd, Govindaraju, Quammen, Molnar, Manocha, "Logarithmic Perspective Shadow Maps", 2008: PSM
 // across the axis, ln(w) along it, so that errors along the view are the same at all depths.
 #include "gnomon/study/log_perspective.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/light_space.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -54,7 +56,7 @@ LogPerspectiveMap log_perspective_map(const Camera& any_camera, const Directiona
   PlanOptions options;
   options.resolution.max_size = size;
   options.warp.warp = &warps::psm;
-  if (!first_invalid_field(any_camera, light, bounds, options, nullptr).empty()) return map;
+  if (!first_invalid_field(any_camera, light, bounds, options).empty()) return map;
   const Camera camera = with_finite_far(any_camera, bounds.receivers);
   const CameraAxes axes = camera_axes(camera);
   Polytope body = frustum_slice(camera, axes, camera.near_depth, camera.far_depth);
@@ -115,7 +117,7 @@ PointAliasing measure_perspective(const LogPerspectiveMap& map, const Camera& ca
 }
 
 AliasingStats measure(const LogPerspectiveMap& map, const Camera& any_camera, const SceneBounds& bounds,
-                      const MeasureGrid& grid) noexcept {
+                      const MeasureOptions& grid) noexcept {
   AliasingStats stats;
   if (!map.valid) return stats;
   const Camera camera = with_finite_far(any_camera, bounds.receivers);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "lanes/casters.hpp"
 #include "lanes/elementary.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 constexpr double kMega = 1e6, kKilo = 1e3;
 constexpr int kReferenceSize = 1024;
 /// Pixels and depths that stand for what is seen where nobody knows: it is the order of plans that counts.
-constexpr MeasureGrid kGrid{24, 16, 24};
+constexpr MeasureOptions kGrid{24, 16, 24};
 /// How much less counts as a trade.
 constexpr double kTrade = 0.8;
 
@@ -235,13 +235,14 @@ void for_each_caster(const ShadowMap& map, const Boxes& casters, Use&& use) noex
 
 }  // namespace
 
-double planned_error(const ShadowPlan& plan, const Camera& camera, const SceneBounds& bounds,
-                     const SceneDetail& detail) noexcept {
-  const AliasingStats seen = measure_seen(plan, camera, detail.seen_world);
-  return seen.samples > 0 ? seen.mean : measure(plan, camera, bounds, kGrid).mean;
+double planned_error(const ShadowPlan& plan, const View& view, const SceneBounds& bounds) noexcept {
+  const AliasingStats seen = measure(plan, view, bounds, kGrid);
+  return seen.samples > 0 || view.points_world.empty() ? seen.mean
+                                                       : measure(plan, view.camera, bounds, kGrid).mean;
 }
 
-PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds, const SceneDetail& detail) noexcept {
+PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds,
+                      std::span<const CasterWork> casters) noexcept {
   PlanWork work;
   std::size_t draws = 0;
   for (const ShadowMap& map : plan.maps()) {
@@ -249,9 +250,9 @@ PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds, const S
     double triangles = 0.0, tested = 0.0;
     for_each_caster(map, bounds.casters, [&](std::size_t caster) {
       ++draws;
-      if (caster >= detail.work.size()) return;
-      triangles += detail.work[caster].triangles;
-      tested += detail.work[caster].alpha_tested ? detail.work[caster].triangles : 0.0;
+      if (caster >= casters.size()) return;
+      triangles += casters[caster].triangles;
+      tested += casters[caster].alpha_tested ? casters[caster].triangles : 0.0;
     });
     work.maps += 1.0;
     work.megatexels += megatexels;
@@ -262,13 +263,16 @@ PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds, const S
   return work;
 }
 
-TechniqueChoice choose_technique(const Camera& camera, const Light& light, const SceneBounds& bounds,
-                                 const SceneDetail& detail, const TechniqueSet& among, const Budget& budget,
-                                 const CostModel& costs, const PlanOptions& base) noexcept {
+TechniqueChoice choose_technique(const View& view, const Light& light, const SceneBounds& bounds,
+                                 std::span<const CasterWork> casters, const TechniqueSet& among,
+                                 const Budget& budget, const CostModel& costs,
+                                 const PlanOptions& base) noexcept {
   TechniqueChoice choice;
   choice.invalid_field = broken(budget, costs, among);
   if (!choice.invalid_field.empty()) return choice;
-  Choosing choosing(camera, costs, given_or(among.map_sizes, kSizes));
+  // Points tell where errors count; they do not shape the maps.
+  const View planned{.camera = view.camera, .depths = view.depths};
+  Choosing choosing(view.camera, costs, given_or(among.map_sizes, kSizes));
   const bool positional = !std::holds_alternative<DirectionalLight>(light);
   const std::span<const int> cascades = given_or(among.cascades, kCascades);
   for (const Warp* warp : given_or(among.warps, kWarps)) {
@@ -277,7 +281,7 @@ TechniqueChoice choose_technique(const Camera& camera, const Light& light, const
         if (choosing.full()) break;
         Technique t{warp, split, count, kReferenceSize};
         const PlanOptions options = options_of(base, t);
-        const ShadowPlan plan = make_plan(camera, light, bounds, options, detail.visible_depths);
+        const ShadowPlan plan = make_plan(planned, light, bounds, options);
         if (plan.status != PlanStatus::ok) {
           choice.status = plan.status;
           choice.invalid_field = plan.invalid_field;
@@ -285,8 +289,8 @@ TechniqueChoice choose_technique(const Camera& camera, const Light& light, const
           return choice;
         }
         Parametrization p{warp,  split,
-                          count, planned_error(plan, camera, bounds, detail),
-                          0.0,   planned_work(plan, bounds, detail)};
+                          count, planned_error(plan, view, bounds),
+                          0.0,   planned_work(plan, bounds, casters)};
         for (const ShadowMap& map : plan.maps())
           p.margin_share =
               std::max(p.margin_share, static_cast<double>(map.filter_margin_texels) / kReferenceSize);
@@ -299,7 +303,7 @@ TechniqueChoice choose_technique(const Camera& camera, const Light& light, const
   choice.better = choosing.better_than(choice.chosen);
   choice.tried = choosing.tried();
   choice.options = options_of(base, choice.chosen);
-  choice.plan = make_plan(camera, light, bounds, choice.options, detail.visible_depths);
+  choice.plan = make_plan(planned, light, bounds, choice.options);
   choice.status = choice.plan.status;
   choice.invalid_field = choice.plan.invalid_field;
   return choice;

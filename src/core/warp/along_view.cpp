@@ -1,6 +1,7 @@
 // Which strength of a warp along the view is best for a body's vertices, by the simplified error of
 // warp_error?
 #include "warp/along_view.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <cmath>
 #include <limits>

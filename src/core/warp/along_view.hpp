@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "lanes/lanes.hpp"
 #include "warp/plane_map.hpp"
 

@@ -1,6 +1,8 @@
 // The points of a body at which a warp's error is measured, and what a pixel covers there.
 // Based on: Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006, as a Jacobian.
 #include "warp/error_samples.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -4,7 +4,8 @@
 #include <array>
 #include <cstddef>
 
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/warp.hpp"
+#include "gnomon/extend/body.hpp"
 #include "lanes/lanes.hpp"
 
 namespace gnomon {

@@ -2,6 +2,7 @@
 // over kappa. Based on: Wimmer, Scherzer, Purgathofer, "Light Space Perspective Shadow Maps", 2004; Lloyd et
 // al., "Warping and Partitioning for Low Error Shadow Maps", 2006 (the error measure). The search over the
 // vertices is this project's.
+#include "gnomon/extend/warp.hpp"
 #include "warp/along_view.hpp"
 
 namespace gnomon::warps {

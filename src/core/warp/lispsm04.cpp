@@ -4,7 +4,7 @@
 // along the view.
 #include <cmath>
 
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/warp.hpp"
 
 namespace gnomon::warps {
 namespace {

@@ -5,7 +5,8 @@
 #include <limits>
 
 #include "geometry/vector.hpp"
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/light_space.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "warp/formulas.hpp"
 
 namespace gnomon::warps {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/vector.hpp"
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "lanes/elementary.hpp"
 #include "warp/formulas.hpp"
 

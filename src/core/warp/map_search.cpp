@@ -4,6 +4,7 @@
 // each; then the four sides of the map's rectangle, by the samples near the worst; and a warp of the registry
 // where that is better.
 #include "warp/map_search.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <array>
 #include <cmath>

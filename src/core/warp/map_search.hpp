@@ -1,7 +1,7 @@
 // The best projective map of the light plane for a body: what `optimal` and `optimal_thorough` search for.
 #pragma once
 
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/warp.hpp"
 
 namespace gnomon {
 

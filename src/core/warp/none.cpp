@@ -1,5 +1,5 @@
 // No warp: the orthographic map, kappa = 0.
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/warp.hpp"
 
 namespace gnomon::warps {
 

@@ -1,4 +1,5 @@
 // The best projective map of the light plane for this body: `optimal` from eight starts.
+#include "gnomon/extend/warp.hpp"
 #include "warp/map_search.hpp"
 
 namespace gnomon::warps {

@@ -1,6 +1,8 @@
 // The error of a projective map of the light plane, at points of the body.
 // Based on: Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006, as a Jacobian.
 #include "warp/plane_error.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,8 @@
 // Based on: Wimmer, Scherzer, Purgathofer 2004, rewritten in kappa = 1 / (distance of the projection centre),
 // so that kappa = 0 is the orthographic map and nothing tends to infinity.
 #include "warp/plane_map.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -5,8 +5,9 @@
 #include <glm/mat4x4.hpp>
 #include <span>
 
-#include "gnomon/light_space.hpp"
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/light_space.hpp"
+#include "gnomon/extend/warp.hpp"
 
 namespace gnomon {
 

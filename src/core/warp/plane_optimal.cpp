@@ -7,7 +7,9 @@
 #include <glm/geometric.hpp>
 
 #include "geometry/vector.hpp"
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::warps {
 namespace {

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "geometry/vector.hpp"
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/warp.hpp"
 
 namespace gnomon::warps {
 namespace {

@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::array kWarps = {
 #define GNOMON_WARP(name) &warps::name,
+#include "gnomon/extend/light_space.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "gnomon/warps.def"
 #undef GNOMON_WARP
 };

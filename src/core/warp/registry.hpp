@@ -1,8 +1,8 @@
 // What stages ask of a warp without knowing which it is.
 #pragma once
 
-#include "gnomon/plan_options.hpp"
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/warp.hpp"
+#include "gnomon/options.hpp"
 
 namespace gnomon {
 

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "gnomon/extend/warp.hpp"
 #include "geometry/vector.hpp"
 #include "lanes/elementary.hpp"
 #include "warp/row_search.hpp"

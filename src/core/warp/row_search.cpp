@@ -4,6 +4,7 @@
 // the squared extents of a texel in pixels are la^2 |b J|^2 and lb^2 |a J|^2 over (det J (a x b))^2: what is
 // by the rows stands apart from what is by the fall-off.
 #include "warp/row_search.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -2,6 +2,8 @@
 // fall-offs side by side, so that a search tries many at once.
 #pragma once
 
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "lanes/elementary.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/single.hpp"

@@ -5,6 +5,7 @@
 // and alpha to delta are determinants of three of the lines. No point of the body takes a division, nor does
 // a sample.
 #include "warp/side_search.hpp"
+#include "gnomon/extend/warp.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -2,6 +2,8 @@
 // side, so that a search turns the lines in many ways at once.
 #pragma once
 
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/single.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/vector.hpp"
-#include "gnomon/warp.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "warp/formulas.hpp"
 
 namespace gnomon::warps {

@@ -1,5 +1,6 @@
 // Bounds of runs of triangles, and of groups of runs.
 #include "casters/caster_clusters.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <algorithm>
 #include <glm/common.hpp>

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "gnomon/reuse.hpp"
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/motion.hpp"
 
 namespace gnomon::render {
 namespace {

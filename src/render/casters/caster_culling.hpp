@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "gnomon/caster_set.hpp"
-#include "gnomon/plan.hpp"
-#include "gnomon/prune.hpp"
 #include "casters/scene_buffers.hpp"
+#include "gnomon/bounds.hpp"
+#include "gnomon/options.hpp"
+#include "gnomon/plan.hpp"
 
 namespace gnomon::render {
 

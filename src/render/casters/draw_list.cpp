@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "gnomon/reuse.hpp"
+#include "gnomon/motion.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -3,6 +3,7 @@
 // Based on: Annen, Mertens, Bekaert, Seidel, Kautz, "Convolution Shadow Maps", 2007. Offset and scaling
 // against the light that leaks where things touch, and the attenuation of the ringing, are the paper's.
 #include "filter/convolution.hpp"
+#include "gnomon/study/bias.hpp"
 
 #include <numbers>
 

@@ -17,6 +17,7 @@
 #include <glm/common.hpp>
 
 #include "filter/filter_parts.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 namespace {

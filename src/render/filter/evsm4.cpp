@@ -1,6 +1,7 @@
 // Exponential variance shadow maps, two warps: four channels.
 // Based on: Lauritzen, McCool, "Layered Variance Shadow Maps", 2008, section 5.2.
 #include "filter/exponential_variance.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "filter/filter_parts.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 namespace {

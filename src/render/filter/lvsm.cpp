@@ -7,6 +7,7 @@
 // chosen, when asked, as in the paper from the map's own depths; the paper gets near the least variance
 // within layers step by step, here it is found: over so few bins that costs nothing.
 #include "filter/lvsm.hpp"
+#include "gnomon/study/bias.hpp"
 
 #include <array>
 #include <glm/common.hpp>

@@ -9,6 +9,7 @@
 #include "filter/filter_parts.hpp"
 #include "filter/moments.hpp"
 #include "filter/variance.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 namespace {

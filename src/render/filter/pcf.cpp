@@ -3,6 +3,7 @@
 // compared with the receiver's plane at that texel, so that the kernel's width needs no bias (Isidoro,
 // "Shadow Mapping: GPU-based Tips and Techniques", 2006).
 #include "filter/filter_parts.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 namespace {

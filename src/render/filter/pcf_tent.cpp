@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "filter/filter_parts.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -5,6 +5,7 @@
 // taken along the light in world units and turned back into texels by the map's derivatives at the point, so
 // that cascades and warps have the same penumbra. FilterSettings::radius is the widest kernel.
 #include "filter/filter_parts.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 namespace {

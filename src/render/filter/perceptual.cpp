@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 
 namespace gnomon::render {
 namespace {

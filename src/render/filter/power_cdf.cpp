@@ -8,6 +8,7 @@
 // the default is the fifth. Layers are those of layered variance maps (Lauritzen, McCool 2008) under this
 // law, which is no bound: the two layers about the receiver are blended, in place of the least of all.
 #include "filter/power_cdf.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 namespace {

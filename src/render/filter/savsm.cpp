@@ -3,6 +3,7 @@
 // Texture Mapping", 1984. Sums are integers that may wrap round at 2^32: their differences over a box are
 // exact however large the map is, where floats would lose log2(width height) bits.
 #include "filter/variance.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 namespace {

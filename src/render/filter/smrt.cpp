@@ -7,6 +7,7 @@
 // where it lies in the stretch. A ray that leaves the underside of one caster for the upper side of another
 // went through what joins them: a wall that the light grazes.
 #include "filter/filter_parts.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 namespace {

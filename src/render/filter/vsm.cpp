@@ -2,6 +2,7 @@
 // Based on: Donnelly, Lauritzen, "Variance Shadow Maps", 2006. Bleeding reduction and the slope's share of
 // the second moment: Lauritzen, "Summed-Area Variance Shadow Maps", GPU Gems 3, 2007.
 #include "filter/variance.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 namespace {

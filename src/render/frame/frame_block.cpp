@@ -6,8 +6,8 @@
 #include <glm/matrix.hpp>
 #include <variant>
 
-#include "gnomon/reuse.hpp"
-#include "gnomon/shader_block.hpp"
+#include "gnomon/motion.hpp"
+#include "gnomon/shader.hpp"
 
 namespace gnomon::render {
 namespace {

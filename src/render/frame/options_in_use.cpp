@@ -18,6 +18,7 @@ struct Names {
 constexpr std::array<Names, kFrameOptionCount> kNames{{
 #define GNOMON_FRAME_OPTION(name, what) {#name, what},
 #include "gnomon/render/frame_options.def"
+#include "gnomon/study/bias.hpp"
 #undef GNOMON_FRAME_OPTION
 }};
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "gl/gl_object.hpp"
-#include "gnomon/reuse.hpp"
+#include "gnomon/motion.hpp"
 
 namespace gnomon::render {
 

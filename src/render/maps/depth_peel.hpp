@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-#include "gl/gl_object.hpp"
-#include "gnomon/render/depth_layer.hpp"
-#include "gnomon/reuse.hpp"
 #include "frame/target.hpp"
+#include "gl/gl_object.hpp"
+#include "gnomon/motion.hpp"
+#include "gnomon/render/depth_layer.hpp"
 
 namespace gnomon::render {
 

@@ -1,5 +1,6 @@
 // Which rectangles of a map could a moved caster have changed?
 #include "maps/dirty_texels.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,8 +9,8 @@
 
 #include "casters/caster_shapes.hpp"
 #include "gnomon/bounds.hpp"
+#include "gnomon/motion.hpp"
 #include "gnomon/plan.hpp"
-#include "gnomon/reuse.hpp"
 #include "maps/texel_mask.hpp"
 
 namespace gnomon::render {

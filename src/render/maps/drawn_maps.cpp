@@ -5,7 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "frame/frame_block.hpp"
-#include "gnomon/shader_block.hpp"
+#include "gnomon/shader.hpp"
 
 namespace gnomon::render {
 

@@ -1,5 +1,6 @@
 // Three ways to bring a map up to date: draw it whole, add what it lacks, or scroll it and draw the strips.
 #include "maps/map_cache.hpp"
+#include "gnomon/extend/shape.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "casters/caster_culling.hpp"
+#include "gnomon/motion.hpp"
 #include "maps/dirty_texels.hpp"
 #include "maps/drawn_maps.hpp"
-#include "gnomon/reuse.hpp"
 
 namespace gnomon::render {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "gnomon/reuse.hpp"
+#include "gnomon/motion.hpp"
 
 namespace gnomon::render {
 

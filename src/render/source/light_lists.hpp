@@ -7,7 +7,7 @@
 
 #include "frame/frame_block.hpp"
 #include "gl/gl_object.hpp"
-#include "gnomon/light_clusters.hpp"
+#include "gnomon/lights.hpp"
 
 namespace gnomon::render {
 

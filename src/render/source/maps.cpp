@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "gnomon/render/error.hpp"
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "gl/gl_object.hpp"
+#include "gnomon/motion.hpp"
 #include "gnomon/pages.hpp"
-#include "gnomon/reuse.hpp"
 #include "source/page_runs.hpp"
 
 namespace gnomon::render {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "gl/gl_object.hpp"
+#include "gnomon/motion.hpp"
 #include "gnomon/pages.hpp"
-#include "gnomon/reuse.hpp"
 
 namespace gnomon::render {
 

@@ -1,4 +1,6 @@
 // Pages of depths: neighbours are drawn together into the image of their block, and copied into their slots.
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/study/bias.hpp"
 #include "source/pages.hpp"
 
 #include <algorithm>

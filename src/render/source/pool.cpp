@@ -1,4 +1,6 @@
 // Many lights: the depths of their maps in one pool, a mask for each, and the sum of their light.
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/study/bias.hpp"
 #include "source/pool.hpp"
 
 #include <algorithm>
@@ -80,7 +82,7 @@ FrameBlock block_of(const DrawnLight& light, const LightMaps& maps, const Camera
     block.light_place = glm::vec4(glm::vec3(position - camera.position), 1.0f);
   }
   for (std::size_t k = 0; k < plan.maps().size(); ++k)
-    move_to_place(plan.map[k], maps.place[k], plan.select_by_map, glm::vec2(pool), block.maps[k]);
+    move_to_place(plan.map[k], maps.place[k], plan.selection != MapSelection::view_depth, glm::vec2(pool), block.maps[k]);
   return block;
 }
 

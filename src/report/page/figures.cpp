@@ -9,7 +9,7 @@
 
 #include "chart.hpp"
 #include "file.hpp"
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/report/csv.hpp"
 #include "gnomon/study/dpds.hpp"

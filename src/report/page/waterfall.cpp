@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "gnomon/prune.hpp"
+#include "gnomon/options.hpp"
 #include "summary.hpp"
 #include "text.hpp"
 

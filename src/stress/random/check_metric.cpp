@@ -7,6 +7,7 @@
 
 #include "check.hpp"
 #include "exact_map.hpp"
+#include "gnomon/extend/shape.hpp"
 
 namespace gnomon::stress {
 namespace {
@@ -120,7 +121,7 @@ struct Sampled {
 };
 
 Sampled sample_grid(const Case& input, const ShadowPlan& plan, const View& view, const LightAt& light,
-                    const std::vector<RelativeMap>& maps, const MeasureGrid& grid) {
+                    const std::vector<RelativeMap>& maps, const MeasureOptions& grid) {
   Sampled out;
   const Camera& c = input.camera;
   const Real n = c.near_depth, f = c.far_depth;
@@ -150,7 +151,8 @@ Sampled sample_grid(const Case& input, const ShadowPlan& plan, const View& view,
       const auto deeper = [&](double by) {
         return map_serving(plan, world, static_cast<double>(depth) * (1.0 + by));
       };
-      const bool border = !plan.select_by_map && (deeper(kBorder) != served || deeper(-kBorder) != served);
+      const bool border = plan.selection == MapSelection::view_depth &&
+                          (deeper(kBorder) != served || deeper(-kBorder) != served);
       if (served < 0 && !border) continue;
       if (border) {
         ++out.maybe;
@@ -171,7 +173,7 @@ Sampled sample_grid(const Case& input, const ShadowPlan& plan, const View& view,
 
 void check_measure(const Case& input, const ShadowPlan& plan, const View& view, const LightAt& light,
                    const std::vector<RelativeMap>& maps, Report& report) {
-  constexpr MeasureGrid kGrid{6, 6, 24};
+  constexpr MeasureOptions kGrid{6, 6, 24};
   constexpr std::size_t kMostReceivers = 40;
   if (input.receivers.size() > kMostReceivers) return;
   std::vector<Box> receivers = input.receivers;
@@ -223,7 +225,7 @@ void check_empty_boxes(const Case& input, const ShadowPlan& plan, Report& report
   const ShadowPlan without = make_plan(whole.camera, whole.light, whole.bounds(), whole.options);
   if (without.status != plan.status || without.map_count != plan.map_count)
     report.add("empty_box_counts", 1.0, "another number of maps where empty boxes are taken out");
-  constexpr MeasureGrid kGrid{6, 6, 24};
+  constexpr MeasureOptions kGrid{6, 6, 24};
   const AliasingStats a = measure(plan, input.camera, input.bounds(), kGrid),
                       b = measure(plan, input.camera, whole.bounds(), kGrid);
   if (a.samples != b.samples || a.outside != b.outside || a.max != b.max)
@@ -316,7 +318,7 @@ void compare_maps(const Case& input, const ShadowPlan& with, int a, const Shadow
   Real ratio = 0.0L;
   const Real allowed = kSampled;
   if (objective == "p95" || !light.parallel()) {
-    constexpr MeasureGrid kGrid{24, 24, 48};
+    constexpr MeasureOptions kGrid{24, 24, 48};
     constexpr std::uint64_t kEnough = 400;
     // Over all of the camera's depths the grid might have a single layer of them in the map.
     Camera own = input.camera;
@@ -324,8 +326,9 @@ void compare_maps(const Case& input, const ShadowPlan& with, int a, const Shadow
       own.near_depth = warped.depth_begin;
       own.far_depth = warped.depth_end;
     }
-    const AliasingStats m = measure_map(with, a, own, input.bounds(), kGrid);
-    const AliasingStats m0 = measure_map(without, b, own, input.bounds(), kGrid);
+    const AliasingStats m = measure(with, own, input.bounds(), {kGrid.columns, kGrid.rows, kGrid.depths, a});
+    const AliasingStats m0 =
+        measure(without, own, input.bounds(), {kGrid.columns, kGrid.rows, kGrid.depths, b});
     if (m.samples < kEnough || m.samples != m0.samples || m.outside != m0.outside) return;
     ratio = objective == "p95"   ? Real(m.p95) / m0.p95
             : objective == "max" ? Real(m.max) / m0.max

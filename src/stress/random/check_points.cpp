@@ -7,6 +7,8 @@
 
 #include "check.hpp"
 #include "exact_map.hpp"
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::stress {
 namespace {
@@ -315,7 +317,7 @@ void check_points(const Case& input, const ShadowPlan& plan, Report& report) {
                     input.camera.far_depth, kBetween, random);
     for (const Real3& p : points) {
       if (!scene.light.clearly_lights(p)) continue;
-      if (plan.select_by_map)
+      if (plan.selection != MapSelection::view_depth)
         check_by_map(scene, p, report);
       else
         check_by_depth(scene, p, report);

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "gnomon/prune.hpp"
-#include "gnomon/shape.hpp"
-#include "gnomon/warp.hpp"
 #include "base/random.hpp"
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/extend/warp.hpp"
+#include "gnomon/options.hpp"
 
 namespace gnomon::stress {
 namespace {

@@ -12,7 +12,7 @@
 #include "compare/stage.hpp"
 #include "compare/sweep.hpp"
 #include "float_channel.hpp"
-#include "gnomon/jitter.hpp"
+#include "gnomon/motion.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/report/errors.hpp"
 #include "gnomon/scene/image.hpp"

@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "compare/sweep.hpp"
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "output.hpp"
 
 namespace gnomon::tool {
@@ -153,14 +153,14 @@ report::Observation Replanned::observe(const report::Row& row) const {
   report::Observation o;
   o.view = name_;
   o.filter = row.technique.filter;
-  o.work = planned_work(plan, scene_.bounds(), detail());
+  o.work = planned_work(plan, scene_.bounds(), scene_.work());
   o.megapixels = static_cast<double>(row.width) * row.height / kMega;
   o.bytes_per_texel = render::bytes_per_texel(entry.filter);
   o.frame_ms = row.times.plan_ns.median / kMega;
   o.depth_ms = row.times.depth_ms.median;
   o.prefilter_ms = row.times.prefilter_ms.median;
   o.lookup_ms = row.times.shade_ms.median;
-  o.m = planned_error(plan, camera_, scene_.bounds(), detail());
+  o.m = planned_error(plan, seen_view(), scene_.bounds());
   o.wrong = wrong_pixels(row);
   return o;
 }
@@ -184,7 +184,7 @@ TechniqueChoice Replanned::choose(const View& view, const Budget& budget, const 
     once(sizes, entry.plan.resolution.max_size);
   }
   if (splits.size() > 1) throw std::runtime_error(view.name + ": more than one kind of split");
-  return choose_technique(camera_, scene_.light(), scene_.bounds(), detail(),
+  return choose_technique(seen_view(), scene_.light(), scene_.bounds(), scene_.work(),
                           {warps, splits, cascades, sizes}, budget, costs,
                           sweep_entry(view.rows.front().technique).plan);
 }

@@ -3,7 +3,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "gnomon/reuse.hpp"
+#include "gnomon/motion.hpp"
 
 namespace gnomon::tool {
 

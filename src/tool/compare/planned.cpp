@@ -12,9 +12,10 @@ Planned::Planned(Stage& stage, const SweepEntry& entry, const Camera& camera)
     again();
     return;
   }
-  pages_ =
-      std::make_unique<FramePages>(PageFrameInput{stage_.light(), stage_.bounds(), entry.plan, entry.pages},
-                                   stage_.view(camera)->surfaces);
+  PageOptions options_of_pages = entry.pages;
+  options_of_pages.plan = entry.plan;
+  pages_ = std::make_unique<FramePages>(PageFrameInput{stage_.light(), stage_.bounds(), options_of_pages},
+                                        stage_.view(camera)->surfaces);
   if (!pages_->wants_rounds()) return;
   render::FrameOptions options;
   options.prune = prune_rules_of(PruneSource::this_frame);

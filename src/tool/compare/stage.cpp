@@ -58,17 +58,16 @@ const Stage::View* Stage::view(const Camera& camera) const noexcept {
 
 ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const {
   const View* const view = this->view(camera);
+  gnomon::View seen = camera;
+  if (view != nullptr && entry.visible_points) seen.points_world = view->points;
+  if (view != nullptr && entry.visible_depths) seen.depths = &view->depths;
+  // Once for each plan, as an engine has to: the time of a plan holds it.
+  VisibleDepths coarse;
   if (entry.coarse_depths) {
-    // Once for each plan, as an engine has to: the time of a plan holds it.
-    const VisibleDepths depths = coarse_.depths(view_.scene(), camera);
-    return make_plan(camera, view_.light(), view_.bounds(), entry.plan, &depths,
-                     entry.visible_points && view != nullptr ? std::span<const glm::dvec3>(view->points)
-                                                             : std::span<const glm::dvec3>());
+    coarse = coarse_.depths(view_.scene(), camera);
+    seen.depths = &coarse;
   }
-  if (view == nullptr) return make_plan(camera, view_.light(), view_.bounds(), entry.plan);
-  return make_plan(
-      camera, view_.light(), view_.bounds(), entry.plan, entry.visible_depths ? &view->depths : nullptr,
-      entry.visible_points ? std::span<const glm::dvec3>(view->points) : std::span<const glm::dvec3>());
+  return make_plan(seen, view_.light(), view_.bounds(), entry.plan);
 }
 
 void Stage::see(int frame) {

@@ -31,8 +31,8 @@ VisibleDepths frame_depths(const Options& options, const Flight& flight, render:
 
 ShadowPlan plan_frame(const Options& options, const Flight& flight, const Light& light, const Camera& camera,
                       const VisibleDepths& depths, PlanHistory& history) {
-  return options.history ? make_plan(camera, light, flight.bounds(), options.plan, history, &depths)
-                         : make_plan(camera, light, flight.bounds(), options.plan, &depths);
+  return make_plan({camera, &depths}, light, flight.bounds(), options.plan,
+                   options.history ? &history : nullptr);
 }
 
 }  // namespace gnomon::tool::fly

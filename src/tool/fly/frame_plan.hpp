@@ -2,10 +2,10 @@
 #pragma once
 
 #include "flight.hpp"
-#include "gnomon/history.hpp"
+#include "gnomon/motion.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/renderer.hpp"
-#include "gnomon/visible_depths.hpp"
+#include "gnomon/view.hpp"
 
 namespace gnomon::tool::fly {
 

@@ -80,8 +80,9 @@ void choose_technique_of(Options& options, const Flight& flight) {
     const int frame = static_cast<int>((i + 0.5) * options.frames / frames);
     const Camera camera = camera_of(options, flight, frame);
     const std::vector<glm::dvec3> points = visible_points(camera, light);
-    const TechniqueChoice choice = choose_technique(camera, light, flight.bounds(), {work, points}, {},
-                                                    options.budget, known.costs, options.plan);
+    const TechniqueChoice choice =
+        choose_technique({.camera = camera, .points_world = points}, light, flight.bounds(), work, {},
+                         options.budget, known.costs, options.plan);
     if (choice.status == PlanStatus::invalid_input)
       throw std::runtime_error(fmt::format("frame {}: no technique for {}", frame, choice.invalid_field));
     if (choice.status != PlanStatus::ok) continue;

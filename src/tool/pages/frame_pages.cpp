@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "float_channel.hpp"
-#include "gnomon/reuse.hpp"
+#include "gnomon/motion.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -24,9 +24,9 @@ bool same_pages(const PagePlan& a, const PagePlan& b) {
 FramePages::FramePages(const PageFrameInput& input, std::shared_ptr<const VisibleSurfaces> surfaces)
     : input_(input), surfaces_(std::move(surfaces)) {
   const auto storage = [&] {
-    return std::make_unique<Planned>(Planned{PageStorage(std::clamp(input.pages.capacity, 0, kMostPages),
-                                                         std::max<std::size_t>(surfaces_->points.size(), 1)),
-                                             {}});
+    const std::size_t points = std::max<std::size_t>(surfaces_->points.size(), 1);
+    return std::make_unique<Planned>(
+        Planned{std::vector<std::byte>(page_memory(input.pages.capacity, points)), {}, {}});
   };
   now_ = storage();
   feedback_ = first_feedback(*surfaces_, *input.pages.policy);
@@ -38,10 +38,10 @@ FramePages::FramePages(const PageFrameInput& input, std::shared_ptr<const Visibl
 
 void FramePages::plan_into(Planned& planned, const PagePlan* last) {
   using Clock = std::chrono::steady_clock;
+  const gnomon::View view{.camera = surfaces_->camera, .points_world = surfaces_->points};
+  const PageHistory history{last, feedback_};
   const auto begin = Clock::now();
-  planned.plan =
-      plan_pages(surfaces_->camera, input_.light, input_.bounds, {surfaces_->points, {}, feedback_, last},
-                 input_.plan, input_.pages, planned.storage.spans());
+  planned.plan = plan_pages(view, input_.light, input_.bounds, input_.pages, planned.memory, &history);
   plan_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
@@ -89,14 +89,18 @@ void FramePages::note_drawn(const render::Renderer& renderer) {
   }
 }
 
-void FramePages::rebase_to(const glm::dvec3& origin_world) noexcept {
-  for (ShadowMap& level : std::span(now_->storage.levels).first(now_->plan.levels.size()))
-    level = rebased(level, origin_world);
+void FramePages::rebase_to(const glm::dvec3& origin_world) {
+  std::vector<ShadowMap> levels;
+  for (const ShadowMap& level : now_->plan.levels) levels.push_back(rebased(level, origin_world));
+  now_->levels = std::move(levels);
+  now_->plan.levels = now_->levels;
   now_->plan.origin_world = origin_world;
 }
 
 PageStats FramePages::measure() const noexcept {
-  return measure_pages(now_->plan, surfaces_->camera, {surfaces_->points, surfaces_->normals, {}, nullptr});
+  const gnomon::View view{
+      .camera = surfaces_->camera, .points_world = surfaces_->points, .normals_world = surfaces_->normals};
+  return gnomon::measure(now_->plan, view, input_.bounds);
 }
 
 const ShadowMap* FramePages::level_of(int page) const noexcept {

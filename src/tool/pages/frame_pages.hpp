@@ -8,7 +8,6 @@
 #include "gnomon/light.hpp"
 #include "gnomon/pages.hpp"
 #include "gnomon/render/renderer.hpp"
-#include "base/page_storage.hpp"
 #include "visible_surfaces.hpp"
 
 namespace gnomon::tool {
@@ -17,8 +16,7 @@ namespace gnomon::tool {
 struct PageFrameInput {
   Light light;
   SceneBounds bounds;
-  PlanOptions plan;  ///< with the border of the filter
-  PageOptions pages;
+  PageOptions pages;  ///< its plan with the border of the filter
 };
 
 class FramePages {
@@ -43,7 +41,7 @@ class FramePages {
   render::FrameStats draw(render::Renderer& renderer, const Camera& camera,
                           const render::PreparedFilter& filter, const render::FrameOptions& options);
   /// Counts matrices from another eye; the pages stay where they are in the world.
-  void rebase_to(const glm::dvec3& origin_world) noexcept;
+  void rebase_to(const glm::dvec3& origin_world);
 
   [[nodiscard]] const PagePlan& plan() const noexcept { return now_->plan; }
   [[nodiscard]] const VisibleSurfaces& surfaces() const noexcept { return *surfaces_; }
@@ -58,8 +56,9 @@ class FramePages {
 
  private:
   struct Planned {
-    PageStorage storage;
+    std::vector<std::byte> memory;
     PagePlan plan;
+    std::vector<ShadowMap> levels;  ///< those of the plan, once they are rebased
   };
   void plan_into(Planned& planned, const PagePlan* last);
   void note_drawn(const render::Renderer& renderer);

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "gnomon/render/picture.hpp"
 #include "picture_colors.hpp"
 

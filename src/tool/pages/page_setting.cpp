@@ -17,8 +17,9 @@ double target_of(double target_m) noexcept {
   return target_m > 0.0 ? target_m : kFillsThePool;
 }
 
-PageOptions page_options_of(const PageSetting& setting) noexcept {
+PageOptions page_options_of(const PageSetting& setting, const PlanOptions& plan) noexcept {
   PageOptions options;
+  options.plan = plan;
   options.policy = setting.policy;
   options.page_texels = setting.page_texels;
   options.capacity = setting.capacity;

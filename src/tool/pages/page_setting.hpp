@@ -29,7 +29,7 @@ inline constexpr double kMostTargetM = 1e6;
 /// The error for which plan_pages opens pages; 0 is so small that every plan spends its pool.
 [[nodiscard]] double target_of(double target_m) noexcept;
 /// With a fallback, so that surfaces between the points that were read keep a shadow.
-[[nodiscard]] PageOptions page_options_of(const PageSetting& setting) noexcept;
+[[nodiscard]] PageOptions page_options_of(const PageSetting& setting, const PlanOptions& plan) noexcept;
 
 /// A setting that pages cannot be drawn with, and the reason.
 struct NoPages {

@@ -30,15 +30,14 @@ void PaneLights::plan(const Camera& camera, const SceneBounds& bounds, const Pla
   pool.most_size = static_cast<int>(std::bit_floor(static_cast<unsigned>(map_size)));
   pool.least_size = std::min(pool.least_size, pool.most_size);
   pool.pool_width = pool.pool_height = std::max(pool.pool_width, pool.most_size);
-  maps_.resize(requests_.size());
-  std::vector<LightWork> work(requests_.size());
-  std::vector<LightPlace> places(kMaxMaps * requests_.size());
-  plan_ = plan_lights(camera, requests_, bounds, options, pool, {maps_, work, places, {}}, nullptr);
+  pool.plan = options;
+  memory_.resize(light_memory(requests_.size(), 0));
+  plan_ = plan_lights(camera, requests_, bounds, pool, memory_);
   if (plan_.status == PlanStatus::invalid_input)
     throw std::runtime_error("--by lights: " + std::string(plan_.invalid_field) + " is out of range");
   own_.clear();
   for (std::size_t i = 0; i < requests_.size(); ++i)
-    own_.push_back(make_plan(camera, requests_[i].light, bounds, light_options(options, plan_.lights[i])));
+    own_.push_back(make_plan(camera, requests_[i].light, bounds, light_options(pool, plan_.lights[i])));
 }
 
 render::FrameStats PaneLights::draw(render::Renderer& renderer, const Camera& camera,

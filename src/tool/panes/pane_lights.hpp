@@ -31,7 +31,7 @@ class PaneLights {
 
  private:
   std::vector<LightRequest> requests_;
-  std::vector<LightMaps> maps_;
+  std::vector<std::byte> memory_;
   std::vector<ShadowPlan> own_;
   LightPlan plan_;
 };

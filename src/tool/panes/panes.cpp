@@ -153,8 +153,9 @@ struct PanesStage {
   [[nodiscard]] std::unique_ptr<FramePages> pages(const Camera& camera) {
     PageOptions of_pages;
     of_pages.policy = &page_policies::resolution;
+    of_pages.plan = sweep.entries[0].plan;
     return std::make_unique<FramePages>(
-        PageFrameInput{view.light(), view.bounds(), sweep.entries[0].plan, of_pages},
+        PageFrameInput{view.light(), view.bounds(), of_pages},
         std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer, camera, render::DepthLayer::front)));
   }
 

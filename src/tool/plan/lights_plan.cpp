@@ -41,18 +41,17 @@ Json light_json(const LightMaps& maps, const LightOptions& options) {
 
 }  // namespace
 
-LightsPlanner::LightsPlanner(const Case& input) : input_(input) {
-  // More lights are refused, and need no memory.
-  const std::size_t lights = std::min(input.lights.size(), kMostLights);
-  maps_.resize(lights);
-  work_.resize(lights);
-  places_.resize(kMaxMaps * lights);
-  points_.resize(input.seen.size());
+LightsPlanner::LightsPlanner(const Case& input)
+    : input_(input),
+      options_(input.light_options),
+      // More lights are refused, and need no memory.
+      memory_(light_memory(std::min(input.lights.size(), kMostLights), input.seen.size())) {
+  options_.plan = input.options;
 }
 
 LightPlan LightsPlanner::plan() noexcept {
-  return plan_lights(input_.camera, input_.lights, input_.bounds(), input_.options, input_.light_options,
-                     {maps_, work_, places_, points_}, nullptr, input_.seen);
+  return plan_lights({.camera = input_.camera, .points_world = input_.seen}, input_.lights, input_.bounds(),
+                     options_, memory_);
 }
 
 Json lights_json(const LightPlan& plan, const Case& input) {

@@ -1,6 +1,7 @@
 // A plan of many lights of a case with its memory, and its JSON.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "plan_json.hpp"
@@ -17,10 +18,8 @@ class LightsPlanner {
 
  private:
   const Case& input_;
-  std::vector<LightMaps> maps_;
-  std::vector<LightWork> work_;
-  std::vector<LightPlace> places_;
-  std::vector<LightPoint> points_;
+  LightOptions options_;
+  std::vector<std::byte> memory_;
 };
 
 /// As plan_json, of lights: sizes, places and reasons. Their maps' matrices are those of a case with that

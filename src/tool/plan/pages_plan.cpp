@@ -1,16 +1,14 @@
 // A page plan of a case with its memory, and its JSON.
 #include "pages_plan.hpp"
 
-#include <algorithm>
-
 namespace gnomon::tool {
 namespace {
 
 // Samples of the receivers' boxes where a case names no visible points.
 constexpr std::size_t kSamples = std::size_t{1} << 17;
 
-SeenPoints seen_in(const Case& input) noexcept {
-  return {input.seen, input.seen_normals, input.seen_feedback};
+gnomon::View view_of(const Case& input) noexcept {
+  return {.camera = input.camera, .points_world = input.seen, .normals_world = input.seen_normals};
 }
 
 Json level_json(const ShadowMap& level) {
@@ -35,13 +33,14 @@ Json stats_json(const PageStats& stats) {
 
 PagePlanner::PagePlanner(const Case& input)
     : input_(input),
-      // A capacity that is refused needs no memory.
-      storage_(std::clamp(input.pages->capacity, 0, kMostPages),
-               input.seen.empty() ? kSamples : input.seen.size()) {}
+      options_(*input.pages),
+      memory_(page_memory(input.pages->capacity, input.seen.empty() ? kSamples : input.seen.size())) {
+  options_.plan = input.options;
+}
 
 PagePlan PagePlanner::plan() noexcept {
-  return plan_pages(input_.camera, input_.light, input_.bounds(), seen_in(input_), input_.options,
-                    *input_.pages, storage_.spans());
+  const PageHistory history{nullptr, input_.seen_feedback};
+  return plan_pages(view_of(input_), input_.light, input_.bounds(), options_, memory_, &history);
 }
 
 Json pages_json(const PagePlan& plan, const Case& input) {
@@ -61,8 +60,7 @@ Json pages_json(const PagePlan& plan, const Case& input) {
                       {"coarser", plan.points_coarser},
                       {"beyond_levels", plan.points_capped}};
   result["omitted"] = omitted_json(plan.omitted());
-  const PageStats stats = input.seen.empty() ? measure_pages(plan, input.camera, input.bounds())
-                                             : measure_pages(plan, input.camera, seen_in(input));
+  const PageStats stats = measure(plan, view_of(input), input.bounds());
   result["texels_per_pixel"] = number(stats.texels_per_pixel);
   result["border_share"] = number(stats.border_share);
   result["m"] = stats_json(stats);

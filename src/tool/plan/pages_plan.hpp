@@ -1,7 +1,9 @@
 // A page plan of a case with its memory, and its JSON.
 #pragma once
 
-#include "base/page_storage.hpp"
+#include <cstddef>
+#include <vector>
+
 #include "plan_json.hpp"
 
 namespace gnomon::tool {
@@ -16,7 +18,8 @@ class PagePlanner {
 
  private:
   const Case& input_;
-  PageStorage storage_;
+  PageOptions options_;
+  std::vector<std::byte> memory_;
 };
 
 /// As plan_json, of pages.

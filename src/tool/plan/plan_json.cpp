@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "gnomon/study/log_perspective.hpp"
 
 namespace gnomon::tool {
@@ -98,7 +98,7 @@ Json map_json(const ShadowPlan& plan, int index, const Case& input) {
       {"casters", casters_of(map, input)},
       {"snap_key", snap_key_of(map.snap_key)},
       {"snap_depth", snap_depth_of(map.snap_key)},
-      {"m", stats_of(measure_map(plan, index, input.camera, input.bounds()))},
+      {"m", stats_of(measure(plan, input.camera, input.bounds(), {.map = index}))},
   };
   if (map.shape != &shapes::linear) {
     Json parameters = Json::array();

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "gnomon/body.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/motion.hpp"
 #include "gnomon/render/picture.hpp"
-#include "gnomon/reuse.hpp"
 #include "page_pictures.hpp"
 
 namespace gnomon::tool::view {
@@ -199,7 +199,7 @@ ShadowPlan from_frozen(ShadowPlan plan, const Camera& frozen, const Camera& came
     ShadowMap& map = plan.map[i];
     map = rebased(map, camera.position);
     // Depths of the frozen view as planes of the world: those of the new one mean nothing to the plan.
-    if (!plan.select_by_map && map.select_plane_count + 2 <= kMaxSelectPlanes) {
+    if (plan.selection == MapSelection::view_depth && map.select_plane_count + 2 <= kMaxSelectPlanes) {
       auto& planes = map.select_planes;
       planes[static_cast<std::size_t>(map.select_plane_count++)] =
           glm::dvec4(forward, -at_eye - map.depth_begin);
@@ -210,7 +210,7 @@ ShadowPlan from_frozen(ShadowPlan plan, const Camera& frozen, const Camera& came
     map.depth_end = kEverywhere;
     map.overlap = 0.0;
   }
-  plan.select_by_map = true;
+  if (plan.selection == MapSelection::view_depth) plan.selection = MapSelection::first_holding;
   return plan;
 }
 

@@ -10,6 +10,7 @@
 #include "float_channel.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/report/errors.hpp"
+#include "gnomon/extend/shape.hpp"
 #include "lines.hpp"
 #include "picture_colors.hpp"
 

@@ -1,5 +1,6 @@
 // What does the plan do at one point of the picture, and what do exact rays report there?
 #include "probe.hpp"
+#include "gnomon/extend/shape.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "gnomon/pages.hpp"
 #include "gnomon/trace/tracer.hpp"
 #include "lines.hpp"

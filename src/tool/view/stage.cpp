@@ -25,7 +25,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Over which the curve of m is measured: a thousandth of a second, and steady to a few percent.
-constexpr MeasureGrid kCoarse{24, 24, 16};
+constexpr MeasureOptions kCoarse{24, 24, 16};
 
 render::FrameOptions frame_options(const State& state, const Settings& settings, const Light& light) {
   render::FrameOptions frame;
@@ -186,7 +186,7 @@ std::string Stage::plan_side(const Settings& settings, const Camera& planned, co
     if (surfaces == nullptr)
       surfaces = std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer_, planned, settings.layer));
     side.pages = std::make_shared<FramePages>(
-        PageFrameInput{light, bounds, options, page_options_of(settings.pages)}, surfaces);
+        PageFrameInput{light, bounds, page_options_of(settings.pages, options)}, surfaces);
     side.plan = {};
     side.history.clear();
     const PagePlan& plan = side.pages->plan();
@@ -199,8 +199,7 @@ std::string Stage::plan_side(const Settings& settings, const Camera& planned, co
   const VisibleDepths depths = settings.visible_depths ? visible_depths(renderer_, planned) : VisibleDepths{};
   const VisibleDepths* seen = settings.visible_depths ? &depths : nullptr;
   const auto begin = Clock::now();
-  side.plan = settings.history ? make_plan(planned, light, bounds, options, side.history, seen)
-                               : make_plan(planned, light, bounds, options, seen);
+  side.plan = make_plan({planned, seen}, light, bounds, options, settings.history ? &side.history : nullptr);
   side.plan_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   if (side.plan.status == PlanStatus::invalid_input) return invalid_input_text(side.plan.invalid_field);
   side.m = measure(side.plan, planned, bounds, kCoarse);

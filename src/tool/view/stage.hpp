@@ -9,8 +9,8 @@
 
 #include "canvas.hpp"
 #include "frame_pages.hpp"
-#include "gnomon/history.hpp"
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
+#include "gnomon/motion.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/scene.hpp"
 #include "gnomon/trace/tracer.hpp"

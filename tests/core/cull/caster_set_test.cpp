@@ -1,5 +1,5 @@
 // Does the tree of casters give what testing one box after the other gives?
-#include "gnomon/caster_set.hpp"
+#include "gnomon/bounds.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/visible.hpp"
+#include "gnomon/extend/body.hpp"
 #include "support/plan_hash.hpp"
 #include "support/seeded_input.hpp"
 
@@ -287,7 +288,7 @@ TEST(ManyBoxes, sets_of_nothing_and_of_empty_boxes_show_nothing) {
 
 /// Points of the grid in some box, one ray, depth and box after the other.
 std::uint64_t points_by_definition(const Camera& camera, const std::vector<Box>& boxes,
-                                   const MeasureGrid& grid) {
+                                   const MeasureOptions& grid) {
   const CameraAxes axes = camera_axes(camera);
   std::uint64_t count = 0;
   for (int row = 0; row < grid.rows; ++row) {
@@ -321,7 +322,7 @@ TEST(ManyBoxes, measuring_counts_every_point_of_the_grid_in_some_box) {
     // From among the boxes, too, where they surround the eye.
     if (seed % 4 == 1) plain.camera.position = {0, 4, 0};
     // More rays, and more depths, than fit the memory at once.
-    const MeasureGrid grid = seed % 5 == 0 ? MeasureGrid{40, 37, 300} : MeasureGrid{53, 31, 20};
+    const MeasureOptions grid = seed % 5 == 0 ? MeasureOptions{40, 37, 300} : MeasureOptions{53, 31, 20};
     const Light light = DirectionalLight{{0.3, -1.0, 0.2}};
     const ShadowPlan plan = make_plan(plain.camera, light, {plain.boxes, plain.boxes}, {});
     if (plan.status != PlanStatus::ok) continue;

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <span>
 
-#include "gnomon/body.hpp"
+#include "gnomon/extend/body.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 

@@ -1,5 +1,5 @@
 // Is the clipped body the intersection it claims to be, and a well-formed simple polytope throughout?
-#include "gnomon/body.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Do shapes keep their word, and do metric, bias, selection and culling go through them? A bent shape that no
 // plan makes shows the second.
-#include "gnomon/shape.hpp"
+#include "gnomon/extend/shape.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,11 +13,11 @@
 #include <limits>
 #include <string>
 
-#include "gnomon/bias.hpp"
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
+#include "gnomon/motion.hpp"
 #include "gnomon/plan.hpp"
-#include "gnomon/reuse.hpp"
-#include "gnomon/shader_block.hpp"
+#include "gnomon/shader.hpp"
+#include "gnomon/study/bias.hpp"
 #include "support/fitted_shapes.hpp"
 #include "support/near.hpp"
 

@@ -1,4 +1,5 @@
 // Eight boxes at once: does each lane give what its box alone would?
+#include "gnomon/extend/body.hpp"
 #include "lanes/casters.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,6 @@
 // Two numbers at once: is each operation the scalar one on both, to the last bit?
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "lanes/pair.hpp"
 
 #include <gtest/gtest.h>

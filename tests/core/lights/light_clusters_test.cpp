@@ -1,5 +1,5 @@
 // Do the lists of lights miss no light of any pixel, and are they short?
-#include "gnomon/light_clusters.hpp"
+#include "gnomon/lights.hpp"
 
 #include <gtest/gtest.h>
 

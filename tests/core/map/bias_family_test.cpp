@@ -7,6 +7,7 @@
 #include <set>
 
 #include "gnomon/gnomon.hpp"
+#include "gnomon/study/bias.hpp"
 #include "support/golden.hpp"
 #include "support/near.hpp"
 

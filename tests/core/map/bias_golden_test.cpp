@@ -4,7 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "gnomon/extend/warp.hpp"
 #include "gnomon/gnomon.hpp"
+#include "gnomon/study/bias.hpp"
 #include "support/golden.hpp"
 #include "support/near.hpp"
 #include "warp/plane_map.hpp"

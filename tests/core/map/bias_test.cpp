@@ -1,5 +1,6 @@
 // Do the biases in world units keep a plane from shadowing itself, from the texel's own size?
-#include "gnomon/bias.hpp"
+#include "gnomon/study/bias.hpp"
+#include "gnomon/extend/shape.hpp"
 
 #include <gtest/gtest.h>
 

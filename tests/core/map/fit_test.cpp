@@ -1,5 +1,6 @@
 // Is the stable map's square large enough for its slice from every side, and no larger than it must be?
-#include "gnomon/fit.hpp"
+#include "gnomon/options.hpp"
+#include "gnomon/study/formulas.hpp"
 
 #include <gtest/gtest.h>
 

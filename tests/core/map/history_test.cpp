@@ -1,5 +1,6 @@
 // Does a plan that remembers the frame before it keep what a plan promises, whatever comes into view?
-#include "gnomon/history.hpp"
+#include "gnomon/extend/warp.hpp"
+#include "gnomon/motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,7 @@ TEST(PlanHistory, fits_maps_within_the_budget_for_cascades_that_had_none) {
     seed_input(seed, Extremes::ordinary, in);
     PlanHistory history;
     for (int frame = 0; frame < 3; ++frame) {
-      const ShadowPlan plan = make_plan(in.camera, in.light, in.bounds(), in.options, history);
+      const ShadowPlan plan = make_plan(in.camera, in.light, in.bounds(), in.options, &history);
       std::int64_t texels = 0;
       for (const ShadowMap& map : plan.maps()) {
         ASSERT_GE(map.width, 4) << "case " << seed << ", frame " << frame;
@@ -50,7 +51,7 @@ TEST(PlanHistory, searches_from_nothing_after_a_while_and_under_other_options) {
   options.cascades = 1;
   PlanHistory history;
   const auto plan = [&] {
-    return make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {boxes, boxes}, options, history).map_count;
+    return make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {boxes, boxes}, options, &history).map_count;
   };
   ASSERT_EQ(plan(), 1);
   const std::int64_t first = history.map[0].searched.until;
@@ -95,7 +96,8 @@ TEST(PlanHistory, the_axis_of_a_warp_takes_the_shorter_way_round) {
   PlanHistory history;
   // The angle from -x to where w grows, towards the view.
   const auto beside = [&] {
-    const ShadowPlan plan = make_plan(camera, DirectionalLight{{0, -1, 0}}, {boxes, boxes}, options, history);
+    const ShadowPlan plan =
+        make_plan(camera, DirectionalLight{{0, -1, 0}}, {boxes, boxes}, options, &history);
     EXPECT_EQ(plan.map_count, 1);
     const glm::dmat4& m = plan.map[0].clip_from_world;
     return std::atan2(-m[2][3], -m[0][3]);
@@ -131,7 +133,8 @@ struct FromAbove {
   /// Whether the map is another than in the last frame.
   bool refits(double x, double side) {
     const Camera camera = orthographic_camera({x, 10, 0}, {0, -1, 0}, {0, 0, -1}, side, 1.0, 1, 20, 256, 256);
-    const ShadowPlan plan = make_plan(camera, DirectionalLight{{0, -1, 0}}, {boxes, boxes}, options, history);
+    const ShadowPlan plan =
+        make_plan(camera, DirectionalLight{{0, -1, 0}}, {boxes, boxes}, options, &history);
     EXPECT_EQ(plan.map_count, 1);
     return history.event_count > 0;
   }

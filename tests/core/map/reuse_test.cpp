@@ -1,5 +1,5 @@
 // Does a stable map tell truly which of its texels hold from one frame to the next?
-#include "gnomon/reuse.hpp"
+#include "gnomon/motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "gnomon/caster_set.hpp"
+#include "gnomon/bounds.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 

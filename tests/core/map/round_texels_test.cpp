@@ -9,9 +9,10 @@
 #include <glm/matrix.hpp>
 #include <vector>
 
-#include "gnomon/bias.hpp"
+#include "gnomon/extend/shape.hpp"
 #include "gnomon/gnomon.hpp"
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
+#include "gnomon/study/bias.hpp"
 #include "support/fitted_shapes.hpp"
 #include "support/near.hpp"
 
@@ -223,7 +224,7 @@ TEST(ParaboloidMap, is_linear_where_rays_are_parallel_and_maps_are_kept) {
   EXPECT_EQ(shaped(smaller), 0);
   EXPECT_TRUE(gains_nothing(smaller));
   PlanHistory history;
-  expect_linear(make_plan(hall.camera, spot, {hall.boxes, hall.boxes}, Hall::options(kShape), history));
+  expect_linear(make_plan(hall.camera, spot, {hall.boxes, hall.boxes}, Hall::options(kShape), &history));
 }
 
 }  // namespace

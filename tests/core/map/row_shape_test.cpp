@@ -6,9 +6,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "gnomon/bias.hpp"
+#include "gnomon/extend/shape.hpp"
 #include "gnomon/gnomon.hpp"
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
+#include "gnomon/study/bias.hpp"
 #include "gnomon/study/log_perspective.hpp"
 #include "support/near.hpp"
 

@@ -9,9 +9,10 @@
 #include <random>
 #include <vector>
 
-#include "gnomon/bias.hpp"
+#include "gnomon/extend/shape.hpp"
 #include "gnomon/gnomon.hpp"
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
+#include "gnomon/study/bias.hpp"
 #include "support/fitted_shapes.hpp"
 #include "support/near.hpp"
 
@@ -146,7 +147,7 @@ struct Street {
     return options;
   }
   [[nodiscard]] ShadowPlan plan(const PlanOptions& options) const {
-    return make_plan(camera, light, {boxes, boxes}, options, nullptr, seen);
+    return make_plan({.camera = camera, .points_world = seen}, light, {boxes, boxes}, options);
   }
   /// p95 of the longer of m_s and m_t over what is seen.
   [[nodiscard]] double error(const ShadowPlan& plan) const {
@@ -234,8 +235,8 @@ TEST(RectilinearMap, is_linear_where_it_can_not_follow_visible_points) {
     EXPECT_TRUE(ignores_shape(plan));
   };
   expect_linear(make_plan(street.camera, street.light, bounds, options));
-  expect_linear(make_plan(street.camera, SpotLight{{0, 30, -20}, {0, -1, 0}, 0.8, 100.0}, bounds, options,
-                          nullptr, street.seen));
+  expect_linear(make_plan({.camera = street.camera, .points_world = street.seen},
+                          SpotLight{{0, 30, -20}, {0, -1, 0}, 0.8, 100.0}, bounds, options));
   for (int i = 0; i < 4; ++i) {
     PlanOptions other = options;
     if (i == 0) other.fit = Fit::stable;
@@ -245,7 +246,8 @@ TEST(RectilinearMap, is_linear_where_it_can_not_follow_visible_points) {
     expect_linear(street.plan(other));
   }
   PlanHistory history;
-  expect_linear(make_plan(street.camera, street.light, bounds, options, history, nullptr, street.seen));
+  expect_linear(make_plan({.camera = street.camera, .points_world = street.seen}, street.light, bounds,
+                          options, &history));
 }
 
 TEST(RectilinearMap, is_linear_where_little_is_won) {

@@ -1,5 +1,6 @@
 // Which whole number of texels is a length nearest to?
-#include "gnomon/snap.hpp"
+#include "gnomon/shadow_map.hpp"
+#include "gnomon/study/formulas.hpp"
 
 #include <gtest/gtest.h>
 

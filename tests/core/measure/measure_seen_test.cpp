@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -53,7 +53,7 @@ TEST(MeasureSeen, is_the_perspective_error_at_each_point_in_the_map_that_serves_
     std::sort(m.begin(), m.end());
     double sum = 0.0;
     for (const double one : m) sum += one;
-    const AliasingStats stats = measure_seen(plan, street.camera, street.points);
+    const AliasingStats stats = measure(plan, {.camera = street.camera, .points_world = street.points}, {});
     EXPECT_EQ(stats.samples, street.points.size());
     EXPECT_EQ(stats.outside, 0u);
     EXPECT_NEAR(stats.mean, sum / static_cast<double>(m.size()), 1e-12 * stats.mean);
@@ -66,15 +66,16 @@ TEST(MeasureSeen, is_the_perspective_error_at_each_point_in_the_map_that_serves_
 TEST(MeasureSeen, points_that_no_map_serves_are_counted_apart) {
   Street street;
   street.points = {{0, 0, -20}, {0, 0, 30}, {0, 0, -5000}};
-  const AliasingStats stats = measure_seen(street.plan(2), street.camera, street.points);
+  const AliasingStats stats =
+      measure(street.plan(2), {.camera = street.camera, .points_world = street.points}, {});
   EXPECT_EQ(stats.samples, 1u);
   EXPECT_EQ(stats.outside, 2u);
 }
 
 TEST(MeasureSeen, no_points_and_no_maps_give_zeros) {
   Street street;
-  EXPECT_EQ(measure_seen({}, street.camera, street.points).samples, 0u);
-  const AliasingStats stats = measure_seen(street.plan(1), street.camera, {});
+  EXPECT_EQ(measure(ShadowPlan{}, {.camera = street.camera, .points_world = street.points}, {}).samples, 0u);
+  const AliasingStats stats = measure(street.plan(1), {.camera = street.camera, .points_world = {}}, {});
   EXPECT_EQ(stats.samples, 0u);
   EXPECT_EQ(stats.mean, 0.0);
 }

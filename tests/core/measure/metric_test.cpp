@@ -1,5 +1,5 @@
 // Does the metric give the numbers one can work out by hand, and the right word where there is none?
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 
 #include <gtest/gtest.h>
 
@@ -281,12 +281,12 @@ TEST(Measure, the_maps_of_a_plan_add_up_to_the_whole) {
   const SceneBounds bounds{{&ground, 1}, {&ground, 1}};
   const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, bounds);
   ASSERT_EQ(plan.map_count, 4);
-  const MeasureGrid grid{16, 16, 32};
+  const MeasureOptions grid{16, 16, 32};
   const AliasingStats all = measure(plan, camera, bounds, grid);
   std::uint64_t samples = 0;
   double largest = 0.0, storage = 0.0;
   for (int i = 0; i < plan.map_count; ++i) {
-    const AliasingStats one = measure_map(plan, i, camera, bounds, grid);
+    const AliasingStats one = measure(plan, camera, bounds, {grid.columns, grid.rows, grid.depths, i});
     samples += one.samples;
     largest = std::max(largest, one.max);
     storage += one.storage;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "gnomon/pages.hpp"
-#include "base/page_storage.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -38,7 +37,8 @@ struct Ground {
     normals.assign(points.size(), {0, 1, 0});
   }
   [[nodiscard]] HeldSun hold(const glm::dvec3& held, const glm::dvec3& sun, double most = 0.25) const {
-    return hold_sun(held, sun, camera, casters, {points, normals}, most);
+    return hold_sun({.camera = camera, .points_world = points, .normals_world = normals}, held, sun, casters,
+                    most);
   }
   [[nodiscard]] glm::dvec2 pixel(const glm::dvec3& p) const {
     const glm::dvec4 at = clip_from_world * glm::dvec4(p, 1.0);
@@ -93,13 +93,21 @@ TEST(HoldSun, what_has_no_bound_is_not_held) {
   EXPECT_EQ(ground.hold(held, sun, nan).direction, sun);
   EXPECT_EQ(ground.hold(glm::dvec3(0.0), sun).direction, sun);
   EXPECT_EQ(ground.hold({nan, -1, 0}, sun).direction, sun);
-  EXPECT_EQ(hold_sun(held, sun, ground.camera, ground.casters, {}).direction, sun);
-  EXPECT_EQ(hold_sun(held, -held, ground.camera, ground.casters, {ground.points}, 1e9).direction, -held);
+  EXPECT_EQ(hold_sun(ground.camera, held, sun, ground.casters).direction, sun);
+  EXPECT_EQ(
+      hold_sun({.camera = ground.camera, .points_world = ground.points}, held, -held, ground.casters, 1e9)
+          .direction,
+      -held);
   Box unbounded = ground.casters;
   unbounded.max.y = nan;
-  EXPECT_EQ(hold_sun(held, sun, ground.camera, unbounded, {ground.points, ground.normals}).direction, sun);
+  EXPECT_EQ(
+      hold_sun({.camera = ground.camera, .points_world = ground.points, .normals_world = ground.normals},
+               held, sun, unbounded)
+          .direction,
+      sun);
   const std::vector<glm::dvec3> broken = {{nan, 0, -10}};
-  EXPECT_EQ(hold_sun(held, sun, ground.camera, ground.casters, {broken}).direction, sun);
+  EXPECT_EQ(hold_sun({.camera = ground.camera, .points_world = broken}, held, sun, ground.casters).direction,
+            sun);
 }
 
 TEST(HoldSun, surfaces_that_the_light_grazes_are_counted_and_not_evaluated) {
@@ -112,13 +120,12 @@ TEST(HoldSun, surfaces_that_the_light_grazes_are_counted_and_not_evaluated) {
 
 void expect_few_pages(const Ground& ground) {
   const std::vector<Box> boxes = {ground.casters};
-  PlanOptions plan_options;
-  plan_options.fit = Fit::stable;
   PageOptions options;
+  options.plan.fit = Fit::stable;
   options.page_texels = 64;
   options.capacity = 2048;
   for (const bool holds : {false, true}) {
-    PageStorage memory{2048};
+    std::vector<std::byte> memory(page_memory(2048, 1 << 14));
     std::vector<PageSlot> slots(2048);
     std::vector<std::uint32_t> table(page_table_size(2048));
     std::vector<KeptPage> kept(2048);
@@ -130,9 +137,9 @@ void expect_few_pages(const Ground& ground) {
       const HeldSun now = ground.hold(held, sun);
       held = holds ? now.direction : sun;
       if (now.direction != sun) worst = std::max(worst, now.error_pixels);
-      const PagePlan plan =
-          plan_pages(ground.camera, DirectionalLight{held}, {boxes, boxes}, {ground.points, ground.normals},
-                     plan_options, options, memory.spans());
+      const PagePlan plan = plan_pages(
+          {.camera = ground.camera, .points_world = ground.points, .normals_world = ground.normals},
+          DirectionalLight{held}, {boxes, boxes}, options, memory);
       ASSERT_EQ(plan.status, PlanStatus::ok);
       const KeptPages result = keep_pages(plan, {}, slots, table, kept);
       ASSERT_TRUE(result.fits);

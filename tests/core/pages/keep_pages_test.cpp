@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "gnomon/pages.hpp"
-#include "base/page_storage.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -18,15 +17,14 @@ struct Street {
   Light light = DirectionalLight{{0.3, -1, 0.2}};
   std::vector<Box> boxes = {
       {{-20, -1, -400}, {20, 0, 10}}, {{-20, 0, -300}, {-10, 30, -250}}, {{3, 0, -40}, {5, 6, -38}}};
-  PlanOptions plan_options;
   PageOptions options;
   std::vector<PageSlot> slots = std::vector<PageSlot>(2048);
   std::vector<std::uint32_t> table = std::vector<std::uint32_t>(page_table_size(2048));
   std::vector<KeptPage> kept = std::vector<KeptPage>(2048);
-  PageStorage memory{2048};
+  std::vector<std::byte> memory = std::vector<std::byte>(page_memory(2048, 1 << 14));
 
   Street() {
-    plan_options.fit = Fit::stable;
+    options.plan.fit = Fit::stable;
     options.page_texels = 64;
     options.capacity = 2048;
   }
@@ -35,7 +33,7 @@ struct Street {
         perspective_camera({0, 5, -forward}, {0, -0.1, -1}, {0, 1, 0}, 1.0, 1.5, 0.5, 250, 960, 640);
     std::vector<glm::dvec3> points;
     for (int i = 0; i < 8000; ++i) points.push_back({-4.0 + i % 9, 0.0, -forward - 8.0 - 0.02 * i});
-    return plan_pages(camera, light, {boxes, boxes}, {points}, plan_options, options, memory.spans());
+    return plan_pages({.camera = camera, .points_world = points}, light, {boxes, boxes}, options, memory);
   }
   KeptPages keep(const PagePlan& plan, std::span<const Box> moved = {}) {
     return keep_pages(plan, moved, slots, table, kept);
@@ -105,7 +103,7 @@ TEST(KeepPages, a_page_of_another_size_at_the_same_place_is_another) {
 
 TEST(KeepPages, a_fit_that_follows_the_view_keeps_nothing_once_the_camera_moves) {
   Street street;
-  street.plan_options.fit = Fit::tight;
+  street.options.plan.fit = Fit::tight;
   (void)street.keep(street.plan(0.0));
   EXPECT_EQ(street.keep(street.plan(0.1)).kept, 0u);
 }

@@ -9,7 +9,6 @@
 #include <limits>
 #include <vector>
 
-#include "base/page_storage.hpp"
 #include "support/near.hpp"
 
 namespace gnomon::test {
@@ -22,16 +21,16 @@ struct Street {
   std::vector<Box> boxes = {{{-20, -1, -200}, {20, 30, -1}}};
   std::vector<glm::dvec3> points, normals;
   std::vector<std::uint8_t> feedback;
-  PlanOptions plan_options;
   PageOptions options;
   const PagePlan* last = nullptr;
 
   Street() {
     for (int i = 0; i < 4000; ++i) points.push_back({-4.0 + i % 9, 0.0, -8.0 - 0.045 * i});
   }
-  [[nodiscard]] PagePlan plan(PageStorage& memory) const {
-    return plan_pages(camera, light, {boxes, boxes}, {points, normals, feedback, last}, plan_options, options,
-                      memory.spans());
+  [[nodiscard]] PagePlan plan(std::span<std::byte> memory) const {
+    const View view{.camera = camera, .points_world = points, .normals_world = normals};
+    const PageHistory history{last, feedback};
+    return plan_pages(view, light, {boxes, boxes}, options, memory, &history);
   }
 };
 
@@ -54,26 +53,26 @@ TEST(Pages, broken_options_are_refused_by_name) {
       {"pages.trials", [](Street& s) { s.options.trials = 0; }},
       {"pages.reach_texels", [](Street& s) { s.options.reach_texels = -1.0; }},
       {"pages.least_light_sine", [](Street& s) { s.options.least_light_sine = 2.0; }},
-      {"options.filter.texels", [](Street& s) { s.plan_options.filter.texels = 33.0; }},
-      {"options.filter.world", [](Street& s) { s.plan_options.filter.world = 0.1; }},
-      {"seen.points_world", [](Street& s) { s.points[7].y = kNone; }},
-      {"seen.points_world", [](Street& s) { s.points[7].y = std::numeric_limits<double>::infinity(); }},
-      {"seen.normals_world",
+      {"options.filter.texels", [](Street& s) { s.options.plan.filter.texels = 33.0; }},
+      {"options.filter.world", [](Street& s) { s.options.plan.filter.world = 0.1; }},
+      {"view.points_world", [](Street& s) { s.points[7].y = kNone; }},
+      {"view.points_world", [](Street& s) { s.points[7].y = std::numeric_limits<double>::infinity(); }},
+      {"view.normals_world",
        [](Street& s) {
          s.normals.assign(3, {0, 1, 0});
        }},
-      {"seen.normals_world",
+      {"view.normals_world",
        [](Street& s) {
          s.normals.assign(4000, {0, kNone, 0});
        }},
-      {"seen.feedback", [](Street& s) { s.feedback.assign(3999, 0); }},
+      {"history.feedback", [](Street& s) { s.feedback.assign(3999, 0); }},
       {"camera.far_depth", [](Street& s) { s.camera.far_depth = 0.1; }},
       {"light.direction",
        [](Street& s) {
          s.light = DirectionalLight{{0, 0, 0}};
        }},
   };
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   for (const Entry& entry : entries) {
     Street street;
     entry.change(street);
@@ -86,32 +85,41 @@ TEST(Pages, broken_options_are_refused_by_name) {
 
 TEST(Pages, memory_that_is_too_small_is_refused_by_name) {
   const Street street;
-  PageStorage memory;
-  const auto field_of = [&](const PageMemory& spans) {
-    return plan_pages(street.camera, street.light, {street.boxes, street.boxes}, {street.points}, {}, {},
-                      spans)
-        .invalid_field;
+  const std::size_t enough = page_memory(4096, street.points.size());
+  std::vector<std::byte> memory(enough + 1);
+  const auto field_of = [&](const View& view, std::span<std::byte> bytes) {
+    return plan_pages(view, street.light, {street.boxes, street.boxes}, {}, bytes).invalid_field;
   };
-  PageMemory spans = memory.spans();
-  EXPECT_EQ(field_of(spans), "");
-  spans.levels = spans.levels.first(kMostPageLevels - 1);
-  EXPECT_EQ(field_of(spans), "memory.levels");
-  spans = memory.spans();
-  spans.pages = spans.pages.first(4095);
-  EXPECT_EQ(field_of(spans), "memory.pages");
-  spans = memory.spans();
-  spans.table = spans.table.first(spans.table.size() - 1);
-  EXPECT_EQ(field_of(spans), "memory.table");
-  spans = memory.spans();
-  spans.points = spans.points.first(3999);
-  EXPECT_EQ(field_of(spans), "memory.points");
+  const View seen{.camera = street.camera, .points_world = street.points};
+  EXPECT_EQ(field_of(seen, std::span(memory).first(enough)), "");
+  EXPECT_EQ(field_of(seen, std::span(memory).last(enough)), "") << "it may begin anywhere";
+  EXPECT_EQ(field_of(seen, std::span(memory).first(enough - 1)), "memory");
+  EXPECT_EQ(field_of(seen, {}), "memory");
+  const std::size_t no_sample = page_memory(4096, 0);
+  EXPECT_EQ(field_of(street.camera, std::span(memory).first(no_sample)), "memory");
+}
+
+TEST(Pages, what_the_memory_holds_before_and_where_it_begins_changes_nothing) {
+  Street street;
+  street.options.policy = &page_policies::queried;
+  const std::size_t size = page_memory(4096, street.points.size());
+  std::vector<std::byte> clean(size), used(size + 3, std::byte{0xff});
+  const PagePlan a = street.plan(clean), b = street.plan(std::span(used).last(size));
+  ASSERT_EQ(a.status, PlanStatus::ok);
+  ASSERT_EQ(a.pages.size(), b.pages.size());
+  for (std::size_t i = 0; i < a.pages.size(); ++i) {
+    EXPECT_EQ(a.pages[i].level, b.pages[i].level);
+    EXPECT_EQ(a.pages[i].column, b.pages[i].column);
+    EXPECT_EQ(a.pages[i].row, b.pages[i].row);
+  }
+  EXPECT_TRUE(std::equal(a.table.begin(), a.table.end(), b.table.begin(), b.table.end()));
 }
 
 TEST(Pages, a_pool_that_cannot_hold_one_page_for_each_map_is_refused) {
   Street street;
   street.light = PointLight{{0.0, 8.0, -20.0}, 300.0};
   street.options.capacity = 1;
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   EXPECT_EQ(street.plan(memory).invalid_field, "pages.capacity");
   street.options.capacity = 6;
   EXPECT_EQ(street.plan(memory).status, PlanStatus::ok);
@@ -119,10 +127,11 @@ TEST(Pages, a_pool_that_cannot_hold_one_page_for_each_map_is_refused) {
 
 TEST(Pages, nothing_visible_and_no_caster_are_values) {
   Street street;
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const std::vector<Box> none;
   const auto plan_with = [&](const SceneBounds& bounds) {
-    return plan_pages(street.camera, street.light, bounds, {street.points}, {}, {}, memory.spans());
+    return plan_pages({.camera = street.camera, .points_world = street.points}, street.light, bounds, {},
+                      memory);
   };
   EXPECT_EQ(plan_with({street.boxes, none}).status, PlanStatus::nothing_visible);
   EXPECT_EQ(plan_with({none, street.boxes}).status, PlanStatus::no_caster);
@@ -132,13 +141,13 @@ TEST(Pages, nothing_visible_and_no_caster_are_values) {
   EXPECT_EQ(beside.status, PlanStatus::nothing_visible);
   EXPECT_EQ(beside.points_outside, street.points.size());
   EXPECT_EQ(page_serving(beside, street.points[0]), -1);
-  EXPECT_EQ(measure_pages(beside, street.camera, {street.points}).m.samples, 0u);
+  EXPECT_EQ(measure(beside, {.camera = street.camera, .points_world = street.points}, {}).m.samples, 0u);
 }
 
 TEST(Pages, one_point_takes_one_page_of_the_level_that_it_needs) {
   Street street;
   street.points = {{0.3, 0.0, -40.0}};
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const PagePlan plan = street.plan(memory);
   ASSERT_EQ(plan.pages.size(), 1u);
   ASSERT_EQ(plan.levels.size(), 1u);
@@ -151,7 +160,7 @@ TEST(Pages, one_point_takes_one_page_of_the_level_that_it_needs) {
 TEST(Pages, normals_bring_the_levels_that_their_surfaces_need) {
   Street street;
   street.points = {{0.3, 0.0, -40.0}};
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   // A wall that the sun grazes: pixels there are far smaller in the map than on the ground.
   const glm::dvec3 grazed = glm::normalize(glm::dvec3(-1.0, 0.0, 0.3));
   double texel[2];
@@ -188,23 +197,22 @@ TEST(Pages, normals_bring_the_levels_that_their_surfaces_need) {
 TEST(Pages, without_points_the_boxes_are_sampled) {
   Street street;
   street.points.clear();
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   street.options.target_m = 4.0;
   const PagePlan plan = street.plan(memory);
   ASSERT_EQ(plan.status, PlanStatus::ok);
   EXPECT_GT(plan.points, 3000u);
-  const PageStats stats =
-      measure_pages(plan, street.camera, SceneBounds{street.boxes, street.boxes}, {16, 9, 16});
+  const PageStats stats = measure(plan, street.camera, SceneBounds{street.boxes, street.boxes}, {16, 9, 16});
   EXPECT_GT(stats.m.samples, 200u);
   EXPECT_LT(stats.p95_side, plan.target_m * 1.5);
 }
 
 TEST(Pages, a_small_pool_coarsens_all_levels_and_says_so) {
   Street street;
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const PagePlan whole = street.plan(memory);
   street.options.capacity = static_cast<int>(whole.pages.size()) / 3;
-  PageStorage small(street.options.capacity);
+  std::vector<std::byte> small(page_memory(street.options.capacity, 1 << 14));
   const PagePlan plan = street.plan(small);
   ASSERT_EQ(plan.status, PlanStatus::ok);
   EXPECT_LE(plan.pages.size(), static_cast<std::size_t>(street.options.capacity));
@@ -214,7 +222,7 @@ TEST(Pages, a_small_pool_coarsens_all_levels_and_says_so) {
   ASSERT_EQ(plan.omission_count, 1);
   EXPECT_EQ(plan.omission[0].kind, OmissionKind::pages_coarsened);
   EXPECT_EQ(plan.omission[0].b, plan.target_m);
-  const PageStats stats = measure_pages(plan, street.camera, {street.points});
+  const PageStats stats = measure(plan, {.camera = street.camera, .points_world = street.points}, {});
   EXPECT_EQ(stats.m.outside, 0u);
   EXPECT_LE(stats.worst_side, plan.target_m * (1.0 + 1e-6));
 }
@@ -222,7 +230,7 @@ TEST(Pages, a_small_pool_coarsens_all_levels_and_says_so) {
 TEST(Pages, a_small_pool_coarsens_by_no_eighth_of_an_octave_too_much) {
   Street street;
   street.options.trials = 1;  // of several, the pool's size decides
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const std::size_t whole = street.plan(memory).pages.size();
   for (const std::size_t part : {2u, 3u, 4u, 5u, 7u}) {
     Street other = street;
@@ -237,7 +245,7 @@ TEST(Pages, a_small_pool_coarsens_by_no_eighth_of_an_octave_too_much) {
 
 TEST(Pages, more_trials_take_no_more_pages) {
   Street street;
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   std::size_t before = 0, first = 0;
   for (const int trials : {1, 2, 4, 8, 16}) {
     street.options.trials = trials;
@@ -252,9 +260,9 @@ TEST(Pages, more_trials_take_no_more_pages) {
 TEST(Pages, a_point_on_the_edges_of_pages_opens_those_on_all_sides) {
   Street street;
   street.light = DirectionalLight{{0, -1, 0}};
-  street.plan_options.fit = Fit::stable;  // edges at powers of two, from the world's origin on
+  street.options.plan.fit = Fit::stable;  // edges at powers of two, from the world's origin on
   street.points = {{0, 0, -64}};
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   EXPECT_EQ(street.plan(memory).pages.size(), 4u);
   street.points = {{1e-3, 0, -64}};
   EXPECT_EQ(street.plan(memory).pages.size(), 2u);
@@ -265,17 +273,17 @@ TEST(Pages, a_point_on_the_edges_of_pages_opens_those_on_all_sides) {
 TEST(Pages, the_border_is_counted_beside_the_texels_inside) {
   Street street;
   street.options.page_texels = 64;
-  street.plan_options.filter.texels = 2.5;
-  PageStorage memory;
+  street.options.plan.filter.texels = 2.5;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const PagePlan plan = street.plan(memory);
-  const PageStats stats = measure_pages(plan, street.camera, {street.points});
+  const PageStats stats = measure(plan, {.camera = street.camera, .points_world = street.points}, {});
   EXPECT_CLOSE(stats.border_share, (70.0 * 70.0 - 64.0 * 64.0) / (64.0 * 64.0), 1e-12);
   EXPECT_CLOSE(stats.m.storage, stats.texels_per_pixel * (1.0 + stats.border_share), 1e-12);
 }
 
 TEST(Pages, the_bias_of_a_level_is_that_of_its_own_texels) {
   Street street;
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const PagePlan plan = street.plan(memory);
   ASSERT_GT(plan.levels.size(), 2u);
   const auto in_texels = [](const ShadowMap& level, double bias) {
@@ -294,7 +302,7 @@ TEST(Pages, the_bias_of_a_level_is_that_of_its_own_texels) {
 TEST(Pages, texels_are_long_where_pixels_are) {
   Street street;
   street.normals.assign(street.points.size(), {0, 1, 0});
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const PagePlan plan = street.plan(memory);
   const glm::dvec2 texel = plan.levels.front().texel_world;
   EXPECT_GT(std::abs(std::log2(texel.x / texel.y)), 0.5) << "the street is seen at a slant";
@@ -311,7 +319,7 @@ TEST(Pages, texels_are_long_where_pixels_are) {
 TEST(Pages, no_caster_behind_a_local_light_is_drawn) {
   Street street;
   street.light = SpotLight{{0, 20, -60}, {0, -1, 0}, 0.8, 100.0};
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const PagePlan plan = street.plan(memory);
   ASSERT_EQ(plan.status, PlanStatus::ok);
   // So wide that it lies across the planes of all four sides.
@@ -327,10 +335,10 @@ TEST(Pages, a_share_below_one_gives_up_the_pages_of_few_points) {
   Street street;
   // Clusters, and some points on their own.
   for (int i = 0; i < 60; ++i) street.points.push_back({10.0 + 0.1 * i, 20.0 - 0.2 * i, -12.0 - 2.9 * i});
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const PagePlan whole = street.plan(memory);
   street.options.share = 0.95;
-  PageStorage second;
+  std::vector<std::byte> second(page_memory(4096, 1 << 14));
   const PagePlan plan = street.plan(second);
   EXPECT_LT(plan.pages.size(), whole.pages.size());
   EXPECT_GT(plan.points_coarser, 0u);
@@ -351,7 +359,7 @@ TEST(Pages, the_fallback_holds_every_place_of_the_coarsest_level) {
   Street street;
   street.points = {{0.3, 0.0, -40.0}};
   street.options.fallback = true;
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const PagePlan plan = street.plan(memory);
   EXPECT_EQ(plan.pages.size(), 2u);
   EXPECT_EQ(page_serving(plan, {-15.0, 0.0, -120.0}), 0);
@@ -360,7 +368,7 @@ TEST(Pages, the_fallback_holds_every_place_of_the_coarsest_level) {
 
 TEST(Pages, a_wider_reach_opens_the_pages_round_each_point) {
   Street street;
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const std::size_t points_alone = street.plan(memory).pages.size();
   street.options.reach_texels = 64.0;
   const PagePlan plan = street.plan(memory);
@@ -384,7 +392,7 @@ TEST(Pages, reach_texels_are_those_of_the_level_that_a_point_needs) {
   street.points.clear();
   for (int i = 0; i < 400; ++i) street.points.push_back({-3.0 + 7 * i % 13 * 0.5, 0.0, -8.0 - 0.45 * i});
   street.options.reach_texels = 48.0;
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const PagePlan plan = street.plan(memory);
   int beside = 0;
   for (const glm::dvec3& point : street.points) {
@@ -414,7 +422,7 @@ TEST(Pages, reach_texels_are_those_of_the_level_that_a_point_needs) {
 TEST(Pages, clipmap_levels_are_octaves_of_square_texels) {
   Street street;
   street.options.policy = &page_policies::clipmap;
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const PagePlan plan = street.plan(memory);
   ASSERT_GT(plan.levels.size(), 2u);
   for (const ShadowMap& level : plan.levels) {
@@ -423,7 +431,7 @@ TEST(Pages, clipmap_levels_are_octaves_of_square_texels) {
     EXPECT_NEAR(octave, std::round(octave), 1e-12);
   }
   street.options.policy = &page_policies::resolution;
-  PageStorage other;
+  std::vector<std::byte> other(page_memory(4096, 1 << 14));
   EXPECT_LT(street.plan(other).pages.size(), plan.pages.size());
 }
 
@@ -431,7 +439,7 @@ TEST(Pages, edges_spend_texels_at_shadow_edges_alone) {
   Street street;
   street.options.policy = &page_policies::edges;
   street.feedback.assign(street.points.size(), 0);
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const std::size_t none = street.plan(memory).pages.size();
   for (std::size_t i = 1000; i < 1200; ++i) street.feedback[i] = kShadowEdge | kDepthEdge;
   const PagePlan plan = street.plan(memory);
@@ -448,8 +456,9 @@ TEST(Pages, edges_spend_texels_at_shadow_edges_alone) {
 TEST(Pages, queried_refines_by_an_octave_where_the_picture_changed) {
   Street street;
   street.options.policy = &page_policies::queried;
-  street.plan_options.fit = Fit::stable;  // the same grids in every frame
-  PageStorage memory[2];
+  street.options.plan.fit = Fit::stable;  // the same grids in every frame
+  std::vector<std::byte> memory[2] = {std::vector<std::byte>(page_memory(4096, 1 << 14)),
+                                      std::vector<std::byte>(page_memory(4096, 1 << 14))};
   const PagePlan first = street.plan(memory[0]);
   ASSERT_EQ(first.status, PlanStatus::ok);
   street.last = &first;
@@ -469,7 +478,7 @@ TEST(Pages, tiled_gives_more_of_the_pool_to_tiles_with_depth_edges) {
   Street street;
   street.options.policy = &page_policies::tiled;
   street.options.capacity = 200;
-  PageStorage memory(200);
+  std::vector<std::byte> memory(page_memory(200, 1 << 14));
   street.feedback.assign(street.points.size(), 0);
   const PagePlan even = street.plan(memory);
   ASSERT_EQ(even.status, PlanStatus::ok);
@@ -487,7 +496,7 @@ TEST(Pages, a_light_inside_a_caster_is_planned_and_reported) {
   Street street;
   street.light = PointLight{{0.0, 8.0, -20.0}, 300.0};
   street.boxes.push_back({{-1.0, 7.0, -21.0}, {1.0, 9.0, -19.0}});
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   const PagePlan plan = street.plan(memory);
   ASSERT_EQ(plan.status, PlanStatus::ok);
   EXPECT_TRUE(std::any_of(plan.omitted().begin(), plan.omitted().end(),
@@ -500,11 +509,11 @@ TEST(Pages, scenes_at_the_end_of_the_range_are_planned_or_refused) {
   for (const double offset : {1e12, 1e20, 9e29}) {
     for (const Fit fit : {Fit::tight, Fit::stable}) {
       Street street;
-      street.plan_options.fit = fit;
+      street.options.plan.fit = fit;
       street.camera.position += offset;
       for (Box& box : street.boxes) box = {box.min + offset, box.max + offset};
       for (glm::dvec3& point : street.points) point += offset;
-      PageStorage memory;
+      std::vector<std::byte> memory(page_memory(4096, 1 << 14));
       const PagePlan plan = street.plan(memory);
       for (const Page& page : plan.pages) {
         EXPECT_GE(page.column, 0);
@@ -530,12 +539,12 @@ TEST(Pages, a_million_points_and_a_far_plane_at_infinity_are_planned) {
   street.camera.far_depth = std::numeric_limits<double>::infinity();
   const std::vector<glm::dvec3> few = street.points;
   for (int copy = 0; copy < 249; ++copy) street.points.insert(street.points.end(), few.begin(), few.end());
-  PageStorage memory(4096, street.points.size());
+  std::vector<std::byte> memory(page_memory(4096, street.points.size()));
   const PagePlan many = street.plan(memory);
   ASSERT_EQ(many.status, PlanStatus::ok);
   EXPECT_EQ(many.points, 1000000u);
   street.points = few;
-  PageStorage other;
+  std::vector<std::byte> other(page_memory(4096, 1 << 14));
   EXPECT_EQ(many.pages.size(), street.plan(other).pages.size());
 }
 
@@ -544,7 +553,7 @@ TEST(Pages, a_share_leaves_about_as_many_points_to_coarser_levels_as_it_allows_a
   // Few points to a page, so that any of them may be left.
   street.points.clear();
   for (int i = 0; i < 400; ++i) street.points.push_back({-15.0 + 7 * i % 13 * 2.5, 0.0, -8.0 - 0.45 * i});
-  PageStorage memory;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
   for (const double share : {0.6, 0.4, 0.2}) {
     street.options.share = share;
     const PagePlan plan = street.plan(memory);

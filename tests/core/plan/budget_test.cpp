@@ -155,10 +155,10 @@ TEST(Budget, sizes_are_stable_under_a_slow_camera) {
   plain.options.resolution.texel_budget = 1 << 20;
   PlanHistory history;
   const SceneBounds bounds{plain.casters, plain.receivers};
-  ShadowPlan last = make_plan(plain.camera, plain.light, bounds, plain.options, history);
+  ShadowPlan last = make_plan(plain.camera, plain.light, bounds, plain.options, &history);
   for (int frame = 0; frame < 20; ++frame) {
     plain.camera.position.z -= 0.02;
-    const ShadowPlan plan = make_plan(plain.camera, plain.light, bounds, plain.options, history);
+    const ShadowPlan plan = make_plan(plain.camera, plain.light, bounds, plain.options, &history);
     ASSERT_EQ(plan.map_count, last.map_count);
     for (std::size_t i = 0; i < static_cast<std::size_t>(plan.map_count); ++i)
       EXPECT_EQ(plan.map[i].width, last.map[i].width) << frame;

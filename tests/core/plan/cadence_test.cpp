@@ -27,7 +27,7 @@ struct Plain {
     boxes.push_back({{-400, -1, -400}, {400, 0, 400}});
     options.cadence = {3, 0.5, 0.02};
   }
-  ShadowPlan plan() { return make_plan(camera, DirectionalLight{light}, {boxes, boxes}, options, history); }
+  ShadowPlan plan() { return make_plan(camera, DirectionalLight{light}, {boxes, boxes}, options, &history); }
 };
 
 /// By cascade: whether its map is another than before.
@@ -161,7 +161,7 @@ TEST(Cadence, where_it_cannot_be_it_is_reported) {
   const SceneBounds bounds{plain.boxes, plain.boxes};
   EXPECT_TRUE(ignored(make_plan(plain.camera, DirectionalLight{plain.light}, bounds, plain.options)));
   EXPECT_TRUE(
-      ignored(make_plan(plain.camera, PointLight{{0, 30, -50}, 100}, bounds, plain.options, plain.history)));
+      ignored(make_plan(plain.camera, PointLight{{0, 30, -50}, 100}, bounds, plain.options, &plain.history)));
   plain.options.resolution.max_error = 1.0;
   EXPECT_TRUE(ignored(plain.plan()));
 }

@@ -47,7 +47,7 @@ TEST(ReceiverClusters, give_islands_side_by_side_a_map_each_which_cascades_canno
   const Scene scene(two_islands());
   const ShadowPlan plan = scene.plan(), cascades = scene.cascades();
   ASSERT_EQ(plan.map_count, 2);
-  EXPECT_TRUE(plan.select_by_map);
+  EXPECT_NE(plan.selection, MapSelection::view_depth);
   EXPECT_EQ(count_of(plan, OmissionKind::partition_without_gain), 0u);
   EXPECT_LT(scene.storage(plan), 0.1 * scene.storage(cascades));
   // Each serves its own island.

@@ -1,5 +1,5 @@
 // Do jittered maps show the same scene on a grid moved by so much, and nothing outside of it?
-#include "gnomon/jitter.hpp"
+#include "gnomon/motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "gnomon/extend/shape.hpp"
 #include "gnomon/gnomon.hpp"
 
 namespace gnomon::test {

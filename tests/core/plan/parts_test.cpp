@@ -72,7 +72,7 @@ TEST(SeparatingPlane, both_maps_are_as_dense_at_the_plane) {
           Scene scene(height, far_depth, *warp);
           scene.options.warp.objective = objective;
           const ShadowPlan plan = scene.plan();
-          if (!plan.select_by_map) continue;
+          if (plan.selection == MapSelection::view_depth) continue;
           ASSERT_EQ(plan.map_count, 2);
           // A side that takes no warp has no density to fit.
           if (plan.map[0].kappa == 0.0) continue;
@@ -98,7 +98,7 @@ TEST(SeparatingPlane, what_is_parted_is_no_worse_than_two_cascades) {
     for (const double height : {40.0, 60.0, 90.0}) {
       Scene scene(height, 300.0, *warp);
       const ShadowPlan by_plane = scene.plan();
-      (by_plane.select_by_map ? parted : cascades) += 1;
+      (by_plane.selection != MapSelection::view_depth ? parted : cascades) += 1;
       scene.options.split.partition = Partition::view_depth;
       scene.options.cascades = 2;
       const double parts = measure(by_plane, scene.camera, {scene.boxes, scene.boxes}).storage;

@@ -34,7 +34,7 @@ struct Input {
     visible = &depths;
   }
   [[nodiscard]] ShadowPlan plan() const {
-    return make_plan(camera, light, {casters, receivers}, options, visible);
+    return make_plan({camera, visible}, light, {casters, receivers}, options);
   }
 };
 
@@ -58,18 +58,25 @@ TEST(PlanInput, every_broken_field_is_named) {
       {"options.split.partition", [](Input& i) { i.options.split.partition = Partition{5}; }},
       {"options.split.scheme", [](Input& i) { i.options.split.scheme = SplitScheme{7}; }},
       {"options.split.range", [](Input& i) { i.options.split.range = SplitRange{3}; }},
-      {"options.split.selection", [](Input& i) { i.options.split.selection = MapSelection{2}; }},
+      {"options.split.selection", [](Input& i) { i.options.split.selection = MapSelection{3}; }},
+      {"options.split.selection", [](Input& i) { i.options.split.selection = MapSelection::first_holding; }},
       {"options.fit", [](Input& i) { i.options.fit = Fit{4}; }},
       {"options.warp.objective", [](Input& i) { i.options.warp.objective = Objective{3}; }},
       {"options.clip_space.ndc_depth", [](Input& i) { i.options.clip_space.ndc_depth = NdcDepth{2}; }},
       {"options.clip_space.handedness", [](Input& i) { i.options.clip_space.handedness = Handedness{2}; }},
       {"options.clip_space.first_row", [](Input& i) { i.options.clip_space.first_row = FirstRow{2}; }},
       {"fov_y_radians",
-       [](Input& i) { i.camera = perspective_camera({}, {0, 0, -1}, {0, 1, 0}, 60.0, 1.5, 0.5, 200, 64, 48); }},
+       [](Input& i) {
+         i.camera = perspective_camera({}, {0, 0, -1}, {0, 1, 0}, 60.0, 1.5, 0.5, 200, 64, 48);
+       }},
       {"fov_y_radians",
-       [](Input& i) { i.camera = perspective_camera({}, {0, 0, -1}, {0, 1, 0}, 45.0, 1.5, 0.5, 200, 64, 48); }},
+       [](Input& i) {
+         i.camera = perspective_camera({}, {0, 0, -1}, {0, 1, 0}, 45.0, 1.5, 0.5, 200, 64, 48);
+       }},
       {"fov_y_radians",
-       [](Input& i) { i.camera = perspective_camera({}, {0, 0, -1}, {0, 1, 0}, 0.0, 1.5, 0.5, 200, 64, 48); }},
+       [](Input& i) {
+         i.camera = perspective_camera({}, {0, 0, -1}, {0, 1, 0}, 0.0, 1.5, 0.5, 200, 64, 48);
+       }},
       {"camera.bottom", [](Input& i) { i.camera.bottom = 2.0; }},
       {"camera.top", [](Input& i) { i.camera.top = kInfinity; }},
       {"camera.near_depth", [](Input& i) { i.camera.near_depth = 0.0; }},
@@ -150,9 +157,9 @@ TEST(PlanInput, every_broken_field_is_named) {
        [](Input& i) {
          i.give_splits({1, 3, 2});
        }},
-      {"visible", [](Input& i) { i.see(-1.0, 5.0); }},
-      {"visible", [](Input& i) { i.see(kNan, 5.0); }},
-      {"visible", [](Input& i) { i.see(1.0, kInfinity); }},
+      {"view.depths", [](Input& i) { i.see(-1.0, 5.0); }},
+      {"view.depths", [](Input& i) { i.see(kNan, 5.0); }},
+      {"view.depths", [](Input& i) { i.see(1.0, kInfinity); }},
       {"options.filter.texels", [](Input& i) { i.options.filter.texels = -0.5; }},
       {"options.filter.texels", [](Input& i) { i.options.filter.texels = 257.0; }},
       {"options.bias", [](Input& i) { i.options.bias.slope_texels = kNan; }},

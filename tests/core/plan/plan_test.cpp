@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "support/near.hpp"
 #include "support/random_case.hpp"
 
@@ -162,7 +162,7 @@ TEST(Plan, doubling_the_map_halves_the_error) {
   c.options.filter.texels = 0.0;
   c.options.warp.warp = &warps::none;
   c.options.prune = kPruneNothing;
-  const MeasureGrid grid{16, 16, 32};
+  const MeasureOptions grid{16, 16, 32};
   const AliasingStats coarse = measure(c.plan(), c.camera, c.bounds(), grid);
   c.options.resolution.max_size = 2048;
   const AliasingStats fine = measure(c.plan(), c.camera, c.bounds(), grid);

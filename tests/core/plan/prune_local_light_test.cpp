@@ -120,7 +120,7 @@ TEST(PruneLocalLight, maps_of_a_stable_fit_a_history_or_a_budget_keep_their_size
     PlanHistory history;
     for (const ShadowPlan& plan :
          {stable.plan(),
-          make_plan(room.camera, room.light, {room.casters, room.boxes}, room.options, history)}) {
+          make_plan(room.camera, room.light, {room.casters, room.boxes}, room.options, &history)}) {
       for (const ShadowMap& map : plan.maps()) {
         EXPECT_EQ(map.width, 4096);
         ++maps;

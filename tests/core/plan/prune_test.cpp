@@ -1,5 +1,5 @@
 // What does the plan leave out, and can each rule be switched off?
-#include "gnomon/prune.hpp"
+#include "gnomon/options.hpp"
 
 #include <gtest/gtest.h>
 

@@ -24,7 +24,7 @@ ShadowMap map_from_above(double half, int size) {
 ShadowPlan plan_of(std::vector<ShadowMap> maps) {
   ShadowPlan plan;
   plan.status = PlanStatus::ok;
-  plan.select_by_map = plan.select_finest = true;
+  plan.selection = MapSelection::finest;
   plan.map_count = static_cast<int>(maps.size());
   for (std::size_t i = 0; i < maps.size(); ++i) plan.map[i] = maps[i];
   return plan;
@@ -103,8 +103,8 @@ TEST(Selection, under_a_light_along_the_view_points_behind_the_first_cascade_get
 TEST(Selection, cascades_keep_their_rectangles_and_widen_their_depths_and_planes) {
   const LitAlongTheView scene;
   const ShadowPlan by_depth = scene.plan(MapSelection::view_depth), finest = scene.plan(MapSelection::finest);
-  EXPECT_TRUE(finest.select_by_map && finest.select_finest);
-  EXPECT_FALSE(by_depth.select_by_map || by_depth.select_finest);
+  EXPECT_EQ(finest.selection, MapSelection::finest);
+  EXPECT_EQ(by_depth.selection, MapSelection::view_depth);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(finest.map[i].texel_world, by_depth.map[i].texel_world) << i;
     EXPECT_GE(finest.map[i].depth_range_world, by_depth.map[i].depth_range_world * (1 - 1e-12)) << i;

@@ -1,6 +1,6 @@
 // The block of numbers for shaders: the layout that GLSL has, and one look-up whatever clip space a plan was
 // made for.
-#include "gnomon/shader_block.hpp"
+#include "gnomon/shader.hpp"
 
 #include <gtest/gtest.h>
 

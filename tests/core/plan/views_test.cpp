@@ -1,5 +1,5 @@
 // Does one plan serve several cameras: every receiver that any of them sees, at the error of the worst?
-#include "gnomon/views.hpp"
+#include "gnomon/plan.hpp"
 
 #include <gtest/gtest.h>
 

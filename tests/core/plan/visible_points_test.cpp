@@ -26,7 +26,8 @@ struct Plain {
     options.warp.warp = &warps::none;
   }
   [[nodiscard]] ShadowPlan plan(std::span<const glm::dvec3> points) const {
-    return make_plan(camera, DirectionalLight{light}, {boxes, boxes}, options, nullptr, points);
+    return make_plan({.camera = camera, .points_world = points}, DirectionalLight{light}, {boxes, boxes},
+                     options);
   }
 };
 
@@ -104,7 +105,7 @@ TEST(VisiblePoints, a_broken_point_is_named) {
   const std::vector<glm::dvec3> broken = {{0, 2, 100}, {0, nan, 0}};
   const ShadowPlan plan = plain.plan(broken);
   EXPECT_EQ(plan.status, PlanStatus::invalid_input);
-  EXPECT_EQ(plan.invalid_field, "visible_points");
+  EXPECT_EQ(plan.invalid_field, "view.points_world");
 }
 
 TEST(VisiblePoints, fits_and_lights_that_do_not_follow_them_say_so) {
@@ -118,7 +119,8 @@ TEST(VisiblePoints, fits_and_lights_that_do_not_follow_them_say_so) {
   }
   plain.options = {};
   const SceneBounds bounds{plain.boxes, plain.boxes};
-  EXPECT_TRUE(ignored(make_plan(plain.camera, PointLight{{0, 50, 100}, 200.0}, bounds, {}, nullptr, points),
+  EXPECT_TRUE(ignored(make_plan({.camera = plain.camera, .points_world = points},
+                                PointLight{{0, 50, 100}, 200.0}, bounds, {}),
                       IgnoredOption::visible_points));
   plain.options.split.partition = Partition::separating_plane;
   EXPECT_TRUE(ignored(plain.plan(points), IgnoredOption::visible_points));
@@ -134,8 +136,8 @@ TEST(VisiblePoints, every_point_that_had_a_map_keeps_one_and_maps_grow_no_wider)
     const ShadowPlan without = c.plan();
     Random random(3);
     const std::vector<glm::dvec3> points = visible_points(c, random, 2, 3);
-    const ShadowPlan plan =
-        make_plan(c.camera, DirectionalLight{c.light}, c.bounds(), c.options, nullptr, points);
+    const ShadowPlan plan = make_plan({.camera = c.camera, .points_world = points}, DirectionalLight{c.light},
+                                      c.bounds(), c.options);
     require(plan.status != PlanStatus::invalid_input, "refused", plan.invalid_field);
     for (const glm::dvec3& point : points) {
       const double depth = depth_of(c.camera, point);

@@ -1,5 +1,5 @@
 // Do coarse depths hold every depth that a camera sees, and keep off what is hidden?
-#include "gnomon/coarse_depths.hpp"
+#include "gnomon/view.hpp"
 
 #include <gtest/gtest.h>
 
@@ -271,7 +271,7 @@ TEST(CoarseDepths, plans_cover_them_alone) {
   PlanOptions options;
   options.cascades = 2;
   const ShadowPlan plan =
-      make_plan(camera, DirectionalLight{{0.3, -1.0, 0.2}}, {boxes, boxes}, options, &depths);
+      make_plan({camera, &depths}, DirectionalLight{{0.3, -1.0, 0.2}}, {boxes, boxes}, options);
   ASSERT_GT(plan.map_count, 0);
   EXPECT_GT(plan.map[0].depth_begin, 9.0);
   EXPECT_LT(plan.map[static_cast<std::size_t>(plan.map_count - 1)].depth_end, 42.0);

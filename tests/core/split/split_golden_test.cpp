@@ -6,6 +6,7 @@
 
 #include "gnomon/gnomon.hpp"
 #include "gnomon/study/dpds.hpp"
+#include "gnomon/study/formulas.hpp"
 #include "support/golden.hpp"
 #include "support/near.hpp"
 

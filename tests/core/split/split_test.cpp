@@ -1,5 +1,5 @@
 // Are the borders of the cascades where the scheme says, whatever it is given?
-#include "gnomon/split.hpp"
+#include "gnomon/options.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "gnomon/partition.hpp"
+#include "gnomon/study/formulas.hpp"
 #include "support/near.hpp"
 #include "support/property.hpp"
 

@@ -1,5 +1,5 @@
 // Do visible depths keep cascades off what is not seen, and off nothing that is?
-#include "gnomon/visible_depths.hpp"
+#include "gnomon/view.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <numeric>
 #include <vector>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "gnomon/plan.hpp"
 #include "support/near.hpp"
 #include "support/property.hpp"
@@ -36,7 +36,7 @@ struct Plain {
   PlanOptions options;
   const VisibleDepths* visible = nullptr;
   [[nodiscard]] ShadowPlan plan() const {
-    return make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {casters, receivers}, options, visible);
+    return make_plan({camera, visible}, DirectionalLight{{0.3, -1, 0.2}}, {casters, receivers}, options);
   }
 };
 

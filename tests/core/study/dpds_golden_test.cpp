@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "gnomon/extend/warp.hpp"
 #include "gnomon/gnomon.hpp"
 #include "gnomon/study/dpds.hpp"
 #include "support/golden.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -35,7 +35,8 @@ struct Plain {
     }
   }
   [[nodiscard]] TechniqueChoice choose() const {
-    return choose_technique(camera, light, {casters, receivers}, {work, seen}, among, budget, costs, base);
+    return choose_technique({.camera = camera, .points_world = seen}, light, {casters, receivers}, work,
+                            among, budget, costs, base);
   }
   /// Every technique of the set, each chosen from itself alone.
   [[nodiscard]] std::vector<Technique> all() const {
@@ -171,9 +172,11 @@ TEST(Technique, visible_points_decide_where_they_are_known) {
   const TechniqueChoice near = plain.choose();
   ASSERT_EQ(far.status, PlanStatus::ok);
   EXPECT_NE(far.chosen.warp, near.chosen.warp);
-  const double mean = measure_seen(near.plan, plain.camera, plain.seen).mean;
+  const double mean = measure(near.plan, {.camera = plain.camera, .points_world = plain.seen}, {}).mean;
   EXPECT_NEAR(near.chosen.error / kFilters[near.chosen.filter].error_ratio, mean, 1e-9 * mean);
-  EXPECT_EQ(planned_error(near.plan, plain.camera, {plain.casters, plain.receivers}, {{}, plain.seen}), mean);
+  EXPECT_EQ(planned_error(near.plan, {.camera = plain.camera, .points_world = plain.seen},
+                          {plain.casters, plain.receivers}),
+            mean);
 }
 
 TEST(Technique, a_filters_errors_go_with_its_own_power_of_m) {
@@ -208,7 +211,7 @@ TEST(Technique, work_is_what_culling_leaves_for_each_map) {
       tested += static_cast<double>(count - odd) / static_cast<double>(count) * map.width * map.height;
   }
   ASSERT_GT(draws, 0.0);
-  const PlanWork work = planned_work(plan, {plain.casters, plain.receivers}, {plain.work, {}});
+  const PlanWork work = planned_work(plan, {plain.casters, plain.receivers}, plain.work);
   EXPECT_EQ(work.maps, 3.0);
   EXPECT_NEAR(work.kilodraws, draws / 1e3, 1e-12);
   EXPECT_NEAR(work.megatriangles, triangles / 1e6, 1e-12);

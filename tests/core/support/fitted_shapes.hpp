@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "gnomon/shape.hpp"
+#include "gnomon/extend/shape.hpp"
 
 namespace gnomon::test {
 

@@ -1,5 +1,6 @@
 // Random cameras, lights and boxes for the laws, and points that such a camera sees.
 #include "random_case.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +82,7 @@ glm::dvec3 Random::direction() {
 }
 
 ShadowPlan Case::plan() const {
-  return make_plan(camera, DirectionalLight{light}, bounds(), options, visible);
+  return make_plan({camera, visible}, DirectionalLight{light}, bounds(), options);
 }
 
 std::ostream& operator<<(std::ostream& out, const Case& c) {

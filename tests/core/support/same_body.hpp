@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "gnomon/body.hpp"
+#include "gnomon/extend/body.hpp"
 
 namespace gnomon::test {
 

@@ -39,7 +39,7 @@ struct SeededInput {
   SeededInput(const SeededInput&) = delete;
   SeededInput& operator=(const SeededInput&) = delete;
   [[nodiscard]] SceneBounds bounds() const { return {casters, receivers}; }
-  [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, light, bounds(), options, visible); }
+  [[nodiscard]] ShadowPlan plan() const { return make_plan({camera, visible}, light, bounds(), options); }
 };
 
 /// How far a case may go.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/extend/warp.hpp"
 #include "gnomon/gnomon.hpp"
 #include "support/golden.hpp"
 #include "support/near.hpp"

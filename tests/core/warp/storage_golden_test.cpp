@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "gnomon/gnomon.hpp"
 #include "support/golden.hpp"
 #include "support/near.hpp"

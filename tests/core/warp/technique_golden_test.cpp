@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "gnomon/extend/warp.hpp"
 #include "gnomon/gnomon.hpp"
+#include "gnomon/study/formulas.hpp"
 #include "support/golden.hpp"
 #include "support/near.hpp"
 #include "warp/formulas.hpp"

@@ -88,7 +88,7 @@ TEST(WarpPlanes, each_receiver_takes_the_map_of_its_plane_and_all_others_the_cas
   c.options.warp.planes[2] = kWall;
   const ShadowPlan plan = c.plan();
   ASSERT_EQ(plan.map_count, 5);
-  EXPECT_TRUE(plan.select_by_map);
+  EXPECT_NE(plan.selection, MapSelection::view_depth);
   EXPECT_EQ(plan.map[0].cascade, 3);
   EXPECT_EQ(plan.map[1].cascade, 5);
   const auto cascade_at = [&](const glm::dvec3& p) {
@@ -146,7 +146,7 @@ TEST(WarpPlanes, planes_without_receiver_caster_or_light_get_no_map) {
   ShadowPlan plan = c.plan();
   EXPECT_TRUE(has(plan, OmissionKind::plane_without_receiver, 0.0));
   EXPECT_EQ(plan.map_count, without.map_count);
-  EXPECT_FALSE(plan.select_by_map);
+  EXPECT_EQ(plan.selection, MapSelection::view_depth);
   c.options.warp.planes[0] = kFloor;
   c.light = {1, 0, 0};
   EXPECT_TRUE(has(c.plan(), OmissionKind::plane_without_receiver, 0.0));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "gnomon/gnomon.hpp"
 #include "lanes/lanes.hpp"
 #include "support/seeded_input.hpp"

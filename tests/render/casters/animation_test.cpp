@@ -8,7 +8,6 @@
 #include "animated_gltf.hpp"
 #include "gnomon/scene/pose.hpp"
 #include "mask_frame.hpp"
-#include "base/page_storage.hpp"
 #include "shared_files.hpp"
 
 namespace gnomon::render {
@@ -176,7 +175,8 @@ TEST(Animation, kept_pages_of_a_flight_have_no_stale_texel) {
   pages.page_texels = 64;
   pages.policy = &page_policies::clipmap;
   pages.fallback = true;
-  PageStorage memory{4096, 1 << 17};
+  pages.plan = pair.options;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 17));
   std::size_t kept = 0, all = 0;
   for (int frame = 0; frame < 30; ++frame) {
     pair.go(2.0 * frame * kFrameSeconds);
@@ -187,8 +187,8 @@ TEST(Animation, kept_pages_of_a_flight_have_no_stale_texel) {
     for (std::size_t i = 0; i < seen.pixels(); i += 3) {
       if (seen.surface(i)) points.push_back(seen.point(i));
     }
-    const PagePlan plan = plan_pages(camera, DirectionalLight{kSlant}, {pair.boxes, pair.boxes}, {points},
-                                     pair.options, pages, memory.spans());
+    const PagePlan plan = plan_pages({.camera = camera, .points_world = points}, DirectionalLight{kSlant},
+                                     {pair.boxes, pair.boxes}, pages, memory);
     ASSERT_EQ(plan.status, PlanStatus::ok);
     FrameOptions options;
     options.time_passes = false;

@@ -14,7 +14,6 @@
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/pose.hpp"
 #include "mask_frame.hpp"
-#include "base/page_storage.hpp"
 #include "test_scene.hpp"
 
 namespace gnomon::render {
@@ -252,7 +251,7 @@ TEST(CasterClusters, follow_vertices_that_an_animation_moves) {
 
 TEST(CasterClusters, draw_the_depths_of_whole_casters_into_pages) {
   Pair pair;
-  PageStorage memory{4096, 1 << 17};
+  std::vector<std::byte> memory(page_memory(4096, 1 << 17));
   for (const Light& light :
        std::array<Light, 2>{DirectionalLight{{0.4, -1, 0.3}}, PointLight{{1, 5, 2}, 40.0}}) {
     for (int frame = 0; frame < 3; ++frame) {
@@ -261,13 +260,12 @@ TEST(CasterClusters, draw_the_depths_of_whole_casters_into_pages) {
       std::vector<glm::dvec3> points;
       for (std::size_t i = 0; i < seen.pixels(); i += 3)
         if (seen.surface(i)) points.push_back(seen.point(i));
-      PlanOptions options;
-      options.fit = Fit::stable;
-      set_margin(default_settings(filters::hard), options);
       PageOptions pages;
+      pages.plan.fit = Fit::stable;
+      set_margin(default_settings(filters::hard), pages.plan);
       pages.page_texels = 64;
-      const PagePlan plan =
-          plan_pages(camera, light, {pair.boxes, pair.boxes}, {points}, options, pages, memory.spans());
+      const PagePlan plan = plan_pages({.camera = camera, .points_world = points}, light,
+                                       {pair.boxes, pair.boxes}, pages, memory);
       ASSERT_EQ(plan.status, PlanStatus::ok);
       ASSERT_GE(plan.pages.size(), 16u);
       pair.draw(

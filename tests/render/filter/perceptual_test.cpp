@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "support/property.hpp"
 #include "test_scene.hpp"
 

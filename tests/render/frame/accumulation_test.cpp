@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "frame/blue_noise.hpp"
-#include "gnomon/jitter.hpp"
+#include "gnomon/motion.hpp"
 #include "mask_frame.hpp"
 #include "shared_context.hpp"
 

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/measure.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "test_scene.hpp"
 

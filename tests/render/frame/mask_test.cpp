@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/study/bias.hpp"
 #include "mask_frame.hpp"
 
 namespace gnomon::render {

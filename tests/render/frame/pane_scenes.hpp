@@ -10,7 +10,6 @@
 #include "gnomon/trace/transmittance.hpp"
 #include "mask_frame.hpp"
 #include "shared_context.hpp"
-#include "support/light_storage.hpp"
 
 namespace gnomon::render {
 
@@ -137,20 +136,20 @@ struct ManyLights {
                                      {PointLight{{1.0, 7.5, 0.5}, 12.0}},
                                      {PointLight{{4.0, 1.0, 2.0}, 2.0}},
                                      {PointLight{{-6.0, 1.5, 2.0}, 2.5}}};
-  test::LightStorage memory{requests.size()};
-  PlanOptions options = plan_options("none", 1);
+  std::vector<std::byte> memory = std::vector<std::byte>(light_memory(requests.size(), 0));
   LightPlan plan;
   std::vector<ShadowPlan> own;
 
   ManyLights() {
     LightOptions pool;
+    pool.plan = plan_options("none", 1);
     pool.pool_width = pool.pool_height = 2048;
     pool.most_size = 512;
     pool.least_size = 256;
-    plan = plan_lights(camera, requests, {boxes, boxes}, options, pool, memory.spans(), nullptr);
+    plan = plan_lights(camera, requests, {boxes, boxes}, pool, memory);
     for (std::size_t i = 0; i < requests.size(); ++i)
       own.push_back(
-          make_plan(camera, requests[i].light, {boxes, boxes}, light_options(options, plan.lights[i])));
+          make_plan(camera, requests[i].light, {boxes, boxes}, light_options(pool, plan.lights[i])));
   }
   /// The sum of all lights, or of one alone.
   FloatImage sum(Renderer& renderer, int only, const ClusterOptions& clusters, FrameStats* stats = nullptr) {

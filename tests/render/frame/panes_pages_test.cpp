@@ -1,7 +1,6 @@
 // Do pages carry the light of panes, in images no larger than the frame needs?
 #include <gtest/gtest.h>
 
-#include "base/page_storage.hpp"
 #include "pane_scenes.hpp"
 
 namespace gnomon::render {
@@ -11,7 +10,7 @@ namespace {
 struct Pages {
   Camera camera = camera_on_box(kSize, kSize);
   std::vector<glm::dvec3> points;
-  PageStorage memory{4096, 1 << 17};
+  std::vector<std::byte> memory = std::vector<std::byte>(page_memory(4096, 1 << 17));
   PagePlan plan;
 
   Pages(const Scene& opaque, const Scene& panes, const Light& light, const PagePolicy& policy,
@@ -21,12 +20,11 @@ struct Pages {
     for (std::size_t i = 0; i < frame.pixels(); ++i)
       if (frame.surface(i)) points.push_back(frame.point(i));
     const std::vector<Box> boxes = all_boxes(opaque, panes);
-    PlanOptions options;
-    set_margin(default_settings(filters::hard), options);
     PageOptions pages;
+    set_margin(default_settings(filters::hard), pages.plan);
     pages.policy = &policy;
     pages.page_texels = page_texels;
-    plan = plan_pages(camera, light, {boxes, boxes}, {points}, options, pages, memory.spans());
+    plan = plan_pages({.camera = camera, .points_world = points}, light, {boxes, boxes}, pages, memory);
   }
 };
 

@@ -12,9 +12,9 @@
 #include "filter/filter_block.hpp"
 #include "filter/stored_maps.hpp"
 #include "gl/program.hpp"
+#include "gnomon/extend/shape.hpp"
 #include "gnomon/render/error.hpp"
 #include "gnomon/render/filter.hpp"
-#include "gnomon/shape.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -8,7 +8,8 @@
 #include <glm/matrix.hpp>
 #include <vector>
 
-#include "gnomon/metric.hpp"
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/measure.hpp"
 #include "mask_frame.hpp"
 #include "support/fitted_shapes.hpp"
 

@@ -12,6 +12,8 @@
 #include <string>
 
 #include "filter/filter_block.hpp"
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/study/bias.hpp"
 #include "gnomon/trace/tracer.hpp"
 #include "mask_frame.hpp"
 #include "shared_context.hpp"

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "gnomon/render/renderer.hpp"
+#include "gnomon/study/bias.hpp"
 #include "test_scene.hpp"
 
 namespace gnomon::render {

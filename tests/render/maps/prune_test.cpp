@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "../scene/shared_files.hpp"
-#include "gnomon/history.hpp"
+#include "base/random.hpp"
+#include "gnomon/motion.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
 #include "prune_pair.hpp"
-#include "base/random.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -95,7 +95,7 @@ void fly(Pair& pair, std::uint64_t seed, int frames, Tally& tally) {
     if (frame % 3 != 2) t += 1.0 / 2000.0;  // else the view stands still
     const Camera camera = path.at(t, kWidth, kHeight);
     const ShadowPlan plan = fit == Fit::warped_stable
-                                ? make_plan(camera, light, pair.bounds(), options, history)
+                                ? make_plan(camera, light, pair.bounds(), options, &history)
                                 : make_plan(camera, light, pair.bounds(), options);
     ShadowPlan all = plan;
     if (fit != Fit::warped_stable) {

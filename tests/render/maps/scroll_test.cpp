@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/reuse.hpp"
+#include "gnomon/motion.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
 #include "prune_pair.hpp"

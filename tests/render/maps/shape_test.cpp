@@ -1,5 +1,5 @@
 // Does each shape's GLSL give the places that its C++ gives?
-#include "gnomon/shape.hpp"
+#include "gnomon/extend/shape.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,11 +11,10 @@
 #include <tuple>
 #include <vector>
 
+#include "casters/moving_casters.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "mask_frame.hpp"
-#include "casters/moving_casters.hpp"
 #include "source/page_runs.hpp"
-#include "base/page_storage.hpp"
 #include "test_scene.hpp"
 
 namespace gnomon::render {
@@ -39,7 +38,7 @@ struct Pair {
   std::vector<Box> boxes;
   PlanOptions options;
   PageOptions pages;
-  PageStorage memory{4096, 1 << 17};
+  std::vector<std::byte> memory = std::vector<std::byte>(page_memory(4096, 1 << 17));
   FilterSettings filter = default_settings(filters::hard);
   FilterSettings looks = default_settings(filters::hard);  ///< of the frame that finds points for pages
   FrameOptions drawing;
@@ -91,8 +90,9 @@ struct Pair {
   }
   /// The same of pages.
   std::size_t stale_pages(const Camera& camera) {
-    PlanOptions with = options;
-    set_margin(filter, with);
+    PageOptions with = pages;
+    with.plan = options;
+    set_margin(filter, with.plan);
     keeps.draw(ShadowPlan{}, camera, keeps.prepare(looks), drawing);
     const FloatImage at = keeps.positions();
     std::vector<glm::dvec3> points;
@@ -100,7 +100,8 @@ struct Pair {
       const float* p = &at.values[i];
       if (p[3] > 0.0f) points.push_back(camera.position + glm::dvec3(p[0], p[1], p[2]));
     }
-    const PagePlan plan = plan_pages(camera, light, {boxes, boxes}, {points}, with, pages, memory.spans());
+    const PagePlan plan =
+        plan_pages({.camera = camera, .points_world = points}, light, {boxes, boxes}, with, memory);
     EXPECT_EQ(plan.status, PlanStatus::ok);
     last = keeps.draw(plan, camera, keeps.prepare(filter, Source::pages), drawing);
     whole = redraws.draw(plan, camera, redraws.prepare(filter, Source::pages), all_of(drawing));

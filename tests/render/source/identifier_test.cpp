@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
+#include "gnomon/study/bias.hpp"
 #include "gnomon/trace/tracer.hpp"
 #include "mask_frame.hpp"
 #include "shared_context.hpp"

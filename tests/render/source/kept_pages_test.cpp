@@ -7,7 +7,6 @@
 
 #include "gnomon/render/renderer.hpp"
 #include "mask_frame.hpp"
-#include "base/page_storage.hpp"
 #include "test_scene.hpp"
 
 namespace gnomon::render {
@@ -19,15 +18,14 @@ struct Pair {
   Light light = DirectionalLight{kSlant};
   Renderer keeps, redraws;
   std::vector<Box> boxes;
-  PlanOptions options;
   PageOptions pages;
-  PageStorage memory{4096, 1 << 17};
+  std::vector<std::byte> memory = std::vector<std::byte>(page_memory(4096, 1 << 17));
   FilterSettings filter = default_settings(filters::hard);
   std::size_t kept = 0, all = 0;
 
   explicit Pair(const Scene& of) : scene(of), keeps(scene), redraws(scene), boxes(boxes_of(scene)) {
-    options.fit = Fit::stable;
-    set_margin(filter, options);
+    pages.plan.fit = Fit::stable;
+    set_margin(filter, pages.plan);
     pages.page_texels = 64;
     pages.fallback = true;
   }
@@ -37,7 +35,7 @@ struct Pair {
     for (std::size_t i = 0; i < seen.pixels(); i += 3) {
       if (seen.surface(i)) points.push_back(seen.point(i));
     }
-    return plan_pages(camera, light, {boxes, boxes}, {points}, options, pages, memory.spans());
+    return plan_pages({.camera = camera, .points_world = points}, light, {boxes, boxes}, pages, memory);
   }
   /// Draws a frame with both; returns the texels of resident pages that differ.
   std::size_t stale(const Camera& camera, std::span<const Box> moved = {}) {

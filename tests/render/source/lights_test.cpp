@@ -7,7 +7,6 @@
 
 #include "gnomon/render/renderer.hpp"
 #include "mask_frame.hpp"
-#include "support/light_storage.hpp"
 #include "test_scene.hpp"
 
 namespace gnomon::render {
@@ -38,11 +37,10 @@ struct Stage {
                                      {PointLight{{3, 3, 2}, 9.0}},
                                      {PointLight{{0, 3, 90}, 5.0}}};
   Renderer renderer{scene};
-  test::LightStorage memory{requests.size()};
+  std::vector<std::byte> memory = std::vector<std::byte>(light_memory(requests.size(), 0));
   std::vector<LightState> states = std::vector<LightState>(requests.size());
   LightHistory history{states, 0, {}};
   LightOptions pool;
-  PlanOptions options;
   LightPlan plan;
   std::vector<ShadowPlan> own = std::vector<ShadowPlan>(requests.size());
 
@@ -50,23 +48,23 @@ struct Stage {
     pool.pool_width = 2048;
     pool.pool_height = 1024;
     pool.most_size = 512;
-    set_margin(filter, options);
+    set_margin(filter, pool.plan);
   }
   /// Makes room for requests that were added.
   void grow() {
-    memory = test::LightStorage(requests.size());
+    memory.resize(light_memory(requests.size(), 0));
     states.assign(requests.size(), {});
     history = {states, 0, {}};
     own.resize(requests.size());
   }
   void replan() {
-    plan = plan_lights(camera, requests, {boxes, boxes}, options, pool, memory.spans(), &history);
+    plan = plan_lights(camera, requests, {boxes, boxes}, pool, memory, &history);
     for (std::size_t i = 0; i < requests.size(); ++i) {
       const LightMaps& maps = plan.lights[i];
       if (!maps.due) continue;
       const Light& light = requests[i].light;
       own[i] = make_plan(maps.frames > 1 ? camera_round(light, camera) : camera, light, {boxes, boxes},
-                         light_options(options, maps));
+                         light_options(pool, maps));
     }
   }
   /// All lights, or one alone.

@@ -9,7 +9,6 @@
 #include "gnomon/render/page_filter.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "mask_frame.hpp"
-#include "base/page_storage.hpp"
 #include "test_scene.hpp"
 
 namespace gnomon::render {
@@ -25,7 +24,7 @@ struct Stage {
   std::vector<glm::dvec3> points;
   std::vector<std::size_t> pixels;  ///< of the points
   FloatImage normals;
-  PageStorage memory{4096, 1 << 17};
+  std::vector<std::byte> memory = std::vector<std::byte>(page_memory(4096, 1 << 17));
 
   explicit Stage(Scene of = box_on_ground()) : scene(std::move(of)) {
     const Frame frame = render::draw(renderer, camera, ShadowPlan{}, filters::hard);
@@ -37,9 +36,10 @@ struct Stage {
     }
   }
   [[nodiscard]] PagePlan plan(const FilterSettings& filter, PageOptions pages = {},
-                              PlanOptions options = {}) {
-    set_margin(filter, options);
-    return plan_pages(camera, light, {boxes, boxes}, {points}, options, pages, memory.spans());
+                              const PlanOptions& options = {}) {
+    pages.plan = options;
+    set_margin(filter, pages.plan);
+    return plan_pages({.camera = camera, .points_world = points}, light, {boxes, boxes}, pages, memory);
   }
   FloatImage mask(const PagePlan& plan, const FilterSettings& filter) {
     FrameOptions options;
@@ -280,10 +280,9 @@ TEST(PagesRender, a_border_without_room_for_the_blur_leaves_seams) {
   pages.policy = &page_policies::queried;
   pages.page_texels = 64;
   pages.target_m = 2.0;
-  PlanOptions narrow;
-  narrow.filter.texels = 0.0;
-  const PagePlan plan = plan_pages(stage.camera, stage.light, {stage.boxes, stage.boxes}, {stage.points},
-                                   narrow, pages, stage.memory.spans());
+  pages.plan.filter.texels = 0.0;
+  const PagePlan plan = plan_pages({.camera = stage.camera, .points_world = stage.points}, stage.light,
+                                   {stage.boxes, stage.boxes}, pages, stage.memory);
   ASSERT_EQ(plan.border_texels, 0);
   const FloatImage by_pages = stage.mask(plan, settings);
   const Frame by_map = render::draw(stage.renderer, stage.camera, whole_level(stage, plan), settings);
@@ -361,8 +360,8 @@ TEST(PagesRender, a_plan_without_pages_leaves_everything_lit) {
   Stage stage;
   const FilterSettings filter = settings_of("hard");
   const std::vector<Box> none;
-  const PagePlan plan = plan_pages(stage.camera, stage.light, {none, stage.boxes}, {stage.points}, {}, {},
-                                   stage.memory.spans());
+  const PagePlan plan = plan_pages({.camera = stage.camera, .points_world = stage.points}, stage.light,
+                                   {none, stage.boxes}, {}, stage.memory);
   ASSERT_EQ(plan.status, PlanStatus::no_caster);
   const FloatImage mask = stage.mask(plan, filter);
   for (const std::size_t i : stage.pixels) EXPECT_EQ(mask.values[2 * i], 1.0f);

@@ -8,10 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/page_storage.hpp"
 #include "gnomon/render/renderer.hpp"
+#include "gnomon/study/bias.hpp"
 #include "shared_context.hpp"
-#include "support/light_storage.hpp"
 #include "test_scene.hpp"
 
 namespace gnomon::render {
@@ -107,14 +106,14 @@ class Support : public ::testing::Test {
   FrameStats draw_pages(Renderer& renderer, const FrameOptions& options, const FilterSettings& filter) {
     std::vector<glm::dvec3> points;
     for (int i = 0; i < 256; ++i) points.emplace_back(-4.0 + 0.5 * (i % 16), 0.0, -4.0 + 0.5 * (i / 16));
-    PageStorage memory{1024, 1 << 12};
+    std::vector<std::byte> memory(page_memory(1024, 1 << 12));
     PageOptions pages;
     pages.page_texels = 64;
+    pages.capacity = 1024;
     pages.target_m = 2.0;
-    PlanOptions of_plan;
-    set_margin(filter, of_plan);
+    set_margin(filter, pages.plan);
     const PagePlan plan =
-        plan_pages(camera_, kSun, {boxes_, boxes_}, {points}, of_plan, pages, memory.spans());
+        plan_pages({.camera = camera_, .points_world = points}, kSun, {boxes_, boxes_}, pages, memory);
     const FrameStats stats =
         renderer.draw(plan, camera_, renderer.prepare(filter, Source::pages), options);
     EXPECT_GT(stats.pages, 0) << static_cast<int>(plan.status);
@@ -124,10 +123,10 @@ class Support : public ::testing::Test {
   FrameStats draw_lights(Renderer& renderer, const ShadowPlan& own, const FrameOptions& options,
                          const FilterSettings& filter) {
     const std::vector<LightRequest> requests{{kSun}};
-    test::LightStorage memory{requests.size()};
+    std::vector<std::byte> memory(light_memory(requests.size(), 0));
     LightOptions pool;
     pool.pool_width = pool.pool_height = 256;
-    const LightPlan plan = plan_lights(camera_, requests, {boxes_, boxes_}, {}, pool, memory.spans());
+    const LightPlan plan = plan_lights(camera_, requests, {boxes_, boxes_}, pool, memory);
     const std::vector<DrawnLight> lights{{kSun, &own}};
     return renderer.draw({plan, lights}, camera_, renderer.prepare(filter, Source::lights), options);
   }

@@ -78,7 +78,7 @@ TEST(ViewPages, of_the_scene_are_the_renderers) {
   const std::vector<Box>& boxes = stage().loaded().boxes;
   const auto seen =
       std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer, camera, render::DepthLayer::front));
-  FramePages pages({light, {boxes, boxes}, plan_options_of(state.a), page_options_of(state.a.pages)}, seen);
+  FramePages pages({light, {boxes, boxes}, page_options_of(state.a.pages, plan_options_of(state.a))}, seen);
   render::FrameOptions frame;
   frame.light = &light;
   (void)pages.draw(renderer, camera, renderer.prepare(state.a.filter, render::Source::pages), frame);

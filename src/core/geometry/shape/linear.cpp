@@ -1,5 +1,5 @@
 // Texels of one size over the whole square: what a rasterizer does by itself.
-#include "gnomon/shape.hpp"
+#include "gnomon/extend/shape.hpp"
 
 namespace gnomon::shapes {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/vector.hpp"
-#include "gnomon/shape.hpp"
+#include "gnomon/extend/shape.hpp"
 #include "lanes/elementary.hpp"
 
 // parameters[0]: logarithm of w at the far end of the square over w at its near end, below 0 where w grows

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "geometry/vector.hpp"
-#include "gnomon/shape.hpp"
+#include "gnomon/extend/shape.hpp"
 
 // A ray of slopes s off the light's axis lies at u = s / (1 + sqrt(1 + s s)), which is the tangent of half
 // its angle. parameters[0, 1]: slopes at the middle of the square; [2, 3]: from there to its sides; [4, 5]

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "geometry/vector.hpp"
-#include "gnomon/shape.hpp"
+#include "gnomon/extend/shape.hpp"
 
 // An axis without its margin is cut into kPieces pieces of as many texels each. parameters[0..6]: how far
 // beyond the even place i / kPieces piece i begins, i from 1 on, as a share of the axis in ndc; [7..13]: the

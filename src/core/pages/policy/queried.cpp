@@ -27,14 +27,14 @@ int step_of(const PageContext& c, const PagePoint& point, const ShadowMap& map) 
 }
 
 void assign(PageContext& c) noexcept {
-  const PagePlan* last = c.seen.last;
+  const PagePlan* last = c.history.last;
   const auto counters = last != nullptr && last->pages.size() * 2 <= c.memory.table.size()
                             ? c.memory.table.first(last->pages.size() * 2)
                             : std::span<std::uint32_t>{};
   std::fill(counters.begin(), counters.end(), 0u);
   const auto page_of = [&](std::size_t index) {
-    return counters.empty() || c.seen.points_world.empty() ? -1
-                                                           : page_serving(*last, c.seen.points_world[index]);
+    return counters.empty() || c.view.points_world.empty() ? -1
+                                                           : page_serving(*last, c.view.points_world[index]);
   };
   c.for_each_point([&](PagePoint& point, std::size_t index) {
     const int page = page_of(index);

@@ -9,44 +9,20 @@
 #include <string_view>
 
 #include "gnomon/clip_space.hpp"
-#include "gnomon/shape.hpp"
+#include "gnomon/extend/shape.hpp"
+#include "gnomon/options.hpp"
 
 namespace gnomon {
 
-/// In texels of the map at the point that is shaded, so that one setting serves every cascade and every warp.
-/// A texel's extent there is world units from the map's own Jacobian; under a warp it grows with w along x
-/// and w^2 along y.
-struct BiasOptions {
-  /// Along the light, in texels, everywhere. Covers depth rounding.
-  double constant_texels = 0.05;
-  /// Along the light, in texels times tan(angle between normal and light). 0.5 covers a texel sampled at its
-  /// centre.
-  double slope_texels = 0.5;
-  /// Along the surface normal, in texels times sin(angle between normal and light). Moves thin shadows a
-  /// little.
-  double normal_offset_texels = 0.5;
-  /// Cap of tan(angle): at grazing light the slope term would move shadows off their casters.
-  double max_slope = 8.0;
-  /// Equal in all members.
-  bool operator==(const BiasOptions&) const = default;
-};
-
-/// The same in world units at the centre of the map's body, for one map.
-struct BiasWorld {
-  double constant = 0.0;       ///< along the light
-  double slope = 0.0;          ///< along the light, per unit of tan(angle)
-  double normal_offset = 0.0;  ///< along the normal, per unit of sin(angle)
-};
-
 /// Change of normalized device depth for a move of one world unit towards the light at `point_world`, where
-/// the light travels along `light_direction` (unit). Exact for every matrix whose rays are the light's; under
+/// the light travels along `light_direction` (unit). Exact for every matrix whose rays are the light's. Under
 /// a warp it varies as 1 / w, and for a local light it is the derivative at the point. Negative
 /// unless ClipSpace::reversed_z. (equation: constant bias in world units, (M_z . l) / w)
 [[nodiscard]] double ndc_depth_per_world_unit(const glm::dmat4& clip_from_world,
                                               const glm::dvec3& light_direction,
                                               const glm::dvec3& point_world) noexcept;
 
-/// Extent of one texel at `point_world`, in world units across the light, along the map's x and y: the
+/// Extent of one texel at `point_world`, in world units across the light, along the map's x and y. The
 /// lengths of the columns of d(world across the light) / d(texel). Infinite where the map is singular or the
 /// point behind it.
 [[nodiscard]] glm::dvec2 texel_extent_world(const glm::dmat4& clip_from_world, const TexelGrid& texels,
@@ -55,8 +31,9 @@ struct BiasWorld {
 
 /// The textbook slope bias, right where w is constant (no warp, directional light); elsewhere take
 /// plane_bias_world. Move towards the light, in world units, that keeps a plane with `normal` (unit) from
-/// shadowing itself under a texel of this extent and a kernel that reaches `kernel_radius_texels` texels:
-/// constant + (slope + radius) tan(angle), the tangent capped. Facing away from the light counts as the cap.
+/// shadowing itself. It holds under a texel of this extent and a kernel that reaches `kernel_radius_texels`
+/// texels. It is constant + (slope + radius) tan(angle), the tangent capped. Facing away from the light
+/// counts as the cap.
 [[nodiscard]] double slope_bias_world(const BiasOptions& options, double texel_world,
                                       double kernel_radius_texels, const glm::dvec3& normal,
                                       const glm::dvec3& light_direction) noexcept;
@@ -91,13 +68,13 @@ struct ReceiverPlane {
 [[nodiscard]] ReceiverPlane receiver_plane(const Receiver& receiver) noexcept;
 
 /// The form for shaders: from the derivatives of (u, v, depth) along the screen's x and y, in any unit of u
-/// and v; the gradient is depth per that unit. Not valid where the determinant is below 1e-12 of the product
+/// and v. The gradient is depth per that unit. Not valid where the determinant is below 1e-12 of the product
 /// of the lengths of its rows (a silhouette, or an edge between two triangles). (Isidoro 2006)
 [[nodiscard]] ReceiverPlane receiver_plane_from_derivatives(const glm::dvec3& d_dx,
                                                             const glm::dvec3& d_dy) noexcept;
 
-/// The slope bias that no plane escapes: ndc change that moves the fragment in front of what a plane through
-/// it stores at every texel centre of its own texel and of `kernel_radius_texels` around it,
+/// Conservative slope-scaled bias. The ndc change moves the fragment in front of a plane through it. It does
+/// so at every texel centre of its own texel and of `kernel_radius_texels` around it,
 ///   (slope_texels + radius) (|gradient.x| + |gradient.y|) + constant_texels * larger texel extent.
 /// With slope_texels = 0.5 it is the least such bias. The plane's angle is capped at max_slope, also where it
 /// faces away. In world units it is at most
@@ -118,12 +95,12 @@ struct ReceiverPlane {
 [[nodiscard]] glm::dvec3 normal_offset_world(const BiasOptions& options, const Receiver& receiver,
                                              double kernel_radius_texels) noexcept;
 
-/// The bias that fits one fragment: ndc change that takes it to where its plane meets the light ray through
-/// the centre of the texel it falls into, and `epsilon_world` towards the light beyond that (0.0001 of the
-/// scene's extent in the paper: what curvature and rounding need). May point away from the light. Planes
-/// steeper than max_slope count as that steep, so that it never exceeds half a texel of the slope bias. 0
-/// where the map is singular. (Dou, Yan, Kerzner, Dai, Wyman, "Adaptive Depth Bias for Shadow Maps", I3D
-/// 2014)
+/// The bias that fits one fragment. It is the ndc change that takes it to where its plane meets the light ray
+/// through the centre of the texel it falls into. It adds `epsilon_world` towards the light beyond that
+/// (0.0001 of the scene's extent in the paper: what curvature and rounding need). May point away from the
+/// light. Planes steeper than max_slope count as that steep, so that it never exceeds half a texel of the
+/// slope bias. 0 where the map is singular. (Dou, Yan, Kerzner, Dai, Wyman, "Adaptive Depth Bias for Shadow
+/// Maps", I3D 2014)
 [[nodiscard]] double adaptive_bias_ndc(const BiasOptions& options, const Receiver& receiver,
                                        double epsilon_world) noexcept;
 

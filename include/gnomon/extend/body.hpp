@@ -9,6 +9,7 @@
 
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
+#include "gnomon/shadow_map.hpp"
 
 namespace gnomon {
 
@@ -17,9 +18,6 @@ namespace gnomon {
 inline constexpr int kMaxFaces = 32;
 /// A simple polytope with F faces has 2F - 4 vertices (Euler's formula with three faces at each vertex).
 inline constexpr int kMaxVertices = 2 * kMaxFaces - 4;
-/// Back faces and silhouette planes of a 12-faced body: at most 12 faces plus a silhouette of at most 20
-/// edges.
-inline constexpr int kMaxCullPlanes = 32;
 
 /// dot(normal, p) + offset >= 0 inside; unit normal pointing inward.
 struct Plane {
@@ -59,9 +57,9 @@ struct Polytope {
 /// The box as a polytope; needs a box that is not empty.
 [[nodiscard]] Polytope box_polytope(const Box& box) noexcept;
 
-/// The part of the camera's frustum between the view depths `begin` and `end` (begin <= end, inside the
-/// camera's range or not), relative to the camera position. Corners come from depth and image edges, never
-/// from intersecting planes, so that a far plane of 1e9 loses nothing.
+/// The part of the camera's frustum between the view depths `begin` and `end`, relative to the camera
+/// position. Needs begin <= end, inside the camera's range or not. Corners come from depth and image edges,
+/// never from intersecting planes, so that a far plane of 1e9 loses nothing.
 [[nodiscard]] Polytope frustum_slice(const Camera& camera, const CameraAxes& axes, double begin,
                                      double end) noexcept;
 

@@ -8,23 +8,14 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <span>
-#include <string_view>
 
-#include "gnomon/body.hpp"
-#include "gnomon/light_space.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/light_space.hpp"
+#include "gnomon/options.hpp"
 
 namespace gnomon {
 
-/// Error that a parametrization minimises.
-enum class Objective : std::uint8_t {
-  storage,  ///< max m_s times max m_t: texels needed per pixel for m <= 1 along both axes everywhere
-  max,      ///< the worst texel
-  p95,  ///< the error that 95 % of the visible points stay below: pixels evenly, depths by their logarithm
-};
-[[nodiscard]] std::string_view to_string(Objective objective) noexcept;
-[[nodiscard]] bool objective_from_name(std::string_view name, Objective& objective) noexcept;
-
-/// The camera along the light frame's axes: its own axes, edges of the image, and size of a pixel per unit of
+/// The camera along the light frame's axes. Its own axes, edges of the image, and size of a pixel per unit of
 /// depth (orthographic: in world units).
 struct ViewInLight {
   glm::dvec3 right, up, forward;                            ///< unit
@@ -61,9 +52,9 @@ enum class StartUse : std::uint8_t {
 /// length.
 struct WarpStart {
   StartUse use = StartUse::none;  ///< what the search does with the last result
-  WarpChoice best;       ///< what the last frame's search returned, with its ratios
-  WarpChoice map;        ///< the map that was drawn, which changes in small steps only
-  bool has_map = false;  ///< `map` is known and can be drawn again; StartUse::keep needs none
+  WarpChoice best;                ///< what the last frame's search returned, with its ratios
+  WarpChoice map;                 ///< the map that was drawn, which changes in small steps only
+  bool has_map = false;           ///< `map` is known and can be drawn again; StartUse::keep needs none
   /// 1 + kappa length of the strongest warp whose texels change smoothly under the camera's motion; infinite
   /// where nothing moves.
   double most_stretch = std::numeric_limits<double>::infinity();
@@ -128,37 +119,13 @@ struct LightLinear {
   glm::dvec3 slope;  ///< per unit of x, y and h
   double constant;   ///< value at the origin
 };
-/// In light space, what is `offset` + dot(`slope`, p) for points along the light frame's axes; under a local
+/// In light space, what is `offset` + dot(`slope`, p) for points along the light frame's axes. Under a local
 /// light divided by the distance from the light, which keeps every zero and every ratio of two such
 /// functions.
 [[nodiscard]] LightLinear light_linear(const LightSpace& light, const glm::dvec3& slope,
                                        double offset) noexcept;
 
-/// One entry of the registry warps.def.
-struct Warp {
-  std::string_view name;     ///< as in files and on command lines
-  std::string_view summary;  ///< one line
-  /// Finds axis, strength and centre for a body.
-  WarpChoice (*choose)(const WarpInput& input) noexcept;
-  /// True where the plan may drop the warp because it does not lower the objective. False only for warps kept
-  /// to reproduce a paper as it stands.
-  bool drop_without_gain;
-  /// True where the search begins at WarpInput::start, if there is one.
-  bool follows_start = false;
-};
-
-/// All warps, in the order of warps.def.
-[[nodiscard]] std::span<const Warp* const> all_warps() noexcept;
-/// nullptr where there is none of that name.
-[[nodiscard]] const Warp* find_warp(std::string_view name) noexcept;
-
-namespace warps {
-#define GNOMON_WARP(name) extern const Warp name;
-#include "gnomon/warps.def"
-#undef GNOMON_WARP
-}  // namespace warps
-
-/// Bounds of the perspective error over a body under w = 1 + kappa (y - y_min): exact at vertices, because
+/// Bounds of the perspective error over a body under w = 1 + kappa (y - y_min). Exact at vertices, because
 /// each weight is linear-fractional or convex there (Lloyd's m with the simplified weights, Scherzer et al.
 /// 2011, section 3). For warps along y through input.centre only; fast.
 struct WarpError {

@@ -9,6 +9,7 @@
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/plan.hpp"
+#include "gnomon/view.hpp"
 
 namespace gnomon {
 
@@ -38,7 +39,7 @@ struct PointAliasing {
 
 /// Aliasing at `point_world` on a surface with `normal` (unit) seen by `camera` through `map`. Works for
 /// every projective map. The light ray comes from the matrix: `map.light_world` is read only where it is the
-/// light of that matrix, so that hand-made maps may leave it out; their depth then grows away from the light.
+/// light of that matrix. Hand-made maps may leave it out. Their depth then grows away from the light.
 /// Based on: Lloyd et al., "Warping and Partitioning for Low Error Shadow Maps", 2006, in the form of a
 /// Jacobian.
 [[nodiscard]] PointAliasing measure_point(const ShadowMap& map, const Camera& camera,
@@ -69,25 +70,21 @@ struct AliasingStats {
   std::uint64_t outside = 0;  ///< points of visible receivers that no map of the plan holds
 };
 
-/// How densely measure() samples: pixels across and down, and depths along each pixel's ray.
-struct MeasureGrid {
-  int columns = 64, rows = 64, depths = 64;  ///< each at least 1
+/// How measure() samples.
+struct MeasureOptions {
+  /// Pixels across and down, and depths along each pixel's ray; each at least 1. Not read where the view has
+  /// points.
+  int columns = 64, rows = 64, depths = 64;
+  int map = -1;  ///< index of the one map whose points count; -1: all
 };
 
-/// Perspective error over the visible part of the receivers. Samples are a grid of pixels, with depths along
-/// each pixel's ray evenly spaced in their logarithm from near to far plane. Those in a receiver box
-/// count. Allocates nothing: percentiles come from a histogram of log m with bins of 0.1 %. Plans
-/// without maps give zeros.
-[[nodiscard]] AliasingStats measure(const ShadowPlan& plan, const Camera& camera, const SceneBounds& bounds,
-                                    const MeasureGrid& grid = {}) noexcept;
-/// The same for one map of the plan.
-[[nodiscard]] AliasingStats measure_map(const ShadowPlan& plan, int map, const Camera& camera,
-                                        const SceneBounds& bounds, const MeasureGrid& grid = {}) noexcept;
-
-/// Perspective error at points that are known to be seen, rather than wherever boxes have room: of a depth
-/// buffer read at every tenth pixel, say, or where rays from the eye first hit (trace::seen_points).
-/// Allocates nothing; plans without maps give zeros.
-[[nodiscard]] AliasingStats measure_seen(const ShadowPlan& plan, const Camera& camera,
-                                         std::span<const glm::dvec3> points_world) noexcept;
+/// Perspective error over what the view sees. Allocates nothing: percentiles come from a histogram of log m
+/// with bins of 0.1 %. Plans without maps give zeros.
+///
+/// With View::points_world: at these points. Else over the visible part of the receivers. Samples are a grid
+/// of pixels, with depths along each pixel's ray evenly spaced in their logarithm from near to far plane.
+/// Those in a receiver box count, which is wherever boxes have room.
+[[nodiscard]] AliasingStats measure(const ShadowPlan& plan, const View& view, const SceneBounds& bounds,
+                                    const MeasureOptions& options = {}) noexcept;
 
 }  // namespace gnomon

@@ -25,7 +25,7 @@ struct LightFrame {
 ///                1 / distance. Defined in front of the light only.
 /// All points are relative to the camera and along the frame's axes (LightFrame::turned).
 /// Based on: Wimmer, Scherzer, "Robust Shadow Mapping with Light-Space Perspective Shadow Maps", ShaderX4,
-/// 2006: warps work on parallel light, and in post-perspective light space every light is parallel.
+/// 2006. Warps work on parallel light, and in post-perspective light space every light is parallel.
 struct LightSpace {
   LightFrame frame;          ///< axes of all points
   bool perspective = false;  ///< true for spot and point lights

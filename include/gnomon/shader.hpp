@@ -13,9 +13,9 @@ namespace gnomon {
 
 /// One shadow map: ShadowMap of shaders/library/shadow_map.glsl.
 struct ShaderMap {
-  /// Clip space for look-ups, from points relative to ShadowPlan::origin_world: x and y -1..1 over the rows
-  /// of the texture as they lie in memory, z 0 near the light .. 1. The plan's clip space is taken into
-  /// account.
+  /// Clip space for look-ups, from points relative to ShadowPlan::origin_world. x and y are -1..1 over the
+  /// rows of the texture as they lie in memory, z is 0 near the light .. 1. The plan's clip space is taken
+  /// into account.
   glm::mat4 clip_from_point;
   glm::vec4 interval_size;  ///< view depths served (begin, end), width and height in texels
   std::array<glm::vec4, kMaxSelectPlanes> select_planes;  ///< relative to the origin; (0, 0, 0, 1): unused
@@ -58,11 +58,10 @@ struct ShaderLayers {
   double blur_texels = 0.0;  ///< half side of the box that stored texels were blurred with; 0: not blurred
 };
 
-/// A map's shape as shaders read it: its place in shapes.def, then its parameters in the clip space that they
+/// A map's shape as shaders read it. Its place in shapes.def, then its parameters in the clip space that they
 /// look the map up in, column by column.
 [[nodiscard]] glm::mat4 shader_shape(const ShadowMap& map, const glm::dmat4& lookup_from_map) noexcept;
-/// How a point finds its map, as `layer.w` of ShaderBlock has it: 0 by view depth, 1 select_by_map, 2
-/// select_finest.
+/// ShadowPlan::selection as `layer.w` of ShaderBlock has it: 0 view_depth, 1 first_holding, 2 finest.
 [[nodiscard]] float shader_selection(const ShadowPlan& plan) noexcept;
 /// Fills the block for the plan's clip space. The shader defines GNOMON_REVERSED_Z where that has
 /// reversed_z. A plan without maps gives a block with none.
