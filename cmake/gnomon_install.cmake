@@ -112,6 +112,7 @@ install(FILES ${PROJECT_BINARY_DIR}/gnomonConfig.cmake ${PROJECT_BINARY_DIR}/gno
 
 # Shaders that other engines include; the renderer's own passes are inside of its library.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/library ${PROJECT_SOURCE_DIR}/shaders/filter
+  ${gnomon_generated_shaders}/filter
   DESTINATION ${gnomon_share_dir}/shaders COMPONENT shaders FILES_MATCHING PATTERN "*.glsl")
 install(FILES ${PROJECT_SOURCE_DIR}/shaders/README.md ${PROJECT_SOURCE_DIR}/samples/engine_setup/shadow.frag
   DESTINATION ${gnomon_share_dir}/shaders COMPONENT shaders)

@@ -1,17 +1,18 @@
 // Convolution shadow maps (Annen, Mertens, Bekaert, Seidel, Kautz 2007): the comparison as a Fourier series whose terms
 // part into one of the map, which is blurred, and one of the receiver. Channels 2 k - 2 and 2 k - 1 hold cos(c_k z) and
 // sin(c_k z), c_k = pi (2 k - 1).
+#include "filter/option/convolution.glsl"
 #include "library/mean.glsl"
 
 const float kPi = 3.14159265;
 
-// Options: order, attenuation, offset, scale, two of the fall-off, widening.
-int fourier_order(ShadowOptions options) { return min(int(options.value[0] + 0.5), 2 * GNOMON_SHADOW_VECTORS); }
+int fourier_order(ShadowOptions options) { return min(int(options.value[option_order] + 0.5), 2 * GNOMON_SHADOW_VECTORS); }
 
 // Part of the period that depths 0..1 take: the largest difference must not reach the series' next step. A
 // longer fall-off takes a smaller part.
 float fourier_range(ShadowOptions options) {
-  return (1.0 - min((options.value[2] + 3.5) * 0.5 / options.value[0], 0.25)) / (1.0 + options.value[6]);
+  float given_up = min((options.value[option_offset] + 3.5) * 0.5 / options.value[option_order], 0.25);
+  return (1.0 - given_up) / (1.0 + options.value[option_widening]);
 }
 
 vec2 turned(vec2 a, vec2 by) { return vec2(a.x * by.x - a.y * by.y, a.x * by.y + a.y * by.x); }
@@ -38,7 +39,7 @@ ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) {
 float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DArray depth_max, ShadowLookup at,
                         ShadowOptions options) {
   int order = fourier_order(options);
-  float offset = options.value[2] * 0.5 / options.value[0];
+  float offset = options.value[option_offset] * 0.5 / options.value[option_order];
   // On a slanted plane half of the kernel lies in front of the point, and its share would be right, and dark.
   const float kSlant = 0.5;
   float depth = min(at.depth - kSlant * dot(abs(at.depth_gradient), at.box), 1.0);
@@ -49,11 +50,11 @@ float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DAr
   for (int k = 0; k < order; ++k) {
     vec2 basis = (k & 1) == 0 ? texel.v[k >> 1].xy : texel.v[k >> 1].zw;
     if (options.unsigned_unit) basis = 2.0 * basis - 1.0;
-    float share = float(k + 1) / options.value[0];
-    float weight = 2.0 * exp(-options.value[1] * share * share) / (kPi * float(2 * k + 1));
+    float share = float(k + 1) / options.value[option_order];
+    float weight = 2.0 * exp(-options.value[option_attenuation] * share * share) / (kPi * float(2 * k + 1));
     sum += weight * (receiver.x * basis.y - receiver.y * basis.x);
     receiver = turned(receiver, twice);
   }
-  float lit = options.value[3] * sum;
+  float lit = options.value[option_scale] * sum;
   return lit < 1.0 ? max(lit, 0.0) : 1.0;  // not-a-number is lit
 }

@@ -1,17 +1,17 @@
 // Exponential shadow maps (Annen, Mertens, Seidel, Flerackers, Kautz 2008): exp(-c d) times the mean of exp(c z). A texel
 // stores that mean where floats hold it (GNOMON_MEAN), else ln(mean of exp(c z)) / c, a soft maximum of depths, which never
 // overflows.
+#include "filter/option/esm.glsl"
 #include "library/compare.glsl"
 #include "library/depth_max.glsl"
 
-// Options: c, fallback, epsilon, both of the fall-off, failures.
 #if GNOMON_MEAN
 #include "library/mean.glsl"
 
 // The middle of the depths is 1: the numbers use both signs of the exponent.
 ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) {
   ShadowTexel texel;
-  texel.v[0] = vec4(exp(options.value[0] * (depth - 0.5)), 0.0, 0.0, 0.0);
+  texel.v[0] = vec4(exp(options.value[option_c] * (depth - 0.5)), 0.0, 0.0, 0.0);
   return texel;
 }
 
@@ -30,7 +30,7 @@ ShadowTexel shadow_nothing(ShadowOptions options) {
 }
 
 void shadow_join(inout ShadowTexel sum, ShadowTexel texel, float weight, ShadowOptions options) {
-  float c = options.value[0];
+  float c = options.value[option_c];
   // Relative to the larger of both, whose exponential is 1.
   bool behind = texel.v[0].x > sum.v[0].x;
   float other = exp(-c * abs(texel.v[0].x - sum.v[0].x));
@@ -41,10 +41,10 @@ void shadow_join(inout ShadowTexel sum, ShadowTexel texel, float weight, ShadowO
 // one logarithm for all.
 #define SHADOW_JOINS_BY_SUM 1
 vec4 shadow_term(vec4 texel, vec4 largest, ShadowOptions options) {
-  return vec4(exp(options.value[0] * (texel.x - largest.x)), 0.0, 0.0, 0.0);
+  return vec4(exp(options.value[option_c] * (texel.x - largest.x)), 0.0, 0.0, 0.0);
 }
 vec4 shadow_of_sum(vec4 sum, vec4 largest, ShadowOptions options) {
-  return vec4(largest.x + log(sum.x) / options.value[0], 0.0, 0.0, 0.0);
+  return vec4(largest.x + log(sum.x) / options.value[option_c], 0.0, 0.0, 0.0);
 }
 
 float soft_maximum(ShadowTexel texel, float c) { return texel.v[0].x; }
@@ -65,7 +65,8 @@ float depth_of_texel_side(ShadowLookup at) {
 float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DArray depth_max, ShadowLookup at,
                         ShadowOptions options) {
   const float kThreshold = 1.0, kLargestDepth = 2.0;
-  float c = options.value[0], fallback = options.value[1], epsilon = options.value[2];
+  float c = options.value[option_c], fallback = options.value[option_fallback];
+  float epsilon = options.value[option_epsilon];
   float depth = min(at.depth, 1.0) - options.rounding;
   vec2 rise = abs(at.depth_gradient);
   float log_lit = c * (soft_maximum(texel, c) - depth) - log_mean_over(c * rise.x * at.box.x) - log_mean_over(c * rise.y * at.box.y);
@@ -78,7 +79,7 @@ float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DAr
   if (fallback == kLargestDepth) {
     fails = depth + allowed / c + kPyramidReach * dot(rise, at.box) < depth_max_in(depth_max, at, at.box);
   }
-  if (options.value[5] > 0.5) return fails ? 0.0 : 1.0;
+  if (options.value[option_failures] > 0.5) return fails ? 0.0 : 1.0;
   float lit = fails ? compare_2x2(depth_map, at, at.texel) : exp(log_lit);  // not-a-number is lit
   return lit < 1.0 ? max(lit, 0.0) : 1.0;
 }

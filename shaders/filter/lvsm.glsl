@@ -1,24 +1,23 @@
 // Layered variance shadow maps (Lauritzen, McCool 2008): two moments per layer of depth, and the least of the layers'
 // bounds. Depths in front of a layer count as one depth there, and bleed no light into it.
+#include "filter/option/lvsm.glsl"
 #include "library/mean.glsl"
 #include "library/variance.glsl"
 
-// Options: bleed, floor, slope, layers, overlap, placement; then the ends of all layers but the last, 0: even ones.
-int layer_count(ShadowOptions options) { return min(int(options.value[3] + 0.5), 2 * GNOMON_SHADOW_VECTORS); }
+int layer_count(ShadowOptions options) { return min(int(options.value[option_layers] + 0.5), 2 * GNOMON_SHADOW_VECTORS); }
 
 // Where layer i - 1 ends and layer i begins, without overlap.
 float end_before(int i, ShadowOptions options) {
-  const int kFirstEnd = 6;
-  float count = options.value[3];
+  float count = options.value[option_layers];
   if (i <= 0) return 0.0;
   if (float(i) > count - 0.5) return 1.0;
-  float placed = options.value[kFirstEnd + i - 1];
+  float placed = options.value[option_ends + i - 1];
   return placed > 0.0 ? placed : float(i) / count;
 }
 
 // Where layer i begins and ends.
 vec2 layer_ends(int i, ShadowOptions options) {
-  float overlap = options.value[4], begin = end_before(i, options), end = end_before(i + 1, options);
+  float overlap = options.value[option_overlap], begin = end_before(i, options), end = end_before(i + 1, options);
   return vec2(begin - overlap * (begin - end_before(i - 1, options)),
               end + overlap * (end_before(i + 2, options) - end));
 }
@@ -35,8 +34,8 @@ ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) {
     vec2 ends = layer_ends(i, options);
     float size = ends.y - ends.x;
     bool within = depth > ends.x && depth < ends.y;
-    vec2 moments =
-        store_moments(clamp((depth - ends.x) / size, 0.0, 1.0), within ? slope / size : vec2(0.0), options).v[0].xy;
+    vec2 moments = store_moments(clamp((depth - ends.x) / size, 0.0, 1.0), within ? slope / size : vec2(0.0),
+                                 options.value[option_slope], options).v[0].xy;
     if ((i & 1) == 0) {
       texel.v[i >> 1].xy = moments;
     } else {
@@ -57,7 +56,9 @@ float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DAr
     in_layer.depth = clamp((min(at.depth, 1.0) - ends.x) / (ends.y - ends.x), 0.0, 1.0);
     moments.v[0].xy = (i & 1) == 0 ? texel.v[i >> 1].xy : texel.v[i >> 1].zw;
     float beyond = beyond_layer(i, min(at.depth, 1.0) + spread, options);
-    lit = min(lit, max(variance_visibility(moments, in_layer, options), beyond));
+    float bound =
+        variance_visibility(moments, in_layer, options.value[option_bleed], options.value[option_floor], options);
+    lit = min(lit, max(bound, beyond));
   }
   return lit;
 }

@@ -3,17 +3,17 @@
 #ifndef GNOMON_MEAN
 #define GNOMON_MEAN 1
 #endif
+#include "filter/option/msm.glsl"
 #include "library/moments.glsl"
 #include "library/variance.glsl"
 
-// Options: bounded, bleed, bias.
 #if GNOMON_MEAN
 #include "library/mean.glsl"
 
 ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) { return store_four_moments(depth, options); }
 
 vec4 read_moments(ShadowTexel texel, ShadowOptions options) {
-  return moments_of(texel, options, options.value[2], options.unsigned_unit ? 8.0 : 64.0);
+  return moments_of(texel, options, options.value[option_bias], options.unsigned_unit ? 8.0 : 64.0);
 }
 #else
 ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) {
@@ -42,7 +42,7 @@ ShadowTexel shadow_pack(ShadowTexel sum, ShadowOptions options) {
 // Moments of numbers that were rounded apart are moments all the same: only sums round.
 vec4 read_moments(ShadowTexel texel, ShadowOptions options) {
   const float kRounding = 64.0 / 16777216.0;
-  return mix(texel.v[0], kSpreadOut, max(options.value[2], kRounding));
+  return mix(texel.v[0], kSpreadOut, max(options.value[option_bias], kRounding));
 }
 #endif
 
@@ -51,7 +51,7 @@ float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DAr
   vec4 b = read_moments(texel, options);
   float u = receiver_of_moments(at, at.box);
   vec2 z;
-  float dark = options.value[0] > 0.5 ? share_in_front_bounded(b, u) : share_in_front(b, u, z);
+  float dark = options.value[option_bounded] > 0.5 ? share_in_front_bounded(b, u) : share_in_front(b, u, z);
   float lit = 1.0 - dark;
-  return without_bleeding(lit < 1.0 ? max(lit, 0.0) : 1.0, options.value[1]);
+  return without_bleeding(lit < 1.0 ? max(lit, 0.0) : 1.0, options.value[option_bleed]);
 }

@@ -1,6 +1,7 @@
 // Percentage-closer filtering with a tent: comparisons weighted by how close their texels lie to the point, as if bilinear
 // comparisons were taken at 2 radius + 1 places a side. An edge's ramp has no steps however it lies to the texels, and its
 // ends are soft. Each depth is compared with the receiver's plane at its texel, so that the kernel's width needs no bias.
+#include "filter/option/pcf_tent.glsl"
 #include "library/compare.glsl"
 
 // Heights of a tent over the centres of texels i and i + 1.
@@ -8,12 +9,11 @@ vec2 tent_heights(float i, float part, float half_base) {
   return max(half_base - abs(vec2(i + 0.5, i + 1.5) - part), 0.0);
 }
 
-// Options: 1 where the radius is in world units, set by the filter itself.
 float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_map, ShadowLookup at,
                         ShadowOptions options) {
   const float kBaseOfBox = 1.4142136;  // half base of the tent over half side of the box, of equal variance
   // In texels, one bilinear comparison (half base 1) at each of 2 radius + 1 places, weighted 1, 2, .. radius + 1, .. 1.
-  vec2 half_base = max(options.value[0] > 0.5 ? kBaseOfBox * at.box : at.box + 0.5, 1.0);
+  vec2 half_base = max(options.value[option_in_world] > 0.5 ? kBaseOfBox * at.box : at.box + 0.5, 1.0);
   vec2 own = floor(at.texel), part = at.texel - own;
   ivec2 first = ivec2(floor(part - half_base + 0.5)), last = ivec2(ceil(part + half_base - 0.5)) - 1;
   vec2 half_step = 0.5 * at.depth_gradient;

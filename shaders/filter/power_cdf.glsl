@@ -1,6 +1,7 @@
 // Power-law shadow maps (Gumbau, Szirmay-Kalos, Sbert, Chover 2011): least, mean and largest depth of the kernel make a
 // distribution of its depths, which is read at the receiver. Channels of a layer: least, mean, largest of u = 2 depth - 1
 // in it, or of the depth where only 0..1 can be stored.
+#include "filter/option/power_cdf.glsl"
 #include "library/lookup.glsl"
 
 // Least and largest depths cannot be interpolated between texels; what they say of a receiver can.
@@ -63,13 +64,12 @@ float power_lit(float least, float mean, float largest, float depth) {
   return one_less_power((largest - depth) / range, exponent) / one_less_power((largest - mean) / range, exponent);
 }
 
-// Options: offset, two of the fall-off, layers, longest offset (0: no limit).
 float lit_in(int layer, vec4 texel, float depth, ShadowOptions options) {
   const float kRoundings = 4.0;  // of the mean, stored after each half of the blur, read and compared
   vec2 ends = layer_ends(layer);
   float scale = (options.unsigned_unit ? 1.0 : 2.0) / (ends.y - ends.x);
-  float longest = options.value[4] > 0.0 ? scale * options.value[4] : 2.0;
-  float offset = min(options.value[0] * (texel.z - texel.x), longest) + kRoundings * options.rounding;
+  float longest = options.value[option_longest] > 0.0 ? scale * options.value[option_longest] : 2.0;
+  float offset = min(options.value[option_offset] * (texel.z - texel.x), longest) + kRoundings * options.rounding;
   float lit = power_lit(texel.x, texel.y, texel.z, value_in(ends, depth, options) - offset);
   return lit < 1.0 ? max(lit, 0.0) : 1.0;  // not-a-number is lit
 }

@@ -1,6 +1,7 @@
 // Straight edges in place of stairs (after Macedo, Apolinario 2016; lines as in Reshetov 2009): the outline between lit and
 // dark texels is followed both ways to the steps that end it, and a line through their middles decides. One comparison per
 // texel that is looked at; only points within half a texel of the outline look at more than three.
+#include "filter/option/revectorized.glsl"
 #include "library/compare.glsl"
 
 struct ShadowTests {
@@ -46,10 +47,9 @@ bool is_beyond_line(sampler2DArray depth_map, ShadowLookup at, ShadowTests tests
   return height > to_outline * (a + b);
 }
 
-// Options: longest run.
 float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_map, ShadowLookup at,
                         ShadowOptions options) {
-  int longest = int(options.value[0]);
+  int longest = int(options.value[option_run]);
   ShadowTests tests;
   tests.own = floor(at.texel);
   tests.lit = lit_at(depth_map, at, tests.own, vec2(0.0));

@@ -10,7 +10,6 @@ float lit_at_centre(sampler2DArray depth_map, ShadowLookup at, vec2 texel) {
   return plane_depth(at, texel + 0.5 - at.texel) <= stored ? 1.0 : 0.0;
 }
 
-// Options: none.
 float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_map, ShadowLookup at,
                         ShadowOptions options) {
   vec2 own = floor(at.texel - 0.5), part = at.texel - 0.5 - own;

@@ -1,10 +1,13 @@
 // Variance shadow maps (Donnelly, Lauritzen 2006): mean and variance of the kernel's depths bound the share that is lit.
+#include "filter/option/vsm.glsl"
 #include "library/mean.glsl"
 #include "library/variance.glsl"
 
-ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) { return store_moments(depth, slope, options); }
+ShadowTexel shadow_store(float depth, vec2 slope, ShadowOptions options) {
+  return store_moments(depth, slope, options.value[option_slope], options);
+}
 
 float shadow_visibility(ShadowTexel texel, sampler2DArray depth_map, sampler2DArray depth_max, ShadowLookup at,
                         ShadowOptions options) {
-  return variance_visibility(texel, at, options);
+  return variance_visibility(texel, at, options.value[option_bleed], options.value[option_floor], options);
 }

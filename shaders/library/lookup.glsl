@@ -23,9 +23,9 @@ struct ShadowLookup {
   float rotation;         // radians, random from pixel to pixel
 };
 
-// The filter's options in the order in which its .cpp lists them, then those that it sets for itself, and what the stored format does to numbers.
+// The filter's options, and what the stored format does to numbers.
 struct ShadowOptions {
-  float value[16];
+  float value[16];  // at option_NAME of filter/option/FILTER.glsl: those of gnomon::render::FilterInfo, then the filter's own
   float rounding;  // of a number near 1
   bool unsigned_unit;  // only 0..1 can be stored
 };

@@ -72,7 +72,7 @@ struct FilterSettings {
   std::array<double, kMaxFilterOptions>
       option{};  ///< in the order of FilterInfo::options; then the filter's own
 
-  /// The option of this name; 0 where the filter has none of that name.
+  /// The option of this name, one of the filter's own included; 0 where the filter has none of that name.
   [[nodiscard]] double value(std::string_view name) const noexcept;
 };
 
@@ -121,6 +121,9 @@ struct FilterInfo {
   MapRead reads = MapRead::depth;                        ///< what the lookup reads
   FilterClass bias_class = FilterClass::single_compare;  ///< which bias fits (bias.hpp)
   std::span<const FilterOption> options = {};            ///< of this filter alone
+  /// Names of the values behind them that the filter sets for itself (settle, fit_map, adapt). The last may
+  /// be the first of several.
+  std::span<const std::string_view> own_options = {};
   std::span<const TexelFormat> formats = {};  ///< the first is the default; none for MapRead::depth
   bool may_mipmap = false;      ///< mip-maps and anisotropic reads, for MapRead::filtered and joined
   double default_radius = 1.0;  ///< texels

@@ -19,20 +19,20 @@ constexpr FilterOption kOptions[] = {
      "receiver offset towards the light, in half steps of the series: 1/(2 order) of the depth range"},
     {"scale", 2.0, 1.0, 4.0,
      "factor of the result before it is clamped to 1: without an offset, 2 keeps lit surfaces lit"},
-    kFalloffWorld,
-    falloff_kernel(0.0),
+    option::falloff_world,
+    option::falloff_kernel(0.0),
 };
-/// The filter's own option behind them: by how much more than the series' half step shadows take to fade in,
-/// as a share of it.
-constexpr std::size_t kWidening = 6;
+/// `widening`: by how much more than the series' half step shadows take to fade in, as a share of it.
+constexpr std::string_view kOwnOptions[] = {"widening"};
+constexpr OptionPlaces kPlace(kOptions, kOwnOptions);
 constexpr TexelFormat kFormats[] = {TexelFormat::unorm8, TexelFormat::fp16, TexelFormat::unorm16,
                                     TexelFormat::fp32};
 
 int order_of(const FilterSettings& settings) noexcept {
-  return static_cast<int>(settings.option[0]);
+  return static_cast<int>(settings.option[kPlace("order")]);
 }
 void settle(FilterSettings& settings) noexcept {
-  settings.option[0] = std::round(settings.option[0]);
+  settings.option[kPlace("order")] = std::round(settings.option[kPlace("order")]);
 }
 int channels(const FilterSettings& settings) noexcept {
   return 2 * order_of(settings);
@@ -41,9 +41,9 @@ int channels(const FilterSettings& settings) noexcept {
 double whole_range_of(const FilterSettings& settings) noexcept;
 
 void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
-  const double wanted = Falloff{settings.option[4], settings.option[5]}.length(depths);
+  const double wanted = falloff_of<kPlace>(settings).length(depths);
   const double has = depths.range_world * fourier_half_step(order_of(settings)) / whole_range_of(settings);
-  settings.option[kWidening] = wanted > has && has > 0.0 ? wanted / has - 1.0 : 0.0;
+  settings.option[kPlace("widening")] = wanted > has && has > 0.0 ? wanted / has - 1.0 : 0.0;
 }
 
 /// Part of the period that depths 0..1 take: a difference of 1, moved by the offset, must not reach the
@@ -52,12 +52,13 @@ void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
 double whole_range_of(const FilterSettings& settings) noexcept {
   constexpr double kMostGivenUp = 0.25;
   constexpr double kStepReach = 3.5;  // half steps: the attenuated step is that wide to either side
-  const double wanted = (settings.option[2] + kStepReach) * fourier_half_step(order_of(settings));
+  const double wanted =
+      (settings.option[kPlace("offset")] + kStepReach) * fourier_half_step(order_of(settings));
   return 1.0 - std::min(wanted, kMostGivenUp);
 }
 /// A longer fall-off takes a smaller part: the series' step is then wider in depth.
 double range_of(const FilterSettings& settings) noexcept {
-  return whole_range_of(settings) / (1.0 + settings.option[kWidening]);
+  return whole_range_of(settings) / (1.0 + settings.option[kPlace("widening")]);
 }
 
 StoredTexel store(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
@@ -80,8 +81,9 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
   constexpr double kSlant = 0.5;
   const double slant = kSlant * glm::dot(glm::abs(lookup.depth_gradient), lookup.box);
   const double depth = range_of(settings) * std::min(lookup.depth - slant, 1.0);
-  const double offset = settings.option[2] * fourier_half_step(order);
-  return saturate(settings.option[3] * fourier_lit(basis, depth - offset, {order, settings.option[1]}));
+  const double offset = settings.option[kPlace("offset")] * fourier_half_step(order);
+  return saturate(settings.option[kPlace("scale")] *
+                  fourier_lit(basis, depth - offset, {order, settings.option[kPlace("attenuation")]}));
 }
 
 }  // namespace
@@ -118,9 +120,10 @@ const Filter filters::convolution{
             .reads = MapRead::filtered,
             .bias_class = FilterClass::prefiltered,
             .options = kOptions,
+            .own_options = kOwnOptions,
             .formats = kFormats,
             .may_mipmap = true,
-            .terms_option = 0,
+            .terms_option = kPlace("order"),
             .channels = channels,
             .settle = settle,
         },

@@ -29,10 +29,11 @@ constexpr FilterOption kOptions[] = {
      "2x2 comparisons where the mean fails: 0 never, 1 by threshold, 2 by largest depth"},
     {"epsilon", 0.02, 0.0, 1.0,
      "visibility above 1 that still counts as valid; beyond it the fallback is used"},
-    kFalloffWorld,
-    falloff_kernel(4.0),
+    option::falloff_world,
+    option::falloff_kernel(4.0),
     {"failures", 0.0, 0.0, 1.0, "1 shows where the mean fails by `fallback`, dark, in place of shadows"},
 };
+constexpr OptionPlaces kPlace(kOptions);
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
 
 /// 16 bits hold the soft maximum to 2^-12 of the range: at c = 80 that is 2 % of the answer.
@@ -41,26 +42,30 @@ constexpr double kMaxC16 = 80.0;
 constexpr double kMaxPlainC = 160.0;
 
 void settle(FilterSettings& settings) noexcept {
-  if (settings.format != TexelFormat::fp32) settings.option[0] = std::min(settings.option[0], kMaxC16);
-  settings.option[1] = std::round(settings.option[1]);
-  settings.option[5] = std::round(settings.option[5]);
+  if (settings.format != TexelFormat::fp32)
+    settings.option[kPlace("c")] = std::min(settings.option[kPlace("c")], kMaxC16);
+  settings.option[kPlace("fallback")] = std::round(settings.option[kPlace("fallback")]);
+  settings.option[kPlace("failures")] = std::round(settings.option[kPlace("failures")]);
 }
 
 void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
-  settings.option[0] = exponent_for(settings.option[0], {settings.option[3], settings.option[4]}, depths);
+  settings.option[kPlace("c")] =
+      exponent_for(settings.option[kPlace("c")], falloff_of<kPlace>(settings), depths);
 }
 
 /// A level's range is that of all casters: the largest plain exponent would fade shadows in over a fiftieth
 /// of a city's height.
 void for_pages(FilterSettings& settings) noexcept {
-  const bool falls_off = settings.option[3] > 0.0 || settings.option[4] > 0.0;
-  if (falls_off && settings.format == TexelFormat::fp32 && settings.option[0] == kOptions[0].fallback)
-    settings.option[0] = kOptions[0].max;
+  const Falloff falloff = falloff_of<kPlace>(settings);
+  const bool falls_off = falloff.world > 0.0 || falloff.kernels > 0.0;
+  if (falls_off && settings.format == TexelFormat::fp32 &&
+      settings.option[kPlace("c")] == kOptions[kPlace("c")].fallback)
+    settings.option[kPlace("c")] = kOptions[kPlace("c")].max;
 }
 
 /// Texels hold the exponential itself, else its logarithm over c.
 bool is_plain(const FilterSettings& settings) noexcept {
-  return settings.format == TexelFormat::fp32 && settings.option[0] <= kMaxPlainC;
+  return settings.format == TexelFormat::fp32 && settings.option[kPlace("c")] <= kMaxPlainC;
 }
 
 int channels(const FilterSettings&) noexcept {
@@ -68,11 +73,11 @@ int channels(const FilterSettings&) noexcept {
 }
 
 bool needs_depth_max(const FilterSettings& settings) noexcept {
-  return settings.option[1] == 2.0;
+  return settings.option[kPlace("fallback")] == 2.0;
 }
 
 StoredTexel store(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
-  return {is_plain(settings) ? std::exp(settings.option[0] * (depth - 0.5)) : depth};
+  return {is_plain(settings) ? std::exp(settings.option[kPlace("c")] * (depth - 0.5)) : depth};
 }
 
 StoredTexel nothing(const FilterSettings& settings) noexcept {
@@ -85,7 +90,7 @@ void join(StoredTexel& sum, const StoredTexel& texel, double weight,
     sum[0] += weight * texel[0];
     return;
   }
-  const double c = settings.option[0], largest = std::max(sum[0], texel[0]);
+  const double c = settings.option[kPlace("c")], largest = std::max(sum[0], texel[0]);
   sum[0] =
       largest + std::log(std::exp(c * (sum[0] - largest)) + weight * std::exp(c * (texel[0] - largest))) / c;
 }
@@ -106,7 +111,8 @@ double depth_of_texel_side(const FilterLookup& lookup) noexcept {
 }
 
 double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
-  const double c = settings.option[0], fallback = settings.option[1], epsilon = settings.option[2];
+  const double c = settings.option[kPlace("c")], fallback = settings.option[kPlace("fallback")],
+               epsilon = settings.option[kPlace("epsilon")];
   const double depth = std::min(lookup.depth, 1.0) - rounding_of(settings.format);
   const double stored = is_plain(settings) ? 0.5 + std::log(texel[0]) / c : texel[0];
   const glm::dvec2 rise = glm::abs(lookup.depth_gradient);
@@ -122,7 +128,7 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
   bool fails = fallback == 1.0 && log_lit > allowed;
   if (fallback == 2.0)
     fails = depth + allowed / c + kPyramidReach * glm::dot(rise, lookup.box) < lookup.depth_max;
-  if (settings.option[5] > 0.5) return fails ? 0.0 : 1.0;
+  if (settings.option[kPlace("failures")] > 0.5) return fails ? 0.0 : 1.0;
   return saturate(fails ? compare_2x2(lookup, lookup.position) : std::exp(log_lit));
 }
 

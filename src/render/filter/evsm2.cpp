@@ -7,23 +7,12 @@ namespace gnomon::render {
 namespace {
 
 constexpr FilterOption kOptions[] = {
-    {"c", 40.0, 0.5, 42.0,
-     "largest exponent over half the depth range: larger bleeds less; at most 5.54 in half floats"},
-    {"bleed", 0.1, 0.0, 0.95,
-     "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
-    {"floor", 1e-4, 0.0, 0.1,
-     "least standard deviation, as a share of the depth range; never below the format's rounding"},
-    kFalloffWorld,
-    falloff_kernel(16.0),
+    option::c, option::bleed, option::floor, option::falloff_world, option::falloff_kernel(16.0),
 };
-constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16};
+constexpr OptionPlaces kPlace(kOptions);
 
 void settle(FilterSettings& settings) noexcept {
-  settings.option[0] = std::min(settings.option[0], largest_exponent(settings.format));
-}
-
-void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
-  settings.option[0] = warp_exponent(settings.option[0], {settings.option[3], settings.option[4]}, depths);
+  settings.option[kPlace("c")] = std::min(settings.option[kPlace("c")], largest_exponent(settings.format));
 }
 
 int channels(const FilterSettings&) noexcept {
@@ -31,13 +20,14 @@ int channels(const FilterSettings&) noexcept {
 }
 
 StoredTexel store(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
-  const auto [mean, square] = warped_moments(depth, settings.option[0]);
+  const auto [mean, square] = warped_moments(depth, settings.option[kPlace("c")]);
   return {mean, square};
 }
 
 double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
   const double depth = std::min(lookup.depth, 1.0), rounding = rounding_of(settings.format);
-  const double c = settings.option[0], bleed = settings.option[1], least = settings.option[2];
+  const double c = settings.option[kPlace("c")], bleed = settings.option[kPlace("bleed")],
+               least = settings.option[kPlace("floor")];
   return without_bleeding(warped_bound(texel[0], texel[1], depth, c, 1.0, least, rounding), bleed);
 }
 
@@ -52,7 +42,7 @@ const Filter filters::evsm2{
             .reads = MapRead::filtered,
             .bias_class = FilterClass::prefiltered,
             .options = kOptions,
-            .formats = kFormats,
+            .formats = kExponentialFormats,
             .may_mipmap = true,
             .channels = channels,
             .settle = settle,
@@ -65,10 +55,7 @@ const Filter filters::evsm2{
             .store = store,
             .visibility = visibility,
         },
-    .hooks =
-        {
-            .fit_map = fit_map,
-        },
+    .hooks = {.fit_map = fit_exponent<kPlace>},
 };
 
 }  // namespace gnomon::render

@@ -7,27 +7,20 @@ namespace gnomon::render {
 namespace {
 
 constexpr FilterOption kOptions[] = {
-    {"c", 40.0, 0.5, 42.0,
-     "largest exponent over half the depth range: larger bleeds less; at most 5.54 in half floats"},
+    option::c,
     {"c_negative", 5.0, 0.5, 42.0,
      "exponent of the falling warp: larger bleeds less where occluders overlap, leaks sooner"},
-    {"bleed", 0.1, 0.0, 0.95,
-     "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
-    {"floor", 1e-4, 0.0, 0.1,
-     "least standard deviation, as a share of the depth range; never below the format's rounding"},
-    kFalloffWorld,
-    falloff_kernel(16.0),
+    option::bleed,
+    option::floor,
+    option::falloff_world,
+    option::falloff_kernel(16.0),
 };
-constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16};
+constexpr OptionPlaces kPlace(kOptions);
 
 void settle(FilterSettings& settings) noexcept {
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (const std::size_t i : {kPlace("c"), kPlace("c_negative")}) {
     settings.option[i] = std::min(settings.option[i], largest_exponent(settings.format));
   }
-}
-
-void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
-  settings.option[0] = warp_exponent(settings.option[0], {settings.option[4], settings.option[5]}, depths);
 }
 
 int channels(const FilterSettings&) noexcept {
@@ -35,15 +28,15 @@ int channels(const FilterSettings&) noexcept {
 }
 
 StoredTexel store(double depth, const glm::dvec2&, const FilterSettings& settings) noexcept {
-  const auto [mean, square] = warped_moments(depth, settings.option[0]);
-  const auto [falling, falling_square] = warped_moments(1.0 - depth, settings.option[1]);
+  const auto [mean, square] = warped_moments(depth, settings.option[kPlace("c")]);
+  const auto [falling, falling_square] = warped_moments(1.0 - depth, settings.option[kPlace("c_negative")]);
   return {mean, square, falling, falling_square};
 }
 
 double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
   const double depth = std::min(lookup.depth, 1.0), rounding = rounding_of(settings.format);
-  const double c = settings.option[0], c_negative = settings.option[1];
-  const double bleed = settings.option[2], least = settings.option[3];
+  const double c = settings.option[kPlace("c")], c_negative = settings.option[kPlace("c_negative")];
+  const double bleed = settings.option[kPlace("bleed")], least = settings.option[kPlace("floor")];
   const double rising = warped_bound(texel[0], texel[1], depth, c, 1.0, least, rounding);
   const double falling = warped_bound(texel[2], texel[3], depth, c_negative, -1.0, least, rounding);
   return without_bleeding(std::min(rising, falling), bleed);
@@ -60,7 +53,7 @@ const Filter filters::evsm4{
             .reads = MapRead::filtered,
             .bias_class = FilterClass::prefiltered,
             .options = kOptions,
-            .formats = kFormats,
+            .formats = kExponentialFormats,
             .may_mipmap = true,
             .leaner = &filters::evsm2,
             .channels = channels,
@@ -74,10 +67,7 @@ const Filter filters::evsm4{
             .store = store,
             .visibility = visibility,
         },
-    .hooks =
-        {
-            .fit_map = fit_map,
-        },
+    .hooks = {.fit_map = fit_exponent<kPlace>},
 };
 
 }  // namespace gnomon::render

@@ -15,6 +15,27 @@ namespace gnomon::render {
 /// exponent_for of filter_parts.hpp, over half the depth range.
 [[nodiscard]] double warp_exponent(double most, const Falloff& falloff, const MapDepths& depths) noexcept;
 
+/// Options of both, and the formats whose range the exponentials have use for.
+namespace option {
+inline constexpr FilterOption c{
+    "c", 40.0, 0.5, 42.0,
+    "largest exponent over half the depth range: larger bleeds less; at most 5.54 in half floats"};
+inline constexpr FilterOption bleed{
+    "bleed", 0.1, 0.0, 0.95,
+    "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"};
+inline constexpr FilterOption floor{
+    "floor", 1e-4, 0.0, 0.1,
+    "least standard deviation, as a share of the depth range; never below the format's rounding"};
+}  // namespace option
+inline constexpr TexelFormat kExponentialFormats[] = {TexelFormat::fp32, TexelFormat::fp16};
+
+/// FilterHooks::fit_map of both.
+template <const OptionPlaces& kPlace>
+void fit_exponent(FilterSettings& settings, const MapDepths& depths) noexcept {
+  double& c = settings.option[kPlace("c")];
+  c = warp_exponent(c, falloff_of<kPlace>(settings), depths);
+}
+
 /// exp(c u) of u = 2 depth - 1, and its square.
 [[nodiscard]] std::array<double, 2> warped_moments(double depth, double c) noexcept;
 

@@ -88,9 +88,13 @@ double rounded_to(TexelFormat format, double value) noexcept {
 }
 
 double FilterSettings::value(std::string_view name) const noexcept {
-  for (std::size_t i = 0; filter != nullptr && i < filter->info.options.size(); ++i) {
-    if (filter->info.options[i].name == name) return option[i];
-  }
+  if (filter == nullptr) return 0.0;
+  const std::span<const FilterOption> named = filter->info.options;
+  const std::span<const std::string_view> own = filter->info.own_options;
+  for (std::size_t i = 0; i < named.size(); ++i)
+    if (named[i].name == name) return option[i];
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (own[i] == name) return option[named.size() + i];
   return 0.0;
 }
 

@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <vector>
 
+#include "base/random.hpp"
 #include "filter/filter_block.hpp"
 #include "filter/filter_parts.hpp"
-#include "base/random.hpp"
 
 namespace gnomon::render {
 namespace {

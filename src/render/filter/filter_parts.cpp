@@ -27,9 +27,9 @@ glm::dvec2 poisson_point(int i, double angle) noexcept {
   return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
 
-double penumbra_radius(const FilterSettings& settings, double away, double light_distance) noexcept {
-  if (light_distance == 0.0) return std::tan(0.5 * settings.option[0] * std::numbers::pi / 180.0) * away;
-  return settings.option[1] * away / std::max(light_distance - away, 0.01 * light_distance);
+double penumbra_radius(double angle_deg, double light_radius, double away, double light_distance) noexcept {
+  if (light_distance == 0.0) return std::tan(0.5 * angle_deg * std::numbers::pi / 180.0) * away;
+  return light_radius * away / std::max(light_distance - away, 0.01 * light_distance);
 }
 
 }  // namespace gnomon::render

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
+#include <string_view>
 
 #include "gnomon/render/filter.hpp"
 
@@ -43,26 +45,69 @@ namespace gnomon::render {
   return slope == 0.0 ? 0.0 : (lookup.ray.x - z * lookup.ray.y) / slope;
 }
 
-/// Options of the filters of a light with a size, which lists them first and in this order.
-inline constexpr FilterOption kLightAngle{
+/// Options that several filters have. Lists name them as option::NAME: cmake/option_names.cmake reads that.
+namespace option {
+/// Of the filters of a light with a size.
+inline constexpr FilterOption angle_deg{
     "angle_deg", 2.0, 0.01, 60.0, "apparent diameter of a directional light, degrees; the sun has 0.53"};
-inline constexpr FilterOption kLightRadius{"light_radius", 0.25, 1e-6, 1e6,
+inline constexpr FilterOption light_radius{"light_radius", 0.25, 1e-6, 1e6,
                                            "radius of a local light, world units"};
-/// penumbra.glsl: radius of the light's disc seen through a point `away` from the receiver, across the light
-/// at the receiver, world units.
-[[nodiscard]] double penumbra_radius(const FilterSettings& settings, double away,
-                                     double light_distance) noexcept;
-
-/// Options of the filters whose shadows fade in over a length along the light.
-inline constexpr FilterOption kFalloffWorld{
+/// Of the filters whose shadows fade in over a length along the light.
+inline constexpr FilterOption falloff_world{
     "falloff_world", 0.0, 0.0, 1e6,
     "least distance over which a caster's shadow fades in behind it, world units: alike in all maps"};
 [[nodiscard]] constexpr FilterOption falloff_kernel(double fallback) noexcept {
   return {"falloff_kernel", fallback, 0.0, 1000.0,
           "the same in half widths of the kernel; the longer of both counts"};
 }
+}  // namespace option
 
-/// The values of both.
+/// Where FilterSettings::option holds the options of a filter, by their names.
+class OptionPlaces {
+ public:
+  consteval explicit OptionPlaces(std::span<const FilterOption> options,
+                                  std::span<const std::string_view> own = {})
+      : options_(options), own_(own) {}
+  /// Does not compile where neither list has an option of that name.
+  [[nodiscard]] consteval std::size_t operator()(std::string_view name) const {
+    for (std::size_t i = 0; i < options_.size(); ++i)
+      if (options_[i].name == name) return i;
+    for (std::size_t i = 0; i < own_.size(); ++i)
+      if (own_[i] == name) return options_.size() + i;
+    throw "the filter has no option of that name";
+  }
+
+ private:
+  std::span<const FilterOption> options_;
+  std::span<const std::string_view> own_;
+};
+
+/// penumbra.glsl: radius of the light's disc seen through a point `away` from the receiver, across the light
+/// at the receiver, world units.
+[[nodiscard]] double penumbra_radius(double angle_deg, double light_radius, double away,
+                                     double light_distance) noexcept;
+/// The same by the options of a filter.
+template <const OptionPlaces& kPlace>
+[[nodiscard]] double penumbra_radius(const FilterSettings& settings, double away,
+                                     double light_distance) noexcept {
+  return penumbra_radius(settings.option[kPlace("angle_deg")], settings.option[kPlace("light_radius")], away,
+                         light_distance);
+}
+
+/// caster.glsl: the longer axis of an ellipse.
+[[nodiscard]] inline double widest_axis(const glm::dmat2& disc) noexcept {
+  return std::sqrt(std::max(glm::dot(disc[0], disc[0]), glm::dot(disc[1], disc[1])));
+}
+/// caster.glsl: distance to what the texel under `offset` stores, world units; below 0 where that is not in
+/// front of the receiver's plane.
+[[nodiscard]] inline double caster_at(const FilterLookup& lookup, const glm::dvec2& offset) {
+  const glm::dvec2 texel = lookup.position + offset, cell{std::floor(texel.x), std::floor(texel.y)};
+  const double stored = lookup.map_depth(static_cast<int>(cell.x), static_cast<int>(cell.y));
+  if (plane_depth(lookup, cell + 0.5 - lookup.position) <= stored) return -1.0;
+  return std::max(distance_to_depth(lookup, stored), 0.0);
+}
+
+/// The values of option::falloff_world and option::falloff_kernel.
 struct Falloff {
   double world = 0.0, kernels = 0.0;
   /// World units; 0: none asked for.
@@ -78,6 +123,11 @@ struct Falloff {
   const double length = falloff.length(depths);
   if (!(length > 0.0) || !(depths.range_world > 0.0)) return most;
   return std::min(most, std::max(kFaded * depths.range_world / length, 1.0));
+}
+
+template <const OptionPlaces& kPlace>
+[[nodiscard]] Falloff falloff_of(const FilterSettings& settings) noexcept {
+  return {settings.option[kPlace("falloff_world")], settings.option[kPlace("falloff_kernel")]};
 }
 
 /// Clamps to [0, 1]; not-a-number becomes 1, lit.

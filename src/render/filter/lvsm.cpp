@@ -30,17 +30,18 @@ constexpr FilterOption kOptions[] = {
     {"placement", 0, 0, 1,
      "0 even layers; 1 layers fitted to the depths of each map, which are read back to the CPU"},
 };
-/// Where the first option of the filter's own is: the ends of all layers but the last; 0: even layers.
-constexpr std::size_t kFirstEnd = 6;
-static_assert(kFirstEnd + kMostLayers - 1 <= kMaxFilterOptions);
+/// `ends`: the first of the ends of all layers but the last; 0: even layers.
+constexpr std::string_view kOwnOptions[] = {"ends"};
+constexpr OptionPlaces kPlace(kOptions, kOwnOptions);
+static_assert(kPlace("ends") + kMostLayers - 1 <= kMaxFilterOptions);
 constexpr TexelFormat kFormats[] = {TexelFormat::unorm16, TexelFormat::fp16, TexelFormat::fp32};
 
 int layers_of(const FilterSettings& settings) noexcept {
-  return static_cast<int>(settings.option[3]);
+  return static_cast<int>(settings.option[kPlace("layers")]);
 }
 void settle(FilterSettings& settings) noexcept {
-  settings.option[3] = std::round(settings.option[3]);
-  settings.option[5] = std::round(settings.option[5]);
+  settings.option[kPlace("layers")] = std::round(settings.option[kPlace("layers")]);
+  settings.option[kPlace("placement")] = std::round(settings.option[kPlace("placement")]);
 }
 int channels(const FilterSettings& settings) noexcept {
   return 2 * layers_of(settings);
@@ -52,7 +53,7 @@ StoredTexel store(double depth, const glm::dvec2& slope, const FilterSettings& s
     const DepthBand layer = layer_of(i, settings);
     const bool within = depth > layer.begin && depth < layer.end;
     const glm::dvec2 warped_slope = within ? slope / (layer.end - layer.begin) : glm::dvec2(0.0);
-    const StoredTexel moments = store_moments(layer.warped(depth), warped_slope, settings);
+    const StoredTexel moments = store_moments<kPlace>(layer.warped(depth), warped_slope, settings);
     texel[static_cast<std::size_t>(2 * i)] = moments[0];
     texel[static_cast<std::size_t>(2 * i + 1)] = moments[1];
   }
@@ -70,7 +71,7 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
     in_layer.depth = layer_of(i, settings).warped(depth);
     const StoredTexel moments{texel[static_cast<std::size_t>(2 * i)],
                               texel[static_cast<std::size_t>(2 * i + 1)]};
-    const double bound = variance_visibility(moments, in_layer, settings);
+    const double bound = variance_visibility<kPlace>(moments, in_layer, settings);
     lit = std::min(lit, std::max(bound, beyond_layer(i, settings, depth + spread)));
   }
   return lit;
@@ -80,24 +81,24 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
 double end_before(int i, const FilterSettings& settings) noexcept {
   const int count = layers_of(settings);
   if (i <= 0 || i >= count) return i <= 0 ? 0.0 : 1.0;
-  const double placed = settings.option[kFirstEnd + static_cast<std::size_t>(i - 1)];
+  const double placed = settings.option[kPlace("ends") + static_cast<std::size_t>(i - 1)];
   return placed > 0.0 ? placed : 1.0 * i / count;
 }
 
 bool adapts(const FilterSettings& settings) noexcept {
-  return settings.option[5] > 0.5 && layers_of(settings) > 1;
+  return settings.option[kPlace("placement")] > 0.5 && layers_of(settings) > 1;
 }
 
 void adapt(FilterSettings& settings, std::span<const float> depths) noexcept {
   const auto count = static_cast<std::size_t>(layers_of(settings));
-  place_layers(depths, std::span(settings.option).subspan(kFirstEnd, count - 1));
+  place_layers(depths, std::span(settings.option).subspan(kPlace("ends"), count - 1));
 }
 
 }  // namespace
 
 DepthBand layer_of(int i, const FilterSettings& settings) noexcept {
   const double begin = end_before(i, settings), end = end_before(i + 1, settings),
-               overlap = settings.option[4];
+               overlap = settings.option[kPlace("overlap")];
   return {begin - overlap * (begin - end_before(i - 1, settings)),
           end + overlap * (end_before(i + 2, settings) - end)};
 }
@@ -118,9 +119,10 @@ const Filter filters::lvsm{
             .reads = MapRead::filtered,
             .bias_class = FilterClass::prefiltered,
             .options = kOptions,
+            .own_options = kOwnOptions,
             .formats = kFormats,
             .may_mipmap = true,
-            .terms_option = 3,
+            .terms_option = kPlace("layers"),
             .channels = channels,
             .settle = settle,
         },
@@ -134,7 +136,7 @@ const Filter filters::lvsm{
         },
     .hooks =
         {
-            .reads_slope = reads_slope,
+            .reads_slope = reads_slope<kPlace>,
             .adapts = adapts,
             .adapt = adapt,
         },

@@ -17,6 +17,7 @@ constexpr FilterOption kOptions[] = {
     {"bias", 0.0, 0.0, 0.1,
      "share of the widest distribution blended in; never below what the format's rounding needs"},
 };
+constexpr OptionPlaces kPlace(kOptions);
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::unorm16, TexelFormat::nonlinear16};
 
 bool averages(const FilterSettings& settings) noexcept {
@@ -48,20 +49,22 @@ StoredTexel pack(const StoredTexel& sum, const FilterSettings& settings) noexcep
 }
 
 Moments read_moments(const StoredTexel& texel, const FilterSettings& settings) noexcept {
-  if (averages(settings)) return moments_of(texel, settings, settings.option[2]);
+  if (averages(settings)) return moments_of(texel, settings, settings.option[kPlace("bias")]);
   // Moments of numbers that were rounded apart are moments all the same: only sums round.
-  return spread_by(std::max(settings.option[2], 64.0 * 0x1p-24), {texel[0], texel[1], texel[2], texel[3]});
+  return spread_by(std::max(settings.option[kPlace("bias")], 64.0 * 0x1p-24),
+                   {texel[0], texel[1], texel[2], texel[3]});
 }
 
 double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
   const Moments b = read_moments(texel, settings);
   const double u = receiver_of_moments(lookup, lookup.box);
-  const double dark = settings.option[0] > 0.5 ? share_in_front_bounded(b, u) : share_in_front(b, u).share;
-  return without_bleeding(saturate(1.0 - dark), settings.option[1]);
+  const double dark =
+      settings.option[kPlace("bounded")] > 0.5 ? share_in_front_bounded(b, u) : share_in_front(b, u).share;
+  return without_bleeding(saturate(1.0 - dark), settings.option[kPlace("bleed")]);
 }
 
 void settle(FilterSettings& settings) noexcept {
-  settings.option[0] = std::round(settings.option[0]);
+  settings.option[kPlace("bounded")] = std::round(settings.option[kPlace("bounded")]);
 }
 
 }  // namespace

@@ -15,14 +15,15 @@ namespace gnomon::render {
 namespace {
 
 constexpr FilterOption kOptions[] = {
-    kLightAngle,
-    kLightRadius,
+    option::angle_deg,
+    option::light_radius,
     {"bleed", 0.05, 0.0, 0.95,
      "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
     // Half a step of the sums, where kernels are 32 texels wide to each side, makes 5e-7 of a moment.
     {"bias", 1e-5, 0.0, 0.1,
      "share of the widest distribution blended in; never below what the format's rounding needs"},
 };
+constexpr OptionPlaces kPlace(kOptions);
 constexpr TexelFormat kFormats[] = {TexelFormat::uint32};
 
 int channels(const FilterSettings&) noexcept {
@@ -40,7 +41,7 @@ glm::dvec2 penumbra_box(const FilterLookup& lookup, double radius_world) noexcep
 }
 
 double visibility(const StoredTexel& texel, const FilterLookup& lookup, const FilterSettings& settings) {
-  const Moments b = moments_of(texel, settings, settings.option[3]);
+  const Moments b = moments_of(texel, settings, settings.option[kPlace("bias")]);
   // The receiver's own plane counts as what touches it: a search that left it out would miss contacts.
   const double u = receiver_of_moments(lookup, glm::dvec2(0.0));
   const auto [blocked, others] = share_in_front(b, u);
@@ -52,11 +53,11 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
     away = distance_to_depth(lookup, std::clamp(0.5 * blocker + 0.5, 0.0, 1.0));
   }
   const glm::dvec2 box =
-      penumbra_box(lookup, penumbra_radius(settings, std::max(0.0, away), lookup.light_distance));
+      penumbra_box(lookup, penumbra_radius<kPlace>(settings, std::max(0.0, away), lookup.light_distance));
   const StoredTexel mean = lookup.mean_of_box ? lookup.mean_of_box(box) : texel;
-  const Moments within = moments_of(mean, settings, settings.option[3]);
+  const Moments within = moments_of(mean, settings, settings.option[kPlace("bias")]);
   const double dark = share_in_front(within, receiver_of_moments(lookup, box)).share;
-  return without_bleeding(saturate(1.0 - dark), settings.option[2]);
+  return without_bleeding(saturate(1.0 - dark), settings.option[kPlace("bleed")]);
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ const Filter filters::mssm{
             .formats = kFormats,
             .default_radius = 12.0,
             .channels = channels,
-            .penumbra_radius_world = penumbra_radius,
+            .penumbra_radius_world = penumbra_radius<kPlace>,
         },
     .reference =
         {

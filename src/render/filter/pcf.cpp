@@ -13,6 +13,7 @@ constexpr FilterOption kOptions[] = {
     {"samples", 16, 1, 64, "samples of a disc, four comparisons each"},
     {"rotate", 1, 0, 1, "1 rotates the disc per pixel: noise instead of banding; 0 does not"},
 };
+constexpr OptionPlaces kPlace(kOptions);
 
 /// Share of texel i that lies in [low, high].
 double overlap(int i, double low, double high) noexcept {
@@ -41,12 +42,12 @@ double compare_hardware(FilterLookup lookup) {
 
 double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSettings& settings) {
   constexpr double kBox = 0.0, kPoisson = 2.0;
-  const double pattern = settings.option[0];
-  const int samples = static_cast<int>(settings.option[1]);
+  const double pattern = settings.option[kPlace("pattern")];
+  const int samples = static_cast<int>(settings.option[kPlace("samples")]);
   if (pattern == kBox) {
     return std::max(lookup.box.x, lookup.box.y) > 0.5 ? compare_box(lookup) : compare_hardware(lookup);
   }
-  const double angle = settings.option[2] > 0.5 ? lookup.rotation : 0.0;
+  const double angle = settings.option[kPlace("rotate")] > 0.5 ? lookup.rotation : 0.0;
   double sum = 0.0;
   for (int i = 0; i < samples; ++i) {
     const glm::dvec2 point = pattern == kPoisson ? poisson_point(i, angle) : vogel_point(i, samples, angle);

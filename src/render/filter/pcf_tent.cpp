@@ -10,12 +10,13 @@
 namespace gnomon::render {
 namespace {
 
-/// Set by settle(), for a lookup has no unit.
-constexpr std::size_t kInWorld = 0;
+/// `in_world`: 1 where the radius is in world units. Set by settle(), for a lookup has no unit.
+constexpr std::string_view kOwnOptions[] = {"in_world"};
+constexpr OptionPlaces kPlace({}, kOwnOptions);
 
 glm::dvec2 half_base(const FilterLookup& lookup, const FilterSettings& settings) noexcept {
   const glm::dvec2 base =
-      settings.option[kInWorld] > 0.5 ? std::numbers::sqrt2 * lookup.box : lookup.box + 0.5;
+      settings.option[kPlace("in_world")] > 0.5 ? std::numbers::sqrt2 * lookup.box : lookup.box + 0.5;
   return {std::max(base.x, 1.0), std::max(base.y, 1.0)};
 }
 
@@ -45,7 +46,7 @@ double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSe
 }
 
 void settle(FilterSettings& settings) noexcept {
-  settings.option[kInWorld] = settings.unit == KernelUnit::world ? 1.0 : 0.0;
+  settings.option[kPlace("in_world")] = settings.unit == KernelUnit::world ? 1.0 : 0.0;
 }
 
 }  // namespace
@@ -58,6 +59,7 @@ const Filter filters::pcf_tent{
             .source = "Castaño 2013, Shadow mapping summary (The Witness), after Reeves, Salesin, Cook 1987",
             .reads = MapRead::depth,
             .bias_class = FilterClass::wide_kernel,
+            .own_options = kOwnOptions,
             .lookup_reach_texels = 1.5,
             .settle = settle,
         },

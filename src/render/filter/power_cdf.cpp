@@ -23,23 +23,23 @@ constexpr FilterOption kOptions[] = {
     {"layers", 1, 1, kMostLayers,
      "layers of depth, four channels each: more of them part occluders behind each other"},
 };
-constexpr std::size_t kLayers = 3;
-/// The filter's own option behind them: the longest offset, of the depth range; 0: no limit.
-constexpr std::size_t kLongest = 4;
+/// `longest`: the longest offset, of the depth range; 0: no limit.
+constexpr std::string_view kOwnOptions[] = {"longest"};
+constexpr OptionPlaces kPlace(kOptions, kOwnOptions);
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
 /// A texel that counts less is in the kernel by the rounding of its place alone.
 constexpr double kLeastWeight = 1e-4;
 
 void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
-  const double longest = Falloff{settings.option[1], settings.option[2]}.length(depths);
-  settings.option[kLongest] = depths.range_world > 0.0 ? longest / depths.range_world : 0.0;
+  const double longest = falloff_of<kPlace>(settings).length(depths);
+  settings.option[kPlace("longest")] = depths.range_world > 0.0 ? longest / depths.range_world : 0.0;
 }
 
 int layers_of(const FilterSettings& settings) noexcept {
-  return static_cast<int>(settings.option[kLayers]);
+  return static_cast<int>(settings.option[kPlace("layers")]);
 }
 void settle(FilterSettings& settings) noexcept {
-  settings.option[kLayers] = std::round(settings.option[kLayers]);
+  settings.option[kPlace("layers")] = std::round(settings.option[kPlace("layers")]);
 }
 /// A layer's least, mean and largest depth have a vector of their own.
 int channels(const FilterSettings& settings) noexcept {
@@ -103,9 +103,10 @@ double lit_in(int layer, const StoredTexel& texel, double depth, const FilterSet
   const double least = texel[first], mean = texel[first + 1], largest = texel[first + 2];
   // Values of the texel per depth.
   const double scale = (is_unsigned_unit(settings.format) ? 1.0 : 2.0) / (ends.end - ends.begin);
-  const double longest = settings.option[kLongest] > 0.0 ? scale * settings.option[kLongest] : 2.0;
-  const double offset =
-      std::min(settings.option[0] * (largest - least), longest) + kRoundings * rounding_of(settings.format);
+  const double longest =
+      settings.option[kPlace("longest")] > 0.0 ? scale * settings.option[kPlace("longest")] : 2.0;
+  const double offset = std::min(settings.option[kPlace("offset")] * (largest - least), longest) +
+                        kRoundings * rounding_of(settings.format);
   return saturate(power_lit(least, mean, largest, value_in(ends, depth, settings) - offset));
 }
 
@@ -148,6 +149,7 @@ const Filter filters::power_cdf{
             .reads = MapRead::joined,
             .bias_class = FilterClass::prefiltered,
             .options = kOptions,
+            .own_options = kOwnOptions,
             .formats = kFormats,
             .may_mipmap = true,
             .channels = channels,

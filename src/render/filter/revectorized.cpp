@@ -17,6 +17,7 @@ constexpr FilterOption kOptions[] = {
     {"run", kLongestRun, 1, kLongestRun,
      "texels that an edge is followed to either side; larger straightens flatter edges, costs reads"},
 };
+constexpr OptionPlaces kPlace(kOptions);
 
 /// The texels round the point, as lit or dark.
 struct Outline {
@@ -63,7 +64,7 @@ bool is_beyond_line(const Outline& outline, const glm::dvec2& along, const glm::
 
 double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSettings& settings) {
   Outline outline{lookup, glm::floor(lookup.position)};
-  outline.longest = static_cast<int>(settings.option[0]);
+  outline.longest = static_cast<int>(settings.option[kPlace("run")]);
   outline.lit = outline.lit_at(glm::dvec2(0.0));
   const glm::dvec2 part = lookup.position - outline.own;
   const glm::dvec2 to_outline = glm::min(part, 1.0 - part);
@@ -75,7 +76,7 @@ double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSe
 
 /// Whole texels.
 void settle(FilterSettings& settings) noexcept {
-  settings.option[0] = std::round(settings.option[0]);
+  settings.option[kPlace("run")] = std::round(settings.option[kPlace("run")]);
 }
 
 }  // namespace

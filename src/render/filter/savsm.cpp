@@ -15,6 +15,7 @@ constexpr FilterOption kOptions[] = {
     {"floor", 1e-6, 0.0, 0.1, "least variance, as a share of the depth range squared"},
     {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment includes"},
 };
+constexpr OptionPlaces kPlace(kOptions);
 constexpr TexelFormat kFormats[] = {TexelFormat::uint32};
 
 int channels(const FilterSettings&) noexcept {
@@ -40,10 +41,10 @@ const Filter filters::savsm{
             .tolerance =
                 0.001,  // the variance's floor, four times 1e-6, under a contact of a tenth of the range
             .contact = 0.1,
-            .store = store_moments,
-            .visibility = variance_visibility,
+            .store = store_moments<kPlace>,
+            .visibility = variance_visibility<kPlace>,
         },
-    .hooks = {.reads_slope = reads_slope},
+    .hooks = {.reads_slope = reads_slope<kPlace>},
 };
 
 }  // namespace gnomon::render

@@ -13,28 +13,17 @@ namespace gnomon::render {
 namespace {
 
 constexpr FilterOption kOptions[] = {
-    kLightAngle,
-    kLightRadius,
+    option::angle_deg,
+    option::light_radius,
     {"rays", 16, 1, 64, "rays to the light: more have less noise, at their price"},
     {"steps", 4, 1, 64, "texels read along a ray: more keep thin casters apart, at their price"},
     {"rotate", 1, 0, 1, "1 turns and shifts the rays per pixel: noise instead of banding; 0 does not"},
 };
+constexpr OptionPlaces kPlace(kOptions);
 
 glm::dvec2 within_kernel(const FilterLookup& lookup, const glm::dvec2& offset) noexcept {
-  const glm::dmat2& disc = lookup.disc;
-  const double widest =
-      std::max(std::sqrt(std::max(glm::dot(disc[0], disc[0]), glm::dot(disc[1], disc[1]))), 1.0);
+  const double widest = std::max(widest_axis(lookup.disc), 1.0);
   return offset * std::min(1.0, widest / std::max(glm::length(offset), 1e-6));
-}
-
-/// Distance to what the texel under the offset stores; below 0 where that does not stand before the
-/// receiver's plane.
-double caster_at(const FilterLookup& lookup, const glm::dvec2& offset) {
-  const glm::dvec2 texel = lookup.position + within_kernel(lookup, offset);
-  const glm::dvec2 cell{std::floor(texel.x), std::floor(texel.y)};
-  const double stored = lookup.map_depth(static_cast<int>(cell.x), static_cast<int>(cell.y));
-  if (plane_depth(lookup, cell + 0.5 - lookup.position) <= stored) return -1.0;
-  return std::max(distance_to_depth(lookup, stored), 0.0);
 }
 
 /// Distances between which casters were found.
@@ -44,7 +33,7 @@ struct Casters {
 
 bool is_blocked(const FilterLookup& lookup, const FilterSettings& settings, const Casters& casters,
                 const glm::dvec2& aim, double inside) {
-  const int steps = static_cast<int>(settings.option[3]);
+  const int steps = static_cast<int>(settings.option[kPlace("steps")]);
   bool under = false;
   for (int k = 0; k < steps; ++k) {
     const auto place = [&](int step) {
@@ -54,8 +43,8 @@ bool is_blocked(const FilterLookup& lookup, const FilterSettings& settings, cons
     const double begin = k == 0 ? 0.0 : place(k - 1);
     const double end = k == 0 && steps > 1 ? casters.nearest : place(k);
     const double away = std::lerp(begin, end, inside);
-    const double caster = caster_at(
-        lookup, lookup.texels_per_world * (penumbra_radius(settings, away, lookup.light_distance) * aim));
+    const double radius = penumbra_radius<kPlace>(settings, away, lookup.light_distance);
+    const double caster = caster_at(lookup, within_kernel(lookup, lookup.texels_per_world * (radius * aim)));
     const bool beyond = k + 1 < steps && caster >= end, before = caster < begin;
     // From under one caster to above another: through what joins them.
     const bool crossed = under && before && caster >= 0.0;
@@ -66,17 +55,17 @@ bool is_blocked(const FilterLookup& lookup, const FilterSettings& settings, cons
 }
 
 double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSettings& settings) {
-  const int rays = static_cast<int>(settings.option[2]);
-  const double turn = settings.option[4] > 0.5 ? lookup.rotation : 0.0;
+  const int rays = static_cast<int>(settings.option[kPlace("rays")]);
+  const double turn = settings.option[kPlace("rotate")] > 0.5 ? lookup.rotation : 0.0;
   // Most points have no caster at all, and casters lie at a few distances.
   constexpr int kSearched = 16;
   const double reach = std::max(distance_to_depth(lookup, 0.0), 0.0);
-  const double search = penumbra_radius(settings, reach, lookup.light_distance);
+  const double search = penumbra_radius<kPlace>(settings, reach, lookup.light_distance);
   Casters casters{reach, 0.0};
   bool any = false;
   for (int i = 0; i < kSearched; ++i) {
-    const double caster =
-        caster_at(lookup, lookup.texels_per_world * (search * vogel_point(i, kSearched, turn)));
+    const glm::dvec2 offset = lookup.texels_per_world * (search * vogel_point(i, kSearched, turn));
+    const double caster = caster_at(lookup, within_kernel(lookup, offset));
     if (caster < 0.0) continue;
     any = true;
     casters = {std::min(casters.nearest, caster), std::max(casters.farthest, caster)};
@@ -93,7 +82,8 @@ double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSe
 
 /// Whole rays and steps.
 void settle(FilterSettings& settings) noexcept {
-  for (const std::size_t i : {2, 3, 4}) settings.option[i] = std::round(settings.option[i]);
+  for (const std::size_t i : {kPlace("rays"), kPlace("steps"), kPlace("rotate")})
+    settings.option[i] = std::round(settings.option[i]);
 }
 
 }  // namespace
@@ -110,7 +100,7 @@ const Filter filters::smrt{
             .default_radius = 12.0,
             .lookup_reach_texels = 1.5,
             .settle = settle,
-            .penumbra_radius_world = penumbra_radius,
+            .penumbra_radius_world = penumbra_radius<kPlace>,
         },
     .reference =
         {

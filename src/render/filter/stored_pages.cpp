@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstring>
 
-#include "gnomon/render/page_filter.hpp"
 #include "filter/stored_images.hpp"
+#include "gnomon/render/page_filter.hpp"
 
 namespace gnomon::render {
 namespace {

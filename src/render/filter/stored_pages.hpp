@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "filter/filter_block.hpp"
+#include "filter/stored_maps.hpp"
 #include "gl/gl_object.hpp"
 #include "gnomon/pages.hpp"
 #include "source/page_pool.hpp"
-#include "filter/stored_maps.hpp"
 
 namespace gnomon::render {
 

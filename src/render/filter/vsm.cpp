@@ -14,6 +14,7 @@ constexpr FilterOption kOptions[] = {
      "least variance, as a share of the depth range squared; never below the format's rounding"},
     {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment includes"},
 };
+constexpr OptionPlaces kPlace(kOptions);
 /// Half floats are not among them: their rounding at the ends of the range is 16 times that of unorm16, and
 /// leaves a receiver 0.01 behind a flat occluder 0.75 lit.
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::unorm16};
@@ -43,10 +44,10 @@ const Filter filters::vsm{
             .tolerance =
                 0.01,  // the variance's floor under a contact of a tenth of the depth range, in half floats
             .contact = 0.1,
-            .store = store_moments,
-            .visibility = variance_visibility,
+            .store = store_moments<kPlace>,
+            .visibility = variance_visibility<kPlace>,
         },
-    .hooks = {.reads_slope = reads_slope},
+    .hooks = {.reads_slope = reads_slope<kPlace>},
 };
 
 }  // namespace gnomon::render

@@ -1,10 +1,17 @@
-# Writes OUT, a C++ source that holds every file under DIR as a string: cmake -DDIR=... -DOUT=... -P embed_shaders.cmake
+# Writes OUT, a C++ source that holds every file under DIR and under GENERATED as a string:
+#   cmake -DDIR=... -DGENERATED=... -DOUT=... -P embed_shaders.cmake
 file(GLOB_RECURSE files RELATIVE ${DIR} ${DIR}/*.glsl ${DIR}/*.vert ${DIR}/*.frag ${DIR}/*.comp ${DIR}/*.geom)
+file(GLOB_RECURSE generated RELATIVE ${GENERATED} ${GENERATED}/*.glsl)
+list(APPEND files ${generated})
 list(SORT files)
 set(text "// Generated from shaders/. The shader sources, as they stand in the repository.\n#include \"gl/shader_text.hpp\"\n\n")
 string(APPEND text "namespace gnomon::render {\nnamespace {\nconstexpr ShaderFile kFiles[] = {\n")
 foreach(file ${files})
-  file(READ ${DIR}/${file} source)
+  if(EXISTS ${GENERATED}/${file})
+    file(READ ${GENERATED}/${file} source)
+  else()
+    file(READ ${DIR}/${file} source)
+  endif()
   string(APPEND text "    {\"${file}\", R\"GLSL(${source})GLSL\"},\n")
 endforeach()
 string(APPEND text "};\n}  // namespace\n\nstd::span<const ShaderFile> shader_files() noexcept { return kFiles; }\n")

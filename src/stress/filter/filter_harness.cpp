@@ -309,4 +309,11 @@ FilterSettings settings_from(std::string_view text) {
   return parsed.settings;
 }
 
+double& option_named(FilterSettings& settings, std::string_view name) {
+  const auto& options = settings.filter->info.options;
+  for (std::size_t i = 0; i < options.size(); ++i)
+    if (options[i].name == name) return settings.option[i];
+  throw std::runtime_error("no option " + std::string(name));
+}
+
 }  // namespace gnomon::render

@@ -94,4 +94,8 @@ class Reference {
 /// "NAME:KEY=VALUE,.."; throws std::runtime_error where it is not understood.
 [[nodiscard]] FilterSettings settings_from(std::string_view text);
 
+/// The value of an option, to be set to one that text cannot say; throws std::runtime_error where the filter
+/// has none of that name.
+[[nodiscard]] double& option_named(FilterSettings& settings, std::string_view name);
+
 }  // namespace gnomon::render

@@ -57,8 +57,8 @@ std::string sample_shader(const std::string& declaration) {
 std::string reflection(const std::string& shader) {
   const std::string file = testing::TempDir() + "shader_block_test.frag";
   std::ofstream(file) << shader;
-  const std::string command =
-      std::string(GLSLANG_VALIDATOR) + " -l -q -I" + GNOMON_SOURCE_DIR + "/shaders -S frag " + file + " 2>&1";
+  const std::string command = std::string(GLSLANG_VALIDATOR) + " -l -q -I" + GNOMON_SOURCE_DIR +
+                              "/shaders -I" + GNOMON_GENERATED_SHADERS + " -S frag " + file + " 2>&1";
   FILE* pipe = ::popen(command.c_str(), "r");
   std::string text;
   std::array<char, 256> part{};

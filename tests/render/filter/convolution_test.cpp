@@ -154,9 +154,9 @@ TEST(ConvolutionFilter, widens_its_step_to_the_fall_off_and_never_narrows_it) {
         filters::convolution.reference.store(0.2, glm::dvec2(0.0), settings), lookup, settings);
   };
   EXPECT_GT(lit(shallow, 1.0), 0.3);  // by itself the series would have faded
-  EXPECT_LT(settings_for_map(settings_from("convolution"), shallow).option[6], 1e-12);
-  EXPECT_EQ(settings_for_map(asked, deep).option[6], 0.0);
-  EXPECT_EQ(settings_for_map(asked, MapDepths{}).option[6], 0.0);
+  EXPECT_LT(settings_for_map(settings_from("convolution"), shallow).value("widening"), 1e-12);
+  EXPECT_EQ(settings_for_map(asked, deep).value("widening"), 0.0);
+  EXPECT_EQ(settings_for_map(asked, MapDepths{}).value("widening"), 0.0);
 }
 
 TEST(ConvolutionFilter, returns_the_same_on_gpu_and_cpu_for_every_order) {

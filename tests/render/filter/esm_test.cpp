@@ -20,7 +20,7 @@ TEST(EsmFilter, agrees_with_the_golden_rows_of_the_clamped_exponential) {
       // What the filter takes off for the format's rounding is given back.
       lookup.depth = row.depth + rounding_of(settings.format);
       const double lit = filters::esm.reference.visibility(mean_over(row.kernel, settings), lookup, settings);
-      EXPECT_NEAR(lit, row.answer(settings.option[0] == 10.0 ? "esm10" : "esm80"), kGolden)
+      EXPECT_NEAR(lit, row.answer(settings.value("c") == 10.0 ? "esm10" : "esm80"), kGolden)
           << row.kernel.name << row.depth;
     }
   }
@@ -29,8 +29,8 @@ TEST(EsmFilter, agrees_with_the_golden_rows_of_the_clamped_exponential) {
 TEST(EsmFilter, blurs_in_the_logarithm_without_overflow_for_any_exponent) {
   for (const nlohmann::json& row : golden_filters().at("esm").at("logspace")) {
     FilterSettings settings = settings_from("esm");
-    settings.option[0] = row.at("c").get<double>();
-    const double c = settings.option[0];
+    option_named(settings, "c") = row.at("c").get<double>();
+    const double c = settings.value("c");
     const bool plain = reads_of(settings) == MapRead::filtered;
     const GoldenKernel kernel{"", row.at("z").get<std::vector<double>>(),
                               row.at("w").get<std::vector<double>>()};
@@ -43,7 +43,7 @@ TEST(EsmFilter, blurs_in_the_logarithm_without_overflow_for_any_exponent) {
 TEST(EsmFilter, fades_by_the_exponential_of_the_distance) {
   for (const nlohmann::json& row : golden_filters().at("esm").at("rows")) {
     FilterSettings settings = settings_from("esm:fallback=0");
-    settings.option[0] = row.at("c").get<double>();
+    option_named(settings, "c") = row.at("c").get<double>();
     FilterLookup lookup;
     lookup.depth = -0.5 + row.at("t").get<double>() + rounding_of(settings.format);
     const StoredTexel texel = filters::esm.reference.store(-0.5, {}, settings);

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <vector>
 
+#include "filter/variance.hpp"
 #include "filter_harness.hpp"
 #include "golden_filters.hpp"
-#include "filter/variance.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -36,8 +36,8 @@ GoldenKernel five() {
 /// Layer i of `count` even ones.
 DepthBand even_layer(int i, int count, double overlap) {
   FilterSettings settings = default_settings(filters::lvsm);
-  settings.option[3] = count;
-  settings.option[4] = overlap;
+  option_named(settings, "layers") = count;
+  option_named(settings, "overlap") = overlap;
   return layer_of(i, settings);
 }
 
@@ -198,7 +198,7 @@ TEST(LvsmFilter, returns_the_same_on_the_gpu_where_layers_are_placed) {
   FilterSettings settings = settings_from("lvsm:placement=1,radius=2");
   const TestMap map = random_map(40, 40, 21);
   filters::lvsm.hooks.adapt(settings, map.depth);
-  ASSERT_GT(settings.option[6], 0.0);
+  ASSERT_GT(settings.value("ends"), 0.0);
   const std::vector<Question> questions = random_questions(map, 256, 22, 4);
   const std::vector<float> gpu = ask_shader(settings, map, questions);
   const Reference reference(settings, map);

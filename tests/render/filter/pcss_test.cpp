@@ -61,7 +61,7 @@ TEST(PcssFilter, widens_by_the_papers_formula_for_local_lights) {
     const double receiver = row.at("dr").get<double>(), blocker = row.at("db").get<double>();
     const double size = row.at("light").get<double>();
     FilterSettings settings = settings_from("pcss:radius=32,samples=64,search_samples=64");
-    settings.option[1] = 0.5 * size;
+    option_named(settings, "light_radius") = 0.5 * size;
     FilterLookup lookup = edge(0.0, receiver - blocker);
     lookup.map_depth = [&](int column, int) { return column < 0 ? 0.8 - (receiver - blocker) / 10.0 : 1.0; };
     lookup.light_distance = receiver;

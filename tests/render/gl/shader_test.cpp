@@ -276,6 +276,31 @@ TEST(ShaderLibrary, compiles_in_an_engines_shader_for_opengl_and_for_vulkan) {
   }
 }
 
+TEST(ShaderLibrary, names_each_option_at_the_place_that_the_settings_have) {
+  for (const Filter* filter : all_filters()) {
+    const std::string file = "filter/option/" + std::string(filter->info.name) + ".glsl";
+    std::string expected;
+    std::size_t place = 0;
+    const auto expect = [&](std::string_view name) {
+      expected += "const int option_" + std::string(name) + " = " + std::to_string(place++) + ";\n";
+    };
+    for (const FilterOption& option : filter->info.options) expect(option.name);
+    for (const std::string_view name : filter->info.own_options) expect(name);
+    const std::string_view text = shader_file(file);
+    EXPECT_EQ(text.substr(text.find('\n') + 1), expected) << file;
+  }
+}
+
+TEST(ShaderLibrary, reads_no_option_by_number) {
+  for (const ShaderFile& file : shader_files()) {
+    if (!file.path.starts_with("library/") && !file.path.starts_with("filter/")) continue;
+    const std::string_view access = "options.value[";
+    for (std::size_t at = file.text.find(access); at != std::string_view::npos;
+         at = file.text.find(access, at + 1))
+      EXPECT_EQ(file.text.substr(at + access.size(), 7), "option_") << file.path;
+  }
+}
+
 TEST(ShaderLibrary, names_no_binding_and_no_uniform_of_ours) {
   std::size_t checked = 0;
   for (const ShaderFile& file : shader_files()) {
