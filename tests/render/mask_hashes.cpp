@@ -291,6 +291,7 @@ class Hashes {
     std::vector<std::byte> memory(page_memory(1024, 1 << 14));
     PageOptions pages;
     pages.policy = &policy;
+    pages.capacity = 1024;
     pages.page_texels = 64;
     pages.target_m = 2.0;
     const FilterSettings settings = settings_for_pages(filter);
