@@ -47,7 +47,9 @@ TEST(Pair, arithmetic_is_that_of_two_numbers) {
       EXPECT_EQ(below(left, right), (a < b ? 1u : 0u) | (b < 3.0 ? 2u : 0u)) << a << ' ' << b;
       EXPECT_EQ(at_least(left, right), (a >= b ? 1u : 0u) | (b >= 3.0 ? 2u : 0u)) << a << ' ' << b;
     }
-    if (a >= 0.0) EXPECT_TRUE(same(sqrt(Pair(4.0, a)).high(), std::sqrt(a))) << a;
+    if (a >= 0.0) {
+      EXPECT_TRUE(same(sqrt(Pair(4.0, a)).high(), std::sqrt(a))) << a;
+    }
   }
 }
 
