@@ -42,8 +42,8 @@ std::string included(const std::string& line) {
 }
 
 /// The stages of src/core in the order in which they may include each other.
-constexpr std::array<std::string_view, 11> kStages = {"lanes", "geometry", "split", "warp",   "cull", "map",
-                                                      "plan",  "measure",  "pages", "lights", "study"};
+constexpr std::array<std::string_view, 12> kStages = {"lanes", "resolve", "geometry", "split", "warp",   "cull",
+                                                      "map",   "plan",    "measure",  "pages", "lights", "study"};
 
 /// Which stage a path begins with; -1: none.
 int level_of(std::string_view path) {
@@ -141,6 +141,22 @@ TEST(Dependencies, vector_instructions_are_named_in_one_file) {
     ++files;
   }
   EXPECT_EQ(files, 1);
+}
+
+TEST(Dependencies, what_is_ignored_is_decided_in_one_place) {
+  const std::regex entry("IgnoredOption::|option_ignored|_in_stable_fit");
+  int files = 0;
+  for (const fs::path& path : core_sources()) {
+    const std::string name = path.generic_string();
+    // Their definition, and their text.
+    if (name.find("/include/gnomon/") != std::string::npos || name.ends_with("plan/omission.cpp")) continue;
+    std::ifstream file(path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!std::regex_search(text, entry)) continue;
+    EXPECT_NE(name.find("src/core/resolve/"), std::string::npos) << path;
+    ++files;
+  }
+  EXPECT_GT(files, 0);
 }
 
 TEST(Dependencies, no_glm_function_is_used_whose_meaning_a_macro_changes) {

@@ -13,6 +13,7 @@
 #include "lights/sizes.hpp"
 #include "plan/input.hpp"
 #include "plan/memory.hpp"
+#include "resolve/resolve.hpp"
 
 namespace gnomon {
 namespace {
@@ -72,17 +73,6 @@ LightMemory parts_of(std::span<std::byte> memory, std::size_t lights, std::size_
   MemoryParts parts(memory);
   return {parts.take<LightMaps>(lights), parts.take<LightWork>(lights),
           parts.take<LightPlace>(kMaxMaps * lights), parts.take<LightPoint>(points)};
-}
-
-/// Options of the plans that sizes are chosen by: maps of the smallest size, none of which a larger one
-/// lacks.
-PlanOptions reference_options(PlanOptions options, int side) noexcept {
-  options.resolution.max_size = side;
-  options.resolution.max_error = 0.0;
-  options.resolution.texel_budget = 0;
-  // Places are those of a cube's faces.
-  if (options.split.partition == Partition::tetrahedron) options.split.partition = Partition::view_depth;
-  return options;
 }
 
 std::string_view invalid_request(const LightRequest& request) noexcept {
@@ -384,7 +374,7 @@ LightPlan plan_lights(const View& view, std::span<const LightRequest> lights, co
   plan.invalid_field = invalid_options(options);
   if (!plan.invalid_field.empty()) return plan;
   const int least = smallest_side(options);
-  const PlanOptions reference = reference_options(options.plan, least);
+  const PlanOptions reference = resolve_lights(options.plan, least);
   if (refuse(view, lights, bounds, reference, plan)) return plan;
   if (memory.size() < light_memory(lights.size(), view.points_world.size())) plan.invalid_field = "memory";
   if (history != nullptr && history->lights.size() < lights.size()) plan.invalid_field = "history.lights";
@@ -410,7 +400,7 @@ LightPlan plan_lights(const View& view, std::span<const LightRequest> lights, co
 }
 
 PlanOptions light_options(const LightOptions& options, const LightMaps& maps) noexcept {
-  return reference_options(options.plan, maps.size > 0 ? maps.size : options.plan.resolution.max_size);
+  return resolve_lights(options.plan, maps.size > 0 ? maps.size : options.plan.resolution.max_size);
 }
 
 Camera camera_round(const Light& light, const Camera& camera) noexcept {

@@ -1,8 +1,8 @@
 // How many texels each light gets, and where the maps of all lights lie in the pool.
 // Based on: Everett, "Generalized Lagrange Multiplier Method for Solving Problems of Optimum Allocation of
 // Resources", 1963: what gains most per cost comes first.
-// Samet, "The Quadtree and Related Hierarchical Data Structures", 1984; Knowlton, "A Fast Storage Allocator", 1965
-// (blocks of powers of two).
+// Samet, "The Quadtree and Related Hierarchical Data Structures", 1984; Knowlton, "A Fast Storage
+// Allocator", 1965 (blocks of powers of two).
 #include "lights/sizes.hpp"
 
 #include <algorithm>

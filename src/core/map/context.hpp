@@ -11,6 +11,7 @@
 #include "gnomon/extend/warp.hpp"
 #include "gnomon/motion.hpp"
 #include "gnomon/plan.hpp"
+#include "resolve/resolve.hpp"
 
 namespace gnomon {
 
@@ -32,21 +33,18 @@ struct ViewedPoint {
   double depth;
 };
 
-/// The input of make_plan with what all maps derive from it.
+/// The input of make_plan, as it was resolved, with what all maps derive from it.
 struct PlanContext {
   const Camera& camera;
   const SceneBounds& bounds;
-  const PlanOptions& options;
+  const PlanOptions& options;  // of Resolved
   CameraAxes axes;
-  bool stable = false;                           // Fit::stable
-  const VisibleDepths* seen = nullptr;           // where they are usable; nullptr: unknown
-  std::span<const glm::dvec3> seen_points = {};  // world space; empty: unknown
-  double error_bound = 0.0;                      // maps shrink to this bound of m; 0: they keep their size
-  bool remembers = false;                        // the caller keeps a PlanHistory
-  bool keeps = false;                            // cascades behind the first, over frames
-  bool same_light = false;                       // as in the last frame, to the last bit
-  std::span<const SharedView> views = {};        // cameras that share the maps; empty: `camera` alone
-  std::int64_t frame = 0;                        // of the history
+  Conduct how = {};
+  const VisibleDepths* visible_depths = nullptr;    // where they are usable; nullptr: unknown
+  std::span<const glm::dvec3> visible_points = {};  // world space; empty: unknown
+  bool same_light = false;                          // as in the last frame, to the last bit
+  std::span<const SharedView> views = {};           // cameras that share the maps; empty: `camera` alone
+  std::int64_t frame = 0;                           // of the history
   // Of the last frame, where one is remembered.
   glm::dvec3 last_eye{0.0}, last_forward{0.0};
 };

@@ -196,7 +196,7 @@ HeightRange perspective_heights(const PlanContext& c, const MapRequest& request,
     far_distance = max_of(far_distance, request.range * (1.0 + kDepthPadding));
     near_distance = min_of(near_distance, kLooseNear * far_distance);
   }
-  if (c.stable) {
+  if (c.how.stable) {
     // Whole powers of two, so that stored depths do not change while the nearest caster moves a little.
     near_distance = std::ldexp(1.0, std::ilogb(near_distance));
     far_distance = max_of(far_distance, request.range * (1.0 + kDepthPadding));

@@ -108,7 +108,7 @@ double widened_ratio(const WarpInput& in, const MapRequest& request, const Light
 PlaneMap chosen_warp(const PlanContext& c, const MapRequest& request, const LightBody& body,
                      const WarpQuestion& question, MapResult& result) noexcept {
   const WarpInput& in = question.in;
-  if (is_unwarped(request.warp) || c.stable) return question.points.under(in.unwarped);
+  if (is_unwarped(request.warp)) return question.points.under(in.unwarped);
   const WarpChoice choice = request.warp.choose(in);
   // What is kept from the last frame gains what it did then.
   const bool kept = in.start != nullptr && in.start->use == StartUse::keep;
@@ -130,18 +130,17 @@ PlaneMap chosen_warp(const PlanContext& c, const MapRequest& request, const Ligh
 /// The best map of the plane, or the steady way there.
 PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const LightBody& body,
                       MapResult& result) noexcept {
-  const bool steady = c.remembers && !c.stable && c.options.fit != Fit::warped_stable;
-  const bool warped = !is_unwarped(request.warp) && !c.stable;
-  if (!warped && c.options.fit != Fit::rotated && !steady) return body.under(request.unwarped);
+  const bool warped = !is_unwarped(request.warp);
+  if (!warped && !c.how.rotated && !c.how.steady) return body.under(request.unwarped);
   WarpQuestion question(c, request, body);
   WarpStart start;
-  const bool follows = steady && warped && request.warp.follows_start;
+  const bool follows = c.how.steady && warped && request.warp.follows_start;
   if (follows && find_start(c, request, question, start)) question.in.start = &start;
   PlaneMap plane = chosen_warp(c, request, body, question, result);
   if (follows) result.searched = searched_warp(c, request, plane);
-  if (c.options.fit == Fit::rotated)
+  if (c.how.rotated)
     plane = question.points.under(turned_to_least_area(question.in, plane.choice));
-  if (steady) return steady_plane(c, request, question, plane, result);
+  if (c.how.steady) return steady_plane(c, request, question, plane, result);
   limit_to_shape(c, question.in.body, plane);
   return plane;
 }
@@ -156,7 +155,7 @@ double objective_of(const PlanContext& c, const TexelsNeeded& needed) noexcept {
 /// none.
 void shape_rows(const PlanContext& c, const MapRequest& request, const LightBody& body, MapResult& result,
                 Fitted& fitted) noexcept {
-  if (!undoes_warps(requested_shape(c.options)) || keeps_linear_texels(c)) return;
+  if (!undoes_warps(*c.how.shape)) return;
   const int map = request.slot.cascade;
   fitted.rows = row_shape(c, fitted.plane, 0.0);
   TexelsNeeded shaped = fitted.needed;
@@ -229,7 +228,7 @@ LightBody whole_frustum(const MapRequest& request, const LightBody& body) noexce
 /// The last frame's map where it still serves: view inside, casters inside.
 bool kept_from_before(const PlanContext& c, const MapRequest& request, const LightBody& body, ShadowMap& map,
                       Fitted& fitted) noexcept {
-  if (c.options.fit != Fit::warped_stable || !c.same_light || !remembered(request)) return false;
+  if (!c.how.caches_maps || !c.same_light || !remembered(request)) return false;
   const PlanHistory::Map& last = *request.last;
   const HeldMap held = held_map(c, request, body);
   if (!held.holds || border_of(c.options, map.width, map.height, border_share(c, request, body, held.plane)) >
@@ -251,14 +250,13 @@ bool kept_from_before(const PlanContext& c, const MapRequest& request, const Lig
 
 void fit(const PlanContext& c, const MapRequest& request, const LightBody& body, double obliquity,
          MapResult& result, Fitted& fitted) noexcept {
-  const bool keeps = c.options.fit == Fit::warped_stable;
   ShadowMap& map = result.map;
   fitted.plane = chosen_plane(c, request, body, result);
   widen_for_floats(request, body, fitted.plane);
-  if (keeps) grow(fitted.plane, kRoom);
-  if (c.remembers && !c.stable) {
+  if (c.how.caches_maps) grow(fitted.plane, kRoom);
+  if (c.how.remembers && !c.how.stable) {
     map.warp = fitted.plane.choice.kappa > 0.0 ? &request.warp : &warps::none;
-    if (keeps)
+    if (c.how.caches_maps)
       result.report(remembered(request) ? PlanEventKind::map_refitted : PlanEventKind::map_appeared, 1.0);
   }
   const double share = border_share(c, request, body, fitted.plane);
@@ -269,7 +267,7 @@ void fit(const PlanContext& c, const MapRequest& request, const LightBody& body,
   map.height = size.height;
   map.filter_margin_texels = size.border;
   border_rows(c, body, result, fitted);
-  if (requested_shape(c.options).round != nullptr)
+  if (c.how.shape->round != nullptr)
     fitted.round = round_texels(c, request, body, fitted.plane, result, fitted.bordered.plane);
   const std::int64_t saved =
       std::int64_t{request.slot.width} * request.slot.height - std::int64_t{size.width} * size.height;
@@ -286,7 +284,7 @@ void fit(const PlanContext& c, const MapRequest& request, const LightBody& body,
       max_of(fitted.plane.a_max - fitted.plane.a_min, fitted.plane.b_max - fitted.plane.b_min);
   fitted.depths = request.space.perspective ? LightDepths{fitted.heights.bottom, fitted.heights.height}
                                             : padded(fitted.heights.bottom, fitted.heights.height, extent);
-  if (keeps) {
+  if (c.how.caches_maps) {
     fitted.depths.bottom -= kRoom * fitted.depths.height;
     fitted.depths.height *= 1.0 + 2.0 * kRoom;
   }
@@ -313,9 +311,8 @@ void write_snap_key(const Fitted& fitted, ShadowMap& map) noexcept {
 void focused_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept {
   ShadowMap& map = result.map;
   begin_record(c, request, map);
-  if (c.stable) map.warp = &warps::none;
   LightBody body = in_light_space(c, request);
-  if (c.stable) body = whole_frustum(request, body);
+  if (c.how.stable) body = whole_frustum(request, body);
   const double obliquity = pixel_obliquity(c, request.body);
   Fitted fitted;
   const bool kept = kept_from_before(c, request, body, map, fitted);
@@ -328,14 +325,14 @@ void focused_map(const PlanContext& c, const MapRequest& request, MapResult& res
   map.depth_range_world = depth_range(request, fitted);
   const glm::dmat4 gl_from_relative = clip_from_light(map, fitted) * request.space.light_from_relative();
   glm::dvec2 longest = fitted.round.longest;
-  if (requested_shape(c.options).serving != nullptr)
+  if (c.how.shape->serving != nullptr)
     longest = serve_seen(c, request, gl_from_relative, result);
   complete_record(
       c, request,
       {body, fitted.plane, fitted.swept, fitted.needed, fitted.rows, obliquity, gl_from_relative, longest},
       map);
-  if (c.stable) write_snap_key(fitted, map);
-  if (c.remembers) result.gl_from_world = world_matrix(gl_from_relative, c.camera.position);
+  if (c.how.stable) write_snap_key(fitted, map);
+  if (c.how.remembers) result.gl_from_world = world_matrix(gl_from_relative, c.camera.position);
   if (kept) {
     map.warp = map.kappa > 0.0 ? &request.warp : &warps::none;
     // The very bits of the last frame: what is drawn stays as it is.

@@ -152,7 +152,7 @@ FocusedObjective focused_objective(const PlanContext& c, const MapRequest& reque
   if (in.is_unwarped(choice)) return {without, without};
   const double ratio = gain_ratio(c, request, question, choice);
   if (!takes(request.warp, choice, ratio)) return {without, without};
-  const bool rotated = c.options.fit == Fit::rotated;
+  const bool rotated = c.how.rotated;
   const WarpChoice drawn = rotated ? turned_to_least_area(in, choice) : choice;
   const double with = drawn.gain_ratio > 0.0 ? drawn.gain_ratio * inner : error.value(drawn);
   return {with * border_factor(c, request, question, drawn), without};

@@ -290,7 +290,7 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, cons
           : in.depth_begin;
   in.depth_per_y = space.perspective ? in.view.forward.y : in.sin_gamma;
   // A warp has to beat the map that would be drawn without it.
-  if (c.options.fit == Fit::rotated) in.unwarped = turned_to_least_area(in, in.unwarped);
+  if (c.how.rotated) in.unwarped = turned_to_least_area(in, in.unwarped);
 }
 
 ServedBody::ServedBody(const PlanContext& c, const MapRequest& request, const LightBody& body,

@@ -91,7 +91,7 @@ MapSize map_size(const PlanContext& c, const MapRequest& request, const PlaneMap
                  const TexelsNeeded& needed, double obliquity, double share) noexcept {
   const int full_width = request.slot.width, full_height = request.slot.height;
   MapSize size{full_width, full_height, border_of(c.options, full_width, full_height, share), 0.0};
-  if (!(c.error_bound > 0.0)) return size;
+  if (!(c.how.error_bound > 0.0)) return size;
   const auto bound = [&](const MapSize& s) {
     return needed.bound(glm::dvec2(s.width, s.height) - 2.0 * s.border, obliquity);
   };
@@ -104,12 +104,12 @@ MapSize map_size(const PlanContext& c, const MapRequest& request, const PlaneMap
                                           static_cast<double>(full.border) / (full_width - 2.0 * full.border))
                                  : std::numeric_limits<double>::infinity();
   const auto holds = [&](const MapSize& s) {
-    return bound(s) <= c.error_bound && s.border <= most_border * (s.width - 2.0 * s.border);
+    return bound(s) <= c.how.error_bound && s.border <= most_border * (s.width - 2.0 * s.border);
   };
   if (!holds(size)) return size;
   glm::dvec2 inside = needed.sides;
   if (square) inside = glm::dvec2(max_of(inside.x, inside.y));
-  inside *= needed.bound(inside, obliquity) / c.error_bound;
+  inside *= needed.bound(inside, obliquity) / c.how.error_bound;
   const double reach = c.options.filter.world > 0.0 ? c.options.filter.world * share : 0.0;
   const double texels = 2.0 * c.options.filter.texels;
   const int least = least_budget_side(c.options);

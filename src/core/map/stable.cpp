@@ -131,7 +131,6 @@ std::int64_t snap_index(double value, double step) noexcept {
 void stable_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept {
   ShadowMap& map = result.map;
   begin_record(c, request, map);
-  map.warp = &warps::none;
   const Grid grid = grid_of(c, request, map);
   const LightBody body = in_light_space(c, request);
   const glm::dvec2 centre = grid.centre - glm::dvec2(grid.eye);  // relative to the camera

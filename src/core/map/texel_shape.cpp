@@ -19,7 +19,6 @@
 #include "map/gain.hpp"
 #include "map/size.hpp"
 #include "warp/plane_error.hpp"
-#include "warp/registry.hpp"
 
 namespace gnomon {
 namespace {
@@ -109,7 +108,7 @@ void each_seen(const PlanContext& c, const MapRequest& request, const glm::dmat4
   const glm::dvec2 margin = static_cast<double>(map.filter_margin_texels) / linear.size();
   const glm::dvec3 travel = -request.space.frame.z;
   const double per_slope = pixels_per_slope(c.camera);
-  for (const glm::dvec3& point : c.seen_points) {
+  for (const glm::dvec3& point : c.visible_points) {
     const glm::dvec3 relative = point - c.camera.position;
     const double depth = glm::dot(c.axes.forward, relative);
     if (!(depth >= request.begin && depth <= request.end)) continue;
@@ -157,25 +156,10 @@ double RowShape::lengthening(const PlaneMap& plane, double x, double y) const no
   return 0.5 / p.texel_from_ndc[1][1];
 }
 
-bool ignores_shape(const PlanContext& c, bool local_light) noexcept {
-  const Shape& shape = requested_shape(c.options);
-  if (shape.serving != nullptr) return local_light || !follows_seen(c);
-  if (shape.round != nullptr && (!local_light || sizes_follow_error(c))) return true;
-  return !shape.affine && keeps_linear_texels(c);
-}
-
-bool keeps_linear_texels(const PlanContext& c) noexcept {
-  return c.options.fit != Fit::tight || c.remembers;
-}
-
-bool sizes_follow_error(const PlanContext& c) noexcept {
-  return c.options.resolution.max_error > 0.0 || c.options.resolution.texel_budget > 0;
-}
-
 RowShape row_shape(const PlanContext& c, const PlaneMap& plane, double border) noexcept {
-  const Shape& shape = requested_shape(c.options);
+  const Shape& shape = *c.how.shape;
   const glm::dvec2 row = plane.choice.row_b;
-  if (!undoes_warps(shape) || keeps_linear_texels(c) || !(plane.choice.kappa > 0.0) || row.x != 0.0 ||
+  if (!undoes_warps(shape) || !(plane.choice.kappa > 0.0) || row.x != 0.0 ||
       !(row.y > 0.0) || plane.choice.row_a != glm::dvec2(1.0, 0.0))
     return {};
   const double near = inverse_w(plane, plane.b_min), far = inverse_w(plane, plane.b_max);
@@ -186,7 +170,7 @@ RowShape row_shape(const PlanContext& c, const PlaneMap& plane, double border) n
 }
 
 void limit_to_shape(const PlanContext& c, std::span<const WarpInput::Point> body, PlaneMap& plane) noexcept {
-  if (!undoes_warps(requested_shape(c.options)) || keeps_linear_texels(c)) return;
+  if (!undoes_warps(*c.how.shape)) return;
   const double most = elementary::exp(kMostOverBody);
   if (!(plane.stretch > most)) return;
   WarpChoice choice = plane.choice;
@@ -225,8 +209,7 @@ BorderedPlane with_border(const RowShape& rows, const PlaneMap& plane, double bo
 RoundTexels round_texels(const PlanContext& c, const MapRequest& request, const LightBody& body,
                          const PlaneMap& plane, MapResult& result, PlaneMap& whole) noexcept {
   RoundTexels texels;
-  const Shape& shape = requested_shape(c.options);
-  if (!request.space.perspective || keeps_linear_texels(c) || sizes_follow_error(c)) return texels;
+  const Shape& shape = *c.how.shape;
   ShadowMap& map = result.map;
   // A map that is smaller as its error is small everywhere would not keep it so.
   const bool full = map.width >= request.slot.width && map.height >= request.slot.height;
@@ -270,21 +253,15 @@ RoundTexels round_texels(const PlanContext& c, const MapRequest& request, const 
   return texels;
 }
 
-bool follows_seen(const PlanContext& c) noexcept {
-  return requested_shape(c.options).serving != nullptr && !c.seen_points.empty() && c.views.empty() &&
-         c.options.filter.world == 0.0 && !keeps_linear_texels(c) && !sizes_follow_error(c);
-}
-
 glm::dvec2 serve_seen(const PlanContext& c, const MapRequest& request, const glm::dmat4& gl_from_relative,
                       MapResult& result) noexcept {
-  if (!follows_seen(c)) return glm::dvec2(1.0);
   ShadowMap& map = result.map;
   if (map.width < request.slot.width || map.height < request.slot.height) {
     // Smaller as its error is small everywhere, which it would not stay.
     result.omit({OmissionKind::shape_without_gain, map.cascade, 1.0, 0.0, 0});
     return glm::dvec2(1.0);
   }
-  const Shape& shape = requested_shape(c.options);
+  const Shape& shape = *c.how.shape;
   Seen seen;
   seen.needs.margin_texels = map.filter_margin_texels;
   each_seen(c, request, gl_from_relative, map, [&](const SeenTexel& at) {

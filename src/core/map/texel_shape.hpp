@@ -19,14 +19,6 @@ struct RowShape {
   [[nodiscard]] double lengthening(const PlaneMap& plane, double x, double y) const noexcept;
 };
 
-/// True of plans whose maps are kept or turned: no shape is fitted to those.
-[[nodiscard]] bool keeps_linear_texels(const PlanContext& c) noexcept;
-/// True of plans whose maps are as large as their error requires, or share a budget by it: it is reckoned for
-/// texels of one size.
-[[nodiscard]] bool sizes_follow_error(const PlanContext& c) noexcept;
-/// True where a shape was requested that maps of this plan cannot have.
-[[nodiscard]] bool ignores_shape(const PlanContext& c, bool local_light) noexcept;
-
 /// Linear where the requested shape is of no use to a map of this plane. `border`: share of the map's height
 /// that it keeps free at either end.
 [[nodiscard]] RowShape row_shape(const PlanContext& c, const PlaneMap& plane, double border) noexcept;
@@ -44,7 +36,7 @@ struct BorderedPlane {
 };
 [[nodiscard]] BorderedPlane with_border(const RowShape& rows, const PlaneMap& plane, double border) noexcept;
 
-/// Such texels of one map.
+/// Texels of one map that lie even in angle round a local light.
 struct RoundTexels {
   bool used = false;
   double border = 0.0;      // how far the map reaches beyond the body's rectangle, over the body's, at most
@@ -57,11 +49,8 @@ struct RoundTexels {
 [[nodiscard]] RoundTexels round_texels(const PlanContext& c, const MapRequest& request, const LightBody& body,
                                        const PlaneMap& plane, MapResult& result, PlaneMap& whole) noexcept;
 
-/// True where the options name such a shape, and maps of this plan can follow what is seen.
-[[nodiscard]] bool follows_seen(const PlanContext& c) noexcept;
-
-/// Sets the map's shape by the points seen in its depths, where that lowers the objective. `map` has its size
-/// and margin; `gl_from_relative`: its matrix for linear texels, from points relative to the camera.
+/// Sets the map's shape by the points visible in its depths, where that lowers the objective. `map` has its
+/// size and margin; `gl_from_relative`: its matrix for linear texels, from points relative to the camera.
 /// Returns how much longer the longest texels become along x and y.
 [[nodiscard]] glm::dvec2 serve_seen(const PlanContext& c, const MapRequest& request,
                                     const glm::dmat4& gl_from_relative, MapResult& result) noexcept;

@@ -16,6 +16,7 @@
 #include "measure/measure_grid.hpp"
 #include "measure/metric_lanes.hpp"
 #include "plan/select.hpp"
+#include "resolve/resolve.hpp"
 
 namespace gnomon {
 namespace {
@@ -24,23 +25,6 @@ namespace {
 constexpr int kBaseTexels = 1024;
 // Surfaces on the edge of the base are rounded to either side of it; the side of a page that holds all of it.
 constexpr double kEdgeRoom = 1e-6, kWholeSide = 1.0 + 4.0 * kEdgeRoom;
-
-PlanOptions base_options(const PlanOptions& options, bool stable, const PagePlan& pages) noexcept {
-  PlanOptions base;
-  base.cascades = 1;
-  base.resolution.max_size = kBaseTexels;
-  base.fit = stable ? Fit::stable : Fit::tight;
-  base.warp = options.warp;
-  if (stable || base.warp.warp == nullptr) base.warp.warp = &warps::none;
-  base.warp.planes = {};
-  base.bias = options.bias;
-  base.clip_space = options.clip_space;
-  base.prune = options.prune.without(PruneRule::metric_resolution);
-  // The coarsest page shows the whole base: casters in its border are among the base's.
-  base.filter.texels = std::min(0.25 * kBaseTexels, std::ceil(static_cast<double>(kBaseTexels) *
-                                                              pages.border_texels / pages.page_texels));
-  return base;
-}
 
 /// Places from 0 to 1 across the map.
 void place_on_map(PageBase& base) noexcept {
@@ -345,7 +329,9 @@ double aspect_of(PageContext& c, std::uint32_t base) noexcept {
 PlanStatus plan_base(const Light& light, const SceneBounds& bounds, PageContext& c, PagePlan& out) noexcept {
   const PlanOptions& options = c.options.plan;
   const bool stable = options.fit == Fit::stable || out.policy->octaves;
-  const ShadowPlan plan = make_plan(c.camera, light, bounds, base_options(options, stable, out));
+  const double border = std::ceil(static_cast<double>(kBaseTexels) * out.border_texels / out.page_texels);
+  const ResolvedPages base_of = resolve_pages(options, stable, kBaseTexels, border);
+  const ShadowPlan plan = make_plan(c.camera, light, bounds, base_of.options);
   out.invalid_field = plan.invalid_field;
   out.origin_world = plan.origin_world;
   out.light_direction = plan.light_direction;
@@ -355,9 +341,8 @@ PlanStatus plan_base(const Light& light, const SceneBounds& bounds, PageContext&
     if (about_maps || omission.kind == OmissionKind::depth_near_light)
       out.omission[static_cast<std::size_t>(out.omission_count++)] = omission;
   }
-  if (options.warp.has_planes())
-    out.omission[static_cast<std::size_t>(out.omission_count++)] = {
-        OmissionKind::option_ignored, -1, static_cast<double>(IgnoredOption::planes), 0.0, 0};
+  for (const Omission& omission : base_of.ignored.entries())
+    out.omission[static_cast<std::size_t>(out.omission_count++)] = omission;
   if (plan.status != PlanStatus::ok) return plan.status;
   c.base_count = plan.map_count;
   c.select_by_map = plan.selection != MapSelection::view_depth;

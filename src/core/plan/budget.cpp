@@ -84,15 +84,6 @@ MapSizes budgeted_sizes(const ShadowPlan& fitted, const PlanOptions& options, in
   return sizes_at(enough);
 }
 
-double error_bound(const PlanOptions& options, bool has_history) noexcept {
-  const ResolutionOptions& r = options.resolution;
-  const bool free = options.fit == Fit::tight || options.fit == Fit::rotated;
-  if (!free || has_history || r.texel_budget > 0) return 0.0;
-  const bool prunes = options.prune.has(PruneRule::metric_resolution);
-  if (!(r.max_error > 0.0)) return prunes ? r.prune_error : 0.0;
-  return max_of(prunes ? min_of(r.max_error, r.prune_error) : r.max_error, kLeastError);
-}
-
 double largest_error(const ShadowPlan& fitted, const PlanOptions& options, const MapSizes& sizes) noexcept {
   double m = 0.0;
   for (const ShadowMap& map : fitted.maps()) {

@@ -28,8 +28,4 @@ struct MapSizes {
 [[nodiscard]] double largest_error(const ShadowPlan& fitted, const PlanOptions& options,
                                    const MapSizes& sizes) noexcept;
 
-/// The bound that maps shrink to: max_error, or prune_error where PruneRule::metric_resolution is on; 0 where
-/// neither applies: a grid that must not change, a history, a texel budget.
-[[nodiscard]] double error_bound(const PlanOptions& options, bool has_history) noexcept;
-
 }  // namespace gnomon

@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <variant>
 
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
@@ -48,22 +47,6 @@ bool same_lens(const Camera& a, const Camera& b) noexcept {
 }
 
 }  // namespace
-
-bool keeps_cascades(const Light& light, const PlanOptions& options, bool has_history) noexcept {
-  return options.cadence.frames > 1 && has_history && std::holds_alternative<DirectionalLight>(light) &&
-         (!divides_parallel(options.split.partition) || options.fit == Fit::stable) &&
-         options.resolution.max_error == 0.0 && options.resolution.texel_budget == 0;
-}
-
-PlanOptions with_fixed_splits(PlanOptions options) noexcept {
-  options.split.range = SplitRange::camera;
-  const SplitScheme scheme = options.split.scheme;
-  if (scheme == SplitScheme::automatic || scheme == SplitScheme::optimal)
-    options.split.scheme = SplitScheme::practical;
-  // As split_depths takes it: options that hold no number equal no others.
-  if (std::isnan(options.split.lambda)) options.split.lambda = 0.5;
-  return options;
-}
 
 double room_for_motion(const PlanContext& c, double end) noexcept {
   const CadenceOptions& cadence = c.options.cadence;

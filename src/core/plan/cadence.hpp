@@ -6,13 +6,6 @@
 
 namespace gnomon {
 
-/// Whether cascades behind the first are kept over frames: a directional light with a history, by view depth,
-/// with maps of a fixed number and size.
-[[nodiscard]] bool keeps_cascades(const Light& light, const PlanOptions& options, bool has_history) noexcept;
-
-/// The options with splits that no motion of the camera moves.
-[[nodiscard]] PlanOptions with_fixed_splits(PlanOptions options) noexcept;
-
 /// How far, in world units, a point of the slice up to the view depth `end` may move against the camera while
 /// its map is kept.
 [[nodiscard]] double room_for_motion(const PlanContext& c, double end) noexcept;

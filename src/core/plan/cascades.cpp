@@ -1,6 +1,6 @@
 // The maps of parallel light along the view.
-// Based on: Lauritzen, Salvi, Lefohn, "Sample Distribution Shadow Maps", 2010 (bounds of a partition's samples in
-// light space).
+// Based on: Lauritzen, Salvi, Lefohn, "Sample Distribution Shadow Maps", 2010 (bounds of a partition's
+// samples in light space).
 #include "plan/cascades.hpp"
 
 #include <cmath>
@@ -91,11 +91,8 @@ void fill_with_frusta(const PlanContext& c, double begin, double end, Slice& sli
 }
 
 /// Depths in front of `begin` that a cascade shows besides its own: none where the one before it ends sooner.
-double overlap_before(const PlanContext& c, const ParallelScene& scene, const ShadowPlan& plan,
-                      double begin) noexcept {
-  // A point takes the finest map, or the first that holds it, not two.
-  const bool one_map = c.options.split.selection == MapSelection::finest || scene.planes != nullptr;
-  if (plan.map_count == 0 || one_map) return 0.0;
+double overlap_before(const PlanContext& c, const ShadowPlan& plan, double begin) noexcept {
+  if (plan.map_count == 0) return 0.0;
   const ShadowMap& before = plan.map[static_cast<std::size_t>(plan.map_count - 1)];
   return before.depth_end == begin ? c.options.split.overlap * (begin - before.depth_begin) : 0.0;
 }
@@ -103,7 +100,8 @@ double overlap_before(const PlanContext& c, const ParallelScene& scene, const Sh
 /// [from, to]: the depths between the neighbouring cascades.
 void slice_between(const PlanContext& c, const ParallelScene& scene, const ShadowPlan& plan, double from,
                    double to, Slice& slice) noexcept {
-  const DepthRange seen = c.seen == nullptr ? DepthRange{from, to} : seen_between(*c.seen, from, to);
+  const DepthRange seen =
+      c.visible_depths == nullptr ? DepthRange{from, to} : seen_between(*c.visible_depths, from, to);
   // A single depth is a slice only where it is all there is.
   const bool covered = from == to && plan.map_count > 0;
   const double pseudo_near = c.options.split.pseudo_near;
@@ -113,13 +111,13 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
   if (!slice.wanted) return;
   slice.begin = holds_nothing ? from : seen.begin;
   slice.end = holds_nothing ? to : seen.end;
-  slice.overlap = overlap_before(c, scene, plan, slice.begin);
+  slice.overlap = overlap_before(c, plan, slice.begin);
   if (holds_nothing) {
     fill_with_frusta(c, slice.begin - slice.overlap, slice.end, slice);
   } else if (slice.overlap > 0.0) {
     fill_body(c, scene, slice.begin - slice.overlap, slice.end, max_of(pseudo_near, slice.begin), slice);
   }
-  if (c.seen_points.empty()) return;
+  if (c.visible_points.empty()) return;
   if (slice.body != &slice.own) slice.own = *slice.body;
   slice.body = &slice.own;
   clip_to_points(c, scene.space.frame, slice.begin - slice.overlap, slice.end, slice.own);
@@ -146,7 +144,7 @@ PlanHistory::KeptMap kept_from(const PlanContext& c, const MapResult& result, st
 
 void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade, DepthRange between,
                   MapSizes::Size size, PlanHistory* history, ShadowPlan& plan) noexcept {
-  const bool keeps = c.keeps && cascade > 0;
+  const bool keeps = c.how.caches_cascades && cascade > 0;
   if (keeps) {
     const PlanHistory::KeptMap* const kept = kept_map(c, *history, {cascade, between.begin, between.end});
     if (kept != nullptr) return keep(c, *kept, *history, plan);
@@ -181,7 +179,7 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
   request.viewed = slice.viewed.points();
   request.room = slice.room;
   MapResult result(next_map(plan));
-  if (c.stable) {
+  if (c.how.stable) {
     stable_map(c, request, result);
   } else {
     focused_map(c, request, result);
@@ -226,7 +224,7 @@ void clip_to_points(const PlanContext& c, const LightFrame& frame, double begin,
   constexpr double kRounding = 1e-9;
   const double slack =
       kRounding * (max_of(std::abs(begin), std::abs(end)) + largest_component(c.camera.position));
-  for (const glm::dvec3& point : c.seen_points) {
+  for (const glm::dvec3& point : c.visible_points) {
     const glm::dvec3 p = point - c.camera.position;
     const double depth = glm::dot(c.axes.forward, p);
     if (!(depth >= begin - slack && depth <= end + slack)) continue;
@@ -263,7 +261,7 @@ void plan_cascades(const PlanContext& c, const ParallelScene& scene, int cascade
   plan.map_count = plan.omission_count = 0;
   const CascadeEdges edges = cascade_edges(c, scene, cascades, history);
   for (int i = 0; i < edges.omission_count; ++i) omit(plan, edges.omission[static_cast<std::size_t>(i)]);
-  if (history != nullptr && !c.stable) {
+  if (history != nullptr && !c.how.stable) {
     history->edge = edges.depth;
     history->edge_count = edges.count;
   }
@@ -275,14 +273,13 @@ void plan_cascades(const PlanContext& c, const ParallelScene& scene, int cascade
 
 // Errors go by 1 / size, so that maps of any other size tell: one trial for each number of cascades, and the
 // plan itself.
-void plan_within(const PlanContext& c, const ParallelScene& scene, PlanHistory* history,
+void plan_within(const PlanContext& c, const ParallelScene& scene, bool square, PlanHistory* history,
                  ShadowPlan& plan) noexcept {
   const PlanOptions& options = c.options;
   // Trials keep their size, and leave nothing to remember.
   PlanContext trial_context = c;
-  trial_context.error_bound = 0.0;
-  trial_context.remembers = false;
-  const bool square = c.stable || options.fit == Fit::warped_stable || history != nullptr;
+  trial_context.how.error_bound = 0.0;
+  trial_context.how.forget();
   // Errors closer than this are the same: the map more gains nothing.
   constexpr double kWorthAMap = 0.99;
   int best = options.cascades;

@@ -57,8 +57,9 @@ void clip_to_points(const PlanContext& c, const LightFrame& frame, double begin,
 void plan_cascades(const PlanContext& c, const ParallelScene& scene, int cascades, const MapSizes& sizes,
                    PlanHistory* history, ShadowPlan& plan) noexcept;
 
-/// As many cascades, as large, as resolution.max_error or the texel budget asks for.
-void plan_within(const PlanContext& c, const ParallelScene& scene, PlanHistory* history,
+/// As many cascades, as large, as resolution.max_error or the texel budget asks for. `square`: sides that
+/// share a budget are equal.
+void plan_within(const PlanContext& c, const ParallelScene& scene, bool square, PlanHistory* history,
                  ShadowPlan& plan) noexcept;
 
 /// A request without a map of the last frame, for comparing warps and partitions.

@@ -97,7 +97,8 @@ const SplitTable::Cut& SplitTable::cut(double depth) noexcept {
 }
 
 double SplitTable::cost(double begin, double end) noexcept {
-  const DepthRange range = c_.seen == nullptr ? DepthRange{begin, end} : seen_between(*c_.seen, begin, end);
+  const DepthRange range =
+      c_.visible_depths == nullptr ? DepthRange{begin, end} : seen_between(*c_.visible_depths, begin, end);
   if (range.empty()) return 0.0;
   AlongView view(c_.options.warp.objective, 0.0);
   std::size_t count = 0;
@@ -117,15 +118,10 @@ double SplitTable::cost(double begin, double end) noexcept {
   return warped_ ? view.quick().value : view.unwarped();
 }
 
-bool covers_camera(const PlanContext& c) noexcept {
-  const SplitRange range = c.options.split.range;
-  return range == SplitRange::camera || (range == SplitRange::automatic && c.stable);
-}
-
 /// Depths that hold receivers, or all of the camera's. `body`: of the receivers in view.
 DepthRange received_depths(const PlanContext& c, const DepthRange& body) noexcept {
   const double n = c.camera.near_depth, f = c.camera.far_depth;
-  if (covers_camera(c)) return {n, f};
+  if (c.options.split.range == SplitRange::camera) return {n, f};
   const double low = min_of(body.begin, f), high = max_of(body.end, n);
   // A flat scene's depth must not fall outside its own range by rounding: of the depth itself, and of the
   // frustum's far corners that it was cut from.
@@ -144,7 +140,8 @@ void report_depths(CascadeEdges& edges, OmissionKind kind, double begin, double 
 
 /// The body between two depths, less what is not visible at the ends.
 Polytope between(const PlanContext& c, const Polytope& body, double from, double to) noexcept {
-  const DepthRange range = c.seen == nullptr ? DepthRange{from, to} : seen_between(*c.seen, from, to);
+  const DepthRange range =
+      c.visible_depths == nullptr ? DepthRange{from, to} : seen_between(*c.visible_depths, from, to);
   Polytope part = body;
   if (range.empty()) {
     part.vertex_count = 0;
@@ -297,8 +294,7 @@ DepthRange depths_of(const Polytope& body, const glm::dvec3& forward) noexcept {
 
 const VisibleDepths* usable_depths(const PlanContext& c, const DepthRange& body,
                                    const VisibleDepths* visible) noexcept {
-  if (visible == nullptr || visible->empty() || c.camera.orthographic) return nullptr;
-  if (c.options.split.range == SplitRange::camera) return nullptr;
+  if (visible == nullptr) return nullptr;
   // Surfaces that are all no receivers, or a histogram of another scene, are as good as unknown.
   const DepthRange received = received_depths(c, body);
   return seen_between(*visible, received.begin, received.end).empty() ? nullptr : visible;
@@ -306,26 +302,25 @@ const VisibleDepths* usable_depths(const PlanContext& c, const DepthRange& body,
 
 CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int cascades,
                            PlanHistory* history) noexcept {
-  const PlanOptions& options = c.options;
   CascadeEdges result;
   result.count = cascades + 1;
   const std::span<double> edges{result.depth.data(), static_cast<std::size_t>(result.count)};
   const DepthRange received = received_depths(c, scene.depths);
-  if (!covers_camera(c)) {
+  if (c.options.split.range != SplitRange::camera) {
     report_depths(result, OmissionKind::depth_without_receiver, c.camera.near_depth, received.begin);
     report_depths(result, OmissionKind::depth_without_receiver, received.end, c.camera.far_depth);
   }
-  const DepthRange cover = c.seen == nullptr ? received : seen_between(*c.seen, received.begin, received.end);
+  const DepthRange cover = c.visible_depths == nullptr
+                               ? received
+                               : seen_between(*c.visible_depths, received.begin, received.end);
   report_depths(result, OmissionKind::depth_not_visible, received.begin, cover.begin);
   report_depths(result, OmissionKind::depth_not_visible, cover.end, received.end);
-  SplitOptions split = options.split;
-  if (split.scheme == SplitScheme::automatic && c.stable) split.scheme = SplitScheme::practical;
+  const SplitOptions& split = c.options.split;
   split_depths(cover.begin, cover.end, split, edges);
   const bool logarithmic = split.scheme == SplitScheme::logarithmic ||
                            split.scheme == SplitScheme::automatic || split.scheme == SplitScheme::optimal;
-  if (logarithmic && c.seen != nullptr) split_seen(*c.seen, cover, edges);
-  // What is in view would move the edges of a stable plan, and with them its grids.
-  const bool optimal = split.scheme == SplitScheme::optimal && !c.stable;
+  if (logarithmic && c.visible_depths != nullptr) split_seen(*c.visible_depths, cover, edges);
+  const bool optimal = split.scheme == SplitScheme::optimal;
   if (optimal && !(history != nullptr && take_searched(history->searched_edges, history->frame, edges))) {
     optimise(c, scene, edges);
     if (history != nullptr)
@@ -333,11 +328,12 @@ CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int
   }
   // One visible depth is one slice: more of them would divide the safety round it. Over frames the number of
   // maps must not come and go with one pixel.
-  const bool single = c.seen != nullptr && c.seen->min == c.seen->max && !c.remembers;
+  const bool single = c.visible_depths != nullptr && c.visible_depths->min == c.visible_depths->max &&
+                      !c.how.remembers;
   if (single && split.scheme != SplitScheme::given) {
     for (double& edge : edges.subspan(1)) edge = cover.end;
   }
-  if (history != nullptr && history->frame > 0 && !c.stable)
+  if (history != nullptr && history->frame > 0 && !c.how.stable)
     steady_edges({history->edge.data(), static_cast<std::size_t>(history->edge_count)}, edges);
   return result;
 }

@@ -14,10 +14,8 @@
 #include "lanes/elementary.hpp"
 #include "map/shared_views.hpp"
 #include "map/size.hpp"
-#include "map/texel_shape.hpp"
 #include "plan/budget.hpp"
 #include "plan/merge.hpp"
-#include "warp/registry.hpp"
 
 namespace gnomon {
 namespace {
@@ -201,15 +199,15 @@ TurnedSpace along_view(const PlanContext& c, const LocalFrustum& frustum, const 
 MapRequest request_for(const LocalScene& scene, const LocalFrustum& frustum, const Polytope& body, int face,
                        bool of_solid) noexcept {
   const PlanContext& c = scene.c;
-  const TurnedSpace turned = c.stable
+  const TurnedSpace turned = c.how.stable
                                  ? TurnedSpace{{frustum.frame, true, frustum.frame.turned(frustum.apex)}, 0.0}
                                  : along_view(c, frustum, body);
   MapRequest request{{}, body,          turned.space, scene.warp,  0.0,   0.0,
                      {}, turned.centre, 0.0,          scene.range, false, {}};
   // A turned square is wider by its diagonal.
-  request.slope = c.stable ? frustum.slope : frustum.slope * std::sqrt(2.0);
+  request.slope = c.how.stable ? frustum.slope : frustum.slope * std::sqrt(2.0);
   // Without a warp a face keeps its square: turned, the whole face would need twice the texels.
-  if (of_solid && !c.stable)
+  if (of_solid && !c.how.stable)
     request.unwarped.axis = {glm::dot(frustum.frame.y, turned.space.frame.x),
                              glm::dot(frustum.frame.y, turned.space.frame.y)};
   double begin = std::numeric_limits<double>::infinity(), end = -begin;
@@ -317,35 +315,13 @@ void plan_tetrahedron(const LocalScene& scene, ShadowPlan& plan) noexcept {
   plan.status = status_of_faces(plan, any_receiver);
 }
 
-/// Whether the light's maps are those of a tetrahedron's faces: a cone has a place of its own in a cube.
-bool takes_tetrahedron(const PlanContext& c, const Light& light) noexcept {
-  return c.options.split.partition == Partition::tetrahedron && std::holds_alternative<PointLight>(light);
-}
-
-/// Lists what was asked for and a local light has no use for.
-void report_ignored(const PlanContext& c, const Light& light, bool has_visible_depths,
-                    ShadowPlan& plan) noexcept {
-  const PlanOptions& o = c.options;
-  if (o.split.partition != Partition::view_depth && !takes_tetrahedron(c, light))
-    omit(plan, IgnoredOption::partition);
-  const bool splits = o.split.scheme != SplitScheme::automatic && o.split.scheme != SplitScheme::practical;
-  if (splits) omit(plan, IgnoredOption::split_scheme);
-  if (o.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
-  if (o.warp.has_planes()) omit(plan, IgnoredOption::planes);
-  if (o.split.selection == MapSelection::finest) omit(plan, IgnoredOption::selection);
-  if (has_visible_depths) omit(plan, IgnoredOption::visible_depths);
-}
-
 /// Replaces the plan's maps.
-void plan_frusta(const LocalScene& scene, const Light& light, ShadowPlan& plan) noexcept {
+void plan_frusta(const LocalScene& scene, const Light& light, const Resolved& resolved,
+                 ShadowPlan& plan) noexcept {
   plan.map_count = plan.omission_count = 0;
-  const PlanOptions& options = scene.c.options;
-  report_ignored(scene.c, light, scene.c.seen != nullptr && !scene.c.seen->empty(), plan);
-  if (scene.c.stable && options.warp.warp != nullptr && !is_unwarped(*options.warp.warp))
-    omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
-  if (ignores_shape(scene.c, true)) omit(plan, IgnoredOption::shape);
+  omit(plan, resolved.of_maps);
   const auto* spot = std::get_if<SpotLight>(&light);
-  if (takes_tetrahedron(scene.c, light)) {
+  if (resolved.tetrahedron) {
     plan_tetrahedron(scene, plan);
   } else if (spot == nullptr) {
     plan_cube(scene, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, nullptr, plan);
@@ -359,14 +335,15 @@ void plan_frusta(const LocalScene& scene, const Light& light, ShadowPlan& plan) 
 
 }  // namespace
 
-void plan_local(const PlanContext& c, const Light& light, PlanHistory* history, ShadowPlan& plan) noexcept {
+void plan_local(const PlanContext& c, const Light& light, const Resolved& resolved, PlanHistory* history,
+                ShadowPlan& plan) noexcept {
   const auto* spot = std::get_if<SpotLight>(&light);
   const auto* point = std::get_if<PointLight>(&light);
   if (spot == nullptr && point == nullptr) return;
   const Camera& camera = c.camera;
   const PlanOptions& options = c.options;
   LocalScene scene{c,
-                   requested_warp(options),
+                   *c.how.warp,
                    (spot != nullptr ? spot->position : point->position) - camera.position,
                    spot != nullptr ? spot->range : point->range,
                    view_body(c),
@@ -388,13 +365,13 @@ void plan_local(const PlanContext& c, const Light& light, PlanHistory* history, 
   if (options.resolution.texel_budget > 0) {
     // A trial that leaves nothing to remember tells the sizes.
     PlanContext trial = c;
-    trial.remembers = false;
+    trial.how.forget();
     const LocalScene equal{trial, scene.warp, scene.apex, scene.range, scene.lit, scene.sizes, nullptr};
-    plan_frusta(equal, light, plan);
-    const int faces = takes_tetrahedron(c, light) ? static_cast<int>(kTetrahedron.size()) : kCubeFaces;
+    plan_frusta(equal, light, resolved, plan);
+    const int faces = resolved.tetrahedron ? static_cast<int>(kTetrahedron.size()) : kCubeFaces;
     scene.sizes = budgeted_sizes(plan, options, faces, true);
   }
-  plan_frusta(scene, light, plan);
+  plan_frusta(scene, light, resolved, plan);
 }
 
 }  // namespace gnomon

@@ -9,8 +9,8 @@ void omit(ShadowPlan& plan, const Omission& omission) noexcept {
   ++plan.omission_count;
 }
 
-void omit(ShadowPlan& plan, IgnoredOption option) noexcept {
-  omit(plan, {OmissionKind::option_ignored, -1, static_cast<double>(option), 0.0, 0});
+void omit(ShadowPlan& plan, const Ignored& options) noexcept {
+  for (const Omission& o : options.entries()) omit(plan, o);
 }
 
 const PlanHistory::Map* last_map(const PlanHistory* history, int cascade) noexcept {

@@ -6,8 +6,8 @@
 namespace gnomon {
 
 void omit(ShadowPlan& plan, const Omission& omission) noexcept;
-/// Lists an option that this light or fit cannot honour.
-void omit(ShadowPlan& plan, IgnoredOption option) noexcept;
+/// Lists options that do not hold.
+void omit(ShadowPlan& plan, const Ignored& options) noexcept;
 
 /// The last frame's map of this cascade or face for a request; nullptr where none is remembered.
 [[nodiscard]] const PlanHistory::Map* last_map(const PlanHistory* history, int cascade) noexcept;

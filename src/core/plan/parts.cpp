@@ -2,9 +2,9 @@
 // Based on: Mikkelsen, "Separating-plane perspective shadow mapping", 2007. Lloyd et al., "Warping and
 // Partitioning for Low Error Shadow Maps", 2006 (a map for each face, side faces divided further along the
 // view): which face gets the next slice is this project's rule. Forsyth, "Extremely Practical Shadows", Game
-// Developers Conference, 2006 (receivers in groups with a focused map each); Bentley, "Multidimensional binary
-// search trees used for associative searching", 1975 (groups by halving along the axes). Planes in place of
-// marks on objects let any shader choose the map of a point, and a box that a plane cuts serves in both groups.
+// Developers Conference, 2006 (receivers in groups with a focused map each); Bentley, "Multidimensional
+// binary search trees used for associative searching", 1975 (groups by halving along the axes). Planes in
+// place of marks on objects let any shader choose the map of a point. A box that a plane cuts serves in both.
 #include "plan/parts.hpp"
 #include "gnomon/extend/body.hpp"
 #include "gnomon/extend/light_space.hpp"

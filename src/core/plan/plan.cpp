@@ -1,47 +1,24 @@
 // From a camera, a light and bounds to the shadow maps worth drawing: the pipeline, stage by stage.
 #include "gnomon/plan.hpp"
-#include "gnomon/extend/body.hpp"
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
-#include "map/texel_shape.hpp"
-#include "plan/cadence.hpp"
+#include "gnomon/extend/body.hpp"
+#include "map/shared_views.hpp"
 #include "plan/cascades.hpp"
-#include "plan/frame.hpp"
 #include "plan/input.hpp"
 #include "plan/local.hpp"
 #include "plan/parts.hpp"
 #include "plan/receiver_planes.hpp"
-#include "warp/registry.hpp"
+#include "resolve/resolve.hpp"
 
 namespace gnomon {
 namespace {
-
-/// Lists what was asked for and a partition other than by depth has no use for.
-void report_ignored_by_parts(const PlanContext& c, const PlanHistory* history, ShadowPlan& plan) noexcept {
-  const ResolutionOptions& r = c.options.resolution;
-  if (r.texel_budget > 0) omit(plan, IgnoredOption::texel_budget);
-  if (c.options.split.selection == MapSelection::finest) omit(plan, IgnoredOption::selection);
-  if (c.options.split.overlap > 0.0) omit(plan, IgnoredOption::split_overlap);
-  if (history != nullptr) omit(plan, IgnoredOption::history);
-}
-
-/// What a stable fit does without, and the status.
-void finish_parallel(const PlanContext& c, ShadowPlan& plan) noexcept {
-  const PlanOptions& options = c.options;
-  if (c.stable && divides_parallel(options.split.partition))
-    omit(plan, {OmissionKind::partition_in_stable_fit, -1, 0.0, 0.0, 0});
-  if (c.stable && options.warp.warp != nullptr && !is_unwarped(*options.warp.warp))
-    omit(plan, {OmissionKind::warp_in_stable_fit, -1, 0.0, 0.0, 0});
-  if (options.split.partition == Partition::tetrahedron) omit(plan, IgnoredOption::partition);
-  if (ignores_shape(c, false)) omit(plan, IgnoredOption::shape);
-  if (options.warp.has_planes() && !takes_planes(c)) omit(plan, IgnoredOption::planes);
-  plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
-}
 
 /// What of the receivers is in view, and its depths.
 struct VisibleReceivers {
@@ -66,11 +43,11 @@ struct VisibleReceivers {
   }
 };
 
-void plan_along_view(const PlanContext& c, const ParallelScene& scene, PlanHistory* history,
-                     ShadowPlan& plan) noexcept {
+void plan_along_view(const PlanContext& c, const ParallelScene& scene, const Resolved& resolved,
+                     PlanHistory* history, ShadowPlan& plan) noexcept {
   const ResolutionOptions& resolution = c.options.resolution;
   if (resolution.max_error > 0.0 || resolution.texel_budget > 0) {
-    plan_within(c, scene, history, plan);
+    plan_within(c, scene, resolved.square, history, plan);
   } else {
     plan_cascades(c, scene, c.options.cascades, equal_sizes(resolution.max_size), history, plan);
   }
@@ -78,17 +55,17 @@ void plan_along_view(const PlanContext& c, const ParallelScene& scene, PlanHisto
 
 /// Out of line: a plan without planes need not make room for their maps.
 [[gnu::noinline]] void plan_with_planes(const PlanContext& c, const ParallelScene& scene,
-                                        PlanHistory* history, ShadowPlan& plan) noexcept {
+                                        const Resolved& resolved, PlanHistory* history,
+                                        ShadowPlan& plan) noexcept {
   const PlaneMaps planes = plane_maps(c, scene);
   const ParallelScene rest{scene.body, scene.depths, scene.space, scene.warp,
                            planes.count > 0 ? &planes : nullptr};
-  plan_along_view(c, rest, history, plan);
+  plan_along_view(c, rest, resolved, history, plan);
   add_plane_maps(c, planes, plan);
 }
 
-void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleDepths* visible,
-                   PlanHistory* history, ShadowPlan& plan) noexcept {
-  const PlanOptions& options = c.options;
+void plan_parallel(PlanContext& c, const DirectionalLight& light, const Resolved& resolved,
+                   const VisibleDepths* visible, PlanHistory* history, ShadowPlan& plan) noexcept {
   plan.light_direction = safe_normalize(light.direction, {0.0, -1.0, 0.0});
   const VisibleReceivers visible_receivers(c);
   if (visible_receivers.body.empty()) {
@@ -98,32 +75,22 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const VisibleD
   ParallelScene scene{visible_receivers.body,
                       c.views.empty() ? visible_receivers.depths : depths_seen(c.views),
                       {},
-                      requested_warp(options)};
-  scene.space.frame =
-      c.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
-  c.seen = usable_depths(c, scene.depths, visible);
-  const bool parts = divides_parallel(options.split.partition);
-  const bool follows_points = !c.stable && !parts && !c.keeps && options.fit != Fit::warped_stable;
-  const bool ignores_points = !c.seen_points.empty() && !follows_points;
-  if (ignores_points) c.seen_points = {};
-  if (parts && !c.stable) {
-    // Parts follow the view in no steady way.
-    c.remembers = false;
+                      *c.how.warp};
+  scene.space.frame = c.how.stable ? fixed_frame(plan.light_direction)
+                                   : view_aligned_frame(plan.light_direction, c.axes);
+  if (resolved.follows_depths) c.visible_depths = usable_depths(c, scene.depths, visible);
+  if (resolved.parts) {
     plan_parts(c, scene, plan);
-    report_ignored_by_parts(c, history, plan);
-    if (ignores_points) omit(plan, IgnoredOption::visible_points);
-    return finish_parallel(c, plan);
-  }
-  plan.selection = options.split.selection;
-  if (takes_planes(c)) {
-    plan_with_planes(c, scene, history, plan);
   } else {
-    plan_along_view(c, scene, history, plan);
+    plan.selection = c.options.split.selection;
+    if (resolved.planes) {
+      plan_with_planes(c, scene, resolved, history, plan);
+    } else {
+      plan_along_view(c, scene, resolved, history, plan);
+    }
   }
-  if (ignores_points) omit(plan, IgnoredOption::visible_points);
-  if (plan.selection != MapSelection::view_depth && options.split.overlap > 0.0)
-    omit(plan, IgnoredOption::split_overlap);
-  finish_parallel(c, plan);
+  omit(plan, resolved.of_maps);
+  plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
 
 glm::dvec4 light_of(const Light& light) noexcept {
@@ -135,20 +102,17 @@ glm::dvec4 light_of(const Light& light) noexcept {
 }
 
 /// The context that input and options give, and the plan's fields that need no map.
-PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const PlanOptions& options,
-                       bool remembers, ShadowPlan& plan) noexcept {
+PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const Resolved& resolved,
+                       ShadowPlan& plan) noexcept {
+  const PlanOptions& options = resolved.options;
   plan.origin_world = camera.position;
   plan.clip_space = options.clip_space;
   plan.bias = options.bias;
-  PlanContext context{camera, bounds, options, camera_axes(camera)};
-  context.stable = options.fit == Fit::stable;
-  context.error_bound = error_bound(options, remembers);
-  context.remembers = remembers;
-  plan.sizes_vary = context.error_bound > 0.0 || options.resolution.texel_budget > 0;
-  return context;
+  plan.sizes_vary = resolved.conduct.error_bound > 0.0 || options.resolution.texel_budget > 0;
+  return {camera, bounds, options, camera_axes(camera), resolved.conduct};
 }
 
-/// Forgets what was planned with other options: maps that are kept as they are, and where searches begin.
+/// Forgets what was planned with other options: maps that are cached, and where searches begin.
 void remember_options(const PlanOptions& options, PlanHistory& history) noexcept {
   if (options == history.options) return;
   for (PlanHistory::KeptMap& kept : history.kept) kept.frame = -1;
@@ -157,76 +121,137 @@ void remember_options(const PlanOptions& options, PlanHistory& history) noexcept
   history.options = options;
 }
 
-/// Fills in the plan of one frame; `history` may be nullptr.
+/// Takes up what the last frame left.
+void remember(const Light& light, PlanHistory& history, PlanContext& c) noexcept {
+  remember_options(c.options, history);
+  c.frame = history.frame;
+  c.last_eye = history.eye_world;
+  c.last_forward = history.forward;
+  // Maps of another place are no start, and no reason to go slowly; a turning sun's are.
+  const glm::dvec4 now = light_of(light), before = history.light_world;
+  c.same_light = now == before;
+  if (now.w == before.w && (now.w == 0.0 || now == before)) return;
+  for (PlanHistory::Map& map : history.map) map.frame = -1;
+}
+
+/// Fills in the plan of one frame; `history` may be nullptr. `views`: as PlanCase.
 void plan_frame(const View& view, const Light& light, const SceneBounds& bounds, const PlanOptions& options,
-                PlanHistory* history, ShadowPlan& plan) noexcept {
+                std::size_t views, PlanHistory* history, ShadowPlan& plan) noexcept {
   plan.invalid_field = first_invalid_field(view, light, bounds, options);
   if (!plan.invalid_field.empty()) return;
   if (std::isinf(view.camera.far_depth)) {
     View finite = view;
     finite.camera = with_finite_far(view.camera, bounds.receivers);
-    plan_frame(finite, light, bounds, options, history, plan);
+    plan_frame(finite, light, bounds, options, views, history, plan);
     return;
   }
-  PlanContext context = begin_plan(view.camera, bounds, options, history != nullptr, plan);
-  context.keeps = keeps_cascades(light, options, history != nullptr);
-  context.seen_points = view.points_world;
-  if (history != nullptr) {
-    remember_options(options, *history);
-    context.frame = history->frame;
-    context.last_eye = history->eye_world;
-    context.last_forward = history->forward;
-    // Maps of another place are no start, and no reason to go slowly; a turning sun's are.
-    const glm::dvec4 now = light_of(light), before = history->light_world;
-    context.same_light = now == before;
-    if (now.w != before.w || (now.w != 0.0 && now != before)) {
-      for (PlanHistory::Map& map : history->map) map.frame = -1;
-    }
-  }
+  const bool has_depths = view.depths != nullptr && !view.depths->empty();
+  const Resolved resolved =
+      resolve(options, {light, view.camera.orthographic, views, history != nullptr, has_depths,
+                        !view.points_world.empty()});
+  PlanContext context = begin_plan(view.camera, bounds, resolved, plan);
+  if (history != nullptr) remember(light, *history, context);
+  if (resolved.follows_points) context.visible_points = view.points_world;
   if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
-    plan_parallel(context, *sun, view.depths, history, plan);
+    plan_parallel(context, *sun, resolved, view.depths, history, plan);
   } else {
-    context.seen = view.depths;
-    context.seen_points = {};
-    plan_local(context, light, history, plan);
-    if (!view.points_world.empty()) omit(plan, IgnoredOption::visible_points);
+    plan_local(context, light, resolved, history, plan);
   }
-  if (options.cadence.frames > 1 && !context.keeps) omit(plan, IgnoredOption::cadence);
+  omit(plan, resolved.of_plan);
+}
+
+/// The first broken field of any camera, or of what they share.
+std::string_view first_invalid_field(std::span<const Camera> cameras, const Light& light,
+                                     const SceneBounds& bounds, const PlanOptions& options) noexcept {
+  if (cameras.empty() || cameras.size() > kMaxViews) return "cameras";
+  // Bounds may be many: they are looked at once.
+  const auto field = first_invalid_field(cameras[0], light, bounds, options);
+  if (!field.empty()) return field;
+  for (const Camera& camera : cameras.subspan(1)) {
+    if (camera.orthographic != cameras[0].orthographic) return "cameras";
+    const auto of_camera = first_invalid_field(camera, light, SceneBounds{}, options);
+    if (!of_camera.empty()) return of_camera;
+  }
+  return {};
+}
+
+glm::dvec3 mean_eye(std::span<const Camera> cameras) noexcept {
+  glm::dvec3 sum(0.0);
+  for (const Camera& camera : cameras) sum += camera.position / static_cast<double>(cameras.size());
+  return sum;
+}
+
+/// False where the camera sees no receiver.
+bool place_view(const Camera& camera, const SceneBounds& bounds, const glm::dvec3& origin,
+                SharedView& view) noexcept {
+  view.camera = with_finite_far(camera, bounds.receivers);
+  view.axes = camera_axes(camera);
+  view.eye = camera.position - origin;
+  view.body = view_slice(view, view.camera.near_depth, view.camera.far_depth);
+  clip(view.body, visible_bounds(view.body, bounds.receivers, origin));
+  return !view.body.empty();
+}
+
+/// The plan that `views` share, all of which see receivers. `mean`: a camera in their middle, at the plan's
+/// origin.
+void plan_shared(std::span<const SharedView> views, const Camera& mean, const Light& light,
+                 const SceneBounds& bounds, const Resolved& resolved, ShadowPlan& plan) noexcept {
+  PlanContext context = begin_plan(mean, bounds, resolved, plan);
+  context.views = views;
+  if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
+    plan_parallel(context, *sun, resolved, nullptr, nullptr, plan);
+  } else {
+    plan_local(context, light, resolved, nullptr, plan);
+  }
 }
 
 }  // namespace
 
-ShadowPlan plan_shared(std::span<const SharedView> views, const Camera& mean, const Light& light,
-                       const SceneBounds& bounds, const PlanOptions& options) noexcept {
-  ShadowPlan plan;
-  PlanContext context = begin_plan(mean, bounds, options, false, plan);
-  context.views = views;
-  if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
-    plan_parallel(context, *sun, nullptr, nullptr, plan);
-  } else {
-    plan_local(context, light, nullptr, plan);
-  }
-  return plan;
-}
-
 ShadowPlan make_plan(const View& view, const Light& light, const SceneBounds& bounds,
                      const PlanOptions& options, PlanHistory* history) noexcept {
   ShadowPlan plan;
-  if (history == nullptr) {
-    plan_frame(view, light, bounds, options, nullptr, plan);
-    return plan;
-  }
-  history->event_count = 0;
-  if (keeps_cascades(light, options, true)) {
-    plan_frame(view, light, bounds, with_fixed_splits(options), history, plan);
-  } else {
-    plan_frame(view, light, bounds, options, history, plan);
-  }
-  if (plan.status == PlanStatus::invalid_input) return plan;
+  if (history != nullptr) history->event_count = 0;
+  plan_frame(view, light, bounds, options, 0, history, plan);
+  if (history == nullptr || plan.status == PlanStatus::invalid_input) return plan;
   history->eye_world = view.camera.position;
   history->forward = camera_axes(view.camera).forward;
   history->light_world = light_of(light);
   ++history->frame;
+  return plan;
+}
+
+ShadowPlan plan_views(std::span<const Camera> cameras, const Light& light, const SceneBounds& bounds,
+                      const PlanOptions& options) noexcept {
+  ShadowPlan plan;
+  plan.invalid_field = first_invalid_field(cameras, light, bounds, options);
+  if (!plan.invalid_field.empty()) return plan;
+  if (cameras.size() == 1) {
+    plan_frame(cameras[0], light, bounds, options, 1, nullptr, plan);
+    return plan;
+  }
+  const Resolved resolved = resolve(options, {light, cameras[0].orthographic, cameras.size()});
+  const glm::dvec3 origin = mean_eye(cameras);
+  std::array<SharedView, kMaxViews> seeing;
+  std::array<int, kMaxViews> blind{};
+  std::size_t seeing_count = 0, blind_count = 0;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (place_view(cameras[i], bounds, origin, seeing[seeing_count])) {
+      ++seeing_count;
+    } else {
+      blind[blind_count++] = static_cast<int>(i);
+    }
+  }
+  const std::span<const SharedView> views{seeing.data(), seeing_count};
+  if (views.empty()) {
+    plan.status = PlanStatus::nothing_visible;
+    plan.origin_world = origin;
+    plan.clip_space = options.clip_space;
+  } else {
+    plan_shared(views, mean_camera(views, origin), light, bounds, resolved, plan);
+  }
+  for (std::size_t i = 0; i < blind_count; ++i)
+    omit(plan, {OmissionKind::view_without_receiver, -1, static_cast<double>(blind[i]), 0.0, 0});
+  omit(plan, resolved.of_plan);
   return plan;
 }
 

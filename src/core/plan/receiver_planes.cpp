@@ -37,7 +37,7 @@ struct Slab {
 /// Depths of the body that cascades would cover as well.
 DepthRange covered_depths(const PlanContext& c, const Polytope& body) noexcept {
   const DepthRange depths = depths_of(body, c.axes.forward);
-  return c.seen == nullptr ? depths : seen_between(*c.seen, depths.begin, depths.end);
+  return c.visible_depths == nullptr ? depths : seen_between(*c.visible_depths, depths.begin, depths.end);
 }
 
 /// Empty where no visible receiver is in it.
@@ -76,7 +76,7 @@ void fill(const PlanContext& c, const ParallelScene& scene, const WarpPlane& wan
   clip_part(slab.body, c.bounds.receivers, c.camera.position);
   if (slab.body.empty()) return;
   slab.depths = depths_of(slab.body, c.axes.forward);
-  if (!c.seen_points.empty())
+  if (!c.visible_points.empty())
     clip_to_points(c, scene.space.frame, slab.depths.begin, slab.depths.end, slab.body);
 }
 
@@ -102,18 +102,11 @@ void select(ShadowMap& map, const glm::dvec4& plane_world) noexcept {
 
 }  // namespace
 
-bool takes_planes(const PlanContext& c) noexcept {
-  const bool along_view = c.stable || !divides_parallel(c.options.split.partition);
-  const bool tight = c.options.fit == Fit::tight || c.options.fit == Fit::rotated;
-  return c.options.warp.has_planes() && tight && along_view && c.views.empty() &&
-         c.options.resolution.texel_budget == 0;
-}
-
 PlaneMaps plane_maps(const PlanContext& context, const ParallelScene& scene) noexcept {
   PlaneMaps maps;
   // The plane moves with the world, and its map with the view: there is no steady way to go.
   PlanContext c = context;
-  c.remembers = c.keeps = false;
+  c.how.forget();
   Slab slab;
   for (int i = 0; i < kMaxWarpPlanes; ++i) {
     const WarpPlane& wanted = c.options.warp.planes[static_cast<std::size_t>(i)];

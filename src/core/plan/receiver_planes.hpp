@@ -26,9 +26,6 @@ struct PlaneMaps {
   [[nodiscard]] bool serve(const Polytope& body) const noexcept;
 };
 
-/// Whether plans with these options have maps of planes at all.
-[[nodiscard]] bool takes_planes(const PlanContext& c) noexcept;
-
 /// The maps, in the order of their planes.
 [[nodiscard]] PlaneMaps plane_maps(const PlanContext& c, const ParallelScene& scene) noexcept;
 

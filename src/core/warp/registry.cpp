@@ -31,12 +31,6 @@ const Warp* find_warp(std::string_view name) noexcept {
   return nullptr;
 }
 
-const Warp& requested_warp(const PlanOptions& options) noexcept {
-  if (options.warp.warp != nullptr) return *options.warp.warp;
-  if (requested_shape(options).round != nullptr) return warps::none;
-  return undoes_warps(requested_shape(options)) ? warps::psm : warps::optimal;
-}
-
 bool is_unwarped(const Warp& warp) noexcept {
   return &warp == &warps::none;
 }
