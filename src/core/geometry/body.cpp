@@ -89,7 +89,7 @@ class Cutter {
   explicit Cutter(Polytope& body) noexcept
       : body_(body),
         kept_(first_vertices(body.vertex_count)),
-        places_(static_cast<std::size_t>(body.vertex_count)) {}
+        slots_(static_cast<std::size_t>(body.vertex_count)) {}
   Cutter(const Cutter&) = delete;
   Cutter& operator=(const Cutter&) = delete;
   ~Cutter() { close_gaps(); }
@@ -103,7 +103,7 @@ class Cutter {
 
  private:
   // More places than these are sorted out first: a cut takes one for each edge that it crosses.
-  static constexpr std::size_t kManyPlaces = 30;
+  static constexpr std::size_t kManySlots = 30;
 
   void by(const AxisDistance& distance, VertexSet cut_off) noexcept;
   /// Divides the body where `cut_off` is not all that there is, or no more than rounding.
@@ -118,11 +118,11 @@ class Cutter {
 
   Polytope& body_;
   VertexSet kept_;
-  std::size_t places_;  ///< in use so far, gaps included
+  std::size_t slots_;  ///< in use so far, gaps included
 };
 
 void Cutter::by(const Plane& plane) noexcept {
-  if (places_ > kManyPlaces) close_gaps();
+  if (slots_ > kManySlots) close_gaps();
   const PlaneDistance distance_of{plane};
   double distance[kMaxVertices];
   double lowest = 0.0, highest = std::abs(plane.offset);
@@ -144,7 +144,7 @@ void Cutter::between(const glm::dvec3& normal, double begin, double end) noexcep
   double along[kMaxVertices];
   static_assert(kMaxVertices % 2 == 0);
   Pair low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-  for_each_two<VertexPair>({body_.vertex.data(), places_}, [&](std::size_t i, const VertexPair& vertices) {
+  for_each_two<VertexPair>({body_.vertex.data(), slots_}, [&](std::size_t i, const VertexPair& vertices) {
     const Pair two = along_normal(vertices);
     low = min_of(low, two);
     high = max_of(high, two);
@@ -159,7 +159,7 @@ void Cutter::between(const glm::dvec3& normal, double begin, double end) noexcep
   // What the first cut adds, the second keeps.
   const VertexSet asked = kept_;
   VertexSet before = 0, behind = 0;
-  for (std::size_t i = 0; i < places_; i += 2) {
+  for (std::size_t i = 0; i < slots_; i += 2) {
     const Pair two = Pair::from(&along[i]);
     before |= VertexSet{below(two - at_begin, least_begin)} << i;
     behind |= VertexSet{below(at_end - two, least_end)} << i;
@@ -172,7 +172,7 @@ void Cutter::by(std::size_t axis, const Box& box, const Box& own, double size) n
   const double low = (&box.min.x)[axis], high = (&box.max.x)[axis];
   const double own_low = (&own.min.x)[axis], own_high = (&own.max.x)[axis];
   if (!(own_low < low || own_high > high)) return;
-  if (places_ > kManyPlaces) close_gaps();
+  if (slots_ > kManySlots) close_gaps();
   // No vertex has a distance beyond those of the body's box.
   const auto limit = [&](double at, double lowest, double highest) {
     return -kClipTolerance * max_of(max_of(size, std::abs(at)), max_of(highest, -lowest));
@@ -185,8 +185,8 @@ void Cutter::by(std::size_t axis, const Box& box, const Box& own, double size) n
   constexpr std::size_t kStride = sizeof(Polytope::Vertex) / sizeof(double);
   static_assert(sizeof(Polytope::Vertex) == kStride * sizeof(double));
   const double* value = &body_.vertex[0].position.x + axis;
-  for (std::size_t i = 0; i < places_; i += 2, value += 2 * kStride) {
-    const Pair two(value[0], value[i + 1 < places_ ? kStride : 0]);  // behind the last place lies nothing
+  for (std::size_t i = 0; i < slots_; i += 2, value += 2 * kStride) {
+    const Pair two(value[0], value[i + 1 < slots_ ? kStride : 0]);  // behind the last place lies nothing
     below_low |= VertexSet{below(two - at_low, least_low)} << i;
     above_high |= VertexSet{below(at_high - two, least_high)} << i;
   }
@@ -226,8 +226,8 @@ void Cutter::cut(const Plane& plane, const Distance& distance, VertexSet cut_off
   }
   const std::size_t added = body_.face_count < kMaxFaces ? add_vertices(distance, cut_off) : 0;
   if (added == 0) return;
-  kept_ = kept | first_vertices(static_cast<int>(added)) << places_;
-  places_ += added;
+  kept_ = kept | first_vertices(static_cast<int>(added)) << slots_;
+  slots_ += added;
   body_.plane[static_cast<std::size_t>(body_.face_count++)] = plane;
 }
 
@@ -238,7 +238,7 @@ template <typename Distance>
 std::size_t Cutter::add_vertices(const Distance distance, VertexSet cut_off) noexcept {
   // Held here, as is the distance: a byte that is written might be part of anything else.
   Polytope::Vertex* const vertex = body_.vertex.data();
-  const std::size_t places = places_;
+  const std::size_t places = slots_;
   const auto cap = static_cast<std::uint8_t>(body_.face_count);
   VertexSet beside = 0;
   for_each_vertex(cut_off, [&](std::size_t i) {
@@ -294,7 +294,7 @@ void Cutter::close_gaps() noexcept {
   std::uint8_t count = 0;
   for_each_vertex(kept_, [&](std::size_t i) { renamed[i] = count++; });
   body_.vertex_count = count;
-  if (count == places_) return;
+  if (count == slots_) return;
   Polytope::Vertex* const vertex = body_.vertex.data();
   Polytope::Vertex* to = vertex;
   for_each_vertex(kept_, [&](std::size_t i) {
@@ -310,7 +310,7 @@ void Cutter::close_gaps() noexcept {
     ++to;
   });
   kept_ = first_vertices(count);
-  places_ = count;
+  slots_ = count;
 }
 
 }  // namespace

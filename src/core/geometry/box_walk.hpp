@@ -17,7 +17,7 @@ namespace gnomon {
 
 /// A bit each of a word says which planes are still asked. Planes beyond these are not: more boxes count as
 /// inside, none is lost.
-inline constexpr std::size_t kMostPlanes = 32;
+inline constexpr std::size_t kMaxPlanes = 32;
 
 /// One walk over boxes for a query that grows its answer as it goes. A query has
 ///   uint32_t wanted(const CasterBlock&): lanes that could still change the answer,
@@ -30,7 +30,7 @@ template <typename Query>
 class BoxWalk {
  public:
   BoxWalk(std::span<const Plane> planes, const Boxes& boxes, const glm::dvec3& origin, Query& query) noexcept
-      : planes_(planes.first(std::min(planes.size(), kMostPlanes))),
+      : planes_(planes.first(std::min(planes.size(), kMaxPlanes))),
         boxes_(boxes),
         origin_(origin),
         query_(query) {}
@@ -45,7 +45,7 @@ class BoxWalk {
     finest_ = finest;
     across_ = across;
     const std::size_t count = planes_.size();
-    const std::uint32_t asked = count == kMostPlanes ? ~0u : (1u << count) - 1u;
+    const std::uint32_t asked = count == kMaxPlanes ? ~0u : (1u << count) - 1u;
     if (const CasterSet* set = boxes_.set(); set != nullptr) {
       if (set->level_count() > 0) visit(*set, set->level_count() - 1, 0, asked);
       return;
@@ -54,7 +54,7 @@ class BoxWalk {
     CasterBlock block;
     for (std::size_t begin = 0; begin < list.size(); begin += kLanes) {
       set_relative(list.subspan(begin, std::min(kLanes, list.size() - begin)), origin_, block);
-      std::array<std::uint8_t, kMostPlanes> open;
+      std::array<std::uint8_t, kMaxPlanes> open;
       (void)judge(block, true, asked, open);
     }
   }
@@ -65,7 +65,7 @@ class BoxWalk {
 
   /// Tells the query of the block's lanes; returns those to look below.
   [[nodiscard]] Below judge(const CasterBlock& block, bool leaf, std::uint32_t asked,
-                            std::array<std::uint8_t, kMostPlanes>& open) noexcept {
+                            std::array<std::uint8_t, kMaxPlanes>& open) noexcept {
     std::uint32_t kept = block.occupied;
     if (kept != 0) kept &= query_.wanted(block);
     std::uint32_t across = 0;
@@ -96,7 +96,7 @@ class BoxWalk {
   void visit(const CasterSet& set, std::size_t level, std::size_t at, std::uint32_t asked) noexcept {
     CasterBlock block;
     set_relative(set.block(level, at), origin_, block);
-    std::array<std::uint8_t, kMostPlanes> open;
+    std::array<std::uint8_t, kMaxPlanes> open;
     const Below below = judge(block, level == 0, asked, open);
     if (level <= finest_) return;
     // What was found below one child may leave nothing to ask of the next.

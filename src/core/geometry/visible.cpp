@@ -267,7 +267,7 @@ CasterReach box_inside(std::span<const Plane> planes, const Box& world, const gl
   const auto reach = [&](const glm::dvec3& n) {
     return corner[0][n.x > 0.0] * n.x + corner[1][n.y > 0.0] * n.y + corner[2][n.z > 0.0] * n.z;
   };
-  for (const Plane& plane : planes.first(std::min(planes.size(), kMostPlanes))) {
+  for (const Plane& plane : planes.first(std::min(planes.size(), kMaxPlanes))) {
     const double inward = reach(plane.normal);
     if (inward + plane.offset < -kTouching * (std::abs(inward) + std::abs(plane.offset))) return none;
   }

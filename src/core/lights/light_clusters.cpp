@@ -14,7 +14,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int kMostImageSide = 1 << 16;
+constexpr int kMaxImageSide = 1 << 16;
 // Slices span so much of the depths at most.
 constexpr double kDepthRatio = 1000.0;
 // Shaders take logarithms of float depths: a surface is at home in the slice beside as well.
@@ -225,7 +225,7 @@ std::string_view invalid_input(const Camera& camera, std::span<const Light> ligh
   const std::string_view field =
       first_invalid_field(camera, DirectionalLight{}, SceneBounds{}, PlanOptions{});
   if (!field.empty()) return field;
-  if (camera.width > kMostImageSide || camera.height > kMostImageSide) return "camera.width, camera.height";
+  if (camera.width > kMaxImageSide || camera.height > kMaxImageSide) return "camera.width, camera.height";
   if (options.tile_pixels < 1) return "clusters.tile_pixels";
   if (options.depth_slices < 1 || options.depth_slices > kMostDepthSlices) return "clusters.depth_slices";
   if (lights.size() > std::numeric_limits<std::uint32_t>::max()) return "lights";
@@ -248,8 +248,8 @@ double deepest_of(const Camera& camera, std::span<const Light> lights, const Cam
 }  // namespace
 
 std::size_t cluster_count(const Camera& camera, const ClusterOptions& options) noexcept {
-  if (camera.width < 1 || camera.height < 1 || camera.width > kMostImageSide ||
-      camera.height > kMostImageSide)
+  if (camera.width < 1 || camera.height < 1 || camera.width > kMaxImageSide ||
+      camera.height > kMaxImageSide)
     return 0;
   if (options.tile_pixels < 1 || options.depth_slices < 1 || options.depth_slices > kMostDepthSlices)
     return 0;
@@ -266,7 +266,7 @@ LightClusters cluster_lights(const Camera& camera, std::span<const Light> lights
   const CameraAxes axes = camera_axes(camera);
   const double deepest = deepest_of(camera, lights, axes);
   const std::size_t capacity = std::min(memory.lights.size(), memory.work.size());
-  int tile = std::min(options.tile_pixels, kMostImageSide), slice_count = options.depth_slices;
+  int tile = std::min(options.tile_pixels, kMaxImageSide), slice_count = options.depth_slices;
   std::size_t entries = 0, count = 0;
   for (;; tile *= 2, slice_count = std::max(slice_count / 2, 1)) {
     count = count_of(camera, tile, slice_count);

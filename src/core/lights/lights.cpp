@@ -18,7 +18,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int kMostPoolSide = 1 << 16;
+constexpr int kMaxPoolSide = 1 << 16;
 
 bool power_of_two(int value) noexcept {
   return value > 0 && std::has_single_bit(static_cast<unsigned>(value));
@@ -50,7 +50,7 @@ std::string_view invalid_options(const LightOptions& o) noexcept {
     return "lights.most_size";
   if (!power_of_two(o.least_size) || o.least_size > o.most_size) return "lights.least_size";
   for (const int side : {o.pool_width, o.pool_height}) {
-    if (side < 1 || side > kMostPoolSide || side % o.most_size != 0)
+    if (side < 1 || side > kMaxPoolSide || side % o.most_size != 0)
       return "lights.pool_width, lights.pool_height";
   }
   if (const std::string_view field = invalid_budgets(o); !field.empty()) return field;

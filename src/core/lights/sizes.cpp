@@ -16,9 +16,9 @@ namespace {
 // Up to so many lights the best sizes are searched for: of few, one step may be a large part of the budget.
 constexpr std::size_t kFewLights = 32;
 // Sizes from 16 to 16384 texels.
-constexpr int kMostLevels = 11;
+constexpr int kMaxLevels = 11;
 // Searches that take longer keep the best sizes found until then.
-constexpr int kMostTrials = 4096;
+constexpr int kMaxTrials = 4096;
 
 /// What a step counts: texels, or the time they take.
 enum class StepUnit : std::uint8_t { cells, milliseconds };
@@ -92,7 +92,7 @@ class FewLights {
   /// Raises the levels by steps of no more than the budget together.
   void search(const SizeBudget& budget) noexcept {
     for (std::size_t i = 0; i < lights_.size(); ++i) chosen_[i] = best_[i] = first_[i];
-    take_greedily(budget);
+    choose_greedily(budget);
     visit(0, budget, 0.0);
     for (std::size_t i = 0; i < lights_.size(); ++i) lights_[i].level = best_[i];
   }
@@ -104,7 +104,7 @@ class FewLights {
     int level = 0;  // before it
   };
 
-  void take_greedily(SizeBudget left) noexcept {
+  void choose_greedily(SizeBudget left) noexcept {
     best_gain_ = 0.0;
     for (std::size_t i = 0; i < step_count_; ++i) {
       const LightStep& next = steps_[i];
@@ -140,7 +140,7 @@ class FewLights {
       SizeBudget left;
       int level;
     };
-    std::array<Child, kMostLevels> children;
+    std::array<Child, kMaxLevels> children;
     std::size_t count = 0;
     Child next{0.0, gain, left, first_[light]};
     for (;;) {
@@ -160,7 +160,7 @@ class FewLights {
     // Sums of the same gains in another order are no better.
     constexpr double kRounding = 1.0 + 1e-12;
     for (std::size_t i = 0; i < count; ++i) {
-      if (!(children[i].bound > best_gain_ * kRounding) || ++trials_ > kMostTrials) return;
+      if (!(children[i].bound > best_gain_ * kRounding) || ++trials_ > kMaxTrials) return;
       chosen_[light] = children[i].level;
       visit(light + 1, children[i].left, children[i].gain);
     }
@@ -168,9 +168,9 @@ class FewLights {
 
   std::span<LightWork> lights_;
   StepUnit unit_;
-  std::array<LightStep, kFewLights * kMostLevels> steps_;
+  std::array<LightStep, kFewLights * kMaxLevels> steps_;
   std::size_t step_count_ = 0;
-  std::array<std::array<std::size_t, kMostLevels>, kFewLights> of_light_;
+  std::array<std::array<std::size_t, kMaxLevels>, kFewLights> of_light_;
   std::array<int, kFewLights> first_, end_, chosen_, best_;
   double best_gain_ = 0.0;
   int trials_ = 0;

@@ -45,7 +45,7 @@ struct PlanContext {
   bool same_light = false;                          // as in the last frame, to the last bit
   std::span<const SharedView> views = {};           // cameras that share the maps; empty: `camera` alone
   std::int64_t frame = 0;                           // of the history
-  // Of the last frame, where one is remembered.
+  // Of the last frame, with a history.
   glm::dvec3 last_eye{0.0}, last_forward{0.0};
 };
 
@@ -74,7 +74,7 @@ struct MapRequest {
   // Receivers of all maps, of which this one serves what it holds (MapSelection::finest); nullptr: `body`
   // alone.
   const Polytope* all_receivers = nullptr;
-  double room = 0.0;  // of the body round the slice's frustum, world units: the map is kept over frames
+  double room = 0.0;  // of the body round the slice's frustum, world units: the map is cached over frames
   const Plane* receiver = nullptr;  // as WarpInput::receiver, relative to the camera and in world axes
   std::span<const ViewedPoint> viewed = {};  // of several views, for the body's vertices; empty: one view
 };

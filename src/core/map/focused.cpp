@@ -110,13 +110,13 @@ PlaneMap chosen_warp(const PlanContext& c, const MapRequest& request, const Ligh
   const WarpInput& in = question.in;
   if (is_unwarped(request.warp)) return question.points.under(in.unwarped);
   const WarpChoice choice = request.warp.choose(in);
-  // What is kept from the last frame gains what it did then.
-  const bool kept = in.start != nullptr && in.start->use == StartUse::keep;
-  double ratio = kept ? choice.gain_ratio : gain_ratio(c, request, question, choice);
-  if (takes(request.warp, choice, ratio)) {
+  // What is cached from the last frame gains what it did then.
+  const bool cached = in.start != nullptr && in.start->use == StartUse::keep;
+  double ratio = cached ? choice.gain_ratio : gain_ratio(c, request, question, choice);
+  if (pays(request.warp, choice, ratio)) {
     const PlaneMap plane = question.points.under(choice);
     ratio = widened_ratio(in, request, body, &question.points == &body ? plane : body.under(choice), ratio);
-    if (takes(request.warp, choice, ratio)) return plane;
+    if (pays(request.warp, choice, ratio)) return plane;
   }
   result.omit({OmissionKind::warp_without_gain, request.slot.cascade, ratio, 0.0, 0});
   result.map.warp = &warps::none;
@@ -226,24 +226,24 @@ LightBody whole_frustum(const MapRequest& request, const LightBody& body) noexce
 }
 
 /// The last frame's map where it still serves: view inside, casters inside.
-bool kept_from_before(const PlanContext& c, const MapRequest& request, const LightBody& body, ShadowMap& map,
-                      Fitted& fitted) noexcept {
-  if (!c.how.caches_maps || !c.same_light || !remembered(request)) return false;
+bool cached_from_before(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                        ShadowMap& map, Fitted& fitted) noexcept {
+  if (!c.how.caches_maps || !c.same_light || !has_cached(request)) return false;
   const PlanHistory::Map& last = *request.last;
-  const HeldMap held = held_map(c, request, body);
-  if (!held.holds || border_of(c.options, map.width, map.height, border_share(c, request, body, held.plane)) >
-                         last.filter_margin_texels)
+  const CachedMap cached = cached_map(c, request, body);
+  const double share = border_share(c, request, body, cached.plane);
+  if (!cached.holds || border_of(c.options, map.width, map.height, share) > last.filter_margin_texels)
     return false;
   map.filter_margin_texels = last.filter_margin_texels;
-  fitted.plane = held.plane;
-  fitted.depths = held.depths;
-  const ServedBody served(c, request, body, held.plane);
-  sweep_for(c, served.request(), served.points(), held.plane, border_of_body(map, fitted), fitted.swept);
-  texels_needed(body.points(), held.plane, pixels_per_slope(c.camera), fitted.needed);
+  fitted.plane = cached.plane;
+  fitted.depths = cached.depths;
+  const ServedBody served(c, request, body, cached.plane);
+  sweep_for(c, served.request(), served.points(), cached.plane, border_of_body(map, fitted), fitted.swept);
+  texels_needed(body.points(), cached.plane, pixels_per_slope(c.camera), fitted.needed);
   fitted.heights = height_range(
       c, served.request(),
-      {served.points(), fitted.plane, fitted.swept, border_of_body(map, fitted), held.depths.bottom});
-  if (!(fitted.heights.bottom >= held.depths.bottom && fitted.heights.height <= held.depths.height))
+      {served.points(), fitted.plane, fitted.swept, border_of_body(map, fitted), cached.depths.bottom});
+  if (!(fitted.heights.bottom >= cached.depths.bottom && fitted.heights.height <= cached.depths.height))
     return false;
   return true;
 }
@@ -254,10 +254,10 @@ void fit(const PlanContext& c, const MapRequest& request, const LightBody& body,
   fitted.plane = chosen_plane(c, request, body, result);
   widen_for_floats(request, body, fitted.plane);
   if (c.how.caches_maps) grow(fitted.plane, kRoom);
-  if (c.how.remembers && !c.how.stable) {
+  if (c.how.has_history && !c.how.stable) {
     map.warp = fitted.plane.choice.kappa > 0.0 ? &request.warp : &warps::none;
     if (c.how.caches_maps)
-      result.report(remembered(request) ? PlanEventKind::map_refitted : PlanEventKind::map_appeared, 1.0);
+      result.report(has_cached(request) ? PlanEventKind::map_refitted : PlanEventKind::map_appeared, 1.0);
   }
   const double share = border_share(c, request, body, fitted.plane);
   texels_needed(body.points(), fitted.plane, pixels_per_slope(c.camera), fitted.needed);
@@ -315,8 +315,8 @@ void focused_map(const PlanContext& c, const MapRequest& request, MapResult& res
   if (c.how.stable) body = whole_frustum(request, body);
   const double obliquity = pixel_obliquity(c, request.body);
   Fitted fitted;
-  const bool kept = kept_from_before(c, request, body, map, fitted);
-  if (!kept) fit(c, request, body, obliquity, result, fitted);
+  const bool cached = cached_from_before(c, request, body, map, fitted);
+  if (!cached) fit(c, request, body, obliquity, result, fitted);
   if (!fitted.heights.has_casters && !request.without_casters) return;
   result.drawn = true;
   if (fitted.heights.too_near > 0)
@@ -326,14 +326,14 @@ void focused_map(const PlanContext& c, const MapRequest& request, MapResult& res
   const glm::dmat4 gl_from_relative = clip_from_light(map, fitted) * request.space.light_from_relative();
   glm::dvec2 longest = fitted.round.longest;
   if (c.how.shape->serving != nullptr)
-    longest = serve_seen(c, request, gl_from_relative, result);
+    longest = serve_visible(c, request, gl_from_relative, result);
   complete_record(
       c, request,
       {body, fitted.plane, fitted.swept, fitted.needed, fitted.rows, obliquity, gl_from_relative, longest},
       map);
   if (c.how.stable) write_snap_key(fitted, map);
-  if (c.how.remembers) result.gl_from_world = world_matrix(gl_from_relative, c.camera.position);
-  if (kept) {
+  if (c.how.has_history) result.gl_from_world = world_matrix(gl_from_relative, c.camera.position);
+  if (cached) {
     map.warp = map.kappa > 0.0 ? &request.warp : &warps::none;
     // The very bits of the last frame: what is drawn stays as it is.
     result.gl_from_world = request.last->gl_from_world;

@@ -136,7 +136,7 @@ double gain_ratio(const PlanContext& c, const MapRequest& request, const WarpQue
   return ratio < 1.0 ? ratio * border_ratio(c, request, question, choice) : ratio;
 }
 
-bool takes(const Warp& warp, const WarpChoice& choice, double ratio) noexcept {
+bool pays(const Warp& warp, const WarpChoice& choice, double ratio) noexcept {
   return std::isfinite(ratio) &&
          (ratio < 1.0 - kLeastWarpGain || (!warp.drop_without_gain && choice.kappa > 0.0));
 }
@@ -151,7 +151,7 @@ FocusedObjective focused_objective(const PlanContext& c, const MapRequest& reque
   const double without = inner * border_factor(c, request, question, in.unwarped);
   if (in.is_unwarped(choice)) return {without, without};
   const double ratio = gain_ratio(c, request, question, choice);
-  if (!takes(request.warp, choice, ratio)) return {without, without};
+  if (!pays(request.warp, choice, ratio)) return {without, without};
   const bool rotated = c.how.rotated;
   const WarpChoice drawn = rotated ? turned_to_least_area(in, choice) : choice;
   const double with = drawn.gain_ratio > 0.0 ? drawn.gain_ratio * inner : error.value(drawn);
@@ -164,7 +164,7 @@ PlaneMap focused_plane(const PlanContext& c, const MapRequest& request) noexcept
   const WarpInput& in = question.in;
   const WarpChoice choice = request.warp.choose(in);
   const double ratio = gain_ratio(c, request, question, choice);
-  return plane_map(in.body, takes(request.warp, choice, ratio) ? choice : in.unwarped);
+  return plane_map(in.body, pays(request.warp, choice, ratio) ? choice : in.unwarped);
 }
 
 }  // namespace gnomon

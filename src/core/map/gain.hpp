@@ -14,7 +14,7 @@ namespace gnomon {
 // A warp that gains less than this is dropped: it would come and go with the last bits of the input.
 inline constexpr double kLeastWarpGain = 1e-3;
 /// Whether a warp with this ratio is used.
-[[nodiscard]] bool takes(const Warp& warp, const WarpChoice& choice, double ratio) noexcept;
+[[nodiscard]] bool pays(const Warp& warp, const WarpChoice& choice, double ratio) noexcept;
 
 /// Outcome of a map of the body.
 struct FocusedObjective {

@@ -28,7 +28,7 @@ constexpr double kCut = 0.4054651081081644;  // ln 1.5
 
 // A warp that changes texels by less than this over the whole body has no direction worth keeping.
 constexpr double kFlat = 1e-3;
-// Share of a held map that the view must use: less wastes more texels than a still grid is worth.
+// Share of a cached map that the view must use: less wastes more texels than a stable grid is worth.
 constexpr double kLeastUse = 0.4;
 
 /// OpenGL clip space from homogeneous light space.
@@ -218,7 +218,7 @@ constexpr std::int64_t kSearchApart = 4;
 constexpr std::int64_t kSearchNearEvery = 2;
 
 /// The body fills the map as it did when that was made: what was measured then still holds.
-bool is_filled(const Recalled& r) noexcept {
+bool is_filled(const CachedPlane& r) noexcept {
   constexpr double kAlike = 0.05;  // of half a side
   const auto off = [](double low, double high, const glm::dvec2& row, double constant) {
     const double length = length_of(row);
@@ -230,7 +230,7 @@ bool is_filled(const Recalled& r) noexcept {
 }
 
 /// The body takes so much more or less of the map than when that was drawn that all its texels jump.
-bool is_cut(const Recalled& r) noexcept {
+bool is_cut(const CachedPlane& r) noexcept {
   const PlaneMap& plane = r.plane;
   const double a = (plane.a_max - plane.a_min) * length_of(r.map.choice.row_a),
                b = (plane.b_max - plane.b_min) * length_of(r.map.choice.row_b);
@@ -292,9 +292,10 @@ Decomposed decompose(const Homography& h, std::span<const WarpInput::Point> body
   return d;
 }
 
-Recalled recall(const Homography& h, const WarpQuestion& question, const glm::dvec2& flat_axis) noexcept {
+CachedPlane cached_plane(const Homography& h, const WarpQuestion& question,
+                         const glm::dvec2& flat_axis) noexcept {
   const WarpInput& in = question.in;
-  Recalled r{};
+  CachedPlane r{};
   r.map = decompose(h, in.body, flat_axis);
   if (!r.map.valid) return r;
   WarpChoice choice = r.map.choice;
@@ -305,14 +306,14 @@ Recalled recall(const Homography& h, const WarpQuestion& question, const glm::dv
   return r;
 }
 
-HeldMap held_map(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
-  HeldMap held{};
+CachedMap cached_map(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
+  CachedMap cached{};
   const glm::dmat4 m = gl_from_light(c, request.space, request.last->gl_from_world);
   const Homography h = homography(m);
   const Decomposed d = decompose(h, body.points(), {0.0, 1.0});
-  if (!d.valid) return held;
+  if (!d.valid) return cached;
   const double fill = 1.0 - 2.0 * request.last->filter_margin_texels / request.last->width;
-  PlaneMap& plane = held.plane;
+  PlaneMap& plane = cached.plane;
   plane.choice = d.choice;
   plane.u_min = d.u_min;
   plane.length = d.length;
@@ -327,15 +328,15 @@ HeldMap held_map(const PlanContext& c, const MapRequest& request, const LightBod
                       tight.b_min >= plane.b_min && tight.b_max <= plane.b_max;
   const double used = (tight.a_max - tight.a_min) * (tight.b_max - tight.b_min) /
                       ((plane.a_max - plane.a_min) * (plane.b_max - plane.b_min));
-  if (!inside || !(used >= kLeastUse)) return held;
+  if (!inside || !(used >= kLeastUse)) return cached;
   // Depth over the weight of the near end is w + 2 (bottom - h) / height.
   const double w_near = plane.w(0.0, 0.0) / h.weight({0.0, 0.0, 0.0, 1.0});
   const double per_height = m[2][2] * w_near, at_origin = m[3][2] * w_near;
-  if (!(per_height < 0.0)) return held;
-  held.depths.height = -2.0 / per_height;
-  held.depths.bottom = 0.5 * held.depths.height * (at_origin - plane.w(0.0, 0.0));
-  held.holds = true;
-  return held;
+  if (!(per_height < 0.0)) return cached;
+  cached.depths.height = -2.0 / per_height;
+  cached.depths.bottom = 0.5 * cached.depths.height * (at_origin - plane.w(0.0, 0.0));
+  cached.holds = true;
+  return cached;
 }
 
 double smooth_stretch(const PlanContext& c, const WarpQuestion& question, double length) noexcept {
@@ -349,7 +350,7 @@ double smooth_stretch(const PlanContext& c, const WarpQuestion& question, double
   return distance > 0.0 ? 1.0 + length / distance : std::numeric_limits<double>::infinity();
 }
 
-bool remembered(const MapRequest& request) noexcept {
+bool has_cached(const MapRequest& request) noexcept {
   return request.last != nullptr && request.last->width == request.slot.width &&
          request.last->height == request.slot.height;
 }
@@ -358,7 +359,7 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
                       const PlaneMap& best, MapResult& result) noexcept {
   const WarpInput& in = question.in;
   const LightBody& points = question.points;
-  if (!remembered(request)) {
+  if (!has_cached(request)) {
     result.report(PlanEventKind::map_appeared, 1.0);
     return best;
   }
@@ -374,7 +375,7 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
   if (in.start != nullptr && in.start->has_map && in.start->map.kappa > 0.0) {
     plane = points.under(in.start->map);
   } else {
-    const Recalled from = recall(walk.before(), question, best.choice.axis);
+    const CachedPlane from = cached_plane(walk.before(), question, best.choice.axis);
     if (!from.usable) return reported({best, walk.changed(best)});
     plane = from.plane;
   }
@@ -415,9 +416,9 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
   start.most_stretch = limit;
   const PlanHistory::SearchedWarp& last = request.last->searched;
   const auto over_body = [&](const glm::dmat4& gl_from_world) {
-    return recall(of_matrix(c, request.space, gl_from_world), question, question.in.unwarped.axis);
+    return cached_plane(of_matrix(c, request.space, gl_from_world), question, question.in.unwarped.axis);
   };
-  const Recalled best = c.frame < last.until ? over_body(last.xyw_from_world) : Recalled{};
+  const CachedPlane best = c.frame < last.until ? over_body(last.xyw_from_world) : CachedPlane{};
   if (best.usable) {
     start.best = best.plane.choice;
     start.best.gain_ratio = last.gain_ratio;
@@ -428,8 +429,8 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
     const bool holds = last.last_ratio > 0.0 && is_filled(best) && best.plane.stretch <= kNearLimit * limit;
     start.use = turn && moved ? StartUse::search : turn || !holds ? StartUse::measure : StartUse::keep;
   }
-  if (start.use != StartUse::keep && remembered(request)) {
-    const Recalled drawn = over_body(request.last->gl_from_world);
+  if (start.use != StartUse::keep && has_cached(request)) {
+    const CachedPlane drawn = over_body(request.last->gl_from_world);
     start.has_map = drawn.usable;
     start.map = drawn.plane.choice;
     // After a leap there is no way to be smooth on.
@@ -439,7 +440,8 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
   return true;
 }
 
-PlanHistory::SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request, const PlaneMap& plane) noexcept {
+PlanHistory::SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request,
+                                        const PlaneMap& plane) noexcept {
   const WarpChoice& choice = plane.choice;
   const std::int64_t sooner =
       request.last != nullptr ? 0 : kSearchApart * request.slot.cascade % kSearchEvery;

@@ -49,22 +49,22 @@ struct Span {
                                    const glm::dvec2& flat_axis) noexcept;
 
 /// A map of an earlier frame over this frame's body.
-struct Recalled {
+struct CachedPlane {
   bool usable;
   Decomposed map;  // its rectangle runs from -1 to 1
   PlaneMap plane;  // round the body, with rows of unit length
 };
 /// `flat_axis`: as for decompose.
-[[nodiscard]] Recalled recall(const Homography& h, const WarpQuestion& question,
+[[nodiscard]] CachedPlane cached_plane(const Homography& h, const WarpQuestion& question,
                               const glm::dvec2& flat_axis) noexcept;
 
 /// The last frame's map with this frame's body in it, as it was fitted: the whole rectangle and its depths.
-struct HeldMap {
+struct CachedMap {
   bool holds;
   PlaneMap plane;
   LightDepths depths;
 };
-[[nodiscard]] HeldMap held_map(const PlanContext& c, const MapRequest& request,
+[[nodiscard]] CachedMap cached_map(const PlanContext& c, const MapRequest& request,
                                const LightBody& body) noexcept;
 
 /// What the last frame found and drew, and what a search does with it. False where nothing is known.
@@ -75,7 +75,7 @@ struct HeldMap {
                                          const PlaneMap& plane) noexcept;
 
 /// True where the last frame has a map of this size for the same slot and light.
-[[nodiscard]] bool remembered(const MapRequest& request) noexcept;
+[[nodiscard]] bool has_cached(const MapRequest& request) noexcept;
 
 /// The best map, `best`, or one on the way there from the last frame's that keeps the change of texels per
 /// area over the body small; reports an event where it cannot.

@@ -183,19 +183,19 @@ Plane edge_plane(const LightFrame& frame, const PlaneMap& plane, const glm::dvec
   return {(frame.x * slope.x + frame.y * slope.y) * scale, constant * scale};
 }
 
-Polytope held_by(const MapRequest& request, const PlaneMap& plane) noexcept {
-  Polytope held = *request.all_receivers;
+Polytope served_by(const MapRequest& request, const PlaneMap& plane) noexcept {
+  Polytope served = *request.all_receivers;
   const LightFrame& frame = request.space.frame;
   // A look-up leaves a quarter texel of the border to rounding.
   const double room =
       1.0 / (request.slot.width < request.slot.height ? request.slot.width : request.slot.height);
   PlaneMap wide = plane;
   grow(wide, room);
-  clip(held, edge_plane(frame, wide, wide.choice.row_a, wide.a_min, 1.0));
-  clip(held, edge_plane(frame, wide, wide.choice.row_a, wide.a_max, -1.0));
-  clip(held, edge_plane(frame, wide, wide.choice.row_b, wide.b_min, 1.0));
-  clip(held, edge_plane(frame, wide, wide.choice.row_b, wide.b_max, -1.0));
-  return held;
+  clip(served, edge_plane(frame, wide, wide.choice.row_a, wide.a_min, 1.0));
+  clip(served, edge_plane(frame, wide, wide.choice.row_a, wide.a_max, -1.0));
+  clip(served, edge_plane(frame, wide, wide.choice.row_b, wide.b_min, 1.0));
+  clip(served, edge_plane(frame, wide, wide.choice.row_b, wide.b_max, -1.0));
+  return served;
 }
 
 MapRequest with_body(const MapRequest& r, const Polytope& body) noexcept {
@@ -297,12 +297,12 @@ ServedBody::ServedBody(const PlanContext& c, const MapRequest& request, const Li
                        const PlaneMap& plane) noexcept
     : own_(request), points_(&body) {
   if (request.all_receivers == nullptr) return;
-  held_ = held_by(request, plane);
+  served_ = served_by(request, plane);
   // Rounding may leave nothing of a map that is all border: its own body is all that it serves.
-  if (held_.empty()) return;
-  held_request_.emplace(with_body(request, held_));
-  held_points_ = in_light_space(c, *held_request_);
-  points_ = &held_points_;
+  if (served_.empty()) return;
+  served_request_.emplace(with_body(request, served_));
+  served_points_ = in_light_space(c, *served_request_);
+  points_ = &served_points_;
 }
 
 }  // namespace gnomon

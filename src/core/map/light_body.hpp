@@ -55,14 +55,16 @@ class ServedBody {
   ServedBody(const ServedBody&) = delete;
   ServedBody& operator=(const ServedBody&) = delete;
 
-  [[nodiscard]] const MapRequest& request() const noexcept { return held_request_ ? *held_request_ : own_; }
+  [[nodiscard]] const MapRequest& request() const noexcept {
+    return served_request_ ? *served_request_ : own_;
+  }
   [[nodiscard]] const LightBody& points() const noexcept { return *points_; }
 
  private:
-  Polytope held_;
-  LightBody held_points_;
+  Polytope served_;
+  LightBody served_points_;
   const MapRequest& own_;
-  std::optional<MapRequest> held_request_;  // none: the request's own
+  std::optional<MapRequest> served_request_;  // none: the request's own
   const LightBody* points_;
 };
 

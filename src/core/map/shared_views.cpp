@@ -101,7 +101,7 @@ Polytope view_slice(const SharedView& view, double begin, double end) noexcept {
   return slice;
 }
 
-DepthRange depths_seen(std::span<const SharedView> views) noexcept {
+DepthRange receiver_depths(std::span<const SharedView> views) noexcept {
   Interval depths;
   for (const SharedView& view : views) {
     for (const Polytope::Vertex& v : view.body.vertices()) depths.extend(view.depth(v.position));
@@ -203,10 +203,10 @@ Camera mean_camera(std::span<const SharedView> views, const glm::dvec3& origin) 
   mean.bottom = y.low;
   mean.top = y.high;
   // The image of equal cameras is as many pixels wide as theirs.
-  constexpr double kMostPixels = 1 << 20, kRounding = 1e-6;
-  mean.width = static_cast<int>(clamp_to(std::ceil(finest * (x.high - x.low) - kRounding), 1.0, kMostPixels));
+  constexpr double kMaxPixels = 1 << 20, kRounding = 1e-6;
+  mean.width = static_cast<int>(clamp_to(std::ceil(finest * (x.high - x.low) - kRounding), 1.0, kMaxPixels));
   mean.height =
-      static_cast<int>(clamp_to(std::ceil(finest * (y.high - y.low) - kRounding), 1.0, kMostPixels));
+      static_cast<int>(clamp_to(std::ceil(finest * (y.high - y.low) - kRounding), 1.0, kMaxPixels));
   return mean;
 }
 

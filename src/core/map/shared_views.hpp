@@ -19,7 +19,7 @@ namespace gnomon {
 [[nodiscard]] Polytope view_body(const PlanContext& c) noexcept;
 
 /// The view depths at which any camera sees receivers.
-[[nodiscard]] DepthRange depths_seen(std::span<const SharedView> views) noexcept;
+[[nodiscard]] DepthRange receiver_depths(std::span<const SharedView> views) noexcept;
 
 /// The part of the view's receivers between two of its depths.
 [[nodiscard]] Polytope receivers_between(const SharedView& view, double begin, double end) noexcept;

@@ -75,8 +75,8 @@ Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) no
   grid.texel = grid.side / inside;
   grid.eye = frame.turned(c.camera.position);
   // Texels finer than doubles are this far out have no place of their own.
-  constexpr double kMostTexels = 0x1p50;
-  while (max_of(std::abs(grid.eye.x), std::abs(grid.eye.y)) > kMostTexels * grid.texel) grid.texel *= 2.0;
+  constexpr double kMaxTexels = 0x1p50;
+  while (max_of(std::abs(grid.eye.x), std::abs(grid.eye.y)) > kMaxTexels * grid.texel) grid.texel *= 2.0;
   grid.side = grid.texel * inside;
   grid.half = 0.5 * grid.texel * map.width;
   // Centre of the whole slice, in absolute light coordinates, to the nearest texel.

@@ -24,7 +24,7 @@ namespace gnomon {
 namespace {
 
 // Logarithm of the growth of w over a body, 1998-fold, that leaves room for a border below kMostLogGrowth.
-constexpr double kMostOverBody = 7.6;
+constexpr double kMaxOverBody = 7.6;
 // Below it rows are straight but for a few thousandths.
 constexpr double kLeastGrowth = 1.0 / 32.0;
 
@@ -94,15 +94,15 @@ class Lengths {
 };
 
 /// A point that the camera sees and the map serves.
-struct SeenTexel {
+struct VisibleTexel {
   glm::dvec2 ndc;
   glm::dvec2 share;   // place in the map without its margin, 0..1
   glm::dvec2 length;  // of a linear texel along x and y across the light, pixels
 };
 
-/// Calls `visit` with each point seen in the map's depths and rectangle.
+/// Calls `visit` with each visible point in the map's depths and rectangle.
 template <class Visit>
-void each_seen(const PlanContext& c, const MapRequest& request, const glm::dmat4& gl_from_relative,
+void each_visible(const PlanContext& c, const MapRequest& request, const glm::dmat4& gl_from_relative,
                const ShadowMap& map, Visit&& visit) noexcept {
   const TexelGrid linear{map.width, map.height};
   const glm::dvec2 margin = static_cast<double>(map.filter_margin_texels) / linear.size();
@@ -114,20 +114,20 @@ void each_seen(const PlanContext& c, const MapRequest& request, const glm::dmat4
     if (!(depth >= request.begin && depth <= request.end)) continue;
     const TexelJacobian j = texel_jacobian(gl_from_relative, linear, relative);
     if (!(j.w > 0.0)) continue;
-    SeenTexel seen{{j.ndc_x, j.ndc_y}, {}, {}};
-    seen.share = (seen.ndc * 0.5 + 0.5 - margin) / (1.0 - 2.0 * margin);
-    if (!(seen.share.x >= 0.0 && seen.share.x <= 1.0 && seen.share.y >= 0.0 && seen.share.y <= 1.0)) continue;
+    VisibleTexel at{{j.ndc_x, j.ndc_y}, {}, {}};
+    at.share = (at.ndc * 0.5 + 0.5 - margin) / (1.0 - 2.0 * margin);
+    if (!(at.share.x >= 0.0 && at.share.x <= 1.0 && at.share.y >= 0.0 && at.share.y <= 1.0)) continue;
     const glm::dvec3 x = glm::cross(j.y, travel), y = glm::cross(travel, j.x);
     const double pixels =
         (c.camera.orthographic ? per_slope : per_slope / depth) / std::abs(glm::dot(j.x, x));
-    seen.length = glm::dvec2(glm::length(x), glm::length(y)) * pixels;
-    if (!(largest_component({seen.length.x, seen.length.y, 0.0}) < 1e30)) continue;
-    if (seen.length.x > 0.0 && seen.length.y > 0.0) visit(seen);
+    at.length = glm::dvec2(glm::length(x), glm::length(y)) * pixels;
+    if (!(largest_component({at.length.x, at.length.y, 0.0}) < 1e30)) continue;
+    if (at.length.x > 0.0 && at.length.y > 0.0) visit(at);
   }
 }
 
 /// What linear texels leave to be done.
-struct Seen {
+struct VisibleNeeds {
   TexelNeeds needs;
   Lengths x, y, longer;  // along both axes, and the longer of both
 };
@@ -138,9 +138,9 @@ void raise(double share, double length, std::array<double, kNeedStrips>& strips)
 }
 
 /// The needs with none larger than that of this share of the points.
-TexelNeeds without_extremes(const Seen& seen, double share) noexcept {
-  TexelNeeds needs = seen.needs;
-  const double most_x = seen.x.quantile(share), most_y = seen.y.quantile(share);
+TexelNeeds without_extremes(const VisibleNeeds& visible, double share) noexcept {
+  TexelNeeds needs = visible.needs;
+  const double most_x = visible.x.quantile(share), most_y = visible.y.quantile(share);
   for (double& length : needs.x) length = min_of(length, most_x);
   for (double& length : needs.y) length = min_of(length, most_y);
   return needs;
@@ -171,7 +171,7 @@ RowShape row_shape(const PlanContext& c, const PlaneMap& plane, double border) n
 
 void limit_to_shape(const PlanContext& c, std::span<const WarpInput::Point> body, PlaneMap& plane) noexcept {
   if (!undoes_warps(*c.how.shape)) return;
-  const double most = elementary::exp(kMostOverBody);
+  const double most = elementary::exp(kMaxOverBody);
   if (!(plane.stretch > most)) return;
   WarpChoice choice = plane.choice;
   choice.kappa = (most - 1.0) / plane.length;
@@ -253,7 +253,7 @@ RoundTexels round_texels(const PlanContext& c, const MapRequest& request, const 
   return texels;
 }
 
-glm::dvec2 serve_seen(const PlanContext& c, const MapRequest& request, const glm::dmat4& gl_from_relative,
+glm::dvec2 serve_visible(const PlanContext& c, const MapRequest& request, const glm::dmat4& gl_from_relative,
                       MapResult& result) noexcept {
   ShadowMap& map = result.map;
   if (map.width < request.slot.width || map.height < request.slot.height) {
@@ -262,30 +262,30 @@ glm::dvec2 serve_seen(const PlanContext& c, const MapRequest& request, const glm
     return glm::dvec2(1.0);
   }
   const Shape& shape = *c.how.shape;
-  Seen seen;
-  seen.needs.margin_texels = map.filter_margin_texels;
-  each_seen(c, request, gl_from_relative, map, [&](const SeenTexel& at) {
-    raise(at.share.x, at.length.x, seen.needs.x);
-    raise(at.share.y, at.length.y, seen.needs.y);
-    seen.x.add(at.length.x);
-    seen.y.add(at.length.y);
-    seen.longer.add(max_of(at.length.x, at.length.y));
+  VisibleNeeds visible;
+  visible.needs.margin_texels = map.filter_margin_texels;
+  each_visible(c, request, gl_from_relative, map, [&](const VisibleTexel& at) {
+    raise(at.share.x, at.length.x, visible.needs.x);
+    raise(at.share.y, at.length.y, visible.needs.y);
+    visible.x.add(at.length.x);
+    visible.y.add(at.length.y);
+    visible.longer.add(max_of(at.length.x, at.length.y));
   });
   // A few points of great need would take the texels from all others. How few are too few differs from scene
   // to scene.
   constexpr std::array kShares{1.0, 0.95, 0.8};
   const double counted = c.options.warp.objective == Objective::max ? 1.0 : 0.95;
-  const double before = seen.longer.quantile(counted);
+  const double before = visible.longer.quantile(counted);
   // Points have no normals. By those of the surfaces, less than a fifth is as often a loss.
   constexpr double kLeastGain = 0.2;
   const TexelGrid linear{map.width, map.height};
   ServingShape best;
   double least = before;
   for (const double share : kShares) {
-    const ServingShape tried = shape.serving(without_extremes(seen, share));
+    const ServingShape tried = shape.serving(without_extremes(visible, share));
     const TexelGrid grid{map.width, map.height, &shape, tried.parameters};
     Lengths longer;
-    each_seen(c, request, gl_from_relative, map, [&](const SeenTexel& at) {
+    each_visible(c, request, gl_from_relative, map, [&](const VisibleTexel& at) {
       const glm::dmat2 shaped = grid.place(at.ndc).texel_from_ndc, even = linear.place(at.ndc).texel_from_ndc;
       longer.add(max_of(at.length.x * even[0][0] / shaped[0][0], at.length.y * even[1][1] / shaped[1][1]));
     });

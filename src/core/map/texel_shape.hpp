@@ -52,7 +52,7 @@ struct RoundTexels {
 /// Sets the map's shape by the points visible in its depths, where that lowers the objective. `map` has its
 /// size and margin; `gl_from_relative`: its matrix for linear texels, from points relative to the camera.
 /// Returns how much longer the longest texels become along x and y.
-[[nodiscard]] glm::dvec2 serve_seen(const PlanContext& c, const MapRequest& request,
+[[nodiscard]] glm::dvec2 serve_visible(const PlanContext& c, const MapRequest& request,
                                     const glm::dmat4& gl_from_relative, MapResult& result) noexcept;
 
 }  // namespace gnomon

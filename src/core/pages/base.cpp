@@ -27,7 +27,7 @@ constexpr int kBaseTexels = 1024;
 constexpr double kEdgeRoom = 1e-6, kWholeSide = 1.0 + 4.0 * kEdgeRoom;
 
 /// Places from 0 to 1 across the map.
-void place_on_map(PageBase& base) noexcept {
+void anchor_on_map(PageBase& base) noexcept {
   const glm::dmat4& m = base.map.clip_from_world;
   base.row_w = row_of(m, 3);
   base.row_x = (row_of(m, 0) + base.row_w) * 0.5;
@@ -66,7 +66,7 @@ void deepen_to_bounds(const SceneBounds& bounds, const glm::dvec3& light_directi
 }
 
 /// Places in world units across parallel light, from the world's origin on: the same for every camera.
-void place_in_world(const glm::dvec3& light_direction, PageBase& base) noexcept {
+void anchor_in_world(const glm::dvec3& light_direction, PageBase& base) noexcept {
   const ShadowMap& map = base.map;
   const LightFrame frame = fixed_frame(light_direction);
   const auto along = [&](const glm::dvec3& axis, int row) {
@@ -131,7 +131,7 @@ glm::dvec3 position_of(const Light& light) noexcept {
 }
 
 /// Places in slopes across a local light's axis, from the axis on: the same for every camera.
-void place_in_light(const Light& light, const glm::dvec3& light_direction, const ClipSpace& clip_space,
+void anchor_in_light(const Light& light, const glm::dvec3& light_direction, const ClipSpace& clip_space,
                     PageBase& base) noexcept {
   const LightFrame frame = local_frame(light, light_direction, base.map);
   const glm::dmat4& m = base.map.clip_from_world;
@@ -351,12 +351,12 @@ PlanStatus plan_base(const Light& light, const SceneBounds& bounds, PageContext&
     base.map = plan.map[static_cast<std::size_t>(i)];
     base.fixed = stable;
     if (stable && std::holds_alternative<DirectionalLight>(light)) {
-      place_in_world(plan.light_direction, base);
+      anchor_in_world(plan.light_direction, base);
       deepen_to_bounds(bounds, plan.light_direction, options.clip_space, base);
     } else if (stable) {
-      place_in_light(light, plan.light_direction, options.clip_space, base);
+      anchor_in_light(light, plan.light_direction, options.clip_space, base);
     } else {
-      place_on_map(base);
+      anchor_on_map(base);
     }
     // Shifts of bases that stay at their place are final.
     out.places[static_cast<std::size_t>(base.map.cascade)] = {
@@ -365,7 +365,7 @@ PlanStatus plan_base(const Light& light, const SceneBounds& bounds, PageContext&
   return plan.status;
 }
 
-void take_points(const SceneBounds& bounds, PageContext& c) noexcept {
+void add_points(const SceneBounds& bounds, PageContext& c) noexcept {
   Needs needs(c);
   const View& seen = c.view;
   for (std::size_t i = 0; i < seen.points_world.size(); ++i)

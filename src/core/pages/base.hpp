@@ -135,12 +135,12 @@ struct PageContext {
     g.side = b.side * shrink[level % kLadder];
     const glm::dvec2 low = (b.low + b.shift) / g.side, high = (b.high + b.shift) / g.side;
     // Beyond, doubles hold no whole number of pages: positions there are rounding.
-    constexpr double kFarthest = 0x1p53, kMostPagesAcross = 0x1p22;
+    constexpr double kFarthest = 0x1p53, kMaxPagesAcross = 0x1p22;
     g.first_x = static_cast<std::int64_t>(clamp_to(std::floor(low.x), -kFarthest, kFarthest));
     g.first_y = static_cast<std::int64_t>(clamp_to(std::floor(low.y), -kFarthest, kFarthest));
     const auto across = [](double last, std::int64_t first) {
       return static_cast<std::int32_t>(
-                 clamp_to(std::floor(last) - static_cast<double>(first), 0.0, kMostPagesAcross)) +
+                 clamp_to(std::floor(last) - static_cast<double>(first), 0.0, kMaxPagesAcross)) +
              1;
     };
     g.columns = across(high.x, g.first_x);
@@ -155,7 +155,7 @@ struct PageContext {
 [[nodiscard]] PlanStatus plan_base(const Light& light, const SceneBounds& bounds, PageContext& context,
                                    PagePlan& out) noexcept;
 /// Fills memory.points with the visible points, or with samples of the boxes.
-void take_points(const SceneBounds& bounds, PageContext& context) noexcept;
+void add_points(const SceneBounds& bounds, PageContext& context) noexcept;
 /// Gives the sides of pages the aspect that wastes the fewest texels, and a size within a step of the ladder
 /// that goes by `trial`: 0 is the largest.
 void size_base(int trial, PageContext& context) noexcept;

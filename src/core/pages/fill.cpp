@@ -154,14 +154,14 @@ class Opening {
 std::uint64_t lower_points(PageContext& c, Opening& opening, std::uint64_t budget) noexcept {
   const std::span<Page> pages = c.memory.pages.first(c.page_count);
   // Pages by their number of points; those with more are no candidates.
-  constexpr std::size_t kMostPoints = 1024;
-  std::array<std::uint64_t, kMostPoints> with{};
+  constexpr std::size_t kMaxPoints = 1024;
+  std::array<std::uint64_t, kMaxPoints> with{};
   for (const Page& page : pages) {
-    if (page.points < kMostPoints && page.level % kLadder > 0) ++with[page.points];
+    if (page.points < kMaxPoints && page.level % kLadder > 0) ++with[page.points];
   }
   std::uint64_t left = budget;
   std::size_t limit = 0;  // pages with fewer points go
-  while (limit < kMostPoints && with[limit] * limit <= left) left -= with[limit] * limit, ++limit;
+  while (limit < kMaxPoints && with[limit] * limit <= left) left -= with[limit] * limit, ++limit;
   std::uint64_t lowered = 0;
   c.for_each_point([&](PagePoint& point, std::size_t) {
     if (point.level % kLadder == 0) return;

@@ -59,7 +59,7 @@ PageMemory parts_of(std::span<std::byte> memory, int capacity) noexcept {
           parts.take<std::uint32_t>(page_table_size(capacity)), parts.take<PagePoint>(points)};
 }
 
-std::string_view invalid_seen(const View& view, const PageHistory& history,
+std::string_view invalid_points(const View& view, const PageHistory& history,
                               const PageMemory& memory) noexcept {
   const std::size_t count = view.points_world.size();
   if (memory.points.empty() || memory.points.size() < count) return "memory";
@@ -259,7 +259,7 @@ PagePlan plan_pages(const View& view, const Light& light, const SceneBounds& bou
   if (!plan.invalid_field.empty()) return plan;
   const PageHistory known = history != nullptr ? *history : PageHistory{};
   const PageMemory parts = parts_of(memory, pages.capacity);
-  plan.invalid_field = invalid_seen(view, known, parts);
+  plan.invalid_field = invalid_points(view, known, parts);
   if (!plan.invalid_field.empty()) return plan;
   const Camera finite = with_finite_far(view.camera, bounds.receivers);
   PageContext c{finite, view, known, pages, parts, camera_axes(finite)};
@@ -272,7 +272,7 @@ PagePlan plan_pages(const View& view, const Light& light, const SceneBounds& bou
   plan.status = plan_base(light, bounds, c, plan);
   if (plan.status != PlanStatus::ok) return plan;
   make_ladder(c);
-  take_points(bounds, c);
+  add_points(bounds, c);
   choose_sizes(c, plan);
   if (!fit_pool(c, plan)) {
     // Every map of the base needs a page, a grid that does not follow the camera up to four.

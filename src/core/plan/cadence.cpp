@@ -1,4 +1,4 @@
-// Far cascades that are planned every few frames: which maps are kept, and the room that lets them serve.
+// Far cascades that are planned every few frames: which maps are cached, and the room that lets them serve.
 //
 // A camera that moves by a vector t and turns by an angle a about its eye moves a point at the distance d of
 // its frustum by at most |t| + 2 sin(a / 2) d. So the receivers within that of the old frustum's slice hold
@@ -74,16 +74,17 @@ Polytope receivers_with_room(const PlanContext& c, double begin, double end, dou
   return body;
 }
 
-const PlanHistory::KeptMap* kept_map(const PlanContext& c, const PlanHistory& history,
-                                     const CascadeSlot& slot) noexcept {
-  const PlanHistory::KeptMap& kept = history.kept[static_cast<std::size_t>(slot.cascade)];
+const PlanHistory::KeptMap* cached_cascade(const PlanContext& c, const PlanHistory& history,
+                                           const CascadeSlot& slot) noexcept {
+  const PlanHistory::KeptMap& cached = history.kept[static_cast<std::size_t>(slot.cascade)];
   const int frames = c.options.cadence.frames;
   const bool due = (history.frame + slot.cascade) % frames == 0;
-  if (due || kept.frame < 0 || history.frame - kept.frame >= frames) return nullptr;
-  const ShadowMap& map = kept.map;
-  const bool same = c.same_light && same_lens(c.camera, kept.camera) && map.depth_begin == slot.begin &&
+  if (due || cached.frame < 0 || history.frame - cached.frame >= frames) return nullptr;
+  const ShadowMap& map = cached.map;
+  const bool same = c.same_light && same_lens(c.camera, cached.camera) && map.depth_begin == slot.begin &&
                     map.depth_end == slot.end;
-  return same && motion_between(c, kept.camera, slot.end) <= room_for_motion(c, slot.end) ? &kept : nullptr;
+  const bool serves = same && motion_between(c, cached.camera, slot.end) <= room_for_motion(c, slot.end);
+  return serves ? &cached : nullptr;
 }
 
 }  // namespace gnomon

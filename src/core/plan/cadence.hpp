@@ -1,4 +1,4 @@
-// Far cascades that are planned every few frames: which maps are kept, and the room that lets them serve.
+// Far cascades that are planned every few frames: which maps are cached, and the room that lets them serve.
 #pragma once
 
 #include "gnomon/extend/body.hpp"
@@ -7,7 +7,7 @@
 namespace gnomon {
 
 /// How far, in world units, a point of the slice up to the view depth `end` may move against the camera while
-/// its map is kept.
+/// its map is cached.
 [[nodiscard]] double room_for_motion(const PlanContext& c, double end) noexcept;
 
 /// The receivers within `room` of the camera's frustum between two view depths.
@@ -20,7 +20,8 @@ struct CascadeSlot {
   double begin, end;
 };
 /// The map of an earlier frame that still serves the slot; nullptr: it is to be planned.
-[[nodiscard]] const PlanHistory::KeptMap* kept_map(const PlanContext& c, const PlanHistory& history,
-                                                   const CascadeSlot& slot) noexcept;
+[[nodiscard]] const PlanHistory::KeptMap* cached_cascade(const PlanContext& c,
+                                                         const PlanHistory& history,
+                                                         const CascadeSlot& slot) noexcept;
 
 }  // namespace gnomon

@@ -100,17 +100,17 @@ double overlap_before(const PlanContext& c, const ShadowPlan& plan, double begin
 /// [from, to]: the depths between the neighbouring cascades.
 void slice_between(const PlanContext& c, const ParallelScene& scene, const ShadowPlan& plan, double from,
                    double to, Slice& slice) noexcept {
-  const DepthRange seen =
-      c.visible_depths == nullptr ? DepthRange{from, to} : seen_between(*c.visible_depths, from, to);
+  const DepthRange visible =
+      c.visible_depths == nullptr ? DepthRange{from, to} : visible_range(*c.visible_depths, from, to);
   // A single depth is a slice only where it is all there is.
   const bool covered = from == to && plan.map_count > 0;
   const double pseudo_near = c.options.split.pseudo_near;
-  if (!seen.empty() && !covered) fill_body(c, scene, seen.begin, seen.end, pseudo_near, slice);
+  if (!visible.empty() && !covered) fill_body(c, scene, visible.begin, visible.end, pseudo_near, slice);
   const bool holds_nothing = slice.body->empty();
   slice.wanted = !holds_nothing || (!c.options.prune.has(PruneRule::empty_cascades) && from < to);
   if (!slice.wanted) return;
-  slice.begin = holds_nothing ? from : seen.begin;
-  slice.end = holds_nothing ? to : seen.end;
+  slice.begin = holds_nothing ? from : visible.begin;
+  slice.end = holds_nothing ? to : visible.end;
   slice.overlap = overlap_before(c, plan, slice.begin);
   if (holds_nothing) {
     fill_with_frusta(c, slice.begin - slice.overlap, slice.end, slice);
@@ -124,33 +124,36 @@ void slice_between(const PlanContext& c, const ParallelScene& scene, const Shado
 }
 
 /// Adds a map of an earlier frame, for this frame's eye.
-void keep(const PlanContext& c, const PlanHistory::KeptMap& kept, PlanHistory& history,
-          ShadowPlan& plan) noexcept {
-  if (!kept.drawn) {
-    omit(plan, {OmissionKind::cascade_without_caster, kept.map.cascade, kept.map.depth_begin,
-                kept.map.depth_end, texels_asked(c.options)});
+void add_cached(const PlanContext& c, const PlanHistory::KeptMap& cached, PlanHistory& history,
+                ShadowPlan& plan) noexcept {
+  if (!cached.drawn) {
+    omit(plan, {OmissionKind::cascade_without_caster, cached.map.cascade, cached.map.depth_begin,
+                cached.map.depth_end, texels_asked(c.options)});
     return;
   }
   const ShadowMap& map = plan.map[static_cast<std::size_t>(plan.map_count++)] =
-      rebased(kept.map, c.camera.position);
+      rebased(cached.map, c.camera.position);
   PlanHistory::Map& last = history.map[static_cast<std::size_t>(map.cascade)];
-  last = {history.frame, kept.gl_from_world, map.width, map.height, map.filter_margin_texels, last.searched};
+  last = {history.frame, cached.gl_from_world,     map.width,
+          map.height,    map.filter_margin_texels, last.searched};
 }
 
-/// What later frames may keep.
-PlanHistory::KeptMap kept_from(const PlanContext& c, const MapResult& result, std::int64_t frame) noexcept {
+/// What later frames may take up.
+PlanHistory::KeptMap cascade_to_cache(const PlanContext& c, const MapResult& result,
+                                      std::int64_t frame) noexcept {
   return {frame, result.drawn, result.map, result.gl_from_world, c.camera};
 }
 
 void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade, DepthRange between,
                   MapSizes::Size size, PlanHistory* history, ShadowPlan& plan) noexcept {
-  const bool keeps = c.how.caches_cascades && cascade > 0;
-  if (keeps) {
-    const PlanHistory::KeptMap* const kept = kept_map(c, *history, {cascade, between.begin, between.end});
-    if (kept != nullptr) return keep(c, *kept, *history, plan);
+  const bool caches = c.how.caches_cascades && cascade > 0;
+  if (caches) {
+    const PlanHistory::KeptMap* const cached =
+        cached_cascade(c, *history, {cascade, between.begin, between.end});
+    if (cached != nullptr) return add_cached(c, *cached, *history, plan);
   }
   Slice slice;
-  if (keeps) slice.room = room_for_motion(c, between.end);
+  if (caches) slice.room = room_for_motion(c, between.end);
   slice_between(c, scene, plan, between.begin, between.end, slice);
   const bool on_planes = scene.planes != nullptr && slice.wanted && !slice.body->empty() &&
                          c.options.prune.has(PruneRule::empty_cascades) && scene.planes->serve(*slice.body);
@@ -184,7 +187,7 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
   } else {
     focused_map(c, request, result);
   }
-  if (keeps) history->kept[static_cast<std::size_t>(cascade)] = kept_from(c, result, history->frame);
+  if (caches) history->kept[static_cast<std::size_t>(cascade)] = cascade_to_cache(c, result, history->frame);
   merge(result,
         {OmissionKind::cascade_without_caster, cascade, slice.begin, slice.end, texels_asked(c.options)},
         history, plan);
@@ -276,7 +279,7 @@ void plan_cascades(const PlanContext& c, const ParallelScene& scene, int cascade
 void plan_within(const PlanContext& c, const ParallelScene& scene, bool square, PlanHistory* history,
                  ShadowPlan& plan) noexcept {
   const PlanOptions& options = c.options;
-  // Trials keep their size, and leave nothing to remember.
+  // Trials keep their size, and leave nothing to a history.
   PlanContext trial_context = c;
   trial_context.how.error_bound = 0.0;
   trial_context.how.forget();

@@ -98,7 +98,7 @@ const SplitTable::Cut& SplitTable::cut(double depth) noexcept {
 
 double SplitTable::cost(double begin, double end) noexcept {
   const DepthRange range =
-      c_.visible_depths == nullptr ? DepthRange{begin, end} : seen_between(*c_.visible_depths, begin, end);
+      c_.visible_depths == nullptr ? DepthRange{begin, end} : visible_range(*c_.visible_depths, begin, end);
   if (range.empty()) return 0.0;
   AlongView view(c_.options.warp.objective, 0.0);
   std::size_t count = 0;
@@ -141,7 +141,7 @@ void report_depths(CascadeEdges& edges, OmissionKind kind, double begin, double 
 /// The body between two depths, less what is not visible at the ends.
 Polytope between(const PlanContext& c, const Polytope& body, double from, double to) noexcept {
   const DepthRange range =
-      c.visible_depths == nullptr ? DepthRange{from, to} : seen_between(*c.visible_depths, from, to);
+      c.visible_depths == nullptr ? DepthRange{from, to} : visible_range(*c.visible_depths, from, to);
   Polytope part = body;
   if (range.empty()) {
     part.vertex_count = 0;
@@ -230,7 +230,8 @@ JudgedEdges searched_edges(const PlanContext& c, const ParallelScene& scene,
 
 /// Sets the inner edges to the best ones of an earlier frame. False where they are too old, or of other
 /// depths.
-bool take_searched(const PlanHistory::SearchedEdges& searched, std::int64_t frame, std::span<double> edges) noexcept {
+bool reuse_searched(const PlanHistory::SearchedEdges& searched, std::int64_t frame,
+                    std::span<double> edges) noexcept {
   constexpr double kAlike = 1.05;
   const auto count = static_cast<std::size_t>(searched.count);
   if (frame >= searched.until || count != edges.size()) return false;
@@ -247,19 +248,19 @@ void optimise(const PlanContext& c, const ParallelScene& scene, std::span<double
   JudgedEdges best = searched_edges(c, scene, edges);
   // The search goes by a simplified error; what counts is the exact one.
   JointObjective least = exact_objective(c, scene, edges);
-  const auto take_better = [&] {
+  const auto keep_better = [&] {
     if (!(best.objective.value < least.value)) return;
     least = best.objective;
     std::copy_n(best.depth.begin(), edges.size(), edges.begin());
   };
-  take_better();
+  keep_better();
   // Edges searched for a warp that gains little may be worse than edges searched without one. A warp that is
   // searched for gains more than the one that stands for it.
   const double gains_enough = is_searched(scene.warp) ? 0.99 : 0.7;
   if (is_unwarped(scene.warp) || least.value < gains_enough * least.unwarped) return;
   const ParallelScene plain{scene.body, scene.depths, scene.space, warps::none};
   best = searched_edges(c, plain, edges);
-  take_better();
+  keep_better();
 }
 
 /// Moves the edges between cascades at most a small step from those of the last frame, `last` (empty: there
@@ -297,7 +298,7 @@ const VisibleDepths* usable_depths(const PlanContext& c, const DepthRange& body,
   if (visible == nullptr) return nullptr;
   // Surfaces that are all no receivers, or a histogram of another scene, are as good as unknown.
   const DepthRange received = received_depths(c, body);
-  return seen_between(*visible, received.begin, received.end).empty() ? nullptr : visible;
+  return visible_range(*visible, received.begin, received.end).empty() ? nullptr : visible;
 }
 
 CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int cascades,
@@ -312,16 +313,16 @@ CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int
   }
   const DepthRange cover = c.visible_depths == nullptr
                                ? received
-                               : seen_between(*c.visible_depths, received.begin, received.end);
+                               : visible_range(*c.visible_depths, received.begin, received.end);
   report_depths(result, OmissionKind::depth_not_visible, received.begin, cover.begin);
   report_depths(result, OmissionKind::depth_not_visible, cover.end, received.end);
   const SplitOptions& split = c.options.split;
   split_depths(cover.begin, cover.end, split, edges);
   const bool logarithmic = split.scheme == SplitScheme::logarithmic ||
                            split.scheme == SplitScheme::automatic || split.scheme == SplitScheme::optimal;
-  if (logarithmic && c.visible_depths != nullptr) split_seen(*c.visible_depths, cover, edges);
+  if (logarithmic && c.visible_depths != nullptr) split_visible(*c.visible_depths, cover, edges);
   const bool optimal = split.scheme == SplitScheme::optimal;
-  if (optimal && !(history != nullptr && take_searched(history->searched_edges, history->frame, edges))) {
+  if (optimal && !(history != nullptr && reuse_searched(history->searched_edges, history->frame, edges))) {
     optimise(c, scene, edges);
     if (history != nullptr)
       history->searched_edges = {history->frame + kSearchEdgesEvery, result.depth, result.count};
@@ -329,7 +330,7 @@ CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int
   // One visible depth is one slice: more of them would divide the safety round it. Over frames the number of
   // maps must not come and go with one pixel.
   const bool single = c.visible_depths != nullptr && c.visible_depths->min == c.visible_depths->max &&
-                      !c.how.remembers;
+                      !c.how.has_history;
   if (single && split.scheme != SplitScheme::given) {
     for (double& edge : edges.subspan(1)) edge = cover.end;
   }

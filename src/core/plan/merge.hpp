@@ -9,7 +9,7 @@ void omit(ShadowPlan& plan, const Omission& omission) noexcept;
 /// Lists options that do not hold.
 void omit(ShadowPlan& plan, const Ignored& options) noexcept;
 
-/// The last frame's map of this cascade or face for a request; nullptr where none is remembered.
+/// The last frame's map of this cascade or face for a request; nullptr where there is none.
 [[nodiscard]] const PlanHistory::Map* last_map(const PlanHistory* history, int cascade) noexcept;
 
 /// Where the plan's next map goes: below kMaxMaps of them so far.

@@ -47,7 +47,7 @@ struct Parts {
   std::array<Part, kMaxMaps> part;
   int count = 0;
   double objective = 0.0;
-  bool no_place = false;   // a plane was looked for, and none has both maps equally dense
+  bool no_balance = false;   // a plane was looked for, and none has both maps equally dense
   bool most_maps = false;  // more slices of faces would lower the objective, and there is no map for them
   int fewest_slices = 0;   // that a face has which could be divided further
 };
@@ -497,7 +497,7 @@ double density_step(const PlanContext& c, const ParallelScene& scene, const Poly
 
 /// Where along the length both maps' texels are as dense as each other: the nearer the plane, the denser the
 /// first map's and the sparser the second's. Below 0: nowhere, as the first map's best warp changes at once.
-double separating_place(const PlanContext& c, const ParallelScene& scene, const Polytope& body,
+double balanced_share(const PlanContext& c, const ParallelScene& scene, const Polytope& body,
                         const Separation& s, double begin, double end, double first) noexcept {
   constexpr int kSteps = 24;
   constexpr double kEqual = 0.02;  // of the logarithm: 2 % of the density
@@ -524,9 +524,9 @@ Parts separated_parts(const PlanContext& c, const ParallelScene& scene, const Po
   const LightFrame& frame = scene.space.frame;
   const Separation s{frame.x * map.choice.axis.x + frame.y * map.choice.axis.y, map.u_min, map.length};
   const double at =
-      separating_place(c, scene, body, s, begin, end, separating_share(map.choice.kappa, map.length));
-  parts.no_place = at < 0.0;
-  if (parts.no_place) return parts;
+      balanced_share(c, scene, body, s, begin, end, separating_share(map.choice.kappa, map.length));
+  parts.no_balance = at < 0.0;
+  if (parts.no_balance) return parts;
   for (int side = 0; side < 2; ++side) add_part(c, body, side_part(scene, s, begin, end, side, at), parts);
   return parts;
 }
@@ -607,7 +607,7 @@ void plan_parts(const PlanContext& c, const ParallelScene& scene, ShadowPlan& pl
   const Parts parts = divided(c, scene, body, begin, end);
   const bool gains = parts.count > 1 && parts.objective < whole.objective * (1.0 - kLeastGain);
   const bool clusters = c.options.split.partition == Partition::receiver_clusters;
-  if (const int rivals = rival_cascades(c); rivals > 0 && (gains || parts.no_place || clusters)) {
+  if (const int rivals = rival_cascades(c); rivals > 0 && (gains || parts.no_balance || clusters)) {
     const double cascades = cascades_objective(c, scene, body, begin, end, rivals);
     const double beaten = gains ? parts.objective : whole.objective * (1.0 - kLeastGain);
     if (cascades < beaten) {

@@ -73,7 +73,7 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const Resolved
     return;
   }
   ParallelScene scene{visible_receivers.body,
-                      c.views.empty() ? visible_receivers.depths : depths_seen(c.views),
+                      c.views.empty() ? visible_receivers.depths : receiver_depths(c.views),
                       {},
                       *c.how.warp};
   scene.space.frame = c.how.stable ? fixed_frame(plan.light_direction)
@@ -113,7 +113,7 @@ PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const Re
 }
 
 /// Forgets what was planned with other options: maps that are cached, and where searches begin.
-void remember_options(const PlanOptions& options, PlanHistory& history) noexcept {
+void forget_other_options(const PlanOptions& options, PlanHistory& history) noexcept {
   if (options == history.options) return;
   for (PlanHistory::KeptMap& kept : history.kept) kept.frame = -1;
   for (PlanHistory::Map& map : history.map) map.searched.until = -1;
@@ -122,8 +122,8 @@ void remember_options(const PlanOptions& options, PlanHistory& history) noexcept
 }
 
 /// Takes up what the last frame left.
-void remember(const Light& light, PlanHistory& history, PlanContext& c) noexcept {
-  remember_options(c.options, history);
+void resume(const Light& light, PlanHistory& history, PlanContext& c) noexcept {
+  forget_other_options(c.options, history);
   c.frame = history.frame;
   c.last_eye = history.eye_world;
   c.last_forward = history.forward;
@@ -150,7 +150,7 @@ void plan_frame(const View& view, const Light& light, const SceneBounds& bounds,
       resolve(options, {light, view.camera.orthographic, views, history != nullptr, has_depths,
                         !view.points_world.empty()});
   PlanContext context = begin_plan(view.camera, bounds, resolved, plan);
-  if (history != nullptr) remember(light, *history, context);
+  if (history != nullptr) resume(light, *history, context);
   if (resolved.follows_points) context.visible_points = view.points_world;
   if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
     plan_parallel(context, *sun, resolved, view.depths, history, plan);
@@ -182,7 +182,7 @@ glm::dvec3 mean_eye(std::span<const Camera> cameras) noexcept {
 }
 
 /// False where the camera sees no receiver.
-bool place_view(const Camera& camera, const SceneBounds& bounds, const glm::dvec3& origin,
+bool sees_receivers(const Camera& camera, const SceneBounds& bounds, const glm::dvec3& origin,
                 SharedView& view) noexcept {
   view.camera = with_finite_far(camera, bounds.receivers);
   view.axes = camera_axes(camera);
@@ -235,7 +235,7 @@ ShadowPlan plan_views(std::span<const Camera> cameras, const Light& light, const
   std::array<int, kMaxViews> blind{};
   std::size_t seeing_count = 0, blind_count = 0;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    if (place_view(cameras[i], bounds, origin, seeing[seeing_count])) {
+    if (sees_receivers(cameras[i], bounds, origin, seeing[seeing_count])) {
       ++seeing_count;
     } else {
       blind[blind_count++] = static_cast<int>(i);

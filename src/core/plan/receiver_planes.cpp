@@ -37,7 +37,7 @@ struct Slab {
 /// Depths of the body that cascades would cover as well.
 DepthRange covered_depths(const PlanContext& c, const Polytope& body) noexcept {
   const DepthRange depths = depths_of(body, c.axes.forward);
-  return c.visible_depths == nullptr ? depths : seen_between(*c.visible_depths, depths.begin, depths.end);
+  return c.visible_depths == nullptr ? depths : visible_range(*c.visible_depths, depths.begin, depths.end);
 }
 
 /// Empty where no visible receiver is in it.

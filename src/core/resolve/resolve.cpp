@@ -76,7 +76,7 @@ bool shape_holds(const PlanCase& plan, const Resolved& r, bool local_light) noex
   const PlanOptions& o = r.options;
   const Shape& shape = *o.warp.shape;
   if (shape.affine) return true;
-  if (o.fit != Fit::tight || r.conduct.remembers) return false;
+  if (o.fit != Fit::tight || r.conduct.has_history) return false;
   if (undoes_warps(shape)) return true;
   if (sizes_follow_error(o.resolution)) return false;
   if (shape.round != nullptr) return local_light;
@@ -132,8 +132,8 @@ void resolve_parallel(const PlanCase& plan, Resolved& r) noexcept {
   Conduct& how = r.conduct;
   const bool divides = divides_parallel(o.split.partition);
   r.parts = divides && !how.stable;
-  how.remembers = plan.has_history && !r.parts;
-  how.caches_cascades = o.cadence.frames > 1 && how.remembers && !sizes_follow_error(o.resolution);
+  how.has_history = plan.has_history && !r.parts;
+  how.caches_cascades = o.cadence.frames > 1 && how.has_history && !sizes_follow_error(o.resolution);
   if (how.caches_cascades) fix(o.split);
   r.follows_points =
       plan.has_points && !how.stable && !how.caches_maps && !how.caches_cascades && !divides;
@@ -158,7 +158,7 @@ void resolve_parallel(const PlanCase& plan, Resolved& r) noexcept {
 
 void resolve_local(const PlanCase& plan, Resolved& r) noexcept {
   SplitOptions& split = r.options.split;
-  r.conduct.remembers = plan.has_history;
+  r.conduct.has_history = plan.has_history;
   r.tetrahedron =
       split.partition == Partition::tetrahedron && std::holds_alternative<PointLight>(plan.light);
   if (split.partition != Partition::view_depth && !r.tetrahedron) drop_partition(r);
@@ -192,10 +192,10 @@ Resolved resolve(const PlanOptions& options, const PlanCase& plan) noexcept {
   how.warp = warp_of(r.options);
   how.shape = r.options.warp.shape;
   // Parts that ignore a texel budget keep their size.
-  const bool sized = how.remembers || options.resolution.texel_budget > 0;
+  const bool sized = how.has_history || options.resolution.texel_budget > 0;
   how.error_bound = sized ? 0.0 : error_bound(r.options);
-  how.steady = how.remembers && tight(options.fit);
-  r.square = !tight(options.fit) || how.remembers;
+  how.steady = how.has_history && tight(options.fit);
+  r.square = !tight(options.fit) || how.has_history;
   if (options.cadence.frames > 1 && !how.caches_cascades) {
     r.of_plan.add(IgnoredOption::cadence);
     r.options.cadence = {};

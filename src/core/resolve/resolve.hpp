@@ -35,11 +35,11 @@ struct Conduct {
   bool rotated = false;                   // Fit::rotated: rectangles turn to the least area
   bool caches_maps = false;               // Fit::warped_stable: a map serves until the view leaves it
   bool caches_cascades = false;           // CadenceOptions: those behind the first serve for some frames
-  bool remembers = false;                 // the caller has a PlanHistory
+  bool has_history = false;               // a PlanHistory holds
   bool steady = false;                    // maps go in small steps from those of the last frame
 
   /// From now on as without a history: for trials, and for maps that have no steady way to go.
-  void forget() noexcept { caches_cascades = remembers = steady = false; }
+  void forget() noexcept { caches_cascades = has_history = steady = false; }
 };
 
 /// Entries of ShadowPlan::omitted about options that do not hold.

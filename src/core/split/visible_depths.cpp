@@ -28,7 +28,7 @@ std::size_t put_slices(const VisibleDepths& depths, DepthRange cover, double rat
   double at = cover.begin;
   // From the end on there is nothing, though a range of no length is not empty.
   while (at < cover.end) {
-    const DepthRange left = seen_between(depths, at, cover.end);
+    const DepthRange left = visible_range(depths, at, cover.end);
     if (left.empty()) break;
     if (count == ends.size()) return count + 1;
     at = min_of(left.begin * ratio, cover.end);
@@ -39,8 +39,8 @@ std::size_t put_slices(const VisibleDepths& depths, DepthRange cover, double rat
 
 /// Moves an edge inwards by one bin after so many frames, and only while more than a bin of it is unused: a
 /// depth that swings about a bin's border stays in.
-void creep(int& edge, int seen, int step, int frames, int& wait) noexcept {
-  if (step * (seen - edge) <= 1) {
+void creep(int& edge, int visible, int step, int frames, int& wait) noexcept {
+  if (step * (visible - edge) <= 1) {
     wait = 0;
     return;
   }
@@ -82,16 +82,16 @@ VisibleDepths visible_between(double min, double max) noexcept {
   return depths;
 }
 
-void DepthTracker::move_edges(int first_seen, int last_seen) noexcept {
+void DepthTracker::move_edges(int first_visible, int last_visible) noexcept {
   if (first_ < 0) {
-    first_ = first_seen;
-    last_ = last_seen;
+    first_ = first_visible;
+    last_ = last_visible;
     return;
   }
-  if (first_seen < first_) first_ = first_seen;
-  if (last_seen > last_) last_ = last_seen;
-  creep(first_, first_seen, 1, frames_per_bin, first_wait_);
-  creep(last_, last_seen, -1, frames_per_bin, last_wait_);
+  if (first_visible < first_) first_ = first_visible;
+  if (last_visible > last_) last_ = last_visible;
+  creep(first_, first_visible, 1, frames_per_bin, first_wait_);
+  creep(last_, last_visible, -1, frames_per_bin, last_wait_);
 }
 
 void DepthTracker::update(const VisibleDepths& frame) noexcept {
@@ -99,42 +99,44 @@ void DepthTracker::update(const VisibleDepths& frame) noexcept {
   const auto pixels = [&](int bin) {
     return bin >= 0 && bin < kDepthBins ? frame.count[static_cast<std::size_t>(bin)] : 0;
   };
-  int first_seen = kDepthBins, last_seen = -1;
+  int first_visible = kDepthBins, last_visible = -1;
   for (int bin = 0; bin < kDepthBins; ++bin) {
     std::uint16_t& unseen = frames_unseen_[static_cast<std::size_t>(bin)];
-    const bool seen = pixels(bin - 1) > 0 || pixels(bin) > 0 || pixels(bin + 1) > 0;
-    if (!seen) {
+    const bool visible = pixels(bin - 1) > 0 || pixels(bin) > 0 || pixels(bin + 1) > 0;
+    if (!visible) {
       if (unseen < std::numeric_limits<std::uint16_t>::max()) ++unseen;
       continue;
     }
     unseen = 0;
-    if (first_seen == kDepthBins) first_seen = bin;
-    last_seen = bin;
+    if (first_visible == kDepthBins) first_visible = bin;
+    last_visible = bin;
   }
-  if (last_seen < 0) return;
+  if (last_visible < 0) return;
   const bool fresh = first_ < 0;
-  move_edges(first_seen, last_seen);
+  move_edges(first_visible, last_visible);
   depths_ = {};
   depths_.min = depth_bin_begin(first_);
   depths_.max = depth_bin_begin(last_ + 1);
   for (int bin = first_; bin <= last_; ++bin) {
     const auto i = static_cast<std::size_t>(bin);
-    const bool given_up = bin > first_seen && bin < last_seen && (fresh || frames_unseen_[i] >= hold_frames);
+    const bool given_up =
+        bin > first_visible && bin < last_visible && (fresh || frames_unseen_[i] >= hold_frames);
     if (frames_unseen_[i] > 0 && given_up) continue;
     depths_.count[i] = frame.count[i] > 0 ? frame.count[i] : 1;
   }
 }
 
-DepthRange seen_between(const VisibleDepths& depths, double begin, double end) noexcept {
-  DepthRange seen{end, begin};
-  if (!(begin <= end)) return seen;
+DepthRange visible_range(const VisibleDepths& depths, double begin, double end) noexcept {
+  DepthRange visible{end, begin};
+  if (!(begin <= end)) return visible;
   const int first = depth_bin(max_of(begin, depths.min) / (1.0 + kDepthSafety));
   const int last = depth_bin(min_of(end, depths.max) / (1.0 - kDepthSafety));
   const auto take = [&](int bin) {
     if (depths.count[static_cast<std::size_t>(bin)] == 0) return false;
     const DepthRange range = range_of(depths, bin);
     if (!(range.end > begin && range.begin < end)) return false;
-    seen = {min_of(seen.begin, max_of(begin, range.begin)), max_of(seen.end, min_of(end, range.end))};
+    visible = {min_of(visible.begin, max_of(begin, range.begin)),
+               max_of(visible.end, min_of(end, range.end))};
     return true;
   };
   int bin = first;
@@ -142,10 +144,10 @@ DepthRange seen_between(const VisibleDepths& depths, double begin, double end) n
   for (int back = last; back > bin && !take(back); --back) {
   }
   // A single point within the last bin.
-  return seen.begin < seen.end ? seen : DepthRange{end, begin};
+  return visible.begin < visible.end ? visible : DepthRange{end, begin};
 }
 
-void split_seen(const VisibleDepths& depths, DepthRange cover, std::span<double> edges) noexcept {
+void split_visible(const VisibleDepths& depths, DepthRange cover, std::span<double> edges) noexcept {
   const std::span<double> ends = edges.subspan(1);
   // As many slices of this one always do; of the other, none.
   double enough = elementary::log(cover.end / cover.begin) / static_cast<double>(ends.size()) * (1.0 + 1e-12);

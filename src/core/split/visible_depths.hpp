@@ -14,10 +14,10 @@ struct DepthRange {
 };
 
 /// The part of [begin, end] from its first to its last depth at which a surface is visible.
-[[nodiscard]] DepthRange seen_between(const VisibleDepths& depths, double begin, double end) noexcept;
+[[nodiscard]] DepthRange visible_range(const VisibleDepths& depths, double begin, double end) noexcept;
 
 /// Logarithmic slices of what is visible, with the least ratio of far to near depth: skips depths between
 /// that show nothing.
-void split_seen(const VisibleDepths& depths, DepthRange cover, std::span<double> edges) noexcept;
+void split_visible(const VisibleDepths& depths, DepthRange cover, std::span<double> edges) noexcept;
 
 }  // namespace gnomon

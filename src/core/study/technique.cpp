@@ -42,8 +42,8 @@ std::span<const T> given_or(std::span<const T> given, const T (&otherwise)[N]) n
 /// Beyond it sums of products would overflow, and nothing costs so much.
 constexpr double kLargest = 1e12;
 /// Of a texel: a map's bytes must be a whole number of 64 bits.
-constexpr double kMostBytes = 1e6;
-constexpr double kMostPower = 100.0;
+constexpr double kMaxBytes = 1e6;
+constexpr double kMaxPower = 100.0;
 
 bool is_limit(double value) noexcept {
   return value >= 0.0 && value <= kLargest;
@@ -64,8 +64,8 @@ std::string_view broken(const Budget& budget, const CostModel& costs, const Tech
   for (const FilterCost& f : costs.filters) {
     const bool fine = is_limit(f.prefilter_ms_per_map) && is_limit(f.prefilter_ms_per_megatexel) &&
                       is_limit(f.lookup_ms_per_megapixel) && is_limit(f.bytes_per_texel) &&
-                      f.bytes_per_texel <= kMostBytes && is_limit(f.error_ratio) && f.error_ratio > 0.0 &&
-                      f.error_power >= 0.0 && f.error_power <= kMostPower;
+                      f.bytes_per_texel <= kMaxBytes && is_limit(f.error_ratio) && f.error_ratio > 0.0 &&
+                      f.error_power >= 0.0 && f.error_power <= kMaxPower;
     if (!fine) return "cost_model.filters";
   }
   const bool sizes = std::all_of(among.map_sizes.begin(), among.map_sizes.end(),

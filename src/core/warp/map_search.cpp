@@ -21,7 +21,7 @@ namespace gnomon {
 namespace {
 
 // A result that loses or gains this much in a frame is no start: all is searched again.
-constexpr double kMostLoss = 1.04, kMostGain = 0.96;
+constexpr double kMaxLoss = 1.04, kMaxGain = 0.96;
 
 // A warp that gains less is not worth its sampling noise.
 constexpr double kLeastGain = 0.02;
@@ -331,7 +331,7 @@ bool follow(const WarpInput& input, PlaneError& error, double without, WarpChoic
   const double expected = without * start.best.gain_ratio;
   Judged best{start.best, error.value(start.best)};
   // Another body than in the last frame, for which another one may be better by far.
-  if (!(best.value >= expected * kMostGain && best.value <= expected * kMostLoss)) return false;
+  if (!(best.value >= expected * kMaxGain && best.value <= expected * kMaxLoss)) return false;
   if (weaken(best.choice, plane_map(input.body, best.choice), input.most_stretch))
     best.value = error.value(best.choice);
   if (start.use == StartUse::search) {

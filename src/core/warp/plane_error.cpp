@@ -63,7 +63,7 @@ PlaneError::PlaneError(const WarpInput& input, bool searched, int set) noexcept
 
 std::size_t PlaneError::above(std::size_t samples) const noexcept {
   const auto wanted = static_cast<std::size_t>(share_ * static_cast<double>(samples));
-  return wanted < kMostAbove ? wanted : kMostAbove;
+  return wanted < kMaxAbove ? wanted : kMaxAbove;
 }
 
 void PlaneError::count_bound() noexcept {
@@ -125,7 +125,7 @@ void PlaneError::find_corners(const Polytope& body, const Polytope* focus) noexc
 void PlaneError::count_worst(const WarpChoice& choice) noexcept {
   const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
   // Without an area there is no error.
-  if (sample_.count == 0 || rows == 0.0 || choice.kappa * distance_ > kMostKappaDistance) return;
+  if (sample_.count == 0 || rows == 0.0 || choice.kappa * distance_ > kMaxKappaDistance) return;
   // Of the squares. A percentile may come to rest farther below its first value.
   constexpr std::array<double, 3> kNearWorst = {0.6, 0.5, 0.12};
   const bool storage = input_.objective == Objective::storage;
@@ -168,7 +168,7 @@ double PlaneError::value(const WarpChoice& choice) noexcept {
   // A body with corners of which nothing is known is no ground to choose a warp on.
   const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
   if ((!complete_ && choice.kappa > 0.0) || sample_.count == 0 || body_.count == 0 || rows == 0.0 ||
-      choice.kappa * distance_ > kMostKappaDistance)
+      choice.kappa * distance_ > kMaxKappaDistance)
     return std::numeric_limits<double>::infinity();
   find_rows(choice);
   const double squared = input_.objective == Objective::storage ? storage_squared() : worst_squared();
@@ -242,7 +242,7 @@ GNOMON_WIDE double PlaneError::worst_squared() noexcept {
   if (share_ == 0.0) return lane_range(row_x_.data(), whole, lanes_).high;
   // The largest few, smallest of them first: as many as may exceed the value, and the value itself.
   const std::size_t wanted = above_ + 1;
-  std::array<double, kMostAbove + 1> top{};
+  std::array<double, kMaxAbove + 1> top{};
   for (std::size_t i = 0; i < n; ++i) {
     const double value = row_x_[i];
     if (!(value > top[0])) continue;
@@ -329,7 +329,7 @@ GNOMON_WIDE void PlaneError::fit(const ChoiceLanes& choices, const ExtentLanes& 
     const double shortest = max_of(1e-6 * max_of(side_a, side_b), 1e-9 * farthest);
     const double warped =
         length > shortest && of.stretch[l] <= most_stretch && turn != 0.0 ? warped_known : 0.0;
-    const double kept = c.kappa[l] * distance <= kMostKappaDistance ? warped : 0.0;
+    const double kept = c.kappa[l] * distance <= kMaxKappaDistance ? warped : 0.0;
     map.known[l] = c.kappa[l] == 0.0 ? 1.0 : kept;
     // The determinant of the map's Jacobian is stretch turn / (side_a side_b w^3). Rows come out multiplied
     // with the area of a cell, and so as extents of texels.

@@ -39,7 +39,7 @@ class PlaneError {
  public:
   static constexpr std::size_t kMaxSamples = PixelLanes::kMost;
   /// No more samples than that may exceed the value asked for.
-  static constexpr std::size_t kMostAbove = 4;
+  static constexpr std::size_t kMaxAbove = 4;
 
   /// Samples the body for `input.objective`: vertices and middles of edges, where the largest errors are
   /// (under a local light of faces, too, as its rays fan out), or points spread evenly over the pixels and

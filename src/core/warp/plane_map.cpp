@@ -174,7 +174,7 @@ bool usable(std::span<const WarpInput::Point> body, const PointBounds& bounds, c
   }
   const double extent = max_of(map.a_max - map.a_min, map.b_max - map.b_min);
   return map.length > kShortest * extent && map.length > kShortestOfDistance * farthest &&
-         map.stretch <= most_stretch && map.choice.kappa * bounds.distance <= kMostKappaDistance;
+         map.stretch <= most_stretch && map.choice.kappa * bounds.distance <= kMaxKappaDistance;
 }
 
 bool weaken(WarpChoice& choice, const PlaneMap& map, double most_stretch) noexcept {

@@ -78,7 +78,7 @@ struct LightDepths {
 }
 
 /// kappa times the body's distance beyond which w over the body is the rounding of positions.
-inline constexpr double kMostKappaDistance = 1e14;
+inline constexpr double kMaxKappaDistance = 1e14;
 
 /// False for a choice that no map can be made with: too strong for float matrices or, beyond `most_stretch`,
 /// for the map's border, or with its axis along a body whose length that way is rounding.

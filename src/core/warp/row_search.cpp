@@ -61,7 +61,7 @@ struct RowSearch::Maps {
   alignas(64) FloatLanes s_x, s_y, s_1;  // across it
   alignas(64) FloatLanes w_x, w_y, w_1;
   alignas(64) FloatLanes x_low, x_high, y_low, y_high;  // of the image
-  alignas(64) std::array<FloatLanes, kMostPoints> image_x, image_y;
+  alignas(64) std::array<FloatLanes, kMaxPoints> image_x, image_y;
   // The gradient of X times w^2 is (turn_x y + first_x, second_x - turn_x x), and Y's alike; then both over
   // the image's extents and times its area, so that they come out as extents of texels.
   alignas(64) FloatLanes turn_x, first_x, second_x, turn_y, first_y, second_y;
@@ -101,7 +101,7 @@ RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
       body_(error.body()),
       objective_(input.objective),
       // Less what rounding adds.
-      most_reach_(min_of((input.most_stretch - 1.0) * (1.0 - 1e-9), kMostReach)),
+      most_reach_(min_of((input.most_stretch - 1.0) * (1.0 - 1e-9), kMaxReach)),
       pivot_(input.centre, input.light.perspective ? input.y_min : 0.0) {
   const LaneRange x = lane_range(body_.x.data(), body_.count, lanes_),
                   y = lane_range(body_.y.data(), body_.count, lanes_);

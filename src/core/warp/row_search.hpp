@@ -75,7 +75,7 @@ class RowSearch {
   [[nodiscard]] FallOff ahead(double share) const noexcept;
 
  private:
-  static constexpr std::size_t kMostPoints = whole_lanes(2 * kMaxVertices);
+  static constexpr std::size_t kMaxPoints = whole_lanes(2 * kMaxVertices);
   struct Axis {
     glm::dvec2 axis;
     double u_min, kappa, stretch, centre;
@@ -102,10 +102,10 @@ class RowSearch {
   glm::dvec2 pivot_;            // that the axis turns about
   glm::dvec2 origin_;           // of the numbers below: where pixels are smallest
   double depth_range_;          // logarithm of the ratio of the farthest to the nearest depth
-  alignas(64) std::array<double, kMostPoints> image_x_, image_y_;
+  alignas(64) std::array<double, kMaxPoints> image_x_, image_y_;
   // The body's points, from the origin, as shares of its extents; in fours.
   std::size_t points_ = 0, samples_ = 0;
-  std::array<float, kMostPoints> point_x_, point_y_;
+  std::array<float, kMaxPoints> point_x_, point_y_;
   FormLanes form_;  // of the samples, alike
 };
 

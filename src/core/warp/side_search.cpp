@@ -56,7 +56,7 @@ SideSearch::SideSearch(const WarpInput& input, const PlaneError& error, const Wa
       body_(error.body()),
       objective_(input.objective),
       // Less what rounding adds.
-      most_stretch_(static_cast<float>(min_of(input.most_stretch * (1.0 - 1e-4), kMostReach))),
+      most_stretch_(static_cast<float>(min_of(input.most_stretch * (1.0 - 1e-4), kMaxReach))),
       origin_(body_.x[0], body_.y[0]),
       above_(error.above()) {
   const PlaneMap map = plane_map(input.body, from);
@@ -272,7 +272,7 @@ GNOMON_WIDE void SideSearch::find_percentile(const Maps& maps, SideLanes& candid
   SideLanes& __restrict c = candidates;
   const std::size_t lanes = candidates_ & ~(kFloatLanes - 1), n = samples_, above = above_;
   // The largest few, largest first.
-  alignas(64) std::array<FloatLanes, PlaneError::kMostAbove + 1> top{};
+  alignas(64) std::array<FloatLanes, PlaneError::kMaxAbove + 1> top{};
   for (std::size_t i = 0; i < n; ++i) {
     const FormLanes::Form f0 = form_.at(i);
     for (std::size_t l = 0; l < lanes; ++l) {

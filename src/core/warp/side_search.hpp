@@ -39,7 +39,7 @@ class SideSearch {
   [[nodiscard]] WarpChoice choice(const Sides& sides) const noexcept;
 
  private:
-  static constexpr std::size_t kMostPoints = whole_lanes(2 * kMaxVertices);
+  static constexpr std::size_t kMaxPoints = whole_lanes(2 * kMaxVertices);
   struct Maps;
   void find_points() noexcept;
   void find_samples(const PixelLanes& samples) noexcept;
@@ -60,8 +60,8 @@ class SideSearch {
   glm::dvec3 a_, b_, w_;
   std::size_t points_ = 0, samples_ = 0, above_ = 0;
   // The body's points in the image, in fours; and a warp's w at them.
-  alignas(64) std::array<double, kMostPoints> image_x_, image_y_;
-  alignas(64) std::array<float, kMostPoints> point_x_, point_y_, point_w_;
+  alignas(64) std::array<double, kMaxPoints> image_x_, image_y_;
+  alignas(64) std::array<float, kMaxPoints> point_x_, point_y_, point_w_;
   FormLanes form_;  // of the samples, in the image
 };
 

@@ -20,7 +20,7 @@ namespace gnomon {
 inline constexpr float kSingleTie = 1.0F - 1e-5F;
 
 /// Kappa times length of the strongest warp that single precision resolves.
-inline constexpr double kMostReach = 2e4;
+inline constexpr double kMaxReach = 2e4;
 
 /// Cosine and sine of an angle up to 1.
 struct Turn {

@@ -280,9 +280,9 @@ TEST(Resolve, a_trial_forgets_what_a_history_allows) {
   Input in;
   all<history, cadence>(in);
   Conduct how = in.resolved().conduct;
-  EXPECT_TRUE(how.remembers && how.steady && how.caches_cascades);
+  EXPECT_TRUE(how.has_history && how.steady && how.caches_cascades);
   how.forget();
-  EXPECT_FALSE(how.remembers || how.steady || how.caches_cascades);
+  EXPECT_FALSE(how.has_history || how.steady || how.caches_cascades);
 }
 
 TEST(Resolve, an_option_that_is_ignored_may_change_without_restarting_a_history) {

@@ -17,7 +17,7 @@ namespace {
 constexpr int kPieces = 8, kKnots = kPieces - 1;
 // Narrowest piece, as a share of the axis: texels are at most this much shorter than linear ones, so that
 // places in single precision stay a thousandth of a texel of 2048.
-constexpr double kMostShortening = 32.0, kNarrowest = 1.0 / (kPieces * kMostShortening);
+constexpr double kMaxShortening = 32.0, kNarrowest = 1.0 / (kPieces * kMaxShortening);
 // Share of the largest need that is taken for what nobody sees: texels there are at most this much longer.
 constexpr double kUnseen = 1.0 / 16.0;
 
@@ -28,9 +28,9 @@ struct Axis {
 };
 
 Axis axis_of(const ShapeParameters& parameters, int first, double size) noexcept {
-  constexpr double kMostMargin = 0.49;
+  constexpr double kMaxMargin = 0.49;
   Axis axis;
-  axis.margin = max_of(0.0, min_of(parameters[2 * kKnots] / size, kMostMargin));
+  axis.margin = max_of(0.0, min_of(parameters[2 * kKnots] / size, kMaxMargin));
   axis.begin[0] = 0.0;
   axis.begin[kPieces] = 1.0;
   for (int i = 1; i < kPieces; ++i)
