@@ -5,7 +5,7 @@
 
 namespace gnomon::tool::fly {
 
-int fly_in_window(const Options&, const Flight&) {
+int fly_in_window(const Options&, Flight&) {
   throw std::runtime_error(
       "--context glfw: this program was built without GLFW (Debian package libglfw3-dev)");
 }
