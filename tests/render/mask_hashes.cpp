@@ -1,11 +1,15 @@
 // Prints the hashes of what is drawn over all filters, sources and options, a line for each:
-//   mask_hashes [TEXT]
+//   mask_hashes [--keep FILE | --against FILE] [TEXT]
 // TEXT: the lines whose name holds it alone. Two builds on one driver print the same lines where no change was meant.
+// --keep writes the masks into a file; --against prints, as rows of JSON, how many pixels differ from it.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <glm/geometric.hpp>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -17,6 +21,7 @@
 #include "gnomon/render/page_filter.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/study/bias.hpp"
+#include "mask_file.hpp"
 #include "test_scene.hpp"
 
 namespace gnomon::render {
@@ -71,7 +76,9 @@ Scene pane_scene() {
 /// What is drawn, and with which words it is printed.
 class Hashes {
  public:
-  explicit Hashes(const char* text) : text_(text) {}
+  explicit Hashes(std::string text) : text_(std::move(text)) {}
+  void keep_in(const std::string& file) { writer_.emplace(file); }
+  void compare_with(const std::string& file) { reference_ = read_masks(file); }
   void all() {
     of_maps();
     of_shapes();
@@ -86,7 +93,14 @@ class Hashes {
  private:
   [[nodiscard]] bool wanted(const std::string& name) const { return name.find(text_) != std::string::npos; }
 
-  void print(const std::string& name, const Renderer& renderer) const {
+  void print(const std::string& name, const Renderer& renderer) {
+    if (writer_) writer_->add(name, kept(renderer.mask()));
+    if (!reference_.empty()) {
+      check_context();
+      const auto found = reference_.find(name);
+      if (found != reference_.end()) print_difference(name, kept(renderer.mask()), found->second);
+      return;
+    }
     std::printf("%s mask %016llx picture %016llx\n", name.c_str(),
                 static_cast<unsigned long long>(hash_of(renderer.mask())),
                 static_cast<unsigned long long>(hash_of(renderer.image())));
@@ -403,6 +417,8 @@ class Hashes {
       {"spot", SpotLight{{-4.0, 6.0, 3.0}, {0.5, -0.8, -0.3}, 0.9, 60.0}},
       {"point", PointLight{{-4.0, 6.0, 3.0}, 60.0}}};
   std::string text_;
+  std::optional<MaskWriter> writer_;
+  std::map<std::string, KeptMask> reference_;
   Scene scene_ = opaque_scene();
   Camera camera_ = camera_on_box(kSize, kSize);
   Renderer renderer_{scene_};
@@ -413,7 +429,16 @@ class Hashes {
 
 int main(int argc, char** argv) {
   using namespace gnomon::render;
-  const auto context = create_context(ContextKind::automatic);
-  Hashes(argc > 1 ? argv[1] : "").all();
+  try {
+    const auto context = create_context(ContextKind::automatic);
+    const bool file = argc > 2 && (std::strcmp(argv[1], "--keep") == 0 || std::strcmp(argv[1], "--against") == 0);
+    const int text = file ? 3 : 1;
+    Hashes hashes(argc > text ? argv[text] : "");
+    if (file) std::strcmp(argv[1], "--keep") == 0 ? hashes.keep_in(argv[2]) : hashes.compare_with(argv[2]);
+    hashes.all();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "mask_hashes: %s\n", error.what());
+    return 2;
+  }
   return 0;
 }
