@@ -7,13 +7,14 @@
 
 namespace gnomon::report {
 
-/// Reads from `folder` its rows, its `stability.jsonl` (what gnomon stress writes), or both; writes there
+/// Reads from `folder` its rows, its `stability.jsonl` (what gnomon stress writes) and its `gpu` (gpu_files.hpp),
+/// or one of them; writes there
 ///   report.html         all of it, opens offline, readable without scripts,
 ///   charts/NAME.svg     the charts,
 ///   summary.csv         a line per scene and technique,
 ///   frames.csv          a line per row,
 ///   fronts.md           what no other technique beats on each scene, as tables.
-/// Files that are there already are replaced, each as a whole. A folder with neither is refused.
+/// Files that are there already are replaced, each as a whole. A folder with none of them is refused.
 /// Warnings as read_rows. Throws ReportError. Returns the path of the page.
 std::filesystem::path write_report(const std::filesystem::path& folder,
                                    std::vector<std::string>* warnings = nullptr);

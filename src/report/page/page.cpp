@@ -43,7 +43,9 @@ std::string opening(const PageInput& input) {
   out +=
       "<nav><a href=\"#s1\">Error and time</a><a href=\"#s2\">Table</a><a href=\"#s3\">Pictures</a>"
       "<a href=\"#s4\">Camera path</a><a href=\"#s5\">Stability</a><a href=\"#s6\">Omitted work</a>"
-      "<a href=\"#s7\">Method</a></nav>\n</header>\n";
+      "<a href=\"#s7\">Method</a>";
+  if (!input.gpus.empty()) out += "<a href=\"#s8\">Software and GPUs</a>";
+  out += "</nav>\n</header>\n";
   return out;
 }
 
@@ -111,7 +113,8 @@ std::string whole_page(const PageInput& input) {
   const PagePictures pictures = page_pictures(input);
   std::string out = head() + opening(input) + "<main>\n";
   out += section_error_time(input) + section_summary(input) + section_viewers(input, pictures) +
-         section_flight(input) + section_stability(input) + section_left_out(input) + section_method(input);
+         section_flight(input) + section_stability(input) + section_left_out(input) + section_method(input) +
+         gpu_section(input.gpus);
   out += "</main>\n<script type=\"application/json\" id=\"data\">" + for_script(page_data(input, pictures)) +
          "</script>\n<script>" + std::string(page_script()) + "</script>\n</body>\n</html>\n";
   return out;
@@ -123,6 +126,7 @@ PageInput page_input(const std::filesystem::path& folder, std::vector<Row> rows)
   input.rows = std::move(rows);
   const std::filesystem::path stability = folder / kStabilityFile;
   input.stability = read_stability(optional_text(stability), stability.string());
+  input.gpus = read_gpu_runs(folder);
   input.summary = summarize(input.rows);
   // All scenes together say something only where there are several, and a technique that was on all of them.
   const bool together = input.summary.scenes.size() > 2 && !notable(input.summary, 0, 1).empty();
@@ -134,8 +138,9 @@ std::filesystem::path write_report(const std::filesystem::path& folder, std::vec
   std::error_code ignored;
   if (std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored))
     throw ReportError(one_line(folder.string() + ": is not a folder"));
-  // A folder of gnomon stress alone has a report, too.
-  const bool alone = std::filesystem::exists(folder / kStabilityFile, ignored) &&
+  // A folder of gnomon stress or of GPUs alone has a report, too.
+  const bool alone = (std::filesystem::exists(folder / kStabilityFile, ignored) ||
+                      std::filesystem::exists(folder / kGpuFolder, ignored)) &&
                      !std::filesystem::exists(folder / kRowsFile, ignored);
   std::vector<std::string> dropped;
   PageInput input = page_input(folder, alone ? std::vector<Row>() : read_rows(folder, &dropped));

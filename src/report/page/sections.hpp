@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu.hpp"
 #include "stability.hpp"
 #include "summary.hpp"
 
@@ -20,6 +21,7 @@ struct PageInput {
   std::vector<Row> rows;
   Summary summary;
   Stability stability;
+  std::vector<GpuRun> gpus;
   std::size_t start_scene = 0;        ///< which the page shows first
   std::vector<std::string> warnings;  ///< rows that could not be read
 };

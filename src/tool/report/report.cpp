@@ -6,6 +6,7 @@
 
 #include "command.hpp"
 #include "gnomon/report/figures.hpp"
+#include "gnomon/report/gpu_files.hpp"
 #include "gnomon/report/page.hpp"
 #include "gnomon/report/rows_file.hpp"
 #include "output.hpp"
@@ -35,8 +36,14 @@ int run_merge(const std::vector<std::string>& folders, const std::string& out, b
   return 0;
 }
 
-/// Writes the report of each folder again, and the survey's charts where a folder for them is named.
-int run_report(const std::vector<std::string>& folders, const std::string& figures, bool json) {
+/// Writes the report of each folder again, with files of GPUs added, and the survey's charts where a folder for them is named.
+int run_report(const std::vector<std::string>& folders, const std::vector<std::string>& gpu, const std::string& figures,
+               bool json) {
+  if (!gpu.empty() && folders.size() != 1) throw std::runtime_error("--gpu: wants one folder DIR for its report");
+  if (!gpu.empty()) {
+    const std::vector<std::filesystem::path> files(gpu.begin(), gpu.end());
+    report::add_gpu_files(folders.front(), files);
+  }
   if (folders.empty() && figures.empty()) throw std::runtime_error("DIR: wants a folder with results.jsonl");
   nlohmann::json pages = nlohmann::json::array(), charts = nlohmann::json::array();
   if (!figures.empty()) {
@@ -57,7 +64,7 @@ int run_report(const std::vector<std::string>& folders, const std::string& figur
 }
 
 struct FoldersRequest {
-  std::vector<std::string> folders;
+  std::vector<std::string> folders, gpu;
   std::string out = "out/merged", figures;
   bool json = false;
 };
@@ -96,9 +103,14 @@ std::function<int()> declare_report(Arguments& arguments) {
                                 "storage by number of maps, and error by depth",
                         .word = "DIR",
                         .completion = Completion::folders},
+                       {.name = "--gpu",
+                        .target = &request->gpu,
+                        .help = "files that measure_gpu of the portable folder wrote: a column for each in the report of DIR",
+                        .word = "FILE",
+                        .completion = Completion::files},
                        json_option(*request)};
   arguments.options.front().required = false;
-  return [request] { return run_report(request->folders, request->figures, request->json); };
+  return [request] { return run_report(request->folders, request->gpu, request->figures, request->json); };
 }
 
 }  // namespace gnomon::tool
