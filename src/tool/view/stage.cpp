@@ -216,9 +216,9 @@ Light Stage::held_light(const State& state, const Camera& camera,
       surfaces = std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer_, camera, state.a.layer));
     Box casters;
     for (const Box& box : posed_.boxes()) casters.extend(box);
-    sun->direction = hold_sun(held_sun_, sun->direction, camera, casters,
-                              {surfaces->points, surfaces->normals}, state.motion.hold_sun_pixels)
-                         .direction;
+    const View view{.camera = camera, .points_world = surfaces->points, .normals_world = surfaces->normals};
+    sun->direction =
+        hold_sun(view, held_sun_, sun->direction, casters, state.motion.hold_sun_pixels).direction;
   }
   held_sun_ = holds ? sun->direction : glm::dvec3(0.0);
   return light;
