@@ -71,9 +71,9 @@ struct ShadowMap {
   /// The light in homogeneous world coordinates: its position with w = 1, or the unit direction towards it
   /// with w = 0.
   glm::dvec4 light_world{0.0, 1.0, 0.0, 0.0};
-  /// Index of the requested cascade. Local lights have none. It is 0 for a spot's single map. The faces of
-  /// a cube have 0 to 5 in the order +x -x +y -y +z -z (of the world for a point light; a wide spot's face 5
-  /// looks along it). Partition::tetrahedron: 0 looks along -y, 1 to 3 the other ways.
+  /// Index of the requested cascade. Local lights have none. It is 0 for a spot's single map. The faces of a
+  /// cube have 0 to 5 in the order +x -x +y -y +z -z. The axes are the world's for a point light; a wide
+  /// spot's face 5 looks along it. Partition::tetrahedron: 0 looks along -y, 1 to 3 the other ways.
   /// Partition::frustum_faces: the face, in the order left, right, bottom, top, near, far. With
   /// SplitOptions::face_slices above 1 counted through all slices, by face in that order, the nearest first.
   /// separating_plane: 0 before the plane, 1 behind. receiver_clusters: the cluster, in the order of their

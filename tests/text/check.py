@@ -11,7 +11,7 @@ import pages
 import sentences
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-BEGINNINGS = re.compile(r"(Of|What|So far|Such)\b")
+BEGINNINGS = re.compile(r"\b(Of|What|So far|Such)\b")
 # Libraries whose strings become errors, tables and pages.
 MESSAGES = ("casefile", "render", "report", "scene", "stress", "tool", "trace")
 CODE_SUFFIXES = (".hpp", ".h", ".cpp", ".glsl", ".vert", ".frag", ".def", ".inc")
@@ -143,12 +143,14 @@ def faults_of(name, text, words):
             yield (line_of(text, match.start()), "%s:%d: '%s': write %s" %
                    (name, line_of(text, match.start()), " ".join(match.group(0).split()), instead))
     # A sentence begins a paragraph, or follows the end of another one.
-    for match in re.finditer(r"(?:^|\n[ \t]*\n|[.;:!?]\s)\s*(?=(?:Of|What|So far|Such)\b)", text):
-        sentence = re.match(r"[^.?!]*[.?!]?", text[match.end():]).group(0)
-        if not sentence.endswith("?"):
-            line = line_of(text, match.end())
-            word = BEGINNINGS.match(sentence).group(0)
-            yield line, "%s:%d: a sentence begins with '%s': put the subject first" % (name, line, word)
+    for match in BEGINNINGS.finditer(text):
+        before = text[:match.start()].rstrip()
+        gap = text[len(before):match.start()]
+        begins = not before or re.search(r"\n[ \t]*\n", gap) or (gap and before[-1] in ".;:!?")
+        sentence = re.match(r"[^.?!]*[.?!]?", text[match.start():]).group(0)
+        if begins and not sentence.endswith("?"):
+            line = line_of(text, match.start())
+            yield line, "%s:%d: a sentence begins with '%s': put the subject first" % (name, line, match.group(0))
 
 
 def faults_in(texts, words):

@@ -5,6 +5,7 @@ import re
 # GLSL has blocks in place of classes.
 TYPE = re.compile(r"\b(?:struct|class|union|enum(?:\s+class|\s+struct)?|buffer|uniform)\s+(?:GNOMON_\w+\s+)?([A-Z]\w*)\s*(?:final\s*)?(?::([^;{()]*))?\{")
 NAMED = re.compile(r"\b([A-Z]\w*)::(?=(~?\w+))")
+BRACE = re.compile(r"[{}]")
 # Names of other libraries.
 FOREIGN = ("CLI", "Json")
 
@@ -22,10 +23,10 @@ def comments_of(text):
 def body_at(text, begin):
     """What stands between the brace at `begin` and the one that closes it."""
     depth = 0
-    for i in range(begin, len(text)):
-        depth += (text[i] == "{") - (text[i] == "}")
+    for brace in BRACE.finditer(text, begin):
+        depth += 1 if brace.group(0) == "{" else -1
         if depth == 0:
-            return text[begin + 1:i]
+            return text[begin + 1:brace.start()]
     return text[begin + 1:]
 
 

@@ -52,13 +52,13 @@ def faults_of_links(source, pages):
 
 
 def faults_of_files(source, pages):
-    """Files in backticks that are not there; where a page says how to add one, its line begins with Create or it is called NAME."""
+    """Files in backticks that are not there; where a page says how to add one, its line begins with Create or it is called NAME or FILTER."""
     for page in pages:
         with open(os.path.join(source, page), encoding="utf-8") as file:
             text = without_code(file.read())
         for number, line in enumerate(text.split("\n"), 1):
             for path in re.findall(r"`((?:%s)/[\w./]+)`" % FOLDERS, line):
-                if not os.path.exists(os.path.join(source, path)) and "NAME" not in path and not line.startswith("Create"):
+                if not os.path.exists(os.path.join(source, path)) and not re.search("NAME|FILTER", path) and not line.startswith("Create"):
                     yield "%s:%d: there is no %s" % (page, number, path)
 
 
