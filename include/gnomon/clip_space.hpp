@@ -24,12 +24,11 @@ enum class FirstRow : std::uint8_t {
 /// engines) go in as they are, and everything in a plan is in these coordinates, too. The core then plans for
 /// the mirror image of that world: sizes, distances, errors and the set of texels are those of the world
 /// itself. The mirroring is put right in two places:
-///   - Handedness::left here turns x of the map round, so that a map shows what the light sees, not its
-///   mirror image,
-///     and front faces keep the winding they have. x it is because up and depth mean the same in both worlds.
-///   - An off-axis Camera counts its image edges to the core's right, which is left: give {left, right} as
-///   {-right,
-///     -left}. A symmetric camera needs nothing.
+/// - Handedness::left here turns x of the map round. A map then shows what the light sees, not its mirror
+///   image, and front faces keep the winding they have. It is x because up and depth mean the same in both
+///   worlds.
+/// - An off-axis Camera counts its image edges to the core's right, which is left: give {left, right} as
+///   {-right, -left}. A symmetric camera needs nothing.
 struct ClipSpace {
   NdcDepth ndc_depth = NdcDepth::minus_one_to_one;  ///< range of depths after the division by w
   bool reversed_z = false;                          ///< depth grows towards the light instead

@@ -8,7 +8,7 @@ GLOSSARY = "docs/glossary.md"
 ARCHITECTURE = "docs/architecture.md"
 # Where files that pages name lie; and folders whose own folders docs/architecture.md must name.
 FOLDERS = "cmake|docs|include|packaging|samples|shaders|src|tests"
-NAMED_IN_FULL = ("src", "src/core", "src/render")
+NAMED_IN_FULL = ("include/gnomon", "src", "src/core", "src/render")
 
 
 def without_code(text):
