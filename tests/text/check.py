@@ -172,6 +172,7 @@ def faults_of_pages(source):
     yield from pages.faults_of_files(source, pages_of_tree(source))
     yield from pages.faults_of_folders(source)
     yield from pages.faults_of_glossary(source)
+    yield from pages.faults_of_front_page(source)
 
 
 def faults_of_names(source):
@@ -224,6 +225,7 @@ def check_pages_themselves():
         "docs/glossary.md:7: line 3 explains 'map' already",
         "docs/other.md:2: there is no src/core/w.cpp", "docs/architecture.md:1: there is no src/core/gone", "docs/architecture.md: does not name the folder src/core/split",
         "docs/architecture.md: does not name the folder src/render"})
+    check_planted("the front page", {"README.md": "word " * 901}, pages.faults_of_front_page, {"README.md: 901 words, at most 900"})
 
 
 def check_names_themselves():

@@ -4,6 +4,8 @@ import os
 import re
 
 MAP = "docs/README.md"
+# Words of README.md: it is read in two minutes.
+LONGEST_FRONT_PAGE = 900
 GLOSSARY = "docs/glossary.md"
 ARCHITECTURE = "docs/architecture.md"
 # Where files that pages name lie; and folders whose own folders docs/architecture.md must name.
@@ -93,3 +95,12 @@ def faults_of_glossary(source):
                 if term in first:
                     yield "%s:%d: line %d explains '%s' already" % (GLOSSARY, number, first[term], term)
                 first.setdefault(term, number)
+
+
+def faults_of_front_page(source):
+    path = os.path.join(source, "README.md")
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            count = len(file.read().split())
+        if count > LONGEST_FRONT_PAGE:
+            yield "README.md: %d words, at most %d" % (count, LONGEST_FRONT_PAGE)
