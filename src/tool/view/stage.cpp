@@ -216,7 +216,7 @@ Light Stage::held_light(const State& state, const Camera& camera,
       surfaces = std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer_, camera, state.a.layer));
     Box casters;
     for (const Box& box : posed_.boxes()) casters.extend(box);
-    const View view{.camera = camera, .points_world = surfaces->points, .normals_world = surfaces->normals};
+    const gnomon::View view{.camera = camera, .points_world = surfaces->points, .normals_world = surfaces->normals};
     sun->direction =
         hold_sun(view, held_sun_, sun->direction, casters, state.motion.hold_sun_pixels).direction;
   }

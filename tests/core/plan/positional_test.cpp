@@ -346,7 +346,9 @@ TEST(Positional, only_point_lights_have_the_maps_of_a_tetrahedron) {
   EXPECT_EQ(room.plan(wide).map_count, wide_before.map_count);
   EXPECT_EQ(room.plan(sun).map_count, sun_before.map_count);
   // A pool of many lights has places for a cube's faces.
-  EXPECT_EQ(light_options({.plan = room.options}, LightMaps{}).split.partition, Partition::view_depth);
+  LightOptions pool;
+  pool.plan = room.options;
+  EXPECT_EQ(light_options(pool, LightMaps{}).split.partition, Partition::view_depth);
 }
 
 }  // namespace
