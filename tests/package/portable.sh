@@ -53,6 +53,11 @@ program="$work/root$folder/bin/gnomon"
 "$libc/lib/x86_64-linux-gnu/ld-2.31.so" --library-path "$libc/lib/x86_64-linux-gnu" "$program" plan "$case" >"$work/there.json"
 cmp "$work/here.json" "$work/there.json" || fail "plans differ under glibc 2.31"
 
+# Masks of the software that drew masks.bin are equal. By itself: in its time measure_gpu may come to none on a busy machine.
+in_root GALLIVM_PERF=nopt "$folder/bin/mask_hashes" --against "$folder/masks.bin" "maps hard" >"$work/masks.jsonl"
+[[ $(grep -c '"differ":0,"visibly":0,"other_map":0' "$work/masks.jsonl") == 3 && $(wc -l <"$work/masks.jsonl") == 3 ]] ||
+  fail "masks differ from themselves, or are not three: $(cat "$work/masks.jsonl")"
+
 # Bad input: one line, and 2.
 refuses() {
   local why="$1" code=0
