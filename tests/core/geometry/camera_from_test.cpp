@@ -1,7 +1,7 @@
 // Does a camera come back from its matrices, in every clip space, and is what no camera sees refused by name?
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -122,9 +122,13 @@ TEST(CameraFrom, a_left_handed_engine_looks_along_plus_z) {
   ClipSpace clip_space = kDirect3D;
   clip_space.handedness = Handedness::left;
   const glm::dvec3 eye{3, 4, 5}, at{0, 1, 30};
-  // Right is where x grows, as the engine counts.
-  const glm::dmat4 view = glm::lookAtLH(eye, at, {0, 1, 0}),
-                   clip = glm::frustumLH_ZO(-0.1, 0.3, -0.2, 0.1, 0.5, 80.0);
+  const glm::dmat4 view = glm::lookAtLH(eye, at, {0, 1, 0});
+  // Slopes from -0.2 to 0.6 to the right, as the engine counts, and from -0.4 to 0.2 up.
+  glm::dmat4 clip(0.0);
+  clip[0][0] = 2.0 / 0.8;
+  clip[1][1] = 2.0 / 0.6;
+  clip[2] = {-0.4 / 0.8, 0.2 / 0.6, 80.0 / 79.5, 1.0};
+  clip[3][2] = -0.5 * 80.0 / 79.5;
   const CameraFrom from = camera_from(view, clip, clip_space, kWidth, kHeight);
   ASSERT_EQ(from.error, CameraError::none) << to_string(from.error);
   EXPECT_LE(glm::distance(from.camera.forward, glm::normalize(at - eye)), 1e-12);
