@@ -256,8 +256,7 @@ int rounded(double side, bool powers) {
 
 void print_quality(const Town& town) {
   const std::vector<glm::dvec3> hits = town.first_hits(192, 108), some = town.first_hits(40, 25);
-  std::vector<std::byte> memory(light_memory(town.lights.size(), some.size()),
-                                other(town.lights.size(), some.size()));
+  std::vector<std::byte> memory(light_memory(town.lights.size(), some.size())), other = memory;
   std::printf(
       "%s: error measured at %zu points, over that of sizes by visible points\n  %-10s %8s %8s %8s %8s %8s "
       "%8s\n",

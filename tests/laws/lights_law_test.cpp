@@ -203,7 +203,7 @@ TEST(LightsLaw, equal_input_gives_equal_plans_at_any_scale_of_the_world) {
         point->range *= scale;
       }
     }
-    std::vector<std::byte> memory(light_memory(scene.lights.size()), other(scene.lights.size()));
+    std::vector<std::byte> memory(light_memory(scene.lights.size(), 0)), other = memory;
     const LightPlan a = scene.plan(memory), b = scaled.plan(other);
     require(a.status == b.status && a.texels == b.texels && a.lights.size() == b.lights.size(), "texels",
             a.texels, b.texels);

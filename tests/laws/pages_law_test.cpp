@@ -250,8 +250,8 @@ TEST(PagesLaw, culling_keeps_every_caster_between_the_light_and_a_served_point) 
 
 TEST(PagesLaw, the_same_input_gives_the_same_bits) {
   const int checked = over_scenes(100, [](const Scene& scene, const PagePlan& plan) {
-    std::vector<std::byte> memory(page_memory(kCapacity, scene.points.size()));
-    std::fill(memory.table.begin(), memory.table.end(), 7u);  // what was there before plays no part
+    // What was there before plays no part.
+    std::vector<std::byte> memory(page_memory(kCapacity, scene.points.size()), std::byte{7});
     const PagePlan again = scene.plan(memory);
     require(again.pages.size() == plan.pages.size() && again.levels.size() == plan.levels.size(), "sizes");
     for (std::size_t i = 0; i < plan.pages.size(); ++i) {
