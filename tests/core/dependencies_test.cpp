@@ -24,8 +24,9 @@ std::vector<fs::path> core_sources() {
     if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp")
       files.push_back(entry.path());
   }
-  for (const auto& entry : fs::directory_iterator(root / "include/gnomon")) {
-    if (entry.path().extension() == ".hpp") files.push_back(entry.path());
+  for (const char* folder : {"include/gnomon", "include/gnomon/extend", "include/gnomon/study"}) {
+    for (const auto& entry : fs::directory_iterator(root / folder))
+      if (entry.path().extension() == ".hpp") files.push_back(entry.path());
   }
   return files;
 }
@@ -65,7 +66,8 @@ bool allowed(const std::string& name) {
   if (name.starts_with("\"")) {
     const std::string path = name.substr(1, name.size() - 2);
     if (level_of(path) >= 0) return path.find('/', path.find('/') + 1) == std::string::npos;
-    if (path.starts_with("gnomon/study/")) return path.find('/', 13) == std::string::npos;
+    for (const std::string_view folder : {"gnomon/extend/", "gnomon/study/"})
+      if (path.starts_with(folder)) return path.find('/', folder.size()) == std::string::npos;
     return path.starts_with("gnomon/") && path.find('/', 7) == std::string::npos;
   }
   // What stops a compiler that is set below C++20.
