@@ -19,7 +19,7 @@
 namespace gnomon {
 
 /// Most lights of one plan.
-inline constexpr std::size_t kMostLights = 4096;
+inline constexpr std::size_t kMaxLights = 4096;
 /// LightOptions::texel_budget for all texels of the pool.
 inline constexpr std::int64_t kWholePool = std::numeric_limits<std::int64_t>::max();
 
@@ -64,12 +64,12 @@ struct LightOptions {
   /// Side of the smallest maps, texels, a power of two up to most_size. Smaller ones only where the budget
   /// does not suffice for all lights: never below least_budget_side, rounded up to a power of two.
   int least_size = 64;
-  /// Side of the largest maps, texels, a power of two up to kMostMapSize.
+  /// Side of the largest maps, texels, a power of two up to kMaxMapSize.
   int most_size = 1024;
   /// Error m (screen pixels per texel, mean over what the light lights) that suffices, >= 0: a light's maps
   /// are not enlarged below it. 0: none, the budget is used up.
   double enough_m = 0.0;
-  /// Most frames from one drawing of a light's maps to the next, 1..kMostCadenceFrames.
+  /// Most frames from one drawing of a light's maps to the next, 1..kMaxCadenceFrames.
   int most_frames = 8;
   /// Share of the picture from which on a light is refreshed every frame, in (0, 1]. Each halving below
   /// doubles the frames in between, up to most_frames.
@@ -196,14 +196,14 @@ struct LightPlan {
 [[nodiscard]] Atlas light_atlas(const LightPlan& plan, std::size_t light) noexcept;
 
 /// Most slices of ClusterOptions.
-inline constexpr int kMostDepthSlices = 256;
+inline constexpr int kMaxDepthSlices = 256;
 /// Most clusters of an image: with more, tiles are taken twice as wide.
-inline constexpr std::size_t kMostClusters = std::size_t{1} << 22;
+inline constexpr std::size_t kMaxClusters = std::size_t{1} << 22;
 
 /// Options of cluster_lights.
 struct ClusterOptions {
   int tile_pixels = 64;   ///< side of a tile, pixels, at least 1. Smaller: shorter lists, more of them
-  int depth_slices = 48;  ///< parts of the view depth, 1..kMostDepthSlices. More: shorter lists
+  int depth_slices = 48;  ///< parts of the view depth, 1..kMaxDepthSlices. More: shorter lists
   /// Equal in all members.
   bool operator==(const ClusterOptions&) const = default;
 };

@@ -209,7 +209,7 @@ struct Shape {
   ShapeRectangle (*ndc_bounds)(const ShapeParameters& parameters, const glm::dvec2& size,
                                const ShapeRectangle& texels) noexcept;
   /// Parameters under which rows of texels undo the warp of a map whose w grows by exp(log_growth) from ndc y
-  /// -1 to 1. Any value; beyond kMostLogGrowth and where it is not a number the shape goes as far as it can.
+  /// -1 to 1. Any value; beyond kMaxLogGrowth and where it is not a number the shape goes as far as it can.
   ShapeParameters (*undoing)(double log_growth) noexcept;
   /// Parameters of the same shape seen in a mirror: over ndc x (`x`), ndc y (`y`) of the other sign.
   ShapeParameters (*mirrored)(const ShapeParameters& parameters, bool x, bool y) noexcept;
@@ -344,7 +344,7 @@ struct PruneSaving {
 };
 
 /// Texels along a side of a map: fewer cannot hold a filter's border, more exceed what drivers accept.
-inline constexpr int kLeastMapSize = 4, kMostMapSize = 16384;
+inline constexpr int kLeastMapSize = 4, kMaxMapSize = 16384;
 
 /// Least bound of the aliasing error that maps can be sized for, screen pixels per texel.
 inline constexpr double kLeastError = 1e-9;
@@ -354,14 +354,14 @@ inline constexpr int kSizeStep = 16;
 
 /// Bounds of PlanOptions::light_near_share: nearer, no depth has any precision; farther, the map begins in
 /// the middle of what it shows.
-inline constexpr double kLeastLightNearShare = 1e-7, kMostLightNearShare = 0.5;
+inline constexpr double kLeastLightNearShare = 1e-7, kMaxLightNearShare = 0.5;
 
 /// Most frames between two plans of a cascade: in more, a map outlives what it was planned for.
-inline constexpr int kMostCadenceFrames = 64;
+inline constexpr int kMaxCadenceFrames = 64;
 
 /// How many texels each map gets.
 struct ResolutionOptions {
-  /// Texels along each side of each map, kLeastMapSize..kMostMapSize. Doubling it halves the error and costs
+  /// Texels along each side of each map, kLeastMapSize..kMaxMapSize. Doubling it halves the error and costs
   /// four times the memory. Maps are exactly this large unless max_error or texel_budget is set, or
   /// PruneRule::metric_resolution is on; they are never larger unless texel_budget is set.
   int max_size = 1024;
@@ -371,7 +371,7 @@ struct ResolutionOptions {
   /// plan.
   double max_error = 0.0;
   /// Most texels that all maps may have together; 0: no budget. Texels are distributed so that all maps have
-  /// the same worst-case error, up to kMostMapSize along a side. Sides may differ with Fit::tight and
+  /// the same worst-case error, up to kMaxMapSize along a side. Sides may differ with Fit::tight and
   /// Fit::rotated, and stay equal elsewhere and with a history. The number of cascades, up to `cascades`, is
   /// the one with the least error. At least least_budget_side() squared for each cascade (local lights: for
   /// each of six faces). Partitions other than view_depth ignore it, and the plan reports that.
@@ -457,7 +457,7 @@ struct FilterExtent {
 /// With more than one frame, cascades divide the camera's whole depths, by `practical` in place of
 /// `automatic` and `optimal`. Visible depths and points are then ignored.
 struct CadenceOptions {
-  /// Frames from one plan of a cascade to its next, 1..kMostCadenceFrames. 1, the default: every frame.
+  /// Frames from one plan of a cascade to its next, 1..kMaxCadenceFrames. 1, the default: every frame.
   /// Cascades take turns.
   int frames = 1;
   /// Largest step of the eye from one frame to the next, world units, >= 0; default 0. A larger one enlarges
@@ -492,7 +492,7 @@ struct PlanOptions {
   BiasOptions bias;
   /// Local lights: distance at which maps begin, over that of the farthest receiver. Read where the scene's
   /// boxes leave it open, as those of a room that holds its light do. In
-  /// kLeastLightNearShare..kMostLightNearShare. Nearer casters then cast no shadow; nearer boxes that do not
+  /// kLeastLightNearShare..kMaxLightNearShare. Nearer casters then cast no shadow; nearer boxes that do not
   /// hold the light are still shown. At 2^-13 a float's steps of depth are as long as texels at the far end,
   /// and such rooms have acne. 2^-10 keeps clear of that. Depths that are linear along the light work down to
   /// 2^-17 (docs/bias.md).

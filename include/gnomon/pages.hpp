@@ -72,11 +72,11 @@ struct PageHistory {
 };
 
 /// Least and largest side of a page, and the pages that a plan may have at most.
-inline constexpr int kLeastPageTexels = 64, kMostPageTexels = 256, kMostPages = 1 << 20;
+inline constexpr int kLeastPageTexels = 64, kMaxPageTexels = 256, kMaxPages = 1 << 20;
 /// Largest side of a level's virtual map, texels.
-inline constexpr int kMostVirtualTexels = 1 << 26;
+inline constexpr int kMaxVirtualTexels = 1 << 26;
 /// Most levels of one plan: six faces, or one map, of 26 octaves in up to four steps each.
-inline constexpr std::size_t kMostPageLevels = 6 * (26 * 4 + 1);
+inline constexpr std::size_t kMaxPageLevels = 6 * (26 * 4 + 1);
 
 /// Options of plan_pages. Every default suits most scenes.
 struct PageOptions {
@@ -91,7 +91,7 @@ struct PageOptions {
   /// more closely; each costs a draw and a border. A page takes page_texels + 2 border_texels along each
   /// side.
   int page_texels = 128;
-  /// Pages that the pool holds, 1..kMostPages. Fewer than the target needs: all levels coarsen evenly.
+  /// Pages that the pool holds, 1..kMaxPages. Fewer than the target needs: all levels coarsen evenly.
   int capacity = 4096;
   /// Aliasing error m_s and m_t (screen pixels per texel, along each side of a texel) that no visible point
   /// exceeds.
@@ -104,7 +104,7 @@ struct PageOptions {
   /// Positions of the levels' sizes that are tried to find the fewest pages, 1..16. Costs as many times the
   /// time. Stable levels never move, and try none.
   int trials = 1;
-  /// Largest side of a level, texels, page_texels..kMostVirtualTexels: the deepest level is the last below.
+  /// Largest side of a level, texels, page_texels..kMaxVirtualTexels: the deepest level is the last below.
   int virtual_texels = 1 << 22;
   /// Each point requests pages this many texels of its level round it, 0..page_texels: for points read at a
   /// stride, and cameras that move.

@@ -12,10 +12,10 @@
 #include <type_traits>
 #include <variant>
 
+#include "base/nearest_name.hpp"
 #include "gnomon/casefile/plan_fields.hpp"
 #include "json_fields.hpp"
 #include "json_text.hpp"
-#include "base/nearest_name.hpp"
 
 namespace gnomon {
 namespace {

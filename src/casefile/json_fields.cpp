@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "gnomon/casefile/casefile.hpp"
 #include "base/nearest_name.hpp"
+#include "gnomon/casefile/casefile.hpp"
 
 namespace gnomon {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/casefile/casefile.hpp"
 #include "base/json_scan.hpp"
 #include "base/json_words.hpp"
+#include "gnomon/casefile/casefile.hpp"
 
 namespace gnomon {
 namespace {

@@ -100,7 +100,7 @@ std::vector<PlanField> make_fields() {
       std::to_string(kMaxMaps);
   return {
       {"map_size", "texels along each side of a map", GNOMON_AT(int, resolution.max_size),
-       "options.resolution.max_size", "must lie in 4..16384", kLeastMapSize, kMostMapSize},
+       "options.resolution.max_size", "must lie in 4..16384", kLeastMapSize, kMaxMapSize},
       {"cascades", "shadow maps along the view", GNOMON_AT(int, cascades), "options.cascades", kCascades, 1,
        kMaxMaps},
       {"split", "how view depths are divided among the cascades",
@@ -113,7 +113,7 @@ std::vector<PlanField> make_fields() {
       {"selection", "which cascade serves a point",
        GNOMON_CHOICE(split.selection, map_selection_from_name, "view_depth", "finest")},
       {"cadence_frames", "frames from one plan of a far cascade to its next", GNOMON_AT(int, cadence.frames),
-       "options.cadence.frames", "must lie in 1..64", 1, kMostCadenceFrames},
+       "options.cadence.frames", "must lie in 1..64", 1, kMaxCadenceFrames},
       {"cadence_step", "largest step of the eye from frame to frame, world units",
        GNOMON_AT(double, cadence.largest_step), "options.cadence.largest_step", "must not be below 0"},
       {"cadence_turn_deg", "largest turn of the camera from frame to frame, degrees",
@@ -168,7 +168,7 @@ std::vector<PlanField> make_fields() {
        "every value must be 0 or above"},
       {"light_near_share", "where maps of a local light begin, of the farthest receiver's distance",
        GNOMON_AT(double, light_near_share), "options.light_near_share", "must lie in 1e-7..0.5",
-       kLeastLightNearShare, kMostLightNearShare},
+       kLeastLightNearShare, kMaxLightNearShare},
       {"clip_space", "clip space of the matrices", GNOMON_AT(ClipSpace, clip_space)}};
 }
 

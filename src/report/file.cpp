@@ -11,9 +11,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/whole_file.hpp"
 #include "gnomon/report/row.hpp"
 #include "text.hpp"
-#include "base/whole_file.hpp"
 
 namespace gnomon::report {
 

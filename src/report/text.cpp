@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "gnomon/report/row.hpp"
 #include "base/json_scan.hpp"
+#include "gnomon/report/row.hpp"
 
 namespace gnomon::report {
 namespace {

@@ -4,14 +4,14 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "base/json_words.hpp"
+#include "base/whole_file.hpp"
 #include "files.hpp"
 #include "glb.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
-#include "base/json_words.hpp"
 #include "load_memory.hpp"
 #include "refusal.hpp"
-#include "base/whole_file.hpp"
 
 namespace gnomon {
 

@@ -117,13 +117,13 @@ void add_corners(const Box& box, const glm::dvec3& center, std::vector<glm::dvec
 // Points that a view of the whole must show, from `center`: the vertices where they are few, else the corners
 // of the instances' boxes.
 std::vector<glm::dvec3> content_of(const Scene& scene, const glm::dvec3& center) {
-  constexpr std::uint64_t kMostVertices = 200'000;  // some milliseconds for all directions
+  constexpr std::uint64_t kMaxPathVertices = 200'000;  // some milliseconds for all directions
   std::uint64_t vertices = 0;
   for (const Instance& instance : scene.instances)
     vertices += scene.primitives[instance.primitive].index_count;
   std::vector<glm::dvec3> points;
   for (const Instance& instance : scene.instances) {
-    if (vertices > kMostVertices) {
+    if (vertices > kMaxPathVertices) {
       if (!instance.bounds_world.empty()) add_corners(instance.bounds_world, center, points);
       continue;
     }

@@ -6,10 +6,10 @@
 
 #include <limits>
 
+#include "base/json_words.hpp"
 #include "glb.hpp"
 #include "gltf_check.hpp"
 #include "gltf_compression.hpp"
-#include "base/json_words.hpp"
 #include "refusal.hpp"
 
 namespace gnomon::detail {

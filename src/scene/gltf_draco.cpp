@@ -24,7 +24,7 @@ using Span = std::span<const std::uint8_t>;
 constexpr std::uint64_t kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
 /// Corners per byte of packed data that no encoder exceeds on real meshes: entropy coding of a regular flat
 /// grid comes to a few hundred.
-constexpr std::uint64_t kMostPerByte = 4096;
+constexpr std::uint64_t kMaxPerByte = 4096;
 
 struct Counts {
   std::uint64_t faces, points;
@@ -151,7 +151,7 @@ class Decoder {
                                std::to_string(promised.points) + " vertices, the accessors " +
                                std::to_string(corners) + " indices and " + std::to_string(points) +
                                " vertices");
-    if (corners + points > kMostPerByte * packed.size())
+    if (corners + points > kMaxPerByte * packed.size())
       throw Refusal(where, std::to_string(packed.size()) + " bytes of Draco data cannot hold " +
                                std::to_string(corners / 3) + " triangles");
     spend_decoded(file_, corners, sizeof(std::uint32_t), where);

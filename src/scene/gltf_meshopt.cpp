@@ -12,7 +12,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::uint64_t kMostStride = 256;  // bytes of a vertex, the format's own limit
+constexpr std::uint64_t kMaxPackedStride = 256;  // bytes of a vertex, the format's own limit
 
 void check_layout(const json& extension, const std::string& where) {
   const auto mode = extension["mode"].get<std::string>(),
@@ -23,7 +23,7 @@ void check_layout(const json& extension, const std::string& where) {
   if (!vertices && !triangles && mode != "INDICES")
     throw Refusal(where + ".mode", "'" + one_line(mode) + "' is not ATTRIBUTES, TRIANGLES or INDICES");
   const bool fits =
-      vertices ? stride > 0 && stride % 4 == 0 && stride <= kMostStride : stride == 2 || stride == 4;
+      vertices ? stride > 0 && stride % 4 == 0 && stride <= kMaxPackedStride : stride == 2 || stride == 4;
   if (!fits) throw Refusal(where + ".byteStride", std::to_string(stride) + " does not fit mode " + mode);
   if (triangles && count % 3 != 0)
     throw Refusal(where + ".count", std::to_string(count) + " is no multiple of 3");

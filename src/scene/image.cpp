@@ -9,10 +9,10 @@
 #include <optional>
 #include <string_view>
 
+#include "base/whole_file.hpp"
 #include "gnomon/scene/load.hpp"
 #include "image_formats.hpp"
 #include "refusal.hpp"
-#include "base/whole_file.hpp"
 
 namespace gnomon {
 

@@ -22,7 +22,8 @@ constexpr std::uint64_t kMaxSide = 1u << 16;  // pixels, as with OpenImageIO
   throw SceneError(detail::one_line(where + ": picture: " + why));
 }
 
-constexpr const char* kAbsent = "this program was built without OpenImageIO (Debian package libopenimageio-dev)";
+constexpr const char* kAbsent =
+    "this program was built without OpenImageIO (Debian package libopenimageio-dev)";
 
 std::vector<std::uint8_t> encoded(const Image& image, std::span<const std::uint8_t> pixels, int channels,
                                   const std::string& where) {

@@ -12,13 +12,14 @@ constexpr std::size_t kWindow = 32768;  // bytes that a copy may reach back
 constexpr int kMaxBits = 15;            // of a code
 constexpr int kEndOfBlock = 256, kLiteralCodes = 288, kDistanceCodes = 30;
 // Lengths and distances of copies: base values and extra bits (RFC 1951, 3.2.5).
-constexpr std::array<std::uint16_t, 29> kLengthBase{3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
-                                                    31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258};
+constexpr std::array<std::uint16_t, 29> kLengthBase{3,  4,  5,  6,   7,   8,   9,   10,  11, 13,
+                                                    15, 17, 19, 23,  27,  31,  35,  43,  51, 59,
+                                                    67, 83, 99, 115, 131, 163, 195, 227, 258};
 constexpr std::array<std::uint8_t, 29> kLengthBits{0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,
                                                    2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0};
-constexpr std::array<std::uint16_t, 30> kDistanceBase{1,   2,   3,   4,   5,   7,    9,    13,   17,   25,
-                                                      33,  49,  65,  97,  129, 193,  257,  385,  513,  769,
-                                                      1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
+constexpr std::array<std::uint16_t, 30> kDistanceBase{
+    1,   2,   3,   4,   5,   7,    9,    13,   17,   25,   33,   49,   65,    97,    129,
+    193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
 constexpr std::array<std::uint8_t, 30> kDistanceBits{0, 0, 0, 0, 1, 1, 2, 2,  3,  3,  4,  4,  5,  5,  6,
                                                      6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13};
 
@@ -115,7 +116,8 @@ BlockCodes fixed_codes() {
 
 /// The codes that a block begins with, themselves coded.
 std::optional<BlockCodes> dynamic_codes(BitReader& in) {
-  constexpr std::array<std::uint8_t, 19> kOrder{16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};
+  constexpr std::array<std::uint8_t, 19> kOrder{16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                                11, 4,  12, 3, 13, 2, 14, 1, 15};
   const std::size_t literals = in.bits(5) + 257, distances = in.bits(5) + 1, count = in.bits(4) + 4;
   if (literals > 286 || distances > kDistanceCodes) return std::nullopt;
   std::array<std::uint8_t, 19> of_lengths{};
@@ -132,7 +134,9 @@ std::optional<BlockCodes> dynamic_codes(BitReader& in) {
     }
     if (symbol == 16 && i == 0) return std::nullopt;
     const std::uint8_t value = symbol == 16 ? lengths[i - 1] : std::uint8_t{0};
-    const std::size_t repeat = symbol == 16 ? 3 + in.bits(2) : symbol == 17 ? 3 + in.bits(3) : 11 + in.bits(7);
+    const std::size_t repeat = symbol == 16   ? 3 + in.bits(2)
+                               : symbol == 17 ? 3 + in.bits(3)
+                                              : 11 + in.bits(7);
     if (repeat > literals + distances - i) return std::nullopt;
     for (std::size_t k = 0; k < repeat; ++k) lengths[i++] = value;
   }
@@ -262,7 +266,8 @@ std::vector<std::uint8_t> deflate(std::span<const std::uint8_t> bytes) {
   // The place after the last one where three bytes with this hash stood; 0 is none.
   std::vector<std::size_t> last(std::size_t{1} << kHashBits, 0);
   const auto hash = [&](std::size_t at) {
-    const std::uint32_t three = static_cast<std::uint32_t>(bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16);
+    const std::uint32_t three =
+        static_cast<std::uint32_t>(bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16);
     return static_cast<std::size_t>(three * 2654435761u >> (32 - kHashBits));
   };
   for (std::size_t at = 0; at < bytes.size();) {
@@ -281,7 +286,8 @@ std::vector<std::uint8_t> deflate(std::span<const std::uint8_t> bytes) {
       continue;
     }
     write_copy(out, length, distance);
-    for (std::size_t i = 1; i < length && at + i + kShortest <= bytes.size(); ++i) last[hash(at + i)] = at + i + 1;
+    for (std::size_t i = 1; i < length && at + i + kShortest <= bytes.size(); ++i)
+      last[hash(at + i)] = at + i + 1;
     at += length;
   }
   write_fixed(out, kEndOfBlock);

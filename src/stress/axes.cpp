@@ -73,8 +73,8 @@ std::vector<double> cascade_counts(int) {
   return all;
 }
 std::vector<double> map_sizes(int) {
-  std::vector<double> all{3, 5, 7, 1000, kMostMapSize + 1};
-  for (int size = 1; size <= kMostMapSize; size *= 2) all.push_back(size);
+  std::vector<double> all{3, 5, 7, 1000, kMaxMapSize + 1};
+  for (int size = 1; size <= kMaxMapSize; size *= 2) all.push_back(size);
   std::sort(all.begin(), all.end());
   return all;
 }

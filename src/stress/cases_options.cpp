@@ -74,12 +74,12 @@ void case_off_axis(Check& check) {
 }
 
 void case_tiny_maps(Check& check) {
-  for (const int size : {-1, 0, 1, 2, kLeastMapSize - 1, kMostMapSize + 1}) {
+  for (const int size : {-1, 0, 1, 2, kLeastMapSize - 1, kMaxMapSize + 1}) {
     Input input = plain_input(0);
     input.options.resolution.max_size = size;
     expect_refused(input, "options.resolution.max_size", check);
   }
-  for (const int size : {kLeastMapSize, 5, kMostMapSize}) {
+  for (const int size : {kLeastMapSize, 5, kMaxMapSize}) {
     Input input = plain_input(0);
     input.options.resolution.max_size = size;
     const ShadowPlan plan = input.plan();

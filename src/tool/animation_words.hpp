@@ -13,13 +13,13 @@ namespace gnomon::tool {
 /// Why there is no animation of this name or number, and which there are.
 [[nodiscard]] inline std::string no_animation_text(const SceneMotion& motion, const std::string& word) {
   if (motion.animations.empty()) return fmt::format("animation '{}': the scene has no animations", word);
-  constexpr std::size_t kMostNames = 20;
+  constexpr std::size_t kMaxNames = 20;
   std::string names;
-  for (std::size_t i = 0; i < std::min(motion.animations.size(), kMostNames); ++i) {
+  for (std::size_t i = 0; i < std::min(motion.animations.size(), kMaxNames); ++i) {
     const std::string& name = motion.animations[i].name;
     names += fmt::format("{}{}", i == 0 ? "" : ", ", name.empty() ? std::to_string(i) : name);
   }
-  if (motion.animations.size() > kMostNames) names += ", ...";
+  if (motion.animations.size() > kMaxNames) names += ", ...";
   return fmt::format("animation '{}': the scene has none of this name; it has {}", word, names);
 }
 

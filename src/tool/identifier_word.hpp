@@ -32,7 +32,7 @@ inline constexpr std::string_view kIdentifiers = "identifiers";
     const int count = option.size() == kNeighbours.size() + 1 ? option.back() - '0' : -1;
     if (option == "of=instance" || option == "of=triangle")
       test.of = option == "of=triangle" ? render::IdentifierOf::triangle : render::IdentifierOf::instance;
-    else if (option.starts_with(kNeighbours) && count >= 0 && count <= render::kMostIdentifierNeighbours)
+    else if (option.starts_with(kNeighbours) && count >= 0 && count <= render::kMaxIdentifierNeighbours)
       test.neighbours = count;
     else
       known = false;
@@ -41,7 +41,7 @@ inline constexpr std::string_view kIdentifiers = "identifiers";
     throw std::runtime_error(
         std::string(option_name) + " " + text +
         ": wants identifiers, with of=instance or of=triangle and neighbours=N, N from 0 to " +
-        std::to_string(render::kMostIdentifierNeighbours));
+        std::to_string(render::kMaxIdentifierNeighbours));
   return test;
 }
 

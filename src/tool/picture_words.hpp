@@ -12,8 +12,8 @@
 
 namespace gnomon::tool {
 
-/// --size of a command: WIDTHxHEIGHT, each kLeastPictureSide to kMostPictureSide.
-inline constexpr int kLeastPictureSide = 16, kMostPictureSide = 16'384;
+/// --size of a command: WIDTHxHEIGHT, each kLeastPictureSide to kMaxPictureSide.
+inline constexpr int kLeastPictureSide = 16, kMaxPictureSide = 16'384;
 [[nodiscard]] inline Option size_option(int& width, int& height,
                                         std::string help = "size of a frame in pixels, WIDTHxHEIGHT") {
   const auto set = [&width, &height](const std::string& text) {
@@ -21,11 +21,11 @@ inline constexpr int kLeastPictureSide = 16, kMostPictureSide = 16'384;
     const auto number = [&](std::size_t begin, std::size_t end, int& value) {
       const auto [last, error] = std::from_chars(text.data() + begin, text.data() + end, value);
       return error == std::errc{} && last == text.data() + end && value >= kLeastPictureSide &&
-             value <= kMostPictureSide;
+             value <= kMaxPictureSide;
     };
     if (x == std::string::npos || !number(0, x, width) || !number(x + 1, text.size(), height))
       throw std::runtime_error("--size " + text + ": wants WIDTHxHEIGHT, each " +
-                               std::to_string(kLeastPictureSide) + " to " + std::to_string(kMostPictureSide) +
+                               std::to_string(kLeastPictureSide) + " to " + std::to_string(kMaxPictureSide) +
                                ", as in 960x540");
     return true;
   };

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "base/random.hpp"
 #include "gnomon/gnomon.hpp"
 #include "median.hpp"
-#include "base/random.hpp"
 
 namespace {
 

@@ -169,7 +169,7 @@ void print_times(const Town& town) {
               due / kFrames, mapped / kFrames, 100.0 * texels / all_texels, sum, maps);
 }
 
-constexpr int kMostSize = 2048;
+constexpr int kMaxSize = 2048;
 
 /// Measured needs of one light's maps.
 struct Measured {
@@ -249,7 +249,7 @@ std::vector<Measured> measured(const Town& town, const LightPlan& plan, const st
 }
 
 int rounded(double side, bool powers) {
-  const double size = std::clamp(side, 64.0, 1.0 * kMostSize);
+  const double size = std::clamp(side, 64.0, 1.0 * kMaxSize);
   return powers ? 1 << static_cast<int>(std::floor(std::log2(size) + 1e-9))
                 : static_cast<int>(size / 16.0) * 16;
 }
@@ -264,7 +264,7 @@ void print_quality(const Town& town) {
   for (const int pool : {2048, 4096, 8192}) {
     LightOptions options;
     options.pool_width = options.pool_height = pool;
-    options.most_size = kMostSize;
+    options.most_size = kMaxSize;
     const LightPlan by_points = plan_lights({.camera = town.camera, .points_world = some}, town.lights,
                                             town.bounds(), options, memory);
     const LightPlan by_boxes = plan_lights(town.camera, town.lights, town.bounds(), options, other);

@@ -12,8 +12,8 @@
 #include <type_traits>
 #include <variant>
 
-#include "gnomon/casefile/plan_fields.hpp"
 #include "base/json_words.hpp"
+#include "gnomon/casefile/plan_fields.hpp"
 
 namespace gnomon {
 namespace {

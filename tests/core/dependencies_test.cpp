@@ -43,8 +43,9 @@ std::string included(const std::string& line) {
 }
 
 /// The stages of src/core in the order in which they may include each other.
-constexpr std::array<std::string_view, 12> kStages = {"lanes", "resolve", "geometry", "split", "warp",   "cull",
-                                                      "map",   "plan",    "measure",  "pages", "lights", "study"};
+constexpr std::array<std::string_view, 12> kStages = {"lanes",   "resolve", "geometry", "split",
+                                                      "warp",    "cull",    "map",      "plan",
+                                                      "measure", "pages",   "lights",   "study"};
 
 /// Which stage a path begins with; -1: none.
 int level_of(std::string_view path) {

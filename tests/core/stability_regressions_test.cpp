@@ -265,8 +265,7 @@ TEST(StabilityRegressions, stable_maps_of_a_flat_scene_far_up_the_light_have_a_d
   int maps = 0;
   for (int i = 0; i < 64; ++i) {
     const double y = 1e18 * (1.0 + 0.37 * i);
-    const Camera camera =
-        perspective_camera({0, y, 0}, {0, 0, -1}, {0, 1, 0}, 0.01, 1.0, 1e3, 1e5, 640, 640);
+    const Camera camera = perspective_camera({0, y, 0}, {0, 0, -1}, {0, 1, 0}, 0.01, 1.0, 1e3, 1e5, 640, 640);
     const std::vector<Box> boxes = {{{-1e5, y, -1e5}, {1e5, y, 1e5}}};
     const ShadowPlan plan = make_plan(camera, DirectionalLight{{0, -1, 0}}, {boxes, boxes}, options);
     for (const ShadowMap& map : plan.maps()) {

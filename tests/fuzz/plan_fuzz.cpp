@@ -113,8 +113,8 @@ void start(Bytes& bytes, SeededInput& in) {
 /// Overwrites numbers, one after the other: which, and with what.
 void change(Bytes& bytes, SeededInput& in) {
   const Fields f = fields_of(in);
-  constexpr int kMostChanges = 64;
-  for (int i = 0; i < kMostChanges && !bytes.empty(); ++i) {
+  constexpr int kMaxChanges = 64;
+  for (int i = 0; i < kMaxChanges && !bytes.empty(); ++i) {
     const auto what = bytes.take<std::uint8_t>();
     const auto which = bytes.take<std::uint16_t>();
     if (what < 0xa0) *f.real[which % f.real.size()] = bytes.take<double>();

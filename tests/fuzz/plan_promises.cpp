@@ -24,7 +24,7 @@ void require_plane(const glm::dvec4& plane) {
 void check_map(const ShadowMap& map) {
   require_finite(map.clip_from_world, "a finite matrix");
   require_finite(map.clip_from_camera_relative, "a finite camera-relative matrix");
-  require(map.width >= 1 && map.width <= kMostMapSize && map.height >= 1 && map.height <= kMostMapSize,
+  require(map.width >= 1 && map.width <= kMaxMapSize && map.height >= 1 && map.height <= kMaxMapSize,
           "a map has a size");
   require(std::isfinite(map.depth_begin) && map.depth_begin <= map.depth_end && std::isfinite(map.depth_end),
           "a range of depths");

@@ -52,12 +52,12 @@ class MaskWriter {
 
 /// The masks of a file that MaskWriter wrote.
 inline std::map<std::string, KeptMask> read_masks(const std::string& file) {
-  constexpr std::size_t kMostPixels = 1u << 24;
+  constexpr std::size_t kMaxPixels = 1u << 24;
   std::ifstream in(file, std::ios::binary);
   std::map<std::string, KeptMask> masks;
   for (std::string name, count; std::getline(in, name) && std::getline(in, count);) {
     const auto pixels = static_cast<std::size_t>(std::strtoull(count.c_str(), nullptr, 10));
-    if (pixels > kMostPixels) break;
+    if (pixels > kMaxPixels) break;
     KeptMask& mask = masks[name];
     mask.visibility.resize(pixels);
     mask.map.resize(pixels);

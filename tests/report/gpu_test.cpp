@@ -14,9 +14,9 @@ namespace gnomon::report {
 namespace {
 
 std::string machine(bool software, const std::string& renderer) {
-  return R"({"part":"machine","cpu":"a processor","contexts":[{"software":)" + std::string(software ? "true" : "false") +
-         R"(,"renderer":")" + renderer + R"(","version":"4.5","timer_queries":{"trusted":)" + (software ? "false" : "true") +
-         "}}]}\n";
+  return R"({"part":"machine","cpu":"a processor","contexts":[{"software":)" +
+         std::string(software ? "true" : "false") + R"(,"renderer":")" + renderer +
+         R"(","version":"4.5","timer_queries":{"trusted":)" + (software ? "false" : "true") + "}}]}\n";
 }
 
 constexpr const char* kRows =
@@ -64,7 +64,8 @@ TEST(GpuRuns, the_report_of_a_folder_without_other_rows_has_a_column_for_each_fi
   add_gpu_files(folder, files);
   std::ifstream page(write_report(folder));
   const std::string html{std::istreambuf_iterator<char>(page), {}};
-  EXPECT_NE(html.find("<th scope=\"col\">software</th><th scope=\"col\">Card &lt;1&gt;</th>"), std::string::npos);
+  EXPECT_NE(html.find("<th scope=\"col\">software</th><th scope=\"col\">Card &lt;1&gt;</th>"),
+            std::string::npos);
   EXPECT_NE(html.find("1 of 2 equal; 2.5 %; 0.25"), std::string::npos);
   EXPECT_NE(html.find("<td>2.5, 3</td><td>2.5, 3; timer 2.25, 2.5</td>"), std::string::npos);
 }

@@ -21,8 +21,8 @@ Bytes written_by_openimageio(int width, int height, int channels, OIIO::TypeDesc
   Bytes bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   auto out = OIIO::ImageOutput::create("png");
-  EXPECT_TRUE(out && out->set_ioproxy(&memory) && out->open("memory", spec) && out->write_image(type, raw.data()) &&
-              out->close());
+  EXPECT_TRUE(out && out->set_ioproxy(&memory) && out->open("memory", spec) &&
+              out->write_image(type, raw.data()) && out->close());
   return bytes;
 }
 
@@ -67,11 +67,12 @@ TEST(Png, a_stored_block_by_hand) {
 }
 
 RC_GTEST_PROP(Png, openimageio_reads_what_we_write, ()) {
-  const int width = *rc::gen::inRange(1, 70), height = *rc::gen::inRange(1, 40), channels = *rc::gen::inRange(3, 5);
+  const int width = *rc::gen::inRange(1, 70), height = *rc::gen::inRange(1, 40),
+            channels = *rc::gen::inRange(3, 5);
   const auto pixels = static_cast<std::size_t>(width * height);
   const Bytes raw = drawn_bytes(pixels * static_cast<std::size_t>(channels));
-  const Bytes png =
-      detail::encode_png(raw, {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}, channels);
+  const Bytes png = detail::encode_png(
+      raw, {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}, channels);
   const Image back = decode_image(png, "back", pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
     for (std::size_t c = 0; c < 4; ++c) {
@@ -83,9 +84,11 @@ RC_GTEST_PROP(Png, openimageio_reads_what_we_write, ()) {
 }
 
 RC_GTEST_PROP(Png, we_read_what_openimageio_writes, ()) {
-  const int width = *rc::gen::inRange(1, 70), height = *rc::gen::inRange(1, 40), channels = *rc::gen::inRange(1, 5);
+  const int width = *rc::gen::inRange(1, 70), height = *rc::gen::inRange(1, 40),
+            channels = *rc::gen::inRange(1, 5);
   const auto values = static_cast<std::size_t>(width * height * channels);
-  const Bytes png = written_by_openimageio(width, height, channels, OIIO::TypeDesc::UINT8, drawn_bytes(values));
+  const Bytes png =
+      written_by_openimageio(width, height, channels, OIIO::TypeDesc::UINT8, drawn_bytes(values));
   RC_ASSERT(detail::decode_png(png) == decode_image(png, "back", 1u << 20).rgba);
 }
 

@@ -37,7 +37,7 @@ namespace {
 
 // A run hangs that takes more of the processor than any does under the sanitizers, or nothing of it for so
 // long: other programs on the machine make it late, but do neither.
-constexpr std::chrono::seconds kMostTime{240}, kMostRest{120};
+constexpr std::chrono::seconds kMaxTime{240}, kMaxRest{120};
 
 /// Name, state and times of each of a process's threads, and where in the kernel it waits.
 std::string threads_of(pid_t process) {
@@ -61,7 +61,7 @@ int status_of(pid_t process, std::string& hung) {
     const std::chrono::nanoseconds taken = processor_time(process);
     if (taken != before) moved = now;
     before = taken;
-    if (taken > kMostTime || now - moved > kMostRest) {
+    if (taken > kMaxTime || now - moved > kMaxRest) {
       hung = "does not end; its threads:\n" + threads_of(process);
       kill(process, SIGKILL);
       ended = waitpid(process, &status, 0);
@@ -91,8 +91,8 @@ Finished run_process(const std::vector<std::string>& arguments, const std::strin
   const pid_t process = fork();
   if (process < 0) throw std::runtime_error("cannot start " GNOMON_PROGRAM);
   if (process == 0) {
-    const bool ready = dup2(open(in.c_str(), O_RDONLY), 0) == 0 && dup2(open(out.c_str(), O_WRONLY), 1) == 1 &&
-                       dup2(open(err.c_str(), O_WRONLY), 2) == 2;
+    const bool ready = dup2(open(in.c_str(), O_RDONLY), 0) == 0 &&
+                       dup2(open(out.c_str(), O_WRONLY), 1) == 1 && dup2(open(err.c_str(), O_WRONLY), 2) == 2;
     const int code = ready ? run(argv) : 127;
     std::cout.flush();
     std::fflush(nullptr);

@@ -51,7 +51,7 @@ struct RoundShape {
 
 /// Logarithm of the largest growth of w that a shape undoes. Beyond it, places near the far end are rounding
 /// in single precision: a texel of 1024 per 2^-24 of ndc.
-inline constexpr double kMostLogGrowth = 9.0;
+inline constexpr double kMaxLogGrowth = 9.0;
 
 /// Parameters of the same texels in another clip space, whose axes point the same or the opposite way.
 [[nodiscard]] ShapeParameters parameters_in(const glm::dmat4& other_from_this, const Shape& shape,

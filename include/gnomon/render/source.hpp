@@ -16,16 +16,16 @@ enum class IdentifierOf : std::uint8_t {
 struct IdentifierTest {
   IdentifierOf of = IdentifierOf::instance;  ///< what a map's texel names
   /// A surface is lit where its texel holds its own identifier, or one at most so many texels to either side
-  /// does, 0..kMostIdentifierNeighbours. Larger: less false shadow where a texel shows several triangles, and
+  /// does, 0..kMaxIdentifierNeighbours. Larger: less false shadow where a texel shows several triangles, and
   /// shadows that shrink by as many texels.
   int neighbours = 0;
   /// Equal in all members.
   bool operator==(const IdentifierTest&) const = default;
 };
-inline constexpr int kMostIdentifierNeighbours = 4;  ///< of IdentifierTest::neighbours
+inline constexpr int kMaxIdentifierNeighbours = 4;  ///< of IdentifierTest::neighbours
 
 /// Most samples of a pixel in Source::irregular: a list has 16 bytes for each.
-inline constexpr int kMostFacetSamples = 64;
+inline constexpr int kMaxFacetSamples = 64;
 
 /// The kinds of Source.
 enum class SourceKind : std::uint8_t { maps, pages, lights, irregular, identifiers };
@@ -46,11 +46,11 @@ struct Source {
   /// by the finest level of their image. Pass::mask is the time of listing, Pass::shadow_maps that of the
   /// casters. A frame with more pixels than the driver's storage buffers hold is drawn from maps, by the
   /// filter that was prepared (FrameStats::irregular).
-  /// `samples`, 1..kMostFacetSamples, others the nearest of these. 1 has the edges of one point per pixel.
+  /// `samples`, 1..kMaxFacetSamples, others the nearest of these. 1 has the edges of one point per pixel.
   /// With more the mask is the share of light on the facet that the pixel shows. Memory and work grow as
   /// they do. Based on: Pan et al., "Fast, Sub-pixel Antialiased Shadow Maps", 2009.
   [[nodiscard]] static constexpr Source irregular(int samples = 1) noexcept {
-    const int most = samples < kMostFacetSamples ? samples : kMostFacetSamples;
+    const int most = samples < kMaxFacetSamples ? samples : kMaxFacetSamples;
     return {SourceKind::irregular, most > 1 ? most : 1, {}};
   }
   /// Hard shadows by identifiers. Maps of a ShadowPlan hold the number of the caster that the light sees
@@ -59,7 +59,7 @@ struct Source {
   /// lines is drawn from depths, by the filter that was prepared (FrameStats::identified).
   /// IdentifierTest::neighbours out of range: the nearest.
   [[nodiscard]] static constexpr Source identifiers(const IdentifierTest& test = {}) noexcept {
-    constexpr int kMost = kMostIdentifierNeighbours;
+    constexpr int kMost = kMaxIdentifierNeighbours;
     const int most = test.neighbours < kMost ? test.neighbours : kMost;
     return {SourceKind::identifiers, 1, {test.of, most > 0 ? most : 0}};
   }

@@ -29,7 +29,7 @@ struct LogPerspectiveMap {
   double x_min = 0.0, x_max = 0.0;   ///< of the body's image (distance across - centre) / w
 };
 
-/// The map with `size` texels along each side, kLeastMapSize..kMostMapSize, and no border for filters.
+/// The map with `size` texels along each side, kLeastMapSize..kMaxMapSize, and no border for filters.
 [[nodiscard]] LogPerspectiveMap log_perspective_map(const Camera& camera, const DirectionalLight& light,
                                                     const SceneBounds& bounds, int size) noexcept;
 

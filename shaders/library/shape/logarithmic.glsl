@@ -5,8 +5,8 @@
 
 // Logarithm of w at the far end of the square over w at its near end; 0: straight. As in C++.
 float logarithmic_growth(mat4 shape) {
-  const float kStraight = 1.0 / 128.0, kMostLogGrowth = 9.0;
-  float growth = clamp(shape[0].y, -kMostLogGrowth, kMostLogGrowth);
+  const float kStraight = 1.0 / 128.0, kMaxLogGrowth = 9.0;
+  float growth = clamp(shape[0].y, -kMaxLogGrowth, kMaxLogGrowth);
   return abs(shape[0].y) >= kStraight ? growth : 0.0;
 }
 

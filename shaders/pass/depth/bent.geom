@@ -79,9 +79,9 @@ void main() {
   low = bounds.xy - kSlack;
   high = bounds.zw + kSlack;
   const float kThin = 3.0, kRows = 4.0;  // texels across that cost no more than a slab; texels along of a slab
-  const int kMostSlabs = 8;
+  const int kMaxSlabs = 8;
   float first = floor(low.y), rows = ceil(high.y) - first;
-  int slabs = high.x - low.x > kThin && rows_stay_rows(shape) ? clamp(int(rows / kRows), 1, kMostSlabs) : 1;
+  int slabs = high.x - low.x > kThin && rows_stay_rows(shape) ? clamp(int(rows / kRows), 1, kMaxSlabs) : 1;
   if (slabs == 1) {
     emit_rectangle(low, high);
     return;

@@ -57,12 +57,12 @@ void main() {
     end = mix(begin, end, part);
   }
   vec2 first = (begin.xy / begin.z * 0.5 + 0.5) * vec2(size), last = (end.xy / end.z * 0.5 + 0.5) * vec2(size);
-  const float kMostSteps = 32.0, kRoom = 1e-5;  // of the view depth: rounding of positions
+  const float kMaxSteps = 32.0, kRoom = 1e-5;  // of the view depth: rounding of positions
   // Longer steps would pass casters by at some pixels and not at others: what is far along the way stays as the map has it.
   const float kLongestStep = 2.0;  // pixels
   float pixels = distance(first, last);
-  way *= min(1.0, kLongestStep * kMostSteps / max(pixels, 1.0));
-  float steps = min(ceil(pixels), kMostSteps), room = kRoom * s.depth;
+  way *= min(1.0, kLongestStep * kMaxSteps / max(pixels, 1.0));
+  float steps = min(ceil(pixels), kMaxSteps), room = kRoom * s.depth;
   float step_world = length(way) / steps;
   thick = max(thick, step_world);
   vec3 before = s.position;

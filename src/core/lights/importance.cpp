@@ -11,9 +11,9 @@
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
-#include "gnomon/measure.hpp"
 #include "gnomon/extend/body.hpp"
 #include "gnomon/extend/light_space.hpp"
+#include "gnomon/measure.hpp"
 #include "lanes/elementary.hpp"
 #include "map/size.hpp"
 

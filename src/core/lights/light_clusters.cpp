@@ -227,7 +227,7 @@ std::string_view invalid_input(const Camera& camera, std::span<const Light> ligh
   if (!field.empty()) return field;
   if (camera.width > kMaxImageSide || camera.height > kMaxImageSide) return "camera.width, camera.height";
   if (options.tile_pixels < 1) return "clusters.tile_pixels";
-  if (options.depth_slices < 1 || options.depth_slices > kMostDepthSlices) return "clusters.depth_slices";
+  if (options.depth_slices < 1 || options.depth_slices > kMaxDepthSlices) return "clusters.depth_slices";
   if (lights.size() > std::numeric_limits<std::uint32_t>::max()) return "lights";
   if (!std::all_of(lights.begin(), lights.end(), usable_light)) return "light";
   if (memory.begin.size() < 2) return "memory.begin";
@@ -248,13 +248,11 @@ double deepest_of(const Camera& camera, std::span<const Light> lights, const Cam
 }  // namespace
 
 std::size_t cluster_count(const Camera& camera, const ClusterOptions& options) noexcept {
-  if (camera.width < 1 || camera.height < 1 || camera.width > kMaxImageSide ||
-      camera.height > kMaxImageSide)
+  if (camera.width < 1 || camera.height < 1 || camera.width > kMaxImageSide || camera.height > kMaxImageSide)
     return 0;
-  if (options.tile_pixels < 1 || options.depth_slices < 1 || options.depth_slices > kMostDepthSlices)
-    return 0;
+  if (options.tile_pixels < 1 || options.depth_slices < 1 || options.depth_slices > kMaxDepthSlices) return 0;
   int tile = options.tile_pixels;
-  while (count_of(camera, tile, options.depth_slices) > kMostClusters) tile *= 2;
+  while (count_of(camera, tile, options.depth_slices) > kMaxClusters) tile *= 2;
   return count_of(camera, tile, options.depth_slices);
 }
 
@@ -270,7 +268,7 @@ LightClusters cluster_lights(const Camera& camera, std::span<const Light> lights
   std::size_t entries = 0, count = 0;
   for (;; tile *= 2, slice_count = std::max(slice_count / 2, 1)) {
     count = count_of(camera, tile, slice_count);
-    if (count > kMostClusters || count + 1 > memory.begin.size()) continue;
+    if (count > kMaxClusters || count + 1 > memory.begin.size()) continue;
     const Slices slices(camera, deepest, slice_count);
     const Clusters clusters(camera, slices, tile);
     entries = 0;

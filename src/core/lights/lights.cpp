@@ -44,9 +44,9 @@ std::string_view invalid_budgets(const LightOptions& o) noexcept {
 
 std::string_view invalid_options(const LightOptions& o) noexcept {
   // Before its sides are computed from it.
-  if (!(o.plan.filter.texels >= 0.0 && o.plan.filter.texels <= 0.25 * kMostMapSize))
+  if (!(o.plan.filter.texels >= 0.0 && o.plan.filter.texels <= 0.25 * kMaxMapSize))
     return "options.filter.texels";
-  if (!power_of_two(o.most_size) || o.most_size > kMostMapSize || o.most_size < least_budget_side(o.plan))
+  if (!power_of_two(o.most_size) || o.most_size > kMaxMapSize || o.most_size < least_budget_side(o.plan))
     return "lights.most_size";
   if (!power_of_two(o.least_size) || o.least_size > o.most_size) return "lights.least_size";
   for (const int side : {o.pool_width, o.pool_height}) {
@@ -55,7 +55,7 @@ std::string_view invalid_options(const LightOptions& o) noexcept {
   }
   if (const std::string_view field = invalid_budgets(o); !field.empty()) return field;
   if (!(o.enough_m >= 0.0 && o.enough_m <= kLargest)) return "lights.enough_m";
-  if (o.most_frames < 1 || o.most_frames > kMostCadenceFrames) return "lights.most_frames";
+  if (o.most_frames < 1 || o.most_frames > kMaxCadenceFrames) return "lights.most_frames";
   if (!(o.full_share > 0.0 && o.full_share <= 1.0)) return "lights.full_share";
   if (!(o.keep_gain >= 1.0 && o.keep_gain <= kLargest)) return "lights.keep_gain";
   return {};
@@ -85,7 +85,7 @@ std::string_view invalid_request(const LightRequest& request) noexcept {
 /// The first broken input; `plan` takes its name.
 bool refuse(const View& view, std::span<const LightRequest> lights, const SceneBounds& bounds,
             const PlanOptions& options, LightPlan& plan) noexcept {
-  if (lights.size() > kMostLights) {
+  if (lights.size() > kMaxLights) {
     plan.invalid_field = "lights";
     return true;
   }

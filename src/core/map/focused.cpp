@@ -5,9 +5,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "geometry/vector.hpp"
 #include "gnomon/extend/body.hpp"
 #include "gnomon/extend/warp.hpp"
-#include "geometry/vector.hpp"
 #include "map/depths.hpp"
 #include "map/gain.hpp"
 #include "map/history.hpp"
@@ -138,8 +138,7 @@ PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const Lig
   if (follows && find_start(c, request, question, start)) question.in.start = &start;
   PlaneMap plane = chosen_warp(c, request, body, question, result);
   if (follows) result.searched = searched_warp(c, request, plane);
-  if (c.how.rotated)
-    plane = question.points.under(turned_to_least_area(question.in, plane.choice));
+  if (c.how.rotated) plane = question.points.under(turned_to_least_area(question.in, plane.choice));
   if (c.how.steady) return steady_plane(c, request, question, plane, result);
   limit_to_shape(c, question.in.body, plane);
   return plane;
@@ -325,8 +324,7 @@ void focused_map(const PlanContext& c, const MapRequest& request, MapResult& res
   map.depth_range_world = depth_range(request, fitted);
   const glm::dmat4 gl_from_relative = clip_from_light(map, fitted) * request.space.light_from_relative();
   glm::dvec2 longest = fitted.round.longest;
-  if (c.how.shape->serving != nullptr)
-    longest = serve_visible(c, request, gl_from_relative, result);
+  if (c.how.shape->serving != nullptr) longest = serve_visible(c, request, gl_from_relative, result);
   complete_record(
       c, request,
       {body, fitted.plane, fitted.swept, fitted.needed, fitted.rows, obliquity, gl_from_relative, longest},

@@ -205,8 +205,7 @@ Camera mean_camera(std::span<const SharedView> views, const glm::dvec3& origin) 
   // The image of equal cameras is as many pixels wide as theirs.
   constexpr double kMaxPixels = 1 << 20, kRounding = 1e-6;
   mean.width = static_cast<int>(clamp_to(std::ceil(finest * (x.high - x.low) - kRounding), 1.0, kMaxPixels));
-  mean.height =
-      static_cast<int>(clamp_to(std::ceil(finest * (y.high - y.low) - kRounding), 1.0, kMaxPixels));
+  mean.height = static_cast<int>(clamp_to(std::ceil(finest * (y.high - y.low) - kRounding), 1.0, kMaxPixels));
   return mean;
 }
 

@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include "geometry/vector.hpp"
-#include "gnomon/shadow_map.hpp"
 #include "gnomon/extend/body.hpp"
 #include "gnomon/extend/light_space.hpp"
+#include "gnomon/shadow_map.hpp"
 #include "gnomon/study/formulas.hpp"
 #include "lanes/elementary.hpp"
 #include "map/depths.hpp"
@@ -96,10 +96,10 @@ Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) no
 LightDepths snapped_depths(const Grid& grid, const HeightRange& heights, SnapKey& key) noexcept {
   const LightDepths wanted = padded(heights.bottom, heights.height, grid.side);
   const double low = grid.eye.z + wanted.bottom, high = low + wanted.height;
-  constexpr double kMostSteps = 0x1p52;
+  constexpr double kMaxSteps = 0x1p52;
   double step = grid.side / 16.0;
   const double farthest = max_of(std::abs(low), std::abs(high));
-  while (farthest / step > kMostSteps) step *= 2.0;
+  while (farthest / step > kMaxSteps) step *= 2.0;
   key.depth_far = snap_index(std::floor(low / step), 1.0);
   key.depth_near = snap_index(std::ceil(high / step), 1.0);
   if (key.depth_near <= key.depth_far) key.depth_near = key.depth_far + 1;

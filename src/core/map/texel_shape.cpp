@@ -3,9 +3,9 @@
 // even in ln(w) behind a perspective projection. 1 / w is linear over the image, so that a shape needs no
 // more than w's growth over it.
 // Based on: Rosen, "Rectilinear Texture Warping for Fast Adaptive Shadow Mapping", 2012: importance of what
+#include "map/texel_shape.hpp"
 #include "gnomon/extend/shape.hpp"
 #include "gnomon/extend/warp.hpp"
-#include "map/texel_shape.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@
 namespace gnomon {
 namespace {
 
-// Logarithm of the growth of w over a body, 1998-fold, that leaves room for a border below kMostLogGrowth.
+// Logarithm of the growth of w over a body, 1998-fold, that leaves room for a border below kMaxLogGrowth.
 constexpr double kMaxOverBody = 7.6;
 // Below it rows are straight but for a few thousandths.
 constexpr double kLeastGrowth = 1.0 / 32.0;
@@ -103,7 +103,7 @@ struct VisibleTexel {
 /// Calls `visit` with each visible point in the map's depths and rectangle.
 template <class Visit>
 void each_visible(const PlanContext& c, const MapRequest& request, const glm::dmat4& gl_from_relative,
-               const ShadowMap& map, Visit&& visit) noexcept {
+                  const ShadowMap& map, Visit&& visit) noexcept {
   const TexelGrid linear{map.width, map.height};
   const glm::dvec2 margin = static_cast<double>(map.filter_margin_texels) / linear.size();
   const glm::dvec3 travel = -request.space.frame.z;
@@ -159,13 +159,13 @@ double RowShape::lengthening(const PlaneMap& plane, double x, double y) const no
 RowShape row_shape(const PlanContext& c, const PlaneMap& plane, double border) noexcept {
   const Shape& shape = *c.how.shape;
   const glm::dvec2 row = plane.choice.row_b;
-  if (!undoes_warps(shape) || !(plane.choice.kappa > 0.0) || row.x != 0.0 ||
-      !(row.y > 0.0) || plane.choice.row_a != glm::dvec2(1.0, 0.0))
+  if (!undoes_warps(shape) || !(plane.choice.kappa > 0.0) || row.x != 0.0 || !(row.y > 0.0) ||
+      plane.choice.row_a != glm::dvec2(1.0, 0.0))
     return {};
   const double near = inverse_w(plane, plane.b_min), far = inverse_w(plane, plane.b_max);
   if (!(far > 0.0) || !(near > far)) return {};
   const double log_growth = elementary::log(near / far);
-  if (log_growth < kLeastGrowth || !(log_growth_of_map(log_growth, border) <= kMostLogGrowth)) return {};
+  if (log_growth < kLeastGrowth || !(log_growth_of_map(log_growth, border) <= kMaxLogGrowth)) return {};
   return {&shape, log_growth};
 }
 
@@ -254,7 +254,7 @@ RoundTexels round_texels(const PlanContext& c, const MapRequest& request, const 
 }
 
 glm::dvec2 serve_visible(const PlanContext& c, const MapRequest& request, const glm::dmat4& gl_from_relative,
-                      MapResult& result) noexcept {
+                         MapResult& result) noexcept {
   ShadowMap& map = result.map;
   if (map.width < request.slot.width || map.height < request.slot.height) {
     // Smaller as its error is small everywhere, which it would not stay.

@@ -48,12 +48,12 @@ void deepen_to_bounds(const SceneBounds& bounds, const glm::dvec3& light_directi
     high = max_of(high, casters_inside({}, boxes, glm::dvec3(0.0), up).top);
     low = min_of(low, -casters_inside({}, boxes, glm::dvec3(0.0), -up).top);
   }
-  constexpr double kSteps = 16.0, kDeepest = 64.0, kMostSteps = 0x1p50;
+  constexpr double kSteps = 16.0, kDeepest = 64.0, kMaxSteps = 0x1p50;
   const double side = base.map.texel_world.x * base.map.width;
   if (!(high > low && high - low < kDeepest * side)) return;
   const double step = 2.0 * elementary::power_of_two_below(high - low) / kSteps;
   const double first = std::floor(low / step) - 1.0, last = std::ceil(high / step) + 1.0;
-  if (!(max_of(std::abs(first), std::abs(last)) < kMostSteps)) return;
+  if (!(max_of(std::abs(first), std::abs(last)) < kMaxSteps)) return;
   const double bottom = first * step, height = (last - first) * step;
   glm::dmat4 depth(0.0);
   for (int i = 0; i < 3; ++i) depth[i][2] = -2.0 / height * up[i];
@@ -132,7 +132,7 @@ glm::dvec3 position_of(const Light& light) noexcept {
 
 /// Places in slopes across a local light's axis, from the axis on: the same for every camera.
 void anchor_in_light(const Light& light, const glm::dvec3& light_direction, const ClipSpace& clip_space,
-                    PageBase& base) noexcept {
+                     PageBase& base) noexcept {
   const LightFrame frame = local_frame(light, light_direction, base.map);
   const glm::dmat4& m = base.map.clip_from_world;
   const glm::dvec3 apex = position_of(light), ahead = -frame.z;

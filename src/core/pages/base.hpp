@@ -29,7 +29,7 @@ struct PagePoint {
 
 /// The caller's memory, in parts.
 struct PageMemory {
-  std::span<ShadowMap> levels;     ///< kMostPageLevels; the plan uses a few dozen
+  std::span<ShadowMap> levels;     ///< kMaxPageLevels; the plan uses a few dozen
   std::span<Page> pages;           ///< PageOptions::capacity
   std::span<std::uint32_t> table;  ///< page_table_size(capacity)
   std::span<PagePoint> points;     ///< at least as many as visible points

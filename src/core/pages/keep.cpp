@@ -129,7 +129,7 @@ KeptPages keep_pages(const PagePlan& plan, std::span<const Box> moved_world, std
                      std::span<const Box> moving_world) noexcept {
   KeptPages kept;
   const std::size_t pages = plan.pages.size();
-  const bool countable = slots.size() <= 2 * static_cast<std::size_t>(kMostPages);
+  const bool countable = slots.size() <= 2 * static_cast<std::size_t>(kMaxPages);
   if (!countable || slots.size() < pages || out.size() < pages ||
       table.size() < page_table_size(static_cast<int>(slots.size())))
     return kept;

@@ -24,9 +24,9 @@ constexpr std::array kPolicies = {
 
 std::string_view invalid_pages(const PageOptions& o) noexcept {
   if (o.page_texels != 64 && o.page_texels != 128 && o.page_texels != 256) return "pages.page_texels";
-  if (o.virtual_texels > kMostVirtualTexels || o.virtual_texels < 1) return "pages.virtual_texels";
+  if (o.virtual_texels > kMaxVirtualTexels || o.virtual_texels < 1) return "pages.virtual_texels";
   if (o.page_texels > o.virtual_texels) return "pages.page_texels";
-  if (o.capacity < 1 || o.capacity > kMostPages) return "pages.capacity";
+  if (o.capacity < 1 || o.capacity > kMaxPages) return "pages.capacity";
   if (!(o.target_m >= kLeastError && o.target_m <= kLargest)) return "pages.target_m";
   if (!(o.share > 0.0 && o.share <= 1.0)) return "pages.share";
   if (o.levels_per_octave < 1 || o.levels_per_octave > 4) return "pages.levels_per_octave";
@@ -42,8 +42,8 @@ std::string_view invalid_pages(const PageOptions& o) noexcept {
 
 /// Bytes of all but the points; slack included.
 std::size_t memory_without_points(int capacity) noexcept {
-  const int pages = std::clamp(capacity, 0, kMostPages);
-  return kMemorySlack + memory_of<ShadowMap>(kMostPageLevels) +
+  const int pages = std::clamp(capacity, 0, kMaxPages);
+  return kMemorySlack + memory_of<ShadowMap>(kMaxPageLevels) +
          memory_of<Page>(static_cast<std::size_t>(pages)) + memory_of<std::uint32_t>(page_table_size(pages));
 }
 
@@ -55,12 +55,12 @@ PageMemory parts_of(std::span<std::byte> memory, int capacity) noexcept {
   const std::size_t points = std::min<std::size_t>((memory.size() - others) / sizeof(PagePoint),
                                                    std::numeric_limits<std::uint32_t>::max() - 1);
   MemoryParts parts(memory);
-  return {parts.take<ShadowMap>(kMostPageLevels), parts.take<Page>(static_cast<std::size_t>(capacity)),
+  return {parts.take<ShadowMap>(kMaxPageLevels), parts.take<Page>(static_cast<std::size_t>(capacity)),
           parts.take<std::uint32_t>(page_table_size(capacity)), parts.take<PagePoint>(points)};
 }
 
 std::string_view invalid_points(const View& view, const PageHistory& history,
-                              const PageMemory& memory) noexcept {
+                                const PageMemory& memory) noexcept {
   const std::size_t count = view.points_world.size();
   if (memory.points.empty() || memory.points.size() < count) return "memory";
   for (const glm::dvec3& point : view.points_world) {
@@ -126,8 +126,8 @@ bool fit_pool(PageContext& c, PagePlan& plan) noexcept {
   if (fits(c, 1.0, plan)) return true;
   // Half octaves up, then eighths back: a pool is filled to about a fifth.
   constexpr double kStep = 0.5;
-  constexpr int kMostSteps = 120;
-  for (int i = 1; i <= kMostSteps; ++i) {
+  constexpr int kMaxSteps = 120;
+  for (int i = 1; i <= kMaxSteps; ++i) {
     const double enough = kStep * i;
     if (!fits(c, elementary::exp2(enough), plan)) continue;
     double high = enough, low = enough - kStep;

@@ -30,7 +30,7 @@ Demand demand_of(const ShadowMap& map, const PlanOptions& options, bool square) 
 /// Side in whole steps under which m is at least about `m`.
 int side(double texels, const Demand& demand, double m, int least) noexcept {
   const double wanted = texels / m / (1.0 - demand.border_share) + demand.border_texels;
-  return static_cast<int>(clamp_to(std::floor(wanted / kSizeStep) * kSizeStep, least, kMostMapSize));
+  return static_cast<int>(clamp_to(std::floor(wanted / kSizeStep) * kSizeStep, least, kMaxMapSize));
 }
 
 double error(double texels, const Demand& demand, int size) noexcept {
@@ -73,7 +73,7 @@ MapSizes budgeted_sizes(const ShadowPlan& fitted, const PlanOptions& options, in
   if (!(largest > 0.0 && std::isfinite(largest))) return equal_sizes(least);
   // At the first every side is the least; at the second the largest map has the largest side, and the bound
   // is as low as a side of a map can bring it.
-  double enough = largest, too_little = largest / kMostMapSize;
+  double enough = largest, too_little = largest / kMaxMapSize;
   if (fits(too_little)) return sizes_at(too_little);
   // Steps of the logarithm down to far below what one step of a side changes.
   constexpr int kHalvings = 40;

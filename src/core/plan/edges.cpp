@@ -7,12 +7,12 @@
 #include <limits>
 #include <utility>
 
-#include "gnomon/extend/body.hpp"
-#include "gnomon/extend/warp.hpp"
-#include "gnomon/study/formulas.hpp"
 #include "geometry/body.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
+#include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
+#include "gnomon/study/formulas.hpp"
 #include "lanes/elementary.hpp"
 #include "lanes/point_pair.hpp"
 #include "map/context.hpp"
@@ -311,9 +311,8 @@ CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int
     report_depths(result, OmissionKind::depth_without_receiver, c.camera.near_depth, received.begin);
     report_depths(result, OmissionKind::depth_without_receiver, received.end, c.camera.far_depth);
   }
-  const DepthRange cover = c.visible_depths == nullptr
-                               ? received
-                               : visible_range(*c.visible_depths, received.begin, received.end);
+  const DepthRange cover =
+      c.visible_depths == nullptr ? received : visible_range(*c.visible_depths, received.begin, received.end);
   report_depths(result, OmissionKind::depth_not_visible, received.begin, cover.begin);
   report_depths(result, OmissionKind::depth_not_visible, cover.end, received.end);
   const SplitOptions& split = c.options.split;
@@ -329,8 +328,8 @@ CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int
   }
   // One visible depth is one slice: more of them would divide the safety round it. Over frames the number of
   // maps must not come and go with one pixel.
-  const bool single = c.visible_depths != nullptr && c.visible_depths->min == c.visible_depths->max &&
-                      !c.how.has_history;
+  const bool single =
+      c.visible_depths != nullptr && c.visible_depths->min == c.visible_depths->max && !c.how.has_history;
   if (single && split.scheme != SplitScheme::given) {
     for (double& edge : edges.subspan(1)) edge = cover.end;
   }

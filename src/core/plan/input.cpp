@@ -111,7 +111,7 @@ std::string_view unknown_enumerator(const PlanOptions& o) noexcept {
 
 std::string_view invalid_options(const PlanOptions& o) noexcept {
   if (const auto field = unknown_enumerator(o); !field.empty()) return field;
-  if (o.resolution.max_size < kLeastMapSize || o.resolution.max_size > kMostMapSize)
+  if (o.resolution.max_size < kLeastMapSize || o.resolution.max_size > kMaxMapSize)
     return "options.resolution.max_size";
   if (o.cascades < 1 || o.cascades > kMaxMaps) return "options.cascades";
   if (!(o.split.lambda >= 0.0 && o.split.lambda <= 1.0)) return "options.split.lambda";
@@ -132,10 +132,10 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
   if (!usable_planes(o)) return "options.warp.planes";
   if (o.resolution.stable_size_steps < 1 || o.resolution.stable_size_steps > 1024)
     return "options.resolution.stable_size_steps";
-  if (!(o.light_near_share >= kLeastLightNearShare && o.light_near_share <= kMostLightNearShare))
+  if (!(o.light_near_share >= kLeastLightNearShare && o.light_near_share <= kMaxLightNearShare))
     return "options.light_near_share";
   const CadenceOptions& cadence = o.cadence;
-  if (cadence.frames < 1 || cadence.frames > kMostCadenceFrames) return "options.cadence.frames";
+  if (cadence.frames < 1 || cadence.frames > kMaxCadenceFrames) return "options.cadence.frames";
   if (!(cadence.largest_step >= 0.0 && cadence.largest_step <= kLargest))
     return "options.cadence.largest_step";
   if (!(cadence.largest_turn >= 0.0 && cadence.largest_turn <= kPi)) return "options.cadence.largest_turn";

@@ -47,9 +47,9 @@ struct Parts {
   std::array<Part, kMaxMaps> part;
   int count = 0;
   double objective = 0.0;
-  bool no_balance = false;   // a plane was looked for, and none has both maps equally dense
-  bool most_maps = false;  // more slices of faces would lower the objective, and there is no map for them
-  int fewest_slices = 0;   // that a face has which could be divided further
+  bool no_balance = false;  // a plane was looked for, and none has both maps equally dense
+  bool most_maps = false;   // more slices of faces would lower the objective, and there is no map for them
+  int fewest_slices = 0;    // that a face has which could be divided further
 };
 
 // Parts overlap by this much of the body's distance, and of the camera's from the origin of the world: a
@@ -498,7 +498,7 @@ double density_step(const PlanContext& c, const ParallelScene& scene, const Poly
 /// Where along the length both maps' texels are as dense as each other: the nearer the plane, the denser the
 /// first map's and the sparser the second's. Below 0: nowhere, as the first map's best warp changes at once.
 double balanced_share(const PlanContext& c, const ParallelScene& scene, const Polytope& body,
-                        const Separation& s, double begin, double end, double first) noexcept {
+                      const Separation& s, double begin, double end, double first) noexcept {
   constexpr int kSteps = 24;
   constexpr double kEqual = 0.02;  // of the logarithm: 2 % of the density
   double low = 0.0, high = 1.0, at = first;

@@ -76,8 +76,8 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const Resolved
                       c.views.empty() ? visible_receivers.depths : receiver_depths(c.views),
                       {},
                       *c.how.warp};
-  scene.space.frame = c.how.stable ? fixed_frame(plan.light_direction)
-                                   : view_aligned_frame(plan.light_direction, c.axes);
+  scene.space.frame =
+      c.how.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
   if (resolved.follows_depths) c.visible_depths = usable_depths(c, scene.depths, visible);
   if (resolved.parts) {
     plan_parts(c, scene, plan);
@@ -146,9 +146,8 @@ void plan_frame(const View& view, const Light& light, const SceneBounds& bounds,
     return;
   }
   const bool has_depths = view.depths != nullptr && !view.depths->empty();
-  const Resolved resolved =
-      resolve(options, {light, view.camera.orthographic, views, history != nullptr, has_depths,
-                        !view.points_world.empty()});
+  const Resolved resolved = resolve(options, {light, view.camera.orthographic, views, history != nullptr,
+                                              has_depths, !view.points_world.empty()});
   PlanContext context = begin_plan(view.camera, bounds, resolved, plan);
   if (history != nullptr) resume(light, *history, context);
   if (resolved.follows_points) context.visible_points = view.points_world;
@@ -183,7 +182,7 @@ glm::dvec3 mean_eye(std::span<const Camera> cameras) noexcept {
 
 /// False where the camera sees no receiver.
 bool sees_receivers(const Camera& camera, const SceneBounds& bounds, const glm::dvec3& origin,
-                SharedView& view) noexcept {
+                    SharedView& view) noexcept {
   view.camera = with_finite_far(camera, bounds.receivers);
   view.axes = camera_axes(camera);
   view.eye = camera.position - origin;

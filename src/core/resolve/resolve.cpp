@@ -135,12 +135,11 @@ void resolve_parallel(const PlanCase& plan, Resolved& r) noexcept {
   how.has_history = plan.has_history && !r.parts;
   how.caches_cascades = o.cadence.frames > 1 && how.has_history && !sizes_follow_error(o.resolution);
   if (how.caches_cascades) fix(o.split);
-  r.follows_points =
-      plan.has_points && !how.stable && !how.caches_maps && !how.caches_cascades && !divides;
+  r.follows_points = plan.has_points && !how.stable && !how.caches_maps && !how.caches_cascades && !divides;
   r.follows_depths = plan.has_depths && !plan.orthographic && o.split.range != SplitRange::camera;
   if (how.stable) steady(o.split);
-  r.planes = o.warp.has_planes() && tight(o.fit) && !r.parts && plan.views <= 1 &&
-             o.resolution.texel_budget == 0;
+  r.planes =
+      o.warp.has_planes() && tight(o.fit) && !r.parts && plan.views <= 1 && o.resolution.texel_budget == 0;
 
   if (r.parts) drop_for_parts(plan, r);
   if (plan.has_points && !r.follows_points) r.of_maps.add(IgnoredOption::visible_points);
@@ -159,8 +158,7 @@ void resolve_parallel(const PlanCase& plan, Resolved& r) noexcept {
 void resolve_local(const PlanCase& plan, Resolved& r) noexcept {
   SplitOptions& split = r.options.split;
   r.conduct.has_history = plan.has_history;
-  r.tetrahedron =
-      split.partition == Partition::tetrahedron && std::holds_alternative<PointLight>(plan.light);
+  r.tetrahedron = split.partition == Partition::tetrahedron && std::holds_alternative<PointLight>(plan.light);
   if (split.partition != Partition::view_depth && !r.tetrahedron) drop_partition(r);
   if (split.scheme != SplitScheme::automatic && split.scheme != SplitScheme::practical)
     r.of_maps.add(IgnoredOption::split_scheme);

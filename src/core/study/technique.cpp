@@ -69,7 +69,7 @@ std::string_view broken(const Budget& budget, const CostModel& costs, const Tech
     if (!fine) return "cost_model.filters";
   }
   const bool sizes = std::all_of(among.map_sizes.begin(), among.map_sizes.end(),
-                                 [](int size) { return size >= kLeastMapSize && size <= kMostMapSize; });
+                                 [](int size) { return size >= kLeastMapSize && size <= kMaxMapSize; });
   return sizes ? std::string_view() : "map_sizes";
 }
 
@@ -288,9 +288,8 @@ TechniqueChoice choose_technique(const View& view, const Light& light, const Sce
           choice.plan = plan;
           return choice;
         }
-        Parametrization p{warp,  split,
-                          count, planned_error(plan, view, bounds),
-                          0.0,   planned_work(plan, bounds, casters)};
+        Parametrization p{
+            warp, split, count, planned_error(plan, view, bounds), 0.0, planned_work(plan, bounds, casters)};
         for (const ShadowMap& map : plan.maps())
           p.margin_share =
               std::max(p.margin_share, static_cast<double>(map.filter_margin_texels) / kReferenceSize);

@@ -39,9 +39,9 @@ constexpr double kEighth = 0.7853981633974483;
 // Steps of a search, as shares of its radius, along the fall-off and across it: the middle, a ring of half
 // the radius, and one of all of it.
 constexpr FloatLanes kAlong = {0.0F, 0.45F,  0.111F, -0.312F, -0.5F, -0.312F, 0.111F, 0.45F,
-                                      1.0F, 0.707F, 0.0F,   -0.707F, -1.0F, -0.707F, 0.0F,   0.707F};
+                               1.0F, 0.707F, 0.0F,   -0.707F, -1.0F, -0.707F, 0.0F,   0.707F};
 constexpr FloatLanes kAcross = {0.0F, 0.217F, 0.487F, 0.391F, 0.0F, -0.391F, -0.487F, -0.217F,
-                                       0.0F, 0.707F, 1.0F,   0.707F, 0.0F, -0.707F, -1.0F,   -0.707F};
+                                0.0F, 0.707F, 1.0F,   0.707F, 0.0F, -0.707F, -1.0F,   -0.707F};
 
 double length_of(const FallOff& f) noexcept {
   return std::sqrt(f.x * f.x + f.y * f.y);

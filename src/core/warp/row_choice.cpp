@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "gnomon/extend/warp.hpp"
 #include "geometry/vector.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "lanes/elementary.hpp"
 #include "warp/row_search.hpp"
 

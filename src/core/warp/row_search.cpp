@@ -462,7 +462,7 @@ GNOMON_WIDE void RowSearch::pick_rows(double step, const Maps& maps, RowLanes& c
 #define GNOMON_PAIR(a, b, apart)                                   \
   {                                                                \
     const float value = m.pair[(a)*kFan + (b)][l] * factor##apart; \
-    const bool better = value < best * kSingleTie;             \
+    const bool better = value < best * kSingleTie;                 \
     best = better ? value : best;                                  \
     a_x = better ? m.unit_x[a][l] : a_x;                           \
     a_y = better ? m.unit_y[a][l] : a_y;                           \

@@ -8,7 +8,7 @@ namespace gnomon::render {
 namespace {
 
 // Of more triangles a copy takes more memory and time than texels are worth.
-constexpr std::size_t kMostIndices = 3 * std::size_t{1 << 18};
+constexpr std::size_t kMaxIndices = 3 * std::size_t{1 << 18};
 
 }  // namespace
 
@@ -19,7 +19,7 @@ CasterShapes::Mesh& CasterShapes::mesh_of(std::uint32_t primitive) {
   if (mesh_of_[primitive] < meshes_.size()) return meshes_[mesh_of_[primitive]];
   Mesh mesh;
   mesh.bent = mesh_of_[primitive] == kUnreadBent;
-  if (scene_.primitives()[primitive].index_count <= kMostIndices)
+  if (scene_.primitives()[primitive].index_count <= kMaxIndices)
     mesh.indices = scene_.read_near_indices(primitive);
   mesh.vertices = mesh.indices;
   std::sort(mesh.vertices.begin(), mesh.vertices.end());
@@ -78,8 +78,8 @@ void CasterShapes::forget_moves() noexcept {
 void CasterShapes::make_parts(const Mesh& mesh, Posed& posed) {
   posed.parts.clear();
   const std::size_t triangles = mesh.indices.size() / 3;
-  if (triangles <= kMostParts) return;
-  const std::size_t run = 3 * ((triangles + kMostParts - 1) / kMostParts);
+  if (triangles <= kMaxParts) return;
+  const std::size_t run = 3 * ((triangles + kMaxParts - 1) / kMaxParts);
   for (std::size_t begin = 0; begin < mesh.indices.size(); begin += run) {
     glm::vec3 low = posed.positions[mesh.indices[begin]], high = low;
     for (std::size_t i = begin; i < std::min(begin + run, mesh.indices.size()); ++i) {

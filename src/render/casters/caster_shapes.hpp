@@ -35,7 +35,7 @@ struct MovedCaster {
 class CasterShapes {
  public:
   /// Triangles of a caster up to which each is told apart.
-  static constexpr std::size_t kMostParts = 1024;
+  static constexpr std::size_t kMaxParts = 1024;
 
   explicit CasterShapes(const SceneBuffers& scene);
 

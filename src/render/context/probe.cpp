@@ -91,8 +91,8 @@ bool draws_in_memory() {
 
 /// Of earlier calls. A context that is lost answers with an error every time.
 void forget_errors() {
-  constexpr int kMostErrors = 64;
-  for (int i = 0; i < kMostErrors && glGetError() != GL_NO_ERROR; ++i) {
+  constexpr int kMaxErrors = 64;
+  for (int i = 0; i < kMaxErrors && glGetError() != GL_NO_ERROR; ++i) {
   }
 }
 

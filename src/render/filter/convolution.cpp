@@ -10,9 +10,9 @@
 namespace gnomon::render {
 namespace {
 
-constexpr int kMostTerms = 16;
+constexpr int kMaxTerms = 16;
 constexpr FilterOption kOptions[] = {
-    {"order", 16, 1, kMostTerms, "terms of the series, two channels each: more terms make sharper contacts"},
+    {"order", 16, 1, kMaxTerms, "terms of the series, two channels each: more terms make sharper contacts"},
     {"attenuation", 2.5, 0.0, 4.0,
      "damping: term k is weighted by exp(-attenuation (k/order)^2); larger rings less, softens contacts"},
     {"offset", 0.0, 0.0, 1.0,
@@ -50,11 +50,11 @@ void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
 /// series' next step. Of orders 1 and 2 that would take all contrast; they keep three quarters, and go wrong
 /// at the largest differences.
 double whole_range_of(const FilterSettings& settings) noexcept {
-  constexpr double kMostGivenUp = 0.25;
+  constexpr double kMaxGivenUp = 0.25;
   constexpr double kStepReach = 3.5;  // half steps: the attenuated step is that wide to either side
   const double wanted =
       (settings.option[kPlace("offset")] + kStepReach) * fourier_half_step(order_of(settings));
-  return 1.0 - std::min(wanted, kMostGivenUp);
+  return 1.0 - std::min(wanted, kMaxGivenUp);
 }
 /// A longer fall-off takes a smaller part: the series' step is then wider in depth.
 double range_of(const FilterSettings& settings) noexcept {

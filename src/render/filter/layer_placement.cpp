@@ -11,7 +11,7 @@ namespace gnomon::render {
 namespace {
 
 constexpr std::size_t kBins = 128;  ///< a layer is at least one of them thick
-constexpr std::size_t kMostEnds = kMaxFilterOptions;
+constexpr std::size_t kMaxEnds = kMaxFilterOptions;
 
 /// How many depths lie in each bin, summed up from the first bin on, and their first two moments.
 struct Sums {
@@ -58,12 +58,12 @@ void place_layers(std::span<const float> depths, std::span<double> ends) noexcep
   for (double& end : ends) end = 0.0;
   const Sums sums = sums_of(depths);
   const std::size_t layers = ends.size() + 1;
-  if (!(sums.count[kBins] > 0.0) || layers > kMostEnds) return;
+  if (!(sums.count[kBins] > 0.0) || layers > kMaxEnds) return;
   // best[k][j]: least spread of k + 1 layers over the bins before j; from[k][j]: where the last of them
   // begins.
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  std::array<std::array<double, kBins + 1>, kMostEnds> best;
-  std::array<std::array<std::size_t, kBins + 1>, kMostEnds> from{};
+  std::array<std::array<double, kBins + 1>, kMaxEnds> best;
+  std::array<std::array<std::size_t, kBins + 1>, kMaxEnds> from{};
   for (auto& row : best) row.fill(kNever);
   for (std::size_t j = 1; j <= kBins; ++j) best[0][j] = sums.spread(0, j);
   for (std::size_t k = 1; k < layers; ++k) {
@@ -76,7 +76,7 @@ void place_layers(std::span<const float> depths, std::span<double> ends) noexcep
       }
     }
   }
-  std::array<std::size_t, kMostEnds> border{};
+  std::array<std::size_t, kMaxEnds> border{};
   for (std::size_t k = layers - 1; k > 0; --k) border[k - 1] = from[k][k == layers - 1 ? kBins : border[k]];
   const std::span<const std::size_t> borders{border.data(), ends.size()};
   for (std::size_t k = 0; k < ends.size(); ++k) ends[k] = middle_of_gap(sums, borders, border[k]);

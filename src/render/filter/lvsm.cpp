@@ -18,14 +18,14 @@
 namespace gnomon::render {
 namespace {
 
-constexpr int kMostLayers = 8;
+constexpr int kMaxLayers = 8;
 constexpr FilterOption kOptions[] = {
     {"bleed", 0.15, 0.0, 0.95,
      "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
     {"floor", 1e-6, 0.0, 0.1,
      "least variance, as a share of a layer's depth squared; never below the format's rounding"},
     {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment includes"},
-    {"layers", 4, 1, kMostLayers, "layers of depth, two channels each: more layers bleed less"},
+    {"layers", 4, 1, kMaxLayers, "layers of depth, two channels each: more layers bleed less"},
     {"overlap", 0.5, 0.0, 1.0, "part of the neighbouring layers that a layer also covers, in layers"},
     {"placement", 0, 0, 1,
      "0 even layers; 1 layers fitted to the depths of each map, which are read back to the CPU"},
@@ -33,7 +33,7 @@ constexpr FilterOption kOptions[] = {
 /// `ends`: the first of the ends of all layers but the last; 0: even layers.
 constexpr std::string_view kOwnOptions[] = {"ends"};
 constexpr OptionPlaces kPlace(kOptions, kOwnOptions);
-static_assert(kPlace("ends") + kMostLayers - 1 <= kMaxFilterOptions);
+static_assert(kPlace("ends") + kMaxLayers - 1 <= kMaxFilterOptions);
 constexpr TexelFormat kFormats[] = {TexelFormat::unorm16, TexelFormat::fp16, TexelFormat::fp32};
 
 int layers_of(const FilterSettings& settings) noexcept {

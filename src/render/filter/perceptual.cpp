@@ -82,7 +82,7 @@ HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera, cons
 
   constexpr double kRounding = 1e-9;  // a texel of just the right size takes no larger map
   const double side = side_for(plan, result.radius_world / kHidingRadius) * (1.0 - kRounding);
-  result.hides = side <= kMostMapSize;  // false for not-a-number
+  result.hides = side <= kMaxMapSize;  // false for not-a-number
   if (result.hides) result.map_size = std::max(kLeastMapSize, static_cast<int>(std::ceil(side)));
   return result;
 }
@@ -110,8 +110,8 @@ HidingMapSize hiding_map_size(const ShadowPlan& plan, const Camera& camera, cons
     const double hidden = std::max(hidden_texel_pixels(radius_pixels), kPixel);
     side = std::max(side, std::max(map.width, map.height) * texel.perspective_max / hidden);
   }
-  result.hides = side <= kMostMapSize;
-  result.map_size = result.hides ? std::max(kLeastMapSize, static_cast<int>(std::ceil(side))) : kMostMapSize;
+  result.hides = side <= kMaxMapSize;
+  result.map_size = result.hides ? std::max(kLeastMapSize, static_cast<int>(std::ceil(side))) : kMaxMapSize;
   return result;
 }
 

@@ -13,14 +13,14 @@
 namespace gnomon::render {
 namespace {
 
-constexpr int kMostLayers = 8;
+constexpr int kMaxLayers = 8;
 constexpr FilterOption kOptions[] = {
     {"offset", 0.2, 0.0, 0.5,
      "receiver offset towards the light, as a share of the kernel's range of depths"},
     {"falloff_world", 0.0, 0.0, 1e6,
      "longest receiver offset, world units: alike in all maps; 0: no limit but falloff_kernel"},
     {"falloff_kernel", 0.0, 0.0, 1000.0, "the same in half widths of the kernel; the longer of both counts"},
-    {"layers", 1, 1, kMostLayers,
+    {"layers", 1, 1, kMaxLayers,
      "layers of depth, four channels each: more of them part occluders behind each other"},
 };
 /// `longest`: the longest offset, of the depth range; 0: no limit.

@@ -21,7 +21,7 @@ constexpr GLuint kSumsImage = 0;
 constexpr int kRowsPerGroup = 32;  ///< local_size_x of sum_rows.comp and sum_columns.comp
 constexpr GLint kWalkLocation = 1, kVectorLocation = 2, kLevelsLocation = 1;
 /// Compilers unroll loops over 31 taps; wider kernels are rare.
-constexpr int kMostWalkReach = 15;
+constexpr int kMaxWalkReach = 15;
 
 GLuint groups_of(int count, int each) noexcept {
   return static_cast<GLuint>((count + each - 1) / each);
@@ -117,7 +117,7 @@ FilterVariant variant_of(const FilterSettings& settings) noexcept {
   if (settings.unit == KernelUnit::world) return variant;
   std::array<double, 4 * kTapVectors> weights{};
   const int reach = settings.radius > 0.0 ? tap_weights(settings.blur, settings.radius + 0.5, weights) : 0;
-  if (reach <= kMostWalkReach) variant.reach = reach;
+  if (reach <= kMaxWalkReach) variant.reach = reach;
   return variant;
 }
 
@@ -388,7 +388,7 @@ StoredMaps::Held StoredMaps::keep_whole(const StoreJob& job) noexcept {
 
 StoredMaps::Held StoredMaps::choose_tiles(const FilterPrograms& programs, const StoreJob& job) {
   // Marking in one frame after the other must not come to more than filling all tiles once.
-  constexpr int kMostMarks = 4;
+  constexpr int kMaxMarks = 4;
   Held held{};
   tiles_.fit(shape_.width, shape_.height, shape_.layers);
   const glm::ivec2 layer{shape_.width, shape_.height};
@@ -399,7 +399,7 @@ StoredMaps::Held StoredMaps::choose_tiles(const FilterPrograms& programs, const 
     const bool kept = job.held[i] && made.depths;
     held[i] = kept && made.whole;
     if (held[i]) continue;
-    const bool all = !job.mark_read || made.marks == kMostMarks;
+    const bool all = !job.mark_read || made.marks == kMaxMarks;
     tiles_.keep(static_cast<GLint>(i), {kept, all});
     made = {true, all, all ? 0 : kept ? made.marks + 1 : 1};
     if (!kept) whole_texels_ += area(job.mipmaps ? layer : job.map_size[i]);

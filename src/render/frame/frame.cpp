@@ -37,10 +37,10 @@ void Renderer::Impl::begin(FrameJob& frame, FrameSource& source) {
   frame.honoured = frame.asked.without(FrameOptionSet::all().without(source.supports(frame)));
   casters.take_moved(frame.options.moved_world);
   // A frame without maps brings none up to date: what moved is for the next one, as long as it is worth it.
-  constexpr std::size_t kMostMoved = 4096;
+  constexpr std::size_t kMaxMoved = 4096;
   if (source.steps(frame).takes_depths) {
     sources.lose(&source);
-  } else if (casters.movers.changed_world().size() > kMostMoved) {
+  } else if (casters.movers.changed_world().size() > kMaxMoved) {
     sources.lose(nullptr);
     casters.movers.forget_changes();
   }
@@ -54,8 +54,8 @@ void Renderer::Impl::begin(FrameJob& frame, FrameSource& source) {
 }
 
 void Renderer::Impl::draw_mask(FrameJob& frame, FrameSource& source) {
-  const GLuint fbo = frame.draws(FrameOption::accumulation) ? history.single_fbo()
-                                                            : screen.targets.mask_fbo.name();
+  const GLuint fbo =
+      frame.draws(FrameOption::accumulation) ? history.single_fbo() : screen.targets.mask_fbo.name();
   if (source.supports(frame).has(FrameOption::noise)) screen.bind_noise(frame.options.noise);
   source.mask(frame, fbo);
   if (!frame.draws(FrameOption::contacts) || frame.plan.map_count == 0) return;

@@ -14,9 +14,9 @@ struct HistoryBlock {
   glm::mat4 clip_before;
   glm::vec4 depth_before, settings;
   glm::uvec4 moved_count;
-  std::array<glm::vec4, kMostMovedBoxes> moved_min, moved_max;  // relative to the camera
+  std::array<glm::vec4, kMaxMovedBoxes> moved_min, moved_max;  // relative to the camera
 };
-static_assert(sizeof(HistoryBlock) == 64 + 3 * 16 + 2 * kMostMovedBoxes * 16, "std140 has no padding here");
+static_assert(sizeof(HistoryBlock) == 64 + 3 * 16 + 2 * kMaxMovedBoxes * 16, "std140 has no padding here");
 
 }  // namespace
 
@@ -43,11 +43,11 @@ void MaskHistory::resize(int width, int height) {
 void MaskHistory::forget_behind(std::span<const Box> moved_world) noexcept {
   for (const Box& box : moved_world) {
     if (box.empty()) continue;
-    if (moved_count_ < kMostMovedBoxes) {
+    if (moved_count_ < kMaxMovedBoxes) {
       moved_[moved_count_++] = box;
     } else {
-      moved_[kMostMovedBoxes - 1].extend(box.min);
-      moved_[kMostMovedBoxes - 1].extend(box.max);
+      moved_[kMaxMovedBoxes - 1].extend(box.min);
+      moved_[kMaxMovedBoxes - 1].extend(box.max);
     }
   }
 }

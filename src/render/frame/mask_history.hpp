@@ -14,7 +14,7 @@
 namespace gnomon::render {
 
 /// Boxes that shaders/pass/mask/accumulate.frag has room for. Of more the last one is round all that are left.
-inline constexpr std::size_t kMostMovedBoxes = 32;
+inline constexpr std::size_t kMaxMovedBoxes = 32;
 
 class MaskHistory {
  public:
@@ -42,7 +42,7 @@ class MaskHistory {
   std::array<Framebuffer, 2> fbo_;
   Framebuffer single_fbo_;
   Buffer block_;
-  std::array<Box, kMostMovedBoxes> moved_;
+  std::array<Box, kMaxMovedBoxes> moved_;
   std::size_t moved_count_ = 0;
   glm::dmat4 clip_from_relative_{1.0};  ///< of the frame before
   glm::dvec3 eye_{0.0}, forward_{0.0, 0.0, -1.0};

@@ -45,9 +45,9 @@ PanePass::PagesLook PanePass::place_pages(const PagePlan& plan, const PagePool& 
   look.side = slot;
   look.pages.resize(reached_pages.size());
   // A layer no larger than all pages need, and more of them only where they need many.
-  constexpr int kMostAcross = 8, kLeastSide = 4;
-  while (look.across < kMostAcross && look.room().layers > 1) ++look.across;
-  while (look.room().bytes() > kMostPageBytes && look.side > kLeastSide) look.side = (look.side + 1) / 2;
+  constexpr int kMaxAcross = 8, kLeastSide = 4;
+  while (look.across < kMaxAcross && look.room().layers > 1) ++look.across;
+  while (look.room().bytes() > kMaxPageBytes && look.side > kLeastSide) look.side = (look.side + 1) / 2;
   const int per_layer = look.across * look.across;
   const float scale = static_cast<float>(look.side) / static_cast<float>(slot);
   for (std::size_t n = 0; n < reached_pages.size(); ++n) {
@@ -86,7 +86,7 @@ void PanePass::draw_pages(const PagePlan& plan, const PagePool& pool, const glm:
     held_pages_ = std::move(look);
     return;
   }
-  fit(look.room(), kMostPageBytes);
+  fit(look.room(), kMaxPageBytes);
   begin_sums(origin_world);
   int layer = -1;
   for (const PageLook& page : look.pages) {

@@ -89,9 +89,9 @@ std::uint64_t PanePass::bytes() const noexcept {
 
 void PanePass::fit(const PaneRoom& wanted, std::uint64_t most_bytes) {
   // Sizes that follow the view differ from frame to frame: images that are a little too large stay.
-  constexpr std::uint64_t kMostWaste = 4;
+  constexpr std::uint64_t kMaxWaste = 4;
   PaneRoom room = both(wanted, room_);
-  if (room.bytes() > std::min(kMostWaste * wanted.bytes(), most_bytes)) room = wanted;
+  if (room.bytes() > std::min(kMaxWaste * wanted.bytes(), most_bytes)) room = wanted;
   if (room == room_) return;
   room_ = room;
   held_ = {};
@@ -137,8 +137,8 @@ PanePass::Rectangle PanePass::reached(const DrawnMap& map, const glm::dvec3& ori
 
 void PanePass::move(std::size_t instance, const Instance& to) {
   // More than that, and the maps are drawn anew.
-  constexpr std::size_t kMostChanged = 4096;
-  if (changed_world_.size() < kMostChanged) {
+  constexpr std::size_t kMaxChanged = 4096;
+  if (changed_world_.size() < kMaxChanged) {
     changed_world_.push_back(panes_.boxes()[instance]);
     changed_world_.push_back(to.bounds_world);
   } else {

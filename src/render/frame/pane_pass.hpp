@@ -56,11 +56,11 @@ class PanePass {
   /// Compiles the program that reads pages, once. Throws RenderError.
   void prepare_pages();
   /// Draws the panes into a place for each page that they reach; after the pool has placed the plan's pages.
-  /// Places are smaller than pages where the images would take more than kMostPageBytes, empty ones counted.
+  /// Places are smaller than pages where the images would take more than kMaxPageBytes, empty ones counted.
   void draw_pages(const PagePlan& plan, const PagePool& pool, const glm::dvec3& origin_world);
   /// Likewise for bind_maps(); the pool's tables are bound.
   void bind_pages(const glm::dvec3& camera_world) noexcept;
-  static constexpr std::uint64_t kMostPageBytes = std::uint64_t{256} << 20;
+  static constexpr std::uint64_t kMaxPageBytes = std::uint64_t{256} << 20;
 
   /// Whether panes tint what a light lights: some lie in its maps and within its range, 0: none.
   [[nodiscard]] bool tint(const ShadowPlan& plan, const DrawnMaps& drawn, double range);

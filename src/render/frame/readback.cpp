@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gnomon/render/context.hpp"
 #include "frame/renderer_impl.hpp"
+#include "gnomon/render/context.hpp"
 
 namespace gnomon::render {
 namespace {

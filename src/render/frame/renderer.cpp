@@ -145,10 +145,13 @@ FrameStats Renderer::draw(const Shadows& shadows, const Camera& camera, const Pr
     of_light.map_count = !pages->pages.empty() && programs.mask_pages ? 1 : 0;
     if (of_light.map_count > 0) of_light.map[0] = page_map(*pages, pages->pages[0]);
   }
-  FrameJob frame{shadows, shadows.maps() != nullptr ? *shadows.maps() : of_light,
-              camera,  filter,
-              options, impl.filters[filter.program],
-              impl.panes ? &*impl.panes : nullptr};
+  FrameJob frame{shadows,
+                 shadows.maps() != nullptr ? *shadows.maps() : of_light,
+                 camera,
+                 filter,
+                 options,
+                 impl.filters[filter.program],
+                 impl.panes ? &*impl.panes : nullptr};
   impl.draw(frame, impl.sources.of(frame));
   return frame.stats;
 }

@@ -194,7 +194,7 @@ bool DirtyShapes::mark(TexelMask& mask, const ShadowMap& map, const CasterShape&
 bool DirtyShapes::mark_all(const ShadowMap& map, std::span<const Box> named_world,
                            std::span<const MovedCaster> moved) {
   dirty_.reset(map.width, map.height);
-  std::size_t no_parts = 0, parts_left = kMostParts;
+  std::size_t no_parts = 0, parts_left = kMaxParts;
   for (const Box& box : named_world) {
     CasterShape bounds;
     bounds.bounds_world = box;
@@ -210,7 +210,7 @@ bool DirtyShapes::mark_all(const ShadowMap& map, std::span<const Box> named_worl
     if (!mark(dirty_, map, caster.from, parts_left)) return false;
   }
   stands_.reset(map.width, map.height);
-  parts_left = kMostParts;
+  parts_left = kMaxParts;
   for (const MovedCaster& caster : moved)
     if (!mark(stands_, map, caster.to, parts_left)) return false;
   dirty_.mark(stands_);

@@ -37,7 +37,7 @@ class DirtyShapes {
   /// Rectangles of a map.
   static constexpr std::size_t kMost = 1024;
   /// Triangles and boxes that are projected one by one in one pose; the bounds of further casters are.
-  static constexpr std::size_t kMostParts = 1 << 14;
+  static constexpr std::size_t kMaxParts = 1 << 14;
 
   /// Finds what casters may have changed that moved, or that stand or stood in named bounds. False: any texel
   /// of the map, and there are no rectangles.

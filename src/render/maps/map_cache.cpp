@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "frame/frame_block.hpp"
 #include "casters/moving_casters.hpp"
+#include "frame/frame_block.hpp"
 
 namespace gnomon::render {
 namespace {

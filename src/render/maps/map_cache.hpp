@@ -29,9 +29,9 @@ struct MapMove {
 /// its static casters, then the parts are drawn. None of them: the map is as it was.
 struct MapWork {
   /// Rectangles in which all casters are drawn again; each costs draws.
-  static constexpr std::size_t kMostRedrawn = DirtyTexels::kMost;
+  static constexpr std::size_t kMaxRedrawn = DirtyTexels::kMost;
   /// Two strips or rectangles of moved casters, and what came into reach anywhere.
-  static constexpr std::size_t kMaxParts = kMostRedrawn + 1;
+  static constexpr std::size_t kMaxParts = kMaxRedrawn + 1;
   MapMove move;
   std::span<const TexelRect> copies;
   std::array<MapPart, kMaxParts> part;
@@ -128,7 +128,7 @@ class MapCache {
   const SceneBuffers& scene_;
   CasterCulling& culling_;
   std::vector<std::uint8_t> draws_;  ///< of the map at hand, by instance
-  std::array<std::vector<std::uint8_t>, MapWork::kMostRedrawn> part_draws_;
+  std::array<std::vector<std::uint8_t>, MapWork::kMaxRedrawn> part_draws_;
   std::vector<std::uint8_t> over_;  ///< moving casters, and static ones that came into reach, by instance
   std::vector<Box> adopted_;        ///< scratch of adoption_bounds
   std::array<DirtyShapes, kMaxMaps> dirty_;

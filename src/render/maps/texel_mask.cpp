@@ -41,7 +41,7 @@ void TexelMask::reset(int width, int height) {
     if (first_row_ <= last_row_) std::fill(row(first_row_), row(last_row_ + 1), std::uint64_t{0});
   } else {
     cell_ = 1;
-    while (std::max(width, height) > kMostCells * cell_) cell_ *= 2;
+    while (std::max(width, height) > kMaxCells * cell_) cell_ *= 2;
     width_ = width;
     height_ = height;
     columns_ = (width + cell_ - 1) / cell_;
@@ -211,9 +211,9 @@ void TexelMask::join(double share) {
 
 std::span<const TexelRect> TexelMask::rectangles(std::size_t most) {
   list_runs();
-  constexpr double kMostShare = 64.0;
+  constexpr double kMaxShare = 64.0;
   double share = kWasteShare;
-  for (join(share); rectangles_.size() > most && share < kMostShare; join(share)) share *= 2.0;
+  for (join(share); rectangles_.size() > most && share < kMaxShare; join(share)) share *= 2.0;
   while (rectangles_.size() > most && most > 0) {
     // Neighbours in the list are neighbours in the map, more or less.
     std::size_t kept = 0;

@@ -15,11 +15,11 @@ namespace gnomon::render {
 /// The smallest rectangle that holds both; neither is empty.
 [[nodiscard]] TexelRect joined(const TexelRect& a, const TexelRect& b) noexcept;
 
-/// Maps of up to kMostCells a side are marked by the texel, larger ones by squares of 2, 4, ... texels. Its
+/// Maps of up to kMaxCells a side are marked by the texel, larger ones by squares of 2, 4, ... texels. Its
 /// memory is used again.
 class TexelMask {
  public:
-  static constexpr int kMostCells = 1024;
+  static constexpr int kMaxCells = 1024;
 
   /// Empties the mask, for a map of this many texels.
   void reset(int width, int height);

@@ -7,8 +7,7 @@ namespace gnomon::render {
 
 bool bends_lines(const ShadowPlan& plan) noexcept {
   const auto planned = plan.maps();
-  return std::any_of(planned.begin(), planned.end(),
-                     [](const ShadowMap& map) { return !map.shape->affine; });
+  return std::any_of(planned.begin(), planned.end(), [](const ShadowMap& map) { return !map.shape->affine; });
 }
 
 bool composes(const FrameOptions& options) noexcept {

@@ -10,7 +10,7 @@ namespace {
 constexpr GLuint kLightBinding = 2, kMapBinding = 3, kBeginBinding = 4, kListBinding = 5;
 constexpr GLint kStorageBlocks = 4;
 // With more entries clusters become larger.
-constexpr std::size_t kFirstEntries = std::size_t{1} << 16, kMostEntries = std::size_t{1} << 22;
+constexpr std::size_t kFirstEntries = std::size_t{1} << 16, kMaxEntries = std::size_t{1} << 22;
 
 /// ClusterBegins of shaders/pass/shade/clusters.frag before its list.
 struct ClusterHeader {
@@ -49,7 +49,7 @@ LightClusters LightLists::list(const Camera& camera, const ClusterOptions& optio
     entries_.resize(entries);
     const LightClusters clusters = cluster_lights(camera, lights_, options, {begin_, listed_, entries_});
     const bool coarser = clusters.status == PlanStatus::ok && clusters.begin.size() < begin_.size();
-    if (!coarser || entries >= kMostEntries) return clusters;
+    if (!coarser || entries >= kMaxEntries) return clusters;
     listed_.resize(2 * entries);
   }
 }

@@ -55,8 +55,8 @@ void ListSource::mask(FrameJob& frame, GLuint) {
   lists_.clear({camera.width, camera.height}, frame.filter.source.samples,
                {frame.block.layer.x, frame.block.layer.y}, std::max(frame.plan.map_count, 1));
   screen_.bind_surfaces();
-  lists_.list(light_frames(frame.plan, camera, casters_.buffers.diagonal()),
-              screen_.targets.off_plane.name(), screen_.targets.mask.name());
+  lists_.list(light_frames(frame.plan, camera, casters_.buffers.diagonal()), screen_.targets.off_plane.name(),
+              screen_.targets.mask.name());
 }
 
 void ListSource::update(FrameJob& frame) {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "gnomon/render/error.hpp"
 #include "gnomon/extend/shape.hpp"
+#include "gnomon/render/error.hpp"
 #include "gnomon/study/bias.hpp"
 
 namespace gnomon::render {
@@ -86,8 +86,7 @@ void MapSource::fit(const ShadowPlan& plan) {
 
 void MapSource::fit_beside(FrameJob& frame) {
   const bool numbered = numbers(frame);
-  const std::optional<IdentifierOf> of =
-      numbered ? std::optional(frame.filter.source.test.of) : std::nullopt;
+  const std::optional<IdentifierOf> of = numbered ? std::optional(frame.filter.source.test.of) : std::nullopt;
   bool lost = of && of != numbered_;
   numbered_ = of;
   if (numbered) {
@@ -108,15 +107,14 @@ void MapSource::begin(FrameJob& frame) {
   const bool numbered = numbers(frame);
   const DepthKind kind = numbered ? DepthKind{} : depth_kind(frame.options, frame.options.linear_depth);
   // So many boxes cost more than the texels that they would spare.
-  constexpr std::size_t kMostMoved = 4096;
-  if (kind != kind_ || casters_.movers.changed_world().size() > kMostMoved) casters_.lists.forget_maps();
+  constexpr std::size_t kMaxMoved = 4096;
+  if (kind != kind_ || casters_.movers.changed_world().size() > kMaxMoved) casters_.lists.forget_maps();
   kind_ = kind;
   fit(plan);
   fit_beside(frame);
   const auto planned = plan.maps();
-  frame.shaped = !numbered && std::any_of(planned.begin(), planned.end(), [](const ShadowMap& map) {
-    return map.shape != &shapes::linear;
-  });
+  frame.shaped = !numbered && std::any_of(planned.begin(), planned.end(),
+                                          [](const ShadowMap& map) { return map.shape != &shapes::linear; });
   if (frame.shaped) {
     try {
       make_shaped_programs(frame.filter.settings, frame.programs);
@@ -169,8 +167,7 @@ void MapSource::update(FrameJob& frame) {
     return;
   }
   map_pass_.draw(plan, drawn_, depth_draw(options));
-  if (has_silhouettes_)
-    silhouettes_->draw(casters_.buffers, casters_.lists, maps_, drawn_, map_count_);
+  if (has_silhouettes_) silhouettes_->draw(casters_.buffers, casters_.lists, maps_, drawn_, map_count_);
 }
 
 void MapSource::draw_identified(const FrameJob& frame) noexcept {
@@ -187,9 +184,8 @@ void MapSource::draw_identified(const FrameJob& frame) noexcept {
       glDisable(GL_SCISSOR_TEST);
       if (part.clear) identifiers_->clear();
       pass_.draw_by(part, CasterPrograms{identifiers_->opaque(), identifiers_->masked()},
-                    frame.options.prune.has(PruneRule::alpha_test), [&] {
-                      glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]);
-                    });
+                    frame.options.prune.has(PruneRule::alpha_test),
+                    [&] { glUniformMatrix4fv(kClipLocation, 1, GL_FALSE, &map.clip_from_position[0][0]); });
     }
   }
 }

@@ -1,7 +1,7 @@
 // Pages of depths: neighbours are drawn together into the image of their block, and copied into their slots.
+#include "source/pages.hpp"
 #include "gnomon/extend/shape.hpp"
 #include "gnomon/study/bias.hpp"
-#include "source/pages.hpp"
 
 #include <algorithm>
 
@@ -68,12 +68,11 @@ void PageSource::update(FrameJob& frame) {
   origin_world_ = casters_.place({}, frame.camera.position).origin_world;
   const bool in_runs = options.map_passes != MapPasses::each && !info_of(options.depth_layer).peels;
   const bool apart = in_runs && composes(options);
-  pool_.build(plan, {origin_world_, options.prune.has(PruneRule::alpha_test),
-                     options.prune.has(PruneRule::held_maps), apart, in_runs, movers.static_changed_world(),
-                     movers.changed_world()});
-  casters_.lists.build_pages(
-      pool_.drawn(), frame.camera, options.prune,
-      apart && movers.any() ? movers.moves() : std::span<const std::uint8_t>{});
+  pool_.build(
+      plan, {origin_world_, options.prune.has(PruneRule::alpha_test), options.prune.has(PruneRule::held_maps),
+             apart, in_runs, movers.static_changed_world(), movers.changed_world()});
+  casters_.lists.build_pages(pool_.drawn(), frame.camera, options.prune,
+                             apart && movers.any() ? movers.moves() : std::span<const std::uint8_t>{});
   movers.finish_frame();
   pass_.begin();
   glEnable(GL_SCISSOR_TEST);
@@ -191,13 +190,12 @@ void PageSource::count(FrameJob& frame) {
   count_lists(casters_.lists, stats);
   stats.prefilter_passes = stored_.passes();
   stats.filtered_texels = stored_.filtered_texels();
-  stats.map_bytes =
-      maps_.bytes() + stored_.bytes() + (frame.panes != nullptr ? frame.panes->bytes() : 0);
+  stats.map_bytes = maps_.bytes() + stored_.bytes() + (frame.panes != nullptr ? frame.panes->bytes() : 0);
   stats.scratch_bytes = stored_.scratch_bytes() + pass_.scratch_bytes() + stage_.bytes();
   stats.pages = static_cast<int>(plan.pages.size());
   stats.pages_drawn = static_cast<int>(drawn.size());
-  stats.pages_composed = static_cast<int>(std::count_if(
-      drawn.begin(), drawn.end(), [](const BlockPage& page) { return page.drawn.composed; }));
+  stats.pages_composed = static_cast<int>(
+      std::count_if(drawn.begin(), drawn.end(), [](const BlockPage& page) { return page.drawn.composed; }));
   PruneSaving& held = stats.saved[static_cast<std::size_t>(PruneRule::held_maps)];
   held.maps = static_cast<std::uint64_t>(stats.pages - stats.pages_drawn);
   held.texels = held.maps * slot_texels;

@@ -1,7 +1,7 @@
 // Many lights: the depths of their maps in one pool, a mask for each, and the sum of their light.
+#include "source/pool.hpp"
 #include "gnomon/extend/shape.hpp"
 #include "gnomon/study/bias.hpp"
-#include "source/pool.hpp"
 
 #include <algorithm>
 #include <array>
@@ -82,7 +82,8 @@ FrameBlock block_of(const DrawnLight& light, const LightMaps& maps, const Camera
     block.light_place = glm::vec4(glm::vec3(position - camera.position), 1.0f);
   }
   for (std::size_t k = 0; k < plan.maps().size(); ++k)
-    move_to_place(plan.map[k], maps.place[k], plan.selection != MapSelection::view_depth, glm::vec2(pool), block.maps[k]);
+    move_to_place(plan.map[k], maps.place[k], plan.selection != MapSelection::view_depth, glm::vec2(pool),
+                  block.maps[k]);
   return block;
 }
 
@@ -296,9 +297,8 @@ void PoolSource::add_light(FrameJob& frame, std::size_t index, GLuint fbo) {
     FrameOptions own = options;
     own.light = &light.light;
     screen_.upload(frame_block(plan, camera, own, 1, 1, BlurSides{}, depth_curves(plan)), filtering);
-    tint_from_maps(screen_, panes, plan,
-                   drawn_maps(plan, camera.position, casters_.buffers.origin_step()), camera, part,
-                   {.range = range_of(light.light), .room = pane_room_});
+    tint_from_maps(screen_, panes, plan, drawn_maps(plan, camera.position, casters_.buffers.origin_step()),
+                   camera, part, {.range = range_of(light.light), .room = pane_room_});
     frame.stats.pane_texels += panes.texels();
     begin_part();
     glBindTextureUnit(kTransmittanceUnit, panes.image().name());
@@ -341,8 +341,7 @@ void PoolSource::shade(FrameJob& frame) {
     sky.light_direction = glm::normalize(sun->direction);
     share = std::clamp(std::max({light.color.x, light.color.y, light.color.z}), 0.02f, 1.0f);
   }
-  const FrameBlock block =
-      frame_block(sky, frame.camera, frame.options, 1, 1, BlurSides{}, DepthCurves{});
+  const FrameBlock block = frame_block(sky, frame.camera, frame.options, 1, 1, BlurSides{}, DepthCurves{});
   const FrameTargets& targets = screen_.targets;
   screen_.upload(block, FilterBlock{});
   screen_.bind_mask();

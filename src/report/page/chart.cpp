@@ -118,8 +118,8 @@ std::vector<double> Axis::ticks() const {
           ? std::vector<double>{1.0, 1.5, 2.0, 3.0, 5.0, 7.0}
           : std::vector<double>{1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
   // More labels than this would run into each other.
-  constexpr double kMostDecades = 12.0;
-  const int every = std::max(1, static_cast<int>(std::ceil(decades / kMostDecades)));
+  constexpr double kMaxDecades = 12.0;
+  const int every = std::max(1, static_cast<int>(std::ceil(decades / kMaxDecades)));
   for (int e = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, e) <= high; ++e) {
     if (e % every != 0) continue;
     for (const double digit : within) {

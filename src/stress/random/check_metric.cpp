@@ -174,8 +174,8 @@ Sampled sample_grid(const Case& input, const ShadowPlan& plan, const View& view,
 void check_measure(const Case& input, const ShadowPlan& plan, const View& view, const LightAt& light,
                    const std::vector<RelativeMap>& maps, Report& report) {
   constexpr MeasureOptions kGrid{6, 6, 24};
-  constexpr std::size_t kMostReceivers = 40;
-  if (input.receivers.size() > kMostReceivers) return;
+  constexpr std::size_t kMaxReceivers = 40;
+  if (input.receivers.size() > kMaxReceivers) return;
   std::vector<Box> receivers = input.receivers;
   std::erase_if(receivers, [](const Box& box) { return box.empty(); });
   const AliasingStats stats = measure(plan, input.camera, {input.casters, receivers}, kGrid);
@@ -243,8 +243,8 @@ void check_metric(const Case& input, const ShadowPlan& plan, Report& report) {
   std::vector<RelativeMap> maps;
   for (const ShadowMap& map : plan.maps()) maps.emplace_back(plan, map, view);
   Random random(7);
-  constexpr std::size_t kMostBoxes = 4;
-  for (std::size_t i = 0; i < std::min(input.receivers.size(), kMostBoxes); ++i) {
+  constexpr std::size_t kMaxBoxes = 4;
+  for (std::size_t i = 0; i < std::min(input.receivers.size(), kMaxBoxes); ++i) {
     for (const Real3& p :
          seen_points(view, input.receivers[i], input.camera.near_depth, input.camera.far_depth, 6, random)) {
       const glm::dvec3 world(p + view.eye);

@@ -18,7 +18,7 @@ constexpr Real kQuarterTexel = 0.5L;
 // A step of a depth buffer of 24 bits, of ndc's two units.
 constexpr Real kDepthStep = 0x1p-23L;
 // Boxes that are looked at, of thousands; and points of each besides its corners.
-constexpr int kMostBoxes = 10, kBetween = 10;
+constexpr int kMaxBoxes = 10, kBetween = 10;
 
 /// Everything that one point is held against.
 struct Scene {
@@ -310,8 +310,8 @@ void check_points(const Case& input, const ShadowPlan& plan, Report& report) {
   const Scene scene = scene_of(input, plan);
   Random random(input.receivers.size() + 1);
   const auto all = static_cast<int>(input.receivers.size());
-  for (int i = 0; i < std::min(all, kMostBoxes); ++i) {
-    const int box = all <= kMostBoxes ? i : random.pick(all);
+  for (int i = 0; i < std::min(all, kMaxBoxes); ++i) {
+    const int box = all <= kMaxBoxes ? i : random.pick(all);
     const std::vector<Real3> points =
         seen_points(scene.view, input.receivers[static_cast<std::size_t>(box)], input.camera.near_depth,
                     input.camera.far_depth, kBetween, random);

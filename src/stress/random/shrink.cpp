@@ -100,8 +100,8 @@ class Shrinker {
     std::vector<Json::json_pointer> numbers;
     list_numbers(best_, Json::json_pointer(), numbers);
     // Of thousands of boxes rounding is not what matters.
-    constexpr std::size_t kMostNumbers = 120;
-    if (numbers.size() > kMostNumbers) return false;
+    constexpr std::size_t kMaxNumbers = 120;
+    if (numbers.size() > kMaxNumbers) return false;
     bool smaller = false;
     for (const auto& at : numbers) {
       const double value = best_[at].get<double>();

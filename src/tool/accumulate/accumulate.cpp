@@ -25,7 +25,7 @@ namespace {
 
 constexpr int kFlightFrames = 600;  ///< ten seconds at 60 Hz
 constexpr int kFrame = kFlightFrames / 2;
-constexpr int kMostFrames = 4096;
+constexpr int kMaxFrames = 4096;
 
 struct AccumulateRequest : Measuring {
   AccumulateRequest() {
@@ -229,9 +229,9 @@ Sequence moving_casters(const AccumulateRequest& request, Stage& stage) {
 
 int run_accumulate(const AccumulateRequest& request) {
   for (const int frames : request.rest_frames)
-    if (frames < 1 || frames > kMostFrames)
+    if (frames < 1 || frames > kMaxFrames)
       throw std::runtime_error("--frames " + std::to_string(frames) + ": wants 1 to " +
-                               std::to_string(kMostFrames));
+                               std::to_string(kMaxFrames));
   if (request.maps.warp.shape != nullptr)
     refuse_name("--warp", request.maps.warp.name, names_in(all_warps(), {"auto"}));
   const Sweep sweep = sweep_of(request);

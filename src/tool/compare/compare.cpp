@@ -283,14 +283,14 @@ std::vector<Option> technique_options(CompareRequest& request) {
 
 Option shard_option(CompareRequest& request) {
   const auto set = [&request](const std::string& word) {
-    constexpr std::size_t kMostShards = 1'000'000;
+    constexpr std::size_t kMaxShards = 1'000'000;
     std::size_t shard = 0, shards = 0;
     const char* const end = word.data() + word.size();
     const auto [slash, no_shard] = std::from_chars(word.data(), end, shard);
     const bool parted = no_shard == std::errc{} && slash != end && *slash == '/';
     const auto [last, no_shards] = std::from_chars(parted ? slash + 1 : end, end, shards);
     if (!parted || no_shards != std::errc{} || last != end || shard < 1 || shard > shards ||
-        shards > kMostShards)
+        shards > kMaxShards)
       throw std::runtime_error("--shard " + word + ": wants I/N with 1 <= I <= N, as in 2/8");
     request.shard = shard - 1;
     request.shards = shards;

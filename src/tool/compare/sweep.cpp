@@ -337,7 +337,7 @@ int page_capacity(const SweepEntry& entry, LightKind light) noexcept {
   const double slot = entry.pages.page_texels + 2.0 * std::ceil(entry.plan.filter.texels);
   const double side = entry.plan.resolution.max_size;
   const int maps = light == LightKind::sun ? entry.technique.cascades : light == LightKind::spot ? 1 : 6;
-  return static_cast<int>(std::clamp(maps * side * side / (slot * slot), 0.0, double{kMostPages}));
+  return static_cast<int>(std::clamp(maps * side * side / (slot * slot), 0.0, double{kMaxPages}));
 }
 
 SweepEntry sweep_entry(const report::Technique& technique) {

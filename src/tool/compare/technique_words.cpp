@@ -55,10 +55,9 @@ int irregular_samples(const std::string& option, const std::string& word) {
   if (rest.empty()) return 1;
   int samples = 0;
   if (!rest.starts_with(kSamples) ||
-      !read_number(rest.substr(kSamples.size()), 1, render::kMostFacetSamples, samples))
-    refuse(
-        option, word,
-        "wants irregular or irregular:samples=N, N from 1 to " + std::to_string(render::kMostFacetSamples));
+      !read_number(rest.substr(kSamples.size()), 1, render::kMaxFacetSamples, samples))
+    refuse(option, word,
+           "wants irregular or irregular:samples=N, N from 1 to " + std::to_string(render::kMaxFacetSamples));
   return samples;
 }
 
@@ -188,11 +187,11 @@ std::vector<int> read_cascades(const std::string& option, const Words& words) {
 }
 
 std::vector<int> read_map_sizes(const std::string& option, const Words& words) {
-  return read_numbers(option, words, kLeastMapSize, kMostMapSize);
+  return read_numbers(option, words, kLeastMapSize, kMaxMapSize);
 }
 
 std::vector<int> read_page_sizes(const std::string& option, const Words& words) {
-  const std::vector<int> sizes = read_numbers(option, words, kLeastPageTexels, kMostPageTexels);
+  const std::vector<int> sizes = read_numbers(option, words, kLeastPageTexels, kMaxPageTexels);
   for (const int size : sizes) {
     if (!is_page_size(size)) refuse(option, std::to_string(size), "wants 64, 128 or 256");
   }

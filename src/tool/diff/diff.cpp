@@ -33,7 +33,7 @@ struct DiffRequest {
 
 Image load_picture(const std::string& file) {
   constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;  // bytes
-  constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;
+  constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw std::runtime_error(file + ": there is no such file");
   if (!std::filesystem::is_regular_file(file, error)) throw std::runtime_error(file + ": is no file");
@@ -42,7 +42,7 @@ Image load_picture(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
   if (in.bad() || !in.is_open()) throw std::runtime_error(file + ": cannot be read");
-  return decode_image({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, file, kMostPixels);
+  return decode_image({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, file, kMaxPixels);
 }
 
 struct Difference {

@@ -138,7 +138,8 @@ int run_doctor(bool json) {
                " cores, load " + report["load"].dump());
     std::string units;
     for (const std::string& unit : vector_units()) units += (units.empty() ? "" : ", ") + unit;
-    print_line("vector units that plans can use: " + (units.empty() ? "none" : units + "; they use the first"));
+    print_line("vector units that plans can use: " +
+               (units.empty() ? "none" : units + "; they use the first"));
     for (const Json& context : report["contexts"]) print_context(context);
     for (const Json& package : report["packages"])
       print_line("package " + package["package"].get<std::string>() + ": " +

@@ -229,7 +229,7 @@ std::vector<Option> cost_options(FiltersRequest& request) {
           {.name = "--map-sizes",
            .target = &request.map_sizes,
            .help = "map sizes of --cost, texels along each side",
-           .range = {{kLeastMapSize, kMostMapSize}},
+           .range = {{kLeastMapSize, kMaxMapSize}},
            .needs = "--cost"},
           {.name = "--rounds",
            .target = &request.rounds,

@@ -399,8 +399,8 @@ int fly_to_files(const Options& asked, Flight& flight) {
       {},
       ContactSheet(options.frames, options.width, options.height, options.pages.on() ? "levels" : "maps"),
       {}};
-  studio.filter = studio.renderer.prepare(
-      options.filter, options.pages.on() ? render::Source::pages : render::Source::maps);
+  studio.filter = studio.renderer.prepare(options.filter,
+                                          options.pages.on() ? render::Source::pages : render::Source::maps);
   const std::vector<FrameRow> rows = draw_frames(studio, context->info().software);
   write_png(studio.sheet.sheet(sheet_title(options)), options.out / "contact_sheet.png");
   if (options.json) {

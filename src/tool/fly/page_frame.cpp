@@ -27,7 +27,8 @@ std::int64_t plan_ns(FramePages& pages) {
 DrawnPages draw_with_pages(const Options& options, const Flight& flight, const Camera& camera,
                            const Light& light, render::Renderer& renderer,
                            const render::PreparedFilter& filter) {
-  const auto surfaces = std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer, camera, options.layer));
+  const auto surfaces =
+      std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer, camera, options.layer));
   FramePages pages({light, flight.bounds(), page_options_of(options.pages, options.plan)}, surfaces);
   if (pages.plan().status == PlanStatus::invalid_input)
     throw std::runtime_error(options.scene + ": the plan refuses " + std::string(pages.plan().invalid_field));

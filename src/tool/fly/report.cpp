@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/whole_file.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/report/csv.hpp"
-#include "base/whole_file.hpp"
 
 namespace gnomon::tool::fly {
 namespace {

@@ -17,7 +17,7 @@ namespace gnomon::tool::fly {
 namespace {
 
 /// Frames that are looked at: a flight changes slowly.
-constexpr int kMostFrames = 16;
+constexpr int kMaxPlanFrames = 16;
 
 /// Filters that the program knows, with what they cost; without a model the one that was given, at no cost.
 struct Known {
@@ -74,7 +74,7 @@ void choose_technique_of(Options& options, const Flight& flight) {
   const Light light = default_light(options.light, flight.scene.bounds_world);
   const VisiblePointsOf visible_points(flight.scene);
   TechniqueChoice hardest;
-  const int frames = std::min(options.frames, kMostFrames);
+  const int frames = std::min(options.frames, kMaxPlanFrames);
   for (int i = 0; i < frames; ++i) {
     // The middle of each of `frames` equal parts.
     const int frame = static_cast<int>((i + 0.5) * options.frames / frames);

@@ -22,7 +22,7 @@ struct PageFrameInput {
 class FramePages {
  public:
   /// Rounds after which a policy that reads the last frame stops: `queried` refines by an octave in each.
-  static constexpr int kMostRounds = 8;
+  static constexpr int kMaxRounds = 8;
 
   /// Plans once, with nothing rendered yet.
   FramePages(const PageFrameInput& input, std::shared_ptr<const VisibleSurfaces> surfaces);
@@ -34,7 +34,7 @@ class FramePages {
   /// Where the policy reads the mask: draws and plans until the pages stay the same, at most `rounds` times.
   /// Returns the time of Pass::shadow_maps, milliseconds; 0 where `options` times no passes.
   double refine(render::Renderer& renderer, const render::PreparedFilter& filter,
-                const render::FrameOptions& options, int rounds = kMostRounds);
+                const render::FrameOptions& options, int rounds = kMaxRounds);
   /// False: another round of refine() would change nothing, or the policy reads no mask.
   [[nodiscard]] bool wants_rounds() const noexcept { return wants_rounds_; }
   /// Draws the pages. FrameStats::pages_drawn counts those that the rounds of refine() drew as well.

@@ -51,8 +51,8 @@ std::vector<float> page_aliasing(const PagePlan& plan, const Camera& camera, con
     for (std::size_t i = begin; i < end; ++i) m[i] = pixel_aliasing(plan, camera, images, i);
   };
   // Fewer pixels are measured before a thread has started.
-  constexpr std::size_t kLeastPart = 4096, kMostThreads = 16;
-  const std::size_t cores = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMostThreads),
+  constexpr std::size_t kLeastPart = 4096, kMaxThreads = 16;
+  const std::size_t cores = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMaxThreads),
                     parts = std::clamp<std::size_t>(m.size() / kLeastPart, 1, cores);
   std::vector<std::jthread> threads;
   for (std::size_t i = 1; i < parts; ++i)

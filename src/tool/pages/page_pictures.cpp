@@ -107,8 +107,8 @@ LegendText level_legend(const PagePlan& plan) {
   for (const Page& page : plan.pages) ++pages[page.level];
   LegendText legend;
   // As many as a small picture has room for, evenly chosen.
-  constexpr std::size_t kMostFields = 8;
-  const std::size_t count = std::min(plan.levels.size(), kMostFields);
+  constexpr std::size_t kMaxFields = 8;
+  const std::size_t count = std::min(plan.levels.size(), kMaxFields);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t level = count < 2 ? 0 : i * (plan.levels.size() - 1) / (count - 1);
     const ShadowMap& map = plan.levels[level];

@@ -95,17 +95,17 @@ std::vector<Option> page_setting_options(PageSetting& setting) {
           {.name = "--page-size",
            .target = &setting.page_texels,
            .help = "texels along each side of a page: 64, 128 or 256",
-           .range = {{kLeastPageTexels, kMostPageTexels}},
+           .range = {{kLeastPageTexels, kMaxPageTexels}},
            .needs = "--pages"},
           {.name = "--page-capacity",
            .target = &setting.capacity,
            .help = "pages that the pool holds; fewer than needed: all levels coarsen evenly",
-           .range = {{1, kMostPoolPages}},
+           .range = {{1, kMaxPoolPages}},
            .needs = "--pages"},
           {.name = "--page-target",
            .target = &setting.target_m,
            .help = "error m that pages are opened for; 0: the least that the pool holds",
-           .range = {{0.0, kMostTargetM}},
+           .range = {{0.0, kMaxTargetM}},
            .needs = "--pages"}};
 }
 

@@ -23,8 +23,8 @@ struct PageSetting {
   [[nodiscard]] bool operator==(const PageSetting&) const noexcept = default;
 };
 /// More pages than drivers are known to take layers for.
-inline constexpr int kMostPoolPages = 1 << 16;
-inline constexpr double kMostTargetM = 1e6;
+inline constexpr int kMaxPoolPages = 1 << 16;
+inline constexpr double kMaxTargetM = 1e6;
 
 /// The error for which plan_pages opens pages; 0 is so small that every plan spends its pool.
 [[nodiscard]] double target_of(double target_m) noexcept;

@@ -45,7 +45,7 @@ LightsPlanner::LightsPlanner(const Case& input)
     : input_(input),
       options_(input.light_options),
       // More lights are refused, and need no memory.
-      memory_(light_memory(std::min(input.lights.size(), kMostLights), input.seen.size())) {
+      memory_(light_memory(std::min(input.lights.size(), kMaxLights), input.seen.size())) {
   options_.plan = input.options;
 }
 

@@ -28,7 +28,7 @@ void add_path_key(PathRecording& recording, const Stage& stage) {
   std::vector<CameraKey>& keys = recording.path.keys;
   recording.seconds = 0.0;
   const bool moved = keys.empty() || keys.back().position != key.position || keys.back().target != key.target;
-  if (moved && keys.size() < kMostPathKeys) keys.push_back(key);
+  if (moved && keys.size() < kMaxPathKeys) keys.push_back(key);
 }
 
 /// The first name with a number that no file has yet.

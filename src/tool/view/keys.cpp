@@ -155,7 +155,7 @@ void setting_keys(App& app, const Presses& pressed) {
   if (pressed(GLFW_KEY_T)) settings.plan.fit = settings.plan.fit == Fit::stable ? Fit::tight : Fit::stable;
   if (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD)) cascades = std::min(cascades + 1, kMaxMaps);
   if (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT)) cascades = std::max(cascades - 1, 1);
-  if (pressed(GLFW_KEY_PAGE_UP)) size = std::min(size * 2, kMostMapSize);
+  if (pressed(GLFW_KEY_PAGE_UP)) size = std::min(size * 2, kMaxMapSize);
   if (pressed(GLFW_KEY_PAGE_DOWN)) size = std::max(size / 2, kLeastMapSize);
   if (pressed(GLFW_KEY_L) && app.display.probed)
     hang_light(state.light, *app.display.probed, stage->loaded().scene.bounds_world);

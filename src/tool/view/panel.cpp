@@ -182,9 +182,9 @@ void light_tab(App& app) {
   ImGui::DragScalar("degrees a second", ImGuiDataType_Double, &motion.sun_degrees_per_second, 0.2f, nullptr,
                     nullptr, "%.3g");
   motion.sun_degrees_per_second = std::clamp(motion.sun_degrees_per_second, -360.0, 360.0);
-  constexpr double kOff = 0.0, kMostHold = kMostHoldPixels;
+  constexpr double kOff = 0.0, kMaxHold = kMaxHoldPixels;
   double& hold = motion.hold_sun_pixels;
-  ImGui::SliderScalar("hold the sun", ImGuiDataType_Double, &hold, &kOff, &kMostHold,
+  ImGui::SliderScalar("hold the sun", ImGuiDataType_Double, &hold, &kOff, &kMaxHold,
                       hold > 0.0 ? "%.2f pixels" : "off",
                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   tooltip(
@@ -246,7 +246,7 @@ void edit_reader(Settings& settings) {
   tooltip("shadows by who is nearest to the light, in place of how near; docs/bias.md");
   ImGui::Separator();
   if (!settings.identifiers) return edit_filter(settings.filter);
-  ImGui::SliderInt("neighbours", &neighbours, 0, render::kMostIdentifierNeighbours, "%d",
+  ImGui::SliderInt("neighbours", &neighbours, 0, render::kMaxIdentifierNeighbours, "%d",
                    ImGuiSliderFlags_AlwaysClamp);
   settings.identifiers->neighbours = neighbours;
   tooltip("texels to either side that count as well: less false shadow, smaller shadows");
@@ -324,12 +324,12 @@ void compare_tab(App& app) {
   if (state.comparison != Comparison::off) {
     ImGui::Checkbox("B is the exact shadow", &state.b_is_truth);
     tooltip("B shows one ray a pixel, best beside the mask view");
-    constexpr double kNone = 0.0, kAll = 1.0, kMostGain = 64.0;
+    constexpr double kNone = 0.0, kAll = 1.0, kMaxGain = 64.0;
     if (state.comparison == Comparison::wipe)
       ImGui::SliderScalar("wipe", ImGuiDataType_Double, &state.wipe, &kNone, &kAll, "%.2f",
                           ImGuiSliderFlags_AlwaysClamp);
     else
-      ImGui::SliderScalar("gain", ImGuiDataType_Double, &state.gain, &kAll, &kMostGain, "%.1f",
+      ImGui::SliderScalar("gain", ImGuiDataType_Double, &state.gain, &kAll, &kMaxGain, "%.1f",
                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     if (ImGui::Button("swap A and B")) std::swap(state.a, state.b);
     ImGui::SameLine();
@@ -440,8 +440,8 @@ void tabs(App& app) {
 
 double panel_width(const Display& display) {
   if (!display.panel) return 0.0;
-  constexpr double kWidth = 380.0, kMostShare = 0.6;
-  return std::floor(std::min(kWidth * display.scale, kMostShare * display.width / display.pixel_ratio));
+  constexpr double kWidth = 380.0, kMaxShare = 0.6;
+  return std::floor(std::min(kWidth * display.scale, kMaxShare * display.width / display.pixel_ratio));
 }
 
 void draw_panel(App& app) {

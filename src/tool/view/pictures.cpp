@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "float_channel.hpp"
+#include "gnomon/extend/shape.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/report/errors.hpp"
-#include "gnomon/extend/shape.hpp"
 #include "lines.hpp"
 #include "picture_colors.hpp"
 
@@ -226,8 +226,8 @@ MapPicture map_picture(const FloatImage& depths, const ShadowPlan& plan, int ind
   const std::size_t count = cull_casters(map, boxes, list);
   for (std::size_t i = 0; i < std::min(count, list.size()); ++i) drawn[i] = boxes[list[i]];
   // More boxes than this are a green cloud.
-  constexpr std::size_t kMostBoxes = 600;
-  if (count <= kMostBoxes) {
+  constexpr std::size_t kMaxBoxes = 600;
+  if (count <= kMaxBoxes) {
     drawn.resize(count);
     for (WorldLine line : plan_lines(only, camera, drawn, scene, {false, false, false, true})) {
       line.color = kCasterLine;

@@ -46,10 +46,10 @@ void playing_part(State& state, const Stage* stage) {
   if (ImGui::Checkbox("play", &on)) toggle_playing(state, stage);
   tooltip("Space");
   ImGui::SameLine();
-  constexpr double kMostSpeed = 100.0;
+  constexpr double kMaxSpeed = 100.0;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
   ImGui::DragScalar("speed", ImGuiDataType_Double, &playing.speed, 0.02f, nullptr, nullptr, "%.3g");
-  playing.speed = std::isfinite(playing.speed) ? std::clamp(playing.speed, -kMostSpeed, kMostSpeed) : 1.0;
+  playing.speed = std::isfinite(playing.speed) ? std::clamp(playing.speed, -kMaxSpeed, kMaxSpeed) : 1.0;
   tooltip("seconds of the animation in a second; below 0: backwards");
   const Animation& animation = motion.animations[static_cast<std::size_t>(chosen) - 1];
   double time = looped_time(animation, playing.time_s);

@@ -19,7 +19,7 @@ constexpr ImU32 kPoint = IM_COL32(86, 180, 233, 255), kFront = IM_COL32(0, 158, 
                 kNow = IM_COL32(240, 228, 66, 255), kBeen = IM_COL32(240, 228, 66, 90),
                 kGrid = IM_COL32(70, 72, 80, 255), kText = IM_COL32(168, 172, 180, 255),
                 kPaper = IM_COL32(24, 24, 28, 255);
-constexpr std::size_t kMostBeen = 24;
+constexpr std::size_t kMaxBeen = 24;
 
 /// One axis by powers of ten.
 struct Axis {
@@ -178,7 +178,7 @@ void restart_gauge(Drawing& drawing) {
   if (drawing.gauge.done()) {
     const ChartPlace place = present(drawing);
     if (place.wrong >= 0.0) drawing.been.push_back(place);
-    if (drawing.been.size() > kMostBeen) drawing.been.erase(drawing.been.begin());
+    if (drawing.been.size() > kMaxBeen) drawing.been.erase(drawing.been.begin());
   }
   drawing.gauge = {};
 }

@@ -11,7 +11,7 @@
 namespace gnomon::tool::view {
 namespace {
 
-constexpr std::size_t kMostRecent = 8;
+constexpr std::size_t kMaxRecent = 8;
 
 /// The folder that `variable` names, or `fallback` in the home folder. The base directory specification has
 /// relative names ignored.
@@ -41,7 +41,7 @@ Session load_session(const std::filesystem::path& file) {
   if (!json.is_object()) return session;
   if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array()) {
     for (const auto& scene : *recent)
-      if (scene.is_string() && session.recent.size() < kMostRecent)
+      if (scene.is_string() && session.recent.size() < kMaxRecent)
         session.recent.push_back(scene.get<std::string>());
   }
   constexpr double kLeast = 0.5, kMost = 8.0;
@@ -65,7 +65,7 @@ std::string save_session(const Session& session, const std::filesystem::path& fi
 void add_recent(Session& session, const std::string& scene) {
   std::erase(session.recent, scene);
   session.recent.insert(session.recent.begin(), scene);
-  if (session.recent.size() > kMostRecent) session.recent.resize(kMostRecent);
+  if (session.recent.size() > kMaxRecent) session.recent.resize(kMaxRecent);
 }
 
 }  // namespace gnomon::tool::view

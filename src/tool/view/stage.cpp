@@ -216,7 +216,8 @@ Light Stage::held_light(const State& state, const Camera& camera,
       surfaces = std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer_, camera, state.a.layer));
     Box casters;
     for (const Box& box : posed_.boxes()) casters.extend(box);
-    const gnomon::View view{.camera = camera, .points_world = surfaces->points, .normals_world = surfaces->normals};
+    const gnomon::View view{
+        .camera = camera, .points_world = surfaces->points, .normals_world = surfaces->normals};
     sun->direction =
         hold_sun(view, held_sun_, sun->direction, casters, state.motion.hold_sun_pixels).direction;
   }
@@ -293,7 +294,7 @@ void Stage::draw_pages(const State& state, const Settings& settings, Side& side,
   render::FrameOptions frame = frame_options(state, settings, light_);
   // The renderer draws these pictures of maps alone; those of pages are made of the mask.
   frame.aliasing = frame.heat_map = frame.cascade_tint = false;
-  const double map_ms = side.pages->refine(renderer_, filter, frame, settled ? FramePages::kMostRounds : 1);
+  const double map_ms = side.pages->refine(renderer_, filter, frame, settled ? FramePages::kMaxRounds : 1);
   unfinished_ = unfinished_ || (!settled && side.pages->wants_rounds());
   side.plan_ms = side.pages->plan_ms();
   side.m = side.pages->measure().m;

@@ -87,7 +87,7 @@ struct Motion {
   double hold_sun_pixels = 0.0;
 };
 
-inline constexpr double kMostHoldPixels = 64.0;
+inline constexpr double kMaxHoldPixels = 64.0;
 
 /// The animation that poses the scene.
 struct Playing {
@@ -98,7 +98,7 @@ struct Playing {
 };
 
 /// Half a second each: most of ten minutes.
-inline constexpr std::size_t kMostPathKeys = 1024;
+inline constexpr std::size_t kMaxPathKeys = 1024;
 
 struct State {
   std::string scene = "builtin:city";

@@ -8,14 +8,14 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/nearest_name.hpp"
+#include "base/whole_file.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "identifier_word.hpp"
-#include "base/nearest_name.hpp"
 #include "option_words.hpp"
 #include "picture_words.hpp"
 #include "plan_option.hpp"
 #include "state.hpp"
-#include "base/whole_file.hpp"
 
 namespace gnomon::tool::view {
 namespace {
@@ -215,8 +215,8 @@ std::vector<CameraKey> read_keys(Reader& from, const char* key) {
   std::vector<CameraKey> keys;
   const Json* json = from.take(key);
   if (json == nullptr) return keys;
-  if (!json->is_array() || json->size() > kMostPathKeys)
-    from.refuse(key, fmt::format("needs a list of at most {} keys", kMostPathKeys));
+  if (!json->is_array() || json->size() > kMaxPathKeys)
+    from.refuse(key, fmt::format("needs a list of at most {} keys", kMaxPathKeys));
   for (std::size_t i = 0; i < json->size(); ++i)
     keys.push_back(read_key((*json)[i], fmt::format("{}[{}]", from.path_of(key), i)));
   return keys;
@@ -226,7 +226,7 @@ std::optional<render::IdentifierTest> read_identifiers(Reader& reader) {
   std::size_t of = 0;  // off
   reader.read_name("identifiers", of, identifier_names());
   double neighbours = 0.0;
-  reader.read("identifier_neighbours", neighbours, 0, render::kMostIdentifierNeighbours);
+  reader.read("identifier_neighbours", neighbours, 0, render::kMaxIdentifierNeighbours);
   if (neighbours != std::floor(neighbours))
     reader.refuse("identifier_neighbours", fmt::format("{:g} is not a whole number", neighbours));
   return identifier_test(of, static_cast<int>(neighbours));
@@ -239,11 +239,11 @@ PageSetting read_pages(const Json& json, const std::string& path) {
   reader.read_name("policy", policy, page_policy_names());
   pages.policy = page_policy_of(page_policy_names()[policy]);
   double texels = pages.page_texels, capacity = pages.capacity;
-  reader.read("page_texels", texels, kLeastPageTexels, kMostPageTexels);
+  reader.read("page_texels", texels, kLeastPageTexels, kMaxPageTexels);
   if (texels != 64.0 && texels != 128.0 && texels != 256.0)
     reader.refuse("page_texels", fmt::format("{:g} is not 64, 128 or 256", texels));
-  reader.read("capacity", capacity, 1, kMostPoolPages);
-  reader.read("target_m", pages.target_m, 0.0, kMostTargetM);
+  reader.read("capacity", capacity, 1, kMaxPoolPages);
+  reader.read("target_m", pages.target_m, 0.0, kMaxTargetM);
   reader.done();
   pages.page_texels = static_cast<int>(texels);
   pages.capacity = static_cast<int>(capacity);
@@ -279,7 +279,7 @@ Settings read_settings(const Json& json, const std::string& path) {
   return settings;
 }
 
-constexpr double kMostLength = 1e30;
+constexpr double kMaxLength = 1e30;
 
 LightState read_light(const Json& json) {
   Reader reader(json, "light");
@@ -295,7 +295,7 @@ LightState read_light(const Json& json) {
     double outer_deg = 30.0;
     fields.read("outer_deg", outer_deg, 0.1, 179.9);
     light.spot->outer_radians = outer_deg / kDegrees;
-    fields.read("range", light.spot->range, 0.0, kMostLength);
+    fields.read("range", light.spot->range, 0.0, kMaxLength);
     fields.done();
     if (light.spot->direction == glm::dvec3(0.0)) fields.refuse("direction", "must not be zero");
   }
@@ -303,7 +303,7 @@ LightState read_light(const Json& json) {
     Reader fields(*point, "light.point");
     light.point.emplace();
     fields.read("position", light.point->position);
-    fields.read("range", light.point->range, 0.0, kMostLength);
+    fields.read("range", light.point->range, 0.0, kMaxLength);
     fields.done();
   }
   reader.done();
@@ -313,7 +313,7 @@ LightState read_light(const Json& json) {
 void read_rest(Reader& reader, State& state) {
   reader.read_name("view", state.view, names_of(view_names()));
   double map = state.map;
-  reader.read("map", map, 0, kMostPageLevels - 1);
+  reader.read("map", map, 0, kMaxPageLevels - 1);
   state.map = static_cast<int>(map);
   reader.read_name("comparison", state.comparison, names_of(comparison_names()));
   reader.read("b_is_truth", state.b_is_truth);
@@ -334,7 +334,7 @@ void read_rest(Reader& reader, State& state) {
     fields.read("sun", state.motion.sun);
     fields.read("path_seconds", state.motion.path_seconds, 1.0, 3600.0);
     fields.read("sun_degrees_per_second", state.motion.sun_degrees_per_second, -360.0, 360.0);
-    fields.read("hold_sun_pixels", state.motion.hold_sun_pixels, 0.0, kMostHoldPixels);
+    fields.read("hold_sun_pixels", state.motion.hold_sun_pixels, 0.0, kMaxHoldPixels);
     fields.done();
   }
   if (const Json* playing = reader.take("playing")) {

@@ -70,7 +70,7 @@ Settings settings_of(const report::Technique& technique, LightKind light) {
   settings.visible_depths = entry.visible_depths;
   if (entry.by_pages())
     settings.pages = {entry.pages.policy, entry.pages.page_texels,
-                      std::min(page_capacity(entry, light), kMostPoolPages), technique.page_target_m};
+                      std::min(page_capacity(entry, light), kMaxPoolPages), technique.page_target_m};
   return settings;
 }
 

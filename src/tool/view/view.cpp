@@ -90,8 +90,8 @@ void resolve_light(const Request& request, LightState& light) {
 void resolve_camera(const Request& request, State& state) {
   if (!request.path.empty()) {
     const CameraPath path = load_camera_path(request.path);
-    if (path.keys.size() > kMostPathKeys)
-      throw std::runtime_error(fmt::format("--path: at most {} keys", kMostPathKeys));
+    if (path.keys.size() > kMaxPathKeys)
+      throw std::runtime_error(fmt::format("--path: at most {} keys", kMaxPathKeys));
     state.path = path.keys;
     if (path.closed) state.path.push_back(path.keys.front());
     state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, 1.0, 170.0);

@@ -26,7 +26,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostUndo = 200;
+constexpr std::size_t kMaxUndo = 200;
 
 double ms_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -155,7 +155,7 @@ void keep_for_undo(History& history, const std::string& now) {
   if (history.now == now) return;
   if (!history.now.empty()) {
     history.undo.push_back(history.now);
-    if (history.undo.size() > kMostUndo) history.undo.erase(history.undo.begin());
+    if (history.undo.size() > kMaxUndo) history.undo.erase(history.undo.begin());
     history.redo.clear();
   }
   history.now = now;
@@ -382,10 +382,10 @@ void run_loop(App& app, Loop& loop) {
 void run_tour(App& app, Loop& loop) {
   make_folder("--tour", app.options.tour);
   constexpr int kStill = 4,
-                kMostFrames = 20'000;  // still frames in a row: ImGui places a window in its second
+                kMaxFrames = 20'000;  // still frames in a row: ImGui places a window in its second
   const auto settle = [&] {
     int still = 0;
-    for (int i = 0; i < kMostFrames && still < kStill && glfwWindowShouldClose(app.window) == GLFW_FALSE;
+    for (int i = 0; i < kMaxFrames && still < kStill && glfwWindowShouldClose(app.window) == GLFW_FALSE;
          ++i) {
       const double rest = loop.frame();
       still = rest == kRestSeconds && app.drawing.stage->tracer() != nullptr ? still + 1 : 0;

@@ -136,7 +136,7 @@ TEST(Shape, parameters_that_are_no_warp_give_linear_texels) {
   }
   // The strongest that there is.
   constexpr double kEndless = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(shapes::logarithmic.undoing(kEndless)[0], kMostLogGrowth);
+  EXPECT_EQ(shapes::logarithmic.undoing(kEndless)[0], kMaxLogGrowth);
   EXPECT_EQ(shapes::logarithmic.undoing(kNone)[0], 0.0);
   const TexelGrid grid{8, 4, &shapes::logarithmic, {kEndless, 0.0, 0.0}};
   EXPECT_TRUE(std::isfinite(grid.place({0.0, 5.0}).texel.y));

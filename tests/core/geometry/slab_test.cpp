@@ -1,6 +1,6 @@
 // Does a slab cut a body as its two planes do, one after the other?
-#include "gnomon/extend/body.hpp"
 #include "geometry/body.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <gtest/gtest.h>
 

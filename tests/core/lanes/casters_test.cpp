@@ -1,6 +1,6 @@
 // Eight boxes at once: does each lane give what its box alone would?
-#include "gnomon/extend/body.hpp"
 #include "lanes/casters.hpp"
+#include "gnomon/extend/body.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,9 +39,7 @@ CasterBlock block_of(const std::array<Box, kLanes>& boxes) {
 
 /// Sum at the corner of the box that lies farthest along the plane's normal, or least far.
 double corner_sum(const glm::dvec4& plane, const Box& box, bool farthest) {
-  const auto at = [&](int axis) {
-    return (plane[axis] > 0.0) == farthest ? box.max[axis] : box.min[axis];
-  };
+  const auto at = [&](int axis) { return (plane[axis] > 0.0) == farthest ? box.max[axis] : box.min[axis]; };
   return plane.x * at(0) + plane.y * at(1) + plane.z * at(2) + plane.w;
 }
 

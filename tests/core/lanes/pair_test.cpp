@@ -1,7 +1,7 @@
 // Two numbers at once: is each operation the scalar one on both, to the last bit?
+#include "lanes/pair.hpp"
 #include "gnomon/extend/body.hpp"
 #include "gnomon/extend/warp.hpp"
-#include "lanes/pair.hpp"
 
 #include <gtest/gtest.h>
 
@@ -67,8 +67,8 @@ TEST(Pair, the_last_of_an_odd_number_comes_with_itself) {
   std::vector<std::array<double, 8>> found;
   for_each_two<PointPair>(points, [&](std::size_t i, const PointPair& p) {
     EXPECT_EQ(i, 2 * found.size());
-    found.push_back({p.x.low(), p.x.high(), p.y.low(), p.y.high(), p.z.low(), p.z.high(), p.depth.low(),
-                     p.depth.high()});
+    found.push_back(
+        {p.x.low(), p.x.high(), p.y.low(), p.y.high(), p.z.low(), p.z.high(), p.depth.low(), p.depth.high()});
   });
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0], (std::array<double, 8>{1, 2, 11, 12, 21, 22, 31, 32}));

@@ -162,7 +162,7 @@ TEST(LightClusters, broken_input_comes_back_as_a_status) {
   EXPECT_EQ(field({SpotLight{{0, 0, 0}, {0, 0, 0}, 0.5, 1.0}}), "light");
   EXPECT_EQ(field({}, {0, 24}), "clusters.tile_pixels");
   EXPECT_EQ(field({}, {32, 0}), "clusters.depth_slices");
-  EXPECT_EQ(field({}, {32, kMostDepthSlices + 1}), "clusters.depth_slices");
+  EXPECT_EQ(field({}, {32, kMaxDepthSlices + 1}), "clusters.depth_slices");
   EXPECT_EQ(field(std::vector<Light>(9, PointLight{}), {}), "memory.lights");
   Camera wide = camera;
   wide.width = 1 << 20;

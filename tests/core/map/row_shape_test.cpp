@@ -231,7 +231,7 @@ TEST(LogarithmicMap, extreme_views_keep_within_what_single_precision_holds) {
         make_plan(camera, DirectionalLight{{0.1, -1, 0.05}}, kBounds, one_logarithmic_map());
     ASSERT_EQ(plan.map_count, 1) << near;
     const ShadowMap& map = plan.map[0];
-    EXPECT_LE(std::abs(map.shape_parameters[0]), kMostLogGrowth);
+    EXPECT_LE(std::abs(map.shape_parameters[0]), kMaxLogGrowth);
     EXPECT_TRUE(std::isfinite(map.m_max) && std::isfinite(map.texel_world_max.y));
     EXPECT_EQ(measure(plan, camera, kBounds).outside, 0u);
   }

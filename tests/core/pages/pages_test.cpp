@@ -42,7 +42,7 @@ TEST(Pages, broken_options_are_refused_by_name) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const Entry entries[] = {
       {"pages.capacity", [](Street& s) { s.options.capacity = 0; }},
-      {"pages.capacity", [](Street& s) { s.options.capacity = kMostPages + 1; }},
+      {"pages.capacity", [](Street& s) { s.options.capacity = kMaxPages + 1; }},
       {"pages.page_texels", [](Street& s) { s.options.page_texels = 100; }},
       {"pages.page_texels", [](Street& s) { s.options.virtual_texels = 64; }},
       {"pages.virtual_texels", [](Street& s) { s.options.virtual_texels = 0; }},

@@ -62,7 +62,7 @@ TEST(Atlas, too_small_a_texture_takes_none) {
 }
 
 TEST(Atlas, eight_of_the_largest_maps_fit) {
-  const std::vector<std::pair<int, int>> largest(kMaxMaps, {kMostMapSize, kMostMapSize});
+  const std::vector<std::pair<int, int>> largest(kMaxMaps, {kMaxMapSize, kMaxMapSize});
   EXPECT_EQ(pack_atlas(plan_of(largest)).count, kMaxMaps);
 }
 

@@ -169,11 +169,11 @@ TEST(Budget, sizes_are_stable_under_a_slow_camera) {
 TEST(Budget, more_texels_than_the_largest_maps_take_give_the_largest_map) {
   Plain plain;
   plain.options.filter.texels = 0.0;
-  plain.options.resolution.texel_budget = std::int64_t{kMaxMaps} * kMostMapSize * kMostMapSize;
+  plain.options.resolution.texel_budget = std::int64_t{kMaxMaps} * kMaxMapSize * kMaxMapSize;
   const ShadowPlan plan = plain.plan();
   int longest = 0;
   for (const ShadowMap& map : plan.maps()) longest = std::max({longest, map.width, map.height});
-  EXPECT_EQ(longest, kMostMapSize);
+  EXPECT_EQ(longest, kMaxMapSize);
 }
 
 }  // namespace

@@ -172,11 +172,11 @@ TEST(Cadence, broken_values_are_named) {
     return std::string(plain.plan().invalid_field);
   };
   EXPECT_EQ(refused({0, 0.0, 0.0}), "options.cadence.frames");
-  EXPECT_EQ(refused({kMostCadenceFrames + 1, 0.0, 0.0}), "options.cadence.frames");
+  EXPECT_EQ(refused({kMaxCadenceFrames + 1, 0.0, 0.0}), "options.cadence.frames");
   EXPECT_EQ(refused({2, -1.0, 0.0}), "options.cadence.largest_step");
   EXPECT_EQ(refused({2, nan, 0.0}), "options.cadence.largest_step");
   EXPECT_EQ(refused({2, 1.0, 4.0}), "options.cadence.largest_turn");
-  EXPECT_EQ(refused({kMostCadenceFrames, 1e30, 3.0}), "")
+  EXPECT_EQ(refused({kMaxCadenceFrames, 1e30, 3.0}), "")
       << "no visible receiver is ever outside of all the world";
 }
 

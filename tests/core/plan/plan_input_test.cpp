@@ -186,7 +186,7 @@ TEST(PlanInput, legal_extremes_are_planned) {
       {"up along the view", [](Input& i) { i.camera.up = i.camera.forward; }},
       {"one pixel", [](Input& i) { i.camera.width = i.camera.height = 1; }},
       {"the smallest map", [](Input& i) { i.options.resolution.max_size = 4, i.options.filter.texels = 1; }},
-      {"the largest map", [](Input& i) { i.options.resolution.max_size = kMostMapSize; }},
+      {"the largest map", [](Input& i) { i.options.resolution.max_size = kMaxMapSize; }},
       {"the widest filter", [](Input& i) { i.options.filter.texels = 256; }},
       {"a hint beyond the far plane", [](Input& i) { i.options.split.pseudo_near = 1e6; }},
       {"a tiny light direction",

@@ -77,8 +77,8 @@ bool about_options(const Omission& o) {
 std::uint64_t hash_of(const std::vector<ShadowPlan>& plans) {
   PlanHash hash;
   for (const ShadowPlan& plan : plans) {
-    for (const int v : {static_cast<int>(plan.status), static_cast<int>(plan.sizes_vary),
-                        static_cast<int>(plan.selection)})
+    for (const int v :
+         {static_cast<int>(plan.status), static_cast<int>(plan.sizes_vary), static_cast<int>(plan.selection)})
       hash.add(v);
     for (const ShadowMap& map : plan.maps()) {
       hash.add(map);

@@ -281,10 +281,10 @@ TEST(Renderer, leaves_no_memory_behind) {
   for (int i = 0; i < kMore; ++i) draw_once();
   // The driver's compiler moves the process by up to 20 MiB either way. An image of 512 x 512 that each
   // renderer leaves behind takes 190.
-  constexpr double kMostGrowthMib = 60.0;
+  constexpr double kMaxGrowthMib = 60.0;
   const double after = resident_mib();
   RecordProperty("mebibytes", std::to_string(before) + " then " + std::to_string(after));
-  EXPECT_LT(after - before, kMostGrowthMib) << "from " << before << " MiB";
+  EXPECT_LT(after - before, kMaxGrowthMib) << "from " << before << " MiB";
 }
 
 }  // namespace

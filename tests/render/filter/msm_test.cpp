@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
+#include "filter/moments.hpp"
 #include "filter_harness.hpp"
 #include "golden_filters.hpp"
-#include "filter/moments.hpp"
 
 namespace gnomon::render {
 namespace {

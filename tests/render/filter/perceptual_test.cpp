@@ -69,7 +69,7 @@ TEST(Perceptual, finds_no_map_for_filters_without_kernel_and_for_contacts) {
   for (const FilterSettings& settings : {FilterSettings{}, filter("hard"), filter("hard:radius=9,unit=world"),
                                          filter("vsm:radius=0,unit=world"), filter("pcss:radius=2")}) {
     const HidingMapSize size = hiding_map_size(plan, camera(), settings, far);
-    EXPECT_EQ(size.map_size, kMostMapSize);
+    EXPECT_EQ(size.map_size, kMaxMapSize);
     EXPECT_FALSE(size.hides);
   }
   for (const double contact : {0.0, -1.0, kNan}) {
@@ -86,7 +86,7 @@ TEST(Perceptual, stays_within_the_sizes_that_a_plan_takes) {
   EXPECT_TRUE(tiny.hides);
   for (const double texel_world : {1e6, kInfinity}) {
     const HidingMapSize huge = hiding_map_size(plan_of(1024, texel_world), camera(), one);
-    EXPECT_EQ(huge.map_size, kMostMapSize);
+    EXPECT_EQ(huge.map_size, kMaxMapSize);
     EXPECT_FALSE(huge.hides);
   }
 }
@@ -173,7 +173,7 @@ TEST(Perceptual,
     // Texels as they are on a map of the answer's size, and on one a texel smaller.
     const auto wants = [&](int map_size) { return kHidingRadius * texel * side / map_size; };
     constexpr double kCeiling = 1e-8;  // the code lets a billionth of a side pass
-    require(size.hides == (wants(kMostMapSize) <= settings.radius), side, texel, settings.radius);
+    require(size.hides == (wants(kMaxMapSize) <= settings.radius), side, texel, settings.radius);
     if (size.hides) require(wants(size.map_size) <= settings.radius * (1.0 + kCeiling), size.map_size);
     if (size.map_size > kLeastMapSize) require(wants(size.map_size - 1) > settings.radius, size.map_size);
     const int coarser = hiding_map_size(plan_of(side, more * texel), camera(), settings).map_size;

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "filter/filter_block.hpp"
+#include "filter/variance.hpp"
 #include "filter_harness.hpp"
 #include "golden_filters.hpp"
-#include "filter/variance.hpp"
 
 namespace gnomon::render {
 namespace {

@@ -1,9 +1,9 @@
 // Variance shadow maps against sums worked out by hand and the golden rows.
 #include <gtest/gtest.h>
 
+#include "filter/variance.hpp"
 #include "filter_harness.hpp"
 #include "golden_filters.hpp"
-#include "filter/variance.hpp"
 
 namespace gnomon::render {
 namespace {

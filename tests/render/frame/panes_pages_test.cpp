@@ -56,8 +56,7 @@ TEST_F(Panes, pages_are_tinted_like_maps) {
       Renderer fresh(opaque);
       (void)fresh.prepare(filters::hard, Source::pages);
       fresh.add_panes(moved);  // after the filter: either order is fine
-      fresh.draw(pages.plan, pages.camera, fresh.prepare(filters::hard, Source::pages),
-                 plain_options());
+      fresh.draw(pages.plan, pages.camera, fresh.prepare(filters::hard, Source::pages), plain_options());
       EXPECT_EQ(renderer.transmittance().values, fresh.transmittance().values);
       // Maps in between take the images, and no pane is left where there is none any more.
       const std::vector<Box> boxes = all_boxes(opaque, panes);
@@ -68,8 +67,7 @@ TEST_F(Panes, pages_are_tinted_like_maps) {
       renderer.add_panes(empty_scene());
       Renderer plain(opaque);
       renderer.draw(pages.plan, pages.camera, hard, plain_options());
-      plain.draw(pages.plan, pages.camera, plain.prepare(filters::hard, Source::pages),
-                 plain_options());
+      plain.draw(pages.plan, pages.camera, plain.prepare(filters::hard, Source::pages), plain_options());
       EXPECT_EQ(renderer.image().rgba, plain.image().rgba);
     }
 }
@@ -84,9 +82,7 @@ TEST_F(Panes, images_are_as_large_as_the_frame_needs_them_whatever_came_before) 
     renderer.add_panes(panes);
     const auto bytes_of_panes = [&] {
       const auto bytes = [&](Renderer& of) {
-        return of
-            .draw(pages.plan, pages.camera, of.prepare(filters::hard, Source::pages),
-                  plain_options())
+        return of.draw(pages.plan, pages.camera, of.prepare(filters::hard, Source::pages), plain_options())
             .map_bytes;
       };
       return bytes(renderer) - bytes(plain);
@@ -99,12 +95,12 @@ TEST_F(Panes, images_are_as_large_as_the_frame_needs_them_whatever_came_before) 
     const std::vector<Box> boxes = all_boxes(opaque, panes);
     PlanOptions large = plan_options("none", 4);
     large.resolution.max_size = 2048;
-    constexpr std::uint64_t kMostOfPages = std::uint64_t{256} << 20;
+    constexpr std::uint64_t kMaxOfPages = std::uint64_t{256} << 20;
     const FrameStats large_frame =
         renderer.draw(make_plan(pages.camera, light, {boxes, boxes}, large), pages.camera,
                       renderer.prepare(filters::hard), plain_options());
-    EXPECT_GT(large_frame.map_bytes, 2 * kMostOfPages);
-    EXPECT_LE(bytes_of_panes(), kMostOfPages) << texels;
+    EXPECT_GT(large_frame.map_bytes, 2 * kMaxOfPages);
+    EXPECT_LE(bytes_of_panes(), kMaxOfPages) << texels;
   }
 }
 
@@ -118,8 +114,8 @@ TEST_F(Panes, pages_that_no_pane_reaches_are_not_tinted) {
   ASSERT_EQ(pages.plan.status, PlanStatus::ok);
   Renderer renderer(opaque);
   renderer.add_panes(panes);
-  const FrameStats stats = renderer.draw(
-      pages.plan, pages.camera, renderer.prepare(filters::hard, Source::pages), plain_options());
+  const FrameStats stats = renderer.draw(pages.plan, pages.camera,
+                                         renderer.prepare(filters::hard, Source::pages), plain_options());
   EXPECT_EQ(stats.pane_texels, 0u);
   const FloatImage image = renderer.transmittance();
   for (const float value : image.values) ASSERT_EQ(value, 1.0f);

@@ -256,7 +256,7 @@ TEST(DirtyShapes, parts_and_bounds_stand_for_triangles) {
   EXPECT_EQ(covered.missing(by_bounds.rectangles()), 0u);
   EXPECT_GT(area(by_bounds.rectangles()), area(by_parts.rectangles()));
   // So many that only some are projected one by one.
-  const std::vector<Box> many(DirtyShapes::kMostParts + 1, parts.front());
+  const std::vector<Box> many(DirtyShapes::kMaxParts + 1, parts.front());
   moved.from.parts = moved.to.parts = many;
   ASSERT_TRUE(by_bounds.find(map, {}, {&moved, 1}));
   EXPECT_EQ(covered.missing(by_bounds.rectangles()), 0u);

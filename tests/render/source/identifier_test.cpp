@@ -300,7 +300,7 @@ TEST_F(Identifiers, bent_maps_are_drawn_by_depths_and_no_maps_leave_all_lit) {
   ASSERT_FALSE(bent.map[0].shape->affine);
   const PreparedFilter identified =
       renderer.prepare(filters::hard, Source::identifiers({IdentifierOf::triangle, 99}));
-  EXPECT_EQ(identified.source.test.neighbours, kMostIdentifierNeighbours);
+  EXPECT_EQ(identified.source.test.neighbours, kMaxIdentifierNeighbours);
   EXPECT_FALSE(renderer.draw(bent, camera, identified, mask_only()).identified);
   const FloatImage mask = renderer.mask();
   renderer.draw(bent, camera, renderer.prepare(filters::hard), mask_only());

@@ -10,8 +10,8 @@
 #include "gnomon/scene/load.hpp"
 #include "gnomon/trace/reference.hpp"
 #include "mask_frame.hpp"
-#include "source/pixel_lists.hpp"
 #include "shared_context.hpp"
+#include "source/pixel_lists.hpp"
 
 namespace gnomon::render {
 namespace {

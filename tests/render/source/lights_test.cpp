@@ -139,8 +139,7 @@ TEST(LightsRender, a_parallel_view_shows_what_a_walk_over_all_lights_shows) {
   const FilterSettings filter = settings_of("hard");
   Stage stage(filter);
   const Camera& eye = stage.camera;
-  stage.camera =
-      orthographic_camera(eye.position, eye.forward, eye.up, 24.0, 1.0, 0.5, 60.0, kSize, kSize);
+  stage.camera = orthographic_camera(eye.position, eye.forward, eye.up, 24.0, 1.0, 0.5, 60.0, kSize, kSize);
   stage.requests.push_back({PointLight{{-4.0, 1.5, -3.0}, 3.0}});  // all of it in front of the eye
   stage.grow();
   stage.replan();

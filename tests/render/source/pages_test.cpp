@@ -120,8 +120,7 @@ TEST(PagesRender, pages_have_the_same_bits_whichever_neighbours_are_drawn_with_t
       for (std::size_t count = 1; count <= plan.pages.size(); ++count) {
         PagePlan first = plan;
         first.pages = plan.pages.first(count);
-        const FrameStats one =
-            alone.draw(first, stage.camera, alone.prepare(filter, Source::pages), options);
+        const FrameStats one = alone.draw(first, stage.camera, alone.prepare(filter, Source::pages), options);
         ASSERT_EQ(one.pages_drawn, 1);  // the pool keeps the others
         triangles += one.map[0].triangles;
       }

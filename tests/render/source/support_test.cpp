@@ -54,7 +54,10 @@ std::vector<Asked> options_to_ask() {
       {FrameOption::aliasing, [](FrameOptions& o) { o.aliasing = true; }},
       {FrameOption::cascade_tint, [](FrameOptions& o) { o.cascade_tint = true; }},
       {FrameOption::light_clusters, [](FrameOptions& o) { o.light_clusters.tile_pixels = 16; }},
-      {FrameOption::moved_world, [](FrameOptions& o) { o.moved_world = {&kMoved, 1}; }},
+      {FrameOption::moved_world,
+       [](FrameOptions& o) {
+         o.moved_world = {&kMoved, 1};
+       }},
       by_rule(FrameOption::small_casters, PruneRule::small_casters),
       by_rule(FrameOption::caster_clusters, PruneRule::caster_clusters),
       by_rule(FrameOption::alpha_test, PruneRule::alpha_test),
@@ -114,8 +117,7 @@ class Support : public ::testing::Test {
     set_margin(filter, pages.plan);
     const PagePlan plan =
         plan_pages({.camera = camera_, .points_world = points}, kSun, {boxes_, boxes_}, pages, memory);
-    const FrameStats stats =
-        renderer.draw(plan, camera_, renderer.prepare(filter, Source::pages), options);
+    const FrameStats stats = renderer.draw(plan, camera_, renderer.prepare(filter, Source::pages), options);
     EXPECT_GT(stats.pages, 0) << static_cast<int>(plan.status);
     return stats;
   }
@@ -231,7 +233,7 @@ TEST(SourceTable, is_the_one_of_the_page) {
 
 TEST(Sources, take_the_nearest_number_within_bounds) {
   EXPECT_EQ(Source::irregular(0).samples, 1);
-  EXPECT_EQ(Source::irregular(1000).samples, kMostFacetSamples);
+  EXPECT_EQ(Source::irregular(1000).samples, kMaxFacetSamples);
   EXPECT_EQ(Source::identifiers({IdentifierOf::instance, -3}).test.neighbours, 0);
   EXPECT_EQ(Source::identifiers({IdentifierOf::triangle, 3}).test.neighbours, 3);
   EXPECT_EQ(Source{}, Source::maps);

@@ -29,7 +29,7 @@ using namespace std::chrono_literals;
 // Far longer than a window or a file takes, under the sanitizers and beside others.
 constexpr std::chrono::seconds kLimit{240};
 // The same for what is there after some pictures.
-constexpr int kMostPictures = 1000;
+constexpr int kMaxPictures = 1000;
 
 pid_t start(std::vector<std::string> words, const std::string& log, int keep_open = -1) {
   posix_spawn_file_actions_t actions;
@@ -71,9 +71,9 @@ class Display : public testing::Environment {
     if (pipe(ends) != 0) return lack("a pipe");
     // No key repeats by itself where a busy machine is late to let it go; and no server begins anew,
     // refusing who comes meanwhile, where its last client leaves.
-    server_ = start({"Xvfb", "-r", "-noreset", "-displayfd", "3", "-screen", "0", "1400x900x24", "-nolisten",
-                     "tcp"},
-                    folder_.write("xvfb", ""), ends[1]);
+    server_ = start(
+        {"Xvfb", "-r", "-noreset", "-displayfd", "3", "-screen", "0", "1400x900x24", "-nolisten", "tcp"},
+        folder_.write("xvfb", ""), ends[1]);
     close(ends[1]);
     std::string number;
     for (char c = 0; read(ends[0], &c, 1) == 1 && c != '\n';) number += c;
@@ -160,7 +160,7 @@ class ViewWindow : public testing::Test {
   /// The first picture that is another one.
   Image picture_other_than(const Image& from) {
     Image now = picture();
-    for (int i = 0; i < kMostPictures && different_pixels(from, now) <= kOther; ++i) now = picture();
+    for (int i = 0; i < kMaxPictures && different_pixels(from, now) <= kOther; ++i) now = picture();
     EXPECT_GT(different_pixels(from, now), kOther);
     return now;
   }
@@ -216,8 +216,8 @@ class ViewWindow : public testing::Test {
   /// The picture of the state file without a window, in the size of `like`.
   [[nodiscard]] Image headless(const std::string& state, const Image& like) const {
     const Finished run = spawn_gnomon({"view", "--state", state, "--size",
-                                     std::to_string(like.width) + "x" + std::to_string(like.height), "--out",
-                                     "headless.png", "--context", "osmesa"});
+                                       std::to_string(like.width) + "x" + std::to_string(like.height),
+                                       "--out", "headless.png", "--context", "osmesa"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return read("headless.png");
   }
@@ -398,7 +398,7 @@ TEST_F(ViewWindow, keeps_its_scene_and_state_where_a_file_is_broken) {
   key("F9");
   (void)picture();  // the file is open; its scene is the state's until it turns out that there is none
   bool is_back = false;
-  for (int i = 0; i < kMostPictures && !is_back; ++i) {
+  for (int i = 0; i < kMaxPictures && !is_back; ++i) {
     std::filesystem::remove("gnomon_view.json");
     key("F5");
     ASSERT_TRUE(wrote("gnomon_view.json"));
@@ -410,7 +410,7 @@ TEST_F(ViewWindow, keeps_its_scene_and_state_where_a_file_is_broken) {
 
 TEST_F(ViewWindow, ends_by_itself_with_its_screenshot) {
   const Finished run = spawn_gnomon({"view", "builtin:hangar", "--map-size", "256", "--size", "640x300",
-                                   "--exit-after", "3", "--screenshot", "shot.png", "--ui-scale", "1.5"});
+                                     "--exit-after", "3", "--screenshot", "shot.png", "--ui-scale", "1.5"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const Image shot = read("shot.png");
   EXPECT_EQ(shot.width, 640);
@@ -508,7 +508,8 @@ TEST_F(ViewWindow, loads_the_technique_that_is_clicked_in_the_results) {
   EXPECT_NE(state.find("\"cascades\": 3"), std::string::npos) << state;
   EXPECT_EQ(close(), 0);
   EXPECT_EQ(content_of(log()), "");
-  const Finished broken = spawn_gnomon({"view", "builtin:hangar", "--results", "nowhere", "--exit-after", "3"});
+  const Finished broken =
+      spawn_gnomon({"view", "builtin:hangar", "--results", "nowhere", "--exit-after", "3"});
   EXPECT_EQ(broken.exit_code, 2);
   EXPECT_NE(broken.err.find("nowhere"), std::string::npos) << broken.err;
 }

@@ -25,7 +25,7 @@ struct Share {
 double growth_of(const ShapeParameters& parameters) noexcept {
   const double growth = parameters[0];
   if (!(std::abs(growth) >= kStraight)) return 0.0;
-  return max_of(-kMostLogGrowth, min_of(growth, kMostLogGrowth));
+  return max_of(-kMaxLogGrowth, min_of(growth, kMaxLogGrowth));
 }
 
 /// Of the texels, from that of the square. Beyond the square along the tangent: the curve itself ends where w

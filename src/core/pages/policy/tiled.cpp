@@ -28,7 +28,7 @@ void assign(PageContext& c) noexcept {
   double all = 0.0;
   // Nearer surfaces need smaller texels: the need itself says how near.
   c.for_each_point([&](PagePoint& point, std::size_t index) {
-    const double near = clamp_to(max_of(point.need_x, point.need_y), 0.0, kMostVirtualTexels);
+    const double near = clamp_to(max_of(point.need_x, point.need_y), 0.0, kMaxVirtualTexels);
     const double weight = near * ((c.feedback(index) & kDepthEdge) != 0 ? kEdgeWeight : 1.0);
     tiles.weight[Tiles::index_of(c, point)] += weight;
     all += weight;
