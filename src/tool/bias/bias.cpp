@@ -8,17 +8,18 @@
 #include <stdexcept>
 #include <variant>
 
+#include "bias/bias_sweep.hpp"
 #include "command.hpp"
 #include "compare/measure.hpp"
 #include "compare/planned.hpp"
 #include "compare/stage.hpp"
 #include "compare/sweep.hpp"
 #include "float_channel.hpp"
-#include "gnomon/study/bias.hpp"
+#include "gnomon/extend/shape.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/report/errors.hpp"
 #include "gnomon/scene/image.hpp"
-#include "gnomon/extend/shape.hpp"
+#include "gnomon/study/bias.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"
 #include "picture_words.hpp"
@@ -44,6 +45,9 @@ constexpr NamedBias kBiases[] = {
 };
 
 struct BiasRequest : Measuring {
+  bool sweeps = false;  ///< many settings over many views
+  BiasSweep sweep;
+  bool layers_given = false;
   MeasuredMaps maps;
   TechniqueFilter filter;
   std::vector<TechniqueLayer> layers;
@@ -220,7 +224,8 @@ std::vector<Option> map_options(BiasRequest& request) {
       {.name = "--layers",
        .target = word_list(request.layers, read_layers, {"all"}),
        .help = "depths that the maps store, or all; :linear behind one makes them even along the light",
-       .names = layer_names({"all"})},
+       .names = layer_names({"all"}),
+       .given = &request.layers_given},
       {.name = "--biases",
        .target = word_list(request.biases, read_biases, {"all"}),
        .help = "biases of the comparison, or all",
@@ -231,6 +236,11 @@ std::vector<Option> map_options(BiasRequest& request) {
        .names = names_in(render::all_filters())}};
   for (Option& option : measured_maps_options(request.maps)) options.push_back(std::move(option));
   options.push_back(plan_option("light_near_share", request.plan));
+  options.push_back(
+      {.name = "--sweep",
+       .target = &request.sweeps,
+       .help = "draw the product of the lists below in every scene, each setting beside the default"});
+  for (Option& option : bias_sweep_options(request.sweep)) options.push_back(std::move(option));
   return options;
 }
 
@@ -240,14 +250,23 @@ std::function<int()> declare_bias(Arguments& arguments) {
   const auto request = std::make_shared<BiasRequest>();
   arguments.options = measuring_options(
       *request,
-      scenes_option(*request, "builtin:NAME or glTF files; without any: builtin:city, terrain and trees",
+      scenes_option(*request,
+                    "builtin:NAME or glTF files; without any: builtin:city, terrain and trees; with --sweep "
+                    "all built-in",
                     false),
       map_options(*request), "folder for a picture of each row; without it none are written");
   arguments.footer =
       "False shadow and false light are shares of the pixels that exact rays decide. The contact gap is\n"
       "how far from a contact shadows begin: up to this distance of a blocker, in texels at the receiver,\n"
       "light leaks more than in the rest of the frame. docs/bias.md explains layers and biases.";
-  return [request] { return run_bias(*request); };
+  return [request] {
+    if (!request->sweeps) return run_bias(*request);
+    // One depth tells what biases do to it; all of them only when asked for.
+    const std::vector<TechniqueLayer> layers =
+        request->layers_given ? request->layers : std::vector<TechniqueLayer>(1);
+    sweep_biases(request->sweep, *request, layers, request->maps.cascades);
+    return 0;
+  };
 }
 
 }  // namespace gnomon::tool

@@ -143,5 +143,55 @@ TEST(CompareLayers, every_layer_has_a_row_and_irregular_is_measured_once) {
   }
 }
 
+TEST(BiasSweep, sets_each_bias_beside_the_default_in_the_same_view) {
+  const std::vector<std::string> one_view{"bias",  "builtin:terrain", "--size",
+                                          "96x54", "--context",       "osmesa"};
+  std::vector<std::string> words = one_view;
+  for (const char* word :
+       {"--sweep", "--filters", "hard", "--warps", "none", "--map-sizes", "256", "--lights", "sun",
+        "--constants", "0", "--slopes", "0", "--max-slopes", "8", "--normal-offsets", "0"})
+    words.emplace_back(word);
+  const Finished table = run_gnomon(words);
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_NE(table.out.find("| 0.05 | 0.5 | 0.5 | 8 | all | "), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find(" | 1.000 | 1.000 | 1.00 | 0 of 1 | "), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("| 0 | 0 | 0 | 8 | hard | "), std::string::npos) << table.out;
+
+  words.push_back("--json");
+  const Finished rows = run_gnomon(words);
+  ASSERT_EQ(rows.exit_code, 0) << rows.err;
+  std::istringstream lines(rows.out);
+  std::string first, second, third;
+  ASSERT_TRUE(std::getline(lines, first) && std::getline(lines, second) && !std::getline(lines, third));
+  const json of_default = json::parse(first), without = json::parse(second);
+  EXPECT_GT(of_default.at("pixels"), 1000.0);
+  EXPECT_GT(without.at("false_shadow"), of_default.at("false_shadow"));
+  EXPECT_GT(without.at("too_dark"), of_default.at("too_dark"));
+
+  // The same frame by the other table of this command.
+  std::vector<std::string> single = one_view;
+  for (const char* word : {"--biases", "default", "--layers", "front", "--map-size", "256", "--json"})
+    single.emplace_back(word);
+  const Finished known = run_gnomon(single);
+  ASSERT_EQ(known.exit_code, 0) << known.err;
+  const json row = json::parse(known.out);
+  EXPECT_NEAR(row.at("false_shadow").get<double>(), of_default.at("false_shadow").get<double>(), 1e-9);
+  EXPECT_NEAR(row.at("false_light").get<double>(), of_default.at("false_light").get<double>(), 1e-9);
+}
+
+TEST(BiasSweep, refuses_what_it_cannot_draw_by_name) {
+  const auto refused = [](std::vector<std::string> words, const char* text) {
+    words.insert(words.begin(), "bias");
+    const Finished finished = run_gnomon(words);
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_NE(finished.err.find(text), std::string::npos) << finished.err;
+  };
+  refused({"--sweep", "--lights", "moon"}, "--lights moon: wants sun, spot or point");
+  refused({"--sweep", "--lights", "sun:91"}, "--lights 91: wants a number between 0.1 and 90");
+  refused({"--sweep", "--slopes", "-1"}, "--slopes -1: wants a number between 0 and 1e+06");
+  refused({"--sweep", "--filters", "irregular"}, "irregular");
+  refused({"--slopes", "1"}, "--sweep");
+}
+
 }  // namespace
 }  // namespace gnomon::test

@@ -1,0 +1,36 @@
+// `gnomon bias --sweep`: which bias is right for the scene nobody tuned it on?
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/sweep.hpp"
+
+namespace gnomon::tool {
+
+/// One light of every scene.
+struct SweptLight {
+  std::string name;  ///< as on the command line
+  LightPlacement placement;
+};
+
+/// Views are every scene under every light. Settings are the product of the numbers.
+struct BiasSweep {
+  std::vector<TechniqueFilter> filters;
+  std::vector<TechniqueWarp> warps;
+  std::vector<int> map_sizes;
+  std::vector<SweptLight> lights;
+  /// Of BiasOptions, by its members.
+  std::vector<double> constants, slopes, normal_offsets, max_slopes;
+};
+
+/// The options of a sweep; each needs --sweep.
+[[nodiscard]] std::vector<Option> bias_sweep_options(BiasSweep& sweep);
+
+/// Draws every setting in every view, and prints a table. The first row is BiasOptions{}; the others are
+/// compared with it view by view. With Measuring::json a line for each drawing. Without scenes: all built-in
+/// ones. `cascades`: maps along the view. Throws std::runtime_error.
+void sweep_biases(const BiasSweep& sweep, const Measuring& measuring,
+                  const std::vector<TechniqueLayer>& layers, int cascades);
+
+}  // namespace gnomon::tool
