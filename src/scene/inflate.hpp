@@ -1,5 +1,6 @@
 // Data compressed by "deflate" inside of a zlib stream, as PNG files have it: read and written.
-// Based on: P. Deutsch, J.-L. Gailly, "ZLIB Compressed Data Format" (RFC 1950) and "DEFLATE" (RFC 1951), 1996.
+// Based on: P. Deutsch, J.-L. Gailly, "ZLIB Compressed Data Format" (RFC 1950) and "DEFLATE" (RFC 1951),
+// 1996.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// How is a PNG file read and written? Based on: W3C, "Portable Network Graphics (PNG) Specification", 2nd edition, 2003.
+// How is a PNG file read and written? Based on: W3C, "Portable Network Graphics (PNG) Specification", 2nd
+// edition, 2003.
 #include "png.hpp"
 
 #include <algorithm>
@@ -48,7 +49,9 @@ struct Header {
     return (size.width * channels() * static_cast<std::size_t>(depth) + 7) / 8;
   }
   /// The bytes between a sample and the one before it of the same channel, for the filters of rows.
-  [[nodiscard]] std::size_t step() const { return std::max<std::size_t>(1, channels() * static_cast<std::size_t>(depth) / 8); }
+  [[nodiscard]] std::size_t step() const {
+    return std::max<std::size_t>(1, channels() * static_cast<std::size_t>(depth) / 8);
+  }
 };
 
 Header header_of(PngBytes bytes) {
@@ -97,7 +100,8 @@ Chunks chunks_of(PngBytes bytes) {
 
 std::uint8_t paeth(int left, int up, int corner) {
   const int guess = left + up - corner;
-  const int to_left = std::abs(guess - left), to_up = std::abs(guess - up), to_corner = std::abs(guess - corner);
+  const int to_left = std::abs(guess - left), to_up = std::abs(guess - up),
+            to_corner = std::abs(guess - corner);
   if (to_left <= to_up && to_left <= to_corner) return static_cast<std::uint8_t>(left);
   return static_cast<std::uint8_t>(to_up <= to_corner ? up : corner);
 }
@@ -105,11 +109,16 @@ std::uint8_t paeth(int left, int up, int corner) {
 /// What filter `kind` expects at a place, of its neighbours.
 std::uint8_t expected(int kind, int left, int up, int corner) {
   switch (kind) {
-    case 1: return static_cast<std::uint8_t>(left);
-    case 2: return static_cast<std::uint8_t>(up);
-    case 3: return static_cast<std::uint8_t>((left + up) / 2);
-    case 4: return paeth(left, up, corner);
-    default: return 0;
+    case 1:
+      return static_cast<std::uint8_t>(left);
+    case 2:
+      return static_cast<std::uint8_t>(up);
+    case 3:
+      return static_cast<std::uint8_t>((left + up) / 2);
+    case 4:
+      return paeth(left, up, corner);
+    default:
+      return 0;
   }
 }
 
@@ -134,7 +143,8 @@ std::uint32_t stored_sample(const std::uint8_t* row, std::size_t index, int dept
   if (depth == 8) return row[index];
   if (depth == 16) return static_cast<std::uint32_t>(row[2 * index] << 8 | row[2 * index + 1]);
   const std::size_t bit = index * static_cast<std::size_t>(depth);
-  return static_cast<std::uint32_t>(row[bit / 8] >> (8 - depth - static_cast<int>(bit % 8)) & ((1 << depth) - 1));
+  return static_cast<std::uint32_t>(row[bit / 8] >> (8 - depth - static_cast<int>(bit % 8)) &
+                                    ((1 << depth) - 1));
 }
 
 std::uint8_t to_8_bits(std::uint32_t value, int depth) {
@@ -150,14 +160,16 @@ void put_palette(const Chunks& chunks, std::uint32_t index, std::uint8_t* to) {
 }
 
 /// One pixel of gray or colour. A colour without alpha may be called transparent.
-void put_samples(const Header& header, const Chunks& chunks, const std::array<std::uint32_t, 4>& samples, std::uint8_t* to) {
+void put_samples(const Header& header, const Chunks& chunks, const std::array<std::uint32_t, 4>& samples,
+                 std::uint8_t* to) {
   const std::size_t channels = header.channels(), colours = channels < 3 ? 1 : 3;
   for (std::size_t c = 0; c < 3; ++c) to[c] = to_8_bits(samples[colours == 1 ? 0 : c], header.depth);
   to[3] = channels % 2 == 0 ? to_8_bits(samples[channels - 1], header.depth) : std::uint8_t{255};
   if (channels % 2 == 0 || chunks.transparent.size() != 2 * colours) return;
   bool clear = true;
   for (std::size_t c = 0; c < colours; ++c)
-    clear = clear && samples[c] == static_cast<std::uint32_t>(chunks.transparent[2 * c] << 8 | chunks.transparent[2 * c + 1]);
+    clear = clear && samples[c] == static_cast<std::uint32_t>(chunks.transparent[2 * c] << 8 |
+                                                              chunks.transparent[2 * c + 1]);
   if (clear) to[3] = 0;
 }
 
@@ -208,7 +220,8 @@ bool is_png(PngBytes bytes) noexcept {
 PngSize png_size(PngBytes bytes) {
   if (!is_png(bytes) || bytes.size() < kHeaderEnd) throw PngError("it is cut off");
   const std::string_view type(reinterpret_cast<const char*>(&bytes[kHeaderAt - 4]), 4);
-  if (type != "IHDR" || big_endian(bytes, kHeaderAt - 8) != 13) throw PngError("it does not begin with its header");
+  if (type != "IHDR" || big_endian(bytes, kHeaderAt - 8) != 13)
+    throw PngError("it does not begin with its header");
   return {big_endian(bytes, kHeaderAt), big_endian(bytes, kHeaderAt + 4)};
 }
 
@@ -225,7 +238,8 @@ std::vector<std::uint8_t> decode_png(PngBytes bytes) {
     const std::uint8_t* const row = &rows[y * (row_bytes + 1) + 1];
     for (std::size_t x = 0; x < header.size.width; ++x, to += 4) {
       std::array<std::uint32_t, 4> samples{};
-      for (std::size_t c = 0; c < channels; ++c) samples[c] = stored_sample(row, x * channels + c, header.depth);
+      for (std::size_t c = 0; c < channels; ++c)
+        samples[c] = stored_sample(row, x * channels + c, header.depth);
       if (header.colour == Colour::palette)
         put_palette(chunks, samples[0], to);
       else
@@ -241,7 +255,8 @@ std::vector<std::uint8_t> encode_png(PngBytes pixels, PngSize size, int channels
   for (const std::uint32_t value : {size.width, size.height})
     for (const int shift : {24, 16, 8, 0}) header.push_back(static_cast<std::uint8_t>(value >> shift));
   const Colour colour = channels == 3 ? Colour::rgb : Colour::rgba;
-  for (const int value : {8, static_cast<int>(colour), 0, 0, 0}) header.push_back(static_cast<std::uint8_t>(value));
+  for (const int value : {8, static_cast<int>(colour), 0, 0, 0})
+    header.push_back(static_cast<std::uint8_t>(value));
   append_chunk(out, "IHDR", header);
   const auto step = static_cast<std::size_t>(channels);
   append_chunk(out, "IDAT", deflate(filtered(pixels, size.width * step, step)));

@@ -27,11 +27,13 @@ struct PngSize {
 [[nodiscard]] PngSize png_size(std::span<const std::uint8_t> bytes);
 
 /// Four bytes a pixel, rows from top to bottom, alpha not multiplied into the colour. Takes every colour type
-/// and depth; 16 bits a channel are rounded to 8. Throws PngError where the file is damaged or interlaced. The
-/// caller has checked the size.
+/// and depth; 16 bits a channel are rounded to 8. Throws PngError where the file is damaged or interlaced.
+/// The caller has checked the size.
 [[nodiscard]] std::vector<std::uint8_t> decode_png(std::span<const std::uint8_t> bytes);
 
-/// The bytes of a PNG of 8 bits a channel. `channels` is 3 or 4; `pixels` has width x height x channels values.
-[[nodiscard]] std::vector<std::uint8_t> encode_png(std::span<const std::uint8_t> pixels, PngSize size, int channels);
+/// The bytes of a PNG of 8 bits a channel. `channels` is 3 or 4; `pixels` has width x height x channels
+/// values.
+[[nodiscard]] std::vector<std::uint8_t> encode_png(std::span<const std::uint8_t> pixels, PngSize size,
+                                                   int channels);
 
 }  // namespace gnomon::detail

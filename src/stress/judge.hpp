@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/stress_rows.hpp"
 #include "exact.hpp"
 #include "input.hpp"
-#include "base/stress_rows.hpp"
 
 namespace gnomon::stress {
 

@@ -3,8 +3,9 @@
 //     bench_gpu_frames filters [--map-sizes A,B] [--kernels A,B] [--rounds N] [--seconds N] [--scene SCENE]
 //     bench_gpu_frames flight  [--frames N] [--size WxH] [--seconds N] [--scene SCENE]
 //
-// filters: maps, prefilter and look-up of every filter. flight: frames of the scene's default flight, four maps of 2048.
-// Times are milliseconds: wall clock from an idle driver to an idle driver, and GL_TIME_ELAPSED of the same commands.
+// filters: maps, prefilter and look-up of every filter. flight: frames of the scene's default flight, four
+// maps of 2048. Times are milliseconds: wall clock from an idle driver to an idle driver, and GL_TIME_ELAPSED
+// of the same commands.
 #include <glad/gl.h>
 
 #include <algorithm>
@@ -47,7 +48,8 @@ std::vector<int> numbers(const char* text) {
   std::vector<int> all;
   for (char* end = nullptr; *text != '\0'; text = *end == ',' ? end + 1 : end) {
     all.push_back(static_cast<int>(std::strtol(text, &end, 10)));
-    if (end == text || (*end != ',' && *end != '\0')) throw std::runtime_error(std::string(text) + ": wants numbers, as in 3,5");
+    if (end == text || (*end != ',' && *end != '\0'))
+      throw std::runtime_error(std::string(text) + ": wants numbers, as in 3,5");
   }
   return all;
 }
@@ -56,7 +58,8 @@ Request parsed(int argc, char** argv) {
   Request request;
   const auto fail = [] {
     throw std::runtime_error(
-        "usage: bench_gpu_frames filters|flight [--map-sizes A,B] [--kernels A,B] [--rounds N] [--frames N] [--size WxH] "
+        "usage: bench_gpu_frames filters|flight [--map-sizes A,B] [--kernels A,B] [--rounds N] [--frames N] "
+        "[--size WxH] "
         "[--seconds N] [--scene SCENE]");
   };
   if (argc < 2 || argc % 2 != 0) fail();
@@ -117,8 +120,9 @@ double percentile(std::vector<double> values, double share) {
 }
 
 void print_percentiles(const char* name, const std::vector<double>& values) {
-  std::printf(",\"%s\":{\"min\":%.6g,\"p50\":%.6g,\"p90\":%.6g,\"p99\":%.6g,\"max\":%.6g}", name, percentile(values, 0.0),
-              percentile(values, 0.5), percentile(values, 0.9), percentile(values, 0.99), percentile(values, 1.0));
+  std::printf(",\"%s\":{\"min\":%.6g,\"p50\":%.6g,\"p90\":%.6g,\"p99\":%.6g,\"max\":%.6g}", name,
+              percentile(values, 0.0), percentile(values, 0.5), percentile(values, 0.9),
+              percentile(values, 0.99), percentile(values, 1.0));
 }
 
 void end_row() {
@@ -129,7 +133,8 @@ void end_row() {
 
 class Bench {
  public:
-  explicit Bench(const Request& request) : request_(request), scene_(load_scene(request.scene)), renderer_(scene_) {
+  explicit Bench(const Request& request)
+      : request_(request), scene_(load_scene(request.scene)), renderer_(scene_) {
     for (const Instance& instance : scene_.instances) boxes_.push_back(instance.bounds_world);
   }
 
@@ -175,8 +180,8 @@ class Bench {
       planned.push_back(plan_ms);
     }
     if (wall.empty()) return;
-    std::printf("{\"part\":\"flight\",\"scene\":\"%s\",\"frames\":%zu,\"width\":%d,\"height\":%d", request_.scene.c_str(),
-                wall.size(), request_.width, request_.height);
+    std::printf("{\"part\":\"flight\",\"scene\":\"%s\",\"frames\":%zu,\"width\":%d,\"height\":%d",
+                request_.scene.c_str(), wall.size(), request_.width, request_.height);
     print_percentiles("wall_ms", wall);
     print_percentiles("timer_ms", timer);
     print_percentiles("plan_ms", planned);
@@ -186,7 +191,8 @@ class Bench {
  private:
   [[nodiscard]] bool late() const { return ms_since(begin_) > 1e3 * request_.seconds; }
 
-  void draw(const ShadowPlan& plan, const Camera& camera, const render::PreparedFilter& filter, bool whole = false) {
+  void draw(const ShadowPlan& plan, const Camera& camera, const render::PreparedFilter& filter,
+            bool whole = false) {
     render::FrameOptions frame = quiet();
     frame.time_passes = false;
     if (whole) frame.prune = prune_rules_of(PruneSource::this_frame);
@@ -215,8 +221,9 @@ class Bench {
       wall.push_back(ms);
       timer.push_back(timer_.ms());
     }
-    std::printf("{\"part\":\"filters\",\"filter\":\"%s\",\"kernel\":%d,\"map_size\":%d,\"width\":%d,\"height\":%d",
-                std::string(settings.filter->info.name).c_str(), kernel, size, request_.width, request_.height);
+    std::printf(
+        "{\"part\":\"filters\",\"filter\":\"%s\",\"kernel\":%d,\"map_size\":%d,\"width\":%d,\"height\":%d",
+        std::string(settings.filter->info.name).c_str(), kernel, size, request_.width, request_.height);
     print_percentiles("wall_ms", wall);
     print_percentiles("timer_ms", timer);
     end_row();

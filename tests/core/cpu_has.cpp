@@ -1,4 +1,5 @@
-// Which of the vector units that clones are compiled for (lanes/wide.hpp) does the processor have, or an emulated one?
+// Which of the vector units that clones are compiled for (lanes/wide.hpp) does the processor have, or an
+// emulated one?
 //   cpu_has          prints their names
 //   cpu_has FEATURE  exits 0 where it has that one
 #include <cstdio>

@@ -115,8 +115,8 @@ TEST(OverlapLaw, an_overlap_is_the_requested_share_of_the_map_before_and_moves_n
   EXPECT_GT(overlaps, of_all_draws(1000));
 }
 
-// Found by random_cases: a warp that gained in the overlap alone lost up to 3.4 times behind it. The warps are named,
-// as a seed draws another one when the registry grows.
+// Found by random_cases: a warp that gained in the overlap alone lost up to 3.4 times behind it. The warps
+// are named, as a seed draws another one when the registry grows.
 TEST(OverlapLaw, a_warp_that_may_be_dropped_gains_where_its_map_serves) {
   struct Found {
     std::uint64_t seed;

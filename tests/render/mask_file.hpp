@@ -41,7 +41,8 @@ class MaskWriter {
   explicit MaskWriter(const std::string& file) : out_(file, std::ios::binary) {}
   void add(const std::string& name, const KeptMask& mask) {
     out_ << name << '\n' << mask.map.size() << '\n';
-    out_.write(reinterpret_cast<const char*>(mask.visibility.data()), static_cast<std::streamsize>(2 * mask.visibility.size()));
+    out_.write(reinterpret_cast<const char*>(mask.visibility.data()),
+               static_cast<std::streamsize>(2 * mask.visibility.size()));
     out_.write(reinterpret_cast<const char*>(mask.map.data()), static_cast<std::streamsize>(mask.map.size()));
     if (!out_.flush()) throw std::runtime_error("the masks cannot be written");
   }
@@ -83,8 +84,10 @@ inline void print_difference(const std::string& name, const KeptMask& now, const
     most = std::max(most, difference);
   }
   if (!same_size) differ = visibly = maps = now.map.size();
-  std::printf("{\"part\":\"masks\",\"what\":\"%s\",\"pixels\":%zu,\"differ\":%zu,\"visibly\":%zu,\"other_map\":%zu,\"most\":%.5f}\n",
-              name.c_str(), now.map.size(), differ, visibly, maps, most / 65535.0);
+  std::printf(
+      "{\"part\":\"masks\",\"what\":\"%s\",\"pixels\":%zu,\"differ\":%zu,\"visibly\":%zu,\"other_map\":%zu,"
+      "\"most\":%.5f}\n",
+      name.c_str(), now.map.size(), differ, visibly, maps, most / 65535.0);
   if (std::fflush(stdout) != 0) throw std::runtime_error("the row cannot be written: is the disk full?");
 }
 

@@ -1,6 +1,7 @@
 // Prints the hashes of what is drawn over all filters, sources and options, a line for each:
 //   mask_hashes [--keep FILE | --against FILE] [TEXT]
-// TEXT: the lines whose name holds it alone. Two builds on one driver print the same lines where no change was meant.
+// TEXT: the lines whose name holds it alone. Two builds on one driver print the same lines where no change
+// was meant.
 // --keep writes the masks into a file; --against prints, as rows of JSON, how many pixels differ from it.
 #include <cmath>
 #include <cstdint>
@@ -36,8 +37,12 @@ std::uint64_t hash_of(std::span<const std::byte> bytes) {
   for (const std::byte byte : bytes) hash = (hash ^ static_cast<std::uint64_t>(byte)) * 1099511628211ull;
   return hash;
 }
-std::uint64_t hash_of(const FloatImage& image) { return hash_of(std::as_bytes(std::span(image.values))); }
-std::uint64_t hash_of(const Image& image) { return hash_of(std::as_bytes(std::span(image.rgba))); }
+std::uint64_t hash_of(const FloatImage& image) {
+  return hash_of(std::as_bytes(std::span(image.values)));
+}
+std::uint64_t hash_of(const Image& image) {
+  return hash_of(std::as_bytes(std::span(image.rgba)));
+}
 
 Scene opaque_scene() {
   Scene scene = boxes_on_ground();
@@ -114,7 +119,8 @@ class Hashes {
 
   [[nodiscard]] std::vector<Box> boxes() const { return boxes_of(scene_); }
 
-  [[nodiscard]] ShadowPlan plan(const FilterSettings& filter, const Light& light, PlanOptions options = {}) const {
+  [[nodiscard]] ShadowPlan plan(const FilterSettings& filter, const Light& light,
+                                PlanOptions options = {}) const {
     const std::vector<Box> boxes = this->boxes();
     options.resolution.max_size = 256;
     options.split.overlap = 0.2;
@@ -134,8 +140,9 @@ class Hashes {
         print(name, renderer_);
       }
     }
-    for (const char* text : {"pcf:kernel=5,contacts=1", "vsm:blur=2,mipmap=1", "esm:format=fp16", "pcf:radius=3,contacts=1",
-                             "msm:format=unorm16", "evsm4:mipmap=1,anisotropy=4"}) {
+    for (const char* text :
+         {"pcf:kernel=5,contacts=1", "vsm:blur=2,mipmap=1", "esm:format=fp16", "pcf:radius=3,contacts=1",
+          "msm:format=unorm16", "evsm4:mipmap=1,anisotropy=4"}) {
       const std::string name = "maps " + std::string(text);
       const ParsedFilter parsed = parse_filter(text);
       if (!wanted(name) || !parsed.error.empty()) continue;
@@ -146,8 +153,7 @@ class Hashes {
 
   void of_shapes() {
     std::vector<glm::dvec3> points;
-    for (int i = 0; i < 400; ++i)
-      points.emplace_back(-4.0 + 0.02 * i, 0.0, 3.0 * std::sin(0.1 * i));
+    for (int i = 0; i < 400; ++i) points.emplace_back(-4.0 + 0.02 * i, 0.0, 3.0 * std::sin(0.1 * i));
     for (const Shape* shape : all_shapes()) {
       for (const char* text : {"hard", "pcf", "vsm", "pcss", "revectorized"}) {
         for (const auto& [word, light] : lights_) {
@@ -160,7 +166,8 @@ class Hashes {
           options.resolution.max_size = 256;
           set_margin(settings, options);
           const std::vector<Box> boxes = this->boxes();
-          const ShadowPlan plan = make_plan({.camera = camera_, .points_world = points}, light, {boxes, boxes}, options);
+          const ShadowPlan plan =
+              make_plan({.camera = camera_, .points_world = points}, light, {boxes, boxes}, options);
           renderer_.draw(plan, camera_, renderer_.prepare(settings), quiet());
           print(name, renderer_);
         }
@@ -233,8 +240,7 @@ class Hashes {
   void of_motion() {
     for (const char* text : {"hard", "pcf", "vsm", "silhouette"}) {
       for (const bool accumulated : {false, true}) {
-        const std::string name =
-            "motion " + std::string(text) + (accumulated ? " accumulated" : "");
+        const std::string name = "motion " + std::string(text) + (accumulated ? " accumulated" : "");
         if (!wanted(name)) continue;
         const FilterSettings settings = parse_filter(text).settings;
         Renderer renderer(scene_);
@@ -298,8 +304,8 @@ class Hashes {
     if (wanted("panes lights")) draw_lights(renderer, "panes lights", hard, quiet());
   }
 
-  void draw_pages(Renderer& renderer, const std::string& name, const FilterSettings& filter, const PagePolicy& policy,
-                  const FrameOptions& options, const Light& light) {
+  void draw_pages(Renderer& renderer, const std::string& name, const FilterSettings& filter,
+                  const PagePolicy& policy, const FrameOptions& options, const Light& light) {
     std::vector<glm::dvec3> points;
     for (int i = 0; i < 4096; ++i) points.emplace_back(-8.0 + 0.25 * (i % 64), 0.0, -8.0 + 0.25 * (i / 64));
     std::vector<std::byte> memory(page_memory(1024, 1 << 14));
@@ -338,15 +344,15 @@ class Hashes {
       const std::string name = "pages layer " + std::string(layer.name);
       if (wanted(name)) draw_pages(renderer_, name, pcf, page_policies::resolution, options, kSunLight);
       options.map_passes = MapPasses::each;
-      if (wanted(name)) draw_pages(renderer_, name + " each", pcf, page_policies::resolution, options, kSunLight);
+      if (wanted(name))
+        draw_pages(renderer_, name + " each", pcf, page_policies::resolution, options, kSunLight);
     }
   }
 
   void draw_lights(Renderer& renderer, const std::string& name, const FilterSettings& filter,
                    const FrameOptions& options) {
-    const std::vector<LightRequest> requests{{kSunLight},
-                                             {SpotLight{{-4, 6, 4}, {0.6, -1, -0.5}, 0.6, 20.0}},
-                                             {PointLight{{3, 3, 2}, 9.0}}};
+    const std::vector<LightRequest> requests{
+        {kSunLight}, {SpotLight{{-4, 6, 4}, {0.6, -1, -0.5}, 0.6, 20.0}}, {PointLight{{3, 3, 2}, 9.0}}};
     std::vector<std::byte> memory(light_memory(requests.size(), 0));
     std::vector<LightState> states(requests.size());
     LightHistory history{states, 0, {}};
@@ -361,13 +367,14 @@ class Hashes {
     std::vector<DrawnLight> drawn;
     for (std::size_t i = 0; i < requests.size(); ++i) {
       const Light& light = requests[i].light;
-      own[i] = make_plan(plan.lights[i].frames > 1 ? camera_round(light, camera_) : camera_, light, {boxes, boxes},
-                         light_options(pool, plan.lights[i]));
+      own[i] = make_plan(plan.lights[i].frames > 1 ? camera_round(light, camera_) : camera_, light,
+                         {boxes, boxes}, light_options(pool, plan.lights[i]));
       drawn.push_back({light, &own[i], glm::vec3(0.5f + 0.1f * static_cast<float>(i))});
     }
     renderer.draw({plan, drawn}, camera_, renderer.prepare(filter, Source::lights), options);
     print(name, renderer);
-    std::printf("%s sum %016llx\n", name.c_str(), static_cast<unsigned long long>(hash_of(renderer.light_sum())));
+    std::printf("%s sum %016llx\n", name.c_str(),
+                static_cast<unsigned long long>(hash_of(renderer.light_sum())));
   }
 
   void of_lights() {
@@ -386,7 +393,8 @@ class Hashes {
     if (wanted("lights each")) draw_lights(renderer_, "lights each", default_settings(filters::pcf), options);
     options = quiet();
     options.depth_layer = DepthLayer::midpoint;
-    if (wanted("lights midpoint")) draw_lights(renderer_, "lights midpoint", default_settings(filters::pcf), options);
+    if (wanted("lights midpoint"))
+      draw_lights(renderer_, "lights midpoint", default_settings(filters::pcf), options);
   }
 
   void of_lists() {
@@ -395,7 +403,8 @@ class Hashes {
       for (const int samples : {1, 4}) {
         const std::string name = "irregular " + std::to_string(samples) + " " + word;
         if (!wanted(name)) continue;
-        renderer_.draw(plan(hard, light), camera_, renderer_.prepare(hard, Source::irregular(samples)), quiet());
+        renderer_.draw(plan(hard, light), camera_, renderer_.prepare(hard, Source::irregular(samples)),
+                       quiet());
         print(name, renderer_);
       }
       for (const IdentifierOf of : {IdentifierOf::instance, IdentifierOf::triangle}) {
@@ -431,7 +440,8 @@ int main(int argc, char** argv) {
   using namespace gnomon::render;
   try {
     const auto context = create_context(ContextKind::automatic);
-    const bool file = argc > 2 && (std::strcmp(argv[1], "--keep") == 0 || std::strcmp(argv[1], "--against") == 0);
+    const bool file =
+        argc > 2 && (std::strcmp(argv[1], "--keep") == 0 || std::strcmp(argv[1], "--against") == 0);
     const int text = file ? 3 : 1;
     Hashes hashes(argc > text ? argv[text] : "");
     if (file) std::strcmp(argv[1], "--keep") == 0 ? hashes.keep_in(argv[2]) : hashes.compare_with(argv[2]);

@@ -1,5 +1,5 @@
-// What the C++ in pages takes for granted: names that a program would have by then. page_code.py puts the blocks below it; they are
-// compiled, and never run.
+// What the C++ in pages takes for granted: names that a program would have by then. page_code.py puts the
+// blocks below it; they are compiled, and never run.
 #pragma once
 
 #include <cstdint>

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "gnomon/plan.hpp"
 #include "gnomon/options.hpp"
+#include "gnomon/plan.hpp"
 #include "gnomon/render/frame_option.hpp"
 
 namespace gnomon::render {

@@ -41,8 +41,8 @@ struct ShadowDistances {
 /// The result of hiding_map_size.
 struct HidingMapSize {
   int map_size = kMaxMapSize;  ///< ResolutionOptions::max_size, texels along a side
-  bool hides = false;           ///< false: not even the largest map does, and map_size is that
-  double radius_world = 0.0;    ///< of the kernel, world units; 0: it has no size in the world
+  bool hides = false;          ///< false: not even the largest map does, and map_size is that
+  double radius_world = 0.0;   ///< of the kernel, world units; 0: it has no size in the world
   /// The same in pixels where it is largest on the screen. That is at the least view depth of any map, on a
   /// surface that faces camera and light. Compare it with the study's range.
   double radius_pixels = 0.0;

@@ -7,8 +7,8 @@
 
 namespace gnomon::report {
 
-/// Reads from `folder` its rows, its `stability.jsonl` (what gnomon stress writes) and its `gpu` (gpu_files.hpp),
-/// or one of them; writes there
+/// Reads from `folder` its rows, its `stability.jsonl` (what gnomon stress writes) and its `gpu`
+/// (gpu_files.hpp), or one of them; writes there
 ///   report.html         all of it, opens offline, readable without scripts,
 ///   charts/NAME.svg     the charts,
 ///   summary.csv         a line per scene and technique,

@@ -8,8 +8,8 @@
 #include <glm/vec4.hpp>
 #include <span>
 
-#include "gnomon/extend/body.hpp"
 #include "gnomon/bounds.hpp"
+#include "gnomon/extend/body.hpp"
 #include "lanes/lanes.hpp"
 #include "lanes/pair.hpp"
 

@@ -6,9 +6,9 @@
 // GNOMON_ONLY_CLONE names the one clone to compile ("sse2" for what every x86-64 has): tests run each clone
 // on one machine (tests/core/CMakeLists.txt).
 //
-// -fno-trapping-math, without which none of these loops becomes a vector loop, lets the compiler divide before it
-// chooses. So `1 / max_of(x, least)` may divide by an x of 0. Divisors are sums that cannot be 0: divisor(x, least)
-// of lanes/lanes.hpp, or x plus a number that changes no bit of an x that counts.
+// -fno-trapping-math, without which none of these loops becomes a vector loop, lets the compiler divide
+// before it chooses. So `1 / max_of(x, least)` may divide by an x of 0. Divisors are sums that cannot be 0:
+// divisor(x, least) of lanes/lanes.hpp, or x plus a number that changes no bit of an x that counts.
 #if !defined(__GNUC__) || defined(__clang__) || !defined(__x86_64__) || !defined(__gnu_linux__) || \
     defined(__SANITIZE_THREAD__)
 #define GNOMON_WIDE

@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <span>
 
-#include "gnomon/extend/warp.hpp"
 #include "gnomon/extend/light_space.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "map/light_body.hpp"
 
 namespace gnomon {
@@ -56,7 +56,7 @@ struct CachedPlane {
 };
 /// `flat_axis`: as for decompose.
 [[nodiscard]] CachedPlane cached_plane(const Homography& h, const WarpQuestion& question,
-                              const glm::dvec2& flat_axis) noexcept;
+                                       const glm::dvec2& flat_axis) noexcept;
 
 /// The last frame's map with this frame's body in it, as it was fitted: the whole rectangle and its depths.
 struct CachedMap {
@@ -65,14 +65,14 @@ struct CachedMap {
   LightDepths depths;
 };
 [[nodiscard]] CachedMap cached_map(const PlanContext& c, const MapRequest& request,
-                               const LightBody& body) noexcept;
+                                   const LightBody& body) noexcept;
 
 /// What the last frame found and drew, and what a search does with it. False where nothing is known.
 [[nodiscard]] bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuestion& question,
                               WarpStart& start) noexcept;
 /// Where the next frame's search may begin: at this frame's choice.
 [[nodiscard]] PlanHistory::SearchedWarp searched_warp(const PlanContext& c, const MapRequest& request,
-                                         const PlaneMap& plane) noexcept;
+                                                      const PlaneMap& plane) noexcept;
 
 /// True where the last frame has a map of this size for the same slot and light.
 [[nodiscard]] bool has_cached(const MapRequest& request) noexcept;

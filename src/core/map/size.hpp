@@ -43,8 +43,8 @@ struct MapSize {
   int width, height, border;
   double full_error;  ///< bound of m at the size asked for
 };
-/// The size in `request`, or where c.how.error_bound is above 0 the smallest in steps of kSizeStep whose bound
-/// of m is at or below it. `share`: as border_share.
+/// The size in `request`, or where c.how.error_bound is above 0 the smallest in steps of kSizeStep whose
+/// bound of m is at or below it. `share`: as border_share.
 [[nodiscard]] MapSize map_size(const PlanContext& c, const MapRequest& request, const PlaneMap& plane,
                                const TexelsNeeded& needed, double obliquity, double share) noexcept;
 

@@ -53,6 +53,6 @@ struct RoundTexels {
 /// size and margin; `gl_from_relative`: its matrix for linear texels, from points relative to the camera.
 /// Returns how much longer the longest texels become along x and y.
 [[nodiscard]] glm::dvec2 serve_visible(const PlanContext& c, const MapRequest& request,
-                                    const glm::dmat4& gl_from_relative, MapResult& result) noexcept;
+                                       const glm::dmat4& gl_from_relative, MapResult& result) noexcept;
 
 }  // namespace gnomon

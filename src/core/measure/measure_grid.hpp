@@ -39,8 +39,8 @@ struct PixelRay {
   glm::dvec3 start, step;
 };
 
-[[nodiscard]] inline PixelRay pixel_ray(const Camera& camera, const CameraAxes& axes, const MeasureOptions& grid,
-                                        int column, int row) noexcept {
+[[nodiscard]] inline PixelRay pixel_ray(const Camera& camera, const CameraAxes& axes,
+                                        const MeasureOptions& grid, int column, int row) noexcept {
   const double x = camera.left + (camera.right - camera.left) * (column + 0.5) / grid.columns;
   const double y = camera.bottom + (camera.top - camera.bottom) * (row + 0.5) / grid.rows;
   const glm::dvec3 image = axes.right * x + axes.up * y;

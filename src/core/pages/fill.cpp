@@ -149,8 +149,8 @@ class Opening {
   std::array<bool, kLevels> opened_{};
 };
 
-/// Lowers the points of the pages with the fewest, `budget` points at most: a page counts each point that lies
-/// in it and that no finer page holds, and pages below the limit count `budget` points together at most.
+/// Lowers the points of the pages with the fewest, `budget` points at most: a page counts each point that
+/// lies in it and that no finer page holds, and pages below the limit count `budget` points together at most.
 std::uint64_t lower_points(PageContext& c, Opening& opening, std::uint64_t budget) noexcept {
   const std::span<Page> pages = c.memory.pages.first(c.page_count);
   // Pages by their number of points; those with more are no candidates.

@@ -20,8 +20,7 @@ struct CascadeSlot {
   double begin, end;
 };
 /// The map of an earlier frame that still serves the slot; nullptr: it is to be planned.
-[[nodiscard]] const PlanHistory::KeptMap* cached_cascade(const PlanContext& c,
-                                                         const PlanHistory& history,
+[[nodiscard]] const PlanHistory::KeptMap* cached_cascade(const PlanContext& c, const PlanHistory& history,
                                                          const CascadeSlot& slot) noexcept;
 
 }  // namespace gnomon

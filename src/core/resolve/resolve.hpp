@@ -28,15 +28,15 @@ struct PlanCase {
 
 /// How maps are made.
 struct Conduct {
-  const Warp* warp = &warps::none;        // the one to use, or the default; none with a stable grid
-  const Shape* shape = &shapes::linear;   // linear where the requested one does not hold
-  double error_bound = 0.0;               // maps shrink to this bound of m; 0: they keep their size
-  bool stable = false;                    // Fit::stable: grids do not follow the camera
-  bool rotated = false;                   // Fit::rotated: rectangles turn to the least area
-  bool caches_maps = false;               // Fit::warped_stable: a map serves until the view leaves it
-  bool caches_cascades = false;           // CadenceOptions: those behind the first serve for some frames
-  bool has_history = false;               // a PlanHistory holds
-  bool steady = false;                    // maps go in small steps from those of the last frame
+  const Warp* warp = &warps::none;       // the one to use, or the default; none with a stable grid
+  const Shape* shape = &shapes::linear;  // linear where the requested one does not hold
+  double error_bound = 0.0;              // maps shrink to this bound of m; 0: they keep their size
+  bool stable = false;                   // Fit::stable: grids do not follow the camera
+  bool rotated = false;                  // Fit::rotated: rectangles turn to the least area
+  bool caches_maps = false;              // Fit::warped_stable: a map serves until the view leaves it
+  bool caches_cascades = false;          // CadenceOptions: those behind the first serve for some frames
+  bool has_history = false;              // a PlanHistory holds
+  bool steady = false;                   // maps go in small steps from those of the last frame
 
   /// From now on as without a history: for trials, and for maps that have no steady way to go.
   void forget() noexcept { caches_cascades = has_history = steady = false; }

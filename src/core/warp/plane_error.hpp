@@ -4,8 +4,8 @@
 #include <array>
 #include <cstddef>
 
-#include "gnomon/extend/warp.hpp"
 #include "gnomon/extend/body.hpp"
+#include "gnomon/extend/warp.hpp"
 #include "lanes/lanes.hpp"
 #include "warp/error_samples.hpp"
 

@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "casters/caster_culling.hpp"
-#include "maps/drawn_maps.hpp"
+#include "casters/scene_buffers.hpp"
 #include "gl/gl_object.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/renderer.hpp"
+#include "maps/drawn_maps.hpp"
 #include "maps/layered_maps.hpp"
 #include "maps/map_cache.hpp"
 #include "source/page_pool.hpp"
-#include "casters/scene_buffers.hpp"
 
 namespace gnomon::render {
 

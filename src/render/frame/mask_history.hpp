@@ -13,7 +13,8 @@
 
 namespace gnomon::render {
 
-/// Boxes that shaders/pass/mask/accumulate.frag has room for. Of more the last one is round all that are left.
+/// Boxes that shaders/pass/mask/accumulate.frag has room for. Of more the last one is round all that are
+/// left.
 inline constexpr std::size_t kMaxMovedBoxes = 32;
 
 class MaskHistory {

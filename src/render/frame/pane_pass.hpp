@@ -9,14 +9,14 @@
 #include <span>
 #include <vector>
 
-#include "maps/drawn_maps.hpp"
+#include "casters/scene_buffers.hpp"
+#include "frame/target.hpp"
 #include "gl/gl_object.hpp"
 #include "gnomon/pages.hpp"
 #include "gnomon/plan.hpp"
+#include "maps/drawn_maps.hpp"
 #include "source/page_pool.hpp"
 #include "source/pixel_lists.hpp"
-#include "casters/scene_buffers.hpp"
-#include "frame/target.hpp"
 
 namespace gnomon::render {
 

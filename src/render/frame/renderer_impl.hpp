@@ -60,8 +60,8 @@ struct Renderer::Impl {
   LookUpPass contact_pass{"pass/mask/contacts.frag"}, accumulate_pass{"pass/mask/accumulate.frag"};
   MaskHistory history;
   PicturePass pictures;
-  std::optional<PanePass> panes;  ///< made by Renderer::add_panes
-  Pose pane_posed;                ///< the last one applied to them; empty: none, or some moved since
+  std::optional<PanePass> panes;     ///< made by Renderer::add_panes
+  Pose pane_posed;                   ///< the last one applied to them; empty: none, or some moved since
   std::array<int, 2> screen_size{};  ///< of the default framebuffer, as last shown
 };
 

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "maps/drawn_maps.hpp"
 #include "gl/gl_object.hpp"
 #include "gnomon/render/renderer.hpp"
+#include "maps/drawn_maps.hpp"
 
 namespace gnomon::render {
 

@@ -1,4 +1,5 @@
-// The depth passes of a plan's maps: kept texels move, static casters come beneath, the rest is drawn over them.
+// The depth passes of a plan's maps: kept texels move, static casters come beneath, the rest is drawn over
+// them.
 #pragma once
 
 #include <optional>
@@ -31,7 +32,7 @@ class MapPass {
   CasterScene& casters_;
   CasterPass& pass_;
   MapTargets& maps_;
-  std::optional<LayeredPrograms> layered_;  ///< none until a frame wants them
+  std::optional<LayeredPrograms> layered_;     ///< none until a frame wants them
   bool can_layer_ = false, software_ = false;  ///< of the context
   Program copy_depth_;
   VertexArray no_vertices_;

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "casters/draw_list.hpp"
-#include "gl/gl_object.hpp"
 #include "casters/scene_buffers.hpp"
 #include "frame/target.hpp"
+#include "gl/gl_object.hpp"
 
 namespace gnomon::render {
 

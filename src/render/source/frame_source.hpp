@@ -18,8 +18,8 @@ struct FrameJob {
   const Camera& camera;
   const PreparedFilter& filter;
   const FrameOptions& options;
-  FilterPrograms& programs;  ///< of the filter
-  PanePass* panes;           ///< nullptr: none
+  FilterPrograms& programs;      ///< of the filter
+  PanePass* panes;               ///< nullptr: none
   FrameOptionSet asked = {};     ///< options that are in use
   FrameOptionSet honoured = {};  ///< of these, what the source supports
   FrameStats stats = {};
@@ -34,10 +34,10 @@ struct FrameJob {
 
 /// How a source takes part in the sequence, besides what every source does.
 struct SourceSteps {
-  bool takes_depths = true;     ///< what other sources stored is lost
-  bool stores_texels = false;   ///< what the filter reads is made from depths: store()
-  bool casters_last = false;    ///< update() comes after the mask: casters are tested against its pixels
-  bool adds_light = false;      ///< mask() adds up light, through panes too, and shade() makes the picture
+  bool takes_depths = true;    ///< what other sources stored is lost
+  bool stores_texels = false;  ///< what the filter reads is made from depths: store()
+  bool casters_last = false;   ///< update() comes after the mask: casters are tested against its pixels
+  bool adds_light = false;     ///< mask() adds up light, through panes too, and shade() makes the picture
 };
 
 /// A source of shadows: one file. It brings what it stores up to date, writes the mask from it, states what

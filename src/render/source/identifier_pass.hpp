@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
-#include "gl/gl_object.hpp"
-#include "gnomon/render/renderer.hpp"
 #include "casters/scene_buffers.hpp"
 #include "frame/target.hpp"
+#include "gl/gl_object.hpp"
+#include "gnomon/render/renderer.hpp"
 
 namespace gnomon::render {
 

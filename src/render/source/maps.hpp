@@ -72,9 +72,9 @@ class MapSource final : public FrameSource {
   MapPass map_pass_;
   StoredMaps stored_;
   Adapted adapted_;
-  std::optional<Silhouettes> silhouettes_;    ///< made when a filter that reads them is first prepared
+  std::optional<Silhouettes> silhouettes_;     ///< made when a filter that reads them is first prepared
   std::optional<IdentifierPass> identifiers_;  ///< made when they are first prepared
-  DrawnMaps drawn_;                           ///< of the last frame
+  DrawnMaps drawn_;                            ///< of the last frame
   std::array<glm::ivec2, kMaxMaps> map_size_{};
   int map_count_ = 0;
   // What the maps hold.

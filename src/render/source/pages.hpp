@@ -41,7 +41,7 @@ class PageSource final : public FrameSource {
   PagePool pool_;
   PageStage stage_;
   StoredPages stored_;
-  DepthKind kind_;                 ///< that the pool holds
+  DepthKind kind_;                ///< that the pool holds
   glm::dvec3 origin_world_{0.0};  ///< that casters of the last frame were drawn from
 };
 

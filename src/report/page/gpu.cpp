@@ -22,7 +22,8 @@ void add_machine(const GpuJson& row, GpuRun& run) {
   const bool software = context.at("software").get<bool>();
   const auto renderer = context.at("renderer").get<std::string>();
   run.device = software ? "software" : renderer;
-  run.machine = renderer + ", OpenGL " + context.at("version").get<std::string>() + ", " + row.at("cpu").get<std::string>();
+  run.machine = renderer + ", OpenGL " + context.at("version").get<std::string>() + ", " +
+                row.at("cpu").get<std::string>();
   run.timers_trusted = context.at("timer_queries").at("trusted").get<bool>();
 }
 
@@ -48,7 +49,8 @@ void add_times(const GpuJson& row, const std::string& name, GpuRun& run) {
 /// Numbers with leading zeros, so that names sort as their numbers do.
 std::string padded(int number, int digits) {
   std::string text = std::to_string(number);
-  return std::string(static_cast<std::size_t>(std::max(0, digits - static_cast<int>(text.size()))), ' ') + text;
+  return std::string(static_cast<std::size_t>(std::max(0, digits - static_cast<int>(text.size()))), ' ') +
+         text;
 }
 
 void add_gpu_row(const GpuJson& row, GpuRun& run) {
@@ -60,8 +62,8 @@ void add_gpu_row(const GpuJson& row, GpuRun& run) {
                                                   : "";
   if (part == "filters" && row.contains("filter")) {
     add_times(row,
-              row.at("filter").get<std::string>() + ", kernel " + padded(row.at("kernel").get<int>(), 2) + ", map " +
-                  padded(row.at("map_size").get<int>(), 4) + ", frame " + frame,
+              row.at("filter").get<std::string>() + ", kernel " + padded(row.at("kernel").get<int>(), 2) +
+                  ", map " + padded(row.at("map_size").get<int>(), 4) + ", frame " + frame,
               run);
   }
   if (part == "flight" && row.contains("scene"))
@@ -76,7 +78,8 @@ std::string device_heads(const std::vector<GpuRun>& runs, const char* first) {
 
 /// A table with a row for each key that any run has. `cell` writes what a run has under a key.
 template <class Map, class Cell>
-std::string device_table(const std::vector<GpuRun>& runs, const char* label, const char* first, Map map, Cell cell) {
+std::string device_table(const std::vector<GpuRun>& runs, const char* label, const char* first, Map map,
+                         Cell cell) {
   std::set<std::string> keys;
   for (const GpuRun& run : runs) {
     for (const auto& [key, value] : map(run)) keys.insert(key);
@@ -87,7 +90,9 @@ std::string device_table(const std::vector<GpuRun>& runs, const char* label, con
     out += "<tr><th scope=\"row\">" + escaped(key) + "</th>";
     for (const GpuRun& run : runs) {
       const auto found = map(run).find(key);
-      out += "<td>" + (found == map(run).end() ? std::string("&ndash;") : cell(run, found->first, found->second)) + "</td>";
+      out += "<td>" +
+             (found == map(run).end() ? std::string("&ndash;") : cell(run, found->first, found->second)) +
+             "</td>";
     }
     out += "</tr>\n";
   }
@@ -111,16 +116,19 @@ GpuRun read_gpu_run(const std::string& text, const std::string& where) {
       throw ReportError(one_line(where + ": line " + std::to_string(number) + ": " + error.what()));
     }
   }
-  if (run.device.empty()) throw ReportError(one_line(where + ": no row names the machine: is it a file of measure_gpu?"));
+  if (run.device.empty())
+    throw ReportError(one_line(where + ": no row names the machine: is it a file of measure_gpu?"));
   return run;
 }
 
 std::vector<GpuRun> read_gpu_runs(const std::filesystem::path& folder) {
   std::error_code none;
   std::set<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / kGpuFolder, none)) files.insert(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(folder / kGpuFolder, none))
+    files.insert(entry.path());
   std::vector<GpuRun> runs;
-  for (const std::filesystem::path& file : files) runs.push_back(read_gpu_run(read_text(file), file.string()));
+  for (const std::filesystem::path& file : files)
+    runs.push_back(read_gpu_run(read_text(file), file.string()));
   return runs;
 }
 
@@ -131,23 +139,29 @@ std::string gpu_section(const std::vector<GpuRun>& runs) {
     out += "<li>" + escaped(run.device) + ": " + escaped(run.machine) + "; timer queries " +
            (run.timers_trusted ? "agree" : "do not agree") + " with the wall clock</li>\n";
   }
-  out += "</ul>\n<p>Masks against those that software drew: how many are equal bit by bit, the share of pixels whose visibility "
-         "differs by more than 1/255, and the largest difference.</p>\n";
+  out +=
+      "</ul>\n<p>Masks against those that software drew: how many are equal bit by bit, the share of pixels "
+      "whose visibility "
+      "differs by more than 1/255, and the largest difference.</p>\n";
   out += device_table(
       runs, "Masks of GPUs", "masks of", [](const GpuRun& run) -> const auto& { return run.masks; },
       [](const GpuRun&, const std::string&, const MaskCounts& counts) {
-        const double share = static_cast<double>(counts.visibly) / static_cast<double>(std::max<std::size_t>(1, counts.pixels));
-        return std::to_string(counts.equal) + " of " + std::to_string(counts.masks) + " equal; " + percent(share) + "; " +
-               short_number(counts.most);
+        const double share = static_cast<double>(counts.visibly) /
+                             static_cast<double>(std::max<std::size_t>(1, counts.pixels));
+        return std::to_string(counts.equal) + " of " + std::to_string(counts.masks) + " equal; " +
+               percent(share) + "; " + short_number(counts.most);
       });
-  out += "<p>Times in milliseconds, 50th and 99th percentile: wall clock; by the driver's timer where it agrees with the wall "
-         "clock.</p>\n";
+  out +=
+      "<p>Times in milliseconds, 50th and 99th percentile: wall clock; by the driver's timer where it agrees "
+      "with the wall "
+      "clock.</p>\n";
   out += device_table(
       runs, "Times of GPUs", "time of", [](const GpuRun& run) -> const auto& { return run.wall; },
       [](const GpuRun& run, const std::string& key, const GpuTime& wall) {
         std::string cell = short_number(wall.p50) + ", " + short_number(wall.p99);
         if (run.timers_trusted)
-          cell += "; timer " + short_number(run.timer.at(key).p50) + ", " + short_number(run.timer.at(key).p99);
+          cell +=
+              "; timer " + short_number(run.timer.at(key).p50) + ", " + short_number(run.timer.at(key).p99);
         return cell;
       });
   return out + "</section>\n";

@@ -28,8 +28,8 @@ struct GpuRun {
   std::string device;   ///< "software", or the renderer that OpenGL names
   std::string machine;  ///< renderer, version, processor
   bool timers_trusted = false;
-  std::map<std::string, MaskCounts> masks;               ///< by source: maps, pages, lights ...
-  std::map<std::string, GpuTime> wall, timer;            ///< by filter, kernel and map size, or by flight
+  std::map<std::string, MaskCounts> masks;     ///< by source: maps, pages, lights ...
+  std::map<std::string, GpuTime> wall, timer;  ///< by filter, kernel and map size, or by flight
 };
 
 /// Reads rows; those of other parts, and lines that are not whole, are skipped. `where` names the text in

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "chart.hpp"
 #include "base/stress_rows.hpp"
+#include "chart.hpp"
 
 namespace gnomon::report {
 

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "base/random.hpp"
 #include "exact.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
-#include "base/random.hpp"
 
 namespace gnomon::stress {
 

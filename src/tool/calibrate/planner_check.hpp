@@ -31,7 +31,9 @@ class Replanned {
   [[nodiscard]] TechniqueChoice choose(const View& view, const Budget& budget, const CostModel& costs) const;
 
  private:
-  [[nodiscard]] gnomon::View seen_view() const noexcept { return {.camera = camera_, .points_world = visible_}; }
+  [[nodiscard]] gnomon::View seen_view() const noexcept {
+    return {.camera = camera_, .points_world = visible_};
+  }
 
   std::string name_;
   SceneView scene_;

@@ -83,7 +83,8 @@ Image Planned::heat_map(const FloatImage& mask) const {
 
 std::uint64_t Planned::table_bytes() const noexcept {
   if (!by_pages()) return 0;
-  // As shaders/pass/page/tables.glsl has them: a matrix and a key for each page, with four planes for each level.
+  // As shaders/pass/page/tables.glsl has them: a matrix and a key for each page, with four planes for each
+  // level.
   constexpr std::uint64_t kPage = 80, kLevel = 144, kEntry = 4;
   const PagePlan& plan = pages_->plan();
   return kPage * plan.pages.size() + kLevel * plan.levels.size() + kEntry * plan.table.size();

@@ -69,9 +69,9 @@ struct Sweep : Measuring {
   }
 };
 
-/// Combinations that are the same technique under two names are taken once: with one map or under a local light
-/// the split does not matter, and a stable fit takes no warp. Throws std::runtime_error where nothing is left to
-/// measure, or a split is given what it does not take.
+/// Combinations that are the same technique under two names are taken once: with one map or under a local
+/// light the split does not matter, and a stable fit takes no warp. Throws std::runtime_error where nothing
+/// is left to measure, or a split is given what it does not take.
 [[nodiscard]] Sweep make_sweep(const SweepRequest& request);
 
 /// Makes maps smaller that memory does not take, in the context that is current: a technique goes by the size

@@ -36,10 +36,12 @@ int run_merge(const std::vector<std::string>& folders, const std::string& out, b
   return 0;
 }
 
-/// Writes the report of each folder again, with files of GPUs added, and the survey's charts where a folder for them is named.
-int run_report(const std::vector<std::string>& folders, const std::vector<std::string>& gpu, const std::string& figures,
-               bool json) {
-  if (!gpu.empty() && folders.size() != 1) throw std::runtime_error("--gpu: wants one folder DIR for its report");
+/// Writes the report of each folder again, with files of GPUs added, and the survey's charts where a folder
+/// for them is named.
+int run_report(const std::vector<std::string>& folders, const std::vector<std::string>& gpu,
+               const std::string& figures, bool json) {
+  if (!gpu.empty() && folders.size() != 1)
+    throw std::runtime_error("--gpu: wants one folder DIR for its report");
   if (!gpu.empty()) {
     const std::vector<std::filesystem::path> files(gpu.begin(), gpu.end());
     report::add_gpu_files(folders.front(), files);
@@ -96,19 +98,20 @@ std::function<int()> declare_merge(Arguments& arguments) {
 
 std::function<int()> declare_report(Arguments& arguments) {
   const auto request = std::make_shared<FoldersRequest>();
-  arguments.options = {folders_option(*request),
-                       {.name = "--figures",
-                        .target = &request->figures,
-                        .help = "also write two charts of the survey from measured plans into this folder: "
-                                "storage by number of maps, and error by depth",
-                        .word = "DIR",
-                        .completion = Completion::folders},
-                       {.name = "--gpu",
-                        .target = &request->gpu,
-                        .help = "files that measure_gpu of the portable folder wrote: a column for each in the report of DIR",
-                        .word = "FILE",
-                        .completion = Completion::files},
-                       json_option(*request)};
+  arguments.options = {
+      folders_option(*request),
+      {.name = "--figures",
+       .target = &request->figures,
+       .help = "also write two charts of the survey from measured plans into this folder: "
+               "storage by number of maps, and error by depth",
+       .word = "DIR",
+       .completion = Completion::folders},
+      {.name = "--gpu",
+       .target = &request->gpu,
+       .help = "files that measure_gpu of the portable folder wrote: a column for each in the report of DIR",
+       .word = "FILE",
+       .completion = Completion::files},
+      json_option(*request)};
   arguments.options.front().required = false;
   return [request] { return run_report(request->folders, request->gpu, request->figures, request->json); };
 }

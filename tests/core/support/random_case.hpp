@@ -5,8 +5,8 @@
 #include <iosfwd>
 #include <vector>
 
-#include "gnomon/gnomon.hpp"
 #include "base/random.hpp"
+#include "gnomon/gnomon.hpp"
 
 namespace gnomon::test {
 

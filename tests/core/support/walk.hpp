@@ -5,8 +5,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "gnomon/gnomon.hpp"
 #include "base/random.hpp"
+#include "gnomon/gnomon.hpp"
 
 namespace gnomon::test {
 
