@@ -114,7 +114,7 @@ struct ShadowPlan {
   /// Unit, the way the light travels; of a spot along its axis, of a point light towards the camera.
   glm::dvec3 light_direction{0.0, -1.0, 0.0};
   ClipSpace clip_space;  ///< of all matrices of the plan
-  /// Of the options: in texels of the map at each point, for those who compute it per point.
+  /// The bias of the options, in texels of the map at each point, for shaders that compute it per point.
   BiasOptions bias;
   /// How a point finds its map. view_depth: the cascades of a directional light. first_holding: local lights,
   /// receivers parted by planes, and maps of WarpOptions::planes. finest: SplitOptions::selection; of maps

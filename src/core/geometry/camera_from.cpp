@@ -180,7 +180,8 @@ CameraFrom camera_from(const glm::dmat4& view_from_world, const glm::dmat4& clip
   const bool in_front = lens.orthographic || depths.near_depth > 0.0;
   if (!in_front || !(depths.near_depth < depths.far_depth)) return {{}, CameraError::depth_range};
 
-  // Of a parallel projection lengths of view space; of a perspective slopes, which no scale changes.
+  // The edges of a parallel projection are lengths of view space. Those of a perspective are slopes, which no
+  // scale changes.
   const double shrink = lens.orthographic ? 1.0 / eye.scale : 1.0;
   const auto edge = [&](const Side& side, double ndc) {
     return (ndc - side.shift) / std::abs(side.slope) * shrink;

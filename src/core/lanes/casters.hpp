@@ -23,7 +23,7 @@ static_assert(kLanes == kDoubleLanes);
 /// plane.
 inline constexpr double kTouching = 1e-12;
 
-/// Of a list or a leaf; what is `unusable` stays as it is.
+/// Puts a box of a list or a leaf into a lane; `unusable` stays as it is.
 inline void set_lane(CasterBlock& block, std::size_t lane, const Box& box) noexcept {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     block.min[axis][lane] = box.min[static_cast<int>(axis)];
@@ -79,7 +79,7 @@ struct LaneSides {
   std::uint32_t outside, across;
 };
 
-/// Of the first `used` lanes. Without `across`, boxes across a plane count as inside, in half the time.
+/// The sides of the first `used` lanes. Without `across`, boxes across a plane count as inside, in half the time.
 /// Monotone, as every rounded step of it is: a node that is outside has only boxes that are, one that is
 /// inside likewise.
 template <bool across>
@@ -158,7 +158,7 @@ inline void set_relative(const CasterBlock& world, const glm::dvec3& origin, Cas
   }
   out.occupied = world.occupied;
 }
-/// Of up to eight boxes of a list. Lanes beyond them stay as they were, and are not occupied.
+/// Puts up to eight boxes of a list into a block. Lanes beyond them stay as they were, and are not occupied.
 inline void set_relative(std::span<const Box> boxes, const glm::dvec3& origin, CasterBlock& out) noexcept {
   std::uint32_t occupied = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {

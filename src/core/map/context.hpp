@@ -45,7 +45,7 @@ struct PlanContext {
   bool same_light = false;                          // as in the last frame, to the last bit
   std::span<const SharedView> views = {};           // cameras that share the maps; empty: `camera` alone
   std::int64_t frame = 0;                           // of the history
-  // Of the last frame, with a history.
+  // The last frame's, with a history.
   glm::dvec3 last_eye{0.0}, last_forward{0.0};
 };
 

@@ -21,7 +21,7 @@ struct Homography {
   [[nodiscard]] double determinant() const noexcept { return glm::dot(a, glm::cross(b, w)); }
 };
 [[nodiscard]] Homography of_plane(const PlaneMap& plane) noexcept;
-/// Of a matrix to OpenGL clip space from the world.
+/// The homography of a matrix to OpenGL clip space from the world.
 [[nodiscard]] Homography of_matrix(const PlanContext& c, const LightSpace& space,
                                    const glm::dmat4& gl_from_world) noexcept;
 
@@ -33,7 +33,7 @@ struct Decomposed {
   double u_min, length;
   double const_a, const_b;
 };
-/// Of a row over the image.
+/// The length of a row over the image.
 [[nodiscard]] inline double length_of(const glm::dvec2& row) noexcept {
   return std::sqrt(glm::dot(row, row));
 }

@@ -58,8 +58,8 @@ double border_share(const PlanContext& c, const MapRequest& request, const Light
 }
 
 int border_of(const PlanOptions& options, int width, int height, double share) noexcept {
-  // Of a kernel in world units the longer side has more texels; the shorter side has room for no more than a
-  // quarter of its own.
+  // A kernel in world units has more texels along the longer side. The shorter side has room for no more than
+  // a quarter of its own.
   const int longer = width > height ? width : height, shorter = width + height - longer;
   const int border = border_texels(options, longer, share);
   return border < shorter / 4 ? border : border_texels(options, shorter, share);

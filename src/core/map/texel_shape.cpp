@@ -40,7 +40,7 @@ double log_growth_of_map(double log_growth, double border) noexcept {
   return log_growth / (1.0 - 2.0 * border);
 }
 
-/// Of an unwarped plane: slopes off the light's axis, from which the image counts.
+/// The slopes off the light's axis from which the image of an unwarped plane counts.
 glm::dvec2 first_slopes(const PlaneMap& plane) noexcept {
   return {plane.choice.centre, plane.u_min};
 }

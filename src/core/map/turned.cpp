@@ -74,7 +74,7 @@ glm::dvec2 least_rectangle_side(std::span<const glm::dvec2> points) noexcept {
     }
     std::reverse(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count));
   }
-  // Of the rectangle's four sides the one nearest to x: a mirrored body gets the mirrored rectangle.
+  // The side of the rectangle that is nearest to x: a mirrored body gets the mirrored rectangle.
   if (std::abs(best.y) > std::abs(best.x)) best = {best.y, -best.x};
   return best.x < 0.0 ? -best : best;
 }

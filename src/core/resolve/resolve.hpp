@@ -54,7 +54,7 @@ class Ignored {
  private:
   void add(const Omission& entry) noexcept { entry_[count_++] = entry; }
 
-  // Of a local light: all but the texel budget, the history and the cadence.
+  // A local light ignores the most: all but the texel budget, the history and the cadence.
   std::array<Omission, 10> entry_;
   std::size_t count_ = 0;
 };
@@ -75,15 +75,15 @@ struct Resolved {
 /// The options are valid.
 [[nodiscard]] Resolved resolve(const PlanOptions& options, const PlanCase& plan) noexcept;
 
-/// Of plan_lights, whose maps have one size each and lie where a cube's faces do.
+/// The same for plan_lights, whose maps have one size each and lie where a cube's faces do.
 [[nodiscard]] PlanOptions resolve_lights(const PlanOptions& options, int side) noexcept;
 
-/// Of plan_pages, whose pages lie on maps of `texels` along a side with a border of `border_texels`.
-/// `stable`: the grid does not follow the camera.
 struct ResolvedPages {
   PlanOptions options;
   Ignored ignored;
 };
+/// The same for plan_pages, whose pages lie on maps of `texels` along a side with a border of `border_texels`.
+/// `stable`: the grid does not follow the camera.
 [[nodiscard]] ResolvedPages resolve_pages(const PlanOptions& options, bool stable, int texels,
                                           double border_texels) noexcept;
 

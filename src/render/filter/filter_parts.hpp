@@ -47,12 +47,12 @@ namespace gnomon::render {
 
 /// Options that several filters have. Lists name them as option::NAME: cmake/option_names.cmake reads that.
 namespace option {
-/// Of the filters of a light with a size.
+/// For the filters of a light with a size.
 inline constexpr FilterOption angle_deg{
     "angle_deg", 2.0, 0.01, 60.0, "apparent diameter of a directional light, degrees; the sun has 0.53"};
 inline constexpr FilterOption light_radius{"light_radius", 0.25, 1e-6, 1e6,
                                            "radius of a local light, world units"};
-/// Of the filters whose shadows fade in over a length along the light.
+/// For the filters whose shadows fade in over a length along the light.
 inline constexpr FilterOption falloff_world{
     "falloff_world", 0.0, 0.0, 1e6,
     "least distance over which a caster's shadow fades in behind it, world units: alike in all maps"};

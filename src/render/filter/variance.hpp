@@ -15,7 +15,7 @@ struct VarianceLimits {
   double bleed;        ///< visibility up to this becomes 0
   double floor_share;  ///< least variance, of the depth range squared
 };
-/// Of a receiver at that depth.
+/// The visibility of a receiver at that depth.
 [[nodiscard]] double variance_visibility(const StoredTexel& texel, double depth, const VarianceLimits& limits,
                                          TexelFormat format) noexcept;
 

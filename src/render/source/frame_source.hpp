@@ -84,10 +84,10 @@ void tint_from_maps(const Screen& screen, PanePass& panes, const ShadowPlan& pla
 /// Draws the mask from the depths and stored texels that are bound, and frees the unit that pyramids share.
 void draw_mask(const Screen& screen, const Program& program, GLuint fbo) noexcept;
 
-/// Of the draw lists; peeled maps draw them twice.
+/// The work of the draw lists for a map; peeled maps draw them twice.
 [[nodiscard]] MapStats work_of_map(const DrawLists& lists, int map, DepthLayer layer) noexcept;
 
-/// What every source counts alike: savings, and the surfaces pass.
+/// Counts savings and the surfaces pass, which every source counts alike.
 void count_lists(const DrawLists& lists, FrameStats& stats) noexcept;
 
 }  // namespace gnomon::render

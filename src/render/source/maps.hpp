@@ -40,7 +40,7 @@ class MapSource final : public FrameSource {
   [[nodiscard]] glm::ivec2 size(int map) const noexcept { return map_size_[static_cast<std::size_t>(map)]; }
   /// Whether the last frame's depths are even along the light.
   [[nodiscard]] bool linear() const noexcept { return kind_.linear; }
-  /// Of the last frame's map, row by row.
+  /// Reads the depths of the last frame's map, row by row.
   void read_depths(int map, std::span<float> depths) const noexcept;
 
  private:

@@ -53,7 +53,7 @@ void move_to_place(const ShadowMap& map, const TexelRect& place, bool by_hold, c
   block.interval_size.w = pool.y;
 }
 
-/// Of a local light; 0 for a sun.
+/// The range of a local light, world units; 0 for a sun.
 double range_of(const Light& light) noexcept {
   const auto* spot = std::get_if<SpotLight>(&light);
   const auto* point = std::get_if<PointLight>(&light);

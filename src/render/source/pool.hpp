@@ -61,7 +61,7 @@ class PoolSource final : public FrameSource {
   // What the pool holds.
   bool holds_ = false;
   DepthKind kind_;
-  // Of one frame.
+  // One frame's.
   std::vector<DrawnPage> due_;         ///< maps to draw
   std::vector<std::size_t> light_of_;  ///< by map to draw
   std::vector<std::uint8_t> tinted_;   ///< by light: panes tint it, and it is added by itself

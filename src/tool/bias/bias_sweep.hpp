@@ -20,7 +20,7 @@ struct BiasSweep {
   std::vector<TechniqueWarp> warps;
   std::vector<int> map_sizes;
   std::vector<SweptLight> lights;
-  /// Of BiasOptions, by its members.
+  /// Values for the members of BiasOptions.
   std::vector<double> constants, slopes, normal_offsets, max_slopes;
 };
 

@@ -32,7 +32,7 @@ struct SweepRequest : Measuring {
   render::MapPasses map_passes = render::MapPasses::automatic;
 };
 
-/// Of one kind of maps, with the hard filter.
+/// A sweep of one kind of maps, with the hard filter.
 [[nodiscard]] SweepRequest one_kind_of_maps(const Measuring& measuring, const MeasuredMaps& maps);
 
 /// One point of the product, with what the names stand for.

@@ -12,7 +12,7 @@ namespace gnomon::tool {
 
 /// A small frame: maps are to dominate.
 inline constexpr int kStageWidth = 480, kStageHeight = 270;
-/// Of the sun over a scene, degrees.
+/// The place of the sun over a scene, degrees.
 inline constexpr double kStageElevationDeg = 38.0, kStageAzimuthDeg = 140.0;
 
 class FilterStage {
