@@ -79,9 +79,9 @@ struct LaneSides {
   std::uint32_t outside, across;
 };
 
-/// The sides of the first `used` lanes. Without `across`, boxes across a plane count as inside, in half the time.
-/// Monotone, as every rounded step of it is: a node that is outside has only boxes that are, one that is
-/// inside likewise.
+/// The sides of the first `used` lanes. Without `across`, boxes across a plane count as inside, in half the
+/// time. Monotone, as every rounded step of it is: a node that is outside has only boxes that are, one that
+/// is inside likewise.
 template <bool across>
 [[nodiscard]] inline LaneSides sides_of(const Plane& plane, const CasterBlock& block,
                                         std::size_t used) noexcept {

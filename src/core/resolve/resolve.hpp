@@ -82,8 +82,8 @@ struct ResolvedPages {
   PlanOptions options;
   Ignored ignored;
 };
-/// The same for plan_pages, whose pages lie on maps of `texels` along a side with a border of `border_texels`.
-/// `stable`: the grid does not follow the camera.
+/// The same for plan_pages, whose pages lie on maps of `texels` along a side with a border of
+/// `border_texels`. `stable`: the grid does not follow the camera.
 [[nodiscard]] ResolvedPages resolve_pages(const PlanOptions& options, bool stable, int texels,
                                           double border_texels) noexcept;
 

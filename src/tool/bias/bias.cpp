@@ -259,12 +259,26 @@ std::function<int()> declare_bias(Arguments& arguments) {
       "False shadow and false light are shares of the pixels that exact rays decide. The contact gap is\n"
       "how far from a contact shadows begin: up to this distance of a blocker, in texels at the receiver,\n"
       "light leaks more than in the rest of the frame. docs/bias.md explains layers and biases.";
+  // A sweep has lists in place of these.
+  constexpr std::string_view kOfOneView[] = {"--biases",
+                                             "--filter",
+                                             "--warp",
+                                             "--map-size",
+                                             "--light-near-share",
+                                             "--light",
+                                             "--light-elevation-deg",
+                                             "--light-azimuth-deg",
+                                             "--out"};
+  for (Option& option : arguments.options) {
+    if (std::find(std::begin(kOfOneView), std::end(kOfOneView), option.name) != std::end(kOfOneView))
+      option.excludes = "--sweep";
+  }
   return [request] {
     if (!request->sweeps) return run_bias(*request);
-    // One depth tells what biases do to it; all of them only when asked for.
-    const std::vector<TechniqueLayer> layers =
-        request->layers_given ? request->layers : std::vector<TechniqueLayer>(1);
-    sweep_biases(request->sweep, *request, layers, request->maps.cascades);
+    SweepRequest product = one_kind_of_maps(*request, request->maps);
+    // One depth shows what biases do to it; others only when asked for.
+    if (request->layers_given) product.layers = request->layers;
+    sweep_biases(request->sweep, product);
     return 0;
   };
 }

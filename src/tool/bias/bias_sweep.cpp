@@ -2,9 +2,9 @@
 #include "bias/bias_sweep.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -23,9 +23,9 @@ namespace gnomon::tool {
 namespace {
 
 double number_from(const std::string& option, const std::string& word, double least, double most) {
-  char* end = nullptr;
-  const double value = std::strtod(word.c_str(), &end);
-  if (word.empty() || *end != '\0' || !(value >= least && value <= most)) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size() || !(value >= least && value <= most)) {
     char text[64];
     std::snprintf(text, sizeof text, "wants a number between %g and %g", least, most);
     throw std::runtime_error(option + " " + word + ": " + text);
@@ -274,14 +274,10 @@ std::vector<Option> bias_sweep_options(BiasSweep& sweep) {
   return options;
 }
 
-void sweep_biases(const BiasSweep& sweep, const Measuring& measuring,
-                  const std::vector<TechniqueLayer>& layers, int cascades) {
-  SweepRequest request{measuring};
+void sweep_biases(const BiasSweep& sweep, SweepRequest request) {
   if (request.scenes.empty()) request.scenes = builtin_scene_words();
   request.filters = sweep.filters;
-  request.layers = layers;
   request.warps = sweep.warps;
-  request.cascades = {cascades};
   request.map_sizes = sweep.map_sizes;
   // As many cameras along the scene's path as lights: each view has both of its own.
   request.frames = static_cast<int>(sweep.lights.size());
@@ -304,7 +300,7 @@ void sweep_biases(const BiasSweep& sweep, const Measuring& measuring,
     }
   }
   progress.clear();
-  if (!measuring.json) table.print();
+  if (!request.json) table.print();
 }
 
 }  // namespace gnomon::tool

@@ -28,9 +28,8 @@ struct BiasSweep {
 [[nodiscard]] std::vector<Option> bias_sweep_options(BiasSweep& sweep);
 
 /// Draws every setting in every view, and prints a table. The first row is BiasOptions{}; the others are
-/// compared with it view by view. With Measuring::json a line for each drawing. Without scenes: all built-in
-/// ones. `cascades`: maps along the view. Throws std::runtime_error.
-void sweep_biases(const BiasSweep& sweep, const Measuring& measuring,
-                  const std::vector<TechniqueLayer>& layers, int cascades);
+/// compared with it view by view. `request`: scenes, layers and cascades; with Measuring::json a line is
+/// printed for each drawing. Without scenes: all built-in ones. Throws std::runtime_error.
+void sweep_biases(const BiasSweep& sweep, SweepRequest request);
 
 }  // namespace gnomon::tool

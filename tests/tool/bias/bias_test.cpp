@@ -191,6 +191,7 @@ TEST(BiasSweep, refuses_what_it_cannot_draw_by_name) {
   refused({"--sweep", "--slopes", "-1"}, "--slopes -1: wants a number between 0 and 1e+06");
   refused({"--sweep", "--filters", "irregular"}, "irregular");
   refused({"--slopes", "1"}, "--sweep");
+  refused({"--sweep", "--filter", "hard"}, "--filter");
 }
 
 }  // namespace
