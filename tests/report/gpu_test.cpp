@@ -70,5 +70,15 @@ TEST(GpuRuns, the_report_of_a_folder_without_other_rows_has_a_column_for_each_fi
   EXPECT_NE(html.find("<td>2.5, 3</td><td>2.5, 3; timer 2.25, 2.5</td>"), std::string::npos);
 }
 
+TEST(GpuRuns, a_table_that_no_run_has_rows_for_is_not_announced) {
+  const GpuRun machine_alone = read_gpu_run(machine(false, "Card 1"), "a");
+  const std::string html = gpu_section({machine_alone});
+  EXPECT_NE(html.find("Card 1"), std::string::npos);
+  EXPECT_EQ(html.find("<table>"), std::string::npos);
+  EXPECT_EQ(html.find("Times in milliseconds"), std::string::npos);
+  EXPECT_NE(gpu_section({read_gpu_run(machine(false, "Card 1") + kRows, "a")}).find("Times in milliseconds"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace gnomon::report

@@ -76,16 +76,18 @@ std::string device_heads(const std::vector<GpuRun>& runs, const char* first) {
   return out + "</tr></thead>\n<tbody>\n";
 }
 
-/// A table with a row for each key that any run has. `cell` writes what a run has under a key.
+/// A table with a row for each key that any run has, below what its cells are; nothing where no run has a
+/// key. `cell` writes what a run has under a key.
 template <class Map, class Cell>
-std::string device_table(const std::vector<GpuRun>& runs, const char* label, const char* first, Map map,
-                         Cell cell) {
+std::string device_table(const std::vector<GpuRun>& runs, const std::string& cells, const char* label,
+                         const char* first, Map map, Cell cell) {
   std::set<std::string> keys;
   for (const GpuRun& run : runs) {
     for (const auto& [key, value] : map(run)) keys.insert(key);
   }
   if (keys.empty()) return "";
-  std::string out = scroll_box(label, true) + "<table>\n" + device_heads(runs, first);
+  std::string out =
+      "<p>" + cells + "</p>\n" + scroll_box(label, true) + "<table>\n" + device_heads(runs, first);
   for (const std::string& key : keys) {
     out += "<tr><th scope=\"row\">" + escaped(key) + "</th>";
     for (const GpuRun& run : runs) {
@@ -134,29 +136,28 @@ std::vector<GpuRun> read_gpu_runs(const std::filesystem::path& folder) {
 
 std::string gpu_section(const std::vector<GpuRun>& runs) {
   if (runs.empty()) return "";
-  std::string out = "<section id=\"s8\">\n<h2>Software and GPUs</h2>\n<ul>\n";
+  std::string out = "<section id=\"s8\">\n<h2>8. Software and GPUs</h2>\n<ul>\n";
   for (const GpuRun& run : runs) {
     out += "<li>" + escaped(run.device) + ": " + escaped(run.machine) + "; timer queries " +
            (run.timers_trusted ? "agree" : "do not agree") + " with the wall clock</li>\n";
   }
-  out +=
-      "</ul>\n<p>Masks against those that software drew: how many are equal bit by bit, the share of pixels "
-      "whose visibility "
-      "differs by more than 1/255, and the largest difference.</p>\n";
+  out += "</ul>\n";
   out += device_table(
-      runs, "Masks of GPUs", "masks of", [](const GpuRun& run) -> const auto& { return run.masks; },
+      runs,
+      "Masks against those that software drew: how many are equal bit by bit, the share of pixels whose "
+      "visibility differs by more than 1/255, and the largest difference.",
+      "Masks of GPUs", "masks of", [](const GpuRun& run) -> const auto& { return run.masks; },
       [](const GpuRun&, const std::string&, const MaskCounts& counts) {
         const double share = static_cast<double>(counts.visibly) /
                              static_cast<double>(std::max<std::size_t>(1, counts.pixels));
         return std::to_string(counts.equal) + " of " + std::to_string(counts.masks) + " equal; " +
                percent(share) + "; " + short_number(counts.most);
       });
-  out +=
-      "<p>Times in milliseconds, 50th and 99th percentile: wall clock; by the driver's timer where it agrees "
-      "with the wall "
-      "clock.</p>\n";
   out += device_table(
-      runs, "Times of GPUs", "time of", [](const GpuRun& run) -> const auto& { return run.wall; },
+      runs,
+      "Times in milliseconds, 50th and 99th percentile: wall clock; by the driver's timer where it agrees "
+      "with the wall clock.",
+      "Times of GPUs", "time of", [](const GpuRun& run) -> const auto& { return run.wall; },
       [](const GpuRun& run, const std::string& key, const GpuTime& wall) {
         std::string cell = short_number(wall.p50) + ", " + short_number(wall.p99);
         if (run.timers_trusted)
