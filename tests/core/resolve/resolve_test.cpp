@@ -73,7 +73,7 @@ bool about_options(const Omission& o) {
          o.kind == OmissionKind::partition_in_stable_fit;
 }
 
-/// Of everything but the list of ignored options.
+/// The hash of everything but the list of ignored options.
 std::uint64_t hash_of(const std::vector<ShadowPlan>& plans) {
   PlanHash hash;
   for (const ShadowPlan& plan : plans) {
