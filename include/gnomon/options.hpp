@@ -239,16 +239,17 @@ namespace shapes {
 /// A texel's extent there is world units from the map's own Jacobian; under a warp it grows with w along x
 /// and w^2 along y.
 struct BiasOptions {
-  /// Along the light, in texels, everywhere. Covers depth rounding.
-  double constant_texels = 0.05;
+  /// Along the light, in texels, everywhere. Covers depth rounding and relief that is thinner than that.
+  double constant_texels = 0.15;
   /// Along the light, in texels times tan(angle between normal and light). 0.5 covers a texel sampled at its
   /// centre.
   double slope_texels = 0.5;
-  /// Along the surface normal, in texels times sin(angle between normal and light). Moves thin shadows a
-  /// little.
-  double normal_offset_texels = 0.5;
-  /// Cap of tan(angle): at grazing light the slope term would move shadows off their casters.
-  double max_slope = 8.0;
+  /// Along the surface normal, in texels times sin(angle between normal and light). Lifts look-ups of surfaces
+  /// along the light over what casts shadows on them: half a texel costs a tenth of a map's shadows' accuracy.
+  double normal_offset_texels = 0.1;
+  /// Cap of tan(angle) in the slope term: at grazing light it would move shadows off their casters. The plane
+  /// of the receiver, which every look-up follows, is exact beyond it (kSteepestPlane).
+  double max_slope = 4.0;
   /// Equal in all members.
   bool operator==(const BiasOptions&) const = default;
 };

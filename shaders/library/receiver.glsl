@@ -82,15 +82,16 @@ ShadowLookup stored_lookup(ShadowLookup at, ShadowMap map) {
 }
 
 // `bias`: gnomon::BiasOptions, constant, slope, normal offset in texels of this map at this point, largest slope. The
-// kernel's radius needs none: filters follow the receiver's plane by its gradient. The plane's slope is capped, so that a
-// surface nearly along the light does not lose its shadows.
+// kernel's radius needs none: filters follow the receiver's plane by its gradient. The cap of the slope is the bias's: it
+// would move shadows of what lies nearly along the light off their casters. The plane itself is exact.
 ShadowLookup shadow_lookup(ShadowMap map, float layer, vec2 layer_size, ShadowSurface s, vec4 bias) {
   const float kDepthRounding = 4.0 / 16777216.0;  // the rasterizer's depth is good to a few units of 2^-24
+  const float kSteepestPlane = 100.0;  // gnomon::kSteepestPlane
   vec3 light = light_at(s.light, s.position);
   float cosine = max(-dot(s.normal, light), 0.0);
   vec3 across = s.normal + cosine * light;
   float sine = length(across);
-  float tangent = min(sine / max(cosine, 1e-6), bias.w);
+  float tangent = min(sine / max(cosine, 1e-6), kSteepestPlane);
   vec3 slope = across * (sine > 0.0 ? tangent / sine : 0.0);
 
   vec3 side_x, side_y;
@@ -103,7 +104,8 @@ ShadowLookup shadow_lookup(ShadowMap map, float layer, vec2 layer_size, ShadowSu
   // Distance along the light, towards it, by which the plane rises per texel; a plane that faces the light has none.
   vec2 rise = vec2(dot(slope, side_x), dot(slope, side_y));
   float along_light = dot(p.d_depth, light);  // depth per world unit along the light, exact: its rays are the map's
-  float bias_world = bias.x * texel_world + bias.y * (abs(rise.x) + abs(rise.y));
+  float capped = min(1.0, bias.w / max(tangent, 1e-6));
+  float bias_world = bias.x * texel_world + bias.y * capped * (abs(rise.x) + abs(rise.y));
 
   ShadowLookup at;
   at.texel = p.texel;

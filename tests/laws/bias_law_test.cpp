@@ -91,7 +91,7 @@ double shadowing_with(BiasKind kind, const Scene& s, int radius) {
     case BiasKind::adaptive:
       break;
   }
-  const double bias = adaptive_bias_ndc(kLeast, r, 0.0);
+  const double bias = adaptive_bias_ndc(r, 0.0);
   return shadowing(s, r.point, radius, [&](const glm::dvec2&) { return bias; });
 }
 
@@ -224,7 +224,7 @@ TEST(BiasLaw, no_bias_exceeds_the_stated_multiple_of_the_texel) {
           (0.05 + 2.0 * (0.5 + radius) * (s.tangent + s.kappa * s.depth_range)) * s.texel * (1.0 + kRounding);
       require(bias > 0.0 && bias <= limit, map.warp->name, "bias", bias, "limit", limit, "texel", s.texel,
               "tan", s.tangent, "slant", s.kappa * s.depth_range);
-      const double adaptive = adaptive_bias_ndc(options, s.receiver, 0.0);
+      const double adaptive = adaptive_bias_ndc(s.receiver, 0.0);
       require(std::abs(adaptive) <= std::abs(plane_bias_ndc(kLeast, s.receiver, 0.0)) * (1.0 + kRounding),
               "adaptive", adaptive);
       ++planes;

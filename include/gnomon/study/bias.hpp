@@ -95,14 +95,18 @@ struct ReceiverPlane {
 [[nodiscard]] glm::dvec3 normal_offset_world(const BiasOptions& options, const Receiver& receiver,
                                              double kernel_radius_texels) noexcept;
 
+/// Largest tan(angle) that a plane's depth is followed with exactly. At half a texel's distance a normal that
+/// is off by e moves the plane by e tan^2 / 2 texels. For e = 1e-5, a long triangle's in floats, that is 0.05
+/// texel at this slope: a third of the default constant bias.
+inline constexpr double kSteepestPlane = 100.0;
+
 /// The bias that fits one fragment. It is the ndc change that takes it to where its plane meets the light ray
 /// through the centre of the texel it falls into. It adds `epsilon_world` towards the light beyond that
 /// (0.0001 of the scene's extent in the paper: what curvature and rounding need). May point away from the
-/// light. Planes steeper than max_slope count as that steep, so that it never exceeds half a texel of the
-/// slope bias. 0 where the map is singular. (Dou, Yan, Kerzner, Dai, Wyman, "Adaptive Depth Bias for Shadow
-/// Maps", I3D 2014)
-[[nodiscard]] double adaptive_bias_ndc(const BiasOptions& options, const Receiver& receiver,
-                                       double epsilon_world) noexcept;
+/// light. Planes steeper than kSteepestPlane count as that steep; BiasOptions::max_slope has no effect. 0
+/// where the map is singular. (Dou, Yan, Kerzner, Dai, Wyman, "Adaptive Depth Bias for Shadow Maps", I3D
+/// 2014)
+[[nodiscard]] double adaptive_bias_ndc(const Receiver& receiver, double epsilon_world) noexcept;
 
 enum class DepthFormat : std::uint8_t { unorm16, unorm24, float32 };
 /// Largest error of storing `depth`, in [0, 1] as the depth buffer holds it: half a step. Hardware that

@@ -50,9 +50,9 @@ glm::dvec3 capped_normal(const glm::dvec3& normal, const glm::dvec3& light_direc
       -light_direction);
 }
 
-Receiver capped(const BiasOptions& options, const Receiver& r) noexcept {
+Receiver capped(const Receiver& r, double max_slope) noexcept {
   Receiver result = r;
-  result.normal = capped_normal(r.normal, r.light_direction, options.max_slope);
+  result.normal = capped_normal(r.normal, r.light_direction, max_slope);
   return result;
 }
 
@@ -129,7 +129,7 @@ ReceiverPlane receiver_plane_from_derivatives(const glm::dvec3& d_dx, const glm:
 double plane_bias_ndc(const BiasOptions& options, const Receiver& receiver,
                       double kernel_radius_texels) noexcept {
   const double lift =
-      lift_ndc(options, options.slope_texels + kernel_radius_texels, capped(options, receiver));
+      lift_ndc(options, options.slope_texels + kernel_radius_texels, capped(receiver, options.max_slope));
   const double per_world =
       ndc_depth_per_world_unit(receiver.clip_from_world, receiver.light_direction, receiver.point);
   return per_world < 0.0 ? -lift : lift;
@@ -146,7 +146,7 @@ double plane_bias_world(const BiasOptions& options, const Receiver& receiver,
 
 glm::dvec3 normal_offset_world(const BiasOptions& options, const Receiver& receiver,
                                double kernel_radius_texels) noexcept {
-  const Receiver r = capped(options, receiver);
+  const Receiver r = capped(receiver, options.max_slope);
   const double lift = lift_ndc(options, options.normal_offset_texels + kernel_radius_texels, r);
   if (!(lift > 0.0)) return glm::dvec3(0.0);
   const double per_world = std::abs(ndc_depth_per_world_unit(r.clip_from_world, r.light_direction, r.point));
@@ -161,9 +161,8 @@ glm::dvec3 normal_offset_world(const BiasOptions& options, const Receiver& recei
   return receiver.normal * (lift / (worth > loss ? worth - loss : worth));
 }
 
-double adaptive_bias_ndc(const BiasOptions& options, const Receiver& receiver,
-                         double epsilon_world) noexcept {
-  const Receiver r = capped(options, receiver);
+double adaptive_bias_ndc(const Receiver& receiver, double epsilon_world) noexcept {
+  const Receiver r = capped(receiver, kSteepestPlane);
   const ReceiverPlane plane = receiver_plane(r);
   if (!plane.valid) return 0.0;
   const NdcJacobian b = ndc_jacobian(r.clip_from_world, r.point);

@@ -265,7 +265,7 @@ std::vector<Option> bias_sweep_options(BiasSweep& sweep) {
        .target = word_list(sweep.slopes, read_bias_numbers, {"0.5", "0.75"}),
        .help = "texels along the light, times tan(angle)"},
       {.name = "--normal-offsets",
-       .target = word_list(sweep.normal_offsets, read_bias_numbers, {"0", "0.5"}),
+       .target = word_list(sweep.normal_offsets, read_bias_numbers, {"0", "0.1", "0.5"}),
        .help = "texels along the normal, times sin(angle)"},
       {.name = "--max-slopes",
        .target = word_list(sweep.max_slopes, read_bias_numbers, {"4", "8", "100"}),

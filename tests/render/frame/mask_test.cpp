@@ -275,6 +275,36 @@ TEST(Mask, has_neither_acne_nor_gap_for_any_filter_in_stable_fit) {
   }
 }
 
+TEST(Mask, leaves_a_plane_lit_that_the_light_grazes) {
+  // Up to kSteepestPlane, whatever caps the bias: each comparison follows the plane to its texel's centre.
+  Scene scene = empty_scene();
+  add_quad(scene, {-20.0f, 0.0f, 20.0f}, {40.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -40.0f});
+  Renderer renderer(scene);
+  const Camera camera = camera_on_box(kSize, kSize);
+  for (const double slope : {3.0, 30.0, 0.95 * kSteepestPlane}) {
+    for (const Filter* filter : {&filters::hard, &filters::pcf, &filters::pcf_tent, &filters::pcss}) {
+      for (const Warp* warp : {&warps::none, &warps::optimal}) {
+        PlanOptions options;
+        options.resolution.max_size = 256;
+        options.cascades = 1;
+        options.warp.warp = warp;
+        options.prune = kPruneNothing;
+        set_margin(default_settings(*filter), options);
+        const glm::dvec3 light = glm::normalize(glm::dvec3(slope, -1.0, 0.3 * slope));
+        const Frame frame = draw(renderer, camera, plan_for(scene, camera, light, options), *filter);
+        std::size_t judged = 0, dark = 0;
+        for (std::size_t i = 0; i < frame.pixels(); ++i) {
+          if (!frame.surface(i) || frame.map(i) < 0) continue;
+          ++judged;
+          dark += frame.lit(i) < 1.0f - kWeightRounding;
+        }
+        EXPECT_GT(judged, 5000u);
+        EXPECT_EQ(dark, 0u) << filter->info.name << " " << warp->name << " tan " << slope;
+      }
+    }
+  }
+}
+
 TEST(Mask, shows_acne_without_bias_and_gaps_with_far_too_much) {
   const Scene scene = box_on_ground();
   Renderer renderer(scene);

@@ -153,7 +153,7 @@ TEST(BiasSweep, sets_each_bias_beside_the_default_in_the_same_view) {
     words.emplace_back(word);
   const Finished table = run_gnomon(words);
   ASSERT_EQ(table.exit_code, 0) << table.err;
-  EXPECT_NE(table.out.find("| 0.05 | 0.5 | 0.5 | 8 | all | "), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("| 0.15 | 0.5 | 0.1 | 4 | all | "), std::string::npos) << table.out;
   EXPECT_NE(table.out.find(" | 1.000 | 1.000 | 1.00 | 0 of 1 | "), std::string::npos) << table.out;
   EXPECT_NE(table.out.find("| 0 | 0 | 0 | 8 | hard | "), std::string::npos) << table.out;
 
