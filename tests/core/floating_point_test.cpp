@@ -44,8 +44,7 @@ struct Frame {
         // What the map holds is what shaders ask about.
         if (!map_holds(plan, map, p) || !(clip.w > 0.0)) continue;
         sink += plane_bias_ndc(in.options.bias, receiver, 1.0) +
-                plane_bias_world(in.options.bias, receiver, 1.0) +
-                adaptive_bias_ndc(receiver, 1e-4) +
+                plane_bias_world(in.options.bias, receiver, 1.0) + adaptive_bias_ndc(receiver, 1e-4) +
                 normal_offset_world(in.options.bias, receiver, 1.0).x +
                 measure_point(map, in.camera, p, normal).m_max;
       }

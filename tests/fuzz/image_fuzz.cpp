@@ -1,5 +1,5 @@
-// Do any bytes, taken for a picture, become as many pixels as they promise or a refusal of one line? Both readers
-// are asked: the one of this build, and our own of PNG, which builds without OpenImageIO have.
+// Do any bytes, taken for a picture, become as many pixels as they promise or a refusal of one line? Both
+// readers are asked: the one of this build, and our own of PNG, which builds without OpenImageIO have.
 #include <algorithm>
 
 #include "fuzz.hpp"

@@ -44,6 +44,25 @@ TEST(Errors, leaking_and_darkening_look_at_the_deep_pixels_only) {
   EXPECT_DOUBLE_EQ(errors.mean_error, (0.25 + 0.25 + 0.5) / 7.0);
 }
 
+TEST(Errors, acne_and_leaks_below_one_half_count) {
+  const Mask soft{0, 0, 0, 0.5f, 1, 1, 1, -1}, mask{0.05f, 0.11f, 0.4f, 0, 0.95f, 0.89f, 0.6f, 0};
+  const MaskErrors errors = mask_errors(mask, Mask(8, 1.0f), soft);
+  EXPECT_DOUBLE_EQ(errors.too_light, 2.0 / 8.0);
+  EXPECT_DOUBLE_EQ(errors.too_dark, 2.0 / 8.0);
+}
+
+TEST(Errors, the_truth_is_uniform_where_all_neighbours_have_it) {
+  const Mask truth{1,  1, 1, 1, 0,  //
+                   1,  1, 1, 1, 1,  //
+                   -1, 1, 1, 1, 1};
+  const Mask expected{1,  1,  1, -1, -1,  //
+                      -1, -1, 1, -1, -1,  //
+                      -1, -1, 1, 1,  1};
+  EXPECT_EQ(uniform_truth(truth, 5, 1), expected);
+  EXPECT_EQ(uniform_truth(truth, 5, 0), truth);
+  EXPECT_TRUE(uniform_truth({}, 0, 3).empty());
+}
+
 TEST(Errors, a_perfect_mask_has_none) {
   const Mask truth{0, 1, 0.25f, 1, 0};
   const MaskErrors errors = mask_errors(truth, truth, truth);

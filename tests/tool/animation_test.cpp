@@ -74,10 +74,9 @@ TEST(Playing, exact_shadows_are_those_of_the_pose) {
     (void)picture(stage, at(scene, time, View::misclassified));
     const auto& errors = stage.side(0).errors;
     ASSERT_TRUE(errors);
-    EXPECT_GT(errors->decided, 1000u);
+    EXPECT_GT(errors->pixels, 1000u);
     // Rays against another pose would disagree over the whole shadow of the figures.
-    EXPECT_LT(static_cast<double>(errors->false_light + errors->false_shadow),
-              0.02 * static_cast<double>(errors->decided));
+    EXPECT_LT(errors->false_lit + errors->false_shadow, 0.02);
   }
 }
 
@@ -123,7 +122,7 @@ TEST(Playing, commands_speak_it) {
 TEST(Playing, the_accumulate_command_plays_up_to_the_frame_that_it_measures) {
   const SceneFile scene;
   const Finished finished = spawn_gnomon({"accumulate", scene.file, "--animation", "all", "--size", "160x90",
-                                        "--map-size", "64", "--frames", "8", "--moving", "8", "--json"});
+                                          "--map-size", "64", "--frames", "8", "--moving", "8", "--json"});
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   std::vector<nlohmann::json> rows;
   std::istringstream lines(finished.out);

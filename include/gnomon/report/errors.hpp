@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace gnomon::report {
 
@@ -18,12 +19,20 @@ struct MaskErrors {
   /// Mean of 1 - mask over the `open_pixels` that every part of the kernel sees lit: acne and false shadow.
   double darkening = 0.0;
   std::uint64_t open_pixels = 0;  ///< counted in `darkening`
+  /// Of the `pixels`: open ones that are darker by over a tenth (acne), and deep ones that are brighter by
+  /// over a tenth. Faults below one half, which `false_shadow` and `false_lit` do not see, are among them.
+  double too_dark = 0.0;
+  double too_light = 0.0;  ///< see too_dark
 };
 
 /// All spans are equally long. `mask`: 1 lit .. 0 in shadow. `hard`: 1, 0, or negative where undecided.
 /// `soft`: 1 .. 0, or negative where undecided.
 [[nodiscard]] MaskErrors mask_errors(std::span<const float> mask, std::span<const float> hard,
                                      std::span<const float> soft) noexcept;
+
+/// The truth where all pixels within `reach` to each side have the same, else -1: as `soft` for masks whose
+/// kernel is not known. `truth` has `width` values in a row.
+[[nodiscard]] std::vector<float> uniform_truth(std::span<const float> truth, int width, int reach);
 
 /// Pixels whose shadow changes although the truth at the same world point does not. A share of those that
 /// are decided in both frames. `before` and `after` are masks at the same points; a change is one by more

@@ -277,6 +277,8 @@ std::string section_method(const PageInput& input) {
       "they are the <b>misclassified</b> pixels. <b>Mean error</b> compares with the exact shadow averaged "
       "over the filter's own kernel (for area-light filters: with the true penumbra). <b>Leaking</b> is the "
       "mean light where no part of the kernel is lit, <b>darkening</b> the mean shadow where all of it is. "
+      "<b>Too light</b> and <b>too dark</b> count the pixels there that are off by over a tenth: leaks and "
+      "acne, also below one half. "
       "<b>m</b> is the aliasing error, screen pixels per shadow map texel; above 1 the map is "
       "undersampled.</p>\n<p><b>Time.</b> Times are wall clock after the driver has finished: planning, "
       "drawing depths, prefilter and look-up, without shading. Techniques run one after the other, in a new "

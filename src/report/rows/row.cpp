@@ -43,6 +43,7 @@ Json errors_json(const Row& row) {
           {"truth", row.truth},       {"mean_error", e.mean_error},
           {"leaking", e.leaking},     {"deep_pixels", e.deep_pixels},
           {"darkening", e.darkening}, {"open_pixels", e.open_pixels},
+          {"too_dark", e.too_dark},   {"too_light", e.too_light},
           {"flips", row.flips}};
 }
 
@@ -192,6 +193,9 @@ void errors_from(const Json& json, Row& row) {
   get_whole(json.at("deep_pixels"), e.deep_pixels);
   e.darkening = real_from(json.at("darkening"));
   get_whole(json.at("open_pixels"), e.open_pixels);
+  // Rows of an earlier version have none.
+  if (json.contains("too_dark")) e.too_dark = real_from(json.at("too_dark"));
+  if (json.contains("too_light")) e.too_light = real_from(json.at("too_light"));
   row.flips = real_from(json.at("flips"));
 }
 

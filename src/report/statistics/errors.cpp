@@ -9,6 +9,7 @@ namespace gnomon::report {
 namespace {
 
 constexpr float kHalf = 0.5f;
+constexpr float kTenth = 0.1f;  // what shows on a surface of one brightness
 
 double share(double part, std::uint64_t whole) noexcept {
   return whole > 0 ? part / static_cast<double>(whole) : 0.0;
@@ -19,7 +20,7 @@ double share(double part, std::uint64_t whole) noexcept {
 MaskErrors mask_errors(std::span<const float> mask, std::span<const float> hard,
                        std::span<const float> soft) noexcept {
   MaskErrors errors;
-  std::uint64_t false_lit = 0, false_shadow = 0, soft_pixels = 0;
+  std::uint64_t false_lit = 0, false_shadow = 0, soft_pixels = 0, too_dark = 0, too_light = 0;
   double error = 0.0, leaking = 0.0, darkening = 0.0;
   for (std::size_t i = 0; i < mask.size(); ++i) {
     if (hard[i] >= 0.0f) {
@@ -33,17 +34,42 @@ MaskErrors mask_errors(std::span<const float> mask, std::span<const float> hard,
     if (soft[i] == 0.0f) {
       ++errors.deep_pixels;
       leaking += static_cast<double>(mask[i]);
+      too_light += mask[i] > kTenth ? 1 : 0;
     } else if (soft[i] == 1.0f) {
       ++errors.open_pixels;
       darkening += 1.0 - static_cast<double>(mask[i]);
+      too_dark += mask[i] < 1.0f - kTenth ? 1 : 0;
     }
   }
   errors.false_lit = share(static_cast<double>(false_lit), errors.pixels);
   errors.false_shadow = share(static_cast<double>(false_shadow), errors.pixels);
+  errors.too_dark = share(static_cast<double>(too_dark), errors.pixels);
+  errors.too_light = share(static_cast<double>(too_light), errors.pixels);
   errors.mean_error = share(error, soft_pixels);
   errors.leaking = share(leaking, errors.deep_pixels);
   errors.darkening = share(darkening, errors.open_pixels);
   return errors;
+}
+
+std::vector<float> uniform_truth(std::span<const float> truth, int width, int reach) {
+  const int height = width > 0 ? static_cast<int>(truth.size() / static_cast<std::size_t>(width)) : 0;
+  const auto at = [&](int x, int y) {
+    return truth[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  };
+  std::vector<float> uniform(truth.begin(), truth.end());
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      bool same = true;
+      for (int v = std::max(0, y - reach); same && v <= std::min(height - 1, y + reach); ++v) {
+        for (int u = std::max(0, x - reach); same && u <= std::min(width - 1, x + reach); ++u)
+          same = at(u, v) == at(x, y);
+      }
+      if (!same)
+        uniform[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
+            -1.0f;
+    }
+  }
+  return uniform;
 }
 
 double excess_flips(std::span<const float> before, std::span<const float> after,

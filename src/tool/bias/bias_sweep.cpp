@@ -77,47 +77,18 @@ std::vector<BiasOptions> settings_of(const BiasSweep& sweep) {
 struct Wrong {
   double decided = 0.0;  ///< by exact rays
   double false_shadow = 0.0, false_light = 0.0;
-  /// Darker or brighter by over a tenth where the exact shadow is uniform for three pixels round.
-  double too_dark = 0.0, too_bright = 0.0;
+  /// MaskErrors', where the exact shadow is uniform for three pixels round.
+  double too_dark = 0.0, too_light = 0.0;
   [[nodiscard]] double misclassified() const noexcept { return false_shadow + false_light; }
   [[nodiscard]] double share(double pixels) const noexcept { return pixels / std::max(1.0, decided); }
 };
 
-/// Pixels around which all within three pixels have their own exact answer.
-std::vector<bool> uniform_pixels(const FrameTruth& truth) {
-  constexpr int kReach = 3;
-  const int width = truth.hard.width, height = truth.hard.height;
-  const auto index = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-  };
-  std::vector<bool> uniform(truth.lit.size(), false);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const float own = truth.lit[index(x, y)];
-      bool same = own >= 0.0f;
-      for (int v = std::max(0, y - kReach); same && v <= std::min(height - 1, y + kReach); ++v) {
-        for (int u = std::max(0, x - kReach); same && u <= std::min(width - 1, x + kReach); ++u)
-          same = truth.lit[index(u, v)] == own;
-      }
-      uniform[index(x, y)] = same;
-    }
-  }
-  return uniform;
-}
-
-Wrong wrong_pixels(const std::vector<float>& lit, const FrameTruth& truth, const std::vector<bool>& uniform) {
-  constexpr float kVisible = 0.1f;
-  const report::MaskErrors errors = report::mask_errors(lit, truth.lit, truth.lit);
-  Wrong wrong;
-  wrong.decided = static_cast<double>(errors.pixels);
-  wrong.false_shadow = errors.false_shadow * wrong.decided;
-  wrong.false_light = errors.false_lit * wrong.decided;
-  for (std::size_t i = 0; i < lit.size(); ++i) {
-    if (!uniform[i]) continue;
-    wrong.too_dark += lit[i] < truth.lit[i] - kVisible ? 1.0 : 0.0;
-    wrong.too_bright += lit[i] > truth.lit[i] + kVisible ? 1.0 : 0.0;
-  }
-  return wrong;
+Wrong wrong_pixels(const std::vector<float>& lit, const FrameTruth& truth,
+                   const std::vector<float>& uniform) {
+  const report::MaskErrors errors = report::mask_errors(lit, truth.lit, uniform);
+  const auto decided = static_cast<double>(errors.pixels);
+  return {decided, errors.false_shadow * decided, errors.false_lit * decided, errors.too_dark * decided,
+          errors.too_light * decided};
 }
 
 /// What a setting has wrong over all drawings of a filter, beside the first setting in the same ones.
@@ -128,7 +99,7 @@ class Totals {
     misclassified_ += wrong.share(wrong.misclassified());
     first_ += first.share(first.misclassified());
     too_dark_ += wrong.share(wrong.too_dark);
-    too_bright_ += wrong.share(wrong.too_bright);
+    too_light_ += wrong.share(wrong.too_light);
     const double ratio = (wrong.misclassified() + kHandful) / (first.misclassified() + kHandful);
     log_ratio_ += std::log(ratio);
     worst_ = std::max(worst_, ratio);
@@ -140,7 +111,7 @@ class Totals {
     std::snprintf(text, sizeof text, "%.3f %% | %.3f | %.3f | %.2f | %d of %d | %.3f %% | %.3f %% |",
                   100.0 * misclassified_ / count, first_ > 0.0 ? misclassified_ / first_ : 1.0,
                   std::exp(log_ratio_ / count), worst_, worse_, drawings_, 100.0 * too_dark_ / count,
-                  100.0 * too_bright_ / count);
+                  100.0 * too_light_ / count);
     return text;
   }
 
@@ -148,7 +119,7 @@ class Totals {
   /// Added to both counts of a ratio: a difference of so few pixels says nothing.
   static constexpr double kHandful = 20.0, kWorse = 1.05;
   int drawings_ = 0, worse_ = 0;
-  double misclassified_ = 0.0, first_ = 0.0, too_dark_ = 0.0, too_bright_ = 0.0, log_ratio_ = 0.0,
+  double misclassified_ = 0.0, first_ = 0.0, too_dark_ = 0.0, too_light_ = 0.0, log_ratio_ = 0.0,
          worst_ = 0.0;
 };
 
@@ -170,7 +141,7 @@ class Table {
     print_line(
         "| constant | slope | normal offset | max slope | filter | misclassified | of the first | geometric "
         "mean "
-        "of views | worst view | over 5 % worse | too dark | too bright |");
+        "of views | worst view | over 5 % worse | too dark | too light |");
     print_line("|--:|--:|--:|--:|--|--:|--:|--:|--:|--:|--:|--:|");
     for (std::size_t i = 0; i < settings_.size(); ++i) {
       const BiasOptions& bias = settings_[i];
@@ -205,7 +176,7 @@ std::string json_line(const std::string& scene, const SweptLight& light, const S
                                 {"false_shadow", wrong.share(wrong.false_shadow)},
                                 {"false_light", wrong.share(wrong.false_light)},
                                 {"too_dark", wrong.share(wrong.too_dark)},
-                                {"too_bright", wrong.share(wrong.too_bright)}}
+                                {"too_light", wrong.share(wrong.too_light)}}
       .dump();
 }
 
@@ -214,7 +185,8 @@ void measure_view(const Sweep& product, const std::string& scene, const SweptLig
                   Table& table, Progress& progress, long long& done) {
   Stage stage(product, scene);
   const FrameTruth truth = frame_truth(stage, frame, product.baseline);
-  const std::vector<bool> uniform = uniform_pixels(truth);
+  constexpr int kReach = 3;  // pixels
+  const std::vector<float> uniform = report::uniform_truth(truth.lit, truth.hard.width, kReach);
   for (SweepEntry entry : product.entries) {
     Wrong first;
     for (std::size_t i = 0; i < table.settings().size(); ++i) {

@@ -302,17 +302,19 @@ void figures(const State& state, const Stage& stage) {
     for (int i = 0; i < s.stats.map_count; ++i) count += s.stats.map[static_cast<std::size_t>(i)].instances;
     return std::to_string(count);
   });
-  const auto share = [](std::size_t count, std::size_t of) {
-    return of == 0 ? 0.0 : 100.0 * static_cast<double>(count) / static_cast<double>(of);
+  const auto error = [&row](const char* name, const char* of, double report::MaskErrors::*member) {
+    row(name, of, [member](const Side& s) {
+      return s.errors ? fmt::format("{:.3f} %", 100.0 * (*s.errors).*member) : std::string("-");
+    });
   };
-  row("false light", "of the pixels that a ray decides; in the misclassified view", [&](const Side& s) {
-    return s.errors ? fmt::format("{:.3f} %", share(s.errors->false_light, s.errors->decided))
-                    : std::string("-");
-  });
-  row("false shadow", "of the pixels that a ray decides; in the misclassified view", [&](const Side& s) {
-    return s.errors ? fmt::format("{:.3f} %", share(s.errors->false_shadow, s.errors->decided))
-                    : std::string("-");
-  });
+  error("false light", "of the pixels that a ray decides; in the misclassified view",
+        &report::MaskErrors::false_lit);
+  error("false shadow", "of the pixels that a ray decides; in the misclassified view",
+        &report::MaskErrors::false_shadow);
+  error("too light", "leaks: brighter by over a tenth within exact shadow, of the same pixels",
+        &report::MaskErrors::too_light);
+  error("too dark", "acne: darker by over a tenth within exact light, of the same pixels",
+        &report::MaskErrors::too_dark);
   ImGui::EndTable();
 }
 

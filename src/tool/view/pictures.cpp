@@ -80,16 +80,14 @@ Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdi
   return image;
 }
 
-Misclassified misclassified(const FloatImage& mask, std::span<const trace::Verdict> verdicts) {
-  Misclassified result;
-  for (std::size_t i = 0; i < std::min(verdicts.size(), pixels_of(mask)); ++i) {
-    if (verdicts[i] != trace::Verdict::lit && verdicts[i] != trace::Verdict::shadow) continue;
-    const bool lit = first_channel(mask, i) > 0.5, truth = verdicts[i] == trace::Verdict::lit;
-    ++result.decided;
-    result.false_light += lit && !truth ? 1 : 0;
-    result.false_shadow += !lit && truth ? 1 : 0;
+report::MaskErrors errors_of(const FloatImage& mask, std::span<const trace::Verdict> verdicts) {
+  constexpr int kReach = 3;  // pixels
+  std::vector<float> truth(pixels_of(mask), -1.0f);
+  for (std::size_t i = 0; i < std::min(verdicts.size(), truth.size()); ++i) {
+    if (verdicts[i] == trace::Verdict::lit) truth[i] = 1.0f;
+    if (verdicts[i] == trace::Verdict::shadow) truth[i] = 0.0f;
   }
-  return result;
+  return report::mask_errors(channel(mask, 0), truth, report::uniform_truth(truth, mask.width, kReach));
 }
 
 double flips_between(const FloatImage& before, const FloatImage& after) {

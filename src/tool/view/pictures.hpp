@@ -12,17 +12,12 @@
 #include "gnomon/camera.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/picture.hpp"
+#include "gnomon/report/errors.hpp"
 #include "gnomon/scene/image.hpp"
 #include "gnomon/trace/reference.hpp"
 #include "state.hpp"
 
 namespace gnomon::tool::view {
-
-/// Pixels of a mask on the wrong side of one half, against exact rays.
-struct Misclassified {
-  std::size_t false_light = 0, false_shadow = 0;
-  std::size_t decided = 0;  ///< pixels that a ray decides
-};
 
 /// Visibility as grey; the sky blue.
 [[nodiscard]] Image mask_picture(const FloatImage& mask, const FloatImage& normals);
@@ -30,7 +25,9 @@ struct Misclassified {
 /// stays pale.
 [[nodiscard]] Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdict> verdicts,
                                           const FloatImage& normals);
-[[nodiscard]] Misclassified misclassified(const FloatImage& mask, std::span<const trace::Verdict> verdicts);
+/// Of the pixels that a ray decides. Acne and leaks count where the exact shadow is uniform for three pixels
+/// round.
+[[nodiscard]] report::MaskErrors errors_of(const FloatImage& mask, std::span<const trace::Verdict> verdicts);
 /// Share of pixels whose visibility differs by more than half between two masks of one camera; a pixel that
 /// only one of them serves does not count. Both have one size.
 [[nodiscard]] double flips_between(const FloatImage& before, const FloatImage& after);

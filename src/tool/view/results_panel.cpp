@@ -125,10 +125,7 @@ void load_technique(Document& document, Display& display, const report::Techniqu
 /// Where side A stands. Ratio 0: not measured yet; wrong below 0: the exact shadow is not there yet.
 ChartPlace present(const Drawing& drawing) {
   const auto& errors = drawing.stage->side(0).errors;
-  const double wrong = errors && errors->decided > 0
-                           ? static_cast<double>(errors->false_light + errors->false_shadow) /
-                                 static_cast<double>(errors->decided)
-                           : -1.0;
+  const double wrong = errors && errors->pixels > 0 ? errors->false_lit + errors->false_shadow : -1.0;
   return {drawing.gauge.ratio(), wrong};
 }
 

@@ -324,7 +324,7 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
   }
   side.errors.reset();
   if (wants_truth_) want_truth(settled);
-  if (wants_truth_ && truth_.done()) side.errors = misclassified(renderer_.mask(), truth_.verdicts());
+  if (wants_truth_ && truth_.done()) side.errors = errors_of(renderer_.mask(), truth_.verdicts());
   draw_view(state, side, canvas);
   if (state.frozen && state.view != View::map) {
     const Box& scene = loaded_->scene.bounds_world;

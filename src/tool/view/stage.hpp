@@ -41,8 +41,8 @@ struct Side {
   Camera plan_camera;  ///< that it was made for
   render::FrameStats stats;
   double plan_ms = 0.0;
-  AliasingStats m;                      ///< over what the plan's camera sees of the boxes
-  std::optional<Misclassified> errors;  ///< where the exact shadow is known
+  AliasingStats m;                           ///< over what the plan's camera sees of the boxes
+  std::optional<report::MaskErrors> errors;  ///< where the exact shadow is known
   /// Share of pixels that the step from the plan before to this one flips, 0..1; see Stage::count_flips().
   std::optional<double> flips;
   PlanHistory history;

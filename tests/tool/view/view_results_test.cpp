@@ -148,11 +148,11 @@ TEST(ViewTimes, leave_the_picture_and_count_errors_in_every_view) {
   (void)picture(state);
   const auto own_view = stage().side(0).errors;
   ASSERT_TRUE(lit_view && own_view);
-  EXPECT_GT(own_view->decided, 1000u);
-  EXPECT_GT(own_view->false_light + own_view->false_shadow, 0u);
-  EXPECT_EQ(lit_view->false_light, own_view->false_light);
+  EXPECT_GT(own_view->pixels, 1000u);
+  EXPECT_GT(own_view->false_lit + own_view->false_shadow, 0.0);
+  EXPECT_EQ(lit_view->false_lit, own_view->false_lit);
   EXPECT_EQ(lit_view->false_shadow, own_view->false_shadow);
-  EXPECT_EQ(lit_view->decided, own_view->decided);
+  EXPECT_EQ(lit_view->pixels, own_view->pixels);
 }
 
 TEST(ViewTimes, of_a_gauge_are_the_ratio_of_medians_without_the_draws_that_warm_up) {

@@ -327,9 +327,9 @@ TEST(ViewTruth, counts_what_the_reference_counts) {
   state.view = View::misclassified;
   (void)picture(state);
   ASSERT_TRUE(stage().side(0).errors);
-  const Misclassified counted = *stage().side(0).errors;
-  EXPECT_GT(counted.decided, 1000u);
-  EXPECT_GT(counted.false_light + counted.false_shadow, 0u);
+  const report::MaskErrors counted = *stage().side(0).errors;
+  EXPECT_GT(counted.pixels, 1000u);
+  EXPECT_GT(counted.false_lit + counted.false_shadow, 0.0);
   render::Renderer renderer(stage().loaded().scene);
   const Side& side = stage().side(0);
   renderer.draw(side.plan, stage().camera(), renderer.prepare(state.a.filter));
@@ -339,10 +339,10 @@ TEST(ViewTruth, counts_what_the_reference_counts) {
                             trace::surface_points(tracer, stage().camera(), stage().light(),
                                                   renderer.positions(), renderer.normals()),
                             stage().light());
-  const Misclassified expected = misclassified(renderer.mask(), exact.pixels);
-  EXPECT_EQ(counted.false_light, expected.false_light);
+  const report::MaskErrors expected = errors_of(renderer.mask(), exact.pixels);
+  EXPECT_EQ(counted.false_lit, expected.false_lit);
   EXPECT_EQ(counted.false_shadow, expected.false_shadow);
-  EXPECT_EQ(counted.decided, expected.decided);
+  EXPECT_EQ(counted.pixels, expected.pixels);
 }
 
 TEST(ViewTruth, is_of_one_light_alone) {
