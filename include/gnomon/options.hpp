@@ -145,6 +145,11 @@ enum class Objective : std::uint8_t {
   storage,  ///< max m_s times max m_t: texels needed per pixel for m <= 1 along both axes everywhere
   max,      ///< the worst texel
   p95,  ///< the error that 95 % of the visible points stay below: pixels evenly, depths by their logarithm
+  /// The mean error at points of surfaces that the camera sees, across an edge of any direction. The area of
+  /// misclassified pixels along shadows' edges grows with it. The points are View::points_world, and
+  /// logarithmic splits then follow them, too. Without them each ray of a fan gives a point in the first of
+  /// the receivers' boxes. Views that share maps count the whole body. Searched splits go by the worst texel.
+  picture,
 };
 [[nodiscard]] std::string_view to_string(Objective objective) noexcept;
 [[nodiscard]] bool objective_from_name(std::string_view name, Objective& objective) noexcept;

@@ -145,7 +145,7 @@ std::vector<PlanField> make_fields() {
       {"warp", "perspective warp of the maps", PlanChoice{warp_names, set_warp, warp_of}},
       {"shape", "how texels lie along the warp", PlanChoice{shape_names, set_shape, shape_of}},
       {"objective", "error that the warp lowers",
-       GNOMON_CHOICE(warp.objective, objective_from_name, "storage", "max", "p95")},
+       GNOMON_CHOICE(warp.objective, objective_from_name, "storage", "max", "p95", "picture")},
       {"fit", "how a map is fitted to its part of the view",
        GNOMON_CHOICE(fit, fit_from_name, "tight", "rotated", "stable", "warped_stable")},
       {"stable_size_steps", "sizes per octave of stable maps", GNOMON_AT(int, resolution.stable_size_steps),

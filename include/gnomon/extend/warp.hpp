@@ -96,6 +96,9 @@ struct WarpInput {
   /// The plane that plane_optimal serves, along the light frame's axes; nullptr: the body's face that lies
   /// largest under the light.
   const Plane* receiver = nullptr;
+  /// Points of visible surfaces inside the body, along the light frame's axes, each for an equal share of the
+  /// image: what Objective::picture counts. Empty: unknown.
+  std::span<const glm::dvec3> seen = {};
   /// Where a search may begin, in place of at everything; nullptr: nothing is known.
   const WarpStart* start = nullptr;
 

@@ -113,6 +113,8 @@ double inner_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
   constexpr double kTooWide = 500.0;
   if (!in.orthographic && widest_slope(in.view) > kTooWide) return 1.0;
   const double ratio = first_ratio(in, choice);
+  // Points that are seen are what is counted: no others.
+  if (in.objective == Objective::picture) return ratio;
   if (in.orthographic || !(ratio < 1.0)) return ratio;
   // The 95th percentile of so few points is off by up to a third, and where rays fan out wide the worst texel
   // lies between them: a gain below that must show in other points, too. Where the light comes to meet the

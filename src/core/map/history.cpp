@@ -131,7 +131,7 @@ Change change_between(const Homography& before, const Homography& now, std::span
 bool is_near_best(const WarpInput& in, const WarpChoice& last, const WarpChoice& goal) noexcept {
   constexpr double kNear = 1.0 + kWorthFollowing;
   if (goal.last_ratio > 0.0 && goal.gain_ratio > 0.0) return goal.last_ratio <= goal.gain_ratio * kNear;
-  if (in.objective == Objective::p95) {
+  if (in.objective == Objective::p95 || in.objective == Objective::picture) {
     PlaneError error(in);
     return error.value(last) <= error.value(goal) * kNear;
   }

@@ -167,6 +167,25 @@ double most_stretch(const PlanContext& c, const MapRequest& request, const Light
   return 1.0 + kBorderGrowth / max_of(border / (1.0 - 2.0 * border), 1e-4);
 }
 
+/// The context's seen points that this map serves, along the frame's axes.
+std::span<const glm::dvec3> seen_inside(const PlanContext& c, const MapRequest& request, double begin,
+                                        std::array<glm::dvec3, SeenPoints::kMost>& seen) noexcept {
+  // Boxes' sides are where bodies end.
+  constexpr double kTouching = 1e-6;
+  std::size_t count = 0;
+  for (const glm::dvec3& p : c.seen) {
+    if (!c.camera.orthographic && glm::dot(c.axes.forward, p) < begin * (1.0 - kTouching)) continue;
+    const double touching = kTouching * largest_component(p);
+    bool inside = true;
+    for (int f = 0; inside && f < request.body.face_count; ++f) {
+      const Plane& plane = request.body.plane[static_cast<std::size_t>(f)];
+      inside = glm::dot(plane.normal, p) + plane.offset >= -touching;
+    }
+    if (inside) seen[count++] = request.space.frame.turned(p);
+  }
+  return {seen.data(), count};
+}
+
 /// Keeps what lies on the inner side of one edge of the rectangle: dot(row, (X, Y)) against `limit`, times w,
 /// which is linear in the light plane.
 Plane edge_plane(const LightFrame& frame, const PlaneMap& plane, const glm::dvec2& row, double limit,
@@ -278,6 +297,7 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, cons
     receiver = {frame.turned(request.receiver->normal), request.receiver->offset};
     in.receiver = &receiver;
   }
+  in.seen = seen_inside(c, request, in.depth_begin, seen);
   in.focus = &focus;
   in.focus_weight = c.options.warp.focus_weight;
   in.light = space;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "geometry/first_hits.hpp"
 #include "gnomon/extend/body.hpp"
 #include "gnomon/extend/warp.hpp"
 #include "map/context.hpp"
@@ -32,9 +33,10 @@ struct LightBody {
 /// How a warp is asked about a body, with everything that the question refers to.
 struct WarpQuestion {
   Polytope focus, body_light;
-  Plane receiver;           // along the frame's axes, where the request has one
-  LightBody judged;         // where there is a focus
-  const LightBody& points;  // as warps judge them
+  Plane receiver;                                  // along the frame's axes, where the request has one
+  LightBody judged;                                // where there is a focus
+  const LightBody& points;                         // as warps judge them
+  std::array<glm::dvec3, SeenPoints::kMost> seen;  // those of the context inside the body
   WarpInput in;
   /// `body`: the request's, in light space; refers to it.
   WarpQuestion(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept;

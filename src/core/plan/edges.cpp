@@ -320,6 +320,12 @@ CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int
   const bool logarithmic = split.scheme == SplitScheme::logarithmic ||
                            split.scheme == SplitScheme::automatic || split.scheme == SplitScheme::optimal;
   if (logarithmic && c.visible_depths != nullptr) split_visible(*c.visible_depths, cover, edges);
+  // Hits of boxes may be far from the surfaces inside, and an edge in a wrong place costs more than a warp.
+  if (logarithmic && c.visible_depths == nullptr && !c.seen.empty() && !c.visible_points.empty()) {
+    VisibleDepths seen;
+    for (const glm::dvec3& p : c.seen) seen.add(glm::dot(c.axes.forward, p));
+    split_visible(seen, cover, edges);
+  }
   const bool optimal = split.scheme == SplitScheme::optimal;
   if (optimal && !(history != nullptr && reuse_searched(history->searched_edges, history->frame, edges))) {
     optimise(c, scene, edges);

@@ -102,7 +102,7 @@ std::string_view unknown_enumerator(const PlanOptions& o) noexcept {
   if (o.split.selection != MapSelection::view_depth && o.split.selection != MapSelection::finest)
     return "options.split.selection";
   if (o.fit > Fit::warped_stable) return "options.fit";
-  if (o.warp.objective > Objective::p95) return "options.warp.objective";
+  if (o.warp.objective > Objective::picture) return "options.warp.objective";
   const ClipSpace& clip = o.clip_space;
   if (clip.ndc_depth > NdcDepth::zero_to_one) return "options.clip_space.ndc_depth";
   if (clip.handedness > Handedness::left) return "options.clip_space.handedness";

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "geometry/first_hits.hpp"
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
@@ -151,6 +152,12 @@ void plan_frame(const View& view, const Light& light, const SceneBounds& bounds,
   PlanContext context = begin_plan(view.camera, bounds, resolved, plan);
   if (history != nullptr) resume(light, *history, context);
   if (resolved.follows_points) context.visible_points = view.points_world;
+  SeenPoints seen;
+  if (resolved.counts_seen) {
+    seen = view.points_world.empty() ? first_hits(view.camera, context.axes, bounds.receivers)
+                                     : some_of(view.camera, context.axes, view.points_world);
+    context.seen = seen.points();
+  }
   if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
     plan_parallel(context, *sun, resolved, view.depths, history, plan);
   } else {

@@ -142,7 +142,7 @@ void resolve_parallel(const PlanCase& plan, Resolved& r) noexcept {
       o.warp.has_planes() && tight(o.fit) && !r.parts && plan.views <= 1 && o.resolution.texel_budget == 0;
 
   if (r.parts) drop_for_parts(plan, r);
-  if (plan.has_points && !r.follows_points) r.of_maps.add(IgnoredOption::visible_points);
+  if (plan.has_points && !r.follows_points && !r.counts_seen) r.of_maps.add(IgnoredOption::visible_points);
   // A point takes the finest map, or beside planes the first that holds it, not two.
   if (o.split.selection == MapSelection::finest || r.planes) drop_overlap(r);
   if (how.stable && divides) {
@@ -169,7 +169,7 @@ void resolve_local(const PlanCase& plan, Resolved& r) noexcept {
   if (plan.has_depths) r.of_maps.add(IgnoredOption::visible_depths);
   drop_warp(r);
   drop_shape(plan, true, r);
-  if (plan.has_points) r.of_plan.add(IgnoredOption::visible_points);
+  if (plan.has_points && !r.counts_seen) r.of_plan.add(IgnoredOption::visible_points);
 }
 
 }  // namespace
@@ -181,6 +181,7 @@ Resolved resolve(const PlanOptions& options, const PlanCase& plan) noexcept {
   how.stable = options.fit == Fit::stable;
   how.rotated = options.fit == Fit::rotated;
   how.caches_maps = options.fit == Fit::warped_stable;
+  r.counts_seen = options.warp.objective == Objective::picture && !how.stable && plan.views <= 1;
   if (plan.views > 0) share(plan.views, r);
   if (std::holds_alternative<DirectionalLight>(plan.light)) {
     resolve_parallel(plan, r);

@@ -68,6 +68,7 @@ struct Resolved {
   bool planes = false;          // WarpOptions::planes have maps
   bool follows_depths = false;  // cascades cover visible depths alone
   bool follows_points = false;  // maps cover the bounds of visible points
+  bool counts_seen = false;     // warps are judged at points that the camera sees
   bool square = false;          // sides of maps that share a budget are equal
   Ignored of_maps;              // listed with the maps, where anything is visible
   Ignored of_plan;              // listed in any case, last

@@ -339,6 +339,18 @@ void add_visible_points(const WarpInput& input, int set, PixelLanes& lanes) noex
   }
 }
 
+void add_seen_points(const WarpInput& input, PixelLanes& lanes) noexcept {
+  const Polytope* const focus = input.focus;
+  for (const glm::dvec3& p : input.seen) {
+    double times = 1.0;
+    for (int f = 0; focus != nullptr && !focus->empty() && f < focus->face_count; ++f) {
+      const Plane& plane = focus->plane[static_cast<std::size_t>(f)];
+      if (glm::dot(plane.normal, p) + plane.offset < 0.0) times = input.focus_weight;
+    }
+    lanes.add(p, times);
+  }
+}
+
 std::size_t find_pixels(const WarpInput& input, PixelLanes& lanes) noexcept {
   lanes.fill_lanes();
   const PixelTerms terms = pixel_terms(input);

@@ -40,6 +40,9 @@ void add_faces(const Polytope& body, double size, PixelLanes& lanes) noexcept;
 /// for others of the same spread.
 void add_visible_points(const WarpInput& input, int set, PixelLanes& lanes) noexcept;
 
+/// Points of surfaces that are seen.
+void add_seen_points(const WarpInput& input, PixelLanes& lanes) noexcept;
+
 /// From points to pixels, dropping those where nothing is known of a pixel. Returns how many are in front of
 /// the first that was dropped.
 std::size_t find_pixels(const WarpInput& input, PixelLanes& lanes) noexcept;

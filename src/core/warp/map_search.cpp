@@ -263,7 +263,7 @@ constexpr float kStep = 0.1F, kFollowingStep = 0.03F;
 constexpr int kFollowingRounds = 2, kThoroughRounds = 16;
 // Those of a percentile take the longest, and those of storage the least.
 constexpr int quick_rounds(Objective objective) noexcept {
-  constexpr std::array<int, 3> kRounds = {8, 7, 4};
+  constexpr std::array<int, 4> kRounds = {8, 7, 4, 8};
   return kRounds[static_cast<std::size_t>(objective)];
 }
 

@@ -67,15 +67,15 @@ std::size_t PlaneError::above(std::size_t samples) const noexcept {
 }
 
 void PlaneError::count_bound() noexcept {
-  // No part of the points bounds a percentile.
-  if (share_ != 0.0) return;
+  // No part of the points bounds a percentile, or a mean.
+  if (share_ != 0.0 || mean_) return;
   sample_.count = all_ < corners_.count ? all_ : corners_.count;
   above_ = above(sample_.count);
 }
 
 void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool searched, int set) noexcept {
   // Fewer samples make no percentile: the body shows in a few pixels only.
-  constexpr std::size_t kTooFew = 20;
+  constexpr std::size_t kTooFew = 20, kFewSeen = 6;
   if (input_.objective == Objective::p95 && !input_.orthographic) {
     add_visible_points(input_, set, sample_);
     find_pixels(input_, sample_);
@@ -83,6 +83,19 @@ void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool s
   share_ = kShareAbove95;
   if (sample_.count >= kTooFew) return;
   share_ = 0.0;
+  if (input_.objective == Objective::picture) {
+    add_seen_points(input_, sample_);
+    find_pixels(input_, sample_);
+    mean_ = sample_.count >= kFewSeen;
+    if (!mean_ && !input_.orthographic) {
+      // Nothing of the body is known to be seen: all of it may be.
+      sample_.count = 0;
+      add_visible_points(input_, set, sample_);
+      find_pixels(input_, sample_);
+      mean_ = sample_.count >= kTooFew;
+    }
+    if (mean_) return;
+  }
   sample_.count = 0;
   const double outside = focus != nullptr ? input_.focus_weight : 1.0;
   if (focus != nullptr) add_vertices(*focus, 1.0, sample_);
@@ -107,7 +120,7 @@ void PlaneError::find_corners(const Polytope& body, const Polytope* focus) noexc
   if (focus != nullptr) add_vertices(*focus, 1.0, corners_);
   add_vertices(body, focus != nullptr ? input_.focus_weight : 1.0, corners_);
   // Of a percentile's samples, and of those that lack a vertex, corners are no part.
-  if (share_ != 0.0 || !complete_) {
+  if (share_ != 0.0 || mean_ || !complete_) {
     find_pixels(input_, corners_);
     return;
   }
@@ -126,8 +139,9 @@ void PlaneError::count_worst(const WarpChoice& choice) noexcept {
   const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
   // Without an area there is no error.
   if (sample_.count == 0 || rows == 0.0 || choice.kappa * distance_ > kMaxKappaDistance) return;
+  if (mean_) return;  // all of them count
   // Of the squares. A percentile may come to rest farther below its first value.
-  constexpr std::array<double, 3> kNearWorst = {0.6, 0.5, 0.12};
+  constexpr std::array<double, 4> kNearWorst = {0.6, 0.5, 0.12, 0.5};
   const bool storage = input_.objective == Objective::storage;
   const double near_worst = kNearWorst[static_cast<std::size_t>(input_.objective)];
   // Mostly it was asked for last.
@@ -231,14 +245,25 @@ double PlaneError::storage_squared() const noexcept {
   return lane_range(row_x_.data(), n, lanes_).high * lane_range(row_y_.data(), n, lanes_).high;
 }
 
-GNOMON_WIDE double PlaneError::worst_squared() noexcept {
-  const std::size_t n = sample_.count, whole = whole_lanes(n);
-  // Half the sum of both squared extents, and their product's root: the larger of the two squares.
+/// Half the sum of both squared extents, and their product's root: the larger of the two squares.
+GNOMON_WIDE void PlaneError::find_larger() noexcept {
+  const std::size_t whole = whole_lanes(sample_.count);
   for (std::size_t i = 0; i < whole; ++i) {
     const double half = 0.5 * (row_x_[i] + row_y_[i]), area = inverse_[i];
     const double spread = (half - area) * (half + area);
     row_x_[i] = half + std::sqrt(spread > 0.0 ? spread : 0.0);
   }
+}
+
+double PlaneError::worst_squared() noexcept {
+  const std::size_t n = sample_.count, whole = whole_lanes(n);
+  if (mean_) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) sum += std::sqrt(0.5 * (row_x_[i] + row_y_[i]));
+    const double mean = sum / static_cast<double>(n);
+    return mean * mean;
+  }
+  find_larger();
   if (share_ == 0.0) return lane_range(row_x_.data(), whole, lanes_).high;
   // The largest few, smallest of them first: as many as may exceed the value, and the value itself.
   const std::size_t wanted = above_ + 1;
@@ -386,6 +411,21 @@ GNOMON_WIDE void PlaneError::find_storage(const MapLanes& map, DoubleLanes& valu
   for (std::size_t l = 0; l < lanes; ++l) value[l] = most_a[l] * most_b[l];
 }
 
+GNOMON_WIDE void PlaneError::find_mean(const MapLanes& map, DoubleLanes& value) const noexcept {
+  const std::size_t lanes = lanes_, n = sample_.count;
+  alignas(64) DoubleLanes sum{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = sample_.x[i], y = sample_.y[i], xx = sample_.xx[i], xy = sample_.xy[i];
+    const double yx = sample_.yx[i], yy = sample_.yy[i], id = sample_.inverse_determinant[i];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      GNOMON_ROWS;
+      sum[l] += std::sqrt(0.5 * (row_a + row_b));
+    }
+  }
+  const double share = n > 0 ? 1.0 / static_cast<double>(n) : 0.0;
+  for (std::size_t l = 0; l < lanes; ++l) value[l] = sum[l] * share;
+}
+
 // A texel's squares are the roots of x^2 - 2 half x + area^2, half the sum of both squared extents and the
 // product of both: the larger one is above `square` where half is, or where the quadratic is negative there.
 GNOMON_WIDE void PlaneError::count_above(const MapLanes& map, double square,
@@ -432,6 +472,9 @@ void PlaneError::below(const ChoiceLanes& choices, double value, LaneAnswers& is
     find_storage(map, found);
     for (std::size_t l = 0; l < kDoubleLanes; ++l)
       is_below[l] = map.known[l] != 0.0 && std::sqrt(found[l]) < value;
+  } else if (mean_) {
+    find_mean(map, found);
+    for (std::size_t l = 0; l < kDoubleLanes; ++l) is_below[l] = map.known[l] != 0.0 && found[l] < value;
   } else {
     count_above(map, square, found);
     for (std::size_t l = 0; l < kDoubleLanes; ++l) is_below[l] = found[l] <= static_cast<double>(above_);

@@ -43,9 +43,9 @@ class PlaneError {
 
   /// Samples the body for `input.objective`: vertices and middles of edges, where the largest errors are
   /// (under a local light of faces, too, as its rays fan out), or points spread evenly over the pixels and
-  /// the logarithm of depth. `searched`: the choices come from a search, which would end where no sample is;
-  /// where rays fan out wide, the inside of the body counts then as well. `set`: other points of the same
-  /// spread, from 0 on.
+  /// the logarithm of depth, or points that are seen. `searched`: the choices come from a search, which would
+  /// end where no sample is; where rays fan out wide, the inside of the body counts then as well. `set`:
+  /// other points of the same spread, from 0 on.
   explicit PlaneError(const WarpInput& input, bool searched = false, int set = 0) noexcept;
 
   /// The objective under `choice`, up to a factor that is the same for every choice; infinite for an unusable
@@ -70,6 +70,8 @@ class PlaneError {
   /// The samples that count, and how many of them may exceed the value asked for.
   [[nodiscard]] const PixelLanes& counted() const noexcept { return sample_; }
   [[nodiscard]] std::size_t above() const noexcept { return above_; }
+  /// The value is the mean over the samples.
+  [[nodiscard]] bool is_mean() const noexcept { return mean_; }
 
  private:
   [[nodiscard]] const Polytope& from_pseudo_near(const Polytope& body, Polytope& counted) const noexcept;
@@ -83,8 +85,10 @@ class PlaneError {
   void fit(const ChoiceLanes& choices, const ExtentLanes& extents, MapLanes& map) const noexcept;
   void find_storage(const MapLanes& map, DoubleLanes& value) const noexcept;
   void count_above(const MapLanes& map, double square, DoubleLanes& count) const noexcept;
+  void find_mean(const MapLanes& map, DoubleLanes& value) const noexcept;
   [[nodiscard]] double storage_squared() const noexcept;
   [[nodiscard]] double worst_squared() noexcept;
+  void find_larger() noexcept;
 
   const WarpInput& input_;
   std::size_t all_ = 0;    // of the samples
@@ -93,6 +97,7 @@ class PlaneError {
   double height_range_ = 0.0, distance_ = 0.0;  // of the body, as plane_map takes them
   double farthest_ = 0.0;                       // depth of the body, where it counts
   bool complete_ = true;                        // no vertex was refused
+  bool mean_ = false;                           // over the samples
   double share_ = 1.0;  // of the samples that may exceed the value asked for: 0.05 for p95
   BodyLanes body_;
   PixelLanes corners_, sample_;

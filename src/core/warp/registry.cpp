@@ -16,7 +16,7 @@ constexpr std::array kWarps = {
 #undef GNOMON_WARP
 };
 
-constexpr std::array<std::string_view, 3> kObjectiveNames = {"storage", "max", "p95"};
+constexpr std::array<std::string_view, 4> kObjectiveNames = {"storage", "max", "p95", "picture"};
 
 }  // namespace
 

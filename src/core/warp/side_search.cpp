@@ -58,6 +58,7 @@ SideSearch::SideSearch(const WarpInput& input, const PlaneError& error, const Wa
       // Less what rounding adds.
       most_stretch_(static_cast<float>(min_of(input.most_stretch * (1.0 - 1e-4), kMaxReach))),
       origin_(body_.x[0], body_.y[0]),
+      mean_(error.is_mean()),
       above_(error.above()) {
   const PlaneMap map = plane_map(input.body, from);
   const glm::dvec2 axis = from.axis;
@@ -287,6 +288,27 @@ GNOMON_WIDE void SideSearch::find_percentile(const Maps& maps, SideLanes& candid
   }
   for (std::size_t l = 0; l < lanes; ++l) c.value[l] = m.usable[l] > 0.0F ? top[above][l] : kInfinity;
 }
+
+GNOMON_WIDE void SideSearch::find_mean(const Maps& maps, SideLanes& candidates) const noexcept {
+  const Maps& __restrict m = maps;
+  SideLanes& __restrict c = candidates;
+  const std::size_t lanes = candidates_ & ~(kFloatLanes - 1), n = samples_;
+  alignas(64) FloatLanes sum{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const FormLanes::Form f0 = form_.at(i);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      GNOMON_EXTENTS(f0, 0);
+      // Rounding alone leaves it below 0.
+      const float squared = 0.5F * (m.per_a[l] * extent_a0 + m.per_b[l] * extent_b0);
+      sum[l] += std::sqrt(min_of(std::abs(squared), kFar));
+    }
+  }
+  const float share = n > 0 ? 1.0F / static_cast<float>(n) : 0.0F;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const float mean = sum[l] * share;
+    c.value[l] = m.usable[l] > 0.0F ? min_of(mean * mean, kFar) : kInfinity;
+  }
+}
 #undef GNOMON_LARGER
 #undef GNOMON_EXTENTS
 
@@ -296,6 +318,8 @@ void SideSearch::find_values(const Sides& sides, SideLanes& candidates) const no
   fit(candidates, maps);
   if (objective_ == Objective::storage) {
     find_storage(maps, candidates);
+  } else if (mean_) {
+    find_mean(maps, candidates);
   } else if (above_ == 0) {
     find_worst(maps, candidates);
   } else {

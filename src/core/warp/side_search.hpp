@@ -48,6 +48,7 @@ class SideSearch {
   void find_storage(const Maps& maps, SideLanes& candidates) const noexcept;
   void find_worst(const Maps& maps, SideLanes& candidates) const noexcept;
   void find_percentile(const Maps& maps, SideLanes& candidates) const noexcept;
+  void find_mean(const Maps& maps, SideLanes& candidates) const noexcept;
 
   // Always the same, but not known when this is compiled: as in lane_range.
   std::size_t lanes_, candidates_;
@@ -56,6 +57,7 @@ class SideSearch {
   float most_stretch_;  // of the strongest warp
   bool strong_;         // the image is near that limit
   glm::dvec2 origin_;
+  bool mean_;  // of the samples, in place of the worst
   // Of the image, over (x, y, 1) of the light plane from the origin: its coordinates are a / w and b / w.
   glm::dvec3 a_, b_, w_;
   std::size_t points_ = 0, samples_ = 0, above_ = 0;

@@ -358,7 +358,7 @@ void draw_warp(Dice& dice, const Stage& s, Json& o) {
   const int warp = dice.pick(static_cast<int>(all_warps().size()) + 3);
   if (static_cast<std::size_t>(warp) < all_warps().size())
     o["warp"] = std::string(all_warps()[static_cast<std::size_t>(warp)]->name);
-  static constexpr std::string_view kObjectives[] = {"storage", "max", "p95"};
+  static constexpr std::string_view kObjectives[] = {"storage", "max", "p95", "picture"};
   if (dice.chance(0.6)) o["objective"] = dice.name(kObjectives);
   if (dice.chance(0.1)) {
     o["focus"] = json(draw_receiver(dice, s));

@@ -236,7 +236,8 @@ std::vector<Option> technique_options(CompareRequest& request) {
   return {
       {.name = "--warps",
        .target = word_list(request.warps, read_warps, {"none", "lispsm", "optimal"}),
-       .help = "perspective warps, or all; auto lets the plan choose",
+       .help = "perspective warps, or all; auto lets the plan choose; behind a colon a shape or an objective, as in "
+               "optimal:picture",
        .names = names_in(all_warps(), {"all", "auto"})},
       {.name = "--shapes",
        .target = word_list(request.shapes, read_shapes, {"linear"}),

@@ -32,6 +32,7 @@ void set_warp(const TechniqueWarp& warp, SweepEntry& entry) {
   entry.technique.warp = warp.name;
   entry.plan.warp.warp = warp.warp;
   if (warp.shape != nullptr) entry.plan.warp.shape = warp.shape;
+  if (warp.objective) entry.plan.warp.objective = *warp.objective;
 }
 
 /// Warps with shapes: `lispsm:logarithmic`. Without a warp only shapes that do not undo one are of use.

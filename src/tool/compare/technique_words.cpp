@@ -114,7 +114,12 @@ TechniqueWarp technique_warp(const std::string& option, const std::string& word)
   TechniqueWarp warp{word, find_warp(name), nullptr};
   if (warp.warp == nullptr && name != "auto")
     refuse_name(option, word, names_in(all_warps(), {"all", "auto"}));
-  if (colon != std::string::npos) warp.shape = technique_shape("--shapes", word.substr(colon + 1));
+  if (colon == std::string::npos) return warp;
+  Objective objective;
+  if (objective_from_name(word.substr(colon + 1), objective))
+    warp.objective = objective;
+  else
+    warp.shape = technique_shape("--shapes", word.substr(colon + 1));
   return warp;
 }
 

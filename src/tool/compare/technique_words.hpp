@@ -36,9 +36,10 @@ struct TechniqueLayer {
 
 /// How texels lie on a map.
 struct TechniqueWarp {
-  std::string name = "none";        ///< as in rows
-  const Warp* warp = &warps::none;  ///< nullptr: the plan chooses
-  const Shape* shape = nullptr;     ///< that the word names; nullptr: none
+  std::string name = "none";                ///< as in rows
+  const Warp* warp = &warps::none;          ///< nullptr: the plan chooses
+  const Shape* shape = nullptr;             ///< that the word names; nullptr: none
+  std::optional<Objective> objective = {};  ///< that the word names
 };
 
 /// How receivers are divided among maps, and what of the frame the plan is given.

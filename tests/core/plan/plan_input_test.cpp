@@ -61,7 +61,7 @@ TEST(PlanInput, every_broken_field_is_named) {
       {"options.split.selection", [](Input& i) { i.options.split.selection = MapSelection{3}; }},
       {"options.split.selection", [](Input& i) { i.options.split.selection = MapSelection::first_holding; }},
       {"options.fit", [](Input& i) { i.options.fit = Fit{4}; }},
-      {"options.warp.objective", [](Input& i) { i.options.warp.objective = Objective{3}; }},
+      {"options.warp.objective", [](Input& i) { i.options.warp.objective = Objective{4}; }},
       {"options.clip_space.ndc_depth", [](Input& i) { i.options.clip_space.ndc_depth = NdcDepth{2}; }},
       {"options.clip_space.handedness", [](Input& i) { i.options.clip_space.handedness = Handedness{2}; }},
       {"options.clip_space.first_row", [](Input& i) { i.options.clip_space.first_row = FirstRow{2}; }},

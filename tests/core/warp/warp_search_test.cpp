@@ -147,7 +147,7 @@ TEST(WarpSearch, the_best_rows_near_straight_ones_are_no_worse_than_those) {
 
 TEST(WarpSearch, sides_as_they_are_make_the_same_map_again) {
   looked = 0;
-  for (const Objective objective : {Objective::storage, Objective::max}) {
+  for (const Objective objective : {Objective::storage, Objective::max, Objective::picture}) {
     for (const glm::dvec3 light : {glm::dvec3(0.3, -1, -0.4), glm::dvec3(-1, -0.6, 0.3)}) {
       show(street(), light, kGround, objective, [](const WarpInput& input) {
         PlaneError error(input);
@@ -166,7 +166,7 @@ TEST(WarpSearch, sides_as_they_are_make_the_same_map_again) {
 
 TEST(WarpSearch, turned_sides_are_worth_what_the_error_says_of_their_map) {
   looked = 0;
-  for (const Objective objective : {Objective::storage, Objective::max, Objective::p95}) {
+  for (const Objective objective : {Objective::storage, Objective::max, Objective::p95, Objective::picture}) {
     show(street(), {0.6, -1, -0.4}, kGround, objective, [](const WarpInput& input) {
       PlaneError error(input);
       const WarpChoice from = warps::lispsm.choose(input);
@@ -185,7 +185,7 @@ TEST(WarpSearch, turned_sides_are_worth_what_the_error_says_of_their_map) {
       }
     });
   }
-  EXPECT_EQ(looked, 48);
+  EXPECT_EQ(looked, 64);
 }
 
 TEST(WarpSearch, lines_that_enclose_nothing_make_no_map) {

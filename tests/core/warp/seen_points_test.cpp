@@ -1,0 +1,227 @@
+// Objective::picture: where are the points that it counts, and is the warp found the best at them?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "geometry/first_hits.hpp"
+#include "gnomon/gnomon.hpp"
+
+namespace gnomon::test {
+namespace {
+
+Camera street(double near_depth = 0.5) {
+  return perspective_camera({0, 2, 0}, {0.1, -0.2, -1}, {0, 1, 0}, 1.0, 1.5, near_depth, 200.0, 960, 640);
+}
+const std::vector<Box> kStreet = {{{-150, 0, -190}, {150, 0, 20}},  // flat
+                                  {{-8, 0, -40}, {-4, 9, -12}},
+                                  {{4, 0, -90}, {9, 14, -30}},
+                                  {}};
+
+SeenPoints hits(const Camera& camera, const Boxes& boxes) {
+  return first_hits(camera, camera_axes(camera), boxes);
+}
+
+bool touches(const Box& box, const glm::dvec3& p) {
+  constexpr double kRounding = 1e-9;
+  for (int c = 0; c < 3; ++c)
+    if (p[c] < box.min[c] - kRounding || p[c] > box.max[c] + kRounding) return false;
+  return true;
+}
+
+TEST(FirstHits, lie_in_the_first_box_of_their_rays) {
+  const Camera camera = street();
+  const SeenPoints seen = hits(camera, kStreet);
+  ASSERT_GT(seen.count, 60u);
+  int on_ground = 0, on_houses = 0;
+  for (const glm::dvec3& p : seen.points()) {
+    const glm::dvec3 point = camera.position + p;
+    const auto box =
+        std::find_if(kStreet.begin(), kStreet.end(), [&](const Box& b) { return touches(b, point); });
+    ASSERT_NE(box, kStreet.end());
+    ++(box == kStreet.begin() ? on_ground : on_houses);
+    // From the box's near side to the eye nothing else is in the way.
+    for (double share = 0.01; share < 1.0; share += 0.01) {
+      for (const Box& other : kStreet)
+        EXPECT_TRUE(&other == &*box || !touches(other, camera.position + p * share));
+    }
+  }
+  EXPECT_GT(on_ground, 10) << "a flat box is hit";
+  EXPECT_GT(on_houses, 10);
+}
+
+TEST(FirstHits, of_a_box_round_the_eye_are_where_rays_leave_it) {
+  const std::vector<Box> room = {{{-10, 0, -10}, {10, 6, 10}}};
+  const Camera camera = street();
+  const SeenPoints seen = hits(camera, room);
+  ASSERT_GT(seen.count, 100u);
+  for (const glm::dvec3& p : seen.points()) {
+    const glm::dvec3 point = camera.position + p;
+    const double to_side = std::min({std::abs(std::abs(point.x) - 10.0), std::abs(std::abs(point.z) - 10.0),
+                                     std::abs(point.y), std::abs(point.y - 6.0)});
+    EXPECT_LT(to_side, 1e-9);
+  }
+}
+
+TEST(FirstHits, do_not_depend_on_the_near_plane_before_the_boxes) {
+  const SeenPoints far = hits(street(0.5), kStreet), near = hits(street(1e-5), kStreet);
+  ASSERT_EQ(far.count, near.count);
+  for (std::size_t i = 0; i < far.count; ++i) EXPECT_EQ(far.point[i], near.point[i]);
+}
+
+TEST(FirstHits, are_the_same_of_a_list_and_of_a_set) {
+  std::vector<Box> boxes;
+  for (int i = 0; i < 300; ++i) {
+    const glm::dvec3 at{-40.0 + 9.0 * (i % 10), 0.0, -8.0 - 5.0 * (i / 10)};
+    boxes.push_back({at, at + glm::dvec3(2.0, 1.0 + i % 7, 2.0)});
+  }
+  std::vector<CasterBlock> blocks(CasterSet::block_count(boxes.size()));
+  std::vector<std::uint32_t> indices(CasterSet::index_count(boxes.size()));
+  const CasterSet set(boxes, blocks, indices);
+  const SeenPoints list = hits(street(), boxes), tree = hits(street(), set);
+  ASSERT_GT(list.count, 40u);
+  ASSERT_EQ(list.count, tree.count);
+  for (std::size_t i = 0; i < list.count; ++i) EXPECT_EQ(list.point[i], tree.point[i]);
+}
+
+TEST(FirstHits, of_rays_along_the_axes_are_hits_as_well) {
+  // A middle ray straight ahead, at the height of a flat box, and past its end.
+  Camera camera = street();
+  camera.forward = {0, 0, -1};
+  camera.orthographic = true;
+  camera.left = camera.bottom = -4.0;
+  camera.right = camera.top = 4.0;
+  const SeenPoints seen =
+      hits(camera, std::vector<Box>{{{-1, -9, -20}, {1, 9, -10}}, {{2, 2, -9}, {3, 2, -8}}});
+  EXPECT_GT(seen.count, 20u);
+  for (const glm::dvec3& p : seen.points()) EXPECT_LE(std::abs(p.x), 1.0);
+}
+
+TEST(FirstHits, of_nothing_are_none) {
+  EXPECT_EQ(hits(street(), std::vector<Box>{}).count, 0u);
+  EXPECT_EQ(hits(street(), std::vector<Box>{{{5, 5, 5}, {6, 6, 6}}}).count, 0u) << "behind the eye";
+  EXPECT_EQ(some_of(street(), camera_axes(street()), {}).count, 0u);
+}
+
+TEST(SomePoints, are_those_in_view_evenly_chosen) {
+  const Camera camera = street();
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 10000; ++i) points.push_back({0.0, 0.0, -1.0 - 0.01 * i});
+  const SeenPoints seen = some_of(camera, camera_axes(camera), points);
+  EXPECT_GT(seen.count, 100u);
+  EXPECT_LE(seen.count, SeenPoints::kMost);
+  const double infinity = std::numeric_limits<double>::infinity(), none = std::nan("");
+  const std::vector<glm::dvec3> bad = {{0, 0, 5}, {0, 0, -infinity}, {none, 0, -5}, {0, 0, -500}, {0, 0, -5}};
+  const SeenPoints good = some_of(camera, camera_axes(camera), bad);
+  ASSERT_EQ(good.count, 1u);
+  EXPECT_EQ(good.point[0], glm::dvec3(0, 0, -5) - camera.position);
+}
+
+/// Points on the street and on the walls beside it.
+std::vector<glm::dvec3> points_of_street() {
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 60; ++i) points.push_back({-3.0 + i % 7, 0.0, -9.0 - 1.2 * i});
+  for (int i = 0; i < 30; ++i) points.push_back({4.0, 0.4 * (i % 20), -31.0 - 1.5 * i});
+  return points;
+}
+
+/// The mean of what Objective::picture counts, by the metric's own texels at each point.
+double mean_error(const ShadowPlan& plan, const Camera& camera, const std::vector<glm::dvec3>& points) {
+  double sum = 0.0;
+  for (const glm::dvec3& point : points) {
+    const PointAliasing at = measure_perspective(plan.map[0], camera, point);
+    sum += std::sqrt(0.5 * (at.m_max * at.m_max + at.m_min * at.m_min));
+  }
+  return sum / static_cast<double>(points.size());
+}
+
+TEST(PictureObjective, finds_the_warp_that_is_best_at_the_points) {
+  const std::vector<glm::dvec3> points = points_of_street();
+  double gained = 0.0;
+  int views = 0;
+  for (const double near_depth : {1e-4, 0.01, 1.0}) {
+    for (const glm::dvec3 light :
+         {glm::dvec3(0.3, -1, -0.4), glm::dvec3(-1, -0.6, 0.3), glm::dvec3(0.2, -1, 0.9)}) {
+      View view{street(near_depth)};
+      view.points_world = points;
+      const auto error = [&](const Warp* warp, Objective objective) {
+        PlanOptions options;
+        options.cascades = 1;
+        options.warp.warp = warp;
+        options.warp.objective = objective;
+        const ShadowPlan plan = make_plan(view, DirectionalLight{light}, {kStreet, kStreet}, options);
+        return plan.map_count == 1 ? mean_error(plan, view.camera, points) : std::nan("");
+      };
+      const double found = error(&warps::optimal, Objective::picture);
+      // Others judged by it as well, so that each is taken only where it gains.
+      for (const Warp* warp : all_warps()) {
+        const double most = warp == &warps::optimal_thorough ? 1.03 : 1.005;
+        EXPECT_LE(found, most * error(warp, Objective::picture)) << warp->name << " near " << near_depth;
+      }
+      gained += std::log(error(&warps::optimal, Objective::storage) / found);
+      ++views;
+    }
+  }
+  EXPECT_GT(std::exp(gained / views), 1.3)
+      << "what the volume's objective loses before a near plane in empty air";
+}
+
+TEST(PictureObjective, splits_follow_the_points) {
+  View view{street(1e-4)};
+  const std::vector<glm::dvec3> points = points_of_street();
+  view.points_world = points;
+  PlanOptions options;
+  options.cascades = 4;
+  options.split.scheme = SplitScheme::logarithmic;
+  const ShadowPlan by_volume =
+      make_plan(view, DirectionalLight{{0.3, -1, -0.4}}, {kStreet, kStreet}, options);
+  options.warp.objective = Objective::picture;
+  const ShadowPlan by_points =
+      make_plan(view, DirectionalLight{{0.3, -1, -0.4}}, {kStreet, kStreet}, options);
+  ASSERT_EQ(by_points.map_count, 4);
+  const auto maps_with_points = [&](const ShadowPlan& plan) {
+    int maps = 0;
+    for (int i = 0; i < plan.map_count; ++i) {
+      const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
+      maps += std::any_of(points.begin(), points.end(), [&](const glm::dvec3& p) {
+        const double depth = glm::dot(p - view.camera.position, camera_axes(view.camera).forward);
+        return depth >= map.depth_begin && depth < map.depth_end;
+      });
+    }
+    return maps;
+  };
+  EXPECT_LT(maps_with_points(by_volume), 4);
+  EXPECT_EQ(maps_with_points(by_points), 4);
+}
+
+TEST(PictureObjective, takes_what_it_can_get) {
+  // Orthographic, without points, with a history, under local lights, with parts: a plan, and bounded error.
+  PlanOptions options;
+  options.warp.objective = Objective::picture;
+  options.cascades = 3;
+  Camera flat = street();
+  flat.orthographic = true;
+  flat.left = flat.bottom = -20.0;
+  flat.right = flat.top = 20.0;
+  PlanHistory history;
+  const SpotLight spot{{2, 20, -20}, {0.0, -1.0, -0.1}, 0.8, 80.0};
+  const PointLight point{{2, 9, -20}, 80.0};
+  EXPECT_EQ(make_plan(flat, DirectionalLight{{0.3, -1, -0.4}}, {kStreet, kStreet}, options).status,
+            PlanStatus::ok);
+  for (int frame = 0; frame < 3; ++frame) {
+    const ShadowPlan plan =
+        make_plan(street(), DirectionalLight{{0.3, -1, -0.4}}, {kStreet, kStreet}, options, &history);
+    EXPECT_EQ(plan.status, PlanStatus::ok);
+  }
+  EXPECT_EQ(make_plan(street(), spot, {kStreet, kStreet}, options).status, PlanStatus::ok);
+  EXPECT_EQ(make_plan(street(), point, {kStreet, kStreet}, options).status, PlanStatus::ok);
+  options.split.partition = Partition::frustum_faces;
+  EXPECT_EQ(make_plan(street(), DirectionalLight{{0.3, -1, -0.4}}, {kStreet, kStreet}, options).status,
+            PlanStatus::ok);
+}
+
+}  // namespace
+}  // namespace gnomon::test
