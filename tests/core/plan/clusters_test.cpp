@@ -108,7 +108,8 @@ TEST(ReceiverClusters, serve_degenerate_receivers) {
       {{{-1, 0, 50}, {1, 1e-9, 50 + 1e-9}}, {{1, 0, 50}, {3, 1, 52}}},
   };
   for (const auto& boxes : hard) {
-    for (const Objective objective : {Objective::storage, Objective::max, Objective::p95}) {
+    for (const Objective objective :
+         {Objective::storage, Objective::max, Objective::p95, Objective::picture}) {
       Scene scene(boxes);
       scene.options.warp.objective = objective;
       scene.options.cascades = kMaxMaps;
