@@ -249,9 +249,8 @@ struct BiasOptions {
   /// Along the light, in texels times tan(angle between normal and light). 0.5 covers a texel sampled at its
   /// centre.
   double slope_texels = 0.5;
-  /// Along the surface normal, in texels times sin(angle between normal and light). Lifts look-ups of
-  /// surfaces along the light over what casts shadows on them: half a texel costs a tenth of a map's shadows'
-  /// accuracy.
+  /// Along the surface normal, in texels times sin(angle between normal and light). At grazing light more of
+  /// it lifts look-ups over the casters of their shadows.
   double normal_offset_texels = 0.1;
   /// Cap of tan(angle) in the slope term: at grazing light it would move shadows off their casters. The plane
   /// of the receiver, which every look-up follows, is exact beyond it (kSteepestPlane).

@@ -19,10 +19,10 @@ struct MaskErrors {
   /// Mean of 1 - mask over the `open_pixels` that every part of the kernel sees lit: acne and false shadow.
   double darkening = 0.0;
   std::uint64_t open_pixels = 0;  ///< counted in `darkening`
-  /// Of the `pixels`: open ones that are darker by over a tenth (acne), and deep ones that are brighter by
-  /// over a tenth. Faults below one half, which `false_shadow` and `false_lit` do not see, are among them.
+  /// Share of the `pixels` that are open, and darker by over a tenth: acne, below one half as well.
   double too_dark = 0.0;
-  double too_light = 0.0;  ///< see too_dark
+  /// Share of the `pixels` that are deep, and brighter by over a tenth: leaks, below one half as well.
+  double too_light = 0.0;
 };
 
 /// All spans are equally long. `mask`: 1 lit .. 0 in shadow. `hard`: 1, 0, or negative where undecided.

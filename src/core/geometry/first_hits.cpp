@@ -3,11 +3,11 @@
 // error is counted at is this project's.
 #include "geometry/first_hits.hpp"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
 #include "geometry/box_walk.hpp"
+#include "geometry/even_points.hpp"
 #include "geometry/vector.hpp"
 
 namespace gnomon {
@@ -78,37 +78,24 @@ class HitQuery {
   double nearest_, end_ = 0.0;
 };
 
-/// 0 for a direction across the axis, or so nearly that the ray's whole length moves it by nothing.
-double inverse_of(double direction) noexcept {
-  constexpr double kLeast = 1e-150;
-  return std::abs(direction) > kLeast ? 1.0 / direction : 0.0;
-}
-
-double rest(double value) noexcept {
-  return value - std::floor(value);
-}
-
 }  // namespace
 
 SeenPoints first_hits(const Camera& camera, const CameraAxes& axes, const Boxes& boxes) noexcept {
   SeenPoints seen;
   static_assert(kRays <= SeenPoints::kMost);
   for (std::size_t i = 0; i < kRays; ++i) {
-    // Roberts' R2 sequence, as error_samples.cpp takes it.
-    const double u = rest(0.5 + 0.7548776662466927 * static_cast<double>(i));
-    const double v = rest(0.5 + 0.5698402909980532 * static_cast<double>(i));
-    const double x = camera.left + (camera.right - camera.left) * u;
-    const double y = camera.bottom + (camera.top - camera.bottom) * v;
+    const double x = camera.left + (camera.right - camera.left) * even_x(i);
+    const double y = camera.bottom + (camera.top - camera.bottom) * even_y(i);
     const glm::dvec3 aside = axes.right * x + axes.up * y;
     const glm::dvec3 direction = camera.orthographic ? axes.forward : axes.forward + aside;
     const glm::dvec3 origin = camera.orthographic ? aside : glm::dvec3(0.0);
-    const glm::dvec3 inverse{inverse_of(direction.x), inverse_of(direction.y), inverse_of(direction.z)};
+    const glm::dvec3 inverse{inverse_or_0(direction.x), inverse_or_0(direction.y), inverse_or_0(direction.z)};
     const DepthRay ray{origin, inverse, camera.near_depth, camera.far_depth};
     HitQuery query(ray);
     BoxWalk({}, boxes, camera.position, query).whole();
     if (!(query.nearest() < ray.most)) continue;
     // A surface lies somewhere inside of its box: points on the boxes' sides were as often worse than better.
-    const double inside = rest(0.5 + 0.3819660112501051 * static_cast<double>(i));
+    const double inside = spread(0.3819660112501051, i);
     const double end = min_of(query.end(), ray.most);
     seen.point[seen.count++] = origin + direction * (query.nearest() + inside * (end - query.nearest()));
   }

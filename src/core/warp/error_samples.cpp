@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/even_points.hpp"
 #include "geometry/vector.hpp"
 #include "lanes/elementary.hpp"
 #include "lanes/wide.hpp"
@@ -20,15 +21,13 @@ constexpr std::size_t kRays = 104;
 static_assert(kRays % kDoubleLanes == 0);
 constexpr int kVisiblePoints = 96;
 
-/// Where rays go through the image that they are spread over: Roberts' R2 sequence, even without the aliasing
-/// of a grid against the body's edges.
+/// Where rays go through the image that they are spread over.
 struct EvenRays {
   alignas(64) std::array<double, kRays> x, y;
   constexpr explicit EvenRays(std::size_t set) noexcept : x{}, y{} {
-    const auto rest = [](double v) { return v - static_cast<double>(static_cast<int>(v)); };
     for (std::size_t i = 0; i < kRays; ++i) {
-      x[i] = rest(0.5 + 0.7548776662466927 * static_cast<double>(i + set * kRays));
-      y[i] = rest(0.5 + 0.5698402909980532 * static_cast<double>(i + set * kRays));
+      x[i] = even_x(i + set * kRays);
+      y[i] = even_y(i + set * kRays);
     }
   }
 };

@@ -47,7 +47,7 @@ std::vector<TechniqueWarp> with_shapes(const std::vector<TechniqueWarp>& warps,
         throw std::runtime_error("--shapes " + std::string(shape->name) + ": " + warp.name +
                                  " has a shape already");
       else if (warp.warp != &warps::none || shape->serving != nullptr || shape->round != nullptr)
-        both.push_back({warp.name + ":" + std::string(shape->name), warp.warp, shape});
+        both.push_back({warp.name + ":" + std::string(shape->name), warp.warp, shape, warp.objective});
     }
   }
   return both;

@@ -25,8 +25,8 @@ namespace gnomon::tool::view {
 /// stays pale.
 [[nodiscard]] Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdict> verdicts,
                                           const FloatImage& normals);
-/// Of the pixels that a ray decides. Acne and leaks count where the exact shadow is uniform for three pixels
-/// round.
+/// The mask's errors at pixels that a ray decides; acne and leaks at those whose exact shadow is uniform for
+/// three pixels round.
 [[nodiscard]] report::MaskErrors errors_of(const FloatImage& mask, std::span<const trace::Verdict> verdicts);
 /// Share of pixels whose visibility differs by more than half between two masks of one camera; a pixel that
 /// only one of them serves does not count. Both have one size.

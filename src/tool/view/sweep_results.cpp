@@ -60,6 +60,8 @@ Settings settings_of(const report::Technique& technique, LightKind light) {
     throw std::runtime_error(technique.filter + ": lists of pixels are drawn by gnomon compare alone");
   if (entry.visible_points)
     throw std::runtime_error(technique.split + ": visible points are planned for by gnomon compare alone");
+  if (entry.plan.warp.objective != PlanOptions().warp.objective)
+    throw std::runtime_error(technique.warp + ": another objective is planned for by gnomon compare alone");
   Settings settings;
   settings.plan = entry.plan;
   settings.plan.filter = PlanOptions().filter;  // the viewer adds the filter's border itself

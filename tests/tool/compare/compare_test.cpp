@@ -367,6 +367,31 @@ TEST(Compare, measures_every_filter_of_the_registry_against_its_own_truth) {
   }
 }
 
+TEST(Compare, objectives_are_rows_beside_the_warps_also_with_shapes) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",     "builtin:terrain",
+                                        "--warps",     "psm,optimal,optimal:picture",
+                                        "--shapes",    "linear,logarithmic",
+                                        "--cascades",  "1",
+                                        "--filters",   "hard",
+                                        "--frames",    "1",
+                                        "--rounds",    "1",
+                                        "--size",      "96x54",
+                                        "--map-sizes", "256",
+                                        "--context",   "osmesa",
+                                        "--out",       folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  const auto row = [&](std::string_view warp) {
+    const auto at = std::find_if(rows.begin(), rows.end(),
+                                 [&](const report::Row& r) { return r.technique.warp == warp; });
+    EXPECT_NE(at, rows.end()) << warp;
+    return at == rows.end() ? rows.front() : *at;
+  };
+  EXPECT_NE(row("optimal").aliasing.p95, row("optimal:picture").aliasing.p95);
+  EXPECT_NE(row("optimal:logarithmic").aliasing.p95, row("optimal:picture:logarithmic").aliasing.p95);
+}
+
 TEST(Compare, shapes_are_rows_beside_the_warps_with_an_even_error) {
   const TemporaryFolder folder;
   const Finished finished = run_gnomon({"compare",     "builtin:terrain",

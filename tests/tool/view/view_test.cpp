@@ -345,6 +345,23 @@ TEST(ViewTruth, counts_what_the_reference_counts) {
   EXPECT_EQ(counted.pixels, expected.pixels);
 }
 
+TEST(ViewTruth, counts_acne_below_one_half_within_exact_light_alone) {
+  // A frame that rays find lit but for its last column, and a mask that is a fifth too dark in one pixel of
+  // each.
+  constexpr int kSide = 9, kMiddle = 4 * kSide + 4, kBesideShadow = 4 * kSide + 7;
+  std::vector<trace::Verdict> verdicts(kSide * kSide, trace::Verdict::lit);
+  FloatImage mask{kSide, kSide, 2, std::vector<float>(2 * kSide * kSide, 1.0f), {}};
+  for (std::size_t y = 0; y < kSide; ++y) {
+    verdicts[y * kSide + kSide - 1] = trace::Verdict::shadow;
+    mask.values[2 * (y * kSide + kSide - 1)] = 0.0f;
+  }
+  for (const int pixel : {kMiddle, kBesideShadow}) mask.values[2 * static_cast<std::size_t>(pixel)] = 0.8f;
+  const report::MaskErrors errors = errors_of(mask, verdicts);
+  EXPECT_EQ(errors.pixels, 81u);
+  EXPECT_EQ(errors.false_lit + errors.false_shadow, 0.0);
+  EXPECT_DOUBLE_EQ(errors.too_dark, 1.0 / 81.0);
+}
+
 TEST(ViewTruth, is_of_one_light_alone) {
   const SpotLight spot{{1, 9, 2}, {0.1, -1, 0.2}, 0.7, 55.5};
   const PointLight point{{1, 9, 2}, 55.5};
