@@ -147,8 +147,11 @@ enum class Objective : std::uint8_t {
   p95,  ///< the error that 95 % of the visible points stay below: pixels evenly, depths by their logarithm
   /// The mean error at points of surfaces that the camera sees, across an edge of any direction. The area of
   /// misclassified pixels along shadows' edges grows with it. The points are View::points_world, and
-  /// logarithmic splits then follow them, too. Without them each ray of a fan gives a point in the first of
-  /// the receivers' boxes. Views that share maps count the whole body. Searched splits go by the worst texel.
+  /// automatic splits are then where their error is least. Without points, each ray of a fan gives one, in
+  /// one of the first receiver boxes that it meets. Automatic splits then divide the depths between the
+  /// nearest and the farthest of them, and optimal splits are the same. Air in front of all boxes never
+  /// counts. Maps with fewer than six points go by `storage`. So do Fit::stable, views that share maps, and
+  /// partitions of parallel light other than view_depth.
   picture,
 };
 [[nodiscard]] std::string_view to_string(Objective objective) noexcept;
@@ -424,7 +427,7 @@ struct WarpOptions {
   /// error. Directional lights have linear texels. nullptr counts as linear.
   const Shape* shape = &shapes::linear;
   /// The error that a warp must lower to be used.
-  Objective objective = Objective::storage;
+  Objective objective = Objective::picture;
   /// World-space box whose error counts `focus_weight` times: a hero, a cockpit, a table top. Everything else
   /// stays in the map, with larger texels. An empty box, the default, means none.
   Box focus;

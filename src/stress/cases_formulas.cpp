@@ -22,12 +22,14 @@ constexpr double kSampled = 1.0 + 1e-3;
 
 /// By the exact error at many points; the plan's own number is a bound from simplified weights.
 double measured_storage(Input input, const Warp& warp) {
+  input.options.warp.objective = Objective::storage;
   input.options.warp.warp = &warp;
   return measure(input.plan(), input.camera, input.bounds(), {24, 24, 24}).storage;
 }
 
 /// From this view depth on.
 double measured_storage_from(double depth, Input input, const Warp& warp) {
+  input.options.warp.objective = Objective::storage;
   input.options.warp.warp = &warp;
   const ShadowPlan plan = input.plan();
   input.camera.near_depth = std::min(depth, 0.9999 * input.camera.far_depth);
@@ -66,6 +68,7 @@ Input full_frustum(double near_depth, double far_depth, double fov_radians, doub
 }
 
 ShadowMap one_map(Input input, const Warp& warp, Check& check) {
+  input.options.warp.objective = Objective::storage;
   input.options.warp.warp = &warp;
   const ShadowPlan plan = input.plan();
   check.that(plan.status == PlanStatus::ok && plan.map_count == 1, "one map is planned");

@@ -145,6 +145,7 @@ void case_eye_behind_spot(Check& check) {
     check.that(map.kappa >= 0.0, "the strength is not negative");
     Input asked = input;
     asked.options.warp.warp = warp;
+    asked.options.warp.objective = Objective::storage;
     const ShadowPlan plan = asked.plan();
     for (const glm::dvec3& p : points_of(asked, plan, 0, 8, 3)) {
       const PointAliasing at = measure_perspective(map, asked.camera, p);

@@ -97,7 +97,7 @@ struct WarpInput {
   /// largest under the light.
   const Plane* receiver = nullptr;
   /// Points of visible surfaces inside the body, along the light frame's axes, each for an equal share of the
-  /// image: what Objective::picture counts. Empty: unknown.
+  /// image: what Objective::picture counts. Not empty where `objective` is that.
   std::span<const glm::dvec3> seen = {};
   /// Where a search may begin, in place of at everything; nullptr: nothing is known.
   const WarpStart* start = nullptr;
@@ -128,14 +128,19 @@ struct LightLinear {
 [[nodiscard]] LightLinear light_linear(const LightSpace& light, const glm::dvec3& slope,
                                        double offset) noexcept;
 
+/// Whether texels needed are what bounds over a body count for this objective; else the longest extent.
+[[nodiscard]] constexpr bool counts_texels(Objective objective) noexcept {
+  return objective == Objective::storage || objective == Objective::picture;
+}
+
 /// Bounds of the perspective error over a body under w = 1 + kappa (y - y_min). Exact at vertices, because
 /// each weight is linear-fractional or convex there (Lloyd's m with the simplified weights, Scherzer et al.
 /// 2011, section 3). For warps along y through input.centre only; fast.
 struct WarpError {
   double m_s, m_t;  ///< relative: multiply by pixels per unit slope over texels for the error itself
-  /// The bound of this objective.
+  /// The bound of this objective. A bound over the body says nothing of `picture`: texels stand for it.
   [[nodiscard]] double value(Objective objective) const noexcept {
-    return objective == Objective::storage ? m_s * m_t : (m_s > m_t ? m_s : m_t);
+    return counts_texels(objective) ? m_s * m_t : (m_s > m_t ? m_s : m_t);
   }
 };
 [[nodiscard]] WarpError warp_error(const WarpInput& input, double kappa) noexcept;

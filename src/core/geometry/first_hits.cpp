@@ -3,6 +3,7 @@
 // error is counted at is this project's.
 #include "geometry/first_hits.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -15,90 +16,183 @@ namespace {
 
 // Rays of the fan: as many points as a percentile takes.
 constexpr std::size_t kRays = 112;
+static_assert(kRays <= SeenPoints::kMost);
 
-/// A ray, with t as its view depth: direction's part along the view is 1.
-struct DepthRay {
-  glm::dvec3 origin, inverse;  // of the direction, component by component; 0: across the axis
-  double least, most;          // view depths
+/// Places of the fan's rays in the unit square, from left to right.
+struct Fan {
+  std::array<double, kRays> x{}, y{};
+  std::array<std::size_t, kRays> number{};  // in the order that they spread evenly in
+  std::size_t uneven = 0;                   // most places that a ray is from where even steps would have it
+  constexpr Fan() {
+    for (std::size_t i = 0; i < kRays; ++i) {
+      std::size_t at = i;
+      for (; at > 0 && x[at - 1] > even_x(i); --at) {
+        x[at] = x[at - 1];
+        number[at] = number[at - 1];
+      }
+      x[at] = even_x(i);
+      number[at] = i;
+    }
+    for (std::size_t i = 0; i < kRays; ++i) {
+      y[i] = even_y(number[i]);
+      const auto even = static_cast<std::size_t>(x[i] * static_cast<double>(kRays));
+      uneven = std::max(uneven, even > i ? even - i : i - even);
+    }
+  }
+};
+constexpr Fan kFan;
+
+/// Part of an image, 0 to 1 along both sides.
+struct ImagePart {
+  double left, right, bottom, top;
 };
 
-/// Looks for the nearest box on a ray.
-class HitQuery {
+/// What a ray meets: view depths.
+struct Through {
+  double begin, end;
+};
+
+/// The nearest boxes on every ray of the fan.
+class NearestBoxes {
  public:
   static constexpr bool kCuts = false;
-  explicit HitQuery(const DepthRay& ray) noexcept : ray_(ray), nearest_(ray.most) {}
+  static constexpr std::size_t kMost = 6;
+
+  NearestBoxes(const Camera& camera, const CameraAxes& axes) noexcept : camera_(camera), axes_(axes) {
+    for (std::size_t i = 0; i < kRays; ++i) {
+      const glm::dvec3 aside = axes.right * (camera.left + (camera.right - camera.left) * kFan.x[i]) +
+                               axes.up * (camera.bottom + (camera.top - camera.bottom) * kFan.y[i]);
+      direction_[i] = camera.orthographic ? axes.forward : axes.forward + aside;
+      origin_[i] = camera.orthographic ? aside : glm::dvec3(0.0);
+      const glm::dvec3& d = direction_[i];
+      inverse_[i] = {inverse_or_0(d.x), inverse_or_0(d.y), inverse_or_0(d.z)};
+    }
+  }
+
   [[nodiscard]] std::uint32_t wanted(const CasterBlock& block) const noexcept {
     std::uint32_t lanes = 0;
     for_each_bit(block.occupied, [&](std::size_t lane) {
-      const Through through = passed(lane_box(block, lane));
-      if (through.begin <= through.end && through.end > ray_.least && through.begin < nearest_)
-        lanes |= 1u << lane;
+      ImagePart part;
+      if (shown(lane_box(block, lane), part)) lanes |= 1u << lane;
     });
     return lanes;
   }
   [[nodiscard]] std::uint32_t inside(const CasterBlock& block, std::uint32_t lanes, bool leaf) noexcept {
     if (!leaf) return lanes;
     for_each_bit(lanes, [&](std::size_t lane) {
-      const Through through = passed(lane_box(block, lane));
-      if (!(through.begin <= through.end)) return;
-      const double at = through.begin > ray_.least ? through.begin : through.end;
-      if (at > ray_.least && at < nearest_) {
-        nearest_ = at;
-        end_ = through.end;
-      }
+      const Box box = lane_box(block, lane);
+      ImagePart part;
+      if (shown(box, part)) add(box, part);
     });
     return 0;
   }
-  /// View depth where a box is met; that of the far plane where none is.
-  [[nodiscard]] double nearest() const noexcept { return nearest_; }
-  /// View depth where the ray leaves that box.
-  [[nodiscard]] double end() const noexcept { return end_; }
+
+  /// A point on each ray that meets a box, between the box's sides.
+  void points(SeenPoints& seen) const noexcept {
+    // In the order that spreads evenly: who takes a part of the points takes even ones.
+    std::array<std::size_t, kRays> place;
+    for (std::size_t i = 0; i < kRays; ++i) place[kFan.number[i]] = i;
+    for (std::size_t number = 0; number < kRays; ++number) {
+      const std::size_t ray = place[number];
+      if (count_[ray] == 0) continue;
+      // Boxes are rarely all surface: rays end evenly in those that they meet.
+      const std::size_t taken = std::min(number % kMost, count_[ray] - 1);
+      const Through& box = box_[ray][taken];
+      // A surface lies somewhere inside of its box: points on the boxes' sides were as often worse as better.
+      const double depth = box.begin + spread(0.3819660112501051, number) * (box.end - box.begin);
+      seen.point[seen.count++] = origin_[ray] + direction_[ray] * depth;
+    }
+  }
 
  private:
-  struct Through {
-    double begin, end;
-  };
-  [[nodiscard]] Through passed(const Box& box) const noexcept {
+  /// False where the box is not in the image. `part` holds all of the image that shows it.
+  [[nodiscard]] bool shown(const Box& box, ImagePart& part) const noexcept {
+    const glm::dvec3 centre = (box.min + box.max) * 0.5, half = (box.max - box.min) * 0.5;
+    const auto along = [&](const glm::dvec3& axis) {
+      const double middle = glm::dot(axis, centre), reach = glm::dot(glm::abs(axis), half);
+      return Through{middle - reach, middle + reach};
+    };
+    const Through depth = along(axes_.forward);
+    if (!(depth.end > camera_.near_depth && depth.begin < camera_.far_depth)) return false;
+    const Through x = along(axes_.right), y = along(axes_.up);
+    // Seen smallest where it is farthest, largest where it is nearest.
+    const double nearest = camera_.orthographic ? 1.0 : max_of(depth.begin, camera_.near_depth);
+    const double farthest = camera_.orthographic ? 1.0 : max_of(depth.end, nearest);
+    const double per_near = 1.0 / nearest, per_far = 1.0 / farthest;
+    const double per_width = 1.0 / (camera_.right - camera_.left),
+                 per_height = 1.0 / (camera_.top - camera_.bottom);
+    const auto least = [&](double v) { return v * (v < 0.0 ? per_near : per_far); };
+    const auto most = [&](double v) { return v * (v < 0.0 ? per_far : per_near); };
+    part = {(least(x.begin) - camera_.left) * per_width, (most(x.end) - camera_.left) * per_width,
+            (least(y.begin) - camera_.bottom) * per_height, (most(y.end) - camera_.bottom) * per_height};
+    return part.left < 1.0 && part.right > 0.0 && part.bottom < 1.0 && part.top > 0.0;
+  }
+
+  /// Where the ray is between the box's sides; end < begin: nowhere.
+  [[nodiscard]] Through passed(const Box& box, std::size_t ray) const noexcept {
     Through through{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     for (int axis = 0; axis < 3; ++axis) {
-      const double low = box.min[axis] - ray_.origin[axis], high = box.max[axis] - ray_.origin[axis];
+      const double low = box.min[axis] - origin_[ray][axis], high = box.max[axis] - origin_[ray][axis];
+      const double inverse = inverse_[ray][axis];
       // Across the axis: between both sides all the way, or never.
-      if (ray_.inverse[axis] == 0.0) {
+      if (inverse == 0.0) {
         if (low > 0.0 || high < 0.0) return {1.0, 0.0};
         continue;
       }
-      const double a = low * ray_.inverse[axis], b = high * ray_.inverse[axis];
+      const double a = low * inverse, b = high * inverse;
       through.begin = max_of(through.begin, min_of(a, b));
       through.end = min_of(through.end, max_of(a, b));
     }
     return through;
   }
 
-  const DepthRay& ray_;
-  double nearest_, end_ = 0.0;
+  void add(const Box& box, const ImagePart& part) noexcept {
+    constexpr auto kCount = static_cast<double>(kRays), kUneven = static_cast<double>(kFan.uneven + 1);
+    const auto first = static_cast<std::size_t>(max_of(part.left * kCount - kUneven, 0.0));
+    const auto beyond = static_cast<std::size_t>(min_of(part.right * kCount + kUneven, kCount));
+    for (std::size_t ray = first; ray < beyond; ++ray) {
+      // Rounding of the part: rays at its border may miss the box by as much.
+      if (!(kFan.y[ray] >= part.bottom && kFan.y[ray] <= part.top)) continue;
+      const Through through = passed(box, ray);
+      if (!(through.begin <= through.end && through.end > camera_.near_depth &&
+            through.begin < camera_.far_depth))
+        continue;
+      // Of a box that the ray begins in, what is in view.
+      keep(ray, {max_of(through.begin, camera_.near_depth), min_of(through.end, camera_.far_depth)});
+    }
+  }
+  /// The nearest few, the same ones in any order of the boxes.
+  void keep(std::size_t ray, const Through& through) noexcept {
+    const auto before = [](const Through& a, const Through& b) {
+      return a.begin < b.begin || (a.begin == b.begin && a.end < b.end);
+    };
+    auto& boxes = box_[ray];
+    std::size_t at = count_[ray];
+    if (at == kMost) {
+      if (!before(through, boxes[kMost - 1])) return;
+      --at;
+    } else {
+      ++count_[ray];
+    }
+    for (; at > 0 && before(through, boxes[at - 1]); --at) boxes[at] = boxes[at - 1];
+    boxes[at] = through;
+  }
+
+  const Camera& camera_;
+  const CameraAxes& axes_;
+  std::array<glm::dvec3, kRays> direction_, origin_;
+  std::array<glm::dvec3, kRays> inverse_;  // of the direction, component by component; 0: across the axis
+  std::array<std::size_t, kRays> count_{};
+  std::array<std::array<Through, kMost>, kRays> box_;
 };
 
 }  // namespace
 
 SeenPoints first_hits(const Camera& camera, const CameraAxes& axes, const Boxes& boxes) noexcept {
+  NearestBoxes nearest(camera, axes);
+  BoxWalk({}, boxes, camera.position, nearest).whole();
   SeenPoints seen;
-  static_assert(kRays <= SeenPoints::kMost);
-  for (std::size_t i = 0; i < kRays; ++i) {
-    const double x = camera.left + (camera.right - camera.left) * even_x(i);
-    const double y = camera.bottom + (camera.top - camera.bottom) * even_y(i);
-    const glm::dvec3 aside = axes.right * x + axes.up * y;
-    const glm::dvec3 direction = camera.orthographic ? axes.forward : axes.forward + aside;
-    const glm::dvec3 origin = camera.orthographic ? aside : glm::dvec3(0.0);
-    const glm::dvec3 inverse{inverse_or_0(direction.x), inverse_or_0(direction.y), inverse_or_0(direction.z)};
-    const DepthRay ray{origin, inverse, camera.near_depth, camera.far_depth};
-    HitQuery query(ray);
-    BoxWalk({}, boxes, camera.position, query).whole();
-    if (!(query.nearest() < ray.most)) continue;
-    // A surface lies somewhere inside of its box: points on the boxes' sides were as often worse than better.
-    const double inside = spread(0.3819660112501051, i);
-    const double end = min_of(query.end(), ray.most);
-    seen.point[seen.count++] = origin + direction * (query.nearest() + inside * (end - query.nearest()));
-  }
+  nearest.points(seen);
   return seen;
 }
 

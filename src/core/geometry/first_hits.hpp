@@ -19,9 +19,8 @@ struct SeenPoints {
   [[nodiscard]] std::span<const glm::dvec3> points() const noexcept { return {point.data(), count}; }
 };
 
-/// A point of the first box on each ray of a fixed fan, anywhere between both of its sides. Of a box that a
-/// ray begins in, the point where it leaves it: nothing in front of that is known. Rays that meet no box
-/// between the near and the far plane add nothing.
+/// A point on each ray of a fixed fan that meets a box between the near and the far plane: anywhere between
+/// both sides of one of the first six boxes. The same ones in any order of the boxes.
 [[nodiscard]] SeenPoints first_hits(const Camera& camera, const CameraAxes& axes,
                                     const Boxes& boxes) noexcept;
 

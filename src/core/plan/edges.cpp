@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/body.hpp"
+#include "geometry/first_hits.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "gnomon/extend/body.hpp"
@@ -19,6 +20,7 @@
 #include "map/gain.hpp"
 #include "plan/cascades.hpp"
 #include "split/optimal.hpp"
+#include "split/seen_splits.hpp"
 #include "warp/along_view.hpp"
 #include "warp/registry.hpp"
 
@@ -153,7 +155,7 @@ Polytope between(const PlanContext& c, const Polytope& body, double from, double
 
 /// Of two maps side by side.
 double joined(Objective objective, double a, double b) noexcept {
-  return objective == Objective::storage ? a + b : max_of(a, b);
+  return counts_texels(objective) ? a + b : max_of(a, b);
 }
 
 /// Error of one map over the part of the body between two depths, with LiSPSM at its best strength as the
@@ -317,16 +319,16 @@ CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int
   report_depths(result, OmissionKind::depth_not_visible, cover.end, received.end);
   const SplitOptions& split = c.options.split;
   split_depths(cover.begin, cover.end, split, edges);
-  const bool logarithmic = split.scheme == SplitScheme::logarithmic ||
-                           split.scheme == SplitScheme::automatic || split.scheme == SplitScheme::optimal;
+  const bool chosen = split.scheme == SplitScheme::automatic || split.scheme == SplitScheme::optimal;
+  const bool logarithmic = chosen || split.scheme == SplitScheme::logarithmic;
   if (logarithmic && c.visible_depths != nullptr) split_visible(*c.visible_depths, cover, edges);
-  // Hits of boxes may be far from the surfaces inside, and an edge in a wrong place costs more than a warp.
-  if (logarithmic && c.visible_depths == nullptr && !c.seen.empty() && !c.visible_points.empty()) {
-    VisibleDepths seen;
-    for (const glm::dvec3& p : c.seen) seen.add(glm::dot(c.axes.forward, p));
-    split_visible(seen, cover, edges);
+  if (chosen && c.visible_depths == nullptr && !c.seen.empty()) {
+    std::array<double, SeenPoints::kMost> depths;
+    std::size_t count = 0;
+    for (const glm::dvec3& p : c.seen) depths[count++] = glm::dot(c.axes.forward, p);
+    split_seen({depths.data(), count}, !c.visible_points.empty(), edges);
   }
-  const bool optimal = split.scheme == SplitScheme::optimal;
+  const bool optimal = split.scheme == SplitScheme::optimal && c.seen.empty();
   if (optimal && !(history != nullptr && reuse_searched(history->searched_edges, history->frame, edges))) {
     optimise(c, scene, edges);
     if (history != nullptr)

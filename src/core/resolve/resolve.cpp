@@ -181,9 +181,13 @@ Resolved resolve(const PlanOptions& options, const PlanCase& plan) noexcept {
   how.stable = options.fit == Fit::stable;
   how.rotated = options.fit == Fit::rotated;
   how.caches_maps = options.fit == Fit::warped_stable;
-  r.counts_seen = options.warp.objective == Objective::picture && !how.stable && plan.views <= 1;
+  const bool parallel = std::holds_alternative<DirectionalLight>(plan.light);
+  r.counts_seen = options.warp.objective == Objective::picture && !how.stable && plan.views <= 1 &&
+                  !(parallel && divides_parallel(options.split.partition));
+  if (options.warp.objective == Objective::picture && !r.counts_seen)
+    r.options.warp.objective = Objective::storage;
   if (plan.views > 0) share(plan.views, r);
-  if (std::holds_alternative<DirectionalLight>(plan.light)) {
+  if (parallel) {
     resolve_parallel(plan, r);
   } else {
     resolve_local(plan, r);

@@ -101,7 +101,7 @@ GNOMON_WIDE void AlongView::find(const Strengths& kappa) noexcept {
       most2[l] = max_of(most2[l], w * r);
     }
   }
-  const bool storage = objective_ == Objective::storage;
+  const bool storage = counts_texels(objective_);
   for (std::size_t l = 0; l < strengths; ++l) {
     const double s = (right[l] - left[l]) * most[l], t = length_ / (1.0 + k[l] * length_) * most2[l];
     const double product = s * t, larger = max_of(s, t);
@@ -174,7 +174,7 @@ AlongViewBest AlongView::quick() noexcept {
     least = value[fine];
   }
   const double per_pixel = 1.0 / nearest_, texel = length_ * per_pixel;
-  const double scale = objective_ == Objective::storage ? texel * scale_x * per_pixel : texel;
+  const double scale = counts_texels(objective_) ? texel * scale_x * per_pixel : texel;
   return {static_cast<double>(best) * per_length, static_cast<double>(least) * scale};
 }
 
@@ -185,7 +185,7 @@ GNOMON_WIDE void AlongView::find_quick(const Shares& shares, const QuickStrength
   const auto min_of = [](float a, float b) { return a < b ? a : b; };
   const auto max_of = [](float a, float b) { return a > b ? a : b; };
   const std::size_t strengths = strengths_ & ~(kAtOnce - 1);
-  const bool storage = objective_ == Objective::storage;
+  const bool storage = counts_texels(objective_);
   const float wider = shares.wider;
   alignas(64) QuickStrengths k, left, right, most, most2;
   for (std::size_t l = 0; l < strengths; ++l) {

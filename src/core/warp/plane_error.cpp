@@ -75,7 +75,7 @@ void PlaneError::count_bound() noexcept {
 
 void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool searched, int set) noexcept {
   // Fewer samples make no percentile: the body shows in a few pixels only.
-  constexpr std::size_t kTooFew = 20, kFewSeen = 6;
+  constexpr std::size_t kTooFew = 20;
   if (input_.objective == Objective::p95 && !input_.orthographic) {
     add_visible_points(input_, set, sample_);
     find_pixels(input_, sample_);
@@ -86,15 +86,8 @@ void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool s
   if (input_.objective == Objective::picture) {
     add_seen_points(input_, sample_);
     find_pixels(input_, sample_);
-    mean_ = sample_.count >= kFewSeen;
-    if (!mean_ && !input_.orthographic) {
-      // Nothing of the body is known to be seen: all of it may be.
-      sample_.count = 0;
-      add_visible_points(input_, set, sample_);
-      find_pixels(input_, sample_);
-      mean_ = sample_.count >= kTooFew;
-    }
-    if (mean_) return;
+    mean_ = true;
+    return;
   }
   sample_.count = 0;
   const double outside = focus != nullptr ? input_.focus_weight : 1.0;

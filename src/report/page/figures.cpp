@@ -39,6 +39,7 @@ PlanOptions plain_options(const Warp* warp) {
   options.filter.texels = 0.0;
   options.resolution.max_size = kTexels;
   options.warp.warp = warp;
+  options.warp.objective = Objective::storage;
   return options;
 }
 

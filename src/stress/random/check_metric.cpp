@@ -297,7 +297,7 @@ bool for_warps(const nlohmann::ordered_json& value, nlohmann::ordered_json& out,
     options.erase(key);
   if (options.value("split", "auto") == "optimal") options["split"] = "logarithmic";
   options["prune"] = "exact";
-  objective = options.value("objective", "storage");
+  objective = options.value("objective", "picture");
   // Counted at points in boxes, which say nothing of the volume: tests/core/warp/seen_points_test.cpp.
   if (objective == "picture") return false;
   // measure_map() takes no points from the band that a map shares with the cascade before it.

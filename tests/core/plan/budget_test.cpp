@@ -146,8 +146,8 @@ TEST(Target, with_a_budget_it_is_met_by_fewer_maps_of_more_texels) {
   plain.options.resolution.max_error = 2.0 * bound(best);
   const ShadowPlan enough = plain.plan();
   EXPECT_LT(enough.map_count, best.map_count);
-  // The rim's share changes with the size.
-  EXPECT_LE(bound(enough), plain.options.resolution.max_error * 1.01);
+  // The rim's share changes with the size, and with it the warp.
+  EXPECT_LE(bound(enough), plain.options.resolution.max_error * 1.02);
 }
 
 TEST(Budget, sizes_are_stable_under_a_slow_camera) {

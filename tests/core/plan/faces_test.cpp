@@ -26,6 +26,7 @@ struct Scene {
     options.split.partition = Partition::frustum_faces;
     options.split.face_slices = slices;
     options.warp.warp = &warp;
+    options.warp.objective = Objective::storage;
     options.filter.texels = 0.0;
   }
   [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, sun, {boxes, boxes}, options); }

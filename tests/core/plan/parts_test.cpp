@@ -30,6 +30,7 @@ struct Scene {
     camera.width = camera.height = 512;
     sun.direction = {0.3, -std::sin(height_degrees * kDegree), std::cos(height_degrees * kDegree)};
     options.warp.warp = &warp;
+    options.warp.objective = Objective::storage;
     options.split.partition = Partition::separating_plane;
   }
   [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, sun, {boxes, boxes}, options); }

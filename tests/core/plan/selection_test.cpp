@@ -62,6 +62,7 @@ struct LitAlongTheView {
   LitAlongTheView() {
     options.warp.warp = &warps::none;
     options.resolution.max_size = 1024;
+    options.split.scheme = SplitScheme::logarithmic;
   }
   [[nodiscard]] ShadowPlan plan(MapSelection selection) const {
     PlanOptions with = options;

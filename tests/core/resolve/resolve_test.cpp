@@ -131,6 +131,9 @@ void history(Input& in) {
 void stable(Input& in) {
   in.options.fit = Fit::stable;
 }
+void by_storage(Input& in) {
+  in.options.warp.objective = Objective::storage;
+}
 void cached(Input& in) {
   in.options.fit = Fit::warped_stable;
   in.history = true;
@@ -212,10 +215,11 @@ std::vector<Row> rows() {
       {"a cadence of maps that change their size", ignored(O::cadence), all<bounded, history>, cadence},
       {"a cadence of parts", ignored(O::cadence), all<faces, history>, cadence},
       {"a cadence of two views", ignored(O::cadence), two_views, cadence},
-      {"visible points of a spot", ignored(O::visible_points), spot, points},
+      {"visible points of a spot", ignored(O::visible_points), all<by_storage, spot>, points},
       {"visible points of a stable grid", ignored(O::visible_points), stable, points},
-      {"visible points of a cached map", ignored(O::visible_points), cached, points},
-      {"visible points of cached cascades", ignored(O::visible_points), all<cadence, history>, points},
+      {"visible points of a cached map", ignored(O::visible_points), all<by_storage, cached>, points},
+      {"visible points of cached cascades", ignored(O::visible_points), all<by_storage, cadence, history>,
+       points},
       {"visible points of parts", ignored(O::visible_points), faces, points},
       {"logarithmic rows of a turned map", ignored(O::shape), rotated, logarithmic},
       {"logarithmic rows over frames", ignored(O::shape), history, logarithmic},

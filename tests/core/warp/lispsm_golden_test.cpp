@@ -64,6 +64,7 @@ ShadowPlan plan_of(const View& s, const Warp& warp) {
   options.cascades = 1;
   options.filter.texels = 0.0;
   options.warp.warp = &warp;
+  options.warp.objective = Objective::storage;
   return make_plan(s.camera, DirectionalLight{s.light}, {s.boxes, s.boxes}, options);
 }
 

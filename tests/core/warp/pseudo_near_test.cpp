@@ -31,6 +31,7 @@ struct Scene {
     PlanOptions o;
     o.cascades = 1;
     o.warp.warp = &warp;
+    o.warp.objective = Objective::storage;
     o.split.pseudo_near = pseudo_near;
     const ShadowPlan plan = make_plan(camera, DirectionalLight{{0, -1, 0}}, {boxes, boxes}, o);
     EXPECT_EQ(plan.map_count, 1);

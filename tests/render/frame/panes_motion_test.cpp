@@ -50,7 +50,7 @@ TEST_F(Panes, maps_with_a_moving_pane_have_the_bits_of_maps_that_are_drawn_whole
       whole_texels += w.pane_texels;
     }
     EXPECT_GT(moved_frames, 5u);
-    EXPECT_LT(kept_texels, whole_texels / 2);
+    EXPECT_LT(kept_texels, whole_texels / 10 * 6);
     // And those of panes that were there from the start.
     Renderer fresh(opaque);
     fresh.add_panes(posed);

@@ -370,7 +370,7 @@ TEST(Compare, measures_every_filter_of_the_registry_against_its_own_truth) {
 TEST(Compare, objectives_are_rows_beside_the_warps_also_with_shapes) {
   const TemporaryFolder folder;
   const Finished finished = run_gnomon({"compare",     "builtin:terrain",
-                                        "--warps",     "psm,optimal,optimal:picture",
+                                        "--warps",     "psm,optimal,optimal:storage",
                                         "--shapes",    "linear,logarithmic",
                                         "--cascades",  "1",
                                         "--filters",   "hard",
@@ -388,8 +388,8 @@ TEST(Compare, objectives_are_rows_beside_the_warps_also_with_shapes) {
     EXPECT_NE(at, rows.end()) << warp;
     return at == rows.end() ? rows.front() : *at;
   };
-  EXPECT_NE(row("optimal").aliasing.p95, row("optimal:picture").aliasing.p95);
-  EXPECT_NE(row("optimal:logarithmic").aliasing.p95, row("optimal:picture:logarithmic").aliasing.p95);
+  EXPECT_NE(row("optimal").aliasing.p95, row("optimal:storage").aliasing.p95);
+  EXPECT_NE(row("optimal:logarithmic").aliasing.p95, row("optimal:storage:logarithmic").aliasing.p95);
 }
 
 TEST(Compare, shapes_are_rows_beside_the_warps_with_an_even_error) {
