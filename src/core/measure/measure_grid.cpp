@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "geometry/box_walk.hpp"
 
@@ -42,6 +43,11 @@ Range over_depth(Range x, Range depth) noexcept {
   return {x.low / (x.low < 0.0 ? depth.low : depth.high), x.high / (x.high < 0.0 ? depth.high : depth.low)};
 }
 
+/// True for a box that no ray crosses over a length.
+bool is_flat(const Box& box) noexcept {
+  return box.min.x == box.max.x || box.min.y == box.max.y || box.min.z == box.max.z;
+}
+
 /// Boxes that any ray of the piece meets are marked.
 struct MarkQuery {
   static constexpr bool kCuts = false;
@@ -66,13 +72,19 @@ struct MarkQuery {
 }  // namespace
 
 VisiblePiece::VisiblePiece(const Camera& camera, const CameraAxes& axes, const MeasureOptions& grid,
-                           const DepthTable& table) noexcept
-    : camera_(camera), axes_(axes), grid_(grid), table_(table), words_((table.count + 63) / 64) {}
+                           const DepthTable& table, bool flats) noexcept
+    : camera_(camera),
+      axes_(axes),
+      grid_(grid),
+      table_(table),
+      words_((table.count + 63) / 64),
+      flats_(flats) {}
 
 void VisiblePiece::find(const Boxes& boxes, std::int64_t first, std::int64_t rays) noexcept {
   first_ = first;
   end_ = first + rays;
   std::fill_n(bits_.begin(), rays * words_, std::uint64_t{0});
+  std::fill_n(flat_.begin(), rays, std::numeric_limits<double>::infinity());
   MarkQuery query{*this};
   // In world space: what marks is the arithmetic of depths_in_box.
   BoxWalk({}, boxes, glm::dvec3(0.0), query).whole();
@@ -85,11 +97,15 @@ bool VisiblePiece::footprint(const Box& box, Footprint& out) const noexcept {
   const auto begin = table_.depth.begin(), end = begin + table_.count;
   out.depth[0] = static_cast<int>(std::lower_bound(begin, end, depth.low) - begin);
   out.depth[1] = static_cast<int>(std::upper_bound(begin, end, depth.high) - begin) - 1;
-  if (out.depth[0] > out.depth[1]) return false;
+  const bool between = out.depth[0] > out.depth[1];
+  if (between && !flats_) return false;
+  if (depth.high < camera_.near_depth || depth.low > camera_.far_depth) return false;
   Range x = along(centre, half, axes_.right), y = along(centre, half, axes_.up);
   if (!camera_.orthographic) {
-    // Only what lies at depths of the table counts, so that boxes round the eye end, too.
-    depth = {max_of(depth.low, table_.depth[static_cast<std::size_t>(out.depth[0])]), depth.high};
+    // Only what lies at depths of the table counts, or in view where boxes are flat: those round the eye end,
+    // too.
+    const double least = flats_ ? camera_.near_depth : table_.depth[static_cast<std::size_t>(out.depth[0])];
+    depth = {max_of(depth.low, least), depth.high};
     depth.high = max_of(depth.high, depth.low);
     x = over_depth(x, depth);
     y = over_depth(y, depth);
@@ -105,19 +121,25 @@ void VisiblePiece::mark(const Box& box) noexcept {
   Footprint where;
   if (!footprint(box, where)) return;
   const DepthInterval range{camera_.near_depth, camera_.far_depth};
+  const bool flat = flats_ && is_flat(box);
   for (int row = where.row[0]; row <= where.row[1]; ++row) {
     const std::int64_t of_row = std::int64_t{row} * grid_.columns;
     const auto column = static_cast<int>(std::max<std::int64_t>(where.column[0], first_ - of_row));
     const auto last = static_cast<int>(std::min<std::int64_t>(where.column[1], end_ - 1 - of_row));
     for (int c = column; c <= last; ++c) {
       const PixelRay ray = pixel_ray(camera_, axes_, grid_, c, row);
-      mark(of_row + c, depths_in_box(box, ray.start, ray.step, range), where);
+      const DepthInterval inside = depths_in_box(box, ray.start, ray.step, range);
+      if (flat && inside.begin <= inside.end) {
+        double& nearest = flat_[static_cast<std::size_t>(of_row + c - first_)];
+        nearest = min_of(nearest, inside.begin);
+      }
+      mark(of_row + c, inside, where);
     }
   }
 }
 
 void VisiblePiece::mark(std::int64_t ray, DepthInterval part, const Footprint& where) noexcept {
-  if (part.begin > part.end) return;
+  if (part.begin > part.end || where.depth[0] > where.depth[1]) return;
   const auto begin = table_.depth.begin() + where.depth[0], end = table_.depth.begin() + where.depth[1] + 1;
   const auto low = static_cast<int>(std::lower_bound(begin, end, part.begin) - table_.depth.begin());
   const auto high = static_cast<int>(std::upper_bound(begin, end, part.end) - table_.depth.begin());

@@ -1,5 +1,5 @@
-// The points at which errors are measured: a grid over the image, and depths along each pixel's ray inside
-// the receivers.
+// The points at which errors are measured: a grid over the image, and along each pixel's ray depths inside
+// the receivers. Flat receivers have no inside: there it is where the ray meets the nearest of them.
 #pragma once
 
 #include <algorithm>
@@ -71,8 +71,9 @@ struct DepthTable {
 /// each.
 class VisiblePiece {
  public:
+  /// `flats`: finds flat boxes as well, at any depth.
   VisiblePiece(const Camera& camera, const CameraAxes& axes, const MeasureOptions& grid,
-               const DepthTable& table) noexcept;
+               const DepthTable& table, bool flats) noexcept;
 
   /// Takes the rays from number `first` on, at most `rays` of them, and finds their points in these boxes.
   /// Draws each box where it appears in the image, so that time grows with what the boxes cover.
@@ -84,11 +85,16 @@ class VisiblePiece {
     return bits_[word(ray, 64 * at)];
   }
 
+  /// Depth of the nearest flat box on the ray; infinite: none.
+  [[nodiscard]] double flat(std::int64_t ray) const noexcept {
+    return flat_[static_cast<std::size_t>(ray - first_)];
+  }
+
   /// Where a box may be met: columns, rows and depths of the table, first and last. A superset.
   struct Footprint {
     int column[2], row[2], depth[2];
   };
-  /// False where no ray of the piece meets the box at any depth of the table.
+  /// False where no ray of the piece meets the box at any depth of the table, or of the view for flat boxes.
   [[nodiscard]] bool footprint(const Box& box, Footprint& out) const noexcept;
   void mark(const Box& box) noexcept;
 
@@ -104,8 +110,10 @@ class VisiblePiece {
   const MeasureOptions& grid_;
   const DepthTable& table_;
   int words_;
+  bool flats_;
   std::int64_t first_ = 0, end_ = 0;
   std::array<std::uint64_t, kWords> bits_;
+  std::array<double, kWords> flat_;  // of each ray
 };
 
 /// Calls sample(point, view depth) for each point of the grid that lies in a receiver. Needs a finite far
@@ -117,7 +125,7 @@ void for_each_visible(const Camera& camera, const CameraAxes& axes, const Boxes&
   const std::int64_t rays = std::int64_t{grid.columns} * grid.rows;
   for (int begin = 0; begin < grid.depths; begin += kTableDepths) {
     const DepthTable table = depth_table(camera, grid, begin);
-    VisiblePiece piece(camera, axes, grid, table);
+    VisiblePiece piece(camera, axes, grid, table, begin == 0);
     for (std::int64_t first = 0; first < rays; first += piece.capacity()) {
       const std::int64_t end = std::min(first + piece.capacity(), rays);
       piece.find(receivers, first, end - first);
@@ -130,6 +138,8 @@ void for_each_visible(const Camera& camera, const CameraAxes& axes, const Boxes&
             sample(ray.start + ray.step * depth, depth);
           }
         }
+        if (const double depth = piece.flat(i); depth < camera.far_depth)
+          sample(ray.start + ray.step * depth, depth);
       }
     }
   }

@@ -373,7 +373,7 @@ void add_points(const SceneBounds& bounds, PageContext& c) noexcept {
   if (seen.points_world.empty()) {
     // Nothing is known: the receivers' boxes, as far as the memory goes.
     constexpr int kDepths = 32;
-    const double rays = static_cast<double>(c.memory.points.size()) / kDepths;
+    const double rays = static_cast<double>(c.memory.points.size()) / (kDepths + 1);
     const double aspect = static_cast<double>(c.camera.width) / c.camera.height;
     const int columns = static_cast<int>(clamp_to(std::sqrt(rays * aspect), 1.0, 512.0));
     const int rows = static_cast<int>(clamp_to(rays / columns, 1.0, 512.0));

@@ -286,7 +286,25 @@ TEST(ManyBoxes, sets_of_nothing_and_of_empty_boxes_show_nothing) {
   }
 }
 
-/// Points of the grid in some box, one ray, depth and box after the other.
+/// Whether a ray meets a flat box in view.
+bool meets_flat(const Camera& camera, const glm::dvec3& start, const glm::dvec3& step,
+                const std::vector<Box>& boxes) {
+  return std::any_of(boxes.begin(), boxes.end(), [&](const Box& b) {
+    for (int flat = 0; flat < 3; ++flat) {
+      if (b.min[flat] != b.max[flat] || step[flat] == 0.0) continue;
+      const double depth = (b.min[flat] - start[flat]) / step[flat];
+      const glm::dvec3 p = start + step * depth;
+      bool inside = depth >= camera.near_depth && depth < camera.far_depth;
+      for (int axis = 0; axis < 3; ++axis)
+        inside = inside && (axis == flat || (p[axis] >= b.min[axis] && p[axis] <= b.max[axis]));
+      if (inside) return true;
+    }
+    return false;
+  });
+}
+
+/// Points of the grid in some box, one ray, depth and box after the other; and one for each ray that meets a
+/// flat box.
 std::uint64_t points_by_definition(const Camera& camera, const std::vector<Box>& boxes,
                                    const MeasureOptions& grid) {
   const CameraAxes axes = camera_axes(camera);
@@ -296,6 +314,8 @@ std::uint64_t points_by_definition(const Camera& camera, const std::vector<Box>&
       const double x = camera.left + (camera.right - camera.left) * (column + 0.5) / grid.columns;
       const double y = camera.bottom + (camera.top - camera.bottom) * (row + 0.5) / grid.rows;
       const glm::dvec3 image = axes.right * x + axes.up * y;
+      count += camera.orthographic ? meets_flat(camera, camera.position + image, axes.forward, boxes)
+                                   : meets_flat(camera, camera.position, axes.forward + image, boxes);
       for (int k = 0; k < grid.depths; ++k) {
         const double t = (k + 0.5) / grid.depths, n = camera.near_depth, f = camera.far_depth;
         const double depth = n > 0.0 ? n * std::pow(f / n, t) : n + (f - n) * t;
