@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "geometry/first_hits.hpp"
 #include "geometry/vector.hpp"
@@ -51,9 +52,11 @@ void split_seen(std::span<const double> depths, bool known, std::span<double> ed
   if (edges.size() < 3 || !(edges.front() > 0.0)) return;
   const SeenDepths seen(depths, edges.front(), edges.back());
   if (seen.all().size() < 2 || !(seen.all().front() < seen.all().back())) return;
-  // Only depths that show something are divided; the outer maps reach up to the ends.
+  // Only depths that show something are divided; the outer maps reach up to the ends. Guesses end at the
+  // first few boxes: surfaces may lie as far as the end.
   const double begin = edges.front(), end = edges.back();
-  const double least = seen.all().front(), most = seen.all().back();
+  const double least = seen.all().front();
+  const double most = known ? seen.all().back() : std::sqrt(seen.all().back() * end);
   const auto last = edges.size() - 1;
   for (std::size_t i = 0; i <= last; ++i)
     edges[i] =
