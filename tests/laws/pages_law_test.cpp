@@ -165,6 +165,7 @@ TEST(PagesLaw, the_pool_is_never_exceeded_and_no_point_loses_its_page) {
   over_scenes(400, [&](const Scene& scene, const PagePlan& whole) {
     Scene small = scene;
     small.options.capacity = 24 + pick(40);
+    if (chance(0.5)) small.options.share = between(0.4, 1.0);
     const auto policies = all_page_policies();
     small.options.policy = policies[static_cast<std::size_t>(pick(static_cast<int>(policies.size())))];
     std::vector<std::byte> memory(page_memory(small.options.capacity, scene.points.size()));

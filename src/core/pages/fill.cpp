@@ -206,19 +206,21 @@ bool open_pages(PageContext& context) noexcept {
   return opening.all();
 }
 
-std::uint64_t leave_to_coarser(PageContext& c) noexcept {
+LeftToCoarser leave_to_coarser(PageContext& c, int rounds) noexcept {
   const std::uint64_t inside = c.point_count - c.outside;
   const auto budget = static_cast<std::uint64_t>((1.0 - c.options.share) * static_cast<double>(inside));
-  // Points that left a page may leave another one with few: in rounds, each with its part of the budget.
-  constexpr std::uint64_t kRounds = 6;
-  std::uint64_t lowered = 0;
   Opening opening(c);
-  bool open = opening.all();
-  for (std::uint64_t round = 1; round <= kRounds && open; ++round) {
-    lowered += lower_points(c, opening, budget * round / kRounds - lowered);
-    open = opening.all();
+  LeftToCoarser left;
+  for (int round = 0; round <= rounds; ++round) {
+    // Each round has its part of the budget, the first none.
+    const std::uint64_t so_far = budget * static_cast<std::uint64_t>(round) / kShareRounds;
+    if (round > 0) left.points += lower_points(c, opening, so_far - left.points);
+    // The coarser pages may be more than those that were left.
+    left.open = opening.all();
+    if (!left.open) break;
+    left.rounds = round;
   }
-  return lowered;
+  return left;
 }
 
 }  // namespace gnomon

@@ -8,9 +8,17 @@ namespace gnomon {
 /// Opens a page for each point at its level, finest levels first; page_count of memory.pages, with the level
 /// of the ladder as Page::level. False where the memory does not hold them.
 [[nodiscard]] bool open_pages(PageContext& context) noexcept;
-/// Leaves pages that few points need to a coarser level, as PageOptions::share allows. Returns how many
-/// points got a coarser level. Needs open pages, and leaves them open.
-[[nodiscard]] std::uint64_t leave_to_coarser(PageContext& context) noexcept;
+/// What leave_to_coarser did.
+struct LeftToCoarser {
+  std::uint64_t points = 0;  ///< that got a coarser level
+  int rounds = -1;           ///< that ended with all pages open; -1: not even those of no round fit
+  bool open = false;         ///< false: the pages of the round after those do not fit into the memory
+};
+/// Rounds in which PageOptions::share is spent: points that left a page may leave another one with few.
+inline constexpr int kShareRounds = 6;
+/// Leaves pages that few points need to a coarser level, as PageOptions::share allows, in the first `rounds`
+/// rounds. Opens the pages of all points again after each.
+[[nodiscard]] LeftToCoarser leave_to_coarser(PageContext& context, int rounds) noexcept;
 
 /// Where the search for a page begins in a table of this many entries, a power of two.
 [[nodiscard]] inline std::uint32_t page_hash(std::uint32_t level, std::int32_t column,

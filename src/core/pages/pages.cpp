@@ -101,9 +101,15 @@ bool fits(PageContext& c, double factor, PagePlan& plan) noexcept {
   c.target = plan.target_m = c.options.target_m * factor;
   c.options.policy->assign(c);
   plan.points_coarser = 0;
-  if (!open_pages(c)) return false;
-  if (c.options.share < 1.0) plan.points_coarser = leave_to_coarser(c);
-  return c.page_count <= static_cast<std::size_t>(c.options.capacity);
+  if (c.options.share == 1.0) return open_pages(c);
+  LeftToCoarser left = leave_to_coarser(c, kShareRounds);
+  if (!left.open && left.rounds >= 0) {
+    // The rounds before the one that filled the pool, from the same levels: their pages fit.
+    c.options.policy->assign(c);
+    left = leave_to_coarser(c, left.rounds);
+  }
+  plan.points_coarser = left.points;
+  return left.open;
 }
 
 /// The size and place of the grids, among the trials, with the fewest pages.

@@ -563,5 +563,35 @@ TEST(Pages, a_share_leaves_about_as_many_points_to_coarser_levels_as_it_allows_a
   }
 }
 
+// The coarser pages were more than the pool holds: two thirds of the points were left without a page.
+TEST(Pages, a_share_below_one_leaves_no_point_without_a_page_where_the_pool_is_full) {
+  Street street;
+  street.camera = perspective_camera({0, 5, 60}, {0, -0.15, -1}, {0, 1, 0}, 1.0, 1.5, 0.5, 500, 960, 640);
+  street.boxes = {{{-100, 0, -100}, {100, 30, 100}}};
+  street.points.clear();
+  for (int i = 0; i < 400; ++i)
+    street.points.push_back({-90.0 + 37 * i % 181, 0.0, -95.0 + 0.1 * (71 * i % 1500)});
+  int coarser = 0, kept = 0;
+  for (const PagePolicy* policy : all_page_policies()) {
+    street.options.policy = policy;
+    for (int capacity = 2; capacity <= 64; ++capacity) {
+      for (const double share : {0.5, 0.8, 0.95}) {
+        street.options.capacity = capacity;
+        street.options.share = share;
+        std::vector<std::byte> memory(page_memory(capacity, street.points.size()));
+        const PagePlan plan = street.plan(memory);
+        if (plan.status == PlanStatus::invalid_input) continue;  // less than a page for each map
+        ++(plan.points_coarser > 0 ? coarser : kept);
+        std::uint64_t served = 0;
+        for (const glm::dvec3& point : street.points) served += page_serving(plan, point) >= 0;
+        EXPECT_EQ(served, street.points.size()) << policy->name << ' ' << capacity << ' ' << share;
+        EXPECT_EQ(plan.points, street.points.size());
+      }
+    }
+  }
+  EXPECT_GT(coarser, 200);
+  EXPECT_GT(kept, 20);
+}
+
 }  // namespace
 }  // namespace gnomon::test
