@@ -97,8 +97,7 @@ struct PageOptions {
   /// exceeds.
   double target_m = 1.0;
   /// Share of the visible points that must meet the target, in (0, 1]. Below 1, pages that few points need
-  /// are left to a level of twice the texel size, as far as the pool holds the pages of that level. No point
-  /// loses its page.
+  /// are left to a level of twice the texel size. That ends where the pool is full: every point has a page.
   double share = 1.0;
   /// Steps in which texels halve, 1..4. More steps waste fewer texels, and take more look-ups.
   int levels_per_octave = 3;

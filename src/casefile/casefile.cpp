@@ -2,16 +2,12 @@
 #include "gnomon/casefile/casefile.hpp"
 
 #include <algorithm>
-
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <numbers>
 #include <type_traits>
 #include <variant>
 
+#include "base/bounded_file.hpp"
 #include "base/nearest_name.hpp"
 #include "gnomon/casefile/plan_fields.hpp"
 #include "json_fields.hpp"
@@ -355,16 +351,9 @@ void read_feedback(const Fields& fields, Case& result) {
 }
 
 std::string read_text(const std::filesystem::path& file) {
-  const auto close = [](std::FILE* stream) { (void)std::fclose(stream); };
-  const std::unique_ptr<std::FILE, decltype(close)> stream(std::fopen(file.c_str(), "rb"), close);
-  if (!stream) throw CaseError(std::strerror(errno));
   std::string text;
-  std::array<char, 65536> block;
-  while (const std::size_t count = std::fread(block.data(), 1, block.size(), stream.get())) {
-    text.append(block.data(), count);
-    if (text.size() > kMaxCaseBytes) throw CaseError("larger than 16 MiB");
-  }
-  if (std::ferror(stream.get())) throw CaseError(std::strerror(errno));
+  const std::string why = read_bounded_file(file, kMaxCaseBytes, Readable::file_or_pipe, text);
+  if (!why.empty()) throw CaseError(why);
   return text;
 }
 

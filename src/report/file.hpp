@@ -1,6 +1,7 @@
 // Whole files in and out, with errors that name them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -8,9 +9,12 @@ namespace gnomon::report {
 
 /// Throws ReportError: one line that names the file or folder.
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why);
-/// Of a regular file of at most 1 GiB; devices and pipes are refused without waiting for them. Throws
+/// The most that read_text takes unless told otherwise: half a million rows.
+inline constexpr std::uint64_t kMaxTextBytes = 1ull << 30;
+/// Of a regular file of at most `max_bytes`; devices and pipes are refused without waiting for them. Throws
 /// ReportError.
-[[nodiscard]] std::string read_text(const std::filesystem::path& file);
+[[nodiscard]] std::string read_text(const std::filesystem::path& file,
+                                    std::uint64_t max_bytes = kMaxTextBytes);
 /// The same, of a PNG of at most 64 MiB: what rows call a picture must look like one before it is copied or
 /// shown.
 [[nodiscard]] std::string read_picture(const std::filesystem::path& file);

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "base/bounded_file.hpp"
 #include "base/json_words.hpp"
 #include "base/whole_file.hpp"
-#include "files.hpp"
 #include "glb.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/load.hpp"
@@ -107,14 +107,10 @@ CameraPath camera_path_from_text(std::string_view text, const std::string& path_
 }  // namespace detail
 
 CameraPath load_camera_path(const std::filesystem::path& file) {
-  detail::Bytes bytes;
-  try {
-    bytes = detail::read_regular_file(file, kFileBytes);
-  } catch (const std::exception& e) {
-    throw SceneError(detail::one_line(file.string() + ": file: " + e.what()));
-  }
-  return detail::camera_path_from_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
-                                       file.string());
+  std::string text;
+  const std::string why = read_bounded_file(file, kFileBytes, Readable::file_or_pipe, text);
+  if (!why.empty()) throw SceneError(detail::one_line(file.string() + ": file: " + why));
+  return detail::camera_path_from_text(text, file.string());
 }
 
 void save_camera_path(const CameraPath& path, const std::filesystem::path& file) {

@@ -2,17 +2,11 @@
 // spelling.
 #include "files.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <stdexcept>
 
+#include "base/bounded_file.hpp"
 #include "refusal.hpp"
 
 namespace gnomon::detail {
@@ -20,20 +14,6 @@ namespace gnomon::detail {
 namespace fs = std::filesystem;
 
 namespace {
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -129,26 +109,9 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
 }  // namespace
 
 Bytes read_regular_file(const fs::path& file, std::uint64_t max_bytes) {
-  // O_NONBLOCK: opening a pipe must not wait for a writer.
-  const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-  if (in.get() < 0) throw std::runtime_error(std::string("cannot be read: ") + std::strerror(errno));
-  struct stat status {};
-  if (::fstat(in.get(), &status) != 0) throw std::runtime_error("cannot be examined");
-  if (!S_ISREG(status.st_mode)) throw std::runtime_error("is not a regular file");
-  const auto size = static_cast<std::uint64_t>(status.st_size);
-  if (size > max_bytes) {
-    throw std::runtime_error("has " + std::to_string(size) + " bytes, more than the limit of " +
-                             std::to_string(max_bytes));
-  }
-  Bytes bytes(static_cast<std::size_t>(size));
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t got = ::read(in.get(), bytes.data() + done, bytes.size() - done);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) break;
-    done += static_cast<std::size_t>(got);
-  }
-  if (done != bytes.size()) throw std::runtime_error("could not be read to its end");
+  Bytes bytes;
+  const std::string why = read_bounded_file(file, max_bytes, Readable::regular_file, bytes);
+  if (!why.empty()) throw std::runtime_error(why);
   return bytes;
 }
 

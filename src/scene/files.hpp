@@ -14,7 +14,7 @@ namespace gnomon::detail {
 using Bytes = std::vector<std::uint8_t>;
 
 /// The bytes of a regular file of at most `max_bytes`. Throws std::runtime_error that says what is wrong,
-/// without the path. Devices and pipes are refused without waiting for them.
+/// without the path; see read_bounded_file().
 [[nodiscard]] Bytes read_regular_file(const std::filesystem::path& file, std::uint64_t max_bytes);
 
 /// FNV-1a (Fowler, Noll, Vo 1991), 64 bits, of bytes that follow those that `before` stands for.

@@ -178,7 +178,7 @@ TEST(CaseFile, names_the_file_in_front_of_the_complaint) {
     (void)load_case("/nowhere/a.json");
     FAIL();
   } catch (const CaseError& error) {
-    EXPECT_STREQ(error.what(), "/nowhere/a.json: No such file or directory");
+    EXPECT_STREQ(error.what(), "/nowhere/a.json: cannot be read: No such file or directory");
   }
 }
 

@@ -1,5 +1,6 @@
 // The program's command line: help, version, and what it says to words it does not know.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 
@@ -81,6 +82,50 @@ TEST(CommandLine, output_that_cannot_be_written_is_an_error) {
     const Finished finished = spawn_gnomon(arguments, "", "/dev/full");
     EXPECT_EQ(finished.exit_code, 2);
     EXPECT_NE(finished.err.find("standard output"), std::string::npos) << finished.err;
+  }
+}
+
+// A state read /dev/zero until the memory was full.
+TEST(CommandLine, refuses_devices_folders_and_idle_pipes_in_the_place_of_every_file_it_reads) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  // Where pipes are taken, an idle one is given up after kPipePatience: BoundedFile has that.
+  struct Reader {
+    bool takes_pipes;
+    std::vector<std::string> before, after;
+  };
+  const std::string out = folder.path() / "out";
+  const Reader readers[] = {
+      {true, {"plan"}, {}},
+      {true, {"stress", "--replay"}, {}},
+      {true, {"view", "--state"}, {}},
+      {true, {"view", "builtin:fence", "--path"}, {}},
+      {true, {"fly", "builtin:fence", "--out", out, "--path"}, {}},
+      {false, {"view"}, {}},
+      {false, {"view", "builtin:fence", "--results"}, {}},
+      {false, {"fly", "builtin:fence", "--target-error", "1", "--out", out, "--cost-model"}, {}},
+      {false, {"fly", "--out", out}, {}},
+      {false, {"bias", "--out", out}, {}},
+      {false, {"compare"}, {"--out", out}},
+      {false, {"merge", "--out", out}, {}},
+      {false, {"report", "--gpu"}, {}},
+      {false, {"calibrate", "--check", "--out", folder.path(), "--model"}, {}},
+      {false, {"diff"}, {case_files().front().string()}},
+      {false, {"diff", case_files().front().string()}, {}},
+  };
+  for (const Reader& reader : readers) {
+    for (const std::string& name : {std::string("/dev/zero"), folder.path().string(), pipe}) {
+      if (name == pipe && reader.takes_pipes) continue;
+      std::vector<std::string> arguments = reader.before;
+      arguments.push_back(name);
+      arguments.insert(arguments.end(), reader.after.begin(), reader.after.end());
+      const Finished finished = run_gnomon(arguments);
+      std::string line;
+      for (const std::string& word : arguments) line += word + ' ';
+      EXPECT_EQ(finished.exit_code, 2) << line << finished.err;
+      EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << line << finished.err;
+    }
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kCostSchema = "gnomon.cost.2";
-constexpr std::size_t kLargestFile = 1 << 20;
+constexpr std::uint64_t kMaxBytes = 1 << 20;  // larger than any cost model
 constexpr std::pair<const char*, double DrawingCosts::*> kDrawing[] = {
     {"frame_ms", &DrawingCosts::per_frame},
     {"ms_per_map", &DrawingCosts::per_map},
@@ -101,11 +101,7 @@ void save_cost_model(const StoredCostModel& model, const std::filesystem::path& 
 }
 
 StoredCostModel load_cost_model(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(file, ignored) &&
-      std::filesystem::file_size(file, ignored) > kLargestFile)
-    throw ReportError(one_line(file.string() + ": larger than any cost model"));
-  return cost_model_from_text(read_text(file), file.string());
+  return cost_model_from_text(read_text(file, kMaxBytes), file.string());
 }
 
 }  // namespace gnomon::report

@@ -3,15 +3,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "base/bounded_file.hpp"
 #include "command.hpp"
 #include "gnomon/scene/image.hpp"
 #include "output.hpp"
@@ -32,17 +30,12 @@ struct DiffRequest {
 };
 
 Image load_picture(const std::string& file) {
-  constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;  // bytes
+  constexpr std::uint64_t kMaxBytes = std::uint64_t{256} << 20;
   constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw std::runtime_error(file + ": there is no such file");
-  if (!std::filesystem::is_regular_file(file, error)) throw std::runtime_error(file + ": is no file");
-  if (std::filesystem::file_size(file, error) > kLargestFile || error)
-    throw std::runtime_error(file + ": larger than 256 MiB");
-  std::ifstream in(file, std::ios::binary);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad() || !in.is_open()) throw std::runtime_error(file + ": cannot be read");
-  return decode_image({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, file, kMaxPixels);
+  std::vector<std::uint8_t> bytes;
+  const std::string why = read_bounded_file(file, kMaxBytes, Readable::regular_file, bytes);
+  if (!why.empty()) throw std::runtime_error(file + ": " + why);
+  return decode_image(bytes, file, kMaxPixels);
 }
 
 struct Difference {

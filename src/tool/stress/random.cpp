@@ -2,10 +2,9 @@
 #include "stress/random.hpp"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
+#include "base/bounded_file.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "run.hpp"
@@ -16,9 +15,14 @@ namespace {
 namespace fs = std::filesystem;
 
 stress::Verdict check_file(const fs::path& file) {
-  (void)load_case(file);  // says what is wrong with it, and where
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string text;
+  const std::string why = read_bounded_file(file, kMaxCaseBytes, Readable::file_or_pipe, text);
+  if (!why.empty()) throw CaseError(shown_name(file) + ": " + why);
+  try {
+    (void)read_case(text);  // says what is wrong with it, and where
+  } catch (const CaseError& error) {
+    throw CaseError(shown_name(file) + ": " + error.what());
+  }
   return stress::check_case(nlohmann::ordered_json::parse(text));
 }
 
@@ -39,8 +43,9 @@ int replay(const RandomStressRequest& request) {
 
 int run_random_stress(const RandomStressRequest& request) {
   if (!request.replay.empty()) return replay(request);
-  const fs::path folder = request.out.empty() ? fs::temp_directory_path() / ("gnomon_stress_seed_" + std::to_string(request.seed))
-                                              : fs::path(request.out);
+  const fs::path folder =
+      request.out.empty() ? fs::temp_directory_path() / ("gnomon_stress_seed_" + std::to_string(request.seed))
+                          : fs::path(request.out);
   const stress::RandomOptions options{static_cast<long long>(request.random), request.seed, true};
   Progress progress("gnomon stress --random", options.cases);
   long long done = 0;

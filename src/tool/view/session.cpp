@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/bounded_file.hpp"
 #include "base/whole_file.hpp"
 
 namespace gnomon::tool::view {
@@ -36,8 +36,10 @@ std::filesystem::path last_state_file() {
 
 Session load_session(const std::filesystem::path& file) {
   Session session;
-  std::ifstream stream(file);
-  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  constexpr std::uint64_t kMaxBytes = 1 << 20;  // a few names of scenes
+  std::string text;
+  if (!read_bounded_file(file, kMaxBytes, Readable::regular_file, text).empty()) return session;
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) return session;
   if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array()) {
     for (const auto& scene : *recent)

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 
+#include "base/bounded_file.hpp"
 #include "base/nearest_name.hpp"
 #include "base/whole_file.hpp"
 #include "gnomon/casefile/casefile.hpp"
@@ -430,11 +429,10 @@ State read_state(std::string_view text) {
 
 State load_state(const std::string& file) {
   try {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw std::runtime_error("cannot be read");
-    std::ostringstream content;
-    content << stream.rdbuf();
-    return read_state(content.str());
+    std::string text;
+    const std::string why = read_bounded_file(file, kMaxCaseBytes, Readable::file_or_pipe, text);
+    if (!why.empty()) throw std::runtime_error(why);
+    return read_state(text);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(shown_name(file) + ": " + error.what());
   }

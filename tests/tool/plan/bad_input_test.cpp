@@ -119,7 +119,7 @@ TEST(BadInput, that_is_cut_off_or_deep_or_binary_or_huge_is_refused) {
 
 TEST(BadInput, that_cannot_be_opened_is_refused) {
   expect_refusal(run_gnomon({"plan", "/nowhere/a.json"}), "/nowhere/a.json", "No such file");
-  expect_refusal(run_gnomon({"plan", "/"}), "/", "Is a directory");
+  expect_refusal(run_gnomon({"plan", "/"}), "/", "is a folder");
 }
 
 TEST(BadInput, from_standard_input_is_named_by_its_line) {
