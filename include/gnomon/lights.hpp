@@ -66,8 +66,8 @@ struct LightOptions {
   int least_size = 64;
   /// Side of the largest maps, texels, a power of two up to kMaxMapSize.
   int most_size = 1024;
-  /// Error m (screen pixels per texel, mean over what the light lights) that suffices, >= 0: a light's maps
-  /// are not enlarged below it. 0: none, the budget is used up.
+  /// Error m (screen pixels per texel, mean over what the light lights) that suffices, >= 0. Maps of a light
+  /// that has it are not enlarged beyond least_size. 0: none, the budget is used up.
   double enough_m = 0.0;
   /// Most frames from one drawing of a light's maps to the next, 1..kMaxCadenceFrames.
   int most_frames = 8;

@@ -148,6 +148,14 @@ TEST(LightsLaw, every_light_in_view_has_maps_and_places_never_overlap) {
     const bool scarce = std::any_of(plan.lights.begin(), plan.lights.end(), [](const LightMaps& maps) {
       return maps.outcome == LightOutcome::below_least_size;
     });
+    std::int64_t least = 0;
+    for (const LightMaps& maps : plan.lights) {
+      least += std::int64_t{scene.options.least_size} * scene.options.least_size * maps.map_count;
+      require(maps.outcome != LightOutcome::mapped || maps.size >= scene.options.least_size, "small",
+              maps.size);
+    }
+    const std::int64_t pool = std::int64_t{scene.options.pool_width} * scene.options.pool_height;
+    require(scarce == (least > std::min(scene.options.texel_budget, pool)), "scarce", scarce, least);
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
       const LightMaps& maps = plan.lights[i];
       require(!scarce || maps.size <= scene.options.least_size, "above the floor while others are below");

@@ -200,7 +200,7 @@ void LightPlanner::weigh(const LightView& view) noexcept {
     maps.map_count = maps.frames > 1 ? found.all_maps : found.seen_maps;
     int top = ladder_.top;
     if (options_.enough_m > 0.0) {
-      for (top = 0; top < ladder_.top && maps.m > options_.enough_m * ladder_.inside(top);) ++top;
+      for (top = ladder_.floor; top < ladder_.top && maps.m > options_.enough_m * ladder_.inside(top);) ++top;
     }
     const LightState* last = last_of(i);
     const double square = static_cast<double>(ladder_.least) * ladder_.least;
@@ -235,7 +235,7 @@ std::string_view LightPlanner::size() noexcept {
     LightMaps& maps = maps_of(light);
     maps.size = ladder_.least << light.level;
     maps.m /= ladder_.inside(light.level);
-    if (light.level < std::min(ladder_.floor, light.top)) maps.outcome = LightOutcome::below_least_size;
+    if (light.level < ladder_.floor) maps.outcome = LightOutcome::below_least_size;
     plan_.texels += std::int64_t{maps.size} * maps.size * light.maps;
     plan_.error += lights_[light.light].weight * maps.share * maps.m;
   }

@@ -226,9 +226,8 @@ void choose(std::span<LightWork> lights, const SizeLadder& ladder, const SizeBud
   for (LightWork& light : lights) light.level = 0;
   // No light above the floor before all are at it: else more cells could take from one to lift another.
   raise(lights, ladder, ladder.floor, budget, order);
-  const bool all = std::all_of(lights.begin(), lights.end(), [&](const LightWork& light) {
-    return light.level >= std::min(ladder.floor, light.top);
-  });
+  const bool all = std::all_of(lights.begin(), lights.end(),
+                               [&](const LightWork& light) { return light.level >= ladder.floor; });
   if (all) raise(lights, ladder, ladder.top, budget, order);
 }
 

@@ -16,7 +16,7 @@ struct LightWork {
   std::uint32_t light;  ///< index into the lights
   int maps;             ///< how many it draws
   int level;            ///< of their size: the smallest doubled so many times
-  int top;              ///< largest level
+  int top;              ///< largest level, at least SizeLadder::floor
   int last;             ///< level in the last plan
   double price = 0.0;   ///< milliseconds per frame for each square of the smallest size, of all its maps
   double fixed = 0.0;   ///< the same whatever the size
