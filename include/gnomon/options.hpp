@@ -453,7 +453,8 @@ struct FilterExtent {
   /// Kernel radius in texels, 0..max_size/4.
   double texels = 1.0;
   /// Kernel radius in world units across the light, >= 0. The border is as wide as the kernel gets where the
-  /// map's texels are smallest, at most a quarter of the map. The wider of the two radii counts.
+  /// map's texels are smallest, at most a quarter of the map. The wider of the two radii counts. With
+  /// Fit::stable under a local light, it is that of the nearest power of two below the nearest surface in view.
   double world = 0.0;
   /// Equal in all members.
   bool operator==(const FilterExtent&) const = default;

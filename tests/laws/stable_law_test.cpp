@@ -4,8 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
+#include <set>
 #include <vector>
 
+#include "gnomon/motion.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -116,6 +118,69 @@ TEST(StableLaw, equal_snap_keys_mean_the_same_matrix_to_the_last_bit) {
     }
   });
   EXPECT_GT(equal, of_all_draws(300));
+}
+
+Light local_light_in_view(const Case& c) {
+  const glm::dvec3 at = point_at(c.camera, between(-1, 1), between(-1, 1),
+                                 between(c.camera.near_depth, 0.2 * c.camera.far_depth)) -
+                        c.light * between(0.01, 0.2) * c.camera.far_depth;
+  const double range = between(0.05, 2.0) * c.camera.far_depth;
+  if (chance(0.5)) return PointLight{at, range};
+  return SpotLight{at, c.light, between(0.05, 3.0), range};
+}
+
+// The last bits followed the eye: nothing that was drawn could be kept.
+TEST(StableLaw, a_local_light_keeps_its_matrices_and_its_place_to_the_last_bit_under_any_motion) {
+  std::uint64_t equal = 0, reused = 0, other_depths = 0;
+  for_all(1000, [&] {
+    Case c = draw_stable_case();
+    const Light light = local_light_in_view(c);
+    if (chance(0.4)) c.options.filter.world = 0.01 * between(0.0, 1.0) * c.camera.far_depth;
+    const ShadowPlan before = make_plan(c.camera, light, c.bounds(), c.options);
+    RC_LOG() << c;
+    Case moved = c;
+    moved.camera.position += glm::dvec3(unit(), unit(), unit()) * (between(0.0, 0.02) * c.camera.far_depth);
+    const ShadowPlan after = make_plan(moved.camera, light, c.bounds(), c.options);
+    for (const ShadowMap& m : before.maps()) {
+      for (const ShadowMap& n : after.maps()) {
+        if (n.cascade != m.cascade) continue;
+        require(m.light_world == n.light_world, "the light moves", m.cascade);
+        if (!(n.snap_key == m.snap_key)) {
+          ++other_depths;
+          continue;
+        }
+        ++equal;
+        require(m.clip_from_world == n.clip_from_world, "matrices of equal keys differ", m.cascade);
+        reused += reuse(m, n).kind == ReuseKind::identical;
+      }
+    }
+  });
+  EXPECT_GT(equal, of_all_draws(300));
+  EXPECT_EQ(reused, equal);
+  EXPECT_LT(other_depths, equal);
+}
+
+TEST(StableLaw, a_kernel_in_world_units_leaves_a_local_light_its_texels_within_an_octave_of_distance) {
+  // A lamp along a floor: the nearest floor in view is as far from it as the eye has walked.
+  const std::vector<Box> floor{{{0, -1, -20}, {60, 0, 20}}}, casters{{{5, 0, -4}, {50, 3, 4}}};
+  PlanOptions options;
+  options.fit = Fit::stable;
+  options.filter.world = 0.2;
+  std::set<double> sizes;
+  int maps = 0;
+  for (int step = 0; step < 400; ++step) {
+    const Camera camera =
+        perspective_camera({6.0 + 0.05 * step, 6, 0}, {0.3, -1, 0}, {0, 1, 0}, 0.6, 1.6, 0.1, 100, 640, 400);
+    const SpotLight lamp{{0, 2, 0}, {1, -0.1, 0}, 0.7, 80.0};
+    const ShadowPlan plan = make_plan(camera, lamp, {floor, casters}, options);
+    for (const ShadowMap& map : plan.maps()) {
+      sizes.insert(map.snap_key.texel);
+      ++maps;
+    }
+  }
+  EXPECT_GT(maps, 300);
+  EXPECT_GE(sizes.size(), 2u) << "the border follows the distance";
+  EXPECT_LE(sizes.size(), 4u);
 }
 
 TEST(StableLaw, a_stable_map_is_never_warped_and_reports_an_ignored_warp) {

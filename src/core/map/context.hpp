@@ -78,6 +78,7 @@ struct MapRequest {
   double room = 0.0;  // of the body round the slice's frustum, world units: the map is cached over frames
   const Plane* receiver = nullptr;  // as WarpInput::receiver, relative to the camera and in world axes
   std::span<const ViewedPoint> viewed = {};  // of several views, for the body's vertices; empty: one view
+  glm::dvec3 apex_world{0.0};                // local light: its position, with the bits of the input
 };
 
 /// One map, and what happened while it was fitted. The map's record is made where it will stay: records are

@@ -199,7 +199,7 @@ HeightRange perspective_heights(const PlanContext& c, const MapRequest& request,
   if (c.how.stable) {
     // Whole powers of two, so that stored depths do not change while the nearest caster moves a little.
     near_distance = std::ldexp(1.0, std::ilogb(near_distance));
-    far_distance = max_of(far_distance, request.range * (1.0 + kDepthPadding));
+    far_distance = request.range * (1.0 + kDepthPadding);
   }
   range.nearest = near_distance;
   range.bottom = 1.0 / far_distance;

@@ -329,8 +329,15 @@ void focused_map(const PlanContext& c, const MapRequest& request, MapResult& res
       c, request,
       {body, fitted.plane, fitted.swept, fitted.needed, fitted.rows, obliquity, gl_from_relative, longest},
       map);
-  if (c.how.stable) write_snap_key(fitted, map);
   if (c.how.has_history) result.gl_from_world = world_matrix(gl_from_relative, c.camera.position);
+  if (c.how.stable) {
+    write_snap_key(fitted, map);
+    // From the world, not by way of the eye: the same key, the same bits.
+    const LightFrame& frame = request.space.frame;
+    const LightSpace in_world{frame, true, frame.turned(request.apex_world)};
+    result.gl_from_world = clip_from_light(map, fitted) * in_world.light_from_relative();
+    map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * result.gl_from_world;
+  }
   if (cached) {
     map.warp = map.kappa > 0.0 ? &request.warp : &warps::none;
     // The very bits of the last frame: what is drawn stays as it is.

@@ -184,10 +184,7 @@ void complete_record(const PlanContext& c, const MapRequest& request, const MapP
   const glm::dmat4 from_relative = clip_from_gl(c.options.clip_space, parts.gl_from_relative);
   map.clip_from_camera_relative = glm::mat4(from_relative);
   map.clip_from_world = world_matrix(from_relative, c.camera.position);
-  const glm::dvec3 apex =
-      space.frame.x * space.apex.x + space.frame.y * space.apex.y + space.frame.z * space.apex.z;
-  map.light_world =
-      space.perspective ? glm::dvec4(apex + c.camera.position, 1.0) : glm::dvec4(space.frame.z, 0.0);
+  map.light_world = space.perspective ? glm::dvec4(request.apex_world, 1.0) : glm::dvec4(space.frame.z, 0.0);
   write_texels(c, request, parts, map);
   write_planes(c, parts.swept, map);
   if (!map.shape->affine)

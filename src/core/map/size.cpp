@@ -54,7 +54,9 @@ double border_share(const PlanContext& c, const MapRequest& request, const Light
   // to the light's axis.
   double steepest = 0.0;
   for (const WarpInput::Point& p : body.points()) steepest = max_of(steepest, p.x * p.x + p.y * p.y);
-  return share * std::sqrt(1.0 + steepest) / body.nearest;
+  // In whole powers of two, so that a stable grid does not follow the nearest surface in view.
+  const double nearest = c.how.stable ? std::ldexp(1.0, std::ilogb(body.nearest)) : body.nearest;
+  return share * std::sqrt(1.0 + steepest) / nearest;
 }
 
 int border_of(const PlanOptions& options, int width, int height, double share) noexcept {

@@ -48,7 +48,7 @@ struct LocalFrustum {
 struct LocalScene {
   const PlanContext& c;
   const Warp& warp;
-  glm::dvec3 apex;
+  glm::dvec3 apex, apex_world;
   double range;
   Polytope lit;  // before any frustum of the light cuts them
   MapSizes sizes;
@@ -223,6 +223,7 @@ MapRequest request_for(const LocalScene& scene, const LocalFrustum& frustum, con
   slot.depth_begin = request.begin = clamp_to(begin, c.camera.near_depth, c.camera.far_depth);
   slot.depth_end = request.end = clamp_to(end, slot.depth_begin, c.camera.far_depth);
   request.last = last_map(scene.history, face);
+  request.apex_world = scene.apex_world;
   if (!of_solid) return request;
   request.without_casters = !c.options.prune.has(PruneRule::casterless_faces);
   // A face serves what lies in it: its map has the casters of that, and may show more.
@@ -342,9 +343,11 @@ void plan_local(const PlanContext& c, const Light& light, const Resolved& resolv
   if (spot == nullptr && point == nullptr) return;
   const Camera& camera = c.camera;
   const PlanOptions& options = c.options;
+  const glm::dvec3& apex_world = spot != nullptr ? spot->position : point->position;
   LocalScene scene{c,
                    *c.how.warp,
-                   (spot != nullptr ? spot->position : point->position) - camera.position,
+                   apex_world - camera.position,
+                   apex_world,
                    spot != nullptr ? spot->range : point->range,
                    view_body(c),
                    equal_sizes(options.resolution.max_size),
@@ -366,7 +369,8 @@ void plan_local(const PlanContext& c, const Light& light, const Resolved& resolv
     // A trial that leaves nothing to remember tells the sizes.
     PlanContext trial = c;
     trial.how.forget();
-    const LocalScene equal{trial, scene.warp, scene.apex, scene.range, scene.lit, scene.sizes, nullptr};
+    const LocalScene equal{trial,       scene.warp, scene.apex,  scene.apex_world,
+                           scene.range, scene.lit,  scene.sizes, nullptr};
     plan_frusta(equal, light, resolved, plan);
     const int faces = resolved.tetrahedron ? static_cast<int>(kTetrahedron.size()) : kCubeFaces;
     scene.sizes = budgeted_sizes(plan, options, faces, true);
