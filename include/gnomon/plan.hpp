@@ -35,7 +35,7 @@ enum class OmissionKind : std::uint8_t {
   cascade_without_caster,    ///< a: depth_begin, b: depth_end
   depth_without_receiver,    ///< the camera's range was cut to the receivers': a: depth_begin, b: depth_end
   depth_not_visible,         ///< View::depths shows nothing there: a: depth_begin, b: depth_end
-  warp_without_gain,         ///< a: objective with the warp over the objective without
+  warp_without_gain,         ///< a: objective with the warp over that without; infinite: it fits no map here
   warp_in_stable_fit,        ///< a warp was requested, and Fit::stable takes none
   part_without_caster,       ///< of a partition other than by depth; a: depth_begin, b: depth_end
   partition_without_gain,    ///< one map takes all; a: objective of the parts over that of one map
@@ -54,6 +54,7 @@ enum class OmissionKind : std::uint8_t {
   plane_without_caster,    ///< no caster can reach its receivers; a: index in warp.planes
   cascade_on_planes,       ///< maps of warp.planes serve all of it; a: depth_begin, b: depth_end
   faces_less_divided,      ///< no map is left for a slice that pays; a: slices of that face, b: face_slices
+  receiver_near_light,     ///< receivers nearer than a to the light have no map, and are lit; b: their boxes
 };
 /// The option that OmissionKind::option_ignored names.
 enum class IgnoredOption : std::uint8_t {

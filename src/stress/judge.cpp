@@ -202,6 +202,8 @@ const char* kind_name(OmissionKind kind) {
       return "face without caster";
     case OmissionKind::resolution_without_gain:
       return "texels finer than requested";
+    case OmissionKind::receiver_near_light:
+      return "receivers near the light";
     case OmissionKind::depth_near_light:
       return "depths near the light";
     case OmissionKind::view_without_receiver:

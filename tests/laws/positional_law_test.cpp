@@ -20,9 +20,9 @@ namespace {
 
 // Rounding of positions through two matrices, relative to the map's half width.
 constexpr double kRim = 1e-6;
-// Share of the range round the light in which nothing need be shown: a map may begin at 2^-10 of the farthest
-// distance, along the axis of a face.
-constexpr double kTooNear = 1.1 * 0x1p-10;
+// A map may begin at light_near_share of the farthest receiver, along the axis of a face; with room for
+// rounding.
+constexpr double kNearRoom = 1.1;
 // A ray that only grazes a box, a cone or a range by this share may count either way.
 constexpr double kGraze = 1e-9;
 
@@ -40,6 +40,15 @@ struct LightCase {
   }
   [[nodiscard]] ShadowPlan plan() const {
     return make_plan(scene.camera, light, scene.bounds(), scene.options);
+  }
+  /// Distance round the light in which nothing need be shown.
+  [[nodiscard]] double too_near() const {
+    double farthest = 0.0;
+    for (const Box& box : scene.receivers) {
+      const glm::dvec3 corner = glm::max(glm::abs(box.min - position), glm::abs(box.max - position));
+      farthest = std::max(farthest, glm::length(corner));
+    }
+    return kNearRoom * scene.options.light_near_share * std::min(range, farthest);
   }
 };
 
@@ -93,6 +102,7 @@ LightCase draw_light_case() {
     const glm::dvec3 half(glm::length(to) * random.between(0.001, 0.1));
     c.scene.casters.push_back({at - half, at + half});
   }
+  if (chance(0.3)) c.scene.options.light_near_share = std::exp2(between(-10.0, -1.0));
   c.spot = chance(0.6);
   if (c.spot) {
     constexpr double kDegree = std::numbers::pi / 180.0;
@@ -121,7 +131,7 @@ bool lit(const LightCase& c, const glm::dvec3& p) {
   const double cosine = c.spot ? glm::dot(q, c.direction) / (r * glm::length(c.direction)) : 1.0;
   if (c.spot && !(std::acos(std::clamp(cosine, -1.0, 1.0)) < c.outer * (1.0 - 1e-7))) return false;
   const bool single = c.spot && c.outer < 85.0 * std::numbers::pi / 180.0;
-  return r * (single ? cosine : c.least_cosine()) > kTooNear * c.range;
+  return r * (single ? cosine : c.least_cosine()) > c.too_near();
 }
 
 /// Points of a grid over image and depths that the single receiver and the light hold. A map shows more than
@@ -148,7 +158,7 @@ std::vector<glm::dvec3> lit_points(const LightCase& c, const MeasureOptions& gri
 
 /// Smallest distance along the axis of any map at which casters must be shown, as a share of the way.
 double shown_from(const LightCase& c, double length) {
-  return kTooNear * c.range / (c.least_cosine() * length);
+  return c.too_near() / (c.least_cosine() * length);
 }
 
 struct Blocker {

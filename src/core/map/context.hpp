@@ -58,6 +58,15 @@ struct MapSlot {
   int select_count = 0;
 };
 
+/// Where a local light's frustum begins, and how many boxes of receivers reach nearer.
+struct NearCut {
+  double distance = 0.0;
+  int boxes = 0;
+};
+[[nodiscard]] constexpr Omission near_receivers(const NearCut& cut, int map) noexcept {
+  return {OmissionKind::receiver_near_light, map, cut.distance, static_cast<double>(cut.boxes), 0};
+}
+
 /// One map to be fitted round `body`: the visible receivers of one slice, face or cone, relative to the
 /// camera, not empty, and in front of a local light.
 struct MapRequest {
@@ -78,6 +87,7 @@ struct MapRequest {
   double room = 0.0;  // of the body round the slice's frustum, world units: the map is cached over frames
   const Plane* receiver = nullptr;  // as WarpInput::receiver, relative to the camera and in world axes
   std::span<const ViewedPoint> viewed = {};  // of several views, for the body's vertices; empty: one view
+  NearCut near_cut = {};                     // local light: in front of the body
   glm::dvec3 apex_world{0.0};                // local light: its position, with the bits of the input
 };
 
@@ -88,7 +98,7 @@ struct MapResult {
   bool drawn = false;  // false: no caster can reach the body
   glm::dmat4 gl_from_world{1.0};
   PlanHistory::SearchedWarp searched;
-  std::array<Omission, 4> omission;
+  std::array<Omission, 5> omission;
   int omission_count = 0;
   bool has_event = false;
   PlanEvent event;

@@ -202,6 +202,7 @@ HeightRange perspective_heights(const PlanContext& c, const MapRequest& request,
     far_distance = request.range * (1.0 + kDepthPadding);
   }
   range.nearest = near_distance;
+  range.nearest_caster = casters.too_near > 0 ? least : nearest;
   range.bottom = 1.0 / far_distance;
   const double from = f.measured_from.value_or(range.bottom);
   range.height = highest_over(f, from, Faces<1>{{1.0 / near_distance}});

@@ -27,9 +27,10 @@ struct FittedPlane {
 /// Heights that a map covers, in light space.
 struct HeightRange {
   double bottom = 0.0, height = 0.0;
-  bool has_casters = false;  ///< any that reaches the body
-  int too_near = 0;          ///< casters nearer to a local light than its maps show
-  double nearest = 0.0;      ///< local light: distance from which on the map shows casters
+  bool has_casters = false;     ///< any that reaches the body
+  int too_near = 0;             ///< casters nearer to a local light than its maps show
+  double nearest = 0.0;         ///< local light: distance from which on the map shows casters
+  double nearest_caster = 0.0;  ///< local light: least distance of a caster that counts
 };
 
 /// Distances at least PlanOptions::light_near_share of the farthest, unless boxes are known to be nearer.

@@ -321,6 +321,13 @@ void focused_map(const PlanContext& c, const MapRequest& request, MapResult& res
   if (fitted.heights.too_near > 0)
     result.omit({OmissionKind::depth_near_light, request.slot.cascade, fitted.heights.nearest,
                  static_cast<double>(fitted.heights.too_near), 0});
+  // Where no caster is nearer, nothing could shadow those receivers; maps begin a little before the nearest.
+  const NearCut& cut = request.near_cut;
+  constexpr double kPadding = 1.0 - 1.0 / 256.0;
+  const double said = fitted.heights.too_near > 0 ? fitted.heights.nearest : 0.0;
+  if (cut.boxes > 0 && fitted.heights.nearest_caster < cut.distance * kPadding &&
+      said < cut.distance * kPadding)
+    result.omit(near_receivers(cut, request.slot.cascade));
   map.depth_range_world = depth_range(request, fitted);
   const glm::dmat4 gl_from_relative = clip_from_light(map, fitted) * request.space.light_from_relative();
   glm::dvec2 longest = fitted.round.longest;

@@ -3,6 +3,7 @@
 #include "gnomon/extend/body.hpp"
 #include "gnomon/extend/light_space.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -111,22 +112,26 @@ void clip_towards_eye(LocalScene& scene) noexcept {
 }
 
 /// Distance in front of which the frustum shows nothing: where boxes leave it open, a share of the farthest
-/// lit distance; where receivers are known to be nearer, theirs.
-double nearest_shown(const LocalScene& scene, const LocalFrustum& frustum, const Polytope& body,
-                     double farthest) noexcept {
+/// lit receiver's; where receivers are known to be nearer, theirs.
+NearCut nearest_shown(const LocalScene& scene, const LocalFrustum& frustum, const Polytope& body,
+                      double farthest) noexcept {
   const double stand_in = scene.c.options.light_near_share * farthest;
   const NearBoxes boxes = nearest_inside({body.plane.data(), static_cast<std::size_t>(body.face_count)}, body,
                                          scene.c.bounds.receivers, scene.c.camera.position, frustum.frame.z,
                                          frustum.apex, kLeastNearShare * farthest);
   constexpr double kRoom = 1.0 - 1.0 / 1024.0;
-  return min_of(stand_in, max_of(boxes.nearest * kRoom, kLeastNearShare * farthest));
+  return {min_of(stand_in, max_of(boxes.nearest * kRoom, kLeastNearShare * farthest)), boxes.too_near};
 }
 
 /// Cuts off the apex, which has no slope, and everything farther than the range or too near to tell depths
-/// apart.
-void clip_to_distances(const LocalScene& scene, Polytope& body, const LocalFrustum& frustum) noexcept {
+/// apart. `receivers`: the boxes that the body is to hold parts of, none for all that the frustum shows.
+/// Returns where it cut the near end off, distance 0 where nothing was there.
+NearCut clip_to_distances(const LocalScene& scene, Polytope& body, const LocalFrustum& frustum,
+                          const Boxes& receivers) noexcept {
   const Plane far_plane = distance_plane(frustum, scene.range);
   clip(body, {-far_plane.normal, -far_plane.offset});
+  // A share of what lies beside the receivers could be farther than all of them.
+  clip_part(body, receivers, scene.c.camera.position);
   double farthest = 0.0, offset = largest_component(frustum.apex);
   for (const Polytope::Vertex& v : body.vertices()) {
     farthest = max_of(farthest, frustum.distance(v.position));
@@ -136,9 +141,16 @@ void clip_to_distances(const LocalScene& scene, Polytope& body, const LocalFrust
   constexpr double kRounding = 1e-13;
   if (!(farthest > kRounding * offset)) {
     body.vertex_count = 0;
-    return;
+    return {};
   }
-  clip(body, distance_plane(frustum, nearest_shown(scene, frustum, body, farthest)));
+  const NearCut cut = nearest_shown(scene, frustum, body, farthest);
+  const bool cuts = std::any_of(body.vertices().begin(), body.vertices().end(), [&](const auto& vertex) {
+    return frustum.distance(vertex.position) < cut.distance;
+  });
+  if (!cuts) return {};
+  clip(body, distance_plane(frustum, cut.distance));
+  clip_part(body, receivers, scene.c.camera.position);
+  return cut;
 }
 
 /// The cone that a cube is clipped by; without one everything is lit.
@@ -160,7 +172,7 @@ void clip_to_cone(Polytope& body, const LocalFrustum& face, const Cone& cone) no
 Polytope whole_face(const LocalScene& scene, const LocalFrustum& face) noexcept {
   Polytope body = box_polytope({scene.apex - glm::dvec3(scene.range), scene.apex + glm::dvec3(scene.range)});
   clip_to_sides(body, face);
-  if (!body.empty()) clip_to_distances(scene, body, face);
+  if (!body.empty()) clip_to_distances(scene, body, face, {});
   return body;
 }
 
@@ -250,13 +262,15 @@ void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double oute
   const glm::dvec3 a = (frustum.frame.x + frustum.frame.y) * std::sqrt(0.5);
   const glm::dvec3 b = (frustum.frame.x - frustum.frame.y) * std::sqrt(0.5);
   for (const glm::dvec3& side : {a, -a, b, -b}) clip(body, slope_plane(frustum, side, frustum.slope));
-  if (!body.empty()) clip_to_distances(scene, body, frustum);
-  clip_part(body, scene.c.bounds.receivers, scene.c.camera.position);
+  NearCut cut;
+  if (!body.empty()) cut = clip_to_distances(scene, body, frustum, scene.c.bounds.receivers);
   if (body.empty()) {
+    if (cut.boxes > 0) omit(plan, near_receivers(cut, 0));
     plan.status = PlanStatus::nothing_visible;
     return;
   }
   MapRequest request = request_for(scene, frustum, body, 0, false);
+  request.near_cut = cut;
   const ViewedBody viewed = viewed_body(scene.c, body);
   request.viewed = viewed.points();
   MapResult result(next_map(plan));
@@ -273,14 +287,18 @@ bool plan_face(const LocalScene& scene, const LocalFrustum& frustum, int face, c
   if (dark) body.vertex_count = 0;
   clip_to_sides(body, frustum);
   if (cone != nullptr) clip_to_cone(body, frustum, *cone);
-  if (!body.empty()) clip_to_distances(scene, body, frustum);
-  clip_part(body, scene.c.bounds.receivers, scene.c.camera.position);
+  NearCut cut;
+  if (!body.empty()) cut = clip_to_distances(scene, body, frustum, scene.c.bounds.receivers);
   if (body.empty() && !dark && !prune.has(PruneRule::empty_faces)) body = whole_face(scene, frustum);
   if (body.empty()) {
-    omit(plan, {OmissionKind::face_without_receiver, face, 0.0, 0.0, texels_asked(scene.c.options)});
-    return false;
+    Omission face_omission{OmissionKind::face_without_receiver, face, 0.0, 0.0, 0};
+    if (cut.boxes > 0) face_omission = near_receivers(cut, face);
+    face_omission.saves_texels = texels_asked(scene.c.options);
+    omit(plan, face_omission);
+    return cut.boxes > 0;
   }
   MapRequest request = request_for(scene, frustum, body, face, true);
+  request.near_cut = cut;
   const ViewedBody viewed = viewed_body(scene.c, body);
   request.viewed = viewed.points();
   MapResult result(next_map(plan));

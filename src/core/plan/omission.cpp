@@ -1,5 +1,6 @@
 // What was left out, in words.
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <iterator>
 
@@ -88,7 +89,11 @@ OmissionText describe(const Omission& o) noexcept {
       break;
     case OmissionKind::warp_without_gain:
       what("warp of cascade %d", o.map);
-      why("the objective with it is %.4g of the objective without", o.a);
+      if (std::isfinite(o.a)) {
+        why("the objective with it is %.4g of the objective without", o.a);
+      } else {
+        why("it fits no map here: the objective with it has no bound");
+      }
       break;
     case OmissionKind::warp_in_stable_fit:
       what("warp");
@@ -100,7 +105,11 @@ OmissionText describe(const Omission& o) noexcept {
       break;
     case OmissionKind::partition_without_gain:
       what("partition");
-      why("the objective of its parts is %.4g of the objective of one map", o.a);
+      if (std::isfinite(o.a)) {
+        why("the objective of its parts is %.4g of the objective of one map", o.a);
+      } else {
+        why("the objective of its parts has no bound, unlike that of one map");
+      }
       break;
     case OmissionKind::partition_in_stable_fit:
       what("partition");
@@ -141,7 +150,11 @@ OmissionText describe(const Omission& o) noexcept {
       break;
     case OmissionKind::shape_without_gain:
       what("shape of map %d", o.map);
-      why("the error along the warp with it is %.4g of that without", o.a);
+      if (std::isfinite(o.a)) {
+        why("the error along the warp with it is %.4g of that without", o.a);
+      } else {
+        why("the error along the warp with it has no bound");
+      }
       break;
     case OmissionKind::plane_without_receiver:
       what("map of plane %.0f", o.a);
@@ -158,6 +171,11 @@ OmissionText describe(const Omission& o) noexcept {
     case OmissionKind::faces_less_divided:
       what("slices of frustum faces");
       why("a plan has %d maps at most: a face stays at %.0f of up to %.0f slices", kMaxMaps, o.a, o.b);
+      break;
+    case OmissionKind::receiver_near_light:
+      what("receivers near the light, map %d", o.map);
+      why("%.0f boxes of receivers reach nearer than %g to the light; what is nearer has no map and is lit",
+          o.b, o.a);
       break;
     case OmissionKind::option_ignored:
       describe_ignored(o, text);

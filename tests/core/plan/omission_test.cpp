@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <limits>
 #include <string>
 
 #include "gnomon/plan.hpp"
@@ -23,7 +24,7 @@ constexpr OmissionKind kKinds[] = {
     OmissionKind::points_left_coarser,      OmissionKind::points_beyond_levels,
     OmissionKind::shape_without_gain,       OmissionKind::plane_without_receiver,
     OmissionKind::plane_without_caster,     OmissionKind::cascade_on_planes,
-    OmissionKind::faces_less_divided};
+    OmissionKind::faces_less_divided,       OmissionKind::receiver_near_light};
 
 TEST(Omission, the_list_above_holds_every_kind) {
   for (std::size_t i = 0; i < std::size(kKinds); ++i) EXPECT_EQ(static_cast<std::size_t>(kKinds[i]), i);
@@ -41,6 +42,20 @@ TEST(Omission, every_kind_has_words_that_end_within_their_arrays) {
       const std::size_t length = strnlen(begin, size);
       EXPECT_GT(length, 3u) << static_cast<int>(kind);
       EXPECT_LT(length, size) << static_cast<int>(kind);
+    }
+  }
+}
+
+// "the objective with it is inf of the objective without".
+TEST(Omission, a_ratio_without_bound_has_words_and_no_number) {
+  for (const OmissionKind kind : {OmissionKind::warp_without_gain, OmissionKind::partition_without_gain,
+                                  OmissionKind::shape_without_gain}) {
+    for (const double ratio :
+         {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+      const std::string why = describe({kind, 1, ratio, 0.0, 0}).why.data();
+      EXPECT_EQ(why.find("inf"), std::string::npos) << why;
+      EXPECT_EQ(why.find("nan"), std::string::npos) << why;
+      EXPECT_NE(why.find("no bound"), std::string::npos) << why;
     }
   }
 }

@@ -299,6 +299,57 @@ TEST(Positional, a_light_on_a_flat_receiver_gets_no_map_of_it) {
   for (const ShadowMap& map : plan.maps()) EXPECT_GT(map.cascade, 1) << "a face towards +x or -x";
 }
 
+// Near planes were a share of the frustum's farthest corner, where no receiver lay: two faces lost all of
+// theirs.
+TEST(Positional, maps_begin_at_a_share_of_the_farthest_receiver_not_of_what_lies_beside_them) {
+  Room room;
+  room.camera = perspective_camera({0.9, 8.0, -20.0}, {-0.04, -0.3, 0.9}, {0, 1, 0}, 60 * kDegree, 0.1, 3.0,
+                                   4e6, 100, 1000);
+  room.spot = {{0.3, 0.1, -2.0}, {0.2, -0.9, -0.3}, 85 * kDegree, 2.0};
+  room.receivers = {{{-0.5, -0.4, -1.0}, {-0.1, -0.009, -0.4}}, {{-0.04, -0.1, -2.0}, {0.4, 0.3, -2.0}}};
+  room.casters = {{{-0.04, -0.1, -2.4}, {0.4, 0.3, -1.8}}};
+  room.options.light_near_share = 0.5;
+  const ShadowPlan plan = room.plan(room.spot);
+  int seen = 0;
+  for (int i = 0; i <= 20; ++i) {
+    for (int k = 0; k <= 20; ++k) {
+      const glm::dvec3 p{-0.04 + 0.022 * i, -0.1 + 0.02 * k, -2.0};
+      const glm::dvec3 ray = p - room.spot.position;
+      const double distance = glm::length(ray);
+      const bool lit =
+          glm::dot(ray, glm::normalize(room.spot.direction)) > distance * std::cos(room.spot.outer_radians);
+      // Half of the way to the farthest, along a face's axis.
+      if (!lit || distance < 0.26) continue;
+      ++seen;
+      EXPECT_GE(map_serving(plan, p, 0.0), 0) << p.x << ' ' << p.y;
+    }
+  }
+  EXPECT_GT(seen, 20);
+}
+
+TEST(Positional, receivers_in_front_of_their_map_are_reported_where_a_caster_is_nearer_still) {
+  Room room;
+  room.receivers = {{{-10, -10, -10}, {10, 10, 10}}};
+  room.casters = {{{2.0, -0.5, -0.5}, {2.2, 0.5, 0.5}}};
+  room.point = {{0, 0, 0}, 30.0};
+  room.options.light_near_share = 0.5;
+  const ShadowPlan plan = room.plan(room.point);
+  const auto near = std::find_if(plan.omitted().begin(), plan.omitted().end(), [](const Omission& o) {
+    return o.kind == OmissionKind::receiver_near_light;
+  });
+  ASSERT_NE(near, plan.omitted().end());
+  EXPECT_EQ(near->map, 0);
+  EXPECT_EQ(near->b, 1.0);
+  EXPECT_GT(near->a, 2.2);
+  EXPECT_LE(near->a, 5.1);
+  room.casters = {{{7.0, -0.5, -0.5}, {7.2, 0.5, 0.5}}};
+  EXPECT_EQ(told(room.plan(room.point), OmissionKind::receiver_near_light), 0) << "nothing could shadow them";
+  room.options.light_near_share = PlanOptions{}.light_near_share;
+  room.casters = {{{-10, -10, -10}, {10, 10, 10}}};
+  EXPECT_EQ(told(room.plan(room.point), OmissionKind::receiver_near_light), 0)
+      << "depth_near_light says as much";
+}
+
 /// All round the light: the camera looks down on a floor from the middle of the room's ceiling.
 Room looked_down_on() {
   Room room;
