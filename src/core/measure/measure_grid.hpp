@@ -99,7 +99,7 @@ class VisiblePiece {
   void mark(const Box& box) noexcept;
 
  private:
-  static constexpr std::int64_t kWords = 4096;  // 32 KiB: the default grid in one piece
+  static constexpr std::int64_t kWords = 512;  // 4 KiB: the default grid in eight pieces
   [[nodiscard]] std::size_t word(std::int64_t ray, int depth) const noexcept {
     return static_cast<std::size_t>((ray - first_) * words_ + depth / 64);
   }

@@ -14,7 +14,7 @@
 namespace gnomon {
 
 /// Points a block holds: enough to fill vectors, few enough for all lanes to stay in the first-level cache.
-inline constexpr std::size_t kMetricLanes = 8 * kDoubleLanes;
+inline constexpr std::size_t kMetricLanes = 6 * kDoubleLanes;
 using Lanes = std::array<double, kMetricLanes>;
 
 struct VectorLanes {

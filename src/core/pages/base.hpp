@@ -27,9 +27,22 @@ struct PagePoint {
   std::uint32_t order;   ///< index of another point
 };
 
+/// Pages along one level of a base: cells [first, first + count) along each axis.
+struct PageGrid {
+  glm::dvec2 side;
+  glm::dvec2 scale, offset;  ///< cell = place * scale + offset
+  std::int64_t first_x, first_y;
+  std::int32_t columns, rows;
+};
+
+/// Levels of all bases.
+inline constexpr std::size_t kLadders = std::size_t{kMaxMaps} * kLadder;
+static_assert(kLadders * sizeof(PageGrid) <= kMaxPageLevels * sizeof(ShadowMap));
+
 /// The caller's memory, in parts.
 struct PageMemory {
   std::span<ShadowMap> levels;     ///< kMaxPageLevels; the plan uses a few dozen
+  std::span<PageGrid> grids;       ///< kLadders, in the place of `levels`, which are written last
   std::span<Page> pages;           ///< PageOptions::capacity
   std::span<std::uint32_t> table;  ///< page_table_size(capacity)
   std::span<PagePoint> points;     ///< at least as many as visible points
@@ -60,14 +73,6 @@ struct PageBase {
   [[nodiscard]] static double applied(const glm::dvec4& row, const glm::dvec3& p) noexcept {
     return row.x * p.x + row.y * p.y + row.z * p.z + row.w;
   }
-};
-
-/// Pages along one level of a base: cells [first, first + count) along each axis.
-struct PageGrid {
-  glm::dvec2 side;
-  glm::dvec2 scale, offset;  ///< cell = place * scale + offset
-  std::int64_t first_x, first_y;
-  std::int32_t columns, rows;
 };
 
 /// What the stages of a page plan share. Points are memory.points[0 .. point_count).

@@ -27,7 +27,7 @@ struct CellRange {
 
 class Opening {
  public:
-  explicit Opening(PageContext& context) noexcept : c_(context) {
+  explicit Opening(PageContext& context) noexcept : c_(context), grid_(context.memory.grids) {
     std::size_t size = 16;
     while (2 * size <= c_.memory.table.size()) size *= 2;
     room_ = std::min(c_.memory.pages.size(), size / 2);
@@ -140,13 +140,12 @@ class Opening {
     return true;
   }
 
-  static constexpr std::size_t kLevels = std::size_t{kMaxMaps} * kLadder;
   PageContext& c_;
   std::span<std::uint32_t> table_;
   std::size_t room_ = 0;
-  std::array<std::uint32_t, kLevels + 1> begin_{};
-  std::array<PageGrid, kLevels> grid_;  // of levels that were opened or have points
-  std::array<bool, kLevels> opened_{};
+  std::array<std::uint32_t, kLadders + 1> begin_{};
+  std::span<PageGrid> grid_;  // of levels that were opened or have points
+  std::array<bool, kLadders> opened_{};
 };
 
 /// Lowers the points of the pages with the fewest, `budget` points at most: a page counts each point that

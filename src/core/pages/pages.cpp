@@ -54,8 +54,9 @@ PageMemory parts_of(std::span<std::byte> memory, int capacity) noexcept {
   // Points are counted in 32 bits.
   const std::size_t points = std::min<std::size_t>((memory.size() - others) / sizeof(PagePoint),
                                                    std::numeric_limits<std::uint32_t>::max() - 1);
-  MemoryParts parts(memory);
-  return {parts.take<ShadowMap>(kMaxPageLevels), parts.take<Page>(static_cast<std::size_t>(capacity)),
+  MemoryParts parts(memory), grids(memory);
+  return {parts.take<ShadowMap>(kMaxPageLevels), grids.take<PageGrid>(kLadders),
+          parts.take<Page>(static_cast<std::size_t>(capacity)),
           parts.take<std::uint32_t>(page_table_size(capacity)), parts.take<PagePoint>(points)};
 }
 
@@ -191,10 +192,10 @@ ShadowMap level_map(const PageContext& c, std::uint32_t level) noexcept {
 
 /// Levels that have pages, coarsest first; pages in that order, and their table.
 void finish(PageContext& c, PagePlan& plan) noexcept {
-  std::array<std::uint32_t, std::size_t{kMaxMaps} * kLadder> count{};
+  std::array<std::uint32_t, kLadders> count{};
   const std::span<Page> pages = c.memory.pages.first(c.page_count);
   for (const Page& page : pages) ++count[page.level];
-  std::array<std::uint32_t, std::size_t{kMaxMaps} * kLadder> listed{};
+  std::array<std::uint32_t, kLadders> listed{};
   std::uint32_t levels = 0;
   for (std::uint32_t step = 0; step <= static_cast<std::uint32_t>(c.deepest); ++step) {
     for (std::uint32_t base = 0; base < static_cast<std::uint32_t>(c.base_count); ++base) {

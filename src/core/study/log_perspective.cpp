@@ -121,7 +121,7 @@ AliasingStats measure(const LogPerspectiveMap& map, const Camera& any_camera, co
   AliasingStats stats;
   if (!map.valid) return stats;
   const Camera camera = with_finite_far(any_camera, bounds.receivers);
-  LogHistogram<10> histogram;
+  LogHistogram<10, 144> histogram;
   double s_max = 0.0, t_max = 0.0;
   std::uint64_t undersampled = 0;
   const auto sample = [&](const glm::dvec3& point, double) {
@@ -136,10 +136,16 @@ AliasingStats measure(const LogPerspectiveMap& map, const Camera& any_camera, co
     t_max = max_of(t_max, a.m_t);
   };
   for_each_visible(camera, camera_axes(camera), bounds.receivers, grid, sample);
+  constexpr std::array<double, 2> kShares = {0.50, 0.95};
+  if (!histogram.knows(kShares)) {
+    histogram.count_again(kShares);
+    stats.outside = undersampled = 0;
+    for_each_visible(camera, camera_axes(camera), bounds.receivers, grid, sample);
+  }
   stats.samples = histogram.count();
   if (stats.samples == 0) return stats;
-  stats.p50 = histogram.percentile(0.50);
-  stats.p95 = histogram.percentile(0.95);
+  stats.p50 = histogram.percentile(kShares[0]);
+  stats.p95 = histogram.percentile(kShares[1]);
   stats.max = histogram.largest();
   stats.share_undersampled = static_cast<double>(undersampled) / static_cast<double>(stats.samples);
   const double texels = static_cast<double>(map.size) * map.size;
