@@ -50,7 +50,7 @@ class PageTally {
   std::size_t count_ = 0;
   std::uint32_t level_ = 0;
   bool has_normals_ = false;
-  LogHistogram<10, 144> histogram_;  // nine octaves
+  LogHistogram<10, 128> histogram_;  // eight octaves
   LogHistogram<8, 48> sides_;        // twelve
   double sum_ = 0.0;
   std::uint64_t undersampled_ = 0, outside_ = 0;

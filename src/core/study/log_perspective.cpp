@@ -121,7 +121,7 @@ AliasingStats measure(const LogPerspectiveMap& map, const Camera& any_camera, co
   AliasingStats stats;
   if (!map.valid) return stats;
   const Camera camera = with_finite_far(any_camera, bounds.receivers);
-  LogHistogram<10, 144> histogram;
+  LogHistogram<10, 128> histogram;
   double s_max = 0.0, t_max = 0.0;
   std::uint64_t undersampled = 0;
   const auto sample = [&](const glm::dvec3& point, double) {
