@@ -303,7 +303,11 @@ void plan_within(const PlanContext& c, const ParallelScene& scene, bool square, 
     }
     if (history != nullptr && n == history->edge_count - 1 && last_sizes_serve(*history, plan, options))
       before = largest_error(plan, options, last_sizes(*history, options));
-    if (m <= options.resolution.max_error) break;
+    if (!(m <= options.resolution.max_error)) continue;
+    if (options.resolution.texel_budget == 0) break;
+    // Other sizes have other borders, and with them another warp.
+    plan_cascades(trial_context, scene, n, trial, nullptr, plan);
+    if (largest_error(plan, options, trial) <= options.resolution.max_error) break;
   }
   // Another size moves every texel: worth it only for errors this much smaller.
   constexpr double kWorthResizing = 0.8;
