@@ -103,12 +103,32 @@ endforeach()
 file(GLOB tables RELATIVE ${PROJECT_SOURCE_DIR}/include CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/gnomon/*.def)
 gnomon_install_headers(core ${tables})
 
+# The C interface: one header and two libraries that need no other component.
+if(TARGET gnomon_c)
+  list(APPEND gnomon_components c)
+  string(APPEND gnomon_needs "set(gnomon_c_needs)\n")
+  foreach(kind "" _shared)
+    install(TARGETS gnomon_c${kind} EXPORT gnomon_c${kind} COMPONENT c ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(EXPORT gnomon_c${kind} FILE gnomon_c${kind}.cmake NAMESPACE gnomon:: DESTINATION ${gnomon_package_dir} COMPONENT c)
+  endforeach()
+  gnomon_install_headers(c gnomon/c/gnomon.h)
+  set(dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  file(RELATIVE_PATH pc_prefix /prefix/${dir} /prefix)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/gnomon-c.pc.in ${PROJECT_BINARY_DIR}/gnomon-c.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/gnomon-c.pc DESTINATION ${dir} COMPONENT c)
+endif()
+
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/gnomonConfig.cmake.in ${PROJECT_BINARY_DIR}/gnomonConfig.cmake
   INSTALL_DESTINATION ${gnomon_package_dir})
 # 0.x: a minor version may change the API.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/gnomonConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/gnomonConfig.cmake ${PROJECT_BINARY_DIR}/gnomonConfigVersion.cmake
   DESTINATION ${gnomon_package_dir} COMPONENT core)
+if(TARGET gnomon_c)
+  install(FILES ${PROJECT_BINARY_DIR}/gnomonConfig.cmake ${PROJECT_BINARY_DIR}/gnomonConfigVersion.cmake
+    DESTINATION ${gnomon_package_dir} COMPONENT c)
+endif()
 
 # Shaders that other engines include; the renderer's own passes are inside of its library.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders/library ${PROJECT_SOURCE_DIR}/shaders/filter
