@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Does the package work as others get it? Packs it, installs the archive into a fresh folder, and runs the tests with that.
+#   all.sh WORK_DIR CASES, CASES of c_dump_cases
+set -euo pipefail
+here="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
+work="$(readlink -f "$1")" cases="$(readlink -f "$2")"
+
+# What a page waits for: 130 kB are the aim.
+limit=132000
+for module in gnomon gnomon-scalar; do
+  bytes="$(brotli -q 11 -c "$here/../$module.wasm" | wc -c)"
+  echo "$module.wasm: $(stat -c %s "$here/../$module.wasm") bytes, $bytes with brotli"
+  ((bytes <= limit)) || { echo "$module.wasm: more than $limit bytes with brotli" >&2; exit 1; }
+done
+
+rm -rf "$work/consumer"
+mkdir -p "$work/consumer"
+archive="$(cd "$here/.." && npm pack --silent --pack-destination "$work/consumer")"
+cd "$work/consumer"
+echo '{"name": "consumer", "private": true, "type": "module"}' >package.json
+npm install --silent --no-audit --no-fund "./$archive" typescript@5 three@0.187 @types/three puppeteer-core@24
+export MODULE="$work/consumer/node_modules/gnomon/index.js" CASES="$cases" CONSUMER="$work/consumer"
+node --test "$here"/*.test.js
+# The types hold what the manual shows.
+cp "$here/types.ts" .
+npx tsc --noEmit --strict --target es2022 --lib es2022,dom --module nodenext types.ts

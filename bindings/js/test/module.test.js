@@ -1,0 +1,152 @@
+// What the module does besides plans: names, refusals, histories, sets, foreign maps, memory. MODULE: as installed.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import test from 'node:test';
+import { structs } from '../layout.js';
+import { boxes } from './street.js';
+
+const { GnomonError, load } = await import(process.env.MODULE ?? '../index.js');
+const gnomon = await load();
+const camera = gnomon.perspective({ position: [0, 3, 10], forward: [0, -0.1, -1], fovY: 1, aspect: 1.5, near: 0.2, far: 250, width: 960, height: 640 });
+const light = { direction: [0.4, -1, 0.3] };
+const street = { camera, casters: boxes, receivers: boxes };
+const plan = gnomon.plan({ ...street, light });
+
+test('the modules need nothing from outside', () => {
+  for (const name of ['gnomon.wasm', 'gnomon-scalar.wasm']) {
+    const module = new WebAssembly.Module(readFileSync(new URL(`../${name}`, import.meta.url)));
+    assert.deepEqual(WebAssembly.Module.imports(module), []);
+  }
+});
+
+test('every option of the types is one of C, and the other way round', () => {
+  const types = readFileSync(new URL('../index.d.ts', import.meta.url), 'utf8');
+  const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
+  const members = (name) => {
+    const body = types.match(new RegExp(`interface ${name} (?:extends \\w+ )?\\{([^]*?)\\n\\}`))[1].replace(/\/\*\*[^]*?\*\//g, '');
+    return new Set([...body.matchAll(/(\w+)\??:/g)].map((match) => match[1]));
+  };
+  for (const [struct, name] of [['plan_options', 'PlanOptions'], ['map', 'ShadowMap'], ['camera', 'Camera'], ['light', 'Light'],
+    ['stats', 'Stats'], ['point_error', 'PointError'], ['clip_space', 'ClipSpace']]) {
+    const fields = Object.keys(structs[struct].fields).filter((field) => field !== 'size' && field !== 'reserved').map(camel);
+    assert.deepEqual([...members(name)].sort(), fields.sort(), name);
+  }
+});
+
+test('names are listed with a line about each', () => {
+  const warps = gnomon.names('warps');
+  assert.ok(warps.some(({ name }) => name === 'optimal'));
+  assert.ok(warps.every(({ name, summary }) => name.length > 0 && summary.length > 0));
+  assert.match(gnomon.version, /^\d+\.\d+\.\d+$/);
+  assert.throws(() => gnomon.names('teapots'), GnomonError);
+});
+
+test('bad input is refused by name, and the module still works', () => {
+  const refuses = (input, field) => assert.throws(() => gnomon.plan({ ...street, light, ...input }), { name: 'GnomonError', field });
+  refuses({ camera: { ...camera, farDepth: NaN } }, 'camera.far_depth');
+  refuses({ camera: { ...camera, fov: 60 } }, 'camera.fov');
+  refuses({ camera: { ...camera, width: 1.5 } }, 'camera.width');
+  refuses({ camera: { ...camera, width: 2 ** 40 } }, 'camera.width');
+  refuses({ options: { cascades: 0 } }, 'plan_options.cascades');
+  refuses({ options: { mapSize: 512 } }, 'plan_options.mapSize');
+  refuses({ options: { warp: 'teapot' } }, 'plan_options.warp');
+  refuses({ options: { fit: 'loose' } }, 'plan_options.fit');
+  refuses({ options: { prune: ['nothing'] } }, 'plan_options.prune');
+  refuses({ options: { splitGiven: new Float64Array(8) } }, 'plan_options.split_given');
+  refuses({ options: { resolutionTexelBudget: 0.5 } }, 'plan_options.resolution_texel_budget');
+  refuses({ light: { kind: 'sun' } }, 'light.kind');
+  refuses({ light: undefined }, 'light');
+  refuses({ casters: [1, 2, 3] }, 'scene.casters');
+  refuses({ receivers: null, casters: new Float64Array([NaN, 0, 0, 1, 1, 1]) }, 'scene.casters');
+  refuses({ points: [1, 2] }, 'view.points');
+  refuses({ caster: boxes }, 'caster');
+  assert.throws(() => gnomon.perspective({ fovY: 60, aspect: 1 }), { field: 'fov_y' });
+  assert.deepStrictEqual(gnomon.plan({ ...street, light }), plan);
+});
+
+test('a plan, its casters and its error are those of a set as well', () => {
+  const set = gnomon.casterSet(boxes);
+  assert.equal(set.count, boxes.length / 6);
+  assert.deepStrictEqual(gnomon.plan({ camera, light, casters: set, receivers: set }), plan);
+  assert.deepEqual([...gnomon.cull(plan.maps[0], set)].sort((a, b) => a - b), [...gnomon.cull(plan.maps[0], boxes)]);
+  set.update(1, [-12, 0, -3, -8, 30, 0]);
+  assert.notDeepStrictEqual(gnomon.plan({ camera, light, casters: set, receivers: set }).maps, plan.maps);
+  set.refit(boxes);
+  assert.deepStrictEqual(gnomon.plan({ camera, light, casters: set, receivers: set }), plan);
+  assert.throws(() => set.update(1000, [0, 0, 0, 1, 1, 1]), { field: 'index' });
+  set.dispose();
+  set.dispose();
+  assert.throws(() => gnomon.plan({ camera, light, casters: set, receivers: set }), { field: 'disposed' });
+});
+
+test('foreign maps are measured as those that they are copies of', () => {
+  const { maps, ...rest } = plan;
+  const foreign = { maps: maps.map(({ clipFromWorld, width, height, depthBegin, depthEnd }) => ({ clipFromWorld, width, height, depthBegin, depthEnd })), selection: 'view_depth' };
+  const [own, other] = [plan, foreign].map((one) => gnomon.measure(one, street));
+  assert.ok(own.p95 > 0 && Math.abs(own.p95 - other.p95) < 1e-9 * own.p95);
+  assert.equal(own.samples, other.samples);
+  assert.ok(rest.origin.length === 3);
+});
+
+test('points find the map that holds their depth, and have an error there', () => {
+  const points = [[0, 0, 0], [0, 0, -50], [0, 0, -150], [0, 0, 500]];
+  const depths = points.map(([, y, z]) => ((y - 3) * -0.1 + (z - 10) * -1) / Math.hypot(0.1, 1));
+  const indices = gnomon.select(plan, points, depths);
+  assert.equal(indices[3], -1);
+  for (const i of [0, 1, 2]) {
+    assert.ok(plan.maps[indices[i]].depthBegin <= depths[i] && depths[i] <= plan.maps[indices[i]].depthEnd);
+    const [error] = gnomon.measurePoints(plan.maps[indices[i]], { camera, points: [points[i]], normals: [[0, 1, 0]] });
+    assert.equal(error.status, 'ok');
+    assert.ok(error.mMax > 0 && Number.isFinite(error.mMax));
+  }
+});
+
+test('a history keeps maps, reports jumps, and is freed once', () => {
+  const history = gnomon.history();
+  const options = { fit: 'stable' };
+  const first = gnomon.plan({ ...street, light, options, history });
+  const next = gnomon.plan({ ...street, camera: { ...camera, position: [1, 3, 10] }, light, options, history });
+  const reuse = gnomon.compare(first.maps[0], next.maps[0]);
+  assert.equal(reuse.kind, 'scrolled');
+  assert.ok(reuse.kept.width > 0 && reuse.strips.length >= 1);
+  assert.equal(gnomon.compare(first.maps[0], first.maps[0]).kind, 'identical');
+  gnomon.plan({ ...street, light, history });
+  assert.ok(history.events.every(({ kind }) => ['mapAppeared', 'mapRefitted', 'densityJump'].includes(kind)));
+  history.clear();
+  history.dispose();
+  assert.throws(() => history.clear(), { field: 'disposed' });
+});
+
+test('matrices give the camera that they are of, or the reason', () => {
+  const near = 0.2;
+  const far = 250;
+  const y = 1 / Math.tan(0.5);
+  const clip = [y / 1.5, 0, 0, 0, 0, y, 0, 0, 0, 0, (far + near) / (near - far), -1, 0, 0, (2 * far * near) / (near - far), 0];
+  const view = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -3, -10, 1];
+  const found = gnomon.cameraFrom({ viewFromWorld: view, clipFromView: clip, width: 960, height: 640 });
+  assert.ok([0, 3, 10].every((v, i) => found.position[i] === v));
+  assert.ok(Math.abs(found.top - Math.tan(0.5)) < 1e-12 && Math.abs(found.farDepth - far) < 1e-6);
+  clip[0] = -clip[0];
+  assert.throws(() => gnomon.cameraFrom({ viewFromWorld: view, clipFromView: clip, width: 960, height: 640 }), /reflection|mirror|y_down|handedness/);
+});
+
+test('memory grows with the input, and what was read before stays', () => {
+  const many = new Float64Array(6 * 200000);
+  for (let i = 0; i < 200000; ++i) many.set([i % 100, 0, -(i % 333), (i % 100) + 0.5, 1, 0.5 - (i % 333)], 6 * i);
+  const before = structuredClone(plan);
+  const large = gnomon.plan({ camera, light, casters: many, receivers: boxes });
+  assert.equal(large.status, 'ok');
+  assert.ok(gnomon.cull(large.maps[0], many).length > 0);
+  assert.deepStrictEqual(plan, before);
+});
+
+test('the shader block holds the matrices, and texture coordinates are 0..1', () => {
+  const block = gnomon.shaderBlock(plan);
+  assert.equal(block.length, 460);
+  assert.equal(block[10], plan.maps.length);
+  const texture = gnomon.textureFromClip({ zeroToOne: true });
+  assert.deepEqual([...texture], [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1, 0, 0.5, 0.5, 0, 1]);
+  const moved = gnomon.rebased(plan.maps[0], [1, 2, 3]);
+  assert.deepStrictEqual(moved.clipFromWorld, plan.maps[0].clipFromWorld);
+  assert.notDeepStrictEqual(moved.clipFromCameraRelative, plan.maps[0].clipFromCameraRelative);
+});

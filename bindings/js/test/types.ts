@@ -1,0 +1,25 @@
+// The types as a program uses them; compiled, and not run.
+import { Scene } from 'three';
+import { GnomonSunShadow } from 'gnomon/three';
+import { load, GnomonError, type PlanResult, type ShadowMap } from 'gnomon';
+
+export async function used(): Promise<number> {
+  const gnomon = await load();
+  const camera = gnomon.perspective({ fovY: 1, aspect: 16 / 9 });
+  const boxes = new Float64Array(12);
+  const history = gnomon.history();
+  const plan: PlanResult = gnomon.plan({ camera, light: { direction: [0.4, -1, 0.3] }, casters: boxes, receivers: boxes, options: { cascades: 3, warp: null, fit: 'stable' }, history });
+  const foreign: ShadowMap = { clipFromWorld: new Float32Array(16), width: 1, height: 1, depthBegin: 0, depthEnd: 1 };
+  const shadow = new GnomonSunShadow(gnomon, new Scene(), { options: { fit: 'warped_stable' } });
+  shadow.mapSize.set(1024, 1024);
+  shadow.bounds.update();
+  try {
+    const error = gnomon.measure({ maps: [foreign], selection: 'view_depth' }, { camera, receivers: boxes });
+    return error.p95 + plan.maps[0].mMax + gnomon.cull(plan.maps[0], boxes).length;
+  } catch (error) {
+    if (error instanceof GnomonError) console.log(error.field);
+    throw error;
+  }
+  // @ts-expect-error a fit that there is none of
+  gnomon.plan({ camera, light: {}, options: { fit: 'loose' } });
+}

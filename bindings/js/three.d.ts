@@ -1,0 +1,61 @@
+// gnomon's shadow maps in three.js: what three.js takes and has. Needs the types of three (@types/three).
+import type { Camera as ThreeCamera, DirectionalLight, LightShadow, Material, Object3D, OrthographicCamera, Vector3 } from 'three';
+import type { Camera, CasterSet, Gnomon, History, PlanOptions, PlanResult, ShadowMap } from './index.js';
+
+/** Boxes of the meshes that cast and receive shadows, gathered once. */
+export class ShadowBounds {
+  constructor(gnomon: Gnomon, scene: Object3D);
+  readonly casters: CasterSet;
+  readonly receivers: CasterSet;
+  /** True where a caster's front faces are drawn into maps, which then need a bias. */
+  readonly frontFaces: boolean;
+  /** Gathers them again: after meshes moved, came or went. */
+  update(): void;
+  dispose(): void;
+}
+
+export interface GnomonShadowOptions {
+  /**
+   * Of the plan. Default: fit stable with practical splits, lambda 0.7. `fit: 'warped_stable'` has far smaller texels, and a
+   * jump where the view leaves a map; `fit: 'tight'` has the smallest, and shimmering edges under camera motion.
+   * Cascades, sizes and clip space come from three.
+   */
+  options?: PlanOptions;
+  /** Pixels of the picture; default [1920, 1080]. */
+  resolution?: [number, number];
+  /** To be shared by several lights; else each gathers its own. */
+  bounds?: ShadowBounds;
+}
+
+/** `sun.shadow = new GnomonSunShadow(gnomon, scene)`, for the SunLight of three's add-ons. */
+export class GnomonSunShadow extends LightShadow<OrthographicCamera> {
+  constructor(gnomon: Gnomon, scene: Object3D, options?: GnomonShadowOptions);
+  readonly isGnomonSunShadow: true;
+  readonly bounds: ShadowBounds;
+  readonly history: History;
+  options: PlanOptions;
+  /** Of the last frame; null before it. */
+  readonly plan: PlanResult | null;
+}
+
+/** The CSM add-on with gnomon's maps. */
+export class GnomonCSM {
+  constructor(gnomon: Gnomon, data: GnomonShadowOptions & { parent: Object3D; camera: ThreeCamera; cascades?: number; maxFar?: number; shadowMapSize?: number; lightDirection?: Vector3; lightIntensity?: number });
+  readonly bounds: ShadowBounds;
+  readonly history: History;
+  readonly lights: DirectionalLight[];
+  lightDirection: Vector3;
+  options: PlanOptions;
+  readonly plan: PlanResult | null;
+  setupMaterial(material: Material): void;
+  /** Plans: before each frame, with the camera as it will be drawn. */
+  update(): void;
+  updateFrustums(): void;
+  remove(): void;
+  dispose(): void;
+}
+
+/** The camera that three draws with; shadows end at `far`. */
+export function cameraOf(gnomon: Gnomon, camera: ThreeCamera, resolution: [number, number], far?: number): Required<Camera>;
+/** A map's bias in three's units. */
+export function biasOf(map: ShadowMap, faces: { frontFaces: boolean; radius?: number }): { bias: number; normalBias: number };

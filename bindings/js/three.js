@@ -1,0 +1,245 @@
+// gnomon's shadow maps in three.js (0.187 and newer): the shadow of its SunLight, and the lights of its CSM add-on. Shaders,
+// lights and materials are three's own; the matrices, splits and biases are gnomon's.
+import { BackSide, Box3, FrontSide, Matrix4, OrthographicCamera, Vector3, WebGPUCoordinateSystem } from 'three';
+import { CSM } from 'three/addons/csm/CSM.js';
+import { SunLightShadow } from 'three/addons/lights/SunLightShadow.js';
+
+// A grid that keeps its place under camera motion, as three's own. Its first map begins at the near plane, whatever is in view:
+// more weight on even splits keeps it from being spent on the metres before the eye.
+const STEADY = { fit: 'stable', splitScheme: 'practical', splitLambda: 0.7 };
+const withDefaults = (options) => ((options.fit ?? 'stable') === 'stable' ? { ...STEADY, ...options } : options);
+
+const box = /*@__PURE__*/ new Box3();
+const direction = /*@__PURE__*/ new Vector3();
+const shift = /*@__PURE__*/ new Matrix4();
+
+/** Boxes of the meshes below an object that cast and receive shadows, gathered once: call update() after changes. */
+export class ShadowBounds {
+  constructor(gnomon, scene) {
+    this.gnomon = gnomon;
+    this.scene = scene;
+    this.update();
+  }
+
+  update() {
+    const casters = [];
+    const receivers = [];
+    this.frontFaces = false;
+    this.scene.updateMatrixWorld();
+    this.scene.traverseVisible((mesh) => {
+      if (!mesh.isMesh || !(mesh.castShadow || mesh.receiveShadow)) return;
+      // Instances and skins have bounds of their own; others take those of their geometry.
+      const own = typeof mesh.computeBoundingBox === 'function' ? mesh : mesh.geometry;
+      if (own.boundingBox === null) own.computeBoundingBox();
+      box.copy(own.boundingBox).applyMatrix4(mesh.matrixWorld);
+      if (box.isEmpty()) return;
+      const bounds = [box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z];
+      if (mesh.receiveShadow) receivers.push(...bounds);
+      if (!mesh.castShadow) return;
+      casters.push(...bounds);
+      // What three draws into its maps: the back faces of one-sided materials, unless they say otherwise.
+      for (const { side, shadowSide } of [mesh.material].flat()) {
+        const drawn = shadowSide ?? (side === FrontSide ? BackSide : side === BackSide ? FrontSide : side);
+        this.frontFaces ||= drawn !== BackSide;
+      }
+    });
+    this.dispose();
+    this.casters = this.gnomon.casterSet(casters);
+    this.receivers = this.gnomon.casterSet(receivers);
+  }
+
+  dispose() {
+    this.casters?.dispose();
+    this.receivers?.dispose();
+  }
+}
+
+/** The camera that three draws with, as gnomon counts it. `far`: shadows end there at the latest. */
+export function cameraOf(gnomon, camera, [width, height], far = Infinity) {
+  const found = gnomon.cameraFrom({
+    viewFromWorld: camera.matrixWorldInverse.elements,
+    clipFromView: camera.projectionMatrix.elements,
+    clipSpace: clipSpaceOf(camera),
+    width,
+    height,
+  });
+  found.farDepth = Math.max(Math.min(found.farDepth, far), found.nearDepth * (1 + 1e-6) + 1e-9);
+  return found;
+}
+
+const clipSpaceOf = ({ coordinateSystem, reversedDepth }) =>
+  ({ zeroToOne: coordinateSystem === WebGPUCoordinateSystem || reversedDepth === true, reversedZ: reversedDepth === true });
+
+/**
+ * A map's bias in three's units. `bias` is in depths of 0..1, three adds it to the look-up's. `normalBias` is in world units.
+ * three draws the back faces of one-sided materials into its maps, and these need none. Where front faces are drawn
+ * (`frontFaces`), a look-up reads `radius` texels beside its own: it is lifted off its surface as far as the surface may
+ * rise that far away. three has no bias by slope.
+ */
+export function biasOf(map, { frontFaces, radius = 1 }) {
+  if (!frontFaces) return { bias: 0, normalBias: 0 };
+  const texel = Math.max(map.texelWorld[0], map.texelWorld[1]);
+  return { bias: -map.biasConstant / map.depthRangeWorld, normalBias: texel * (0.5 + radius) };
+}
+
+/** Sets a camera of three to a map's matrix: the view is the world itself. */
+function setCamera(camera, map, { coordinateSystem, reversedDepth }) {
+  camera.coordinateSystem = coordinateSystem;
+  camera._reversedDepth = reversedDepth;
+  camera.matrixAutoUpdate = false;
+  camera.matrixWorldAutoUpdate = false;
+  camera.matrixWorld.identity();
+  camera.matrixWorldInverse.identity();
+  camera.projectionMatrix.fromArray(map.clipFromWorld);
+  camera.projectionMatrixInverse.copy(camera.projectionMatrix).invert();
+}
+
+/** Makes a frustum that nothing is in. */
+function setEmpty(frustum) {
+  for (const plane of frustum.planes) {
+    plane.normal.set(0, 0, 0);
+    plane.constant = -Infinity;
+  }
+}
+
+/**
+ * The shadow of a SunLight: `sun.shadow = new GnomonSunShadow(gnomon, scene)`. As three's own it has two maps in one texture,
+ * ends at `camera.far`, and takes `mapSize` and `radius`. `bias` comes on top of gnomon's; gnomon sets `normalBias`.
+ */
+export class GnomonSunShadow extends SunLightShadow {
+  /** options: of the plan; resolution: pixels of the picture, [1920, 1080]; bounds: a ShadowBounds to share. */
+  constructor(gnomon, scene, { options = {}, resolution = [1920, 1080], bounds } = {}) {
+    super();
+    this.isGnomonSunShadow = true;
+    this.gnomon = gnomon;
+    this.bounds = bounds ?? new ShadowBounds(gnomon, scene);
+    this.ownsBounds = bounds === undefined;
+    this.history = gnomon.history();
+    this.options = { splitOverlap: 0.1, ...withDefaults(options) };
+    this.resolution = resolution;
+    this.plan = null;
+  }
+
+  updateMatrices(light, viewCamera) {
+    if (viewCamera === undefined) return;
+    const count = this._viewportCount;
+    // Room between the maps, so that no filter reads the other one.
+    const inset = Math.min(0.25, (Math.ceil(this.radius) + 1) / this.mapSize.x);
+    for (let i = 0; i < count; ++i) this._viewports[i].set(i + inset, inset, 1 - 2 * inset, 1 - 2 * inset);
+    direction.setFromMatrixPosition(light.matrixWorld).negate();
+    this.plan = this.gnomon.plan({
+      camera: cameraOf(this.gnomon, viewCamera, this.resolution, this.camera.far),
+      light: { direction: direction.toArray() },
+      casters: this.bounds.casters,
+      receivers: this.bounds.receivers,
+      options: {
+        ...this.options,
+        cascades: count,
+        resolutionMaxSize: Math.max(4, Math.floor(this.mapSize.x * (1 - 2 * inset))),
+        filterTexels: Math.ceil(this.radius) + 1,
+        clipSpace: clipSpaceOf(this.camera),
+      },
+      history: this.history,
+    });
+    for (let i = 0; i < count; ++i) this.setMap(i, this.plan.maps[i], this.plan.maps[i + 1]);
+  }
+
+  setMap(index, map, next) {
+    if (map === undefined) {
+      this._cascadeData[index].set(0, 0, 0, 0);  // serves no depth
+      setEmpty(this._frustums[index]);
+      return;
+    }
+    const band = next === undefined ? 0 : Math.max(next.overlap, 1e-6 * map.depthEnd);
+    this._cascadeData[index].set(index === 0 ? -1e10 : map.depthBegin - map.overlap, map.depthEnd, map.depthEnd - band, 0);
+    setCamera(this._cameras[index], map, this.camera);
+    this._updateMatrix(this._cameras[index], this._matrices[index], this._frustums[index], this._viewports[index]);
+    // three has one bias for both maps. So each map's own goes into its matrix, and with it what a coarser map needs beyond
+    // the first one's offset along the normal.
+    const { bias, normalBias } = biasOf(map, { frontFaces: this.bounds.frontFaces, radius: this.radius });
+    if (index === 0) this.normalBias = normalBias;
+    const depth = bias - Math.max(0, normalBias - this.normalBias) / map.depthRangeWorld;
+    this._matrices[index].premultiply(shift.makeTranslation(0, 0, this.camera.reversedDepth ? -depth : depth));
+  }
+
+  dispose() {
+    super.dispose();
+    this.history.dispose();
+    if (this.ownsBounds) this.bounds.dispose();
+  }
+}
+
+/**
+ * The CSM add-on with gnomon's maps: `new GnomonCSM(gnomon, { parent: scene, camera, cascades: 4, ... })`. Takes the data of
+ * CSM, and `options` of the plan, `resolution` and `bounds` as GnomonSunShadow. update() plans; updateFrustums() is not needed.
+ */
+export class GnomonCSM extends CSM {
+  constructor(gnomon, { options = {}, resolution = [1920, 1080], bounds, ...data }) {
+    super(data);
+    this.gnomon = gnomon;
+    this.bounds = bounds ?? new ShadowBounds(gnomon, data.parent);
+    this.ownsBounds = bounds === undefined;
+    this.history = gnomon.history();
+    this.options = withDefaults(options);
+    this.resolution = resolution;
+    this.plan = null;
+    for (const { shadow } of this.lights) {
+      shadow.camera = new OrthographicCamera();
+      // The matrices are set by update().
+      shadow.updateMatrices = () => {};
+    }
+  }
+
+  update() {
+    const { camera, lightDirection } = this;
+    camera.updateMatrixWorld();
+    const far = Math.min(camera.far, this.maxFar);
+    const { radius } = this.lights[0].shadow;
+    this.plan = this.gnomon.plan({
+      camera: cameraOf(this.gnomon, camera, this.resolution, far),
+      light: { direction: lightDirection.toArray() },
+      casters: this.bounds.casters,
+      receivers: this.bounds.receivers,
+      options: {
+        ...this.options,
+        cascades: this.cascades,
+        resolutionMaxSize: this.shadowMapSize,
+        filterTexels: Math.ceil(radius) + 1,
+        clipSpace: clipSpaceOf(camera),
+      },
+      history: this.history,
+    });
+    this.lights.forEach((light, i) => this.setLight(light, this.plan.maps[i]));
+    // Depths as the add-on's shader counts them. Lights without a map serve none.
+    this.breaks.length = 0;
+    let end = 0;
+    for (let i = 0; i < this.cascades; ++i) this.breaks.push((end = this.plan.maps[i] ? this.plan.maps[i].depthEnd / (far - camera.near) : end));
+    this._updateUniforms();
+  }
+
+  setLight(light, map) {
+    light.target.position.copy(light.position).add(this.lightDirection);
+    const { shadow } = light;
+    if (map === undefined) {
+      setEmpty(shadow._frustum);
+      return;
+    }
+    setCamera(shadow.camera, map, this.camera);
+    shadow._updateMatrix(shadow.camera, shadow.matrix, shadow._frustum);
+    const { bias, normalBias } = biasOf(map, { frontFaces: this.bounds.frontFaces, radius: shadow.radius });
+    shadow.bias = bias;
+    shadow.normalBias = normalBias;
+  }
+
+  updateFrustums() {
+    // The constructor of CSM calls it before there is a plan.
+    if (this.gnomon === undefined) super.updateFrustums();
+    else this.update();
+  }
+
+  dispose() {
+    super.dispose();
+    this.history.dispose();
+    if (this.ownsBounds) this.bounds.dispose();
+  }
+}
