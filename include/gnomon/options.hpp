@@ -148,10 +148,10 @@ enum class Objective : std::uint8_t {
   /// The mean error at points of surfaces that the camera sees, across an edge of any direction. The area of
   /// misclassified pixels along shadows' edges grows with it. The points are View::points_world, and
   /// automatic splits are then where their error is least. Without points, each ray of a fan gives one, in
-  /// one of the first receiver boxes that it meets. Automatic splits then divide the depths between the
-  /// nearest and the farthest of them, and optimal splits are the same. Air in front of all boxes never
-  /// counts. Maps with fewer than six points go by `storage`. So do Fit::stable, views that share maps, and
-  /// partitions of parallel light other than view_depth.
+  /// one of the first receiver boxes that it meets. Automatic splits are then logarithmic from the nearest of
+  /// them on, and optimal splits are the same. Air in front of all boxes never counts. Maps with fewer than
+  /// six points go by `storage`. So do Fit::stable, views that share maps, and partitions of parallel light
+  /// other than view_depth.
   picture,
 };
 [[nodiscard]] std::string_view to_string(Objective objective) noexcept;
@@ -454,7 +454,8 @@ struct FilterExtent {
   double texels = 1.0;
   /// Kernel radius in world units across the light, >= 0. The border is as wide as the kernel gets where the
   /// map's texels are smallest, at most a quarter of the map. The wider of the two radii counts. With
-  /// Fit::stable under a local light, it is that of the nearest power of two below the nearest surface in view.
+  /// Fit::stable under a local light, it is that of the nearest power of two below the nearest surface in
+  /// view.
   double world = 0.0;
   /// Equal in all members.
   bool operator==(const FilterExtent&) const = default;
