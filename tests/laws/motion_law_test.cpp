@@ -56,6 +56,8 @@ Walk draw_walk() {
   w.options.warp.objective = static_cast<Objective>(pick(3));
   const Warp* const warps[] = {nullptr, &warps::lispsm, &warps::lispsm_closed, &warps::none};
   w.options.warp.warp = warps[pick(4)];
+  // The border of a kernel in world units comes and goes with the map's own size.
+  if (chance(0.3)) w.options.filter.world = between(0.0, 0.5);
   return w;
 }
 

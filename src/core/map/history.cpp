@@ -395,12 +395,15 @@ PlaneMap steady_plane(const PlanContext& c, const MapRequest& request, const War
   }
   Change& change = step.change;
   if (change.largest() > kCut) return reported({best, walk.changed(best)});
-  if (change.high > kLimit) {
+  // A larger map may need fewer texels of border for a kernel in world units, and have more inside.
+  constexpr int kMaxBorders = 4;
+  for (int i = 0; i < kMaxBorders && change.high > kLimit; ++i) {
     const double less = change.high - kLimit;
     // Fewer texels per area, everywhere by the same factor.
     grow(step.plane, 0.5 * (elementary::exp(0.5 * less) - 1.0));
     change.low -= less;
     change.high -= less;
+    if (c.options.filter.world > 0.0) change = walk.changed(step.plane);
   }
   return reported(step);
 }
