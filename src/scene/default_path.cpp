@@ -174,7 +174,9 @@ CameraPath orbit(const Scene& scene, double aspect) {
   constexpr int kKeys = 32, kPerKey = 2;  // keys, and angles looked at from each to the next
   constexpr int kAngles = kKeys * kPerKey;
   constexpr double kRoom = 1.06;  // over what the view would just hold: the curve cuts corners between keys
-  constexpr double kLeastPart = 1e-4;  // of the coordinates: nearer is lost in their rounding
+  // Of the coordinates: doubles round them by 1e-16, and a smaller scene by more than parts of a pixel.
+  constexpr double kLeastSize = 1e-12;
+  constexpr double kStandIn = 1e-4;  // of the coordinates, in the place of a scene without size
   constexpr double kNearest = 1e-3;    // near plane, of the distance: a corner may come that close
   CameraPath path;
   path.closed = true;
@@ -182,9 +184,9 @@ CameraPath orbit(const Scene& scene, double aspect) {
   const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : (bounds.min + bounds.max) * 0.5;
   const double farthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
   std::vector<glm::dvec3> points;
-  if (!bounds.empty() && glm::length(bounds.max - bounds.min) > 2.0 * farthest * kLeastPart)
+  if (!bounds.empty() && glm::length(bounds.max - bounds.min) > 2.0 * farthest * kLeastSize)
     points = content_of(scene, center);
-  const double least = farthest > 0.0 ? farthest * kLeastPart : 1.0;
+  const double least = farthest > 0.0 ? farthest * kStandIn : 1.0;
   if (points.empty()) add_corners({glm::dvec3(-least), glm::dvec3(least)}, glm::dvec3(0.0), points);
   const double slope = std::tan(path.fov_y_radians / 2.0);
   std::array<Standing, kAngles> around;

@@ -223,6 +223,26 @@ TEST(DefaultPath, an_orbit_shows_all_of_any_bounds) {
   expect_orbit_holds({{-5, 0, -5}, {5, 0, 5}});
 }
 
+// From 500 km on, a scene of 57 m was a speck, and its near plane lay behind it.
+TEST(DefaultPath, an_orbit_is_the_same_however_far_the_scene_lies_from_the_origin) {
+  Scene scene;
+  scene.bounds_world = {{-20, -1, -18}, {20, 6, 20}};
+  const CameraPath here = default_path(scene);
+  for (const double far : {1e3, 1e5, 6378137.0, 1e8}) {
+    const glm::dvec3 moved(far, -0.3 * far, 0.7 * far);
+    scene.bounds_world = {glm::dvec3(-20, -1, -18) + moved, glm::dvec3(20, 6, 20) + moved};
+    const CameraPath there = default_path(scene);
+    const double rounding = 1e-13 * (far + 100.0);  // of some sums of coordinates
+    ASSERT_EQ(there.keys.size(), here.keys.size());
+    EXPECT_NEAR(there.near_depth, here.near_depth, rounding);
+    EXPECT_NEAR(there.far_depth, here.far_depth, rounding);
+    for (std::size_t i = 0; i < here.keys.size(); ++i) {
+      EXPECT_LE(glm::length(there.keys[i].position - moved - here.keys[i].position), rounding) << far;
+      EXPECT_LE(glm::length(there.keys[i].target - moved - here.keys[i].target), rounding) << far;
+    }
+  }
+}
+
 TEST(DefaultPath, an_orbit_comes_as_near_as_the_image_is_wide) {
   // A long low box: what a square view must hold of it fills little of a wide one.
   Scene scene;
