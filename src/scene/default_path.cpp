@@ -177,7 +177,7 @@ CameraPath orbit(const Scene& scene, double aspect) {
   // Of the coordinates: doubles round them by 1e-16, and a smaller scene by more than parts of a pixel.
   constexpr double kLeastSize = 1e-12;
   constexpr double kStandIn = 1e-4;  // of the coordinates, in the place of a scene without size
-  constexpr double kNearest = 1e-3;    // near plane, of the distance: a corner may come that close
+  constexpr double kNearest = 1e-3;  // near plane, of the distance: a corner may come that close
   CameraPath path;
   path.closed = true;
   const Box& bounds = scene.bounds_world;
