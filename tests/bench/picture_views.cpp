@@ -330,7 +330,7 @@ int run(int argc, char** argv) {
   std::printf(
       "Error across shadow edges, pixels; ratios to the objective storage; loss to the best setting by "
       "another objective than picture.\n");
-  for (const int maps : {1, 4}) {
+  for (const int maps : {1, 2, 3, 4}) {
     if (maps == 1 || options.kind == gnomon::LightKind::sun) print_table(maps, views, options.list);
   }
   return 0;

@@ -4,6 +4,7 @@
 #include "geometry/first_hits.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -18,24 +19,18 @@ namespace {
 constexpr std::size_t kRays = 112;
 static_assert(kRays <= SeenPoints::kMost);
 
-/// Places of the fan's rays in the unit square, from left to right.
+/// The fan's rays from left to right.
 struct Fan {
-  std::array<double, kRays> x{}, y{};
-  std::array<std::size_t, kRays> number{};  // in the order that they spread evenly in
-  std::size_t uneven = 0;                   // most places that a ray is from where even steps would have it
+  std::array<std::uint8_t, kRays> number{};  // in the order that they spread evenly in
+  std::size_t uneven = 0;                    // most places that a ray is from where even steps would have it
   constexpr Fan() {
     for (std::size_t i = 0; i < kRays; ++i) {
       std::size_t at = i;
-      for (; at > 0 && x[at - 1] > even_x(i); --at) {
-        x[at] = x[at - 1];
-        number[at] = number[at - 1];
-      }
-      x[at] = even_x(i);
-      number[at] = i;
+      for (; at > 0 && even_x(number[at - 1]) > even_x(i); --at) number[at] = number[at - 1];
+      number[at] = static_cast<std::uint8_t>(i);
     }
     for (std::size_t i = 0; i < kRays; ++i) {
-      y[i] = even_y(number[i]);
-      const auto even = static_cast<std::size_t>(x[i] * static_cast<double>(kRays));
+      const auto even = static_cast<std::size_t>(even_x(number[i]) * static_cast<double>(kRays));
       uneven = std::max(uneven, even > i ? even - i : i - even);
     }
   }
@@ -60,8 +55,10 @@ class NearestBoxes {
 
   NearestBoxes(const Camera& camera, const CameraAxes& axes) noexcept : camera_(camera), axes_(axes) {
     for (std::size_t i = 0; i < kRays; ++i) {
-      const glm::dvec3 aside = axes.right * (camera.left + (camera.right - camera.left) * kFan.x[i]) +
-                               axes.up * (camera.bottom + (camera.top - camera.bottom) * kFan.y[i]);
+      y_[i] = even_y(kFan.number[i]);
+      const glm::dvec3 aside =
+          axes.right * (camera.left + (camera.right - camera.left) * even_x(kFan.number[i])) +
+          axes.up * (camera.bottom + (camera.top - camera.bottom) * y_[i]);
       direction_[i] = camera.orthographic ? axes.forward : axes.forward + aside;
       origin_[i] = camera.orthographic ? aside : glm::dvec3(0.0);
       const glm::dvec3& d = direction_[i];
@@ -152,7 +149,7 @@ class NearestBoxes {
     const auto beyond = static_cast<std::size_t>(min_of(part.right * kCount + kUneven, kCount));
     for (std::size_t ray = first; ray < beyond; ++ray) {
       // Rounding of the part: rays at its border may miss the box by as much.
-      if (!(kFan.y[ray] >= part.bottom && kFan.y[ray] <= part.top)) continue;
+      if (!(y_[ray] >= part.bottom && y_[ray] <= part.top)) continue;
       const Through through = passed(box, ray);
       if (!(through.begin <= through.end && through.end > camera_.near_depth &&
             through.begin < camera_.far_depth))
@@ -180,6 +177,7 @@ class NearestBoxes {
 
   const Camera& camera_;
   const CameraAxes& axes_;
+  std::array<double, kRays> y_;  // in the image, 0 to 1
   std::array<glm::dvec3, kRays> direction_, origin_;
   std::array<glm::dvec3, kRays> inverse_;  // of the direction, component by component; 0: across the axis
   std::array<std::size_t, kRays> count_{};
