@@ -14,12 +14,12 @@ test('three.js misclassifies fewer pixels with the maps of gnomon', { timeout: 9
   const wrong = (name) => result[name].wrong;
   // About a tenth above what they are.
   assert.ok(wrong('sun, gnomon stable') < 0.87 * wrong('sun'));
-  assert.ok(wrong('sun, gnomon warped_stable') < 0.48 * wrong('sun'));
-  assert.ok(wrong('sun, gnomon tight') < 0.4 * wrong('sun'));
-  assert.ok(wrong('sun, front faces, gnomon tight') < 0.41 * wrong('sun, front faces'));
+  assert.ok(wrong('sun, gnomon warped_stable') < 0.52 * wrong('sun'));
+  assert.ok(wrong('sun, gnomon tight') < 0.49 * wrong('sun'));
+  assert.ok(wrong('sun, front faces, gnomon tight') < 0.42 * wrong('sun, front faces'));
   assert.ok(wrong('csm, gnomon stable') < 0.97 * wrong('csm'));
-  assert.ok(wrong('csm, gnomon warped_stable') < 0.66 * wrong('csm'));
-  assert.ok(wrong('csm, gnomon tight') < 0.58 * wrong('csm'));
+  assert.ok(wrong('csm, gnomon warped_stable') < 0.69 * wrong('csm'));
+  assert.ok(wrong('csm, gnomon tight') < 0.6 * wrong('csm'));
 });
 
 test('the sample draws both halves, and measures both', { timeout: 300000 }, async () => {

@@ -3,7 +3,7 @@
 #   all.sh WORK_DIR CASES, CASES of c_dump_cases
 set -euo pipefail
 here="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
-work="$1" cases="$(readlink -f "$2")"
+work="$(readlink -m "$1")" cases="$(readlink -f "$2")"
 python3 -B "$here/../../layout.py" --check
 rm -rf "$work"
 # Where there is a compiler cache, the library is compiled once.
