@@ -53,8 +53,11 @@ Eye eye_of(const glm::dmat4& view_from_world) noexcept {
     eye.error = error;
     return eye;
   };
-  // Exact in every engine: a bottom row other than this belongs to a projection.
-  if (bottom != glm::dvec4(0.0, 0.0, 0.0, 1.0)) return refuse(CameraError::view_not_affine);
+  // A bottom row other than 0 0 0 1 belongs to a projection. Engines that invert any matrix in one way have
+  // exact zeros, and a 1 that is rounded.
+  constexpr double kRounded = 1e-6;
+  if (glm::dvec3(bottom) != glm::dvec3(0.0) || !(std::abs(bottom.w - 1.0) <= kRounded))
+    return refuse(CameraError::view_not_affine);
   const std::array<double, 3> length{glm::length(axis[0]), glm::length(axis[1]), glm::length(axis[2])};
   const double scale = length[0];
   // Beyond it neither the scale's square nor its inverse means anything.

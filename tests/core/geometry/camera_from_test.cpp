@@ -200,6 +200,22 @@ TEST(CameraFrom, an_image_turned_by_half_a_turn_is_a_camera_that_stands_on_its_h
   EXPECT_LE(glm::distance(camera_axes(from.camera).up, -camera_axes(camera).up), 1e-12);
 }
 
+TEST(CameraFrom, a_view_that_was_inverted_as_any_matrix_is_one) {
+  // As three.js has it while a camera walks: the determinant over itself.
+  const Camera camera =
+      perspective_camera({2.0, 3.0, 8.0}, {0.1, -0.1, -1}, {0, 1, 0}, 1.0, 1.5, 0.2, 220.0, 900, 600);
+  glm::dmat4 view = view_from_world(camera);
+  const Camera exact = camera_from(view, clip_from_view(camera), {}, 900, 600).camera;
+  for (const double one : {1.0 + 2.3e-16, 1.0 - 1.2e-16, 1.0 + 1.2e-7}) {
+    view[3][3] = one;
+    const CameraFrom found = camera_from(view, clip_from_view(camera), {}, 900, 600);
+    EXPECT_EQ(found.error, CameraError::none) << one;
+    EXPECT_LT(glm::distance(found.camera.position, exact.position), 1e-5);
+  }
+  view[3][3] = 1.001;
+  EXPECT_EQ(camera_from(view, clip_from_view(camera), {}, 900, 600).error, CameraError::view_not_affine);
+}
+
 TEST(CameraFrom, what_is_no_camera_is_refused_by_name) {
   struct Entry {
     CameraError error;
