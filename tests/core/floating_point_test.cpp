@@ -60,6 +60,7 @@ void expect_quiet(Extremes extremes, int cases) {
   int planned = 0, shown = 0;
   for (int i = 0; i < cases; ++i) {
     seed_input(static_cast<std::uint64_t>(i) + 1, extremes, input);
+    choose_picture(i, input);
     SeededNumbers random(static_cast<std::uint64_t>(i));
     const glm::dvec3 v = random.vector() + glm::dvec3(0, 1.5, 0);
     const glm::dvec3 normal = v / std::sqrt(glm::dot(v, v));

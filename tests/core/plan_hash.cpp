@@ -1,7 +1,8 @@
 // Prints the hash of N plans (default 10 000), half of them of extreme input, and what their errors measure:
 //   plan_hash [N] [--each]
-// --each prints the hash after every plan, to find the first that differs between two builds. Exit 1 where a plan divides
-// by zero, overflows or makes an invalid operation, which compilers may add where they divide before they choose.
+// --each prints the hash after every plan, to find the first that differs between two builds. Exit 1 where a
+// plan divides by zero, overflows or makes an invalid operation, which compilers may add where they divide
+// before they choose.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   for (int i = 0; i < plans; ++i) {
     seed_input(static_cast<std::uint64_t>(i) + 1,
                i % 2 == 0 ? test::Extremes::ordinary : test::Extremes::stiff, input);
+    test::choose_picture(i, input);
     ShadowPlan plan;
     double error = 0.0;
     // Measuring takes as long as planning: of some.

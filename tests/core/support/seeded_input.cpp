@@ -109,7 +109,7 @@ void seed_options(SeededNumbers& random, double reach, SeededInput& input) {
     o.split.pseudo_near =
         n * elementary::pow(std::max(reach / std::max(n, reach * 1e-9), 1.0), random.unit());
   o.fit = random.chance(0.5) ? Fit::tight : static_cast<Fit>(1 + random.pick(3));
-  o.warp.objective = static_cast<Objective>(random.pick(4));
+  o.warp.objective = static_cast<Objective>(random.pick(3));
   const int warp = random.pick(static_cast<int>(all_warps().size()) + 2);
   if (static_cast<std::size_t>(warp) < all_warps().size())
     o.warp.warp = all_warps()[static_cast<std::size_t>(warp)];

@@ -49,6 +49,10 @@ enum class Extremes : std::uint8_t {
           ///< lights along the view to 1e-300, units of 1e-9 to 1e9, flat, single-point and empty scenes
 };
 
+/// The plans of a hash: every third one by Objective::picture, which laws over volumes do not draw.
+inline void choose_picture(int plan, SeededInput& input) {
+  if (plan % 3 == 2) input.options.warp.objective = Objective::picture;
+}
 /// Fills `input` with case number `seed`: any light, camera, fit, split, partition, warp and objective.
 void seed_input(std::uint64_t seed, Extremes extremes, SeededInput& input);
 
