@@ -12,7 +12,7 @@ namespace {
 
 // Bindings and locations as the shaders state them.
 constexpr GLint kBaseColorLocation = 1, kAlphaCutoffLocation = 2, kClipLocation = 3, kSheetLocation = 5,
-                kShapeLocation = 7, kSizeLocation = 8, kEvenScaleLocation = 10, kInverseWLocation = 11;
+                kShapeLocation = 7, kSizeLocation = 8, kEvenScaleLocation = 10;
 constexpr GLuint kColorImageUnit = 3;
 
 }  // namespace
@@ -96,7 +96,6 @@ void CasterPass::draw_bent(const DrawnPart& part, const DrawnMap& map,
     glUniformMatrix4fv(kShapeLocation, 1, GL_FALSE, &map.shape[0][0]);
     glUniform2f(kSizeLocation, static_cast<float>(map.width), static_cast<float>(map.height));
     glUniform1f(kEvenScaleLocation, map.even_scale);
-    glUniform3fv(kInverseWLocation, 1, &map.inverse_w.x);
   });
 }
 

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
 
 #include "gnomon/plan.hpp"
 
@@ -13,10 +12,9 @@ namespace gnomon::render {
 struct DrawnMap {
   glm::mat4 clip_from_position{1.0f};
   int width = 0, height = 0;
-  glm::mat4 shape{0.0f};      ///< as shaders take it
-  bool bent = false;          ///< the shape bends lines: triangles are drawn by bounding rectangles
-  glm::vec3 inverse_w{0.0f};  ///< 1 / w at (x, y, 1) of ndc under parallel light; 0 under a local one
-  float even_scale = 0.0f;    ///< of clip z to depths that are even along the light; 0: divided by w
+  glm::mat4 shape{0.0f};    ///< as shaders take it
+  bool bent = false;        ///< the shape bends lines: triangles are drawn by bounding rectangles
+  float even_scale = 0.0f;  ///< of clip z to depths that are even along the light; 0: divided by w
   bool operator==(const DrawnMap&) const = default;
 };
 struct DrawnMaps {

@@ -5,7 +5,6 @@
 layout(location = 7) uniform mat4 shape;  // as shaped_point takes it
 layout(location = 8) uniform vec2 size;   // of the map, texels
 layout(location = 10) uniform float even_scale;  // as even_depth.glsl has it
-layout(location = 11) uniform vec3 inverse_w;    // 1 / w at (x, y, 1) of ndc under parallel light; 0 under a local one
 layout(location = 0) flat in vec4 corner[3];  // clip space
 layout(location = 3) flat in vec2 texcoord[3];
 
@@ -24,10 +23,6 @@ vec3 covered() {
   float w = dot(weights, vec3(corner[0].w, corner[1].w, corner[2].w));
   float z = dot(weights, vec3(corner[0].z, corner[1].z, corner[2].z)), depth = z / w;
   if (!(w > 0.0 && depth >= 0.0 && depth <= 1.0)) discard;
-  // Rounding of the weights moves the point along the triangle. That cancels in z over w, and not in z alone, which grows
-  // with w: under parallel light w is known from the texel.
-  float per_w = dot(inverse_w, vec3(at, 1.0));
-  if (per_w > 0.0) z = depth / per_w;
   gl_FragDepth = even_scale > 0.0 ? clamp(z * even_scale, 0.0, 1.0) : depth;
   return weights;
 }
