@@ -16,27 +16,20 @@ const char* fault_of_image(double aspect, double near_depth, double far_depth, s
   return height < 1 || height > 1 << 20 ? "height" : nullptr;
 }
 
-/// The camera with the edges, depths and pixels of another one.
-void take_image(const Camera& from, Camera& to) noexcept {
-  to.orthographic = from.orthographic;
-  to.left = from.left;
-  to.right = from.right;
-  to.bottom = from.bottom;
-  to.top = from.top;
-  to.near_depth = from.near_depth;
-  to.far_depth = from.far_depth;
-  to.width = from.width;
-  to.height = from.height;
-}
-
-std::int32_t write_image(const Camera& image, Camera& camera, gnomon_camera* to,
-                         const char** invalid_field) noexcept {
-  take_image(image, camera);
+std::int32_t write_camera(const Camera& camera, gnomon_camera* to, const char** invalid_field) noexcept {
   gnomon_camera all;
   set_defaults(all);
   from_camera(camera, all);
   write(all, to);
   return done(invalid_field);
+}
+/// The image of one camera, at the place of the other.
+std::int32_t write_image(Camera image, const Camera& place, gnomon_camera* to,
+                         const char** invalid_field) noexcept {
+  image.position = place.position;
+  image.forward = place.forward;
+  image.up = place.up;
+  return write_camera(image, to, invalid_field);
 }
 
 /// One static sentence for each, which ends in a zero.
@@ -108,11 +101,7 @@ int32_t gnomon_camera_from(const double view_from_world[16], const double clip_f
     if (why != nullptr) *why = text_of(found.error);
     return refuse(place_of(found.error), invalid_field);
   }
-  gnomon_camera all;
-  set_defaults(all);
-  from_camera(found.camera, all);
-  write(all, camera);
-  return done(invalid_field);
+  return write_camera(found.camera, camera, invalid_field);
 }
 
 int32_t gnomon_texture_from_clip(const gnomon_clip_space* clip_space, double out[16]) {

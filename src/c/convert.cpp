@@ -267,7 +267,7 @@ void from_options(const PlanOptions& from, gnomon_plan_options& to) noexcept {
   to.clip_space = from_clip_space(from.clip_space);
 }
 
-const char* to_measure_options(const gnomon_measure_options* from, MeasureOptions& to) noexcept {
+static const char* to_measure_options(const gnomon_measure_options* from, MeasureOptions& to) noexcept {
   if (from == nullptr) return nullptr;
   gnomon_measure_options o;
   if (const char* fault = read(from, o)) return fault;
@@ -278,6 +278,16 @@ const char* to_measure_options(const gnomon_measure_options* from, MeasureOption
   if (o.map < -1) return "measure_options.map";
   to = {o.columns, o.rows, o.depths, o.map};
   return nullptr;
+}
+
+const char* to_measured(const gnomon_view* view, const gnomon_scene* scene,
+                        const gnomon_measure_options* options, const gnomon_stats* stats,
+                        Measured& to) noexcept {
+  if (const char* fault = to_view(view, to.view)) return fault;
+  if (const char* fault = to_scene(scene, to.bounds)) return fault;
+  if (const char* fault = to_measure_options(options, to.options)) return fault;
+  if (const char* fault = fault_of_view(to.view, to.bounds)) return fault;
+  return fault_of(stats);
 }
 
 }  // namespace gnomon::c

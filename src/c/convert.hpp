@@ -30,7 +30,16 @@ namespace gnomon::c {
 /// A map of the caller's, checked so that no later call divides by zero or reads beyond an array.
 [[nodiscard]] const char* to_map(const gnomon_map* from, ShadowMap& to) noexcept;
 [[nodiscard]] const char* to_plan(const gnomon_plan* from, ShadowPlan& to) noexcept;
-[[nodiscard]] const char* to_measure_options(const gnomon_measure_options* from, MeasureOptions& to) noexcept;
+
+/// What is measured, beside the plan. `stats` is to be written to.
+struct Measured {
+  View view;
+  SceneBounds bounds;
+  MeasureOptions options;
+};
+[[nodiscard]] const char* to_measured(const gnomon_view* view, const gnomon_scene* scene,
+                                      const gnomon_measure_options* options, const gnomon_stats* stats,
+                                      Measured& to) noexcept;
 
 /// `count` boxes of six doubles; `name` and `count_name` are those of the two in messages.
 struct BoxList {

@@ -4,17 +4,24 @@
 #include "c/convert.hpp"
 
 namespace gnomon::c {
+namespace {
 
-void set_defaults(gnomon_camera& to) noexcept {
+template <typename T>
+void clear(T& to) noexcept {
   to = {};
   to.size = sizeof to;
+}
+
+}  // namespace
+
+void set_defaults(gnomon_camera& to) noexcept {
+  clear(to);
   from_camera(Camera{}, to);
 }
 
 void set_defaults(gnomon_light& to) noexcept {
   const SpotLight light;  // has all fields that any light has
-  to = {};
-  to.size = sizeof to;
+  clear(to);
   to.kind = GNOMON_DIRECTIONAL;
   from_vector(light.position, to.position);
   from_vector(DirectionalLight{}.direction, to.direction);
@@ -23,32 +30,27 @@ void set_defaults(gnomon_light& to) noexcept {
 }
 
 void set_defaults(gnomon_scene& to) noexcept {
-  to = {};
-  to.size = sizeof to;
+  clear(to);
 }
 
 void set_defaults(gnomon_view& to) noexcept {
-  to = {};
-  to.size = sizeof to;
+  clear(to);
 }
 
 void set_defaults(gnomon_plan_options& to) noexcept {
-  to = {};
-  to.size = sizeof to;
+  clear(to);
   from_options(PlanOptions{}, to);
 }
 
 void set_defaults(gnomon_map& to) noexcept {
-  to = {};
-  to.size = sizeof to;
+  clear(to);
   ShadowMap map;
   map.cull_plane_count = 0;
   from_map(map, to);
 }
 
 void set_defaults(gnomon_plan& to) noexcept {
-  to = {};
-  to.size = sizeof to;
+  clear(to);
   to.status = GNOMON_INVALID_INPUT;
   const BiasOptions bias;
   to.bias_constant_texels = bias.constant_texels;
@@ -60,8 +62,7 @@ void set_defaults(gnomon_plan& to) noexcept {
 
 void set_defaults(gnomon_measure_options& to) noexcept {
   const MeasureOptions options;
-  to = {};
-  to.size = sizeof to;
+  clear(to);
   to.map = options.map;
   to.columns = options.columns;
   to.rows = options.rows;
@@ -69,14 +70,12 @@ void set_defaults(gnomon_measure_options& to) noexcept {
 }
 
 void set_defaults(gnomon_stats& to) noexcept {
-  to = {};
-  to.size = sizeof to;
+  clear(to);
 }
 
 void set_defaults(gnomon_page_options& to) noexcept {
   const PageOptions options;
-  to = {};
-  to.size = sizeof to;
+  clear(to);
   to.policy = gnomon_find(GNOMON_PAGE_POLICIES, "resolution");
   to.page_texels = options.page_texels;
   to.capacity = options.capacity;
@@ -91,27 +90,23 @@ void set_defaults(gnomon_page_options& to) noexcept {
 }
 
 void set_defaults(gnomon_page_plan& to) noexcept {
-  to = {};
-  to.size = sizeof to;
+  clear(to);
   to.status = GNOMON_INVALID_INPUT;
   to.policy = GNOMON_DEFAULT;
 }
 
 void set_defaults(gnomon_page_history& to) noexcept {
-  to = {};
-  to.size = sizeof to;
+  clear(to);
 }
 
 void set_defaults(gnomon_light_request& to) noexcept {
-  to = {};
-  to.size = sizeof to;
+  clear(to);
   to.weight = LightRequest{}.weight;
 }
 
 void set_defaults(gnomon_light_options& to) noexcept {
   const LightOptions options;
-  to = {};
-  to.size = sizeof to;
+  clear(to);
   to.page_budget = options.page_budget;
   to.pool_width = options.pool_width;
   to.pool_height = options.pool_height;
@@ -127,15 +122,13 @@ void set_defaults(gnomon_light_options& to) noexcept {
 }
 
 void set_defaults(gnomon_light_maps& to) noexcept {
-  to = {};
-  to.size = sizeof to;
+  clear(to);
   to.outcome = GNOMON_LIGHT_WITHOUT_RECEIVER;
   to.frames = 1;
 }
 
 void set_defaults(gnomon_light_plan& to) noexcept {
-  to = {};
-  to.size = sizeof to;
+  clear(to);
   to.status = GNOMON_INVALID_INPUT;
   to.invalid_light = -1;
 }

@@ -32,20 +32,14 @@ int32_t gnomon_measure(const gnomon_plan* plan, const gnomon_view* view, const g
                        const gnomon_measure_options* options, gnomon_stats* stats,
                        const char** invalid_field) {
   ShadowPlan p;
-  View v;
-  SceneBounds bounds;
-  MeasureOptions o;
+  Measured m;
   const char* fault = to_plan(plan, p);
-  if (fault == nullptr) fault = to_view(view, v);
-  if (fault == nullptr) fault = to_scene(scene, bounds);
-  if (fault == nullptr) fault = to_measure_options(options, o);
-  if (fault == nullptr) fault = fault_of_view(v, bounds);
-  if (fault == nullptr) fault = fault_of(stats);
+  if (fault == nullptr) fault = to_measured(view, scene, options, stats, m);
   if (fault != nullptr) return refuse(fault, invalid_field);
-  if (o.map >= p.map_count && p.map_count > 0) return refuse("measure_options.map", invalid_field);
+  if (m.options.map >= p.map_count && p.map_count > 0) return refuse("measure_options.map", invalid_field);
   gnomon_stats all;
   set_defaults(all);
-  from_stats(measure(p, v, bounds, o), all);
+  from_stats(measure(p, m.view, m.bounds, m.options), all);
   write(all, stats);
   return done(invalid_field);
 }

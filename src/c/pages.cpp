@@ -207,17 +207,11 @@ int32_t gnomon_measure_pages(const gnomon_page_plan* plan, const gnomon_view* vi
                              const gnomon_measure_options* options, gnomon_stats* stats,
                              double* texels_per_pixel, const char** invalid_field) {
   const PagePlan* p = nullptr;
-  View v;
-  SceneBounds bounds;
-  MeasureOptions o;
+  Measured m;
   const char* fault = to_page_plan(plan, p);
-  if (fault == nullptr) fault = to_view(view, v);
-  if (fault == nullptr) fault = to_scene(scene, bounds);
-  if (fault == nullptr) fault = to_measure_options(options, o);
-  if (fault == nullptr) fault = fault_of_view(v, bounds);
-  if (fault == nullptr) fault = fault_of(stats);
+  if (fault == nullptr) fault = to_measured(view, scene, options, stats, m);
   if (fault != nullptr) return refuse(fault, invalid_field);
-  const PageStats found = measure(*p, v, bounds, o);
+  const PageStats found = measure(*p, m.view, m.bounds, m.options);
   gnomon_stats all;
   set_defaults(all);
   from_stats(found.m, all);
