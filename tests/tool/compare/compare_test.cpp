@@ -17,6 +17,19 @@
 namespace gnomon::test {
 namespace {
 
+/// One frame of a scene by techniques of one map of 256 texels.
+std::vector<report::Row> rows_of_one_small_map(std::vector<std::string> words) {
+  const TemporaryFolder folder;
+  words.insert(words.begin(), "compare");
+  for (const char* word : {"--cascades", "1", "--frames", "1", "--rounds", "1", "--size", "96x54",
+                           "--map-sizes", "256", "--context", "osmesa", "--out"})
+    words.emplace_back(word);
+  words.push_back(folder.path().string());
+  const Finished finished = run_gnomon(words);
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  return finished.exit_code == 0 ? report::read_rows(folder.path()) : std::vector<report::Row>();
+}
+
 TEST(Compare, measures_every_technique_on_every_frame) {
   const std::vector<report::Row> rows = report::read_rows(whole());
   ASSERT_EQ(rows.size(), kSmallRows);
@@ -342,19 +355,8 @@ TEST(Compare, the_same_technique_under_two_names_and_the_same_scene_are_measured
 }
 
 TEST(Compare, measures_every_filter_of_the_registry_against_its_own_truth) {
-  const TemporaryFolder folder;
-  const Finished finished = run_gnomon({"compare",     "builtin:fence",
-                                        "--warps",     "optimal",
-                                        "--cascades",  "1",
-                                        "--filters",   "all",
-                                        "--frames",    "1",
-                                        "--rounds",    "1",
-                                        "--size",      "96x54",
-                                        "--map-sizes", "256",
-                                        "--context",   "osmesa",
-                                        "--out",       folder.path().string()});
-  ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  const std::vector<report::Row> rows =
+      rows_of_one_small_map({"builtin:fence", "--warps", "optimal", "--filters", "all"});
   ASSERT_EQ(rows.size(), render::all_filters().size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const render::Filter& filter = *render::all_filters()[i];
@@ -368,45 +370,22 @@ TEST(Compare, measures_every_filter_of_the_registry_against_its_own_truth) {
 }
 
 TEST(Compare, objectives_are_rows_beside_the_warps_also_with_shapes) {
-  const TemporaryFolder folder;
-  const Finished finished = run_gnomon({"compare",     "builtin:terrain",
-                                        "--warps",     "psm,optimal,optimal:storage",
-                                        "--shapes",    "linear,logarithmic",
-                                        "--cascades",  "1",
-                                        "--filters",   "hard",
-                                        "--frames",    "1",
-                                        "--rounds",    "1",
-                                        "--size",      "96x54",
-                                        "--map-sizes", "256",
-                                        "--context",   "osmesa",
-                                        "--out",       folder.path().string()});
-  ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  const std::vector<report::Row> rows =
+      rows_of_one_small_map({"builtin:terrain", "--warps", "psm,optimal,optimal:storage", "--shapes",
+                             "linear,logarithmic", "--filters", "hard"});
   const auto row = [&](std::string_view warp) {
     const auto at = std::find_if(rows.begin(), rows.end(),
                                  [&](const report::Row& r) { return r.technique.warp == warp; });
     EXPECT_NE(at, rows.end()) << warp;
-    return at == rows.end() ? rows.front() : *at;
+    return at == rows.end() ? report::Row() : *at;
   };
   EXPECT_NE(row("optimal").aliasing.p95, row("optimal:storage").aliasing.p95);
   EXPECT_NE(row("optimal:logarithmic").aliasing.p95, row("optimal:storage:logarithmic").aliasing.p95);
 }
 
 TEST(Compare, shapes_are_rows_beside_the_warps_with_an_even_error) {
-  const TemporaryFolder folder;
-  const Finished finished = run_gnomon({"compare",     "builtin:terrain",
-                                        "--warps",     "none,psm",
-                                        "--shapes",    "all",
-                                        "--cascades",  "1",
-                                        "--filters",   "hard",
-                                        "--frames",    "1",
-                                        "--rounds",    "1",
-                                        "--size",      "96x54",
-                                        "--map-sizes", "256",
-                                        "--context",   "osmesa",
-                                        "--out",       folder.path().string()});
-  ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  const std::vector<report::Row> rows = rows_of_one_small_map(
+      {"builtin:terrain", "--warps", "none,psm", "--shapes", "all", "--filters", "hard"});
   // Without a warp there is none to undo, and parallel rays have no angles to even out.
   ASSERT_EQ(rows.size(), 5u);
   EXPECT_EQ(rows[1].technique.warp, "none:rectilinear");
