@@ -63,10 +63,10 @@ enum class Partition : std::uint8_t {
 inline constexpr int kMaxMaps = 8;  ///< cascades of one plan; beyond 8 no published figure gains anything
 
 /// `optimal` needs the receivers and is made by the plan: it minimises the plan's objective over the actual
-/// body, and costs some hundred microseconds. It is logarithmic with Fit::stable, whose edges must not follow
-/// what is in view. `automatic` is logarithmic over the receivers' depths, where that is close to the best,
-/// and practical with Fit::stable, whose range begins at the near plane. split_depths() treats both as
-/// logarithmic. `given` takes the caller's own depths.
+/// body, and costs some hundred microseconds. By Objective::picture it is `automatic`. It is logarithmic with
+/// Fit::stable, whose edges must not follow what is in view. `automatic` is logarithmic over the receivers'
+/// depths, where that is close to the best, and practical with Fit::stable, whose range begins at the near
+/// plane. split_depths() treats both as logarithmic. `given` takes the caller's own depths.
 enum class SplitScheme : std::uint8_t {
   uniform,
   logarithmic,
@@ -149,9 +149,9 @@ enum class Objective : std::uint8_t {
   /// misclassified pixels along shadows' edges grows with it. The points are View::points_world, and
   /// automatic splits are then where their error is least. Without points, each ray of a fan gives one, in
   /// one of the first receiver boxes that it meets. Automatic splits are then logarithmic from the nearest of
-  /// them on, and optimal splits are the same. Air in front of all boxes never counts. Maps with fewer than
-  /// six points go by `storage`. So do Fit::stable, views that share maps, and partitions of parallel light
-  /// other than view_depth.
+  /// them on, and take the place of optimal ones. Air in front of all boxes never counts. Maps with fewer
+  /// than six points go by `storage`. So do Fit::stable, views that share maps, and partitions of parallel
+  /// light other than view_depth.
   picture,
 };
 [[nodiscard]] std::string_view to_string(Objective objective) noexcept;

@@ -59,7 +59,7 @@ enum class OmissionKind : std::uint8_t {
 /// The option that OmissionKind::option_ignored names.
 enum class IgnoredOption : std::uint8_t {
   partition,       ///< split.partition: it divides another kind of light
-  split_scheme,    ///< split.scheme: a local light has no cascades
+  split_scheme,    ///< split.scheme: a local light has no cascades, and Objective::picture splits by itself
   split_overlap,   ///< split.overlap: only cascades blend
   visible_depths,  ///< the visible depths: a local light has no cascades
   texel_budget,    ///< resolution.texel_budget: maps of this partition keep their size

@@ -65,6 +65,8 @@ std::size_t touched(const std::function<void()>& call) {
 class Stack : public testing::Test {
  protected:
   void SetUp() override {
+    // The bounds are promised of optimized builds: sanitizers pad frames, and without -O nothing shares a
+    // place.
     if (kSanitized || !kOptimized) GTEST_SKIP() << "stack frames of other builds are larger";
     nothing_ = touched([] {});
     for (int i = 0; i < 3000; ++i) points_.push_back({-4.0 + i % 9, 0.0, -8.0 - 0.04 * i});

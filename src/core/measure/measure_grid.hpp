@@ -99,7 +99,7 @@ class VisiblePiece {
   void mark(const Box& box) noexcept;
 
  private:
-  static constexpr std::int64_t kWords = 448;  // 7 KiB with the flat boxes: the default grid in ten pieces
+  static constexpr std::int64_t kWords = 384;  // 6 KiB with the flat boxes: the default grid in eleven pieces
   [[nodiscard]] std::size_t word(std::int64_t ray, int depth) const noexcept {
     return static_cast<std::size_t>((ray - first_) * words_ + depth / 64);
   }

@@ -319,16 +319,16 @@ CascadeEdges cascade_edges(const PlanContext& c, const ParallelScene& scene, int
   report_depths(result, OmissionKind::depth_not_visible, cover.end, received.end);
   const SplitOptions& split = c.options.split;
   split_depths(cover.begin, cover.end, split, edges);
-  const bool chosen = split.scheme == SplitScheme::automatic || split.scheme == SplitScheme::optimal;
-  const bool logarithmic = chosen || split.scheme == SplitScheme::logarithmic;
+  const bool automatic = split.scheme == SplitScheme::automatic,
+             optimal = split.scheme == SplitScheme::optimal;
+  const bool logarithmic = automatic || optimal || split.scheme == SplitScheme::logarithmic;
   if (logarithmic && c.visible_depths != nullptr) split_visible(*c.visible_depths, cover, edges);
-  if (chosen && c.visible_depths == nullptr && !c.seen.empty()) {
+  if (automatic && c.visible_depths == nullptr && !c.seen.empty()) {
     std::array<double, SeenPoints::kMost> depths;
     std::size_t count = 0;
     for (const glm::dvec3& p : c.seen) depths[count++] = glm::dot(c.axes.forward, p);
     split_seen({depths.data(), count}, !c.visible_points.empty(), edges);
   }
-  const bool optimal = split.scheme == SplitScheme::optimal && c.seen.empty();
   if (optimal && !(history != nullptr && reuse_searched(history->searched_edges, history->frame, edges))) {
     optimise(c, scene, edges);
     if (history != nullptr)

@@ -44,7 +44,8 @@ void describe_ignored(const Omission& o, OmissionText& text) noexcept {
   constexpr Entry kEntries[] = {
       {"option split.partition",
        "it divides another kind of light: parts of the view a sun's, a tetrahedron a point light's"},
-      {"option split.scheme", "a local light has no cascades to divide the view among"},
+      {"option split.scheme",
+       "local lights have no cascades, and plans by the picture divide where their points are"},
       {"option split.overlap", "only cascades along the view blend into each other"},
       {"visible depths", "a local light has no cascades to divide the view among"},
       {"option resolution.texel_budget", "maps of this partition keep their size"},

@@ -132,6 +132,10 @@ void resolve_parallel(const PlanCase& plan, Resolved& r) noexcept {
   Conduct& how = r.conduct;
   const bool divides = divides_parallel(o.split.partition);
   r.parts = divides && !how.stable;
+  if (r.counts_seen && o.split.scheme == SplitScheme::optimal) {
+    r.of_maps.add(IgnoredOption::split_scheme);
+    o.split.scheme = SplitScheme::automatic;
+  }
   how.has_history = plan.has_history && !r.parts;
   how.caches_cascades = o.cadence.frames > 1 && how.has_history && !sizes_follow_error(o.resolution);
   if (how.caches_cascades) fix(o.split);

@@ -131,6 +131,9 @@ void history(Input& in) {
 void stable(Input& in) {
   in.options.fit = Fit::stable;
 }
+void optimal_splits(Input& in) {
+  in.options.split.scheme = SplitScheme::optimal;
+}
 void by_storage(Input& in) {
   in.options.warp.objective = Objective::storage;
 }
@@ -200,6 +203,7 @@ std::vector<Row> rows() {
       {"frustum faces under a point light", ignored(O::partition), point, faces},
       {"frustum faces of two views", ignored(O::partition), two_views, faces},
       {"splits of a spot", ignored(O::split_scheme), spot, uniform},
+      {"optimal splits by the picture", ignored(O::split_scheme), sun, optimal_splits},
       {"a blend band of a spot", ignored(O::split_overlap), spot, overlap},
       {"a blend band beside parts", ignored(O::split_overlap), faces, overlap},
       {"a blend band of the finest map", ignored(O::split_overlap), finest, overlap},
