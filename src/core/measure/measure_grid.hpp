@@ -90,15 +90,16 @@ class VisiblePiece {
     return flat_[static_cast<std::size_t>(ray - first_)];
   }
 
+  void mark(const Box& box) noexcept;
+
+ private:
   /// Where a box may be met: columns, rows and depths of the table, first and last. A superset.
   struct Footprint {
     int column[2], row[2], depth[2];
   };
   /// False where no ray of the piece meets the box at any depth of the table, or of the view for flat boxes.
   [[nodiscard]] bool footprint(const Box& box, Footprint& out) const noexcept;
-  void mark(const Box& box) noexcept;
 
- private:
   static constexpr std::int64_t kWords = 384;  // 6 KiB with the flat boxes: the default grid in eleven pieces
   [[nodiscard]] std::size_t word(std::int64_t ray, int depth) const noexcept {
     return static_cast<std::size_t>((ray - first_) * words_ + depth / 64);
