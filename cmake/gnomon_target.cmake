@@ -89,7 +89,8 @@ function(gnomon_public_headers out name)
   set(folder ${PROJECT_SOURCE_DIR}/include/gnomon)
   if(name STREQUAL "core")
     # The core's headers are those that lie in no folder of another library.
-    file(GLOB headers RELATIVE ${PROJECT_SOURCE_DIR}/include CONFIGURE_DEPENDS ${folder}/*.hpp ${folder}/study/*.hpp)
+    file(GLOB headers RELATIVE ${PROJECT_SOURCE_DIR}/include CONFIGURE_DEPENDS ${folder}/*.hpp
+      ${folder}/extend/*.hpp ${folder}/study/*.hpp)
   else()
     file(GLOB_RECURSE headers RELATIVE ${PROJECT_SOURCE_DIR}/include CONFIGURE_DEPENDS ${folder}/${name}/*.hpp)
   endif()
