@@ -62,6 +62,9 @@ struct Polytope {
 /// never from intersecting planes, so that a far plane of 1e9 loses nothing.
 [[nodiscard]] Polytope frustum_slice(const Camera& camera, const CameraAxes& axes, double begin,
                                      double end) noexcept;
+/// Its planes alone: left, right, bottom, top, nearest and farthest.
+[[nodiscard]] std::array<Plane, 6> frustum_planes(const Camera& camera, const CameraAxes& axes, double begin,
+                                                  double end) noexcept;
 
 /// Keeps the part of `body` inside `plane`. Vertices within a tolerance relative to the body's size count as
 /// inside. Leaves `body` as it is (a superset, never less) where rounding gives no consistent cut or its

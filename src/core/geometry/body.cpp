@@ -340,6 +340,20 @@ Polytope box_polytope(const Box& box) noexcept {
   return body;
 }
 
+std::array<Plane, 6> frustum_planes(const Camera& camera, const CameraAxes& axes, double begin,
+                                    double end) noexcept {
+  // Side planes hold a side edge of slope (x or y) per unit depth and the other image axis.
+  const double slope = camera.orthographic ? 0.0 : 1.0;
+  const auto side = [&](const glm::dvec3& axis, double edge, double inward) {
+    const glm::dvec3 normal =
+        (axis - axes.forward * (edge * slope)) * (inward / std::sqrt(1.0 + slope * edge * edge));
+    return Plane{normal, camera.orthographic ? -inward * edge : 0.0};
+  };
+  return {side(axes.right, camera.left, 1.0), side(axes.right, camera.right, -1.0),
+          side(axes.up, camera.bottom, 1.0),  side(axes.up, camera.top, -1.0),
+          Plane{axes.forward, -begin},        Plane{-axes.forward, end}};
+}
+
 Polytope frustum_slice(const Camera& camera, const CameraAxes& axes, double begin, double end) noexcept {
   Polytope body;
   for (std::size_t far = 0; far < 2; ++far) {
@@ -354,19 +368,8 @@ Polytope frustum_slice(const Camera& camera, const CameraAxes& axes, double begi
     v[3].position = right + top + middle;
   }
   join_cuboid(body);
-  // Side planes hold a side edge of slope (x or y) per unit depth and the other image axis.
-  const double slope = camera.orthographic ? 0.0 : 1.0;
-  const auto side = [&](const glm::dvec3& axis, double edge, double inward) {
-    const glm::dvec3 normal =
-        (axis - axes.forward * (edge * slope)) * (inward / std::sqrt(1.0 + slope * edge * edge));
-    return Plane{normal, camera.orthographic ? -inward * edge : 0.0};
-  };
-  body.plane[0] = side(axes.right, camera.left, 1.0);
-  body.plane[1] = side(axes.right, camera.right, -1.0);
-  body.plane[2] = side(axes.up, camera.bottom, 1.0);
-  body.plane[3] = side(axes.up, camera.top, -1.0);
-  body.plane[4] = {axes.forward, -begin};
-  body.plane[5] = {-axes.forward, end};
+  const std::array<Plane, 6> planes = frustum_planes(camera, axes, begin, end);
+  std::copy(planes.begin(), planes.end(), body.plane.begin());
   return body;
 }
 

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/body.hpp"
 #include "geometry/box_walk.hpp"
 #include "geometry/even_points.hpp"
 #include "geometry/vector.hpp"
@@ -37,9 +38,9 @@ struct Fan {
 };
 constexpr Fan kFan;
 
-/// Part of an image, 0 to 1 along both sides.
-struct ImagePart {
-  double left, right, bottom, top;
+/// Where an image shows a box at most: 0 to 1 along both sides, and between these view depths.
+struct Shown {
+  double left, right, bottom, top, nearest, farthest;
 };
 
 /// What a ray meets: view depths.
@@ -53,7 +54,9 @@ class NearestBoxes {
   static constexpr bool kCuts = false;
   static constexpr std::size_t kMost = 6;
 
-  NearestBoxes(const Camera& camera, const CameraAxes& axes) noexcept : camera_(camera), axes_(axes) {
+  /// `list`: the boxes are asked one by one anyway, after planes; a tree asks first where not to look.
+  NearestBoxes(const Camera& camera, const CameraAxes& axes, bool list) noexcept
+      : camera_(camera), axes_(axes), list_(list) {
     for (std::size_t i = 0; i < kRays; ++i) {
       y_[i] = even_y(kFan.number[i]);
       const glm::dvec3 aside =
@@ -67,10 +70,14 @@ class NearestBoxes {
   }
 
   [[nodiscard]] std::uint32_t wanted(const CasterBlock& block) const noexcept {
+    if (list_) return block.occupied;  // planes are quicker, one box after the other
     std::uint32_t lanes = 0;
     for_each_bit(block.occupied, [&](std::size_t lane) {
-      ImagePart part;
-      if (shown(lane_box(block, lane), part)) lanes |= 1u << lane;
+      Shown box;
+      if (!shown(lane_box(block, lane), box) || box.nearest >= to_ || box.farthest < from_) return;
+      const RayRange rays = rays_in(box);
+      for (std::size_t ray = rays.first; ray < rays.beyond && (lanes >> lane & 1u) == 0; ++ray)
+        lanes |= static_cast<std::uint32_t>(may_keep(ray, box)) << lane;
     });
     return lanes;
   }
@@ -78,10 +85,16 @@ class NearestBoxes {
     if (!leaf) return lanes;
     for_each_bit(lanes, [&](std::size_t lane) {
       const Box box = lane_box(block, lane);
-      ImagePart part;
-      if (shown(box, part)) add(box, part);
+      Shown where;
+      if (shown(box, where) && where.nearest >= from_ && where.nearest < to_) add(box, where);
     });
     return 0;
+  }
+
+  /// From now on takes boxes that begin between these view depths alone.
+  void between(double from, double to) noexcept {
+    from_ = from;
+    to_ = to;
   }
 
   /// A point on each ray that meets a box, between the box's sides.
@@ -102,8 +115,8 @@ class NearestBoxes {
   }
 
  private:
-  /// False where the box is not in the image. `part` holds all of the image that shows it.
-  [[nodiscard]] bool shown(const Box& box, ImagePart& part) const noexcept {
+  /// False where the box is not in the image.
+  [[nodiscard]] bool shown(const Box& box, Shown& part) const noexcept {
     const glm::dvec3 centre = (box.min + box.max) * 0.5, half = (box.max - box.min) * 0.5;
     const auto along = [&](const glm::dvec3& axis) {
       const double middle = glm::dot(axis, centre), reach = glm::dot(glm::abs(axis), half);
@@ -120,8 +133,12 @@ class NearestBoxes {
                  per_height = 1.0 / (camera_.top - camera_.bottom);
     const auto least = [&](double v) { return v * (v < 0.0 ? per_near : per_far); };
     const auto most = [&](double v) { return v * (v < 0.0 ? per_far : per_near); };
-    part = {(least(x.begin) - camera_.left) * per_width, (most(x.end) - camera_.left) * per_width,
-            (least(y.begin) - camera_.bottom) * per_height, (most(y.end) - camera_.bottom) * per_height};
+    part = {(least(x.begin) - camera_.left) * per_width,
+            (most(x.end) - camera_.left) * per_width,
+            (least(y.begin) - camera_.bottom) * per_height,
+            (most(y.end) - camera_.bottom) * per_height,
+            depth.begin,
+            depth.end};
     return part.left < 1.0 && part.right > 0.0 && part.bottom < 1.0 && part.top > 0.0;
   }
 
@@ -143,13 +160,25 @@ class NearestBoxes {
     return through;
   }
 
-  void add(const Box& box, const ImagePart& part) noexcept {
+  struct RayRange {
+    std::size_t first, beyond;
+  };
+  /// The rays that may pass through a part of the image, as far as left and right tell.
+  [[nodiscard]] static RayRange rays_in(const Shown& part) noexcept {
     constexpr auto kCount = static_cast<double>(kRays), kUneven = static_cast<double>(kFan.uneven + 1);
-    const auto first = static_cast<std::size_t>(max_of(part.left * kCount - kUneven, 0.0));
-    const auto beyond = static_cast<std::size_t>(min_of(part.right * kCount + kUneven, kCount));
-    for (std::size_t ray = first; ray < beyond; ++ray) {
-      // Rounding of the part: rays at its border may miss the box by as much.
-      if (!(y_[ray] >= part.bottom && y_[ray] <= part.top)) continue;
+    return {static_cast<std::size_t>(max_of(part.left * kCount - kUneven, 0.0)),
+            static_cast<std::size_t>(min_of(part.right * kCount + kUneven, kCount))};
+  }
+  /// Whether the ray may meet a box that is shown there before those that it has.
+  [[nodiscard]] bool may_keep(std::size_t ray, const Shown& part) const noexcept {
+    return y_[ray] >= part.bottom && y_[ray] <= part.top &&
+           (count_[ray] < kMost || part.nearest <= box_[ray][kMost - 1].begin);
+  }
+
+  void add(const Box& box, const Shown& part) noexcept {
+    const RayRange rays = rays_in(part);
+    for (std::size_t ray = rays.first; ray < rays.beyond; ++ray) {
+      if (!may_keep(ray, part)) continue;
       const Through through = passed(box, ray);
       if (!(through.begin <= through.end && through.end > camera_.near_depth &&
             through.begin < camera_.far_depth))
@@ -177,6 +206,8 @@ class NearestBoxes {
 
   const Camera& camera_;
   const CameraAxes& axes_;
+  bool list_;
+  double from_ = -std::numeric_limits<double>::infinity(), to_ = std::numeric_limits<double>::infinity();
   std::array<double, kRays> y_;  // in the image, 0 to 1
   std::array<glm::dvec3, kRays> direction_, origin_;
   std::array<glm::dvec3, kRays> inverse_;  // of the direction, component by component; 0: across the axis
@@ -187,8 +218,23 @@ class NearestBoxes {
 }  // namespace
 
 SeenPoints first_hits(const Camera& camera, const CameraAxes& axes, const Boxes& boxes) noexcept {
-  NearestBoxes nearest(camera, axes);
-  BoxWalk({}, boxes, camera.position, nearest).whole();
+  NearestBoxes nearest(camera, axes, boxes.set() == nullptr);
+  const std::array<Plane, 6> sides = frustum_planes(camera, axes, camera.near_depth, camera.far_depth);
+  BoxWalk walk(sides, boxes, camera.position, nearest);
+  constexpr std::size_t kMany = 1 << 14;
+  if (boxes.set() == nullptr || boxes.size() < kMany) {
+    walk.whole();
+  } else {
+    // A tree has no order by depth: what is near first, so that little is looked at behind it.
+    double from = -std::numeric_limits<double>::infinity();
+    for (const double share : {1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0}) {
+      const double to = share < 1.0 ? camera.near_depth + (camera.far_depth - camera.near_depth) * share
+                                    : std::numeric_limits<double>::infinity();
+      nearest.between(from, to);
+      walk.whole();
+      from = to;
+    }
+  }
   SeenPoints seen;
   nearest.points(seen);
   return seen;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/body.hpp"
 #include "geometry/box_walk.hpp"
 
 namespace gnomon {
@@ -49,28 +50,19 @@ bool is_flat(const Box& box) noexcept {
   return box.min.x == box.max.x || box.min.y == box.max.y || box.min.z == box.max.z;
 }
 
-/// The planes round what rays between these rows show, a pixel more on each side: space inside is where
-/// dot(normal, p) + offset >= 0 in world space.
-std::array<Plane, 6> planes_round(const Camera& camera, const CameraAxes& axes, const MeasureOptions& grid,
-                                  std::int64_t first_row, std::int64_t last_row) noexcept {
+/// The sides of what rays between these rows show, and of a pixel more on each side, in world space.
+std::array<Plane, 6> sides_between(const Camera& camera, const CameraAxes& axes, const MeasureOptions& grid,
+                                   std::int64_t first_row, std::int64_t last_row) noexcept {
   const double column = (camera.right - camera.left) / grid.columns,
                row = (camera.top - camera.bottom) / grid.rows;
-  const double low = camera.bottom + row * static_cast<double>(first_row - 1),
-               high = camera.bottom + row * static_cast<double>(last_row + 2);
-  // Inside: sign * (along the axis - edge) >= 0, in the image.
-  const auto side = [&](const glm::dvec3& axis, double edge, double sign) {
-    const glm::dvec3 normal = camera.orthographic ? axis * sign : (axis - axes.forward * edge) * sign;
-    return Plane{normal, -glm::dot(normal, camera.position) - (camera.orthographic ? sign * edge : 0.0)};
-  };
-  constexpr double kRoom = 1e-9;
-  const double room = kRoom * (std::abs(camera.near_depth) + std::abs(camera.far_depth));
-  const double eye = glm::dot(axes.forward, camera.position);
-  return {side(axes.up, low, 1.0),
-          side(axes.up, high, -1.0),
-          side(axes.right, camera.left - column, 1.0),
-          side(axes.right, camera.right + column, -1.0),
-          Plane{axes.forward, room - eye - camera.near_depth},
-          Plane{-axes.forward, room + eye + camera.far_depth}};
+  Camera band = camera;
+  band.left -= column;
+  band.right += column;
+  band.bottom = camera.bottom + row * static_cast<double>(first_row - 1);
+  band.top = camera.bottom + row * static_cast<double>(last_row + 2);
+  std::array<Plane, 6> sides = frustum_planes(band, axes, camera.near_depth, camera.far_depth);
+  for (Plane& side : sides) side.offset -= glm::dot(side.normal, camera.position);
+  return sides;
 }
 
 /// Boxes that any ray of the piece meets are marked.
@@ -105,9 +97,9 @@ void VisiblePiece::find(const Boxes& boxes, std::int64_t first, std::int64_t ray
   std::fill_n(flat_.begin(), rays, std::numeric_limits<double>::infinity());
   MarkQuery query{*this};
   // In world space: what marks is the arithmetic of depths_in_box.
-  const std::array<Plane, 6> planes =
-      planes_round(camera_, axes_, grid_, first_ / grid_.columns, (end_ - 1) / grid_.columns);
-  BoxWalk(planes, boxes, glm::dvec3(0.0), query).whole();
+  const std::array<Plane, 6> sides =
+      sides_between(camera_, axes_, grid_, first_ / grid_.columns, (end_ - 1) / grid_.columns);
+  BoxWalk(sides, boxes, glm::dvec3(0.0), query).whole();
 }
 
 bool VisiblePiece::footprint(const Box& box, Footprint& out) const noexcept {

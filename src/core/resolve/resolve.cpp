@@ -176,6 +176,14 @@ void resolve_local(const PlanCase& plan, Resolved& r) noexcept {
   if (plan.has_points && !r.counts_seen) r.of_plan.add(IgnoredOption::visible_points);
 }
 
+bool chooses_warp(const PlanOptions& options) noexcept {
+  return options.warp.warp != &warps::none;
+}
+bool splits_by_seen(const PlanOptions& options) noexcept {
+  const SplitScheme scheme = options.split.scheme;
+  return options.cascades > 1 && (scheme == SplitScheme::automatic || scheme == SplitScheme::optimal);
+}
+
 }  // namespace
 
 Resolved resolve(const PlanOptions& options, const PlanCase& plan) noexcept {
@@ -187,7 +195,8 @@ Resolved resolve(const PlanOptions& options, const PlanCase& plan) noexcept {
   how.caches_maps = options.fit == Fit::warped_stable;
   const bool parallel = std::holds_alternative<DirectionalLight>(plan.light);
   r.counts_seen = options.warp.objective == Objective::picture && !how.stable && plan.views <= 1 &&
-                  !(parallel && divides_parallel(options.split.partition));
+                  !(parallel && divides_parallel(options.split.partition)) &&
+                  (chooses_warp(options) || (parallel && splits_by_seen(options)));
   if (options.warp.objective == Objective::picture && !r.counts_seen)
     r.options.warp.objective = Objective::storage;
   if (plan.views > 0) share(plan.views, r);
