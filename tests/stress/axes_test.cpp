@@ -51,9 +51,10 @@ TEST_P(StressParameters, stay_finite_exact_and_smooth) {
       // here.
       constexpr double kDropped = 0.2;
       const bool against = axis.name == "light_angle" && row.value > 3.14;
-      // In an image of nearly half a space the step changes slopes by 2e-4, and a search may go another way.
+      // In an image of nearly half a space the step changes slopes by up to 2e-4, and a search may go another
+      // way.
       constexpr double kAnotherWay = 1.0;
-      const bool wide = axis.name == "fov" && row.value > 178.0;
+      const bool wide = axis.name == "fov" && row.value > 174.0;
       const double most = against ? kDropped : wide ? kAnotherWay : kJump;
       EXPECT_TRUE(std::isnan(row.jump) || row.jump <= most) << at() << " jumps by " << row.jump;
     }

@@ -14,6 +14,7 @@
 #include "lanes/point_pair.hpp"
 #include "map/size.hpp"
 #include "map/turned.hpp"
+#include "warp/registry.hpp"
 
 namespace gnomon {
 namespace {
@@ -157,9 +158,25 @@ void hold_to_frustum(const MapRequest& request, LightBody& body) noexcept {
   }
 }
 
+/// The strongest warp of parallel light whose texels, where they are smallest, still tell their depth. A
+/// rasterizer finds the depth of a triangle from its corners. Where one lies at the farthest caster, w there
+/// is 1 + kappa reach times the least w of the map, and depth is lost by as much of single precision. The
+/// smallest texel is length / (texels stretch).
+double most_of_precision(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
+  constexpr double kSinglePrecision = 1 << 22;  // to a few units
+  const double length = body.bounds.y_max - body.bounds.y_min;
+  if (!(length > 0.0)) return kStrongest;
+  const double depth = max_of(length, body.bounds.z_max - body.bounds.z_min);
+  const double texels = max_of(request.slot.width, 1);
+  const double square =
+      kSinglePrecision / texels * (length / depth) * (length / max_of(c.caster_reach, length));
+  return square < kStrongest ? max_of(1.0, std::sqrt(square)) : kStrongest;
+}
+
 /// The strongest warp that a map of this light can take: the ratio of its texels' lengths at both ends.
 double most_stretch(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
-  if (!request.space.perspective) return kStrongest;
+  if (!request.space.perspective)
+    return is_searched(request.warp) ? most_of_precision(c, request, body) : kStrongest;
   const PlaneMap plane = body.under(request.unwarped);
   const double share = border_share(c, request, body, plane);
   const double border =

@@ -110,7 +110,13 @@ PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const Re
   plan.clip_space = options.clip_space;
   plan.bias = options.bias;
   plan.sizes_vary = resolved.conduct.error_bound > 0.0 || options.resolution.texel_budget > 0;
-  return {camera, bounds, options, camera_axes(camera), resolved.conduct};
+  PlanContext context{camera, bounds, options, camera_axes(camera), resolved.conduct};
+  if (options.warp.warp == &warps::none) return context;
+  const CasterReach casters = casters_inside({}, bounds.casters, camera.position, context.axes.up);
+  if (casters.any)
+    context.caster_reach =
+        max_of(largest_component(casters.bounds.min), largest_component(casters.bounds.max));
+  return context;
 }
 
 /// Forgets what was planned with other options: maps that are cached, and where searches begin.

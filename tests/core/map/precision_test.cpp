@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/vec4.hpp>
 
 #include "gnomon/gnomon.hpp"
+#include "gnomon/study/bias.hpp"
 #include "support/random_case.hpp"
 
 namespace gnomon::test {
@@ -120,6 +122,61 @@ TEST(Precision, an_absolute_float_matrix_would_not_do) {
   const glm::vec4 shaded = glm::mat4(map.clip_from_world) * glm::vec4(glm::vec3(p), 1.0f);
   const glm::dvec4 exact = map.clip_from_world * glm::dvec4(p, 1.0);
   EXPECT_GT(std::abs(static_cast<double>(shaded.x / shaded.w) - exact.x / exact.w) * 0.5 * map.width, 1.0);
+}
+
+/// Depth along the light that a point of a triangle seems to have where its corners are transformed in float,
+/// less what it has, world units.
+double lost_depth(const ShadowMap& map, const glm::dvec3& light, const std::array<glm::dvec3, 3>& corner,
+                  const glm::dvec3& weight) {
+  const glm::mat4 in_float(map.clip_from_world);
+  glm::dvec4 seems(0.0), is(0.0);
+  glm::dvec3 point(0.0);
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3& p = corner[static_cast<std::size_t>(i)];
+    seems += weight[i] * glm::dvec4(in_float * glm::vec4(glm::vec3(p), 1.0f));
+    is += weight[i] * (map.clip_from_world * glm::dvec4(p, 1.0));
+    point += weight[i] * p;
+  }
+  return std::abs(seems.z / seems.w - is.z / is.w) /
+         std::abs(ndc_depth_per_world_unit(map.clip_from_world, light, point));
+}
+
+TEST(Precision, a_ground_of_a_hundred_kilometres_is_not_lost_in_the_depths_near_the_eye) {
+  // Two triangles are the ground. Its corners' w is tens of thousands of times that of what is near in a
+  // warped map.
+  constexpr double kFar = 5e4;
+  const std::array<glm::dvec3, 3> ground = {{{-kFar, 0, -kFar}, {kFar, 0, -kFar}, {-kFar, 0, kFar}}};
+  Case c;
+  c.light = {-0.5065, -0.6157, -0.6037};
+  c.casters = c.receivers = {{{-kFar, 0, -kFar}, {kFar, 0, kFar}}, {{-0.5, 0, -0.5}, {0.5, 1, 0.5}}};
+  const glm::dvec3 light = glm::normalize(c.light);
+  for (const double far_depth : {1000.0, 3000.0, 1e4, 131072.0}) {
+    c.camera =
+        perspective_camera({-20, 2, -15}, {0, -0.3, -1}, {0, 1, 0}, 1.0472, 1.7778, 1.0, far_depth, 480, 270);
+    for (const Objective objective :
+         {Objective::picture, Objective::storage, Objective::p95, Objective::max}) {
+      for (const int cascades : {1, 4}) {
+        c.options.warp.objective = objective;
+        c.options.cascades = cascades;
+        const ShadowPlan plan = c.plan();
+        ASSERT_EQ(plan.status, PlanStatus::ok);
+        Random random(3);
+        for (int i = 0; i < 400; ++i) {
+          const glm::dvec3 ray =
+              point_at(c.camera, random.between(-1, 1), random.between(-1, 0), 1.0) - c.camera.position;
+          if (!(ray.y < -1e-3)) continue;
+          const glm::dvec3 hit = c.camera.position - ray * (c.camera.position.y / ray.y);
+          const int serving = map_serving(plan, hit, -c.camera.position.y / ray.y);
+          const double b = (hit.x + kFar) / (2.0 * kFar), a = (hit.z + kFar) / (2.0 * kFar);
+          if (serving < 0 || a + b > 1.0) continue;
+          const ShadowMap& map = plan.maps()[static_cast<std::size_t>(serving)];
+          const glm::dvec2 texel = texel_extent_world(map.clip_from_world, map.texels(), light, hit);
+          EXPECT_LT(lost_depth(map, light, ground, {1.0 - a - b, b, a}), 0.7 * std::max(texel.x, texel.y))
+              << far_depth << ' ' << to_string(objective) << ' ' << cascades;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
