@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "chart.hpp"
+#include "expected.hpp"
 #include "front_table.hpp"
 #include "gnomon/report/csv.hpp"
 #include "gnomon/report/page.hpp"
@@ -173,6 +174,52 @@ TEST(Summary, a_technique_that_misses_a_scene_is_not_among_all_scenes) {
   EXPECT_EQ(std::count_if(summary.cells[0].begin(), summary.cells[0].end(),
                           [](const Cell& c) { return c.measured; }),
             2);
+}
+
+/// Four rows of hard comparison on each of two frames, that were expected to misclassify `factor` times what
+/// they did.
+std::vector<Row> expected_rows(double factor) {
+  std::vector<Row> rows;
+  for (int i = 0; i < 8; ++i) {
+    Row row = sample_row(static_cast<std::uint64_t>(i));
+    row.frame = i / 4;
+    row.technique.map_size = 256 << i % 4;
+    row.errors.false_lit = row.errors.false_shadow = 0.001 * (1 + i % 4);
+    row.expected_wrong = factor * 0.002 * (1 + i % 4);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST(Expected, agrees_as_far_as_ratios_and_ranks_do) {
+  std::vector<Row> rows = expected_rows(0.9);
+  const ExpectedCheck alike = check_expected(rows);
+  EXPECT_EQ(alike.rows, 8u);
+  EXPECT_EQ(alike.views, 2u);
+  EXPECT_NEAR(alike.ratio, 0.9, 1e-12);
+  EXPECT_EQ(alike.within, 1.0);
+  EXPECT_NEAR(alike.correlation, 1.0, 1e-12);
+  rows[0].expected_wrong = 1.0;      // the least of its view is expected to be the worst
+  rows[5].technique.filter = "pcf";  // another filter
+  rows[6].expected_wrong.reset();    // pages
+  rows[7].errors.false_lit = rows[7].errors.false_shadow = 1e-5;  // too few pixels
+  const ExpectedCheck off = check_expected(rows);
+  EXPECT_EQ(off.rows, 5u);
+  EXPECT_EQ(off.views, 1u);
+  EXPECT_EQ(off.within, 0.8);
+  EXPECT_NEAR(off.correlation, -0.2, 1e-12);
+  EXPECT_EQ(check_expected({}).rows, 0u);
+}
+
+TEST(Expected, is_shown_where_rows_have_it) {
+  EXPECT_EQ(count(Reported(sample_rows(1, 2)).page, "Expected without drawing"), 0u);
+  const Reported report(expected_rows(2.0));
+  EXPECT_EQ(count(report.page, "Expected without drawing"), 1u);
+  EXPECT_EQ(
+      count(report.page, "8 rows of hard comparison with at least 30 misclassified pixels: 0 % are expected"),
+      1u);
+  EXPECT_EQ(count(report.page, "mean of 2 views: 1."), 1u);
+  EXPECT_TRUE(fs::exists(report.folder.path() / "charts" / "expected.svg"));
 }
 
 TEST(Page, of_no_rows_says_so_and_stands) {

@@ -42,6 +42,13 @@ TEST(Rows, lengths_of_lists_come_back_where_there_are_lists) {
   EXPECT_EQ(back.costs.lists.most, 40u);
 }
 
+TEST(Rows, what_a_plan_was_expected_to_misclassify_comes_back_where_it_is_known) {
+  Row row = sample_row();
+  EXPECT_FALSE(row_from_json(to_json_line(row), "here").expected_wrong);
+  row.expected_wrong = 0.0125;
+  EXPECT_EQ(row_from_json(to_json_line(row), "here").expected_wrong, row.expected_wrong);
+}
+
 TEST(Rows, a_moving_scene_comes_back_with_its_animation_and_instant) {
   Row row = sample_row();
   EXPECT_EQ(to_json_line(row).find("\"animation"), std::string::npos);

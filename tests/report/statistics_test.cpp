@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -50,6 +51,16 @@ TEST(Statistics, estimates_are_the_same_in_every_run) {
 TEST(Statistics, geometric_mean_by_hand) {
   EXPECT_DOUBLE_EQ(geometric_mean(std::vector<double>{2, 8}, 1.0), 4.0);
   EXPECT_DOUBLE_EQ(geometric_mean(std::vector<double>{0, 4}, 0.25), 1.0);
+}
+
+TEST(Statistics, rank_correlation_goes_by_the_order_alone) {
+  const std::vector<double> values{1, 2, 3, 4}, squares{1, 4, 9, 16}, falling{9, 7, 5, 1};
+  EXPECT_DOUBLE_EQ(rank_correlation(values, squares), 1.0);
+  EXPECT_DOUBLE_EQ(rank_correlation(values, falling), -1.0);
+  // Ranks 1, 2.5, 2.5, 4 against 1, 2, 3, 4.
+  EXPECT_NEAR(rank_correlation(values, std::vector<double>{0, 6, 6, 8}), 4.5 / std::sqrt(5.0 * 4.5), 1e-12);
+  EXPECT_TRUE(std::isnan(rank_correlation(values, std::vector<double>{3, 3, 3, 3})));
+  EXPECT_TRUE(std::isnan(rank_correlation({}, {})));
 }
 
 TEST(Statistics, the_front_is_what_nothing_beats) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -94,6 +95,9 @@ struct Row {
   int frame = 0, frames = 1, width = 0, height = 0;  ///< index, count, pixels
   std::string light;  ///< "sun", "spot" or "point", in the direction of elevation and azimuth
   double light_elevation_deg = 0.0, light_azimuth_deg = 0.0;  ///< degrees
+  /// Where the camera was placed by hand: its eye, or its path's file and a number for what that holds. Empty:
+  /// the scene's own flight.
+  std::string camera = {};
   std::string animation = {};     ///< of the scene that plays, by name or number; empty: the scene is at rest
   double animation_time_s = 0.0;  ///< of the frame's pose, seconds
   Technique technique;            ///< how the shadow was made
@@ -103,11 +107,14 @@ struct Row {
   std::uint64_t undecided_pixels = 0;  ///< undecided by the geometry, not counted in `errors`
   double flips = 0.0;                  ///< excess flips per pixel over one step of a 60 Hz viewer
   PixelAliasing aliasing;              ///< over the pixels of the frame
-  Costs costs;                         ///< of the frame
-  Times times;                         ///< over all rounds
-  std::vector<LeftOut> left_out;       ///< by the plan and the renderer
-  Pictures pictures;                   ///< of this frame
-  Machine machine;                     ///< that measured
+  /// Misclassified share of the pixels compared that the plan's maps were expected to have under hard
+  /// comparison, without drawing them (expected_error); none of pages.
+  std::optional<double> expected_wrong = {};
+  Costs costs;                    ///< of the frame
+  Times times;                    ///< over all rounds
+  std::vector<LeftOut> left_out;  ///< by the plan and the renderer
+  Pictures pictures;              ///< of this frame
+  Machine machine;                ///< that measured
 
   /// Everything that identifies a measurement, except the machine and the content of the scene's files: equal
   /// keys mean the same measurement.

@@ -24,6 +24,10 @@ struct Estimate {
 /// The geometric mean; values at or below zero count as `floor`, which is above zero. 0 for none.
 [[nodiscard]] double geometric_mean(std::span<const double> values, double floor);
 
+/// Spearman's rank correlation of two equally long lists, in [-1,1]; equal values share their ranks. Not a
+/// number where one list has fewer than two different values.
+[[nodiscard]] double rank_correlation(std::span<const double> a, std::span<const double> b);
+
 /// A choice: both are to be made small.
 struct Choice {
   double cost = 0.0, error = 0.0;  ///< any units

@@ -2,6 +2,7 @@
 #include "gnomon/report/page.hpp"
 
 #include "charts.hpp"
+#include "expected.hpp"
 #include "file.hpp"
 #include "front_table.hpp"
 #include "gnomon/report/csv.hpp"
@@ -53,6 +54,8 @@ void write_charts(const PageInput& input) {
   const std::filesystem::path folder = input.folder / "charts";
   make_folder(folder);
   write_stability_charts(input.stability, folder);
+  if (const std::optional<Chart> expected = expected_chart(input.rows))
+    write_text(folder / "expected.svg", expected->standalone());
   for (std::size_t scene = 0; scene < input.summary.scenes.size(); ++scene) {
     const std::string name = scene == 0 ? "all" : "scene" + std::to_string(scene - 1);
     write_text(folder / ("error_time_" + name + ".svg"), error_time_chart(input.summary, scene).standalone());

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "charts.hpp"
+#include "expected.hpp"
 #include "file.hpp"
 #include "stability.hpp"
 #include "text.hpp"
@@ -170,7 +171,7 @@ std::string section_error_time(const PageInput& input) {
            time_to_error_chart(summary, scene).embedded("time-to-error-" + number) +
            matched_error_table(summary, scene) + "</div>\n";
   }
-  return out + "</section>\n";
+  return out + expected_part(input.rows) + "</section>\n";
 }
 
 std::string section_summary(const PageInput& input) {
@@ -261,6 +262,7 @@ std::string section_method(const PageInput& input) {
         std::to_string(row.frames) + " frames, " + row.light + " at " +
         short_number(row.light_elevation_deg) + " degrees elevation and " +
         short_number(row.light_azimuth_deg) + " azimuth, " + std::to_string(row.times.rounds) + " rounds" +
+        (row.camera.empty() ? "" : ", camera " + row.camera) +
         (row.animation.empty() ? "" : ", animation '" + row.animation + "' plays in " + row.scene));
     low = std::min(low, m.load);
     high = std::max(high, m.load);

@@ -109,7 +109,8 @@ Json settings_json(const Row& row) {
             {"light_elevation_deg", row.light_elevation_deg},
             {"light_azimuth_deg", row.light_azimuth_deg},
             {"technique", to_json(row.technique)}};
-  // Rows of scenes at rest keep the key that they had before scenes could move.
+  // Rows keep the key that they had before cameras could be placed and scenes could move.
+  if (!row.camera.empty()) json["camera"] = row.camera;
   if (!row.animation.empty()) json["animation"] = row.animation;
   return json;
 }
@@ -123,6 +124,7 @@ Json lasting_json(const Row& row) {
   json["plan_status"] = row.plan_status;
   json["errors"] = errors_json(row);
   json["m"] = aliasing_json(row.aliasing);
+  if (row.expected_wrong) json["expected_wrong"] = *row.expected_wrong;
   json["costs"] = costs_json(row.costs);
   json["left_out"] = left_out_json(row.left_out);
   json["pictures"] = pictures_json(row.pictures);
@@ -204,6 +206,8 @@ void results_from(const Json& json, Row& row) {
   const Json& m = json.at("m");
   row.aliasing = {number_from(m.at("p50")), number_from(m.at("p95")), number_from(m.at("max")),
                   real_from(m.at("share_undersampled")), whole_from<std::uint64_t>(m.at("pixels"))};
+  // Rows of pages and of an earlier version have none.
+  if (json.contains("expected_wrong")) row.expected_wrong = real_from(json.at("expected_wrong"));
   const Json& c = json.at("costs");
   row.costs = {whole_from<int>(c.at("maps")), whole_from<std::uint64_t>(c.at("draws")),
                whole_from<std::uint64_t>(c.at("triangles")), whole_from<std::uint64_t>(c.at("texels")),
@@ -315,6 +319,8 @@ Row row_from_json(const std::string& line, const std::string& where) {
     row.light_azimuth_deg = real_from(json.at("light_azimuth_deg"));
     // Rows of an earlier version have none.
     if (json.contains("scene_hash")) json.at("scene_hash").get_to(row.scene_hash);
+    // Rows of the scene's own flight have none.
+    if (json.contains("camera")) json.at("camera").get_to(row.camera);
     row.technique = technique_from(json.at("technique"));
     json.at("plan_status").get_to(row.plan_status);
     results_from(json, row);

@@ -17,6 +17,22 @@ double middle_of(std::vector<double>& values) {
   return 0.5 * (*half + *std::max_element(values.begin(), half));
 }
 
+/// 1 for the least; equal values share the mean of theirs.
+std::vector<double> ranks_of(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return values[x] < values[y]; });
+  std::vector<double> ranks(values.size());
+  for (std::size_t first = 0; first < order.size();) {
+    std::size_t beyond = first + 1;
+    while (beyond < order.size() && values[order[beyond]] == values[order[first]]) ++beyond;
+    for (std::size_t i = first; i < beyond; ++i)
+      ranks[order[i]] = 0.5 * static_cast<double>(first + beyond + 1);
+    first = beyond;
+  }
+  return ranks;
+}
+
 }  // namespace
 
 double median(std::span<const double> values) {
@@ -49,6 +65,18 @@ double geometric_mean(std::span<const double> values, double floor) {
   double sum = 0.0;
   for (const double value : values) sum += std::log(value > 0.0 ? value : floor);
   return std::exp(sum / static_cast<double>(values.size()));
+}
+
+double rank_correlation(std::span<const double> a, std::span<const double> b) {
+  const std::vector<double> ranks_a = ranks_of(a), ranks_b = ranks_of(b);
+  const double middle = 0.5 * static_cast<double>(a.size() + 1);
+  double together = 0.0, spread_a = 0.0, spread_b = 0.0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    together += (ranks_a[i] - middle) * (ranks_b[i] - middle);
+    spread_a += (ranks_a[i] - middle) * (ranks_a[i] - middle);
+    spread_b += (ranks_b[i] - middle) * (ranks_b[i] - middle);
+  }
+  return together / std::sqrt(spread_a * spread_b);
 }
 
 std::vector<std::size_t> pareto_front(std::span<const Choice> choices) {

@@ -141,6 +141,19 @@ std::vector<float> values_of(const trace::HardReference& hard) {
   return values;
 }
 
+/// View depths of the surfaces; 0: none.
+std::vector<float> depths_of(const trace::SurfacePoints& points, const Camera& camera) {
+  const glm::dvec3 forward = camera_axes(camera).forward;
+  std::vector<float> depths;
+  depths.reserve(points.pixels.size());
+  for (const trace::SurfacePoint& point : points.pixels) {
+    const bool surface = point.state != trace::PixelState::sky;
+    depths.push_back(surface ? static_cast<float>(glm::dot(forward, point.position - camera.position))
+                             : 0.0f);
+  }
+  return depths;
+}
+
 /// Samples of one technique over the rounds.
 struct Samples {
   std::vector<double> plan_ns, depth_ms, prefilter_ms, shade_ms, total_ms;
@@ -193,6 +206,7 @@ FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry) {
   trace_frame(stage, entry, truth);
   truth.lit = values_of(truth.hard);
   if (!stage.plays()) truth.lit_before = truth.lit;
+  truth.depths = depths_of(truth.points, truth.camera);
   truth.undecided = static_cast<std::uint64_t>(
       std::count(truth.hard.pixels.begin(), truth.hard.pixels.end(), trace::Verdict::undecided));
   return truth;
@@ -227,6 +241,7 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
   row.undecided_pixels = truth.undecided;
   row.flips = report::excess_flips(mask_before, mask, truth.lit_before, truth.lit);
   row.aliasing = report::pixel_aliasing(plan.aliasing(mask_image));
+  if (!entry.by_pages()) row.expected_wrong = plan.expected({truth.camera, truth.lit, truth.depths}).share();
   count_costs(stats, plan, entry, row);
   if (entry.irregular()) {
     row.costs.lists = list_lengths(renderer);

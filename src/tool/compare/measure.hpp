@@ -19,6 +19,7 @@ struct FrameTruth {
   /// The same one step of a viewer earlier, through the same pixels; equal where the scene is at rest.
   std::vector<float> lit_before;
   std::uint64_t undecided = 0;
+  std::vector<float> depths;  ///< view depths of the surfaces, 0: none
 };
 /// Draws the frame once with `entry` to learn what is visible, and traces it.
 [[nodiscard]] FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry);

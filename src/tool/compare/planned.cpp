@@ -74,6 +74,10 @@ std::vector<float> Planned::aliasing(const FloatImage& mask) const {
   return m;
 }
 
+ExpectedError Planned::expected(const ShadowPicture& shadow) const noexcept {
+  return by_pages() ? ExpectedError{} : expected_error(maps_, shadow);
+}
+
 Image Planned::heat_map(const FloatImage& mask) const {
   const render::Renderer& renderer = stage_.renderer();
   if (!by_pages()) return renderer.heat_map();

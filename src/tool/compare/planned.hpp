@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frame_pages.hpp"
+#include "gnomon/study/expected_error.hpp"
 #include "stage.hpp"
 
 namespace gnomon::tool {
@@ -33,7 +34,9 @@ class Planned {
   [[nodiscard]] int map_count() const noexcept;
   /// The error m of each pixel of the last frame drawn, 0 where there is none: sky, turned from the light.
   [[nodiscard]] std::vector<float> aliasing(const FloatImage& mask) const;
-  /// The same as colours.
+  /// What the maps will make of a shadow; nothing of pages.
+  [[nodiscard]] ExpectedError expected(const ShadowPicture& shadow) const noexcept;
+  /// The error m as colours.
   [[nodiscard]] Image heat_map(const FloatImage& mask) const;
   /// Bytes of the tables that the look-up reads besides texels; 0 for maps.
   [[nodiscard]] std::uint64_t table_bytes() const noexcept;

@@ -1,0 +1,44 @@
+// How many pixels will a plan get wrong? Its texels are applied to a shadow that is known.
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "gnomon/camera.hpp"
+#include "gnomon/plan.hpp"
+
+namespace gnomon {
+
+/// A shadow as a camera sees it: of other maps, of the last frame, or of rays.
+struct ShadowPicture {
+  Camera camera;  ///< its width and height are those of both pictures
+  /// 1 lit .. 0 in shadow, or negative where nothing counts, rows top to bottom.
+  std::span<const float> mask;
+  /// View depths of the surfaces. No surface: 0, below, infinite, not a number.
+  std::span<const float> view_depths;
+};
+
+/// The errors that a plan will make.
+struct ExpectedError {
+  double wrong_pixels = 0.0;    ///< lit and dark pixels that are taken for each other
+  double counted_pixels = 0.0;  ///< that have a surface, and are lit or dark
+  /// wrong_pixels over counted_pixels, in [0,1]; 0 where none counts.
+  [[nodiscard]] double share() const noexcept {
+    return counted_pixels > 0.0 ? wrong_pixels / counted_pixels : 0.0;
+  }
+};
+
+/// The pixels that hard comparison in the plan's maps will misclassify, without drawing them. Each pixel
+/// takes the shadow at the middle of its texel, where the texel meets the surface. Errors of the bias do not
+/// count. Shadows narrower than a pixel count less than they should: the picture should be as fine as the
+/// texels. Middles that another surface hides are not known; what is known stands for them. Nothing counts
+/// where a span has another size than the image. Some 0.1 us a pixel. Pure, allocates nothing.
+[[nodiscard]] ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow) noexcept;
+
+/// Points of the surfaces along the shadow's edges: pixels of whose four neighbours one on the same surface
+/// has another shadow. A plan for them (View::points_world) has its texels where they show. As many as `out`
+/// has room for, evenly over the picture; returns how many.
+[[nodiscard]] std::size_t shadow_edge_points(const ShadowPicture& shadow, std::span<glm::dvec3> out) noexcept;
+
+}  // namespace gnomon

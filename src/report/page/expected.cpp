@@ -1,0 +1,101 @@
+// Does the error that plans are expected to have agree with the one that was measured?
+#include "expected.hpp"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "gnomon/report/statistics.hpp"
+#include "text.hpp"
+
+namespace gnomon::report {
+namespace {
+
+double wrong_of(const Row& row) {
+  return row.errors.false_lit + row.errors.false_shadow;
+}
+
+bool counts(const Row& row) {
+  return row.technique.filter == "hard" && row.expected_wrong && *row.expected_wrong > 0.0 &&
+         wrong_of(row) * static_cast<double>(row.errors.pixels) >= kCountedPixels;
+}
+
+}  // namespace
+
+ExpectedCheck check_expected(const std::vector<Row>& rows) {
+  ExpectedCheck check;
+  std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> views;
+  std::vector<double> ratios;
+  for (const Row& row : rows) {
+    if (!counts(row)) continue;
+    const double ratio = *row.expected_wrong / wrong_of(row);
+    ratios.push_back(ratio);
+    if (ratio < kAlike && ratio > 1.0 / kAlike) check.within += 1.0;
+    Row view = row;
+    view.technique = {};
+    auto& [expected, measured] = views[view.key()];
+    expected.push_back(*row.expected_wrong);
+    measured.push_back(wrong_of(row));
+  }
+  check.rows = ratios.size();
+  if (ratios.empty()) return check;
+  check.within /= static_cast<double>(ratios.size());
+  check.ratio = geometric_mean(ratios, 1e-12);
+  for (const auto& [key, view] : views) {
+    const double correlation = rank_correlation(view.first, view.second);
+    if (view.first.size() < kCountedRows || !std::isfinite(correlation)) continue;
+    ++check.views;
+    check.correlation += correlation;
+  }
+  if (check.views > 0) check.correlation /= static_cast<double>(check.views);
+  return check;
+}
+
+std::optional<Chart> expected_chart(const std::vector<Row>& rows) {
+  constexpr double kPercent = 100.0;
+  std::vector<double> values;
+  std::vector<std::string> scenes;
+  for (const Row& row : rows) {
+    if (!counts(row)) continue;
+    values.push_back(kPercent * wrong_of(row));
+    values.push_back(kPercent * *row.expected_wrong);
+  }
+  if (values.empty()) return std::nullopt;
+  Axis measured{"misclassified, measured, %"}, expected{"expected without drawing, %"};
+  measured.fit(values);
+  expected.fit(values);
+  Chart chart("Error expected and measured", measured, expected);
+  chart.line({{measured.low, measured.low}, {measured.high, measured.high}}, 0, "front", "as expected");
+  for (const Row& row : rows) {
+    if (!counts(row)) continue;
+    std::size_t scene = 0;
+    while (scene < scenes.size() && scenes[scene] != row.scene) ++scene;
+    if (scene == scenes.size()) scenes.push_back(row.scene);
+    const Point at{kPercent * wrong_of(row), kPercent * *row.expected_wrong};
+    chart.mark(at, scene, scene / kColors,
+               row.scene + " frame " + std::to_string(row.frame) + ", " + row.technique.name() +
+                   ": measured " + short_number(at.x) + " %, expected " + short_number(at.y) + " %",
+               scene);
+  }
+  for (std::size_t scene = 0; scene < scenes.size(); ++scene) chart.legend_color(scenes[scene], scene);
+  return chart;
+}
+
+std::string expected_part(const std::vector<Row>& rows) {
+  const std::optional<Chart> chart = expected_chart(rows);
+  if (!chart) return {};
+  const ExpectedCheck check = check_expected(rows);
+  std::string out =
+      "<h3>Expected without drawing</h3>\n<figure>" + chart->embedded("expected") + "</figure>\n<p>" +
+      counted(check.rows, "row") + " of hard comparison with at least " + short_number(kCountedPixels) +
+      " misclassified pixels: " + short_number(100.0 * check.within) + " % are expected within a factor of " +
+      short_number(kAlike) + ", geometric mean of expected over measured " + short_number(check.ratio) + ".";
+  if (check.views > 0)
+    out += " Rank correlation over the settings of a view, mean of " + counted(check.views, "view") + ": " +
+           short_number(check.correlation) + ".";
+  return out +
+         " Each pixel takes the exact shadow at the middle of its texel: no bias, and no detail below a "
+         "pixel.</p>\n";
+}
+
+}  // namespace gnomon::report

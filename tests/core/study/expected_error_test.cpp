@@ -1,0 +1,194 @@
+// Are the pixels that a plan is expected to get wrong those that its texels do get wrong?
+#include "gnomon/study/expected_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "gnomon/gnomon.hpp"
+#include "gnomon/measure.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr int kWidth = 400, kHeight = 400;
+
+/// A floor under the camera, half in the shadow of an edge through its middle, and the sun straight above.
+struct Floor {
+  Camera camera;
+  std::vector<float> mask, depths;
+  Light sun = DirectionalLight{{0.0, -1.0, 0.0}};
+  std::vector<Box> boxes = {{{-50, -0.5, -50}, {50, 0, 50}}};
+  PlanOptions options;
+
+  /// `turned`: the angle of the edge with the image's rows, radians.
+  explicit Floor(Camera from, double turned) : camera(from) {
+    options.cascades = 1;
+    options.warp.warp = &warps::none;
+    options.resolution.max_size = 64;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const glm::dvec3 point = hit(x, y);
+        const double depth = glm::dot(camera_axes(camera).forward, point - camera.position);
+        const bool floor = depth > 0.0 && std::abs(point.x) < 50.0 && std::abs(point.z) < 50.0;
+        depths.push_back(floor ? static_cast<float>(depth) : 0.0f);
+        mask.push_back(is_lit(point, turned) ? 1.0f : 0.0f);
+      }
+    }
+  }
+  [[nodiscard]] static bool is_lit(const glm::dvec3& point, double turned) {
+    return std::sin(turned) * (point.x - 0.017) - std::cos(turned) * (point.z + 0.023) > 0.0;
+  }
+  /// Where the pixel's ray meets the floor's plane.
+  [[nodiscard]] glm::dvec3 hit(int x, int y) const {
+    const CameraAxes axes = camera_axes(camera);
+    const double right = camera.left + (camera.right - camera.left) * (x + 0.5) / kWidth,
+                 up = camera.top + (camera.bottom - camera.top) * (y + 0.5) / kHeight;
+    const glm::dvec3 aside = axes.right * right + axes.up * up;
+    const glm::dvec3 ray = axes.forward + (camera.orthographic ? glm::dvec3(0.0) : aside);
+    const glm::dvec3 from = camera.position + (camera.orthographic ? aside : glm::dvec3(0.0));
+    return from - ray * (from.y / ray.y);
+  }
+  [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, sun, {boxes, boxes}, options); }
+  [[nodiscard]] ShadowPicture picture() const { return {camera, mask, depths}; }
+};
+
+/// The camera looks down, its image turned by half a radian against the map.
+Camera from_above() {
+  return orthographic_camera({0, 10, 0}, {0, -1, 0}, {std::sin(0.5), 0.0, -std::cos(0.5)}, 10.0, 1.6, 1.0,
+                             20.0, kWidth, kHeight);
+}
+
+TEST(ExpectedError, is_a_texels_mean_distance_from_its_middle_times_the_length_of_the_edge) {
+  for (const double turned : {0.2, 0.9, 1.5, 2.4}) {
+    const Floor floor(from_above(), turned);
+    const ShadowPlan plan = floor.plan();
+    ASSERT_EQ(plan.maps().size(), 1u);
+    const PointAliasing at = measure_point(plan.maps()[0], floor.camera, glm::dvec3(0.0), {0, 1, 0});
+    ASSERT_EQ(at.status, PointAliasing::Status::ok);
+    ASSERT_GT(at.m_max, 3.0);
+    ASSERT_NEAR(at.m_max, at.m_min, 0.02 * at.m_max);  // square texels
+    // The edge meets the image's border; its length is counted by the rows and columns that it crosses.
+    double across_rows = 0.0, across_columns = 0.0;
+    for (int y = 0; y + 1 < kHeight; ++y) {
+      for (int x = 0; x + 1 < kWidth; ++x) {
+        const auto i = static_cast<std::size_t>(y * kWidth + x);
+        across_rows += floor.mask[i] != floor.mask[i + 1] ? 1.0 : 0.0;
+        across_columns += floor.mask[i] != floor.mask[i + kWidth] ? 1.0 : 0.0;
+      }
+    }
+    const double length = std::hypot(across_rows, across_columns);
+    const ExpectedError expected = expected_error(plan, floor.picture());
+    EXPECT_EQ(expected.counted_pixels, kWidth * kHeight);
+    // 0.25 along the map's axes, 0.236 along its diagonals.
+    EXPECT_NEAR(expected.wrong_pixels, 0.243 * length * at.m_max, 0.15 * 0.243 * length * at.m_max) << turned;
+  }
+}
+
+/// Pixels whose exact shadow is another in the middle of their texel, in double precision.
+double wrong_by_texels(const Floor& floor, const ShadowMap& map, double turned) {
+  const glm::dmat4 world_from_clip = glm::inverse(map.clip_from_world);
+  const auto middle = [](double ndc, int texels) {
+    return (std::floor((ndc + 1.0) * 0.5 * texels) + 0.5) * 2.0 / texels - 1.0;
+  };
+  double wrong = 0.0;
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    const auto pixel = static_cast<std::size_t>(i);
+    if (floor.depths[pixel] == 0.0f) continue;
+    const glm::dvec3 point = floor.hit(i % kWidth, i / kWidth);
+    const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
+    glm::dvec3 ends[2];
+    for (int end = 0; end < 2; ++end) {
+      const glm::dvec4 at = world_from_clip * glm::dvec4(middle(clip.x / clip.w, map.width),
+                                                         middle(clip.y / clip.w, map.height), end - 0.5, 1.0);
+      ends[end] = glm::dvec3(at) / at.w;
+    }
+    const glm::dvec3 hit = ends[0] + (ends[1] - ends[0]) * (-ends[0].y / (ends[1].y - ends[0].y));
+    wrong += Floor::is_lit(hit, turned) != (floor.mask[pixel] > 0.5f) ? 1.0 : 0.0;
+  }
+  return wrong;
+}
+
+TEST(ExpectedError, counts_the_pixels_that_texels_of_the_exact_shadow_get_wrong) {
+  const Camera camera =
+      perspective_camera({0, 3, 12}, {0, -0.4, -1}, {0, 1, 0}, 0.9, 1.0, 0.5, 100.0, kWidth, kHeight);
+  for (const Warp* warp : {&warps::none, &warps::lispsm}) {
+    for (const int size : {64, 256}) {
+      double wrong = 0.0, expected = 0.0;
+      for (const double turned : {0.15, 0.6, 1.1, 1.9, 2.7}) {
+        Floor floor(camera, turned);
+        floor.options.warp.warp = warp;
+        floor.options.resolution.max_size = size;
+        const ShadowPlan plan = floor.plan();
+        ASSERT_EQ(plan.maps().size(), 1u);
+        wrong += wrong_by_texels(floor, plan.maps()[0], turned);
+        expected += expected_error(plan, floor.picture()).wrong_pixels;
+      }
+      EXPECT_GT(wrong, 300.0);
+      EXPECT_NEAR(expected, wrong, 0.15 * wrong) << warp->name << ' ' << size;
+    }
+  }
+}
+
+TEST(ExpectedError, without_a_shadow_a_surface_or_a_map_nothing_or_all_of_the_shadow_is_wrong) {
+  Floor floor(from_above(), 0.9);
+  const ShadowPlan plan = floor.plan();
+  std::size_t dark = 0;
+  for (const float lit : floor.mask) dark += lit < 0.5f ? 1 : 0;
+  EXPECT_EQ(expected_error(ShadowPlan{}, floor.picture()).wrong_pixels, static_cast<double>(dark));
+  Floor lit = floor, empty = floor, uncounted = floor, broken = floor;
+  for (float& value : lit.mask) value = 1.0f;
+  EXPECT_LT(expected_error(plan, lit.picture()).wrong_pixels, 1e-9);
+  for (float& depth : empty.depths) depth = 0.0f;
+  EXPECT_EQ(expected_error(plan, empty.picture()).counted_pixels, 0.0);
+  EXPECT_EQ(expected_error(plan, empty.picture()).share(), 0.0);
+  for (float& value : uncounted.mask) value = -1.0f;
+  EXPECT_EQ(expected_error(plan, uncounted.picture()).counted_pixels, 0.0);
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 0; i < broken.mask.size(); i += 3) {
+    broken.mask[i] = kNan;
+    broken.depths[i + 1 < broken.mask.size() ? i + 1 : i] =
+        i % 2 == 0 ? kNan : std::numeric_limits<float>::infinity();
+  }
+  const ExpectedError of_broken = expected_error(plan, broken.picture());
+  EXPECT_TRUE(std::isfinite(of_broken.wrong_pixels));
+  EXPECT_LE(of_broken.wrong_pixels, of_broken.counted_pixels);
+  // Sizes that are not the image's, and images without a pixel.
+  Floor cut = floor;
+  cut.mask.pop_back();
+  EXPECT_EQ(expected_error(plan, cut.picture()).counted_pixels, 0.0);
+  cut.camera.width = cut.camera.height = 0;
+  EXPECT_EQ(expected_error(plan, cut.picture()).counted_pixels, 0.0);
+}
+
+TEST(ExpectedError, edge_points_lie_on_the_edge_and_lower_the_expected_error_of_their_plan) {
+  const Camera camera =
+      perspective_camera({0, 3, 12}, {0, -0.4, -1}, {0, 1, 0}, 0.9, 1.0, 0.5, 100.0, kWidth, kHeight);
+  // All of the edge is twelve units away: texels elsewhere serve nobody.
+  Floor floor(camera, 0.3);
+  floor.options.warp.warp = &warps::optimal;
+  floor.options.resolution.max_size = 128;
+  std::vector<glm::dvec3> points(4000);
+  points.resize(shadow_edge_points(floor.picture(), points));
+  ASSERT_GT(points.size(), 100u);
+  const double pixel_world = (camera.right - camera.left) / kWidth * 60.0;
+  for (const glm::dvec3& point : points) {
+    EXPECT_NEAR(point.y, 0.0, 1e-4);
+    EXPECT_LT(std::abs(std::sin(0.3) * (point.x - 0.017) - std::cos(0.3) * (point.z + 0.023)), pixel_world);
+  }
+  std::vector<glm::dvec3> few(10);
+  EXPECT_EQ(shadow_edge_points(floor.picture(), few), 10u);
+  EXPECT_EQ(few.front(), points.front());
+  EXPECT_EQ(few[5], points[(5 * points.size() + 9) / 10]);  // evenly
+  const ShadowPlan by_boxes = floor.plan();
+  const ShadowPlan by_edges = make_plan({.camera = camera, .points_world = points}, floor.sun,
+                                        {floor.boxes, floor.boxes}, floor.options);
+  EXPECT_LT(expected_error(by_edges, floor.picture()).wrong_pixels,
+            0.9 * expected_error(by_boxes, floor.picture()).wrong_pixels);
+  EXPECT_EQ(shadow_edge_points(floor.picture(), {}), 0u);
+}
+
+}  // namespace
+}  // namespace gnomon::test
