@@ -7,9 +7,33 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace gnomon {
+
+Sight sight_from(const glm::dvec3& eye, std::span<const Box> boxes) noexcept {
+  constexpr double kInside = 1e-4, kLeast = 1e-6;
+  double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
+  bool inside = false;
+  for (const Box& box : boxes) {
+    if (box.empty()) continue;
+    const glm::dvec3 below = box.min - eye, above = eye - box.max;
+    farthest = std::max(farthest, glm::length(glm::max(glm::abs(below), glm::abs(above))));
+    const double away = glm::length(glm::max(glm::max(below, above), glm::dvec3(0.0)));
+    if (away > 0.0)
+      nearest = std::min(nearest, away);
+    else
+      inside = true;
+  }
+  if (!(farthest > 0.0) || !std::isfinite(farthest)) return {};
+  const double far_depth = std::exp2(std::floor(std::log2(farthest)) + 1.0);
+  double near_depth = 0.5 * nearest;
+  if (inside) near_depth = std::min(near_depth, kInside * far_depth);
+  near_depth = std::clamp(near_depth, kLeast * far_depth, 0.5 * far_depth);
+  return {std::exp2(std::floor(std::log2(near_depth))), far_depth};
+}
 
 namespace {
 

@@ -30,6 +30,7 @@ std::vector<Option> measuring_options(Measuring& measuring, Option scenes, std::
   };
   add(std::move(own));
   add(light_options(measuring.light));
+  add(camera_options(measuring.camera));
   add({size_option(measuring.width, measuring.height),
        {.name = "--out", .target = &measuring.out, .help = out_help, .completion = Completion::folders},
        {.name = "--json", .target = &measuring.json, .help = "print each row as a line of JSON"},

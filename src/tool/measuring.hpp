@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "camera_words.hpp"
 #include "command.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/scene/default_light.hpp"
@@ -16,6 +17,7 @@ namespace gnomon::tool {
 struct Measuring {
   std::vector<std::string> scenes;  ///< builtin:NAME or files
   LightPlacement light;
+  CameraWords camera;
   std::string animation;          ///< that scenes play, by name or number; empty: at rest
   int width = 480, height = 270;  ///< of a frame, pixels
   int frames = 4;                 ///< along the scene's camera path
@@ -29,7 +31,7 @@ struct Measuring {
 /// SCENE of a command that takes several; a name that is no built-in scene is refused.
 [[nodiscard]] Option scenes_option(Measuring& measuring, const std::string& help, bool required);
 
-/// All options of a command that prints rows: SCENE, its own, then --light and so on, --size, --out, --json
+/// All options of a command that prints rows: SCENE, its own, then --light, --path and so on, --size, --out, --json
 /// and
 /// --context.
 [[nodiscard]] std::vector<Option> measuring_options(Measuring& measuring, Option scenes,

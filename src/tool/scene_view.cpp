@@ -14,9 +14,10 @@ double time_of(int frame, int frames) noexcept {
 
 }  // namespace
 
-SceneView::SceneView(const std::string& scene, const LightPlacement& light, const LoadLimits& limits)
+SceneView::SceneView(const std::string& scene, const LightPlacement& light, const CameraWords& camera,
+                     const LoadLimits& limits)
     : scene_(load_scene(scene, limits)),
-      path_(default_path(scene_)),
+      path_(camera_path(camera, scene_)),
       work_(caster_work(scene_)),
       light_(default_light(light, scene_.bounds_world)) {
   for (const Instance& instance : scene_.instances) boxes_.push_back(instance.bounds_world);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "camera_words.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/default_light.hpp"
@@ -16,8 +17,9 @@ namespace gnomon::tool {
 
 class SceneView {
  public:
-  /// Throws SceneError.
-  SceneView(const std::string& scene, const LightPlacement& light, const LoadLimits& limits = {});
+  /// Throws SceneError, and std::runtime_error where the camera's words do not go together.
+  SceneView(const std::string& scene, const LightPlacement& light, const CameraWords& camera = {},
+            const LoadLimits& limits = {});
 
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
   [[nodiscard]] const Light& light() const noexcept { return light_; }

@@ -23,6 +23,30 @@ double distance(const glm::dvec3& a, const glm::dvec3& b) {
   return glm::length(a - b);
 }
 
+TEST(Sight, begins_half_way_to_the_nearest_box_and_ends_behind_the_farthest) {
+  const Box ground{{-5e4, 0, -5e4}, {5e4, 0, 5e4}}, crate{{-0.5, 0, -0.5}, {0.5, 1, 0.5}},
+      room{{-5, 0, -5}, {5, 3, 5}};
+  const auto from = [](const glm::dvec3& eye, std::vector<Box> boxes) { return sight_from(eye, boxes); };
+  // Two metres over the ground: one metre, which is a power of two.
+  EXPECT_EQ(from({0, 2, 5}, {ground, crate}).near_depth, 1.0);
+  EXPECT_EQ(from({0, 2, 5}, {ground, crate}).far_depth, 131072.0);
+  // Closer to the crate than to the ground, and inside of a room: 1e-4 of sixteen metres.
+  EXPECT_EQ(from({0, 1.5, 0}, {ground, crate}).near_depth, 0.25);
+  EXPECT_EQ(from({0, 1.6, 0}, {room}).far_depth, 8.0);
+  EXPECT_EQ(from({0, 1.6, 0}, {room}).near_depth, std::exp2(std::floor(std::log2(8e-4))));
+  // Never in front of it all, never at or behind its end, and a default where there is nothing.
+  for (const glm::dvec3& eye :
+       {glm::dvec3(0, 0, 0), glm::dvec3(0, 1e-12, 0), glm::dvec3(1e9, 0, 0), glm::dvec3(0, 1, 0.5)}) {
+    const Sight sight = from(eye, {ground, crate});
+    EXPECT_GE(sight.near_depth, 0.5e-6 * sight.far_depth);
+    EXPECT_LT(sight.near_depth, sight.far_depth);
+  }
+  for (const std::vector<Box>& nothing : {std::vector<Box>{}, {Box{}}, {Box{{0, 0, 0}, {0, 0, 0}}}}) {
+    EXPECT_EQ(from({0, 0, 0}, nothing).near_depth, Sight{}.near_depth);
+    EXPECT_EQ(from({0, 0, 0}, nothing).far_depth, Sight{}.far_depth);
+  }
+}
+
 TEST(CameraPath, without_keys_there_is_still_a_camera) {
   const Camera camera = CameraPath().at(0.5, 640, 480);
   EXPECT_GT(glm::length(camera.forward), 0.0);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -34,6 +35,16 @@ struct CameraPath {
 [[nodiscard]] CameraPath load_camera_path(const std::filesystem::path& file);
 /// Writes the same format.
 void save_camera_path(const CameraPath& path, const std::filesystem::path& file);
+
+/// Where sight begins and ends, world units.
+struct Sight {
+  double near_depth = 0.1, far_depth = 100.0;
+};
+/// For an eye that stands anywhere in or before a scene. Sight begins half way to the nearest box that does
+/// not hold the eye. Where another box holds it, sight begins at most at 1e-4 of where it ends. It never
+/// begins below 1e-6 of that. It ends beyond the farthest corner. Both are powers of two, so that they seldom
+/// change while the eye moves. The default where all boxes are empty.
+[[nodiscard]] Sight sight_from(const glm::dvec3& eye, std::span<const Box> boxes) noexcept;
 
 /// The default flight of a builtin scene, by its name. Any other scene has an orbit that shows all of it, as
 /// near as an image of this width over height allows. The default holds it in a square image and in wider

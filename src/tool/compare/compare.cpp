@@ -51,6 +51,7 @@ report::Row empty_row(const Sweep& sweep, std::size_t scene, int frame, std::siz
   row.light = to_string(sweep.light.kind);
   row.light_elevation_deg = sweep.light.elevation_deg;
   row.light_azimuth_deg = sweep.light.azimuth_deg;
+  row.camera = sweep.camera_text;
   row.animation = sweep.animation;
   row.technique = sweep.entries[entry].technique;
   return row;
@@ -236,8 +237,8 @@ std::vector<Option> technique_options(CompareRequest& request) {
   return {
       {.name = "--warps",
        .target = word_list(request.warps, read_warps, {"none", "lispsm", "optimal"}),
-       .help = "perspective warps, or all; auto lets the plan choose; behind a colon a shape or an objective, as in "
-               "optimal:picture",
+       .help = "perspective warps, or all; auto lets the plan choose; behind a colon a shape or an "
+               "objective, as in optimal:picture",
        .names = names_in(all_warps(), {"all", "auto"})},
       {.name = "--shapes",
        .target = word_list(request.shapes, read_shapes, {"linear"}),
@@ -332,8 +333,10 @@ std::vector<Option> frame_options(CompareRequest& request) {
           context_option(request.context)};
 }
 
-std::vector<Option> sun_options(CompareRequest& request) {
-  return light_options(request.light);
+std::vector<Option> light_and_camera_options(CompareRequest& request) {
+  std::vector<Option> options = light_options(request.light);
+  for (Option& option : camera_options(request.camera)) options.push_back(std::move(option));
+  return options;
 }
 
 /// What the machine may give.
@@ -376,7 +379,7 @@ std::function<int()> declare_compare(Arguments& arguments) {
   const auto request = std::make_shared<CompareRequest>();
   request->out = "out/compare";
   arguments.options = {scenes_option(*request, "builtin:NAME or glTF files", true)};
-  for (const auto& part : {technique_options, frame_options, sun_options, limit_options}) {
+  for (const auto& part : {technique_options, frame_options, light_and_camera_options, limit_options}) {
     for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
   }
   arguments.footer = compare_footer();

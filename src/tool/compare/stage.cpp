@@ -11,7 +11,7 @@
 namespace gnomon::tool {
 
 Stage::Stage(const Sweep& sweep, const std::string& scene)
-    : sweep_(sweep), view_(scene, sweep.light, limits_of_triangles(sweep.max_triangles)) {
+    : sweep_(sweep), view_(scene, sweep.light, sweep.camera, limits_of_triangles(sweep.max_triangles)) {
   if (!sweep.animation.empty()) {
     animation_ = find_animation(view_.scene().motion, sweep.animation);
     if (animation_ < 0)

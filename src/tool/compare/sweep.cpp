@@ -358,7 +358,9 @@ SweepEntry sweep_entry(const report::Technique& technique) {
 }
 
 Sweep make_sweep(const SweepRequest& request) {
-  Sweep sweep{request, {}, {}, {}};
+  Sweep sweep{request, {}, {}, {}, {}};
+  check_camera(request.camera);
+  sweep.camera_text = camera_text(request.camera);
   sweep.scenes.clear();
   for (const std::string& scene : request.scenes) {
     if (std::find(sweep.scenes.begin(), sweep.scenes.end(), scene) == sweep.scenes.end())

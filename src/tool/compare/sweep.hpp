@@ -60,6 +60,7 @@ struct Sweep : Measuring {
   std::vector<SweepEntry> entries;
   std::vector<std::string> left_out;  ///< combinations that cannot be measured, a line for each reason
   SweepEntry baseline;                ///< hard x no warp x one map, of the first map size
+  std::string camera_text;            ///< of the camera's words, for rows
 
   /// Place of a row in the whole sweep.
   [[nodiscard]] std::uint64_t index(std::size_t scene, int frame, std::size_t entry) const noexcept {

@@ -273,8 +273,7 @@ Flight load_flight(const Options& options) {
     Flight flight;
     flight.scene = load_scene(options.scene, limits_of_triangles(options.max_triangles));
     for (const std::string& warning : flight.scene.warnings) warn(warning);
-    flight.path = options.path ? load_camera_path(*options.path)
-                               : default_path(flight.scene, 1.0 * options.width / options.height);
+    flight.path = camera_path(options.camera, flight.scene, 1.0 * options.width / options.height);
     if (!options.animation.empty()) {
       flight.animation = find_animation(flight.scene.motion, options.animation);
       if (flight.animation < 0)

@@ -23,7 +23,7 @@ constexpr int kMaxFrames = 100'000;
 /// The command line: options, with words that stand for others or name files.
 struct Request {
   Options options;
-  std::string path, cost_model, out = options.out.string();
+  std::string cost_model, out = options.out.string();
   bool stable = false, split_given = false, lambda_given = false;
 };
 
@@ -97,7 +97,7 @@ Options resolved(const Request& request) {
   check_page_size(options.pages);
   if (options.pages.on()) check_beside_pages(options);
   check_animation(options);
-  if (!request.path.empty()) options.path = request.path;
+  check_camera(options.camera);
   return options;
 }
 
@@ -131,10 +131,6 @@ std::vector<Option> flight_options(Request& request) {
            .range = {{1, kMaxFrames}},
            .given = &options.frames_given},
           size_option(options.width, options.height),
-          {.name = "--path",
-           .target = &request.path,
-           .help = "camera path, a JSON file; without it the scene's own",
-           .completion = Completion::files},
           {.name = "--animation",
            .target = &options.animation,
            .help = "animation that the scene plays during the flight, by name or number",
@@ -271,8 +267,10 @@ std::vector<Option> page_options(Request& request) {
   return page_setting_options(request.options.pages);
 }
 
-std::vector<Option> sun_options(Request& request) {
-  return light_options(request.options.light);
+std::vector<Option> light_and_camera_options(Request& request) {
+  std::vector<Option> options = light_options(request.options.light);
+  for (Option& option : camera_options(request.options.camera)) options.push_back(std::move(option));
+  return options;
 }
 
 }  // namespace
@@ -283,7 +281,7 @@ namespace gnomon::tool {
 std::function<int()> declare_fly(Arguments& arguments) {
   const auto request = std::make_shared<fly::Request>();
   for (const auto& part : {fly::flight_options, fly::map_options, fly::page_options, fly::budget_options,
-                           fly::filter_options, fly::sun_options}) {
+                           fly::filter_options, fly::light_and_camera_options}) {
     for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
   }
   arguments.footer = fly::prune_footer();

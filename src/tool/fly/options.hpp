@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "camera_words.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/filter.hpp"
@@ -59,7 +60,7 @@ struct Options {
   LightPlacement light;
   /// What may be left out, of plans and of drawing.
   PruneRules prune;
-  std::optional<std::filesystem::path> path;
+  CameraWords camera;
   /// Maps that take more together are halved until they fit, with a warning; 0: as much as there is.
   double map_memory_mib = 0.0;
   /// Scenes of more triangles, over all instances, are refused before they take the machine's memory.

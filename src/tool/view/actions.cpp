@@ -199,7 +199,9 @@ void toggle_freeze(State& state, const Stage* stage) {
   if (state.frozen) {
     state.frozen.reset();
   } else {
+    const Camera& camera = stage->camera();
     state.frozen = own_eye(state, *stage);
+    state.frozen_sight = {camera.near_depth, camera.far_depth};
   }
 }
 

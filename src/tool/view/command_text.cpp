@@ -91,6 +91,8 @@ std::string command_text(const State& state) {
             exact(light.point->range);
   if (state.eye)
     text += " --eye=" + point_word(state.eye->position) + " --target=" + point_word(state.eye->target);
+  if (state.near_depth > 0.0) text += " --near " + exact(state.near_depth);
+  if (state.far_depth > 0.0) text += " --far " + exact(state.far_depth);
   if (const Playing& playing = state.playing; !playing.animation.empty()) {
     text += " --animation " + quoted(playing.animation);
     if (playing.time_s != 0.0) text += " --animation-time=" + exact(playing.time_s);

@@ -226,8 +226,8 @@ Light Stage::held_light(const State& state, const Camera& camera,
 }
 
 std::string Stage::make_plans(const State& state, int width, int height) {
-  const Camera eye = camera_of(state, state.eye, loaded_->path, width, height);
-  const Camera planned = state.frozen ? camera_of(state, state.frozen, loaded_->path, width, height) : eye;
+  const Camera eye = eye_camera(state, loaded_->path, posed_.boxes(), width, height);
+  const Camera planned = state.frozen ? frozen_camera(state, loaded_->path, width, height) : eye;
   std::shared_ptr<const VisibleSurfaces> surfaces;
   const Light light = held_light(state, planned, surfaces);
   const bool both = state.comparison != Comparison::off && !state.b_is_truth;

@@ -100,16 +100,45 @@ CameraPath path_of(const State& state, const CameraPath& scenes) {
     path.closed = false;
   }
   if (state.fov_y_deg > 0.0) path.fov_y_radians = state.fov_y_deg * (std::numbers::pi / 180.0);
+  if (state.near_depth > 0.0) path.near_depth = state.near_depth;
+  if (state.far_depth > 0.0) path.far_depth = state.far_depth;
   return path;
 }
 
-Camera camera_of(const State& state, const std::optional<CameraKey>& key, const CameraPath& scenes, int width,
-                 int height) {
+namespace {
+
+/// The path's camera at another place.
+Camera camera_at(const State& state, const CameraKey& key, const CameraPath& scenes, int width, int height) {
   Camera camera = path_of(state, scenes).at(state.path_time, width, height);
-  if (key) {
-    camera.position = key->position;
-    camera.forward = key->target - key->position;
-  }
+  camera.position = key.position;
+  camera.forward = key.target - key.position;
+  return camera;
+}
+
+}  // namespace
+
+Camera eye_camera(const State& state, const CameraPath& scenes, std::span<const Box> boxes, int width,
+                  int height) {
+  if (!state.eye) return path_of(state, scenes).at(state.path_time, width, height);
+  Camera camera = camera_at(state, *state.eye, scenes, width, height);
+  const Sight sight = sight_from(state.eye->position, boxes);
+  if (!(state.near_depth > 0.0)) camera.near_depth = sight.near_depth;
+  if (!(state.far_depth > 0.0)) camera.far_depth = sight.far_depth;
+  if (camera.near_depth < camera.far_depth) return camera;
+  // One is given, and the other lies on its wrong side.
+  constexpr double kApart = 1000.0;
+  if (state.near_depth > 0.0)
+    camera.far_depth = camera.near_depth * kApart;
+  else
+    camera.near_depth = camera.far_depth / kApart;
+  return camera;
+}
+
+Camera frozen_camera(const State& state, const CameraPath& scenes, int width, int height) {
+  Camera camera = camera_at(state, *state.frozen, scenes, width, height);
+  if (!(state.frozen_sight.near_depth > 0.0)) return camera;
+  camera.near_depth = state.frozen_sight.near_depth;
+  camera.far_depth = state.frozen_sight.far_depth;
   return camera;
 }
 

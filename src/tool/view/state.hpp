@@ -102,12 +102,16 @@ inline constexpr std::size_t kMaxPathKeys = 1024;
 
 struct State {
   std::string scene = "builtin:city";
-  bool panes = false;               ///< translucent surfaces tint light in place of stopping it
-  std::optional<CameraKey> eye;     ///< none: the path at `path_time`
-  std::vector<CameraKey> path;      ///< recorded; empty: the scene's path
-  double path_time = 0.5;           ///< 0..1
-  double fov_y_deg = 0.0;           ///< 0: of the scene's path
+  bool panes = false;            ///< translucent surfaces tint light in place of stopping it
+  std::optional<CameraKey> eye;  ///< none: the path at `path_time`
+  std::vector<CameraKey> path;   ///< recorded; empty: the scene's path
+  double path_time = 0.5;        ///< 0..1
+  double fov_y_deg = 0.0;        ///< 0: of the scene's path
+  /// Where sight begins and ends, world units. 0: of the scene's path, or for an eye of its own as
+  /// sight_from().
+  double near_depth = 0.0, far_depth = 0.0;
   std::optional<CameraKey> frozen;  ///< the plan's camera, where it is not the eye
+  Sight frozen_sight{0.0, 0.0};     ///< its depths; 0: of the path
   LightState light;
   Settings a, b;
   View view = View::lit;
@@ -125,11 +129,14 @@ struct State {
 [[nodiscard]] Light light_of(const LightState& light, const Box& scene) noexcept;
 /// Turns the sun by `seconds` of its motion; its azimuth stays in [-180, 180) degrees.
 void turn_sun(State& state, double seconds) noexcept;
-/// The path that the state flies along: the recorded one, or the scene's, with the state's field of view.
+/// The path that the state flies along: the recorded one, or the scene's, with the state's field of view and
+/// depths.
 [[nodiscard]] CameraPath path_of(const State& state, const CameraPath& scenes);
-/// The camera of a state; `key`: State::eye or State::frozen.
-[[nodiscard]] Camera camera_of(const State& state, const std::optional<CameraKey>& key,
-                               const CameraPath& scenes, int width, int height);
+/// The eye's camera in a scene of these boxes.
+[[nodiscard]] Camera eye_camera(const State& state, const CameraPath& scenes, std::span<const Box> boxes,
+                                int width, int height);
+/// The plan's camera where it is frozen.
+[[nodiscard]] Camera frozen_camera(const State& state, const CameraPath& scenes, int width, int height);
 /// The filter that reads the maps, or the identifiers, as a command line has them.
 [[nodiscard]] std::string filter_text(const Settings& settings);
 /// The plan's options with the border that the filter needs.

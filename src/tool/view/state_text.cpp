@@ -369,8 +369,14 @@ std::string state_text(const State& state) {
   if (state.panes) json["panes"] = true;
   if (state.eye) json["eye"] = key_json(*state.eye);
   if (state.frozen) json["frozen"] = key_json(*state.frozen);
+  if (state.frozen && state.frozen_sight.near_depth > 0.0) {
+    json["frozen_near"] = state.frozen_sight.near_depth;
+    json["frozen_far"] = state.frozen_sight.far_depth;
+  }
   for (const CameraKey& key : state.path) json["path"].push_back(key_json(key));
   if (state.fov_y_deg > 0.0) json["fov_y_deg"] = state.fov_y_deg;
+  if (state.near_depth > 0.0) json["near"] = state.near_depth;
+  if (state.far_depth > 0.0) json["far"] = state.far_depth;
   json["light"] = light_json(state.light);
   json["a"] = settings_json(state.a);
   json["b"] = settings_json(state.b);
@@ -419,6 +425,14 @@ State read_state(std::string_view text) {
   state.frozen = read_key(reader, "frozen");
   state.path = read_keys(reader, "path");
   reader.read("fov_y_deg", state.fov_y_deg, 1.0, 170.0);
+  reader.read("near", state.near_depth, 0.0, 1e30);
+  reader.read("far", state.far_depth, 0.0, 1e30);
+  if (state.near_depth > 0.0 && state.far_depth > 0.0 && !(state.near_depth < state.far_depth))
+    reader.refuse("far", "must be above near");
+  reader.read("frozen_near", state.frozen_sight.near_depth, 0.0, 1e30);
+  reader.read("frozen_far", state.frozen_sight.far_depth, 0.0, 1e30);
+  if (state.frozen_sight.near_depth > 0.0 && !(state.frozen_sight.near_depth < state.frozen_sight.far_depth))
+    reader.refuse("frozen_far", "must be above frozen_near");
   if (const Json* light = reader.take("light")) state.light = read_light(*light);
   if (const Json* a = reader.take("a")) state.a = read_settings(*a, "a");
   if (const Json* b = reader.take("b")) state.b = read_settings(*b, "b");

@@ -2,11 +2,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 
+#include "camera_words.hpp"
 #include "command.hpp"
 #include "filter_words.hpp"
 #include "gnomon/casefile/casefile.hpp"
@@ -28,41 +28,14 @@ namespace {
 /// The command line: options, with words that stand for others or name files.
 struct Request {
   Options options;
-  std::string state, plan_json, out, screenshot, tour, benchmark, path;
-  std::optional<glm::dvec3> eye, target, light_position, light_direction;
+  std::string state, plan_json, out, screenshot, tour, benchmark;
+  CameraWords camera;
+  std::optional<glm::dvec3> light_position, light_direction;
   double light_outer_deg = 0.0, light_range = 0.0;
   /// Options that set a part of the state, and whether each is given; on the heap, as their addresses are
   /// kept.
   std::vector<std::pair<std::string, std::unique_ptr<bool>>> settings;
 };
-
-std::string not_three_numbers(const std::string& option, const std::string& word) {
-  return fmt::format("{} {}: wants three numbers, as in 1,2.5,-3", option, word);
-}
-
-glm::dvec3 point_word(const std::string& option, const std::string& word) {
-  glm::dvec3 point{0.0};
-  const char* at = word.data();
-  const char* const end = word.data() + word.size();
-  for (int i = 0; i < 3; ++i) {
-    const auto [next, error] = std::from_chars(at, end, point[i]);
-    if (error != std::errc{} || !(std::abs(point[i]) <= 1e30))
-      throw std::runtime_error(not_three_numbers(option, word));
-    at = next;
-    if (i < 2 && (at == end || *at++ != ',')) throw std::runtime_error(not_three_numbers(option, word));
-  }
-  if (at != end) throw std::runtime_error(not_three_numbers(option, word));
-  return point;
-}
-
-/// An option that takes X,Y,Z.
-Option point_option(std::string name, std::optional<glm::dvec3>& point, std::string help) {
-  const auto set = [name, &point](const std::string& word) {
-    point = point_word(name, word);
-    return true;
-  };
-  return {.name = std::move(name), .target = ParsedWord{set, {}}, .help = std::move(help), .word = "X,Y,Z"};
-}
 
 void resolve_light(const Request& request, LightState& light) {
   if (!request.light_position) {
@@ -87,20 +60,21 @@ void resolve_light(const Request& request, LightState& light) {
   light.spot = spot;
 }
 
-void resolve_camera(const Request& request, State& state) {
-  if (!request.path.empty()) {
-    const CameraPath path = load_camera_path(request.path);
+void resolve_camera(const CameraWords& words, State& state) {
+  check_camera(words);
+  if (!words.path.empty()) {
+    const CameraPath path = load_camera_path(words.path);
     if (path.keys.size() > kMaxPathKeys)
       throw std::runtime_error(fmt::format("--path: at most {} keys", kMaxPathKeys));
     state.path = path.keys;
     if (path.closed) state.path.push_back(path.keys.front());
     state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, 1.0, 170.0);
+    state.near_depth = path.near_depth;
+    state.far_depth = path.far_depth;
   }
-  if (request.eye.has_value() != request.target.has_value())
-    throw std::runtime_error("--eye and --target: give both, or neither");
-  if (!request.eye) return;
-  state.eye = CameraKey{*request.eye, *request.target};
-  if (state.eye->position == state.eye->target) throw std::runtime_error("--target: must differ from --eye");
+  if (words.near_depth > 0.0) state.near_depth = words.near_depth;
+  if (words.far_depth > 0.0) state.far_depth = words.far_depth;
+  if (words.eye) state.eye = CameraKey{*words.eye, *words.target};
 }
 
 void resolve_playing(const Request& request, Playing& playing) {
@@ -174,7 +148,7 @@ Options resolved(const Request& request) {
   if (state.a.plan.fit == Fit::warped_stable) state.a.history = true;
   state.b = state.a;
   resolve_light(request, state.light);
-  resolve_camera(request, state);
+  resolve_camera(request.camera, state);
   resolve_playing(request, state.playing);
   return options;
 }
@@ -286,12 +260,6 @@ std::vector<Option> setting_options(Request& request) {
        .target = &request.light_range,
        .help = "distance that the local light reaches, world units",
        .range = {{0.0, 1e30}}},
-      point_option("--eye", request.eye, "position of the camera, world units; needs --target"),
-      point_option("--target", request.target, "point that the camera looks at"),
-      {.name = "--path",
-       .target = &request.path,
-       .help = "camera path, a JSON file, in place of the scene's own",
-       .completion = Completion::files},
       {.name = "--animation",
        .target = &state.playing.animation,
        .help = "animation that poses the scene, by name or number",
@@ -309,7 +277,8 @@ std::vector<Option> setting_options(Request& request) {
        .target = enum_word(state.view, views),
        .help = "what the picture shows: " + any_of_text(views),
        .names = views}};
-  for (const auto* part : {&of_pages, &of_picture, &of_light, &others})
+  const std::vector<Option> of_camera = camera_options(request.camera);
+  for (const auto* part : {&of_pages, &of_picture, &of_light, &of_camera, &others})
     options.insert(options.end(), part->begin(), part->end());
   for (Option& option : options) {
     request.settings.emplace_back(option.name, std::make_unique<bool>(false));

@@ -74,7 +74,7 @@ TEST(ViewPages, of_the_scene_are_the_renderers) {
   const Image image = picture(state);
   render::Renderer renderer(stage().loaded().scene);
   const Light light = light_of(state.light, stage().loaded().scene.bounds_world);
-  const Camera camera = camera_of(state, {}, stage().loaded().path, kWidth, kHeight);
+  const Camera camera = eye_camera(state, stage().loaded().path, {}, kWidth, kHeight);
   const std::vector<Box>& boxes = stage().loaded().boxes;
   const auto seen =
       std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer, camera, render::DepthLayer::front));

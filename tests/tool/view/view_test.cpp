@@ -34,6 +34,9 @@ State unusual() {
   state.frozen = CameraKey{{1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}};
   state.path = {{{0.0, 1.0, 2.0}, {3.0, 4.0, 5.0}}, {{1.0, 1.0, 2.5}, {3.0, 4.0, 5.0}}};
   state.fov_y_deg = 41.5;
+  state.frozen_sight = {0.5, 88.0};
+  state.near_depth = 0.25;
+  state.far_depth = 77.0;
   state.light.sun = {LightKind::spot, 12.5, -33.0};
   state.light.spot = SpotLight{{1, 9, 2}, {0.1, -1, 0.2}, 0.7, 55.5};
   state.light.point = PointLight{{3, 2, 1}, 44.0};
@@ -190,7 +193,7 @@ TEST(ViewPicture, of_the_scene_is_the_renderers) {
   render::FrameOptions frame;
   const Light light = light_of(state.light, stage().loaded().scene.bounds_world);
   frame.light = &light;
-  const Camera camera = camera_of(state, {}, stage().loaded().path, kWidth, kHeight);
+  const Camera camera = eye_camera(state, stage().loaded().path, {}, kWidth, kHeight);
   const std::vector<Box>& boxes = stage().loaded().boxes;
   renderer.draw(make_plan(camera, light, {boxes, boxes}, plan_options_of(state.a)), camera,
                 renderer.prepare(state.a.filter), frame);

@@ -1,0 +1,128 @@
+// The camera on a command line: a path's file, or an eye and its target, and where sight begins and ends.
+#include "camera_words.hpp"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+namespace gnomon::tool {
+namespace {
+
+std::string point_text(const glm::dvec3& point) {
+  return fmt::format("{},{},{}", point.x, point.y, point.z);
+}
+
+/// A number that changes with the content: FNV-1a.
+std::uint64_t fingerprint(const CameraPath& path) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  const auto add = [&hash](double value) {
+    for (const char c : fmt::format("{} ", value))
+      hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  };
+  for (const CameraKey& key : path.keys) {
+    for (int i = 0; i < 3; ++i) {
+      add(key.position[i]);
+      add(key.target[i]);
+    }
+  }
+  for (const double value : {path.closed ? 1.0 : 0.0, path.fov_y_radians, path.near_depth, path.far_depth})
+    add(value);
+  return hash;
+}
+
+void check_depths(const CameraWords& words, double near_depth, double far_depth) {
+  if (near_depth < far_depth) return;
+  throw std::runtime_error(fmt::format("{}: sight would begin at {:g} and end at {:g}",
+                                       words.near_depth > 0.0 ? "--near" : "--far", near_depth, far_depth));
+}
+
+}  // namespace
+
+glm::dvec3 point_word(const std::string& option, const std::string& word) {
+  glm::dvec3 point{0.0};
+  const char* at = word.data();
+  const char* const end = word.data() + word.size();
+  const auto refuse = [&] {
+    throw std::runtime_error(fmt::format("{} {}: wants three numbers, as in 1,2.5,-3", option, word));
+  };
+  for (int i = 0; i < 3; ++i) {
+    const auto [next, error] = std::from_chars(at, end, point[i]);
+    if (error != std::errc{} || !(std::abs(point[i]) <= 1e30)) refuse();
+    at = next;
+    if (i < 2 && (at == end || *at++ != ',')) refuse();
+  }
+  if (at != end) refuse();
+  return point;
+}
+
+Option point_option(std::string name, std::optional<glm::dvec3>& point, std::string help) {
+  const auto set = [name, &point](const std::string& word) {
+    point = point_word(name, word);
+    return true;
+  };
+  return {.name = std::move(name), .target = ParsedWord{set, {}}, .help = std::move(help), .word = "X,Y,Z"};
+}
+
+std::vector<Option> camera_options(CameraWords& words) {
+  return {{.name = "--path",
+           .target = &words.path,
+           .help = "camera path, a JSON file, in place of the scene's own",
+           .completion = Completion::files},
+          point_option("--eye", words.eye, "position of the camera, world units; needs --target"),
+          point_option("--target", words.target, "point that the camera looks at"),
+          {.name = "--near",
+           .target = &words.near_depth,
+           .help = "view depth at which sight begins, world units; 0: of the path",
+           .range = {{0.0, 1e30}}},
+          {.name = "--far",
+           .target = &words.far_depth,
+           .help = "view depth at which sight ends, world units; 0: of the path",
+           .range = {{0.0, 1e30}}}};
+}
+
+void check_camera(const CameraWords& words) {
+  if (words.eye.has_value() != words.target.has_value())
+    throw std::runtime_error("--eye and --target: give both, or neither");
+  if (words.eye && *words.eye == *words.target) throw std::runtime_error("--target: must differ from --eye");
+  if (words.eye && !words.path.empty()) throw std::runtime_error("--eye: not with --path, which has its own");
+  if (words.near_depth > 0.0 && words.far_depth > 0.0) check_depths(words, words.near_depth, words.far_depth);
+  if (words.path.empty()) return;
+  const CameraPath path = load_camera_path(words.path);
+  check_depths(words, words.near_depth > 0.0 ? words.near_depth : path.near_depth,
+               words.far_depth > 0.0 ? words.far_depth : path.far_depth);
+}
+
+CameraPath camera_path(const CameraWords& words, const Scene& scene, double aspect) {
+  check_camera(words);
+  CameraPath path = words.path.empty() ? default_path(scene, aspect) : load_camera_path(words.path);
+  if (words.eye) {
+    path.keys = {{*words.eye, *words.target}};
+    path.closed = false;
+    std::vector<Box> boxes;
+    for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
+    const Sight sight = sight_from(*words.eye, boxes);
+    path.near_depth = sight.near_depth;
+    path.far_depth = sight.far_depth;
+  }
+  if (words.near_depth > 0.0) path.near_depth = words.near_depth;
+  if (words.far_depth > 0.0) path.far_depth = words.far_depth;
+  check_depths(words, path.near_depth, path.far_depth);
+  return path;
+}
+
+std::string camera_text(const CameraWords& words) {
+  std::string text;
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : " ") + part; };
+  if (!words.path.empty())
+    add(fmt::format("path {} {:016x}", std::filesystem::path(words.path).filename().string(),
+                    fingerprint(load_camera_path(words.path))));
+  if (words.eye) add("eye " + point_text(*words.eye) + " target " + point_text(*words.target));
+  if (words.near_depth > 0.0) add(fmt::format("near {}", words.near_depth));
+  if (words.far_depth > 0.0) add(fmt::format("far {}", words.far_depth));
+  return text;
+}
+
+}  // namespace gnomon::tool
