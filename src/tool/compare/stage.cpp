@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "animation_words.hpp"
+#include "float_channel.hpp"
+#include "gnomon/study/expected_error.hpp"
 
 namespace gnomon::tool {
 
@@ -60,6 +62,7 @@ ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const {
   const View* const view = this->view(camera);
   gnomon::View seen = camera;
   if (view != nullptr && entry.visible_points) seen.points_world = view->points;
+  if (view != nullptr && entry.shadow_edges) seen.points_world = view->edges;
   if (view != nullptr && entry.visible_depths) seen.depths = &view->depths;
   // Once for each plan, as an engine has to: the time of a plan holds it.
   VisibleDepths coarse;
@@ -72,15 +75,41 @@ ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const {
 
 void Stage::see(int frame) {
   views_.clear();
-  const bool asked = std::any_of(sweep_.entries.begin(), sweep_.entries.end(), [](const SweepEntry& entry) {
-    return entry.visible_depths || entry.visible_points || entry.by_pages();
+  const bool looks = std::any_of(sweep_.entries.begin(), sweep_.entries.end(), [](const SweepEntry& entry) {
+    return entry.visible_depths || entry.visible_points || entry.shadow_edges || entry.by_pages();
   });
-  if (asked) {
+  const bool finds_edges = std::any_of(sweep_.entries.begin(), sweep_.entries.end(),
+                                       [](const SweepEntry& entry) { return entry.shadow_edges; });
+  if (looks) {
     go_to(frame, At::before);
     views_.push_back(view_through(camera_before(frame)));
+    if (finds_edges) views_.back().edges = edges_through(camera_before(frame));
   }
   go_to(frame, At::frame);
-  if (asked) views_.push_back(view_through(camera(frame)));
+  if (!looks) return;
+  const std::vector<glm::dvec3> edges = views_.back().edges;
+  views_.push_back(view_through(camera(frame)));
+  views_.back().edges = edges;
+}
+
+std::vector<glm::dvec3> Stage::edges_through(const Camera& camera) {
+  constexpr std::size_t kMaxEdges = 4096, kFewest = 64;
+  PlanOptions options;
+  options.resolution.max_size = sweep_.baseline.technique.map_size;
+  render::FrameOptions frame;
+  frame.aliasing = frame.heat_map = frame.cascade_tint = frame.time_passes = false;
+  renderer_->draw(make_plan(camera, view_.light(), view_.bounds(), options), camera, filter(sweep_.baseline),
+                  frame);
+  const FloatImage mask_image = renderer_->mask(), positions = renderer_->positions();
+  std::vector<float> mask = channel(mask_image, 0);
+  const std::vector<float> maps = channel(mask_image, 1);
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (maps[i] < 0.0f) mask[i] = -1.0f;
+  std::vector<glm::dvec3> edges(kMaxEdges);
+  edges.resize(shadow_edge_points({camera, mask, channel(positions, positions.channels - 1)}, edges));
+  // A picture with hardly any shadow says nothing about the next.
+  if (edges.size() < kFewest) return view_through(camera).points;
+  return edges;
 }
 
 Stage::View Stage::view_through(const Camera& camera) {

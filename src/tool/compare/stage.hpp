@@ -59,6 +59,7 @@ class Stage {
     Camera camera;
     VisibleDepths depths;
     std::vector<glm::dvec3> points;
+    std::vector<glm::dvec3> edges;  ///< of the shadow of the frame before, where an entry takes them
     std::shared_ptr<const VisibleSurfaces> surfaces;  ///< what pages are planned from
   };
   /// nullptr where nobody looked through the camera.
@@ -67,6 +68,8 @@ class Stage {
 
  private:
   [[nodiscard]] View view_through(const Camera& camera);
+  /// Edges of the shadow of the default plan, as a renderer finds them in the mask of a frame.
+  [[nodiscard]] std::vector<glm::dvec3> edges_through(const Camera& camera);
 
   const Sweep& sweep_;
   mutable CoarseView coarse_;  ///< scratch

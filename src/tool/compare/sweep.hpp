@@ -47,6 +47,7 @@ struct SweepEntry {
   int irregular_samples = 0;                                    ///< of a pixel, by lists; 0: by a filter
   bool visible_depths = false, visible_points = false;          ///< of the frame, given to the plan
   bool coarse_depths = false;  ///< of a coarse pass on the CPU, given to the plan
+  bool shadow_edges = false;   ///< of the frame before, given to the plan as visible points
   PageOptions pages;           ///< where by_pages()
 
   /// Drawn by lists of pixels.

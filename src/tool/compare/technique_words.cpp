@@ -132,6 +132,9 @@ TechniqueSplit technique_split(const std::string& option, const std::string& wor
   if (split.visible_depths && split.coarse_depths)
     refuse(option, word, "a plan takes visible depths from one source");
   split.visible_points = take_suffix(name, ":visible_points");
+  split.shadow_edges = take_suffix(name, ":shadow_edges");
+  if (split.visible_points && split.shadow_edges)
+    refuse(option, word, "a plan takes visible points from one source");
   const std::optional<int> slices = take_slices(option, word, name);
   const bool is_partition = partition_from_name(name, split.options.partition);
   if (slices && (!is_partition || split.options.partition != Partition::frustum_faces))

@@ -48,6 +48,7 @@ struct TechniqueSplit {
   SplitOptions options = {};
   bool visible_depths = false, visible_points = false;  ///< of the frame
   bool coarse_depths = false;                           ///< of a coarse pass on the CPU
+  bool shadow_edges = false;                            ///< of the frame before, as points
 };
 
 /// A word read, which `option` took. Each throws std::runtime_error, with `option` in front, for a word that
@@ -90,7 +91,8 @@ template <class Value>
 
 /// Schemes and partitions that a split may name. Behind each may follow `:finest` (MapSelection),
 /// `:visible_depths` and `:visible_points` (what the frame shows is given to the plan), or `:coarse_depths`
-/// (what a coarse pass on the CPU finds); behind frustum_faces `:slices=K` (SplitOptions::face_slices).
+/// (what a coarse pass on the CPU finds) and `:shadow_edges` (points of the last frame's); behind
+/// frustum_faces `:slices=K` (SplitOptions::face_slices).
 [[nodiscard]] std::vector<std::string> split_names();
 
 /// Elements of lists with commas; an element of the form `key=value` without a colon belongs to the one

@@ -453,6 +453,31 @@ TEST(Compare, measures_from_an_eye_or_a_path_of_its_own_and_says_so_in_each_row)
   }
 }
 
+TEST(Compare, plans_with_the_edges_of_the_last_frames_shadow) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",     "builtin:hangar",
+                                        "--warps",     "optimal",
+                                        "--splits",    "auto,auto:shadow_edges",
+                                        "--cascades",  "4",
+                                        "--filters",   "hard",
+                                        "--frames",    "1",
+                                        "--size",      "320x180",
+                                        "--map-sizes", "256",
+                                        "--rounds",    "1",
+                                        "--out",       (folder.path() / "out").string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path() / "out");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[1].technique.split, "auto:shadow_edges");
+  const auto wrong = [](const report::Row& row) { return row.errors.false_lit + row.errors.false_shadow; };
+  EXPECT_LT(wrong(rows[1]), 0.95 * wrong(rows[0]));
+  const Finished refused =
+      run_gnomon({"compare", "builtin:hangar", "--splits", "auto:shadow_edges", "--visible-points"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("a plan takes visible points from one source"), std::string::npos)
+      << refused.err;
+}
+
 TEST(Compare, refuses_bad_input_before_it_measures) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::vector<std::string>& more) {
