@@ -114,15 +114,66 @@ void add_corners(const Box& box, const glm::dvec3& center, std::vector<glm::dvec
                      center);
 }
 
+double extent_of(const Box& box) {
+  const glm::dvec3 size = box.max - box.min;
+  return box.empty() ? 0.0 : std::max({size.x, size.y, size.z});
+}
+
+// Whether most of an instance's surface faces its middle, as a sky does.
+bool faces_inwards(const Scene& scene, const Instance& instance) {
+  const Primitive& primitive = scene.primitives[instance.primitive];
+  const glm::dvec3 middle = (instance.bounds_world.min + instance.bounds_world.max) * 0.5;
+  const auto corner = [&](std::uint32_t k) {
+    const glm::dvec3 at(scene.positions[scene.indices[primitive.first_index + k]]);
+    return glm::dvec3(instance.world_from_object * glm::dvec4(at, 1.0)) - middle;
+  };
+  double inwards = 0.0, all = 0.0;
+  for (std::uint32_t k = 0; k + 2 < primitive.index_count; k += 3) {
+    const glm::dvec3 a = corner(k), b = corner(k + 1), c = corner(k + 2);
+    const double outwards = glm::dot(glm::cross(b - a, c - a), a + b + c);
+    inwards += std::max(-outwards, 0.0);
+    all += std::abs(outwards);
+  }
+  constexpr double kMost = 0.9;
+  return (instance.mirrored ? all - inwards : inwards) > kMost * all;
+}
+
+// The instances that a scene is about: without grounds and skies that are many times as large as all the
+// rest.
+std::vector<const Instance*> subject_of(const Scene& scene) {
+  constexpr double kBackdrop = 4.0;  // times the extent of the rest
+  constexpr double kFlat = 0.02;     // height of a ground, of its extent
+  std::vector<const Instance*> subject;
+  for (const Instance& instance : scene.instances)
+    if (!instance.bounds_world.empty()) subject.push_back(&instance);
+  std::sort(subject.begin(), subject.end(), [](const Instance* a, const Instance* b) {
+    return extent_of(a->bounds_world) < extent_of(b->bounds_world);
+  });
+  std::vector<Box> up_to(subject.size());  // round an instance and all smaller ones
+  for (std::size_t i = 0; i < subject.size(); ++i) {
+    if (i > 0) up_to[i] = up_to[i - 1];
+    up_to[i].extend(subject[i]->bounds_world);
+  }
+  while (subject.size() > 1) {
+    const Instance& largest = *subject.back();
+    const double rest = extent_of(up_to[subject.size() - 2]), extent = extent_of(largest.bounds_world);
+    const bool ground = largest.bounds_world.max.y - largest.bounds_world.min.y < kFlat * extent;
+    if (!(rest > 0.0 && extent > kBackdrop * rest) || !(ground || faces_inwards(scene, largest))) break;
+    subject.pop_back();
+  }
+  return subject;
+}
+
 // Points that a view of the whole must show, from `center`: the vertices where they are few, else the corners
-// of the instances' boxes.
-std::vector<glm::dvec3> content_of(const Scene& scene, const glm::dvec3& center) {
+// of the instances' boxes; those of `bounds` where there is neither.
+std::vector<glm::dvec3> content_of(const Scene& scene, const std::vector<const Instance*>& subject,
+                                   const Box& bounds, const glm::dvec3& center) {
   constexpr std::uint64_t kMaxPathVertices = 200'000;  // some milliseconds for all directions
   std::uint64_t vertices = 0;
-  for (const Instance& instance : scene.instances)
-    vertices += scene.primitives[instance.primitive].index_count;
+  for (const Instance* instance : subject) vertices += scene.primitives[instance->primitive].index_count;
   std::vector<glm::dvec3> points;
-  for (const Instance& instance : scene.instances) {
+  for (const Instance* const one : subject) {
+    const Instance& instance = *one;
     if (vertices > kMaxPathVertices) {
       if (!instance.bounds_world.empty()) add_corners(instance.bounds_world, center, points);
       continue;
@@ -133,7 +184,7 @@ std::vector<glm::dvec3> content_of(const Scene& scene, const glm::dvec3& center)
       points.push_back(glm::dvec3(instance.world_from_object * glm::dvec4(at, 1.0)) - center);
     }
   }
-  if (points.empty() && !scene.bounds_world.empty()) add_corners(scene.bounds_world, center, points);
+  if (points.empty()) add_corners(bounds, center, points);
   return points;
 }
 
@@ -180,12 +231,15 @@ CameraPath orbit(const Scene& scene, double aspect) {
   constexpr double kNearest = 1e-3;  // near plane, of the distance: a corner may come that close
   CameraPath path;
   path.closed = true;
-  const Box& bounds = scene.bounds_world;
+  const std::vector<const Instance*> subject = subject_of(scene);
+  Box bounds;
+  for (const Instance* instance : subject) bounds.extend(instance->bounds_world);
+  if (subject.empty()) bounds = scene.bounds_world;
   const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : (bounds.min + bounds.max) * 0.5;
   const double farthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
   std::vector<glm::dvec3> points;
   if (!bounds.empty() && glm::length(bounds.max - bounds.min) > 2.0 * farthest * kLeastSize)
-    points = content_of(scene, center);
+    points = content_of(scene, subject, bounds, center);
   const double least = farthest > 0.0 ? farthest * kStandIn : 1.0;
   if (points.empty()) add_corners({glm::dvec3(-least), glm::dvec3(least)}, glm::dvec3(0.0), points);
   const double slope = std::tan(path.fov_y_radians / 2.0);
@@ -211,6 +265,16 @@ CameraPath orbit(const Scene& scene, double aspect) {
   }
   path.near_depth = std::max(gap * 0.5, widest * kNearest);
   path.far_depth = reach;
+  std::vector<Box> boxes;
+  for (const Instance& instance : scene.instances)
+    if (!instance.bounds_world.empty()) boxes.push_back(instance.bounds_world);
+  if (subject.size() == boxes.size()) return path;
+  // Grounds and skies are seen as well, and lie nearer and farther.
+  for (const CameraKey& key : path.keys) {
+    const Sight sight = sight_from(key.position, boxes);
+    path.near_depth = std::min(path.near_depth, sight.near_depth);
+    path.far_depth = std::max(path.far_depth, sight.far_depth);
+  }
   return path;
 }
 

@@ -1,6 +1,7 @@
 // Camera flights: through their keys, without jumps, to files and back.
 #include "gnomon/scene/camera_path.hpp"
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -245,6 +246,59 @@ TEST(DefaultPath, an_orbit_shows_all_of_any_bounds) {
   expect_orbit_holds({{-1e-6, 0, -1e-6}, {1e-6, 1e-6, 1e-6}});
   expect_orbit_holds({{1e7, 0, 0}, {1e7 + 2000, 300, 2000}});
   expect_orbit_holds({{-5, 0, -5}, {5, 0, 5}});
+}
+
+/// A cuboid whose sides face out, or in.
+void add_cuboid(Scene& scene, const Box& box, bool inwards = false) {
+  const auto first_vertex = static_cast<std::uint32_t>(scene.positions.size());
+  const auto first_index = static_cast<std::uint32_t>(scene.indices.size());
+  for (int i = 0; i < 8; ++i)
+    scene.positions.emplace_back((i & 1) ? box.max.x : box.min.x, (i & 2) ? box.max.y : box.min.y,
+                                 (i & 4) ? box.max.z : box.min.z);
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> kSides = {
+      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+  for (const auto& side : kSides) {
+    for (const std::size_t corner : {0u, 1u, 2u, 0u, 2u, 3u})
+      scene.indices.push_back(first_vertex + side[corner]);
+    if (inwards)
+      for (const std::size_t triangle : {6u, 3u})
+        std::swap(scene.indices[scene.indices.size() - triangle],
+                  scene.indices[scene.indices.size() - triangle + 1]);
+  }
+  Primitive primitive;
+  primitive.first_index = first_index;
+  primitive.index_count = static_cast<std::uint32_t>(scene.indices.size()) - first_index;
+  scene.primitives.push_back(primitive);
+  Instance instance;
+  instance.primitive = static_cast<std::uint32_t>(scene.primitives.size() - 1);
+  instance.bounds_world = box;
+  scene.instances.push_back(instance);
+  scene.bounds_world.extend(box);
+}
+
+TEST(DefaultPath, an_orbit_is_about_what_stands_on_a_ground_and_under_a_sky) {
+  const Box house{{-6, 0, -4}, {6, 8, 4}}, ground{{-1000, -1, -1000}, {1000, 0, 1000}},
+      sky{{-5000, -5000, -5000}, {5000, 5000, 5000}};
+  Scene alone;
+  add_cuboid(alone, house);
+  Scene outside = alone, town = alone, shell;
+  add_cuboid(outside, ground);
+  add_cuboid(outside, sky, true);
+  const CameraPath near_house = default_path(alone), path = default_path(outside);
+  ASSERT_EQ(path.keys.size(), near_house.keys.size());
+  for (std::size_t i = 0; i < path.keys.size(); ++i)
+    EXPECT_LT(glm::length(path.keys[i].position - near_house.keys[i].position), 1e-9);
+  // The ground below the eye and the sky are seen, too.
+  EXPECT_LT(path.near_depth, path.keys[0].position.y);
+  EXPECT_GT(path.far_depth, 8000.0);
+  // A ground that is no larger than what stands on it, a room, a sky that faces out, and one thing beside its
+  // own screws are what a scene is about.
+  add_cuboid(town, {{-18, -0.5, -18}, {18, 0, 18}});
+  EXPECT_GT(glm::length(default_path(town).keys[0].position), 1.5 * glm::length(near_house.keys[0].position));
+  add_cuboid(shell, {{-0.1, 0, -0.1}, {0.1, 0.2, 0.1}});
+  add_cuboid(shell, house);
+  EXPECT_GT(glm::length(default_path(shell).keys[0].position),
+            0.9 * glm::length(near_house.keys[0].position));
 }
 
 // From 500 km on, a scene of 57 m was a speck, and its near plane lay behind it.

@@ -48,7 +48,8 @@ struct Sight {
 
 /// The default flight of a builtin scene, by its name. Any other scene has an orbit that shows all of it, as
 /// near as an image of this width over height allows. The default holds it in a square image and in wider
-/// ones.
+/// ones. The orbit is about what remains without grounds and skies that are over four times as large as the
+/// rest. A ground is flat, a sky faces its own middle.
 [[nodiscard]] CameraPath default_path(const Scene& scene, double aspect = 1.0);
 
 }  // namespace gnomon
