@@ -30,7 +30,9 @@ void draw_text(Image& image, int x, int y, std::string_view text, Color color, i
 /// The colour of aliasing error m: white at 1, warm above (undersampled), cold below (oversampled), on a log2
 /// scale that ends at 1/16 and 16. Zero, negative and not-a-number count as 1/16, infinity as 16.
 [[nodiscard]] Color heat_color(double m) noexcept;
-/// The scale of heat_color with its ticks, in the lower left corner. Sized to the image.
+/// The scale of heat_color with its ticks, sized to a picture of this width.
+[[nodiscard]] Image heat_legend(int picture_width);
+/// The same in the lower left corner of a picture.
 void draw_heat_legend(Image& image);
 /// Colour fields with what they stand for, in the lower left corner: the depth interval of each map.
 struct LegendEntry {

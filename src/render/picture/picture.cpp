@@ -33,8 +33,8 @@ constexpr std::array<Color, 8> kCascadeColors{{{255, 110, 95},
                                                {180, 180, 180}}};
 constexpr Color kPanel{24, 24, 28}, kInk{240, 240, 236};
 
-int text_scale(const Image& image) {
-  return std::max(1, image.width / 640);
+int text_scale(int picture_width) {
+  return std::max(1, picture_width / 640);
 }
 
 std::size_t offset(const Image& image, int x, int y) {
@@ -126,18 +126,17 @@ Color cascade_color(int map) noexcept {
   return kCascadeColors[static_cast<std::size_t>(map) % kCascadeColors.size()];
 }
 
-void draw_heat_legend(Image& image) {
+Image heat_legend(int picture_width) {
   constexpr std::array<std::string_view, 2 * kHeatEnd + 1> kTicks{"1/16", "1/8", "1/4", "1/2", "1",
                                                                   "2",    "4",   "8",   "16"};
   constexpr std::string_view kTitle = "m: screen pixels per shadow texel", kCold = "oversampled",
                              kWarm = "undersampled";
-  const int s = text_scale(image), pad = 6 * s, step = 30 * s, bar = 2 * kHeatEnd * step, bar_height = 10 * s;
+  const int s = text_scale(picture_width), pad = 6 * s, step = 30 * s, bar = 2 * kHeatEnd * step,
+            bar_height = 10 * s;
   const int line = text_height(s) + 4 * s;
-  const int width = bar + step + 2 * pad, height = 2 * pad + 3 * line + bar_height;
-  const int left = pad, top = image.height - height - pad, bar_left = left + pad + step / 2;
-  fill_rectangle(image, left, top, width, height, kPanel);
-  draw_text(image, left + (width - text_width(kTitle, s)) / 2, top + pad, kTitle, kInk, s);
-  const int bar_top = top + pad + line;
+  const int width = bar + step + 2 * pad, bar_left = pad + step / 2, bar_top = pad + line;
+  Image image = blank_image(width, 2 * pad + 3 * line + bar_height, kPanel);
+  draw_text(image, (width - text_width(kTitle, s)) / 2, pad, kTitle, kInk, s);
   for (int x = 0; x < bar; ++x) {
     const double log_m = (x + 0.5) / step - kHeatEnd;
     fill_rectangle(image, bar_left + x, bar_top, 1, bar_height, heat_color(std::exp2(log_m)));
@@ -151,10 +150,18 @@ void draw_heat_legend(Image& image) {
   const int last = bar_top + bar_height + line + 2 * s;
   draw_text(image, bar_left, last, kCold, heat_color(0.4), s);
   draw_text(image, bar_left + bar - text_width(kWarm, s), last, kWarm, heat_color(3.0), s);
+  return image;
+}
+
+void draw_heat_legend(Image& image) {
+  const Image legend = heat_legend(image.width);
+  const int pad = 6 * text_scale(image.width);
+  paste(image, legend, pad, image.height - legend.height - pad);
 }
 
 void draw_legend(Image& image, std::string_view title, std::span<const LegendEntry> entries) {
-  const int s = text_scale(image), pad = 6 * s, line = text_height(s) + 4 * s, field = 2 * text_height(s);
+  const int s = text_scale(image.width), pad = 6 * s, line = text_height(s) + 4 * s,
+            field = 2 * text_height(s);
   int widest = text_width(title, s);
   for (const LegendEntry& entry : entries) widest = std::max(widest, field + pad + text_width(entry.text, s));
   const int width = widest + 2 * pad,

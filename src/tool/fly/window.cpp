@@ -150,15 +150,6 @@ Camera next_camera(Viewer& viewer, int width, int height, double seconds) {
   return camera;
 }
 
-/// The heat map's legend by itself, cut out of a picture as wide as the window.
-Image heat_legend(int width) {
-  Image sheet = render::blank_image(width, 160, {24, 24, 28});
-  render::draw_heat_legend(sheet);
-  Image legend = render::blank_image(std::min(width, 300 * std::max(1, width / 640)), 64, {24, 24, 28});
-  render::paste(legend, sheet, 0, legend.height - sheet.height);
-  return legend;
-}
-
 void draw(Viewer& viewer, double seconds) {
   int width = 0, height = 0;
   glfwGetFramebufferSize(viewer.window, &width, &height);
@@ -183,7 +174,7 @@ void draw(Viewer& viewer, double seconds) {
   viewer.renderer.draw(plan, camera, filter, frame);
   viewer.renderer.show(viewer.picture, width, height);
   if (viewer.picture == Renderer::Picture::heat_map) {
-    if (viewer.legend.width == 0) viewer.legend = heat_legend(width);
+    if (viewer.legend.width == 0) viewer.legend = render::heat_legend(width);
     viewer.renderer.show_overlay(viewer.legend);
   }
   glfwSwapBuffers(viewer.window);

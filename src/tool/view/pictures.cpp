@@ -240,18 +240,6 @@ MapPicture map_picture(const FloatImage& depths, const ShadowPlan& plan, int ind
   return picture;
 }
 
-namespace {
-
-Image heat_legend(int picture_width) {
-  Image sheet = render::blank_image(std::max(picture_width, 64), 160, kGround);
-  render::draw_heat_legend(sheet);
-  Image cut = render::blank_image(std::min(sheet.width, 300 * std::max(1, picture_width / 640)), 64, kGround);
-  render::paste(cut, sheet, 0, cut.height - sheet.height);
-  return cut;
-}
-
-}  // namespace
-
 Image field_legend(const std::string& title, const std::vector<std::pair<Color, std::string>>& fields,
                    int picture_width) {
   std::vector<render::LegendEntry> entries;
@@ -260,8 +248,9 @@ Image field_legend(const std::string& title, const std::vector<std::pair<Color, 
     entries.push_back({color, text});
     widest = std::max(widest, render::text_width(text) + 24);
   }
-  Image sheet = render::blank_image(std::min(widest + 32, std::max(picture_width, 64)),
-                                    16 + 11 * (static_cast<int>(fields.size()) + 1), kGround);
+  Image sheet =
+      render::blank_image(std::min(widest + 32, std::max(picture_width, 64)),
+                          20 + (render::text_height() + 4) * (static_cast<int>(fields.size()) + 1), kGround);
   render::draw_legend(sheet, title, entries);
   return sheet;
 }
@@ -270,7 +259,7 @@ Image legend(View view, const ShadowPlan& plan, int picture_width) {
   std::vector<std::pair<Color, std::string>> fields;
   switch (view) {
     case View::heat:
-      return heat_legend(picture_width);
+      return render::heat_legend(picture_width);
     case View::cascades:
       for (std::size_t i = 0; i < plan.maps().size(); ++i) {
         const ShadowMap& map = plan.map[i];

@@ -55,7 +55,7 @@ TEST(Pictures, shrink_to_the_mean_of_what_each_pixel_covers) {
 
 TEST(Text, is_as_wide_and_high_as_it_says) {
   Image image = blank_image(64, 16, {0, 0, 0});
-  draw_text(image, 2, 3, "HI", {255, 255, 255});
+  draw_text(image, 2, 3, "Hj", {255, 255, 255});
   int right = 0, bottom = 0;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
@@ -64,10 +64,30 @@ TEST(Text, is_as_wide_and_high_as_it_says) {
       bottom = std::max(bottom, y);
     }
   }
-  // The I leaves a dot free on its right.
+  // The j hangs below the line, and leaves a dot free on its right.
   EXPECT_EQ(right, 2 + text_width("HI") - 1 - 1);
   EXPECT_EQ(bottom, 3 + text_height() - 1);
   EXPECT_EQ(text_width(""), 0);
+}
+
+TEST(HeatLegend, is_whole_for_pictures_of_every_width) {
+  for (const int width : {1, 320, 640, 1280, 1920, 3840}) {
+    const Image legend = heat_legend(width);
+    const double dot = 0.5 / (30.0 * std::max(1, width / 640));  // half a pixel of the scale
+    bool cold = false, warm = false;
+    int last_row = 0;
+    for (int y = 0; y < legend.height; ++y) {
+      for (int x = 0; x < legend.width; ++x) {
+        cold = cold || pixel(legend, x, y) == heat_color(std::exp2(-3.5 + dot));
+        warm = warm || pixel(legend, x, y) == heat_color(std::exp2(3.5 + dot));
+        if (pixel(legend, x, y) == heat_color(3.0)) last_row = y;
+      }
+    }
+    EXPECT_TRUE(cold && warm) << width;
+    // The words below the scale end with a row of the panel to spare.
+    EXPECT_LT(last_row, legend.height - 1) << width;
+    EXPECT_GT(last_row, legend.height / 2) << width;
+  }
 }
 
 TEST(HeatLegend, shows_the_colours_of_the_scale_in_order) {
