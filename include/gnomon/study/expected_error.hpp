@@ -33,7 +33,7 @@ struct ExpectedError {
 /// takes the shadow at the middle of its texel, where the texel meets the surface. Errors of the bias do not
 /// count. Shadows narrower than a pixel count less than they should: the picture should be as fine as the
 /// texels. Middles that another surface hides are not known; what is known stands for them. Nothing counts
-/// where a span has another size than the image. Some 0.1 us a pixel. Pure, allocates nothing.
+/// where a span has another size than the image. Pure, allocates nothing.
 [[nodiscard]] ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow) noexcept;
 
 /// Points of the surfaces along the shadow's edges: pixels of whose four neighbours one on the same surface
