@@ -149,9 +149,10 @@ enum class Objective : std::uint8_t {
   /// misclassified pixels along shadows' edges grows with it. The points are View::points_world, and
   /// automatic splits are then where their error is least. Without points, each ray of a fan gives one, in
   /// one of the first receiver boxes that it meets. Automatic splits are then logarithmic from the nearest of
-  /// them on, and take the place of optimal ones. Air in front of all boxes never counts. Maps with fewer
-  /// than six points go by `storage`. So do Fit::stable, views that share maps, and partitions of parallel
-  /// light other than view_depth.
+  /// them on, and take the place of optimal ones. Air in front of all boxes never counts. A warp of
+  /// parallel light is no stronger than single precision leaves it its depths, from the corners of the
+  /// farthest caster on. Maps with fewer than six points go by `storage`. So do Fit::stable, views that share
+  /// maps, and partitions of parallel light other than view_depth.
   picture,
 };
 [[nodiscard]] std::string_view to_string(Objective objective) noexcept;

@@ -43,7 +43,7 @@ struct PlanContext {
   const VisibleDepths* visible_depths = nullptr;    // where they are usable; nullptr: unknown
   std::span<const glm::dvec3> visible_points = {};  // world space; empty: unknown
   std::span<const glm::dvec3> seen = {};  // of Objective::picture, relative to the camera; empty: unknown
-  double caster_reach = 0.0;              // of casters from the camera along any axis, where a warp is chosen
+  double caster_reach = 0.0;              // of casters from the camera along any axis, for Objective::picture
   bool same_light = false;                // as in the last frame, to the last bit
   std::span<const SharedView> views = {};  // cameras that share the maps; empty: `camera` alone
   std::int64_t frame = 0;                  // of the history

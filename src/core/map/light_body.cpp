@@ -175,8 +175,11 @@ double most_of_precision(const PlanContext& c, const MapRequest& request, const 
 
 /// The strongest warp that a map of this light can take: the ratio of its texels' lengths at both ends.
 double most_stretch(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept {
-  if (!request.space.perspective)
-    return is_searched(request.warp) ? most_of_precision(c, request, body) : kStrongest;
+  if (!request.space.perspective) {
+    // Other objectives promise the least bound that any warp has.
+    const bool bounded = c.options.warp.objective == Objective::picture && is_searched(request.warp);
+    return bounded ? most_of_precision(c, request, body) : kStrongest;
+  }
   const PlaneMap plane = body.under(request.unwarped);
   const double share = border_share(c, request, body, plane);
   const double border =

@@ -111,7 +111,7 @@ PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const Re
   plan.bias = options.bias;
   plan.sizes_vary = resolved.conduct.error_bound > 0.0 || options.resolution.texel_budget > 0;
   PlanContext context{camera, bounds, options, camera_axes(camera), resolved.conduct};
-  if (options.warp.warp == &warps::none) return context;
+  if (options.warp.objective != Objective::picture) return context;
   const CasterReach casters = casters_inside({}, bounds.casters, camera.position, context.axes.up);
   if (casters.any)
     context.caster_reach =

@@ -153,10 +153,9 @@ TEST(Precision, a_ground_of_a_hundred_kilometres_is_not_lost_in_the_depths_near_
   for (const double far_depth : {1000.0, 3000.0, 1e4, 131072.0}) {
     c.camera =
         perspective_camera({-20, 2, -15}, {0, -0.3, -1}, {0, 1, 0}, 1.0472, 1.7778, 1.0, far_depth, 480, 270);
-    for (const Objective objective :
-         {Objective::picture, Objective::storage, Objective::p95, Objective::max}) {
+    for (const Warp* warp : {&warps::optimal, &warps::optimal_thorough}) {
       for (const int cascades : {1, 4}) {
-        c.options.warp.objective = objective;
+        c.options.warp.warp = warp;
         c.options.cascades = cascades;
         const ShadowPlan plan = c.plan();
         ASSERT_EQ(plan.status, PlanStatus::ok);
@@ -172,7 +171,7 @@ TEST(Precision, a_ground_of_a_hundred_kilometres_is_not_lost_in_the_depths_near_
           const ShadowMap& map = plan.maps()[static_cast<std::size_t>(serving)];
           const glm::dvec2 texel = texel_extent_world(map.clip_from_world, map.texels(), light, hit);
           EXPECT_LT(lost_depth(map, light, ground, {1.0 - a - b, b, a}), 0.7 * std::max(texel.x, texel.y))
-              << far_depth << ' ' << to_string(objective) << ' ' << cascades;
+              << far_depth << ' ' << warp->name << ' ' << cascades;
         }
       }
     }
