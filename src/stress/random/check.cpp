@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
+#include "geometry.hpp"
+#include "gnomon/view.hpp"
 #include "judge.hpp"
 
 namespace gnomon::stress {
@@ -48,6 +50,7 @@ const std::vector<Kind>& all_kinds() {
 
 void Counts::add(const Counts& other) {
   plans += other.plans;
+  seen_plans += other.seen_plans;
   maps += other.maps;
   receivers += other.receivers;
   casters += other.casters;
@@ -59,10 +62,10 @@ void Counts::add(const Counts& other) {
 void Report::add(std::string_view kind, double amount, const std::string& text) {
   for (Finding& f : verdict_.findings) {
     if (f.kind != kind) continue;
-    if (amount > f.amount) f = {kind, amount, text};
+    if (amount > f.amount) f = {kind, amount, std::string(words_) + text};
     return;
   }
-  verdict_.findings.push_back({kind, amount, text});
+  verdict_.findings.push_back({kind, amount, std::string(words_) + text});
 }
 
 namespace {
@@ -145,25 +148,21 @@ void check_sizes(const nlohmann::ordered_json& value, const PlanOptions& read, c
   }
 }
 
-}  // namespace
-
-Verdict check_case(const nlohmann::ordered_json& value) {
-  Verdict verdict;
-  Report report(verdict);
-  const Case input = read_case(value.dump());
+/// Plans, and reports exceptions and refusals. False where there is nothing to check.
+bool planned(const Case& input, const gnomon::View& view, ShadowPlan& plan, double& milliseconds,
+             Report& report) {
   using Clock = std::chrono::steady_clock;
   constexpr int kExceptions = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
   std::feclearexcept(kExceptions);
   const auto begin = Clock::now();
-  const ShadowPlan plan = make_plan(input.camera, input.light, input.bounds(), input.options);
-  verdict.plan_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  plan = make_plan(view, input.light, input.bounds(), input.options);
+  milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   const int raised = std::fetestexcept(kExceptions);
   std::feclearexcept(kExceptions);
-  ++verdict.counts.plans;
-  verdict.counts.maps += plan.map_count;
+  report.counts().maps += plan.map_count;
   if (plan.status == PlanStatus::invalid_input) {
     report.add("refused", 1.0, std::string(plan.invalid_field));
-    return verdict;
+    return false;
   }
   if (raised != 0)
     report.add("floating_point_exception", 1.0,
@@ -171,13 +170,59 @@ Verdict check_case(const nlohmann::ordered_json& value) {
                    ((raised & FE_DIVBYZERO) ? " division by zero" : "") +
                    ((raised & FE_OVERFLOW) ? " overflow" : ""));
   check_numbers(input, plan, report);
+  return all_finite(plan);
+}
+
+/// The same with what a picture of the scene would show: depths, points, or both.
+void check_seen(const nlohmann::ordered_json& value, const Case& input, std::span<const glm::dvec3> seen,
+                Report& report) {
+  // A picture shows no depth at or below 0: VisibleDepths do not count it.
+  std::vector<glm::dvec3> points;
+  VisibleDepths depths;
+  const View camera(input.camera);
+  for (const glm::dvec3& point : seen) {
+    const auto depth = static_cast<double>(camera.depth(Real3(point) - camera.eye));
+    if (!(depth > 0.0)) continue;
+    points.push_back(point);
+    depths.add(depth);
+  }
+  if (points.empty()) return;
+  struct Variant {
+    std::string_view words;
+    bool depths, points;
+  };
+  for (const Variant& variant :
+       {Variant{"with visible depths: ", true, false}, Variant{"with visible points: ", false, true},
+        Variant{"with visible depths and points: ", true, true}}) {
+    report.begin_with(variant.words);
+    gnomon::View view{.camera = input.camera};
+    if (variant.depths) view.depths = &depths;
+    if (variant.points) view.points_world = points;
+    ShadowPlan plan;
+    double milliseconds = 0.0;
+    ++report.counts().seen_plans;
+    if (!planned(input, view, plan, milliseconds, report)) continue;
+    check_sizes(value, input.options, plan, report);
+    check_points(input, plan, points, report);
+  }
+  report.begin_with({});
+}
+
+}  // namespace
+
+Verdict check_case(const nlohmann::ordered_json& value) {
+  Verdict verdict;
+  Report report(verdict);
+  const Case input = read_case(value.dump());
+  ShadowPlan plan;
+  ++verdict.counts.plans;
+  if (!planned(input, input.camera, plan, verdict.plan_ms, report)) return verdict;
   check_sizes(value, input.options, plan, report);
-  const bool numbers = std::none_of(verdict.findings.begin(), verdict.findings.end(),
-                                    [](const Finding& f) { return f.kind == "not_finite"; });
-  if (!numbers) return verdict;
-  check_points(input, plan, report);
+  const std::vector<glm::dvec3> seen = seen_places(input);
+  check_points(input, plan, seen, report);
   check_metric(input, plan, report);
   check_warp(value, report);
+  check_seen(value, input, seen, report);
   return verdict;
 }
 

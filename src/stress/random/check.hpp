@@ -1,7 +1,9 @@
 // What a plan owes its caller, checked in long double against nothing but the case and the plan.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,7 +27,8 @@ struct Kind {
 
 /// What was looked at, so that nothing passes for lack of checks.
 struct Counts {
-  long long plans = 0, maps = 0, receivers = 0, casters = 0, unmapped = 0, measured = 0, warps = 0;
+  long long plans = 0, seen_plans = 0, maps = 0, receivers = 0, casters = 0, unmapped = 0, measured = 0,
+            warps = 0;
   void add(const Counts& other);
 };
 
@@ -42,17 +45,24 @@ struct Verdict {
 class Report {
  public:
   explicit Report(Verdict& verdict) : verdict_(verdict) {}
+  /// What was planned with, in front of each text from now on.
+  void begin_with(std::string_view words) { words_ = words; }
   /// Keeps the worst of each kind.
   void add(std::string_view kind, double amount, const std::string& text);
   [[nodiscard]] Counts& counts() { return verdict_.counts; }
 
  private:
   Verdict& verdict_;
+  std::string_view words_;
 };
 /// The numbers of each map and of the plan as a whole.
 void check_numbers(const Case& input, const ShadowPlan& plan, Report& report);
+/// Places in the receivers that the camera sees, world space: what check_points takes, and what a picture
+/// would show.
+[[nodiscard]] std::vector<glm::dvec3> seen_places(const Case& input);
 /// Receivers in their maps, casters kept and within the depths, world and camera-relative matrices alike.
-void check_points(const Case& input, const ShadowPlan& plan, Report& report);
+void check_points(const Case& input, const ShadowPlan& plan, std::span<const glm::dvec3> seen,
+                  Report& report);
 /// The metric against its definition.
 void check_metric(const Case& input, const ShadowPlan& plan, Report& report);
 /// That a warp which may be dropped lowers the objective.

@@ -306,22 +306,30 @@ void check_by_map(const Scene& s, const Real3& p, Report& report) {
 
 }  // namespace
 
-void check_points(const Case& input, const ShadowPlan& plan, Report& report) {
-  const Scene scene = scene_of(input, plan);
+std::vector<glm::dvec3> seen_places(const Case& input) {
+  const View view(input.camera);
+  std::vector<glm::dvec3> places;
   Random random(input.receivers.size() + 1);
   const auto all = static_cast<int>(input.receivers.size());
   for (int i = 0; i < std::min(all, kMaxBoxes); ++i) {
     const int box = all <= kMaxBoxes ? i : random.pick(all);
-    const std::vector<Real3> points =
-        seen_points(scene.view, input.receivers[static_cast<std::size_t>(box)], input.camera.near_depth,
-                    input.camera.far_depth, kBetween, random);
-    for (const Real3& p : points) {
-      if (!scene.light.clearly_lights(p)) continue;
-      if (plan.selection != MapSelection::view_depth)
-        check_by_map(scene, p, report);
-      else
-        check_by_depth(scene, p, report);
-    }
+    for (const Real3& p : seen_points(view, input.receivers[static_cast<std::size_t>(box)],
+                                      input.camera.near_depth, input.camera.far_depth, kBetween, random))
+      places.emplace_back(p + view.eye);
+  }
+  return places;
+}
+
+void check_points(const Case& input, const ShadowPlan& plan, std::span<const glm::dvec3> seen,
+                  Report& report) {
+  const Scene scene = scene_of(input, plan);
+  for (const glm::dvec3& world : seen) {
+    const Real3 p = Real3(world) - scene.view.eye;
+    if (!scene.light.clearly_lights(p)) continue;
+    if (plan.selection != MapSelection::view_depth)
+      check_by_map(scene, p, report);
+    else
+      check_by_depth(scene, p, report);
   }
 }
 

@@ -99,7 +99,8 @@ RandomResult run_random(const RandomOptions& options, const std::function<void()
 std::string summary(const RandomOptions& options, const RandomResult& result) {
   std::ostringstream text;
   const Counts& c = result.counts;
-  text << c.plans << " random cases, seed " << options.seed << ": " << c.maps << " maps, " << c.receivers
+  text << c.plans << " random cases, seed " << options.seed << ": " << c.seen_plans
+       << " plans more with visible depths and points, " << c.maps << " maps, " << c.receivers
        << " receiver points, " << c.casters << " shadow rays, " << c.unmapped << " points without a map, "
        << c.measured << " metric points, " << c.warps << " warps against none\n";
   for (const PlanTimes& t : result.times) {
