@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string_view>
 
@@ -21,7 +20,7 @@ namespace gnomon {
 /// Most lights of one plan.
 inline constexpr std::size_t kMaxLights = 4096;
 /// LightOptions::texel_budget for all texels of the pool.
-inline constexpr std::int64_t kWholePool = std::numeric_limits<std::int64_t>::max();
+inline constexpr std::int64_t kWholePool = INT64_MAX;  // no max(): a macro of windows.h
 
 /// One light of plan_lights.
 struct LightRequest {

@@ -196,7 +196,8 @@ struct PagePlan {
 struct PageSlot {
   glm::dmat4 clip_from_world{0.0};  ///< of the page_map that was drawn into it
   int texels = 0;                   ///< along each side of the slot
-  std::uint64_t used = 0;           ///< count of the last keep_pages that used it; 0: it holds nothing
+  /// Count of the last keep_pages that used it; 0: it holds nothing. Aligned as on 64-bit processors.
+  alignas(8) std::uint64_t used = 0;
   bool behind = false;  ///< a caster of `moving_world` reached it since its moving casters were last drawn
 };
 /// Where one page of a plan lies in a pool.
