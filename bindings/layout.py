@@ -1,6 +1,7 @@
 # Where do the fields of the C structs lie? Reads include/gnomon/c/gnomon.h, and writes the tables that bindings read:
-#   layout.py            writes bindings/js/layout.js and bindings/python/src/gnomon/_layout.py
-#   layout.py --check    1 where either is not what it would write
+#   layout.py            writes bindings/js/layout.js, bindings/python/src/gnomon/_layout.py and
+#                        bindings/rust/gnomon-sys/src/header.rs
+#   layout.py --check    1 where one of them is not what it would write
 # A compiler of C confirms the sizes and offsets: tests/c/layout_test.py.
 import os
 import re
@@ -10,6 +11,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 HEADER = os.path.join(HERE, "..", "include", "gnomon", "c", "gnomon.h")
 JS = os.path.join(HERE, "js", "layout.js")
 PYTHON = os.path.join(HERE, "python", "src", "gnomon", "_layout.py")
+RUST = os.path.join(HERE, "rust", "gnomon-sys", "src", "header.rs")
 
 # C type: name here, bytes.
 SCALARS = {"int32_t": ("i32", 4), "uint32_t": ("u32", 4), "int64_t": ("i64", 8), "uint64_t": ("u64", 8),
@@ -17,7 +19,7 @@ SCALARS = {"int32_t": ("i32", 4), "uint32_t": ("u32", 4), "int64_t": ("i64", 8),
 
 
 def read_header():
-    """The constants, of each struct its fields as (name, C type, pointer, dimensions), and of each call what it returns and
+    """The constants, of each struct its fields as (name, C type, pointer: const, mut or "", dimensions), and of each call what it returns and
     its parameters as (name, C type)."""
     with open(HEADER, encoding="utf-8") as file:
         text = re.sub(r"//[^\n]*", "", file.read())
@@ -29,11 +31,11 @@ def read_header():
     for name, body in re.findall(r"typedef struct (gnomon_\w+) \{([^}]*)\} \1;", text):
         fields = []
         for declaration in filter(None, (part.strip() for part in body.split(";"))):
-            kind, names = re.match(r"(?:const )?(\w+)(\*?\s.*)$", declaration, re.S).groups()
+            constant, kind, names = re.match(r"(const )?(\w+)(\*?\s.*)$", declaration, re.S).groups()
             for one in names.split(","):
                 pointer, field, dimensions = re.match(r"\s*(\*?)\s*(\w+)((?:\s*\[\w+\])*)$", one).groups()
                 sizes = [constants.get(d) or int(d) for d in re.findall(r"\[(\w+)\]", dimensions)]
-                fields.append((field, kind, bool(pointer), sizes))
+                fields.append((field, kind, pointer and ("const" if constant else "mut"), sizes))
         structs[name] = fields
     calls = {}
     for returns, name, parameters in re.findall(r"^(?:GNOMON_API|GNOMON_EXPERIMENTAL) ((?:const )?\w+\*?) (gnomon_\w+)\(([^;]*)\);", text, re.M):
@@ -117,12 +119,107 @@ def python_text(constants, structs, calls):
     return "\n".join(lines + [""])
 
 
+def read_comments():
+    """The text of each comment: by the name of the struct, constant or call, or by (struct, field)."""
+    with open(HEADER, encoding="utf-8") as file:
+        lines = file.read().split("\n")
+    found, above, code, struct, named = {}, [], "", "", []
+    for line in lines:
+        before, _, text = line.partition("//")
+        if before.strip():
+            code = (code + " " + before.strip()).strip()
+            opens = re.match(r"typedef struct (\w+) \{", code)
+            declares = re.match(r"typedef struct (\w+) \1;|(?:GNOMON_API|GNOMON_EXPERIMENTAL) .*?(gnomon_\w+)\(", code)
+            if opens:
+                struct = opens.group(1)
+                named = [struct]
+            elif declares:
+                named = [declares.group(1) or declares.group(2)]
+            elif code.startswith("}"):
+                struct, named = "", []
+            elif struct and code.endswith(";"):
+                named = [(struct, re.findall(r"\w+", one)[-1]) for one in re.sub(r"\[\w+\]", "", code[:-1]).split(",")]
+            else:
+                named = re.findall(r"^(GNOMON_\w+) = ", code)
+            if code.endswith((";", "{", "}", ",")) or not struct:
+                code = ""
+            for name in named:
+                found.setdefault(name, []).extend(above)
+            above = above if code else []
+        if text.startswith("/<"):
+            for name in named:
+                found[name].append(text[2:].strip())
+        elif not before.strip():
+            above = above + [text[1:].strip()] if text.startswith("/") and not text.startswith("/     ") else above if text else []
+    return {name: " ".join(filter(None, words)) for name, words in found.items()}
+
+
+RUST_TYPES = {"i32": "i32", "u32": "u32", "i64": "i64", "u64": "u64", "f32": "f32", "f64": "f64", "u8": "u8", "char": "c_char"}
+
+
+def rust_type(kind):
+    return "core::ffi::c_void" if kind == "void" else RUST_TYPES[SCALARS[kind][0]] if kind in SCALARS else kind
+
+
+def rust_kind(kind):
+    """The type of a parameter or result."""
+    kind = kind.replace(" ", "")
+    if kind == "void":
+        return ""
+    stars = []
+    # From the right: each star points to what stands left of it.
+    while kind.endswith("*"):
+        kind = kind[:-1]
+        constant = kind.startswith("const") and kind.count("*") == 0
+        if kind.endswith("const"):
+            kind, constant = kind[:-5], True
+        stars.append("*const " if constant else "*mut ")
+    kind = kind.removeprefix("const")
+    return "".join(stars) + rust_type(kind)
+
+
+def rust_text(constants, structs, calls):
+    comments = read_comments()
+
+    def comment(name, indent=""):
+        text = comments.get(name, "").replace("[", "\\[").replace("]", "\\]")
+        return [indent + "/// " + text] if text else []
+
+    lines = ["// The structs, constants and calls of include/gnomon/c/gnomon.h. Written by bindings/layout.py.", ""]
+    for name, value in constants.items():
+        lines += comment(name) + ["pub const %s: i32 = %d;" % (name, value)]
+    handles = {kind for _, rows in calls.values() for _, kind in rows for kind in re.findall(r"gnomon_\w+", kind)} - set(structs)
+    for name in sorted(handles):
+        lines += [""] + comment(name) + ["#[repr(C)]", "pub struct %s {" % name, "    hidden: [u8; 0],",
+                  "    not_send: core::marker::PhantomData<*mut u8>,", "}"]
+    for name, fields in structs.items():
+        lines += [""] + comment(name) + ["#[repr(C)]", "#[derive(Clone, Copy, Debug)]", "pub struct %s {" % name]
+        for field, kind, pointer, dimensions in fields:
+            kind = rust_type(kind)
+            kind = "*%s %s" % (pointer, kind) if pointer else kind
+            for size in reversed(dimensions):
+                kind = "[%s; %d]" % (kind, size)
+            lines += comment((name, field), "    ") + ["    pub %s: %s," % (field, kind)]
+        lines.append("}")
+    lines += ["", 'extern "C" {']
+    for name, (returns, rows) in calls.items():
+        given = ", ".join("%s: %s" % ("r#box" if parameter == "box" else parameter, rust_kind(kind)) for parameter, kind in rows)
+        result = rust_kind(returns)
+        lines += comment(name, "    ") + ["    pub fn %s(%s)%s;" % (name, given, " -> " + result if result else "")]
+    lines += ["}", "", "// Each struct's size, and where its fields lie, as the compiler of C has them (tests/c/layout_test.py).",
+              '#[cfg(all(test, target_pointer_width = "64"))]', "macro_rules! each_layout {", "    ($check:ident) => {"]
+    for name, (size, _, rows) in lay_out(structs, 8).items():
+        lines.append("        $check!(%s, %d, %s);" % (name, size, ", ".join("%s: %d" % (field, offset) for field, _, offset, _ in rows)))
+    return "\n".join(lines + ["    };", "}", ""])
+
+
 def main():
     constants, structs, calls = read_header()
     if len(structs) < 20 or len(constants) < 80 or len(calls) < 60:
         sys.exit("the header's structs and calls were not found")
     stale = []
-    for path, text in ((JS, js_text(constants, structs)), (PYTHON, python_text(constants, structs, calls))):
+    for path, text in ((JS, js_text(constants, structs)), (PYTHON, python_text(constants, structs, calls)),
+                       (RUST, rust_text(constants, structs, calls))):
         if not os.path.isdir(os.path.dirname(path)):
             continue
         old = open(path, encoding="utf-8").read() if os.path.exists(path) else ""

@@ -234,11 +234,11 @@ def check_names_themselves():
                "struct B : A {};\nusing C = B;\nenum class Rule {\n#define RULE(name) name,\n#include \"g/rules.def\"\n};\n",
                "include/g/rules.def": "RULE(first)\n", "shaders/s.glsl": "layout(std140) uniform Block {\n  vec4 eye;\n};\n",
                "src/a.cpp": "// C::size, Rule::first, Rule::second\n/* Block::eye,\n Lost::eye */ int x = A::gone;\n// CLI::Range\n",
-               "docs/a.md": "Set `A::size`.\nSet `A::length`.\n"}
+               "docs/a.md": "Set `A::size`.\n```rust\nA::new\n```\nSet `A::length`.\n"}
     check_planted("names", planted, faults_of_names, {
         "include/a.hpp:3: 'A::gone': A has no such member", "include/a.hpp:4: 'A::gone': A has no such member",
         "src/a.cpp:1: 'Rule::second': Rule has no such member", "src/a.cpp:3: 'Lost::eye': there is no type Lost",
-        "docs/a.md:2: 'A::length': A has no such member"})
+        "docs/a.md:5: 'A::length': A has no such member"})
 
 
 def check_sentences_themselves():

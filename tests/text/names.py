@@ -6,6 +6,8 @@ import re
 TYPE = re.compile(r"\b(?:struct|class|union|enum(?:\s+class|\s+struct)?|buffer|uniform)\s+(?:GNOMON_\w+\s+)?([A-Z]\w*)\s*(?:final\s*)?(?::([^;{()]*))?\{")
 NAMED = re.compile(r"\b([A-Z]\w*)::(?=(~?\w+))")
 BRACE = re.compile(r"[{}]")
+# Code of a language that writes the names of its own types so.
+RUST = re.compile(r"^```rust$.*?^```$", re.S | re.M)
 # Names of other libraries.
 FOREIGN = ("CLI", "Json")
 
@@ -54,6 +56,7 @@ def members_of_types(texts, registries):
 
 def faults_in(text, members):
     """(line, fault) of each name in `text`, which holds comments alone or is a page, that no type has."""
+    text = RUST.sub(lambda code: re.sub(r"[^\n]", " ", code.group()), text)
     for match in NAMED.finditer(text):
         kind, member = match.group(1), match.group(2)
         if kind in FOREIGN:
