@@ -114,8 +114,9 @@ TexelRect to_rect(const gnomon_texel_rect& from) noexcept {
 }
 
 const char* to_camera(const gnomon_camera* from, Camera& to) noexcept {
-  gnomon_camera c;
-  if (const char* fault = read(from, c)) return fault;
+  if (const char* fault = fault_of(from)) return fault;
+  gnomon_camera older;
+  const gnomon_camera& c = whole(*from, older);
   to.position = to_vector(c.position);
   to.forward = to_vector(c.forward);
   to.up = to_vector(c.up);
@@ -147,8 +148,9 @@ void from_camera(const Camera& from, gnomon_camera& to) noexcept {
 }
 
 const char* to_light(const gnomon_light* from, Light& to) noexcept {
-  gnomon_light l;
-  if (const char* fault = read(from, l)) return fault;
+  if (const char* fault = fault_of(from)) return fault;
+  gnomon_light older;
+  const gnomon_light& l = whole(*from, older);
   switch (l.kind) {
     case GNOMON_DIRECTIONAL:
       to = DirectionalLight{to_vector(l.direction)};
@@ -179,8 +181,9 @@ const char* to_points(const double* first, std::int64_t count, const char* name,
 }
 
 const char* to_scene(const gnomon_scene* from, SceneBounds& to) noexcept {
-  gnomon_scene s;
-  if (const char* fault = read(from, s)) return fault;
+  if (const char* fault = fault_of(from)) return fault;
+  gnomon_scene older;
+  const gnomon_scene& s = whole(*from, older);
   std::span<const Box> casters, receivers;
   if (const char* fault =
           to_boxes({s.casters, s.caster_count, "scene.casters", "scene.caster_count"}, casters))
@@ -196,8 +199,9 @@ const char* to_scene(const gnomon_scene* from, SceneBounds& to) noexcept {
 }
 
 const char* to_view(const gnomon_view* from, View& to) noexcept {
-  gnomon_view v;
-  if (const char* fault = read(from, v)) return fault;
+  if (const char* fault = fault_of(from)) return fault;
+  gnomon_view older;
+  const gnomon_view& v = whole(*from, older);
   if (const char* fault = to_camera(v.camera, to.camera)) return fault;
   if (v.point_count < 0) return "view.point_count";
   if (const char* fault = to_points(v.points, v.point_count, "view.points", to.points_world)) return fault;
@@ -208,8 +212,9 @@ const char* to_view(const gnomon_view* from, View& to) noexcept {
 
 const char* to_options(const gnomon_plan_options* from, PlanOptions& to) noexcept {
   if (from == nullptr) return nullptr;
-  gnomon_plan_options o;
-  if (const char* fault = read(from, o)) return fault;
+  if (const char* fault = fault_of(from)) return fault;
+  gnomon_plan_options older;
+  const gnomon_plan_options& o = whole(*from, older);
   to.cascades = o.cascades;
   to.resolution = {o.resolution_max_size, o.resolution_max_error, o.resolution_texel_budget,
                    o.resolution_prune_error, o.resolution_stable_size_steps};
@@ -269,8 +274,9 @@ void from_options(const PlanOptions& from, gnomon_plan_options& to) noexcept {
 
 static const char* to_measure_options(const gnomon_measure_options* from, MeasureOptions& to) noexcept {
   if (from == nullptr) return nullptr;
-  gnomon_measure_options o;
-  if (const char* fault = read(from, o)) return fault;
+  if (const char* fault = fault_of(from)) return fault;
+  gnomon_measure_options older;
+  const gnomon_measure_options& o = whole(*from, older);
   constexpr std::int32_t kMost = 65536;
   if (o.columns < 1 || o.columns > kMost) return "measure_options.columns";
   if (o.rows < 1 || o.rows > kMost) return "measure_options.rows";

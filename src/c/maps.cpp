@@ -131,8 +131,9 @@ void from_map(const ShadowMap& from, gnomon_map& to) noexcept {
   to.cull_plane_count = from.cull_plane_count;
   to.select_plane_count = from.select_plane_count;
   // The others are 0: what the core leaves there is no part of a plan.
-  std::fill(&to.cull_planes[0][0], &to.cull_planes[0][0] + 4 * GNOMON_MAX_CULL_PLANES, 0.0);
-  std::fill(&to.select_planes[0][0], &to.select_planes[0][0] + 4 * GNOMON_MAX_SELECT_PLANES, 0.0);
+  double *const cull = &to.cull_planes[0][0], *const select = &to.select_planes[0][0];
+  std::fill(cull + 4 * from.cull_plane_count, cull + 4 * GNOMON_MAX_CULL_PLANES, 0.0);
+  std::fill(select + 4 * from.select_plane_count, select + 4 * GNOMON_MAX_SELECT_PLANES, 0.0);
   for (std::size_t i = 0; i < static_cast<std::size_t>(from.cull_plane_count); ++i)
     from_vector(from.cull_planes[i], to.cull_planes[i]);
   for (std::size_t i = 0; i < static_cast<std::size_t>(from.select_plane_count); ++i)

@@ -34,10 +34,16 @@ std::int32_t refuse_plan(const char* fault, gnomon_plan* plan, const char** inva
 
 void write_maps(std::span<const ShadowMap> maps, const gnomon_plan& plan) noexcept {
   char* at = reinterpret_cast<char*>(plan.maps);
-  gnomon_map record{};
+  gnomon_map older;
   for (const ShadowMap& map : maps) {
-    from_map(map, record);
-    write_bytes(record, plan.map_size, at);
+    if (plan.map_size == sizeof older) {
+      gnomon_map& record = *reinterpret_cast<gnomon_map*>(at);
+      from_map(map, record);
+      record.size = sizeof record;
+    } else {
+      from_map(map, older);
+      write_bytes(older, plan.map_size, at);
+    }
     at += plan.map_size;
   }
 }
