@@ -224,6 +224,26 @@ export const structs = {
       strip: [32, 'texel_rect', 2],
     },
   },
+  held_sun: {
+    bytes: 48,
+    fields: {
+      direction: [0, 'f64', 3],
+      error_pixels: [24, 'f64', 0],
+      turned_pixels: [32, 'f64', 0],
+      points_capped: [40, 'i64', 0],
+    },
+  },
+  atlas: {
+    bytes: 152,
+    fields: {
+      width: [0, 'i32', 0],
+      height: [4, 'i32', 0],
+      place: [8, 'texel_rect', 8],
+      count: [136, 'i32', 0],
+      reserved: [140, 'i32', 0],
+      efficiency: [144, 'f64', 0],
+    },
+  },
   measure_options: {
     bytes: 24,
     fields: {
@@ -425,6 +445,26 @@ export const structs = {
       reserved: [108, 'i32', 0],
     },
   },
+  light_clusters: {
+    bytes: 80,
+    fields: {
+      size: [0, 'u32', 0],
+      tile_pixels: [4, 'i32', 0],
+      depth_slices: [8, 'i32', 0],
+      status: [12, 'i32', 0],
+      begin: [16, 'ptr', 0],
+      lights: [20, 'ptr', 0],
+      begin_room: [24, 'i64', 0],
+      light_room: [32, 'i64', 0],
+      columns: [40, 'i32', 0],
+      rows: [44, 'i32', 0],
+      slices: [48, 'i32', 0],
+      orthographic: [52, 'i32', 0],
+      depth_scale: [56, 'f64', 0],
+      depth_offset: [64, 'f64', 0],
+      light_count: [72, 'i64', 0],
+    },
+  },
 };
 
 export const constants = {
@@ -443,6 +483,7 @@ export const constants = {
   SHAPE_PARAMETERS: 15,
   DEPTH_BINS: 352,
   SHADER_BLOCK_FLOATS: 460,
+  JITTER_FRAMES: 64,
   WARPS: 0,
   SHAPES: 1,
   FITS: 2,

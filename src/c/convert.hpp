@@ -62,6 +62,7 @@ void from_map(const ShadowMap& from, gnomon_map& to) noexcept;
 [[nodiscard]] gnomon_clip_space from_clip_space(const ClipSpace& from) noexcept;
 [[nodiscard]] gnomon_texel_rect from_rect(const TexelRect& from) noexcept;
 [[nodiscard]] TexelRect to_rect(const gnomon_texel_rect& from) noexcept;
+[[nodiscard]] gnomon_atlas from_atlas(const Atlas& from) noexcept;
 void from_stats(const AliasingStats& from, gnomon_stats& to) noexcept;
 void from_matrix(const glm::dmat4& from, double* to) noexcept;
 template <typename Vector, typename Number>
@@ -71,6 +72,8 @@ void from_vector(const Vector& from, Number* to) noexcept {
 [[nodiscard]] inline glm::dvec3 to_vector(const double* from) noexcept {
   return {from[0], from[1], from[2]};
 }
+/// Writes the maps of a plan over those that `to` has room for.
+void write_maps(std::span<const ShadowMap> maps, const gnomon_plan& to) noexcept;
 /// Writes at most `room` omissions.
 void from_omissions(std::span<const Omission> from, gnomon_omission* to, std::int32_t room) noexcept;
 

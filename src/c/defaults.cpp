@@ -133,6 +133,14 @@ void set_defaults(gnomon_light_plan& to) noexcept {
   to.invalid_light = -1;
 }
 
+void set_defaults(gnomon_light_clusters& to) noexcept {
+  const ClusterOptions options;
+  clear(to);
+  to.tile_pixels = options.tile_pixels;
+  to.depth_slices = options.depth_slices;
+  to.status = GNOMON_INVALID_INPUT;
+}
+
 }  // namespace gnomon::c
 
 using gnomon::c::write_defaults;
@@ -183,6 +191,9 @@ int32_t gnomon_light_options_default(gnomon_light_options* options, uint32_t siz
 }
 int32_t gnomon_light_plan_default(gnomon_light_plan* plan, uint32_t size) {
   return write_defaults(plan, size);
+}
+int32_t gnomon_light_clusters_default(gnomon_light_clusters* clusters, uint32_t size) {
+  return write_defaults(clusters, size);
 }
 
 }  // extern "C"

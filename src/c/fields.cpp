@@ -73,6 +73,12 @@ constexpr Field kFields[] = {
     {"lights.most_frames", "light_options.most_frames"},
     {"lights.full_share", "light_options.full_share"},
     {"lights.keep_gain", "light_options.keep_gain"},
+    {"clusters.tile_pixels", "light_clusters.tile_pixels"},
+    {"clusters.depth_slices", "light_clusters.depth_slices"},
+    {"light", "lights"},
+    {"memory.begin", "light_clusters.begin_room"},
+    {"memory.lights", "light_clusters.light_room"},
+    {"memory.work", "bytes"},
 };
 
 }  // namespace

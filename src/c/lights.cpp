@@ -209,6 +209,32 @@ int32_t gnomon_light_plan_options(const gnomon_light_options* options, const gno
   return done(invalid_field);
 }
 
+int32_t gnomon_light_atlas(const gnomon_light_plan* plan, int64_t light, gnomon_atlas* atlas,
+                           const char** invalid_field) {
+  gnomon_light_plan p;
+  if (const char* fault = read(plan, p)) return refuse(fault, invalid_field);
+  if (p.lights == nullptr) return refuse("light_plan.lights", invalid_field);
+  if (!known_size<gnomon_light_maps>(p.light_size)) return refuse("light_plan.light_size", invalid_field);
+  if (light < 0 || light >= p.light_count || light >= p.light_room) return refuse("light", invalid_field);
+  gnomon_light_maps maps;
+  set_defaults(maps);
+  read_bytes(reinterpret_cast<const char*>(p.lights) + light * p.light_size, p.light_size, maps);
+  if (maps.map_count < 0 || maps.map_count > GNOMON_MAX_MAPS)
+    return refuse("light_maps.map_count", invalid_field);
+  if (p.pool_width < 1 || p.pool_height < 1) return refuse("light_plan.pool_width", invalid_field);
+  if (atlas == nullptr) return refuse("atlas", invalid_field);
+  LightMaps one;
+  one.size = maps.texels;
+  one.map_count = maps.map_count;
+  for (std::size_t i = 0; i < one.place.size(); ++i) one.place[i] = to_rect(maps.place[i]);
+  LightPlan of_one;
+  of_one.lights = {&one, 1};
+  of_one.pool_width = p.pool_width;
+  of_one.pool_height = p.pool_height;
+  *atlas = from_atlas(light_atlas(of_one, 0));
+  return done(invalid_field);
+}
+
 int32_t gnomon_camera_round(const gnomon_light* light, const gnomon_camera* camera, gnomon_camera* round,
                             const char** invalid_field) {
   Light l;

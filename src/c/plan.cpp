@@ -32,22 +32,6 @@ std::int32_t refuse_plan(const char* fault, gnomon_plan* plan, const char** inva
   return refuse(fault, invalid_field);
 }
 
-void write_maps(std::span<const ShadowMap> maps, const gnomon_plan& plan) noexcept {
-  char* at = reinterpret_cast<char*>(plan.maps);
-  gnomon_map older;
-  for (const ShadowMap& map : maps) {
-    if (plan.map_size == sizeof older) {
-      gnomon_map& record = *reinterpret_cast<gnomon_map*>(at);
-      from_map(map, record);
-      record.size = sizeof record;
-    } else {
-      from_map(map, older);
-      write_bytes(older, plan.map_size, at);
-    }
-    at += plan.map_size;
-  }
-}
-
 std::int32_t write_plan(const ShadowPlan& from, gnomon_plan* to, const char** invalid_field) noexcept {
   if (from.status == PlanStatus::invalid_input)
     return refuse_plan(gnomon::c::field_of(from.invalid_field), to, invalid_field);
@@ -73,6 +57,23 @@ std::int32_t write_plan(const ShadowPlan& from, gnomon_plan* to, const char** in
 }
 
 }  // namespace
+
+void write_maps(std::span<const ShadowMap> maps, const gnomon_plan& to) noexcept {
+  char* at = reinterpret_cast<char*>(to.maps);
+  gnomon_map older;
+  for (const ShadowMap& map : maps) {
+    if (to.map_size == sizeof older) {
+      gnomon_map& record = *reinterpret_cast<gnomon_map*>(at);
+      from_map(map, record);
+      record.size = sizeof record;
+    } else {
+      from_map(map, older);
+      write_bytes(older, to.map_size, at);
+    }
+    at += to.map_size;
+  }
+}
+
 }  // namespace gnomon::c
 
 using namespace gnomon;

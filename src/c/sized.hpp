@@ -38,6 +38,7 @@ GNOMON_C_SIZED(gnomon_light_request, "light_request", sizeof(gnomon_light_reques
 GNOMON_C_SIZED(gnomon_light_options, "light_options", sizeof(gnomon_light_options));
 GNOMON_C_SIZED(gnomon_light_maps, "light_maps", sizeof(gnomon_light_maps));
 GNOMON_C_SIZED(gnomon_light_plan, "light_plan", sizeof(gnomon_light_plan));
+GNOMON_C_SIZED(gnomon_light_clusters, "light_clusters", sizeof(gnomon_light_clusters));
 
 // Defaults: those of the C++ structs.
 void set_defaults(gnomon_camera& to) noexcept;
@@ -56,6 +57,7 @@ void set_defaults(gnomon_light_request& to) noexcept;
 void set_defaults(gnomon_light_options& to) noexcept;
 void set_defaults(gnomon_light_maps& to) noexcept;
 void set_defaults(gnomon_light_plan& to) noexcept;
+void set_defaults(gnomon_light_clusters& to) noexcept;
 
 /// True where some version of this library had the struct in this size.
 template <typename T>

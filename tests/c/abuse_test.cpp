@@ -151,6 +151,7 @@ TEST(Abuse, defaults_take_the_size_that_they_have) {
   check_default(gnomon_light_request_default);
   check_default(gnomon_light_options_default);
   check_default(gnomon_light_plan_default);
+  check_default(gnomon_light_clusters_default);
 }
 
 TEST(Abuse, defaults_are_those_of_cpp) {

@@ -4,7 +4,8 @@
 // Rules that hold everywhere:
 // - Results live in the caller's memory. Handles are only what owns memory: gnomon_caster_set,
 // gnomon_history,
-//   gnomon_light_history. Their _create() allocates; no other call does, unless its comment says so.
+//   gnomon_light_history, gnomon_depth_tracker. Their _create() allocates; no other call does, unless its
+//   comment says so.
 // - A struct whose first field is `size` may grow: later versions append fields. Its _default() function sets
 // `size` to the
 //   caller's sizeof and all other fields to their defaults. A library takes the smaller struct of an older
@@ -74,16 +75,17 @@ enum {
 };
 
 enum {
-  GNOMON_MAX_MAPS = 8,              ///< maps of one plan
-  GNOMON_MAX_CULL_PLANES = 32,      ///< planes round what casts into a map
-  GNOMON_MAX_SELECT_PLANES = 4,     ///< planes round a map's share of the receivers
-  GNOMON_MAX_WARP_PLANES = 3,       ///< planes that get a map of their own
-  GNOMON_MAX_OMISSIONS = 32,        ///< omissions that a plan lists; more are counted alone
-  GNOMON_MAX_VIEWS = 8,             ///< cameras of one plan
-  GNOMON_MAX_LIGHTS = 4096,         ///< lights of one gnomon_plan_lights
-  GNOMON_SHAPE_PARAMETERS = 15,     ///< numbers that a shape is set by
-  GNOMON_DEPTH_BINS = 352,          ///< bins of gnomon_visible_depths
-  GNOMON_SHADER_BLOCK_FLOATS = 460  ///< floats of a shader block
+  GNOMON_MAX_MAPS = 8,               ///< maps of one plan
+  GNOMON_MAX_CULL_PLANES = 32,       ///< planes round what casts into a map
+  GNOMON_MAX_SELECT_PLANES = 4,      ///< planes round a map's share of the receivers
+  GNOMON_MAX_WARP_PLANES = 3,        ///< planes that get a map of their own
+  GNOMON_MAX_OMISSIONS = 32,         ///< omissions that a plan lists; more are counted alone
+  GNOMON_MAX_VIEWS = 8,              ///< cameras of one plan
+  GNOMON_MAX_LIGHTS = 4096,          ///< lights of one gnomon_plan_lights
+  GNOMON_SHAPE_PARAMETERS = 15,      ///< numbers that a shape is set by
+  GNOMON_DEPTH_BINS = 352,           ///< bins of gnomon_visible_depths
+  GNOMON_SHADER_BLOCK_FLOATS = 460,  ///< floats of a shader block
+  GNOMON_JITTER_FRAMES = 64          ///< frames after which gnomon_jitter_texels repeats
 };
 
 /// The lists that names are looked up in. Each entry has an index, a name as in case files, and one line of
@@ -255,6 +257,26 @@ typedef struct gnomon_view {
 } gnomon_view;
 /// Fills in defaults. `size`: sizeof *view.
 GNOMON_API int32_t gnomon_view_default(gnomon_view* view, uint32_t size);
+
+/// Visible depths that are followed from frame to frame. Depths that come into view count at once, and those
+/// that leave it are given up slowly. Keep one per camera.
+typedef struct gnomon_depth_tracker gnomon_depth_tracker;
+/// A new, empty tracker, or NULL where there is no memory or a number is out of 1..65535. `frames_per_bin`:
+/// frames that the nearest and the farthest depth take to move inwards by one bin; 4 suits most scenes.
+/// `hold_frames`: frames for which a depth between them that shows nothing any more still counts; 30 does.
+GNOMON_EXPERIMENTAL gnomon_depth_tracker* gnomon_depth_tracker_create(int32_t frames_per_bin,
+                                                                      int32_t hold_frames);
+/// Frees the tracker; NULL does nothing.
+GNOMON_EXPERIMENTAL void gnomon_depth_tracker_destroy(gnomon_depth_tracker* tracker);
+/// Forgets all frames: call it at a cut. NULL does nothing.
+GNOMON_EXPERIMENTAL void gnomon_depth_tracker_clear(gnomon_depth_tracker* tracker);
+/// Takes the visible depths of the next frame, and writes those to plan with to `depths`, which may be
+/// `frame`. A frame that shows nothing changes nothing. Before the first surface `depths` shows nothing
+/// either.
+GNOMON_EXPERIMENTAL int32_t gnomon_depth_tracker_update(gnomon_depth_tracker* tracker,
+                                                        const gnomon_visible_depths* frame,
+                                                        gnomon_visible_depths* depths,
+                                                        const char** invalid_field);
 
 // ---------------------------------------------------------------- options
 
@@ -563,6 +585,51 @@ GNOMON_API int32_t gnomon_shader_block(const gnomon_plan* plan, int32_t layer_wi
                                        double blur_texels, float block[GNOMON_SHADER_BLOCK_FLOATS],
                                        const char** invalid_field);
 
+/// Offset of the texel grid in a frame, x and y in (-0.5, 0.5) texels. Offsets are a lattice of 64 points.
+/// Any GNOMON_JITTER_FRAMES frames in a row hold all of it. Refuses NULL.
+GNOMON_EXPERIMENTAL int32_t gnomon_jitter_texels(uint32_t frame, double offset[2]);
+/// Moves the texel grid of every map of a plan by `offset` texels across the light, each clamped to half a
+/// texel. The maps serve the same points and casters. Add 0.5 to gnomon_plan_options::filter_texels before
+/// planning, so that no kernel leaves its map. The next frame cannot reuse moved maps.
+GNOMON_EXPERIMENTAL int32_t gnomon_jitter(gnomon_plan* plan, const double offset[2],
+                                          const char** invalid_field);
+
+/// The decision of gnomon_hold_sun. Its size is fixed.
+typedef struct gnomon_held_sun {
+  double direction[3];    ///< to plan with: the held one, or the sun's own, bit for bit
+  double error_pixels;    ///< largest error of the points that were read, screen pixels
+  double turned_pixels;   ///< error of the point that turned it, above the bound; 0: none did
+  int64_t points_capped;  ///< points that the light grazes more than least_light_sine: not evaluated
+} gnomon_held_sun;
+/// Keeps the direction of a sun that turns until a shadow edge could lie more than `most_pixels` from its
+/// true place. Then takes the sun's own. Pages of fit stable keep their texels under a held direction.
+/// `view`: with points; without, the sun is not held. `held`: the direction of the last frame. `casters`: one
+/// box round all casters. `most_pixels`: >= 0; 0 never holds, 0.25 is below what a texel of m = 1 can show.
+/// `least_light_sine`: as gnomon_page_options::least_light_sine, 0..1; 0.05 suits most scenes.
+GNOMON_EXPERIMENTAL int32_t gnomon_hold_sun(const gnomon_view* view, const double held[3],
+                                            const double sun[3], const double casters[6], double most_pixels,
+                                            double least_light_sine, gnomon_held_sun* result,
+                                            const char** invalid_field);
+
+/// Where maps lie in one texture; no two share a texel. Its size is fixed.
+typedef struct gnomon_atlas {
+  int32_t width, height;                     ///< texels; 0: there is no map, or the maps do not fit
+  gnomon_texel_rect place[GNOMON_MAX_MAPS];  ///< by index of the map in the plan
+  int32_t count;                             ///< maps placed: all of the plan's, or none
+  int32_t reserved;                          ///< 0
+  double efficiency;                         ///< texels of the maps over those of the texture, in 0..1
+} gnomon_atlas;
+/// Places the maps of a plan into a texture of `width` times `height` texels. Both 0: into the smallest one
+/// whose sides are powers of two, which any plan fits into. gnomon_atlas::count is 0 where they do not fit.
+/// The same sizes give the same places.
+GNOMON_EXPERIMENTAL int32_t gnomon_pack_atlas(const gnomon_plan* plan, int32_t width, int32_t height,
+                                              gnomon_atlas* atlas, const char** invalid_field);
+/// Writes the matrix from the clip space of a map to its part of the atlas: gnomon_texture_from_clip with the
+/// place of `map` taken in. Draw the map with its place as the viewport.
+GNOMON_EXPERIMENTAL int32_t gnomon_atlas_from_clip(const gnomon_atlas* atlas,
+                                                   const gnomon_clip_space* clip_space, int32_t map,
+                                                   double atlas_from_clip[16], const char** invalid_field);
+
 // ---------------------------------------------------------------- measure
 
 /// How an error is sampled.
@@ -870,6 +937,48 @@ GNOMON_EXPERIMENTAL int32_t gnomon_light_plan_options(const gnomon_light_options
 /// light, `camera` itself. `round` comes from gnomon_camera_default.
 GNOMON_EXPERIMENTAL int32_t gnomon_camera_round(const gnomon_light* light, const gnomon_camera* camera,
                                                 gnomon_camera* round, const char** invalid_field);
+/// The pool as the atlas of one light's maps, for gnomon_atlas_from_clip.
+GNOMON_EXPERIMENTAL int32_t gnomon_light_atlas(const gnomon_light_plan* plan, int64_t light,
+                                               gnomon_atlas* atlas, const char** invalid_field);
+
+/// Lists of the lights that reach into each cluster of the view: a tile of pixels times a slice of depth. Set
+/// the fields marked "in" before the call; the others are results.
+typedef struct gnomon_light_clusters {
+  uint32_t size;         ///< set by gnomon_light_clusters_default
+  int32_t tile_pixels;   ///< in: side of a tile, pixels, at least 1; default 64. Also a result: larger where
+                         ///< the lists hold no finer ones
+  int32_t depth_slices;  ///< in: parts of the view depth, 1..256; default 48
+  int32_t status;        ///< as the call returned
+  uint32_t* begin;       ///< in: where each cluster's list begins; required
+  uint32_t* lights;      ///< in: the lists, indices of lights in ascending order; required
+  int64_t begin_room;    ///< in: entries of begin: gnomon_cluster_count + 1 suffice, 2 are required
+  int64_t light_room;    ///< in: entries of lights, at least as many as lights. More: finer clusters
+  int32_t columns, rows, slices;  ///< clusters along the image's sides and along depth
+  int32_t orthographic;           ///< flag of the camera
+  /// Slice of a surface: floor(depth_scale * log2(view depth) + depth_offset), of the view depth itself for
+  /// an orthographic camera, clamped to 0..slices - 1.
+  double depth_scale;
+  double depth_offset;  ///< see depth_scale
+  int64_t light_count;  ///< entries of lights that are used
+} gnomon_light_clusters;
+/// Fills in defaults. `size`: sizeof *clusters.
+GNOMON_EXPERIMENTAL int32_t gnomon_light_clusters_default(gnomon_light_clusters* clusters, uint32_t size);
+/// Clusters of an image with these options; 0 for what is out of range.
+GNOMON_EXPERIMENTAL int64_t gnomon_cluster_count(const gnomon_camera* camera, int32_t tile_pixels,
+                                                 int32_t depth_slices);
+/// Bytes of memory that gnomon_cluster_lights needs for so many lights and entries of
+/// gnomon_light_clusters::lights; 0 where either is out of range.
+GNOMON_EXPERIMENTAL int64_t gnomon_cluster_memory(int64_t lights, int64_t light_room);
+/// Lists the lights that can light a surface in each cluster. Shading by the lists gives the same light as
+/// shading by all, as long as a light is zero beyond its range and cone. Cluster (column, row, slice) has the
+/// lights lights[begin[i]] .. lights[begin[i + 1] - 1], i = (slice * rows + row) * columns + column, with row
+/// 0 at the bottom of the image. Suns are in every list. `lights`: `count` of them, `light_size` bytes each.
+/// `memory`: working memory, `bytes` bytes, at least gnomon_cluster_memory. Any lists fit: where they would
+/// be too long, tiles become larger and slices fewer.
+GNOMON_EXPERIMENTAL int32_t gnomon_cluster_lights(const gnomon_camera* camera, const gnomon_light* lights,
+                                                  uint32_t light_size, int64_t count, void* memory,
+                                                  int64_t bytes, gnomon_light_clusters* clusters,
+                                                  const char** invalid_field);
 
 #ifdef __cplusplus
 }

@@ -16,6 +16,7 @@ MAX_LIGHTS = 4096
 SHAPE_PARAMETERS = 15
 DEPTH_BINS = 352
 SHADER_BLOCK_FLOATS = 460
+JITTER_FRAMES = 64
 WARPS = 0
 SHAPES = 1
 FITS = 2
@@ -353,6 +354,32 @@ class reuse(ctypes.Structure):
 assert ctypes.sizeof(reuse) == 64
 
 
+class held_sun(ctypes.Structure):
+    _fields_ = [
+        ("direction", ctypes.c_double * 3),
+        ("error_pixels", ctypes.c_double),
+        ("turned_pixels", ctypes.c_double),
+        ("points_capped", ctypes.c_int64),
+    ]
+
+
+assert ctypes.sizeof(held_sun) == 48
+
+
+class atlas(ctypes.Structure):
+    _fields_ = [
+        ("width", ctypes.c_int32),
+        ("height", ctypes.c_int32),
+        ("place", texel_rect * 8),
+        ("count", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("efficiency", ctypes.c_double),
+    ]
+
+
+assert ctypes.sizeof(atlas) == 152
+
+
 class measure_options(ctypes.Structure):
     _fields_ = [
         ("size", ctypes.c_uint32),
@@ -592,6 +619,29 @@ class light_plan(ctypes.Structure):
 
 assert ctypes.sizeof(light_plan) == 112
 
+
+class light_clusters(ctypes.Structure):
+    _fields_ = [
+        ("size", ctypes.c_uint32),
+        ("tile_pixels", ctypes.c_int32),
+        ("depth_slices", ctypes.c_int32),
+        ("status", ctypes.c_int32),
+        ("begin", ctypes.c_void_p),
+        ("lights", ctypes.c_void_p),
+        ("begin_room", ctypes.c_int64),
+        ("light_room", ctypes.c_int64),
+        ("columns", ctypes.c_int32),
+        ("rows", ctypes.c_int32),
+        ("slices", ctypes.c_int32),
+        ("orthographic", ctypes.c_int32),
+        ("depth_scale", ctypes.c_double),
+        ("depth_offset", ctypes.c_double),
+        ("light_count", ctypes.c_int64),
+    ]
+
+
+assert ctypes.sizeof(light_clusters) == 88
+
 # What each call returns, and its parameters.
 calls = {
     "gnomon_count": (ctypes.c_int32, [("list", ctypes.c_int32)]),
@@ -614,6 +664,10 @@ calls = {
     "gnomon_visible_depths_clear": (None, [("depths", ctypes.c_void_p)]),
     "gnomon_visible_depths_add": (ctypes.c_int32, [("depths", ctypes.c_void_p), ("view_depths", ctypes.c_void_p), ("count", ctypes.c_int64), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_view_default": (ctypes.c_int32, [("view", ctypes.c_void_p), ("size", ctypes.c_uint32)]),
+    "gnomon_depth_tracker_create": (ctypes.c_void_p, [("frames_per_bin", ctypes.c_int32), ("hold_frames", ctypes.c_int32)]),
+    "gnomon_depth_tracker_destroy": (None, [("tracker", ctypes.c_void_p)]),
+    "gnomon_depth_tracker_clear": (None, [("tracker", ctypes.c_void_p)]),
+    "gnomon_depth_tracker_update": (ctypes.c_int32, [("tracker", ctypes.c_void_p), ("frame", ctypes.c_void_p), ("depths", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_plan_options_default": (ctypes.c_int32, [("options", ctypes.c_void_p), ("size", ctypes.c_uint32)]),
     "gnomon_map_default": (ctypes.c_int32, [("map", ctypes.c_void_p), ("size", ctypes.c_uint32)]),
     "gnomon_describe": (None, [("omission", ctypes.c_void_p), ("text", ctypes.c_void_p)]),
@@ -633,6 +687,11 @@ calls = {
     "gnomon_compare": (ctypes.c_int32, [("previous", ctypes.c_void_p), ("current", ctypes.c_void_p), ("clip_space", ctypes.c_void_p), ("reuse", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_rectangle_planes": (ctypes.c_int32, [("map", ctypes.c_void_p), ("rectangle", ctypes.c_void_p), ("clip_space", ctypes.c_void_p), ("planes", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_shader_block": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("layer_width", ctypes.c_int32), ("layer_height", ctypes.c_int32), ("blur_texels", ctypes.c_double), ("block", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
+    "gnomon_jitter_texels": (ctypes.c_int32, [("frame", ctypes.c_uint32), ("offset", ctypes.c_void_p)]),
+    "gnomon_jitter": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("offset", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
+    "gnomon_hold_sun": (ctypes.c_int32, [("view", ctypes.c_void_p), ("held", ctypes.c_void_p), ("sun", ctypes.c_void_p), ("casters", ctypes.c_void_p), ("most_pixels", ctypes.c_double), ("least_light_sine", ctypes.c_double), ("result", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
+    "gnomon_pack_atlas": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("width", ctypes.c_int32), ("height", ctypes.c_int32), ("atlas", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
+    "gnomon_atlas_from_clip": (ctypes.c_int32, [("atlas", ctypes.c_void_p), ("clip_space", ctypes.c_void_p), ("map", ctypes.c_int32), ("atlas_from_clip", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_measure_options_default": (ctypes.c_int32, [("options", ctypes.c_void_p), ("size", ctypes.c_uint32)]),
     "gnomon_stats_default": (ctypes.c_int32, [("stats", ctypes.c_void_p), ("size", ctypes.c_uint32)]),
     "gnomon_measure": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("view", ctypes.c_void_p), ("scene", ctypes.c_void_p), ("options", ctypes.c_void_p), ("stats", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
@@ -659,4 +718,9 @@ calls = {
     "gnomon_plan_lights": (ctypes.c_int32, [("view", ctypes.c_void_p), ("requests", ctypes.c_void_p), ("request_size", ctypes.c_uint32), ("count", ctypes.c_int64), ("scene", ctypes.c_void_p), ("options", ctypes.c_void_p), ("history", ctypes.c_void_p), ("memory", ctypes.c_void_p), ("bytes", ctypes.c_int64), ("plan", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_light_plan_options": (ctypes.c_int32, [("options", ctypes.c_void_p), ("maps", ctypes.c_void_p), ("plan_options", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_camera_round": (ctypes.c_int32, [("light", ctypes.c_void_p), ("camera", ctypes.c_void_p), ("round", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
+    "gnomon_light_atlas": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("light", ctypes.c_int64), ("atlas", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
+    "gnomon_light_clusters_default": (ctypes.c_int32, [("clusters", ctypes.c_void_p), ("size", ctypes.c_uint32)]),
+    "gnomon_cluster_count": (ctypes.c_int64, [("camera", ctypes.c_void_p), ("tile_pixels", ctypes.c_int32), ("depth_slices", ctypes.c_int32)]),
+    "gnomon_cluster_memory": (ctypes.c_int64, [("lights", ctypes.c_int64), ("light_room", ctypes.c_int64)]),
+    "gnomon_cluster_lights": (ctypes.c_int32, [("camera", ctypes.c_void_p), ("lights", ctypes.c_void_p), ("light_size", ctypes.c_uint32), ("count", ctypes.c_int64), ("memory", ctypes.c_void_p), ("bytes", ctypes.c_int64), ("clusters", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
 }

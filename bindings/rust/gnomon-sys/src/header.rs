@@ -30,6 +30,8 @@ pub const GNOMON_SHAPE_PARAMETERS: i32 = 15;
 pub const GNOMON_DEPTH_BINS: i32 = 352;
 /// floats of a shader block
 pub const GNOMON_SHADER_BLOCK_FLOATS: i32 = 460;
+/// frames after which gnomon_jitter_texels repeats
+pub const GNOMON_JITTER_FRAMES: i32 = 64;
 /// gnomon_plan_options::warp, gnomon_map::warp
 pub const GNOMON_WARPS: i32 = 0;
 /// gnomon_plan_options::warp_shape, gnomon_map::shape
@@ -174,6 +176,13 @@ pub const GNOMON_LIGHT_WITHOUT_CASTER: i32 = 3;
 /// Boxes sorted into a tree, for scenes with hundreds of boxes and more. Gives the same plans as a list, bit for bit.
 #[repr(C)]
 pub struct gnomon_caster_set {
+    hidden: [u8; 0],
+    not_send: core::marker::PhantomData<*mut u8>,
+}
+
+/// Visible depths that are followed from frame to frame. Depths that come into view count at once, and those that leave it are given up slowly. Keep one per camera.
+#[repr(C)]
+pub struct gnomon_depth_tracker {
     hidden: [u8; 0],
     not_send: core::marker::PhantomData<*mut u8>,
 }
@@ -582,6 +591,38 @@ pub struct gnomon_reuse {
     pub strip: [gnomon_texel_rect; 2],
 }
 
+/// The decision of gnomon_hold_sun. Its size is fixed.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct gnomon_held_sun {
+    /// to plan with: the held one, or the sun's own, bit for bit
+    pub direction: [f64; 3],
+    /// largest error of the points that were read, screen pixels
+    pub error_pixels: f64,
+    /// error of the point that turned it, above the bound; 0: none did
+    pub turned_pixels: f64,
+    /// points that the light grazes more than least_light_sine: not evaluated
+    pub points_capped: i64,
+}
+
+/// Where maps lie in one texture; no two share a texel. Its size is fixed.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct gnomon_atlas {
+    /// texels; 0: there is no map, or the maps do not fit
+    pub width: i32,
+    /// texels; 0: there is no map, or the maps do not fit
+    pub height: i32,
+    /// by index of the map in the plan
+    pub place: [gnomon_texel_rect; 8],
+    /// maps placed: all of the plan's, or none
+    pub count: i32,
+    /// 0
+    pub reserved: i32,
+    /// texels of the maps over those of the texture, in 0..1
+    pub efficiency: f64,
+}
+
 /// How an error is sampled.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -932,6 +973,42 @@ pub struct gnomon_light_plan {
     pub reserved: i32,
 }
 
+/// Lists of the lights that reach into each cluster of the view: a tile of pixels times a slice of depth. Set the fields marked "in" before the call; the others are results.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct gnomon_light_clusters {
+    /// set by gnomon_light_clusters_default
+    pub size: u32,
+    /// in: side of a tile, pixels, at least 1; default 64. Also a result: larger where the lists hold no finer ones
+    pub tile_pixels: i32,
+    /// in: parts of the view depth, 1..256; default 48
+    pub depth_slices: i32,
+    /// as the call returned
+    pub status: i32,
+    /// in: where each cluster's list begins; required
+    pub begin: *mut u32,
+    /// in: the lists, indices of lights in ascending order; required
+    pub lights: *mut u32,
+    /// in: entries of begin: gnomon_cluster_count + 1 suffice, 2 are required
+    pub begin_room: i64,
+    /// in: entries of lights, at least as many as lights. More: finer clusters
+    pub light_room: i64,
+    /// clusters along the image's sides and along depth
+    pub columns: i32,
+    /// clusters along the image's sides and along depth
+    pub rows: i32,
+    /// clusters along the image's sides and along depth
+    pub slices: i32,
+    /// flag of the camera
+    pub orthographic: i32,
+    /// Slice of a surface: floor(depth_scale * log2(view depth) + depth_offset), of the view depth itself for an orthographic camera, clamped to 0..slices - 1.
+    pub depth_scale: f64,
+    /// see depth_scale
+    pub depth_offset: f64,
+    /// entries of lights that are used
+    pub light_count: i64,
+}
+
 extern "C" {
     /// Entries of a list, GNOMON_WARPS to GNOMON_STATUSES. 0 for any other list.
     pub fn gnomon_count(list: i32) -> i32;
@@ -973,6 +1050,14 @@ extern "C" {
     pub fn gnomon_visible_depths_add(depths: *mut gnomon_visible_depths, view_depths: *const f32, count: i64, invalid_field: *mut *const c_char) -> i32;
     /// Fills in defaults. `size`: sizeof *view.
     pub fn gnomon_view_default(view: *mut gnomon_view, size: u32) -> i32;
+    /// A new, empty tracker, or NULL where there is no memory or a number is out of 1..65535. `frames_per_bin`: frames that the nearest and the farthest depth take to move inwards by one bin; 4 suits most scenes. `hold_frames`: frames for which a depth between them that shows nothing any more still counts; 30 does.
+    pub fn gnomon_depth_tracker_create(frames_per_bin: i32, hold_frames: i32) -> *mut gnomon_depth_tracker;
+    /// Frees the tracker; NULL does nothing.
+    pub fn gnomon_depth_tracker_destroy(tracker: *mut gnomon_depth_tracker);
+    /// Forgets all frames: call it at a cut. NULL does nothing.
+    pub fn gnomon_depth_tracker_clear(tracker: *mut gnomon_depth_tracker);
+    /// Takes the visible depths of the next frame, and writes those to plan with to `depths`, which may be `frame`. A frame that shows nothing changes nothing. Before the first surface `depths` shows nothing either.
+    pub fn gnomon_depth_tracker_update(tracker: *mut gnomon_depth_tracker, frame: *const gnomon_visible_depths, depths: *mut gnomon_visible_depths, invalid_field: *mut *const c_char) -> i32;
     /// Fills in defaults. `size`: sizeof *options.
     pub fn gnomon_plan_options_default(options: *mut gnomon_plan_options, size: u32) -> i32;
     /// Fills in defaults: an empty map of linear texels, GNOMON_DEFAULT as warp. `size`: sizeof *map.
@@ -1011,6 +1096,16 @@ extern "C" {
     pub fn gnomon_rectangle_planes(map: *const gnomon_map, rectangle: *const gnomon_texel_rect, clip_space: *const gnomon_clip_space, planes: *mut f64, invalid_field: *mut *const c_char) -> i32;
     /// Fills the uniform block of shaders/library/shadow_block.glsl, for std140 and std430: GNOMON_SHADER_BLOCK_FLOATS floats. `layer_width`, `layer_height`: texels of a layer of the texture; 0: those of the largest map. `blur_texels`: half side of the box that stored texels were blurred with, 0: none.
     pub fn gnomon_shader_block(plan: *const gnomon_plan, layer_width: i32, layer_height: i32, blur_texels: f64, block: *mut f32, invalid_field: *mut *const c_char) -> i32;
+    /// Offset of the texel grid in a frame, x and y in (-0.5, 0.5) texels. Offsets are a lattice of 64 points. Any GNOMON_JITTER_FRAMES frames in a row hold all of it. Refuses NULL.
+    pub fn gnomon_jitter_texels(frame: u32, offset: *mut f64) -> i32;
+    /// Moves the texel grid of every map of a plan by `offset` texels across the light, each clamped to half a texel. The maps serve the same points and casters. Add 0.5 to gnomon_plan_options::filter_texels before planning, so that no kernel leaves its map. The next frame cannot reuse moved maps.
+    pub fn gnomon_jitter(plan: *mut gnomon_plan, offset: *const f64, invalid_field: *mut *const c_char) -> i32;
+    /// Keeps the direction of a sun that turns until a shadow edge could lie more than `most_pixels` from its true place. Then takes the sun's own. Pages of fit stable keep their texels under a held direction. `view`: with points; without, the sun is not held. `held`: the direction of the last frame. `casters`: one box round all casters. `most_pixels`: >= 0; 0 never holds, 0.25 is below what a texel of m = 1 can show. `least_light_sine`: as gnomon_page_options::least_light_sine, 0..1; 0.05 suits most scenes.
+    pub fn gnomon_hold_sun(view: *const gnomon_view, held: *const f64, sun: *const f64, casters: *const f64, most_pixels: f64, least_light_sine: f64, result: *mut gnomon_held_sun, invalid_field: *mut *const c_char) -> i32;
+    /// Places the maps of a plan into a texture of `width` times `height` texels. Both 0: into the smallest one whose sides are powers of two, which any plan fits into. gnomon_atlas::count is 0 where they do not fit. The same sizes give the same places.
+    pub fn gnomon_pack_atlas(plan: *const gnomon_plan, width: i32, height: i32, atlas: *mut gnomon_atlas, invalid_field: *mut *const c_char) -> i32;
+    /// Writes the matrix from the clip space of a map to its part of the atlas: gnomon_texture_from_clip with the place of `map` taken in. Draw the map with its place as the viewport.
+    pub fn gnomon_atlas_from_clip(atlas: *const gnomon_atlas, clip_space: *const gnomon_clip_space, map: i32, atlas_from_clip: *mut f64, invalid_field: *mut *const c_char) -> i32;
     /// Fills in defaults. `size`: sizeof *options.
     pub fn gnomon_measure_options_default(options: *mut gnomon_measure_options, size: u32) -> i32;
     /// Fills in zeros. `size`: sizeof *stats.
@@ -1063,6 +1158,16 @@ extern "C" {
     pub fn gnomon_light_plan_options(options: *const gnomon_light_options, maps: *const gnomon_light_maps, plan_options: *mut gnomon_plan_options, invalid_field: *mut *const c_char) -> i32;
     /// A camera that sees all that a local light can light, for maps that serve several frames. For a directional light, `camera` itself. `round` comes from gnomon_camera_default.
     pub fn gnomon_camera_round(light: *const gnomon_light, camera: *const gnomon_camera, round: *mut gnomon_camera, invalid_field: *mut *const c_char) -> i32;
+    /// The pool as the atlas of one light's maps, for gnomon_atlas_from_clip.
+    pub fn gnomon_light_atlas(plan: *const gnomon_light_plan, light: i64, atlas: *mut gnomon_atlas, invalid_field: *mut *const c_char) -> i32;
+    /// Fills in defaults. `size`: sizeof *clusters.
+    pub fn gnomon_light_clusters_default(clusters: *mut gnomon_light_clusters, size: u32) -> i32;
+    /// Clusters of an image with these options; 0 for what is out of range.
+    pub fn gnomon_cluster_count(camera: *const gnomon_camera, tile_pixels: i32, depth_slices: i32) -> i64;
+    /// Bytes of memory that gnomon_cluster_lights needs for so many lights and entries of gnomon_light_clusters::lights; 0 where either is out of range.
+    pub fn gnomon_cluster_memory(lights: i64, light_room: i64) -> i64;
+    /// Lists the lights that can light a surface in each cluster. Shading by the lists gives the same light as shading by all, as long as a light is zero beyond its range and cone. Cluster (column, row, slice) has the lights lights\[begin\[i\]\] .. lights\[begin\[i + 1\] - 1\], i = (slice * rows + row) * columns + column, with row 0 at the bottom of the image. Suns are in every list. `lights`: `count` of them, `light_size` bytes each. `memory`: working memory, `bytes` bytes, at least gnomon_cluster_memory. Any lists fit: where they would be too long, tiles become larger and slices fewer.
+    pub fn gnomon_cluster_lights(camera: *const gnomon_camera, lights: *const gnomon_light, light_size: u32, count: i64, memory: *mut core::ffi::c_void, bytes: i64, clusters: *mut gnomon_light_clusters, invalid_field: *mut *const c_char) -> i32;
 }
 
 // Each struct's size, and where its fields lie, as the compiler of C has them (tests/c/layout_test.py).
@@ -1083,6 +1188,8 @@ macro_rules! each_layout {
         $check!(gnomon_plan, 160, size: 0, map_size: 4, maps: 8, omissions: 16, map_room: 24, omission_room: 28, status: 32, map_count: 36, omission_count: 40, selection: 44, sizes_vary: 48, reserved: 52, origin: 56, light_direction: 80, clip_space: 104, bias_constant_texels: 128, bias_slope_texels: 136, bias_normal_offset_texels: 144, bias_max_slope: 152);
         $check!(gnomon_event, 16, kind: 0, map: 4, density_ratio: 8);
         $check!(gnomon_reuse, 64, kind: 0, shift_x: 4, shift_y: 8, strip_count: 12, kept: 16, strip: 32);
+        $check!(gnomon_held_sun, 48, direction: 0, error_pixels: 24, turned_pixels: 32, points_capped: 40);
+        $check!(gnomon_atlas, 152, width: 0, height: 4, place: 8, count: 136, reserved: 140, efficiency: 144);
         $check!(gnomon_measure_options, 24, size: 0, map: 4, columns: 8, rows: 12, depths: 16, reserved: 20);
         $check!(gnomon_stats, 72, size: 0, reserved: 4, p50: 8, p95: 16, max: 24, mean: 32, share_undersampled: 40, storage: 48, samples: 56, outside: 64);
         $check!(gnomon_point_error, 88, status: 0, reserved: 4, m_max: 8, m_min: 16, m_s: 24, m_t: 32, m_area: 40, anisotropy: 48, perspective_max: 56, perspective_s: 64, perspective_t: 72, projection: 80);
@@ -1096,5 +1203,6 @@ macro_rules! each_layout {
         $check!(gnomon_light_options, 112, size: 0, page_budget: 4, plan: 8, pool_width: 16, pool_height: 20, texel_budget: 24, page_texels: 32, least_size: 36, most_size: 40, most_frames: 44, millisecond_budget: 48, cost_per_map: 56, cost_per_megatexel: 64, cost_per_kilodraw: 72, cost_per_megatriangle: 80, enough_m: 88, full_share: 96, keep_gain: 104);
         $check!(gnomon_light_maps, 168, size: 0, outcome: 4, texels: 8, map_count: 12, place: 16, share: 144, m: 152, frames: 160, due: 164);
         $check!(gnomon_light_plan, 112, size: 0, light_size: 4, lights: 8, light_room: 16, light_count: 24, status: 32, invalid_light: 36, pool_width: 40, pool_height: 44, texels: 48, due_texels: 56, pages: 64, milliseconds: 72, due_milliseconds: 80, error: 88, mapped: 96, due: 100, repacked: 104, reserved: 108);
+        $check!(gnomon_light_clusters, 88, size: 0, tile_pixels: 4, depth_slices: 8, status: 12, begin: 16, lights: 24, begin_room: 32, light_room: 40, columns: 48, rows: 52, slices: 56, orthographic: 60, depth_scale: 64, depth_offset: 72, light_count: 80);
     };
 }
