@@ -185,8 +185,9 @@ export class GnomonCSM extends CSM {
     this.plan = null;
     for (const { shadow } of this.lights) {
       shadow.camera = new OrthographicCamera();
-      // The matrices are set by update().
+      // The matrices are set by update(). three computes the projection again when it makes the texture.
       shadow.updateMatrices = () => {};
+      shadow.camera.updateProjectionMatrix = () => {};
     }
   }
 

@@ -121,3 +121,13 @@ test('front faces have a bias, and the back faces that three draws have none', (
   const { bias, normalBias } = biasOf(map, { frontFaces: true, radius: 2 });
   assert.ok(Math.abs(bias + 0.0005) < 1e-12 && Math.abs(normalBias - 0.25) < 1e-12);
 });
+
+test('the matrix of a CSM map holds when three makes its texture', () => {
+  const csm = new GnomonCSM(gnomon, { parent: scene(), camera: camera(), cascades: 2, maxFar: 250, shadowMapSize: 512, lightDirection: new THREE.Vector3(0.5, -1, -0.35) });
+  csm.update();
+  const [{ shadow }] = csm.lights;
+  const before = [...shadow.camera.projectionMatrix.elements];
+  shadow.camera.updateProjectionMatrix();
+  assert.deepEqual([...shadow.camera.projectionMatrix.elements], before);
+  csm.dispose();
+});
