@@ -57,5 +57,5 @@ export class GnomonCSM {
 
 /** The camera that three draws with; shadows end at `far`. */
 export function cameraOf(gnomon: Gnomon, camera: ThreeCamera, resolution: [number, number], far?: number): Required<Camera>;
-/** A map's bias in three's units. */
-export function biasOf(map: ShadowMap, faces: { frontFaces: boolean; radius?: number }): { bias: number; normalBias: number };
+/** A map's bias in three's units: depths of 0..1, and the factor of a polygon offset. */
+export function biasOf(map: ShadowMap, faces: { frontFaces: boolean; radius?: number; slopeTexels?: number }): { bias: number; slope: number };

@@ -40,7 +40,9 @@ export class ShadowBounds {
       // What three draws into its maps: the back faces of one-sided materials, unless they say otherwise.
       for (const { side, shadowSide } of [mesh.material].flat()) {
         const drawn = shadowSide ?? (side === FrontSide ? BackSide : side === BackSide ? FrontSide : side);
-        this.frontFaces ||= drawn !== BackSide;
+        if (drawn === BackSide) continue;
+        this.frontFaces = true;
+        drawWithSlope(mesh);
       }
     });
     this.dispose();
@@ -71,15 +73,36 @@ const clipSpaceOf = ({ coordinateSystem, reversedDepth }) =>
   ({ zeroToOne: coordinateSystem === WebGPUCoordinateSystem || reversedDepth === true, reversedZ: reversedDepth === true });
 
 /**
- * A map's bias in three's units. `bias` is in depths of 0..1, three adds it to the look-up's. `normalBias` is in world units.
- * three draws the back faces of one-sided materials into its maps, and these need none. Where front faces are drawn
- * (`frontFaces`), a look-up reads `radius` texels beside its own: it is lifted off its surface as far as the surface may
- * rise that far away. three has no bias by slope.
+ * A map's bias in three's units. `bias` is in depths of 0..1, three adds it to the look-up's. `slope` is the factor of a
+ * polygon offset, with which casters are drawn. three draws the back faces of one-sided materials into its maps, and these need
+ * no bias. Where front faces are drawn (`frontFaces`), a look-up reads `radius` texels beside its own.
  */
-export function biasOf(map, { frontFaces, radius = 1 }) {
-  if (!frontFaces) return { bias: 0, normalBias: 0 };
-  const texel = Math.max(map.texelWorld[0], map.texelWorld[1]);
-  return { bias: -map.biasConstant / map.depthRangeWorld, normalBias: texel * (0.5 + radius) };
+export function biasOf(map, { frontFaces, radius = 1, slopeTexels = 0.5 }) {
+  if (!frontFaces) return { bias: 0, slope: 0 };
+  return { bias: -map.biasConstant / map.depthRangeWorld, slope: slopeTexels + radius };
+}
+
+/**
+ * Draws a mesh into gnomon's maps with the offset by slope of their cameras. three's look-up has none: its offset along the
+ * normal is one length for a whole map, far too much for the small texels near the eye.
+ */
+function drawWithSlope(mesh) {
+  if (mesh.onBeforeShadow.drawsWithSlope) return;
+  const { onBeforeShadow, onAfterShadow } = mesh;
+  let before;
+  mesh.onBeforeShadow = function (renderer, object, camera, shadowCamera, geometry, material, group) {
+    onBeforeShadow.call(this, renderer, object, camera, shadowCamera, geometry, material, group);
+    const { polygonOffset, polygonOffsetFactor } = material;
+    before = { polygonOffset, polygonOffsetFactor };
+    const slope = shadowCamera.userData.gnomonSlope ?? 0;
+    if (slope > 0) Object.assign(material, { polygonOffset: true, polygonOffsetFactor: polygonOffsetFactor + slope });
+  };
+  mesh.onBeforeShadow.drawsWithSlope = true;
+  mesh.onAfterShadow = function (renderer, object, camera, shadowCamera, geometry, material, group) {
+    // three draws other lights with the same material.
+    Object.assign(material, before);
+    onAfterShadow.call(this, renderer, object, camera, shadowCamera, geometry, material, group);
+  };
 }
 
 /** Sets a camera of three to a map's matrix: the view is the world itself. */
@@ -104,7 +127,7 @@ function setEmpty(frustum) {
 
 /**
  * The shadow of a SunLight: `sun.shadow = new GnomonSunShadow(gnomon, scene)`. As three's own it has two maps in one texture,
- * ends at `camera.far`, and takes `mapSize` and `radius`. `bias` comes on top of gnomon's; gnomon sets `normalBias`.
+ * ends at `camera.far`, and takes `mapSize` and `radius`. `bias` and `normalBias` come on top of gnomon's.
  */
 export class GnomonSunShadow extends SunLightShadow {
   /** options: of the plan; resolution: pixels of the picture, [1920, 1080]; bounds: a ShadowBounds to share. */
@@ -154,12 +177,10 @@ export class GnomonSunShadow extends SunLightShadow {
     this._cascadeData[index].set(index === 0 ? -1e10 : map.depthBegin - map.overlap, map.depthEnd, map.depthEnd - band, 0);
     setCamera(this._cameras[index], map, this.camera);
     this._updateMatrix(this._cameras[index], this._matrices[index], this._frustums[index], this._viewports[index]);
-    // three has one bias for both maps. So each map's own goes into its matrix, and with it what a coarser map needs beyond
-    // the first one's offset along the normal.
-    const { bias, normalBias } = biasOf(map, { frontFaces: this.bounds.frontFaces, radius: this.radius });
-    if (index === 0) this.normalBias = normalBias;
-    const depth = bias - Math.max(0, normalBias - this.normalBias) / map.depthRangeWorld;
-    this._matrices[index].premultiply(shift.makeTranslation(0, 0, this.camera.reversedDepth ? -depth : depth));
+    // three has one bias for both maps: each map's own goes into its matrix.
+    const { bias, slope } = biasOf(map, { frontFaces: this.bounds.frontFaces, radius: this.radius, slopeTexels: this.plan.biasSlopeTexels });
+    this._cameras[index].userData.gnomonSlope = slope;
+    this._matrices[index].premultiply(shift.makeTranslation(0, 0, this.camera.reversedDepth ? -bias : bias));
   }
 
   dispose() {
@@ -227,9 +248,9 @@ export class GnomonCSM extends CSM {
     }
     setCamera(shadow.camera, map, this.camera);
     shadow._updateMatrix(shadow.camera, shadow.matrix, shadow._frustum);
-    const { bias, normalBias } = biasOf(map, { frontFaces: this.bounds.frontFaces, radius: shadow.radius });
+    const { bias, slope } = biasOf(map, { frontFaces: this.bounds.frontFaces, radius: shadow.radius, slopeTexels: this.plan.biasSlopeTexels });
     shadow.bias = bias;
-    shadow.normalBias = normalBias;
+    shadow.camera.userData.gnomonSlope = slope;
   }
 
   updateFrustums() {

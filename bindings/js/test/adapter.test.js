@@ -116,10 +116,32 @@ test('bounds follow the meshes when they are updated', () => {
 });
 
 test('front faces have a bias, and the back faces that three draws have none', () => {
-  const map = { biasConstant: 0.02, texelWorld: [0.1, 0.05], depthRangeWorld: 40 };
-  assert.deepEqual(biasOf(map, { frontFaces: false }), { bias: 0, normalBias: 0 });
-  const { bias, normalBias } = biasOf(map, { frontFaces: true, radius: 2 });
-  assert.ok(Math.abs(bias + 0.0005) < 1e-12 && Math.abs(normalBias - 0.25) < 1e-12);
+  const map = { biasConstant: 0.02, depthRangeWorld: 40 };
+  assert.deepEqual(biasOf(map, { frontFaces: false }), { bias: 0, slope: 0 });
+  const { bias, slope } = biasOf(map, { frontFaces: true, radius: 2 });
+  assert.ok(Math.abs(bias + 0.0005) < 1e-12 && slope === 2.5);
+});
+
+test('casters with front faces are drawn with an offset by slope into the maps of gnomon alone', () => {
+  const from = scene({ material: new THREE.MeshLambertMaterial({ side: THREE.DoubleSide }) });
+  const [mesh] = from.children;
+  let calls = 0;
+  mesh.onBeforeShadow = () => ++calls;
+  const sun = sunOf(from);
+  sun.shadow.bounds.update();
+  sun.shadow.updateMatrices(sun, camera());
+  const material = new THREE.MeshDepthMaterial();
+  const drawnInto = (shadowCamera) => {
+    mesh.onBeforeShadow(undefined, mesh, undefined, shadowCamera, mesh.geometry, material, null);
+    const drawn = [material.polygonOffset, material.polygonOffsetFactor];
+    mesh.onAfterShadow(undefined, mesh, undefined, shadowCamera, mesh.geometry, material, null);
+    return drawn;
+  };
+  assert.deepEqual(drawnInto(sun.shadow.getCamera(0)), [true, 1.5]);
+  assert.deepEqual([material.polygonOffset, material.polygonOffsetFactor], [false, 0]);
+  assert.deepEqual(drawnInto(new THREE.OrthographicCamera()), [false, 0]);
+  assert.equal(calls, 2);
+  sun.dispose();
 });
 
 test('the matrix of a CSM map holds when three makes its texture', () => {
