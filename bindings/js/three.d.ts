@@ -16,8 +16,8 @@ export class ShadowBounds {
 
 export interface GnomonShadowOptions {
   /**
-   * Of the plan. Default: fit stable with practical splits, lambda 0.7. `fit: 'warped_stable'` has far smaller texels, and a
-   * jump where the view leaves a map; `fit: 'tight'` has the smallest, and shimmering edges under camera motion.
+   * Of the plan. Default: fit warped_stable, objective storage. `fit: 'stable'` has a grid that never moves and larger texels, with
+   * practical splits of lambda 0.7; `fit: 'tight'` the smallest texels, which follow the camera.
    * Cascades, sizes and clip space come from three.
    */
   options?: PlanOptions;

@@ -4,10 +4,12 @@ import { BackSide, Box3, FrontSide, Matrix4, OrthographicCamera, Vector3, WebGPU
 import { CSM } from 'three/addons/csm/CSM.js';
 import { SunLightShadow } from 'three/addons/lights/SunLightShadow.js';
 
-// A grid that keeps its place under camera motion, as three's own. Its first map begins at the near plane, whatever is in view:
-// more weight on even splits keeps it from being spent on the metres before the eye.
+// Far smaller texels than a grid that never moves, and at their place as long as the view stays in a map.
+const DEFAULTS = { fit: 'warped_stable' };
+// The first map of a grid that never moves begins at the near plane, whatever is in view: more weight on even splits keeps it
+// from being spent on the metres before the eye.
 const STEADY = { fit: 'stable', splitScheme: 'practical', splitLambda: 0.7 };
-const withDefaults = (options) => ((options.fit ?? 'stable') === 'stable' ? { ...STEADY, ...options } : options);
+const withDefaults = (options) => ({ ...(options.fit === 'stable' ? STEADY : DEFAULTS), ...options });
 
 const box = /*@__PURE__*/ new Box3();
 const direction = /*@__PURE__*/ new Vector3();
