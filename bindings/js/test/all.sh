@@ -18,7 +18,7 @@ mkdir -p "$work/consumer"
 archive="$(cd "$here/.." && npm pack --silent --pack-destination "$work/consumer")"
 cd "$work/consumer"
 echo '{"name": "consumer", "private": true, "type": "module"}' >package.json
-npm install --silent --no-audit --no-fund "./$archive" typescript@5 three@0.187 @types/three puppeteer-core@24
+npm install --silent --no-audit --no-fund "./$archive" typescript@5 three@0.187 @types/three three-mesh-bvh@0.9 puppeteer-core@24
 export MODULE="$work/consumer/node_modules/gnomon/index.js" CASES="$cases" CONSUMER="$work/consumer"
 node --test "$here"/*.test.js
 # The types hold what the manual shows.
