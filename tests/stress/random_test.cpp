@@ -49,7 +49,7 @@ std::set<std::string> kinds_after(const char* light, Harm&& harm) {
   Verdict verdict;
   Report report(verdict);
   check_numbers(input, plan, report);
-  check_points(input, plan, report);
+  check_points(input, plan, seen_places(input), report);
   check_metric(input, plan, report);
   return kinds(verdict);
 }
