@@ -37,15 +37,8 @@ bool in_face(PageLevel level, vec3 position) {
   return held;
 }
 
-// The page that serves a point: of the last level that has a resident page there, or -1. Faces of a cube share a
-// little at their edges: the first that holds the point serves it.
-int page_serving(vec3 position, int level_count, uint table_mask) {
-  const int kNoFace = 1 << 20;
-  int face = kNoFace;
-  for (int i = 0; i < level_count; ++i) {
-    PageLevel level = page_level(i);
-    if (level.grid.z < face && in_face(level, position)) face = level.grid.z;
-  }
+// The page of the last level of a face that has a resident one there, or -1.
+int page_of_face(vec3 position, int face, int level_count, uint table_mask) {
   for (int i = level_count - 1; i >= 0; --i) {
     PageLevel level = page_level(i);
     if (level.grid.z != face) continue;
@@ -56,5 +49,22 @@ int page_serving(vec3 position, int level_count, uint table_mask) {
     if (page >= 0) return page;
   }
   return -1;
+}
+
+// The page that serves a point: of the last level that has a resident page there, or -1. Faces of a cube share a
+// little at their edges, where the map of one may end at what it serves: the first with a page there serves it.
+int page_serving(vec3 position, int level_count, uint table_mask) {
+  const int kNoFace = 1 << 20;
+  for (int tried = -1;;) {
+    int face = kNoFace;
+    for (int i = 0; i < level_count; ++i) {
+      PageLevel level = page_level(i);
+      if (level.grid.z > tried && level.grid.z < face && in_face(level, position)) face = level.grid.z;
+    }
+    if (face == kNoFace) return -1;
+    int page = page_of_face(position, face, level_count, table_mask);
+    if (page >= 0) return page;
+    tried = face;
+  }
 }
 #endif

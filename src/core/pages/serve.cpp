@@ -19,19 +19,8 @@ std::int32_t cell(double clip, double w, int texels, int page) noexcept {
   return static_cast<std::int32_t>(clamp_to(std::floor(at), 0.0, texels / page - 1));
 }
 
-}  // namespace
-
-int page_at(const PagePlan& plan, std::uint32_t level, std::int32_t column, std::int32_t row) noexcept {
-  return find_page(plan.table, plan.pages, level, column, row);
-}
-
-int page_serving(const PagePlan& plan, const glm::dvec3& point) noexcept {
-  // Of a cube's faces, which share a little at their edges, the first that holds the point.
-  int part = -1;
-  for (const ShadowMap& level : plan.levels) {
-    if ((part < 0 || level.cascade < part) && inside_select_planes(level, point, plan.origin_world))
-      part = level.cascade;
-  }
+/// Of the last level of a part that has one.
+int page_of_part(const PagePlan& plan, const glm::dvec3& point, int part) noexcept {
   for (std::size_t i = plan.levels.size(); i-- > 0;) {
     const ShadowMap& level = plan.levels[i];
     if (level.cascade != part) continue;
@@ -44,6 +33,29 @@ int page_serving(const PagePlan& plan, const glm::dvec3& point) noexcept {
     if (page >= 0) return page;
   }
   return -1;
+}
+
+}  // namespace
+
+int page_at(const PagePlan& plan, std::uint32_t level, std::int32_t column, std::int32_t row) noexcept {
+  return find_page(plan.table, plan.pages, level, column, row);
+}
+
+int page_serving(const PagePlan& plan, const glm::dvec3& point) noexcept {
+  // A cube's faces share a little at their edges, where the map of one may end at what it serves: the first
+  // with a page there.
+  for (int tried = -1;;) {
+    int part = -1;
+    for (const ShadowMap& level : plan.levels) {
+      if (level.cascade > tried && (part < 0 || level.cascade < part) &&
+          inside_select_planes(level, point, plan.origin_world))
+        part = level.cascade;
+    }
+    if (part < 0) return -1;
+    const int page = page_of_part(plan, point, part);
+    if (page >= 0) return page;
+    tried = part;
+  }
 }
 
 ShadowMap page_map(const PagePlan& plan, const Page& page) noexcept {

@@ -43,6 +43,12 @@ const std::vector<Kind>& all_kinds() {
       {"texel_larger_than_largest", "no texel of a map's receivers is larger than texel_world_max"},
       {"empty_box_counts", "a box with min above max takes no part in anything"},
       {"measure_wrong", "measure() is the metric at the points of its grid"},
+      {"pages_refused", "legal input is planned in pages"},
+      {"lights_refused", "legal input is planned as one of many lights"},
+      {"pool_exceeded", "pages and maps of many lights stay within their pool and their budget"},
+      {"pool_place_taken", "each page and each map of a light has a place of its own in the pool"},
+      {"point_without_page", "every visible point that the light can reach has a page"},
+      {"page_stale", "an empty pool draws all pages, and one that holds them none"},
       {"warp_worse_than_none", "a warp that may be dropped is not worse than none by the plan's objective"},
   };
   return kKinds;
@@ -51,6 +57,8 @@ const std::vector<Kind>& all_kinds() {
 void Counts::add(const Counts& other) {
   plans += other.plans;
   seen_plans += other.seen_plans;
+  pages += other.pages;
+  light_maps += other.light_maps;
   maps += other.maps;
   receivers += other.receivers;
   casters += other.casters;
@@ -223,6 +231,8 @@ Verdict check_case(const nlohmann::ordered_json& value) {
   check_metric(input, plan, report);
   check_warp(value, report);
   check_seen(value, input, seen, report);
+  check_pages(input, seen, report);
+  check_lights(input, seen, report);
   return verdict;
 }
 

@@ -27,8 +27,8 @@ struct Kind {
 
 /// What was looked at, so that nothing passes for lack of checks.
 struct Counts {
-  long long plans = 0, seen_plans = 0, maps = 0, receivers = 0, casters = 0, unmapped = 0, measured = 0,
-            warps = 0;
+  long long plans = 0, seen_plans = 0, pages = 0, light_maps = 0, maps = 0, receivers = 0, casters = 0,
+            unmapped = 0, measured = 0, warps = 0;
   void add(const Counts& other);
 };
 
@@ -65,6 +65,10 @@ void check_points(const Case& input, const ShadowPlan& plan, std::span<const glm
                   Report& report);
 /// The metric against its definition.
 void check_metric(const Case& input, const ShadowPlan& plan, Report& report);
+/// Pages for these visible points under every policy: each point served, within the pool, kept as they are.
+void check_pages(const Case& input, std::span<const glm::dvec3> seen, Report& report);
+/// The light and a sun in one pool: within the budget, and no two maps in one place.
+void check_lights(const Case& input, std::span<const glm::dvec3> points, Report& report);
 /// That a warp which may be dropped lowers the objective.
 void check_warp(const nlohmann::ordered_json& value, Report& report);
 

@@ -1,0 +1,140 @@
+// Do plans of pages and of many lights keep their budgets, serve every point, and share no place?
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "geometry.hpp"
+#include "gnomon/lights.hpp"
+#include "gnomon/pages.hpp"
+
+namespace gnomon::stress {
+namespace {
+
+constexpr int kPages = 512;
+
+std::string of(std::uint64_t count, const char* words, std::uint64_t all) {
+  return std::to_string(count) + words + std::to_string(all);
+}
+
+/// Pages within the pool, each in its level and with a slot of its own.
+void check_places(const PagePlan& plan, Report& report) {
+  if (plan.pages.size() > kPages)
+    report.add("pool_exceeded", static_cast<double>(plan.pages.size()),
+               of(plan.pages.size(), " pages in a pool of ", kPages));
+  std::vector<char> taken(kPages, 0);
+  for (const Page& page : plan.pages) {
+    const bool inside = page.level < plan.levels.size() && page.slot < kPages && page.column >= 0 &&
+                        page.row >= 0 &&
+                        (page.column + 1) * plan.page_texels <= plan.levels[page.level].width &&
+                        (page.row + 1) * plan.page_texels <= plan.levels[page.level].height;
+    if (!inside || taken[page.slot]++ != 0)
+      report.add("pool_place_taken", page.slot,
+                 inside ? "slot " + std::to_string(page.slot) + " holds two pages"
+                        : "a page lies beside its level or the pool");
+  }
+}
+
+void check_kept(const PagePlan& plan, Report& report) {
+  std::vector<PageSlot> slots(kPages);
+  std::vector<std::uint32_t> table(page_table_size(kPages));
+  std::vector<KeptPage> kept(plan.pages.size());
+  const KeptPages first = keep_pages(plan, {}, slots, table, kept);
+  if (!first.fits || first.drawn != plan.pages.size())
+    report.add("page_stale", 1.0, of(first.drawn, " pages drawn into an empty pool of ", plan.pages.size()));
+  const KeptPages again = keep_pages(plan, {}, slots, table, kept);
+  if (again.drawn != 0)
+    report.add("page_stale", static_cast<double>(again.drawn),
+               of(again.drawn, " pages drawn again, nothing has moved, of ", plan.pages.size()));
+  std::vector<char> taken(kPages, 0);
+  for (const KeptPage& page : kept) {
+    if (taken[page.slot]++ != 0)
+      report.add("pool_place_taken", page.slot, "two kept pages lie in slot " + std::to_string(page.slot));
+  }
+}
+
+bool overlap(const TexelRect& a, const TexelRect& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+}  // namespace
+
+void check_pages(const Case& input, std::span<const glm::dvec3> seen, Report& report) {
+  // Of a point whose pixel is smaller than this of its coordinates, rounding decides the page.
+  constexpr double kResolved = 1e-9;
+  const Camera& camera = input.camera;
+  const double slope =
+      std::min((camera.right - camera.left) / camera.width, (camera.top - camera.bottom) / camera.height);
+  std::vector<glm::dvec3> points;
+  for (const glm::dvec3& point : seen) {
+    const glm::dvec3 at = glm::abs(point);
+    const double pixel = slope * (camera.orthographic ? 1.0 : glm::length(point - camera.position));
+    if (pixel > kResolved * std::max({at.x, at.y, at.z})) points.push_back(point);
+  }
+  if (points.empty()) return;
+  for (const PagePolicy* policy : all_page_policies()) {
+    PageOptions options;
+    options.plan = input.options;
+    options.plan.filter = {};  // a kernel of world units, or wider than a page, is refused by name
+    options.policy = policy;
+    options.capacity = kPages;
+    std::vector<std::byte> memory(page_memory(kPages, points.size()));
+    const PagePlan plan = plan_pages({.camera = input.camera, .points_world = points}, input.light,
+                                     input.bounds(), options, memory);
+    if (plan.status == PlanStatus::invalid_input) {
+      report.add("pages_refused", 1.0, std::string(policy->name) + ": " + std::string(plan.invalid_field));
+      continue;
+    }
+    if (plan.status != PlanStatus::ok) continue;
+    report.counts().pages += static_cast<long long>(plan.pages.size());
+    check_places(plan, report);
+    check_kept(plan, report);
+    std::uint64_t served = 0;
+    for (const glm::dvec3& point : points) served += page_serving(plan, point) >= 0 ? 1 : 0;
+    if (served < plan.points || plan.points + plan.points_outside != points.size())
+      report.add("point_without_page", static_cast<double>(points.size() - served),
+                 std::string(policy->name) + ": " +
+                     of(served, " points have a page, said to be ", plan.points) +
+                     of(plan.points_outside, " more lie outside, of ", points.size()));
+  }
+}
+
+void check_lights(const Case& input, std::span<const glm::dvec3> points, Report& report) {
+  LightOptions options;
+  options.plan = input.options;
+  options.plan.filter = {};  // a kernel wider than a map is refused by name
+  options.pool_width = options.pool_height = 2048;
+  options.most_size = 512;
+  options.texel_budget = 1 << 20;
+  const std::array<LightRequest, 2> requests{{{input.light}, {DirectionalLight{{0.25, -1.0, 0.5}}}}};
+  std::vector<std::byte> memory(light_memory(requests.size(), points.size()));
+  const LightPlan plan = plan_lights({.camera = input.camera, .points_world = points}, requests,
+                                     input.bounds(), options, memory);
+  if (plan.status == PlanStatus::invalid_input) {
+    report.add("lights_refused", 1.0, std::string(plan.invalid_field));
+    return;
+  }
+  std::vector<TexelRect> places;
+  long long texels = 0;
+  for (const LightMaps& maps : plan.lights) {
+    for (int i = 0; i < maps.map_count; ++i) {
+      const TexelRect& place = maps.place[static_cast<std::size_t>(i)];
+      texels += static_cast<long long>(place.width) * place.height;
+      const bool inside = place.x >= 0 && place.y >= 0 && place.x + place.width <= options.pool_width &&
+                          place.y + place.height <= options.pool_height;
+      if (!inside || std::any_of(places.begin(), places.end(),
+                                 [&](const TexelRect& other) { return overlap(place, other); }))
+        report.add("pool_place_taken", place.x, "maps of lights overlap, or lie beside the pool");
+      places.push_back(place);
+    }
+  }
+  report.counts().light_maps += static_cast<long long>(places.size());
+  if (texels > options.texel_budget || texels != plan.texels)
+    report.add("pool_exceeded", static_cast<double>(texels),
+               std::to_string(texels) + " texels of lights, said to be " + std::to_string(plan.texels));
+}
+
+}  // namespace gnomon::stress
