@@ -115,12 +115,6 @@ Bytes read_regular_file(const fs::path& file, std::uint64_t max_bytes) {
   return bytes;
 }
 
-std::uint64_t hash_of(std::span<const std::uint8_t> bytes, std::uint64_t before) noexcept {
-  std::uint64_t hash = before;
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3ULL;
-  return hash;
-}
-
 SceneFolder::SceneFolder(const fs::path& folder, std::uint64_t file_bytes, std::uint64_t total_bytes)
     : file_bytes_(file_bytes), budget_(total_bytes) {
   if (!folder.empty()) folder_ = fs::canonical(folder);
@@ -147,7 +141,7 @@ Bytes SceneFolder::read(std::string_view uri) {
   }
   if (bytes.size() > budget_) throw std::runtime_error("all files together exceed the limit");
   budget_ -= bytes.size();
-  hash_ = hash_of(bytes, hash_);
+  hash_ = fnv_of(bytes, hash_);
   return bytes;
 }
 

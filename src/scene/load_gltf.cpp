@@ -168,7 +168,7 @@ Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& sc
     NodePlacer placer(document, tree, limits, scene);
     for (const int node : tree.shown) placer.place(node);
     read_materials(document, files, limits, scene);
-    if (files_hash != nullptr) *files_hash = hash_of(bytes, files.hash());
+    if (files_hash != nullptr) *files_hash = fnv_of(bytes, files.hash());
     return scene;
   } catch (const std::bad_alloc&) {
     throw SceneError(one_line(path_in_errors + ": file: needs more memory than there is"));

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/fnv.hpp"
+
 namespace gnomon::tool {
 namespace {
 
@@ -15,22 +17,13 @@ std::string point_text(const glm::dvec3& point) {
   return fmt::format("{},{},{}", point.x, point.y, point.z);
 }
 
-/// A number that changes with the content: FNV-1a.
-std::uint64_t fingerprint(const CameraPath& path) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  const auto add = [&hash](double value) {
-    for (const char c : fmt::format("{} ", value))
-      hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  };
-  for (const CameraKey& key : path.keys) {
-    for (int i = 0; i < 3; ++i) {
-      add(key.position[i]);
-      add(key.target[i]);
-    }
-  }
-  for (const double value : {path.closed ? 1.0 : 0.0, path.fov_y_radians, path.near_depth, path.far_depth})
-    add(value);
-  return hash;
+/// All of a path as text, to the last digit.
+std::string path_text(const CameraPath& path) {
+  std::string text =
+      fmt::format("{} {} {} {}", path.closed, path.fov_y_radians, path.near_depth, path.far_depth);
+  for (const CameraKey& key : path.keys)
+    text += " " + point_text(key.position) + " " + point_text(key.target);
+  return text;
 }
 
 void check_depths(const CameraWords& words, double near_depth, double far_depth) {
@@ -118,7 +111,7 @@ std::string camera_text(const CameraWords& words) {
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : " ") + part; };
   if (!words.path.empty())
     add(fmt::format("path {} {:016x}", std::filesystem::path(words.path).filename().string(),
-                    fingerprint(load_camera_path(words.path))));
+                    fnv_of(path_text(load_camera_path(words.path)))));
   if (words.eye) add("eye " + point_text(*words.eye) + " target " + point_text(*words.target));
   if (words.near_depth > 0.0) add(fmt::format("near {}", words.near_depth));
   if (words.far_depth > 0.0) add(fmt::format("far {}", words.far_depth));
