@@ -84,8 +84,8 @@ class DepthTracker {
   void update(const VisibleDepths& frame) noexcept;
   /// The depths to plan with; empty before the first surface.
   [[nodiscard]] const VisibleDepths& depths() const noexcept { return depths_; }
-  /// Forgets all frames: call it at a cut.
-  void clear() noexcept { *this = {}; }
+  /// Forgets all frames, and keeps both numbers above: call it at a cut.
+  void clear() noexcept;
 
  private:
   void move_edges(int first_seen, int last_seen) noexcept;

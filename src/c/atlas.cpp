@@ -5,7 +5,7 @@ namespace gnomon::c {
 namespace {
 
 // Corners of places then stay whole numbers of 32 bits.
-constexpr std::int32_t kMostSide = 1 << 26;
+constexpr std::int32_t kMaxSide = 1 << 26;
 
 bool holds(const gnomon_atlas& atlas, const gnomon_texel_rect& place) noexcept {
   return place.x >= 0 && place.y >= 0 && place.width >= 1 && place.height >= 1 &&
@@ -35,8 +35,8 @@ int32_t gnomon_pack_atlas(const gnomon_plan* plan, int32_t width, int32_t height
                           const char** invalid_field) {
   ShadowPlan p;
   if (const char* fault = to_plan(plan, p)) return refuse(fault, invalid_field);
-  if (width < 0 || width > kMostSide) return refuse("width", invalid_field);
-  if (height < 0 || height > kMostSide || (width == 0) != (height == 0))
+  if (width < 0 || width > kMaxSide) return refuse("width", invalid_field);
+  if (height < 0 || height > kMaxSide || (width == 0) != (height == 0))
     return refuse("height", invalid_field);
   if (atlas == nullptr) return refuse("atlas", invalid_field);
   *atlas = from_atlas(width == 0 ? pack_atlas(p) : pack_atlas(p, width, height));

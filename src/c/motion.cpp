@@ -11,7 +11,7 @@ struct gnomon_depth_tracker {
 
 namespace {
 
-constexpr int32_t kMostFrames = 65535;
+constexpr int32_t kMaxFrames = 65535;
 
 bool usable_direction(const double* direction) noexcept {
   return direction != nullptr && gnomon::usable(gnomon::c::to_vector(direction));
@@ -27,7 +27,7 @@ static_assert(kJitterFrames == GNOMON_JITTER_FRAMES);
 extern "C" {
 
 gnomon_depth_tracker* gnomon_depth_tracker_create(int32_t frames_per_bin, int32_t hold_frames) {
-  if (frames_per_bin < 1 || frames_per_bin > kMostFrames || hold_frames < 1 || hold_frames > kMostFrames)
+  if (frames_per_bin < 1 || frames_per_bin > kMaxFrames || hold_frames < 1 || hold_frames > kMaxFrames)
     return nullptr;
   auto* tracker = new_object<gnomon_depth_tracker>();
   if (tracker == nullptr) return nullptr;
@@ -39,11 +39,7 @@ void gnomon_depth_tracker_destroy(gnomon_depth_tracker* tracker) {
   std::free(tracker);
 }
 void gnomon_depth_tracker_clear(gnomon_depth_tracker* tracker) {
-  if (tracker == nullptr) return;
-  const DepthTracker before = tracker->tracker;
-  tracker->tracker.clear();
-  tracker->tracker.frames_per_bin = before.frames_per_bin;
-  tracker->tracker.hold_frames = before.hold_frames;
+  if (tracker != nullptr) tracker->tracker.clear();
 }
 int32_t gnomon_depth_tracker_update(gnomon_depth_tracker* tracker, const gnomon_visible_depths* frame,
                                     gnomon_visible_depths* depths, const char** invalid_field) {

@@ -94,6 +94,13 @@ void DepthTracker::move_edges(int first_visible, int last_visible) noexcept {
   creep(last_, last_visible, -1, frames_per_bin, last_wait_);
 }
 
+void DepthTracker::clear() noexcept {
+  DepthTracker none;
+  none.frames_per_bin = frames_per_bin;
+  none.hold_frames = hold_frames;
+  *this = none;
+}
+
 void DepthTracker::update(const VisibleDepths& frame) noexcept {
   if (frame.empty()) return;
   const auto pixels = [&](int bin) {

@@ -237,6 +237,18 @@ TEST(DepthTracker, an_empty_frame_changes_nothing) {
   EXPECT_EQ(tracker.depths().count, before.count);
 }
 
+TEST(DepthTracker, forgets_the_frames_at_a_cut_and_keeps_its_pace) {
+  DepthTracker tracker;
+  tracker.frames_per_bin = 7;
+  tracker.hold_frames = 3;
+  tracker.update(visible_between(1.0, 10.0));
+  ASSERT_FALSE(tracker.depths().empty());
+  tracker.clear();
+  EXPECT_TRUE(tracker.depths().empty());
+  EXPECT_EQ(tracker.frames_per_bin, 7);
+  EXPECT_EQ(tracker.hold_frames, 3);
+}
+
 TEST(DepthTracker, what_comes_into_view_counts_at_once) {
   DepthTracker tracker;
   tracker.update(visible_between(10.0, 20.0));
