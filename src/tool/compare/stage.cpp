@@ -61,8 +61,8 @@ const Stage::View* Stage::view(const Camera& camera) const noexcept {
 ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const {
   const View* const view = this->view(camera);
   gnomon::View seen = camera;
-  if (view != nullptr && entry.visible_points) seen.points_world = view->points;
-  if (view != nullptr && entry.shadow_edges) seen.points_world = view->edges;
+  if (view != nullptr && entry.points == PlanPoints::visible) seen.points_world = view->points;
+  if (view != nullptr && entry.points == PlanPoints::shadow_edges) seen.points_world = view->edges;
   if (view != nullptr && entry.visible_depths) seen.depths = &view->depths;
   // Once for each plan, as an engine has to: the time of a plan holds it.
   VisibleDepths coarse;
@@ -76,10 +76,11 @@ ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const {
 void Stage::see(int frame) {
   views_.clear();
   const bool looks = std::any_of(sweep_.entries.begin(), sweep_.entries.end(), [](const SweepEntry& entry) {
-    return entry.visible_depths || entry.visible_points || entry.shadow_edges || entry.by_pages();
+    return entry.visible_depths || entry.points != PlanPoints::none || entry.by_pages();
   });
-  const bool finds_edges = std::any_of(sweep_.entries.begin(), sweep_.entries.end(),
-                                       [](const SweepEntry& entry) { return entry.shadow_edges; });
+  const bool finds_edges =
+      std::any_of(sweep_.entries.begin(), sweep_.entries.end(),
+                  [](const SweepEntry& entry) { return entry.points == PlanPoints::shadow_edges; });
   if (looks) {
     go_to(frame, At::before);
     views_.push_back(view_through(camera_before(frame)));

@@ -65,9 +65,9 @@ void set_split(const TechniqueSplit& split, SweepEntry& entry) {
   entry.plan.split = split.options;
   entry.visible_depths = split.visible_depths;
   entry.coarse_depths = split.coarse_depths;
-  entry.shadow_edges = split.shadow_edges;
-  entry.visible_points =
-      split.visible_points || (entry.plan.warp.shape->serving != nullptr && !split.shadow_edges);
+  entry.points = split.points;
+  if (entry.points == PlanPoints::none && entry.plan.warp.shape->serving != nullptr)
+    entry.points = PlanPoints::visible;
 }
 
 void set_fit(Fit fit, SweepEntry& entry) {
@@ -138,8 +138,7 @@ bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
   const bool by_depth = entry.plan.split.partition == Partition::view_depth;
   const bool as_many = by_depth || entry.plan.split.partition == Partition::receiver_clusters;
   // What is visible bounds one map, too.
-  const bool follows_view =
-      entry.visible_depths || entry.coarse_depths || entry.visible_points || entry.shadow_edges;
+  const bool follows_view = entry.visible_depths || entry.coarse_depths || entry.points != PlanPoints::none;
   if (by_depth && t.cascades == 1 && t.split != first.split && !follows_view) return true;
   if (as_many && !by_depth && t.cascades == 1) return true;
   if (!as_many && t.cascades != first.cascades) return true;
@@ -177,11 +176,11 @@ std::vector<TechniqueSplit> splits_of(const SweepRequest& request) {
   std::vector<TechniqueSplit> splits = request.splits;
   for (TechniqueSplit& split : splits) {
     if (request.visible_depths && !split.visible_depths) split.name += ":visible_depths";
-    if (request.visible_points && !split.visible_points) split.name += ":visible_points";
+    if (request.visible_points && split.points == PlanPoints::none) {
+      split.name += ":visible_points";
+      split.points = PlanPoints::visible;
+    }
     split.visible_depths = split.visible_depths || request.visible_depths;
-    split.visible_points = split.visible_points || request.visible_points;
-    if (split.visible_points && split.shadow_edges)
-      throw std::runtime_error("--splits " + split.name + ": a plan takes visible points from one source");
     if (split.visible_depths && split.coarse_depths)
       throw std::runtime_error("--splits " + split.name + ": a plan takes visible depths from one source");
   }

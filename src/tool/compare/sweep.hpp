@@ -45,10 +45,10 @@ struct SweepEntry {
   render::MapPasses map_passes = render::MapPasses::automatic;  ///< changes time alone: no part of the name
   bool linear_depth = false;                                    ///< the same depths, even along the light
   int irregular_samples = 0;                                    ///< of a pixel, by lists; 0: by a filter
-  bool visible_depths = false, visible_points = false;          ///< of the frame, given to the plan
-  bool coarse_depths = false;  ///< of a coarse pass on the CPU, given to the plan
-  bool shadow_edges = false;   ///< of the frame before, given to the plan as visible points
-  PageOptions pages;           ///< where by_pages()
+  bool visible_depths = false;                                  ///< of the frame, given to the plan
+  bool coarse_depths = false;            ///< of a coarse pass on the CPU, given to the plan
+  PlanPoints points = PlanPoints::none;  ///< given to the plan
+  PageOptions pages;                     ///< where by_pages()
 
   /// Drawn by lists of pixels.
   [[nodiscard]] bool irregular() const noexcept { return irregular_samples > 0; }

@@ -131,10 +131,10 @@ TechniqueSplit technique_split(const std::string& option, const std::string& wor
   split.coarse_depths = take_suffix(name, ":coarse_depths");
   if (split.visible_depths && split.coarse_depths)
     refuse(option, word, "a plan takes visible depths from one source");
-  split.visible_points = take_suffix(name, ":visible_points");
-  split.shadow_edges = take_suffix(name, ":shadow_edges");
-  if (split.visible_points && split.shadow_edges)
-    refuse(option, word, "a plan takes visible points from one source");
+  if (take_suffix(name, ":visible_points"))
+    split.points = PlanPoints::visible;
+  else if (take_suffix(name, ":shadow_edges"))
+    split.points = PlanPoints::shadow_edges;
   const std::optional<int> slices = take_slices(option, word, name);
   const bool is_partition = partition_from_name(name, split.options.partition);
   if (slices && (!is_partition || split.options.partition != Partition::frustum_faces))

@@ -2,6 +2,7 @@
 // policies?
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,13 +43,20 @@ struct TechniqueWarp {
   std::optional<Objective> objective = {};  ///< that the word names
 };
 
+/// Which points of visible surfaces a plan is given.
+enum class PlanPoints : std::uint8_t {
+  none,
+  visible,       ///< all that the frame shows
+  shadow_edges,  ///< along the shadow of the frame before
+};
+
 /// How receivers are divided among maps, and what of the frame the plan is given.
 struct TechniqueSplit {
   std::string name = "auto";  ///< as in rows
   SplitOptions options = {};
-  bool visible_depths = false, visible_points = false;  ///< of the frame
-  bool coarse_depths = false;                           ///< of a coarse pass on the CPU
-  bool shadow_edges = false;                            ///< of the frame before, as points
+  bool visible_depths = false;  ///< of the frame
+  bool coarse_depths = false;   ///< of a coarse pass on the CPU
+  PlanPoints points = PlanPoints::none;
 };
 
 /// A word read, which `option` took. Each throws std::runtime_error, with `option` in front, for a word that

@@ -58,7 +58,7 @@ Settings settings_of(const report::Technique& technique, LightKind light) {
   SweepEntry entry = sweep_entry(technique);
   if (entry.irregular())
     throw std::runtime_error(technique.filter + ": lists of pixels are drawn by gnomon compare alone");
-  if (entry.visible_points || entry.shadow_edges)
+  if (entry.points != PlanPoints::none)
     throw std::runtime_error(technique.split + ": visible points are planned for by gnomon compare alone");
   if (entry.plan.warp.objective != PlanOptions().warp.objective)
     throw std::runtime_error(technique.warp + ": another objective is planned for by gnomon compare alone");
