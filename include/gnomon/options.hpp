@@ -149,9 +149,9 @@ enum class Objective : std::uint8_t {
   /// misclassified pixels along shadows' edges grows with it. The points are View::points_world, and
   /// automatic splits are then where their error is least. Without points, each ray of a fan gives one, in
   /// one of the first receiver boxes that it meets. Automatic splits are then logarithmic from the nearest of
-  /// them on, and take the place of optimal ones. Air in front of all boxes never counts. A warp of
-  /// parallel light is no stronger than single precision leaves it its depths, from the corners of the
-  /// farthest caster on. Maps with fewer than six points go by `storage`. So do Fit::stable, views that share
+  /// them on, and take the place of optimal ones. Air in front of all boxes never counts. Searched warps of
+  /// parallel light are bounded: depths of the smallest texel must survive in single precision at the
+  /// farthest caster. Maps with fewer than six points go by `storage`. So do Fit::stable, views that share
   /// maps, and partitions of parallel light other than view_depth.
   picture,
 };

@@ -36,9 +36,9 @@ struct ExpectedError {
 /// where a span has another size than the image. Pure, allocates nothing.
 [[nodiscard]] ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow) noexcept;
 
-/// Points of the surfaces along the shadow's edges: pixels of whose four neighbours one on the same surface
-/// has another shadow. A plan for them (View::points_world) has its texels where they show. As many as `out`
-/// has room for, evenly over the picture; returns how many.
+/// Points of the surfaces along the shadow's edges. A pixel is on an edge where one of its four neighbours
+/// shows the same surface with another shadow. A plan for them (View::points_world) has its texels where they
+/// show. As many as `out` has room for, evenly over the picture; returns how many.
 [[nodiscard]] std::size_t shadow_edge_points(const ShadowPicture& shadow, std::span<glm::dvec3> out) noexcept;
 
 }  // namespace gnomon

@@ -81,7 +81,10 @@ void camera_part(Document& document, const Stage* stage, Display& display) {
     state.eye.reset();
     state.fov_y_deg = 0.0;
   }
-  if (!state.path.empty() && ImGui::Button("the scene's own path")) state.path.clear();
+  if (!state.path.empty() && ImGui::Button("the scene's own path")) {
+    state.path.clear();
+    state.near_depth = state.far_depth = 0.0;  // may be those of the path's file
+  }
   bool frozen = state.frozen.has_value();
   if (ImGui::Checkbox("freeze the plan's camera", &frozen)) toggle_freeze(state, stage);
   tooltip("F2: the maps stay as they are for this camera while you fly away");
