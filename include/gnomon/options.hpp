@@ -485,8 +485,9 @@ struct CadenceOptions {
 /// Options of make_plan. Every default suits most scenes.
 struct PlanOptions {
   /// Maps along the view, 1..kMaxMaps. More maps lower the error far away and cost one pass each. Directional
-  /// lights only. A spot light has one map. A point light, or a spot light of 85 degrees and more half angle,
-  /// has up to six, the faces of a cube.
+  /// lights only. A spot light has one map. A point light, or a wide spot light, has up to six, the faces of
+  /// a cube. A spot is wide from 66 degrees of half angle on. There five faces need fewer texels than one map
+  /// for the same error. With the shape paraboloid it is wide from 85 degrees on.
   int cascades = 4;
   /// How many texels each map gets.
   ResolutionOptions resolution;

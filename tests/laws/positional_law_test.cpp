@@ -26,6 +26,9 @@ constexpr double kNearRoom = 1.1;
 // A ray that only grazes a box, a cone or a range by this share may count either way.
 constexpr double kGraze = 1e-9;
 
+/// Half angle from which a spot has the faces of a cube: its tangent is the root of five.
+const double kWidestSingle = std::atan(std::sqrt(5.0));
+
 struct LightCase {
   Case scene;
   Light light;
@@ -34,7 +37,7 @@ struct LightCase {
   bool spot = false;
   /// Smallest cosine between a ray and the axis of a map that holds it.
   [[nodiscard]] double least_cosine() const {
-    if (spot && outer < 85.0 * std::numbers::pi / 180.0) return std::cos(outer);
+    if (spot && outer < kWidestSingle) return std::cos(outer);
     // In the corners; a wider one leaves the faces' overlap.
     return scene.options.split.partition == Partition::tetrahedron ? 0.33 : 0.57;
   }
@@ -106,7 +109,7 @@ LightCase draw_light_case() {
   c.spot = chance(0.6);
   if (c.spot) {
     constexpr double kDegree = std::numbers::pi / 180.0;
-    c.outer = (chance(0.7) ? between(0.5, 84.9) : between(85.0, 179.9)) * kDegree;
+    c.outer = (chance(0.7) ? between(0.5, 65.9) : between(65.9, 179.9)) * kDegree;
     c.light = SpotLight{c.position, c.direction, c.outer, c.range};
   } else {
     c.light = PointLight{c.position, c.range};
@@ -130,7 +133,7 @@ bool lit(const LightCase& c, const glm::dvec3& p) {
   if (!(r < c.range * (1.0 - kGraze))) return false;
   const double cosine = c.spot ? glm::dot(q, c.direction) / (r * glm::length(c.direction)) : 1.0;
   if (c.spot && !(std::acos(std::clamp(cosine, -1.0, 1.0)) < c.outer * (1.0 - 1e-7))) return false;
-  const bool single = c.spot && c.outer < 85.0 * std::numbers::pi / 180.0;
+  const bool single = c.spot && c.outer < kWidestSingle;
   return r * (single ? cosine : c.least_cosine()) > c.too_near();
 }
 
@@ -227,7 +230,7 @@ TEST(PositionalLaw, a_lit_receiver_in_view_is_held_by_the_single_map_of_its_spot
   std::uint64_t held = 0;
   for_all(1500, [&] {
     LightCase c = draw_light_case();
-    if (!c.spot || c.outer > 1.48) return;
+    if (!c.spot || c.outer > kWidestSingle) return;
     RC_LOG() << c;
     const ShadowPlan plan = c.plan();
     if (plan.status == PlanStatus::no_caster) return;

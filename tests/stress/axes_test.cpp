@@ -106,8 +106,8 @@ TEST(Axes, fall_back_where_they_must) {
     return used_by(input, input.plan());
   };
   EXPECT_EQ(used_at("cone", 0.0), "refused: light.outer_radians");
-  EXPECT_EQ(used_at("cone", 169.0), "optimal");
-  EXPECT_EQ(used_at("cone", 171.0).substr(0, 4), "cube");
+  EXPECT_EQ(used_at("cone", 131.0), "optimal");
+  EXPECT_EQ(used_at("cone", 133.0).substr(0, 4), "cube");
   EXPECT_EQ(used_at("cone", 360.0), "refused: light.outer_radians");
   EXPECT_EQ(used_at("map_size", 3.0), "refused: options.resolution.max_size");
   EXPECT_EQ(used_at("depth_ratio", 1e9), "optimal");

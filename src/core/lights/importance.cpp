@@ -16,12 +16,11 @@
 #include "gnomon/measure.hpp"
 #include "lanes/elementary.hpp"
 #include "map/size.hpp"
+#include "plan/local.hpp"
 
 namespace gnomon {
 namespace {
 
-// As make_plan divides local lights, plan/local.cpp: cones up to 85 degrees have one map.
-constexpr double kWidestSingle = 1.4835298641951802;
 constexpr double kNarrowest = 1e-6;
 // A cube's faces overlap; with room for rounding, so that none is missed.
 constexpr double kFaceSlope = 1.0 + 2.0 / 512.0;
@@ -51,7 +50,7 @@ struct LocalLight {
   }
 };
 
-LocalLight local_light(const Light& light, const glm::dvec3& eye) noexcept {
+LocalLight local_light(const Light& light, const PlanOptions& options, const glm::dvec3& eye) noexcept {
   LocalLight local;
   if (const auto* point = std::get_if<PointLight>(&light)) {
     local.apex = point->position - eye;
@@ -65,7 +64,7 @@ LocalLight local_light(const Light& light, const glm::dvec3& eye) noexcept {
   local.has_cone = true;
   local.axis = safe_normalize(spot->direction, {0.0, -1.0, 0.0});
   local.cosine = elementary::cos(spot->outer_radians);
-  local.cube = !(spot->outer_radians < kWidestSingle);
+  local.cube = shown_by_faces(*spot, options);
   if (local.cube) {
     local.base = fixed_frame(local.axis);
   } else {
@@ -375,7 +374,7 @@ LightView light_view(const Camera& camera, const SceneBounds& bounds, const Plan
 
 LightImportance importance_of(const LightView& view, const Light& light) noexcept {
   if (std::holds_alternative<DirectionalLight>(light)) return sun_importance(view, light);
-  const LocalLight local = local_light(light, view.camera.position);
+  const LocalLight local = local_light(light, view.options, view.camera.position);
   LightImportance out;
   // As make_plan: a range that is rounding of the position lights no pixel.
   constexpr double kLeastRange = 1e-12;

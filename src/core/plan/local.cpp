@@ -21,8 +21,11 @@
 namespace gnomon {
 namespace {
 
-// Half angle up to which one perspective map serves a spot, 85 degrees: at 90 its image plane is at infinity.
-constexpr double kWidestSingle = 1.4835298641951802;
+// Half angle from which the five faces that a cone reaches need fewer texels than one map, about 66 degrees.
+// One map is tan(angle) times as wide as a face: the tangent is the root of five.
+constexpr double kWidestSingle = 1.1502619915109316;
+// The same for texels that are even in angle, 85 degrees: at 90 the image plane is at infinity.
+constexpr double kWidestRound = 1.4835298641951802;
 // Half angle below which a cone leaves the face behind it dark: 180 degrees less the face's corner, at slope
 // sqrt(2), less the faces' overlap.
 constexpr double kLeavesBackDark = 2.184;
@@ -344,7 +347,7 @@ void plan_frusta(const LocalScene& scene, const Light& light, const Resolved& re
     plan_tetrahedron(scene, plan);
   } else if (spot == nullptr) {
     plan_cube(scene, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, nullptr, plan);
-  } else if (spot->outer_radians < kWidestSingle) {
+  } else if (!shown_by_faces(*spot, scene.c.options)) {
     plan_cone(scene, plan.light_direction, spot->outer_radians, plan);
   } else {
     const Cone cone{plan.light_direction, spot->outer_radians};
@@ -353,6 +356,12 @@ void plan_frusta(const LocalScene& scene, const Light& light, const Resolved& re
 }
 
 }  // namespace
+
+bool shown_by_faces(const SpotLight& spot, const PlanOptions& options) noexcept {
+  const Shape* shape = options.warp.shape;
+  const bool round = shape != nullptr && shape->round != nullptr;
+  return !(spot.outer_radians < (round ? kWidestRound : kWidestSingle));
+}
 
 void plan_local(const PlanContext& c, const Light& light, const Resolved& resolved, PlanHistory* history,
                 ShadowPlan& plan) noexcept {

@@ -299,7 +299,7 @@ TEST(BentMaps, a_spot_light_has_its_shadows) {
 }
 
 TEST(BentMaps, a_wide_spot_light_has_sharper_shadows_on_a_paraboloid) {
-  const SpotLight wide{{3.0, 6.0, 2.0}, {0.0, -1.0, 0.0}, 1.4, 60.0};
+  const SpotLight wide{{3.0, 6.0, 2.0}, {0.0, -1.0, 0.0}, 1.15, 60.0};
   const double round = wrong_under(wide, shapes::paraboloid, 0.005);
   EXPECT_LT(round, 0.02);
   EXPECT_LT(round, 0.8 * wrong_under(wide, shapes::linear, 0.005));
