@@ -1,0 +1,324 @@
+// The capture format: which keys there are, and what they become.
+#include "judge/capture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/bounded_file.hpp"
+#include "json_fields.hpp"
+#include "json_text.hpp"
+
+namespace gnomon::judge {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kFormat = "gnomon-capture/1";
+constexpr std::size_t kMostFrames = 4096, kMostLights = 64;
+constexpr std::size_t kMostThings = 4'000'000;
+constexpr int kLargestMap = 1 << 16;
+
+/// Keys of the file, and those of a frame, which stand beside them for all frames.
+constexpr std::array<std::string_view, 8> kFileKeys{"format",            "name",     "engine", "clip_space",
+                                                    "camera_clip_space", "matrices", "atlas",  "frames"};
+constexpr std::array<std::string_view, 8> kFrameKeys{"camera",    "lights",  "maps",   "selection",
+                                                     "receivers", "casters", "points", "bias"};
+constexpr std::array<std::string_view, 3> kSceneKeys{"receivers", "casters", "points"};
+
+std::string place(const std::string& path, std::size_t index) {
+  return path + "[" + std::to_string(index) + "]";
+}
+
+bool flag(const Fields& fields, std::string_view key, std::string_view yes, std::string_view no,
+          bool otherwise) {
+  if (!fields.has(key)) return otherwise;
+  const std::string word = fields.text(key);
+  if (word != yes && word != no)
+    fields.refuse(key, "is \"" + one_line(word, 40) + "\", not one of " + std::string(yes) + ", " +
+                           std::string(no));
+  return word == yes;
+}
+
+ClipSpace clip_space_from(const Fields& file, std::string_view key, const ClipSpace& otherwise) {
+  if (!file.has(key)) return otherwise;
+  const Fields fields(file.at(key), std::string(key),
+                      {"ndc_depth", "reversed_z", "y_down", "handedness", "first_row"});
+  ClipSpace space;
+  space.ndc_depth = flag(fields, "ndc_depth", "zero_to_one", "minus_one_to_one", false)
+                        ? NdcDepth::zero_to_one
+                        : NdcDepth::minus_one_to_one;
+  fields.read("reversed_z", space.reversed_z);
+  fields.read("y_down", space.y_down);
+  space.handedness =
+      flag(fields, "handedness", "left", "right", false) ? Handedness::left : Handedness::right;
+  space.first_row = flag(fields, "first_row", "y_plus_one", "y_minus_one", false) ? FirstRow::y_plus_one
+                                                                                  : FirstRow::y_minus_one;
+  return space;
+}
+
+/// What all frames of a file share.
+struct Convention {
+  ClipSpace maps, camera;
+  bool rows_first = false;  // matrices are written row by row
+};
+
+glm::dmat4 matrix_from(const Fields& fields, std::string_view key, const Convention& convention) {
+  const std::vector<double> numbers = fields.numbers(key);
+  if (numbers.size() != 16) fields.refuse(key, "needs 16 numbers");
+  glm::dmat4 m{};
+  for (int i = 0; i < 16; ++i) {
+    const double value = numbers[static_cast<std::size_t>(i)];
+    constexpr double kLargest = 1e30;
+    if (!(std::abs(value) <= kLargest)) fields.refuse(key, "has an entry beyond 1e30");
+    (convention.rows_first ? m[i % 4][i / 4] : m[i / 4][i % 4]) = value;
+  }
+  return m;
+}
+
+int size_from(const Fields& fields, std::string_view key) {
+  const int size = fields.integer(key);
+  if (size < 1 || size > kLargestMap) fields.refuse(key, "must lie in 1..65536");
+  return size;
+}
+
+Camera camera_of(const json& value, const std::string& path, const Convention& convention) {
+  const Fields fields(value, path, {"view_from_world", "clip_from_view", "width", "height"});
+  const CameraFrom from = camera_from(matrix_from(fields, "view_from_world", convention),
+                                      matrix_from(fields, "clip_from_view", convention), convention.camera,
+                                      size_from(fields, "width"), size_from(fields, "height"));
+  if (from.error != CameraError::none) throw CaseError(path + ": " + std::string(to_string(from.error)));
+  return from.camera;
+}
+
+Light light_of(const json& value, const std::string& path) {
+  const Fields fields(value, path, {"type", "direction", "position", "outer_deg", "range"});
+  const std::string type = fields.text("type");
+  const auto direction = [&] {
+    const glm::dvec3 d = fields.vector("direction");
+    if (!(glm::dot(d, d) > 0.0)) fields.refuse("direction", "must not be zero");
+    return d;
+  };
+  if (type == "directional") return DirectionalLight{direction()};
+  if (type == "point") return PointLight{fields.vector("position"), fields.positive("range")};
+  if (type != "spot")
+    fields.refuse("type", "is \"" + one_line(type, 40) + "\", not one of directional, spot, point");
+  const double degrees = fields.number("outer_deg");
+  if (!(degrees > 0.0 && degrees < 180.0)) fields.refuse("outer_deg", "must be between 0 and 180");
+  return SpotLight{fields.vector("position"), direction(), degrees * (std::numbers::pi / 180.0),
+                   fields.positive("range")};
+}
+
+CapturedBias bias_of(const json& value, const std::string& path) {
+  const Fields fields(value, path,
+                      {"depth", "slope_factor", "world", "texels", "slope_texels", "normal_world",
+                       "normal_texels", "follows_plane"});
+  CapturedBias bias;
+  fields.read("depth", bias.depth);
+  fields.read("slope_factor", bias.slope_factor);
+  fields.read("world", bias.world);
+  fields.read("texels", bias.texels);
+  fields.read("slope_texels", bias.slope_texels);
+  fields.read("normal_world", bias.normal_world);
+  fields.read("normal_texels", bias.normal_texels);
+  fields.read("follows_plane", bias.follows_plane);
+  return bias;
+}
+
+void read_depths(const Fields& fields, CapturedMap& map) {
+  if (!fields.has("depths")) return;
+  const std::vector<double> depths = fields.numbers("depths");
+  if (depths.size() != 2 || !(depths[0] < depths[1]))
+    fields.refuse("depths", "needs two view depths, the nearer first");
+  map.begin = depths[0];
+  map.end = depths[1];
+}
+
+TexelRect rectangle_of(const Fields& fields, std::string_view key) {
+  const std::vector<double> n = fields.numbers(key);
+  const bool whole = n.size() == 4 && std::all_of(n.begin(), n.end(), [](double v) {
+    return v == std::floor(v) && v >= 0.0 && v <= kLargestMap;
+  });
+  if (!whole || n[2] < 1.0 || n[3] < 1.0)
+    fields.refuse(key, "needs x, y, width, height: whole numbers of texels");
+  return {static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]), static_cast<int>(n[3])};
+}
+
+CapturedMap map_of(const json& value, const std::string& path, const Convention& convention,
+                   const CapturedBias& bias) {
+  const Fields fields(value, path,
+                      {"clip_from_world", "light", "width", "height", "atlas", "depths", "overlap",
+                       "depth_bits", "filter_texels", "clamps_depth", "stores", "bias"});
+  CapturedMap map;
+  map.path = path;
+  map.clip_from_world = matrix_from(fields, "clip_from_world", convention);
+  if (!(std::abs(glm::determinant(map.clip_from_world)) > 0.0))
+    fields.refuse("clip_from_world", "is singular");
+  fields.read("light", map.light);
+  map.width = size_from(fields, "width");
+  map.height = size_from(fields, "height");
+  if (fields.has("atlas")) map.atlas = rectangle_of(fields, "atlas");
+  read_depths(fields, map);
+  fields.read("overlap", map.overlap);
+  if (!(map.overlap >= 0.0)) fields.refuse("overlap", "must not be below 0");
+  fields.read("depth_bits", map.depth_bits);
+  constexpr std::array kBits{0, 16, 24, 32};
+  if (std::find(kBits.begin(), kBits.end(), map.depth_bits) == kBits.end())
+    fields.refuse("depth_bits", "must be 16, 24 or 32, or 0 for single precision");
+  fields.read("filter_texels", map.filter_texels);
+  if (!(map.filter_texels >= 0.0 && map.filter_texels <= kLargestMap))
+    fields.refuse("filter_texels", "must lie in 0..65536");
+  fields.read("clamps_depth", map.clamps_depth);
+  map.stores_back = flag(fields, "stores", "back", "front", false);
+  map.bias = fields.has("bias") ? bias_of(fields.at("bias"), path + ".bias") : bias;
+  return map;
+}
+
+void read_points(const Fields& fields, CapturedScene& scene) {
+  const json& list = fields.at("points");
+  const std::string path = fields.path_of("points");
+  if (!list.is_array()) fields.refuse("points", "needs a list of points");
+  constexpr std::size_t kMostPoints = 100000;
+  if (list.size() > kMostPoints) fields.refuse("points", "holds more than 100000");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const json& point = list[i];
+    const bool with_normal = point.is_array() && point.size() == 6;
+    if (!with_normal && !(point.is_array() && point.size() == 3))
+      throw CaseError(place(path, i) + ": needs three numbers, or six with the normal");
+    if (i > 0 && with_normal == scene.normals.empty())
+      throw CaseError(place(path, i) + ": has " + (with_normal ? "a" : "no") +
+                      " normal, unlike the points before");
+    std::array<double, 6> number{};
+    for (std::size_t k = 0; k < point.size(); ++k) {
+      if (!point[k].is_number() || !std::isfinite(point[k].get<double>()))
+        throw CaseError(place(place(path, i), k) + ": needs a finite number");
+      number[k] = point[k].get<double>();
+    }
+    scene.points.emplace_back(number[0], number[1], number[2]);
+    if (!with_normal) continue;
+    const glm::dvec3 normal{number[3], number[4], number[5]};
+    const double length = glm::length(normal);
+    if (!(length > 0.0)) throw CaseError(place(path, i) + ": has a normal without length");
+    scene.normals.push_back(normal / length);
+  }
+}
+
+CapturedScene scene_of(const Fields& fields) {
+  CapturedScene scene;
+  if (fields.has("receivers")) scene.receivers = fields.boxes("receivers");
+  if (fields.has("casters")) scene.casters = fields.boxes("casters");
+  if (fields.has("points")) read_points(fields, scene);
+  return scene;
+}
+
+void read_maps(const Fields& fields, const Convention& convention, CapturedFrame& frame) {
+  const json& list = fields.at("maps");
+  const std::string path = fields.path_of("maps");
+  if (!list.is_array() || list.empty()) fields.refuse("maps", "needs a list of maps");
+  const CapturedBias bias =
+      fields.has("bias") ? bias_of(fields.at("bias"), fields.path_of("bias")) : CapturedBias{};
+  std::vector<std::size_t> of_light(frame.lights.size(), 0);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const CapturedMap map = map_of(list[i], place(path, i), convention, bias);
+    if (map.light < 0 || static_cast<std::size_t>(map.light) >= frame.lights.size())
+      throw CaseError(map.path + ".light: there is no light " + std::to_string(map.light));
+    if (++of_light[static_cast<std::size_t>(map.light)] > kMostMapsOfLight)
+      throw CaseError(map.path + ".light: has more than " + std::to_string(kMostMapsOfLight) + " maps");
+    frame.maps.push_back(map);
+  }
+}
+
+CapturedFrame frame_of(const json& value, const std::string& path, const Convention& convention) {
+  const Fields fields(value, path, kFrameKeys);
+  CapturedFrame frame;
+  frame.camera = camera_of(fields.at("camera"), fields.path_of("camera"), convention);
+  const json& lights = fields.at("lights");
+  if (!lights.is_array() || lights.empty() || lights.size() > kMostLights)
+    fields.refuse("lights", "needs a list of 1 to 64 lights");
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    frame.lights.push_back(light_of(lights[i], place(fields.path_of("lights"), i)));
+  read_maps(fields, convention, frame);
+  const auto depths = [](const CapturedMap& map) { return std::isfinite(map.begin); };
+  frame.selection = std::all_of(frame.maps.begin(), frame.maps.end(), depths) ? MapSelection::view_depth
+                                                                              : MapSelection::first_holding;
+  if (fields.has("selection")) {
+    const std::string name = fields.text("selection");
+    if (name != "first_holding" && !map_selection_from_name(name, frame.selection))
+      fields.refuse("selection", "is \"" + one_line(name, 40) +
+                                     "\", not one of view_depth, first_holding, finest");
+    if (name == "first_holding") frame.selection = MapSelection::first_holding;
+  }
+  return frame;
+}
+
+}  // namespace
+
+Capture read_capture(std::string_view json_text) {
+  const json value = parse_json(json_text);
+  std::vector<std::string_view> known(kFileKeys.begin(), kFileKeys.end());
+  known.insert(known.end(), kFrameKeys.begin(), kFrameKeys.end());
+  const Fields fields(value, "", known);
+  if (fields.text("format") != kFormat)
+    fields.refuse("format",
+                  "is \"" + one_line(fields.text("format"), 40) + "\", not " + std::string(kFormat));
+  Capture capture;
+  if (fields.has("name")) capture.name = fields.text("name");
+  if (fields.has("engine")) capture.engine = fields.text("engine");
+  Convention convention;
+  convention.maps = capture.clip_space = clip_space_from(fields, "clip_space", kOpenGl);
+  convention.camera = clip_space_from(fields, "camera_clip_space", convention.maps);
+  convention.rows_first = flag(fields, "matrices", "row_major", "column_major", false);
+  if (fields.has("atlas")) {
+    const std::vector<double> size = fields.numbers("atlas");
+    if (size.size() != 2 || !(size[0] >= 1.0 && size[1] >= 1.0 && std::max(size[0], size[1]) <= 1e6))
+      fields.refuse("atlas", "needs width and height, texels");
+    capture.atlas_width = static_cast<int>(size[0]);
+    capture.atlas_height = static_cast<int>(size[1]);
+  }
+  json shared = json::object();
+  for (const std::string_view key : kFrameKeys) {
+    if (fields.has(key)) shared[std::string(key)] = fields.at(key);
+  }
+  capture.scenes.push_back(scene_of(fields));
+  if (!fields.has("frames")) {
+    capture.frames.push_back(frame_of(shared, "", convention));
+    return capture;
+  }
+  const json& list = fields.at("frames");
+  if (!list.is_array() || list.empty() || list.size() > kMostFrames)
+    fields.refuse("frames", "needs a list of 1 to 4096 frames");
+  std::size_t things = 0;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string path = place("frames", i);
+    if (!list[i].is_object()) throw CaseError(path + ": needs an object");
+    json frame = list[i];
+    const bool own_scene = std::any_of(kSceneKeys.begin(), kSceneKeys.end(),
+                                       [&](std::string_view key) { return frame.contains(key); });
+    for (const auto& [key, common] : shared.items()) {
+      const bool of_scene = std::find(kSceneKeys.begin(), kSceneKeys.end(), key) != kSceneKeys.end();
+      if (!frame.contains(key) && (own_scene || !of_scene)) frame[key] = common;
+    }
+    capture.frames.push_back(frame_of(frame, path, convention));
+    if (!own_scene) continue;
+    capture.frames.back().scene = capture.scenes.size();
+    capture.scenes.push_back(scene_of(Fields(frame, path, kFrameKeys)));
+    const CapturedScene& scene = capture.scenes.back();
+    things += scene.receivers.size() + scene.casters.size() + scene.points.size();
+    if (things > kMostThings) throw CaseError(path + ": boxes and points of all frames are more than 4 million");
+  }
+  return capture;
+}
+
+Capture load_capture(const std::filesystem::path& file) {
+  try {
+    std::string text;
+    const std::string why = read_bounded_file(file, kMaxCaseBytes, Readable::file_or_pipe, text);
+    if (!why.empty()) throw CaseError(why);
+    return read_capture(text);
+  } catch (const CaseError& error) {
+    throw CaseError(shown_name(file) + ": " + error.what());
+  }
+}
+
+}  // namespace gnomon::judge

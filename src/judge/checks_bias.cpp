@@ -1,0 +1,173 @@
+// Do single precision and the depth buffer hold what is needed, and does the bias fit the texels?
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "judge/checks.hpp"
+
+namespace gnomon::judge {
+namespace {
+
+/// Calls `use` with each point that the map serves.
+template <typename Use>
+void for_each_served(const LightLooks& looks, std::size_t map, Use&& use) {
+  for (std::size_t p = 0; p < looks.counts.size(); ++p) {
+    if (looks.counts[p] == 0 || looks.chosen[p] != static_cast<int>(map)) continue;
+    if (looks.of[map][p].inside()) use(p, looks.of[map][p]);
+  }
+}
+
+/// Where the shader finds the point, in single precision: the matrix and the point are rounded, and so is
+/// each step.
+glm::dvec2 rounded_texel(const CapturedMap& map, const glm::dvec3& point) {
+  const glm::mat4 m(map.clip_from_world);
+  const glm::vec4 clip = m * glm::vec4(glm::vec3(point), 1.0f);
+  const glm::dvec2 ndc = glm::dvec2(clip) / static_cast<double>(clip.w);
+  return (ndc * 0.5 + 0.5) * glm::dvec2(map.width, map.height);
+}
+
+/// Growth of depth from one step of the depth buffer to the next, 0..1.
+double depth_step(int bits) {
+  // Single precision has 24 bits below 1.
+  return std::exp2(-static_cast<double>(bits == 0 ? 24 : bits));
+}
+
+void check_matrix_precision(const LightLooks& looks, std::size_t map, FindingList& out) {
+  std::vector<double> off;
+  double most = 0.0;
+  std::size_t worst = 0;
+  for_each_served(looks, map, [&](std::size_t p, const Look& look) {
+    const glm::dvec2 moved = glm::abs(rounded_texel(looks.map_at(map), looks.seen->points[p]) - look.texel);
+    off.push_back(std::max(moved.x, moved.y));
+    if (off.back() > most) {
+      most = off.back();
+      worst = p;
+    }
+  });
+  constexpr double kMoves = 0.25;  // texels: an edge then wanders by a quarter of its stairs
+  const double typical = quantile(off, 0.95);
+  if (!(typical > kMoves)) return;
+  Finding finding = finding_of(FindingKind::matrix_precision, looks, static_cast<int>(map), typical, "texels");
+  finding.pixel = looks.seen->pixels[worst];
+  finding.what = "In single precision, look-ups in " + map_name(looks, map) + " land " + digits(typical) +
+                 " texels off (95th percentile).";
+  finding.change = "Hand the shader a matrix for points relative to the camera (rebased, in C gnomon_rebased).";
+  out.add(finding);
+}
+
+}  // namespace
+
+double texel_side(const Look& look) {
+  return std::sqrt(glm::length(glm::cross(look.texel_x, look.texel_y)));
+}
+
+double bias_at(const CapturedMap& map, const Look& look, double cosine, const glm::dvec3& normal) {
+  const CapturedBias& b = map.bias;
+  const double side = texel_side(look), sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  const double per_depth = look.depth_per_world > 0.0 ? 1.0 / look.depth_per_world : 0.0;
+  const double growth = std::max(std::abs(glm::dot(look.texel_x, normal)), std::abs(glm::dot(look.texel_y, normal))) /
+                        cosine;
+  return b.world + b.depth * per_depth + b.texels * side + b.slope_texels * side * sine / cosine +
+         b.slope_factor * growth + (b.normal_world + b.normal_texels * side) / cosine;
+}
+
+double needed_bias(const CapturedMap& map, const Look& look, double cosine, const glm::dvec3& normal) {
+  if (map.bias.follows_plane) return 0.0;
+  const double reach = 0.5 + map.filter_texels;
+  return reach * (std::abs(glm::dot(look.texel_x, normal)) + std::abs(glm::dot(look.texel_y, normal))) / cosine;
+}
+
+void check_precision(const Capture&, const LightLooks& looks, const BrokenMaps& broken, FindingList& out) {
+  for (std::size_t i = 0; i < looks.map.size(); ++i) {
+    if (broken[i]) continue;
+    check_matrix_precision(looks, static_cast<int>(i), out);
+    const CapturedMap& map = looks.map_at(i);
+    std::vector<double> steps, shares;
+    for_each_served(looks, static_cast<int>(i), [&](std::size_t, const Look& look) {
+      if (!(look.depth_per_world > 0.0)) return;
+      const double step = depth_step(map.depth_bits) / look.depth_per_world;
+      const double bias = bias_at(map, look, 1.0, {0.0, 0.0, 0.0});
+      steps.push_back(step);
+      shares.push_back(step / std::max(bias, 0.05 * texel_side(look)));
+    });
+    const double share = quantile(shares);
+    if (!(share > 1.0) || map.stores_back) continue;
+    Finding finding = finding_of(FindingKind::depth_precision, looks, static_cast<int>(i), quantile(steps), "world units");
+    finding.what = "Steps of depth in " + map_name(looks, i) + " are " + digits(quantile(steps)) +
+                   " world units, " + digits(share) + " times its bias.";
+    finding.change = "Bring near and far plane together, take more bits, or raise the bias above a step.";
+    out.add(finding);
+  }
+}
+
+void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broken, FindingList& out) {
+  if (looks.seen->normals.empty()) return;
+  const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
+  const Camera& camera = looks.frame->camera;
+  // Beyond it, shading leaves next to no light that a shadow could take.
+  constexpr double kSteepest = 0.2425;  // cosine: tan 4
+  for (std::size_t i = 0; i < looks.map.size(); ++i) {
+    // Of back faces, thickness is the bias.
+    if (broken[i] || looks.map_at(i).stores_back) continue;
+    const CapturedMap& map = looks.map_at(i);
+    std::size_t judged = 0, small = 0, large = 0, small_at = 0, large_at = 0;
+    double worst_share = 1.0, worst_gap = 0.0;
+    std::vector<double> shares, gaps, missing;
+    for_each_served(looks, static_cast<int>(i), [&](std::size_t p, const Look& look) {
+      const glm::dvec3 normal = looks.seen->normals[p];
+      const double cosine = -glm::dot(normal, travel_at(light, looks.seen->points[p]));
+      if (!(cosine > kSteepest)) return;
+      ++judged;
+      const double have = bias_at(map, look, cosine, normal), need = needed_bias(map, look, cosine, normal);
+      // Rounding asks for something, too, where the plane asks for nothing.
+      constexpr double kEnough = 0.8;
+      if (have < kEnough * need) {
+        ++small;
+        shares.push_back(have / need);
+        missing.push_back((need - have) / texel_side(look));
+        if (have / need < worst_share) {
+          worst_share = have / need;
+          small_at = p;
+        }
+      }
+      const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+      const double gap = have * sine;  // at the foot of a wall that stands on the surface
+      const double pixel = (camera.top - camera.bottom) / camera.height *
+                           (camera.orthographic ? 1.0 : looks.seen->depths[p]);
+      constexpr double kTimesNeeded = 4.0, kPixels = 3.0;
+      if (have > kTimesNeeded * std::max(need, texel_side(look)) && gap > kPixels * pixel) {
+        ++large;
+        gaps.push_back(gap);
+        if (gap > worst_gap) {
+          worst_gap = gap;
+          large_at = p;
+        }
+      }
+    });
+    constexpr double kMatters = 0.05;
+    const auto share_of = [&](std::size_t count) {
+      return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(judged, 1));
+    };
+    if (small >= 5 && share_of(small) > kMatters) {
+      Finding finding = finding_of(FindingKind::bias_small, looks, static_cast<int>(i), share_of(small), "share");
+      finding.pixel = looks.seen->pixels[small_at];
+      finding.what = "Acne is likely on " + percent(share_of(small)) + " of what " + map_name(looks, i) +
+                     " serves: the bias there is " + digits(quantile(shares)) +
+                     " of what a texel and the filter need.";
+      finding.change = "Add " + digits(quantile(missing, 0.95)) +
+                       " texels along the light there (slope bias), or follow the receiver's plane.";
+      out.add(finding);
+    }
+    if (large >= 5 && share_of(large) > kMatters) {
+      Finding finding = finding_of(FindingKind::bias_large, looks, static_cast<int>(i), quantile(gaps), "world units");
+      finding.pixel = looks.seen->pixels[large_at];
+      finding.what = "Shadows in " + map_name(looks, i) + " begin " + digits(quantile(gaps)) +
+                     " world units off the foot of their casters, on " + percent(share_of(large)) +
+                     " of what it serves.";
+      finding.change = "Lower the bias: four times what texels and filter need would do.";
+      out.add(finding);
+    }
+  }
+}
+
+}  // namespace gnomon::judge

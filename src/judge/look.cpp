@@ -1,0 +1,128 @@
+// What does one map make of the surfaces in view? The numbers that all checks read, once for each frame.
+#include "judge/look.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "geometry/matrix.hpp"
+#include "geometry/vector.hpp"
+
+namespace gnomon::judge {
+namespace {
+
+void fill_texel(const glm::dvec3& travel, Look& look) {
+  // A texel's sides lie across the light: the dual of the gradients there.
+  const glm::dvec3 x = look.along_x - travel * glm::dot(travel, look.along_x);
+  const glm::dvec3 y = look.along_y - travel * glm::dot(travel, look.along_y);
+  const double xx = glm::dot(x, x), xy = glm::dot(x, y), yy = glm::dot(y, y);
+  const double determinant = xx * yy - xy * xy;
+  if (!(determinant > 0.0)) return;
+  look.texel_x = (x * yy - y * xy) / determinant;
+  look.texel_y = (y * xx - x * xy) / determinant;
+}
+
+}  // namespace
+
+bool Look::inside() const noexcept {
+  return w > 0.0 && std::abs(clip.x) <= 1.0 + kRim && std::abs(clip.y) <= 1.0 + kRim;
+}
+
+glm::dvec3 travel_at(const Light& light, const glm::dvec3& point) {
+  if (const auto* sun = std::get_if<DirectionalLight>(&light)) return glm::normalize(sun->direction);
+  const auto* spot = std::get_if<SpotLight>(&light);
+  const glm::dvec3 position = spot != nullptr ? spot->position : std::get<PointLight>(light).position;
+  return safe_normalize(point - position, {0.0, -1.0, 0.0});
+}
+
+double depth_of(double z, const ClipSpace& space) noexcept {
+  const double depth = space.ndc_depth == NdcDepth::zero_to_one ? z : 0.5 * z + 0.5;
+  return space.reversed_z ? 1.0 - depth : depth;
+}
+
+Look look_at(const CapturedMap& map, const ClipSpace& space, const Light& light, const glm::dvec3& point) {
+  Look look;
+  const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
+  look.w = clip.w;
+  if (!(std::abs(clip.w) > 0.0)) return look;
+  look.clip = glm::dvec3(clip) / clip.w;
+  const TexelGrid grid{map.width, map.height};
+  look.texel = grid.place({look.clip.x, look.clip.y}).texel;
+  const TexelJacobian texel = texel_jacobian(map.clip_from_world, grid, point);
+  look.along_x = texel.x;
+  look.along_y = texel.y;
+  const glm::dvec3 travel = travel_at(light, point);
+  fill_texel(travel, look);
+  const glm::dmat4& m = map.clip_from_world;
+  const glm::dvec3 z_row{m[0][2], m[1][2], m[2][2]}, w_row{m[0][3], m[1][3], m[2][3]};
+  const double z_growth = glm::dot(travel, (z_row - w_row * look.clip.z) / clip.w);
+  const double scale = space.ndc_depth == NdcDepth::zero_to_one ? 1.0 : 0.5;
+  look.depth_per_world = z_growth * scale * (space.reversed_z ? -1.0 : 1.0);
+  return look;
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const CapturedScene& scene,
+                    const SeenSurfaces& seen, int light) {
+  LightLooks looks{&frame, &scene, &seen, light, {}, {}, {}, {}, {}};
+  for (std::size_t i = 0; i < frame.maps.size(); ++i) {
+    if (frame.maps[i].light == light) looks.map.push_back(i);
+  }
+  const Light& source = frame.lights[static_cast<std::size_t>(light)];
+  double end = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < looks.map.size(); ++i) {
+    end = std::max(end, looks.map_at(i).end);
+    std::vector<Look>& of = looks.of.emplace_back();
+    of.reserve(seen.points.size());
+    for (const glm::dvec3& point : seen.points)
+      of.push_back(look_at(looks.map_at(i), capture.clip_space, source, point));
+  }
+  // Surfaces within a few degrees of the light's ray are dark by shading alone.
+  constexpr double kFaces = 0.05;
+  for (std::size_t p = 0; p < seen.points.size(); ++p) {
+    const glm::dvec3& point = seen.points[p];
+    const glm::dvec3 travel = travel_at(source, point);
+    bool lit = seen.normals.empty() || glm::dot(seen.normals[p], travel) < -kFaces;
+    if (const auto* spot = std::get_if<SpotLight>(&source)) {
+      lit = lit && glm::length(point - spot->position) <= spot->range &&
+            glm::dot(travel, glm::normalize(spot->direction)) >= std::cos(spot->outer_radians);
+    } else if (const auto* bulb = std::get_if<PointLight>(&source)) {
+      lit = lit && glm::length(point - bulb->position) <= bulb->range;
+    }
+    looks.counts.push_back(lit && seen.depths[p] <= end ? 1 : 0);
+    int chosen = -1, holding = -1;
+    for (std::size_t i = 0; i < looks.map.size(); ++i) {
+      const Look& look = looks.of[i][p];
+      const double depth = depth_of(look.clip.z, capture.clip_space);
+      if (holding < 0 && look.inside() && depth >= -kRim && depth <= 1.0 + kRim) holding = static_cast<int>(i);
+      const CapturedMap& map = looks.map_at(i);
+      if (frame.selection == MapSelection::view_depth && chosen < 0 && seen.depths[p] >= map.begin &&
+          seen.depths[p] <= map.end)
+        chosen = static_cast<int>(i);
+    }
+    // Finest of those that hold it.
+    if (frame.selection == MapSelection::finest && holding >= 0) {
+      double most = 0.0;
+      for (std::size_t i = 0; i < looks.map.size(); ++i) {
+        const Look& look = looks.of[i][p];
+        const double depth = depth_of(look.clip.z, capture.clip_space);
+        const double density = glm::length(glm::cross(look.along_x, look.along_y));
+        if (!look.inside() || depth < -kRim || depth > 1.0 + kRim || !(density > most)) continue;
+        most = density;
+        chosen = static_cast<int>(i);
+      }
+    }
+    if (frame.selection == MapSelection::first_holding) chosen = holding;
+    looks.chosen.push_back(chosen);
+    looks.holding.push_back(holding);
+  }
+  return looks;
+}
+
+}  // namespace gnomon::judge

@@ -1,0 +1,38 @@
+// How many pixels do an engine's maps get wrong in a scene, and how many does gnomon's plan?
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "judge/judge.hpp"
+
+namespace gnomon::tool {
+
+/// Shares of the pixels that a light decides.
+struct DrawnErrors {
+  double wrong = 0.0, false_light = 0.0, false_shadow = 0.0;
+  double expected = 0.0;  ///< without drawing
+};
+
+/// One light of the first frame, drawn with hard comparison and the default bias: maps alone differ.
+struct DrawnLightErrors {
+  int light = 0;
+  std::uint64_t pixels = 0;
+  DrawnErrors captured;
+  std::optional<DrawnErrors> planned;
+  std::string picture, planned_picture;  ///< PNG: grey where right, coloured where wrong
+};
+
+/// Fills in what the capture does not know: boxes, and visible points with their normals.
+/// Then judges, and draws the first frame. Throws std::runtime_error where the scene or a context cannot be had.
+struct SceneJudgement {
+  judge::Judgement judgement;
+  std::vector<DrawnLightErrors> lights;
+};
+[[nodiscard]] SceneJudgement judge_in_scene(judge::Capture& capture, const std::string& scene,
+                                            const std::string& context);
+/// What --context may name here.
+[[nodiscard]] std::vector<std::string> judge_context_names();
+
+}  // namespace gnomon::tool

@@ -1,0 +1,224 @@
+// `gnomon judge`: what is wrong with the shadow maps that an engine hands in?
+#include "judge/judge.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "command.hpp"
+#include "judge/in_scene.hpp"
+#include "judge/judge_page.hpp"
+#include "output.hpp"
+
+namespace gnomon::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct JudgeRequest {
+  std::string capture, scene;
+  std::string context = "auto";
+  double max_m = 0.0, max_findings = -1.0;
+  double max_misclassified = 0.0;  ///< percent; 0: no limit
+  std::string out;  ///< folder; empty: no files
+  bool json = false;
+};
+
+/// Null for what is not finite.
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json error_json(const AliasingStats& error) {
+  return {{"p50", number(error.p50)},
+          {"p95", number(error.p95)},
+          {"max", number(error.max)},
+          {"mean", number(error.mean)},
+          {"points", error.samples},
+          {"outside", error.outside}};
+}
+
+Json finding_json(const judge::Finding& finding) {
+  Json json{{"kind", to_string(finding.kind)}, {"what", finding.what},     {"change", finding.change},
+            {"size", number(finding.size)},    {"unit", finding.unit},     {"light", finding.light},
+            {"map", finding.map},              {"frame", finding.frame},   {"frames", finding.frames}};
+  if (finding.pixel) json["pixel"] = {finding.pixel->x, finding.pixel->y};
+  return json;
+}
+
+Json drawn_json(const DrawnErrors& errors) {
+  return {{"misclassified", errors.wrong},
+          {"false_light", errors.false_light},
+          {"false_shadow", errors.false_shadow},
+          {"expected", errors.expected}};
+}
+
+Json judgement_json(const judge::Capture& capture, const judge::Judgement& judgement,
+                    const std::vector<DrawnLightErrors>& drawn) {
+  Json lights = Json::array(), findings = Json::array();
+  for (const judge::LightFigures& light : judgement.lights) {
+    Json maps = Json::array();
+    for (const AliasingStats& map : light.of_map) maps.push_back(error_json(map));
+    Json json{{"light", light.light},
+              {"maps", light.maps},
+              {"texels", light.texels},
+              {"m", error_json(light.error)},
+              {"m_of_maps", maps}};
+    for (const judge::LightFigures::Planned& planned : light.planned)
+      json["gnomon"].push_back({{"fit", planned.fit},
+                                {"maps", planned.maps},
+                                {"texels", planned.texels},
+                                {"m", error_json(planned.error)}});
+    for (const DrawnLightErrors& errors : drawn) {
+      if (errors.light != light.light) continue;
+      json["drawn"] = {{"pixels", errors.pixels}, {"capture", drawn_json(errors.captured)}};
+      if (errors.planned) json["drawn"]["gnomon"] = drawn_json(*errors.planned);
+    }
+    lights.push_back(json);
+  }
+  for (const judge::Finding& finding : judgement.findings) findings.push_back(finding_json(finding));
+  return {{"capture", capture.name},
+          {"engine", capture.engine},
+          {"frames", capture.frames.size()},
+          {"lights", lights},
+          {"findings", findings},
+          {"notes", judgement.notes}};
+}
+
+std::string error_text(const AliasingStats& error) {
+  return "p50 " + judge::digits(error.p50) + ", p95 " + judge::digits(error.p95) + ", max " +
+         judge::digits(error.max);
+}
+
+void print_drawn(const DrawnLightErrors& errors) {
+  const auto text = [](const DrawnErrors& e) {
+    return judge::digits(100.0 * e.wrong) + " % misclassified (expected without drawing: " +
+           judge::digits(100.0 * e.expected) + " %)";
+  };
+  print_line("  drawn, " + std::to_string(errors.pixels) + " pixels: " + text(errors.captured));
+  if (errors.planned) print_line("  gnomon's plan, fit tight: " + text(*errors.planned));
+}
+
+void print_text(const judge::Capture& capture, const judge::Judgement& judgement,
+                const std::vector<DrawnLightErrors>& drawn) {
+  std::string head = capture.name.empty() ? std::string("capture") : one_line(capture.name);
+  if (!capture.engine.empty()) head += " (" + one_line(capture.engine) + ")";
+  print_line(head + ": " + std::to_string(capture.frames.size()) +
+             (capture.frames.size() == 1 ? " frame" : " frames"));
+  for (const judge::LightFigures& light : judgement.lights) {
+    print_line("light " + std::to_string(light.light) + ": " + std::to_string(light.maps) +
+               (light.maps == 1 ? " map, " : " maps, ") + std::to_string(light.texels) +
+               " texels; m: " + error_text(light.error));
+    for (const judge::LightFigures::Planned& planned : light.planned)
+      print_line("  gnomon, fit " + std::string(planned.fit) + ": " + std::to_string(planned.maps) +
+                 (planned.maps == 1 ? " map, " : " maps, ") + std::to_string(planned.texels) +
+                 " texels; m: " + error_text(planned.error));
+    for (const DrawnLightErrors& errors : drawn)
+      if (errors.light == light.light) print_drawn(errors);
+  }
+  for (const judge::Finding& finding : judgement.findings) {
+    std::string place;
+    if (finding.frames > 1 || capture.frames.size() > 1)
+      place += " [" + std::to_string(finding.frames) + " of " + std::to_string(capture.frames.size()) +
+               " frames, worst in " + std::to_string(finding.frame) + "]";
+    if (finding.pixel)
+      place += " [pixel " + std::to_string(std::lround(finding.pixel->x)) + "," +
+               std::to_string(std::lround(finding.pixel->y)) + "]";
+    print_line(std::string(to_string(finding.kind)) + ": " + finding.what + place);
+    print_line("  " + finding.change);
+  }
+  if (judgement.findings.empty()) print_line("nothing found");
+  for (const std::string& note : judgement.notes) print_line("note: " + note);
+}
+
+/// Whether a limit is passed, as engines' own checks ask for.
+bool beyond_limits(const JudgeRequest& request, const judge::Judgement& judgement,
+                   const std::vector<DrawnLightErrors>& drawn) {
+  for (const DrawnLightErrors& errors : drawn)
+    if (request.max_misclassified > 0.0 && 100.0 * errors.captured.wrong > request.max_misclassified) return true;
+  if (request.max_findings >= 0.0 && static_cast<double>(judgement.findings.size()) > request.max_findings)
+    return true;
+  if (!(request.max_m > 0.0)) return false;
+  for (const judge::LightFigures& light : judgement.lights) {
+    if (!(light.error.p95 <= request.max_m)) return true;
+  }
+  return false;
+}
+
+int run_judge(const JudgeRequest& request) {
+  judge::Capture capture = judge::load_capture(request.capture);
+  if (!request.out.empty()) make_folder("--out", request.out);
+  SceneJudgement result;
+  if (request.scene.empty()) {
+    result.judgement = judge::judge(capture);
+  } else {
+    result = judge_in_scene(capture, request.scene, request.context);
+  }
+  const judge::Judgement& judgement = result.judgement;
+  const Json json = judgement_json(capture, judgement, result.lights);
+  if (request.json) {
+    print_line(json.dump());
+  } else {
+    print_text(capture, judgement, result.lights);
+  }
+  if (!request.out.empty()) {
+    const std::filesystem::path folder(request.out);
+    write_file(folder / "judge.json", json.dump(2) + "\n");
+    write_file(folder / "judge.html", judge_page(capture, judgement, result.lights));
+    if (!request.json) print_line("page: " + (folder / "judge.html").string());
+  }
+  flush_output();
+  return beyond_limits(request, judgement, result.lights) ? 1 : 0;
+}
+
+}  // namespace
+
+std::function<int()> declare_judge(Arguments& arguments) {
+  const auto request = std::make_shared<JudgeRequest>();
+  arguments.options = {
+      {.name = "CAPTURE",
+       .target = &request->capture,
+       .help = "JSON of format gnomon-capture/1: cameras, lights and matrices of an engine",
+       .required = true,
+       .completion = Completion::files},
+      {.name = "SCENE",
+       .target = &request->scene,
+       .help = "glTF file or builtin:NAME that the capture is of: adds misclassified pixels, boxes and points",
+       .completion = Completion::files},
+      {.name = "--max-misclassified",
+       .target = &request->max_misclassified,
+       .help = "exit with 1 where any light's maps misclassify more percent of the pixels; 0: no limit",
+       .range = {{0.0, 100.0}},
+       .needs = "SCENE"},
+      {.name = "--context",
+       .target = ParsedWord{[request](const std::string& word) {
+                              request->context = word;
+                              return true;
+                            },
+                            request->context},
+       .help = "OpenGL context that draws SCENE",
+       .names = judge_context_names()},
+      {.name = "--max-m",
+       .target = &request->max_m,
+       .help = "exit with 1 where the 95th percentile of m of any light is above this; 0: no limit",
+       .range = {{0.0, 1e9}}},
+      {.name = "--max-findings",
+       .target = &request->max_findings,
+       .help = "exit with 1 where there are more findings than this; -1: no limit",
+       .range = {{-1.0, 1e9}}},
+      {.name = "--out",
+       .target = &request->out,
+       .help = "write judge.json and the page judge.html into this folder",
+       .completion = Completion::folders},
+      {.name = "--json", .target = &request->json, .help = "print the judgement as one line of JSON"}};
+  arguments.footer =
+      "docs/judge.md has the format, a writer for three.js, and what each finding means.\n\n"
+      "Exit: 0 judged, and within the limits; 1 beyond a limit; 2 bad input, with one line that names the "
+      "file and key.";
+  return [request] { return run_judge(*request); };
+}
+
+}  // namespace gnomon::tool
