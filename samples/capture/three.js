@@ -1,4 +1,4 @@
-// What do three.js' shadow maps look like to `gnomon judge`? A capture of format gnomon-capture/1 (docs/judge.md).
+// What do three.js' shadow maps look like to `gnomon judge`? A capture of format gnomon-capture/1 (docs/captures.md).
 //
 //   import { captureThree } from './three.js';
 //   const text = JSON.stringify(captureThree(scene, camera, renderer.domElement, { csm }));   // after renderer.render()

@@ -21,8 +21,8 @@ constexpr std::size_t kMostThings = 4'000'000;
 constexpr int kLargestMap = 1 << 16;
 
 /// Keys of the file, and those of a frame, which stand beside them for all frames.
-constexpr std::array<std::string_view, 8> kFileKeys{"format",            "name",     "engine", "clip_space",
-                                                    "camera_clip_space", "matrices", "atlas",  "frames"};
+constexpr std::array<std::string_view, 8> kFileKeys{
+    "format", "name", "engine", "clip_space", "camera_clip_space", "matrices", "atlas", "frames"};
 constexpr std::array<std::string_view, 8> kFrameKeys{"camera",    "lights",  "maps",   "selection",
                                                      "receivers", "casters", "points", "bias"};
 constexpr std::array<std::string_view, 3> kSceneKeys{"receivers", "casters", "points"};
@@ -36,8 +36,8 @@ bool flag(const Fields& fields, std::string_view key, std::string_view yes, std:
   if (!fields.has(key)) return otherwise;
   const std::string word = fields.text(key);
   if (word != yes && word != no)
-    fields.refuse(key, "is \"" + one_line(word, 40) + "\", not one of " + std::string(yes) + ", " +
-                           std::string(no));
+    fields.refuse(
+        key, "is \"" + one_line(word, 40) + "\", not one of " + std::string(yes) + ", " + std::string(no));
   return word == yes;
 }
 
@@ -138,8 +138,8 @@ void read_depths(const Fields& fields, CapturedMap& map) {
 TexelRect rectangle_of(const Fields& fields, std::string_view key) {
   const std::vector<double> n = fields.numbers(key);
   const bool whole = n.size() == 4 && std::all_of(n.begin(), n.end(), [](double v) {
-    return v == std::floor(v) && v >= 0.0 && v <= kLargestMap;
-  });
+                       return v == std::floor(v) && v >= 0.0 && v <= kLargestMap;
+                     });
   if (!whole || n[2] < 1.0 || n[3] < 1.0)
     fields.refuse(key, "needs x, y, width, height: whole numbers of texels");
   return {static_cast<int>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]), static_cast<int>(n[3])};
@@ -245,8 +245,8 @@ CapturedFrame frame_of(const json& value, const std::string& path, const Convent
   if (fields.has("selection")) {
     const std::string name = fields.text("selection");
     if (name != "first_holding" && !map_selection_from_name(name, frame.selection))
-      fields.refuse("selection", "is \"" + one_line(name, 40) +
-                                     "\", not one of view_depth, first_holding, finest");
+      fields.refuse("selection",
+                    "is \"" + one_line(name, 40) + "\", not one of view_depth, first_holding, finest");
     if (name == "first_holding") frame.selection = MapSelection::first_holding;
   }
   return frame;
@@ -305,7 +305,8 @@ Capture read_capture(std::string_view json_text) {
     capture.scenes.push_back(scene_of(Fields(frame, path, kFrameKeys)));
     const CapturedScene& scene = capture.scenes.back();
     things += scene.receivers.size() + scene.casters.size() + scene.points.size();
-    if (things > kMostThings) throw CaseError(path + ": boxes and points of all frames are more than 4 million");
+    if (things > kMostThings)
+      throw CaseError(path + ": boxes and points of all frames are more than 4 million");
   }
   return capture;
 }

@@ -36,13 +36,13 @@ struct CapturedMap {
   TexelRect atlas;            ///< its place in an atlas; empty: none
   /// View depths that it serves, world units.
   double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();
-  double overlap = 0.0;       ///< of the blend band before `begin`, world units
-  int depth_bits = 0;         ///< of a normalized integer; 0: single precision
-  double filter_texels = 0.0; ///< radius of the filter's kernel
-  bool stores_back = false;   ///< back faces are drawn: a closed caster's far side
-  bool clamps_depth = false;  ///< casters before the near plane are drawn on it
+  double overlap = 0.0;        ///< of the blend band before `begin`, world units
+  int depth_bits = 0;          ///< of a normalized integer; 0: single precision
+  double filter_texels = 0.0;  ///< radius of the filter's kernel
+  bool stores_back = false;    ///< back faces are drawn: a closed caster's far side
+  bool clamps_depth = false;   ///< casters before the near plane are drawn on it
   CapturedBias bias;
-  std::string path;           ///< in the file
+  std::string path;  ///< in the file
 };
 
 /// What stands in the scene, as far as it is known; each list may be empty.
@@ -60,13 +60,13 @@ struct CapturedFrame {
   std::size_t scene = 0;  ///< index of what stands in it
 };
 
-/// A file of the format gnomon-capture/1 (docs/judge.md).
+/// A file of the format gnomon-capture/1 (docs/captures.md).
 struct Capture {
   std::string name, engine;
-  ClipSpace clip_space;                    ///< of the maps' matrices
-  int atlas_width = 0, atlas_height = 0;   ///< texels; 0: no atlas
-  std::vector<CapturedScene> scenes;       ///< the first is that of frames that name nothing of their own
-  std::vector<CapturedFrame> frames;       ///< at least one
+  ClipSpace clip_space;                   ///< of the maps' matrices
+  int atlas_width = 0, atlas_height = 0;  ///< texels; 0: no atlas
+  std::vector<CapturedScene> scenes;      ///< the first is that of frames that name nothing of their own
+  std::vector<CapturedFrame> frames;      ///< at least one
 };
 
 /// Cascades of one light: as many as a plan has.

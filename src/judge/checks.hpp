@@ -15,7 +15,7 @@ class FindingList {
   void begin_frame(int frame) { frame_ = frame; }
   /// Of the current frame: `frame` and `frames` are filled in.
   void add(Finding finding);
-  /// In the order of kinds.
+  /// In the order of kinds; those of several maps of a light as one, the largest.
   [[nodiscard]] std::vector<Finding> sorted() const;
 
  private:

@@ -47,11 +47,13 @@ void check_matrix_precision(const LightLooks& looks, std::size_t map, FindingLis
   constexpr double kMoves = 0.25;  // texels: an edge then wanders by a quarter of its stairs
   const double typical = quantile(off, 0.95);
   if (!(typical > kMoves)) return;
-  Finding finding = finding_of(FindingKind::matrix_precision, looks, static_cast<int>(map), typical, "texels");
+  Finding finding =
+      finding_of(FindingKind::matrix_precision, looks, static_cast<int>(map), typical, "texels");
   finding.pixel = looks.seen->pixels[worst];
   finding.what = "In single precision, look-ups in " + map_name(looks, map) + " land " + digits(typical) +
                  " texels off (95th percentile).";
-  finding.change = "Hand the shader a matrix for points relative to the camera (rebased, in C gnomon_rebased).";
+  finding.change =
+      "Hand the shader a matrix for points relative to the camera (rebased, in C gnomon_rebased).";
   out.add(finding);
 }
 
@@ -65,8 +67,8 @@ double bias_at(const CapturedMap& map, const Look& look, double cosine, const gl
   const CapturedBias& b = map.bias;
   const double side = texel_side(look), sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   const double per_depth = look.depth_per_world > 0.0 ? 1.0 / look.depth_per_world : 0.0;
-  const double growth = std::max(std::abs(glm::dot(look.texel_x, normal)), std::abs(glm::dot(look.texel_y, normal))) /
-                        cosine;
+  const double growth =
+      std::max(std::abs(glm::dot(look.texel_x, normal)), std::abs(glm::dot(look.texel_y, normal))) / cosine;
   return b.world + b.depth * per_depth + b.texels * side + b.slope_texels * side * sine / cosine +
          b.slope_factor * growth + (b.normal_world + b.normal_texels * side) / cosine;
 }
@@ -74,8 +76,12 @@ double bias_at(const CapturedMap& map, const Look& look, double cosine, const gl
 double needed_bias(const CapturedMap& map, const Look& look, double cosine, const glm::dvec3& normal) {
   if (map.bias.follows_plane) return 0.0;
   const double reach = 0.5 + map.filter_texels;
-  return reach * (std::abs(glm::dot(look.texel_x, normal)) + std::abs(glm::dot(look.texel_y, normal))) / cosine;
+  return reach * (std::abs(glm::dot(look.texel_x, normal)) + std::abs(glm::dot(look.texel_y, normal))) /
+         cosine;
 }
+
+/// Of a texel's side: depths may be off by it anywhere.
+constexpr double kHarmless = 0.05;
 
 void check_precision(const Capture&, const LightLooks& looks, const BrokenMaps& broken, FindingList& out) {
   for (std::size_t i = 0; i < looks.map.size(); ++i) {
@@ -88,13 +94,14 @@ void check_precision(const Capture&, const LightLooks& looks, const BrokenMaps& 
       const double step = depth_step(map.depth_bits) / look.depth_per_world;
       const double bias = bias_at(map, look, 1.0, {0.0, 0.0, 0.0});
       steps.push_back(step);
-      shares.push_back(step / std::max(bias, 0.05 * texel_side(look)));
+      shares.push_back(step / std::max(bias, kHarmless * texel_side(look)));
     });
     const double share = quantile(shares);
     if (!(share > 1.0) || map.stores_back) continue;
-    Finding finding = finding_of(FindingKind::depth_precision, looks, static_cast<int>(i), quantile(steps), "world units");
+    Finding finding =
+        finding_of(FindingKind::depth_precision, looks, static_cast<int>(i), quantile(steps), "world units");
     finding.what = "Steps of depth in " + map_name(looks, i) + " are " + digits(quantile(steps)) +
-                   " world units, " + digits(share) + " times its bias.";
+                   " world units, " + digits(share) + " times what its bias allows.";
     finding.change = "Bring near and far plane together, take more bits, or raise the bias above a step.";
     out.add(finding);
   }
@@ -119,9 +126,9 @@ void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broke
       if (!(cosine > kSteepest)) return;
       ++judged;
       const double have = bias_at(map, look, cosine, normal), need = needed_bias(map, look, cosine, normal);
-      // Rounding asks for something, too, where the plane asks for nothing.
-      constexpr double kEnough = 0.8;
-      if (have < kEnough * need) {
+      // A surface across the light needs next to nothing.
+      constexpr double kEnough = 0.8, kLeast = 0.1;
+      if (have < kEnough * need && need > kLeast * texel_side(look)) {
         ++small;
         shares.push_back(have / need);
         missing.push_back((need - have) / texel_side(look));
@@ -132,8 +139,8 @@ void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broke
       }
       const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
       const double gap = have * sine;  // at the foot of a wall that stands on the surface
-      const double pixel = (camera.top - camera.bottom) / camera.height *
-                           (camera.orthographic ? 1.0 : looks.seen->depths[p]);
+      const double pixel =
+          (camera.top - camera.bottom) / camera.height * (camera.orthographic ? 1.0 : looks.seen->depths[p]);
       constexpr double kTimesNeeded = 4.0, kPixels = 3.0;
       if (have > kTimesNeeded * std::max(need, texel_side(look)) && gap > kPixels * pixel) {
         ++large;
@@ -149,7 +156,8 @@ void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broke
       return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(judged, 1));
     };
     if (small >= 5 && share_of(small) > kMatters) {
-      Finding finding = finding_of(FindingKind::bias_small, looks, static_cast<int>(i), share_of(small), "share");
+      Finding finding =
+          finding_of(FindingKind::bias_small, looks, static_cast<int>(i), share_of(small), "share");
       finding.pixel = looks.seen->pixels[small_at];
       finding.what = "Acne is likely on " + percent(share_of(small)) + " of what " + map_name(looks, i) +
                      " serves: the bias there is " + digits(quantile(shares)) +
@@ -159,7 +167,8 @@ void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broke
       out.add(finding);
     }
     if (large >= 5 && share_of(large) > kMatters) {
-      Finding finding = finding_of(FindingKind::bias_large, looks, static_cast<int>(i), quantile(gaps), "world units");
+      Finding finding =
+          finding_of(FindingKind::bias_large, looks, static_cast<int>(i), quantile(gaps), "world units");
       finding.pixel = looks.seen->pixels[large_at];
       finding.what = "Shadows in " + map_name(looks, i) + " begin " + digits(quantile(gaps)) +
                      " world units off the foot of their casters, on " + percent(share_of(large)) +

@@ -118,9 +118,9 @@ void report_missed(const Capture& capture, const LightLooks& looks, const Missed
     for (const Faulty& cut : missed.cut) {
       if (cut.points.size() > most->points.size()) most = &cut;
     }
-    Finding finding =
-        finding_of(FindingKind::depth_convention, looks, -1,
-              static_cast<double>(missed.cut_count) / static_cast<double>(missed.counted), "share", pixel_of(looks, *most));
+    Finding finding = finding_of(FindingKind::depth_convention, looks, -1,
+                                 static_cast<double>(missed.cut_count) / static_cast<double>(missed.counted),
+                                 "share", pixel_of(looks, *most));
     const bool zero = capture.clip_space.ndc_depth == NdcDepth::zero_to_one;
     finding.what = share_text(missed.cut_count, missed.counted) +
                    " of the lit surfaces have depths that fit " + (zero ? "-1..1" : "0..1") + " and not " +
@@ -132,8 +132,8 @@ void report_missed(const Capture& capture, const LightLooks& looks, const Missed
   for (std::size_t i = 0; i < missed.cut.size() && !other_range; ++i) {
     const Faulty& cut = missed.cut[i];
     if (!matters(cut.points.size(), missed.counted, guessed)) continue;
-    Finding finding =
-        finding_of(FindingKind::receivers_cut, looks, static_cast<int>(i), share(cut), "share", pixel_of(looks, cut));
+    Finding finding = finding_of(FindingKind::receivers_cut, looks, static_cast<int>(i), share(cut), "share",
+                                 pixel_of(looks, cut));
     finding.what = share_text(cut.points.size(), missed.counted) + " of the lit surfaces lie in " +
                    map_name(looks, i) + " but beyond its depths, by up to " + digits(cut.worst) +
                    " world units.";
@@ -141,22 +141,24 @@ void report_missed(const Capture& capture, const LightLooks& looks, const Missed
     out.add(finding);
   }
   if (matters(missed.outside.points.size(), missed.counted, guessed)) {
-    Finding finding = finding_of(FindingKind::receivers_outside, looks, -1, share(missed.outside), "share", pixel_of(looks, missed.outside));
+    Finding finding = finding_of(FindingKind::receivers_outside, looks, -1, share(missed.outside), "share",
+                                 pixel_of(looks, missed.outside));
     finding.what = share_text(missed.outside.points.size(), missed.counted) +
                    " of the lit surfaces are in no map: they get no shadow.";
     finding.change = "Fit the maps round all that the camera sees up to the shadows' end.";
     out.add(finding);
   }
   if (matters(missed.disagreed.points.size(), missed.counted, guessed)) {
-    Finding finding = finding_of(FindingKind::selection_disagrees, looks, -1, share(missed.disagreed), "share", pixel_of(looks, missed.disagreed));
+    Finding finding = finding_of(FindingKind::selection_disagrees, looks, -1, share(missed.disagreed),
+                                 "share", pixel_of(looks, missed.disagreed));
     finding.what = "For " + share_text(missed.disagreed.points.size(), missed.counted) +
                    " of the lit surfaces, the map of their view depth does not hold them, and another does.";
     finding.change = "Choose by the same depths that the maps were fitted to, or by what each map holds.";
     out.add(finding);
   }
   if (missed.gap.points.size() >= 3) {
-    Finding finding =
-        finding_of(FindingKind::gap_between_maps, looks, -1, share(missed.gap), "share", pixel_of(looks, missed.gap));
+    Finding finding = finding_of(FindingKind::gap_between_maps, looks, -1, share(missed.gap), "share",
+                                 pixel_of(looks, missed.gap));
     finding.what = share_text(missed.gap.points.size(), missed.counted) +
                    " of the lit surfaces are at view depths between two maps.";
     finding.change = "Let each map begin where the one before it ends.";
@@ -198,7 +200,7 @@ void check_casters(const Capture& capture, const LightLooks& looks, const Broken
     // Where the ray to the light meets the near plane.
     const glm::dvec3 point = looks.seen->points[p], back = -travel_at(light, point);
     const glm::dmat4& m = map.clip_from_world;
-    const double near_z = capture.clip_space.reversed_z ? 1.0
+    const double near_z = capture.clip_space.reversed_z                           ? 1.0
                           : capture.clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0
                                                                                   : -1.0;
     const glm::dvec4 here = m * glm::dvec4(point, 1.0), growth = m * glm::dvec4(back, 0.0);
@@ -214,12 +216,12 @@ void check_casters(const Capture& capture, const LightLooks& looks, const Broken
   }
   for (std::size_t i = 0; i < cut.size(); ++i) {
     if (!matters(cut[i].points.size(), counted, false)) continue;
-    Finding finding = finding_of(
-        FindingKind::casters_cut, looks, static_cast<int>(i),
-        static_cast<double>(cut[i].points.size()) / static_cast<double>(counted), "share", pixel_of(looks, cut[i]));
+    Finding finding = finding_of(FindingKind::casters_cut, looks, static_cast<int>(i),
+                                 static_cast<double>(cut[i].points.size()) / static_cast<double>(counted),
+                                 "share", pixel_of(looks, cut[i]));
     finding.what = "Casters of " + share_text(cut[i].points.size(), counted) +
-                   " of the lit surfaces stand before the near plane of " + map_name(looks, i) + ", by up to " +
-                   digits(cut[i].worst) + " world units: their shadows are missing.";
+                   " of the lit surfaces stand before the near plane of " + map_name(looks, i) +
+                   ", by up to " + digits(cut[i].worst) + " world units: their shadows are missing.";
     finding.change = "Move the near plane towards the light by that much, or clamp depths while drawing.";
     out.add(finding);
   }
@@ -253,8 +255,8 @@ void check_use(const LightLooks& looks, const BrokenMaps& broken, FindingList& o
     const double texels = static_cast<double>(map.width) * map.height;
     if (served[i] == 0) {
       Finding finding = finding_of(FindingKind::map_unseen, looks, static_cast<int>(i), texels, "texels");
-      finding.what = "Nothing that the camera sees reads " + map_name(looks, i) + ": " + digits(texels * 1e-6) +
-                     " million texels are drawn for nothing.";
+      finding.what = "Nothing that the camera sees reads " + map_name(looks, i) + ": " +
+                     digits(texels * 1e-6) + " million texels are drawn for nothing.";
       finding.change = "Skip the map in such frames, or divide the depths that show something.";
       out.add(finding);
       continue;
@@ -263,11 +265,12 @@ void check_use(const LightLooks& looks, const BrokenMaps& broken, FindingList& o
     const glm::dvec2 size = used[i].high - used[i].low + 2.0 * map.filter_texels;
     const double share = std::min(1.0, size.x / map.width) * std::min(1.0, size.y / map.height);
     if (share >= kLeastUsed) continue;
-    Finding finding = finding_of(FindingKind::texels_unseen, looks, static_cast<int>(i), 1.0 - share, "share");
+    Finding finding =
+        finding_of(FindingKind::texels_unseen, looks, static_cast<int>(i), 1.0 - share, "share");
     finding.what = percent(1.0 - share) + " of the texels of " + map_name(looks, i) +
                    " lie outside of all that the camera sees in it.";
-    finding.change = "Fit the map to the visible receivers: the texels would be " +
-                     digits(std::sqrt(share)) + " times as long.";
+    finding.change = "Fit the map to the visible receivers: the texels would be " + digits(std::sqrt(share)) +
+                     " times as long.";
     out.add(finding);
   }
 }

@@ -71,15 +71,18 @@ void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t m
   if (o.count == 0) return;
   const std::size_t front = o.count - o.behind;
   if (o.behind > o.count / 2) {
-    Finding finding = finding_of(FindingKind::light_direction, looks, static_cast<int>(map), 180.0, "degrees");
-    finding.what = "The frustum of " + name + " lies behind its light: w is below 0 for what the light lights.";
+    Finding finding =
+        finding_of(FindingKind::light_direction, looks, static_cast<int>(map), 180.0, "degrees");
+    finding.what =
+        "The frustum of " + name + " lies behind its light: w is below 0 for what the light lights.";
     finding.change = "Turn the view matrix of the light round, or give the light's direction as it travels.";
     out.add(finding);
     broken[map] = true;
     return;
   }
   if (o.degrees > kSameDirection) {
-    Finding finding = finding_of(FindingKind::light_direction, looks, static_cast<int>(map), o.degrees, "degrees");
+    Finding finding =
+        finding_of(FindingKind::light_direction, looks, static_cast<int>(map), o.degrees, "degrees");
     finding.what = "The rays of " + name + " run " + digits(o.degrees) + " degrees off its light's.";
     finding.change = "Build the matrix from this frame's light, in the same space as the camera's.";
     out.add(finding);
@@ -99,7 +102,8 @@ void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t m
   if (o.mirrored > front / 2 && !std::holds_alternative<PointLight>(light)) {
     Finding finding = finding_of(FindingKind::mirrored, looks, static_cast<int>(map), 1.0, "matrix");
     finding.what = "The picture of " + name + " is a mirror image: culling removes the wrong faces.";
-    finding.change = "Check handedness and y_down of clip_space, and the sign of x in the light's view matrix.";
+    finding.change =
+        "Check handedness and y_down of clip_space, and the sign of x in the light's view matrix.";
     out.add(finding);
   }
 }
@@ -107,7 +111,8 @@ void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t m
 }  // namespace
 
 void check_matrices(const Capture& capture, const LightLooks& looks, BrokenMaps& broken, FindingList& out) {
-  for (std::size_t map = 0; map < looks.map.size(); ++map) check_matrix(capture, looks, static_cast<int>(map), broken, out);
+  for (std::size_t map = 0; map < looks.map.size(); ++map)
+    check_matrix(capture, looks, static_cast<int>(map), broken, out);
 }
 
 }  // namespace gnomon::judge

@@ -77,7 +77,7 @@ void check_motion(const Capture& capture, const LightLooks& before, const LightL
       out.add(finding);
     } else if (motion.drift > kDrifts) {
       Finding finding = finding_of(FindingKind::swimming, now, static_cast<int>(i), motion.drift, "texels");
-      finding.what = "Edges in " + map_name(now, i) + " swim: its texels move over the world by " +
+      finding.what = "Edges in " + map_name(now, i) + " are not stable: its texels move over the world by " +
                      digits(motion.drift) + " of a texel from one frame to the next.";
       finding.change = "Move the map in whole texels, and keep its extent while the camera turns.";
       out.add(finding);

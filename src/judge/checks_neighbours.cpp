@@ -49,16 +49,15 @@ void check_atlas(const Capture& capture, const LightLooks& looks, FindingList& o
   for (std::size_t i = 0; i < looks.map.size(); ++i) {
     const CapturedMap& map = looks.map_at(i);
     if (map.atlas.empty()) continue;
-    const bool outside =
-        capture.atlas_width > 0 && (map.atlas.x + map.atlas.width > capture.atlas_width ||
-                                    map.atlas.y + map.atlas.height > capture.atlas_height);
+    const bool outside = capture.atlas_width > 0 && (map.atlas.x + map.atlas.width > capture.atlas_width ||
+                                                     map.atlas.y + map.atlas.height > capture.atlas_height);
     if (outside || map.atlas.width != map.width || map.atlas.height != map.height) {
       Finding finding = finding_of(FindingKind::atlas_outside, looks, static_cast<int>(i), 1.0, "rectangle");
       finding.what = outside ? "The rectangle of " + map_name(looks, i) + " reaches out of the atlas."
                              : "The rectangle of " + map_name(looks, i) + " is " +
-                                   std::to_string(map.atlas.width) + " x " + std::to_string(map.atlas.height) +
-                                   " texels, the map " + std::to_string(map.width) + " x " +
-                                   std::to_string(map.height) + ".";
+                                   std::to_string(map.atlas.width) + " x " +
+                                   std::to_string(map.atlas.height) + " texels, the map " +
+                                   std::to_string(map.width) + " x " + std::to_string(map.height) + ".";
       finding.change = "Give each map a rectangle of its own size inside of the atlas.";
       out.add(finding);
     }
@@ -67,8 +66,8 @@ void check_atlas(const Capture& capture, const LightLooks& looks, FindingList& o
       const CapturedMap& other = looks.frame->maps[j];
       if (other.atlas.empty() || !overlap(map.atlas, other.atlas)) continue;
       Finding finding = finding_of(FindingKind::atlas_overlap, looks, static_cast<int>(i), 1.0, "pair");
-      finding.what =
-          "The rectangles of maps " + std::to_string(looks.map[i]) + " and " + std::to_string(j) + " overlap.";
+      finding.what = "The rectangles of maps " + std::to_string(looks.map[i]) + " and " + std::to_string(j) +
+                     " overlap.";
       finding.change = "Give each map a rectangle of its own.";
       out.add(finding);
     }
@@ -98,15 +97,16 @@ void check_rims(const LightLooks& looks, const BrokenMaps& broken, FindingList& 
     }
   }
   for (std::size_t i = 0; i < looks.map.size(); ++i) {
-    const double share = static_cast<double>(beyond[i]) / static_cast<double>(std::max<std::size_t>(counted, 1));
+    const double share =
+        static_cast<double>(beyond[i]) / static_cast<double>(std::max<std::size_t>(counted, 1));
     constexpr double kMatters = 0.01;
     if (beyond[i] < 3 || share < kMatters) continue;
     Finding finding = finding_of(FindingKind::filter_leaves_map, looks, static_cast<int>(i), share, "share");
     finding.pixel = looks.seen->pixels[last[i]];
-    finding.what = "The filter reads beyond the rim of " + map_name(looks, i) + " for " + percent(share) +
+    finding.what = "The filter reads beyond the border of " + map_name(looks, i) + " for " + percent(share) +
                    " of the lit surfaces, by up to " + digits(most[i]) + " texels.";
-    finding.change = "Fit the map with a margin of " + digits(looks.map_at(i).filter_texels) +
-                     " texels on every side.";
+    finding.change =
+        "Fit the map with a margin of " + digits(looks.map_at(i).filter_texels) + " texels on every side.";
     out.add(finding);
   }
 }

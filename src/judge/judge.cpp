@@ -14,12 +14,14 @@ namespace gnomon::judge {
 namespace {
 
 constexpr std::array<std::string_view, kFindingKinds> kNames{
-    "transposed",      "light_direction",     "depth_reversed",   "mirrored",
-    "depth_convention", "receivers_outside",  "receivers_cut",    "casters_cut",
-    "selection_disagrees", "gap_between_maps", "density_step",    "map_unseen",
-    "texels_unseen",   "atlas_overlap",       "atlas_outside",    "filter_leaves_map",
-    "matrix_precision", "depth_precision",    "bias_small",       "bias_large",
-    "swimming",        "density_jump"};
+    "transposed",        "light_direction",  "depth_reversed",
+    "mirrored",          "depth_convention", "receivers_outside",
+    "receivers_cut",     "casters_cut",      "selection_disagrees",
+    "gap_between_maps",  "density_step",     "map_unseen",
+    "texels_unseen",     "atlas_overlap",    "atlas_outside",
+    "filter_leaves_map", "matrix_precision", "depth_precision",
+    "bias_small",        "bias_large",       "swimming",
+    "density_jump"};
 
 Box bounds_of(const std::vector<glm::dvec3>& points) {
   Box box;
@@ -160,8 +162,24 @@ void FindingList::add(Finding finding) {
 
 std::vector<Finding> FindingList::sorted() const {
   std::vector<Finding> all;
-  for (const Known& known : known_) all.push_back(known.finding);
-  std::stable_sort(all.begin(), all.end(), [](const Finding& a, const Finding& b) { return a.kind < b.kind; });
+  for (const Known& known : known_) {
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Finding& f) {
+      return f.kind == known.finding.kind && f.light == known.finding.light;
+    });
+    if (same == all.end()) {
+      all.push_back(known.finding);
+      continue;
+    }
+    // The largest speaks for all.
+    Finding other = known.finding;
+    if (other.size > same->size) std::swap(other, *same);
+    std::swap(other.also, same->also);
+    same->also.insert(same->also.end(), other.also.begin(), other.also.end());
+    same->also.push_back(other.map);
+    std::sort(same->also.begin(), same->also.end());
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Finding& a, const Finding& b) { return a.kind < b.kind; });
   return all;
 }
 
@@ -244,20 +262,21 @@ Judgement judge(const Capture& capture) {
       else if (now->seen.guessed)
         judgement.notes.push_back("The receivers' boxes stand for surfaces: visible points would say more.");
       if (!now->seen.points.empty() && now->seen.normals.empty())
-        judgement.notes.push_back("Points have no normals: the bias was not judged.");
-      if (std::any_of(frame.maps.begin(), frame.maps.end(), [](const CapturedMap& map) { return map.stores_back; }))
+        judgement.notes.push_back("Points have no normals: the bias was not checked.");
+      if (std::any_of(frame.maps.begin(), frame.maps.end(),
+                      [](const CapturedMap& map) { return map.stores_back; }))
         judgement.notes.push_back(
-            "Maps store back faces: their bias was not judged, as the thickness of casters is not known.");
+            "Maps store back faces: their bias was not checked, as the thickness of casters is not known.");
       if (capture.scenes[frame.scene].casters.empty())
         judgement.notes.push_back("There are no casters: nothing says whether near planes cut any.");
       for (std::size_t light = 0; light < frame.lights.size(); ++light)
-        judgement.lights.push_back(figures_of(capture, frame, lit_part(now->seen, now->looks[light]),
-                                              static_cast<int>(light)));
+        judgement.lights.push_back(
+            figures_of(capture, frame, lit_part(now->seen, now->looks[light]), static_cast<int>(light)));
     }
     before = std::move(now);
   }
   if (capture.frames.size() == 1)
-    judgement.notes.push_back("There is one frame: nothing says whether texels swim.");
+    judgement.notes.push_back("There is one frame: nothing says whether edges are stable.");
   judgement.findings = findings.sorted();
   return judgement;
 }

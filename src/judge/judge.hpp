@@ -6,36 +6,36 @@
 #include <string>
 #include <vector>
 
-#include "judge/capture.hpp"
 #include "gnomon/measure.hpp"
+#include "judge/capture.hpp"
 #include "judge/seen.hpp"
 
 namespace gnomon::judge {
 
 /// Kinds of faults, in the order in which they are listed: what makes others meaningless comes first.
 enum class FindingKind : std::uint8_t {
-  transposed,          ///< the matrix is written the other way round
-  light_direction,     ///< the map looks along another ray than its light's
-  depth_reversed,      ///< depth grows the other way than the convention says
-  mirrored,            ///< the map shows a mirror image
-  depth_convention,    ///< depths are of the other range: 0..1 or -1..1
-  receivers_outside,   ///< visible surfaces are in no map
-  receivers_cut,       ///< visible surfaces are before the near or behind the far plane of their map
-  casters_cut,         ///< casters are before the near plane
-  selection_disagrees, ///< the map that is chosen does not hold the point, and another does
-  gap_between_maps,    ///< view depths belong to no map
-  density_step,        ///< texels change their size at once from map to map
-  map_unseen,          ///< a map serves nothing that the camera sees
-  texels_unseen,       ///< most of a map's texels are nowhere in view
-  atlas_overlap,       ///< two maps share texels of the atlas
-  atlas_outside,       ///< a map is not in the atlas
-  filter_leaves_map,   ///< the kernel reads beyond the map's rim
-  matrix_precision,    ///< rounding of a float matrix moves look-ups
-  depth_precision,     ///< steps of depth are larger than the bias
-  bias_small,          ///< surfaces will shadow themselves
-  bias_large,          ///< shadows leave the foot of their casters
-  swimming,            ///< texels move over the world from frame to frame
-  density_jump,        ///< texels change their size from frame to frame
+  transposed,           ///< the matrix is written the other way round
+  light_direction,      ///< the map looks along another ray than its light's
+  depth_reversed,       ///< depth grows the other way than the convention says
+  mirrored,             ///< the map shows a mirror image
+  depth_convention,     ///< depths are of the other range: 0..1 or -1..1
+  receivers_outside,    ///< visible surfaces are in no map
+  receivers_cut,        ///< visible surfaces are before the near or behind the far plane of their map
+  casters_cut,          ///< casters are before the near plane
+  selection_disagrees,  ///< the map that is chosen does not hold the point, and another does
+  gap_between_maps,     ///< view depths belong to no map
+  density_step,         ///< texels change their size at once from map to map
+  map_unseen,           ///< a map serves nothing that the camera sees
+  texels_unseen,        ///< most of a map's texels are nowhere in view
+  atlas_overlap,        ///< two maps share texels of the atlas
+  atlas_outside,        ///< a map is not in the atlas
+  filter_leaves_map,    ///< the kernel reads beyond the map's rim
+  matrix_precision,     ///< rounding of a float matrix moves look-ups
+  depth_precision,      ///< steps of depth are larger than the bias
+  bias_small,           ///< surfaces will shadow themselves
+  bias_large,           ///< shadows leave the foot of their casters
+  swimming,             ///< texels move over the world from frame to frame
+  density_jump,         ///< texels change their size from frame to frame
 };
 inline constexpr std::size_t kFindingKinds = static_cast<std::size_t>(FindingKind::density_jump) + 1;
 /// As in files: "bias_small".
@@ -51,9 +51,10 @@ struct Finding {
   std::string change;  ///< what mends it
   double size = 0.0;   ///< in `unit`
   std::string_view unit;
-  int light = 0, map = -1;  ///< indices; -1: all maps of the light
-  int frame = 0;            ///< where it is largest
-  int frames = 1;           ///< in how many frames it is
+  int light = 0, map = -1;          ///< indices; -1: all maps of the light
+  std::vector<int> also;            ///< other maps of the light with the same kind of fault
+  int frame = 0;                    ///< where it is largest
+  int frames = 1;                   ///< in how many frames it is
   std::optional<glm::dvec2> pixel;  ///< where in that frame's image
 };
 
@@ -91,7 +92,8 @@ struct Judgement {
 [[nodiscard]] ShadowPlan plan_of(const Capture& capture, const CapturedFrame& frame, int light);
 /// gnomon's plan for the frame's camera and light, with as many maps and texels.
 [[nodiscard]] ShadowPlan plan_beside(const Capture& capture, const CapturedFrame& frame,
-                                     const CapturedScene& scene, const SeenSurfaces& seen, int light, Fit fit);
+                                     const CapturedScene& scene, const SeenSurfaces& seen, int light,
+                                     Fit fit);
 
 /// Judges all lights and frames.
 [[nodiscard]] Judgement judge(const Capture& capture);

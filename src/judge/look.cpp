@@ -100,7 +100,8 @@ LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const Ca
     for (std::size_t i = 0; i < looks.map.size(); ++i) {
       const Look& look = looks.of[i][p];
       const double depth = depth_of(look.clip.z, capture.clip_space);
-      if (holding < 0 && look.inside() && depth >= -kRim && depth <= 1.0 + kRim) holding = static_cast<int>(i);
+      if (holding < 0 && look.inside() && depth >= -kRim && depth <= 1.0 + kRim)
+        holding = static_cast<int>(i);
       const CapturedMap& map = looks.map_at(i);
       if (frame.selection == MapSelection::view_depth && chosen < 0 && seen.depths[p] >= map.begin &&
           seen.depths[p] <= map.end)

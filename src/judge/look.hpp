@@ -14,13 +14,13 @@ inline constexpr double kRim = 1e-6;
 
 /// A point in a map.
 struct Look {
-  bool lit_side = false;        ///< the surface may face the light
-  glm::dvec3 clip{0.0};         ///< after the division by w
+  bool lit_side = false;  ///< the surface may face the light
+  glm::dvec3 clip{0.0};   ///< after the division by w
   double w = 0.0;
-  glm::dvec2 texel{0.0};        ///< from the map's first corner at ndc -1, -1
+  glm::dvec2 texel{0.0};                  ///< from the map's first corner at ndc -1, -1
   glm::dvec3 along_x{0.0}, along_y{0.0};  ///< gradients of the texel's coordinates, texels per world unit
   glm::dvec3 texel_x{0.0}, texel_y{0.0};  ///< sides of a texel across the light, world units
-  double depth_per_world = 0.0; ///< of 0..1, along the light's travel
+  double depth_per_world = 0.0;           ///< of 0..1, along the light's travel
   /// True where the map shows the point: in front of the light, and off the rim by no more than rounding.
   [[nodiscard]] bool inside() const noexcept;
 };
@@ -37,11 +37,11 @@ struct LightLooks {
   const CapturedScene* scene = nullptr;
   const SeenSurfaces* seen = nullptr;
   int light = 0;
-  std::vector<std::size_t> map;            ///< indices of its maps in the frame
-  std::vector<std::vector<Look>> of;       ///< by map of this light, then by point
-  std::vector<char> counts;                ///< by point: on the lit side, within the depths that maps serve
-  std::vector<int> chosen;                 ///< by point: map of this light that the selection takes, -1: none
-  std::vector<int> holding;                ///< by point: first map that holds it, in depth, too; -1: none
+  std::vector<std::size_t> map;       ///< indices of its maps in the frame
+  std::vector<std::vector<Look>> of;  ///< by map of this light, then by point
+  std::vector<char> counts;           ///< by point: on the lit side, within the depths that maps serve
+  std::vector<int> chosen;            ///< by point: map of this light that the selection takes, -1: none
+  std::vector<int> holding;           ///< by point: first map that holds it, in depth, too; -1: none
   [[nodiscard]] const CapturedMap& map_at(std::size_t i) const { return frame->maps[map[i]]; }
 };
 

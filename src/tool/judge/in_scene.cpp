@@ -135,8 +135,8 @@ SceneJudgement judge_in_scene(judge::Capture& capture, const std::string& scene_
     throw std::runtime_error("SCENE: glTF worlds are right-handed, and the capture's is left-handed");
   check_scene_word("SCENE", scene_word);
   const std::vector<std::string> names = offscreen_context_names();
-  const auto kind = static_cast<render::ContextKind>(
-      std::find(names.begin(), names.end(), context_word) - names.begin());
+  const auto kind =
+      static_cast<render::ContextKind>(std::find(names.begin(), names.end(), context_word) - names.begin());
   const Scene scene = load_scene(scene_word);
   const trace::Tracer tracer(scene);
   complete(capture, scene, tracer);

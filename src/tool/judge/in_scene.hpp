@@ -25,7 +25,8 @@ struct DrawnLightErrors {
 };
 
 /// Fills in what the capture does not know: boxes, and visible points with their normals.
-/// Then judges, and draws the first frame. Throws std::runtime_error where the scene or a context cannot be had.
+/// Then judges, and draws the first frame. Throws std::runtime_error where the scene or a context cannot be
+/// had.
 struct SceneJudgement {
   judge::Judgement judgement;
   std::vector<DrawnLightErrors> lights;

@@ -23,7 +23,7 @@ struct JudgeRequest {
   std::string context = "auto";
   double max_m = 0.0, max_findings = -1.0;
   double max_misclassified = 0.0;  ///< percent; 0: no limit
-  std::string out;  ///< folder; empty: no files
+  std::string out;                 ///< folder; empty: no files
   bool json = false;
 };
 
@@ -33,18 +33,21 @@ Json number(double value) {
 }
 
 Json error_json(const AliasingStats& error) {
-  return {{"p50", number(error.p50)},
-          {"p95", number(error.p95)},
-          {"max", number(error.max)},
-          {"mean", number(error.mean)},
-          {"points", error.samples},
-          {"outside", error.outside}};
+  return {{"p50", number(error.p50)},   {"p95", number(error.p95)}, {"max", number(error.max)},
+          {"mean", number(error.mean)}, {"points", error.samples},  {"outside", error.outside}};
 }
 
 Json finding_json(const judge::Finding& finding) {
-  Json json{{"kind", to_string(finding.kind)}, {"what", finding.what},     {"change", finding.change},
-            {"size", number(finding.size)},    {"unit", finding.unit},     {"light", finding.light},
-            {"map", finding.map},              {"frame", finding.frame},   {"frames", finding.frames}};
+  Json json{{"kind", to_string(finding.kind)},
+            {"what", finding.what},
+            {"change", finding.change},
+            {"size", number(finding.size)},
+            {"unit", finding.unit},
+            {"light", finding.light},
+            {"map", finding.map},
+            {"frame", finding.frame},
+            {"frames", finding.frames}};
+  if (!finding.also.empty()) json["also"] = finding.also;
   if (finding.pixel) json["pixel"] = {finding.pixel->x, finding.pixel->y};
   return json;
 }
@@ -80,12 +83,8 @@ Json judgement_json(const judge::Capture& capture, const judge::Judgement& judge
     lights.push_back(json);
   }
   for (const judge::Finding& finding : judgement.findings) findings.push_back(finding_json(finding));
-  return {{"capture", capture.name},
-          {"engine", capture.engine},
-          {"frames", capture.frames.size()},
-          {"lights", lights},
-          {"findings", findings},
-          {"notes", judgement.notes}};
+  return {{"capture", capture.name}, {"engine", capture.engine}, {"frames", capture.frames.size()},
+          {"lights", lights},        {"findings", findings},     {"notes", judgement.notes}};
 }
 
 std::string error_text(const AliasingStats& error) {
@@ -95,11 +94,18 @@ std::string error_text(const AliasingStats& error) {
 
 void print_drawn(const DrawnLightErrors& errors) {
   const auto text = [](const DrawnErrors& e) {
-    return judge::digits(100.0 * e.wrong) + " % misclassified (expected without drawing: " +
-           judge::digits(100.0 * e.expected) + " %)";
+    return judge::digits(100.0 * e.wrong) +
+           " % misclassified (expected without drawing: " + judge::digits(100.0 * e.expected) + " %)";
   };
   print_line("  drawn, " + std::to_string(errors.pixels) + " pixels: " + text(errors.captured));
   if (errors.planned) print_line("  gnomon's plan, fit tight: " + text(*errors.planned));
+}
+
+/// " [also maps 1 and 2]"; empty where there are none.
+std::string also_text(const judge::Finding& finding) {
+  std::string text;
+  for (const int map : finding.also) text += (text.empty() ? " [also in map " : ", ") + std::to_string(map);
+  return text.empty() ? text : text + "]";
 }
 
 void print_text(const judge::Capture& capture, const judge::Judgement& judgement,
@@ -120,7 +126,7 @@ void print_text(const judge::Capture& capture, const judge::Judgement& judgement
       if (errors.light == light.light) print_drawn(errors);
   }
   for (const judge::Finding& finding : judgement.findings) {
-    std::string place;
+    std::string place = also_text(finding);
     if (finding.frames > 1 || capture.frames.size() > 1)
       place += " [" + std::to_string(finding.frames) + " of " + std::to_string(capture.frames.size()) +
                " frames, worst in " + std::to_string(finding.frame) + "]";
@@ -138,7 +144,8 @@ void print_text(const judge::Capture& capture, const judge::Judgement& judgement
 bool beyond_limits(const JudgeRequest& request, const judge::Judgement& judgement,
                    const std::vector<DrawnLightErrors>& drawn) {
   for (const DrawnLightErrors& errors : drawn)
-    if (request.max_misclassified > 0.0 && 100.0 * errors.captured.wrong > request.max_misclassified) return true;
+    if (request.max_misclassified > 0.0 && 100.0 * errors.captured.wrong > request.max_misclassified)
+      return true;
   if (request.max_findings >= 0.0 && static_cast<double>(judgement.findings.size()) > request.max_findings)
     return true;
   if (!(request.max_m > 0.0)) return false;
@@ -186,7 +193,8 @@ std::function<int()> declare_judge(Arguments& arguments) {
        .completion = Completion::files},
       {.name = "SCENE",
        .target = &request->scene,
-       .help = "glTF file or builtin:NAME that the capture is of: adds misclassified pixels, boxes and points",
+       .help =
+           "glTF file or builtin:NAME that the capture is of: adds misclassified pixels, boxes and points",
        .completion = Completion::files},
       {.name = "--max-misclassified",
        .target = &request->max_misclassified,
@@ -211,12 +219,12 @@ std::function<int()> declare_judge(Arguments& arguments) {
        .range = {{-1.0, 1e9}}},
       {.name = "--out",
        .target = &request->out,
-       .help = "write judge.json and the page judge.html into this folder",
+       .help = "write the page (judge.html) and its figures (judge.json) into this folder",
        .completion = Completion::folders},
-      {.name = "--json", .target = &request->json, .help = "print the judgement as one line of JSON"}};
+      {.name = "--json", .target = &request->json, .help = "print the result as one line of JSON"}};
   arguments.footer =
-      "docs/judge.md has the format, a writer for three.js, and what each finding means.\n\n"
-      "Exit: 0 judged, and within the limits; 1 beyond a limit; 2 bad input, with one line that names the "
+      "docs/captures.md has the format, a writer for three.js, and what each finding means.\n\n"
+      "Exit: 0 within the limits; 1 beyond a limit; 2 bad input, with one line that names the "
       "file and key.";
   return [request] { return run_judge(*request); };
 }

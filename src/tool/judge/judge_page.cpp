@@ -30,11 +30,15 @@ constexpr std::string_view kNoMap = "#000", kNothing = "#888";
 
 std::string style() {
   std::string css(report::page_style());
-  css += ".seen{display:block;width:100%;height:auto;background:#c9cbd0}.seen text{font:600 13px system-ui,sans-serif;fill:#fff;"
-         "text-anchor:middle;dominant-baseline:central}.spot{fill:#22252b;stroke:#fff;stroke-width:1.5}"
-         ".scale{display:flex;flex-wrap:wrap;gap:4px 14px;font-size:13px}.scale svg{vertical-align:-1px;margin-right:5px}"
-         "ol.faults{padding-left:0;list-style:none}ol.faults li{border-left:4px solid var(--c1);background:var(--box);padding:8px 14px;"
-         "margin:10px 0}.faults b{display:block}.kind{color:var(--soft);font-size:13px}.good{font-size:17px}";
+  css +=
+      ".seen{display:block;width:100%;height:auto;background:#c9cbd0}.seen text{font:600 13px "
+      "system-ui,sans-serif;fill:#fff;"
+      "text-anchor:middle;dominant-baseline:central}.spot{fill:#22252b;stroke:#fff;stroke-width:1.5}"
+      ".scale{display:flex;flex-wrap:wrap;gap:4px 14px;font-size:13px}.scale "
+      "svg{vertical-align:-1px;margin-right:5px}"
+      "ol.faults{padding-left:0;list-style:none}ol.faults li{border-left:4px solid "
+      "var(--c1);background:var(--box);padding:8px 14px;"
+      "margin:10px 0}.faults b{display:block}.kind{color:var(--soft);font-size:13px}.good{font-size:17px}";
   return css;
 }
 
@@ -52,8 +56,8 @@ std::string squares(const std::vector<glm::dvec2>& at, double size, std::string_
 /// A share of the image that one point stands for: the points are all over it.
 double square_side(const Camera& camera, std::size_t points) {
   constexpr double kRays = 5184.0;
-  const double each = static_cast<double>(camera.width) * camera.height /
-                      std::max(static_cast<double>(points), kRays);
+  const double each =
+      static_cast<double>(camera.width) * camera.height / std::max(static_cast<double>(points), kRays);
   return std::ceil(std::sqrt(each));
 }
 
@@ -74,9 +78,10 @@ std::string picture(const Camera& camera, const std::vector<judge::SeenError>& s
     }
   }
   const double side = square_side(camera, seen.size());
-  std::string out = "<figure><figcaption>" + escaped(title) + "</figcaption><svg class=\"seen\" role=\"img\" aria-label=\"" +
-                    escaped(title) + "\" viewBox=\"0 0 " + std::to_string(camera.width) + " " +
-                    std::to_string(camera.height) + "\">";
+  std::string out = "<figure><figcaption>" + escaped(title) +
+                    "</figcaption><svg class=\"seen\" role=\"img\" aria-label=\"" + escaped(title) +
+                    "\" viewBox=\"0 0 " + std::to_string(camera.width) + " " + std::to_string(camera.height) +
+                    "\">";
   for (std::size_t k = 0; k < kHeat.size(); ++k) out += squares(of[k], side, kHeat[k].color);
   out += squares(none, side, kNoMap) + squares(nothing, side, kNothing) + marks + "</svg></figure>";
   return out;
@@ -85,8 +90,10 @@ std::string picture(const Camera& camera, const std::vector<judge::SeenError>& s
 std::string legend() {
   std::string out = "<p class=\"scale\"><span>m, screen pixels per texel:</span>";
   const auto entry = [&](std::string_view color, std::string_view name) {
-    out += "<span><svg width=\"12\" height=\"12\" aria-hidden=\"true\"><rect width=\"12\" height=\"12\" fill=\"" +
-           std::string(color) + "\"/></svg>" + std::string(name) + "</span>";
+    out +=
+        "<span><svg width=\"12\" height=\"12\" aria-hidden=\"true\"><rect width=\"12\" height=\"12\" "
+        "fill=\"" +
+        std::string(color) + "\"/></svg>" + std::string(name) + "</span>";
   };
   for (const HeatClass& heat : kHeat) entry(heat.color, heat.name);
   entry(kNoMap, "in no map");
@@ -100,9 +107,10 @@ std::string marks_of(const judge::Judgement& judgement, int light, const Camera&
   for (std::size_t i = 0; i < judgement.findings.size(); ++i) {
     const judge::Finding& finding = judgement.findings[i];
     if (finding.light != light || finding.frame != 0 || !finding.pixel) continue;
-    out += "<g transform=\"translate(" + short_number(finding.pixel->x) + " " + short_number(finding.pixel->y) +
-           ") scale(" + short_number(scale) + ")\"><title>" + escaped(finding.what) +
-           "</title><circle class=\"spot\" r=\"10\"/><text>" + std::to_string(i + 1) + "</text></g>";
+    out += "<g transform=\"translate(" + short_number(finding.pixel->x) + " " +
+           short_number(finding.pixel->y) + ") scale(" + short_number(scale) + ")\"><title>" +
+           escaped(finding.what) + "</title><circle class=\"spot\" r=\"10\"/><text>" + std::to_string(i + 1) +
+           "</text></g>";
   }
   return out;
 }
@@ -119,7 +127,11 @@ std::string figures_table(const judge::LightFigures& light) {
   out += "<tr><td>the capture's " + std::to_string(light.maps) + "</td><td>" + std::to_string(light.texels) +
          "</td>" + error_cells(light.error) + "</tr>";
   for (std::size_t i = 0; i < light.of_map.size() && light.of_map.size() > 1; ++i)
-    out += "<tr><td>&nbsp; its " + std::to_string(i + 1) + (i == 0 ? "st" : i == 1 ? "nd" : i == 2 ? "rd" : "th") +
+    out += "<tr><td>&nbsp; its " + std::to_string(i + 1) +
+           (i == 0   ? "st"
+            : i == 1 ? "nd"
+            : i == 2 ? "rd"
+                     : "th") +
            "</td><td></td>" + error_cells(light.of_map[i]) + "</tr>";
   for (const judge::LightFigures::Planned& planned : light.planned)
     out += "<tr class=\"best\"><td>gnomon's " + std::to_string(planned.maps) + ", fit " +
@@ -131,6 +143,7 @@ std::string figures_table(const judge::LightFigures& light) {
 std::string place_of(const judge::Capture& capture, const judge::Finding& finding) {
   std::string out = std::string(to_string(finding.kind)) + " · light " + std::to_string(finding.light);
   if (finding.map >= 0) out += ", map " + std::to_string(finding.map);
+  for (const int map : finding.also) out += ", " + std::to_string(map);
   if (capture.frames.size() > 1)
     out += " · " + std::to_string(finding.frames) + " of " + std::to_string(capture.frames.size()) +
            " frames, worst in " + std::to_string(finding.frame);
@@ -145,8 +158,9 @@ std::string findings_list(const judge::Capture& capture, const judge::Judgement&
   std::string out = "<ol class=\"faults\">\n";
   for (std::size_t i = 0; i < judgement.findings.size(); ++i) {
     const judge::Finding& finding = judgement.findings[i];
-    out += "<li><b>" + std::to_string(i + 1) + ". " + escaped(finding.what) + "</b>" + escaped(finding.change) +
-           "<br><span class=\"kind\">" + escaped(place_of(capture, finding)) + "</span></li>\n";
+    out += "<li><b>" + std::to_string(i + 1) + ". " + escaped(finding.what) + "</b>" +
+           escaped(finding.change) + "<br><span class=\"kind\">" + escaped(place_of(capture, finding)) +
+           "</span></li>\n";
   }
   return out + "</ol>\n";
 }
@@ -160,7 +174,8 @@ std::string drawn_picture(const std::string& png, const DrawnErrors& errors, con
 /// Pixels that are wrong where the scene was at hand.
 std::string drawn_section(const DrawnLightErrors& drawn) {
   std::string out =
-      "<h3>Drawn, against exact rays</h3>\n<p class=\"note\">Hard comparison with gnomon's default bias, so that "
+      "<h3>Drawn, against exact rays</h3>\n<p class=\"note\">Hard comparison with gnomon's default bias, so "
+      "that "
       "maps alone differ. Orange: false light. Blue: false shadow.</p>\n<div class=\"pair\">" +
       drawn_picture(drawn.picture, drawn.captured, "The capture's maps");
   if (drawn.planned) out += drawn_picture(drawn.planned_picture, *drawn.planned, "gnomon's plan, fit tight");
@@ -172,9 +187,10 @@ std::string light_section(const judge::Capture& capture, const judge::Judgement&
   const Camera& camera = capture.frames.front().camera;
   std::string out = "<h2>Light " + std::to_string(light.light) + "</h2>\n" + figures_table(light);
   if (light.seen.empty()) return out;
-  out += "<div class=\"pair\">" +
-         picture(camera, light.seen, false, marks_of(judgement, light.light, camera), "The capture's maps, frame 0");
-  if (!light.planned.empty()) out += picture(camera, light.seen, true, "", "gnomon's plan, fit tight, as many texels");
+  out += "<div class=\"pair\">" + picture(camera, light.seen, false, marks_of(judgement, light.light, camera),
+                                          "The capture's maps, frame 0");
+  if (!light.planned.empty())
+    out += picture(camera, light.seen, true, "", "gnomon's plan, fit tight, as many texels");
   return out + "</div>\n" + legend();
 }
 
@@ -189,7 +205,8 @@ std::string judge_page(const judge::Capture& capture, const judge::Judgement& ju
       report::policy_hash(css) +
       "'; base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" "
       "content=\"width=device-width,initial-scale=1\">\n<title>gnomon: " +
-      escaped(name) + "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>" + css + "</style>\n</head>\n<body>\n";
+      escaped(name) + "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>" + css +
+      "</style>\n</head>\n<body>\n";
   out += "<header>\n<h1>" + escaped(name) + "</h1>\n<p class=\"sub\">" + escaped(capture.engine) +
          (capture.engine.empty() ? "" : ", ") + report::counted(capture.frames.size(), "frame") + ", " +
          report::counted(judgement.findings.size(), "finding") + "</p>\n</header>\n<main>\n";
@@ -200,7 +217,7 @@ std::string judge_page(const judge::Capture& capture, const judge::Judgement& ju
       if (errors.light == light.light) out += drawn_section(errors);
   }
   if (!judgement.notes.empty()) {
-    out += "<h2>What was not judged</h2>\n<ul>\n";
+    out += "<h2>Not checked</h2>\n<ul>\n";
     for (const std::string& note : judgement.notes) out += "<li>" + escaped(note) + "</li>\n";
     out += "</ul>\n";
   }

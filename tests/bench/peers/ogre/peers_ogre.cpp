@@ -41,12 +41,20 @@ Row gnomon_row(const char* name, int cascades, const Warp& warp, Objective objec
   return {name, cascades, std::nullopt, o, {}, {}, {}, {}, {}};
 }
 
+/// As make_plan does it by default.
+Row default_row(const char* name, int cascades) {
+  PlanOptions o;
+  o.cascades = cascades;
+  return {name, cascades, std::nullopt, o, {}, {}, {}, {}, {}};
+}
+
 std::vector<Row> rows() {
   constexpr SplitScheme kLog = SplitScheme::logarithmic;
   return {
       ogre_row("OGRE LiSPSM (default)", OgreSetup::lispsm),
       ogre_row("OGRE LiSPSM (n_opt)", OgreSetup::lispsm_n_opt),
       ogre_row("OGRE Focused", OgreSetup::focused),
+      default_row("gnomon default", 1),
       gnomon_row("gnomon none", 1, warps::none, Objective::storage, kLog),
       gnomon_row("gnomon lispsm_closed", 1, warps::lispsm_closed, Objective::storage, kLog),
       gnomon_row("gnomon lispsm", 1, warps::lispsm, Objective::storage, kLog),
@@ -54,6 +62,7 @@ std::vector<Row> rows() {
       gnomon_row("gnomon optimal by p95", 1, warps::optimal, Objective::p95, kLog),
       ogre_row("OGRE PSSM (own splits)", OgreSetup::pssm),
       ogre_row("OGRE PSSM (n_opt in each map)", OgreSetup::pssm_n_opt),
+      default_row("gnomon default, four maps", 4),
       gnomon_row("gnomon none, log splits", 4, warps::none, Objective::storage, kLog),
       gnomon_row("gnomon lispsm, log splits", 4, warps::lispsm, Objective::storage, kLog),
       gnomon_row("gnomon optimal, log splits", 4, warps::optimal, Objective::storage, kLog),
@@ -165,9 +174,77 @@ void print_table(const std::vector<Row>& table, int cascades, const Row& peer, i
   }
 }
 
+void print_matrix(std::FILE* file, const char* key, const glm::dmat4& m) {
+  std::fprintf(file, "\"%s\": [", key);
+  for (int i = 0; i < 16; ++i) std::fprintf(file, "%s%.17g", i == 0 ? "" : ", ", m[i / 4][i % 4]);
+  std::fprintf(file, "]");
+}
+
+void print_boxes(std::FILE* file, const char* key, const std::vector<Box>& boxes) {
+  std::fprintf(file, "\"%s\": [", key);
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    std::fprintf(file, "%s{\"min\": [%.17g, %.17g, %.17g], \"max\": [%.17g, %.17g, %.17g]}",
+                 i == 0 ? "" : ", ", boxes[i].min.x, boxes[i].min.y, boxes[i].min.z, boxes[i].max.x,
+                 boxes[i].max.y, boxes[i].max.z);
+  std::fprintf(file, "]");
+}
+
+/// OGRE's maps as a capture for `gnomon judge`.
+bool write_capture(const std::string& name, const peers::OgreMaps& maps, const Case& c) {
+  std::FILE* const file = std::fopen(name.c_str(), "w");
+  if (file == nullptr) return false;
+  const auto* sun = std::get_if<DirectionalLight>(&c.light);
+  std::fprintf(
+      file, "{\"format\": \"gnomon-capture/1\", \"name\": \"OGRE, %d map%s\", \"engine\": \"OGRE 1.12\",\n",
+      maps.count, maps.count == 1 ? "" : "s");
+  std::fprintf(file, "\"camera\": {");
+  print_matrix(file, "view_from_world", view_from_world(c.camera));
+  std::fprintf(file, ", ");
+  print_matrix(file, "clip_from_view", clip_from_view(c.camera));
+  std::fprintf(file, ", \"width\": %d, \"height\": %d},\n", c.camera.width, c.camera.height);
+  std::fprintf(
+      file, "\"lights\": [{\"type\": \"directional\", \"direction\": [%.17g, %.17g, %.17g]}],\n\"maps\": [",
+      sun->direction.x, sun->direction.y, sun->direction.z);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(maps.count); ++i) {
+    std::fprintf(file, "%s{", i == 0 ? "" : ",\n");
+    print_matrix(file, "clip_from_world", maps.clip_from_world[i]);
+    const bool last = i + 1 == static_cast<std::size_t>(maps.count);
+    std::fprintf(file, ", \"width\": 1024, \"height\": 1024, \"depths\": [%.17g, %.17g]}",
+                 i == 0 ? c.camera.near_depth : maps.border[i],
+                 last ? c.camera.far_depth : maps.border[i + 1]);
+  }
+  std::fprintf(file, "],\n");
+  print_boxes(file, "receivers", c.receivers);
+  std::fprintf(file, ",\n");
+  print_boxes(file, "casters", c.casters);
+  std::fprintf(file, "}\n");
+  return std::fclose(file) == 0;
+}
+
+/// Captures of both set-ups on every case, into a folder that is there.
+int write_captures(const std::string& folder, const std::vector<NamedCase>& cases) {
+  for (const NamedCase& c : cases) {
+    OgreScene scene(c);
+    for (const OgreSetup setup : {OgreSetup::lispsm_n_opt, OgreSetup::pssm}) {
+      scene.set_up(setup);
+      const std::string name =
+          folder + "/ogre_" + (setup == OgreSetup::pssm ? "pssm_" : "lispsm_") + c.name + ".json";
+      if (write_capture(name, scene.maps(setup), c)) continue;
+      std::fprintf(stderr, "%s: cannot be written\n", name.c_str());
+      return 2;
+    }
+  }
+  return 0;
+}
+
 }  // namespace
 
+// bench_peers_ogre [ROUNDS], or bench_peers_ogre --captures FOLDER
 int main(int argc, char** argv) {
+  if (argc == 3 && std::strcmp(argv[1], "--captures") == 0) {
+    const peers::OgreRoot root;
+    return write_captures(argv[2], load_cases());
+  }
   const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 51;
   const std::vector<NamedCase> cases = load_cases();
   const peers::OgreRoot root;

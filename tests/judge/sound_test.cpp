@@ -1,0 +1,141 @@
+// Is nothing found where nothing is wrong? Captures of real engines in other units, places, axes and
+// conventions.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+
+#include "captures.hpp"
+
+namespace gnomon::judge::test {
+namespace {
+
+const std::vector<std::string> kNames{"three_csm", "three_sunlight", "three_spot", "babylon_stabilized",
+                                      "ogre_pssm"};
+
+/// Replaces the world of a capture by `moved` of it: an even scale, and a turn that keeps boxes along the
+/// axes.
+void move_world(Json& c, const glm::dmat4& moved, double scale) {
+  const glm::dmat4 back = glm::inverse(moved);
+  const auto point = [&](const Json& p) {
+    return glm::dvec3(moved * glm::dvec4(p[0].get<double>(), p[1].get<double>(), p[2].get<double>(), 1.0));
+  };
+  const auto of_frame = [&](Json& frame) {
+    // View space keeps its unit: a scale of the view's axes would be another camera.
+    glm::dmat4 view = matrix(frame["camera"]["view_from_world"]) * back;
+    frame["camera"]["view_from_world"] = numbers(glm::scale(glm::dmat4(1.0), glm::dvec3(scale)) * view);
+    glm::dmat4 clip = matrix(frame["camera"]["clip_from_view"]);
+    clip[3][2] *= scale;
+    frame["camera"]["clip_from_view"] = numbers(clip);
+    for (Json& light : frame["lights"]) {
+      if (light.contains("direction")) {
+        const glm::dvec3 d{light["direction"][0].get<double>(), light["direction"][1].get<double>(),
+                           light["direction"][2].get<double>()};
+        const glm::dvec3 turned = glm::dmat3(moved) * d;
+        light["direction"] = {turned.x, turned.y, turned.z};
+      }
+      if (!light.contains("position")) continue;
+      const glm::dvec3 p = point(light["position"]);
+      light["position"] = {p.x, p.y, p.z};
+      light["range"] = light["range"].get<double>() * scale;
+    }
+    for (Json& map : frame["maps"]) {
+      map["clip_from_world"] = numbers(matrix(map["clip_from_world"]) * back);
+      if (map.contains("depths")) {
+        for (Json& depth : map["depths"]) depth = depth.get<double>() * scale;
+      }
+    }
+  };
+  if (c.contains("maps")) of_frame(c);
+  if (c.contains("frames"))
+    for (Json& frame : c["frames"]) of_frame(frame);
+  for (const char* list : {"receivers", "casters"}) {
+    for (Json& box : c[list]) {
+      const glm::dvec3 a = point(box["min"]), b = point(box["max"]);
+      const glm::dvec3 low = glm::min(a, b), high = glm::max(a, b);
+      box = {{"min", {low.x, low.y, low.z}}, {"max", {high.x, high.y, high.z}}};
+    }
+  }
+}
+
+TEST(SoundCaptures, have_no_findings_as_they_are) {
+  for (const std::string& name : kNames) EXPECT_THAT(kinds(judged(sound(name))), testing::IsEmpty()) << name;
+}
+
+TEST(SoundCaptures, have_none_in_other_units) {
+  for (const std::string& name : kNames) {
+    for (const double scale : {0.01, 100.0}) {
+      Json c = sound(name);
+      move_world(c, glm::scale(glm::dmat4(1.0), glm::dvec3(scale)), scale);
+      EXPECT_THAT(kinds(judged(c)), testing::IsEmpty()) << name << " " << scale;
+    }
+  }
+}
+
+TEST(SoundCaptures, have_none_in_another_place) {
+  for (const std::string& name : kNames) {
+    Json c = sound(name);
+    move_world(c, glm::translate(glm::dmat4(1.0), {300.0, -40.0, 170.0}), 1.0);
+    EXPECT_THAT(kinds(judged(c)), testing::IsEmpty()) << name;
+  }
+}
+
+TEST(SoundCaptures, have_none_where_z_is_up) {
+  glm::dmat4 turned(0.0);
+  turned[0] = {1, 0, 0, 0};
+  turned[1] = {0, 0, 1, 0};
+  turned[2] = {0, -1, 0, 0};
+  turned[3] = {0, 0, 0, 1};
+  for (const std::string& name : kNames) {
+    Json c = sound(name);
+    move_world(c, turned, 1.0);
+    EXPECT_THAT(kinds(judged(c)), testing::IsEmpty()) << name;
+  }
+}
+
+TEST(SoundCaptures, have_none_in_other_conventions_that_are_stated) {
+  for (const std::string& name : kNames) {
+    Json c = sound(name);
+    const Json camera_space = c.value("clip_space", Json::object());
+    const bool left = camera_space.value("handedness", "right") == "left";
+    // Vulkan's, with reversed depth, written row by row.
+    glm::dmat4 to(1.0);
+    to[1][1] = -1.0;
+    to[2][2] = -0.5;
+    to[3][2] = 0.5;
+    for_each_map(c, [&](Json& map, std::size_t) {
+      map["clip_from_world"] = numbers(glm::transpose(to * matrix(map["clip_from_world"])));
+    });
+    const auto transpose_camera = [](Json& frame) {
+      for (const char* key : {"view_from_world", "clip_from_view"})
+        frame["camera"][key] = numbers(glm::transpose(matrix(frame["camera"][key])));
+    };
+    if (c.contains("maps")) transpose_camera(c);
+    if (c.contains("frames"))
+      for (Json& frame : c["frames"]) transpose_camera(frame);
+    c["matrices"] = "row_major";
+    c["clip_space"] = {{"ndc_depth", "zero_to_one"},
+                       {"reversed_z", true},
+                       {"y_down", true},
+                       {"handedness", left ? "left" : "right"}};
+    c["camera_clip_space"] = camera_space;
+    EXPECT_THAT(kinds(judged(c)), testing::IsEmpty()) << name;
+  }
+}
+
+TEST(SoundCaptures, have_plans_beside_them_with_less_error) {
+  for (const std::string& name : kNames) {
+    if (name == "three_spot") continue;  // a spot near by: both have texels to spare
+    const Judgement judgement = judged(shipped(name));
+    ASSERT_EQ(judgement.lights.size(), 1u);
+    const LightFigures& light = judgement.lights[0];
+    ASSERT_FALSE(light.planned.empty());
+    EXPECT_EQ(light.planned[0].fit, "tight");
+    EXPECT_LE(light.planned[0].texels, light.texels);
+    EXPECT_LT(light.planned[0].error.mean, light.error.mean) << name;
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::judge::test
