@@ -142,7 +142,9 @@ void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broke
       const double pixel =
           (camera.top - camera.bottom) / camera.height * (camera.orthographic ? 1.0 : looks.seen->depths[p]);
       constexpr double kTimesNeeded = 4.0, kPixels = 3.0;
-      if (have > kTimesNeeded * std::max(need, texel_side(look)) && gap > kPixels * pixel) {
+      // A wide kernel blurs what a gap of its own size would show.
+      const double blur = std::max(1.0, 0.5 + map.filter_texels) * texel_side(look);
+      if (have > kTimesNeeded * std::max(need, blur) && gap > kPixels * pixel) {
         ++large;
         gaps.push_back(gap);
         if (gap > worst_gap) {

@@ -13,6 +13,7 @@
 #include "gnomon/scene/load.hpp"
 #include "gnomon/scene/pose.hpp"
 #include "gnomon/scene/translucent.hpp"
+#include "gnomon/study/engine_bias.hpp"
 
 namespace gnomon::pages {
 
@@ -43,6 +44,7 @@ extern std::uint32_t frame;
 extern bool running, light_moved;
 void fail(std::string_view reason);
 void draw(const ShadowMap& map, const TexelRect& place);
+void light_shadow(double bias, double normal_bias);
 void draw_page(const ShadowMap& map, std::uint32_t slot);
 
 }  // namespace gnomon::pages
