@@ -314,6 +314,10 @@ void figures(const State& state, const Stage& stage) {
         &report::MaskErrors::false_lit);
   error("false shadow", "of the pixels that a ray decides; in the misclassified view",
         &report::MaskErrors::false_shadow);
+  row("expected", "misclassified pixels that hard comparison in these maps is to have, without drawing them",
+      [](const Side& s) {
+        return s.expected_wrong ? fmt::format("{:.3f} %", 100.0 * *s.expected_wrong) : std::string("-");
+      });
   error("too light", "leaks: brighter by over a tenth within exact shadow, of the same pixels",
         &report::MaskErrors::too_light);
   error("too dark", "acne: darker by over a tenth within exact light, of the same pixels",

@@ -80,13 +80,18 @@ Image misclassified_picture(const FloatImage& mask, std::span<const trace::Verdi
   return image;
 }
 
+std::vector<float> lit_of(std::span<const trace::Verdict> verdicts, std::size_t pixels) {
+  std::vector<float> lit(pixels, -1.0f);
+  for (std::size_t i = 0; i < std::min(verdicts.size(), lit.size()); ++i) {
+    if (verdicts[i] == trace::Verdict::lit) lit[i] = 1.0f;
+    if (verdicts[i] == trace::Verdict::shadow) lit[i] = 0.0f;
+  }
+  return lit;
+}
+
 report::MaskErrors errors_of(const FloatImage& mask, std::span<const trace::Verdict> verdicts) {
   constexpr int kReach = 3;  // pixels
-  std::vector<float> truth(pixels_of(mask), -1.0f);
-  for (std::size_t i = 0; i < std::min(verdicts.size(), truth.size()); ++i) {
-    if (verdicts[i] == trace::Verdict::lit) truth[i] = 1.0f;
-    if (verdicts[i] == trace::Verdict::shadow) truth[i] = 0.0f;
-  }
+  const std::vector<float> truth = lit_of(verdicts, pixels_of(mask));
   return report::mask_errors(channel(mask, 0), truth, report::uniform_truth(truth, mask.width, kReach));
 }
 

@@ -28,6 +28,8 @@ namespace gnomon::tool::view {
 /// The mask's errors at pixels that a ray decides; acne and leaks at those whose exact shadow is uniform for
 /// three pixels round.
 [[nodiscard]] report::MaskErrors errors_of(const FloatImage& mask, std::span<const trace::Verdict> verdicts);
+/// The exact shadow as numbers: 1 lit, 0 in shadow, -1 where nothing is decided; `pixels` of them.
+[[nodiscard]] std::vector<float> lit_of(std::span<const trace::Verdict> verdicts, std::size_t pixels);
 /// Share of pixels whose visibility differs by more than half between two masks of one camera; a pixel that
 /// only one of them serves does not count. Both have one size.
 [[nodiscard]] double flips_between(const FloatImage& before, const FloatImage& after);

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "float_channel.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/error.hpp"
@@ -14,6 +15,7 @@
 #include "gnomon/render/probe.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/scene/translucent.hpp"
+#include "gnomon/study/expected_error.hpp"
 #include "identifier_word.hpp"
 #include "level_picture.hpp"
 #include "lines.hpp"
@@ -323,8 +325,18 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
         renderer_.draw(side.drawn, camera_, prepare(settings), frame_options(state, settings, light_));
   }
   side.errors.reset();
+  side.expected_wrong.reset();
   if (wants_truth_) want_truth(settled);
-  if (wants_truth_ && truth_.done()) side.errors = errors_of(renderer_.mask(), truth_.verdicts());
+  if (wants_truth_ && truth_.done()) {
+    const FloatImage mask = renderer_.mask();
+    side.errors = errors_of(mask, truth_.verdicts());
+    if (!side.pages) {
+      const FloatImage positions = renderer_.positions();
+      const std::vector<float> depths = channel(positions, static_cast<std::size_t>(positions.channels) - 1);
+      side.expected_wrong =
+          expected_error(side.drawn, {camera_, lit_of(truth_.verdicts(), depths.size()), depths}).share();
+    }
+  }
   draw_view(state, side, canvas);
   if (state.frozen && state.view != View::map) {
     const Box& scene = loaded_->scene.bounds_world;

@@ -155,6 +155,21 @@ TEST(ViewTimes, leave_the_picture_and_count_errors_in_every_view) {
   EXPECT_EQ(lit_view->pixels, own_view->pixels);
 }
 
+TEST(ViewTimes, what_is_expected_without_drawing_is_near_what_is_counted) {
+  State state = hangar();
+  state.a.filter = render::default_settings(render::filters::hard);
+  state.view = View::misclassified;
+  (void)picture(state);
+  const Side& side = stage().side(0);
+  ASSERT_TRUE(side.errors && side.expected_wrong);
+  const double wrong = side.errors->false_lit + side.errors->false_shadow;
+  EXPECT_GT(*side.expected_wrong, 0.3 * wrong);
+  EXPECT_LT(*side.expected_wrong, 2.0 * wrong);
+  state.view = View::lit;
+  (void)picture(state);
+  EXPECT_FALSE(stage().side(0).expected_wrong.has_value());
+}
+
 TEST(ViewTimes, of_a_gauge_are_the_ratio_of_medians_without_the_draws_that_warm_up) {
   Gauge gauge;
   EXPECT_EQ(gauge.ratio(), 0.0);
