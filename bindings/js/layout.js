@@ -287,6 +287,25 @@ export const structs = {
       projection: [80, 'f64', 0],
     },
   },
+  shadow_picture: {
+    bytes: 32,
+    fields: {
+      size: [0, 'u32', 0],
+      reserved: [4, 'u32', 0],
+      camera: [8, 'ptr', 0],
+      mask: [12, 'ptr', 0],
+      view_depths: [16, 'ptr', 0],
+      pixel_count: [24, 'i64', 0],
+    },
+  },
+  wrong_pixels: {
+    bytes: 24,
+    fields: {
+      wrong: [0, 'f64', 0],
+      counted: [8, 'f64', 0],
+      share: [16, 'f64', 0],
+    },
+  },
   page_options: {
     bytes: 72,
     fields: {

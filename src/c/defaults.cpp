@@ -73,6 +73,10 @@ void set_defaults(gnomon_stats& to) noexcept {
   clear(to);
 }
 
+void set_defaults(gnomon_shadow_picture& to) noexcept {
+  clear(to);
+}
+
 void set_defaults(gnomon_page_options& to) noexcept {
   const PageOptions options;
   clear(to);
@@ -173,6 +177,9 @@ int32_t gnomon_measure_options_default(gnomon_measure_options* options, uint32_t
 }
 int32_t gnomon_stats_default(gnomon_stats* stats, uint32_t size) {
   return write_defaults(stats, size);
+}
+int32_t gnomon_shadow_picture_default(gnomon_shadow_picture* picture, uint32_t size) {
+  return write_defaults(picture, size);
 }
 int32_t gnomon_page_options_default(gnomon_page_options* options, uint32_t size) {
   return write_defaults(options, size);

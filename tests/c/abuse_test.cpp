@@ -145,6 +145,7 @@ TEST(Abuse, defaults_take_the_size_that_they_have) {
   check_default(gnomon_plan_default);
   check_default(gnomon_measure_options_default);
   check_default(gnomon_stats_default);
+  check_default(gnomon_shadow_picture_default);
   check_default(gnomon_page_options_default);
   check_default(gnomon_page_plan_default);
   check_default(gnomon_page_history_default);

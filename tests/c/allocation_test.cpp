@@ -67,10 +67,20 @@ TEST(AllocationInC, plans_allocate_nothing_and_handles_do) {
   gnomon_stats stats;
   gnomon_stats_default(&stats, sizeof stats);
   int64_t found = 0;
+  const std::vector<float> pixels(960 * 640, 0.5f);
+  std::vector<glm::dvec3> edges(8);
+  gnomon_shadow_picture picture;
+  gnomon_shadow_picture_default(&picture, sizeof picture);
+  picture.camera = &in.camera;
+  picture.mask = picture.view_depths = pixels.data();
+  picture.pixel_count = 960 * 640;
+  gnomon_wrong_pixels wrong;
   before = allocations;
   EXPECT_EQ(gnomon_make_plan(&in.view, &in.light, &in.scene, nullptr, history, &out.plan, nullptr),
             GNOMON_OK);
   EXPECT_EQ(gnomon_measure(&out.plan, &in.view, &in.scene, nullptr, &stats, nullptr), GNOMON_OK);
+  EXPECT_EQ(gnomon_expected_error(&out.plan, &picture, &wrong, nullptr), GNOMON_OK);
+  EXPECT_EQ(gnomon_shadow_edge_points(&picture, &edges[0].x, 8, &found, nullptr), GNOMON_OK);
   EXPECT_EQ(gnomon_cull_set(out.maps, set, nullptr, 0, &found, nullptr), GNOMON_OK);
   EXPECT_EQ(gnomon_plan_pages(&in.view, &in.light, &in.scene, &pages, nullptr, memory.data(), page_bytes,
                               &page_plan, nullptr),

@@ -9,6 +9,7 @@
 
 #include "gnomon/extend/shape.hpp"
 #include "gnomon/study/bias.hpp"
+#include "gnomon/study/expected_error.hpp"
 #include "gnomon/study/log_perspective.hpp"
 #include "support/float_traps.hpp"
 #include "support/seeded_input.hpp"
@@ -49,7 +50,27 @@ struct Frame {
                 measure_point(map, in.camera, p, normal).m_max;
       }
     }
-    sink += pack_atlas(plan).efficiency;
+    sink += pack_atlas(plan).efficiency + wrong_pixels(in);
+  }
+
+ private:
+  /// A picture of eight by eight pixels: one of the receivers' depths in each, or none, and any shadow.
+  [[nodiscard]] double wrong_pixels(const SeededInput& in) const {
+    if (in.receivers.empty()) return 0.0;
+    std::array<float, 64> mask, depths;
+    Camera camera = in.camera;
+    camera.width = camera.height = 8;
+    const CameraAxes axes = camera_axes(camera);
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      mask[i] = static_cast<float>(i * i % 7 < 3);
+      const Box& box = in.receivers[i / 3 % in.receivers.size()];
+      const double depth =
+          box.empty() ? 0.0 : glm::dot(0.5 * box.min + 0.5 * box.max - camera.position, axes.forward);
+      depths[i] = std::abs(depth) < 1e37 ? static_cast<float>(depth) : 0.0f;
+    }
+    std::array<glm::dvec3, 8> edges;
+    return expected_error(plan, {camera, mask, depths}).wrong_pixels +
+           static_cast<double>(shadow_edge_points({camera, mask, depths}, edges));
   }
 };
 

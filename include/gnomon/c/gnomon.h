@@ -692,6 +692,44 @@ GNOMON_API int32_t gnomon_measure_points(const gnomon_map* map, const gnomon_cam
                                          const double* points, const double* normals, int64_t count,
                                          gnomon_point_error* errors, const char** invalid_field);
 
+/// A shadow as a camera sees it: of other maps, of the last frame, or of rays.
+typedef struct gnomon_shadow_picture {
+  uint32_t size;                ///< set by gnomon_shadow_picture_default
+  uint32_t reserved;            ///< 0
+  const gnomon_camera* camera;  ///< its width and height are those of both pictures; required; default NULL
+  /// A number for each pixel, rows from top to bottom: 1 lit .. 0 in shadow. Not counted: negative numbers,
+  /// numbers above 1, not a number. Columns go along cross(forward, up): those of a left-handed world from
+  /// right to left. Required; default NULL.
+  const float* mask;
+  /// View depths of the surfaces, as many, world units. No surface: 0, less, infinity, not a number.
+  /// Required; default NULL.
+  const float* view_depths;
+  int64_t pixel_count;  ///< entries of each: the camera's width times height
+} gnomon_shadow_picture;
+/// Fills in defaults. `size`: sizeof *picture.
+GNOMON_EXPERIMENTAL int32_t gnomon_shadow_picture_default(gnomon_shadow_picture* picture, uint32_t size);
+
+/// The pixels that a plan will get wrong. Its size is fixed.
+typedef struct gnomon_wrong_pixels {
+  double wrong;    ///< lit and dark pixels that are taken for each other; no whole number
+  double counted;  ///< pixels that have a surface, and are lit or dark
+  double share;    ///< wrong over counted, in 0..1; 0 where none counts
+} gnomon_wrong_pixels;
+/// Counts the pixels that hard comparison in the plan's maps will misclassify, without drawing them. Each
+/// pixel takes the shadow at the middle of its texel, where the texel meets the surface. Errors of the bias
+/// do not count. Shadows narrower than a pixel count less than they should: the picture should be as fine as
+/// the texels. A plan without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure.
+/// Time grows with the pixels.
+GNOMON_EXPERIMENTAL int32_t gnomon_expected_error(const gnomon_plan* plan,
+                                                  const gnomon_shadow_picture* picture,
+                                                  gnomon_wrong_pixels* pixels, const char** invalid_field);
+/// Writes points of the surfaces along the shadow's edges, world space, three doubles each. At most `room` of
+/// them, evenly over the picture; `*written` is how many. A plan for them (gnomon_view::points) has its
+/// texels where they show.
+GNOMON_EXPERIMENTAL int32_t gnomon_shadow_edge_points(const gnomon_shadow_picture* picture, double* points,
+                                                      int64_t room, int64_t* written,
+                                                      const char** invalid_field);
+
 // ---------------------------------------------------------------- pages
 
 /// Bits of gnomon_page_history::feedback, for policies that read the rendered image.

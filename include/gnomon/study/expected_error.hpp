@@ -13,7 +13,8 @@ namespace gnomon {
 /// A shadow as a camera sees it: of other maps, of the last frame, or of rays.
 struct ShadowPicture {
   Camera camera;  ///< its width and height are those of both pictures
-  /// 1 lit .. 0 in shadow, or negative where nothing counts, rows top to bottom.
+  /// 1 lit .. 0 in shadow, or negative where nothing counts, rows top to bottom. Columns go along
+  /// cross(forward, up): those of a left-handed world from right to left.
   std::span<const float> mask;
   /// View depths of the surfaces. No surface: 0, below, infinite, not a number.
   std::span<const float> view_depths;

@@ -432,6 +432,31 @@ class point_error(ctypes.Structure):
 assert ctypes.sizeof(point_error) == 88
 
 
+class shadow_picture(ctypes.Structure):
+    _fields_ = [
+        ("size", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
+        ("camera", ctypes.c_void_p),
+        ("mask", ctypes.c_void_p),
+        ("view_depths", ctypes.c_void_p),
+        ("pixel_count", ctypes.c_int64),
+    ]
+
+
+assert ctypes.sizeof(shadow_picture) == 40
+
+
+class wrong_pixels(ctypes.Structure):
+    _fields_ = [
+        ("wrong", ctypes.c_double),
+        ("counted", ctypes.c_double),
+        ("share", ctypes.c_double),
+    ]
+
+
+assert ctypes.sizeof(wrong_pixels) == 24
+
+
 class page_options(ctypes.Structure):
     _fields_ = [
         ("size", ctypes.c_uint32),
@@ -696,6 +721,9 @@ calls = {
     "gnomon_stats_default": (ctypes.c_int32, [("stats", ctypes.c_void_p), ("size", ctypes.c_uint32)]),
     "gnomon_measure": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("view", ctypes.c_void_p), ("scene", ctypes.c_void_p), ("options", ctypes.c_void_p), ("stats", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_measure_points": (ctypes.c_int32, [("map", ctypes.c_void_p), ("camera", ctypes.c_void_p), ("points", ctypes.c_void_p), ("normals", ctypes.c_void_p), ("count", ctypes.c_int64), ("errors", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
+    "gnomon_shadow_picture_default": (ctypes.c_int32, [("picture", ctypes.c_void_p), ("size", ctypes.c_uint32)]),
+    "gnomon_expected_error": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("picture", ctypes.c_void_p), ("pixels", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
+    "gnomon_shadow_edge_points": (ctypes.c_int32, [("picture", ctypes.c_void_p), ("points", ctypes.c_void_p), ("room", ctypes.c_int64), ("written", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_page_options_default": (ctypes.c_int32, [("options", ctypes.c_void_p), ("size", ctypes.c_uint32)]),
     "gnomon_page_plan_default": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("size", ctypes.c_uint32)]),
     "gnomon_page_history_default": (ctypes.c_int32, [("history", ctypes.c_void_p), ("size", ctypes.c_uint32)]),

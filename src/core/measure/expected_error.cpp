@@ -16,6 +16,8 @@ namespace {
 constexpr double kOffPlane = 0.02;
 /// Cosine of the angle between a surface and the ray of sight below which its plane says nothing.
 constexpr double kGrazing = 1e-3;
+/// Steps of a pixel beyond which nothing is in any picture: a texel that the plane meets nowhere.
+constexpr double kMostSteps = 1e9;
 
 /// The pictures, with what a camera makes of their pixels.
 class Pixels {
@@ -65,7 +67,8 @@ class Pixels {
   };
   [[nodiscard]] Place place(const glm::dvec3& point) const noexcept {
     const glm::dvec3 offset = point - camera_.position;
-    const double depth = glm::dot(offset, axes_.forward), scale = camera_.orthographic ? 1.0 : 1.0 / depth;
+    const double depth = glm::dot(offset, axes_.forward);
+    const double scale = camera_.orthographic ? 1.0 : depth > 0.0 ? 1.0 / depth : 0.0;
     return {
         (glm::dot(offset, axes_.right) * scale - camera_.left) / (camera_.right - camera_.left) * width_ -
             0.5,
@@ -185,8 +188,10 @@ bool texel_middle(const Pixels& pixels, const ShadowMap& map, const SurfacePlane
   const glm::dvec2 in_map = grid.place({texel.ndc_x, texel.ndc_y}).texel;
   const double off_x = std::floor(in_map.x) + 0.5 - in_map.x, off_y = std::floor(in_map.y) + 0.5 - in_map.y;
   const double determinant = xx * yy - xy * yx;
-  const double steps_right = (off_x * yy - off_y * xy) / determinant,
-               steps_down = (off_y * xx - off_x * yx) / determinant;
+  const double far_right = off_x * yy - off_y * xy, far_down = off_y * xx - off_x * yx;
+  const double most = kMostSteps * std::abs(determinant);
+  if (!(std::abs(far_right) < most && std::abs(far_down) < most)) return false;
+  const double steps_right = far_right / determinant, steps_down = far_down / determinant;
   place = pixels.place(point + right * steps_right + down * steps_down);
   return place.depth > 0.0 && std::isfinite(place.x) && std::isfinite(place.y);
 }

@@ -1,0 +1,211 @@
+// The pixels that a plan is expected to get wrong, and the shadow's edges: the same from C as from C++, and
+// refusals by name.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "gnomon/study/expected_error.hpp"
+#include "in_c.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr int kWidth = 240, kHeight = 160;
+
+/// A street's floor with stripes of shadow, on both sides. Not to be copied: it points into itself.
+struct Street {
+  std::vector<Box> boxes{{{-40, -1, -200}, {40, 0, 20}}, {{-4, 0, -30}, {4, 6, -26}}};
+  Camera camera =
+      perspective_camera({0, 3, 10}, {0, -0.1, -1}, {0, 1, 0}, 1.0, 1.5, 0.2, 250.0, kWidth, kHeight);
+  DirectionalLight sun{{0.4, -1, 0.3}};
+  std::vector<float> mask, depths;
+  gnomon_camera camera_in_c = in_c(camera);
+  gnomon_shadow_picture picture{};
+  PlanInC found;
+
+  Street() {
+    const CameraAxes axes = camera_axes(camera);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const glm::dvec3 ray =
+            axes.forward + axes.right * (camera.left + (camera.right - camera.left) * (x + 0.5) / kWidth) +
+            axes.up * (camera.top + (camera.bottom - camera.top) * (y + 0.5) / kHeight);
+        const double depth = ray.y < 0.0 ? -camera.position.y / ray.y : 0.0;
+        const glm::dvec3 at = camera.position + ray * depth;
+        depths.push_back(static_cast<float>(depth));
+        mask.push_back(std::sin(at.x + 0.4 * at.z) > 0.3 ? 1.0f : 0.0f);
+      }
+    }
+    gnomon_shadow_picture_default(&picture, sizeof picture);
+    picture.camera = &camera_in_c;
+    picture.mask = mask.data();
+    picture.view_depths = depths.data();
+    picture.pixel_count = kWidth * kHeight;
+  }
+  Street(const Street&) = delete;
+  Street& operator=(const Street&) = delete;
+
+  [[nodiscard]] ShadowPicture shadow() const { return {camera, mask, depths}; }
+  /// The plan on both sides.
+  ShadowPlan plan(const PlanOptions& options) {
+    const InputInC in(camera, sun, boxes, boxes, options);
+    EXPECT_EQ(gnomon_make_plan(&in.view, &in.light, &in.scene, &in.options, nullptr, &found.plan, nullptr),
+              GNOMON_OK);
+    return make_plan(camera, sun, {boxes, boxes}, options);
+  }
+};
+
+void expect_same(const Street& street, const ShadowPlan& plan) {
+  gnomon_wrong_pixels pixels;
+  ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &pixels, nullptr), GNOMON_OK);
+  const ExpectedError expected = expected_error(plan, street.shadow());
+  EXPECT_EQ(std::memcmp(&pixels.wrong, &expected.wrong_pixels, sizeof(double)), 0);
+  EXPECT_EQ(pixels.counted, expected.counted_pixels);
+  EXPECT_EQ(pixels.share, expected.share());
+  EXPECT_GT(pixels.wrong, 0.0);
+}
+
+TEST(PictureInC, plans_are_expected_to_get_the_pixels_of_cpp_wrong) {
+  Street street;
+  for (const Fit fit : {Fit::tight, Fit::stable, Fit::warped_stable}) {
+    for (const MapSelection selection : {MapSelection::view_depth, MapSelection::finest}) {
+      PlanOptions options;
+      options.fit = fit;
+      options.split.selection = selection;
+      options.resolution.max_size = 128;
+      options.clip_space = kVulkan;
+      expect_same(street, street.plan(options));
+    }
+  }
+  // Pixels of all kinds, drawn by lot.
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 4000; ++i) {
+    const float odd[] = {-1.0f, kNan, 0.5f, 7.0f, 0.0f, 1.0f, std::numeric_limits<float>::infinity()};
+    street.mask[random() % street.mask.size()] = odd[random() % 7];
+    street.depths[random() % street.depths.size()] = odd[random() % 7];
+  }
+  expect_same(street, street.plan({}));
+}
+
+TEST(PictureInC, a_plan_without_maps_gets_all_that_is_dark_wrong) {
+  const Street street;
+  gnomon_plan none;
+  gnomon_plan_default(&none, sizeof none);
+  gnomon_wrong_pixels pixels;
+  ASSERT_EQ(gnomon_expected_error(&none, &street.picture, &pixels, nullptr), GNOMON_OK);
+  double dark = 0.0;
+  for (std::size_t i = 0; i < street.mask.size(); ++i)
+    dark += street.mask[i] == 0.0f && street.depths[i] > 0.0f ? 1.0 : 0.0;
+  EXPECT_EQ(pixels.wrong, dark);
+  EXPECT_GT(dark, 1000.0);
+}
+
+TEST(PictureInC, edges_are_those_of_cpp) {
+  const Street street;
+  for (const std::size_t room : {std::size_t{0}, std::size_t{10}, std::size_t{5000}}) {
+    std::vector<glm::dvec3> points(room), expected(room);
+    int64_t written = -1;
+    ASSERT_EQ(gnomon_shadow_edge_points(&street.picture, reinterpret_cast<double*>(points.data()),
+                                        static_cast<int64_t>(room), &written, nullptr),
+              GNOMON_OK);
+    EXPECT_EQ(written, static_cast<int64_t>(shadow_edge_points(street.shadow(), expected)));
+    EXPECT_EQ(points, expected);
+    EXPECT_GE(written, static_cast<int64_t>(std::min(room, std::size_t{1000})));
+  }
+}
+
+TEST(PictureInC, what_is_refused_is_named) {
+  Street street;
+  street.plan({});
+  gnomon_wrong_pixels pixels{-7.0, -7.0, -7.0};
+  double points[3];
+  int64_t written = -7;
+  const auto refuses = [&](const char* expected, auto change, auto restore) {
+    change();
+    const char* field = nullptr;
+    EXPECT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &pixels, &field),
+              GNOMON_INVALID_INPUT)
+        << expected;
+    EXPECT_STREQ(field, expected);
+    field = nullptr;
+    EXPECT_EQ(gnomon_shadow_edge_points(&street.picture, points, 1, &written, &field), GNOMON_INVALID_INPUT)
+        << expected;
+    EXPECT_STREQ(field, expected);
+    restore();
+  };
+  gnomon_shadow_picture& picture = street.picture;
+  gnomon_camera& camera = street.camera_in_c;
+  refuses(
+      "shadow_picture.size", [&] { picture.size += 8; }, [&] { picture.size -= 8; });
+  refuses(
+      "shadow_picture.size", [&] { picture.size = 0; }, [&] { picture.size = sizeof picture; });
+  refuses(
+      "camera", [&] { picture.camera = nullptr; }, [&] { picture.camera = &camera; });
+  refuses(
+      "camera.size", [&] { camera.size = 3; }, [&] { camera.size = sizeof camera; });
+  refuses(
+      "camera.position", [&] { camera.position[0] = static_cast<double>(kNan); },
+      [&] { camera.position[0] = 0.0; });
+  refuses(
+      "camera.width, camera.height", [&] { camera.width = -1; }, [&] { camera.width = kWidth; });
+  refuses(
+      "shadow_picture.mask", [&] { picture.mask = nullptr; }, [&] { picture.mask = street.mask.data(); });
+  refuses(
+      "shadow_picture.view_depths", [&] { picture.view_depths = nullptr; },
+      [&] { picture.view_depths = street.depths.data(); });
+  for (const int64_t count : {int64_t{0}, int64_t{-1}, int64_t{kWidth}, int64_t{kWidth * kHeight + 1},
+                              std::numeric_limits<int64_t>::max()})
+    refuses(
+        "shadow_picture.pixel_count", [&] { picture.pixel_count = count; },
+        [&] { picture.pixel_count = kWidth * kHeight; });
+  // As large as a camera may be: refused before a pixel is read.
+  refuses(
+      "shadow_picture.pixel_count", [&] { camera.width = camera.height = 1 << 20; },
+      [&] { camera.width = kWidth, camera.height = kHeight; });
+  EXPECT_EQ(pixels.wrong, -7.0);
+  EXPECT_EQ(written, -7);
+
+  const char* field = nullptr;
+  const auto named = [&](int32_t status, const char* expected) {
+    EXPECT_EQ(status, GNOMON_INVALID_INPUT) << expected;
+    EXPECT_STREQ(field, expected);
+  };
+  gnomon_plan* const plan = &street.found.plan;
+  named(gnomon_expected_error(nullptr, &picture, &pixels, &field), "plan");
+  named(gnomon_expected_error(plan, nullptr, &pixels, &field), "shadow_picture");
+  named(gnomon_expected_error(plan, &picture, nullptr, &field), "pixels");
+  named(gnomon_shadow_edge_points(nullptr, points, 1, &written, &field), "shadow_picture");
+  named(gnomon_shadow_edge_points(&picture, nullptr, 1, &written, &field), "points");
+  named(gnomon_shadow_edge_points(&picture, points, -1, &written, &field), "room");
+  named(gnomon_shadow_edge_points(&picture, points, 1, nullptr, &field), "written");
+  street.found.maps[0].clip_from_world[3] = static_cast<double>(kNan);
+  named(gnomon_expected_error(plan, &picture, &pixels, &field), "map.clip_from_world");
+}
+
+TEST(PictureInC, random_maps_and_pixels_give_a_share) {
+  Street street;
+  std::mt19937_64 random(11);
+  for (int i = 0; i < 300; ++i) {
+    street.plan({});
+    auto* const matrix = street.found.maps[0].clip_from_world;
+    for (int k = 0; k < 3; ++k) {
+      const double odd[] = {0.0, 1e100, -1e-300, 1.0, 1e30, 3e-5};
+      matrix[random() % 16] = odd[random() % 6];
+    }
+    for (int k = 0; k < 200; ++k) {
+      const auto bits = static_cast<std::uint32_t>(random());
+      street.depths[random() % street.depths.size()] = std::bit_cast<float>(bits);
+    }
+    gnomon_wrong_pixels pixels;
+    ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &pixels, nullptr), GNOMON_OK);
+    ASSERT_TRUE(std::isfinite(pixels.wrong) && pixels.wrong >= 0.0) << i;
+    ASSERT_LE(pixels.share, 1.0) << i;
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::test
