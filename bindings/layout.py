@@ -103,16 +103,25 @@ def python_kind(kind):
     return "ctypes.c_char_p" if kind.replace(" ", "") == "constchar*" else "ctypes.c_void_p"
 
 
+def python_annotation(kind, count):
+    """What a field of ctypes is for who reads it."""
+    if count:
+        return "ctypes.Array[ctypes.%s]" % CTYPES[kind] if kind in CTYPES and kind != "char" else "Any"
+    return {"f32": "float", "f64": "float", "ptr": "Any"}.get(kind, "int" if kind in CTYPES else short(kind))
+
+
 def python_text(constants, structs, calls):
-    lines = ['"""The structs and constants of the C header. Written by bindings/layout.py."""', "import ctypes", ""]
+    lines = ['"""The structs and constants of the C header. Written by bindings/layout.py."""', "from __future__ import annotations", "",
+             "import ctypes", "from typing import Any", ""]
     lines += ["%s = %d" % (name.removeprefix("GNOMON_"), value) for name, value in constants.items()]
     for name, (size, _, rows) in lay_out(structs, 8).items():
         lines += ["", "", "class %s(ctypes.Structure):" % short(name), "    _fields_ = ["]
         for field, kind, _, count in rows:
             kind = "ctypes." + CTYPES[kind] if kind in CTYPES else short(kind)
             lines.append('        ("%s", %s%s),' % (field, kind, " * %d" % count if count else ""))
-        lines += ["    ]", "", "", "assert ctypes.sizeof(%s) == %d" % (short(name), size)]
-    lines += ["", "# What each call returns, and its parameters.", "calls = {"]
+        # For type checkers, which know nothing of _fields_.
+        lines += ["    ]"] + ["    %s: %s" % (field, python_annotation(kind, count)) for field, kind, _, count in rows] + ["", "", "assert ctypes.sizeof(%s) == %d" % (short(name), size)]
+    lines += ["", "# What each call returns, and its parameters.", "calls: dict[str, tuple[Any, list[tuple[str, Any]]]] = {"]
     for name, (returns, parameters) in calls.items():
         lines.append('    "%s": (%s, [%s]),' % (name, python_kind(returns), ", ".join('("%s", %s)' % (p, python_kind(k)) for p, k in parameters)))
     lines.append("}")

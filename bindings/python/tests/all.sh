@@ -1,25 +1,28 @@
 #!/usr/bin/env bash
-# Does the package work as pip installs it? Into an environment of its own, with all tests and the examples of the manual.
-#   all.sh WORK_DIR CASES, CASES of c_dump_cases
+# Does the package work as pip installs it? Into an environment of its own, with all tests, the examples of its manual, the guides
+# of docs/python_guides.md, and the sample of Panda3D.
+#   all.sh WORK_DIR CASES FRAMES PROGRAM, CASES of c_dump_cases, FRAMES of c_dump_frames, PROGRAM: gnomon
 set -euo pipefail
 here="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
-work="$(readlink -m "$1")" cases="$(readlink -f "$2")"
+work="$(readlink -m "$1")"
+export CASES="$(readlink -f "$2")" FRAMES="$(readlink -f "$3")" GNOMON_PROGRAM="$(readlink -f "$4")"
 python3 -B "$here/../../layout.py" --check
 rm -rf "$work"
 # Where there is a compiler cache, the library is compiled once.
 export CMAKE_CXX_COMPILER_LAUNCHER="$here/../../../cmake/ccache"
 python3 -m venv "$work"
-"$work/bin/pip" install --quiet --disable-pip-version-check "$here/.." pytest mypy
+"$work/bin/pip" install --quiet --disable-pip-version-check "$here/..[program]" pytest mypy matplotlib panda3d
 # Not from the sources: the installed package alone.
 cd "$work"
-CASES="$cases" "$work/bin/python" -m pytest -q -p no:cacheprovider "$here"
-"$work/bin/python" - <<'PYTHON'
-import doctest
-import gnomon
-found = doctest.testmod(gnomon)
-assert found.attempted >= 16 and found.failed == 0, found
-print(found)
-PYTHON
-"$work/bin/python" -m mypy --no-error-summary -c 'import gnomon
+"$work/bin/python" -m pytest -q -p no:cacheprovider "$here"
+"$work/bin/python" "$here/examples.py" "$here/../../../docs/python_guides.md"
+"$work/bin/python" -m mypy --no-error-summary -p gnomon
+"$work/bin/python" -m mypy --no-error-summary --strict -c 'import gnomon
 camera: gnomon.Camera = gnomon.perspective(fov_y=1.0)
-p95: float = gnomon.measure(gnomon.plan(camera, gnomon.directional((0, -1, 0)), [[0.0] * 6], None), camera, None).p95'
+plan = gnomon.plan(camera, gnomon.directional((0, -1, 0)), [[0.0] * 6], None)
+p95: float = gnomon.measure(plan, camera, None).p95
+width: int = plan.maps[0].width + camera.width
+sun: gnomon.HeldSun = gnomon.hold_sun(camera, (0, 0, 0), (0, -1, 0), (0, 0, 0, 1, 1, 1), points=None)'
+# Panda3D with the matrices of gnomon: at most half of the misclassified pixels.
+xvfb-run -a "$work/bin/python" "$here/../../../samples/panda3d/compare.py" "$work/panda3d" | tee panda3d.log
+awk '/^ratio / { ok = $2 > 0 && $2 <= 0.5 } END { exit !ok }' panda3d.log

@@ -59,7 +59,7 @@ def test_plans_and_errors_have_the_bits_of_the_native_library():
 
 def test_arrays_are_read_where_they_lie_and_results_are_views():
     boxes = np.array([[-40, -1, -200, 40, 0, 20], [-4, 0, -30, 4, 6, -26.0]])
-    given = gnomon._Input(gnomon.perspective(fov_y=1.0), boxes, boxes)
+    given = gnomon._records.Input(gnomon.perspective(fov_y=1.0), boxes, boxes)
     assert given.scene.casters == boxes.ctypes.data == given.scene.receivers
     plan = gnomon.plan(gnomon.perspective(position=(0, 3, 10), fov_y=1.0, far=250), gnomon.directional((0.4, -1, 0.3)), boxes, boxes)
     matrix = plan.maps[gnomon.select(plan, [[0, 0, -5]], [15.0])[0]].clip_from_world

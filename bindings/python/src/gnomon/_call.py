@@ -61,9 +61,14 @@ def make(name: str) -> Any:
     return struct
 
 
+def fields_of(struct: Any) -> dict[str, Any]:
+    """Names of a struct's fields, with their types."""
+    return {field[0]: field[1] for field in struct._fields_}
+
+
 def set_fields(struct: Any, fields: dict[str, Any]) -> Any:
     """Sets fields of a struct; refuses what it has none of, and values that do not fit."""
-    kinds = dict(struct._fields_)
+    kinds = fields_of(struct)
     for name, value in fields.items():
         path = "%s.%s" % (type(struct).__name__, name)
         kind = kinds.get(name)
@@ -147,6 +152,21 @@ def boxes_of(values: Any, name: str) -> Any:
 def points_of(values: Any, name: str) -> Any:
     """The same of points, (n, 3)."""
     return _rows(values, 3, name)
+
+
+def numbers_of(values: Any, count: int, name: str) -> Any:
+    """So many numbers, in an array of their own where they are none."""
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if array.shape != (count,):
+        raise GnomonError(name, "%s: expected %d numbers" % (name, count))
+    return array
+
+
+def expect(value: Any, kind: Any, name: str) -> Any:
+    """A value of this class: C would take any address."""
+    if not isinstance(value, kind):
+        raise GnomonError(name, "%s: expected a %s, not a %s" % (name, kind.__name__, type(value).__name__))
+    return value
 
 
 class Handle:

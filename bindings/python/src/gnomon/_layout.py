@@ -1,5 +1,8 @@
 """The structs and constants of the C header. Written by bindings/layout.py."""
+from __future__ import annotations
+
 import ctypes
+from typing import Any
 
 OK = 0
 NOTHING_VISIBLE = 1
@@ -98,6 +101,12 @@ class clip_space(ctypes.Structure):
         ("first_row_at_y_max", ctypes.c_int32),
         ("reserved", ctypes.c_int32),
     ]
+    zero_to_one: int
+    reversed_z: int
+    y_down: int
+    left_handed: int
+    first_row_at_y_max: int
+    reserved: int
 
 
 assert ctypes.sizeof(clip_space) == 24
@@ -119,6 +128,19 @@ class camera(ctypes.Structure):
         ("width", ctypes.c_int32),
         ("height", ctypes.c_int32),
     ]
+    size: int
+    orthographic: int
+    position: ctypes.Array[ctypes.c_double]
+    forward: ctypes.Array[ctypes.c_double]
+    up: ctypes.Array[ctypes.c_double]
+    left: float
+    right: float
+    bottom: float
+    top: float
+    near_depth: float
+    far_depth: float
+    width: int
+    height: int
 
 
 assert ctypes.sizeof(camera) == 136
@@ -133,6 +155,12 @@ class light(ctypes.Structure):
         ("outer_radians", ctypes.c_double),
         ("range", ctypes.c_double),
     ]
+    size: int
+    kind: int
+    position: ctypes.Array[ctypes.c_double]
+    direction: ctypes.Array[ctypes.c_double]
+    outer_radians: float
+    range: float
 
 
 assert ctypes.sizeof(light) == 72
@@ -149,6 +177,14 @@ class scene(ctypes.Structure):
         ("caster_set", ctypes.c_void_p),
         ("receiver_set", ctypes.c_void_p),
     ]
+    size: int
+    reserved: int
+    casters: Any
+    caster_count: int
+    receivers: Any
+    receiver_count: int
+    caster_set: Any
+    receiver_set: Any
 
 
 assert ctypes.sizeof(scene) == 56
@@ -160,6 +196,9 @@ class visible_depths(ctypes.Structure):
         ("min", ctypes.c_double),
         ("max", ctypes.c_double),
     ]
+    count: ctypes.Array[ctypes.c_uint32]
+    min: float
+    max: float
 
 
 assert ctypes.sizeof(visible_depths) == 1424
@@ -175,6 +214,13 @@ class view(ctypes.Structure):
         ("normals", ctypes.c_void_p),
         ("point_count", ctypes.c_int64),
     ]
+    size: int
+    reserved: int
+    camera: Any
+    depths: Any
+    points: Any
+    normals: Any
+    point_count: int
 
 
 assert ctypes.sizeof(view) == 48
@@ -219,6 +265,42 @@ class plan_options(ctypes.Structure):
         ("light_near_share", ctypes.c_double),
         ("clip_space", clip_space),
     ]
+    size: int
+    cascades: int
+    resolution_max_size: int
+    resolution_stable_size_steps: int
+    resolution_max_error: float
+    resolution_texel_budget: int
+    resolution_prune_error: float
+    fit: int
+    split_scheme: int
+    split_lambda: float
+    split_pseudo_near: float
+    split_range: int
+    split_selection: int
+    split_given: ctypes.Array[ctypes.c_double]
+    split_overlap: float
+    split_partition: int
+    split_face_slices: int
+    warp: int
+    warp_shape: int
+    warp_objective: int
+    reserved: int
+    warp_focus: ctypes.Array[ctypes.c_double]
+    warp_focus_weight: float
+    warp_planes: ctypes.Array[ctypes.c_double]
+    cadence_frames: int
+    prune: int
+    cadence_largest_step: float
+    cadence_largest_turn: float
+    filter_texels: float
+    filter_world: float
+    bias_constant_texels: float
+    bias_slope_texels: float
+    bias_normal_offset_texels: float
+    bias_max_slope: float
+    light_near_share: float
+    clip_space: clip_space
 
 
 assert ctypes.sizeof(plan_options) == 488
@@ -231,6 +313,10 @@ class texel_rect(ctypes.Structure):
         ("width", ctypes.c_int32),
         ("height", ctypes.c_int32),
     ]
+    x: int
+    y: int
+    width: int
+    height: int
 
 
 assert ctypes.sizeof(texel_rect) == 16
@@ -274,6 +360,41 @@ class map(ctypes.Structure):
         ("m_max", ctypes.c_double),
         ("storage", ctypes.c_double),
     ]
+    size: int
+    cascade: int
+    clip_from_world: ctypes.Array[ctypes.c_double]
+    clip_from_camera_relative: ctypes.Array[ctypes.c_float]
+    depth_begin: float
+    depth_end: float
+    overlap: float
+    light_world: ctypes.Array[ctypes.c_double]
+    width: int
+    height: int
+    shape: int
+    warp: int
+    shape_parameters: ctypes.Array[ctypes.c_double]
+    kappa: float
+    texel_world: ctypes.Array[ctypes.c_double]
+    texel_world_max: ctypes.Array[ctypes.c_double]
+    depth_range_world: float
+    bias_constant: float
+    bias_slope: float
+    bias_normal_offset: float
+    filter_margin_texels: int
+    cull_plane_count: int
+    cull_planes: ctypes.Array[ctypes.c_double]
+    select_plane_count: int
+    snap_valid: int
+    select_planes: ctypes.Array[ctypes.c_double]
+    snap_x: int
+    snap_y: int
+    snap_depth_near: int
+    snap_depth_far: int
+    snap_texel: float
+    m_s_max: float
+    m_t_max: float
+    m_max: float
+    storage: float
 
 
 assert ctypes.sizeof(map) == 1704
@@ -287,6 +408,11 @@ class omission(ctypes.Structure):
         ("b", ctypes.c_double),
         ("saves_texels", ctypes.c_int64),
     ]
+    kind: int
+    map: int
+    a: float
+    b: float
+    saves_texels: int
 
 
 assert ctypes.sizeof(omission) == 32
@@ -297,6 +423,8 @@ class text(ctypes.Structure):
         ("what", ctypes.c_char * 48),
         ("why", ctypes.c_char * 144),
     ]
+    what: Any
+    why: Any
 
 
 assert ctypes.sizeof(text) == 192
@@ -324,6 +452,25 @@ class plan(ctypes.Structure):
         ("bias_normal_offset_texels", ctypes.c_double),
         ("bias_max_slope", ctypes.c_double),
     ]
+    size: int
+    map_size: int
+    maps: Any
+    omissions: Any
+    map_room: int
+    omission_room: int
+    status: int
+    map_count: int
+    omission_count: int
+    selection: int
+    sizes_vary: int
+    reserved: int
+    origin: ctypes.Array[ctypes.c_double]
+    light_direction: ctypes.Array[ctypes.c_double]
+    clip_space: clip_space
+    bias_constant_texels: float
+    bias_slope_texels: float
+    bias_normal_offset_texels: float
+    bias_max_slope: float
 
 
 assert ctypes.sizeof(plan) == 160
@@ -335,6 +482,9 @@ class event(ctypes.Structure):
         ("map", ctypes.c_int32),
         ("density_ratio", ctypes.c_double),
     ]
+    kind: int
+    map: int
+    density_ratio: float
 
 
 assert ctypes.sizeof(event) == 16
@@ -349,6 +499,12 @@ class reuse(ctypes.Structure):
         ("kept", texel_rect),
         ("strip", texel_rect * 2),
     ]
+    kind: int
+    shift_x: int
+    shift_y: int
+    strip_count: int
+    kept: texel_rect
+    strip: Any
 
 
 assert ctypes.sizeof(reuse) == 64
@@ -361,6 +517,10 @@ class held_sun(ctypes.Structure):
         ("turned_pixels", ctypes.c_double),
         ("points_capped", ctypes.c_int64),
     ]
+    direction: ctypes.Array[ctypes.c_double]
+    error_pixels: float
+    turned_pixels: float
+    points_capped: int
 
 
 assert ctypes.sizeof(held_sun) == 48
@@ -375,6 +535,12 @@ class atlas(ctypes.Structure):
         ("reserved", ctypes.c_int32),
         ("efficiency", ctypes.c_double),
     ]
+    width: int
+    height: int
+    place: Any
+    count: int
+    reserved: int
+    efficiency: float
 
 
 assert ctypes.sizeof(atlas) == 152
@@ -389,6 +555,12 @@ class measure_options(ctypes.Structure):
         ("depths", ctypes.c_int32),
         ("reserved", ctypes.c_int32),
     ]
+    size: int
+    map: int
+    columns: int
+    rows: int
+    depths: int
+    reserved: int
 
 
 assert ctypes.sizeof(measure_options) == 24
@@ -407,6 +579,16 @@ class stats(ctypes.Structure):
         ("samples", ctypes.c_int64),
         ("outside", ctypes.c_int64),
     ]
+    size: int
+    reserved: int
+    p50: float
+    p95: float
+    max: float
+    mean: float
+    share_undersampled: float
+    storage: float
+    samples: int
+    outside: int
 
 
 assert ctypes.sizeof(stats) == 72
@@ -427,6 +609,18 @@ class point_error(ctypes.Structure):
         ("perspective_t", ctypes.c_double),
         ("projection", ctypes.c_double),
     ]
+    status: int
+    reserved: int
+    m_max: float
+    m_min: float
+    m_s: float
+    m_t: float
+    m_area: float
+    anisotropy: float
+    perspective_max: float
+    perspective_s: float
+    perspective_t: float
+    projection: float
 
 
 assert ctypes.sizeof(point_error) == 88
@@ -441,6 +635,12 @@ class shadow_picture(ctypes.Structure):
         ("view_depths", ctypes.c_void_p),
         ("pixel_count", ctypes.c_int64),
     ]
+    size: int
+    reserved: int
+    camera: Any
+    mask: Any
+    view_depths: Any
+    pixel_count: int
 
 
 assert ctypes.sizeof(shadow_picture) == 40
@@ -452,6 +652,9 @@ class wrong_pixels(ctypes.Structure):
         ("counted", ctypes.c_double),
         ("share", ctypes.c_double),
     ]
+    wrong: float
+    counted: float
+    share: float
 
 
 assert ctypes.sizeof(wrong_pixels) == 24
@@ -473,6 +676,19 @@ class page_options(ctypes.Structure):
         ("reach_texels", ctypes.c_double),
         ("least_light_sine", ctypes.c_double),
     ]
+    size: int
+    policy: int
+    plan: Any
+    page_texels: int
+    capacity: int
+    target_m: float
+    share: float
+    levels_per_octave: int
+    trials: int
+    virtual_texels: int
+    fallback: int
+    reach_texels: float
+    least_light_sine: float
 
 
 assert ctypes.sizeof(page_options) == 72
@@ -486,6 +702,11 @@ class page(ctypes.Structure):
         ("slot", ctypes.c_uint32),
         ("points", ctypes.c_uint32),
     ]
+    level: int
+    column: int
+    row: int
+    slot: int
+    points: int
 
 
 assert ctypes.sizeof(page) == 20
@@ -518,6 +739,30 @@ class page_plan(ctypes.Structure):
         ("points_coarser", ctypes.c_int64),
         ("points_capped", ctypes.c_int64),
     ]
+    size: int
+    status: int
+    omissions: Any
+    omission_room: int
+    omission_count: int
+    pages: Any
+    table: Any
+    memory: Any
+    page_count: int
+    table_count: int
+    level_count: int
+    policy: int
+    page_texels: int
+    border_texels: int
+    capacity: int
+    reserved: int
+    origin: ctypes.Array[ctypes.c_double]
+    light_direction: ctypes.Array[ctypes.c_double]
+    clip_space: clip_space
+    target_m: float
+    points: int
+    points_outside: int
+    points_coarser: int
+    points_capped: int
 
 
 assert ctypes.sizeof(page_plan) == 200
@@ -531,6 +776,11 @@ class page_history(ctypes.Structure):
         ("feedback", ctypes.c_void_p),
         ("feedback_count", ctypes.c_int64),
     ]
+    size: int
+    reserved: int
+    last: Any
+    feedback: Any
+    feedback_count: int
 
 
 assert ctypes.sizeof(page_history) == 32
@@ -544,6 +794,11 @@ class page_slot(ctypes.Structure):
         ("used", ctypes.c_uint64),
         ("behind", ctypes.c_uint64),
     ]
+    clip_from_world: ctypes.Array[ctypes.c_double]
+    texels: int
+    reserved: int
+    used: int
+    behind: int
 
 
 assert ctypes.sizeof(page_slot) == 152
@@ -556,6 +811,10 @@ class kept_page(ctypes.Structure):
         ("compose", ctypes.c_uint8),
         ("reserved", ctypes.c_uint8 * 2),
     ]
+    slot: int
+    draw: int
+    compose: int
+    reserved: ctypes.Array[ctypes.c_uint8]
 
 
 assert ctypes.sizeof(kept_page) == 8
@@ -570,6 +829,12 @@ class light_request(ctypes.Structure):
         ("draws", ctypes.c_double),
         ("triangles", ctypes.c_double),
     ]
+    size: int
+    changed: int
+    light: Any
+    weight: float
+    draws: float
+    triangles: float
 
 
 assert ctypes.sizeof(light_request) == 40
@@ -596,6 +861,24 @@ class light_options(ctypes.Structure):
         ("full_share", ctypes.c_double),
         ("keep_gain", ctypes.c_double),
     ]
+    size: int
+    page_budget: int
+    plan: Any
+    pool_width: int
+    pool_height: int
+    texel_budget: int
+    page_texels: int
+    least_size: int
+    most_size: int
+    most_frames: int
+    millisecond_budget: float
+    cost_per_map: float
+    cost_per_megatexel: float
+    cost_per_kilodraw: float
+    cost_per_megatriangle: float
+    enough_m: float
+    full_share: float
+    keep_gain: float
 
 
 assert ctypes.sizeof(light_options) == 112
@@ -613,6 +896,15 @@ class light_maps(ctypes.Structure):
         ("frames", ctypes.c_int32),
         ("due", ctypes.c_int32),
     ]
+    size: int
+    outcome: int
+    texels: int
+    map_count: int
+    place: Any
+    share: float
+    m: float
+    frames: int
+    due: int
 
 
 assert ctypes.sizeof(light_maps) == 168
@@ -640,6 +932,25 @@ class light_plan(ctypes.Structure):
         ("repacked", ctypes.c_int32),
         ("reserved", ctypes.c_int32),
     ]
+    size: int
+    light_size: int
+    lights: Any
+    light_room: int
+    light_count: int
+    status: int
+    invalid_light: int
+    pool_width: int
+    pool_height: int
+    texels: int
+    due_texels: int
+    pages: int
+    milliseconds: float
+    due_milliseconds: float
+    error: float
+    mapped: int
+    due: int
+    repacked: int
+    reserved: int
 
 
 assert ctypes.sizeof(light_plan) == 112
@@ -663,12 +974,27 @@ class light_clusters(ctypes.Structure):
         ("depth_offset", ctypes.c_double),
         ("light_count", ctypes.c_int64),
     ]
+    size: int
+    tile_pixels: int
+    depth_slices: int
+    status: int
+    begin: Any
+    lights: Any
+    begin_room: int
+    light_room: int
+    columns: int
+    rows: int
+    slices: int
+    orthographic: int
+    depth_scale: float
+    depth_offset: float
+    light_count: int
 
 
 assert ctypes.sizeof(light_clusters) == 88
 
 # What each call returns, and its parameters.
-calls = {
+calls: dict[str, tuple[Any, list[tuple[str, Any]]]] = {
     "gnomon_count": (ctypes.c_int32, [("list", ctypes.c_int32)]),
     "gnomon_name": (ctypes.c_char_p, [("list", ctypes.c_int32), ("index", ctypes.c_int32)]),
     "gnomon_summary": (ctypes.c_char_p, [("list", ctypes.c_int32), ("index", ctypes.c_int32)]),

@@ -1,0 +1,107 @@
+"""What changes from frame to frame? Jittered grids, suns that turn slowly, and visible depths that are followed."""
+from __future__ import annotations
+
+import ctypes
+from typing import NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _layout as c
+from ._call import GnomonError, Handle, call, lib, numbers_of
+from ._plans import plan  # noqa: F401
+from ._records import Camera, Input, Plan, VisibleDepths, directional, perspective  # noqa: F401
+
+
+def jitter_texels(frame: int) -> NDArray[np.float64]:
+    """Offset of the texel grid in a frame, (2,), in (-0.5, 0.5) texels. frame: 0..2^32 - 1. Offsets are a lattice of 64
+    points, and any 64 frames in a row hold all of it.
+
+    >>> bool((np.abs([jitter_texels(frame) for frame in range(64)]) < 0.5).all())
+    True
+    """
+    offset = np.empty(2)
+    if not 0 <= int(frame) < 2**32:
+        raise GnomonError("frame", "frame: expected 0..2^32 - 1")
+    lib.gnomon_jitter_texels(int(frame), offset.ctypes.data)
+    return offset
+
+
+def jitter(plan: Plan, offset: ArrayLike) -> Plan:
+    """The plan with the texel grid of every map moved by offset, (2,) texels across the light, each clamped to half a texel.
+    Maps serve the same points and casters. Add 0.5 to filter_texels of the plan, so that no kernel leaves its map.
+
+    >>> camera, boxes = perspective(position=(0, 3, 0), fov_y=1.0), [[-40, -1, -90, 40, 0, 0], [0, 1, -9, 1, 6, -8]]
+    >>> still = plan(camera, directional((0.3, -1, 0)), boxes, boxes, filter_texels=1.5)
+    >>> moved = jitter(still, jitter_texels(1))
+    >>> bool((moved.maps[0].clip_from_world != still.maps[0].clip_from_world).any())
+    True
+    """
+    by = numbers_of(offset, 2, "offset")
+    maps, struct = type(plan._keep).from_buffer_copy(plan._keep), c.plan.from_buffer_copy(plan._struct)
+    struct.maps = ctypes.addressof(maps)
+    call("gnomon_jitter", struct, by.ctypes.data)
+    return Plan(struct, maps, plan.omitted)
+
+
+class HeldSun(NamedTuple):
+    """The decision of hold_sun."""
+
+    direction: NDArray[np.float64]  #: (3,): to plan with; the held one, or the sun's own, bit for bit
+    error_pixels: float  #: largest error of the points that were read, screen pixels
+    turned_pixels: float  #: error of the point that turned it, above the bound; 0: none did
+    points_capped: int  #: points that the light grazes more than least_light_sine: not evaluated
+
+
+def hold_sun(camera: Camera, held: ArrayLike, sun: ArrayLike, casters: ArrayLike, *, points: Optional[ArrayLike],
+             most_pixels: float = 0.25, least_light_sine: float = 0.05) -> HeldSun:
+    """Keeps the direction of a sun that turns until a shadow edge could lie more than most_pixels from its true place.
+
+    held: direction of the last frame, (3,); zeros before the first. sun: of this frame, (3,). casters: (6,), one box round
+    all casters. points: (n, 3) visible points, world space; None: the sun is not held. most_pixels: >= 0; 0 never holds.
+    least_light_sine: sine of the angle between light and surface below which points are not evaluated, 0..1.
+
+    >>> camera, ground = perspective(position=(0, 3, 0), fov_y=1.0), [[0, 0, -z] for z in range(5, 40)]
+    >>> first = hold_sun(camera, (0, 0, 0), (0.3, -1, 0), (-40, -1, -90, 40, 6, 0), points=ground)
+    >>> next = hold_sun(camera, first.direction, (0.3 + 1e-6, -1, 0), (-40, -1, -90, 40, 6, 0), points=ground)
+    >>> bool((next.direction == first.direction).all()), next.error_pixels < 0.25
+    (True, True)
+    """
+    given, result = Input(camera, None, None, points), c.held_sun()
+    last, now, box = numbers_of(held, 3, "held"), numbers_of(sun, 3, "sun"), numbers_of(casters, 6, "casters")
+    call("gnomon_hold_sun", given.view, last.ctypes.data, now.ctypes.data, box.ctypes.data, float(most_pixels),
+         float(least_light_sine), result)
+    return HeldSun(np.array(result.direction), result.error_pixels, result.turned_pixels, result.points_capped)
+
+
+class DepthTracker(Handle):
+    """Visible depths that are followed from frame to frame: those that come into view count at once, those that leave it are
+    given up slowly. Keep one per camera; clear() it at a cut.
+
+    frames_per_bin: frames that the nearest and the farthest depth take to move inwards by one bin, 1..65535. hold_frames:
+    frames for which a depth between them that shows nothing any more still counts, 1..65535.
+
+    >>> tracker = DepthTracker()
+    >>> tracker.update(np.float32([[4, 80], [9, 0]])).max > 80, tracker.update(np.float32([[4, 8], [9, 0]])).max > 80
+    (True, True)
+    """
+
+    def __init__(self, frames_per_bin: int = 4, hold_frames: int = 30) -> None:
+        for name, frames in (("frames_per_bin", frames_per_bin), ("hold_frames", hold_frames)):
+            if not 1 <= int(frames) <= 65535:
+                self._place = None
+                raise GnomonError(name, "%s: expected 1..65535" % name)
+        super().__init__(lib.gnomon_depth_tracker_create(int(frames_per_bin), int(hold_frames)),
+                         lib.gnomon_depth_tracker_destroy)
+
+    def update(self, frame: Union[ArrayLike, VisibleDepths]) -> VisibleDepths:
+        """Takes the visible depths of the next frame, as VisibleDepths or as view depths of its pixels, and returns those to
+        plan with. A frame that shows nothing changes nothing."""
+        seen = frame if isinstance(frame, VisibleDepths) else VisibleDepths(frame)
+        depths = VisibleDepths()
+        call("gnomon_depth_tracker_update", self.place, seen._struct, depths._struct)
+        return depths
+
+    def clear(self) -> None:
+        """Forgets all frames."""
+        lib.gnomon_depth_tracker_clear(self.place)
