@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Do the crates build and give the bits of the native library? With the C++ that the crate compiles, with the installed library,
 # without std, and from the package that cargo would publish.
-#   test.sh WORK_DIR CASES LIBRARY_DIR, CASES of c_dump_cases, LIBRARY_DIR with libgnomon.so
+#   test.sh WORK_DIR CASES FRAMES LIBRARY_DIR, CASES of c_dump_cases, FRAMES of c_dump_frames, LIBRARY_DIR with libgnomon.so
 set -euo pipefail
 here="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
-work="$(readlink -m "$1")" library="$(readlink -f "$3")"
-export GNOMON_CASES="$(readlink -f "$2")" CARGO_TERM_COLOR=never RUSTFLAGS="-D warnings" RUSTDOCFLAGS="-D warnings"
+work="$(readlink -m "$1")" library="$(readlink -f "$4")"
+export GNOMON_CASES="$(readlink -f "$2")" GNOMON_FRAMES="$(readlink -f "$3")" CARGO_TERM_COLOR=never RUSTFLAGS="-D warnings" RUSTDOCFLAGS="-D warnings"
 python3 -B "$here/../layout.py" --check
 cd "$here"
 export CARGO_TARGET_DIR="$work/compiled" CXX="$here/../../cmake/ccache g++"

@@ -47,16 +47,24 @@ use core::ptr::{null, null_mut};
 pub use gnomon_sys as sys;
 use sys::*;
 
+mod atlas;
+mod clusters;
 mod error;
+mod frames;
 #[cfg(feature = "glam")]
 pub mod glam_types;
 mod handle;
 mod names;
+mod picture;
 mod plan;
 
+pub use atlas::Atlas;
+pub use clusters::{cluster_count, cluster_lights, cluster_memory, ClusterMemory, ClusterOptions, LightClusters};
 pub use error::{Error, Result};
+pub use frames::{hold_sun, jitter_texels, DepthTracker, HeldSun, JITTER_FRAMES};
 pub use handle::{CasterSet, History};
 pub use names::{find, names, version, List};
+pub use picture::{expected_error, ShadowPicture, WrongPixels};
 pub use plan::{plan, plan_views, Omission, Plan, Status};
 
 use error::check;

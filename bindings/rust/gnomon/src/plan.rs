@@ -134,6 +134,16 @@ impl Plan {
         plan
     }
 
+    /// Lets a call change maps that are there.
+    pub(crate) fn change(&mut self, call: impl FnOnce(*mut gnomon_plan, *mut *const c_char) -> i32) -> Result<()> {
+        let mut field = null();
+        let mut plan = self.plan;
+        plan.maps = self.maps.as_mut_ptr().cast();
+        plan.map_size = size_of::<gnomon_map>() as u32;
+        plan.map_room = GNOMON_MAX_MAPS;
+        check(call(&mut plan, &mut field), field).map(|_| ())
+    }
+
     /// Lets a call write into it.
     fn fill(&mut self, call: impl FnOnce(*mut gnomon_plan, *mut *const c_char) -> i32) -> Result<()> {
         self.plan.maps = self.maps.as_mut_ptr().cast();
