@@ -40,3 +40,45 @@ def test_what_the_program_refuses_is_told():
     assert refused("builtin:fence", program="/no/gnomon")[0] == "program"
     assert refused("builtin:fence", eye=(0, 0, 0))[0] == "target"
     assert refused("builtin:fence", eye=(0, 0), target=(0, 0, 1))[0] == "eye"
+
+
+def capture_of(plan, camera, boxes, sun):
+    def corners(box):
+        return {"min": box[:3], "max": box[3:]}
+
+    eye, forward = np.array(camera.position[:]), np.array(camera.forward[:]) / np.linalg.norm(camera.forward[:])
+    right = np.cross(forward, camera.up[:]) / np.linalg.norm(np.cross(forward, camera.up[:]))
+    view_from_world = np.eye(4)
+    view_from_world[:3, :3] = right, np.cross(right, forward), -forward
+    view_from_world[:3, 3] = -view_from_world[:3, :3] @ eye
+    near, far = camera.near_depth, camera.far_depth
+    clip_from_view = np.array([[1 / camera.right, 0, 0, 0], [0, 1 / camera.top, 0, 0],
+                               [0, 0, (far + near) / (near - far), 2 * far * near / (near - far)], [0, 0, -1, 0]])
+    return {"format": "gnomon-capture/1", "name": "test", "clip_space": {"ndc_depth": "minus_one_to_one"},
+            "receivers": [corners(box) for box in boxes], "casters": [corners(box) for box in boxes],
+            "camera": {"view_from_world": view_from_world, "clip_from_view": clip_from_view, "width": camera.width, "height": camera.height},
+            "lights": [{"type": "directional", "direction": sun}],
+            "maps": [{"clip_from_world": np.array(one.clip_from_world), "light": 0, "width": one.width, "height": one.height,
+                      "depths": [one.depth_begin, one.depth_end], "filter_texels": 1, "bias": {"world": 0.02}} for one in plan.maps]}
+
+
+def test_maps_of_an_engine_are_judged():
+    camera = gnomon.perspective(position=(0, 3, 10), forward=(0, -0.1, -1), fov_y=1.0, aspect=1.5, near=0.2, far=250, width=960, height=640)
+    boxes, sun = np.array([[-40, -1, -200, 40, 0, 20], [-4, 0, -30, 4, 6, -26.0]]), [0.4, -1, 0.3]
+    plan = gnomon.plan(camera, gnomon.directional(sun), boxes, boxes, cascades=2)
+    capture = capture_of(plan, camera, boxes, sun)
+    found = gnomon.judge(capture)
+    assert found["lights"][0]["maps"] == 2
+    p95 = gnomon.measure(plan, camera, boxes).p95
+    assert abs(found["lights"][0]["m"]["p95"] - p95) < 0.1 * p95
+    assert not {"transposed", "mirrored", "depth_reversed", "receivers_outside"} & {one["kind"] for one in found["findings"]}
+    # Maps of a fourth of the extent leave most receivers outside; mirrored depth is another fault.
+    for scale, kind in ((np.array([4, 4, 1, 1]), "receivers_outside"), (np.array([1, 1, -1, 1]), "depth_reversed")):
+        maps = [{**one, "clip_from_world": scale[:, None] * one["clip_from_world"]} for one in capture["maps"]]
+        assert kind in {one["kind"] for one in gnomon.judge({**capture, "maps": maps})["findings"]}
+    for broken in ({"format": "gnomon-capture/1"}, {**capture, "maps": [{"clip_from_world": [1, 2]}]}, {"a": object()}):
+        with pytest.raises(GnomonError) as caught:
+            gnomon.judge(broken)
+        assert caught.value.field == "capture" and str(caught.value)
+    with pytest.raises(GnomonError):
+        gnomon.judge("no_file.json")

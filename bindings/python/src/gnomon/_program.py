@@ -1,4 +1,5 @@
-"""What is the exact shadow of a glTF file, and what does a filter make of it? The program gnomon draws both."""
+"""What does the program gnomon say? The exact shadow of a glTF file, what a filter makes of it, and what is wrong with the maps of
+an engine."""
 from __future__ import annotations
 
 import json
@@ -38,12 +39,9 @@ def masks(scene: Union[str, "os.PathLike[str]"], filters: Sequence[str] = (), *,
     picture. Needs Pillow. Raises GnomonError("program") where there is none, and GnomonError("scene") with the program's own
     line where it refuses an argument.
     """
-    found = program or os.environ.get("GNOMON_PROGRAM") or shutil.which("gnomon")
-    if not found or not shutil.which(found):
-        raise GnomonError("program", "program: there is no program gnomon; build it, and name it in GNOMON_PROGRAM")
     if (eye is None) != (target is None):
         raise GnomonError("target", "eye and target go together")
-    command = [found, "view", os.fspath(scene), "--size", "%dx%d" % (width, height), "--light-elevation-deg",
+    command = [_program(program), "view", os.fspath(scene), "--size", "%dx%d" % (width, height), "--light-elevation-deg",
                str(float(light_elevation_deg)), "--light-azimuth-deg", str(float(light_azimuth_deg)), "--cascades",
                str(int(cascades)), "--map-size", str(int(map_size))]
     for name, place in (("eye", eye), ("target", target)):
@@ -55,15 +53,55 @@ def masks(scene: Union[str, "os.PathLike[str]"], filters: Sequence[str] = (), *,
     return Masks(exact, {name: _draw(command + ["--view", "mask", "--filter", name], timeout_s) for name in filters})
 
 
+def judge(capture: Union[str, "os.PathLike[str]", dict[str, Any]], scene: Optional[str] = None, *,
+          program: Optional[str] = None, timeout_s: float = 600.0) -> dict[str, Any]:
+    """What is wrong with the shadow maps of an engine, how much, where, and what would mend it, by the program gnomon.
+
+    capture: a file of the format gnomon-capture/1, or the same as a dictionary: cameras, lights and maps. Arrays of shape
+    (4, 4) in it are matrices, rows first. scene: a glTF file or builtin:NAME that it is of, to draw it as well. program,
+    timeout_s: as of masks(). Returns what `gnomon judge --json` prints: lights with their m, and findings with kind, what,
+    change, size and unit. Raises GnomonError("capture") with the program's line where it refuses the capture or the scene.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.fspath(capture) if not isinstance(capture, dict) else os.path.join(folder, "capture.json")
+        if isinstance(capture, dict):
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(capture, file, default=_plain)
+        text = _run([_program(program), "judge", path, *([scene] if scene is not None else []), "--json"], "capture", timeout_s)
+        found: dict[str, Any] = json.loads(text)
+        return found
+
+
+def _plain(value: Any) -> Any:
+    """Arrays as a capture has them: matrices column by column."""
+    if isinstance(value, np.ndarray):
+        return value.T.ravel().tolist() if value.shape == (4, 4) else value.tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    raise GnomonError("capture", "capture: %s is no number, text, list or array" % type(value).__name__)
+
+
+def _program(program: Optional[str]) -> str:
+    found = program or os.environ.get("GNOMON_PROGRAM") or shutil.which("gnomon")
+    if not found or not shutil.which(found):
+        raise GnomonError("program", "program: there is no program gnomon; build it, and name it in GNOMON_PROGRAM")
+    return found
+
+
+def _run(command: list[str], field: str, timeout_s: float) -> str:
+    """What a command prints. Arguments as a list: no shell reads them."""
+    run = subprocess.run(command, capture_output=True, text=True, timeout=timeout_s)
+    if run.returncode != 0:
+        raise GnomonError(field, run.stderr.strip().split("\n")[-1] or "gnomon %s ended with %d" % (command[1], run.returncode))
+    return run.stdout
+
+
 def _draw(command: list[str], timeout_s: float) -> NDArray[np.float32]:
     from PIL import Image
 
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "picture.png")
-        # Arguments as a list: no shell reads them.
-        run = subprocess.run(command + ["--out", path], capture_output=True, text=True, timeout=timeout_s)
-        if run.returncode != 0:
-            raise GnomonError("scene", run.stderr.strip().split("\n")[-1] or "gnomon view ended with %d" % run.returncode)
+        _run(command + ["--out", path], "scene", timeout_s)
         with Image.open(path) as image:
             colors = np.asarray(image.convert("RGB"), dtype=np.float64)
     along = _LIT - _SHADOW
