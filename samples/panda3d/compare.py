@@ -121,7 +121,7 @@ class Street:
 
     def draw(self):
         """The picture, (height, width, 3) in 0..1."""
-        # The first one draws with the shader before the light's lens changed.
+        # Panda3D makes the map in the first frame of all, and reads it from the second on.
         for _ in range(2):
             self.base.graphicsEngine.render_frame()
         image = p3.PNMImage()
