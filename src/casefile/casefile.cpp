@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numbers>
 #include <type_traits>
 #include <variant>
@@ -28,6 +29,16 @@ double half_open_degrees(const Fields& fields, std::string_view key) {
   return degrees;
 }
 
+/// A depth, or infinity: the word, null, or nothing at all. JSON has no number for it.
+double far_depth(const Fields& fields) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!fields.has("far") || fields.at("far").is_null()) return kInfinity;
+  if (!fields.at("far").is_string()) return fields.number("far");
+  if (fields.text("far") != "infinity")
+    fields.refuse("far", "is \"" + one_line(fields.text("far"), 40) + "\", not a number or \"infinity\"");
+  return kInfinity;
+}
+
 Camera edges_camera(const Fields& fields) {
   if (fields.has("aspect")) fields.refuse("aspect", "says nothing beside left, right, bottom, top");
   Camera camera;
@@ -39,7 +50,7 @@ Camera edges_camera(const Fields& fields) {
   camera.bottom = fields.number("bottom");
   camera.top = fields.number("top");
   camera.near_depth = fields.number("near");
-  camera.far_depth = fields.number("far");
+  camera.far_depth = far_depth(fields);
   camera.width = fields.integer("width");
   camera.height = fields.integer("height");
   fields.read("orthographic", camera.orthographic);
@@ -61,7 +72,7 @@ Camera camera_from(const json& value) {
       fov ? radians(half_open_degrees(fields, "fov_y_deg")) : fields.positive("height_world");
   return (fov ? perspective_camera : orthographic_camera)(
       fields.vector("position"), fields.vector("forward"), fields.vector("up"), extent,
-      fields.positive("aspect"), fields.number("near"), fields.number("far"), fields.integer("width"),
+      fields.positive("aspect"), fields.number("near"), far_depth(fields), fields.integer("width"),
       fields.integer("height"));
 }
 

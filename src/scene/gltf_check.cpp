@@ -106,6 +106,8 @@ constexpr Rule kMeshopt[] = {{"buffer", Kind::index, "buffers", 0, {}, true},
 constexpr Rule kDraco[] = {{"bufferView", Kind::index, "bufferViews", 0, {}, true},
                            {"attributes", Kind::count_map, "", kMaxInt, {}, true}};
 
+constexpr Rule kInstancing[] = {{"attributes", Kind::index_map, "accessors", 0, {}, true}};
+
 constexpr Rule kChannelTarget[] = {{"node", Kind::index, "nodes"}, {"path", Kind::string, "", 0, {}, true}};
 constexpr Rule kChannel[] = {{"sampler", Kind::count, "", kMaxInt, {}, true},
                              {"target", Kind::object, "", 0, kChannelTarget, true}};
@@ -135,8 +137,9 @@ constexpr std::array<ArrayRule, 11> kArrays{{{"buffers", kBuffer},
 constexpr std::size_t kRawArrays = 2;  // buffers and images, which tinygltf is not given
 
 // Supported in the sense that a scene that requires them is shown rightly enough for its shadows.
-constexpr std::array<std::string_view, 4> kSupported{"KHR_texture_transform", "KHR_lights_punctual",
-                                                     "KHR_mesh_quantization", "KHR_xmp_json_ld"};
+constexpr std::array<std::string_view, 6> kSupported{"KHR_texture_transform",   "KHR_lights_punctual",
+                                                     "KHR_mesh_quantization",   "KHR_xmp_json_ld",
+                                                     "EXT_mesh_gpu_instancing", "KHR_node_visibility"};
 
 std::size_t array_size(const json& document, const char* name) {
   const auto it = document.find(name);
@@ -316,6 +319,10 @@ json checked_meshopt(const json& source, const json& view, const std::string& wh
 
 json checked_draco(const json& source, const json& primitive, const std::string& where) {
   return checked_extension(source, primitive, "KHR_draco_mesh_compression", kDraco, where);
+}
+
+json checked_instancing(const json& source, const json& node, const std::string& where) {
+  return checked_extension(source, node, "EXT_mesh_gpu_instancing", kInstancing, where);
 }
 
 json checked_animation(const json& source, const json& animation, const std::string& where) {

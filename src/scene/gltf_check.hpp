@@ -23,6 +23,10 @@ namespace gnomon::detail {
 [[nodiscard]] nlohmann::json checked_draco(const nlohmann::json& source, const nlohmann::json& primitive,
                                            const std::string& where);
 
+/// A node's instances, the same way.
+[[nodiscard]] nlohmann::json checked_instancing(const nlohmann::json& source, const nlohmann::json& node,
+                                                const std::string& where);
+
 /// An animation, a primitive's morph targets and a mesh's or a node's weights, checked like the document.
 /// Throw Refusal.
 [[nodiscard]] nlohmann::json checked_animation(const nlohmann::json& source, const nlohmann::json& animation,

@@ -33,8 +33,8 @@ json parse_json(std::string_view text) {
 void warn_of_extensions(const json& source, std::vector<std::string>& warnings) {
   const auto used = source.find("extensionsUsed");
   if (used == source.end() || !used->is_array()) return;
-  for (const char* name : {"EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                           "EXT_texture_webp", "KHR_texture_basisu"}) {
+  for (const char* name :
+       {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_texture_webp", "KHR_texture_basisu"}) {
     for (const json& entry : *used) {
       if (entry == name && !decodes(name))
         warn(warnings, "extensionsUsed", std::string(name) + " is not supported, fallbacks are used");
@@ -283,6 +283,7 @@ Document open_document(std::span<const std::uint8_t> bytes, SceneFolder& folder,
   out.transforms = list_transforms(source);
   out.transmissions = list_transmissions(source, warnings);
   out.motion = read_motion_source(source, warnings);
+  out.placement = read_placement_source(source, warnings);
   take_indices(document, source, out);
   build_model(document, out.model);
   for (Bytes& bytes_of_buffer : data) {

@@ -13,6 +13,7 @@
 
 #include "files.hpp"
 #include "gltf_motion_source.hpp"
+#include "gltf_placement.hpp"
 #include "gnomon/scene/load.hpp"
 
 namespace gnomon::detail {
@@ -39,7 +40,8 @@ struct Document {
   std::vector<float> transmissions;                         // 0..1, one per material
   std::vector<std::vector<int>> indices;      // accessor of each primitive of each mesh, -1: none
   std::vector<std::vector<bool>> compressed;  // primitives whose data only Draco can read
-  MotionSource motion;                        // empty without animations
+  MotionSource motion;                        // without animations: targets and weights alone
+  PlacementSource placement;
 };
 
 /// Throws Refusal.

@@ -146,7 +146,7 @@ std::optional<std::vector<std::uint32_t>> MeshReader::skinned_primitives_of(int 
 
 std::vector<std::uint32_t> MeshReader::morphed_primitives_of(int node) {
   const int mesh = document_.model.nodes[static_cast<std::size_t>(node)].mesh;
-  const Bending bending{node, nullptr, true};
+  const Bending bending{node, nullptr, motion_.weights_of(node).has_value()};
   std::vector<std::uint32_t> out;
   for (std::size_t p = 0; p < document_.model.meshes[static_cast<std::size_t>(mesh)].primitives.size(); ++p) {
     spend_bent(node);
@@ -207,12 +207,16 @@ std::uint32_t MeshReader::build_triangles(int mesh, std::size_t primitive, const
   const Attributes attributes = attributes_of(source);
   const auto known = bending == nullptr ? shared_.find(attributes) : shared_.end();
   if (known != shared_.end()) {
-    return store(known->second, read_triangles(mesh, primitive, known->second.count, where), source.material);
+    std::vector<std::uint32_t> triangles = read_triangles(mesh, primitive, known->second.count, where);
+    drop_invisible(source, known->second.count, where, triangles);
+    return store(known->second, triangles, source.material);
   }
   Vertices vertices = read_vertices(attributes, where);
   std::vector<std::uint32_t> triangles = read_triangles(mesh, primitive, vertices.positions.size(), where);
+  drop_invisible(source, vertices.positions.size(), where, triangles);
   std::optional<DeformedMesh> kept;
   if (bending != nullptr && bending->kept) kept = keep(mesh, primitive, where, *bending, vertices);
+  if (bending != nullptr) morph(mesh, primitive, where, bending->node, vertices);
   if (bending != nullptr && bending->joints != nullptr) {
     Influences influences = bend(document_.model, source, *bending->joints, vertices, triangles);
     if (kept) take_influences(std::move(influences), *kept);
@@ -260,6 +264,47 @@ DeformedMesh MeshReader::keep(int mesh, std::size_t primitive, const std::string
                                : read_offsets(targets->second[t].normals, count, "NORMAL", at)});
   }
   return out;
+}
+
+const std::vector<float>* MeshReader::weights_at_rest(int node) const {
+  const MotionSource& motion = document_.motion;
+  const auto of_node = motion.node_weights.find(node);
+  if (of_node != motion.node_weights.end()) return &of_node->second;
+  const auto of_mesh = motion.mesh_weights.find(document_.model.nodes[static_cast<std::size_t>(node)].mesh);
+  return of_mesh != motion.mesh_weights.end() ? &of_mesh->second : nullptr;
+}
+
+bool MeshReader::morphs_at_rest(int node) const {
+  const std::vector<float>* const weights = weights_at_rest(node);
+  if (weights == nullptr || std::all_of(weights->begin(), weights->end(), [](float w) { return w == 0.0f; }))
+    return false;
+  const int mesh = document_.model.nodes[static_cast<std::size_t>(node)].mesh;
+  const auto first = document_.motion.targets.lower_bound({mesh, 0});
+  return first != document_.motion.targets.end() && first->first.first == mesh;
+}
+
+void MeshReader::morph(int mesh, std::size_t primitive, const std::string& where, int node,
+                       Vertices& vertices) {
+  const std::vector<float>* const weights = weights_at_rest(node);
+  const auto targets = document_.motion.targets.find({mesh, static_cast<int>(primitive)});
+  if (weights == nullptr || targets == document_.motion.targets.end()) return;
+  const std::size_t count = vertices.positions.size();
+  const auto add = [&](int accessor, const char* name, const std::string& at, float weight,
+                       std::vector<glm::vec3>& to) {
+    if (to.empty()) return;
+    const std::vector<glm::vec3> offsets = read_offsets(accessor, count, name, at);
+    for (std::size_t v = 0; v < offsets.size(); ++v) to[v] += weight * offsets[v];
+  };
+  for (std::size_t t = 0; t < std::min(weights->size(), targets->second.size()); ++t) {
+    const float weight = (*weights)[t];
+    if (weight == 0.0f) continue;
+    const std::string at = where + "." + element("targets", t);
+    add(targets->second[t].positions, "POSITION", at, weight, vertices.positions);
+    add(targets->second[t].normals, "NORMAL", at, weight, vertices.normals);
+  }
+  for (const glm::vec3& position : vertices.positions) {
+    if (!is_finite(position)) throw Refusal(where, "its weights at rest make positions that are not finite");
+  }
 }
 
 // Offsets that are broken move nothing.
@@ -366,6 +411,41 @@ std::vector<std::uint32_t> MeshReader::read_triangles(int mesh, std::size_t prim
     warn(scene_.warnings, where, "its last triangle is not whole, skipped");
   }
   return triangles;
+}
+
+void MeshReader::drop_invisible(const tinygltf::Primitive& primitive, std::size_t vertex_count,
+                                const std::string& where, std::vector<std::uint32_t>& triangles) {
+  const int color = attribute(primitive, "COLOR_0");
+  if (color < 0 || primitive.material < 0) return;
+  const tinygltf::Material& material =
+      document_.model.materials[static_cast<std::size_t>(primitive.material)];
+  const bool mask = material.alphaMode == "MASK";
+  if (!mask && material.alphaMode != "BLEND") return;
+  if (document_.model.accessors[static_cast<std::size_t>(color)].type != TINYGLTF_TYPE_VEC4) return;
+  const auto colors = read_optional<glm::vec4>(color, vertex_count, "COLOR_0", where);
+  if (colors.empty()) return;
+  const std::vector<double>& factor = material.pbrMetallicRoughness.baseColorFactor;
+  const double alpha = factor.size() == 4 ? factor[3] : 1.0;
+  // A picture's alpha only lowers it.
+  const auto shows = [&](std::uint32_t corner) {
+    const double at = alpha * static_cast<double>(colors[corner].a);
+    return mask ? at >= material.alphaCutoff : at > 0.0;
+  };
+  std::vector<std::uint32_t> kept;
+  std::size_t cut = 0;
+  for (std::size_t i = 0; i < triangles.size(); i += 3) {
+    const int shown = int{shows(triangles[i])} + int{shows(triangles[i + 1])} + int{shows(triangles[i + 2])};
+    if (shown == 0) continue;
+    if (shown < 3 && mask) ++cut;
+    kept.insert(kept.end(), triangles.begin() + static_cast<std::ptrdiff_t>(i),
+                triangles.begin() + static_cast<std::ptrdiff_t>(i + 3));
+  }
+  if (kept.empty()) throw LeftOut("its vertex colours make all of it invisible");
+  if (cut > 0)
+    warn(scene_.warnings, where,
+         "the alpha mask of its vertex colours ends within " + std::to_string(cut) +
+             " triangles, which are drawn whole");
+  triangles = std::move(kept);
 }
 
 MeshReader::Range MeshReader::append(const Vertices& vertices) {

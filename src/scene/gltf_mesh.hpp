@@ -38,7 +38,10 @@ class MeshReader {
   [[nodiscard]] const std::vector<std::uint32_t>& primitives_of(int mesh);
   /// A node's mesh bent by its skin, in world space. Nothing where the skin is broken, which is warned of.
   [[nodiscard]] std::optional<std::vector<std::uint32_t>> skinned_primitives_of(int node);
-  /// A node's mesh without skin, with vertices of its own for poses by morph targets.
+  /// Whether the node's mesh has morph targets of a weight at rest, its own or its mesh's.
+  [[nodiscard]] bool morphs_at_rest(int node) const;
+  /// A node's mesh without skin, with vertices of its own: morphed as at rest, and kept for poses where
+  /// animations drive the weights.
   [[nodiscard]] std::vector<std::uint32_t> morphed_primitives_of(int node);
   /// Source of the primitive's vertices, where it was kept for poses.
   [[nodiscard]] std::optional<DeformedMesh> take_deformed(std::uint32_t primitive);
@@ -54,6 +57,9 @@ class MeshReader {
   std::uint32_t build_triangles(int mesh, std::size_t primitive, const std::string& where,
                                 const Bending* bending);
   void spend_bent(int node);
+  /// Moves the vertices by the targets of the primitive, as the node's weights at rest say.
+  void morph(int mesh, std::size_t primitive, const std::string& where, int node, Vertices& vertices);
+  [[nodiscard]] const std::vector<float>* weights_at_rest(int node) const;
   [[nodiscard]] DeformedMesh keep(int mesh, std::size_t primitive, const std::string& where,
                                   const Bending& bending, const Vertices& vertices);
   std::vector<glm::vec3> read_offsets(int accessor, std::size_t count, const char* name,
@@ -65,6 +71,10 @@ class MeshReader {
   std::vector<Vec> read_optional(int accessor, std::size_t count, const char* name, const std::string& where);
   std::vector<std::uint32_t> read_triangles(int mesh, std::size_t primitive, std::size_t vertex_count,
                                             const std::string& where);
+  /// Drops triangles that vertex colours make invisible: by an alpha mask, or wholly transparent. Throws
+  /// LeftOut where none is left.
+  void drop_invisible(const tinygltf::Primitive& primitive, std::size_t vertex_count,
+                      const std::string& where, std::vector<std::uint32_t>& triangles);
   Range append(const Vertices& vertices);
   std::uint32_t store(Range range, const std::vector<std::uint32_t>& triangles, int material);
   void spend_vertices(std::uint64_t count, const std::string& where);

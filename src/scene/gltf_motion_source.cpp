@@ -74,6 +74,7 @@ void read_targets(const json& source, MotionSource& out, std::vector<std::string
 
 MotionSource read_motion_source(const json& source, std::vector<std::string>& warnings) {
   MotionSource out;
+  read_targets(source, out, warnings);
   const auto animations = source.find("animations");
   if (animations == source.end()) return out;
   if (!animations->is_array()) {
@@ -87,7 +88,6 @@ MotionSource read_motion_source(const json& source, std::vector<std::string>& wa
           animation_source(checked_animation(source, (*animations)[i], element("animations", i)));
     });
   }
-  if (!out.animations.empty()) read_targets(source, out, warnings);
   return out;
 }
 

@@ -101,8 +101,8 @@ PlacedNode placed(const tinygltf::Node& node) {
   return out;
 }
 
-NodeTree build_node_tree(const tinygltf::Model& model, const LoadLimits& limits,
-                         std::vector<std::string>& warnings) {
+NodeTree build_node_tree(const tinygltf::Model& model, const std::vector<bool>& hidden,
+                         const LoadLimits& limits, std::vector<std::string>& warnings) {
   const std::vector<int> parents = find_parents(model);
   std::vector<int> roots;
   for (std::size_t n = 0; n < parents.size(); ++n) {
@@ -127,6 +127,7 @@ NodeTree build_node_tree(const tinygltf::Model& model, const LoadLimits& limits,
       continue;
     }
     seen[static_cast<std::size_t>(n)] = true;
+    if (static_cast<std::size_t>(n) < hidden.size() && hidden[static_cast<std::size_t>(n)]) continue;
     tree.shown.push_back(n);
     const std::vector<int>& children = model.nodes[static_cast<std::size_t>(n)].children;
     pending.insert(pending.end(), children.rbegin(), children.rend());

@@ -13,7 +13,7 @@ namespace gnomon::detail {
 
 struct NodeTree {
   std::vector<glm::dmat4> world_from_node;  // of every node, also those outside the scene shown
-  std::vector<int> shown;                   // nodes of the scene, parents before children
+  std::vector<int> shown;  // nodes of the scene, parents before children; none that is hidden
 };
 
 /// How a node without a matrix is placed in its parent.
@@ -27,8 +27,9 @@ struct PlacedNode {
 /// Parent from node.
 [[nodiscard]] glm::dmat4 local_transform(const tinygltf::Node& node);
 
-/// Throws Refusal for loops, for nodes with two parents, for trees too deep and transforms that overflow.
-[[nodiscard]] NodeTree build_node_tree(const tinygltf::Model& model, const LoadLimits& limits,
-                                       std::vector<std::string>& warnings);
+/// `hidden`: by node, or empty. Throws Refusal for loops, for nodes with two parents, for trees too deep and
+/// transforms that overflow.
+[[nodiscard]] NodeTree build_node_tree(const tinygltf::Model& model, const std::vector<bool>& hidden,
+                                       const LoadLimits& limits, std::vector<std::string>& warnings);
 
 }  // namespace gnomon::detail

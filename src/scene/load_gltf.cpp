@@ -83,7 +83,12 @@ void check_size(const detail::Document& document, const detail::NodeTree& tree, 
     const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(n)];
     if (node.mesh < 0) continue;
     const auto m = static_cast<std::size_t>(node.mesh);
-    triangles += of_mesh[m];
+    const std::uint64_t places =
+        place_count(document.model, document.placement.places[static_cast<std::size_t>(n)]);
+    const std::uint64_t each = of_mesh[m];
+    // Products of what a file says may overflow.
+    if (each > 0 && places > (UINT64_MAX - triangles) / each) triangles = UINT64_MAX;
+    if (triangles < UINT64_MAX) triangles += each * places;
     // A mesh is stored once for all its nodes, but anew for each that bends it.
     const bool bent = node.skin >= 0;
     if (bent || !seen[m]) stored += of_mesh[m];
@@ -104,6 +109,7 @@ class NodePlacer {
              Scene& scene)
       : document_(document),
         tree_(tree),
+        limits_(limits),
         scene_(scene),
         motion_(document, tree, limits, scene),
         meshes_(document, tree, limits, motion_, scene),
@@ -120,6 +126,7 @@ class NodePlacer {
         return;
       }
     }
+    if (document_.placement.places[index].any && place_instances(n)) return;
     const int moved = motion_.moved_node(n);
     const glm::dmat4& at = tree_.world_from_node[index];
     if (motion_.weights_of(n)) {
@@ -127,13 +134,43 @@ class NodePlacer {
         keep_deformed(placer_.place(primitive, at, index), moved);
       return;
     }
-    for (const std::uint32_t primitive : meshes_.primitives_of(node.mesh)) {
+    for (const std::uint32_t primitive : primitives_at_rest(n)) {
       const std::uint32_t instance = placer_.place(primitive, at, index);
       if (moved >= 0) scene_.motion.instances.push_back({instance, static_cast<std::uint32_t>(moved)});
     }
   }
 
  private:
+  /// With the mesh's morph targets where its weights at rest are.
+  [[nodiscard]] std::vector<std::uint32_t> primitives_at_rest(int n) {
+    if (meshes_.morphs_at_rest(n)) return meshes_.morphed_primitives_of(n);
+    return meshes_.primitives_of(document_.model.nodes[static_cast<std::size_t>(n)].mesh);
+  }
+
+  /// One instance for each place of the node's mesh. False where they are broken, which is warned of.
+  bool place_instances(int n) {
+    const auto index = static_cast<std::size_t>(n);
+    if (detail::place_count(document_.model, document_.placement.places[index]) > limits_.nodes)
+      throw Refusal(element("nodes", index),
+                    "takes the scene above " + std::to_string(limits_.nodes) + " instances");
+    std::vector<glm::dmat4> places;
+    try {
+      places = detail::places_of(document_.model, document_.placement.places[index], limits_.nodes);
+    } catch (const detail::LeftOut& e) {
+      detail::warn(scene_.warnings, element("nodes", index),
+                   std::string("its instances are broken: ") + e.what() + "; the mesh is shown once");
+      return false;
+    }
+    if (motion_.moved_node(n) >= 0 || motion_.weights_of(n))
+      detail::warn(scene_.warnings, element("nodes", index), "animations do not move its instances");
+    const std::vector<std::uint32_t> primitives = primitives_at_rest(n);
+    for (const glm::dmat4& place : places) {
+      for (const std::uint32_t primitive : primitives)
+        placer_.place(primitive, tree_.world_from_node[index] * place, index);
+    }
+    return true;
+  }
+
   /// `moved`: index of the node that places the instance, or -1.
   void keep_deformed(std::uint32_t instance, int moved) {
     auto mesh = meshes_.take_deformed(scene_.instances[instance].primitive);
@@ -145,6 +182,7 @@ class NodePlacer {
 
   const detail::Document& document_;
   const detail::NodeTree& tree_;
+  const LoadLimits& limits_;
   Scene& scene_;
   detail::MotionReader motion_;
   detail::MeshReader meshes_;
@@ -163,7 +201,7 @@ Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& sc
     scene.name = scene_name;
     SceneFolder files(folder, limits.file_bytes, limits.total_bytes);
     const Document document = open_document(bytes, files, limits, scene.warnings);
-    const NodeTree tree = build_node_tree(document.model, limits, scene.warnings);
+    const NodeTree tree = build_node_tree(document.model, document.placement.hidden, limits, scene.warnings);
     check_size(document, tree, limits);
     NodePlacer placer(document, tree, limits, scene);
     for (const int node : tree.shown) placer.place(node);

@@ -44,6 +44,20 @@ bool reads(std::string_view text) {
   }
 }
 
+TEST(CaseFile, reads_a_far_plane_without_end) {
+  const auto far_of = [](const std::string& far) {
+    std::string text = text_with(kSun);
+    const std::string fifty = R"("far": 50, )";
+    text.replace(text.find(fifty), fifty.size(), far);
+    return read_case(text).camera.far_depth;
+  };
+  for (const char* far : {R"("far": "infinity", )", R"("far": null, )", ""})
+    EXPECT_TRUE(std::isinf(far_of(far))) << far;
+  EXPECT_EQ(far_of(R"("far": 70, )"), 70.0);
+  EXPECT_THROW((void)far_of(R"("far": "endless", )"), CaseError);
+  EXPECT_THROW((void)far_of(R"("far": true, )"), CaseError);
+}
+
 TEST(CaseFile, reads_camera_and_boxes) {
   const Case input = read_case(text_with(kSun));
   EXPECT_EQ(input.camera.position, glm::dvec3(1, 2, 3));

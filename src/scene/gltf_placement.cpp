@@ -1,0 +1,100 @@
+// Which nodes does a glTF document hide, and which of them stand in many places?
+// Based on: Khronos Group, EXT_mesh_gpu_instancing and KHR_node_visibility (glTF extensions).
+#include "gltf_placement.hpp"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "gltf_accessor.hpp"
+#include "gltf_check.hpp"
+#include "node_matrix.hpp"
+#include "refusal.hpp"
+
+namespace gnomon::detail {
+namespace {
+
+using nlohmann::json;
+
+bool is_hidden(const json& node, const std::string& where, std::vector<std::string>& warnings) {
+  const json* extensions = find_object(node, "extensions");
+  const json* found = extensions == nullptr ? nullptr : find_object(*extensions, "KHR_node_visibility");
+  if (found == nullptr || !found->contains("visible")) return false;
+  const json& visible = found->at("visible");
+  if (visible.is_boolean()) return !visible.get<bool>();
+  warn(warnings, where, "KHR_node_visibility.visible is not true or false, the node is shown");
+  return false;
+}
+
+PlacementSource::Places places_in(const json& source, const json& node, const std::string& where,
+                                  std::vector<std::string>& warnings) {
+  PlacementSource::Places places;
+  try {
+    const json checked = checked_instancing(source, node, where + ".EXT_mesh_gpu_instancing");
+    if (checked.is_null()) return places;
+    const json& attributes = checked["attributes"];
+    places.translation = attributes.value("TRANSLATION", -1);
+    places.rotation = attributes.value("ROTATION", -1);
+    places.scale = attributes.value("SCALE", -1);
+    places.any = places.translation >= 0 || places.rotation >= 0 || places.scale >= 0;
+  } catch (const Refusal& e) {
+    warn(warnings, std::string(e.what()) + ", the mesh is shown once");
+  }
+  return places;
+}
+
+}  // namespace
+
+PlacementSource read_placement_source(const json& source, std::vector<std::string>& warnings) {
+  PlacementSource out;
+  const auto nodes = source.find("nodes");
+  if (nodes == source.end() || !nodes->is_array()) return out;
+  for (std::size_t n = 0; n < nodes->size(); ++n) {
+    const std::string where = element("nodes", n);
+    out.hidden.push_back(is_hidden((*nodes)[n], where, warnings));
+    out.places.push_back(places_in(source, (*nodes)[n], where, warnings));
+  }
+  return out;
+}
+
+std::uint64_t place_count(const tinygltf::Model& model, const PlacementSource::Places& places) {
+  std::uint64_t count = UINT64_MAX;
+  for (const int accessor : {places.translation, places.rotation, places.scale}) {
+    if (accessor >= 0)
+      count = std::min<std::uint64_t>(count, model.accessors[static_cast<std::size_t>(accessor)].count);
+  }
+  return places.any ? count : 1;
+}
+
+std::vector<glm::dmat4> places_of(const tinygltf::Model& model, const PlacementSource::Places& places,
+                                  std::uint64_t max_count) {
+  const std::uint64_t count = place_count(model, places);
+  const auto read = [&](int accessor, int components) {
+    return accessor < 0 ? std::vector<float>() : read_floats(model, accessor, components, max_count);
+  };
+  std::vector<float> moves, turns, scales;
+  try {
+    moves = read(places.translation, 3);
+    turns = read(places.rotation, 4);
+    scales = read(places.scale, 3);
+  } catch (const Refusal& e) {
+    throw LeftOut(e.what());
+  }
+  std::vector<glm::dmat4> out;
+  out.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = [&](const std::vector<float>& values, std::size_t width, std::size_t k,
+                        double otherwise) {
+      return values.empty() ? otherwise : static_cast<double>(values[width * i + k]);
+    };
+    const glm::dvec3 move{at(moves, 3, 0, 0.0), at(moves, 3, 1, 0.0), at(moves, 3, 2, 0.0)};
+    const glm::dquat turn(at(turns, 4, 3, 1.0), at(turns, 4, 0, 0.0), at(turns, 4, 1, 0.0),
+                          at(turns, 4, 2, 0.0));
+    const glm::dvec3 scale{at(scales, 3, 0, 1.0), at(scales, 3, 1, 1.0), at(scales, 3, 2, 1.0)};
+    out.push_back(composed(move, turn, scale));
+  }
+  return out;
+}
+
+}  // namespace gnomon::detail

@@ -1,0 +1,39 @@
+// Which nodes does a glTF document hide, and which of them stand in many places?
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "gnomon/scene/load.hpp"
+
+namespace tinygltf {
+class Model;
+}
+
+namespace gnomon::detail {
+
+/// What extensions of nodes say; one entry for each node.
+struct PlacementSource {
+  /// Accessors of EXT_mesh_gpu_instancing; -1: none.
+  struct Places {
+    bool any = false;
+    int translation = -1, rotation = -1, scale = -1;
+  };
+  std::vector<bool> hidden;  ///< by KHR_node_visibility, with all that hangs on it
+  std::vector<Places> places;
+};
+
+/// A broken extension is warned of, and counts as none.
+[[nodiscard]] PlacementSource read_placement_source(const nlohmann::json& source,
+                                                    std::vector<std::string>& warnings);
+
+/// How many places the node's mesh has: as many as the shortest of its accessors has entries.
+[[nodiscard]] std::uint64_t place_count(const tinygltf::Model& model, const PlacementSource::Places& places);
+/// Node from instance, for each. Throws LeftOut where an accessor is broken.
+[[nodiscard]] std::vector<glm::dmat4> places_of(const tinygltf::Model& model,
+                                                const PlacementSource::Places& places,
+                                                std::uint64_t max_count);
+
+}  // namespace gnomon::detail
