@@ -284,6 +284,7 @@ Document open_document(std::span<const std::uint8_t> bytes, SceneFolder& folder,
   out.transmissions = list_transmissions(source, warnings);
   out.motion = read_motion_source(source, warnings);
   out.placement = read_placement_source(source, warnings);
+  out.views = read_view_source(source, warnings);
   take_indices(document, source, out);
   build_model(document, out.model);
   for (Bytes& bytes_of_buffer : data) {

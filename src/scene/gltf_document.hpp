@@ -14,6 +14,7 @@
 #include "files.hpp"
 #include "gltf_motion_source.hpp"
 #include "gltf_placement.hpp"
+#include "gltf_views.hpp"
 #include "gnomon/scene/load.hpp"
 
 namespace gnomon::detail {
@@ -42,6 +43,7 @@ struct Document {
   std::vector<std::vector<bool>> compressed;  // primitives whose data only Draco can read
   MotionSource motion;                        // without animations: targets and weights alone
   PlacementSource placement;
+  ViewSource views;
 };
 
 /// Throws Refusal.

@@ -6,9 +6,12 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 
 #include "base/fnv.hpp"
+#include "gnomon/casefile/casefile.hpp"
+#include "named_in.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -64,6 +67,10 @@ std::vector<Option> camera_options(CameraWords& words) {
            .target = &words.path,
            .help = "camera path, a JSON file, in place of the scene's own",
            .completion = Completion::files},
+          {.name = "--camera",
+           .target = &words.of_file,
+           .help = "camera of the scene's file, by name or number, in place of the scene's path",
+           .word = "NAME"},
           point_option("--eye", words.eye, "position of the camera, world units; needs --target"),
           point_option("--target", words.target, "point that the camera looks at"),
           {.name = "--near",
@@ -81,6 +88,8 @@ void check_camera(const CameraWords& words) {
     throw std::runtime_error("--eye and --target: give both, or neither");
   if (words.eye && *words.eye == *words.target) throw std::runtime_error("--target: must differ from --eye");
   if (words.eye && !words.path.empty()) throw std::runtime_error("--eye: not with --path, which has its own");
+  if (!words.of_file.empty() && (words.eye || !words.path.empty()))
+    throw std::runtime_error("--camera: not with --path or --eye, which place another");
   if (words.near_depth > 0.0 && words.far_depth > 0.0) check_depths(words, words.near_depth, words.far_depth);
   if (words.path.empty()) return;
   const CameraPath path = load_camera_path(words.path);
@@ -88,9 +97,36 @@ void check_camera(const CameraWords& words) {
                words.far_depth > 0.0 ? words.far_depth : path.far_depth);
 }
 
+namespace {
+
+/// The path of one key that shows what a camera of the file does.
+CameraPath path_of(const SceneCamera& camera, const Scene& scene) {
+  if (camera.orthographic)
+    throw std::runtime_error("--camera " + camera.name + ": is orthographic, and pictures are perspective");
+  CameraPath path;
+  path.keys = {{camera.position, camera.position + camera.forward}};
+  path.fov_y_radians = camera.fov_y_radians;
+  path.near_depth = camera.near_depth;
+  std::vector<Box> boxes;
+  for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
+  path.far_depth = std::isfinite(camera.far_depth)
+                       ? camera.far_depth
+                       : std::max(sight_from(camera.position, boxes).far_depth, 2.0 * camera.near_depth);
+  // A path's cameras stand upright: up is +Y.
+  constexpr double kUpright = 1e-3;
+  const glm::dvec3 side = glm::cross(camera.forward, glm::dvec3(0.0, 1.0, 0.0));
+  if (glm::length(side) > kUpright && std::abs(glm::dot(camera.up, glm::normalize(side))) > kUpright)
+    warn("--camera " + camera.name + ": is tilted to a side, and is shown upright");
+  return path;
+}
+
+}  // namespace
+
 CameraPath camera_path(const CameraWords& words, const Scene& scene, double aspect) {
   check_camera(words);
   CameraPath path = words.path.empty() ? default_path(scene, aspect) : load_camera_path(words.path);
+  if (!words.of_file.empty())
+    path = path_of(named_in(scene.cameras, words.of_file, "--camera", "camera"), scene);
   if (words.eye) {
     path.keys = {{*words.eye, *words.target}};
     path.closed = false;
@@ -112,6 +148,7 @@ std::string camera_text(const CameraWords& words) {
   if (!words.path.empty())
     add(fmt::format("path {} {:016x}", std::filesystem::path(words.path).filename().string(),
                     fnv_of(path_text(load_camera_path(words.path)))));
+  if (!words.of_file.empty()) add("camera " + one_line(words.of_file));
   if (words.eye) add("eye " + point_text(*words.eye) + " target " + point_text(*words.target));
   if (words.near_depth > 0.0) add(fmt::format("near {}", words.near_depth));
   if (words.far_depth > 0.0) add(fmt::format("far {}", words.far_depth));

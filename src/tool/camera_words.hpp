@@ -14,6 +14,7 @@ namespace gnomon::tool {
 /// What is not given is the scene's own.
 struct CameraWords {
   std::string path;                          ///< file; empty: none
+  std::string of_file;                       ///< camera of the scene's file, by name or number; empty: none
   std::optional<glm::dvec3> eye, target;     ///< world; both or neither, and not with a path
   double near_depth = 0.0, far_depth = 0.0;  ///< world units; 0: of the path, or as the eye stands
 };
@@ -22,13 +23,14 @@ struct CameraWords {
 [[nodiscard]] glm::dvec3 point_word(const std::string& option, const std::string& word);
 [[nodiscard]] Option point_option(std::string name, std::optional<glm::dvec3>& point, std::string help);
 
-/// --path, --eye, --target, --near, --far.
+/// --path, --camera, --eye, --target, --near, --far.
 [[nodiscard]] std::vector<Option> camera_options(CameraWords& words);
 
 /// Throws std::runtime_error where they do not go together, SceneError where the file is no path.
 void check_camera(const CameraWords& words);
 /// The words' path, else that of `scene`; an eye is a path of one key, with sight_from(). `aspect`: of an
-/// orbit that shows all of the scene. Throws as check_camera does.
+/// orbit that shows all of the scene. Throws as check_camera does, and std::runtime_error where the file has
+/// no such camera.
 [[nodiscard]] CameraPath camera_path(const CameraWords& words, const Scene& scene, double aspect = 1.0);
 /// What tells one such camera from another, for rows of results. Empty where nothing is given.
 [[nodiscard]] std::string camera_text(const CameraWords& words);

@@ -56,6 +56,14 @@ inline void check_scene_word(std::string_view option, const std::string& word) {
            .range = {{-360.0, 360.0}}}};
 }
 
+/// --scene-light.
+[[nodiscard]] inline Option scene_light_option(std::string& name) {
+  return {.name = "--scene-light",
+          .target = &name,
+          .help = "light of the scene's file, by name or number, in place of --light",
+          .word = "NAME"};
+}
+
 [[nodiscard]] inline Option max_triangles_option(std::uint64_t& most) {
   return {.name = "--max-triangles",
           .target = &most,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gnomon/bounds.hpp"
+#include "gnomon/light.hpp"
 #include "gnomon/scene/animation.hpp"
 
 namespace gnomon {
@@ -59,6 +60,25 @@ struct Instance {
   Box bounds_world;                   ///< of the transformed vertices, not of the transformed box
 };
 
+/// A light that a file has (KHR_lights_punctual).
+struct SceneLight {
+  std::string name;  ///< as in the file, else its node's, else its number there
+  Light light;       ///< world space
+};
+
+/// A camera that a file has.
+struct SceneCamera {
+  std::string name;                    ///< as in the file, else its node's, else its number there
+  glm::dvec3 position{0.0};            ///< eye, world units
+  glm::dvec3 forward{0.0, 0.0, -1.0};  ///< unit
+  glm::dvec3 up{0.0, 1.0, 0.0};        ///< unit
+  bool orthographic = false;           ///< parallel projection
+  double fov_y_radians = 0.0;          ///< full vertical angle, of a perspective camera
+  double height_world = 0.0;           ///< from bottom to top, of an orthographic one
+  double near_depth = 0.0;             ///< world units
+  double far_depth = 0.0;              ///< world units, may be infinite
+};
+
 /// Triangles in object space, placed by instances. Vertex arrays have equal length; `normals` are unit
 /// length, `texcoords` are (0,0) where a mesh has none.
 struct Scene {
@@ -74,6 +94,8 @@ struct Scene {
   std::vector<std::string> warnings;  ///< repairs and omissions of the loader, a line each
   Box bounds_world;                   ///< of all instances; empty for an empty scene
   SceneMotion motion;                 ///< what pose() moves; empty without animations
+  std::vector<SceneLight> lights;     ///< of nodes that are shown, at rest
+  std::vector<SceneCamera> cameras;   ///< the same
 
   /// Memory of vertices, indices, instances, pictures and animations, bytes.
   [[nodiscard]] std::uint64_t bytes() const noexcept {

@@ -91,8 +91,8 @@ void draw_comparison(Studio& studio, const Camera& camera, int frame) {
   WarpStrip strip;
   for (const Warp* warp : options.compared_warps) {
     plan_options.warp.warp = warp;
-    const ShadowPlan plan = make_plan(camera, default_light(options.light, studio.flight.scene.bounds_world),
-                                      studio.flight.bounds(), plan_options);
+    const ShadowPlan plan =
+        make_plan(camera, light_of(options, studio.flight.scene), studio.flight.bounds(), plan_options);
     studio.renderer.draw(plan, camera, studio.filter, {});
     const PixelAliasing m = pixel_aliasing(studio.renderer.aliasing());
     strip.add(fmt::format("{}: m p95 {:.3g}, median {:.3g}, {:.0f} % undersampled",
@@ -125,8 +125,7 @@ void save_filter_precision(Studio& studio, const ShadowPlan& plan, int frame, Fr
 FrameRow draw_page_frame(Studio& studio, int frame) {
   const Options& options = studio.options;
   DrawnPages drawn = draw_with_pages(options, studio.flight, camera_of(options, studio.flight, frame),
-                                     default_light(options.light, studio.flight.scene.bounds_world),
-                                     studio.renderer, studio.filter);
+                                     light_of(options, studio.flight.scene), studio.renderer, studio.filter);
   drawn.row.frame = frame;
   if (studio.sheet.wants(frame)) studio.sheet.add(frame, drawn.lit, drawn.heat, drawn.levels);
   render::draw_heat_legend(drawn.heat);
@@ -148,7 +147,7 @@ FrameRow draw_frame(Studio& studio, int frame) {
   pose_frame(options, studio.flight, frame, &studio.renderer);
   if (options.pages.on()) return draw_page_frame(studio, frame);
   const Camera camera = camera_of(options, studio.flight, frame);
-  const Light light = default_light(options.light, studio.flight.scene.bounds_world);
+  const Light light = light_of(options, studio.flight.scene);
   const VisibleDepths depths = frame_depths(options, studio.flight, studio.renderer, studio.filter, camera);
   const TimedPlan timed = timed_plan(options, studio.flight, light, camera, depths, studio.history);
   FrameRow row;
@@ -190,8 +189,7 @@ void check_plans(const Options& options, Flight& flight) {
   for (int frame = 0; frame < options.frames; ++frame) {
     const Camera camera = camera_of(options, flight, frame);
     pose_frame(options, flight, frame, nullptr);
-    const ShadowPlan plan = make_plan(camera, default_light(options.light, flight.scene.bounds_world),
-                                      flight.bounds(), options.plan);
+    const ShadowPlan plan = make_plan(camera, light_of(options, flight.scene), flight.bounds(), options.plan);
     if (plan.status == PlanStatus::invalid_input) {
       throw std::runtime_error(
           fmt::format("{}: frame {}: the plan refuses {}", options.scene, frame, plan.invalid_field));

@@ -11,6 +11,7 @@
 #include "filter_words.hpp"
 #include "gnomon/render/perceptual.hpp"
 #include "gnomon/scene/load.hpp"
+#include "named_in.hpp"
 #include "picture_words.hpp"
 #include "plan_option.hpp"
 #include "scene_words.hpp"
@@ -269,11 +270,18 @@ std::vector<Option> page_options(Request& request) {
 
 std::vector<Option> light_and_camera_options(Request& request) {
   std::vector<Option> options = light_options(request.options.light);
+  options.push_back(scene_light_option(request.options.light_of_file));
   for (Option& option : camera_options(request.options.camera)) options.push_back(std::move(option));
   return options;
 }
 
 }  // namespace
+
+Light light_of(const Options& options, const Scene& scene) {
+  if (options.light_of_file.empty()) return default_light(options.light, scene.bounds_world);
+  return named_in(scene.lights, options.light_of_file, "--scene-light", "light").light;
+}
+
 }  // namespace gnomon::tool::fly
 
 namespace gnomon::tool {

@@ -58,6 +58,7 @@ struct Options {
   double animation_fps = 30.0;   ///< frames in a second of the animation
   double animation_start = 0.0;  ///< time of the first frame, seconds
   LightPlacement light;
+  std::string light_of_file;  ///< by name or number, in place of it; empty: none
   /// What may be left out, of plans and of drawing.
   PruneRules prune;
   CameraWords camera;
@@ -67,6 +68,9 @@ struct Options {
   std::uint64_t max_triangles = LoadLimits{}.triangles;
   std::vector<const Warp*> compared_warps;  ///< nullptr: chosen by the plan; none: no comparison
 };
+
+/// The light of a flight through this scene. Throws std::runtime_error where the file has not the one named.
+[[nodiscard]] Light light_of(const Options& options, const Scene& scene);
 
 /// Flies as the options say. Returns the exit code.
 int run(Options options);

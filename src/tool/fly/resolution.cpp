@@ -39,7 +39,7 @@ class Judge {
   Judge(const Options& options, const Flight& flight, const VisiblePointsOf& visible_points)
       : options_(options),
         flight_(flight),
-        light_(default_light(options.light, flight.scene.bounds_world)),
+        light_(light_of(options, flight.scene)),
         distances_(distances_of(options, flight, light_)) {
     for (int frame = 0; frame < options.frames; ++frame) {
       cameras_.push_back(camera_of(options, flight, frame));

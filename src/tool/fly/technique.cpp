@@ -71,7 +71,7 @@ void choose_technique_of(Options& options, const Flight& flight) {
   }
   know(options, model, known);
   const std::vector<CasterWork> work = caster_work(flight.scene);
-  const Light light = default_light(options.light, flight.scene.bounds_world);
+  const Light light = light_of(options, flight.scene);
   const VisiblePointsOf visible_points(flight.scene);
   TechniqueChoice hardest;
   const int frames = std::min(options.frames, kMaxPlanFrames);

@@ -158,7 +158,7 @@ void draw(Viewer& viewer, double seconds) {
   const Camera camera = next_camera(viewer, width, height, seconds);
   viewer.seconds += seconds;
   pose_flight(viewer.options, viewer.flight, viewer.seconds, &viewer.renderer);
-  const Light light = default_light(viewer.options.light, viewer.flight.scene.bounds_world);
+  const Light light = light_of(viewer.options, viewer.flight.scene);
   const render::PreparedFilter filter = viewer.renderer.prepare(viewer.options.filter);
   const VisibleDepths depths = frame_depths(viewer.options, viewer.flight, viewer.renderer, filter, camera);
   const ShadowPlan plan = plan_frame(viewer.options, viewer.flight, light, camera, depths, viewer.history);

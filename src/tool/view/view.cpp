@@ -2,9 +2,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "camera_words.hpp"
 #include "command.hpp"
@@ -14,6 +18,7 @@
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
 #include "identifier_word.hpp"
+#include "named_in.hpp"
 #include "offscreen_context.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -30,6 +35,7 @@ struct Request {
   Options options;
   std::string state, plan_json, out, screenshot, tour, benchmark;
   CameraWords camera;
+  std::string light_of_file;  ///< by name or number; empty: none
   std::optional<glm::dvec3> light_position, light_direction;
   double light_outer_deg = 0.0, light_range = 0.0;
   /// Options that set a part of the state, and whether each is given; on the heap, as their addresses are
@@ -75,6 +81,43 @@ void resolve_camera(const CameraWords& words, State& state) {
   if (words.near_depth > 0.0) state.near_depth = words.near_depth;
   if (words.far_depth > 0.0) state.far_depth = words.far_depth;
   if (words.eye) state.eye = CameraKey{*words.eye, *words.target};
+}
+
+/// A light of the file as the state has lights.
+LightState light_state(const SceneLight& of_file) {
+  LightState state;
+  if (const auto* sun = std::get_if<DirectionalLight>(&of_file.light)) {
+    constexpr double kDegrees = 180.0 / std::numbers::pi;
+    const glm::dvec3 to_light = -glm::normalize(sun->direction);
+    state.sun.elevation_deg = std::asin(std::clamp(to_light.y, -1.0, 1.0)) * kDegrees;
+    state.sun.azimuth_deg = std::atan2(to_light.x, -to_light.z) * kDegrees;
+    constexpr double kLeast = 0.1;
+    if (state.sun.elevation_deg < kLeast)
+      throw std::runtime_error("--scene-light " + of_file.name + ": shines from below the horizon");
+  } else if (const auto* spot = std::get_if<SpotLight>(&of_file.light)) {
+    state.sun.kind = LightKind::spot;
+    state.spot = *spot;
+  } else {
+    state.sun.kind = LightKind::point;
+    state.point = std::get<PointLight>(of_file.light);
+  }
+  return state;
+}
+
+/// Camera and light of the scene's file, for which it is read.
+void resolve_scene_words(const Request& request, State& state) {
+  const std::string& camera = request.camera.of_file;
+  if (camera.empty() && request.light_of_file.empty()) return;
+  const Scene scene = load_scene(state.scene, limits_of_triangles(request.options.max_triangles));
+  if (!request.light_of_file.empty())
+    state.light = light_state(named_in(scene.lights, request.light_of_file, "--scene-light", "light"));
+  if (camera.empty()) return;
+  const CameraPath path = camera_path(request.camera, scene);
+  state.eye = path.keys.front();
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, 1.0, 170.0);
+  state.near_depth = path.near_depth;
+  state.far_depth = path.far_depth;
 }
 
 void resolve_playing(const Request& request, Playing& playing) {
@@ -149,6 +192,7 @@ Options resolved(const Request& request) {
   state.b = state.a;
   resolve_light(request, state.light);
   resolve_camera(request.camera, state);
+  resolve_scene_words(request, state);
   resolve_playing(request, state.playing);
   return options;
 }
@@ -277,8 +321,10 @@ std::vector<Option> setting_options(Request& request) {
        .target = enum_word(state.view, views),
        .help = "what the picture shows: " + any_of_text(views),
        .names = views}};
-  const std::vector<Option> of_camera = camera_options(request.camera);
-  for (const auto* part : {&of_pages, &of_picture, &of_light, &of_camera, &others})
+  std::vector<Option> of_camera = camera_options(request.camera);
+  of_camera.push_back(scene_light_option(request.light_of_file));
+  for (const std::vector<Option>* part :
+       {&of_pages, &of_picture, &of_light, &std::as_const(of_camera), &others})
     options.insert(options.end(), part->begin(), part->end());
   for (Option& option : options) {
     request.settings.emplace_back(option.name, std::make_unique<bool>(false));

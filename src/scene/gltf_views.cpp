@@ -1,0 +1,171 @@
+// Which lights and cameras does a glTF document have, and which nodes hold them?
+// Based on: Khronos Group, KHR_lights_punctual; glTF 2.0 Specification (2021), section 3.10 "Cameras".
+#include "gltf_views.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+
+#include "gltf_check.hpp"
+#include "refusal.hpp"
+
+namespace gnomon::detail {
+namespace {
+
+using nlohmann::json;
+
+/// A number of `owner`, or `otherwise` where it has none. Throws LeftOut for what is no number within the
+/// ends.
+double number_in(const json& owner, const char* key, double otherwise, double least, double most) {
+  const auto found = owner.find(key);
+  if (found == owner.end()) return otherwise;
+  if (!found->is_number()) throw LeftOut(std::string(key) + " is no number");
+  const double value = found->get<double>();
+  if (!(value >= least && value <= most)) throw LeftOut(std::string(key) + " is out of range");
+  return value;
+}
+
+/// Empty where it has none.
+std::string name_of(const json& owner) {
+  const auto found = owner.find("name");
+  return found != owner.end() && found->is_string() ? one_line(found->get_ref<const std::string&>()) : "";
+}
+
+constexpr double kLargest = 1e30;
+
+LightSource light_in(const json& light) {
+  LightSource out;
+  out.name = name_of(light);
+  const std::string type = light.contains("type") && light["type"].is_string() ? light["type"] : json("");
+  if (type != "directional" && type != "spot" && type != "point") throw LeftOut("has no type that is known");
+  out.type = type == "spot"    ? LightSource::Type::spot
+             : type == "point" ? LightSource::Type::point
+                               : LightSource::Type::directional;
+  out.range = number_in(light, "range", 0.0, 0.0, kLargest);
+  const json* spot = find_object(light, "spot");
+  constexpr double kHalf = std::numbers::pi / 2.0;
+  out.outer_radians =
+      spot == nullptr ? kHalf / 2.0 : number_in(*spot, "outerConeAngle", kHalf / 2.0, 1e-6, kHalf);
+  return out;
+}
+
+CameraSource camera_in(const json& camera) {
+  CameraSource out;
+  out.name = name_of(camera);
+  const json* perspective = find_object(camera, "perspective");
+  const json* parallel = find_object(camera, "orthographic");
+  if (perspective == nullptr && parallel == nullptr) throw LeftOut("is neither perspective nor orthographic");
+  const json& of = perspective != nullptr ? *perspective : *parallel;
+  out.orthographic = perspective == nullptr;
+  const double least = out.orthographic ? 0.0 : 1e-12;
+  out.near_depth = number_in(of, "znear", -1.0, least, kLargest);
+  if (out.near_depth < 0.0) throw LeftOut("has no znear");
+  out.far_depth = number_in(of, "zfar", std::numeric_limits<double>::infinity(), least, kLargest);
+  if (!(out.near_depth < out.far_depth)) throw LeftOut("zfar is not above znear");
+  if (out.orthographic) {
+    out.height_world = 2.0 * std::abs(number_in(of, "ymag", 0.0, -kLargest, kLargest));
+    if (!(out.height_world > 0.0)) throw LeftOut("has no ymag");
+  } else {
+    out.fov_y_radians = number_in(of, "yfov", 0.0, 1e-6, std::numbers::pi - 1e-6);
+    if (!(out.fov_y_radians > 0.0)) throw LeftOut("has no yfov");
+  }
+  return out;
+}
+
+/// Each entry as `read` makes it; nothing where it is broken, which is warned of.
+template <class Source, class Read>
+std::vector<std::optional<Source>> entries(const json* list, const std::string& kind, Read&& read,
+                                           std::vector<std::string>& warnings) {
+  std::vector<std::optional<Source>> out;
+  for (std::size_t i = 0; list != nullptr && list->is_array() && i < list->size(); ++i) {
+    const std::string where = element(kind, i);
+    out.emplace_back();
+    try {
+      if (!(*list)[i].is_object()) throw LeftOut("is no object");
+      out.back() = read((*list)[i]);
+    } catch (const LeftOut& e) {
+      warn(warnings, where, std::string(e.what()) + ", skipped");
+    }
+  }
+  return out;
+}
+
+/// The entry that a node's `owner` names; nothing where it names none, or one that is not there. One without
+/// a name has its node's.
+template <class Source>
+std::optional<Source> named_by(const json* owner, const char* key,
+                               const std::vector<std::optional<Source>>& all, const json& node) {
+  if (owner == nullptr || !owner->contains(key) || !(*owner)[key].is_number_unsigned()) return std::nullopt;
+  const auto index = (*owner)[key].get<std::size_t>();
+  if (index >= all.size() || !all[index]) return std::nullopt;
+  Source source = *all[index];
+  if (source.name.empty()) source.name = name_of(node);
+  if (source.name.empty()) source.name = std::to_string(index);
+  return source;
+}
+
+glm::dvec3 axis_of(const glm::dmat4& m, int column, const glm::dvec3& otherwise) {
+  const glm::dvec3 axis(m[column]);
+  const double length = glm::length(axis);
+  return length > 0.0 && std::isfinite(length) ? axis / length : otherwise;
+}
+
+Light placed(const LightSource& source, const glm::dmat4& world, const Box& scene) {
+  const glm::dvec3 position(world[3]), direction = -axis_of(world, 2, {0.0, 1.0, 0.0});
+  if (source.type == LightSource::Type::directional) return DirectionalLight{direction};
+  Box all = scene;
+  all.extend(position);
+  constexpr double kFarther = 2.0;
+  const double range = source.range > 0.0 ? source.range : kFarther * glm::length(all.max - all.min);
+  if (source.type == LightSource::Type::point) return PointLight{position, range};
+  return SpotLight{position, direction, source.outer_radians, range};
+}
+
+}  // namespace
+
+ViewSource read_view_source(const json& source, std::vector<std::string>& warnings) {
+  ViewSource out;
+  const json* extensions = find_object(source, "extensions");
+  const json* punctual = extensions == nullptr ? nullptr : find_object(*extensions, "KHR_lights_punctual");
+  const auto list_in = [](const json* owner, const char* key) -> const json* {
+    return owner != nullptr && owner->contains(key) ? &owner->at(key) : nullptr;
+  };
+  const auto lights =
+      entries<LightSource>(list_in(punctual, "lights"), "KHR_lights_punctual.lights", light_in, warnings);
+  const auto cameras = entries<CameraSource>(list_in(&source, "cameras"), "cameras", camera_in, warnings);
+  const json* nodes = list_in(&source, "nodes");
+  for (std::size_t n = 0; nodes != nullptr && nodes->is_array() && n < nodes->size(); ++n) {
+    const json& node = (*nodes)[n];
+    if (!node.is_object()) continue;
+    const json* of_node = find_object(node, "extensions");
+    const json* lit = of_node == nullptr ? nullptr : find_object(*of_node, "KHR_lights_punctual");
+    if (const auto light = named_by(lit, "light", lights, node)) out.lights.push_back({n, *light});
+    if (const auto camera = named_by(&node, "camera", cameras, node)) out.cameras.push_back({n, *camera});
+  }
+  return out;
+}
+
+void place_views(const ViewSource& source, const std::vector<glm::dmat4>& world_from_node,
+                 const std::vector<int>& shown, Scene& scene) {
+  const auto is_shown = [&](std::size_t node) {
+    return std::find(shown.begin(), shown.end(), static_cast<int>(node)) != shown.end();
+  };
+  for (const ViewSource::LightNode& of : source.lights) {
+    if (is_shown(of.node))
+      scene.lights.push_back({of.light.name, placed(of.light, world_from_node[of.node], scene.bounds_world)});
+  }
+  for (const ViewSource::CameraNode& of : source.cameras) {
+    if (!is_shown(of.node)) continue;
+    const glm::dmat4& world = world_from_node[of.node];
+    const CameraSource& camera = of.camera;
+    scene.cameras.push_back({camera.name, glm::dvec3(world[3]), -axis_of(world, 2, {0.0, 0.0, 1.0}),
+                             axis_of(world, 1, {0.0, 1.0, 0.0}), camera.orthographic, camera.fov_y_radians,
+                             camera.height_world, camera.near_depth, camera.far_depth});
+  }
+}
+
+}  // namespace gnomon::detail
