@@ -107,73 +107,91 @@ void check_precision(const Capture&, const LightLooks& looks, const BrokenMaps& 
   }
 }
 
-void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broken, FindingList& out) {
-  if (looks.seen->normals.empty()) return;
+namespace {
+
+/// Points of one map that have one fault of the bias, and the worst of them.
+struct FaultyBias {
+  std::vector<double> sizes;
+  double worst = 0.0;
+  std::size_t worst_point = 0;
+  void add(std::size_t point, double size, double badness) {
+    sizes.push_back(size);
+    if (!(badness > worst)) return;
+    worst = badness;
+    worst_point = point;
+  }
+};
+
+struct BiasFaults {
+  std::size_t counted = 0;      // points on slopes that matter
+  FaultyBias small, large;      // shares of what is needed; gaps, world units
+  std::vector<double> missing;  // texels
+  [[nodiscard]] double share(const FaultyBias& faulty) const {
+    return static_cast<double>(faulty.sizes.size()) / static_cast<double>(std::max<std::size_t>(counted, 1));
+  }
+  /// Fewer are an edge of a surface or two.
+  [[nodiscard]] bool matters(const FaultyBias& faulty) const {
+    return faulty.sizes.size() >= 5 && share(faulty) > 0.05;
+  }
+};
+
+BiasFaults bias_faults(const LightLooks& looks, std::size_t map_index) {
+  const CapturedMap& map = looks.map_at(map_index);
   const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
   const Camera& camera = looks.frame->camera;
   // Beyond it, shading leaves next to no light that a shadow could take.
   constexpr double kSteepest = 0.2425;  // cosine: tan 4
+  BiasFaults faults;
+  for_each_served(looks, map_index, [&](std::size_t p, const Look& look) {
+    const glm::dvec3 normal = looks.seen->normals[p];
+    const double cosine = -glm::dot(normal, travel_at(light, looks.seen->points[p]));
+    if (!(cosine > kSteepest)) return;
+    ++faults.counted;
+    const double have = bias_at(map, look, cosine, normal), need = needed_bias(map, look, cosine, normal);
+    const double side = texel_side(look);
+    // A surface across the light needs next to nothing.
+    constexpr double kEnough = 0.8, kLeast = 0.1;
+    if (have < kEnough * need && need > kLeast * side) {
+      faults.small.add(p, have / need, 1.0 - have / need);
+      faults.missing.push_back((need - have) / side);
+    }
+    // At the foot of a wall that stands on the surface.
+    const double gap = have * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double pixel =
+        (camera.top - camera.bottom) / camera.height * (camera.orthographic ? 1.0 : looks.seen->depths[p]);
+    // A wide kernel blurs what a gap of its own size would show.
+    const double blur = std::max(1.0, 0.5 + map.filter_texels) * side;
+    constexpr double kTimesNeeded = 4.0, kPixels = 3.0;
+    if (have > kTimesNeeded * std::max(need, blur) && gap > kPixels * pixel) faults.large.add(p, gap, gap);
+  });
+  return faults;
+}
+
+}  // namespace
+
+void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broken, FindingList& out) {
+  if (looks.seen->normals.empty()) return;
   for (std::size_t i = 0; i < looks.map.size(); ++i) {
     // Of back faces, thickness is the bias.
     if (broken[i] || looks.map_at(i).stores_back) continue;
-    const CapturedMap& map = looks.map_at(i);
-    std::size_t judged = 0, small = 0, large = 0, small_at = 0, large_at = 0;
-    double worst_share = 1.0, worst_gap = 0.0;
-    std::vector<double> shares, gaps, missing;
-    for_each_served(looks, static_cast<int>(i), [&](std::size_t p, const Look& look) {
-      const glm::dvec3 normal = looks.seen->normals[p];
-      const double cosine = -glm::dot(normal, travel_at(light, looks.seen->points[p]));
-      if (!(cosine > kSteepest)) return;
-      ++judged;
-      const double have = bias_at(map, look, cosine, normal), need = needed_bias(map, look, cosine, normal);
-      // A surface across the light needs next to nothing.
-      constexpr double kEnough = 0.8, kLeast = 0.1;
-      if (have < kEnough * need && need > kLeast * texel_side(look)) {
-        ++small;
-        shares.push_back(have / need);
-        missing.push_back((need - have) / texel_side(look));
-        if (have / need < worst_share) {
-          worst_share = have / need;
-          small_at = p;
-        }
-      }
-      const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-      const double gap = have * sine;  // at the foot of a wall that stands on the surface
-      const double pixel =
-          (camera.top - camera.bottom) / camera.height * (camera.orthographic ? 1.0 : looks.seen->depths[p]);
-      constexpr double kTimesNeeded = 4.0, kPixels = 3.0;
-      // A wide kernel blurs what a gap of its own size would show.
-      const double blur = std::max(1.0, 0.5 + map.filter_texels) * texel_side(look);
-      if (have > kTimesNeeded * std::max(need, blur) && gap > kPixels * pixel) {
-        ++large;
-        gaps.push_back(gap);
-        if (gap > worst_gap) {
-          worst_gap = gap;
-          large_at = p;
-        }
-      }
-    });
-    constexpr double kMatters = 0.05;
-    const auto share_of = [&](std::size_t count) {
-      return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(judged, 1));
-    };
-    if (small >= 5 && share_of(small) > kMatters) {
-      Finding finding =
-          finding_of(FindingKind::bias_small, looks, static_cast<int>(i), share_of(small), "share");
-      finding.pixel = looks.seen->pixels[small_at];
-      finding.what = "Acne is likely on " + percent(share_of(small)) + " of what " + map_name(looks, i) +
-                     " serves: the bias there is " + digits(quantile(shares)) +
+    const BiasFaults faults = bias_faults(looks, i);
+    if (faults.matters(faults.small)) {
+      const double share = faults.share(faults.small);
+      Finding finding = finding_of(FindingKind::bias_small, looks, static_cast<int>(i), share, "share",
+                                   looks.seen->pixels[faults.small.worst_point]);
+      finding.what = "Acne is likely on " + percent(share) + " of what " + map_name(looks, i) +
+                     " serves: the bias there is " + digits(quantile(faults.small.sizes)) +
                      " of what a texel and the filter need.";
-      finding.change = "Add " + digits(quantile(missing, 0.95)) +
+      finding.change = "Add " + digits(quantile(faults.missing, 0.95)) +
                        " texels along the light there (slope bias), or follow the receiver's plane.";
       out.add(finding);
     }
-    if (large >= 5 && share_of(large) > kMatters) {
-      Finding finding =
-          finding_of(FindingKind::bias_large, looks, static_cast<int>(i), quantile(gaps), "world units");
-      finding.pixel = looks.seen->pixels[large_at];
-      finding.what = "Shadows in " + map_name(looks, i) + " begin " + digits(quantile(gaps)) +
-                     " world units off the foot of their casters, on " + percent(share_of(large)) +
+    if (faults.matters(faults.large)) {
+      const double gap = quantile(faults.large.sizes);
+      Finding finding = finding_of(FindingKind::bias_large, looks, static_cast<int>(i), gap, "world units",
+                                   looks.seen->pixels[faults.large.worst_point]);
+      finding.what = "Shadows in " + map_name(looks, i) + " begin " + digits(gap) +
+                     " world units off the foot of their casters, on " + percent(faults.share(faults.large)) +
                      " of what it serves.";
       finding.change = "Lower the bias: four times what texels and filter need would do.";
       out.add(finding);

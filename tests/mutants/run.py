@@ -22,6 +22,7 @@ SUITES = {  # the quick ones first
     "src/scene/": ["load_gltf_test", "gltf_refusal_test", "gltf_confinement_test", "gltf_skin_test", "animation_test",
                    "scene_image_test", "camera_path_test", "builtin_scene_test"],
     "src/casefile/": ["casefile_test"],
+    "src/judge/": ["judge_test"],
     "src/report/": ["report_test"],
     "src/trace/": ["trace_test", "trace_scenes_test"],
     "src/render/": DRAWN,
