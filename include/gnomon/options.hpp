@@ -380,11 +380,12 @@ struct ResolutionOptions {
   /// the least bound. It makes each map as small as the bound allows. Costs up to `cascades` times as much to
   /// plan.
   double max_error = 0.0;
-  /// Most texels that all maps may have together; 0: no budget. Texels are distributed so that all maps have
-  /// the same worst-case error, up to kMaxMapSize along a side. Sides may differ with Fit::tight and
-  /// Fit::rotated, and stay equal elsewhere and with a history. The number of cascades, up to `cascades`, is
-  /// the one with the least error. At least least_budget_side() squared for each cascade (local lights: for
-  /// each of six faces). Partitions other than view_depth ignore it, and the plan reports that.
+  /// Most texels that all maps may have together; 0: no budget. By Objective::picture, texels are distributed
+  /// so that the mean error over visible points, given or guessed, is least: maps that show more get more.
+  /// Otherwise all maps have the same worst-case error. A side has up to kMaxMapSize. Sides may differ with
+  /// Fit::tight and Fit::rotated, and stay equal elsewhere and with a history. The number of cascades, up to
+  /// `cascades`, is the one with the least error. At least least_budget_side() squared for each cascade (local
+  /// lights: for each of six faces). Partitions other than view_depth ignore it, and the plan reports that.
   std::int64_t texel_budget = 0;
   /// Bound of m that PruneRule::metric_resolution shrinks maps to, at least kLeastError. A larger bound gives
   /// smaller maps whose texels show.

@@ -163,6 +163,7 @@ struct Setting {
   Objective objective;
   Given given = Given::nothing;
   gnomon::SplitScheme scheme = gnomon::SplitScheme::automatic;
+  bool budget = false;  ///< as many texels, shared by a budget
   [[nodiscard]] bool candidate() const { return objective != Objective::picture; }
 };
 
@@ -186,6 +187,10 @@ std::vector<Setting> settings(int maps) {
   }
   for (const Setting& picture : std::initializer_list<Setting>{
            {"picture", &warps::optimal, Objective::picture},
+           {"picture, budget", &warps::optimal, Objective::picture, Given::nothing,
+            gnomon::SplitScheme::automatic, true},
+           {"points, budget", &warps::optimal, Objective::picture, Given::points,
+            gnomon::SplitScheme::automatic, true},
            {"picture, coarse", &warps::optimal, Objective::picture, Given::coarse_depths},
            {"picture, points", &warps::optimal, Objective::picture, Given::points},
            {"picture, edges", &warps::optimal, Objective::picture, Given::edges}})
@@ -198,6 +203,9 @@ ShadowPlan plan_of(const Setting& setting, int maps, const SeenView& seen, doubl
   gnomon::PlanOptions options;
   options.cascades = maps;
   options.resolution.max_size = maps == 1 ? 1024 : 512;
+  if (setting.budget)
+    options.resolution.texel_budget =
+        std::int64_t{maps} * options.resolution.max_size * options.resolution.max_size;
   options.warp.warp = setting.warp;
   options.warp.objective = setting.objective;
   options.split.scheme = setting.scheme;

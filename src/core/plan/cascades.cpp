@@ -293,21 +293,21 @@ void plan_within(const PlanContext& c, const ParallelScene& scene, bool square, 
   for (int n = options.split.scheme == SplitScheme::given ? options.cascades : 1; n <= options.cascades;
        ++n) {
     plan_cascades(trial_context, scene, n, equal, nullptr, plan);
-    const MapSizes trial =
-        options.resolution.texel_budget > 0 ? budgeted_sizes(plan, options, n, square) : equal;
-    const double m = largest_error(plan, options, trial);
+    const TexelDemands demands(c, plan, square);
+    const MapSizes trial = options.resolution.texel_budget > 0 ? demands.within_budget(n) : equal;
+    const double m = demands.error(trial);
     if (m < least * kWorthAMap) {
       best = n;
       least = m;
       sizes = trial;
     }
     if (history != nullptr && n == history->edge_count - 1 && last_sizes_serve(*history, plan, options))
-      before = largest_error(plan, options, last_sizes(*history, options));
-    if (!(m <= options.resolution.max_error)) continue;
+      before = demands.error(last_sizes(*history, options));
+    if (!(demands.largest_error(trial) <= options.resolution.max_error)) continue;
     if (options.resolution.texel_budget == 0) break;
     // Other sizes have other borders, and with them another warp.
     plan_cascades(trial_context, scene, n, trial, nullptr, plan);
-    if (largest_error(plan, options, trial) <= options.resolution.max_error) break;
+    if (TexelDemands(c, plan, square).largest_error(trial) <= options.resolution.max_error) break;
   }
   // Another size moves every texel: worth it only for errors this much smaller.
   constexpr double kWorthResizing = 0.8;

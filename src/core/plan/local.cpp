@@ -400,7 +400,7 @@ void plan_local(const PlanContext& c, const Light& light, const Resolved& resolv
                            scene.range, scene.lit,  scene.sizes, nullptr};
     plan_frusta(equal, light, resolved, plan);
     const int faces = resolved.tetrahedron ? static_cast<int>(kTetrahedron.size()) : kCubeFaces;
-    scene.sizes = budgeted_sizes(plan, options, faces, true);
+    scene.sizes = TexelDemands(c, plan, true).within_budget(faces);
   }
   plan_frusta(scene, light, resolved, plan);
 }

@@ -357,8 +357,9 @@ std::string compare_footer() {
          "shadow mask with exact rays.\n\n"
          "Warps: " +
          any_of_text(names_in(all_warps(), {"auto"})) + ".\nSplits: " + any_of_text(split_names()) +
-         ", each with :finest, :visible_depths, :coarse_depths, :visible_points or :shadow_edges behind it, "
-         "and "
+         ", each with :finest, :visible_depths, :coarse_depths, :visible_points, :shadow_edges or :budget "
+         "(maps share their texels) behind "
+         "it, and "
          "frustum_faces with :slices=K for up to K maps along each side face" +
          ".\nPages: " + any_of_text(names_in(all_page_policies())) +
          ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "

@@ -66,6 +66,7 @@ void set_split(const TechniqueSplit& split, SweepEntry& entry) {
   entry.visible_depths = split.visible_depths;
   entry.coarse_depths = split.coarse_depths;
   entry.points = split.points;
+  entry.shares_texels = split.shares_texels;
   if (entry.points == PlanPoints::none && entry.plan.warp.shape->serving != nullptr)
     entry.points = PlanPoints::visible;
 }
@@ -77,6 +78,8 @@ void set_fit(Fit fit, SweepEntry& entry) {
 
 void set_size(int size, SweepEntry& entry) {
   entry.technique.map_size = entry.plan.resolution.max_size = size;
+  if (entry.shares_texels)
+    entry.plan.resolution.texel_budget = std::int64_t{entry.plan.cascades} * size * size;
   // Techniques are compared at the sizes asked for.
   entry.plan.prune = entry.plan.prune.without(PruneRule::metric_resolution);
 }

@@ -47,6 +47,7 @@ struct SweepEntry {
   int irregular_samples = 0;                                    ///< of a pixel, by lists; 0: by a filter
   bool visible_depths = false;                                  ///< of the frame, given to the plan
   bool coarse_depths = false;            ///< of a coarse pass on the CPU, given to the plan
+  bool shares_texels = false;            ///< the maps share the texels of equal ones, as a budget
   PlanPoints points = PlanPoints::none;  ///< given to the plan
   PageOptions pages;                     ///< where by_pages()
 

@@ -126,6 +126,7 @@ TechniqueWarp technique_warp(const std::string& option, const std::string& word)
 TechniqueSplit technique_split(const std::string& option, const std::string& word) {
   TechniqueSplit split{.name = word};
   std::string name = word;
+  split.shares_texels = take_suffix(name, ":budget");
   if (take_suffix(name, ":finest")) split.options.selection = MapSelection::finest;
   split.visible_depths = take_suffix(name, ":visible_depths");
   split.coarse_depths = take_suffix(name, ":coarse_depths");

@@ -56,6 +56,7 @@ struct TechniqueSplit {
   SplitOptions options = {};
   bool visible_depths = false;  ///< of the frame
   bool coarse_depths = false;   ///< of a coarse pass on the CPU
+  bool shares_texels = false;   ///< the texels of all maps are a budget
   PlanPoints points = PlanPoints::none;
 };
 
@@ -99,8 +100,9 @@ template <class Value>
 
 /// Schemes and partitions that a split may name. Behind each may follow `:finest` (MapSelection),
 /// `:visible_depths` and `:visible_points` (what the frame shows is given to the plan), or `:coarse_depths`
-/// (what a coarse pass on the CPU finds) and `:shadow_edges` (points of the last frame's); behind
-/// frustum_faces `:slices=K` (SplitOptions::face_slices).
+/// (what a coarse pass on the CPU finds), `:shadow_edges` (points of the last frame's) and `:budget` (the
+/// maps share the texels of equal ones, ResolutionOptions::texel_budget); behind frustum_faces `:slices=K`
+/// (SplitOptions::face_slices).
 [[nodiscard]] std::vector<std::string> split_names();
 
 /// Elements of lists with commas; an element of the form `key=value` without a colon belongs to the one

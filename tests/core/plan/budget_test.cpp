@@ -49,6 +49,7 @@ TEST(Budget, equal_maps_of_the_same_texels_have_a_worse_worst_map) {
 TEST(Budget, errors_are_equal_within_a_step_of_the_sides_whatever_the_border) {
   for (const double kernel : {1.0, 32.0}) {
     Plain plain;
+    plain.options.warp.objective = Objective::storage;
     plain.options.filter.texels = kernel;
     plain.options.resolution.texel_budget = 4 << 20;
     const ShadowPlan plan = plain.plan();
@@ -64,6 +65,46 @@ TEST(Budget, errors_are_equal_within_a_step_of_the_sides_whatever_the_border) {
       EXPECT_GT(map.m_s_max, least) << map.cascade << ", kernel " << kernel;
       EXPECT_GT(map.m_t_max, least) << map.cascade << ", kernel " << kernel;
     }
+  }
+}
+
+/// The mean over points of the plain of a texel's extent in any direction, pixels.
+double mean_error(const ShadowPlan& plan, const Camera& camera) {
+  const CameraAxes axes = camera_axes(camera);
+  double sum = 0.0, count = 0.0;
+  for (int row = 0; row < 60; ++row) {
+    for (int column = 0; column < 60; ++column) {
+      const glm::dvec3 ray = axes.forward +
+                             axes.right * (camera.left + (camera.right - camera.left) * (column + 0.5) / 60) +
+                             axes.up * (camera.bottom + (camera.top - camera.bottom) * (row + 0.5) / 60);
+      const double depth = -camera.position.y / ray.y;
+      const glm::dvec3 point = camera.position + ray * depth;
+      const int map = map_serving(plan, point, depth);
+      if (!(depth > 0.0) || map < 0) continue;
+      const PointAliasing m = measure_perspective(plan.map[static_cast<std::size_t>(map)], camera, point);
+      if (m.status != PointAliasing::Status::ok) continue;  // beside the plain
+      sum += std::sqrt(0.5 * (m.perspective_s * m.perspective_s + m.perspective_t * m.perspective_t));
+      count += 1.0;
+    }
+  }
+  return sum / count;
+}
+
+TEST(Budget, by_the_picture_has_a_lower_mean_error_than_equal_maps_and_than_equal_errors) {
+  for (const SplitScheme scheme : {SplitScheme::automatic, SplitScheme::uniform}) {
+    Plain plain;
+    plain.options.split.scheme = scheme;
+    const ShadowPlan equal = plain.plan();
+    plain.options.resolution.texel_budget = texels(equal);
+    const ShadowPlan by_picture = plain.plan();
+    plain.options.warp.objective = Objective::max;
+    const ShadowPlan by_worst = plain.plan();
+    EXPECT_LE(texels(by_picture), plain.options.resolution.texel_budget);
+    EXPECT_LT(mean_error(by_picture, plain.camera), 0.95 * mean_error(equal, plain.camera));
+    EXPECT_LT(mean_error(by_picture, plain.camera), mean_error(by_worst, plain.camera));
+    // Every map keeps texels, also one that few points are in.
+    for (const ShadowMap& map : by_picture.maps())
+      EXPECT_GE(std::min(map.width, map.height), 64) << map.cascade;
   }
 }
 
