@@ -30,13 +30,17 @@ impl Plan {
     /// Places the maps into a texture of `width` times `height` texels. Both 0: into the smallest one whose sides are powers of
     /// two, which any plan fits into. The same sizes give the same places.
     pub fn pack_atlas(&self, width: i32, height: i32) -> Result<Atlas> {
-        let (mut atlas, mut field) = (MaybeUninit::<gnomon_atlas>::zeroed(), null());
-        let status = unsafe { gnomon_pack_atlas(&self.to_c(), width, height, atlas.as_mut_ptr(), &mut field) };
-        check(status, field).map(|_| Atlas(unsafe { atlas.assume_init() }))
+        Atlas::filled(|atlas, field| unsafe { gnomon_pack_atlas(&self.to_c(), width, height, atlas, field) })
     }
 }
 
 impl Atlas {
+    /// Of a call that writes it.
+    pub(crate) fn filled(call: impl FnOnce(*mut gnomon_atlas, *mut *const c_char) -> i32) -> Result<Self> {
+        let (mut atlas, mut field) = (MaybeUninit::<gnomon_atlas>::zeroed(), null());
+        check(call(atlas.as_mut_ptr(), &mut field), field).map(|_| Self(unsafe { atlas.assume_init() }))
+    }
+
     /// Width and height, texels; zeros: there is no map, or the maps do not fit.
     pub fn size(&self) -> [i32; 2] {
         [self.0.width, self.0.height]

@@ -61,7 +61,7 @@ pub fn hold_sun(
     let camera = view.camera.to_c();
     let status = unsafe {
         gnomon_hold_sun(
-            &view.to_c(&camera),
+            &view.to_c(&camera)?,
             held.as_ptr(),
             sun.as_ptr(),
             casters.as_ptr(),

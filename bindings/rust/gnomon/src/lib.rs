@@ -54,7 +54,10 @@ mod frames;
 #[cfg(feature = "glam")]
 pub mod glam_types;
 mod handle;
+mod lights;
+mod memory;
 mod names;
+mod pages;
 mod picture;
 mod plan;
 
@@ -63,7 +66,12 @@ pub use clusters::{cluster_count, cluster_lights, cluster_memory, ClusterMemory,
 pub use error::{Error, Result};
 pub use frames::{hold_sun, jitter_texels, DepthTracker, HeldSun, JITTER_FRAMES};
 pub use handle::{CasterSet, History};
+pub use lights::{light_memory, plan_lights, LightHistory, LightMaps, LightOptions, LightPlan, LightRequest};
+pub use memory::MemoryBlock;
 pub use names::{find, names, version, List};
+pub use pages::{
+    page_memory, page_table_size, plan_pages, KeptPage, Page, PageHistory, PageOptions, PagePlan, PageSlot,
+};
 pub use picture::{expected_error, ShadowPicture, WrongPixels};
 pub use plan::{plan, plan_views, Omission, Plan, Status};
 
@@ -407,16 +415,18 @@ pub struct View<'a> {
     pub depths: Option<&'a VisibleDepths>,
     /// Points of surfaces that the camera sees, world space; empty: unknown. Time grows with their number.
     pub points: &'a [Point],
+    /// Unit normals at the points, as many; empty: unknown. Pages read them.
+    pub normals: &'a [Point],
 }
 
 impl<'a> View<'a> {
     /// A camera of whose surfaces nothing is known.
     pub fn new(camera: &'a Camera) -> Self {
-        Self { camera, depths: None, points: &[] }
+        Self { camera, depths: None, points: &[], normals: &[] }
     }
 
     /// `camera`: of [`Camera::to_c`], to live as long as the result.
-    fn to_c(self, camera: &gnomon_camera) -> gnomon_view {
+    fn to_c(self, camera: &gnomon_camera) -> Result<gnomon_view> {
         let mut view = MaybeUninit::<gnomon_view>::uninit();
         let status = unsafe { gnomon_view_default(view.as_mut_ptr(), size_of::<gnomon_view>() as u32) };
         assert_eq!(status, GNOMON_OK, "the library is older than this crate");
@@ -426,7 +436,13 @@ impl<'a> View<'a> {
         if !self.points.is_empty() {
             (view.points, view.point_count) = (self.points.as_ptr().cast(), self.points.len() as i64);
         }
-        view
+        if !self.normals.is_empty() {
+            if self.normals.len() != self.points.len() {
+                return Err(Error::new("view.normals"));
+            }
+            view.normals = self.normals.as_ptr().cast();
+        }
+        Ok(view)
     }
 }
 
@@ -435,7 +451,7 @@ impl<'a> View<'a> {
 pub fn measure(plan: &Plan, view: &View<'_>, scene: Scene<'_>, options: &MeasureOptions) -> Result<Stats> {
     let (camera, mut stats, mut field) = (view.camera.to_c(), Stats::default(), null());
     let status = unsafe {
-        gnomon_measure(&plan.to_c(), &view.to_c(&camera), &scene.to_c(), &options.to_c(), &mut stats.0, &mut field)
+        gnomon_measure(&plan.to_c(), &view.to_c(&camera)?, &scene.to_c(), &options.to_c(), &mut stats.0, &mut field)
     };
     check(status, field).map(|_| stats)
 }

@@ -22,6 +22,8 @@ pub enum List {
     Objectives = GNOMON_OBJECTIVES,
     /// Bits of `PlanOptions::prune`: that of an entry is `1 << index`
     PruneRules = GNOMON_PRUNE_RULES,
+    /// `PageOptions::policy`
+    PagePolicies = GNOMON_PAGE_POLICIES,
 }
 
 /// The index of a name. Names stay, indices may change between versions.

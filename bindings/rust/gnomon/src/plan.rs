@@ -18,6 +18,17 @@ pub enum Status {
     NoCaster,
 }
 
+impl Status {
+    /// Of the status of a plan that was not refused.
+    pub(crate) fn of(status: i32) -> Self {
+        match status {
+            GNOMON_OK => Status::Ok,
+            GNOMON_NOTHING_VISIBLE => Status::NothingVisible,
+            _ => Status::NoCaster,
+        }
+    }
+}
+
 /// The maps of one light. A plain value of about 13 kB, which owns no memory.
 #[derive(Clone)]
 pub struct Plan {
@@ -61,11 +72,7 @@ impl Plan {
 
     /// Whether there are maps to draw.
     pub fn status(&self) -> Status {
-        match self.plan.status {
-            GNOMON_OK => Status::Ok,
-            GNOMON_NOTHING_VISIBLE => Status::NothingVisible,
-            _ => Status::NoCaster,
-        }
+        Status::of(self.plan.status)
     }
     /// The maps to draw.
     pub fn maps(&self) -> &[Map] {
@@ -208,9 +215,8 @@ pub fn plan(
     let mut plan = Plan::empty();
     let (camera, light, scene, options) = (view.camera.to_c(), light.to_c(), scene.to_c(), options.to_c());
     let history = history.map_or(null_mut(), History::as_mut_ptr);
-    plan.fill(|to, field| unsafe {
-        gnomon_make_plan(&view.to_c(&camera), &light, &scene, &options, history, to, field)
-    })?;
+    let view = view.to_c(&camera)?;
+    plan.fill(|to, field| unsafe { gnomon_make_plan(&view, &light, &scene, &options, history, to, field) })?;
     Ok(plan)
 }
 
