@@ -224,6 +224,15 @@ export const structs = {
       strip: [32, 'texel_rect', 2],
     },
   },
+  engine_bias: {
+    bytes: 32,
+    fields: {
+      depth: [0, 'f64', 0],
+      slope_factor: [8, 'f64', 0],
+      normal_world: [16, 'f64', 0],
+      units: [24, 'f64', 0],
+    },
+  },
   held_sun: {
     bytes: 48,
     fields: {
@@ -562,6 +571,8 @@ export const constants = {
   REUSE_NONE: 0,
   REUSE_IDENTICAL: 1,
   REUSE_SCROLLED: 2,
+  BIAS_RASTERIZER: 0,
+  BIAS_NORMAL_OFFSET: 1,
   POINT_OK: 0,
   POINT_OUTSIDE: 1,
   POINT_FACES_AWAY: 2,

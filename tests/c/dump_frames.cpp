@@ -7,6 +7,7 @@
 //   n points, n frames: direction of the sun, the held one (gnomon_held_sun)
 //   frames_per_bin, hold_frames, n frames: n depths, those to plan with (gnomon_visible_depths)
 //   n atlases: width, height, the atlas, the matrix of each of its maps
+//   n biases: map, way (gnomon_engine_bias of a kernel of 1.5 texels and 24 bits)
 //   n lights, n lists: room (64 bits), tile, columns, rows, slices, scale and offset of depths, n begins, n
 //   entries n pixels, their mask, their depths, the wrong ones (gnomon_wrong_pixels), n points of edges
 #include <cmath>
@@ -138,6 +139,19 @@ void write_atlases(File& file, const PlanInC& found) {
   }
 }
 
+void write_biases(File& file, const PlanInC& found) {
+  file.one(static_cast<std::uint32_t>(2 * found.plan.map_count));
+  for (std::int32_t map = 0; map < found.plan.map_count; ++map) {
+    for (const std::int32_t way : {GNOMON_BIAS_RASTERIZER, GNOMON_BIAS_NORMAL_OFFSET}) {
+      gnomon_engine_bias bias;
+      gnomon_translate_bias(&found.plan, map, way, 1.5, 24, &bias, nullptr);
+      file.one(map);
+      file.one(way);
+      file.one(bias);
+    }
+  }
+}
+
 void write_clusters(File& file, const gnomon_camera& camera, std::mt19937_64& random) {
   const auto number = [&](double low, double high) {
     return low + (high - low) * 1e-4 * static_cast<double>(random() % 10000);
@@ -231,6 +245,7 @@ int main(int argc, char** argv) {
   write_suns(file, in);
   write_depths(file, random);
   write_atlases(file, found);
+  write_biases(file, found);
   write_clusters(file, in.camera, random);
   write_picture(file, street, in.camera, found);
   if (!file.closed()) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "gnomon/study/engine_bias.hpp"
 #include "in_c.hpp"
 
 namespace gnomon::test {
@@ -186,6 +187,57 @@ TEST(FramesInC, maps_lie_in_an_atlas_as_in_cpp) {
   refuses(gnomon_atlas_from_clip(&found, nullptr, 0, nullptr, &field), "atlas_from_clip");
   found.place[0].x = std::numeric_limits<int32_t>::max();
   refuses(gnomon_atlas_from_clip(&found, nullptr, 0, matrix, &field), "atlas.place");
+}
+
+TEST(FramesInC, biases_are_translated_as_in_cpp) {
+  Scene scene;
+  scene.options.bias.slope_texels = 0.75;
+  const ShadowPlan plan = scene.plan();
+  gnomon_plan* const in_c_plan = &scene.found.plan;
+  gnomon_engine_bias found;
+  int translated = 0;
+  for (int32_t map = 0; map < in_c_plan->map_count; ++map) {
+    for (const BiasWay way : {BiasWay::rasterizer, BiasWay::normal_offset}) {
+      for (const double radius : {0.0, 1.5}) {
+        const EngineBias expected =
+            engine_bias(plan.map[static_cast<std::size_t>(map)], plan.bias, way, radius);
+        ASSERT_EQ(
+            gnomon_translate_bias(in_c_plan, map, static_cast<int32_t>(way), radius, 16, &found, nullptr),
+            GNOMON_OK);
+        EXPECT_EQ(found.depth, expected.depth);
+        EXPECT_EQ(found.slope_factor, expected.slope_factor);
+        EXPECT_EQ(found.normal_world, expected.normal_world);
+        EXPECT_EQ(found.units, rasterizer_units(expected.depth, 16));
+        translated += found.units > 0.0 && found.slope_factor + found.normal_world > 0.0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GE(translated, 8);
+  const char* field = nullptr;
+  const auto refuses = [&](int32_t map, int32_t way, double radius, int32_t bits, const char* expected) {
+    found = {-7.0, -7.0, -7.0, -7.0};
+    EXPECT_EQ(gnomon_translate_bias(in_c_plan, map, way, radius, bits, &found, &field), GNOMON_INVALID_INPUT);
+    EXPECT_STREQ(field, expected);
+    EXPECT_EQ(found.depth, -7.0);
+  };
+  refuses(-1, 0, 0.0, 0, "map");
+  refuses(in_c_plan->map_count, 0, 0.0, 0, "map");
+  refuses(0, 2, 0.0, 0, "way");
+  refuses(0, 0, -1.0, 0, "kernel_radius_texels");
+  refuses(0, 0, kNan, 0, "kernel_radius_texels");
+  refuses(0, 0, 0.0, 33, "depth_bits");
+  scene.found.maps[0].depth_range_world = 1e-300;
+  refuses(0, 0, 0.0, 0, "map.depth_range_world");
+  scene.found.maps[0].bias_constant = kNan;
+  refuses(0, 0, 0.0, 0, "map.bias_constant");
+  scene.found.maps[1].texel_world_max[1] = kNan;
+  refuses(1, 0, 0.0, 0, "map.texel_world_max");
+  in_c_plan->bias_slope_texels = kNan;
+  refuses(1, 0, 0.0, 0, "plan.bias_slope_texels");
+  EXPECT_EQ(gnomon_translate_bias(in_c_plan, 0, 0, 0.0, 0, nullptr, &field), GNOMON_INVALID_INPUT);
+  EXPECT_STREQ(field, "bias");
+  EXPECT_EQ(gnomon_translate_bias(nullptr, 0, 0, 0.0, 0, &found, &field), GNOMON_INVALID_INPUT);
+  EXPECT_STREQ(field, "plan");
 }
 
 /// Suns, spots and points before the camera, in C++ and in C.

@@ -81,6 +81,11 @@ def test_all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library
         for i in range(atlas.count):
             assert atlas.atlas_from_clip(i).T.tobytes() == file.bytes(128)
 
+    for _ in range(file.count()):
+        index, way = file.numbers("i4", 2).tolist()
+        found = gnomon.engine_bias(plan, index, ("rasterizer", "normal_offset")[way], kernel_radius_texels=1.5, depth_bits=24)
+        assert np.array(found).tobytes() == bytes(file.struct("engine_bias")) and found.units > 0
+
     lights = [file.struct("light") for _ in range(file.count())]
     for _ in range(file.count()):
         room = int(file.numbers("i8", 1)[0])
@@ -164,6 +169,9 @@ def test_bad_input_is_refused_by_name():
         "width": lambda: gnomon.pack_atlas(plan, -1, 0),
         "height": lambda: gnomon.pack_atlas(plan, 64, 2**40),
         "map": lambda: gnomon.pack_atlas(plan).atlas_from_clip(99),
+        "way": lambda: gnomon.engine_bias(plan, 0, "by hand"),
+        "depth_bits": lambda: gnomon.engine_bias(plan, 0, depth_bits=33),
+        "kernel_radius_texels": lambda: gnomon.engine_bias(plan, 0, kernel_radius_texels=-1),
         "light": lambda: gnomon.plan(camera, 5, boxes, boxes),
         "lights": lambda: gnomon.clusters(camera, [sun, None]),
         "camera": lambda: gnomon.expected_error(plan, sun, mask, mask),

@@ -585,6 +585,29 @@ GNOMON_API int32_t gnomon_shader_block(const gnomon_plan* plan, int32_t layer_wi
                                        double blur_texels, float block[GNOMON_SHADER_BLOCK_FLOATS],
                                        const char** invalid_field);
 
+enum {
+  /// Rasterizer states: a constant, and a factor times the growth of depth over a texel (glPolygonOffset,
+  /// Direct3D, Vulkan, Metal).
+  GNOMON_BIAS_RASTERIZER = 0,
+  /// A constant, and a move along the normal before the look-up (three.js, Babylon.js, Unity, Godot).
+  GNOMON_BIAS_NORMAL_OFFSET = 1
+};
+/// A bias in an engine's units. All of it is towards the light. Its size is fixed.
+typedef struct gnomon_engine_bias {
+  double depth;         ///< of the map's depth, 0..1
+  double slope_factor;  ///< times the larger growth of depth over a texel, along the map's x or y
+  double normal_world;  ///< along the normal, world units
+  double units;         ///< `depth` in units of rasterizer states: steps of the map's format
+} gnomon_engine_bias;
+/// Translates the bias of a map into an engine's own: what keeps planes from shadowing themselves under a
+/// kernel of this radius, texels. `map`: index in the plan. `way`: GNOMON_BIAS_RASTERIZER or
+/// GNOMON_BIAS_NORMAL_OFFSET. `depth_bits`: of a normalized integer, 1..32; 0: single precision. `depth` is
+/// right where the map's w is constant: parallel light without a warp. Elsewhere it holds in the middle of
+/// the map. A map without a depth range, as foreign ones are: all 0.
+GNOMON_EXPERIMENTAL int32_t gnomon_translate_bias(const gnomon_plan* plan, int32_t map, int32_t way,
+                                                  double kernel_radius_texels, int32_t depth_bits,
+                                                  gnomon_engine_bias* bias, const char** invalid_field);
+
 /// Offset of the texel grid in a frame, x and y in (-0.5, 0.5) texels. Offsets are a lattice of 64 points.
 /// Any GNOMON_JITTER_FRAMES frames in a row hold all of it. Refuses NULL.
 GNOMON_EXPERIMENTAL int32_t gnomon_jitter_texels(uint32_t frame, double offset[2]);

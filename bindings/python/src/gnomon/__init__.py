@@ -19,14 +19,14 @@ from ._call import GnomonError, lib, strings
 from ._frames import DepthTracker, HeldSun, hold_sun, jitter, jitter_texels
 from ._many import Atlas, Clusters, LightMaps, LightPlan, PagePlan, clusters, lights, pack_atlas, pages
 from ._pictures import WrongPixels, expected_error, shadow_edge_points
-from ._plans import cull, measure, measure_points, plan, select, shader_block
+from ._plans import EngineBias, cull, engine_bias, measure, measure_points, plan, select, shader_block
 from ._program import Masks, judge, masks
 from ._records import (Camera, CasterSet, History, Light, Map, Omission, Plan, Stats, VisibleDepths, camera_from,
                        directional, orthographic, perspective, point, spot)
 
-__all__ = ["Atlas", "Camera", "CasterSet", "Clusters", "DepthTracker", "GnomonError", "HeldSun", "History", "Light",
+__all__ = ["Atlas", "Camera", "CasterSet", "Clusters", "DepthTracker", "EngineBias", "GnomonError", "HeldSun", "History", "Light",
            "LightMaps", "LightPlan", "Map", "Masks", "Omission", "PagePlan", "Plan", "Stats", "VisibleDepths", "WrongPixels",
-           "camera_from", "clusters", "cull", "directional", "expected_error", "hold_sun", "jitter", "jitter_texels", "judge", "lights",
+           "camera_from", "clusters", "cull", "directional", "engine_bias", "expected_error", "hold_sun", "jitter", "jitter_texels", "judge", "lights",
            "masks", "measure", "measure_points", "names", "orthographic", "pack_atlas", "pages", "perspective", "plan", "point",
            "select", "shader_block", "shadow_edge_points", "spot", "version"]
 

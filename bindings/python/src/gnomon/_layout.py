@@ -79,6 +79,8 @@ DENSITY_JUMP = 2
 REUSE_NONE = 0
 REUSE_IDENTICAL = 1
 REUSE_SCROLLED = 2
+BIAS_RASTERIZER = 0
+BIAS_NORMAL_OFFSET = 1
 POINT_OK = 0
 POINT_OUTSIDE = 1
 POINT_FACES_AWAY = 2
@@ -508,6 +510,22 @@ class reuse(ctypes.Structure):
 
 
 assert ctypes.sizeof(reuse) == 64
+
+
+class engine_bias(ctypes.Structure):
+    _fields_ = [
+        ("depth", ctypes.c_double),
+        ("slope_factor", ctypes.c_double),
+        ("normal_world", ctypes.c_double),
+        ("units", ctypes.c_double),
+    ]
+    depth: float
+    slope_factor: float
+    normal_world: float
+    units: float
+
+
+assert ctypes.sizeof(engine_bias) == 32
 
 
 class held_sun(ctypes.Structure):
@@ -1038,6 +1056,7 @@ calls: dict[str, tuple[Any, list[tuple[str, Any]]]] = {
     "gnomon_compare": (ctypes.c_int32, [("previous", ctypes.c_void_p), ("current", ctypes.c_void_p), ("clip_space", ctypes.c_void_p), ("reuse", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_rectangle_planes": (ctypes.c_int32, [("map", ctypes.c_void_p), ("rectangle", ctypes.c_void_p), ("clip_space", ctypes.c_void_p), ("planes", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_shader_block": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("layer_width", ctypes.c_int32), ("layer_height", ctypes.c_int32), ("blur_texels", ctypes.c_double), ("block", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
+    "gnomon_translate_bias": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("map", ctypes.c_int32), ("way", ctypes.c_int32), ("kernel_radius_texels", ctypes.c_double), ("depth_bits", ctypes.c_int32), ("bias", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_jitter_texels": (ctypes.c_int32, [("frame", ctypes.c_uint32), ("offset", ctypes.c_void_p)]),
     "gnomon_jitter": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("offset", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_hold_sun": (ctypes.c_int32, [("view", ctypes.c_void_p), ("held", ctypes.c_void_p), ("sun", ctypes.c_void_p), ("casters", ctypes.c_void_p), ("most_pixels", ctypes.c_double), ("least_light_sine", ctypes.c_double), ("result", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Optional, Union
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -107,3 +107,32 @@ def shader_block(plan: Plan, layer_width: int = 0, layer_height: int = 0, blur_t
     block = np.empty(c.SHADER_BLOCK_FLOATS, dtype=np.float32)
     call("gnomon_shader_block", plan._struct, int(layer_width), int(layer_height), float(blur_texels), block.ctypes.data)
     return block
+
+
+class EngineBias(NamedTuple):
+    """A bias in an engine's units. All of it is towards the light."""
+
+    depth: float  #: of the map's depth, 0..1
+    slope_factor: float  #: times the larger growth of depth over a texel, along the map's x or y
+    normal_world: float  #: along the normal, world units
+    units: float  #: depth in units of rasterizer states: steps of the map's format
+
+
+def engine_bias(plan: Plan, map: int, way: str = "rasterizer", *, kernel_radius_texels: float = 0.0, depth_bits: int = 0) -> EngineBias:
+    """The bias of a map in an engine's own units: what keeps planes from shadowing themselves under a kernel of this radius.
+
+    map: index in plan.maps. way: "rasterizer" (glPolygonOffset, states of Direct3D, Vulkan and Metal) or "normal_offset"
+    (three.js, Babylon.js, Unity, Godot). depth_bits: of a map that stores normalized integers, 1..32; 0: single precision. depth
+    is right where the map's w is constant: parallel light without a warp; elsewhere it holds in the middle of the map.
+
+    >>> boxes = [[-40, -1, -200, 40, 0, 20], [-4, 0, -30, 4, 6, -26.0]]
+    >>> result = plan(perspective(position=(0, 3, 10), fov_y=1.0, far=250), directional((0.4, -1, 0.3)), boxes, boxes)
+    >>> bias = engine_bias(result, 0, kernel_radius_texels=1.5)
+    >>> bias.slope_factor, bias.normal_world, bias.units > 0
+    (4.0, 0.0, True)
+    """
+    bias, ways = c.engine_bias(), {"rasterizer": c.BIAS_RASTERIZER, "normal_offset": c.BIAS_NORMAL_OFFSET}
+    if way not in ways:
+        raise GnomonError("way", "way: expected 'rasterizer' or 'normal_offset'")
+    call("gnomon_translate_bias", plan._struct, int(map), ways[way], float(kernel_radius_texels), int(depth_bits), bias)
+    return EngineBias(bias.depth, bias.slope_factor, bias.normal_world, bias.units)

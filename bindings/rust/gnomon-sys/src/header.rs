@@ -150,6 +150,10 @@ pub const GNOMON_REUSE_NONE: i32 = 0;
 pub const GNOMON_REUSE_IDENTICAL: i32 = 1;
 /// `kept` holds once moved; draw the strips
 pub const GNOMON_REUSE_SCROLLED: i32 = 2;
+/// Rasterizer states: a constant, and a factor times the growth of depth over a texel (glPolygonOffset, Direct3D, Vulkan, Metal).
+pub const GNOMON_BIAS_RASTERIZER: i32 = 0;
+/// A constant, and a move along the normal before the look-up (three.js, Babylon.js, Unity, Godot).
+pub const GNOMON_BIAS_NORMAL_OFFSET: i32 = 1;
 /// the error is known
 pub const GNOMON_POINT_OK: i32 = 0;
 /// the map does not hold the point: m is infinite
@@ -589,6 +593,20 @@ pub struct gnomon_reuse {
     pub kept: gnomon_texel_rect,
     /// parts to draw
     pub strip: [gnomon_texel_rect; 2],
+}
+
+/// A bias in an engine's units. All of it is towards the light. Its size is fixed.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct gnomon_engine_bias {
+    /// of the map's depth, 0..1
+    pub depth: f64,
+    /// times the larger growth of depth over a texel, along the map's x or y
+    pub slope_factor: f64,
+    /// along the normal, world units
+    pub normal_world: f64,
+    /// `depth` in units of rasterizer states: steps of the map's format
+    pub units: f64,
 }
 
 /// The decision of gnomon_hold_sun. Its size is fixed.
@@ -1126,6 +1144,8 @@ extern "C" {
     pub fn gnomon_rectangle_planes(map: *const gnomon_map, rectangle: *const gnomon_texel_rect, clip_space: *const gnomon_clip_space, planes: *mut f64, invalid_field: *mut *const c_char) -> i32;
     /// Fills the uniform block of shaders/library/shadow_block.glsl, for std140 and std430: GNOMON_SHADER_BLOCK_FLOATS floats. `layer_width`, `layer_height`: texels of a layer of the texture; 0: those of the largest map. `blur_texels`: half side of the box that stored texels were blurred with, 0: none.
     pub fn gnomon_shader_block(plan: *const gnomon_plan, layer_width: i32, layer_height: i32, blur_texels: f64, block: *mut f32, invalid_field: *mut *const c_char) -> i32;
+    /// Translates the bias of a map into an engine's own: what keeps planes from shadowing themselves under a kernel of this radius, texels. `map`: index in the plan. `way`: GNOMON_BIAS_RASTERIZER or GNOMON_BIAS_NORMAL_OFFSET. `depth_bits`: of a normalized integer, 1..32; 0: single precision. `depth` is right where the map's w is constant: parallel light without a warp. Elsewhere it holds in the middle of the map. A map without a depth range, as foreign ones are: all 0.
+    pub fn gnomon_translate_bias(plan: *const gnomon_plan, map: i32, way: i32, kernel_radius_texels: f64, depth_bits: i32, bias: *mut gnomon_engine_bias, invalid_field: *mut *const c_char) -> i32;
     /// Offset of the texel grid in a frame, x and y in (-0.5, 0.5) texels. Offsets are a lattice of 64 points. Any GNOMON_JITTER_FRAMES frames in a row hold all of it. Refuses NULL.
     pub fn gnomon_jitter_texels(frame: u32, offset: *mut f64) -> i32;
     /// Moves the texel grid of every map of a plan by `offset` texels across the light, each clamped to half a texel. The maps serve the same points and casters. Add 0.5 to gnomon_plan_options::filter_texels before planning, so that no kernel leaves its map. The next frame cannot reuse moved maps.
@@ -1224,6 +1244,7 @@ macro_rules! each_layout {
         $check!(gnomon_plan, 160, size: 0, map_size: 4, maps: 8, omissions: 16, map_room: 24, omission_room: 28, status: 32, map_count: 36, omission_count: 40, selection: 44, sizes_vary: 48, reserved: 52, origin: 56, light_direction: 80, clip_space: 104, bias_constant_texels: 128, bias_slope_texels: 136, bias_normal_offset_texels: 144, bias_max_slope: 152);
         $check!(gnomon_event, 16, kind: 0, map: 4, density_ratio: 8);
         $check!(gnomon_reuse, 64, kind: 0, shift_x: 4, shift_y: 8, strip_count: 12, kept: 16, strip: 32);
+        $check!(gnomon_engine_bias, 32, depth: 0, slope_factor: 8, normal_world: 16, units: 24);
         $check!(gnomon_held_sun, 48, direction: 0, error_pixels: 24, turned_pixels: 32, points_capped: 40);
         $check!(gnomon_atlas, 152, width: 0, height: 4, place: 8, count: 136, reserved: 140, efficiency: 144);
         $check!(gnomon_measure_options, 24, size: 0, map: 4, columns: 8, rows: 12, depths: 16, reserved: 20);

@@ -73,7 +73,7 @@ pub use pages::{
     page_memory, page_table_size, plan_pages, KeptPage, Page, PageHistory, PageOptions, PagePlan, PageSlot,
 };
 pub use picture::{expected_error, ShadowPicture, WrongPixels};
-pub use plan::{plan, plan_views, Omission, Plan, Status};
+pub use plan::{plan, plan_views, BiasWay, EngineBias, Omission, Plan, Status};
 
 use error::check;
 

@@ -18,6 +18,19 @@ pub enum Status {
     NoCaster,
 }
 
+/// How an engine moves a depth off the surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(i32)]
+pub enum BiasWay {
+    /// Rasterizer states: a constant, and a factor times the growth of depth over a texel (glPolygonOffset, Direct3D, Vulkan,
+    /// Metal, wgpu).
+    Rasterizer = GNOMON_BIAS_RASTERIZER,
+    /// A constant, and a move along the normal before the look-up (Bevy, Unity, Godot).
+    NormalOffset = GNOMON_BIAS_NORMAL_OFFSET,
+}
+/// A bias in an engine's units. All of it is towards the light.
+pub type EngineBias = gnomon_engine_bias;
+
 impl Status {
     /// Of the status of a plan that was not refused.
     pub(crate) fn of(status: i32) -> Self {
@@ -130,6 +143,33 @@ impl Plan {
             gnomon_shader_block(&self.to_c(), layer[0], layer[1], blur_texels, block.as_mut_ptr(), &mut field)
         };
         check(status, field).map(|_| block)
+    }
+
+    /// The bias of a map in an engine's own units: what keeps planes from shadowing themselves under a kernel of this radius,
+    /// texels. `map`: its index in [`Plan::maps`]. `depth_bits`: of a map that stores normalized integers, 1..32; 0: single
+    /// precision. The depth is right where the map's w is constant: parallel light without a warp. Elsewhere it holds in the
+    /// middle of the map.
+    pub fn engine_bias(
+        &self,
+        map: usize,
+        way: BiasWay,
+        kernel_radius_texels: f64,
+        depth_bits: i32,
+    ) -> Result<EngineBias> {
+        let mut bias = EngineBias { depth: 0.0, slope_factor: 0.0, normal_world: 0.0, units: 0.0 };
+        let (map, mut field) = (i32::try_from(map).unwrap_or(-1), null());
+        let status = unsafe {
+            gnomon_translate_bias(
+                &self.to_c(),
+                map,
+                way as i32,
+                kernel_radius_texels,
+                depth_bits,
+                &mut bias,
+                &mut field,
+            )
+        };
+        check(status, field).map(|_| bias)
     }
 
     /// For a call that reads it, while `self` lives.

@@ -4,8 +4,8 @@ use std::mem::size_of;
 
 use gnomon::sys::*;
 use gnomon::{
-    Aabb, Camera, ClusterMemory, ClusterOptions, DepthTracker, Light, PlanOptions, Point, Scene, ShadowPicture, View,
-    VisibleDepths,
+    Aabb, BiasWay, Camera, ClusterMemory, ClusterOptions, DepthTracker, Light, PlanOptions, Point, Scene,
+    ShadowPicture, View, VisibleDepths,
 };
 
 struct Reader<'a>(&'a [u8]);
@@ -104,6 +104,14 @@ fn all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library() {
         }
     }
 
+    for _ in 0..file.count() {
+        let [map, way]: [i32; 2] = file.take();
+        let way = if way == 0 { BiasWay::Rasterizer } else { BiasWay::NormalOffset };
+        let found = plan.engine_bias(map as usize, way, 1.5, 24).unwrap();
+        assert_eq!(bytes(&found), bytes(&file.take::<gnomon_engine_bias>()));
+        assert!(found.units > 0.0);
+    }
+
     let lights: Vec<Light> = file
         .list::<gnomon_light>()
         .into_iter()
@@ -172,6 +180,10 @@ fn bad_input_is_refused_by_name() {
     assert_eq!(field(atlas.atlas_from_clip(&gnomon::OPENGL, usize::MAX)), "map");
     let small = plan.pack_atlas(8, 8).unwrap();
     assert!(small.places().is_empty() && small.size() == [0, 0]);
+
+    assert_eq!(field(plan.engine_bias(99, BiasWay::Rasterizer, 0.0, 0)), "map");
+    assert_eq!(field(plan.engine_bias(0, BiasWay::NormalOffset, f64::NAN, 0)), "kernel_radius_texels");
+    assert_eq!(field(plan.engine_bias(0, BiasWay::NormalOffset, 0.0, -1)), "depth_bits");
 
     let (mask, depths) = ([1.0f32; 96 * 64], [5.0f32; 96 * 64]);
     let picture = ShadowPicture { camera: &camera, mask: &mask, view_depths: &depths };
