@@ -19,6 +19,7 @@ constexpr std::string_view kFormat = "gnomon-capture/1";
 constexpr std::size_t kMostFrames = 4096, kMostLights = 64;
 constexpr std::size_t kMostThings = 4'000'000;
 constexpr int kLargestMap = 1 << 16;
+constexpr double kLargestNumber = 1e30;
 
 /// Keys of the file, and those of a frame, which stand beside them for all frames.
 constexpr std::array<std::string_view, 8> kFileKeys{
@@ -97,8 +98,9 @@ Light light_of(const json& value, const std::string& path) {
   const std::string type = fields.text("type");
   const auto direction = [&] {
     const glm::dvec3 d = fields.vector("direction");
-    if (!(glm::dot(d, d) > 0.0)) fields.refuse("direction", "must not be zero");
-    return d;
+    const double largest = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+    if (!(largest > 0.0)) fields.refuse("direction", "must not be zero");
+    return d / largest;  // of any length, also one whose square is no number
   };
   if (type == "directional") return DirectionalLight{direction()};
   if (type == "point") return PointLight{fields.vector("position"), fields.positive("range")};
@@ -204,10 +206,23 @@ void read_points(const Fields& fields, CapturedScene& scene) {
   }
 }
 
+std::vector<Box> boxes_of(const Fields& fields, std::string_view key) {
+  if (!fields.has(key)) return {};
+  std::vector<Box> boxes = fields.boxes(key);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Box& box = boxes[i];
+    const double largest = std::max(glm::length(box.min), glm::length(box.max));
+    if (box.empty() || !(largest <= kLargestNumber))
+      throw CaseError(place(fields.path_of(key), i) +
+                      (box.empty() ? ": has min above max" : ": is beyond 1e30"));
+  }
+  return boxes;
+}
+
 CapturedScene scene_of(const Fields& fields) {
   CapturedScene scene;
-  if (fields.has("receivers")) scene.receivers = fields.boxes("receivers");
-  if (fields.has("casters")) scene.casters = fields.boxes("casters");
+  scene.receivers = boxes_of(fields, "receivers");
+  scene.casters = boxes_of(fields, "casters");
   if (fields.has("points")) read_points(fields, scene);
   return scene;
 }
@@ -256,6 +271,7 @@ CapturedFrame frame_of(const json& value, const std::string& path, const Convent
 
 Capture read_capture(std::string_view json_text) {
   const json value = parse_json(json_text);
+  if (!value.is_object()) throw CaseError("capture: needs an object, is " + std::string(value.type_name()));
   std::vector<std::string_view> known(kFileKeys.begin(), kFileKeys.end());
   known.insert(known.end(), kFrameKeys.begin(), kFrameKeys.end());
   const Fields fields(value, "", known);

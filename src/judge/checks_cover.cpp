@@ -11,7 +11,11 @@ namespace {
 /// Fewer points are the rounding of an edge; boxes only stand for surfaces.
 bool matters(std::size_t points, std::size_t of, bool guessed) {
   const double share = static_cast<double>(points) / static_cast<double>(std::max<std::size_t>(of, 1));
-  return points >= 3 && share > (guessed ? 0.01 : 0.002);
+  return points >= 3 && share > (guessed ? 0.005 : 0.002);
+}
+/// The same of one map that serves few points: of its own.
+bool matters_there(std::size_t points, std::size_t of_map) {
+  return points >= 5 && 20 * points > of_map;
 }
 
 /// Points of one fault, by map.
@@ -39,7 +43,8 @@ bool in_range(double depth) {
 /// How the points that no map serves are missed.
 struct Missed {
   Faulty outside, disagreed, gap;
-  std::vector<Faulty> cut;  // by map
+  std::vector<Faulty> cut;          // by map
+  std::vector<std::size_t> served;  // by map: points that it is to serve
   std::size_t counted = 0, cut_count = 0, cut_in_other_range = 0;
 };
 
@@ -55,8 +60,12 @@ void add_cut(const Capture& capture, const LightLooks& looks, std::size_t map, s
              Missed& missed) {
   const Look& look = looks.of[map][point];
   const double depth = depth_of(look.clip.z, capture.clip_space);
-  const double off = depth < 0.0 ? -depth : depth - 1.0;
-  missed.cut[map].add(point, off / std::max(std::abs(look.depth_per_world), 1e-300));
+  // Along the light's ray: depth under a perspective is no length.
+  const glm::dvec3 position = looks.seen->points[point];
+  const glm::dvec3 way = travel_at(looks.frame->lights[static_cast<std::size_t>(looks.light)], position);
+  const double off =
+      way_to_depth(looks.map_at(map), capture.clip_space, position, way, depth < 0.0 ? 0.0 : 1.0);
+  missed.cut[map].add(point, std::abs(off));
   ++missed.cut_count;
   if (in_range(other_depth(look.clip.z, capture.clip_space))) ++missed.cut_in_other_range;
 }
@@ -64,19 +73,19 @@ void add_cut(const Capture& capture, const LightLooks& looks, std::size_t map, s
 Missed missed_by(const Capture& capture, const LightLooks& looks, const BrokenMaps& broken) {
   Missed missed;
   missed.cut.resize(looks.map.size());
-  double begin = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < looks.map.size(); ++i) begin = std::min(begin, looks.map_at(i).begin);
+  missed.served.resize(looks.map.size());
   const bool by_depth = looks.frame->selection == MapSelection::view_depth;
   for (std::size_t p = 0; p < looks.counts.size(); ++p) {
     if (looks.counts[p] == 0) continue;
     ++missed.counted;
     const int chosen = looks.chosen[p], holding = looks.holding[p];
     if (by_depth && chosen < 0) {
-      if (looks.seen->depths[p] > begin) missed.gap.add(p, looks.seen->depths[p]);
+      missed.gap.add(p, looks.seen->depths[p]);
       continue;
     }
     if (chosen >= 0) {
       const auto at = static_cast<std::size_t>(chosen);
+      ++missed.served[at];
       if (broken[at]) continue;
       const Look& look = looks.of[at][p];
       if (look.inside() && in_range(depth_of(look.clip.z, capture.clip_space))) continue;
@@ -131,7 +140,9 @@ void report_missed(const Capture& capture, const LightLooks& looks, const Missed
   }
   for (std::size_t i = 0; i < missed.cut.size() && !other_range; ++i) {
     const Faulty& cut = missed.cut[i];
-    if (!matters(cut.points.size(), missed.counted, guessed)) continue;
+    if (!matters(cut.points.size(), missed.counted, guessed) &&
+        !matters_there(cut.points.size(), missed.served[i]))
+      continue;
     Finding finding = finding_of(FindingKind::receivers_cut, looks, static_cast<int>(i), share(cut), "share",
                                  pixel_of(looks, cut));
     finding.what = share_text(cut.points.size(), missed.counted) + " of the lit surfaces lie in " +
@@ -160,31 +171,44 @@ void report_missed(const Capture& capture, const LightLooks& looks, const Missed
     Finding finding = finding_of(FindingKind::gap_between_maps, looks, -1, share(missed.gap), "share",
                                  pixel_of(looks, missed.gap));
     finding.what = share_text(missed.gap.points.size(), missed.counted) +
-                   " of the lit surfaces are at view depths between two maps.";
-    finding.change = "Let each map begin where the one before it ends.";
+                   " of the lit surfaces are at view depths before the first map or between two.";
+    finding.change = "Let the first map begin at the near plane, and each where the one before it ends.";
     out.add(finding);
   }
 }
 
-/// Where a ray of unit length enters a box from outside; infinite where it does not.
-double entry_of(const Box& box, const glm::dvec3& origin, const glm::dvec3& ray) {
+/// Where a ray of unit length enters a box from outside, and leaves it; both infinite where it does not.
+struct Crossing {
+  double enter = std::numeric_limits<double>::infinity(), leave = enter;
+};
+
+Crossing crossing_of(const Box& box, const glm::dvec3& origin, const glm::dvec3& ray) {
   double enter = 0.0, leave = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     if (ray[i] == 0.0) {
-      if (origin[i] < box.min[i] || origin[i] > box.max[i]) return std::numeric_limits<double>::infinity();
+      if (origin[i] < box.min[i] || origin[i] > box.max[i]) return {};
       continue;
     }
     const double a = (box.min[i] - origin[i]) / ray[i], b = (box.max[i] - origin[i]) / ray[i];
     enter = std::max(enter, std::min(a, b));
     leave = std::min(leave, std::max(a, b));
   }
-  return enter <= leave && enter > 0.0 ? enter : std::numeric_limits<double>::infinity();
+  if (!(enter <= leave && enter > 0.0)) return {};
+  return {enter, leave};
+}
+
+/// From a point to the light; infinite to a sun.
+double distance_to(const Light& light, const glm::dvec3& point) {
+  if (const auto* spot = std::get_if<SpotLight>(&light)) return glm::length(spot->position - point);
+  if (const auto* bulb = std::get_if<PointLight>(&light)) return glm::length(bulb->position - point);
+  return std::numeric_limits<double>::infinity();
 }
 
 void check_casters(const Capture& capture, const LightLooks& looks, const BrokenMaps& broken,
                    FindingList& out) {
   const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
   std::vector<Faulty> cut(looks.map.size());
+  std::vector<std::size_t> served(looks.map.size(), 0);
   std::size_t counted = 0;
   // Every point against every caster: a few points of very many casters tell as much.
   constexpr std::size_t kMostTests = 20'000'000;
@@ -197,25 +221,22 @@ void check_casters(const Capture& capture, const LightLooks& looks, const Broken
     const Look& look = looks.of[at][p];
     if (broken[at] || map.clamps_depth || !look.inside() || !(look.depth_per_world > 0.0)) continue;
     ++counted;
-    // Where the ray to the light meets the near plane.
+    ++served[at];
     const glm::dvec3 point = looks.seen->points[p], back = -travel_at(light, point);
-    const glm::dmat4& m = map.clip_from_world;
-    const double near_z = capture.clip_space.reversed_z                           ? 1.0
-                          : capture.clip_space.ndc_depth == NdcDepth::zero_to_one ? 0.0
-                                                                                  : -1.0;
-    const glm::dvec4 here = m * glm::dvec4(point, 1.0), growth = m * glm::dvec4(back, 0.0);
-    const double near_at = (near_z * here.w - here.z) / (growth.z - near_z * growth.w);
+    const double near_at = way_to_depth(map, capture.clip_space, point, back, 0.0);
     if (!(near_at > 0.0)) continue;
+    const double light_at = distance_to(light, point);
     for (const Box& caster : looks.scene->casters) {
-      const double enter = entry_of(caster, point, back);
-      if (std::isfinite(enter) && enter > near_at * (1.0 + 1e-6)) {
-        cut[at].add(p, enter - near_at);
+      const Crossing crossing = crossing_of(caster, point, back);
+      if (crossing.enter > near_at * (1.0 + 1e-6) && crossing.enter < light_at) {
+        cut[at].add(p, std::min(crossing.leave, light_at) - near_at);
         break;
       }
     }
   }
   for (std::size_t i = 0; i < cut.size(); ++i) {
-    if (!matters(cut[i].points.size(), counted, false)) continue;
+    if (!matters(cut[i].points.size(), counted, false) && !matters_there(cut[i].points.size(), served[i]))
+      continue;
     Finding finding = finding_of(FindingKind::casters_cut, looks, static_cast<int>(i),
                                  static_cast<double>(cut[i].points.size()) / static_cast<double>(counted),
                                  "share", pixel_of(looks, cut[i]));
@@ -275,10 +296,37 @@ void check_use(const LightLooks& looks, const BrokenMaps& broken, FindingList& o
   }
 }
 
+/// Lit surfaces in view, none of which is at the depths that the maps serve.
+bool check_depths(const LightLooks& looks, FindingList& out) {
+  std::size_t lit = 0, counted = 0;
+  double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
+  for (std::size_t p = 0; p < looks.lit.size(); ++p) {
+    counted += looks.counts[p] != 0 && looks.chosen[p] >= 0 ? 1 : 0;
+    if (looks.lit[p] == 0) continue;
+    ++lit;
+    nearest = std::min(nearest, looks.seen->depths[p]);
+    farthest = std::max(farthest, looks.seen->depths[p]);
+  }
+  if (looks.map.empty() || lit < 3 || counted > 0 || looks.frame->selection != MapSelection::view_depth)
+    return true;
+  double begin = std::numeric_limits<double>::infinity(), end = -begin;
+  for (std::size_t i = 0; i < looks.map.size(); ++i) {
+    begin = std::min(begin, looks.map_at(i).begin);
+    end = std::max(end, looks.map_at(i).end);
+  }
+  Finding finding = finding_of(FindingKind::gap_between_maps, looks, -1, 1.0, "share");
+  finding.what = "No lit surface is at the view depths that the maps serve (" + digits(begin) + " to " +
+                 digits(end) + "): they are at " + digits(nearest) + " to " + digits(farthest) + ".";
+  finding.change = "Give depths in world units, from the eye forward, and a camera that looks at the scene.";
+  out.add(finding);
+  return false;
+}
+
 }  // namespace
 
 void check_cover(const Capture& capture, const LightLooks& looks, const BrokenMaps& broken,
                  FindingList& out) {
+  if (!check_depths(looks, out)) return;
   report_missed(capture, looks, missed_by(capture, looks, broken), out);
   check_casters(capture, looks, broken, out);
   check_use(looks, broken, out);

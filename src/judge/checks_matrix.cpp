@@ -1,4 +1,5 @@
 // Is a map's matrix what it is said to be: of its light, its convention, and not written the other way round?
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -20,20 +21,29 @@ bool looks_transposed(const glm::dmat4& m) {
   return unit(m[3][0], m[3][1], m[3][2], m[3][3]) && !unit(m[0][3], m[1][3], m[2][3], m[3][3]);
 }
 
+/// A captured map with the matrix written the other way round.
+CapturedMap transposed(const CapturedMap& map) {
+  CapturedMap out = map;
+  out.clip_from_world = glm::transpose(map.clip_from_world);
+  return out;
+}
+
 /// What the points say of a map's orientation.
 struct Orientation {
   std::size_t count = 0, behind = 0, reversed = 0, mirrored = 0;
   double degrees = 0.0;  // off the light's ray: the median
 };
 
-Orientation orientation_of(const Capture& capture, const LightLooks& looks, std::size_t map) {
+/// `looks_at`: of the map at a point.
+template <typename LookAt>
+Orientation orientation_of(const Capture& capture, const LightLooks& looks, LookAt&& looks_at) {
   Orientation o;
   const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
   const ClipSpace& space = capture.clip_space;
   const bool turned = space.y_down != (space.handedness == Handedness::left);
   std::vector<double> degrees;
   for (std::size_t p = 0; p < looks.counts.size(); ++p) {
-    const Look& look = looks.of[map][p];
+    const Look look = looks_at(p);
     // A face of a cube says nothing of what lies behind it.
     if (looks.counts[p] == 0 || (!look.inside() && std::holds_alternative<PointLight>(light))) continue;
     ++o.count;
@@ -54,21 +64,37 @@ Orientation orientation_of(const Capture& capture, const LightLooks& looks, std:
   return o;
 }
 
+Finding transposed_finding(const LightLooks& looks, std::size_t map) {
+  Finding finding = finding_of(FindingKind::transposed, looks, static_cast<int>(map), 1.0, "matrix");
+  finding.what =
+      "The matrix of " + map_name(looks, map) + " is written the other way round: rows are columns.";
+  finding.change = "Say \"matrices\": \"row_major\", or hand in the transposed matrix.";
+  return finding;
+}
+
 void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t map, BrokenMaps& broken,
                   FindingList& out) {
   const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
   const std::string name = map_name(looks, map);
   if (std::holds_alternative<DirectionalLight>(light) &&
       looks_transposed(looks.map_at(map).clip_from_world)) {
-    Finding finding = finding_of(FindingKind::transposed, looks, static_cast<int>(map), 1.0, "matrix");
-    finding.what = "The matrix of " + name + " is written the other way round: its last column is 0 0 0 1.";
-    finding.change = "Say \"matrices\": \"row_major\", or hand in the transposed matrix.";
-    out.add(finding);
+    out.add(transposed_finding(looks, map));
     broken[map] = true;
     return;
   }
-  const Orientation o = orientation_of(capture, looks, map);
+  const Orientation o = orientation_of(capture, looks, [&](std::size_t p) { return looks.of[map][p]; });
   if (o.count == 0) return;
+  if (o.degrees > kSameDirection || o.behind > o.count / 2) {
+    const CapturedMap turned = transposed(looks.map_at(map));
+    const Orientation other = orientation_of(capture, looks, [&](std::size_t p) {
+      return look_at(turned, capture.clip_space, light, looks.seen->points[p]);
+    });
+    if (other.count > 0 && other.degrees <= kSameDirection && other.behind <= other.count / 2) {
+      out.add(transposed_finding(looks, map));
+      broken[map] = true;
+      return;
+    }
+  }
   const std::size_t front = o.count - o.behind;
   if (o.behind > o.count / 2) {
     Finding finding =
@@ -89,7 +115,18 @@ void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t m
     broken[map] = true;
     return;
   }
-  if (o.reversed > front / 2) {
+  const bool reversed = o.reversed > front / 2, mirrored = o.mirrored > front / 2;
+  // Seen from behind, left and right change places as near and far do.
+  if (reversed && mirrored && std::holds_alternative<DirectionalLight>(light)) {
+    Finding finding =
+        finding_of(FindingKind::light_direction, looks, static_cast<int>(map), 180.0, "degrees");
+    finding.what = "The light of " + name + " is said to travel the other way than its map looks.";
+    finding.change = "Give the direction that the light travels, not the one towards it.";
+    out.add(finding);
+    broken[map] = true;
+    return;
+  }
+  if (reversed) {
     Finding finding = finding_of(FindingKind::depth_reversed, looks, static_cast<int>(map), 1.0, "matrix");
     finding.what = std::string("Depth in ") + name + " grows " +
                    (capture.clip_space.reversed_z ? "away from" : "towards") +
@@ -98,8 +135,8 @@ void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t m
     out.add(finding);
     broken[map] = true;
   }
-  // Faces of cubes are mirrored by the convention of cube maps.
-  if (o.mirrored > front / 2 && !std::holds_alternative<PointLight>(light)) {
+  // Faces of cubes are mirrored by the convention of cube maps: check_cube() holds them to each other.
+  if (mirrored && !std::holds_alternative<PointLight>(light)) {
     Finding finding = finding_of(FindingKind::mirrored, looks, static_cast<int>(map), 1.0, "matrix");
     finding.what = "The picture of " + name + " is a mirror image: culling removes the wrong faces.";
     finding.change =
@@ -108,11 +145,57 @@ void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t m
   }
 }
 
+/// A face of a point light that is mirrored where most are not, or the other way round.
+void check_cube(const LightLooks& looks, const BrokenMaps& broken, FindingList& out) {
+  std::vector<bool> positive;
+  for (std::size_t map = 0; map < looks.map.size(); ++map) {
+    const glm::dmat4& m = looks.map_at(map).clip_from_world;
+    const glm::dvec3 x{m[0][0], m[1][0], m[2][0]}, y{m[0][1], m[1][1], m[2][1]}, w{m[0][3], m[1][3], m[2][3]};
+    positive.push_back(glm::dot(glm::cross(x, y), w) > 0.0);
+  }
+  const auto count = static_cast<std::size_t>(std::count(positive.begin(), positive.end(), true));
+  if (2 * count == positive.size()) return;
+  const bool most = 2 * count > positive.size();
+  for (std::size_t map = 0; map < positive.size(); ++map) {
+    if (broken[map] || positive[map] == most) continue;
+    Finding finding = finding_of(FindingKind::mirrored, looks, static_cast<int>(map), 1.0, "matrix");
+    finding.what =
+        "The picture of " + map_name(looks, map) + " is a mirror image of what the light's other faces show.";
+    finding.change = "Check the sign of x in the face's view matrix.";
+    out.add(finding);
+  }
+}
+
+/// Texture coordinates in place of clip space: all is in 0..1 across and along the maps of a sun.
+bool is_texture_space(const LightLooks& looks) {
+  const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
+  if (!std::holds_alternative<DirectionalLight>(light)) return false;
+  std::size_t counted = 0, within = 0;
+  for (std::size_t map = 0; map < looks.map.size(); ++map) {
+    for (std::size_t p = 0; p < looks.counts.size(); ++p) {
+      if (looks.counts[p] == 0 || looks.chosen[p] != static_cast<int>(map)) continue;
+      const glm::dvec3& at = looks.of[map][p].clip;
+      ++counted;
+      within +=
+          at.x >= 0.0 && at.y >= 0.0 && at.z >= 0.0 && at.x <= 1.0 && at.y <= 1.0 && at.z <= 1.0 ? 1 : 0;
+    }
+  }
+  // Of sound maps, half of the points are below 0.
+  constexpr std::size_t kEnough = 200;
+  return counted >= kEnough && 100 * within > 98 * counted;
+}
+
 }  // namespace
 
 void check_matrices(const Capture& capture, const LightLooks& looks, BrokenMaps& broken, FindingList& out) {
-  for (std::size_t map = 0; map < looks.map.size(); ++map)
-    check_matrix(capture, looks, static_cast<int>(map), broken, out);
+  for (std::size_t map = 0; map < looks.map.size(); ++map) check_matrix(capture, looks, map, broken, out);
+  const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
+  if (std::holds_alternative<PointLight>(light)) check_cube(looks, broken, out);
+  if (!is_texture_space(looks)) return;
+  Finding finding = finding_of(FindingKind::texture_space, looks, -1, 1.0, "matrix");
+  finding.what = "All that the maps serve lies in 0..1 across and along them: these are texture coordinates.";
+  finding.change = "Hand in the matrices before they are scaled to textures (three.js: not shadow.matrix).";
+  out.add(finding);
 }
 
 }  // namespace gnomon::judge

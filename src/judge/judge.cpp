@@ -14,14 +14,11 @@ namespace gnomon::judge {
 namespace {
 
 constexpr std::array<std::string_view, kFindingKinds> kNames{
-    "transposed",        "light_direction",  "depth_reversed",
-    "mirrored",          "depth_convention", "receivers_outside",
-    "receivers_cut",     "casters_cut",      "selection_disagrees",
-    "gap_between_maps",  "density_step",     "map_unseen",
-    "texels_unseen",     "atlas_overlap",    "atlas_outside",
-    "filter_leaves_map", "matrix_precision", "depth_precision",
-    "bias_small",        "bias_large",       "swimming",
-    "density_jump"};
+    "transposed",       "light_direction",   "depth_reversed",   "mirrored",        "texture_space",
+    "depth_convention", "receivers_outside", "receivers_cut",    "casters_cut",     "selection_disagrees",
+    "gap_between_maps", "density_step",      "map_unseen",       "texels_unseen",   "atlas_overlap",
+    "atlas_outside",    "filter_leaves_map", "matrix_precision", "depth_precision", "bias_small",
+    "bias_large",       "swimming",          "density_jump"};
 
 Box bounds_of(const std::vector<glm::dvec3>& points) {
   Box box;
@@ -117,6 +114,10 @@ LightFigures figures_of(const Capture& capture, const CapturedFrame& frame, cons
 
 std::string_view to_string(FindingKind kind) noexcept {
   return kNames[static_cast<std::size_t>(kind)];
+}
+
+bool is_waste(FindingKind kind) noexcept {
+  return kind == FindingKind::map_unseen || kind == FindingKind::texels_unseen;
 }
 
 std::string digits(double value) {
@@ -256,6 +257,12 @@ Judgement judge(const Capture& capture) {
     findings.begin_frame(static_cast<int>(f));
     std::unique_ptr<JudgedFrame> now = judge_frame(capture, frame, before.get(), findings);
     if (f == 0) {
+      const auto lights_nothing = [](const LightLooks& looks) {
+        return std::none_of(looks.lit.begin(), looks.lit.end(), [](char lit) { return lit != 0; });
+      };
+      if (!now->seen.points.empty() && std::any_of(now->looks.begin(), now->looks.end(), lights_nothing))
+        judgement.notes.push_back(
+            "A light lights nothing that is in view: only the matrices of its maps could be looked at.");
       if (now->seen.points.empty())
         judgement.notes.push_back(
             "Neither points nor receivers are in view: only the matrices of maps could be looked at.");

@@ -18,6 +18,7 @@ enum class FindingKind : std::uint8_t {
   light_direction,      ///< the map looks along another ray than its light's
   depth_reversed,       ///< depth grows the other way than the convention says
   mirrored,             ///< the map shows a mirror image
+  texture_space,        ///< the matrices lead to texture coordinates
   depth_convention,     ///< depths are of the other range: 0..1 or -1..1
   receivers_outside,    ///< visible surfaces are in no map
   receivers_cut,        ///< visible surfaces are before the near or behind the far plane of their map
@@ -40,6 +41,8 @@ enum class FindingKind : std::uint8_t {
 inline constexpr std::size_t kFindingKinds = static_cast<std::size_t>(FindingKind::density_jump) + 1;
 /// As in files: "bias_small".
 [[nodiscard]] std::string_view to_string(FindingKind kind) noexcept;
+/// Whether a finding costs texels and no shadow: map_unseen and texels_unseen.
+[[nodiscard]] bool is_waste(FindingKind kind) noexcept;
 
 /// Three digits.
 [[nodiscard]] std::string digits(double value);

@@ -40,6 +40,15 @@ double depth_of(double z, const ClipSpace& space) noexcept {
   return space.reversed_z ? 1.0 - depth : depth;
 }
 
+double way_to_depth(const CapturedMap& map, const ClipSpace& space, const glm::dvec3& point,
+                    const glm::dvec3& way, double depth) noexcept {
+  const double along = space.reversed_z ? 1.0 - depth : depth;
+  const double z = space.ndc_depth == NdcDepth::zero_to_one ? along : 2.0 * along - 1.0;
+  const glm::dvec4 here = map.clip_from_world * glm::dvec4(point, 1.0);
+  const glm::dvec4 growth = map.clip_from_world * glm::dvec4(way, 0.0);
+  return (z * here.w - here.z) / (growth.z - z * growth.w);
+}
+
 Look look_at(const CapturedMap& map, const ClipSpace& space, const Light& light, const glm::dvec3& point) {
   Look look;
   const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
@@ -70,7 +79,7 @@ double quantile(std::vector<double> values, double share) {
 
 LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const CapturedScene& scene,
                     const SeenSurfaces& seen, int light) {
-  LightLooks looks{&frame, &scene, &seen, light, {}, {}, {}, {}, {}};
+  LightLooks looks{&frame, &scene, &seen, light, {}, {}, {}, {}, {}, {}};
   for (std::size_t i = 0; i < frame.maps.size(); ++i) {
     if (frame.maps[i].light == light) looks.map.push_back(i);
   }
@@ -95,6 +104,7 @@ LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const Ca
     } else if (const auto* bulb = std::get_if<PointLight>(&source)) {
       lit = lit && glm::length(point - bulb->position) <= bulb->range;
     }
+    looks.lit.push_back(lit ? 1 : 0);
     looks.counts.push_back(lit && seen.depths[p] <= end ? 1 : 0);
     int chosen = -1, holding = -1;
     for (std::size_t i = 0; i < looks.map.size(); ++i) {

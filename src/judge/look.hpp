@@ -39,6 +39,7 @@ struct LightLooks {
   int light = 0;
   std::vector<std::size_t> map;       ///< indices of its maps in the frame
   std::vector<std::vector<Look>> of;  ///< by map of this light, then by point
+  std::vector<char> lit;              ///< by point: on the lit side, whatever its depth
   std::vector<char> counts;           ///< by point: on the lit side, within the depths that maps serve
   std::vector<int> chosen;            ///< by point: map of this light that the selection takes, -1: none
   std::vector<int> holding;           ///< by point: first map that holds it, in depth, too; -1: none
@@ -48,6 +49,9 @@ struct LightLooks {
 [[nodiscard]] LightLooks looks_of(const Capture& capture, const CapturedFrame& frame,
                                   const CapturedScene& scene, const SeenSurfaces& seen, int light);
 
+/// How far along a way from a point, world units per length of `way`, the map's depth is `depth`, 0..1.
+[[nodiscard]] double way_to_depth(const CapturedMap& map, const ClipSpace& space, const glm::dvec3& point,
+                                  const glm::dvec3& way, double depth) noexcept;
 /// Depth that a clip z becomes, 0 near .. 1 far, whatever the convention.
 [[nodiscard]] double depth_of(double z, const ClipSpace& space) noexcept;
 /// The middle of the sorted values, or another share of them; 0 of none.

@@ -86,6 +86,11 @@ TEST(Captures, that_are_broken_are_refused_by_key) {
               c["points"] = {{1, 2, 3, 0, 0, 0}};
             }),
             "points[0]: has a normal without length");
+  EXPECT_EQ(refusal("[]"), "capture: needs an object, is array");
+  EXPECT_EQ(refusal([](Json& c) {
+              c["casters"] = {{{"min", {1, 0, 0}}, {"max", {0, 1, 1}}}};
+            }),
+            "casters[0]: has min above max");
   EXPECT_EQ(refusal([](Json& c) { c["frames"] = Json::array(); }),
             "frames: needs a list of 1 to 4096 frames");
   EXPECT_EQ(refusal([](Json& c) { c["frames"] = {1}; }), "frames[0]: needs an object");

@@ -100,7 +100,7 @@ const std::vector<Fault> kFaults = {
      [](Json& c) {
        each_light(c, "direction", {-0.6123724356957946, 0.7071067811865475, 0.35355339059327384});
      },
-     "depth_reversed"},
+     "light_direction"},
     {"reversed depth that the engine has not", "three_sunlight",
      [](Json& c) {
        c["clip_space"]["reversed_z"] = true;
@@ -119,6 +119,33 @@ const std::vector<Fault> kFaults = {
        c["camera_clip_space"] = Json::object();
      },
      "mirrored"},
+    {"matrices that lead to textures", "three_csm",
+     [](Json& c) {
+       glm::dmat4 texture = scaled(0.5, 0.5, 0.5, 0.5);
+       texture[3][0] = texture[3][1] = 0.5;
+       transform_maps(c, texture);
+     },
+     "texture_space"},
+    {"a spot's matrix transposed", "three_spot",
+     [](Json& c) {
+       for_each_map(c, [](Json& map, std::size_t) {
+         map["clip_from_world"] = numbers(glm::transpose(matrix(map["clip_from_world"])));
+       });
+     },
+     "transposed"},
+    {"the first cascade begins too late", "babylon_stabilized",
+     [](Json& c) {
+       for (Json& frame : c["frames"]) frame["maps"][0]["depths"][0] = 20.0;
+     },
+     "gap_between_maps"},
+    {"depths of clip space in place of the view's", "three_csm",
+     [](Json& c) {
+       for (Json& frame : c["frames"]) {
+         for (std::size_t i = 0; i < frame["maps"].size(); ++i)
+           frame["maps"][i]["depths"] = {0.25 * static_cast<double>(i), 0.25 * static_cast<double>(i + 1)};
+       }
+     },
+     "gap_between_maps"},
     {"a matrix of OpenGL's depths for an API of 0 to 1", "three_csm",
      [](Json& c) {
        c["clip_space"]["ndc_depth"] = "zero_to_one";

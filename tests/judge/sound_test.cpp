@@ -124,6 +124,38 @@ TEST(SoundCaptures, have_none_in_other_conventions_that_are_stated) {
   }
 }
 
+TEST(SoundCaptures, may_have_lights_below_a_ceiling) {
+  // A floor, a lamp above it, and a ceiling above the lamp, which shadows nothing.
+  PlanOptions options;
+  const std::vector<Box> floor{{{-20, -0.1, -20}, {20, 0, 20}}};
+  const std::vector<Box> casters{{{-1, 0, -1}, {1, 1, 1}}, {{-20, 3, -20}, {20, 3.5, 20}}};
+  const Camera camera = perspective_camera({0, 2, 8}, {0, -0.3, -1}, {0, 1, 0}, 1.0, 1.5, 0.1, 60, 600, 400);
+  const SpotLight spot{{0, 2.9, 0}, {0, -1, 0}, 0.9, 10.0};
+  const ShadowPlan plan = make_plan(camera, spot, {casters, floor}, options);
+  ASSERT_EQ(plan.map_count, 1);
+  const auto box = [](const Box& b) {
+    return Json{{"min", {b.min.x, b.min.y, b.min.z}}, {"max", {b.max.x, b.max.y, b.max.z}}};
+  };
+  Json c{{"format", "gnomon-capture/1"},
+         {"camera",
+          {{"view_from_world", numbers(view_from_world(camera))},
+           {"clip_from_view", numbers(clip_from_view(camera))},
+           {"width", 600},
+           {"height", 400}}},
+         {"lights",
+          {{{"type", "spot"},
+            {"position", {0, 2.9, 0}},
+            {"direction", {0, -1, 0}},
+            {"outer_deg", 51.56},
+            {"range", 10}}}},
+         {"bias", {{"texels", 0.5}, {"follows_plane", true}}},
+         {"maps",
+          {{{"clip_from_world", numbers(plan.map[0].clip_from_world)}, {"width", 1024}, {"height", 1024}}}},
+         {"receivers", {box(floor[0])}},
+         {"casters", {box(casters[0]), box(casters[1])}}};
+  EXPECT_THAT(kinds(judged(c)), testing::IsEmpty());
+}
+
 TEST(SoundCaptures, have_plans_beside_them_with_less_error) {
   for (const std::string& name : kNames) {
     if (name == "three_spot") continue;  // a spot near by: both have texels to spare

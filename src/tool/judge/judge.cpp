@@ -1,6 +1,7 @@
 // `gnomon judge`: what is wrong with the shadow maps that an engine hands in?
 #include "judge/judge.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -39,6 +40,7 @@ Json error_json(const AliasingStats& error) {
 
 Json finding_json(const judge::Finding& finding) {
   Json json{{"kind", to_string(finding.kind)},
+            {"grade", judge::is_waste(finding.kind) ? "waste" : "error"},
             {"what", finding.what},
             {"change", finding.change},
             {"size", number(finding.size)},
@@ -146,8 +148,9 @@ bool beyond_limits(const JudgeRequest& request, const judge::Judgement& judgemen
   for (const DrawnLightErrors& errors : drawn)
     if (request.max_misclassified > 0.0 && 100.0 * errors.captured.wrong > request.max_misclassified)
       return true;
-  if (request.max_findings >= 0.0 && static_cast<double>(judgement.findings.size()) > request.max_findings)
-    return true;
+  const auto errors = std::count_if(judgement.findings.begin(), judgement.findings.end(),
+                                    [](const judge::Finding& f) { return !is_waste(f.kind); });
+  if (request.max_findings >= 0.0 && static_cast<double>(errors) > request.max_findings) return true;
   if (!(request.max_m > 0.0)) return false;
   for (const judge::LightFigures& light : judgement.lights) {
     if (!(light.error.p95 <= request.max_m)) return true;
@@ -215,7 +218,7 @@ std::function<int()> declare_judge(Arguments& arguments) {
        .range = {{0.0, 1e9}}},
       {.name = "--max-findings",
        .target = &request->max_findings,
-       .help = "exit with 1 where there are more findings than this; -1: no limit",
+       .help = "exit with 1 where there are more findings than this, waste of texels aside; -1: no limit",
        .range = {{-1.0, 1e9}}},
       {.name = "--out",
        .target = &request->out,

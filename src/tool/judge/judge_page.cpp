@@ -116,14 +116,15 @@ std::string marks_of(const judge::Judgement& judgement, int light, const Camera&
 }
 
 std::string error_cells(const AliasingStats& error) {
+  if (error.samples == 0) return "<td>-</td><td>-</td><td>-</td>";
   return "<td>" + short_number(error.p50) + "</td><td>" + short_number(error.p95) + "</td><td>" +
          short_number(error.max) + "</td>";
 }
 
 std::string figures_table(const judge::LightFigures& light) {
   std::string out = report::scroll_box("Errors of light " + std::to_string(light.light)) +
-                    "<table><thead><tr><th>maps</th><th>texels</th><th>m, median</th><th>95th percentile</th>"
-                    "<th>largest</th></tr></thead><tbody>";
+                    "<table><thead><tr><th>maps</th><th>texels</th><th>m p50</th><th>p95</th>"
+                    "<th>max</th></tr></thead><tbody>";
   out += "<tr><td>the capture's " + std::to_string(light.maps) + "</td><td>" + std::to_string(light.texels) +
          "</td>" + error_cells(light.error) + "</tr>";
   for (std::size_t i = 0; i < light.of_map.size() && light.of_map.size() > 1; ++i)
@@ -141,7 +142,8 @@ std::string figures_table(const judge::LightFigures& light) {
 }
 
 std::string place_of(const judge::Capture& capture, const judge::Finding& finding) {
-  std::string out = std::string(to_string(finding.kind)) + " · light " + std::to_string(finding.light);
+  std::string out = std::string(to_string(finding.kind)) + (judge::is_waste(finding.kind) ? " (waste)" : "") +
+                    " · light " + std::to_string(finding.light);
   if (finding.map >= 0) out += ", map " + std::to_string(finding.map);
   for (const int map : finding.also) out += ", " + std::to_string(map);
   if (capture.frames.size() > 1)
