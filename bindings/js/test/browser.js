@@ -12,6 +12,8 @@ const IMPORTS = {
   'three/addons/': '/node_modules/three/examples/jsm/',
   gnomon: '/node_modules/gnomon/index.js',
   'gnomon/three': '/node_modules/gnomon/three.js',
+  'gnomon/babylon': '/node_modules/gnomon/babylon.js',
+  '@babylonjs/core/': '/node_modules/@babylonjs/core/',
   'three-mesh-bvh': '/node_modules/three-mesh-bvh/build/index.module.js',
 };
 const EMPTY = `<!doctype html><link rel="icon" href="data:,"><script type="importmap">${JSON.stringify({ imports: IMPORTS })}</script><body></body>`;

@@ -1,7 +1,7 @@
-// Are gnomon's maps better in three.js than its own while the camera moves? Flights, counted against exact rays.
-//   node test/flights.js [FRAMES] [PICTURES]     FRAMES: 120; PICTURES: a folder for one picture of each flight and technique
-//   node test/flights.js --biases                three's own with several biases, two frames of the scenes that need one
-// CONSUMER: a folder in which gnomon, three, three-mesh-bvh and puppeteer-core are installed, as all.sh leaves it.
+// Are gnomon's maps better in an engine than its own while the camera moves? Flights, counted against exact rays.
+//   node test/flights.js [babylon] [FRAMES] [PICTURES]   FRAMES: 120; PICTURES: a folder for one picture of each flight and technique
+//   node test/flights.js [babylon] --biases              the engine's own with several biases, a few frames of the scenes that need one
+// CONSUMER: a folder in which gnomon, the engines, three-mesh-bvh and puppeteer-core are installed, as all.sh leaves it.
 // SCENES: a folder of glTF scenes; without it the city is not flown.
 import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -12,22 +12,23 @@ const here = dirname(fileURLToPath(import.meta.url));
 const consumer = process.env.CONSUMER ?? join(here, '../../../build/js/consumer');
 const folder = process.env.SCENES ?? join(here, '../../../../shared/scenes');
 const SIZES = { 1024: [960, 540], 512: [640, 360] };
+const PAGES = { three: 'flights_page.js', babylon: 'babylon_page.js' };
 
-/** Rows of one flight: misclassified pixels, flips and acne of every technique. `others`: see run() of flights_page.js. */
-export async function fly(scene, size, frames, others = {}) {
+/** Rows of one flight: misclassified pixels, flips and acne of every technique. `others`: see run() of the pages. */
+export async function fly(scene, size, frames, { engine = 'three', ...others } = {}) {
   if (scene === 'city' && !existsSync(join(folder, 'low_poly_city'))) return { rows: [], pictures: {} };
-  const { result, errors } = await inBrowser('flights_page.js', consumer, { scene, size, picture: SIZES[size], frames, ...others }, folder);
+  const { result, errors } = await inBrowser(PAGES[engine], consumer, { scene, size, picture: SIZES[size], frames, ...others }, folder);
   if (errors.length > 0) throw new Error(errors.join('\n'));
   return result;
 }
 
 const percent = (share) => `${(100 * share).toFixed(3)} %`;
 
-async function table(frames, out) {
+async function table(engine, frames, out) {
   console.log('| scene | maps | technique | misclassified | to its own | flips | to its own | acne |\n|--|--|--|--:|--:|--:|--:|--:|');
   for (const size of Object.keys(SIZES).map(Number)) {
     for (const scene of ['street', 'low sun', 'city']) {
-      const { rows, pictures } = await fly(scene, size, frames, out === undefined ? {} : { pictureOf: frames >> 1 });
+      const { rows, pictures } = await fly(scene, size, frames, { engine, ...(out === undefined ? {} : { pictureOf: frames >> 1 }) });
       let own;
       for (const row of rows) {
         if (!row.technique.includes(',')) own = row;
@@ -40,13 +41,18 @@ async function table(frames, out) {
   }
 }
 
-async function biases() {
+async function biases(engine) {
+  const three = engine === 'three';
   for (const size of Object.keys(SIZES).map(Number)) {
-    for (const scene of ['both sides', 'city']) {
-      const { rows } = await fly(scene, size, 2, { step: 45, sweep: true });
+    for (const scene of three ? ['both sides', 'city'] : ['street', 'low sun', 'both sides', 'city']) {
+      const { rows } = await fly(scene, size, three ? 2 : 6, { engine, step: three ? 45 : 17, sweep: true });
       for (const { technique, wrong, acne } of rows) console.log(`${scene}, ${size}², ${technique}: ${percent(wrong)} misclassified, ${percent(acne)} acne`);
     }
   }
 }
 
-if (process.argv[1] === fileURLToPath(import.meta.url)) await (process.argv[2] === '--biases' ? biases() : table(Number(process.argv[2] ?? 120), process.argv[3]));
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const given = process.argv.slice(2);
+  const engine = given[0] === 'babylon' ? given.shift() : 'three';
+  await (given[0] === '--biases' ? biases(engine) : table(engine, Number(given[0] ?? 120), given[1]));
+}

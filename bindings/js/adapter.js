@@ -1,0 +1,60 @@
+// What do the adapters of engines share? Defaults of their plans, and boxes that are gathered again and again.
+import { GnomonError } from './memory.js';
+
+// Far smaller texels than a grid that never moves, and at their place as long as the view stays in a map.
+const DEFAULTS = { fit: 'warped_stable' };
+// The first map of a grid that never moves begins at the near plane, whatever is in view: more weight on even splits keeps it
+// from being spent on the metres before the eye.
+const STEADY = { fit: 'stable', splitScheme: 'practical', splitLambda: 0.7 };
+export const withDefaults = (options) => ({ ...(options.fit === 'stable' ? STEADY : DEFAULTS), ...options });
+
+/** Refuses what load() did not return, before a frame does. */
+export function loaded(gnomon) {
+  if (typeof gnomon?.casterSet !== 'function') throw new GnomonError('gnomon', 'gnomon: gnomon: expected what load() returns');
+  return gnomon;
+}
+
+/** A set of boxes that is made again when their number changes, and refitted when one of them moved. */
+export class FollowedBoxes {
+  constructor(gnomon) {
+    this.gnomon = gnomon;
+    this.boxes = new Float64Array(6 * 64);
+    this.count = 0;
+    this.set = gnomon.casterSet([]);
+    this.begin();
+  }
+  begin() {
+    this.next = 0;
+    this.moved = false;
+  }
+  add(x0, y0, z0, x1, y1, z1) {
+    const at = 6 * this.next++;
+    if (at === this.boxes.length) {
+      const larger = new Float64Array(2 * at);
+      larger.set(this.boxes);
+      this.boxes = larger;
+    }
+    const { boxes } = this;
+    this.moved ||= boxes[at] !== x0 || boxes[at + 1] !== y0 || boxes[at + 2] !== z0 || boxes[at + 3] !== x1 || boxes[at + 4] !== y1 || boxes[at + 5] !== z1;
+    boxes[at] = x0;
+    boxes[at + 1] = y0;
+    boxes[at + 2] = z0;
+    boxes[at + 3] = x1;
+    boxes[at + 4] = y1;
+    boxes[at + 5] = z1;
+  }
+  end() {
+    const boxes = this.boxes.subarray(0, 6 * this.next);
+    if (this.next !== this.count) {
+      const set = this.gnomon.casterSet(boxes);
+      this.set.dispose();
+      this.set = set;
+      this.count = this.next;
+    } else if (this.moved) {
+      this.set.refit(boxes);
+    }
+  }
+  dispose() {
+    this.set.dispose();
+  }
+}
