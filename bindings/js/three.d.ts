@@ -1,16 +1,18 @@
 // gnomon's shadow maps in three.js: what three.js takes and has. Needs the types of three (@types/three).
-import type { Camera as ThreeCamera, DirectionalLight, LightShadow, Material, Object3D, OrthographicCamera, Vector3 } from 'three';
+import type { Camera as ThreeCamera, DirectionalLight, LightShadow, Material, Object3D, OrthographicCamera, PerspectiveCamera, Vector3 } from 'three';
 import type { Camera, CasterSet, Gnomon, History, PlanOptions, PlanResult, ShadowMap } from './index.js';
 
-/** Boxes of the meshes that cast and receive shadows, gathered once. */
+/** Boxes of the meshes that cast and receive shadows, gathered once and followed as meshes move. */
 export class ShadowBounds {
   constructor(gnomon: Gnomon, scene: Object3D);
   readonly casters: CasterSet;
   readonly receivers: CasterSet;
   /** True where a caster's front faces are drawn into maps, which then need a bias. */
   readonly frontFaces: boolean;
-  /** Gathers them again: after meshes moved, came or went. */
+  /** Gathers them again: after meshes came, went or changed. */
   update(): void;
+  /** Takes the places of the meshes; the shadows call it in each frame. */
+  follow(): void;
   dispose(): void;
 }
 
@@ -35,6 +37,23 @@ export class GnomonSunShadow extends LightShadow<OrthographicCamera> {
   readonly history: History;
   options: PlanOptions;
   /** Of the last frame; null before it. */
+  readonly plan: PlanResult | null;
+}
+
+/**
+ * `spot.shadow = new GnomonSpotShadow(gnomon, scene)`, for three's SpotLight. A light with a picture (`map`), or with a cone beyond
+ * 84.9 degrees, keeps three's own map.
+ */
+export class GnomonSpotShadow extends LightShadow<PerspectiveCamera> {
+  constructor(gnomon: Gnomon, scene: Object3D, options?: GnomonShadowOptions);
+  readonly isGnomonSpotShadow: true;
+  readonly isSpotLightShadow: true;
+  focus: number;
+  aspect: number;
+  readonly bounds: ShadowBounds;
+  readonly history: History;
+  options: PlanOptions;
+  /** Of the last frame; null before it, and where three's own map holds. */
   readonly plan: PlanResult | null;
 }
 

@@ -1,31 +1,40 @@
-// gnomon's shadow maps in three.js (0.187 and newer): the shadow of its SunLight, and the lights of its CSM add-on. Shaders,
-// lights and materials are three's own; the matrices, splits and biases are gnomon's.
-import { BackSide, Box3, FrontSide, Matrix4, OrthographicCamera, Vector3, WebGPUCoordinateSystem } from 'three';
+// gnomon's shadow maps in three.js (0.187 and newer): the shadows of its SunLight and SpotLight, and the lights of its CSM
+// add-on. Shaders, lights and materials are three's own; the matrices, splits and biases are gnomon's.
+import { BackSide, Box3, FrontSide, Matrix4, OrthographicCamera, PerspectiveCamera, SpotLight, Vector3, WebGPUCoordinateSystem } from 'three';
 import { CSM } from 'three/addons/csm/CSM.js';
 import { SunLightShadow } from 'three/addons/lights/SunLightShadow.js';
-
-// Far smaller texels than a grid that never moves, and at their place as long as the view stays in a map.
-const DEFAULTS = { fit: 'warped_stable' };
-// The first map of a grid that never moves begins at the near plane, whatever is in view: more weight on even splits keeps it
-// from being spent on the metres before the eye.
-const STEADY = { fit: 'stable', splitScheme: 'practical', splitLambda: 0.7 };
-const withDefaults = (options) => ({ ...(options.fit === 'stable' ? STEADY : DEFAULTS), ...options });
+import { FollowedBoxes, loaded, withDefaults } from './adapter.js';
 
 const box = /*@__PURE__*/ new Box3();
 const direction = /*@__PURE__*/ new Vector3();
 const shift = /*@__PURE__*/ new Matrix4();
+const inverse = /*@__PURE__*/ new Matrix4();
+const place = /*@__PURE__*/ new Vector3();
+const moved = /*@__PURE__*/ new Vector3();
+// three does not export it.
+const SpotLightShadow = /*@__PURE__*/ (() => new SpotLight().shadow.constructor)();
+// A wider cone needs more than one map.
+const WIDEST = (84.9 / 180) * Math.PI;
 
-/** Boxes of the meshes below an object that cast and receive shadows, gathered once: call update() after changes. */
+/**
+ * Boxes of the meshes below an object that cast and receive shadows. follow() takes their places, each frame; update() gathers them
+ * again, after meshes came, went or changed.
+ */
 export class ShadowBounds {
   constructor(gnomon, scene) {
-    this.gnomon = gnomon;
     this.scene = scene;
+    this.all = { casters: new FollowedBoxes(loaded(gnomon)), receivers: new FollowedBoxes(gnomon) };
     this.update();
+  }
+  get casters() {
+    return this.all.casters.set;
+  }
+  get receivers() {
+    return this.all.receivers.set;
   }
 
   update() {
-    const casters = [];
-    const receivers = [];
+    this.meshes = [];
     this.frontFaces = false;
     this.scene.updateMatrixWorld();
     this.scene.traverseVisible((mesh) => {
@@ -33,12 +42,9 @@ export class ShadowBounds {
       // Instances and skins have bounds of their own; others take those of their geometry.
       const own = typeof mesh.computeBoundingBox === 'function' ? mesh : mesh.geometry;
       if (own.boundingBox === null) own.computeBoundingBox();
-      box.copy(own.boundingBox).applyMatrix4(mesh.matrixWorld);
-      if (box.isEmpty()) return;
-      const bounds = [box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z];
-      if (mesh.receiveShadow) receivers.push(...bounds);
+      if (own.boundingBox.isEmpty()) return;
+      this.meshes.push([mesh, own]);
       if (!mesh.castShadow) return;
-      casters.push(...bounds);
       // What three draws into its maps: the back faces of one-sided materials, unless they say otherwise.
       for (const { side, shadowSide } of [mesh.material].flat()) {
         const drawn = shadowSide ?? (side === FrontSide ? BackSide : side === BackSide ? FrontSide : side);
@@ -47,14 +53,25 @@ export class ShadowBounds {
         drawWithSlope(mesh);
       }
     });
-    this.dispose();
-    this.casters = this.gnomon.casterSet(casters);
-    this.receivers = this.gnomon.casterSet(receivers);
+    this.follow();
+  }
+
+  follow() {
+    const { casters, receivers } = this.all;
+    casters.begin();
+    receivers.begin();
+    for (const [mesh, { boundingBox }] of this.meshes) {
+      const { min, max } = box.copy(boundingBox).applyMatrix4(mesh.matrixWorld);
+      if (mesh.castShadow) casters.add(min.x, min.y, min.z, max.x, max.y, max.z);
+      if (mesh.receiveShadow) receivers.add(min.x, min.y, min.z, max.x, max.y, max.z);
+    }
+    casters.end();
+    receivers.end();
   }
 
   dispose() {
-    this.casters?.dispose();
-    this.receivers?.dispose();
+    this.all.casters.dispose();
+    this.all.receivers.dispose();
   }
 }
 
@@ -136,7 +153,7 @@ export class GnomonSunShadow extends SunLightShadow {
   constructor(gnomon, scene, { options = {}, resolution = [1920, 1080], bounds } = {}) {
     super();
     this.isGnomonSunShadow = true;
-    this.gnomon = gnomon;
+    this.gnomon = loaded(gnomon);
     this.bounds = bounds ?? new ShadowBounds(gnomon, scene);
     this.ownsBounds = bounds === undefined;
     this.history = gnomon.history();
@@ -152,6 +169,7 @@ export class GnomonSunShadow extends SunLightShadow {
     const inset = Math.min(0.25, (Math.ceil(this.radius) + 1) / this.mapSize.x);
     for (let i = 0; i < count; ++i) this._viewports[i].set(i + inset, inset, 1 - 2 * inset, 1 - 2 * inset);
     direction.setFromMatrixPosition(light.matrixWorld).negate();
+    this.bounds.follow();
     this.plan = this.gnomon.plan({
       camera: cameraOf(this.gnomon, viewCamera, this.resolution, this.camera.far),
       light: { direction: direction.toArray() },
@@ -193,13 +211,89 @@ export class GnomonSunShadow extends SunLightShadow {
 }
 
 /**
+ * The shadow of a SpotLight: `spot.shadow = new GnomonSpotShadow(gnomon, scene)`. Its map holds what of the cone is in view. The
+ * light ends at its distance, or at `camera.far`. gnomon sets `bias`. A light with a picture (`map`) or with a cone beyond 84.9
+ * degrees has three's own map.
+ */
+export class GnomonSpotShadow extends SpotLightShadow {
+  /** options, resolution, bounds: as those of GnomonSunShadow. */
+  constructor(gnomon, scene, { options = {}, resolution = [1920, 1080], bounds } = {}) {
+    super();
+    this.isGnomonSpotShadow = true;
+    this.gnomon = loaded(gnomon);
+    this.bounds = bounds ?? new ShadowBounds(gnomon, scene);
+    this.ownsBounds = bounds === undefined;
+    this.history = gnomon.history();
+    this.options = withDefaults(options);
+    this.resolution = resolution;
+    this.plan = null;
+    this.fitted = new PerspectiveCamera();
+  }
+
+  getCamera() {
+    return this.plan?.maps.length > 0 ? this.fitted : this.camera;
+  }
+
+  updateMatrices(light, viewCamera) {
+    super.updateMatrices(light);
+    this.plan = null;
+    // The matrix also places the light's picture.
+    if (viewCamera === undefined || light.map || !(light.angle < WIDEST)) return;
+    direction.setFromMatrixPosition(light.target.matrixWorld).sub(place.setFromMatrixPosition(light.matrixWorld));
+    this.bounds.follow();
+    this.plan = this.gnomon.plan({
+      camera: cameraOf(this.gnomon, viewCamera, this.resolution),
+      light: { kind: 'spot', position: place.toArray(), direction: direction.toArray(), outerRadians: light.angle, range: light.distance || this.camera.far },
+      casters: this.bounds.casters,
+      receivers: this.bounds.receivers,
+      options: {
+        ...this.options,
+        resolutionMaxSize: Math.max(4, Math.min(this.mapSize.x, this.mapSize.y)),
+        filterTexels: Math.ceil(this.radius) + 1,
+        clipSpace: clipSpaceOf(this.camera),
+      },
+      history: this.history,
+    });
+    const [map] = this.plan.maps;
+    if (map === undefined) {
+      setEmpty(this._frustum);
+      return;
+    }
+    setCamera(this.fitted, map, this.camera);
+    this._updateMatrix(this.fitted, this.matrix, this._frustum);
+    const { bias, slope } = biasOf(map, { frontFaces: this.bounds.frontFaces, radius: this.radius, slopeTexels: this.plan.biasSlopeTexels });
+    // Depths of a perspective are no lengths: those at the distance of the map's texels.
+    this.bias = bias === 0 ? 0 : -this.depthOf(map);
+    this.fitted.userData.gnomonSlope = slope;
+  }
+
+  /** What the map's constant bias is at the distance of its middle texel, in depths of 0..1. */
+  depthOf(map) {
+    inverse.copy(this.matrix).invert();
+    const far = moved.set(0.5, 0.5, 1 - 1e-3).applyMatrix4(inverse).sub(place);
+    const reach = far.length();
+    const axis = far.divideScalar(reach);
+    const side = direction.set(0.5 + 1 / map.width, 0.5, 1 - 1e-3).applyMatrix4(inverse).sub(place).addScaledVector(axis, -reach).length();
+    const distance = reach * Math.min(1, map.texelWorld[0] / side);
+    const depth = (length) => direction.copy(place).addScaledVector(axis, length).applyMatrix4(this.matrix).z;
+    return Math.abs(depth(distance + map.biasConstant) - depth(distance));
+  }
+
+  dispose() {
+    super.dispose();
+    this.history.dispose();
+    if (this.ownsBounds) this.bounds.dispose();
+  }
+}
+
+/**
  * The CSM add-on with gnomon's maps: `new GnomonCSM(gnomon, { parent: scene, camera, cascades: 4, ... })`. Takes the data of
  * CSM, and `options` of the plan, `resolution` and `bounds` as GnomonSunShadow. update() plans; updateFrustums() is not needed.
  */
 export class GnomonCSM extends CSM {
   constructor(gnomon, { options = {}, resolution = [1920, 1080], bounds, ...data }) {
     super(data);
-    this.gnomon = gnomon;
+    this.gnomon = loaded(gnomon);
     this.bounds = bounds ?? new ShadowBounds(gnomon, data.parent);
     this.ownsBounds = bounds === undefined;
     this.history = gnomon.history();
@@ -219,6 +313,9 @@ export class GnomonCSM extends CSM {
     camera.updateMatrixWorld();
     const far = Math.min(camera.far, this.maxFar);
     const { radius } = this.lights[0].shadow;
+    // three updates the places of meshes after this.
+    this.bounds.scene.updateMatrixWorld();
+    this.bounds.follow();
     this.plan = this.gnomon.plan({
       camera: cameraOf(this.gnomon, camera, this.resolution, far),
       light: { direction: lightDirection.toArray() },

@@ -45,6 +45,8 @@ const BABYLON = { 512: { cascaded: [0.01, 0], single: [0.02, 0.2] }, 1024: { cas
 export const SCENES = {
   street: { meshes: streetMeshes, toSun: [-0.5, 1, 0.35], place: walk, babylon: BABYLON },
   'low sun': { meshes: streetMeshes, toSun: [-0.8, 0.28, -0.45], place: walk, babylon: BABYLON },
+  // A spot above the street, in place of a sun.
+  lamp: { meshes: streetMeshes, place: walk, lamp: { position: [0, 18, -20], target: [2, 0, -50], angle: 0.9, distance: 200 } },
   // Front faces in maps need a bias: three's own shadows take the one with the fewest misclassified pixels of those in BIASES
   // that leave acne on less than 2 % of the pixels (`flights.js --biases`).
   'both sides': {
@@ -73,9 +75,10 @@ export function sceneOf(meshes, shadowSide = null) {
 
 /** Whether the sun reaches what each pixel shows, by rays from there: 1 lit, 0 in shadow, -1 where nothing is counted. */
 export class Truth {
-  constructor(renderer, meshes, toSun, [width, height]) {
+  /** `light`: the direction to a sun, or a lamp of SCENES. */
+  constructor(renderer, meshes, light, [width, height]) {
     this.renderer = renderer;
-    this.toSun = toSun;
+    this.light = light;
     const soup = meshes.map(({ geometry, matrix }) => {
       const flat = new THREE.BufferGeometry();
       flat.setAttribute('position', (geometry.index ? geometry.toNonIndexed() : geometry).getAttribute('position').clone());
@@ -95,7 +98,9 @@ export class Truth {
   }
 
   of(camera) {
-    const { renderer, target, places, normals, toSun } = this;
+    const { renderer, target, places, normals, light } = this;
+    const position = light.isVector3 ? undefined : new THREE.Vector3(...light.position);
+    const axis = position && new THREE.Vector3(...light.target).sub(position).normalize();
     const { width, height } = target;
     renderer.setRenderTarget(target);
     renderer.setClearColor(0, 0);
@@ -104,14 +109,23 @@ export class Truth {
     renderer.readRenderTargetPixels(target, 0, 0, width, height, places, undefined, 0);
     renderer.readRenderTargetPixels(target, 0, 0, width, height, normals, undefined, 1);
     const truth = new Int8Array(width * height).fill(-1);
-    const ray = new THREE.Ray(new THREE.Vector3(), toSun);
+    const ray = new THREE.Ray(new THREE.Vector3(), position ? new THREE.Vector3() : light);
     const normal = new THREE.Vector3();
     for (let i = 0; i < truth.length; ++i) {
       if (places[4 * i + 3] === 0) continue;
       normal.fromArray(normals, 4 * i);
-      if (!(normal.dot(toSun) >= LEAST_COSINE)) continue;
-      ray.origin.fromArray(places, 4 * i).addScaledVector(normal, 1e-3);
-      truth[i] = this.bvh.raycastFirst(ray, THREE.DoubleSide) === null ? 1 : 0;
+      ray.origin.fromArray(places, 4 * i);
+      let far = Infinity;
+      if (position) {
+        far = ray.direction.copy(position).sub(ray.origin).length();
+        ray.direction.divideScalar(far);
+        // Its rim is smooth in the picture.
+        if (ray.direction.dot(axis) > -Math.cos(light.angle - 0.02) || far > light.distance) continue;
+      }
+      if (!(normal.dot(ray.direction) >= LEAST_COSINE)) continue;
+      ray.origin.addScaledVector(normal, 1e-3);
+      const hit = this.bvh.raycastFirst(ray, THREE.DoubleSide);
+      truth[i] = hit === null || hit.distance >= far ? 1 : 0;
     }
     return truth;
   }

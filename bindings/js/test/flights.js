@@ -27,7 +27,7 @@ const percent = (share) => `${(100 * share).toFixed(3)} %`;
 async function table(engine, frames, out) {
   console.log('| scene | maps | technique | misclassified | to its own | flips | to its own | acne |\n|--|--|--|--:|--:|--:|--:|--:|');
   for (const size of Object.keys(SIZES).map(Number)) {
-    for (const scene of ['street', 'low sun', 'city']) {
+    for (const scene of engine === 'three' ? ['street', 'low sun', 'lamp', 'city'] : ['street', 'low sun', 'city']) {
       const { rows, pictures } = await fly(scene, size, frames, { engine, ...(out === undefined ? {} : { pictureOf: frames >> 1 }) });
       let own;
       for (const row of rows) {

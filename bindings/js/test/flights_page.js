@@ -3,15 +3,24 @@ import * as THREE from 'three';
 import { CSM } from 'three/addons/csm/CSM.js';
 import { SunLight } from 'three/addons/lights/SunLight.js';
 import { load } from 'gnomon';
-import { GnomonCSM, GnomonSunShadow } from 'gnomon/three';
+import { GnomonCSM, GnomonSpotShadow, GnomonSunShadow } from 'gnomon/three';
 import { Count, FAR, SCENES, Truth, nearShadow, picture, sceneOf } from './exact.js';
 
 // Depths and lengths along the normal, of SunLight and of CSM: their maps are not equally deep.
 const BIASES = { sun: [[-0.001, -0.002, -0.004], [0, 0.1, 0.2, 0.4]], csm: [[-0.0001, -0.0002, -0.0004], [0, 0.05, 0.1, 0.2]] };
 const FITS = { gnomon: {}, 'gnomon, tight': { fit: 'tight' }, 'gnomon, stable': { fit: 'stable' } };
 
+function spotOf({ position, target, angle, distance }) {
+  const light = new THREE.SpotLight(0xffffff, Math.PI, 0, angle, 0, 0);
+  light.position.set(...position);
+  light.target.position.set(...target);
+  light.target.updateMatrixWorld();
+  light.shadow.camera.far = distance;
+  return light;
+}
+
 /** How each technique is made: three's own and with gnomon's maps, or three's own with every bias of BIASES. */
-function techniquesOf(gnomon, camera, { meshes, toSun, shadowSide, biases }, [width, height], size, sweep) {
+function techniquesOf(gnomon, camera, { meshes, toSun, lamp, shadowSide, biases }, [width, height], size, sweep) {
   const resolution = [width, height];
   const sun = (set) => () => {
     const { scene } = sceneOf(meshes, shadowSide);
@@ -30,6 +39,16 @@ function techniquesOf(gnomon, camera, { meshes, toSun, shadowSide, biases }, [wi
     shadows.updateFrustums();
     return { scene, prepare: () => shadows.update(), dispose() { shadows.remove(); shadows.dispose(); } };
   };
+  const spot = (set) => () => {
+    const { scene } = sceneOf(meshes, shadowSide);
+    const light = spotOf(lamp);
+    light.castShadow = true;
+    set(light, scene);
+    light.shadow.camera.far = lamp.distance;
+    light.shadow.mapSize.set(size, size);
+    scene.add(light);
+    return { scene, prepare() {}, dispose: () => light.dispose() };
+  };
   const ownSun = ([bias, normalBias]) => sun(({ shadow }) => Object.assign(shadow, { bias, normalBias }));
   const ownCsm = ([bias, normalBias]) => csm((data) => {
     const shadows = new CSM(data);
@@ -37,6 +56,11 @@ function techniquesOf(gnomon, camera, { meshes, toSun, shadowSide, biases }, [wi
     return shadows;
   });
   const all = {};
+  if (lamp !== undefined) {
+    all.SpotLight = spot(() => {});
+    for (const [name, options] of Object.entries(FITS)) all[`SpotLight, ${name}`] = spot((light, scene) => { light.shadow = new GnomonSpotShadow(gnomon, scene, { resolution, options }); });
+    return all;
+  }
   if (sweep) {
     for (const bias of BIASES.sun[0]) for (const normal of BIASES.sun[1]) all[`SunLight ${bias} ${normal}`] = ownSun([bias, normal]);
     for (const bias of BIASES.csm[0]) for (const normal of BIASES.csm[1]) all[`CSM ${bias} ${normal}`] = ownCsm([bias, normal]);
@@ -63,12 +87,13 @@ export async function run({ scene, size, picture: [width, height], frames, step 
     return pixels;
   };
   const meshes = await SCENES[scene].meshes();
-  const toSun = new THREE.Vector3(...SCENES[scene].toSun).normalize();
+  const { lamp } = SCENES[scene];
+  const toSun = lamp === undefined ? new THREE.Vector3(...SCENES[scene].toSun).normalize() : undefined;
   const camera = new THREE.PerspectiveCamera(57, width / height, 0.2, FAR);
-  const exact = new Truth(renderer, meshes, toSun, [width, height]);
+  const exact = new Truth(renderer, meshes, toSun ?? lamp, [width, height]);
   const unshadowed = sceneOf(meshes).scene;
-  const light = new THREE.DirectionalLight(0xffffff, Math.PI);
-  light.position.copy(toSun);
+  const light = lamp === undefined ? new THREE.DirectionalLight(0xffffff, Math.PI) : spotOf(lamp);
+  if (toSun !== undefined) light.position.copy(toSun);
   unshadowed.add(light);
   const techniques = techniquesOf(gnomon, camera, { ...SCENES[scene], meshes, toSun }, [width, height], size, sweep);
   const made = {}, counts = {}, pictures = {};

@@ -1,6 +1,6 @@
 // The types as a program uses them; compiled, and not run.
-import { Scene } from 'three';
-import { GnomonSunShadow } from 'gnomon/three';
+import { Scene, SpotLight } from 'three';
+import { GnomonSpotShadow, GnomonSunShadow } from 'gnomon/three';
 import { load, GnomonError, type PlanResult, type ShadowMap } from 'gnomon';
 
 export async function used(): Promise<number> {
@@ -13,6 +13,7 @@ export async function used(): Promise<number> {
   const shadow = new GnomonSunShadow(gnomon, new Scene(), { options: { fit: 'warped_stable' } });
   shadow.mapSize.set(1024, 1024);
   shadow.bounds.update();
+  new SpotLight().shadow = new GnomonSpotShadow(gnomon, new Scene(), { bounds: shadow.bounds });
   try {
     const error = gnomon.measure({ maps: [foreign], selection: 'view_depth' }, { camera, receivers: boxes });
     return error.p95 + plan.maps[0].mMax + gnomon.cull(plan.maps[0], boxes).length;
