@@ -4,7 +4,7 @@ import { CascadedShadowGenerator } from '@babylonjs/core/Lights/Shadows/cascaded
 import { ShadowGenerator } from '@babylonjs/core/Lights/Shadows/shadowGenerator.js';
 import { Matrix } from '@babylonjs/core/Maths/math.vector.js';
 import { FollowedBoxes, loaded, withDefaults } from './adapter.js';
-import { GnomonError } from './index.js';
+import { GnomonError } from './memory.js';
 
 const DIRECTIONAL = 1;
 // A look-up there reads what is cleared to: lit.

@@ -7,5 +7,5 @@ python3 -B "$here/../layout.py" --check
 cmake -S "$here/wasm" -B "$work" -G Ninja --toolchain wasi.cmake -DCMAKE_CXX_COMPILER_LAUNCHER="$here/../../cmake/ccache" >"$work.log" 2>&1 ||
   { cat "$work.log" >&2; exit 1; }
 cmake --build "$work" >&2
-cp "$work/gnomon.wasm" "$work/gnomon-scalar.wasm" "$here/"
+cp "$work"/gnomon{,-full}{,-scalar}.wasm "$here/"
 cp "$here/../../LICENSE" "$here/"

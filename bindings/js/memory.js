@@ -27,6 +27,10 @@ const ENUMS = {
 };
 const FLAGS = new Set(['orthographic', 'zero_to_one', 'reversed_z', 'y_down', 'left_handed', 'first_row_at_y_max', 'snap_valid',
   'sizes_vary', 'fallback', 'changed', 'due', 'repacked']);
+// A count in one struct, a flag in another.
+const COUNTS = new Set(['light_plan.due']);
+// Lists that may be shorter than their place.
+const SHORTER = new Set(['split_given', 'warp_planes', 'cull_planes', 'select_planes', 'shape_parameters', 'place']);
 const ARRAYS = { f64: Float64Array, f32: Float32Array, i32: Int32Array, u32: Uint32Array, u8: Uint8Array };
 
 /** Fields by struct and by their name in JavaScript. */
@@ -37,7 +41,7 @@ for (const [struct, { fields }] of Object.entries(structs)) {
     if (name === 'size' || name === 'reserved') continue;
     const list = struct === 'light' && name === 'kind' ? ENUMS.kind_of_light : ENUMS[name];
     const registry = struct === 'point_error' ? undefined : LISTS[name];
-    tables[struct].set(camel(name), { name, offset, kind, count, list, registry, flag: FLAGS.has(name) });
+    tables[struct].set(camel(name), { name, offset, kind, count, list, registry, flag: FLAGS.has(name) && !COUNTS.has(`${struct}.${name}`) });
   }
 }
 
@@ -48,6 +52,35 @@ export class GnomonError extends Error {
     this.name = 'GnomonError';
     this.field = field;
   }
+}
+
+/**
+ * The same list of numbers, as a typed or plain array. What is no number would become 0 or NaN without a word, and what was
+ * transferred to another thread an empty list.
+ */
+export function numbersOf(values, name) {
+  const refuse = (why) => { throw new GnomonError(name, `gnomon: ${name}: ${why}`); };
+  if (ArrayBuffer.isView(values) && values.BYTES_PER_ELEMENT !== undefined) {
+    if (typeof values[0] === 'bigint') refuse('expected numbers');
+    try {
+      if (values.length === 0) new Uint8Array(values.buffer);
+    } catch {
+      refuse('its buffer is detached');
+    }
+    return values;
+  }
+  if (values === null || typeof values !== 'object' || !Number.isInteger(values.length)) refuse('expected numbers');
+  const list = Array.isArray(values) ? values : Array.from(values);
+  for (const value of list) {
+    if (typeof value !== 'number') refuse('expected numbers');
+  }
+  return list;
+}
+
+/** A whole number of 32 bits. */
+export function wholeOf(value, name) {
+  if (!Number.isInteger(value) || value < -(2 ** 31) || value >= 2 ** 32) throw new GnomonError(name, `gnomon: ${name}: expected a whole number of 32 bits`);
+  return value;
 }
 
 /** The memory of a module. What is allocated in a call is freed at its end; nothing is freed one by one. */
@@ -103,6 +136,7 @@ export class Memory {
 
   /** Index of a name in a list of the registry. */
   indexOf(list, name, field) {
+    if (typeof name !== 'string' || name.length > 256) throw new GnomonError(field, `gnomon: ${field}: expected a name`);
     const key = `${list} ${name}`;
     let index = this.indices.get(key);
     if (index === undefined) {
@@ -153,6 +187,7 @@ export class Memory {
 
   /** Sets the fields of a struct that `object` has. Refuses keys that it has none of, unless they are in `others`. */
   write(struct, at, object, others = []) {
+    if (object === null || typeof object !== 'object') throw new GnomonError(struct, `gnomon: ${struct}: expected an object`);
     for (const key of Object.keys(object)) {
       if (object[key] === undefined || others.includes(key)) continue;
       const field = tables[struct].get(key);
@@ -164,10 +199,12 @@ export class Memory {
 
   writeField({ kind, count, list, registry, flag }, at, value, path) {
     if (kind in structs) {
-      this.write(kind, at, value);
+      if (count > 0) value.forEach((one, i) => this.write(kind, at + i * structs[kind].bytes, one));
+      else this.write(kind, at, value);
     } else if (count > 0) {
-      const flat = Array.isArray(value) ? value.flat() : value;
-      if (!(flat?.length <= count)) throw new GnomonError(path, `gnomon: ${path}: expected ${count} numbers`);
+      const flat = numbersOf(Array.isArray(value) ? value.flat() : value, path);
+      const name = path.slice(path.indexOf('.') + 1);
+      if (flat.length > count || (flat.length < count && !SHORTER.has(name))) throw new GnomonError(path, `gnomon: ${path}: expected ${count} numbers`);
       new ARRAYS[kind](this.exports.memory.buffer, at, count).set(flat);
     } else if (kind === 'i64') {
       if (!Number.isInteger(value)) throw new GnomonError(path, `gnomon: ${path}: expected a whole number`);
@@ -187,9 +224,7 @@ export class Memory {
     if (kind === 'f64') this.view.setFloat64(at, value, true);
     else if (kind === 'f32') this.view.setFloat32(at, value, true);
     // What is no whole number of 32 bits would become another one without a word.
-    else if (!Number.isInteger(value) || value < -(2 ** 31) || value >= 2 ** 32)
-      throw new GnomonError(path, `gnomon: ${path}: expected a whole number of 32 bits`);
-    else this.view.setInt32(at, value | 0, true);
+    else this.view.setInt32(at, wholeOf(value, path) | 0, true);
   }
 
   read(struct, at) {

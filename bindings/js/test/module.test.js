@@ -13,7 +13,7 @@ const street = { camera, casters: boxes, receivers: boxes };
 const plan = gnomon.plan({ ...street, light });
 
 test('the modules need nothing from outside', () => {
-  for (const name of ['gnomon.wasm', 'gnomon-scalar.wasm']) {
+  for (const name of ['gnomon.wasm', 'gnomon-scalar.wasm', 'gnomon-full.wasm', 'gnomon-full-scalar.wasm']) {
     const module = new WebAssembly.Module(readFileSync(new URL(`../${name}`, import.meta.url)));
     assert.deepEqual(WebAssembly.Module.imports(module), []);
   }
@@ -60,6 +60,43 @@ test('bad input is refused by name, and the module still works', () => {
   refuses({ receivers: null, casters: new Float64Array([NaN, 0, 0, 1, 1, 1]) }, 'scene.casters');
   refuses({ points: [1, 2] }, 'view.points');
   refuses({ caster: boxes }, 'caster');
+  // Other types, shapes and lengths.
+  refuses({ camera: 5 }, 'camera');
+  refuses({ camera: null }, 'camera');
+  refuses({ light: 'sun' }, 'light');
+  refuses({ options: 'stable' }, 'plan_options');
+  refuses({ camera: { ...camera, position: [0, 1] } }, 'camera.position');
+  refuses({ camera: { ...camera, position: '012' } }, 'camera.position');
+  refuses({ camera: { ...camera, position: [0, null, 1] } }, 'camera.position');
+  refuses({ camera: { ...camera, farDepth: '9' } }, 'camera.far_depth');
+  refuses({ light: { direction: [0, -1, 0, 0] } }, 'light.direction');
+  refuses({ casters: 'abcdef' }, 'scene.casters');
+  refuses({ casters: 7 }, 'scene.casters');
+  refuses({ casters: { length: 6 } }, 'scene.casters');
+  refuses({ casters: [[0, 0, 0], [1, 1, 1]] }, 'scene.casters');
+  refuses({ casters: new BigInt64Array(6) }, 'scene.casters');
+  refuses({ casters: new DataView(new ArrayBuffer(48)) }, 'scene.casters');
+  refuses({ points: [[1, 2], [3, 4], [5, 6]] }, 'view.points');
+  refuses({ points: [1, 2, 3], normals: [1, 2] }, 'view.normals');
+  refuses({ points: [1, 2, 3], normals: [0, 1, 0, 0, 1, 0] }, 'view.normals');
+  refuses({ depths: 4 }, 'view.depths');
+  refuses({ history: {} }, 'history');
+  refuses({ options: { prune: 'all' } }, 'plan_options.prune');
+  refuses({ options: { prune: [3] } }, 'plan_options.prune');
+  refuses({ options: { warpFocus: [0, 0, 0] } }, 'plan_options.warp_focus');
+  assert.throws(() => gnomon.plan(), { field: 'input' });
+  assert.throws(() => gnomon.perspective(), { field: 'camera' });
+  assert.throws(() => gnomon.perspective({ fovY: '1' }), { field: 'fov_y' });
+  assert.throws(() => gnomon.perspective({ fovY: 1, width: 1.5 }), { field: 'width' });
+  assert.throws(() => gnomon.cameraFrom({ viewFromWorld: [1], clipFromView: [1], width: 1, height: 1 }), { field: 'view_from_world' });
+  assert.throws(() => gnomon.measure(undefined, street), { field: 'plan' });
+  assert.throws(() => gnomon.measure({}, street), { field: 'plan.maps' });
+  assert.throws(() => gnomon.measure({ maps: [{ clipFromWorld: [1, 2] }] }, street), { field: 'map.clip_from_world' });
+  assert.throws(() => gnomon.cull(undefined, boxes), { field: 'map' });
+  assert.throws(() => gnomon.cull(plan.maps[0], {}), { field: 'casters' });
+  assert.throws(() => gnomon.select(plan, [0, 0, 0], []), { field: 'view_depths' });
+  assert.throws(() => gnomon.rebased(plan.maps[0], [1, 2]), { field: 'origin' });
+  assert.throws(() => gnomon.shaderBlock(plan, { layerWidth: 1.5 }), { field: 'layer_width' });
   assert.throws(() => gnomon.perspective({ fovY: 60, aspect: 1 }), { field: 'fov_y' });
   assert.deepStrictEqual(gnomon.plan({ ...street, light }), plan);
 });
@@ -77,6 +114,32 @@ test('a plan, its casters and its error are those of a set as well', () => {
   set.dispose();
   set.dispose();
   assert.throws(() => gnomon.plan({ camera, light, casters: set, receivers: set }), { field: 'disposed' });
+});
+
+test('a list whose buffer went to another thread is refused, and so is a handle of another module', async () => {
+  const list = boxes.slice();
+  structuredClone(list, { transfer: [list.buffer] });
+  for (const key of ['casters', 'receivers']) assert.throws(() => gnomon.plan({ ...street, light, [key]: list }), { field: `scene.${key}` });
+  assert.throws(() => gnomon.casterSet(list), { field: 'boxes' });
+  assert.throws(() => gnomon.plan({ ...street, light, depths: list }), { field: 'view.depths' });
+  const other = await load();
+  assert.throws(() => gnomon.plan({ ...street, light, casters: other.casterSet(boxes) }), { field: 'scene.casters' });
+  assert.throws(() => gnomon.plan({ ...street, light, history: other.history() }), { field: 'history' });
+  assert.throws(() => gnomon.casterSet(boxes).update(0.5, [0, 0, 0, 1, 1, 1]), { field: 'index' });
+});
+
+test('a module of another version, of another program or of none is refused', async () => {
+  const bytes = readFileSync(new URL('../gnomon.wasm', import.meta.url));
+  await assert.rejects(load({ wasm: new Uint8Array([1, 2, 3]) }), { name: 'GnomonError', field: 'wasm' });
+  await assert.rejects(load({ wasm: 7 }), { field: 'wasm' });
+  await assert.rejects(load({ wasm: new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0]) }), { field: 'wasm', message: /has no/ });
+  const older = Uint8Array.from(bytes);
+  const at = bytes.indexOf(`${gnomon.version}\0`);
+  assert.ok(at > 0);
+  older[at] += 1;
+  await assert.rejects(load({ wasm: older }), { field: 'wasm', message: /version 1\.1\.0, expected 0\.1\.0/ });
+  assert.equal(gnomon.version, JSON.parse(readFileSync(new URL('../package.json', import.meta.url))).version);
+  assert.equal((await load({ wasm: await WebAssembly.compile(bytes) })).version, gnomon.version);
 });
 
 test('foreign maps are measured as those that they are copies of', () => {

@@ -1,6 +1,7 @@
 // The types as a program uses them; compiled, and not run.
 import { Scene, SpotLight } from 'three';
 import { GnomonSpotShadow, GnomonSunShadow } from 'gnomon/three';
+import { load as loadFull } from 'gnomon/full';
 import { load, GnomonError, type PlanResult, type ShadowMap } from 'gnomon';
 
 export async function used(): Promise<number> {
@@ -23,4 +24,16 @@ export async function used(): Promise<number> {
   }
   // @ts-expect-error a fit that there is none of
   gnomon.plan({ camera, light: {}, options: { fit: 'loose' } });
+}
+
+export async function usedInFull(): Promise<number> {
+  const gnomon = await loadFull();
+  const camera = gnomon.perspective({ fovY: 1 });
+  const boxes = gnomon.casterSet(new Float64Array(12));
+  const pages = gnomon.planPages({ camera, light: {}, casters: boxes, receivers: boxes, options: { capacity: 512, plan: { fit: 'stable' } } });
+  const lights = gnomon.planLights({ camera, casters: boxes, receivers: boxes, lights: [{ light: { kind: 'spot' }, weight: 2 }] });
+  gnomon.plan({ camera, light: {}, options: gnomon.lightPlanOptions({}, lights.lights[0]) });
+  // @ts-expect-error pages are read alone
+  pages.pageCount = 3;
+  return gnomon.pagePool(600).keep(pages).drawn + gnomon.clusterLights({ camera, lights: [{}] }).lights.length;
 }

@@ -947,7 +947,7 @@ typedef struct gnomon_light_plan {
   uint32_t light_size;        ///< in: sizeof(gnomon_light_maps)
   gnomon_light_maps* lights;  ///< in: where the maps of each light are written, in the order of the requests
   int64_t light_room;         ///< in: entries of lights, at least as many as requests
-  int64_t light_count;        ///< lights; 0 unless status is GNOMON_OK
+  int64_t light_count;        ///< lights; 0 where the call was refused
   int32_t status;             ///< as the call returned
   int32_t invalid_light;      ///< index of the light that was refused; -1: of none
   int32_t pool_width, pool_height;  ///< texels

@@ -989,7 +989,7 @@ pub struct gnomon_light_plan {
     pub lights: *mut gnomon_light_maps,
     /// in: entries of lights, at least as many as requests
     pub light_room: i64,
-    /// lights; 0 unless status is GNOMON_OK
+    /// lights; 0 where the call was refused
     pub light_count: i64,
     /// as the call returned
     pub status: i32,
