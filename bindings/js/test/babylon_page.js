@@ -39,6 +39,8 @@ function sceneOf(engine, geometry, { toSun, shadowSide }, rightHanded, shadows) 
   const material = new StandardMaterial('white', scene);
   material.specularColor = Color3.Black();
   material.backFaceCulling = shadowSide === undefined;
+  // As three's flat shading: normals face the eye.
+  material.twoSidedLighting = shadowSide !== undefined;
   const meshes = geometry.map((data, i) => {
     const mesh = new Mesh(`mesh ${i}`, scene);
     data.applyToMesh(mesh);

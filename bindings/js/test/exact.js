@@ -155,7 +155,8 @@ export class Count {
   add(pixels, full, truth, near, lastTruth) {
     const lit = new Uint8Array(truth.length);
     for (let i = 0; i < truth.length; ++i) {
-      if (truth[i] < 0) continue;
+      // Nor where a picture without shadows is dark.
+      if (truth[i] < 0 || full[4 * i] === 0) continue;
       lit[i] = 2 * pixels[4 * i] >= full[4 * i] ? 1 : 0;
       ++this.counted;
       if (lit[i] < truth[i]) ++this.falseShadow;
@@ -184,7 +185,7 @@ export function picture(pixels, full, truth, width, height) {
     for (let x = 0; x < width; ++x) {
       const [from, to] = [y * width + x, 4 * ((height - 1 - y) * width + x)];
       const lit = 2 * pixels[4 * from] >= full[4 * from] ? 1 : 0;
-      const wrong = truth[from] >= 0 && lit !== truth[from];
+      const wrong = truth[from] >= 0 && full[4 * from] > 0 && lit !== truth[from];
       const value = pixels[4 * from];
       image.data.set(wrong ? (lit ? [60, 120, 255, 255] : [255, 60, 40, 255]) : [value, value, value, 255], to);
     }
