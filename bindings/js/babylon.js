@@ -15,7 +15,7 @@ const inverse = /*@__PURE__*/ new Matrix();
 const clip = /*@__PURE__*/ new Matrix();
 
 /** Boxes of the meshes that cast into a generator's maps, and of those that receive. update() follows them: each frame. */
-export class ShadowBounds {
+class ShadowBounds {
   constructor(gnomon, generator) {
     this.generator = generator;
     this.meshes = [];
@@ -130,6 +130,7 @@ class Planner {
   run(camera, cascades, { far, overlap }) {
     const { gnomon, generator, bounds, history } = this;
     bounds.update();
+    generator.light.computeTransformedInformation();  // where it has a parent
     // Other filters than PCF read depths that are not divided by w. What was kept of a warped map must go.
     const warps = generator.filter === ShadowGenerator.FILTER_PCF;
     if (warps !== this.warps) history.clear();

@@ -5,7 +5,6 @@ import { CSM } from 'three/addons/csm/CSM.js';
 import { SunLightShadow } from 'three/addons/lights/SunLightShadow.js';
 import { FollowedBoxes, loaded, withDefaults } from './adapter.js';
 
-const box = /*@__PURE__*/ new Box3();
 const direction = /*@__PURE__*/ new Vector3();
 const shift = /*@__PURE__*/ new Matrix4();
 const inverse = /*@__PURE__*/ new Matrix4();
@@ -43,7 +42,7 @@ export class ShadowBounds {
       const own = typeof mesh.computeBoundingBox === 'function' ? mesh : mesh.geometry;
       if (own.boundingBox === null) own.computeBoundingBox();
       if (own.boundingBox.isEmpty()) return;
-      this.meshes.push([mesh, own]);
+      this.meshes.push({ mesh, own, bounds: new Box3(), matrix: new Matrix4().makeScale(NaN, NaN, NaN) });
       if (!mesh.castShadow) return;
       // What three draws into its maps: the back faces of one-sided materials, unless they say otherwise.
       for (const { side, shadowSide } of [mesh.material].flat()) {
@@ -60,8 +59,10 @@ export class ShadowBounds {
     const { casters, receivers } = this.all;
     casters.begin();
     receivers.begin();
-    for (const [mesh, { boundingBox }] of this.meshes) {
-      const { min, max } = box.copy(boundingBox).applyMatrix4(mesh.matrixWorld);
+    for (const { mesh, own, bounds, matrix } of this.meshes) {
+      const { min, max } = bounds;
+      // Most meshes stand still, and a comparison costs less than eight corners. NaN equals nothing, at first.
+      if (!matrix.equals(mesh.matrixWorld)) bounds.copy(own.boundingBox).applyMatrix4(matrix.copy(mesh.matrixWorld));
       if (mesh.castShadow) casters.add(min.x, min.y, min.z, max.x, max.y, max.z);
       if (mesh.receiveShadow) receivers.add(min.x, min.y, min.z, max.x, max.y, max.z);
     }
