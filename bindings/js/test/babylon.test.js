@@ -20,11 +20,12 @@ const { load } = await within('gnomon/index.js');
 const { GnomonCascadedShadowGenerator, GnomonShadow, biasOf, cameraOf, radiusOf } = await within('gnomon/babylon.js');
 const gnomon = await load();
 
-function world({ rightHanded = false } = {}) {
+function world({ rightHanded = false, reversedDepth = false } = {}) {
   const engine = new NullEngine({ renderWidth: 960, renderHeight: 540, textureSize: 512 });
   // What it lacks to make the textures of a shadow generator.
   engine._createDepthStencilTexture = () => new InternalTexture(engine, InternalTextureSource.DepthStencil);
   engine._features.supportCSM = engine._features.supportShadowSamplers = true;
+  engine.useReverseDepthBuffer = reversedDepth;
   const scene = new Scene(engine);
   scene.useRightHandedSystem = rightHanded;
   const side = rightHanded ? -1 : 1;
@@ -75,6 +76,16 @@ for (const rightHanded of [false, true]) {
     assert.throws(() => generator.history.clear(), { field: 'disposed' });
   });
 }
+
+test('reversed depth gives matrices of reversed depth', () => {
+  const from = world({ reversedDepth: true });
+  const generator = cascaded(from);
+  begin(generator);
+  assert.equal(generator.plan.clipSpace.reversedZ, true);
+  const at = (t) => Vector3.TransformCoordinates(from.light.direction.normalizeToNew().scale(t), generator.getCascadeTransformMatrix(0)).z;
+  assert.ok(at(1) < at(0));
+  generator.dispose();
+});
 
 test('each map draws the meshes that cast into it, and follows those that move, come and go', () => {
   const from = world();

@@ -5,22 +5,26 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { fly } from './flights.js';
 
-const FRAMES = 8;
+const FRAMES = 4;
 // Misclassified pixels to those of Babylon's own, which have the best bias by hand (exact.js). In the city its windows have recesses
 // of a few texels, which the bias of a wide kernel fills with light.
 const most = (scene) => (scene === 'city' ? 1 : 0.5);
 // A kernel at a wall's upper edge reads the roof beside it: in gnomon's small texels, on less than 0.4 % of the pixels.
 const ACNE = 4e-3;
 
-for (const [scene, rightHanded] of [['street', false], ['street', true], ['low sun', false], ['both sides', false], ['city', false]]) {
-  test(`Babylon.js misclassifies fewer pixels with the maps of gnomon: ${scene}${rightHanded ? ', right-handed' : ''}`, { timeout: 600000 }, async () => {
-    const { rows } = await fly(scene, 512, FRAMES, { engine: 'babylon', rightHanded });
+const FLIGHTS = [['street', {}], ['street', { rightHanded: true }], ['street', { instanced: true }], ['street', { reversedDepth: true }], ['low sun', {}], ['both sides', {}], ['city', {}]];
+
+for (const [scene, how] of FLIGHTS) {
+  test(`Babylon.js misclassifies fewer pixels with the maps of gnomon: ${[scene, ...Object.keys(how)].join(', ')}`, { timeout: 600000 }, async () => {
+    const { rows } = await fly(scene, 512, FRAMES, { engine: 'babylon', ...how });
     const row = (name) => rows.find(({ technique }) => technique === name);
     for (const own of rows.length === 0 ? [] : ['CascadedShadowGenerator', 'ShadowGenerator']) {
       const [theirs, ours] = [row(own), row(`${own}, gnomon`)];
       console.log(`${scene}, ${own}: ${(ours.wrong / theirs.wrong).toFixed(2)} misclassified, ${(ours.flips / theirs.flips).toFixed(2)} flips, acne ${ours.acne.toFixed(5)} to ${theirs.acne.toFixed(5)}`);
       assert.ok(theirs.counted > FRAMES * 50000);
       assert.ok(ours.wrong <= most(scene) * theirs.wrong && ours.acne <= Math.max(ACNE, theirs.acne), JSON.stringify([theirs, ours]));
+      // Babylon's own loses instances in some frames.
+      if (scene === 'street') assert.ok(ours.wrong < 2e-3, `${ours.wrong}`);
     }
   });
 }

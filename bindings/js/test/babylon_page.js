@@ -8,6 +8,7 @@ import { ShadowGenerator } from '@babylonjs/core/Lights/Shadows/shadowGenerator.
 import { StandardMaterial } from '@babylonjs/core/Materials/standardMaterial.js';
 import { Color3, Color4 } from '@babylonjs/core/Maths/math.color.js';
 import { Vector3 } from '@babylonjs/core/Maths/math.vector.js';
+import '@babylonjs/core/Meshes/instancedMesh.js';
 import { Mesh } from '@babylonjs/core/Meshes/mesh.js';
 import { VertexData } from '@babylonjs/core/Meshes/mesh.vertexData.js';
 import { Scene } from '@babylonjs/core/scene.js';
@@ -27,8 +28,22 @@ function vertexData({ geometry, matrix }, side) {
   return data;
 }
 
+/** The street's boxes as instances of one mesh. */
+function instancesOf(scene, meshes, side) {
+  const cube = new Mesh('cube', scene);
+  vertexData({ geometry: new THREE.BoxGeometry(), matrix: new THREE.Matrix4() }, side).applyToMesh(cube);
+  const all = [cube, ...meshes.slice(1).map((_, i) => cube.createInstance(`cube ${i}`))];
+  all.forEach((one, i) => {
+    const { geometry: { parameters }, matrix } = meshes[i];
+    const { x, y, z } = new THREE.Vector3().setFromMatrixPosition(matrix);
+    one.scaling.set(parameters.width, parameters.height, parameters.depth);
+    one.position.set(x, y, side * z);
+  });
+  return all;
+}
+
 /** A scene of its own for each technique, with its camera, its light and what `shadows` makes for it. */
-function sceneOf(engine, geometry, { toSun, shadowSide }, rightHanded, shadows) {
+function sceneOf(engine, geometry, { toSun, shadowSide, instanced }, rightHanded, shadows) {
   const side = rightHanded ? 1 : -1;
   const scene = new Scene(engine);
   scene.useRightHandedSystem = rightHanded;
@@ -41,12 +56,13 @@ function sceneOf(engine, geometry, { toSun, shadowSide }, rightHanded, shadows) 
   material.backFaceCulling = shadowSide === undefined;
   // As three's flat shading: normals face the eye.
   material.twoSidedLighting = shadowSide !== undefined;
-  const meshes = geometry.map((data, i) => {
+  const meshes = instanced ? instancesOf(scene, instanced, side) : geometry.map((data, i) => {
     const mesh = new Mesh(`mesh ${i}`, scene);
     data.applyToMesh(mesh);
-    Object.assign(mesh, { material, receiveShadows: true });
     return mesh;
   });
+  // Instances have those of their mesh.
+  for (const mesh of instanced ? meshes.slice(0, 1) : meshes) Object.assign(mesh, { material, receiveShadows: true });
   const generator = shadows?.(light, scene);
   for (const mesh of meshes) generator?.addShadowCaster(mesh);
   return { scene, camera, generator };
@@ -81,7 +97,7 @@ function techniquesOf(gnomon, size, biases, sweep) {
   return all;
 }
 
-export async function run({ scene, size, picture: [width, height], frames, step = 1, sweep = false, rightHanded = false, biases = SCENES[scene].babylon[size], pictureOf }) {
+export async function run({ scene, size, picture: [width, height], frames, step = 1, sweep = false, rightHanded = false, instanced = false, reversedDepth = false, biases = SCENES[scene].babylon[size], pictureOf }) {
   const gnomon = await load();
   const renderer = new THREE.WebGLRenderer({ antialias: false });
   const meshes = await SCENES[scene].meshes();
@@ -91,10 +107,11 @@ export async function run({ scene, size, picture: [width, height], frames, step 
   const canvas = document.createElement('canvas');
   const engine = new Engine(canvas, false, { preserveDrawingBuffer: true }, false);
   engine.setSize(width, height);
+  engine.useReverseDepthBuffer = reversedDepth;
   engine.getCaps().parallelShaderCompile = null;  // wait for each shader
   const side = rightHanded ? 1 : -1;
   const geometry = meshes.map((mesh) => vertexData(mesh, side));
-  const made = (shadows) => sceneOf(engine, geometry, { ...SCENES[scene], toSun }, rightHanded, shadows);
+  const made = (shadows) => sceneOf(engine, geometry, { ...SCENES[scene], toSun, instanced: instanced && meshes }, rightHanded, shadows);
   const draw = async ({ scene: from, camera: eye }) => {
     eye.position.set(camera.position.x, camera.position.y, side * camera.position.z);
     const ahead = camera.getWorldDirection(new THREE.Vector3()).add(camera.position);
