@@ -42,7 +42,7 @@ export class GnomonSunShadow extends LightShadow<OrthographicCamera> {
 
 /**
  * `spot.shadow = new GnomonSpotShadow(gnomon, scene)`, for three's SpotLight. A light with a picture (`map`), or with a cone beyond
- * 84.9 degrees, keeps three's own map.
+ * 65.9 degrees, keeps three's own map.
  */
 export class GnomonSpotShadow extends LightShadow<PerspectiveCamera> {
   constructor(gnomon: Gnomon, scene: Object3D, options?: GnomonShadowOptions);

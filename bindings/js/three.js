@@ -12,8 +12,8 @@ const place = /*@__PURE__*/ new Vector3();
 const moved = /*@__PURE__*/ new Vector3();
 // three does not export it.
 const SpotLightShadow = /*@__PURE__*/ (() => new SpotLight().shadow.constructor)();
-// A wider cone needs more than one map.
-const WIDEST = (84.9 / 180) * Math.PI;
+// gnomon divides wider cones among several maps.
+const WIDEST = (65.9 / 180) * Math.PI;
 
 /**
  * Boxes of the meshes below an object that cast and receive shadows. follow() takes their places, each frame; update() gathers them
@@ -213,7 +213,7 @@ export class GnomonSunShadow extends SunLightShadow {
 
 /**
  * The shadow of a SpotLight: `spot.shadow = new GnomonSpotShadow(gnomon, scene)`. Its map holds what of the cone is in view. The
- * light ends at its distance, or at `camera.far`. gnomon sets `bias`. A light with a picture (`map`) or with a cone beyond 84.9
+ * light ends at its distance, or at `camera.far`. gnomon sets `bias`. A light with a picture (`map`) or with a cone beyond 65.9
  * degrees has three's own map.
  */
 export class GnomonSpotShadow extends SpotLightShadow {
@@ -255,9 +255,13 @@ export class GnomonSpotShadow extends SpotLightShadow {
       },
       history: this.history,
     });
-    const [map] = this.plan.maps;
+    const [map, more] = this.plan.maps;
     if (map === undefined) {
       setEmpty(this._frustum);
+      return;
+    }
+    if (more !== undefined) {
+      this.plan = null;  // by options that divide the cone
       return;
     }
     setCamera(this.fitted, map, this.camera);
